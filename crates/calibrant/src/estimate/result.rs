@@ -1,0 +1,170 @@
+//! What a calibration gives.
+
+use crate::motion::{Gravity, Hold, JerkControlledMotion};
+use crate::sensor::{Gauge, Parameter, ReadingUnit, SensorParameters};
+use nalgebra::{DMatrix, Vector3};
+
+/// How the iteration ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum CalibrationStatus {
+    /// The step became smaller than the tolerance, in standard deviations of the parameters.
+    Converged,
+    /// The largest number of iterations was reached first. The numbers are the best found; do not use them without a look at the residuals.
+    IterationLimit,
+    /// No step lowered the cost any more although the tolerance was not met. The numbers are the best found.
+    Stalled,
+}
+
+impl CalibrationStatus {
+    /// As written in results: `converged`, `iteration_limit`, `stalled`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Converged => "converged",
+            Self::IterationLimit => "iteration_limit",
+            Self::Stalled => "stalled",
+        }
+    }
+}
+
+/// A calibration: parameters, their covariance, and everything needed to judge them.
+#[derive(Debug, Clone)]
+pub struct Calibration {
+    /// How the iteration ended.
+    pub status: CalibrationStatus,
+    /// Iterations used.
+    pub iterations: usize,
+    /// Norm of the gradient at the end, each component in standard deviations of its parameter: zero at the optimum.
+    pub gradient_norm: f64,
+    /// Name, unit, nominal value and spread of each parameter.
+    pub parameters: Vec<Parameter>,
+    /// Estimates, in the order of `parameters`.
+    pub values: Vec<f64>,
+    /// Covariance of the estimates, p × p, entry (i, j) in unit i times unit j. The motion (or the directions) is marginalised.
+    pub covariance: DMatrix<f64>,
+    /// The estimates as `y = S s + b`.
+    pub sensor: SensorParameters,
+    /// Unit of the readings.
+    pub unit: ReadingUnit,
+    /// How well the model fits the data.
+    pub fit: FitStatistics,
+    /// The motion or the holds that were estimated beside the parameters.
+    pub recovered: Recovered,
+    /// Residuals `y − S s − b` of the samples used, in the unit of the readings; empty for holds (see [`HoldCalibration`]).
+    pub residuals: Vec<Vector3<f64>>,
+    /// Index into the recording of each residual's sample: the samples within the motion are contiguous, this is the first.
+    pub first_sample: usize,
+    /// Things a user should know, in words.
+    pub warnings: Vec<String>,
+}
+
+impl Calibration {
+    /// Standard deviation of each parameter.
+    #[must_use]
+    pub fn sd(&self) -> Vec<f64> {
+        (0..self.parameters.len()).map(|i| self.covariance[(i, i)].max(0.0).sqrt()).collect()
+    }
+
+    /// Correlation matrix of the parameters.
+    #[must_use]
+    pub fn correlation(&self) -> DMatrix<f64> {
+        let sd = self.sd();
+        DMatrix::from_fn(sd.len(), sd.len(), |i, j| {
+            let scale = sd[i] * sd[j];
+            if i == j {
+                1.0
+            } else if scale > 0.0 {
+                self.covariance[(i, j)] / scale
+            } else {
+                0.0
+            }
+        })
+    }
+}
+
+/// How well the model fits the data.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FitStatistics {
+    /// Weighted sum of squared residuals χ², process noise and prior included.
+    pub chi2: f64,
+    /// Residuals less unknowns.
+    pub degrees_of_freedom: usize,
+    /// Probability of a χ² at least this large if model and noise are right; `None` without degrees of freedom, or where the
+    /// noise was itself estimated from this fit.
+    pub p_value: Option<f64>,
+    /// Root mean square of the residuals per axis, in the unit of the readings.
+    pub residual_rms: Vector3<f64>,
+    /// Noise assumed for one sample per axis, in the unit of the readings; `None` where it was estimated from this fit.
+    pub assumed_noise: Option<Vector3<f64>>,
+    /// Noise of one sample per axis as the residuals show it, in the unit of the readings; `None` without degrees of freedom.
+    pub noise_estimate: Option<Vector3<f64>>,
+    /// Whiteness of the residuals, one test per axis; empty for holds.
+    pub whiteness: Vec<Whiteness>,
+}
+
+/// Ljung–Box test of one axis' residuals.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Whiteness {
+    /// The statistic Q.
+    pub statistic: f64,
+    /// Number of lags tested.
+    pub lags: usize,
+    /// Probability of a Q at least this large if the noise is white.
+    pub p_value: f64,
+}
+
+/// What was estimated beside the parameters.
+#[derive(Debug, Clone)]
+pub enum Recovered {
+    /// The motion.
+    Motion(RecoveredMotion),
+    /// The holds.
+    Holds(HoldCalibration),
+}
+
+/// The recovered motion.
+#[derive(Debug, Clone)]
+pub struct RecoveredMotion {
+    /// Estimated motion.
+    pub motion: JerkControlledMotion,
+    /// Standard deviation of each node acceleration, m/s²; zero where it was known.
+    pub acceleration_sd_mps2: Vec<Vector3<f64>>,
+    /// How far the command was trusted: `known`, `noisy`, `unknown`.
+    pub trust: &'static str,
+}
+
+/// What a static calibration says beside the parameters.
+#[derive(Debug, Clone)]
+pub struct HoldCalibration {
+    /// The holds, in order of time.
+    pub holds: Vec<HoldResult>,
+    /// Gravity that was assumed.
+    pub gravity: Gravity,
+    /// Gauge of the parameters.
+    pub gauge: Gauge,
+    /// Standard deviation of a hold's mean beyond what its samples' noise explains, m/s².
+    pub between_holds_sd_mps2: f64,
+    /// Does the scatter between holds exceed what the noise within them explains (so that it decides the covariance)?
+    pub between_holds_dominates: bool,
+    /// Root mean square over the used holds of the corrected magnitude less gravity, m/s².
+    pub magnitude_residual_rms_mps2: f64,
+    /// Condition number of the information on the parameters, each scaled by its own standard deviation when the others are known.
+    pub condition_number: f64,
+    /// Were the holds found in the recording (or given by the user)?
+    pub detected: bool,
+}
+
+/// One hold and its fit.
+#[derive(Debug, Clone)]
+pub struct HoldResult {
+    /// The hold.
+    pub hold: Hold,
+    /// Estimated specific force, m/s².
+    pub force_mps2: Vector3<f64>,
+    /// Magnitude of the corrected mean reading less gravity, m/s².
+    pub magnitude_residual_mps2: f64,
+    /// The same in standard deviations expected of it, the hold's own influence removed.
+    pub studentised_residual: f64,
+    /// Was it used? A bad hold is found, reported and left out.
+    pub used: bool,
+}

@@ -1,0 +1,64 @@
+//! How far a commanded motion is trusted.
+
+use super::JerkControlledMotion;
+use nalgebra::Vector3;
+
+/// How far the commanded motion is trusted: the report's problems (5), (6) and (3) are one problem with three answers to this.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Trust {
+    /// The arm did exactly what was commanded: linear least squares, the report's (5).
+    Known,
+    /// Commanded plus process noise on the jerk, the report's (6).
+    Noisy(InputNoise),
+    /// Nothing is known but the acceleration at both ends, the report's (3).
+    Unknown,
+}
+
+impl Trust {
+    /// As written in experiment files: `known`, `noisy`, `unknown`.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Known => "known",
+            Self::Noisy(_) => "noisy",
+            Self::Unknown => "unknown",
+        }
+    }
+}
+
+/// Standard deviation of the process noise on the jerk: `σ_u(u) = floor + ratio · |u|`, per axis, m/s³.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct InputNoise {
+    /// Noise that is there at any jerk, m/s³.
+    pub floor_mps3: f64,
+    /// Noise relative to the commanded jerk.
+    pub ratio: f64,
+}
+
+impl InputNoise {
+    /// `σ_u(u)`, m/s³, for each axis.
+    #[must_use]
+    pub fn sd(&self, jerk_mps3: &Vector3<f64>) -> Vector3<f64> {
+        jerk_mps3.map(|u| self.floor_mps3 + self.ratio * u.abs())
+    }
+}
+
+/// Which ends of the motion have a known acceleration.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum KnownEnds {
+    /// Only the start.
+    Start,
+    /// Start and end.
+    Both,
+}
+
+/// A motion as it was commanded, and how far it is trusted.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CommandedMotion {
+    /// What was commanded; trust `unknown` uses only its first and last node.
+    pub motion: JerkControlledMotion,
+    /// How far it is trusted.
+    pub trust: Trust,
+    /// Which ends are known; trust `unknown` needs both, trust `known` needs no answer.
+    pub known_ends: KnownEnds,
+}

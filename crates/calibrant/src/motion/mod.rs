@@ -1,0 +1,13 @@
+//! Where the sensor is: jerk-controlled motion, how far it is trusted, static holds, gravity and the arm's limits.
+
+mod command;
+mod gravity;
+mod hold;
+mod jerk_controlled;
+mod limits;
+
+pub use command::{CommandedMotion, InputNoise, KnownEnds, Trust};
+pub use gravity::Gravity;
+pub use hold::Hold;
+pub use jerk_controlled::JerkControlledMotion;
+pub use limits::{Limits, Rest};

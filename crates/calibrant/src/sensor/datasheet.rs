@@ -1,0 +1,129 @@
+//! What is known of a sensor before it is calibrated.
+
+use super::{Axis, ParameterList, SensorModel, SensorParameters};
+use nalgebra::{Matrix3, Vector3};
+
+/// Unit of a sensor's readings.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ReadingUnit {
+    /// Metres per second squared.
+    MetrePerSecondSquared,
+    /// Raw counts of the analogue-to-digital converter.
+    Counts,
+}
+
+impl ReadingUnit {
+    /// As it is printed: `m/s²` or `counts`.
+    #[must_use]
+    pub fn symbol(self) -> &'static str {
+        match self {
+            Self::MetrePerSecondSquared => "m/s²",
+            Self::Counts => "counts",
+        }
+    }
+
+    /// As it ends a column's name: `mps2` or `counts`.
+    #[must_use]
+    pub fn suffix(self) -> &'static str {
+        match self {
+            Self::MetrePerSecondSquared => "mps2",
+            Self::Counts => "counts",
+        }
+    }
+}
+
+/// An accelerometer's datasheet: its model, the unit of its readings, its noise and the spread of its errors.
+///
+/// Spreads and noise are in SI; [`Sensor::noise`] and [`Sensor::parameters`] convert them to the unit of the readings with the
+/// nominal gain. Where the readings are counts and no nominal gain is known, it comes from the data.
+///
+/// # Examples
+/// ```
+/// use calibrant::sensor::{Sensor, SensorModel};
+///
+/// let sensor = Sensor::triaxial(SensorModel::ScaleBias);
+/// let names: Vec<_> = sensor.parameter_list().names();
+/// assert_eq!(names, ["bias.x", "bias.y", "bias.z", "scale.x", "scale.y", "scale.z"]);
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sensor {
+    /// Number of axes, 1 or 3.
+    pub axes: usize,
+    /// Which errors the model has.
+    pub model: SensorModel,
+    /// Unit of the readings.
+    pub unit: ReadingUnit,
+    /// Nominal gain per axis in counts/(m/s²); 1 where readings are in m/s²; `None` where it is not known.
+    pub gain: Option<Vector3<f64>>,
+    /// Nominal offset per axis, in the unit of the readings; `None` where it is not known.
+    pub offset: Option<Vector3<f64>>,
+    /// Standard deviation of the white noise of one sample, per axis, in m/s²; `None` where it is not known.
+    pub noise_mps2: Option<Vector3<f64>>,
+    /// The same in counts; only for readings in counts, where it takes precedence.
+    pub noise_counts: Option<Vector3<f64>>,
+    /// Datasheet spread (standard deviation over the population) of the bias, per axis, in m/s².
+    pub bias_sd_mps2: Option<Vector3<f64>>,
+    /// Datasheet spread of the scale factors, relative, per axis.
+    pub scale_sd: Option<Vector3<f64>>,
+    /// Datasheet spread of the cross-axis sensitivities (the off-diagonal entries relative to the gain; radians for small angles).
+    pub cross_axis_sd: Option<f64>,
+}
+
+impl Sensor {
+    /// A triaxial sensor with readings in m/s², nominally perfect, nothing else known.
+    #[must_use]
+    pub fn triaxial(model: SensorModel) -> Self {
+        Self {
+            axes: 3,
+            model,
+            unit: ReadingUnit::MetrePerSecondSquared,
+            gain: Some(Vector3::repeat(1.0)),
+            offset: Some(Vector3::zeros()),
+            noise_mps2: None,
+            noise_counts: None,
+            bias_sd_mps2: None,
+            scale_sd: None,
+            cross_axis_sd: None,
+        }
+    }
+
+    /// The accelerometer of the report, Memsic MXD2020U: `b ~ N(0, 0.1²)` m/s², `K ~ N(1, 0.005²)`, `σ_ν = 2e-4` m/s².
+    #[must_use]
+    pub fn memsic_mxd2020u() -> Self {
+        Self {
+            noise_mps2: Some(Vector3::repeat(2e-4)),
+            bias_sd_mps2: Some(Vector3::repeat(0.1)),
+            scale_sd: Some(Vector3::repeat(0.005)),
+            ..Self::triaxial(SensorModel::ScaleBias)
+        }
+    }
+
+    /// The axes that the sensor has.
+    #[must_use]
+    pub fn active_axes(&self) -> &'static [Axis] {
+        &Axis::ALL[..self.axes]
+    }
+
+    /// The parameters that a recording of known or commanded motion can determine, in their order.
+    #[must_use]
+    pub fn parameter_list(&self) -> ParameterList {
+        ParameterList::new(self.axes, self.model)
+    }
+
+    /// Nominal parameters, where gain and offset are known.
+    #[must_use]
+    pub fn nominal(&self) -> Option<SensorParameters> {
+        Some(SensorParameters { bias: self.offset?, matrix: Matrix3::from_diagonal(&self.gain?) })
+    }
+
+    /// Standard deviation of one sample's noise per axis, in the unit of the readings, for a sensor of the given gain.
+    #[must_use]
+    pub fn noise(&self, gain: &Vector3<f64>) -> Option<Vector3<f64>> {
+        match self.unit {
+            ReadingUnit::MetrePerSecondSquared => self.noise_mps2,
+            ReadingUnit::Counts => {
+                self.noise_counts.or_else(|| self.noise_mps2.map(|noise| noise.component_mul(gain)))
+            }
+        }
+    }
+}

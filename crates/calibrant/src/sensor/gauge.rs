@@ -1,0 +1,162 @@
+//! Gauge of a static calibration, and the correction in the direction raw → true.
+//!
+//! Without a reference for the sensor's orientation the true frame is arbitrary: `S` and `S R` describe the same sensor for
+//! every rotation `R`. A gauge picks one. The correction is `s = S⁻¹ (y − b)`; `S` and `S⁻¹` are triangular (or symmetric)
+//! together, so one gauge names both directions.
+
+use super::{Axis, Quantity, SensorModel, SensorParameters};
+use nalgebra::{Matrix3, Vector3};
+
+/// The convention that fixes the true frame of a static calibration.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Gauge {
+    /// Lower triangular: the true x axis lies along the sensor's x axis (Kalibr).
+    Lower,
+    /// Upper triangular: the true z axis lies along the sensor's z axis (imu_tk).
+    Upper,
+    /// Symmetric: the true frame follows the three sensor axes as closely as possible together.
+    Symmetric,
+}
+
+impl Gauge {
+    /// As written in experiment files: `lower`, `upper`, `symmetric`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Lower => "lower",
+            Self::Upper => "upper",
+            Self::Symmetric => "symmetric",
+        }
+    }
+
+    /// The parameters that a static calibration in this gauge estimates: 6 for scale-bias, 9 for full.
+    #[must_use]
+    pub fn parameter_list(self, model: SensorModel) -> super::ParameterList {
+        use Axis::{X, Y, Z};
+        let mut quantities: Vec<_> = Axis::ALL.map(Quantity::Bias).to_vec();
+        quantities.extend(Axis::ALL.map(Quantity::Scale));
+        if model == SensorModel::Full {
+            let pairs = [(X, Y), (X, Z), (Y, Z)];
+            quantities.extend(pairs.map(|(one, other)| match self {
+                Self::Upper => Quantity::CrossAxis(one, other),
+                Self::Lower => Quantity::CrossAxis(other, one),
+                Self::Symmetric => Quantity::Symmetric(one, other),
+            }));
+        }
+        super::ParameterList::from_quantities(quantities)
+    }
+
+    /// The same sensor in this gauge: `S R` for the rotation `R` that makes it so, with a positive diagonal. The bias does not change.
+    ///
+    /// Lower: `S = L Q` by Gram–Schmidt on the rows of `S` (the Cholesky factor of `S Sᵀ`). Upper: the same from the last row up.
+    /// Symmetric: the square root of `S Sᵀ`. A matrix of negative determinant (a left-handed sensor) keeps its magnitude:
+    /// gravity alone cannot tell handedness.
+    #[must_use]
+    pub fn apply(self, sensor: &SensorParameters) -> SensorParameters {
+        let s = &sensor.matrix;
+        let matrix = match self {
+            Self::Lower => lower_factor(s),
+            Self::Upper => {
+                let flip = Matrix3::new(0.0, 0.0, 1.0, 0.0, 1.0, 0.0, 1.0, 0.0, 0.0);
+                flip * lower_factor(&(flip * s)) * flip
+            }
+            Self::Symmetric => {
+                let svd = s.svd(true, false);
+                let u = svd.u.unwrap_or_else(Matrix3::identity);
+                u * Matrix3::from_diagonal(&svd.singular_values) * u.transpose()
+            }
+        };
+        SensorParameters { bias: sensor.bias, matrix }
+    }
+}
+
+/// `L` of `S = L Q`: lower triangular with positive diagonal, `Q` orthogonal. Works on `S` itself, not on `S Sᵀ`, so no digits are lost.
+fn lower_factor(s: &Matrix3<f64>) -> Matrix3<f64> {
+    let (_, r) = s.transpose().qr().unpack();
+    let mut l = r.transpose();
+    for column in 0..3 {
+        if l[(column, column)] < 0.0 {
+            l.column_mut(column).neg_mut();
+        }
+    }
+    l
+}
+
+/// The correction, raw → true: `s = matrix · (y − bias)`, with its parts as imu_tk has them: `s = T K (y − b)`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Correction {
+    /// `C = S⁻¹`, in m/s² per unit of the readings.
+    pub matrix: Matrix3<f64>,
+    /// Bias `b`, in the unit of the readings.
+    pub bias: Vector3<f64>,
+}
+
+impl Correction {
+    /// The correction of a sensor; `None` where its matrix has no inverse.
+    #[must_use]
+    pub fn of(sensor: &SensorParameters) -> Option<Self> {
+        Some(Self { matrix: sensor.matrix.try_inverse()?, bias: sensor.bias })
+    }
+
+    /// Corrected reading `C (y − b)`, m/s².
+    #[must_use]
+    pub fn apply(&self, reading: &Vector3<f64>) -> Vector3<f64> {
+        self.matrix * (reading - self.bias)
+    }
+
+    /// Diagonal of `K` in `C = T K`, m/s² per unit of the readings: `K_j = C_jj`. Its inverse is the gain as imu_tk prints it.
+    #[must_use]
+    pub fn scale(&self) -> Vector3<f64> {
+        self.matrix.diagonal()
+    }
+
+    /// `T` in `C = T K`: unit diagonal, `T_ij = C_ij / C_jj`.
+    #[must_use]
+    pub fn misalignment(&self) -> Matrix3<f64> {
+        let k = self.scale();
+        Matrix3::from_fn(|row, column| self.matrix[(row, column)] / k[column])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sensor() -> SensorParameters {
+        SensorParameters {
+            bias: Vector3::new(1.0, 2.0, 3.0),
+            matrix: Matrix3::new(415.0, 2.0, -4.0, 1.0, 413.0, 3.0, 8.0, -5.0, 411.0),
+        }
+    }
+
+    #[test]
+    fn every_gauge_keeps_the_magnitude_of_corrected_readings() {
+        let reading = Vector3::new(100.0, -250.0, 3000.0);
+        let expected = Correction::of(&sensor()).expect("invertible").apply(&reading).norm();
+        for gauge in [Gauge::Lower, Gauge::Upper, Gauge::Symmetric] {
+            let corrected = Correction::of(&gauge.apply(&sensor())).expect("invertible").apply(&reading);
+            assert!((corrected.norm() / expected - 1.0).abs() < 1e-14, "{gauge:?}");
+        }
+    }
+
+    #[test]
+    fn gauges_convert_into_each_other_without_loss() {
+        for from in [Gauge::Lower, Gauge::Upper, Gauge::Symmetric] {
+            for to in [Gauge::Lower, Gauge::Upper, Gauge::Symmetric] {
+                let there = to.apply(&from.apply(&sensor()));
+                assert!((there.matrix - to.apply(&sensor()).matrix).amax() < 1e-12, "{from:?} to {to:?}");
+            }
+        }
+        let upper = Gauge::Upper.apply(&sensor()).matrix;
+        assert!(upper[(1, 0)].abs() + upper[(2, 0)].abs() + upper[(2, 1)].abs() < 1e-12);
+        let symmetric = Gauge::Symmetric.apply(&sensor()).matrix;
+        assert!((symmetric - symmetric.transpose()).amax() < 1e-12);
+    }
+
+    #[test]
+    fn scale_and_misalignment_multiply_to_the_correction() {
+        let correction = Correction::of(&sensor()).expect("invertible");
+        let product = correction.misalignment() * Matrix3::from_diagonal(&correction.scale());
+        assert!((product - correction.matrix).amax() < 1e-18);
+    }
+}

@@ -1,0 +1,17 @@
+//! What a sensor reports, given its stimulus.
+//!
+//! A reading is `y = S s + b + ν` with `ν ~ N(0, diag σ²)`, in the direction **true → raw**: `s` is the specific force in
+//! m/s², `y` is in the reading's unit (m/s² or counts), `b` the bias in that unit, and `S` holds the scale factors on its
+//! diagonal and the cross-axis sensitivities (misalignment, non-orthogonality) off it.
+
+mod axis;
+mod datasheet;
+mod gauge;
+mod parameters;
+mod recording;
+
+pub use axis::Axis;
+pub use datasheet::{ReadingUnit, Sensor};
+pub use gauge::{Correction, Gauge};
+pub use parameters::{Parameter, ParameterList, Quantity, SensorModel, SensorParameters};
+pub use recording::Recording;

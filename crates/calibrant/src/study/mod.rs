@@ -1,0 +1,5 @@
+//! The experiments over many sensors.
+
+mod result;
+
+pub use result::*;
