@@ -1,4 +1,5 @@
 //! calibrant: calibration of inertial sensors.
+pub mod arrowhead;
 pub mod error;
 pub mod estimate;
 pub mod motion;

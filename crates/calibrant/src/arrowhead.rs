@@ -1,0 +1,465 @@
+//! The one linear-algebra kernel: a block chain with a border, factored in time and memory linear in its length.
+//!
+//! Gauss–Newton on a chain of nodes `a_0 … a_N` (blocks of size D) and a border of parameters `p` (size P) leads to normal
+//! equations that are block tridiagonal in `a` and bordered by `p`: an arrowhead. Two kinds of information make them up: the
+//! data of each interval, a [`Link`] between its two nodes and the border, and what is known of each increment
+//! `a_{i+1} − a_i` beforehand, an [`Increment`] of variance `q`.
+//!
+//! # One kernel for every degree of trust
+//! Written with the weight `1/q` the normal matrix breaks down as `q → 0` (the increment is known exactly: a constraint), and
+//! loses the data to rounding long before. So the chain is eliminated from its end to its start in **increment coordinates**:
+//!
+//! `δa_{i+1} = t ∘ δa_i + ρ + l ∘ w`, cost of `w`: `½ wᵀ diag(d) w`
+//!
+//! | increment | t | l | d |
+//! |---|---|---|---|
+//! | known exactly, `q = 0` | 1 | 0 | 1 |
+//! | known with variance `0 < q < ∞` | 1 | √q | 1 |
+//! | unknown, `q = ∞` | 0 | 1 | 0 |
+//! | ends in a node that is itself known | 0 | 0 | 1 |
+//!
+//! Eliminating `w` has the pivot `diag(d) + diag(l) H diag(l)`, where `H` is the information that the data right of node i have
+//! on node i+1. It is at least one wherever anything is known beforehand, so nothing is divided by a vanishing `q`, and the
+//! report's problems (5), (6) and (3) are the rows `q = 0`, `0 < q < ∞` and `q = ∞` of one table.
+//!
+//! # Cost
+//! `O(N D (D + P)²)` flops; one [`Gain`] of `D (2D + P + 1)` numbers is kept for each interval. Links are asked for one at a time, so
+//! that the caller need not store them. What is left after the elimination, the Schur complement `F` on the border, is the Fisher
+//! information of the parameters with the motion marginalised.
+
+use nalgebra::{SMatrix, SVector};
+
+/// Normal equations of the data in one interval, in its first node (0), its last node (1) and the border.
+#[derive(Debug, Clone)]
+pub struct Link<const D: usize, const P: usize> {
+    /// Information on node 0 with itself.
+    pub h00: SMatrix<f64, D, D>,
+    /// Information on node 0 with node 1.
+    pub h01: SMatrix<f64, D, D>,
+    /// Information on node 1 with itself.
+    pub h11: SMatrix<f64, D, D>,
+    /// Information on node 0 with the border.
+    pub b0: SMatrix<f64, D, P>,
+    /// Information on node 1 with the border.
+    pub b1: SMatrix<f64, D, P>,
+    /// Information on the border.
+    pub c: SMatrix<f64, P, P>,
+    /// Right-hand side (negative gradient) of node 0.
+    pub g0: SVector<f64, D>,
+    /// Right-hand side of node 1.
+    pub g1: SVector<f64, D>,
+    /// Right-hand side of the border.
+    pub gp: SVector<f64, P>,
+}
+
+/// What is known beforehand of `a_{i+1} − a_i`, per coordinate.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Increment<const D: usize> {
+    /// Variance `q`: 0 where the increment is known exactly, infinite where nothing is known.
+    pub variance: SVector<f64, D>,
+    /// Expected increment less the present one, `ρ`.
+    pub residual: SVector<f64, D>,
+    /// Is node i+1 itself known (and so does not move)?
+    pub fixed: [bool; D],
+}
+
+impl<const D: usize> Increment<D> {
+    /// Nothing is known of the increment.
+    #[must_use]
+    pub fn unknown() -> Self {
+        Self {
+            variance: SVector::repeat(f64::INFINITY),
+            residual: SVector::zeros(),
+            fixed: [false; D],
+        }
+    }
+}
+
+/// A node that neither data nor prior determine.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Undetermined {
+    /// The node, 1..=N.
+    pub node: usize,
+    /// Its coordinate, 0..D.
+    pub coordinate: usize,
+}
+
+/// How `w` of one interval follows from its first node and the border: `w = k_0 − K_a δa_i − K_p δp`.
+#[derive(Debug, Clone)]
+struct Gain<const D: usize, const P: usize> {
+    t: SVector<f64, D>,
+    l: SVector<f64, D>,
+    rho: SVector<f64, D>,
+    k0: SVector<f64, D>,
+    ka: SMatrix<f64, D, D>,
+    kp: SMatrix<f64, D, P>,
+    /// Covariance of `w` when node i and border are known: the inverse of the pivot.
+    covariance: SMatrix<f64, D, D>,
+    /// Does the prior weigh `w` (finite positive variance)?
+    weighed: [bool; D],
+}
+
+/// The factored system. Node 0 is known.
+#[derive(Debug, Clone)]
+pub struct Arrowhead<const D: usize, const P: usize> {
+    gains: Vec<Gain<D, P>>,
+    /// Schur complement `F` on the border: the information on the parameters, chain marginalised.
+    pub information: SMatrix<f64, P, P>,
+    /// Right-hand side of the border after elimination.
+    pub rhs: SVector<f64, P>,
+    /// Sum of squares that the chain's own step removes, given the border: `Σ rhs_wᵀ pivot⁻¹ rhs_w`.
+    pub chain_decrement: f64,
+}
+
+/// Relative size below which a pivot counts as zero: some thousand roundings.
+const SINGULAR: f64 = 1e-12;
+
+impl<const D: usize, const P: usize> Arrowhead<D, P> {
+    /// Eliminates the chain, last node first.
+    ///
+    /// `link(i)` and `increment(i)` describe interval i of `intervals`; `border` and `rhs` start the border's equations (a prior, or zero).
+    ///
+    /// # Errors
+    /// [`Undetermined`] names a node on which there is no information.
+    pub fn eliminate(
+        intervals: usize,
+        mut link: impl FnMut(usize) -> Link<D, P>,
+        mut increment: impl FnMut(usize) -> Increment<D>,
+        border: SMatrix<f64, P, P>,
+        rhs: SVector<f64, P>,
+    ) -> Result<Self, Undetermined> {
+        let mut gains = Vec::with_capacity(intervals);
+        let (mut information, mut border_rhs, mut chain_decrement) = (border, rhs, 0.0);
+        // what the intervals right of the present node say of it
+        let (mut h, mut b, mut g) =
+            (SMatrix::<f64, D, D>::zeros(), SMatrix::<f64, D, P>::zeros(), SVector::<f64, D>::zeros());
+        let mut unreduced = SVector::<f64, D>::zeros(); // the same before anything was eliminated: the scale of rounding
+        for i in (0..intervals).rev() {
+            let here = link(i);
+            let known = increment(i);
+            h += here.h11;
+            b += here.b1;
+            g += here.g1;
+            unreduced += here.h11.diagonal();
+            information += here.c;
+            border_rhs += here.gp;
+
+            let (mut t, mut l, mut d) = (SVector::zeros(), SVector::zeros(), SVector::repeat(1.0));
+            let mut rho = SVector::<f64, D>::zeros();
+            let (mut pull, mut pull_rhs) = (SVector::<f64, D>::zeros(), SVector::<f64, D>::zeros());
+            let mut weighed = [false; D];
+            for axis in 0..D {
+                let q = known.variance[axis];
+                if known.fixed[axis] {
+                    if q > 0.0 && q.is_finite() {
+                        pull[axis] = 1.0 / q;
+                        pull_rhs[axis] = -known.residual[axis] / q;
+                    }
+                } else if q == f64::INFINITY {
+                    (l[axis], d[axis]) = (1.0, 0.0);
+                } else {
+                    (t[axis], l[axis], rho[axis]) = (1.0, q.sqrt(), known.residual[axis]);
+                    weighed[axis] = q > 0.0;
+                }
+            }
+
+            // move the expansion point by ρ, then eliminate w
+            g -= h * rho;
+            border_rhs -= b.tr_mul(&rho);
+            let g0 = here.g0 - here.h01 * rho;
+            let (tm, lm) = (SMatrix::from_diagonal(&t), SMatrix::from_diagonal(&l));
+            let lh = lm * h;
+            let pivot = SMatrix::from_diagonal(&d) + lh * lm;
+            let to_node = lm * here.h01.transpose() + lh * tm;
+            let to_border = lm * b;
+            let rhs_w = l.component_mul(&g);
+            let covariance = invert(&pivot, &d, &l, &unreduced)
+                .map_err(|coordinate| Undetermined { node: i + 1, coordinate })?;
+            let (k0, ka, kp) = (covariance * rhs_w, covariance * to_node, covariance * to_border);
+
+            let th = tm * h;
+            let node_border = here.b0 + tm * b;
+            information -= to_border.tr_mul(&kp);
+            border_rhs -= to_border.tr_mul(&k0);
+            chain_decrement += rhs_w.dot(&k0);
+            let cross = here.h01 * tm;
+            g = g0 + t.component_mul(&g) - to_node.tr_mul(&k0) + pull_rhs;
+            b = node_border - to_node.tr_mul(&kp);
+            h = here.h00 + cross + cross.transpose() + th * tm - to_node.tr_mul(&ka) + SMatrix::from_diagonal(&pull);
+            h = (h + h.transpose()) * 0.5;
+            unreduced = here.h00.diagonal() + t.component_mul(&unreduced) + pull;
+            gains.push(Gain { t, l, rho, k0, ka, kp, covariance, weighed });
+        }
+        gains.reverse();
+        information = (information + information.transpose()) * 0.5;
+        Ok(Self { gains, information, rhs: border_rhs, chain_decrement })
+    }
+
+    /// The chain's step that goes with a step of the border: `δa_0 … δa_N`, with `δa_0 = 0`.
+    #[must_use]
+    pub fn chain_step(&self, border_step: &SVector<f64, P>) -> Vec<SVector<f64, D>> {
+        let mut step = SVector::zeros();
+        let mut steps = Vec::with_capacity(self.gains.len() + 1);
+        steps.push(step);
+        for gain in &self.gains {
+            let w = gain.k0 - gain.ka * step - gain.kp * border_step;
+            step = gain.t.component_mul(&step) + gain.rho + gain.l.component_mul(&w);
+            steps.push(step);
+        }
+        steps
+    }
+
+    /// Walks the joint covariance of each interval's nodes and the border, from the border's covariance, first interval first.
+    pub fn walk_covariance(
+        &self,
+        border: &SMatrix<f64, P, P>,
+        mut visit: impl FnMut(usize, &IntervalCovariance<D, P>),
+    ) {
+        let mut node = SMatrix::<f64, D, D>::zeros();
+        let mut node_border = SMatrix::<f64, D, P>::zeros();
+        for (i, gain) in self.gains.iter().enumerate() {
+            let lm = SMatrix::from_diagonal(&gain.l);
+            let w_node = -(gain.ka * node + gain.kp * node_border.transpose());
+            let w_border = -(gain.ka * node_border + gain.kp * border);
+            let w_w = gain.covariance - w_node * gain.ka.transpose() - w_border * gain.kp.transpose();
+            let tm = SMatrix::from_diagonal(&gain.t);
+            let next_node = tm * node + lm * w_node;
+            let next_border = tm * node_border + lm * w_border;
+            let next = next_node * tm + tm * w_node.transpose() * lm + lm * w_w * lm;
+            let next = (next + next.transpose()) * 0.5;
+            let increment_information = (0..D).filter(|&axis| gain.weighed[axis]).map(|axis| w_w[(axis, axis)]).sum();
+            visit(
+                i,
+                &IntervalCovariance {
+                    node0: node,
+                    node1: next,
+                    node1_node0: next_node,
+                    node0_border: node_border,
+                    node1_border: next_border,
+                    increment_information,
+                },
+            );
+            (node, node_border) = (next, next_border);
+        }
+    }
+}
+
+/// Joint covariance of an interval's two nodes with each other and with the border.
+#[derive(Debug, Clone)]
+pub struct IntervalCovariance<const D: usize, const P: usize> {
+    /// First node.
+    pub node0: SMatrix<f64, D, D>,
+    /// Last node.
+    pub node1: SMatrix<f64, D, D>,
+    /// Last node with first node.
+    pub node1_node0: SMatrix<f64, D, D>,
+    /// First node with border.
+    pub node0_border: SMatrix<f64, D, P>,
+    /// Last node with border.
+    pub node1_border: SMatrix<f64, D, P>,
+    /// Posterior variance of the increment over its prior variance, summed over the coordinates that have one: the part of
+    /// the increment's degrees of freedom that the prior, not the data, determined.
+    pub increment_information: f64,
+}
+
+/// Inverse of a pivot, or the coordinate on which there is no information. `l`, `d` tell which coordinates have no prior; `scale` is the
+/// information on the node before elimination.
+fn invert<const D: usize>(
+    pivot: &SMatrix<f64, D, D>,
+    d: &SVector<f64, D>,
+    l: &SVector<f64, D>,
+    scale: &SVector<f64, D>,
+) -> Result<SMatrix<f64, D, D>, usize> {
+    for axis in 0..D {
+        let floor = SINGULAR * scale[axis] * l[axis] * l[axis];
+        if d[axis] == 0.0 && !(pivot[(axis, axis)] > floor && pivot[(axis, axis)] > 0.0) {
+            return Err(axis);
+        }
+    }
+    if D == 1 {
+        return Ok(SMatrix::repeat(1.0 / pivot[(0, 0)]));
+    }
+    // scaled to unit diagonal: node information and unit prior weights may differ by many orders of magnitude
+    let s = SVector::<f64, D>::from_fn(|axis, _| 1.0 / pivot[(axis, axis)].sqrt());
+    let scaled = SMatrix::from_fn(|row, column| pivot[(row, column)] * s[row] * s[column]);
+    let inverse = nalgebra::Cholesky::<f64, nalgebra::Const<D>>::new(scaled).ok_or(0_usize)?.inverse();
+    Ok(SMatrix::from_fn(|row, column| inverse[(row, column)] * s[row] * s[column]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::{DMatrix, DVector, Matrix2, Matrix3, Vector2};
+
+    const N: usize = 6;
+
+    /// A deterministic, well-conditioned chain: each interval has five "samples" of random Jacobian.
+    fn jacobians() -> Vec<(SMatrix<f64, 5, 2>, SMatrix<f64, 5, 2>, SMatrix<f64, 5, 3>, SVector<f64, 5>)> {
+        let mut state = 1_u64;
+        let mut next = move || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
+        };
+        (0..N)
+            .map(|_| {
+                (
+                    SMatrix::from_fn(|_, _| next()),
+                    SMatrix::from_fn(|_, _| next()),
+                    SMatrix::from_fn(|_, _| next()),
+                    SVector::from_fn(|_, _| next()),
+                )
+            })
+            .collect()
+    }
+
+    fn link(i: usize) -> Link<2, 3> {
+        let (j0, j1, g, r) = jacobians()[i];
+        Link {
+            h00: j0.tr_mul(&j0),
+            h01: j0.tr_mul(&j1),
+            h11: j1.tr_mul(&j1),
+            b0: j0.tr_mul(&g),
+            b1: j1.tr_mul(&g),
+            c: g.tr_mul(&g),
+            g0: j0.tr_mul(&r),
+            g1: j1.tr_mul(&r),
+            gp: g.tr_mul(&r),
+        }
+    }
+
+    /// The same system, dense, with weights 1/q: unknowns a_1..a_N then p.
+    fn dense(increment: impl Fn(usize) -> Increment<2>) -> (DMatrix<f64>, DVector<f64>) {
+        let size = 2 * N + 3;
+        let (mut h, mut g) = (DMatrix::zeros(size, size), DVector::zeros(size));
+        for i in 0..N {
+            let (j0, j1, jp, r) = jacobians()[i];
+            let mut j = DMatrix::zeros(5, size);
+            if i > 0 {
+                j.view_mut((0, 2 * i - 2), (5, 2)).copy_from(&j0);
+            }
+            j.view_mut((0, 2 * i), (5, 2)).copy_from(&j1);
+            j.view_mut((0, 2 * N), (5, 3)).copy_from(&jp);
+            h += j.tr_mul(&j);
+            g += j.tr_mul(&r);
+            let known = increment(i);
+            for axis in 0..2 {
+                let q = known.variance[axis];
+                if q.is_finite() {
+                    let mut row = DVector::zeros(size);
+                    row[2 * i + axis] = 1.0;
+                    if i > 0 {
+                        row[2 * i - 2 + axis] = -1.0;
+                    }
+                    h += &row * row.transpose() / q;
+                    g += row * (known.residual[axis] / q);
+                }
+            }
+        }
+        (h, g)
+    }
+
+    fn compare(increment: impl Fn(usize) -> Increment<2> + Copy, tolerance: f64) {
+        let arrowhead = Arrowhead::eliminate(N, link, increment, Matrix3::zeros(), SVector::zeros()).expect("regular");
+        let (mut h, mut g) = dense(increment);
+        // known nodes are struck out
+        let mut fixed = vec![];
+        for i in 0..N {
+            for axis in 0..2 {
+                if increment(i).fixed[axis] {
+                    fixed.push(2 * i + axis);
+                }
+            }
+        }
+        for &index in &fixed {
+            h.row_mut(index).fill(0.0);
+            h.column_mut(index).fill(0.0);
+            h[(index, index)] = 1.0;
+            g[index] = 0.0;
+        }
+        let covariance = h.clone().try_inverse().expect("regular");
+        let solution = &covariance * g;
+        let f = covariance.fixed_view::<3, 3>(2 * N, 2 * N).into_owned().try_inverse().expect("regular");
+        assert!((arrowhead.information - f).amax() < tolerance * f.amax(), "{} {}", arrowhead.information, f);
+        let step = arrowhead.information.try_inverse().expect("regular") * arrowhead.rhs;
+        let chain = arrowhead.chain_step(&step);
+        for i in 1..=N {
+            let expected = solution.fixed_rows::<2>(2 * i - 2);
+            assert!((chain[i] - expected).amax() < tolerance * 100.0, "node {i}");
+        }
+        let border = arrowhead.information.try_inverse().expect("regular");
+        arrowhead.walk_covariance(&border, |i, at| {
+            let expected: Matrix2<f64> = covariance.fixed_view::<2, 2>(2 * i, 2 * i).into_owned();
+            if increment(i).fixed == [false; 2] {
+                assert!((at.node1 - expected).amax() < tolerance * 100.0, "covariance of node {}", i + 1);
+                let expected = covariance.fixed_view::<2, 3>(2 * i, 2 * N).into_owned();
+                assert!((at.node1_border - expected).amax() < tolerance * 100.0);
+                if i > 0 {
+                    let expected: Matrix2<f64> = covariance.fixed_view::<2, 2>(2 * i, 2 * i - 2).into_owned();
+                    assert!((at.node1_node0 - expected).amax() < tolerance * 100.0);
+                }
+            }
+        });
+    }
+
+    fn residual(i: usize) -> Vector2<f64> {
+        Vector2::new(0.1 * i as f64 - 0.2, 0.3)
+    }
+
+    #[test]
+    fn finite_variances_equal_the_dense_solution() {
+        let q = |i: usize| Vector2::new(0.5 + i as f64, 0.02);
+        compare(|i| Increment { variance: q(i), residual: residual(i), fixed: [false; 2] }, 1e-11);
+    }
+
+    #[test]
+    fn unknown_increments_equal_the_dense_solution() {
+        compare(|_| Increment::unknown(), 1e-10);
+    }
+
+    #[test]
+    fn a_mixture_with_a_known_end_equals_the_dense_solution() {
+        compare(
+            |i| Increment {
+                variance: Vector2::new(if i % 2 == 0 { f64::INFINITY } else { 0.3 }, 2.0),
+                residual: residual(i),
+                fixed: [i == N - 1; 2],
+            },
+            1e-10,
+        );
+    }
+
+    #[test]
+    fn vanishing_variance_tends_to_the_exact_constraint_without_loss() {
+        let at = |q: f64| {
+            let increment =
+                |i| Increment { variance: Vector2::repeat(q), residual: residual(i), fixed: [false; 2] };
+            let system = Arrowhead::eliminate(N, link, increment, Matrix3::zeros(), SVector::zeros()).expect("regular");
+            (system.information, system.rhs)
+        };
+        let (exact, exact_rhs) = at(0.0);
+        let (tiny, tiny_rhs) = at(1e-30);
+        assert!((tiny - exact).amax() < 1e-14 && (tiny_rhs - exact_rhs).amax() < 1e-13);
+    }
+
+    #[test]
+    fn a_node_without_information_is_named() {
+        let empty = |i| if i == 3 || i == 4 { Link { ..zero() } } else { link(i) };
+        let result =
+            Arrowhead::eliminate(N, empty, |_| Increment::unknown(), Matrix3::zeros(), SVector::zeros());
+        assert_eq!(result.expect_err("node 4 has no data").node, 4);
+    }
+
+    fn zero() -> Link<2, 3> {
+        Link {
+            h00: SMatrix::zeros(),
+            h01: SMatrix::zeros(),
+            h11: SMatrix::zeros(),
+            b0: SMatrix::zeros(),
+            b1: SMatrix::zeros(),
+            c: SMatrix::zeros(),
+            g0: SVector::zeros(),
+            g1: SVector::zeros(),
+            gp: SVector::zeros(),
+        }
+    }
+}
