@@ -1,5 +1,72 @@
 //! From a recording to parameters with an honest covariance.
+//!
+//! ```text
+//! minimise over p, a:  ½ Σ_k ‖y_k − S α(t_k; a) − b‖²_{Σ_ν⁻¹}
+//!                    + ½ Σ_i ‖(a_{i+1} − a_i)/Δτ − u_i‖²_{Σ_{w,i}⁻¹}
+//!                    + anchors (known start, known end) + optional prior on p
+//! ```
+//!
+//! [`Trust`](crate::motion::Trust) in the commanded motion tells the report's problems (5), (6) and (3) apart; a static calibration has an
+//! unknown direction for each hold instead of a chain ([`HoldsSetup`]). Both end in a [`Calibration`].
+//!
+//! The covariance is the inverse of the information `F` that is left for the parameters once motion or directions are
+//! eliminated (Schur complement, [`arrowhead`](crate::arrowhead)). It holds to first order in the noise, for noise that is white,
+//! Gaussian and as large as assumed; the fit's [`FitStatistics`] say whether the data agree.
 
+mod holds;
+mod motion;
+mod problem;
 mod result;
+mod settings;
+mod statistics;
 
+pub use holds::HoldsSetup;
+pub use problem::{CalibrationProblem, Stimulus};
 pub use result::*;
+pub use settings::CalibrationSettings;
+
+use crate::error::Result;
+
+/// Calibrates a sensor.
+///
+/// # Errors
+/// [`Error::Recording`](crate::Error::Recording) for a recording that is none, or that does not overlap the motion;
+/// [`Error::NotIdentifiable`](crate::Error::NotIdentifiable) names the parameters that the data cannot determine and what would change that;
+/// [`Error::Experiment`](crate::Error::Experiment) where the problem itself lacks something, such as the noise. An iteration that does not
+/// converge is a [`CalibrationStatus`] in the result.
+///
+/// # References
+/// `vamvaka2021`, `burger2017`
+///
+/// # Examples
+/// Three samples of an exactly known motion determine bias and scale factor of one axis:
+/// ```
+/// use calibrant::estimate::{CalibrationProblem, CalibrationSettings, Stimulus, calibrate};
+/// use calibrant::motion::{CommandedMotion, JerkControlledMotion, KnownEnds, Trust};
+/// use calibrant::sensor::{ReadingUnit, Recording, Sensor};
+/// use nalgebra::Vector3;
+///
+/// let sensor = Sensor { axes: 1, ..Sensor::memsic_mxd2020u() };
+/// let nodes = vec![Vector3::new(-9.0, 0.0, 0.0), Vector3::new(9.0, 0.0, 0.0)];
+/// let motion = JerkControlledMotion::uniform(1.0, nodes)?;
+/// let command = CommandedMotion { motion, trust: Trust::Known, known_ends: KnownEnds::Start };
+/// let recording = Recording {
+///     times_s: vec![0.0, 0.5, 1.0],
+///     readings: [-8.91, 0.09, 9.09].map(|y| Vector3::new(y, 0.0, 0.0)).to_vec(),
+///     axes: 1,
+///     unit: ReadingUnit::MetrePerSecondSquared,
+/// };
+/// let problem = CalibrationProblem { sensor: &sensor, recording: &recording, stimulus: Stimulus::Motion(&command) };
+/// let calibration = calibrate(&problem, &CalibrationSettings::default())?;
+/// assert!((calibration.values[0] - 0.09).abs() < 1e-12, "bias.x");
+/// assert!((calibration.values[1] - 1.0).abs() < 1e-12, "scale.x");
+/// assert!((calibration.sd()[1] - 2e-4 / (2.0_f64 * 81.0).sqrt()).abs() < 1e-15);
+/// # Ok::<(), calibrant::Error>(())
+/// ```
+pub fn calibrate(problem: &CalibrationProblem<'_>, settings: &CalibrationSettings) -> Result<Calibration> {
+    problem.validate()?;
+    match problem.stimulus {
+        Stimulus::Motion(command) => motion::calibrate(problem, command, settings),
+        Stimulus::Holds(setup) => holds::calibrate(problem, setup, settings),
+    }
+}

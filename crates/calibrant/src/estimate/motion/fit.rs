@@ -1,0 +1,222 @@
+//! Gauss–Newton with Levenberg–Marquardt damping on the chain.
+//!
+//! ```text
+//! minimise over p, a:  ½ Σ_k ‖y_k − S α(t_k; a) − b‖²_W + ½ Σ_i (a_{i+1} − a_i − Δ_i)²/q_i + prior
+//! ```
+//!
+//! Each iteration linearises at the present (p, a), factors the arrowhead and steps. Only the border is damped: for given
+//! parameters the motion is a linear problem and needs none.
+
+use super::model::ChainModel;
+use super::moments::Moments;
+use crate::arrowhead::{Arrowhead, Increment, Link, Undetermined};
+use crate::estimate::{CalibrationSettings, CalibrationStatus};
+use nalgebra::{Const, SMatrix, SVector};
+use std::marker::PhantomData;
+
+/// One chain: D readings, P parameters.
+pub(super) struct Chain<M, const D: usize, const P: usize> {
+    /// Moments of each interval about `reference`.
+    pub(super) moments: Vec<Moments<D>>,
+    /// Reference reading `z` at each node.
+    pub(super) reference: Vec<SVector<f64, D>>,
+    /// Inverse variance of a sample.
+    pub(super) weight: SVector<f64, D>,
+    /// Variance `q_i` of each increment.
+    pub(super) variance: Vec<SVector<f64, D>>,
+    /// Commanded increment `Δ_i`.
+    pub(super) commanded: Vec<SVector<f64, D>>,
+    /// Is node i+1 known? (Node 0 always is.)
+    pub(super) fixed: Vec<[bool; D]>,
+    /// Prior on the parameters: mean and inverse variance.
+    pub(super) prior: Option<(SVector<f64, P>, SVector<f64, P>)>,
+    pub(super) model: PhantomData<M>,
+}
+
+/// Parameters and motion.
+#[derive(Clone)]
+pub(super) struct State<const D: usize, const P: usize> {
+    pub(super) p: SVector<f64, P>,
+    pub(super) a: Vec<SVector<f64, D>>,
+}
+
+/// Where the iteration ended.
+pub(super) struct Fit<const D: usize, const P: usize> {
+    pub(super) state: State<D, P>,
+    /// The system factored at the end: information, gains.
+    pub(super) system: Arrowhead<D, P>,
+    pub(super) status: CalibrationStatus,
+    pub(super) iterations: usize,
+    /// Length of the last full step in standard deviations: the norm of the gradient in the metric of the covariance.
+    pub(super) gradient_norm: f64,
+    pub(super) chi2: f64,
+}
+
+impl<M: ChainModel<D, P>, const D: usize, const P: usize> Chain<M, D, P> {
+    /// Normal equations of one interval at a state.
+    fn link(&self, i: usize, state: &State<D, P>) -> Link<D, P> {
+        let m = &self.moments[i];
+        let (a0, a1) = (&state.a[i], &state.a[i + 1]);
+        let w = SMatrix::from_diagonal(&self.weight);
+        let s = M::matrix(&state.p);
+        let (d0, d1) =
+            (M::reading(&state.p, a0) - self.reference[i], M::reading(&state.p, a1) - self.reference[i + 1]);
+        // weighted residual sums Σ (1 − λ) r and Σ λ r
+        let r0 = w * (m.e0 - d0 * m.m00 - d1 * m.m01);
+        let r1 = w * (m.e1 - d0 * m.m01 - d1 * m.m11);
+        let (g0, g1) = (M::sensitivity(a0), M::sensitivity(a1));
+        let (wg0, wg1) = (w * g0, w * g1);
+        let sws = s.tr_mul(&(w * s));
+        let cross = g0.tr_mul(&wg1);
+        Link {
+            h00: sws * m.m00,
+            h01: sws * m.m01,
+            h11: sws * m.m11,
+            b0: s.tr_mul(&(wg0 * m.m00 + wg1 * m.m01)),
+            b1: s.tr_mul(&(wg0 * m.m01 + wg1 * m.m11)),
+            c: g0.tr_mul(&wg0) * m.m00 + (cross + cross.transpose()) * m.m01 + g1.tr_mul(&wg1) * m.m11,
+            g0: s.tr_mul(&r0),
+            g1: s.tr_mul(&r1),
+            gp: g0.tr_mul(&r0) + g1.tr_mul(&r1),
+        }
+    }
+
+    fn increment(&self, i: usize, state: &State<D, P>) -> Increment<D> {
+        Increment {
+            variance: self.variance[i],
+            residual: self.commanded[i] - (state.a[i + 1] - state.a[i]),
+            fixed: self.fixed[i],
+        }
+    }
+
+    /// The system factored at a state, and the diagonal of the border's information before the chain was eliminated.
+    pub(super) fn factor(&self, state: &State<D, P>) -> Result<(Arrowhead<D, P>, SVector<f64, P>), Undetermined> {
+        let (mut border, mut rhs) = (SMatrix::zeros(), SVector::zeros());
+        if let Some((mean, weight)) = &self.prior {
+            border = SMatrix::from_diagonal(weight);
+            rhs = (mean - state.p).component_mul(weight);
+        }
+        let mut unreduced = border.diagonal();
+        let link = |i| {
+            let link = self.link(i, state);
+            unreduced += link.c.diagonal();
+            link
+        };
+        let system = Arrowhead::eliminate(self.moments.len(), link, |i| self.increment(i, state), border, rhs)?;
+        Ok((system, unreduced))
+    }
+
+    /// The same chain with every increment known exactly.
+    pub(super) fn rigid(&self) -> Self {
+        Self {
+            moments: self.moments.clone(),
+            reference: self.reference.clone(),
+            weight: self.weight,
+            variance: vec![SVector::zeros(); self.variance.len()],
+            commanded: self.commanded.clone(),
+            fixed: vec![[false; D]; self.fixed.len()],
+            prior: self.prior,
+            model: PhantomData,
+        }
+    }
+
+    /// χ² of the data, the process noise and the prior.
+    pub(super) fn chi2(&self, state: &State<D, P>) -> f64 {
+        let mut chi2 = 0.0;
+        let mut d0 = M::reading(&state.p, &state.a[0]) - self.reference[0];
+        for (i, m) in self.moments.iter().enumerate() {
+            let d1 = M::reading(&state.p, &state.a[i + 1]) - self.reference[i + 1];
+            let increment = self.commanded[i] - (state.a[i + 1] - state.a[i]);
+            for axis in 0..D {
+                let (x0, x1) = (d0[axis], d1[axis]);
+                let squares = m.e2[axis] - 2.0 * (x0 * m.e0[axis] + x1 * m.e1[axis])
+                    + m.m00 * x0 * x0
+                    + 2.0 * m.m01 * x0 * x1
+                    + m.m11 * x1 * x1;
+                chi2 += self.weight[axis] * squares;
+                let q = self.variance[i][axis];
+                if q > 0.0 && q.is_finite() {
+                    chi2 += increment[axis] * increment[axis] / q;
+                }
+            }
+            d0 = d1;
+        }
+        if let Some((mean, weight)) = &self.prior {
+            chi2 += (mean - state.p).component_mul(&(mean - state.p)).dot(weight);
+        }
+        chi2
+    }
+
+    /// Iterates from a state.
+    pub(super) fn fit(
+        &self,
+        mut state: State<D, P>,
+        settings: &CalibrationSettings,
+    ) -> Result<Fit<D, P>, Undetermined> {
+        let mut chi2 = self.chi2(&state);
+        let mut damping = 0.0_f64;
+        let mut last_norm = f64::INFINITY;
+        let (mut system, _) = self.factor(&state)?;
+        let mut status = CalibrationStatus::IterationLimit;
+        let mut iterations = 0;
+        let mut norm = last_norm;
+        while iterations < settings.max_iterations {
+            iterations += 1;
+            norm = gradient_norm(&system);
+            if norm <= settings.tolerance || (norm < ROUNDING_FLOOR && norm > 0.5 * last_norm) {
+                status = CalibrationStatus::Converged;
+                break;
+            }
+            last_norm = norm;
+            let Some(trial) = self.step(&state, &system, damping) else {
+                status = CalibrationStatus::Stalled;
+                break;
+            };
+            let trial_chi2 = self.chi2(&trial);
+            if trial_chi2 <= chi2 + 1e-9 * chi2.abs().max(1.0) || norm < ROUNDING_FLOOR {
+                (state, chi2) = (trial, trial_chi2);
+                (system, _) = self.factor(&state)?;
+                damping = if damping < 1e-6 { 0.0 } else { damping / 10.0 };
+            } else {
+                damping = (damping * 10.0).max(1e-3);
+                last_norm = f64::INFINITY;
+                if damping > 1e12 {
+                    status = CalibrationStatus::Stalled;
+                    break;
+                }
+            }
+        }
+        Ok(Fit { state, system, status, iterations, gradient_norm: norm, chi2 })
+    }
+
+    fn step(&self, state: &State<D, P>, system: &Arrowhead<D, P>, damping: f64) -> Option<State<D, P>> {
+        let mut information = system.information;
+        for k in 0..P {
+            information[(k, k)] *= 1.0 + damping;
+        }
+        let p_step = solve_scaled(&information, &system.rhs)?;
+        let a = state.a.iter().zip(system.chain_step(&p_step)).map(|(a, step)| a + step).collect();
+        Some(State { p: state.p + p_step, a })
+    }
+}
+
+/// A step shorter than this many standard deviations that no longer shrinks is rounding.
+const ROUNDING_FLOOR: f64 = 1e-6;
+
+fn gradient_norm<const D: usize, const P: usize>(system: &Arrowhead<D, P>) -> f64 {
+    match solve_scaled(&system.information, &system.rhs) {
+        Some(step) => (step.dot(&system.rhs).max(0.0) + system.chain_decrement.max(0.0)).sqrt(),
+        None => f64::INFINITY,
+    }
+}
+
+/// Solves `F x = g` by Cholesky of `F` scaled to unit diagonal.
+fn solve_scaled<const P: usize>(f: &SMatrix<f64, P, P>, g: &SVector<f64, P>) -> Option<SVector<f64, P>> {
+    let scale = f.diagonal().map(|d| 1.0 / d.sqrt());
+    if !scale.iter().all(|s| s.is_finite()) {
+        return None;
+    }
+    let scaled = SMatrix::<f64, P, P>::from_fn(|i, j| f[(i, j)] * scale[i] * scale[j]);
+    let cholesky = nalgebra::Cholesky::<f64, Const<P>>::new(scaled)?;
+    Some(cholesky.solve(&g.component_mul(&scale)).component_mul(&scale))
+}

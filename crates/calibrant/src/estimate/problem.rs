@@ -1,0 +1,63 @@
+//! What is to be calibrated.
+
+use super::holds::HoldsSetup;
+use crate::error::{Complaint, Error, Result};
+use crate::motion::CommandedMotion;
+use crate::sensor::{Recording, Sensor};
+
+/// A sensor, a recording of it, and what is known of its stimulus.
+#[derive(Debug, Clone, Copy)]
+pub struct CalibrationProblem<'a> {
+    /// The datasheet.
+    pub sensor: &'a Sensor,
+    /// The recording.
+    pub recording: &'a Recording,
+    /// The stimulus.
+    pub stimulus: Stimulus<'a>,
+}
+
+/// What is known of the stimulus.
+#[derive(Debug, Clone, Copy)]
+pub enum Stimulus<'a> {
+    /// A robot arm executed a commanded motion.
+    Motion(&'a CommandedMotion),
+    /// The sensor was held still in several orientations.
+    Holds(&'a HoldsSetup),
+}
+
+impl CalibrationProblem<'_> {
+    /// Checks that the recording is one: at least two samples, finite, strictly increasing in time, of the sensor's axes and unit.
+    pub(super) fn validate(&self) -> Result<()> {
+        let recording = self.recording;
+        let complain = |message: String, help: &str| Err(Error::recording(Complaint::new(message, help)));
+        if recording.axes != self.sensor.axes {
+            return complain(
+                format!("the recording has {} axes, the sensor {}", recording.axes, self.sensor.axes),
+                "set `sensor.axes`, or record all axes",
+            );
+        }
+        if recording.unit != self.sensor.unit {
+            return complain(
+                format!(
+                    "the recording is in {}, the sensor's readings in {}",
+                    recording.unit.symbol(),
+                    self.sensor.unit.symbol()
+                ),
+                "set `sensor.unit`, or give the recording's unit",
+            );
+        }
+        if recording.len() < 2 || recording.readings.len() != recording.len() {
+            return complain(format!("the recording has {} samples", recording.len()), "record at least two");
+        }
+        if let Some(k) = recording.times_s.windows(2).position(|pair| pair[1] <= pair[0] || !(pair[1] - pair[0]).is_finite()) {
+            return complain(format!("time does not increase after sample {k}"), "sort the samples, remove duplicates");
+        }
+        if let Some(k) = recording.readings.iter().position(|y| y.iter().any(|y| !y.is_finite() || y.abs() > 1e12)) {
+            return complain(
+                format!("sample {k} is not a usable reading: {:?}", recording.readings[k].as_slice()),
+                "remove it",
+            );
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,108 @@
+//! Which combinations of parameters carry no information.
+
+use nalgebra::{DMatrix, DVector};
+
+/// Parameters that are tangled in combinations on which there is no information.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Undetermined {
+    /// Positions of the parameters involved, ascending.
+    pub parameters: Vec<usize>,
+    /// Number of independent combinations of them that the data leave free.
+    pub free_combinations: usize,
+}
+
+/// Relative size of an eigenvalue that counts as zero: rounding of the elimination, with a margin.
+const RANK_TOLERANCE: f64 = 1e-13;
+/// Share of a null direction above which a parameter counts as involved.
+const INVOLVED: f64 = 1e-6;
+
+/// Groups of parameters that the information `F` leaves undetermined; empty where `F` has full rank.
+///
+/// The null space of `F`, scaled by `reference`, is split into groups that share no parameter: with projector `Π` on it,
+/// parameter i is involved where `Π_ii > 0`, and i, j belong together where `Π_ij ≠ 0`.
+///
+/// # Shapes and units
+/// `information`: p × p. `reference`: the diagonal of the information before anything was marginalised (the scale of its rounding
+/// errors), same units as the diagonal of `information`.
+///
+/// # Examples
+/// An axis that stands still at 2 m/s²: bias and scale factor cannot be told apart.
+/// ```
+/// use calibrant::information::undetermined;
+/// use nalgebra::DMatrix;
+/// let f = DMatrix::from_row_slice(2, 2, &[10.0, 20.0, 20.0, 40.0]);
+/// let groups = undetermined(&f, &f.diagonal());
+/// assert_eq!(groups[0].parameters, [0, 1]);
+/// assert_eq!(groups[0].free_combinations, 1);
+/// ```
+#[must_use]
+pub fn undetermined(information: &DMatrix<f64>, reference: &DVector<f64>) -> Vec<Undetermined> {
+    let size = reference.len();
+    let scale = reference.map(|r| if r > 0.0 { 1.0 / r.sqrt() } else { 1.0 });
+    let scaled = DMatrix::from_fn(size, size, |i, j| information[(i, j)] * scale[i] * scale[j]);
+    let eigen = scaled.symmetric_eigen();
+    let largest = eigen.eigenvalues.amax();
+    let floor = RANK_TOLERANCE * largest.max(f64::MIN_POSITIVE) * size as f64;
+    let null: Vec<_> = (0..size)
+        .filter(|&k| eigen.eigenvalues[k].partial_cmp(&floor) != Some(std::cmp::Ordering::Greater))
+        .map(|k| eigen.eigenvectors.column(k).into_owned())
+        .collect();
+    if null.is_empty() {
+        return Vec::new();
+    }
+    let null = DMatrix::from_columns(&null);
+    let projector = &null * null.transpose();
+
+    let mut groups = Vec::new();
+    let mut placed = vec![false; size];
+    for seed in 0..size {
+        if placed[seed] || projector[(seed, seed)] <= INVOLVED {
+            continue;
+        }
+        let mut members = vec![seed];
+        placed[seed] = true;
+        let mut next = 0;
+        while next < members.len() {
+            let member = members[next];
+            next += 1;
+            for other in 0..size {
+                if !placed[other] && projector[(other, other)] > INVOLVED && projector[(member, other)].abs() > INVOLVED {
+                    placed[other] = true;
+                    members.push(other);
+                }
+            }
+        }
+        members.sort_unstable();
+        let share: f64 = members.iter().map(|&i| projector[(i, i)]).sum();
+        groups.push(Undetermined { parameters: members, free_combinations: share.round().max(1.0) as usize });
+    }
+    groups
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn full_rank_leaves_nothing_undetermined() {
+        let f = DMatrix::from_row_slice(2, 2, &[1e20, 1e3, 1e3, 1e-10]);
+        assert!(undetermined(&f, &f.diagonal()).is_empty(), "units alone do not make a rank deficiency");
+    }
+
+    #[test]
+    fn separate_groups_are_reported_separately() {
+        let mut f = DMatrix::zeros(5, 5);
+        f.view_mut((0, 0), (2, 2)).copy_from_slice(&[1.0, 3.0, 3.0, 9.0]);
+        f[(2, 2)] = 4.0;
+        f.view_mut((3, 3), (2, 2)).copy_from_slice(&[2.0, -2.0, -2.0, 2.0]);
+        let groups = undetermined(&f, &f.diagonal());
+        let members: Vec<_> = groups.iter().map(|group| group.parameters.clone()).collect();
+        assert_eq!(members, [vec![0, 1], vec![3, 4]]);
+    }
+
+    #[test]
+    fn a_parameter_without_any_information_stands_alone() {
+        let f = DMatrix::from_diagonal(&DVector::from_vec(vec![1.0, 0.0]));
+        assert_eq!(undetermined(&f, &f.diagonal()), [Undetermined { parameters: vec![1], free_combinations: 1 }]);
+    }
+}

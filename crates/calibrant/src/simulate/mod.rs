@@ -1,0 +1,34 @@
+//! Sensors and recordings out of the datasheet, seeded and reproducible.
+//!
+//! Every item of work (a sensor, a motion) has a ChaCha stream of its own under the common seed, so that results do not depend on the
+//! number of threads or on the order in which items are made.
+
+mod holds;
+mod initial_motion;
+mod population;
+mod recording;
+
+pub use holds::{HoldsSimulation, simulate_holds};
+pub use initial_motion::initial_motion;
+pub use population::draw_sensor;
+pub use recording::{perturb, sample_times, simulate_recording};
+
+use rand::SeedableRng;
+pub use rand_chacha::ChaCha8Rng as Rng;
+
+/// What a random stream is for. Streams of different purposes never meet.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Purpose {
+    /// The initial motion.
+    Motion,
+    /// Parameters, process noise and measurement noise of a sensor.
+    Sensor,
+}
+
+/// The random stream of item `index` for a purpose, under a seed.
+#[must_use]
+pub fn stream(seed: u64, purpose: Purpose, index: u64) -> Rng {
+    let mut rng = Rng::seed_from_u64(seed);
+    rng.set_stream(2 * index + purpose as u64);
+    rng
+}

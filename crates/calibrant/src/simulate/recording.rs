@@ -1,0 +1,70 @@
+//! Recordings of a motion.
+
+use super::Rng;
+use crate::motion::{InputNoise, JerkControlledMotion};
+use crate::sensor::{ReadingUnit, Recording, SensorParameters};
+use nalgebra::Vector3;
+use rand_distr::{Distribution, StandardNormal};
+
+/// Sample times `t_j = j/f_s` from the start of a motion to its end, both included: `M = T f_s + 1`.
+#[must_use]
+pub fn sample_times(motion: &JerkControlledMotion, rate_hz: f64) -> Vec<f64> {
+    let start = motion.times_s()[0];
+    let duration = motion.times_s()[motion.intervals()] - start;
+    let last = (duration * rate_hz * (1.0 + 1e-12)).floor() as usize;
+    (0..=last).map(|j| start + j as f64 / rate_hz).collect()
+}
+
+/// The motion that happens when this one is commanded: process noise `w_i ~ N(0, σ_u(u_i)²)` on each interval's jerk, the report's `ū_i = u_i + w_i`.
+///
+/// # Errors
+/// As [`JerkControlledMotion::new`], where the noise is not finite.
+pub fn perturb(
+    command: &JerkControlledMotion,
+    noise: &InputNoise,
+    axes: usize,
+    rng: &mut Rng,
+) -> crate::Result<JerkControlledMotion> {
+    let mut a = command.acceleration_mps2()[0];
+    let mut nodes = vec![a];
+    for (i, u) in command.jerk_mps3().iter().enumerate() {
+        let sd = noise.sd(u);
+        let w = Vector3::from_fn(|k, _| if k < axes { sd[k] * normal(rng) } else { 0.0 });
+        a += (u + w) * command.interval_s(i);
+        nodes.push(a);
+    }
+    JerkControlledMotion::new(command.times_s().to_vec(), nodes)
+}
+
+/// The recording of a motion by a sensor: `y_k = S α(t_k) + b + ν_k`, `ν_k ~ N(0, σ_ν²)` per axis; noise in the unit of the readings.
+#[must_use]
+pub fn simulate_recording(
+    sensor: &SensorParameters,
+    noise: &Vector3<f64>,
+    unit: ReadingUnit,
+    axes: usize,
+    motion: &JerkControlledMotion,
+    times_s: &[f64],
+    rng: &mut Rng,
+) -> Recording {
+    let nodes = motion.acceleration_mps2();
+    let readings: Vec<_> = nodes.iter().map(|a| sensor.reading(a)).collect();
+    let tau = motion.times_s();
+    let mut i = 0;
+    let readings = times_s
+        .iter()
+        .map(|&t| {
+            while i + 1 < motion.intervals() && t >= tau[i + 1] {
+                i += 1;
+            }
+            let lambda = ((t - tau[i]) / (tau[i + 1] - tau[i])).clamp(0.0, 1.0);
+            let clean = readings[i] * (1.0 - lambda) + readings[i + 1] * lambda;
+            Vector3::from_fn(|k, _| if k < axes { clean[k] + noise[k] * normal(rng) } else { 0.0 })
+        })
+        .collect();
+    Recording { times_s: times_s.to_vec(), readings, axes, unit }
+}
+
+fn normal(rng: &mut Rng) -> f64 {
+    StandardNormal.sample(rng)
+}
