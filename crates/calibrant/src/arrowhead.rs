@@ -107,8 +107,6 @@ pub struct Arrowhead<const D: usize, const P: usize> {
     pub information: SMatrix<f64, P, P>,
     /// Right-hand side of the border after elimination.
     pub rhs: SVector<f64, P>,
-    /// Sum of squares that the chain's own step removes, given the border: `Σ rhs_wᵀ pivot⁻¹ rhs_w`.
-    pub chain_decrement: f64,
 }
 
 /// Relative size below which a pivot counts as zero: some thousand roundings.
@@ -129,7 +127,7 @@ impl<const D: usize, const P: usize> Arrowhead<D, P> {
         rhs: SVector<f64, P>,
     ) -> Result<Self, Undetermined> {
         let mut gains = Vec::with_capacity(intervals);
-        let (mut information, mut border_rhs, mut chain_decrement) = (border, rhs, 0.0);
+        let (mut information, mut border_rhs) = (border, rhs);
         // what the intervals right of the present node say of it
         let (mut h, mut b, mut g) =
             (SMatrix::<f64, D, D>::zeros(), SMatrix::<f64, D, P>::zeros(), SVector::<f64, D>::zeros());
@@ -181,7 +179,6 @@ impl<const D: usize, const P: usize> Arrowhead<D, P> {
             let node_border = here.b0 + tm * b;
             information -= to_border.tr_mul(&kp);
             border_rhs -= to_border.tr_mul(&k0);
-            chain_decrement += rhs_w.dot(&k0);
             let cross = here.h01 * tm;
             g = g0 + t.component_mul(&g) - to_node.tr_mul(&k0) + pull_rhs;
             b = node_border - to_node.tr_mul(&kp);
@@ -192,7 +189,7 @@ impl<const D: usize, const P: usize> Arrowhead<D, P> {
         }
         gains.reverse();
         information = (information + information.transpose()) * 0.5;
-        Ok(Self { gains, information, rhs: border_rhs, chain_decrement })
+        Ok(Self { gains, information, rhs: border_rhs })
     }
 
     /// The chain's step that goes with a step of the border: `δa_0 … δa_N`, with `δa_0 = 0`.

@@ -93,6 +93,7 @@ fn noisy_tends_to_known_as_the_noise_vanishes() {
         for (floor, tolerance) in [(1e-8, 1e-3), (1e-12, 1e-7), (0.0, 1e-9)] {
             let noisy = case.with_trust(Trust::Noisy(InputNoise { floor_mps3: floor, ratio: 0.0 }), KnownEnds::Start);
             let noisy = noisy.calibrate().expect("identifiable");
+            assert_eq!(noisy.status, CalibrationStatus::Converged);
             assert!(in_sd(&noisy.values, &known.values, &known.sd()) < tolerance, "{model:?} {floor}");
             let difference = (&noisy.covariance - &known.covariance).amax() / known.covariance.amax();
             assert!(difference < tolerance, "{model:?} {floor}: {difference}");
@@ -107,6 +108,7 @@ fn noisy_with_both_ends_tends_to_unknown_as_the_noise_grows() {
     for (floor, tolerance) in [(1e2, 1e-2), (1e5, 1e-6), (1e12, 1e-6)] {
         let noisy = case.with_trust(Trust::Noisy(InputNoise { floor_mps3: floor, ratio: 0.0 }), KnownEnds::Both);
         let noisy = noisy.calibrate().expect("identifiable");
+        assert_eq!(noisy.status, CalibrationStatus::Converged);
         let difference = in_sd(&noisy.values, &unknown.values, &unknown.sd());
         assert!(difference < tolerance, "{floor}: {difference}");
         let difference = (&noisy.covariance - &unknown.covariance).amax() / unknown.covariance.amax();
@@ -178,7 +180,7 @@ fn a_prior_determines_what_the_data_do_not() {
     let case = Case::with_motion(SensorModel::ScaleBias, Trust::Known, JerkControlledMotion::uniform(1.0, nodes).expect("valid"), 10.0, 1);
     let settings = CalibrationSettings { datasheet_prior: true, ..CalibrationSettings::default() };
     let calibration = calibrate(&case.problem(), &settings).expect("the prior helps");
-    // reading = b + 2 K: what is free is b = −2 K, of prior variance (1/0.1² + 1/(4·... )): the posterior spread of K alone
+    // the data fix b + 2 K, so along b = −2 K only the prior speaks: 1/var(K) = 1/0.005² + 2²/0.1²
     let along = (1.0 / (0.005_f64.powi(-2) + 4.0 * 0.1_f64.powi(-2))).sqrt();
     assert!((calibration.sd()[4] / along - 1.0).abs() < 1e-3, "{} {along}", calibration.sd()[4]);
 }

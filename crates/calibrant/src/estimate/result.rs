@@ -34,7 +34,8 @@ pub struct Calibration {
     pub status: CalibrationStatus,
     /// Iterations used.
     pub iterations: usize,
-    /// Norm of the gradient at the end, each component in standard deviations of its parameter: zero at the optimum.
+    /// Norm of the gradient at the end in the metric of the covariance, `√(gᵀ Σ g)`: the length, in standard deviations, of the step that is
+    /// left. Zero at the optimum.
     pub gradient_norm: f64,
     /// Name, unit, nominal value and spread of each parameter.
     pub parameters: Vec<Parameter>,

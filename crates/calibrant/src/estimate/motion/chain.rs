@@ -99,11 +99,16 @@ impl<'a> Context<'a> {
         let motion = &self.command.motion;
         let pick = |v: &Vector3<f64>| SVector::<f64, D>::from_fn(|k, _| v[axes[k]]);
         let jerk = motion.jerk_mps3();
+        // noise that drowns in the rounding of the accelerations themselves is none
+        let rounding = 64.0 * f64::EPSILON * motion.acceleration_mps2().iter().map(Vector3::amax).fold(0.0, f64::max);
         let variance: Vec<SVector<f64, D>> = (0..motion.intervals())
             .map(|i| match self.command.trust {
                 Trust::Known => SVector::zeros(),
                 Trust::Unknown => SVector::repeat(f64::INFINITY),
-                Trust::Noisy(noise) => pick(&noise.sd(&jerk[i])).map(|sd| (sd * motion.interval_s(i)).powi(2)),
+                Trust::Noisy(noise) => pick(&noise.sd(&jerk[i])).map(|sd| {
+                    let step = sd * motion.interval_s(i);
+                    if step <= rounding { 0.0 } else { step * step }
+                }),
             })
             .collect();
         let commanded =

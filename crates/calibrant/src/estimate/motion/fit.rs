@@ -47,7 +47,8 @@ pub(super) struct Fit<const D: usize, const P: usize> {
     pub(super) system: Arrowhead<D, P>,
     pub(super) status: CalibrationStatus,
     pub(super) iterations: usize,
-    /// Length of the last full step in standard deviations: the norm of the gradient in the metric of the covariance.
+    /// Norm of the parameters' gradient (motion eliminated) in the metric of their covariance: `√(gᵀ F⁻¹ g)`, the length in
+    /// standard deviations of the step that is left.
     pub(super) gradient_norm: f64,
     pub(super) chi2: f64,
 }
@@ -165,6 +166,12 @@ impl<M: ChainModel<D, P>, const D: usize, const P: usize> Chain<M, D, P> {
             norm = gradient_norm(&system);
             if norm <= settings.tolerance || (norm < ROUNDING_FLOOR && norm > 0.5 * last_norm) {
                 status = CalibrationStatus::Converged;
+                // the parameters rest; the motion still follows their last step
+                if let Some(last) = self.step(&state, &system, 0.0) {
+                    state = last;
+                    (system, _) = self.factor(&state)?;
+                    chi2 = self.chi2(&state);
+                }
                 break;
             }
             last_norm = norm;
@@ -203,9 +210,10 @@ impl<M: ChainModel<D, P>, const D: usize, const P: usize> Chain<M, D, P> {
 /// A step shorter than this many standard deviations that no longer shrinks is rounding.
 const ROUNDING_FLOOR: f64 = 1e-6;
 
+/// `√(gᵀ F⁻¹ g)`. For given parameters the motion is a linear problem that each step solves exactly, so nothing else need vanish.
 fn gradient_norm<const D: usize, const P: usize>(system: &Arrowhead<D, P>) -> f64 {
     match solve_scaled(&system.information, &system.rhs) {
-        Some(step) => (step.dot(&system.rhs).max(0.0) + system.chain_decrement.max(0.0)).sqrt(),
+        Some(step) => step.dot(&system.rhs).max(0.0).sqrt(),
         None => f64::INFINITY,
     }
 }
