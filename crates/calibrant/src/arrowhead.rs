@@ -192,6 +192,30 @@ impl<const D: usize, const P: usize> Arrowhead<D, P> {
         Ok(Self { gains, information, rhs: border_rhs })
     }
 
+    /// The border's step `(F + damping · diag F)⁻¹ g`; `None` where `F` is not positive definite.
+    ///
+    /// `F` is scaled to unit diagonal first, so that the units of the parameters do not matter.
+    #[must_use]
+    pub fn border_step(&self, damping: f64) -> Option<SVector<f64, P>> {
+        let f = &self.information;
+        let scale = f.diagonal().map(|d| 1.0 / d.sqrt());
+        if !scale.iter().all(|s| s.is_finite()) {
+            return None;
+        }
+        let scaled = SMatrix::<f64, P, P>::from_fn(|i, j| {
+            f[(i, j)] * scale[i] * scale[j] + if i == j { damping } else { 0.0 }
+        });
+        let cholesky = nalgebra::Cholesky::<f64, nalgebra::Const<P>>::new(scaled)?;
+        Some(cholesky.solve(&self.rhs.component_mul(&scale)).component_mul(&scale))
+    }
+
+    /// Norm of the border's gradient in the metric of its covariance, `√(gᵀ F⁻¹ g)`: the length of the full step in standard
+    /// deviations. Infinite where `F` is not positive definite.
+    #[must_use]
+    pub fn gradient_norm(&self) -> f64 {
+        self.border_step(0.0).map_or(f64::INFINITY, |step| step.dot(&self.rhs).max(0.0).sqrt())
+    }
+
     /// The chain's step that goes with a step of the border: `δa_0 … δa_N`, with `δa_0 = 0`.
     #[must_use]
     pub fn chain_step(&self, border_step: &SVector<f64, P>) -> Vec<SVector<f64, D>> {

@@ -20,7 +20,7 @@ mod result;
 mod settings;
 mod statistics;
 
-pub use holds::HoldsSetup;
+pub use holds::{HoldsSetup, find_holds, holds_between};
 pub use problem::{CalibrationProblem, Stimulus};
 pub use result::*;
 pub use settings::CalibrationSettings;

@@ -1,8 +1,169 @@
-//! Static multi-position calibration.
-use super::*;
-/// Setup
-#[derive(Debug, Clone)]
-pub struct HoldsSetup {}
-pub(super) fn calibrate(_: &CalibrationProblem<'_>, _: &HoldsSetup, _: &CalibrationSettings) -> Result<Calibration> {
-    todo!()
+//! Static multi-position calibration: the sensor held still in several orientations, directions unknown, magnitude g.
+//!
+//! ```text
+//! minimise over S, b, f_j:  Σ_j (ȳ_j − S f_j − b)ᵀ V_j⁻¹ (ȳ_j − S f_j − b)   with |f_j| = g
+//! V_j = diag(σ_w²)/n_j + σ_b² diag(gain²)
+//! ```
+//!
+//! The same arrowhead as for a motion, with one unknown direction (two numbers) for each hold instead of a chain; `S` in the gauge asked
+//! for ([`Gauge`](crate::sensor::Gauge)). Each hold gives three numbers and takes two: with J holds and p parameters, J − p degrees of freedom.
+//!
+//! # Where the covariance comes from
+//! Samples within a hold are correlated and share the hold's own error, so the scatter *between* holds decides. `σ_w` is the pooled scatter
+//! within holds; `σ_b` is chosen such that χ² equals its degrees of freedom (Paule and Mandel 1982), zero if the noise within holds
+//! already explains the scatter. So the covariance is the larger of the two, and [`HoldCalibration`] says which it was. Long holds count by
+//! their length only as far as noise within holds matters.
+//!
+//! Gravity's own uncertainty is a common factor of `S`: it adds `(∂p/∂g)(∂p/∂g)ᵀ σ_g²`, with `∂S/∂g = −S/g`.
+//!
+//! # Bad holds
+//! A robust fit (Tukey's biweight) finds candidates; a hold is left out when its studentised deletion residual is beyond the 1 %
+//! point of Student's t, Bonferroni-corrected for the number of holds. Holds left out are listed with their residual.
+
+mod detect;
+mod fit;
+mod robust;
+mod verdict;
+
+use super::{
+    Calibration, CalibrationProblem, CalibrationSettings, FitStatistics, HoldCalibration, HoldResult, Recovered, statistics,
+};
+use crate::error::{Complaint, Error, Result};
+use crate::motion::{Gravity, Hold};
+use crate::sensor::{Gauge, SensorModel, SensorParameters};
+use nalgebra::{Matrix3, Vector3};
+use robust::Robust;
+
+pub use detect::{find_holds, holds_between};
+
+/// What is known of the holds.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HoldsSetup {
+    /// The magnitude of gravity.
+    pub gravity: Gravity,
+    /// The gauge of the result.
+    pub gauge: Gauge,
+    /// Holds given by the user as (start, end) in s; `None` to find them.
+    pub intervals_s: Option<Vec<(f64, f64)>>,
+    /// A shorter stillness is not a hold, s.
+    pub minimum_hold_s: f64,
+}
+
+impl Default for HoldsSetup {
+    fn default() -> Self {
+        Self {
+            gravity: Gravity { magnitude_mps2: 9.806_65, sd_mps2: 0.0 },
+            gauge: Gauge::Upper,
+            intervals_s: None,
+            minimum_hold_s: 1.0,
+        }
+    }
+}
+
+/// Calibrates from holds.
+pub(super) fn calibrate(
+    problem: &CalibrationProblem<'_>,
+    setup: &HoldsSetup,
+    settings: &CalibrationSettings,
+) -> Result<Calibration> {
+    if problem.sensor.axes != 3 {
+        return Err(Error::experiment(Complaint::new(
+            "a static calibration needs three axes: only the magnitude of gravity is known, not its direction",
+            "set sensor.axes = 3",
+        )));
+    }
+    let holds = match &setup.intervals_s {
+        Some(intervals) => holds_between(problem.recording, intervals)?,
+        None => find_holds(problem.recording, setup.minimum_hold_s)?,
+    };
+    let robust = match problem.sensor.model {
+        SensorModel::ScaleBias => robust::fit::<6>(problem, setup, settings, &holds)?,
+        SensorModel::Full => robust::fit::<9>(problem, setup, settings, &holds)?,
+    };
+    Ok(assemble(problem, setup, holds, robust))
+}
+
+/// Puts the result together.
+fn assemble(
+    problem: &CalibrationProblem<'_>,
+    setup: &HoldsSetup,
+    holds: Vec<Hold>,
+    robust: Robust,
+) -> Calibration {
+    let list = setup.gauge.parameter_list(problem.sensor.model);
+    let sensor = robust.sensor;
+    let g = setup.gravity;
+    let mut covariance = robust.covariance.clone();
+    let slope = nalgebra::DVector::from_iterator(
+        list.len(),
+        list.quantities().iter().map(|quantity| match quantity {
+            crate::sensor::Quantity::Bias(_) => 0.0,
+            _ => -quantity.of(&sensor) / g.magnitude_mps2,
+        }),
+    );
+    covariance += &slope * slope.transpose() * (g.sd_mps2 * g.sd_mps2);
+
+    let results: Vec<HoldResult> = holds
+        .into_iter()
+        .enumerate()
+        .map(|(j, hold)| HoldResult {
+            force_mps2: robust.forces[j],
+            magnitude_residual_mps2: robust.magnitude_residuals[j],
+            studentised_residual: robust.studentised[j],
+            used: robust.used[j],
+            hold,
+        })
+        .collect();
+    let used = || results.iter().filter(|result| result.used);
+    let count = used().count();
+    let mut residual_rms = Vector3::zeros();
+    for result in used() {
+        let residual = result.hold.mean - sensor.reading(&result.force_mps2);
+        residual_rms += residual.component_mul(&residual) / count as f64;
+    }
+    let magnitude = used().map(|result| result.magnitude_residual_mps2.powi(2)).sum::<f64>() / count as f64;
+    let degrees_of_freedom = robust.degrees_of_freedom;
+    let fit = FitStatistics {
+        chi2: robust.chi2,
+        degrees_of_freedom,
+        p_value: if robust.between_holds_sd > 0.0 {
+            None
+        } else {
+            statistics::chi2_p_value(robust.chi2, degrees_of_freedom)
+        },
+        residual_rms: residual_rms.map(f64::sqrt),
+        assumed_noise: problem.sensor.noise(&sensor.matrix.diagonal()),
+        noise_estimate: Some(robust.within_sd),
+        whiteness: Vec::new(),
+    };
+    let nominal = problem.sensor.nominal().unwrap_or(SensorParameters {
+        bias: sensor.bias,
+        matrix: Matrix3::from_diagonal(&sensor.matrix.diagonal()),
+    });
+    let mut calibration = Calibration {
+        status: robust.status,
+        iterations: robust.iterations,
+        gradient_norm: robust.gradient_norm,
+        parameters: list.describe(problem.sensor, &nominal),
+        values: list.quantities().iter().map(|quantity| quantity.of(&sensor)).collect(),
+        covariance,
+        sensor,
+        unit: problem.sensor.unit,
+        fit,
+        recovered: Recovered::Holds(HoldCalibration {
+            holds: results,
+            gravity: g,
+            gauge: setup.gauge,
+            between_holds_sd_mps2: robust.between_holds_sd,
+            between_holds_dominates: robust.between_holds_sd > 0.0,
+            magnitude_residual_rms_mps2: magnitude.sqrt(),
+            condition_number: robust.condition_number,
+            detected: setup.intervals_s.is_none(),
+        }),
+        residuals: Vec::new(),
+        first_sample: 0,
+        warnings: Vec::new(),
+    };
+    calibration.warnings = verdict::warnings(problem, &calibration, &robust.weakest);
+    calibration
 }

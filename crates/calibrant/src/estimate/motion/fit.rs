@@ -11,7 +11,7 @@ use super::model::ChainModel;
 use super::moments::Moments;
 use crate::arrowhead::{Arrowhead, Increment, Link, Undetermined};
 use crate::estimate::{CalibrationSettings, CalibrationStatus};
-use nalgebra::{Const, SMatrix, SVector};
+use nalgebra::{SMatrix, SVector};
 use std::marker::PhantomData;
 
 /// One chain: D readings, P parameters.
@@ -163,7 +163,8 @@ impl<M: ChainModel<D, P>, const D: usize, const P: usize> Chain<M, D, P> {
         let mut norm = last_norm;
         while iterations < settings.max_iterations {
             iterations += 1;
-            norm = gradient_norm(&system);
+            // for given parameters the motion is a linear problem that each step solves: only the parameters need come to rest
+            norm = system.gradient_norm();
             if norm <= settings.tolerance || (norm < ROUNDING_FLOOR && norm > 0.5 * last_norm) {
                 status = CalibrationStatus::Converged;
                 // the parameters rest; the motion still follows their last step
@@ -197,11 +198,7 @@ impl<M: ChainModel<D, P>, const D: usize, const P: usize> Chain<M, D, P> {
     }
 
     fn step(&self, state: &State<D, P>, system: &Arrowhead<D, P>, damping: f64) -> Option<State<D, P>> {
-        let mut information = system.information;
-        for k in 0..P {
-            information[(k, k)] *= 1.0 + damping;
-        }
-        let p_step = solve_scaled(&information, &system.rhs)?;
+        let p_step = system.border_step(damping)?;
         let a = state.a.iter().zip(system.chain_step(&p_step)).map(|(a, step)| a + step).collect();
         Some(State { p: state.p + p_step, a })
     }
@@ -209,22 +206,3 @@ impl<M: ChainModel<D, P>, const D: usize, const P: usize> Chain<M, D, P> {
 
 /// A step shorter than this many standard deviations that no longer shrinks is rounding.
 const ROUNDING_FLOOR: f64 = 1e-6;
-
-/// `√(gᵀ F⁻¹ g)`. For given parameters the motion is a linear problem that each step solves exactly, so nothing else need vanish.
-fn gradient_norm<const D: usize, const P: usize>(system: &Arrowhead<D, P>) -> f64 {
-    match solve_scaled(&system.information, &system.rhs) {
-        Some(step) => step.dot(&system.rhs).max(0.0).sqrt(),
-        None => f64::INFINITY,
-    }
-}
-
-/// Solves `F x = g` by Cholesky of `F` scaled to unit diagonal.
-fn solve_scaled<const P: usize>(f: &SMatrix<f64, P, P>, g: &SVector<f64, P>) -> Option<SVector<f64, P>> {
-    let scale = f.diagonal().map(|d| 1.0 / d.sqrt());
-    if !scale.iter().all(|s| s.is_finite()) {
-        return None;
-    }
-    let scaled = SMatrix::<f64, P, P>::from_fn(|i, j| f[(i, j)] * scale[i] * scale[j]);
-    let cholesky = nalgebra::Cholesky::<f64, Const<P>>::new(scaled)?;
-    Some(cholesky.solve(&g.component_mul(&scale)).component_mul(&scale))
-}

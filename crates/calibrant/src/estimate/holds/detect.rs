@@ -1,0 +1,225 @@
+//! Finds the holds in a recording by itself.
+//!
+//! The variance within a sliding window is, on a logarithmic scale, sharply peaked where the sensor is still (its noise, whatever that is)
+//! and spread over decades where it moves. The lowest peak gives the noise; the emptiest place above it separates still from
+//! moving. No threshold in absolute units is needed, and holds of any noise level are found, hands that tremble included.
+
+use crate::error::{Complaint, Error, Result};
+use crate::motion::Hold;
+use crate::sensor::Recording;
+use nalgebra::Vector3;
+
+/// Width of a bin of log₁₀ variance.
+const BIN: f64 = 0.05;
+/// Where the separation between still and moving is looked for, in decades of variance above the peak of stillness.
+const VALLEY: (f64, f64) = (0.4, 1.2);
+/// A peak this high relative to the highest counts as stillness if it is the lowest.
+const PEAK: f64 = 0.2;
+/// The mean of a stretch may wander this many standard deviations of a sample within a hold.
+const WANDER: f64 = 2.0;
+
+/// The holds of a recording, at least `minimum_s` long, in order of time.
+///
+/// # Errors
+/// [`Error::Recording`] where the sample rate is too low for the shortest hold.
+///
+/// # Examples
+/// ```
+/// use calibrant::estimate::find_holds;
+/// use calibrant::sensor::{ReadingUnit, SensorParameters};
+/// use calibrant::simulate::{HoldsSimulation, Purpose, simulate_holds, stream};
+/// use nalgebra::Vector3;
+///
+/// let setup = HoldsSimulation { poses: 12, hold_s: 4.0, turn_s: 1.5, rate_hz: 100.0, gravity_mps2: 9.81, between_holds_sd_mps2: 0.0 };
+/// let sensor = SensorParameters::identity();
+/// let unit = ReadingUnit::MetrePerSecondSquared;
+/// let (recording, _) = simulate_holds(&sensor, &Vector3::repeat(0.01), unit, &setup, &mut stream(1, Purpose::Sensor, 0));
+/// assert_eq!(find_holds(&recording, 1.0)?.len(), 12);
+/// # Ok::<(), calibrant::Error>(())
+/// ```
+pub fn find_holds(recording: &Recording, minimum_s: f64) -> Result<Vec<Hold>> {
+    let rate = recording.rate_hz();
+    let window = ((minimum_s / 2.0 * rate).round() as usize).max(5);
+    if minimum_s * rate < 8.0 {
+        return Err(Error::recording(Complaint::new(
+            format!("at {rate:.3} Hz a hold of {minimum_s} s has only {:.1} samples", minimum_s * rate),
+            "give the holds yourself (holds.intervals_s), or raise holds.minimum_hold_s",
+        )));
+    }
+    if recording.len() < 2 * window {
+        return Ok(Vec::new());
+    }
+    let variance = window_variance(recording, window);
+    let Some(threshold) = threshold(&variance) else { return Ok(Vec::new()) };
+    let mut holds = Vec::new();
+    let mut k = 0;
+    while k < variance.len() {
+        if variance[k] > threshold {
+            k += 1;
+            continue;
+        }
+        let start = k;
+        while k < variance.len() && variance[k] <= threshold {
+            k += 1;
+        }
+        // window `start` begins at sample `start`, window `k − 1` ends at sample `k − 1 + window`; a quarter window off each end
+        let margin = window / 4;
+        let (first, end) = (start + margin, k - 1 + window - margin);
+        if end > first + window / 2
+            && let Some(hold) = steady(recording, first, end, window)
+            && hold.duration_s() >= minimum_s * (1.0 - 1e-9) - 1.0 / rate
+        {
+            holds.push(hold);
+        }
+    }
+    Ok(holds)
+}
+
+/// Sum over the axes of the variance within each window of so many samples; infinite for windows that span a gap.
+fn window_variance(recording: &Recording, window: usize) -> Vec<f64> {
+    let n = recording.len();
+    let step = 1.0 / recording.rate_hz();
+    let mean = recording.readings.iter().sum::<Vector3<f64>>() / n as f64;
+    let (mut sum, mut squares) = (Vector3::zeros(), 0.0);
+    let mut gaps = 0_usize;
+    let gap = |k: usize| usize::from(recording.times_s[k + 1] - recording.times_s[k] > 5.0 * step);
+    let mut variance = Vec::with_capacity(n - window + 1);
+    for k in 0..n {
+        let y = recording.readings[k] - mean;
+        sum += y;
+        squares += y.norm_squared();
+        if k > 0 {
+            gaps += gap(k - 1);
+        }
+        if k >= window {
+            let old = recording.readings[k - window] - mean;
+            sum -= old;
+            squares -= old.norm_squared();
+            gaps -= gap(k - window);
+        }
+        if k + 1 >= window {
+            let w = window as f64;
+            let v = (squares - sum.norm_squared() / w) / w;
+            variance.push(if gaps > 0 { f64::INFINITY } else { v.max(0.0) });
+        }
+        // begin anew now and then, so that rounding does not pile up
+        if k % 4096 == 4095 {
+            (sum, squares) = (Vector3::zeros(), 0.0);
+            for reading in &recording.readings[(k + 1).saturating_sub(window)..=k] {
+                sum += reading - mean;
+                squares += (reading - mean).norm_squared();
+            }
+        }
+    }
+    variance
+}
+
+/// The variance that separates still from moving; `None` where nothing is still.
+fn threshold(variance: &[f64]) -> Option<f64> {
+    let finite: Vec<f64> = variance.iter().copied().filter(|v| v.is_finite()).collect();
+    let largest = finite.iter().copied().fold(0.0, f64::max);
+    if finite.is_empty() {
+        return None;
+    }
+    // noiseless recordings: stillness is then rounding
+    let floor = (largest * 1e-16).max(f64::MIN_POSITIVE);
+    let decade = |v: f64| v.max(floor).log10();
+    let lowest = decade(finite.iter().copied().fold(f64::INFINITY, f64::min));
+    let bins = ((decade(largest) - lowest) / BIN).ceil() as usize + 1;
+    let mut histogram = vec![0.0; bins];
+    for v in &finite {
+        histogram[((decade(*v) - lowest) / BIN) as usize] += 1.0;
+    }
+    let density = smooth(&histogram);
+    let highest = density.iter().copied().fold(0.0, f64::max);
+    let peak = (0..bins).find(|&k| {
+        density[k] >= PEAK * highest
+            && density[k] >= *density.get(k + 1).unwrap_or(&0.0)
+            && (k == 0 || density[k] >= density[k - 1])
+    })?;
+    let bin = |decades: f64| ((peak as f64 + decades / BIN) as usize).min(bins);
+    let (from, to) = (bin(VALLEY.0), bin(VALLEY.1));
+    let valley = (from..to).min_by(|&a, &b| density[a].total_cmp(&density[b])).unwrap_or(from);
+    Some(10.0_f64.powf(lowest + (valley as f64 + 0.5) * BIN))
+}
+
+/// Binomial smoothing, about 0.1 decade wide.
+fn smooth(histogram: &[f64]) -> Vec<f64> {
+    let at = |k: isize| if k < 0 { 0.0 } else { histogram.get(k as usize).copied().unwrap_or(0.0) };
+    (0..histogram.len() as isize)
+        .map(|k| (at(k - 2) + 4.0 * at(k - 1) + 6.0 * at(k) + 4.0 * at(k + 1) + at(k + 2)) / 16.0)
+        .collect()
+}
+
+/// The hold from `first` to `end`, its ends cut off where the mean wanders; `None` if it wanders throughout (a slow rotation).
+fn steady(recording: &Recording, first: usize, end: usize, window: usize) -> Option<Hold> {
+    let block = (window / 2).max(2);
+    let starts: Vec<usize> = (first..end + 1 - block.min(end - first)).step_by(block).collect();
+    let blocks: Vec<Hold> = starts.iter().map(|&k| summarise(recording, k, (k + block).min(end))).collect();
+    let center = Vector3::from_fn(|axis, _| median(blocks.iter().map(|block| block.mean[axis]).collect()));
+    let spread = Vector3::from_fn(|axis, _| median(blocks.iter().map(|block| block.sd[axis]).collect()));
+    let limit = WANDER * spread.norm();
+    let calm = |block: &&Hold| (block.mean - center).norm() <= limit.max(1e-9 * center.norm());
+    let from = blocks.iter().find(calm)?.first;
+    let to = blocks.iter().rev().find(calm)?.end;
+    let restless = blocks.iter().filter(|block| block.first >= from && block.end <= to && !calm(block)).count();
+    if restless * 10 > blocks.len() {
+        return None;
+    }
+    let to = if to + block > end { end } else { to };
+    (to > from + 1).then(|| summarise(recording, from, to))
+}
+
+fn median(mut values: Vec<f64>) -> f64 {
+    let middle = values.len() / 2;
+    *values.select_nth_unstable_by(middle, f64::total_cmp).1
+}
+
+/// Mean and standard deviation of the samples `first..end`.
+fn summarise(recording: &Recording, first: usize, end: usize) -> Hold {
+    let readings = &recording.readings[first..end];
+    let n = readings.len() as f64;
+    let mean = readings.iter().sum::<Vector3<f64>>() / n;
+    let squares: Vector3<f64> = readings.iter().map(|y| (y - mean).component_mul(&(y - mean))).sum();
+    Hold {
+        first,
+        end,
+        start_s: recording.times_s[first],
+        end_s: recording.times_s[end - 1],
+        mean,
+        sd: (squares / (n - 1.0).max(1.0)).map(f64::sqrt),
+    }
+}
+
+/// The holds between these (start, end) times in s.
+///
+/// # Errors
+/// [`Error::Recording`] names an interval with fewer than two samples, or that overlaps another.
+pub fn holds_between(recording: &Recording, intervals_s: &[(f64, f64)]) -> Result<Vec<Hold>> {
+    let mut holds: Vec<Hold> = Vec::with_capacity(intervals_s.len());
+    for (k, &(start, stop)) in intervals_s.iter().enumerate() {
+        let first = recording.times_s.partition_point(|&t| t < start);
+        let end = recording.times_s.partition_point(|&t| t <= stop);
+        if end < first + 2 {
+            return Err(Error::recording(Complaint::new(
+                format!(
+                    "hold {} from {start} to {stop} s has {} samples; the recording spans {} to {} s",
+                    k + 1,
+                    end.saturating_sub(first),
+                    recording.times_s[0],
+                    recording.times_s[recording.len() - 1]
+                ),
+                "correct holds.intervals_s",
+            )));
+        }
+        if let Some(other) = holds.iter().position(|hold| first < hold.end && hold.first < end) {
+            return Err(Error::recording(Complaint::new(
+                format!("holds {} and {} overlap", other + 1, k + 1),
+                "correct holds.intervals_s: no sample may count twice",
+            )));
+        }
+        holds.push(summarise(recording, first, end));
+    }
+    holds.sort_by_key(|hold| hold.first);
+    Ok(holds)
+}

@@ -1,0 +1,189 @@
+//! Gauss–Newton on the directions and the parameters, for given weights of the holds.
+
+use crate::arrowhead::{Arrowhead, Increment, Link};
+use crate::estimate::{CalibrationSettings, CalibrationStatus};
+use crate::motion::Hold;
+use crate::sensor::{ParameterList, SensorParameters};
+use nalgebra::{Matrix3x2, SMatrix, SVector, Vector3};
+
+/// The problem for given weights.
+pub(super) struct Directions<'a, const P: usize> {
+    pub(super) list: &'a ParameterList,
+    pub(super) holds: Vec<&'a Hold>,
+    /// Inverse variance of each hold's mean, per axis.
+    pub(super) weights: Vec<Vector3<f64>>,
+    pub(super) gravity: f64,
+    /// Prior on the parameters: mean and inverse variance.
+    pub(super) prior: Option<(SVector<f64, P>, SVector<f64, P>)>,
+}
+
+/// Where the iteration ended.
+pub(super) struct Fit<const P: usize> {
+    pub(super) sensor: SensorParameters,
+    pub(super) forces: Vec<Vector3<f64>>,
+    pub(super) information: SMatrix<f64, P, P>,
+    /// Diagonal of the information before the directions were eliminated.
+    pub(super) unreduced: SVector<f64, P>,
+    pub(super) chi2: f64,
+    pub(super) status: CalibrationStatus,
+    pub(super) iterations: usize,
+    pub(super) gradient_norm: f64,
+}
+
+/// Two unit vectors perpendicular to `f` and to each other.
+fn tangents(f: &Vector3<f64>) -> Matrix3x2<f64> {
+    let u = f.normalize();
+    let other = if u.x.abs() < 0.6 { Vector3::x() } else { Vector3::y() };
+    let one = u.cross(&other).normalize();
+    Matrix3x2::from_columns(&[one, u.cross(&one)])
+}
+
+impl<const P: usize> Directions<'_, P> {
+    /// The force of each hold that the sensor's correction gives, scaled to gravity.
+    pub(super) fn forces(&self, sensor: &SensorParameters) -> Option<Vec<Vector3<f64>>> {
+        let inverse = sensor.matrix.try_inverse()?;
+        self.holds
+            .iter()
+            .map(|hold| (inverse * (hold.mean - sensor.bias)).try_normalize(1e-300).map(|u| u * self.gravity))
+            .collect()
+    }
+
+    fn chi2(&self, sensor: &SensorParameters, forces: &[Vector3<f64>]) -> f64 {
+        let data: f64 = self
+            .holds
+            .iter()
+            .zip(forces)
+            .zip(&self.weights)
+            .map(|((hold, force), weight)| {
+                let r = hold.mean - sensor.reading(force);
+                r.component_mul(&r).dot(weight)
+            })
+            .sum();
+        let prior = self.prior.as_ref().map_or(0.0, |(mean, weight)| {
+            let off = mean - self.values(sensor);
+            off.component_mul(&off).dot(weight)
+        });
+        data + prior
+    }
+
+    fn values(&self, sensor: &SensorParameters) -> SVector<f64, P> {
+        SVector::from_fn(|k, _| self.list.quantities()[k].of(sensor))
+    }
+
+    /// Derivative of the reading with respect to the parameters, 3 × P.
+    pub(super) fn sensitivity(&self, force: &Vector3<f64>) -> SMatrix<f64, 3, P> {
+        let columns: Vec<_> = self.list.quantities().iter().map(|quantity| quantity.derivative(force)).collect();
+        SMatrix::from_fn(|row, column| columns[column][row])
+    }
+
+    fn factor(
+        &self,
+        sensor: &SensorParameters,
+        forces: &[Vector3<f64>],
+    ) -> Option<(Arrowhead<2, P>, SVector<f64, P>)> {
+        let (mut border, mut rhs) = (SMatrix::zeros(), SVector::zeros());
+        if let Some((mean, weight)) = &self.prior {
+            border = SMatrix::from_diagonal(weight);
+            rhs = (mean - self.values(sensor)).component_mul(weight);
+        }
+        let mut unreduced = border.diagonal();
+        let link = |j: usize| {
+            let (hold, force, weight) = (self.holds[j], &forces[j], &self.weights[j]);
+            let w = SMatrix::from_diagonal(weight);
+            let turn = sensor.matrix * tangents(force) * self.gravity;
+            let g = self.sensitivity(force);
+            let wr = weight.component_mul(&(hold.mean - sensor.reading(force)));
+            let c = g.tr_mul(&(w * g));
+            unreduced += c.diagonal();
+            Link {
+                h00: SMatrix::zeros(),
+                h01: SMatrix::zeros(),
+                h11: turn.tr_mul(&(w * turn)),
+                b0: SMatrix::zeros(),
+                b1: turn.tr_mul(&(w * g)),
+                c,
+                g0: SVector::zeros(),
+                g1: turn.tr_mul(&wr),
+                gp: g.tr_mul(&wr),
+            }
+        };
+        // a hold with weight zero has no direction of its own: it is not in `holds`
+        let system = Arrowhead::eliminate(self.holds.len(), link, |_| Increment::unknown(), border, rhs).ok()?;
+        Some((system, unreduced))
+    }
+
+    /// Iterates from a sensor; `None` where its matrix is singular.
+    pub(super) fn fit(&self, start: &SensorParameters, settings: &CalibrationSettings) -> Option<Fit<P>> {
+        let mut sensor = *start;
+        let mut forces = self.forces(&sensor)?;
+        let mut chi2 = self.chi2(&sensor, &forces);
+        let (mut system, mut unreduced) = self.factor(&sensor, &forces)?;
+        let (mut status, mut iterations) = (CalibrationStatus::IterationLimit, 0);
+        let (mut damping, mut norm, mut last_norm) = (0.0_f64, f64::INFINITY, f64::INFINITY);
+        while iterations < settings.max_iterations {
+            iterations += 1;
+            norm = system.gradient_norm();
+            if norm <= settings.tolerance || (norm < 1e-6 && norm > 0.5 * last_norm) {
+                status = CalibrationStatus::Converged;
+                break;
+            }
+            last_norm = norm;
+            let trial = system.border_step(damping).and_then(|step| self.take(&sensor, &forces, &system, &step));
+            let accepted = trial.and_then(|(trial, trial_forces)| {
+                let trial_chi2 = self.chi2(&trial, &trial_forces);
+                (trial_chi2 <= chi2 * (1.0 + 1e-9) || norm < 1e-6).then_some((trial, trial_forces, trial_chi2))
+            });
+            match accepted.and_then(|found| Some((self.factor(&found.0, &found.1)?, found))) {
+                Some(((next, diagonal), found)) => {
+                    (sensor, forces, chi2) = found;
+                    (system, unreduced) = (next, diagonal);
+                    damping = if damping < 1e-6 { 0.0 } else { damping / 10.0 };
+                }
+                None => {
+                    damping = (damping * 10.0).max(1e-4);
+                    last_norm = f64::INFINITY;
+                    if damping > 1e14 {
+                        status = CalibrationStatus::Stalled;
+                        break;
+                    }
+                }
+            }
+        }
+        Some(Fit {
+            sensor,
+            forces,
+            information: system.information,
+            unreduced,
+            chi2,
+            status,
+            iterations,
+            gradient_norm: norm,
+        })
+    }
+
+    /// Parameters and directions after a step, the directions scaled back to gravity.
+    fn take(
+        &self,
+        sensor: &SensorParameters,
+        forces: &[Vector3<f64>],
+        system: &Arrowhead<2, P>,
+        step: &SVector<f64, P>,
+    ) -> Option<(SensorParameters, Vec<Vector3<f64>>)> {
+        let mut next = *sensor;
+        for (quantity, step) in self.list.quantities().iter().zip(step.iter()) {
+            quantity.add_to(&mut next, *step);
+        }
+        if next.matrix.determinant() <= 0.0 {
+            return None;
+        }
+        let turns = system.chain_step(step);
+        let forces = forces
+            .iter()
+            .zip(&turns[1..])
+            .map(|(force, turn)| {
+                (force + tangents(force) * turn * self.gravity).try_normalize(1e-300).map(|u| u * self.gravity)
+            })
+            .collect::<Option<Vec<_>>>()?;
+        Some((next, forces))
+    }
+}

@@ -1,0 +1,347 @@
+//! Weights of the holds: scatter within and between holds, and the holds that must be left out.
+
+use super::HoldsSetup;
+use super::fit::{Directions, Fit};
+use super::verdict::explain;
+use crate::error::{Complaint, Error, NotIdentifiable, Result};
+use crate::estimate::{CalibrationProblem, CalibrationSettings, CalibrationStatus};
+use crate::information;
+use crate::motion::Hold;
+use crate::sensor::{ParameterList, SensorParameters};
+use nalgebra::{DMatrix, DVector, Matrix3, SVector, Vector3, Vector4};
+use statrs::distribution::{ContinuousCDF, StudentsT};
+
+/// A hold is left out when a residual as large as its own would be seen in fewer than this share of recordings.
+const SIGNIFICANCE: f64 = 0.01;
+/// Tukey's constant: 95 % efficiency at the normal distribution.
+const BIWEIGHT: f64 = 4.685;
+
+/// What the robust fit gives. Vectors have one entry for each hold, used or not.
+pub(super) struct Robust {
+    pub(super) sensor: SensorParameters,
+    pub(super) forces: Vec<Vector3<f64>>,
+    pub(super) magnitude_residuals: Vec<f64>,
+    pub(super) studentised: Vec<f64>,
+    pub(super) used: Vec<bool>,
+    pub(super) covariance: DMatrix<f64>,
+    pub(super) chi2: f64,
+    pub(super) degrees_of_freedom: usize,
+    /// Pooled scatter of samples within holds, unit of the readings.
+    pub(super) within_sd: Vector3<f64>,
+    /// `σ_b`, m/s².
+    pub(super) between_holds_sd: f64,
+    pub(super) condition_number: f64,
+    /// The combination that is determined worst: parameter names and their shares.
+    pub(super) weakest: Vec<String>,
+    pub(super) status: CalibrationStatus,
+    pub(super) iterations: usize,
+    pub(super) gradient_norm: f64,
+}
+
+/// A fit with its weights.
+struct Weighted<const P: usize> {
+    fit: Fit<P>,
+    covariance: DMatrix<f64>,
+    between: f64,
+}
+
+struct Problem<'a, const P: usize> {
+    holds: &'a [Hold],
+    list: ParameterList,
+    gravity: f64,
+    within: Vector3<f64>,
+    prior: Option<(SVector<f64, P>, SVector<f64, P>)>,
+    settings: &'a CalibrationSettings,
+}
+
+/// Fits, finds the scatter between holds, leaves bad holds out.
+pub(super) fn fit<const P: usize>(
+    problem: &CalibrationProblem<'_>,
+    setup: &HoldsSetup,
+    settings: &CalibrationSettings,
+    holds: &[Hold],
+) -> Result<Robust> {
+    let list = setup.gauge.parameter_list(problem.sensor.model);
+    let start = match problem.sensor.nominal() {
+        Some(nominal) if holds.len() >= 2 => nominal,
+        _ => sphere(holds, setup.gravity.magnitude_mps2)
+            .ok_or_else(|| Error::NotIdentifiable(Box::new(too_few(holds, &list))))?,
+    };
+    let within = pooled_sd(holds, &start, setup.gravity.magnitude_mps2);
+    let prior = settings.datasheet_prior.then(|| prior(problem, &list)).flatten();
+    let problem = Problem::<P> { holds, list, gravity: setup.gravity.magnitude_mps2, within, prior, settings };
+    problem.check(&start)?;
+    problem.run(&start)
+}
+
+fn prior<const P: usize>(
+    problem: &CalibrationProblem<'_>,
+    list: &ParameterList,
+) -> Option<(SVector<f64, P>, SVector<f64, P>)> {
+    let parameters = list.describe(problem.sensor, &problem.sensor.nominal()?);
+    Some((
+        SVector::from_fn(|k, _| parameters[k].nominal),
+        SVector::from_fn(|k, _| parameters[k].spread.map_or(0.0, |spread| spread.powi(-2))),
+    ))
+}
+
+fn too_few(holds: &[Hold], list: &ParameterList) -> NotIdentifiable {
+    NotIdentifiable { groups: vec![explain(holds, list, &[], 0)] }
+}
+
+/// Centre and radius of the sphere through the means, by linear least squares on `|y|² = 2 c·y + const`.
+fn sphere(holds: &[Hold], gravity: f64) -> Option<SensorParameters> {
+    if holds.len() < 4 {
+        return None;
+    }
+    let center = holds.iter().map(|hold| hold.mean).sum::<Vector3<f64>>() / holds.len() as f64;
+    let size = holds.iter().map(|hold| (hold.mean - center).norm()).fold(0.0, f64::max);
+    if size <= 0.0 {
+        return None;
+    }
+    let rows: Vec<Vector4<f64>> = holds.iter().map(|hold| ((hold.mean - center) / size).push(1.0)).collect();
+    let normal: nalgebra::Matrix4<f64> = rows.iter().map(|row| row * row.transpose()).sum();
+    let rhs: Vector4<f64> = rows.iter().map(|row| row * row.xyz().norm_squared()).sum();
+    let eigenvalues = normal.symmetric_eigenvalues();
+    if eigenvalues.min() <= 1e-8 * eigenvalues.max() {
+        return None;
+    }
+    let solution = normal.cholesky()?.solve(&rhs);
+    let c = solution.xyz() / 2.0;
+    let radius = (solution.w + c.norm_squared()).sqrt();
+    (radius.is_finite() && radius > 0.0).then(|| SensorParameters {
+        bias: center + c * size,
+        matrix: Matrix3::identity() * (radius * size / gravity),
+    })
+}
+
+/// Standard deviation of samples within holds, pooled over the holds, not below the rounding of the readings.
+fn pooled_sd(holds: &[Hold], start: &SensorParameters, gravity: f64) -> Vector3<f64> {
+    let degrees: f64 = holds.iter().map(|hold| (hold.samples() - 1) as f64).sum();
+    let squares: Vector3<f64> =
+        holds.iter().map(|hold| hold.sd.component_mul(&hold.sd) * (hold.samples() - 1) as f64).sum();
+    Vector3::from_fn(|axis, _| {
+        (squares[axis] / degrees.max(1.0)).sqrt().max(1e-9 * gravity * start.matrix[(axis, axis)].abs())
+    })
+}
+
+impl<const P: usize> Problem<'_, P> {
+    /// Variance of a hold's mean, per axis.
+    fn variance(&self, hold: &Hold, between: f64, sensor: &SensorParameters) -> Vector3<f64> {
+        Vector3::from_fn(|axis, _| {
+            self.within[axis].powi(2) / hold.samples() as f64 + (between * sensor.matrix[(axis, axis)]).powi(2)
+        })
+    }
+
+    fn directions(&self, chosen: &[usize], weight: &dyn Fn(usize) -> f64, between: f64, at: &SensorParameters) -> Directions<'_, P> {
+        Directions {
+            list: &self.list,
+            holds: chosen.iter().map(|&j| &self.holds[j]).collect(),
+            weights: chosen
+                .iter()
+                .map(|&j| self.variance(&self.holds[j], between, at).map(|v| weight(j) / v))
+                .collect(),
+            gravity: self.gravity,
+            prior: self.prior,
+        }
+    }
+
+    /// Are the parameters determined at all?
+    fn check(&self, start: &SensorParameters) -> Result<()> {
+        let all: Vec<usize> = (0..self.holds.len()).collect();
+        let none = CalibrationSettings { max_iterations: 0, ..self.settings.clone() };
+        let fit = self
+            .directions(&all, &|_| 1.0, 0.0, start)
+            .fit(start, &none)
+            .ok_or_else(|| Error::NotIdentifiable(Box::new(too_few(self.holds, &self.list))))?;
+        let information = DMatrix::from_fn(P, P, |i, j| fit.information[(i, j)]);
+        let groups = information::undetermined(&information, &DVector::from_fn(P, |i, _| fit.unreduced[i]));
+        if groups.is_empty() {
+            return Ok(());
+        }
+        let groups = groups
+            .iter()
+            .map(|group| explain(self.holds, &self.list, &group.parameters, group.free_combinations))
+            .collect();
+        Err(Error::NotIdentifiable(Box::new(NotIdentifiable { groups })))
+    }
+
+    fn run(&self, start: &SensorParameters) -> Result<Robust> {
+        let mut used = self.first_guess(start);
+        let mut weighted = self.weigh(&used, start)?;
+        // one change at a time: leave out the worst hold that is too bad, take back the best that is not
+        for _ in 0..3 * self.holds.len() {
+            let studentised = self.studentise(&used, &weighted);
+            let count = used.iter().filter(|used| **used).count();
+            let limit = critical(self.holds.len(), count.saturating_sub(P));
+            let worst = (0..used.len())
+                .filter(|&j| used[j] && studentised[j].abs() > limit)
+                .max_by(|&a, &b| studentised[a].abs().total_cmp(&studentised[b].abs()));
+            let best = (0..used.len())
+                .filter(|&j| !used[j] && studentised[j].abs() <= limit)
+                .min_by(|&a, &b| studentised[a].abs().total_cmp(&studentised[b].abs()));
+            match (worst, best) {
+                (Some(j), _) if count > P + 2 => used[j] = false,
+                (_, Some(j)) => used[j] = true,
+                _ => break,
+            }
+            weighted = self.weigh(&used, &weighted.fit.sensor)?;
+        }
+        Ok(self.summarise(used, weighted))
+    }
+
+    /// Holds that a robust fit does not find far off.
+    fn first_guess(&self, start: &SensorParameters) -> Vec<bool> {
+        let all: Vec<usize> = (0..self.holds.len()).collect();
+        let mut weights = vec![1.0; all.len()];
+        let mut sensor = *start;
+        if all.len() < P + 3 {
+            return vec![true; all.len()];
+        }
+        let mut scale = 0.0;
+        for _ in 0..20 {
+            let directions = self.directions(&all, &|j| weights[j], 0.0, &sensor);
+            let Some(fit) = directions.fit(&sensor, self.settings) else { return vec![true; all.len()] };
+            sensor = fit.sensor;
+            let residuals = self.magnitude_residuals(&sensor);
+            let mut sizes: Vec<f64> = residuals.iter().map(|e| e.abs()).collect();
+            let middle = sizes.len() / 2;
+            let mad = *sizes.select_nth_unstable_by(middle, f64::total_cmp).1;
+            let correction = (all.len() as f64 / (all.len() - P) as f64).sqrt();
+            scale = (1.4826 * mad * correction).max(1e-12 * self.gravity);
+            for (weight, e) in weights.iter_mut().zip(&residuals) {
+                let x = e / (BIWEIGHT * scale);
+                *weight = (1.0 - x * x).max(0.0).powi(2).max(1e-9);
+            }
+        }
+        let good: Vec<bool> = self.magnitude_residuals(&sensor).iter().map(|e| e.abs() <= 6.0 * scale).collect();
+        if good.iter().filter(|good| **good).count() >= P + 2 { good } else { vec![true; all.len()] }
+    }
+
+    /// `|C (ȳ − b)| − g` of every hold.
+    fn magnitude_residuals(&self, sensor: &SensorParameters) -> Vec<f64> {
+        let inverse = sensor.matrix.try_inverse().unwrap_or_else(Matrix3::identity);
+        self.holds.iter().map(|hold| (inverse * (hold.mean - sensor.bias)).norm() - self.gravity).collect()
+    }
+
+    /// Fits the used holds with the scatter between holds that makes χ² equal its degrees of freedom.
+    fn weigh(&self, used: &[bool], start: &SensorParameters) -> Result<Weighted<P>> {
+        let chosen: Vec<usize> = (0..used.len()).filter(|&j| used[j]).collect();
+        let degrees = chosen.len().saturating_sub(P) as f64;
+        let at = |between: f64, from: &SensorParameters| {
+            self.directions(&chosen, &|_| 1.0, between, from).fit(from, self.settings)
+        };
+        let singular = || {
+            Error::recording(Complaint::new(
+                "the fit of the holds breaks down: the estimated matrix becomes singular",
+                "check the unit of the recording and that the holds are what they should be",
+            ))
+        };
+        let mut fit = at(0.0, start).ok_or_else(singular)?;
+        let mut between = 0.0;
+        if degrees > 0.0 && fit.chi2 > degrees {
+            let residuals = self.magnitude_residuals(&fit.sensor);
+            let rms = (chosen.iter().map(|&j| residuals[j].powi(2)).sum::<f64>() / chosen.len() as f64).sqrt();
+            let (mut low, mut high) = (0.0, rms.max(1e-12 * self.gravity));
+            for _ in 0..60 {
+                fit = at(high, &fit.sensor).ok_or_else(singular)?;
+                if fit.chi2 <= degrees {
+                    break;
+                }
+                low = high;
+                high *= 2.0;
+            }
+            for _ in 0..40 {
+                between = 0.5 * (low + high);
+                fit = at(between, &fit.sensor).ok_or_else(singular)?;
+                if (fit.chi2 / degrees - 1.0).abs() < 1e-10 {
+                    break;
+                }
+                if fit.chi2 > degrees { low = between } else { high = between }
+            }
+        }
+        let information = DMatrix::from_fn(P, P, |i, j| fit.information[(i, j)]);
+        let covariance = information::covariance(&information).ok_or_else(singular)?;
+        Ok(Weighted { fit, covariance, between })
+    }
+
+    /// Residual of each hold in standard deviations expected of it, its own influence removed.
+    fn studentise(&self, used: &[bool], weighted: &Weighted<P>) -> Vec<f64> {
+        let sensor = &weighted.fit.sensor;
+        let inverse = sensor.matrix.try_inverse().unwrap_or_else(Matrix3::identity);
+        let directions = self.directions(&[], &|_| 1.0, 0.0, sensor);
+        let count = used.iter().filter(|used| **used).count();
+        let degrees = count.saturating_sub(P) as f64;
+        let scatter = if degrees > 0.0 { (weighted.fit.chi2 / degrees).max(f64::MIN_POSITIVE) } else { 1.0 };
+        self.holds
+            .iter()
+            .zip(used)
+            .map(|(hold, &used)| {
+                let s = inverse * (hold.mean - sensor.bias);
+                let magnitude = s.norm();
+                let u = s / magnitude;
+                let row = inverse.tr_mul(&u); // uᵀ C
+                let v = self.variance(hold, weighted.between, sensor);
+                let own = row.component_mul(&row).dot(&v);
+                let j = directions.sensitivity(&(u * self.gravity)).tr_mul(&row);
+                let j = DVector::from_fn(P, |k, _| j[k]);
+                let from_parameters = (&weighted.covariance * &j).dot(&j);
+                let e = magnitude - self.gravity;
+                if !used {
+                    return e / (own + from_parameters).sqrt();
+                }
+                let left = (own - from_parameters).max(1e-6 * own);
+                let internal = e / left.sqrt() / scatter.sqrt();
+                if degrees < 2.0 {
+                    return internal;
+                }
+                // external: the scatter estimated without this hold
+                internal * ((degrees - 1.0) / (degrees - internal * internal).max(1e-9)).sqrt()
+            })
+            .collect()
+    }
+
+    fn summarise(&self, used: Vec<bool>, weighted: Weighted<P>) -> Robust {
+        let Weighted { fit, covariance, between } = &weighted;
+        let scaled = DMatrix::from_fn(P, P, |i, j| {
+            fit.information[(i, j)] / (fit.information[(i, i)] * fit.information[(j, j)]).sqrt()
+        });
+        let eigen = scaled.symmetric_eigen();
+        let weakest = eigen.eigenvalues.imin();
+        let direction = eigen.eigenvectors.column(weakest);
+        let names = self.list.names();
+        let shares: Vec<String> = (0..P).filter(|&k| direction[k].powi(2) > 0.1).map(|k| names[k].clone()).collect();
+        let every = self.directions(&(0..self.holds.len()).collect::<Vec<_>>(), &|_| 1.0, 0.0, &fit.sensor);
+        // the directions of the fit for the holds that were used, those of the correction for the others
+        let mut forces = every.forces(&fit.sensor).unwrap_or_else(|| vec![Vector3::zeros(); self.holds.len()]);
+        for (j, force) in (0..used.len()).filter(|&j| used[j]).zip(&fit.forces) {
+            forces[j] = *force;
+        }
+        Robust {
+            sensor: fit.sensor,
+            forces,
+            magnitude_residuals: self.magnitude_residuals(&fit.sensor),
+            studentised: self.studentise(&used, &weighted),
+            condition_number: eigen.eigenvalues.max() / eigen.eigenvalues.min().max(f64::MIN_POSITIVE),
+            weakest: shares,
+            covariance: covariance.clone(),
+            chi2: fit.chi2,
+            degrees_of_freedom: used.iter().filter(|used| **used).count().saturating_sub(P),
+            within_sd: self.within,
+            between_holds_sd: *between,
+            status: fit.status,
+            iterations: fit.iterations,
+            gradient_norm: fit.gradient_norm,
+            used,
+        }
+    }
+}
+
+/// Largest studentised residual that chance explains, among so many holds.
+fn critical(holds: usize, degrees_of_freedom: usize) -> f64 {
+    if degrees_of_freedom < 2 {
+        return f64::INFINITY;
+    }
+    StudentsT::new(0.0, 1.0, (degrees_of_freedom - 1) as f64)
+        .map_or(f64::INFINITY, |t| t.inverse_cdf(1.0 - SIGNIFICANCE / (2.0 * holds as f64)))
+}
