@@ -62,12 +62,10 @@ pub fn find_holds(recording: &Recording, minimum_s: f64) -> Result<Vec<Hold>> {
         while k < variance.len() && variance[k] <= threshold {
             k += 1;
         }
-        // window `start` begins at sample `start`, window `k − 1` ends at sample `k − 1 + window`; a quarter window off each end
-        let margin = window / 4;
-        let (first, end) = (start + margin, k - 1 + window - margin);
-        if end > first + window / 2
-            && let Some(hold) = steady(recording, first, end, window)
-            && hold.duration_s() >= minimum_s * (1.0 - 1e-9) - 1.0 / rate
+        // the still windows reach from sample `start` to `k − 1 + window`; a sample is part of the hold if the window around it is still
+        let (from, to) = (start, k - 1 + window);
+        if (to - from) as f64 >= minimum_s * rate
+            && let Some(hold) = steady(recording, from + window / 2, to - window / 2, window)
         {
             holds.push(hold);
         }
@@ -153,8 +151,8 @@ fn smooth(histogram: &[f64]) -> Vec<f64> {
 
 /// The hold from `first` to `end`, its ends cut off where the mean wanders; `None` if it wanders throughout (a slow rotation).
 fn steady(recording: &Recording, first: usize, end: usize, window: usize) -> Option<Hold> {
-    let block = (window / 2).max(2);
-    let starts: Vec<usize> = (first..end + 1 - block.min(end - first)).step_by(block).collect();
+    let block = (window / 2).max(2).min(end - first);
+    let starts: Vec<usize> = (first..=end - block).step_by(block).collect();
     let blocks: Vec<Hold> = starts.iter().map(|&k| summarise(recording, k, (k + block).min(end))).collect();
     let center = Vector3::from_fn(|axis, _| median(blocks.iter().map(|block| block.mean[axis]).collect()));
     let spread = Vector3::from_fn(|axis, _| median(blocks.iter().map(|block| block.sd[axis]).collect()));
@@ -167,7 +165,7 @@ fn steady(recording: &Recording, first: usize, end: usize, window: usize) -> Opt
         return None;
     }
     let to = if to + block > end { end } else { to };
-    (to > from + 1).then(|| summarise(recording, from, to))
+    (to > from + window / 2).then(|| summarise(recording, from, to))
 }
 
 fn median(mut values: Vec<f64>) -> f64 {
