@@ -1,6 +1,7 @@
 //! calibrant: calibration of inertial sensors.
 pub mod error;
 pub mod estimate;
+pub mod io;
 pub mod motion;
 pub mod sensor;
 pub mod study;
