@@ -1,7 +1,12 @@
 //! Files: the experiment, recordings and motions that come in, results that go out. The only code that touches files.
 
 mod delimited;
+mod experiment;
 mod output;
 mod text;
 
+pub use experiment::{
+    CalibrateOptions, CriterionLetter, DesignOptions, Experiment, HoldsPlan, MotionPlan, Plan, Prior,
+    ScaleBy, StudyOptions,
+};
 pub use output::write_atomically;
