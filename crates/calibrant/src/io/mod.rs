@@ -3,6 +3,7 @@
 mod delimited;
 mod experiment;
 mod output;
+mod preset;
 mod text;
 
 pub use experiment::{
@@ -10,3 +11,4 @@ pub use experiment::{
     ScaleBy, StudyOptions,
 };
 pub use output::write_atomically;
+pub use preset::{PRESETS, preset};
