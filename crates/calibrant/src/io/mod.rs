@@ -4,6 +4,7 @@ mod delimited;
 mod experiment;
 mod output;
 mod preset;
+mod recording;
 mod text;
 
 pub use experiment::{
@@ -12,3 +13,6 @@ pub use experiment::{
 };
 pub use output::write_atomically;
 pub use preset::{PRESETS, preset};
+pub use recording::{
+    Finding, FindingKind, ReadOptions, RecordingFile, parse_recording, read_recording, write_recording,
+};
