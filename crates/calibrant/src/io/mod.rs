@@ -2,6 +2,7 @@
 
 mod delimited;
 mod experiment;
+mod motion;
 mod output;
 mod preset;
 mod recording;
@@ -11,6 +12,7 @@ pub use experiment::{
     CalibrateOptions, CriterionLetter, DesignOptions, Experiment, HoldsPlan, MotionPlan, Plan, Prior,
     ScaleBy, StudyOptions,
 };
+pub use motion::{parse_motion, read_motion, write_motion};
 pub use output::write_atomically;
 pub use preset::{PRESETS, preset};
 pub use recording::{
