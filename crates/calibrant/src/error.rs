@@ -101,6 +101,12 @@ impl fmt::Display for Complaint {
                 }
             }
             write!(f, ": ")?;
+        } else if let Some(line) = self.line {
+            write!(f, "line {line}")?;
+            if let Some(column) = self.column {
+                write!(f, ", column {column}")?;
+            }
+            write!(f, ": ")?;
         }
         if let Some(key) = &self.key {
             write!(f, "`{key}`: ")?;

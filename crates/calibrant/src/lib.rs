@@ -1,10 +1,67 @@
-//! calibrant: calibration of inertial sensors.
+//! calibrant finds the best motion for calibrating an inertial sensor, and calibrates the sensor from what was recorded.
+//!
+//! # The problem
+//! A sensor reports `y = S s + b + ν`, `ν ~ N(0, Σ_ν)`, of a stimulus `s` (true → raw). Calibrating it means estimating the parameters
+//! `p = (b, S)` and their covariance from readings of a motion that is trusted more or less:
+//!
+//! ```text
+//! minimise over p, a:  ½ Σ_k ‖y_k − S α(t_k; a) − b‖²_{Σ_ν⁻¹}  +  ½ Σ_i ‖(a_{i+1} − a_i)/Δτ − u_i‖²_{Σ_{w,i}⁻¹}
+//! ```
+//!
+//! `α(t; a)` is the acceleration, linear between nodes `a_i`; `u_i` the commanded jerk. Whether the motion is known (`Σ_w = 0`), noisy or
+//! unknown (`Σ_w = ∞`, only the ends known) is one setting, [`motion::Trust`]. Where there is no robot, the sensor is held still in several
+//! orientations: `|s| = g`, directions unknown ([`estimate::HoldsSetup`]).
+//!
+//! # The types
+//!
+//! | what | type |
+//! |---|---|
+//! | the datasheet: model, unit, noise, spread | [`sensor::Sensor`] |
+//! | the parameters, their names and units | [`sensor::ParameterList`], [`sensor::SensorParameters`] |
+//! | readings over time | [`sensor::Recording`] |
+//! | a commanded motion and the trust in it | [`motion::CommandedMotion`], [`motion::JerkControlledMotion`] |
+//! | the problem, and how to solve it | [`estimate::CalibrationProblem`], [`estimate::CalibrationSettings`] |
+//! | estimates, covariance, fit, recovered motion | [`estimate::Calibration`] |
+//! | a population of simulated sensors | [`study::Study`] |
+//!
+//! # An example
+//! Simulate a sensor of the report on a random motion and calibrate it:
+//! ```
+//! use calibrant::estimate::{CalibrationProblem, CalibrationSettings, Stimulus, calibrate};
+//! use calibrant::motion::{CommandedMotion, KnownEnds, Limits, Trust};
+//! use calibrant::sensor::Sensor;
+//! use calibrant::simulate::{Purpose, draw_sensor, initial_motion, sample_times, simulate_recording, stream};
+//!
+//! let sensor = Sensor::memsic_mxd2020u();
+//! let motion = initial_motion(10, 1.0, 3, &Limits::default(), &mut stream(1, Purpose::Motion, 0))?;
+//! let mut rng = stream(1, Purpose::Sensor, 0);
+//! let truth = draw_sensor(&sensor, &mut rng);
+//! let noise = sensor.noise_mps2.unwrap();
+//! let times = sample_times(&motion, 10.0);
+//! let recording = simulate_recording(&truth, &noise, sensor.unit, 3, &motion, &times, &mut rng);
+//!
+//! let command = CommandedMotion { motion, trust: Trust::Known, known_ends: KnownEnds::Start };
+//! let problem = CalibrationProblem { sensor: &sensor, recording: &recording, stimulus: Stimulus::Motion(&command) };
+//! let calibration = calibrate(&problem, &CalibrationSettings::default())?;
+//! let error = calibration.values[0] - truth.bias.x;
+//! assert!(error.abs() < 4.0 * calibration.sd()[0], "the bias is within four standard deviations");
+//! # Ok::<(), calibrant::Error>(())
+//! ```
+//!
+//! # The modules
+//! Data flow one way: [`sensor`] and [`motion`] say what is measured; [`arrowhead`] is the one linear-algebra kernel; [`information`] turns
+//! its result into covariance and into words about what is undetermined; [`estimate`] calibrates; [`simulate`] makes sensors and recordings;
+//! [`study`] compares truth and estimate over many. [`io`] and [`report`] may use all and are used by none.
+
 pub mod arrowhead;
 pub mod error;
 pub mod estimate;
 pub mod information;
+pub mod io;
 pub mod motion;
+pub mod report;
 pub mod sensor;
 pub mod simulate;
 pub mod study;
+
 pub use error::{Error, Result};

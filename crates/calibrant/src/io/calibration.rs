@@ -1,0 +1,227 @@
+//! `calibration.json`: a calibration with everything needed to use it and to judge it.
+
+use super::fields::{EstimateFields, FitFields, InUnit, MotionFields, axes_of, block, matrix_rows, per_axis};
+use super::json;
+use crate::error::Result;
+use crate::estimate::{Calibration, HoldCalibration, HoldResult, Recovered};
+use crate::sensor::{Correction, ReadingUnit};
+use serde::Serialize;
+use std::path::Path;
+
+/// The recording that a calibration came from.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Input {
+    /// Name of the file, without its directory (so that the result does not depend on where it lay).
+    pub file: String,
+    /// SHA-256 of the file, hexadecimal.
+    pub sha256: String,
+    /// Number of samples read.
+    pub samples: usize,
+    /// Sample rate, Hz.
+    pub rate_hz: f64,
+}
+
+/// Writes `calibration.json`.
+///
+/// The same calibration gives the same bytes. Arrays over axes have 1 or 3 entries; entry (i, j) of the covariance is in the unit
+/// of parameter i times that of parameter j; fields in the unit of the readings end in `_mps2` or `_counts`.
+///
+/// # Errors
+/// [`Error::Output`](crate::Error::Output) where it cannot be written.
+pub fn write_calibration(path: &Path, calibration: &Calibration, input: &Input) -> Result<()> {
+    json::write_json(path, &CalibrationFile::of(calibration, input))
+}
+
+/// The text that [`write_calibration`] writes.
+#[must_use]
+pub fn calibration_json(calibration: &Calibration, input: &Input) -> String {
+    json::to_json(&CalibrationFile::of(calibration, input))
+}
+
+#[derive(Serialize)]
+struct CalibrationFile<'a> {
+    schema: u32,
+    status: &'static str,
+    iterations: usize,
+    gradient_norm: f64,
+    parameters: Vec<EstimateFields>,
+    covariance: Vec<Vec<f64>>,
+    correlation: Vec<Vec<f64>>,
+    fit: FitFields,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    motion: Option<RecoveredMotionFields>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    holds: Option<HoldsFields>,
+    convention: Convention,
+    warnings: &'a [String],
+    input: &'a Input,
+}
+
+impl<'a> CalibrationFile<'a> {
+    fn of(calibration: &'a Calibration, input: &'a Input) -> Self {
+        let axes = axes_of(&calibration.parameters);
+        let (motion, holds) = match &calibration.recovered {
+            Recovered::Motion(recovered) => {
+                let sd = Some(recovered.acceleration_sd_mps2.as_slice());
+                let fields = MotionFields::of(&recovered.motion, axes, sd);
+                (Some(RecoveredMotionFields { trust: recovered.trust, fields }), None)
+            }
+            Recovered::Holds(holds) => (None, Some(HoldsFields::of(holds, calibration.unit))),
+        };
+        Self {
+            schema: 1,
+            status: calibration.status.name(),
+            iterations: calibration.iterations,
+            gradient_norm: calibration.gradient_norm,
+            parameters: EstimateFields::all(calibration),
+            covariance: matrix_rows(&calibration.covariance),
+            correlation: matrix_rows(&calibration.correlation()),
+            fit: FitFields::of(&calibration.fit, calibration.unit, axes),
+            motion,
+            holds,
+            convention: Convention::of(calibration, axes),
+            warnings: &calibration.warnings,
+            input,
+        }
+    }
+}
+
+#[derive(Serialize)]
+struct RecoveredMotionFields {
+    trust: &'static str,
+    #[serde(flatten)]
+    fields: MotionFields,
+}
+
+/// What the numbers mean: direction, frame, and the calibration in the other direction, ready to be used.
+#[derive(Serialize)]
+struct Convention {
+    direction: &'static str,
+    covariance: &'static str,
+    reading_unit: &'static str,
+    gauge: Option<&'static str>,
+    frame: &'static str,
+    #[serde(flatten)]
+    matrix: InUnit<Vec<Vec<f64>>>,
+    #[serde(flatten)]
+    bias: InUnit<Vec<f64>>,
+    correction: Option<CorrectionFields>,
+}
+
+impl Convention {
+    fn of(calibration: &Calibration, axes: usize) -> Self {
+        let unit = calibration.unit;
+        let gauge = match &calibration.recovered {
+            Recovered::Motion(_) => None,
+            Recovered::Holds(holds) => Some(holds.gauge),
+        };
+        Self {
+            direction: "true to raw: y = S s + b",
+            covariance: "entry (i, j) in the unit of parameter i times that of parameter j",
+            reading_unit: unit.symbol(),
+            gauge: gauge.map(|gauge| gauge.name()),
+            frame: match gauge {
+                None => "the axes of the commanded motion",
+                Some(_) => "fixed by the gauge: S and its inverse have this form, with a positive diagonal",
+            },
+            matrix: InUnit::gain("matrix", unit, block(&calibration.sensor.matrix, axes)),
+            bias: InUnit::new("bias", unit, per_axis(&calibration.sensor.bias, axes)),
+            correction: Correction::of(&calibration.sensor)
+                .map(|correction| CorrectionFields::of(&correction, unit, axes, gauge.is_some())),
+        }
+    }
+}
+
+/// Raw to true; for holds also as imu_tk has it.
+#[derive(Serialize)]
+struct CorrectionFields {
+    direction: &'static str,
+    #[serde(flatten)]
+    matrix: InUnit<Vec<Vec<f64>>>,
+    #[serde(flatten)]
+    bias: InUnit<Vec<f64>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    imu_tk: Option<ImuTkFields>,
+}
+
+#[derive(Serialize)]
+struct ImuTkFields {
+    form: &'static str,
+    misalignment: Vec<Vec<f64>>,
+    #[serde(flatten)]
+    gains: InUnit<Vec<f64>>,
+}
+
+impl CorrectionFields {
+    fn of(correction: &Correction, unit: ReadingUnit, axes: usize, holds: bool) -> Self {
+        Self {
+            direction: "raw to true: s = C (y - b)",
+            matrix: InUnit::inverse_gain("matrix", unit, block(&correction.matrix, axes)),
+            bias: InUnit::new("bias", unit, per_axis(&correction.bias, axes)),
+            imu_tk: holds.then(|| ImuTkFields {
+                form: "s = T K (y - b): misalignment is T, gains are 1/K",
+                misalignment: block(&correction.misalignment(), axes),
+                gains: InUnit::gain("gains", unit, per_axis(&correction.scale().map(|k| 1.0 / k), axes)),
+            }),
+        }
+    }
+}
+
+#[derive(Serialize)]
+struct HoldsFields {
+    gravity_mps2: f64,
+    gravity_sd_mps2: f64,
+    gauge: &'static str,
+    detected: bool,
+    between_holds_sd_mps2: f64,
+    between_holds_dominates: bool,
+    magnitude_residual_rms_mps2: f64,
+    condition_number: f64,
+    table: Vec<HoldFields>,
+}
+
+#[derive(Serialize)]
+struct HoldFields {
+    first_sample: usize,
+    end_sample: usize,
+    samples: usize,
+    start_s: f64,
+    end_s: f64,
+    #[serde(flatten)]
+    mean: InUnit<Vec<f64>>,
+    #[serde(flatten)]
+    sd: InUnit<Vec<f64>>,
+    force_mps2: Vec<f64>,
+    magnitude_residual_mps2: f64,
+    studentised_residual: f64,
+    used: bool,
+}
+
+impl HoldsFields {
+    fn of(holds: &HoldCalibration, unit: ReadingUnit) -> Self {
+        let fields = |result: &HoldResult| HoldFields {
+            first_sample: result.hold.first,
+            end_sample: result.hold.end,
+            samples: result.hold.samples(),
+            start_s: result.hold.start_s,
+            end_s: result.hold.end_s,
+            mean: InUnit::new("mean", unit, per_axis(&result.hold.mean, 3)),
+            sd: InUnit::new("sd", unit, per_axis(&result.hold.sd, 3)),
+            force_mps2: per_axis(&result.force_mps2, 3),
+            magnitude_residual_mps2: result.magnitude_residual_mps2,
+            studentised_residual: result.studentised_residual,
+            used: result.used,
+        };
+        Self {
+            gravity_mps2: holds.gravity.magnitude_mps2,
+            gravity_sd_mps2: holds.gravity.sd_mps2,
+            gauge: holds.gauge.name(),
+            detected: holds.detected,
+            between_holds_sd_mps2: holds.between_holds_sd_mps2,
+            between_holds_dominates: holds.between_holds_dominates,
+            magnitude_residual_rms_mps2: holds.magnitude_residual_rms_mps2,
+            condition_number: holds.condition_number,
+            table: holds.holds.iter().map(fields).collect(),
+        }
+    }
+}

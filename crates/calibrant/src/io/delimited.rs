@@ -1,0 +1,179 @@
+//! Lines and fields of delimited text: what separates them, quotes, comments, line ends of every system.
+
+/// One line of a text.
+#[derive(Clone, Copy)]
+pub(super) struct Line<'t> {
+    /// Number, from 1.
+    pub(super) number: usize,
+    /// The text without its line end.
+    pub(super) text: &'t str,
+    /// Does a line end follow (so that the line is known to be whole)?
+    pub(super) terminated: bool,
+}
+
+impl<'t> Line<'t> {
+    /// Is there nothing to read: a blank line, or a comment (`#`, `//`, `%`)?
+    pub(super) fn is_void(&self) -> bool {
+        let text = self.text.trim_ascii_start();
+        text.is_empty() || text.starts_with(['#', '%']) || text.starts_with("//")
+    }
+
+    /// Column of a byte of the line, in characters from 1.
+    pub(super) fn column(&self, byte: usize) -> usize {
+        1 + self.text.get(..byte).map_or(byte, |before| before.chars().count())
+    }
+
+    /// Its fields, where one character separates them.
+    pub(super) fn fields(self, delimiter: Delimiter) -> Fields<'t> {
+        Fields { line: self.text, at: 0, delimiter, done: false }
+    }
+}
+
+/// The lines of a text. Line ends: LF, CR LF, or CR where there is no LF at all.
+pub(super) struct Lines<'t> {
+    rest: &'t str,
+    end: u8,
+    number: usize,
+}
+
+impl<'t> Lines<'t> {
+    pub(super) fn of(text: &'t str) -> Self {
+        Self { rest: text, end: if text.contains('\n') { b'\n' } else { b'\r' }, number: 0 }
+    }
+}
+
+impl<'t> Iterator for Lines<'t> {
+    type Item = Line<'t>;
+
+    fn next(&mut self) -> Option<Line<'t>> {
+        if self.rest.is_empty() {
+            return None;
+        }
+        self.number += 1;
+        let (text, rest, terminated) = match self.rest.find(char::from(self.end)) {
+            Some(at) => (&self.rest[..at], &self.rest[at + 1..], true),
+            None => (self.rest, "", false),
+        };
+        self.rest = rest;
+        Some(Line { number: self.number, text: text.strip_suffix('\r').unwrap_or(text), terminated })
+    }
+}
+
+/// What separates fields.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Delimiter {
+    /// This character: two in a row have an empty field between them.
+    Character(u8),
+    /// Any number of spaces and tabs.
+    Whitespace,
+}
+
+impl Delimiter {
+    /// What separates the fields of this line: the first that occurs of `;`, tab and `,`; otherwise white space.
+    pub(super) fn of(line: &str) -> Self {
+        if line.contains(';') {
+            Self::Character(b';')
+        } else if line.contains('\t') && !line.starts_with([' ', '\t']) && !line.contains(',') {
+            Self::Character(b'\t')
+        } else if line.contains(',') {
+            Self::Character(b',')
+        } else {
+            Self::Whitespace
+        }
+    }
+}
+
+/// The fields of a line: where each begins (byte), and its text without surrounding blanks and quotes.
+pub(super) struct Fields<'t> {
+    line: &'t str,
+    at: usize,
+    delimiter: Delimiter,
+    done: bool,
+}
+
+impl<'t> Iterator for Fields<'t> {
+    type Item = (usize, &'t str);
+
+    fn next(&mut self) -> Option<(usize, &'t str)> {
+        match self.delimiter {
+            Delimiter::Whitespace => self.next_word(),
+            Delimiter::Character(_) if self.done => None,
+            Delimiter::Character(delimiter) => Some(self.next_field(delimiter)),
+        }
+    }
+}
+
+impl<'t> Fields<'t> {
+    fn next_word(&mut self) -> Option<(usize, &'t str)> {
+        let bytes = self.line.as_bytes();
+        let start = self.at + bytes[self.at..].iter().position(|byte| !byte.is_ascii_whitespace())?;
+        let length = bytes[start..].iter().position(u8::is_ascii_whitespace).unwrap_or(bytes.len() - start);
+        self.at = start + length;
+        Some((start, unquote(&self.line[start..self.at])))
+    }
+
+    fn next_field(&mut self, delimiter: u8) -> (usize, &'t str) {
+        let bytes = self.line.as_bytes();
+        let mut start = self.at;
+        while start < bytes.len() && matches!(bytes[start], b' ' | b'\t') && bytes[start] != delimiter {
+            start += 1;
+        }
+        // a quoted field may hold the delimiter; its closing quote is the first one, as numbers and names hold none
+        let closing = match bytes.get(start) {
+            Some(b'"') => {
+                bytes[start + 1..].iter().position(|&byte| byte == b'"').map_or(0, |length| length + 2)
+            }
+            _ => 0,
+        };
+        let search = start + closing;
+        let end = bytes[search..].iter().position(|&byte| byte == delimiter).map(|length| search + length);
+        let field = &self.line[start..end.unwrap_or(bytes.len())];
+        match end {
+            Some(end) => self.at = end + 1,
+            None => self.done = true,
+        }
+        (start, unquote(field.trim_ascii_end()))
+    }
+}
+
+fn unquote(field: &str) -> &str {
+    field.strip_prefix('"').and_then(|field| field.strip_suffix('"')).map_or(field, str::trim_ascii)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn fields(text: &str, delimiter: Delimiter) -> Vec<&str> {
+        Line { number: 1, text, terminated: true }.fields(delimiter).map(|(_, field)| field).collect()
+    }
+
+    #[test]
+    fn fields_are_trimmed_unquoted_and_may_be_empty() {
+        let comma = Delimiter::Character(b',');
+        assert_eq!(fields("1, 2 ,,\"a,b\",", comma), ["1", "2", "", "a,b", ""]);
+        assert_eq!(fields("", comma), [""]);
+        assert_eq!(fields("\"", comma), ["\""]);
+        assert_eq!(fields("  1\t 2  ", Delimiter::Whitespace), ["1", "2"]);
+        assert_eq!(fields("1\t\t2", Delimiter::Character(b'\t')), ["1", "", "2"]);
+        assert_eq!(fields("", Delimiter::Whitespace), [""; 0]);
+    }
+
+    #[test]
+    fn lines_know_whether_they_are_whole() {
+        let of =
+            |text| Lines::of(text).map(|line| (line.number, line.text, line.terminated)).collect::<Vec<_>>();
+        assert_eq!(of("a\r\nb"), [(1, "a", true), (2, "b", false)]);
+        assert_eq!(of("a\rb\r"), [(1, "a", true), (2, "b", true)]);
+        assert_eq!(of("\n\n"), [(1, "", true), (2, "", true)]);
+        assert!(of("").is_empty());
+    }
+
+    #[test]
+    fn the_delimiter_is_found_in_the_first_line() {
+        assert_eq!(Delimiter::of("0,5;1,5"), Delimiter::Character(b';'));
+        assert_eq!(Delimiter::of("a\tb"), Delimiter::Character(b'\t'));
+        assert_eq!(Delimiter::of("a, b"), Delimiter::Character(b','));
+        assert_eq!(Delimiter::of("  1\t 2"), Delimiter::Whitespace);
+    }
+}

@@ -1,0 +1,93 @@
+//! The keys that an experiment file may have: one list, which decides what is unknown and what is suggested.
+
+/// Each section and its keys; the first is the top of the file.
+const KEYS: &[(&str, &[&str])] = &[
+    ("", &["schema", "sensor", "motion", "holds", "calibrate", "limits", "design", "study"]),
+    (
+        "sensor",
+        &[
+            "kind",
+            "axes",
+            "model",
+            "unit",
+            "gain_counts_per_mps2",
+            "offset_counts",
+            "noise_mps2",
+            "noise_counts",
+            "bias_sd_mps2",
+            "scale_sd",
+            "cross_axis_sd",
+        ],
+    ),
+    ("motion", &["intervals", "interval_s", "rate_hz", "trust", "known_ends", "input_noise"]),
+    ("motion.input_noise", &["floor_mps3", "ratio"]),
+    (
+        "holds",
+        &[
+            "gravity_mps2",
+            "gravity_sd_mps2",
+            "latitude_deg",
+            "height_m",
+            "gauge",
+            "intervals_s",
+            "minimum_hold_s",
+            "poses",
+            "hold_s",
+            "rate_hz",
+        ],
+    ),
+    ("calibrate", &["prior"]),
+    (
+        "limits",
+        &["acceleration_mps2", "jerk_mps3", "intercept_mps2", "velocity_mps", "displacement_m", "rest"],
+    ),
+    ("design", &["criterion", "weights", "range_mps2", "scale_by", "starts", "seed", "certificate"]),
+    ("study", &["sensors", "seed"]),
+];
+
+/// The keys of a section.
+pub(super) fn of(section: &str) -> &'static [&'static str] {
+    KEYS.iter().find(|(name, _)| *name == section).map_or(&[], |(_, keys)| keys)
+}
+
+/// What to say of an unknown key: the section where it belongs, the nearest key, or all there are.
+pub(super) fn suggest(section: &str, unknown: &str) -> String {
+    let unknown = shorten(unknown);
+    let near = nearest(&unknown, of(section).iter().copied());
+    if let Some(key) = near.filter(|key| strsim::damerau_levenshtein(key, &unknown) <= 2) {
+        return format!("did you mean `{key}`?");
+    }
+    if let Some((home, _)) =
+        KEYS.iter().find(|(name, keys)| *name != section && keys.contains(&unknown.as_str()))
+    {
+        return if home.is_empty() {
+            format!("`{unknown}` belongs at the top of the file, before the first [section]")
+        } else {
+            format!("`{unknown}` belongs in [{home}]")
+        };
+    }
+    match near {
+        Some(key) => format!("did you mean `{key}`?"),
+        None => format!("the keys here are {}", of(section).join(", ")),
+    }
+}
+
+/// The word most like this one, if any is.
+pub(super) fn nearest<'w>(unknown: &str, words: impl Iterator<Item = &'w str>) -> Option<&'w str> {
+    const ALIKE: f64 = 0.75; // Jaro–Winkler: 1 is equal, 0 nothing in common
+    let unknown = shorten(unknown).to_lowercase();
+    words
+        .map(|word| (strsim::jaro_winkler(&word.to_lowercase(), &unknown), word))
+        .filter(|(alike, _)| *alike >= ALIKE)
+        .max_by(|one, other| one.0.total_cmp(&other.0))
+        .map(|(_, word)| word)
+}
+
+/// The beginning of a text that may be very long.
+pub(super) fn shorten(text: &str) -> String {
+    const LONGEST: usize = 60;
+    if text.chars().count() <= LONGEST {
+        return text.to_owned();
+    }
+    text.chars().take(LONGEST).chain(['…']).collect()
+}

@@ -1,0 +1,202 @@
+//! The experiment file (TOML): the sensor's datasheet, the motion or the holds, and the options of each command.
+//!
+//! Unknown keys, wrong types and values out of range are errors that point at line and column; an unknown key is answered with
+//! the nearest known one. [`presets`](super::preset()) are commented examples of every key.
+
+mod design;
+mod document;
+mod holds;
+mod keys;
+mod limits;
+mod motion;
+mod sensor;
+mod study;
+
+pub use design::{CriterionLetter, DesignOptions, ScaleBy};
+pub use holds::HoldsPlan;
+pub use motion::MotionPlan;
+pub use study::{CalibrateOptions, Prior, StudyOptions};
+
+use super::text;
+use crate::error::{Error, Result};
+use crate::motion::Limits;
+use crate::sensor::{ReadingUnit, Sensor, SensorModel};
+use document::{Document, Section};
+use std::path::Path;
+use toml::de::DeTable;
+
+/// Largest experiment file, bytes.
+const LARGEST: u64 = 1 << 20;
+
+/// What an experiment file says.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Experiment {
+    /// `[sensor]`: the datasheet.
+    pub sensor: Sensor,
+    /// `[motion]` or `[holds]`.
+    pub plan: Plan,
+    /// `[limits]`; none where the section is absent.
+    pub limits: Limits,
+    /// `[calibrate]`.
+    pub calibrate: CalibrateOptions,
+    /// `[design]`.
+    pub design: DesignOptions,
+    /// `[study]`.
+    pub study: StudyOptions,
+}
+
+/// How the sensor is moved.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Plan {
+    /// `[motion]`: along a commanded motion.
+    Motion(MotionPlan),
+    /// `[holds]`: held still in several orientations.
+    Holds(HoldsPlan),
+}
+
+impl Experiment {
+    /// Reads an experiment file.
+    ///
+    /// # Errors
+    /// [`Error::Experiment`] where the file cannot be read, is larger than 1 MiB, is not text, or as [`parse`](Self::parse).
+    pub fn read(path: &Path) -> Result<Self> {
+        let bytes = text::read_bytes(path, LARGEST, "the experiment file")
+            .map_err(|complaint| Error::experiment(*complaint))?;
+        let text = text::as_text(&bytes).map_err(|complaint| Error::experiment(complaint.in_file(path)))?;
+        Self::parse(text, Some(path))
+    }
+
+    /// Reads the text of an experiment file; `file` is only named in complaints.
+    ///
+    /// # Errors
+    /// [`Error::Experiment`] with line, column, key and excerpt: invalid TOML, an unknown key, a required key that is missing,
+    /// a wrong type, a number out of range, or keys that contradict each other.
+    ///
+    /// # Examples
+    /// ```
+    /// use calibrant::io::{Experiment, preset};
+    /// let text = preset("report").expect("a preset");
+    /// assert_eq!(Experiment::parse(text, None)?.sensor.axes, 3);
+    ///
+    /// let error = Experiment::parse(&text.replace("interval_s", "intervall_s"), None).expect_err("misspelt");
+    /// assert!(error.to_string().contains("did you mean `interval_s`?"), "{error}");
+    /// # Ok::<(), calibrant::Error>(())
+    /// ```
+    pub fn parse(text: &str, file: Option<&Path>) -> Result<Self> {
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        let document = Document { text, file };
+        if text.len() as u64 > LARGEST {
+            return Err(Error::experiment(document.complain(
+                0..0,
+                "the experiment file is larger than 1 MiB".into(),
+                "this is hardly the file that you mean".into(),
+            )));
+        }
+        let table = DeTable::parse(text).map_err(|error| document.syntax(&error))?;
+        let root = Section::root(&document, table.get_ref())?;
+        let schema = root.need("schema", "the first line of an experiment file is schema = 1")?;
+        let version = schema.whole(0, u64::MAX)?;
+        if version != 1 {
+            return Err(
+                schema.complain(format!("schema {version} is not known to this version"), "schema = 1")
+            );
+        }
+        let need =
+            |name| root.section(name)?.ok_or_else(|| root.missing(name, "the sensor's datasheet: [sensor]"));
+        let sensor = sensor::read(&need("sensor")?)?;
+        let plan = read_plan(&root, &sensor)?;
+        let list = match &plan {
+            Plan::Motion(_) => sensor.parameter_list(),
+            Plan::Holds(holds) => holds.gauge.parameter_list(sensor.model),
+        };
+        Ok(Self {
+            limits: root
+                .section("limits")?
+                .map_or(Ok(Limits::default()), |section| limits::read(&section, sensor.axes))?,
+            calibrate: root.section("calibrate")?.map_or(Ok(CalibrateOptions::default()), |section| {
+                study::read_calibrate(&section, &sensor)
+            })?,
+            design: root
+                .section("design")?
+                .map_or(Ok(DesignOptions::default()), |section| design::read(&section, &sensor, &list))?,
+            study: root
+                .section("study")?
+                .map_or(Ok(StudyOptions::default()), |section| study::read_study(&section))?,
+            sensor,
+            plan,
+        })
+    }
+}
+
+fn read_plan(root: &Section<'_>, sensor: &Sensor) -> Result<Plan> {
+    match (root.section("motion")?, root.section("holds")?) {
+        (Some(section), None) => {
+            if sensor.noise_mps2.is_none() && sensor.noise_counts.is_none() {
+                let help = match sensor.unit {
+                    ReadingUnit::MetrePerSecondSquared => {
+                        "noise_mps2 = 2e-4, for example: the noise of one sample"
+                    }
+                    ReadingUnit::Counts => "noise_counts = 10.0, for example: the noise of one sample",
+                };
+                let key = if sensor.unit == ReadingUnit::Counts { "noise_counts" } else { "noise_mps2" };
+                // [sensor] is there: it was read
+                return Err(root.section("sensor")?.map_or_else(
+                    || root.missing(key, help),
+                    |section| section.complain("this key is required with [motion]", help, key),
+                ));
+            }
+            Ok(Plan::Motion(motion::read(&section)?))
+        }
+        (None, Some(section)) => {
+            if sensor.axes != 3 {
+                return Err(section.complain(
+                    "[holds] needs a sensor of three axes",
+                    "axes = 3, or [motion]",
+                    "",
+                ));
+            }
+            Ok(Plan::Holds(holds::read(&section)?))
+        }
+        (Some(_), Some(section)) => Err(section.complain(
+            "[motion] and [holds] are both there",
+            "an experiment is one or the other: take one of them out",
+            "",
+        )),
+        (None, None) => Err(root.complain(
+            "neither [motion] nor [holds] is there",
+            "say how the sensor is moved: [motion] for a commanded motion, [holds] for still poses",
+            "",
+        )),
+    }
+}
+
+/// Complains where `key`, which asks for the datasheet, finds no spread there (or one of zero, which would leave nothing to estimate).
+fn need_spreads(section: &Section<'_>, key: &str, sensor: &Sensor) -> Result<()> {
+    let mut missing = Vec::new();
+    let positive = |spread: Option<nalgebra::Vector3<f64>>| spread.is_some_and(|sd| sd.min() > 0.0);
+    if !positive(sensor.bias_sd_mps2) {
+        missing.push("bias_sd_mps2");
+    }
+    if !positive(sensor.scale_sd) {
+        missing.push("scale_sd");
+    }
+    if sensor.model == SensorModel::Full && !sensor.cross_axis_sd.is_some_and(|sd| sd > 0.0) {
+        missing.push("cross_axis_sd");
+    }
+    if sensor.unit == ReadingUnit::Counts {
+        if sensor.gain.is_none() {
+            missing.push("gain_counts_per_mps2");
+        }
+        if sensor.offset.is_none() {
+            missing.push("offset_counts");
+        }
+    }
+    if missing.is_empty() {
+        return Ok(());
+    }
+    let message = format!("\"datasheet\" needs {} in [sensor] (spreads above 0)", missing.join(", "));
+    let help = "add what is missing, or write \"none\"";
+    Err(section
+        .get(key)
+        .map_or_else(|| section.complain(&message, help, key), |entry| entry.complain(&message, help)))
+}

@@ -1,0 +1,106 @@
+//! `[motion]`: a commanded motion, its intervals and how far it is trusted.
+
+use super::document::{Bounds, Section};
+use crate::error::Result;
+use crate::motion::{InputNoise, KnownEnds, Trust};
+
+/// Most samples that a simulated recording may have.
+pub(super) const MOST_SAMPLES: f64 = 1e9;
+/// Sample rates that make sense.
+pub(super) const RATE_HZ: Bounds = Bounds::above(0.0, 1e6, "Hz");
+const INTERVAL_S: Bounds = Bounds::above(0.0, 1e6, "s");
+const FLOOR_MPS3: Bounds = Bounds::from(0.0, 1e9, "m/s³");
+const RATIO: Bounds = Bounds::from(0.0, 1e3, "");
+
+/// A commanded motion of equal intervals, as `[motion]` describes it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MotionPlan {
+    /// Number of intervals N.
+    pub intervals: usize,
+    /// Duration of an interval Δτ, s.
+    pub interval_s: f64,
+    /// Sample rate f_s, Hz.
+    pub rate_hz: f64,
+    /// How far the motion is trusted.
+    pub trust: Trust,
+    /// Which ends have a known acceleration.
+    pub known_ends: KnownEnds,
+}
+
+/// Reads `[motion]`.
+pub(super) fn read(section: &Section<'_>) -> Result<MotionPlan> {
+    let entry = section.need("intervals", "the number of intervals, for example intervals = 10")?;
+    let intervals = entry.size(1, 10_000_000)?;
+    let interval_s = section
+        .need("interval_s", "the duration of an interval in seconds, for example interval_s = 1.0")?
+        .number(&INTERVAL_S)?;
+    let rate = section.need("rate_hz", "the sample rate in Hz, for example rate_hz = 10.0")?;
+    let rate_hz = rate.number(&RATE_HZ)?;
+    let samples = intervals as f64 * interval_s * rate_hz;
+    if samples > MOST_SAMPLES {
+        return Err(rate.complain(
+            format!("intervals × interval_s × rate_hz is {samples:.3e} samples"),
+            format!("at most {MOST_SAMPLES:.0e}: lower the rate, or shorten the motion"),
+        ));
+    }
+    // a little tolerance: 10 × 0.1 s × 1 Hz is one sample step, whatever the rounding says
+    if samples < 1.0 - 1e-9 {
+        return Err(rate.complain(
+            format!(
+                "the motion lasts {} s, less than one sample step of {} s",
+                intervals as f64 * interval_s,
+                1.0 / rate_hz
+            ),
+            "raise the rate, or lengthen the motion",
+        ));
+    }
+    let (trust, known_ends) = read_trust(section)?;
+    Ok(MotionPlan { intervals, interval_s, rate_hz, trust, known_ends })
+}
+
+#[derive(Clone, Copy)]
+enum Word {
+    Known,
+    Noisy,
+    Unknown,
+}
+
+fn read_trust(section: &Section<'_>) -> Result<(Trust, KnownEnds)> {
+    let word = section
+        .need("trust", "how far the motion is trusted: \"known\", \"noisy\" or \"unknown\"")?
+        .word(&[("known", Word::Known), ("noisy", Word::Noisy), ("unknown", Word::Unknown)])?;
+    // read, and so checked, whatever the trust: an experiment changes its trust by one word
+    let noise = section
+        .section("motion.input_noise")?
+        .map(|table| {
+            let floor = table.need("floor_mps3", "the noise at any jerk, m/s³")?.number(&FLOOR_MPS3)?;
+            let ratio =
+                table.need("ratio", "the noise relative to the jerk; 0.01 is one percent")?.number(&RATIO)?;
+            Ok(InputNoise { floor_mps3: floor, ratio })
+        })
+        .transpose()?;
+    let ends = section.get("known_ends");
+    let known_ends = match &ends {
+        Some(entry) => Some(entry.word(&[("start", KnownEnds::Start), ("both", KnownEnds::Both)])?),
+        None => None,
+    };
+    match word {
+        Word::Known => Ok((Trust::Known, known_ends.unwrap_or(KnownEnds::Start))),
+        Word::Noisy => {
+            let noise = noise.ok_or_else(|| {
+                section.missing(
+                    "input_noise",
+                    "trust \"noisy\" needs it: input_noise = { floor_mps3 = 0.01, ratio = 0.01 }",
+                )
+            })?;
+            Ok((Trust::Noisy(noise), known_ends.unwrap_or(KnownEnds::Start)))
+        }
+        Word::Unknown => match (ends, known_ends) {
+            (Some(entry), Some(KnownEnds::Start)) => Err(entry.complain(
+                "trust \"unknown\" needs the acceleration at both ends of the motion",
+                "known_ends = \"both\", or leave the key away",
+            )),
+            _ => Ok((Trust::Unknown, KnownEnds::Both)),
+        },
+    }
+}

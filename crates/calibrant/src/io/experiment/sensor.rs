@@ -1,0 +1,78 @@
+//! `[sensor]`: the datasheet.
+
+use super::document::{Bounds, Section};
+use crate::error::Result;
+use crate::sensor::{ReadingUnit, Sensor, SensorModel};
+use nalgebra::Vector3;
+
+const NOISE_MPS2: Bounds = Bounds::from(1e-12, 1e6, "m/s²");
+const NOISE_COUNTS: Bounds = Bounds::from(1e-9, 1e9, "counts");
+const BIAS_SD: Bounds = Bounds::from(0.0, 1e6, "m/s²");
+const SCALE_SD: Bounds = Bounds::from(0.0, 10.0, "");
+const CROSS_AXIS_SD: Bounds = Bounds::from(0.0, 10.0, "");
+const GAIN: Bounds = Bounds::above(0.0, 1e12, "counts/(m/s²)");
+const OFFSET: Bounds = Bounds::from(-1e12, 1e12, "counts");
+
+/// Reads `[sensor]`.
+pub(super) fn read(section: &Section<'_>) -> Result<Sensor> {
+    let kind = section.need("kind", "kind = \"accelerometer\"")?;
+    match kind.text() {
+        Some("accelerometer") => (),
+        Some("gyroscope" | "magnetometer" | "imu") => {
+            return Err(kind.complain(
+                "only accelerometers can be calibrated so far",
+                "kind = \"accelerometer\" is the one that is supported",
+            ));
+        }
+        _ => kind.word(&[("accelerometer", ())])?,
+    }
+    let entry = section.need("axes", "axes = 1 or axes = 3")?;
+    let axes = entry.size(1, 3)?;
+    if axes == 2 {
+        return Err(entry.complain("2 is not a number of axes that is supported", "1 or 3"));
+    }
+    let entry = section.need("model", "model = \"scale-bias\" or \"full\"")?;
+    let model = entry.word(&[("scale-bias", SensorModel::ScaleBias), ("full", SensorModel::Full)])?;
+    if axes == 1 && model == SensorModel::Full {
+        return Err(entry.complain("a sensor of one axis has no cross-axis terms", "model = \"scale-bias\""));
+    }
+    let unit = match section.get("unit") {
+        None => ReadingUnit::MetrePerSecondSquared,
+        Some(entry) => {
+            entry.word(&[("mps2", ReadingUnit::MetrePerSecondSquared), ("counts", ReadingUnit::Counts)])?
+        }
+    };
+    let per_axis = |key: &str, bounds: &Bounds| -> Result<Option<Vector3<f64>>> {
+        section.get(key).map(|entry| entry.per_axis(axes, bounds)).transpose()
+    };
+    if unit == ReadingUnit::MetrePerSecondSquared {
+        for key in ["gain_counts_per_mps2", "offset_counts", "noise_counts"] {
+            if let Some(entry) = section.get(key) {
+                return Err(entry.complain(
+                    "readings in m/s² have no counts",
+                    "write unit = \"counts\" in [sensor], or leave this key away",
+                ));
+            }
+        }
+    } else if let (Some(entry), Some(_)) = (section.get("noise_counts"), section.get("noise_mps2")) {
+        return Err(entry.complain("the noise is given twice, in counts and in m/s²", "keep one of the two"));
+    }
+    let (gain, offset) = match unit {
+        ReadingUnit::MetrePerSecondSquared => (Some(Vector3::repeat(1.0)), Some(Vector3::zeros())),
+        ReadingUnit::Counts => {
+            (per_axis("gain_counts_per_mps2", &GAIN)?, per_axis("offset_counts", &OFFSET)?)
+        }
+    };
+    Ok(Sensor {
+        axes,
+        model,
+        unit,
+        gain,
+        offset,
+        noise_mps2: per_axis("noise_mps2", &NOISE_MPS2)?,
+        noise_counts: per_axis("noise_counts", &NOISE_COUNTS)?,
+        bias_sd_mps2: per_axis("bias_sd_mps2", &BIAS_SD)?,
+        scale_sd: per_axis("scale_sd", &SCALE_SD)?,
+        cross_axis_sd: section.get("cross_axis_sd").map(|entry| entry.number(&CROSS_AXIS_SD)).transpose()?,
+    })
+}

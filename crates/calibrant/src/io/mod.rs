@@ -1,0 +1,42 @@
+//! Files: the experiment, recordings and motions that come in, results that go out. The only code that touches files.
+//!
+//! | file | in | out |
+//! |---|---|---|
+//! | experiment (TOML) | [`Experiment::read`] | [`preset()`], [`PRESETS`] |
+//! | `recording.csv` and other recordings | [`read_recording`] | [`write_recording`] |
+//! | `motion.csv` | [`read_motion`] | [`write_motion`] |
+//! | `calibration.json` | | [`write_calibration`] |
+//! | `truth.json`, `study.json`, `summary.csv` | | [`write_truth`], [`write_study`], [`write_summary`] |
+//!
+//! Everything is SI inside; conversions happen here. No input makes the readers panic, and no NaN or infinity passes them. Every
+//! complaint names file, line and column and says what to do; what a reader repairs or merely notices is a [`Finding`], never
+//! silent. Everything is written beside its place and then renamed ([`write_atomically`]), so a result is whole or absent.
+
+mod calibration;
+mod delimited;
+mod experiment;
+mod fields;
+mod json;
+mod motion;
+mod output;
+mod preset;
+mod recording;
+mod study;
+mod summary;
+mod text;
+mod truth;
+
+pub use calibration::{Input, calibration_json, write_calibration};
+pub use experiment::{
+    CalibrateOptions, CriterionLetter, DesignOptions, Experiment, HoldsPlan, MotionPlan, Plan, Prior,
+    ScaleBy, StudyOptions,
+};
+pub use motion::{parse_motion, read_motion, write_motion};
+pub use output::write_atomically;
+pub use preset::{PRESETS, preset};
+pub use recording::{
+    Finding, FindingKind, ReadOptions, RecordingFile, parse_recording, read_recording, write_recording,
+};
+pub use study::{study_json, write_study};
+pub use summary::{SummaryRow, write_summary};
+pub use truth::{truth_json, write_truth};

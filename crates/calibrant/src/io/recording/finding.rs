@@ -1,0 +1,93 @@
+//! What a reader noticed in a recording that can be used nevertheless.
+
+use std::fmt;
+
+/// What kind of thing was noticed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum FindingKind {
+    /// Columns that are not needed were left aside.
+    IgnoredColumns,
+    /// The header's unit is not the experiment's.
+    Unit,
+    /// Samples with an empty or NaN value were dropped.
+    Missing,
+    /// Rows that repeat the one before were dropped.
+    DuplicateRow,
+    /// Rows with the time of the one before but another reading were dropped.
+    DuplicateTime,
+    /// The last line was cut off and was dropped.
+    TruncatedLastLine,
+    /// Samples are missing: the time makes a jump.
+    Gap,
+    /// The time steps vary.
+    IrregularSampling,
+    /// An axis never changes.
+    ConstantAxis,
+    /// Readings stay at the extreme value as if clipped there.
+    Saturation,
+}
+
+/// Something noticed in a recording: what, where, and what was done about it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Finding {
+    /// What kind of thing.
+    pub kind: FindingKind,
+    /// Line of its first occurrence, from 1, where it is about a line.
+    pub line: Option<usize>,
+    /// What, in words.
+    pub message: String,
+}
+
+impl Finding {
+    pub(super) fn new(kind: FindingKind, line: Option<usize>, message: String) -> Self {
+        Self { kind, line, message }
+    }
+}
+
+impl fmt::Display for Finding {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(line) = self.line {
+            write!(f, "line {line}: ")?;
+        }
+        write!(f, "{}", self.message)
+    }
+}
+
+/// How many times something was noticed, and where first.
+#[derive(Default)]
+pub(super) struct Tally {
+    count: usize,
+    first: Option<usize>,
+}
+
+impl Tally {
+    pub(super) fn add(&mut self, line: usize) {
+        self.count += 1;
+        self.first.get_or_insert(line);
+    }
+
+    /// One finding for all; `say` puts the count into words.
+    pub(super) fn report(
+        &self,
+        kind: FindingKind,
+        findings: &mut Vec<Finding>,
+        say: impl Fn(usize) -> String,
+    ) {
+        if self.count > 0 {
+            let more = if self.count > 1 { " (first here)" } else { "" };
+            findings.push(Finding::new(kind, self.first, format!("{}{more}", say(self.count))));
+        }
+    }
+}
+
+/// `1 sample`, `2 samples`.
+pub(super) fn count(number: usize, noun: &str) -> String {
+    format!("{number} {noun}{}", if number == 1 { "" } else { "s" })
+}
+
+/// A number in six significant digits, without trailing zeros.
+pub(super) fn short(number: f64) -> String {
+    format!("{number:.5e}")
+        .parse::<f64>()
+        .map_or_else(|_| number.to_string(), |rounded| format!("{rounded:?}"))
+}
