@@ -1,15 +1,15 @@
 //! The report on one calibration.
 
+use super::About;
 use super::figure::{
-    acceleration_figure, autocorrelations, correlation_map, histograms, hold_directions, hold_residuals, motion_error_figure,
-    recording_overview, residuals_over_time, state_and_jerk_figure,
+    acceleration_figure, autocorrelations, correlation_map, histograms, hold_directions, hold_residuals,
+    motion_error_figure, recording_overview, residuals_over_time, state_and_jerk_figure,
 };
 use super::fit::fit_table;
 use super::holds::{hold_summary, hold_table};
 use super::html::{Page, escape, facts};
 use super::parameters::{correction, parameter_table};
 use super::verdict::verdict;
-use super::About;
 use crate::estimate::{Calibration, HoldCalibration, Recovered, RecoveredMotion};
 use crate::sensor::Recording;
 
@@ -27,7 +27,10 @@ pub fn calibration_report(calibration: &Calibration, recording: &Recording, abou
     page.push(facts(about.facts.iter().map(|(label, value)| (label.as_str(), value.as_str()))));
     page.push(verdict(calibration, about));
 
-    page.section("Parameters", "Readings are y = S s + b: biases are the entries of b, scale factors and matrix entries those of S.");
+    page.section(
+        "Parameters",
+        "Readings are y = S s + b: biases are the entries of b, scale factors and matrix entries those of S.",
+    );
     page.push(parameter_table(calibration, about.truth.as_ref()));
     page.subsection("Correction, raw → true");
     page.push(correction(calibration, recording));
@@ -59,8 +62,12 @@ fn motion_section(
 ) {
     let lead = match recovered.trust {
         "known" => "Trust known: the motion was taken as commanded and not estimated.",
-        "noisy" => "Trust noisy: the command was followed up to process noise, and the motion estimated with the parameters.",
-        "unknown" => "Trust unknown: only the acceleration at both ends was given; the motion in between was estimated with the parameters.",
+        "noisy" => {
+            "Trust noisy: the command was followed up to process noise, and the motion estimated with the parameters."
+        }
+        "unknown" => {
+            "Trust unknown: only the acceleration at both ends was given; the motion in between was estimated with the parameters."
+        }
         _ => "",
     };
     page.section("Motion", lead);

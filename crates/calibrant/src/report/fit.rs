@@ -26,7 +26,11 @@ pub(super) fn fit_table(calibration: &Calibration, recording: &Recording) -> Str
         number::significant(calibration.gradient_norm, 2),
         "Distance from the optimum in standard deviations of the parameters; good is far below 1.",
     );
-    row("χ²", number::significant(fit.chi2, 5), "Sum of squared residuals over the assumed noise; good is near the degrees of freedom.");
+    row(
+        "χ²",
+        number::significant(fit.chi2, 5),
+        "Sum of squared residuals over the assumed noise; good is near the degrees of freedom.",
+    );
     row(
         "degrees of freedom",
         number::count(fit.degrees_of_freedom),
@@ -34,22 +38,38 @@ pub(super) fn fit_table(calibration: &Calibration, recording: &Recording) -> Str
     );
     let p = fit.p_value.map_or(number::UNKNOWN.to_string(), number::probability);
     let meaning = match fit.p_value {
-        Some(_) => "Chance of a χ² at least this large if model and noise are right; suspicious below 0.001 and above 0.999.",
+        Some(_) => {
+            "Chance of a χ² at least this large if model and noise are right; suspicious below 0.001 and above 0.999."
+        }
         None => "Not available: no degrees of freedom, or the noise was estimated from this fit.",
     };
     row("p-value", p, meaning);
 
-    let unit = DisplayUnit::suited_to(calibration.unit.symbol(), fit.residual_rms.iter().map(|rms| 3.0 * rms));
+    let unit =
+        DisplayUnit::suited_to(calibration.unit.symbol(), fit.residual_rms.iter().map(|rms| 3.0 * rms));
     let per_axis = |values: &Vector3<f64>| {
-        let values: Vec<String> = axes.iter().map(|axis| number::significant(values[axis.index()] * unit.factor, 3)).collect();
+        let values: Vec<String> =
+            axes.iter().map(|axis| number::significant(values[axis.index()] * unit.factor, 3)).collect();
         format!("{} {}", values.join(", "), unit.symbol)
     };
     let (names, holds) = (axis_names(axes), matches!(calibration.recovered, Recovered::Holds(_)));
-    let what = if holds { "Root mean square of what the fit leaves of the holds' means" } else { "Root mean square of the residuals" };
+    let what = if holds {
+        "Root mean square of what the fit leaves of the holds' means"
+    } else {
+        "Root mean square of the residuals"
+    };
     row(&format!("residual rms {names}"), per_axis(&fit.residual_rms), &format!("{what}, per axis."));
     match &fit.assumed_noise {
-        Some(noise) => row(&format!("assumed noise {names}"), per_axis(noise), "Standard deviation of one sample's noise that went into χ²."),
-        None => row("assumed noise", number::UNKNOWN.to_string(), "None was given: the noise was estimated from this fit."),
+        Some(noise) => row(
+            &format!("assumed noise {names}"),
+            per_axis(noise),
+            "Standard deviation of one sample's noise that went into χ².",
+        ),
+        None => row(
+            "assumed noise",
+            number::UNKNOWN.to_string(),
+            "None was given: the noise was estimated from this fit.",
+        ),
     }
     if let Some(noise) = &fit.noise_estimate {
         row(

@@ -15,7 +15,8 @@ pub(super) fn hold_summary(holds: &HoldCalibration) -> String {
     let mut row = |name: &str, value: String, meaning: &str| {
         table.row(vec![Cell::Name(name.to_string()), Cell::Number(value), Cell::Words(meaning.to_string())]);
     };
-    let found = if holds.detected { "Found in the recording by its stillness." } else { "As given by the user." };
+    let found =
+        if holds.detected { "Found in the recording by its stillness." } else { "As given by the user." };
     row("holds used", format!("{used} of {}", holds.holds.len()), found);
     row(
         "gravity g",

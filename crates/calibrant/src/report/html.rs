@@ -77,7 +77,10 @@ pub(super) fn list(items: &[String]) -> String {
 pub(super) fn facts<'a>(facts: impl IntoIterator<Item = (&'a str, &'a str)>) -> String {
     let rows: String = facts
         .into_iter()
-        .map(|(label, value)| format!("<div><dt>{}</dt><dd>{}</dd></div>", escape(label), escape(value)))
+        .map(|(label, value)| {
+            let class = if value.chars().count() > 40 { " class=\"long\"" } else { "" };
+            format!("<div{class}><dt>{}</dt><dd>{}</dd></div>", escape(label), escape(value))
+        })
         .collect();
     if rows.is_empty() { rows } else { format!("<dl class=\"facts\">{rows}</dl>") }
 }

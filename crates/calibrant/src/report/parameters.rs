@@ -17,7 +17,9 @@ pub(super) fn parameter_table(calibration: &Calibration, truth: Option<&SensorPa
         columns.extend(["truth", "error / sd"]);
     }
     let mut table = Table::new("", &columns);
-    for ((parameter, &value), sd) in calibration.parameters.iter().zip(&calibration.values).zip(calibration.sd()) {
+    for ((parameter, &value), sd) in
+        calibration.parameters.iter().zip(&calibration.values).zip(calibration.sd())
+    {
         let unit = if parameter.unit == "1" { "–" } else { parameter.unit };
         let mut row = vec![
             Cell::Name(parameter.name.clone()),
@@ -33,7 +35,9 @@ pub(super) fn parameter_table(calibration: &Calibration, truth: Option<&SensorPa
         if let Some(truth) = truth {
             let truth = quantity(&parameter.name).map(|quantity| quantity.of(truth));
             row.push(Cell::Number(truth.map_or(number::UNKNOWN.to_string(), |t| number::rounded_to(t, sd))));
-            row.push(Cell::Number(truth.map_or(number::UNKNOWN.to_string(), |t| number::fixed((value - t) / sd, 2))));
+            row.push(Cell::Number(
+                truth.map_or(number::UNKNOWN.to_string(), |t| number::fixed((value - t) / sd, 2)),
+            ));
         }
         table.row(row);
     }
@@ -65,10 +69,8 @@ pub(super) fn correction(calibration: &Calibration, recording: &Recording) -> St
         return "<p>The matrix has no inverse: there is no correction.</p>".to_string();
     };
     let bias = correction.bias.iter().map(|&b| vec![number::significant(b, 8)]).collect();
-    let mut parts = vec![
-        matrix(&format!("C{slope}"), rows(&correction.matrix)),
-        matrix(&format!("b ({unit})"), bias),
-    ];
+    let mut parts =
+        vec![matrix(&format!("C{slope}"), rows(&correction.matrix)), matrix(&format!("b ({unit})"), bias)];
     let mut words = "Seven digits are given so that rounding adds nothing; how many of them are known, the table above says.".to_string();
     if let Recovered::Holds(holds) = &calibration.recovered {
         let gains = correction.scale().iter().map(|k| vec![number::significant(1.0 / k, 8)]).collect();
@@ -107,7 +109,9 @@ fn gauge_in_words(gauge: &str) -> &'static str {
 
 fn rows(matrix: &Matrix3<f64>) -> Vec<Vec<String>> {
     let largest = matrix.amax();
-    let text = |value: f64| if value.abs() < 1e-14 * largest { "0".to_string() } else { number::significant(value, 7) };
+    let text = |value: f64| {
+        if value.abs() < 1e-14 * largest { "0".to_string() } else { number::significant(value, 7) }
+    };
     (0..3).map(|row| (0..3).map(|column| text(matrix[(row, column)])).collect()).collect()
 }
 
@@ -123,7 +127,9 @@ fn unit_diagonal(matrix: &Matrix3<f64>) -> Vec<Vec<String>> {
 fn matrix(name: &str, rows: Vec<Vec<String>>) -> String {
     let body: String = rows
         .iter()
-        .map(|row| format!("<tr>{}</tr>", row.iter().map(|cell| format!("<td>{cell}</td>")).collect::<String>()))
+        .map(|row| {
+            format!("<tr>{}</tr>", row.iter().map(|cell| format!("<td>{cell}</td>")).collect::<String>())
+        })
         .collect();
     format!("<div class=\"matrix\"><p>{}</p><table><tbody>{body}</tbody></table></div>", html::escape(name))
 }

@@ -1,8 +1,8 @@
 //! The report on a population of sensors.
 
 use super::figure::{
-    DisplayUnit, acceleration_figure, motion_error_figure, p_values, parameter_errors, parameters_against_truth, standardised_errors,
-    state_and_jerk_figure,
+    DisplayUnit, acceleration_figure, motion_error_figure, p_values, parameter_errors,
+    parameters_against_truth, standardised_errors, state_and_jerk_figure,
 };
 use super::html::{Page, escape, facts};
 use super::parameters::parameter_table;
@@ -78,7 +78,8 @@ fn verdict(study: &Study, about: &About) -> String {
     let all = study.outcomes.len();
     let converged = study.outcomes.iter().filter(|outcome| outcome.status == "converged").count();
     let estimates = study.outcomes.len() * study.summary.len();
-    let coverage = study.summary.iter().map(|entry| entry.coverage_95).sum::<f64>() / study.summary.len().max(1) as f64;
+    let coverage =
+        study.summary.iter().map(|entry| entry.coverage_95).sum::<f64>() / study.summary.len().max(1) as f64;
     // estimates of one sensor are correlated, so the sensors alone count
     let chance = 2.0 * (0.95 * 0.05 / all.max(1) as f64).sqrt();
     let honest = (coverage - 0.95).abs() <= chance;
@@ -86,7 +87,10 @@ fn verdict(study: &Study, about: &About) -> String {
     let judged = if estimates == 0 {
         "There is nothing to judge.".to_string()
     } else if honest {
-        format!("95 % intervals hold the truth in {} of the cases, as they should.", number::percent(coverage))
+        format!(
+            "95 % intervals hold the truth in {} of the cases, as they should.",
+            number::percent(coverage)
+        )
     } else {
         format!(
             "95 % intervals hold the truth in {} of the cases, beyond what chance explains: the stated standard deviations are too {}.",
@@ -115,14 +119,18 @@ fn settings(study: &Study) -> String {
     };
     let unknown = || number::UNKNOWN.to_string();
     let mut table = Table::new("", &["setting", "value"]);
-    let mut row = |name: &str, value: String| table.row(vec![Cell::Name(name.to_string()), Cell::Text(value)]);
+    let mut row =
+        |name: &str, value: String| table.row(vec![Cell::Name(name.to_string()), Cell::Text(value)]);
     row("sensors", number::count(study.outcomes.len()));
     row("axes", sensor.axes.to_string());
     row("unit of the readings", sensor.unit.symbol().to_string());
     let noise = sensor.noise_counts.as_ref().map(|n| format!("{} counts", per_axis(n)));
     let noise = noise.or_else(|| sensor.noise_mps2.as_ref().map(|n| format!("{} m/s²", per_axis(n))));
     row("noise of one sample, sd", noise.unwrap_or_else(unknown));
-    row("bias, sd over the population", sensor.bias_sd_mps2.as_ref().map_or_else(unknown, |sd| format!("{} m/s²", per_axis(sd))));
+    row(
+        "bias, sd over the population",
+        sensor.bias_sd_mps2.as_ref().map_or_else(unknown, |sd| format!("{} m/s²", per_axis(sd))),
+    );
     row("scale factor, sd over the population", sensor.scale_sd.as_ref().map_or_else(unknown, per_axis));
     row("trust in the motion", study.trust.to_string());
     let intervals = study.motion.intervals();
@@ -134,15 +142,26 @@ fn settings(study: &Study) -> String {
 }
 
 fn summary_table(study: &Study) -> String {
-    let columns =
-        ["parameter", "unit", "sd as stated", "realised error, rms", "realised / stated", "mean error", "coverage of 95 % intervals"];
+    let columns = [
+        "parameter",
+        "unit",
+        "sd as stated",
+        "realised error, rms",
+        "realised / stated",
+        "mean error",
+        "coverage of 95 % intervals",
+    ];
     let mut table = Table::new("", &columns);
     for entry in &study.summary {
         let unit = DisplayUnit::suited(entry.unit, entry.predicted_sd.max(entry.realised_rms));
         let shown = |value: f64| Cell::Number(number::significant(value * unit.factor, 3));
         table.row(vec![
             Cell::Name(entry.name.clone()),
-            Cell::Text(if unit.symbol.is_empty() { number::UNKNOWN.to_string() } else { unit.symbol.to_string() }),
+            Cell::Text(if unit.symbol.is_empty() {
+                number::UNKNOWN.to_string()
+            } else {
+                unit.symbol.to_string()
+            }),
             shown(entry.predicted_sd),
             shown(entry.realised_rms),
             Cell::Number(number::fixed(entry.realised_rms / entry.predicted_sd, 2)),

@@ -68,8 +68,11 @@ impl Table {
             "" => String::new(),
             text => format!("<caption>{}</caption>", escape(text)),
         };
+        let explains =
+            self.rows.iter().flat_map(|(_, cells)| cells).any(|cell| matches!(cell, Cell::Words(_)));
+        let class = if explains { " class=\"explained\"" } else { "" };
         format!(
-            "<div class=\"scroll\"><table>{caption}<thead><tr>{head}</tr></thead>\n<tbody>\n{body}</tbody></table></div>"
+            "<div class=\"scroll\"><table{class}>{caption}<thead><tr>{head}</tr></thead>\n<tbody>\n{body}</tbody></table></div>"
         )
     }
 }

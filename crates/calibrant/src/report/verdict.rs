@@ -61,12 +61,16 @@ fn judge(calibration: &Calibration) -> (Grade, String) {
     };
     let (mut grade, mut sentence) = match calibration.status {
         CalibrationStatus::Converged => (Grade::Good, format!("The estimation converged in {iterations}")),
-        CalibrationStatus::IterationLimit => {
-            (Grade::Bad, format!("The estimation stopped at its limit of {iterations} before it had converged"))
-        }
-        CalibrationStatus::Stalled => {
-            (Grade::Bad, format!("The estimation stalled after {iterations}: no step improved the fit although it had not converged"))
-        }
+        CalibrationStatus::IterationLimit => (
+            Grade::Bad,
+            format!("The estimation stopped at its limit of {iterations} before it had converged"),
+        ),
+        CalibrationStatus::Stalled => (
+            Grade::Bad,
+            format!(
+                "The estimation stalled after {iterations}: no step improved the fit although it had not converged"
+            ),
+        ),
     };
     match fit.p_value {
         Some(p) if p < SIGNIFICANT => {
@@ -86,7 +90,10 @@ fn judge(calibration: &Calibration) -> (Grade, String) {
             ));
         }
         Some(p) => {
-            sentence.push_str(&format!("; model and assumed noise explain the data (χ² p-value {})", number::probability(p)));
+            sentence.push_str(&format!(
+                "; model and assumed noise explain the data (χ² p-value {})",
+                number::probability(p)
+            ));
         }
         None if fit.degrees_of_freedom == 0 => {
             grade = grade.max(Grade::Caution);
@@ -115,7 +122,9 @@ fn hardly_determined(calibration: &Calibration) -> Option<String> {
         .parameters
         .iter()
         .zip(calibration.sd())
-        .filter(|(parameter, sd)| parameter.spread.is_some_and(|spread| spread > 0.0 && *sd > HARDLY_DETERMINED * spread))
+        .filter(|(parameter, sd)| {
+            parameter.spread.is_some_and(|spread| spread > 0.0 && *sd > HARDLY_DETERMINED * spread)
+        })
         .map(|(parameter, _)| parameter.name.as_str())
         .collect();
     (!names.is_empty()).then(|| {

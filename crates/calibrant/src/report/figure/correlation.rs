@@ -9,7 +9,8 @@ use crate::report::number;
 /// The correlation matrix: its lower triangle, coloured by sign and size.
 pub(in crate::report) fn correlation_map(calibration: &Calibration) -> String {
     let correlation = calibration.correlation();
-    let names: Vec<String> = calibration.parameters.iter().map(|p| escape(&p.name).replacen('.', ".<wbr>", 1)).collect();
+    let names: Vec<String> =
+        calibration.parameters.iter().map(|p| escape(&p.name).replacen('.', ".<wbr>", 1)).collect();
     let mut rows = String::new();
     for (i, name) in names.iter().enumerate() {
         rows.push_str(&format!("<tr><th scope=\"row\">{}</th>", name.replace("<wbr>", "")));

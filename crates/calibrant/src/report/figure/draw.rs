@@ -23,7 +23,6 @@ pub(super) fn svg(panel: &Panel) -> String {
     let mut layout = Layout::new(x, y)
         .with_width(WIDTH)
         .with_height(height)
-        .with_title(panel.title.as_str())
         .with_x_label(panel.x_label.as_str())
         .with_y_label(panel.y_label.as_str())
         .with_theme(theme())
@@ -37,6 +36,9 @@ pub(super) fn svg(panel: &Panel) -> String {
         .with_y_axis_min(y.0)
         .with_y_axis_max(y.1)
         .with_grid_line_width(0.8);
+    if !panel.title.is_empty() {
+        layout = layout.with_title(panel.title.as_str());
+    }
     if let Some(step) = panel.x_step {
         layout = layout.with_x_tick_step(step);
     }
@@ -62,7 +64,11 @@ fn theme() -> Theme {
 fn plots(series: &Series) -> Vec<Plot> {
     let line = |points: Vec<(f64, f64)>, width: f64, dashes: &str| {
         let style = if dashes.is_empty() { LineStyle::Solid } else { LineStyle::Custom(dashes.to_string()) };
-        LinePlot::new().with_data(points).with_color(series.colour).with_stroke_width(width).with_line_style(style)
+        LinePlot::new()
+            .with_data(points)
+            .with_color(series.colour)
+            .with_stroke_width(width)
+            .with_line_style(style)
     };
     let points: Vec<(f64, f64)> = series.finite().map(|(x, y, _)| (x, y)).collect();
     if points.is_empty() {
@@ -109,13 +115,17 @@ pub(super) fn key(series: &Series) -> String {
         ),
         Mark::Dots { shape, .. } => match shape {
             Shape::Circle => format!("<circle cx=\"17\" cy=\"7\" r=\"3.5\" fill=\"{colour}\"/>"),
-            Shape::Square => format!("<rect x=\"13.5\" y=\"3.5\" width=\"7\" height=\"7\" fill=\"{colour}\"/>"),
+            Shape::Square => {
+                format!("<rect x=\"13.5\" y=\"3.5\" width=\"7\" height=\"7\" fill=\"{colour}\"/>")
+            }
             Shape::Triangle => format!("<path d=\"M17 2.5L21.5 11H12.5Z\" fill=\"{colour}\"/>"),
             Shape::Cross => {
                 format!("<path d=\"M13 3L21 11M21 3L13 11\" stroke=\"{colour}\" stroke-width=\"1.6\"/>")
             }
         },
-        Mark::Band => format!("<rect x=\"1\" y=\"2\" width=\"32\" height=\"10\" fill=\"{colour}\" opacity=\"0.3\"/>"),
+        Mark::Band => {
+            format!("<rect x=\"1\" y=\"2\" width=\"32\" height=\"10\" fill=\"{colour}\" opacity=\"0.3\"/>")
+        }
         Mark::Area => format!(
             "<rect x=\"1\" y=\"2\" width=\"32\" height=\"10\" fill=\"{colour}\" fill-opacity=\"0.35\" stroke=\"{colour}\"/>"
         ),

@@ -31,7 +31,10 @@ pub(in crate::report) fn recording_overview(holds: &HoldCalibration, recording: 
             let values = recording.readings.iter().map(|reading| reading[axis.index()]);
             let points = thinned(recording.times_s.iter().copied().zip(values).collect());
             let line = Series::new("reading", colour::BLUE, Mark::Line { width: 0.9, dashes: "" }, points);
-            Panel { shades: shades.clone(), ..Panel::new(format!("axis {axis}"), "time (s)", label.as_str()).with(line) }
+            Panel {
+                shades: shades.clone(),
+                ..Panel::new(format!("axis {axis}"), "time (s)", label.as_str()).with(line)
+            }
         })
         .collect();
     let mut caption = "Good: every plateau is shaded and nothing else is; the first and last moments of a plateau may stay out."
@@ -56,11 +59,16 @@ pub(in crate::report) fn hold_residuals(holds: &HoldCalibration) -> Figure {
     let bars = numbers.clone().map(|number| (number as f64, 0.0)).collect();
     let of = |used: bool| {
         let chosen = numbers.clone().zip(&holds.holds).filter(move |(_, hold)| hold.used == used);
-        chosen.map(|(number, hold)| (number as f64, hold.magnitude_residual_mps2 * unit.factor)).collect::<Vec<_>>()
+        chosen
+            .map(|(number, hold)| (number as f64, hold.magnitude_residual_mps2 * unit.factor))
+            .collect::<Vec<_>>()
     };
     let mut panel = Panel::new("", "hold", unit.label("corrected |s| − g"))
         .with(Series::new("±2 sd expected", colour::GREY, Mark::ErrorBars, bars).with_spread(expected))
-        .with(Series { mark: Mark::Dots { shape: Shape::Circle, radius: 3.4 }, ..Series::dots("hold", colour::BLUE, Shape::Circle, of(true)) });
+        .with(Series {
+            mark: Mark::Dots { shape: Shape::Circle, radius: 3.4 },
+            ..Series::dots("hold", colour::BLUE, Shape::Circle, of(true))
+        });
     let left_out = of(false);
     if !left_out.is_empty() {
         let mark = Mark::Dots { shape: Shape::Cross, radius: 5.0 };

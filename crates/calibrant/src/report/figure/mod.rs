@@ -26,7 +26,6 @@ pub(super) use unit::DisplayUnit;
 use super::html::escape;
 use panel::{Panel, Series};
 
-
 /// Okabe–Ito colours, told apart by all common kinds of colour vision.
 mod colour {
     pub(super) const BLACK: &str = "#000000";
@@ -71,7 +70,8 @@ impl Figure {
                 seen.push(series);
             }
         }
-        let mut entries: Vec<String> = seen.iter().map(|series| entry(&draw::key(series), &series.label)).collect();
+        let mut entries: Vec<String> =
+            seen.iter().map(|series| entry(&draw::key(series), &series.label)).collect();
         let mut shades: Vec<&str> = Vec::new();
         for shade in self.panels.iter().flat_map(|panel| &panel.shades) {
             if !shade.label.is_empty() && !shades.contains(&shade.label) {

@@ -39,7 +39,8 @@ pub(in crate::report) fn acceleration_figure(
                 })
                 .collect()
         };
-        let dots = Series::dots(readings_label, colour::SKY, Shape::Circle, thinned(dots));
+        let mark = Mark::Dots { shape: Shape::Circle, radius: 3.0 };
+        let dots = Series::new(readings_label, colour::SKY, mark, thinned(dots));
         let mut panel = panel.with(dots);
         if let Some(truth) = truth {
             let mark = Mark::Line { width: 2.6, dashes: "" };
@@ -62,7 +63,8 @@ pub(in crate::report) fn acceleration_figure(
     }
     .to_string();
     if is_thinned(end.saturating_sub(first)) {
-        caption.push_str(" Of the many readings, the smallest and the largest of each pixel column are drawn.");
+        caption
+            .push_str(" Of the many readings, the smallest and the largest of each pixel column are drawn.");
     }
     Figure::new(title, panels, caption)
 }
@@ -75,10 +77,13 @@ pub(in crate::report) fn motion_error_figure(
 ) -> Option<Figure> {
     let sd = &recovered.acceleration_sd_mps2;
     let times = recovered.motion.times_s();
-    let error = |i: usize, t: f64| truth.map(|truth| recovered.motion.acceleration_mps2()[i] - truth.acceleration_at(t));
+    let error = |i: usize, t: f64| {
+        truth.map(|truth| recovered.motion.acceleration_mps2()[i] - truth.acceleration_at(t))
+    };
     let errors: Vec<Vector3<f64>> =
         times.iter().enumerate().map(|(i, &t)| error(i, t).unwrap_or_else(Vector3::zeros)).collect();
-    let largest = |list: &[Vector3<f64>]| list.iter().map(|v| v.amax()).filter(|v| v.is_finite()).fold(0.0, f64::max);
+    let largest =
+        |list: &[Vector3<f64>]| list.iter().map(|v| v.amax()).filter(|v| v.is_finite()).fold(0.0, f64::max);
     let unit = DisplayUnit::suited("m/s²", largest(&errors).max(2.0 * largest(sd)));
     if largest(&errors).max(largest(sd)) == 0.0 {
         return None;
@@ -89,13 +94,19 @@ pub(in crate::report) fn motion_error_figure(
         let spread: Vec<f64> = sd.iter().map(|sd| 2.0 * sd[a] * unit.factor).collect();
         if spread.len() == times.len() {
             let zero = times.iter().map(|&t| (t, 0.0)).collect();
-            panel = panel.with(Series::new("±2 sd as stated", colour::SKY, Mark::Band, zero).with_spread(spread));
+            panel =
+                panel.with(Series::new("±2 sd as stated", colour::SKY, Mark::Band, zero).with_spread(spread));
         }
         if truth.is_some() {
             let points: Vec<_> = times.iter().zip(&errors).map(|(&t, e)| (t, e[a] * unit.factor)).collect();
             let mark = Mark::Line { width: 0.8, dashes: "" };
             panel = panel.with(Series::new("", colour::VERMILLION, mark, thinned(points.clone())));
-            panel = panel.with(Series::dots("estimated − true at the nodes", colour::VERMILLION, Shape::Circle, thinned(points)));
+            panel = panel.with(Series::dots(
+                "estimated − true at the nodes",
+                colour::VERMILLION,
+                Shape::Circle,
+                thinned(points),
+            ));
         }
         panel
     });
@@ -157,5 +168,9 @@ fn nodes(motion: &JerkControlledMotion, axis: Axis) -> Vec<(f64, f64)> {
 
 fn steps(motion: &JerkControlledMotion, values: &[Vector3<f64>], axis: Axis) -> Vec<(f64, f64)> {
     let ends = motion.times_s().windows(2);
-    thinned(ends.zip(values).flat_map(|(ends, v)| [(ends[0], v[axis.index()]), (ends[1], v[axis.index()])]).collect())
+    thinned(
+        ends.zip(values)
+            .flat_map(|(ends, v)| [(ends[0], v[axis.index()]), (ends[1], v[axis.index()])])
+            .collect(),
+    )
 }

@@ -104,7 +104,11 @@ pub(super) struct Panel {
 }
 
 impl Panel {
-    pub(super) fn new(title: impl Into<String>, x_label: impl Into<String>, y_label: impl Into<String>) -> Self {
+    pub(super) fn new(
+        title: impl Into<String>,
+        x_label: impl Into<String>,
+        y_label: impl Into<String>,
+    ) -> Self {
         Self {
             title: title.into(),
             x_label: x_label.into(),
@@ -141,15 +145,11 @@ impl Panel {
             let both = Range { low: x.low.min(y.low), high: x.high.max(y.high) }.padded(0.05);
             return Some([both, both]);
         }
-        let flush = !self.series.is_empty() && self.series.iter().all(|s| s.starts_at_zero() || is_curve(s));
+        let flush = self.series.iter().any(Series::starts_at_zero);
         let (low, high) = y.padded(0.07);
         let low = if flush && y.low >= 0.0 { 0.0 } else { low };
         Some([x.padded(0.02), (low, high)])
     }
-}
-
-fn is_curve(series: &Series) -> bool {
-    matches!(series.mark, Mark::Line { .. } | Mark::Band)
 }
 
 #[derive(Debug, Clone, Copy)]

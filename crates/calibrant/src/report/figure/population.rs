@@ -49,7 +49,10 @@ pub(in crate::report) fn parameters_against_truth(study: &Study) -> Figure {
             }
             if let Some((low, high)) = ends {
                 let mark = Mark::Line { width: 1.0, dashes: "" };
-                panel.series.insert(0, Series::new("estimate = truth", colour::GREY, mark, vec![(low, low), (high, high)]));
+                panel.series.insert(
+                    0,
+                    Series::new("estimate = truth", colour::GREY, mark, vec![(low, low), (high, high)]),
+                );
             }
             panel
         })
@@ -60,7 +63,8 @@ pub(in crate::report) fn parameters_against_truth(study: &Study) -> Figure {
         subset(study, sensors.len())
     );
     let columns = if panels.len() > 2 { 3 } else { 2 };
-    Figure::new("The report's Figure 6: actual and estimated parameter errors", panels, caption).with_columns(columns)
+    Figure::new("The report's Figure 6: actual and estimated parameter errors", panels, caption)
+        .with_columns(columns)
 }
 
 /// Estimate less truth of each sensor with its stated uncertainty.
@@ -71,17 +75,27 @@ pub(in crate::report) fn parameter_errors(study: &Study) -> Figure {
         .iter()
         .enumerate()
         .map(|(p, parameter)| {
-            let drawn = || sensors.iter().map(|&i| (i, &study.outcomes[i])).filter(move |(_, o)| {
-                p < o.truth.len() && p < o.values.len() && p < o.sd.len()
-            });
+            let drawn = || {
+                sensors
+                    .iter()
+                    .map(|&i| (i, &study.outcomes[i]))
+                    .filter(move |(_, o)| p < o.truth.len() && p < o.values.len() && p < o.sd.len())
+            };
             let largest = drawn().map(|(_, o)| (o.values[p] - o.truth[p]).abs() + 2.0 * o.sd[p]);
             let unit = DisplayUnit::suited_to(parameter.unit, largest);
             let points: Vec<_> =
                 drawn().map(|(i, o)| ((i + 1) as f64, (o.values[p] - o.truth[p]) * unit.factor)).collect();
             let spread = drawn().map(|(_, o)| 2.0 * o.sd[p] * unit.factor).collect();
-            let ends = points.first().zip(points.last()).map(|(a, b)| vec![(a.0, 0.0), (b.0, 0.0)]).unwrap_or_default();
+            let ends = points
+                .first()
+                .zip(points.last())
+                .map(|(a, b)| vec![(a.0, 0.0), (b.0, 0.0)])
+                .unwrap_or_default();
             Panel::new(parameter.name.as_str(), "sensor", unit.label("estimate − truth"))
-                .with(Series::new("±2 sd as stated", colour::SKY, Mark::ErrorBars, points.clone()).with_spread(spread))
+                .with(
+                    Series::new("±2 sd as stated", colour::SKY, Mark::ErrorBars, points.clone())
+                        .with_spread(spread),
+                )
                 .with(Series::new("zero", colour::BLACK, Mark::Line { width: 1.0, dashes: "" }, ends))
                 .with(Series::dots("estimate − truth", colour::VERMILLION, Shape::Circle, points))
         })
@@ -97,7 +111,8 @@ pub(in crate::report) fn parameter_errors(study: &Study) -> Figure {
 
 /// Histogram of the fits' p-values with the flat line that is expected; `None` where no fit has one.
 pub(in crate::report) fn p_values(study: &Study) -> Option<Figure> {
-    let values: Vec<f64> = study.outcomes.iter().filter_map(|o| o.p_value).filter(|p| p.is_finite()).collect();
+    let values: Vec<f64> =
+        study.outcomes.iter().filter_map(|o| o.p_value).filter(|p| p.is_finite()).collect();
     if values.is_empty() {
         return None;
     }
@@ -105,10 +120,14 @@ pub(in crate::report) fn p_values(study: &Study) -> Option<Figure> {
     let expected = values.len() as f64 * bins.width;
     let spread = 2.0 * (expected * (1.0 - bins.width)).sqrt();
     let ends = vec![(0.0, expected), (1.0, expected)];
-    let panel = Panel::new("", "p-value of the fit", "number of sensors")
-        .with(Series::new("sensors", colour::SKY, Mark::Area, bins.outline()))
-        .with(Series::new("±2 sd of chance", colour::ORANGE, Mark::Band, ends.clone()).with_spread(vec![spread.min(expected); 2]))
-        .with(Series::dashed("expected", colour::VERMILLION, ends));
+    let panel =
+        Panel::new("", "p-value of the fit", "number of sensors")
+            .with(Series::new("sensors", colour::SKY, Mark::Area, bins.outline()))
+            .with(
+                Series::new("±2 sd of chance", colour::ORANGE, Mark::Band, ends.clone())
+                    .with_spread(vec![spread.min(expected); 2]),
+            )
+            .with(Series::dashed("expected", colour::VERMILLION, ends));
     let caption = "Good: flat, apart from chance. A peak at 0 means that model or noise do not describe the data, one at 1 that the \
                    assumed noise is too large.";
     Some(Figure::new("p-values of the fits", vec![panel], caption))
@@ -119,7 +138,9 @@ pub(in crate::report) fn standardised_errors(study: &Study) -> Option<Figure> {
     let values: Vec<f64> = study
         .outcomes
         .iter()
-        .flat_map(|o| o.values.iter().zip(&o.truth).zip(&o.sd).map(|((value, truth), sd)| (value - truth) / sd))
+        .flat_map(|o| {
+            o.values.iter().zip(&o.truth).zip(&o.sd).map(|((value, truth), sd)| (value - truth) / sd)
+        })
         .filter(|z| z.is_finite())
         .collect();
     let reach = values.iter().fold(3.5_f64, |most, z| most.max(z.abs())).min(6.0);
@@ -183,7 +204,10 @@ fn axis_dots(position: usize, suffix: &str, points: Vec<(f64, f64)>) -> Series {
 fn subset(study: &Study, drawn: usize) -> String {
     let all = study.outcomes.len();
     if drawn < all {
-        format!(" Of {} sensors, {drawn} spread evenly over the list are drawn.", crate::report::number::count(all))
+        format!(
+            " Of {} sensors, {drawn} spread evenly over the list are drawn.",
+            crate::report::number::count(all)
+        )
     } else {
         String::new()
     }

@@ -22,7 +22,11 @@ pub(in crate::report) fn residuals_over_time(calibration: &Calibration, recordin
         if let (Some(sd), Some(span)) = (noise(calibration, axis, unit), span) {
             for level in [2.0 * sd, -2.0 * sd] {
                 let ends = span.map(|t| (t, level)).to_vec();
-                panel = panel.with(Series::dashed(&format!("±2 sd of the {} noise", noise_word(calibration)), colour::BLACK, ends));
+                panel = panel.with(Series::dashed(
+                    &format!("±2 sd of the {} noise", noise_word(calibration)),
+                    colour::BLACK,
+                    ends,
+                ));
             }
         }
         panel
@@ -42,26 +46,31 @@ pub(in crate::report) fn residuals_over_time(calibration: &Calibration, recordin
 /// Histogram of each axis' residuals with the normal curve of the noise.
 pub(in crate::report) fn histograms(calibration: &Calibration, recording: &Recording) -> Figure {
     let unit = unit_of(calibration);
-    let panels = panels(calibration, recording, &unit.label("residual"), "number of samples", |axis, panel| {
-        let values: Vec<f64> = residuals(calibration, axis, unit).filter(|v| v.is_finite()).collect();
-        let Some(bins) = Histogram::of(&values, bin_count(values.len())) else { return panel };
-        let mut panel = panel.with(Series::new("residuals", colour::SKY, Mark::Area, bins.outline()));
-        if let Some(sd) = noise(calibration, axis, unit) {
-            let reach = (4.0 * sd).max(bins.low.abs()).max((bins.low + bins.width * bins.counts.len() as f64).abs());
-            let reach = reach.min(6.0 * sd);
-            let area = values.len() as f64 * bins.width;
-            let curve = (0..=120)
-                .map(|i| reach * (f64::from(i) / 60.0 - 1.0))
-                .map(|x| (x, area * (-0.5 * (x / sd).powi(2)).exp() / (sd * std::f64::consts::TAU.sqrt())))
-                .collect();
-            panel = panel.with(Series::line(
-                &format!("normal curve of the {} noise", noise_word(calibration)),
-                colour::VERMILLION,
-                curve,
-            ));
-        }
-        panel
-    });
+    let panels =
+        panels(calibration, recording, &unit.label("residual"), "number of samples", |axis, panel| {
+            let values: Vec<f64> = residuals(calibration, axis, unit).filter(|v| v.is_finite()).collect();
+            let Some(bins) = Histogram::of(&values, bin_count(values.len())) else { return panel };
+            let mut panel = panel.with(Series::new("residuals", colour::SKY, Mark::Area, bins.outline()));
+            if let Some(sd) = noise(calibration, axis, unit) {
+                let reach = (4.0 * sd)
+                    .max(bins.low.abs())
+                    .max((bins.low + bins.width * bins.counts.len() as f64).abs());
+                let reach = reach.min(6.0 * sd);
+                let area = values.len() as f64 * bins.width;
+                let curve = (0..=120)
+                    .map(|i| reach * (f64::from(i) / 60.0 - 1.0))
+                    .map(|x| {
+                        (x, area * (-0.5 * (x / sd).powi(2)).exp() / (sd * std::f64::consts::TAU.sqrt()))
+                    })
+                    .collect();
+                panel = panel.with(Series::line(
+                    &format!("normal curve of the {} noise", noise_word(calibration)),
+                    colour::VERMILLION,
+                    curve,
+                ));
+            }
+            panel
+        });
     let caption = "Good: the bars follow the curve. Narrower bars mean that the noise is smaller than assumed, wider ones that it \
                    is larger or that the model misses something; long tails are outliers.";
     Figure::new("Distribution of the residuals", panels, caption)
@@ -79,7 +88,10 @@ pub(in crate::report) fn autocorrelations(calibration: &Calibration, recording: 
         let band = vec![(0.0, 0.0), (last + 1.0, 0.0)];
         panel.y_includes = vec![-2.0 * bound, 2.0 * bound];
         panel
-            .with(Series::new("95 % band of white noise", colour::ORANGE, Mark::Band, band).with_spread(vec![bound; 2]))
+            .with(
+                Series::new("95 % band of white noise", colour::ORANGE, Mark::Band, band)
+                    .with_spread(vec![bound; 2]),
+            )
             .with(Series::new("autocorrelation", colour::BLUE, Mark::Stems, stems))
     });
     let caption = "Good: about nineteen in twenty stems end within the band. Many long stems mean coloured noise or a model error; \
@@ -177,7 +189,9 @@ fn autocorrelation(values: &[f64], lags: usize) -> Vec<f64> {
     if !(variance.is_finite() && variance > 0.0) {
         return Vec::new();
     }
-    (1..=lags).map(|lag| centred[lag..].iter().zip(&centred).map(|(a, b)| a * b).sum::<f64>() / variance).collect()
+    (1..=lags)
+        .map(|lag| centred[lag..].iter().zip(&centred).map(|(a, b)| a * b).sum::<f64>() / variance)
+        .collect()
 }
 
 #[cfg(test)]

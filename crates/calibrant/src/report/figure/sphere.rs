@@ -12,8 +12,9 @@ const HALF: f64 = 195.0;
 
 /// Directions of the specific force in the sensor's frame, one numbered point for each hold.
 pub(in crate::report) fn hold_directions(holds: &HoldCalibration) -> String {
-    let hemispheres: String =
-        [("upper half, z ≥ 0", true), ("lower half, z < 0", false)].map(|(name, upper)| hemisphere(holds, name, upper)).concat();
+    let hemispheres: String = [("upper half, z ≥ 0", true), ("lower half, z < 0", false)]
+        .map(|(name, upper)| hemisphere(holds, name, upper))
+        .concat();
     let legend = format!(
         "<ul class=\"legend\"><li>{}used</li>{}</ul>",
         key(&dot(17.0, 7.0)),
@@ -53,8 +54,15 @@ fn hemisphere(holds: &HoldCalibration, name: &str, upper: bool) -> String {
         svg.push_str(&format!("<circle r=\"{radius:.1}\" fill=\"none\" stroke=\"{stroke}\"/>"));
     }
     svg.push_str(&format!("<path d=\"M{0} 0H{RADIUS}M0 {0}V{RADIUS}\" stroke=\"#d0d7de\"/>", -RADIUS));
-    for (label, x, y) in [("+x", RADIUS + 15.0, 4.0), ("−x", -RADIUS - 15.0, 4.0), ("+y", 0.0, -RADIUS - 6.0), ("−y", 0.0, RADIUS + 16.0)] {
-        svg.push_str(&format!("<text x=\"{x}\" y=\"{y}\" font-size=\"13\" text-anchor=\"middle\">{label}</text>"));
+    for (label, x, y) in [
+        ("+x", RADIUS + 15.0, 4.0),
+        ("−x", -RADIUS - 15.0, 4.0),
+        ("+y", 0.0, -RADIUS - 6.0),
+        ("−y", 0.0, RADIUS + 16.0),
+    ] {
+        svg.push_str(&format!(
+            "<text x=\"{x}\" y=\"{y}\" font-size=\"13\" text-anchor=\"middle\">{label}</text>"
+        ));
     }
     for &(_, (x, y), used) in &points {
         svg.push_str(&if used { dot(x, y) } else { cross(x, y) });
@@ -73,14 +81,26 @@ fn hemisphere(holds: &HoldCalibration, name: &str, upper: bool) -> String {
 
 /// Where each number goes: the place about its point that is farthest from other points and numbers already placed.
 fn placed(points: &[(usize, (f64, f64), bool)]) -> Vec<(usize, (f64, f64), bool)> {
-    const PLACES: [(f64, f64); 8] =
-        [(11.0, -5.0), (-11.0, -5.0), (11.0, 13.0), (-11.0, 13.0), (0.0, -8.0), (0.0, 17.0), (13.0, 4.0), (-13.0, 4.0)];
+    const PLACES: [(f64, f64); 8] = [
+        (11.0, -5.0),
+        (-11.0, -5.0),
+        (11.0, 13.0),
+        (-11.0, 13.0),
+        (0.0, -8.0),
+        (0.0, 17.0),
+        (13.0, 4.0),
+        (-13.0, 4.0),
+    ];
     let mut taken: Vec<(f64, f64)> = points.iter().map(|point| point.1).collect();
     let mut labels = Vec::with_capacity(points.len());
     for &(number, (x, y), used) in points {
         let room = |&(dx, dy): &(f64, f64)| {
             let (cx, cy) = (x + dx, y + dy - 4.0); // the middle of the number
-            taken.iter().filter(|&&p| p != (x, y)).map(|p| (p.0 - cx).hypot(1.3 * (p.1 - cy))).fold(40.0, f64::min)
+            taken
+                .iter()
+                .filter(|&&p| p != (x, y))
+                .map(|p| (p.0 - cx).hypot(1.3 * (p.1 - cy)))
+                .fold(40.0, f64::min)
         };
         // a little reluctance to leave the first place keeps the picture calm
         let score = |i: usize| room(&PLACES[i]) - 0.5 * i as f64;

@@ -24,7 +24,10 @@ impl DisplayUnit {
 
     /// The same, suited to the largest magnitude of these values.
     pub(in crate::report) fn suited_to(unit: &'static str, values: impl IntoIterator<Item = f64>) -> Self {
-        Self::suited(unit, values.into_iter().filter(|v| v.is_finite()).fold(0.0, |most, v| most.max(v.abs())))
+        Self::suited(
+            unit,
+            values.into_iter().filter(|v| v.is_finite()).fold(0.0, |most, v| most.max(v.abs())),
+        )
     }
 
     /// A label with this unit: `residual (mm/s²)`.
