@@ -125,7 +125,8 @@ impl JerkControlledMotion {
     pub fn velocity_mps(&self) -> Vec<Vector3<f64>> {
         let mut velocity = vec![Vector3::zeros()];
         for i in 0..self.intervals() {
-            let step = (self.acceleration_mps2[i] + self.acceleration_mps2[i + 1]) * (self.interval_s(i) / 2.0);
+            let step =
+                (self.acceleration_mps2[i] + self.acceleration_mps2[i + 1]) * (self.interval_s(i) / 2.0);
             velocity.push(velocity[i] + step);
         }
         velocity
@@ -200,7 +201,8 @@ mod tests {
 
     #[test]
     fn bad_nodes_are_refused_by_row() {
-        let error = JerkControlledMotion::new(vec![0.0, 1.0, 1.0], vec![Vector3::zeros(); 3]).expect_err("equal times");
+        let error = JerkControlledMotion::new(vec![0.0, 1.0, 1.0], vec![Vector3::zeros(); 3])
+            .expect_err("equal times");
         assert!(error.to_string().contains("node 1 is at 1 s, node 2 at 1 s"), "{error}");
         assert!(JerkControlledMotion::new(vec![0.0, f64::NAN], vec![Vector3::zeros(); 2]).is_err());
         assert!(JerkControlledMotion::new(vec![0.0], vec![Vector3::zeros()]).is_err());

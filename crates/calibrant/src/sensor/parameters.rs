@@ -130,7 +130,9 @@ impl ParameterList {
         if model == SensorModel::Full {
             for &row in axes {
                 quantities.extend(
-                    axes.iter().filter(|&&column| column != row).map(|&column| Quantity::CrossAxis(row, column)),
+                    axes.iter()
+                        .filter(|&&column| column != row)
+                        .map(|&column| Quantity::CrossAxis(row, column)),
                 );
             }
         }

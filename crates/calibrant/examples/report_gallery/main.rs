@@ -1,0 +1,74 @@
+//! Reports of made-up results, to look at: `cargo run --example report_gallery -- DIRECTORY`.
+
+use calibrant::report::{About, calibration_report, study_report};
+use calibrant::{estimate, motion, sensor, study};
+use std::path::PathBuf;
+
+mod fakes;
+
+fn main() -> std::io::Result<()> {
+    let directory = PathBuf::from(std::env::args().nth(1).unwrap_or_else(|| ".".to_string()));
+    std::fs::create_dir_all(&directory)?;
+    let write = |name: &str, html: String| {
+        println!("{name}: {} kB", html.len() / 1000);
+        std::fs::write(directory.join(name), html)
+    };
+    let about = |title: &str, file: &str, samples: usize| About {
+        title: title.to_string(),
+        facts: [
+            ("File", file.to_string()),
+            ("SHA-256", "9f86d081884c7d659a2feaa0c55ad015a3bf4f1b2b0b822cd15d6c15b0f00a08".to_string()),
+            ("Samples", samples.to_string()),
+            ("Experiment", "experiment.toml".to_string()),
+            ("Options", "--unit mps2".to_string()),
+        ]
+        .map(|(label, value)| (label.to_string(), value))
+        .to_vec(),
+        elapsed: Some("0.12 s".to_string()),
+        program: format!("calibrant {}", env!("CARGO_PKG_VERSION")),
+        ..About::default()
+    };
+
+    let case = fakes::motion_case(3, 14, 2.0, 4);
+    let simulated = About {
+        truth: Some(case.truth),
+        true_motion: Some(case.true_motion.clone()),
+        ..about("Calibration of a simulated sensor", "recording <7>.csv", case.recording.len())
+    };
+    write("motion.html", calibration_report(&case.calibration, &case.recording, &simulated))?;
+
+    let mut blind = about("Calibration of sensor 7", "sensor7.csv", case.recording.len());
+    blind.findings = vec!["3 samples are missing between 12.5 s and 14.5 s".to_string()];
+    write("motion_blind.html", calibration_report(&case.calibration, &case.recording, &blind))?;
+
+    let case = fakes::motion_case(1, 5, 10.0, 9);
+    let simulated =
+        About { truth: Some(case.truth), ..about("A uniaxial sensor", "uniaxial.csv", case.recording.len()) };
+    write("uniaxial.html", calibration_report(&case.calibration, &case.recording, &simulated))?;
+
+    let (calibration, recording) = fakes::hold_case(38, 300);
+    write(
+        "holds.html",
+        calibration_report(
+            &calibration,
+            &recording,
+            &about("Static calibration", "mti.csv", recording.len()),
+        ),
+    )?;
+
+    let case = fakes::motion_case(3, 20, 10_000.0, 9);
+    write(
+        "long.html",
+        calibration_report(
+            &case.calibration,
+            &case.recording,
+            &about("A long recording", "long.csv", case.recording.len()),
+        ),
+    )?;
+
+    write("study.html", study_report(&fakes::study(50), &about("Study of 50 sensors", "–", 0)))?;
+    write(
+        "study_large.html",
+        study_report(&fakes::study(100_000), &about("Study of 100 000 sensors", "–", 0)),
+    )
+}

@@ -1,0 +1,210 @@
+//! One pair of axes and what is drawn in it.
+
+/// How a series looks.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Mark {
+    /// A line; the dashes are SVG's, empty for solid.
+    Line { width: f64, dashes: &'static str },
+    /// Separate markers.
+    Dots { shape: Shape, radius: f64 },
+    /// The region within `spread` of the points.
+    Band,
+    /// The region between the points and zero.
+    Area,
+    /// A bar from `y − spread` to `y + spread` at each point.
+    ErrorBars,
+    /// A line from zero to each point.
+    Stems,
+}
+
+/// Shapes of markers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Shape {
+    Circle,
+    Square,
+    Triangle,
+    Cross,
+}
+
+/// Points that belong together.
+#[derive(Debug, Clone)]
+pub(super) struct Series {
+    /// As in the legend; empty for none.
+    pub(super) label: String,
+    pub(super) colour: &'static str,
+    pub(super) mark: Mark,
+    pub(super) points: Vec<(f64, f64)>,
+    /// Half widths of bands and error bars, one for each point.
+    pub(super) spread: Vec<f64>,
+}
+
+impl Series {
+    pub(super) fn new(label: &str, colour: &'static str, mark: Mark, points: Vec<(f64, f64)>) -> Self {
+        Self { label: label.to_string(), colour, mark, points, spread: Vec::new() }
+    }
+
+    pub(super) fn line(label: &str, colour: &'static str, points: Vec<(f64, f64)>) -> Self {
+        Self::new(label, colour, Mark::Line { width: 1.8, dashes: "" }, points)
+    }
+
+    pub(super) fn dashed(label: &str, colour: &'static str, points: Vec<(f64, f64)>) -> Self {
+        Self::new(label, colour, Mark::Line { width: 1.8, dashes: "6 4" }, points)
+    }
+
+    pub(super) fn dots(label: &str, colour: &'static str, shape: Shape, points: Vec<(f64, f64)>) -> Self {
+        Self::new(label, colour, Mark::Dots { shape, radius: 2.2 }, points)
+    }
+
+    pub(super) fn with_spread(mut self, spread: Vec<f64>) -> Self {
+        self.spread = spread;
+        self
+    }
+
+    /// Points and half widths that can be drawn: what is not finite is left out.
+    pub(super) fn finite(&self) -> impl Iterator<Item = (f64, f64, f64)> + '_ {
+        self.points.iter().enumerate().filter_map(|(i, &(x, y))| {
+            let spread = self.spread.get(i).copied().unwrap_or(0.0);
+            (x.is_finite() && y.is_finite() && spread.is_finite()).then_some((x, y, spread))
+        })
+    }
+
+    fn starts_at_zero(&self) -> bool {
+        matches!(self.mark, Mark::Area | Mark::Stems)
+    }
+}
+
+/// A stretch of the x axis that is shaded.
+#[derive(Debug, Clone)]
+pub(super) struct Shade {
+    /// As in the legend.
+    pub(super) label: &'static str,
+    pub(super) colour: &'static str,
+    pub(super) from: f64,
+    pub(super) to: f64,
+}
+
+/// One pair of axes.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Panel {
+    pub(super) title: String,
+    /// Label of the x axis with its unit.
+    pub(super) x_label: String,
+    /// Label of the y axis with its unit.
+    pub(super) y_label: String,
+    pub(super) series: Vec<Series>,
+    pub(super) shades: Vec<Shade>,
+    /// Values that the y axis must show.
+    pub(super) y_includes: Vec<f64>,
+    /// Distance between ticks of the x axis, where it is not left to the plotting library.
+    pub(super) x_step: Option<f64>,
+    /// Equal ranges of both axes in a square.
+    pub(super) square: bool,
+    /// What to say in place of a plot where there is nothing to show.
+    pub(super) when_empty: String,
+}
+
+impl Panel {
+    pub(super) fn new(
+        title: impl Into<String>,
+        x_label: impl Into<String>,
+        y_label: impl Into<String>,
+    ) -> Self {
+        Self {
+            title: title.into(),
+            x_label: x_label.into(),
+            y_label: y_label.into(),
+            when_empty: "nothing to show".to_string(),
+            ..Self::default()
+        }
+    }
+
+    pub(super) fn with(mut self, series: Series) -> Self {
+        self.series.push(series);
+        self
+    }
+
+    /// Ranges of the axes; `None` where nothing can be drawn.
+    pub(super) fn ranges(&self) -> Option<[(f64, f64); 2]> {
+        let mut x = Range::default();
+        let mut y = Range::default();
+        for series in &self.series {
+            for (px, py, spread) in series.finite() {
+                x.include(px);
+                y.include(py - spread);
+                y.include(py + spread);
+                if series.starts_at_zero() {
+                    y.include(0.0);
+                }
+            }
+        }
+        if x.is_empty() {
+            return None;
+        }
+        self.y_includes.iter().for_each(|&value| y.include(value));
+        if self.square {
+            let both = Range { low: x.low.min(y.low), high: x.high.max(y.high) }.padded(0.05);
+            return Some([both, both]);
+        }
+        let flush = self.series.iter().any(Series::starts_at_zero);
+        let (low, high) = y.padded(0.07);
+        let low = if flush && y.low >= 0.0 { 0.0 } else { low };
+        Some([x.padded(0.02), (low, high)])
+    }
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Range {
+    low: f64,
+    high: f64,
+}
+
+impl Default for Range {
+    fn default() -> Self {
+        Self { low: f64::INFINITY, high: f64::NEG_INFINITY }
+    }
+}
+
+impl Range {
+    fn include(&mut self, value: f64) {
+        if value.is_finite() {
+            self.low = self.low.min(value);
+            self.high = self.high.max(value);
+        }
+    }
+
+    fn is_empty(&self) -> bool {
+        self.low > self.high
+    }
+
+    /// The range with some room on both sides; never of zero width.
+    fn padded(&self, fraction: f64) -> (f64, f64) {
+        let width = self.high - self.low;
+        let smallest = 1e-9 * self.low.abs().max(self.high.abs());
+        if width > smallest {
+            (self.low - fraction * width, self.high + fraction * width)
+        } else {
+            let room = (0.1 * self.high.abs()).max(if self.high == 0.0 { 1.0 } else { 0.0 });
+            (self.low - room, self.high + room)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ranges_hold_all_points_and_are_never_empty_or_infinite() {
+        let points = vec![(0.0, 1.0), (1.0, f64::NAN), (2.0, 5.0)];
+        let panel = Panel::new("", "", "").with(Series::line("a", "#000000", points));
+        let [x, y] = panel.ranges().expect("two points");
+        assert!(x.0 <= 0.0 && x.1 >= 2.0 && y.0 < 1.0 && y.1 > 5.0);
+
+        for value in [0.0, 3.0, -3.0, 1e-12] {
+            let panel = Panel::new("", "", "").with(Series::line("a", "#000000", vec![(value, value)]));
+            let [x, y] = panel.ranges().expect("one point");
+            assert!(x.0 < value && value < x.1 && y.0 < value && value < y.1, "{value}: {x:?} {y:?}");
+        }
+        assert!(Panel::new("", "", "").ranges().is_none());
+    }
+}

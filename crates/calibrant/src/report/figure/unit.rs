@@ -1,0 +1,37 @@
+//! Units that keep the numbers on an axis readable.
+
+/// A unit for display: multiply by the factor.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(in crate::report) struct DisplayUnit {
+    /// Displayed number over number in the original unit.
+    pub(in crate::report) factor: f64,
+    /// Symbol; empty for a pure number.
+    pub(in crate::report) symbol: &'static str,
+}
+
+impl DisplayUnit {
+    /// A unit in which `largest`, given in `unit`, is neither tiny nor long: mm/s² and µm/s² for m/s², ppm for `1`.
+    pub(in crate::report) fn suited(unit: &'static str, largest: f64) -> Self {
+        let small = largest > 0.0 && largest < 0.03;
+        match unit {
+            "m/s²" if small && largest < 3e-5 => Self { factor: 1e6, symbol: "µm/s²" },
+            "m/s²" if small => Self { factor: 1e3, symbol: "mm/s²" },
+            "1" if small => Self { factor: 1e6, symbol: "ppm" },
+            "1" => Self { factor: 1.0, symbol: "" },
+            other => Self { factor: 1.0, symbol: other },
+        }
+    }
+
+    /// The same, suited to the largest magnitude of these values.
+    pub(in crate::report) fn suited_to(unit: &'static str, values: impl IntoIterator<Item = f64>) -> Self {
+        Self::suited(
+            unit,
+            values.into_iter().filter(|v| v.is_finite()).fold(0.0, |most, v| most.max(v.abs())),
+        )
+    }
+
+    /// A label with this unit: `residual (mm/s²)`.
+    pub(in crate::report) fn label(self, quantity: &str) -> String {
+        if self.symbol.is_empty() { quantity.to_string() } else { format!("{quantity} ({})", self.symbol) }
+    }
+}

@@ -1,0 +1,100 @@
+//! The page: escaped text, sections, and one file that needs nothing else.
+
+/// Text made safe for HTML, also within attributes.
+pub(super) fn escape(text: &str) -> String {
+    let mut safe = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => safe.push_str("&amp;"),
+            '<' => safe.push_str("&lt;"),
+            '>' => safe.push_str("&gt;"),
+            '"' => safe.push_str("&quot;"),
+            '\'' => safe.push_str("&#39;"),
+            c if c.is_control() && c != '\n' && c != '\t' => safe.push('\u{fffd}'),
+            c => safe.push(c),
+        }
+    }
+    safe
+}
+
+/// A page under construction: its pieces in order.
+#[derive(Debug, Default)]
+pub(super) struct Page {
+    body: String,
+    sections: usize,
+}
+
+impl Page {
+    /// Appends HTML that is already safe.
+    pub(super) fn push(&mut self, html: impl AsRef<str>) {
+        self.body.push_str(html.as_ref());
+        self.body.push('\n');
+    }
+
+    /// Starts a section: a numbered heading and one sentence on what it is for.
+    pub(super) fn section(&mut self, heading: &str, lead: &str) {
+        self.sections += 1;
+        self.push(format!("<h2><span class=\"number\">{}</span> {}</h2>", self.sections, escape(heading)));
+        if !lead.is_empty() {
+            self.paragraph(lead);
+        }
+    }
+
+    /// A heading within a section.
+    pub(super) fn subsection(&mut self, heading: &str) {
+        self.push(format!("<h3>{}</h3>", escape(heading)));
+    }
+
+    /// A paragraph of plain text.
+    pub(super) fn paragraph(&mut self, text: &str) {
+        self.push(format!("<p>{}</p>", escape(text)));
+    }
+
+    /// The whole file.
+    pub(super) fn finish(self, title: &str, footer: &[String]) -> String {
+        let footer: String = footer.iter().map(|line| format!("<p>{}</p>", escape(line))).collect();
+        format!(
+            "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+             <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+             <title>{}</title>\n<style>\n{}</style>\n</head>\n<body>\n<main>\n{}</main>\n<footer>{footer}</footer>\n</body>\n</html>\n",
+            escape(title),
+            include_str!("style.css"),
+            self.body
+        )
+    }
+}
+
+/// An unordered list of plain texts; nothing for none.
+pub(super) fn list(items: &[String]) -> String {
+    if items.is_empty() {
+        return String::new();
+    }
+    let items: String = items.iter().map(|item| format!("<li>{}</li>", escape(item))).collect();
+    format!("<ul>{items}</ul>")
+}
+
+/// Labels and values in two columns.
+pub(super) fn facts<'a>(facts: impl IntoIterator<Item = (&'a str, &'a str)>) -> String {
+    let rows: String = facts
+        .into_iter()
+        .map(|(label, value)| {
+            let class = if value.chars().count() > 40 { " class=\"long\"" } else { "" };
+            format!("<div{class}><dt>{}</dt><dd>{}</dd></div>", escape(label), escape(value))
+        })
+        .collect();
+    if rows.is_empty() { rows } else { format!("<dl class=\"facts\">{rows}</dl>") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn user_text_cannot_leave_its_place() {
+        assert_eq!(escape("a<b>&\"c\"'d'\u{0}"), "a&lt;b&gt;&amp;&quot;c&quot;&#39;d&#39;\u{fffd}");
+        let mut page = Page::default();
+        page.section("<script>", "1 < 2");
+        let html = page.finish("</title><b>", &["x & y".to_string()]);
+        assert!(!html.contains("<script") && !html.contains("</title><b>") && html.contains("x &amp; y"));
+    }
+}

@@ -1,0 +1,23 @@
+//! Results as pages to look at: the figures as data, then HTML; no mathematics.
+//!
+//! Each entry point returns one self-contained HTML file. A page is a list of pieces: a verdict, tables whose cells already have
+//! their digits ([`number`]), and figures, which are data ([`figure`]) until the page is written.
+
+mod about;
+mod calibration;
+mod figure;
+mod fit;
+mod holds;
+mod html;
+mod number;
+mod parameters;
+mod study;
+mod table;
+mod verdict;
+
+#[cfg(test)]
+mod tests;
+
+pub use about::About;
+pub use calibration::calibration_report;
+pub use study::study_report;

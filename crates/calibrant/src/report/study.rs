@@ -1,0 +1,173 @@
+//! The report on a population of sensors.
+
+use super::figure::{
+    DisplayUnit, acceleration_figure, motion_error_figure, p_values, parameter_errors,
+    parameters_against_truth, standardised_errors, state_and_jerk_figure,
+};
+use super::html::{Page, escape, facts};
+use super::parameters::parameter_table;
+use super::table::{Cell, Table};
+use super::{About, html, number};
+use crate::estimate::Recovered;
+use crate::study::{SingleCase, Study};
+
+/// A study as one HTML file: settings, summary over the population, and the report's Figures 4, 5 and 6.
+///
+/// Self-contained as [`calibration_report`](super::calibration_report) is; of a large population, the figures that show sensors one by one show
+/// an evenly spread part, and say so.
+#[must_use]
+pub fn study_report(study: &Study, about: &About) -> String {
+    let mut page = Page::default();
+    let title = if about.title.is_empty() { "Study" } else { &about.title };
+    page.push(format!("<h1>{}</h1>", escape(title)));
+    page.push(facts(about.facts.iter().map(|(label, value)| (label.as_str(), value.as_str()))));
+    page.push(verdict(study, about));
+
+    page.section("Settings", "");
+    page.push(settings(study));
+
+    page.section(
+        "Summary over the sensors",
+        "If the calibrations are honest, the realised error equals the stated standard deviation, the mean error is near zero, and \
+         95 % of the intervals hold the truth.",
+    );
+    page.push(summary_table(study));
+    page.push(parameters_against_truth(study).html());
+    page.push(parameter_errors(study).html());
+    for figure in [standardised_errors(study), p_values(study)].into_iter().flatten() {
+        page.push(figure.html());
+    }
+
+    page.section("One sensor in detail", &rates("The population's rate", &study.single));
+    single(&mut page, &study.single);
+    page.section("One sensor at the higher rate", &rates("Recorded faster", &study.fine));
+    fine(&mut page, &study.fine);
+    page.finish(title, &about.footer())
+}
+
+fn rates(what: &str, case: &SingleCase) -> String {
+    format!(
+        "{what}, {} Hz: {} samples, {} intervals.",
+        number::tick(case.recording.rate_hz()),
+        number::count(case.recording.len()),
+        case.true_motion.intervals()
+    )
+}
+
+fn single(page: &mut Page, case: &SingleCase) {
+    page.push(parameter_table(&case.calibration, Some(&case.truth)));
+    if let Recovered::Motion(recovered) = &case.calibration.recovered {
+        let title = "The report's Figure 4: actual, measured and estimated acceleration";
+        let truth = Some(&case.true_motion);
+        page.push(acceleration_figure(title, &case.calibration, recovered, &case.recording, truth).html());
+        if let Some(figure) = motion_error_figure(recovered, &case.recording, truth) {
+            page.push(figure.html());
+        }
+    }
+}
+
+fn fine(page: &mut Page, case: &SingleCase) {
+    page.push(parameter_table(&case.calibration, Some(&case.truth)));
+    if let Recovered::Motion(recovered) = &case.calibration.recovered {
+        let title = "The report's Figure 5: actual and estimated states and inputs";
+        page.push(state_and_jerk_figure(title, recovered, &case.recording, Some(&case.true_motion)).html());
+    }
+}
+
+fn verdict(study: &Study, about: &About) -> String {
+    let all = study.outcomes.len();
+    let converged = study.outcomes.iter().filter(|outcome| outcome.status == "converged").count();
+    let estimates = study.outcomes.len() * study.summary.len();
+    let coverage =
+        study.summary.iter().map(|entry| entry.coverage_95).sum::<f64>() / study.summary.len().max(1) as f64;
+    // estimates of one sensor are correlated, so the sensors alone count
+    let chance = 2.0 * (0.95 * 0.05 / all.max(1) as f64).sqrt();
+    let honest = (coverage - 0.95).abs() <= chance;
+    let good = honest && converged == all && all > 0;
+    let judged = if estimates == 0 {
+        "There is nothing to judge.".to_string()
+    } else if honest {
+        format!(
+            "95 % intervals hold the truth in {} of the cases, as they should.",
+            number::percent(coverage)
+        )
+    } else {
+        format!(
+            "95 % intervals hold the truth in {} of the cases, beyond what chance explains: the stated standard deviations are too {}.",
+            number::percent(coverage),
+            if coverage < 0.95 { "small" } else { "large" }
+        )
+    };
+    format!(
+        "<div class=\"verdict {}\"><p><span class=\"word\">{}</span> {} of {} calibrations converged. {}</p>{}</div>",
+        if good { "good" } else { "caution" },
+        if good { "✓ As stated." } else { "! Look closer." },
+        number::count(converged),
+        number::count(all),
+        escape(&judged),
+        html::list(&about.findings)
+    )
+}
+
+fn settings(study: &Study) -> String {
+    let sensor = &study.sensor;
+    let per_axis = |values: &nalgebra::Vector3<f64>| {
+        let mut texts: Vec<String> =
+            sensor.active_axes().iter().map(|axis| number::short(values[axis.index()])).collect();
+        texts.dedup();
+        texts.join(", ")
+    };
+    let unknown = || number::UNKNOWN.to_string();
+    let mut table = Table::new("", &["setting", "value"]);
+    let mut row =
+        |name: &str, value: String| table.row(vec![Cell::Name(name.to_string()), Cell::Text(value)]);
+    row("sensors", number::count(study.outcomes.len()));
+    row("axes", sensor.axes.to_string());
+    row("unit of the readings", sensor.unit.symbol().to_string());
+    let noise = sensor.noise_counts.as_ref().map(|n| format!("{} counts", per_axis(n)));
+    let noise = noise.or_else(|| sensor.noise_mps2.as_ref().map(|n| format!("{} m/s²", per_axis(n))));
+    row("noise of one sample, sd", noise.unwrap_or_else(unknown));
+    row(
+        "bias, sd over the population",
+        sensor.bias_sd_mps2.as_ref().map_or_else(unknown, |sd| format!("{} m/s²", per_axis(sd))),
+    );
+    row("scale factor, sd over the population", sensor.scale_sd.as_ref().map_or_else(unknown, per_axis));
+    row("trust in the motion", study.trust.to_string());
+    let intervals = study.motion.intervals();
+    let duration = study.motion.times_s()[intervals] - study.motion.times_s()[0];
+    row("motion", format!("{intervals} intervals in {} s", number::tick(duration)));
+    row("sample rate", format!("{} Hz", number::tick(study.rate_hz)));
+    row("seed", study.seed.to_string());
+    table.html()
+}
+
+fn summary_table(study: &Study) -> String {
+    let columns = [
+        "parameter",
+        "unit",
+        "sd as stated",
+        "realised error, rms",
+        "realised / stated",
+        "mean error",
+        "coverage of 95 % intervals",
+    ];
+    let mut table = Table::new("", &columns);
+    for entry in &study.summary {
+        let unit = DisplayUnit::suited(entry.unit, entry.predicted_sd.max(entry.realised_rms));
+        let shown = |value: f64| Cell::Number(number::significant(value * unit.factor, 3));
+        table.row(vec![
+            Cell::Name(entry.name.clone()),
+            Cell::Text(if unit.symbol.is_empty() {
+                number::UNKNOWN.to_string()
+            } else {
+                unit.symbol.to_string()
+            }),
+            shown(entry.predicted_sd),
+            shown(entry.realised_rms),
+            Cell::Number(number::fixed(entry.realised_rms / entry.predicted_sd, 2)),
+            shown(entry.mean_error),
+            Cell::Number(number::percent(entry.coverage_95)),
+        ]);
+    }
+    table.html()
+}

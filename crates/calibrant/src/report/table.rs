@@ -1,0 +1,90 @@
+//! Tables: a header, rows of cells, numbers to the right.
+
+use super::html::escape;
+
+/// One cell of a table.
+#[derive(Debug, Clone)]
+pub(super) enum Cell {
+    /// The name of the row.
+    Name(String),
+    /// A number, or what stands for one: right-aligned, never broken.
+    Number(String),
+    /// A short text.
+    Text(String),
+    /// A longer text that explains.
+    Words(String),
+    /// A short text that should be noticed.
+    Mark(String),
+}
+
+/// A table under construction.
+#[derive(Debug, Default)]
+pub(super) struct Table {
+    caption: String,
+    columns: Vec<String>,
+    rows: Vec<(bool, Vec<Cell>)>,
+}
+
+impl Table {
+    /// A table of these columns.
+    pub(super) fn new(caption: &str, columns: &[&str]) -> Self {
+        let columns = columns.iter().map(ToString::to_string).collect();
+        Self { caption: caption.to_string(), columns, rows: Vec::new() }
+    }
+
+    /// Appends a row.
+    pub(super) fn row(&mut self, cells: Vec<Cell>) {
+        self.rows.push((false, cells));
+    }
+
+    /// Appends a row that was left out of the computation.
+    pub(super) fn row_left_out(&mut self, cells: Vec<Cell>) {
+        self.rows.push((true, cells));
+    }
+
+    /// The table as HTML; it scrolls sideways by itself where the page is too narrow.
+    pub(super) fn html(&self) -> String {
+        let numeric = |column: usize| {
+            self.rows.iter().any(|(_, cells)| matches!(cells.get(column), Some(Cell::Number(_))))
+        };
+        let head: String = self
+            .columns
+            .iter()
+            .enumerate()
+            .map(|(i, name)| {
+                let class = if numeric(i) { " class=\"n\"" } else { "" };
+                format!("<th scope=\"col\"{class}>{}</th>", escape(name))
+            })
+            .collect();
+        let mut body = String::new();
+        for (left_out, cells) in &self.rows {
+            body.push_str(if *left_out { "<tr class=\"out\">" } else { "<tr>" });
+            for cell in cells {
+                body.push_str(&cell.html());
+            }
+            body.push_str("</tr>\n");
+        }
+        let caption = match self.caption.as_str() {
+            "" => String::new(),
+            text => format!("<caption>{}</caption>", escape(text)),
+        };
+        let explains =
+            self.rows.iter().flat_map(|(_, cells)| cells).any(|cell| matches!(cell, Cell::Words(_)));
+        let class = if explains { " class=\"explained\"" } else { "" };
+        format!(
+            "<div class=\"scroll\"><table{class}>{caption}<thead><tr>{head}</tr></thead>\n<tbody>\n{body}</tbody></table></div>"
+        )
+    }
+}
+
+impl Cell {
+    fn html(&self) -> String {
+        match self {
+            Self::Name(text) => format!("<th scope=\"row\">{}</th>", escape(text)),
+            Self::Number(text) => format!("<td class=\"n\">{}</td>", escape(text)),
+            Self::Text(text) => format!("<td>{}</td>", escape(text)),
+            Self::Words(text) => format!("<td class=\"words\">{}</td>", escape(text)),
+            Self::Mark(text) => format!("<td class=\"mark\">{}</td>", escape(text)),
+        }
+    }
+}
