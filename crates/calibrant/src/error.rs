@@ -200,7 +200,4 @@ impl Error {
         Self::Recording(Box::new(complaint))
     }
 
-    pub(crate) fn undetermined(group: UndeterminedGroup) -> Self {
-        Self::NotIdentifiable(Box::new(NotIdentifiable { groups: vec![group] }))
-    }
 }
