@@ -9,7 +9,7 @@ mod figure;
 mod fit;
 mod holds;
 mod html;
-mod number;
+pub mod number;
 mod parameters;
 mod study;
 mod table;

@@ -6,7 +6,7 @@ const MINUS: char = '−';
 /// `value ± sd`, both rounded to two significant digits of `sd`: `0.08312 ± 0.00021`.
 ///
 /// A common power of ten is taken out where both are small: `(1.2 ± 0.3) × 10⁻⁵`.
-pub(super) fn with_sd(value: f64, sd: f64) -> String {
+pub fn with_sd(value: f64, sd: f64) -> String {
     if !value.is_finite() {
         return UNKNOWN.to_string();
     }
@@ -32,7 +32,7 @@ pub(super) fn with_sd(value: f64, sd: f64) -> String {
 }
 
 /// The value rounded to two significant digits of its standard deviation, without it.
-pub(super) fn rounded_to(value: f64, sd: f64) -> String {
+pub fn rounded_to(value: f64, sd: f64) -> String {
     if sd.is_finite() && sd > 0.0 { fixed(value, decimals_for(sd, 2)) } else { significant(value, 6) }
 }
 
@@ -45,7 +45,7 @@ pub(super) fn uncertainty(sd: f64) -> String {
 pub(super) const UNKNOWN: &str = "–";
 
 /// A number to this many significant digits; powers of ten for the very small and the very large.
-pub(super) fn significant(value: f64, digits: usize) -> String {
+pub fn significant(value: f64, digits: usize) -> String {
     if !value.is_finite() {
         return UNKNOWN.to_string();
     }
@@ -74,7 +74,7 @@ pub(super) fn tick(value: f64) -> String {
 }
 
 /// A probability: two digits, never `0`.
-pub(super) fn probability(p: f64) -> String {
+pub fn probability(p: f64) -> String {
     if !p.is_finite() {
         UNKNOWN.to_string()
     } else if p < 1e-4 {
@@ -99,7 +99,7 @@ pub(super) fn percent(fraction: f64) -> String {
 }
 
 /// A whole number with thin spaces between thousands.
-pub(super) fn count(n: usize) -> String {
+pub fn count(n: usize) -> String {
     let digits = n.to_string();
     if digits.len() <= 4 {
         return digits;
