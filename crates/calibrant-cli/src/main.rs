@@ -1,2 +1,75 @@
-//! The command line of calibrant.
-fn main() {}
+//! The command line of calibrant: parse, call, print. One file per command.
+
+mod calibrate;
+mod console;
+mod init;
+mod simulate;
+mod study;
+
+use calibrant::Error;
+use clap::{Parser, Subcommand};
+use std::process::ExitCode;
+
+/// Calibrate inertial sensors: parameters with an honest covariance, from a recording.
+///
+/// Exit status: 0 done; 2 bad usage or experiment file, or a result that cannot be written; 3 bad recording; 4 the data cannot determine the
+/// parameters.
+#[derive(Parser)]
+#[command(name = "calibrant", version, about, long_about, arg_required_else_help = true)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+    /// Number of threads (default: all cores). Results do not depend on it.
+    #[arg(long, global = true, value_parser = clap::value_parser!(u16).range(1..))]
+    threads: Option<u16>,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    Init(init::Arguments),
+    Simulate(simulate::Arguments),
+    Calibrate(calibrate::Arguments),
+    Study(study::Arguments),
+}
+
+/// How a command ended: the exit status.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Exit(u8);
+
+impl Exit {
+    const DONE: Exit = Exit(0);
+    const USAGE: Exit = Exit(2);
+    const RECORDING: Exit = Exit(3);
+    const NOT_IDENTIFIABLE: Exit = Exit(4);
+
+    /// The exit status of an error.
+    fn of(error: &Error) -> Exit {
+        if error.is_not_identifiable() {
+            Exit::NOT_IDENTIFIABLE
+        } else if error.is_invalid_recording() {
+            Exit::RECORDING
+        } else {
+            Exit::USAGE
+        }
+    }
+}
+
+fn main() -> ExitCode {
+    let cli = Cli::parse();
+    if let Some(threads) = cli.threads
+        && let Err(error) = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global()
+    {
+        console::note(&format!("cannot set the number of threads: {error}"));
+    }
+    let outcome = match cli.command {
+        Command::Init(arguments) => init::run(&arguments),
+        Command::Simulate(arguments) => simulate::run(&arguments),
+        Command::Calibrate(arguments) => calibrate::run(&arguments),
+        Command::Study(arguments) => study::run(&arguments),
+    };
+    let exit = outcome.unwrap_or_else(|error| {
+        console::error(&error);
+        Exit::of(&error)
+    });
+    ExitCode::from(exit.0)
+}

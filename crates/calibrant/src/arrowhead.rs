@@ -67,11 +67,7 @@ impl<const D: usize> Increment<D> {
     /// Nothing is known of the increment.
     #[must_use]
     pub fn unknown() -> Self {
-        Self {
-            variance: SVector::repeat(f64::INFINITY),
-            residual: SVector::zeros(),
-            fixed: [false; D],
-        }
+        Self { variance: SVector::repeat(f64::INFINITY), residual: SVector::zeros(), fixed: [false; D] }
     }
 }
 
@@ -182,7 +178,8 @@ impl<const D: usize, const P: usize> Arrowhead<D, P> {
             let cross = here.h01 * tm;
             g = g0 + t.component_mul(&g) - to_node.tr_mul(&k0) + pull_rhs;
             b = node_border - to_node.tr_mul(&kp);
-            h = here.h00 + cross + cross.transpose() + th * tm - to_node.tr_mul(&ka) + SMatrix::from_diagonal(&pull);
+            h = here.h00 + cross + cross.transpose() + th * tm - to_node.tr_mul(&ka)
+                + SMatrix::from_diagonal(&pull);
             h = (h + h.transpose()) * 0.5;
             unreduced = here.h00.diagonal() + t.component_mul(&unreduced) + pull;
             gains.push(Gain { t, l, rho, k0, ka, kp, covariance, weighed });
@@ -248,7 +245,8 @@ impl<const D: usize, const P: usize> Arrowhead<D, P> {
             let next_border = tm * node_border + lm * w_border;
             let next = next_node * tm + tm * w_node.transpose() * lm + lm * w_w * lm;
             let next = (next + next.transpose()) * 0.5;
-            let increment_information = (0..D).filter(|&axis| gain.weighed[axis]).map(|axis| w_w[(axis, axis)]).sum();
+            let increment_information =
+                (0..D).filter(|&axis| gain.weighed[axis]).map(|axis| w_w[(axis, axis)]).sum();
             visit(
                 i,
                 &IntervalCovariance {
@@ -380,7 +378,8 @@ mod tests {
     }
 
     fn compare(increment: impl Fn(usize) -> Increment<2> + Copy, tolerance: f64) {
-        let arrowhead = Arrowhead::eliminate(N, link, increment, Matrix3::zeros(), SVector::zeros()).expect("regular");
+        let arrowhead =
+            Arrowhead::eliminate(N, link, increment, Matrix3::zeros(), SVector::zeros()).expect("regular");
         let (mut h, mut g) = dense(increment);
         // known nodes are struck out
         let mut fixed = vec![];
@@ -454,7 +453,8 @@ mod tests {
         let at = |q: f64| {
             let increment =
                 |i| Increment { variance: Vector2::repeat(q), residual: residual(i), fixed: [false; 2] };
-            let system = Arrowhead::eliminate(N, link, increment, Matrix3::zeros(), SVector::zeros()).expect("regular");
+            let system = Arrowhead::eliminate(N, link, increment, Matrix3::zeros(), SVector::zeros())
+                .expect("regular");
             (system.information, system.rhs)
         };
         let (exact, exact_rhs) = at(0.0);

@@ -199,5 +199,4 @@ impl Error {
     pub(crate) fn recording(complaint: Complaint) -> Self {
         Self::Recording(Box::new(complaint))
     }
-
 }

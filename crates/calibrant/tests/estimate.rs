@@ -2,10 +2,14 @@
 
 mod common;
 
-use calibrant::estimate::{CalibrationProblem, CalibrationSettings, CalibrationStatus, Recovered, Stimulus, calibrate};
+use calibrant::estimate::{
+    CalibrationProblem, CalibrationSettings, CalibrationStatus, Recovered, Stimulus, calibrate,
+};
 use calibrant::motion::{CommandedMotion, InputNoise, JerkControlledMotion, KnownEnds, Limits, Trust};
 use calibrant::sensor::{Recording, Sensor, SensorModel, SensorParameters};
-use calibrant::simulate::{Purpose, draw_sensor, initial_motion, perturb, sample_times, simulate_recording, stream};
+use calibrant::simulate::{
+    Purpose, draw_sensor, initial_motion, perturb, sample_times, simulate_recording, stream,
+};
 use common::Case;
 use nalgebra::{DMatrix, DVector, Vector3};
 
@@ -79,8 +83,12 @@ fn unknown_motion_equals_the_closed_form() {
                 assert!((a[axis] - (z[i] - b) / k).abs() < 1e-9 * 30.0, "node {i}");
             }
             let span = a[last][axis] - a[0][axis];
-            let variance = (normal[(0, 0)] + normal[(last, last)] - 2.0 * normal[(0, last)]) * (2e-4 / span).powi(2);
-            assert!((calibration.covariance[(3 + axis, 3 + axis)] / variance - 1.0).abs() < 1e-9, "variance of K");
+            let variance =
+                (normal[(0, 0)] + normal[(last, last)] - 2.0 * normal[(0, last)]) * (2e-4 / span).powi(2);
+            assert!(
+                (calibration.covariance[(3 + axis, 3 + axis)] / variance - 1.0).abs() < 1e-9,
+                "variance of K"
+            );
         }
     }
 }
@@ -91,7 +99,8 @@ fn noisy_tends_to_known_as_the_noise_vanishes() {
         let case = Case::new(model, Trust::Known, 14, 5.0, 2.0, 5);
         let known = case.calibrate().expect("identifiable");
         for (floor, tolerance) in [(1e-8, 1e-3), (1e-12, 1e-7), (0.0, 1e-9)] {
-            let noisy = case.with_trust(Trust::Noisy(InputNoise { floor_mps3: floor, ratio: 0.0 }), KnownEnds::Start);
+            let noisy =
+                case.with_trust(Trust::Noisy(InputNoise { floor_mps3: floor, ratio: 0.0 }), KnownEnds::Start);
             let noisy = noisy.calibrate().expect("identifiable");
             assert_eq!(noisy.status, CalibrationStatus::Converged);
             assert!(in_sd(&noisy.values, &known.values, &known.sd()) < tolerance, "{model:?} {floor}");
@@ -106,7 +115,8 @@ fn noisy_with_both_ends_tends_to_unknown_as_the_noise_grows() {
     let case = Case::new(SensorModel::ScaleBias, Trust::Unknown, 14, 5.0, 2.0, 5);
     let unknown = case.calibrate().expect("identifiable");
     for (floor, tolerance) in [(1e2, 1e-2), (1e5, 1e-6), (1e12, 1e-6)] {
-        let noisy = case.with_trust(Trust::Noisy(InputNoise { floor_mps3: floor, ratio: 0.0 }), KnownEnds::Both);
+        let noisy =
+            case.with_trust(Trust::Noisy(InputNoise { floor_mps3: floor, ratio: 0.0 }), KnownEnds::Both);
         let noisy = noisy.calibrate().expect("identifiable");
         assert_eq!(noisy.status, CalibrationStatus::Converged);
         let difference = in_sd(&noisy.values, &unknown.values, &unknown.sd());
@@ -129,11 +139,22 @@ fn an_increment_without_noise_is_a_constraint() {
             let happened = perturb(&motion, &noise, 3, &mut rng).expect("valid");
             let sensor = Sensor { model, ..Sensor::memsic_mxd2020u() };
             let times = sample_times(&motion, 20.0);
-            let recording =
-                simulate_recording(&truth, &Vector3::repeat(2e-4), sensor.unit, 3, &happened, &times, &mut rng);
-            let command = CommandedMotion { motion: motion.clone(), trust: Trust::Noisy(noise), known_ends: ends };
-            let problem =
-                CalibrationProblem { sensor: &sensor, recording: &recording, stimulus: Stimulus::Motion(&command) };
+            let recording = simulate_recording(
+                &truth,
+                &Vector3::repeat(2e-4),
+                sensor.unit,
+                3,
+                &happened,
+                &times,
+                &mut rng,
+            );
+            let command =
+                CommandedMotion { motion: motion.clone(), trust: Trust::Noisy(noise), known_ends: ends };
+            let problem = CalibrationProblem {
+                sensor: &sensor,
+                recording: &recording,
+                stimulus: Stimulus::Motion(&command),
+            };
             let result = calibrate(&problem, &CalibrationSettings::default());
             if model == SensorModel::Full {
                 // x, y and z are proportional here
@@ -153,11 +174,16 @@ fn an_increment_without_noise_is_a_constraint() {
 
 #[test]
 fn a_still_axis_is_named() {
-    let mut nodes: Vec<_> = (0..11).map(|i| Vector3::new((i as f64).sin() * 9.0, 2.0, (i as f64).cos() * 9.0)).collect();
+    let mut nodes: Vec<_> =
+        (0..11).map(|i| Vector3::new((i as f64).sin() * 9.0, 2.0, (i as f64).cos() * 9.0)).collect();
     nodes[10].x = 3.0;
     let motion = JerkControlledMotion::uniform(1.0, nodes).expect("valid");
     for (model, trust, expected) in [
-        (SensorModel::ScaleBias, Trust::Known, "bias.y and scale.y cannot be told apart: axis y does not move"),
+        (
+            SensorModel::ScaleBias,
+            Trust::Known,
+            "bias.y and scale.y cannot be told apart: axis y does not move",
+        ),
         (
             SensorModel::ScaleBias,
             Trust::Noisy(InputNoise { floor_mps3: 0.01, ratio: 0.01 }),
@@ -176,8 +202,15 @@ fn a_still_axis_is_named() {
 
 #[test]
 fn a_prior_determines_what_the_data_do_not() {
-    let nodes: Vec<_> = (0..11).map(|i| Vector3::new((i as f64).sin() * 9.0, 2.0, (i as f64).cos() * 9.0)).collect();
-    let case = Case::with_motion(SensorModel::ScaleBias, Trust::Known, JerkControlledMotion::uniform(1.0, nodes).expect("valid"), 10.0, 1);
+    let nodes: Vec<_> =
+        (0..11).map(|i| Vector3::new((i as f64).sin() * 9.0, 2.0, (i as f64).cos() * 9.0)).collect();
+    let case = Case::with_motion(
+        SensorModel::ScaleBias,
+        Trust::Known,
+        JerkControlledMotion::uniform(1.0, nodes).expect("valid"),
+        10.0,
+        1,
+    );
     let settings = CalibrationSettings { datasheet_prior: true, ..CalibrationSettings::default() };
     let calibration = calibrate(&case.problem(), &settings).expect("the prior helps");
     // the data fix b + 2 K, so along b = −2 K only the prior speaks: 1/var(K) = 1/0.005² + 2²/0.1²
@@ -187,7 +220,14 @@ fn a_prior_determines_what_the_data_do_not() {
 
 #[test]
 fn counts_and_si_give_the_same_sensor() {
-    let case = Case::new(SensorModel::ScaleBias, Trust::Noisy(InputNoise { floor_mps3: 0.01, ratio: 0.01 }), 10, 1.0, 10.0, 2);
+    let case = Case::new(
+        SensorModel::ScaleBias,
+        Trust::Noisy(InputNoise { floor_mps3: 0.01, ratio: 0.01 }),
+        10,
+        1.0,
+        10.0,
+        2,
+    );
     let si = case.calibrate().expect("identifiable");
     let (gain, offset) = (415.0, 33_000.0);
     for known_gain in [true, false] {
@@ -212,7 +252,8 @@ fn counts_and_si_give_the_same_sensor() {
 #[test]
 fn gaps_are_named_where_nothing_is_known_of_the_motion() {
     let mut case = Case::new(SensorModel::ScaleBias, Trust::Unknown, 14, 5.0, 2.0, 11);
-    let keep: Vec<usize> = (0..case.recording.len()).filter(|&k| !(18.0..33.0).contains(&case.recording.times_s[k])).collect();
+    let keep: Vec<usize> =
+        (0..case.recording.len()).filter(|&k| !(18.0..33.0).contains(&case.recording.times_s[k])).collect();
     case.recording.times_s = keep.iter().map(|&k| case.recording.times_s[k]).collect();
     case.recording.readings = keep.iter().map(|&k| case.recording.readings[k]).collect();
     let error = case.calibrate().expect_err("the motion from 20 to 30 s is free");
@@ -225,7 +266,9 @@ fn limits_and_population_are_reproducible() {
     let draw = |index| draw_sensor(&Sensor::memsic_mxd2020u(), &mut stream(3, Purpose::Sensor, index));
     assert_eq!(draw(5), draw(5));
     assert_ne!(draw(5), draw(6));
-    let motion = |seed| initial_motion(10, 1.0, 3, &Limits::default(), &mut stream(seed, Purpose::Motion, 0)).expect("valid");
+    let motion = |seed| {
+        initial_motion(10, 1.0, 3, &Limits::default(), &mut stream(seed, Purpose::Motion, 0)).expect("valid")
+    };
     assert_eq!(motion(1), motion(1));
     assert_ne!(motion(1), motion(2));
 }

@@ -49,10 +49,19 @@ impl CalibrationProblem<'_> {
         if recording.len() < 2 || recording.readings.len() != recording.len() {
             return complain(format!("the recording has {} samples", recording.len()), "record at least two");
         }
-        if let Some(k) = recording.times_s.windows(2).position(|pair| pair[1] <= pair[0] || !(pair[1] - pair[0]).is_finite()) {
-            return complain(format!("time does not increase after sample {k}"), "sort the samples, remove duplicates");
+        if let Some(k) = recording
+            .times_s
+            .windows(2)
+            .position(|pair| pair[1] <= pair[0] || !(pair[1] - pair[0]).is_finite())
+        {
+            return complain(
+                format!("time does not increase after sample {k}"),
+                "sort the samples, remove duplicates",
+            );
         }
-        if let Some(k) = recording.readings.iter().position(|y| y.iter().any(|y| !y.is_finite() || y.abs() > 1e12)) {
+        if let Some(k) =
+            recording.readings.iter().position(|y| y.iter().any(|y| !y.is_finite() || y.abs() > 1e12))
+        {
             return complain(
                 format!("sample {k} is not a usable reading: {:?}", recording.readings[k].as_slice()),
                 "remove it",

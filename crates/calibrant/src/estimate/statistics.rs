@@ -25,7 +25,8 @@ pub(crate) fn ljung_box(residuals: impl Iterator<Item = f64> + Clone) -> Option<
         * (n as f64 + 2.0)
         * (1..=lags)
             .map(|lag| {
-                let product: f64 = residuals.clone().zip(residuals.clone().skip(lag)).map(|(r, s)| r * s).sum();
+                let product: f64 =
+                    residuals.clone().zip(residuals.clone().skip(lag)).map(|(r, s)| r * s).sum();
                 (product / squares).powi(2) / (n - lag) as f64
             })
             .sum::<f64>();

@@ -66,7 +66,10 @@ pub fn undetermined(information: &DMatrix<f64>, reference: &DVector<f64>) -> Vec
             let member = members[next];
             next += 1;
             for other in 0..size {
-                if !placed[other] && projector[(other, other)] > INVOLVED && projector[(member, other)].abs() > INVOLVED {
+                if !placed[other]
+                    && projector[(other, other)] > INVOLVED
+                    && projector[(member, other)].abs() > INVOLVED
+                {
                     placed[other] = true;
                     members.push(other);
                 }
@@ -103,6 +106,9 @@ mod tests {
     #[test]
     fn a_parameter_without_any_information_stands_alone() {
         let f = DMatrix::from_diagonal(&DVector::from_vec(vec![1.0, 0.0]));
-        assert_eq!(undetermined(&f, &f.diagonal()), [Undetermined { parameters: vec![1], free_combinations: 1 }]);
+        assert_eq!(
+            undetermined(&f, &f.diagonal()),
+            [Undetermined { parameters: vec![1], free_combinations: 1 }]
+        );
     }
 }

@@ -31,6 +31,11 @@ pub fn with_sd(value: f64, sd: f64) -> String {
     format!("{} ± {}", rounded_to(value, sd), uncertainty(sd))
 }
 
+/// As [`with_sd`]; a value of no uncertainty stands alone.
+pub fn with_sd_or_exact(value: f64, sd: f64) -> String {
+    if sd > 0.0 { with_sd(value, sd) } else { significant(value, 8) }
+}
+
 /// The value rounded to two significant digits of its standard deviation, without it.
 pub fn rounded_to(value: f64, sd: f64) -> String {
     if sd.is_finite() && sd > 0.0 { fixed(value, decimals_for(sd, 2)) } else { significant(value, 6) }

@@ -32,7 +32,8 @@ pub fn simulate_holds(
     rng: &mut Rng,
 ) -> (Recording, Vec<Vector3<f64>>) {
     let mut normal = || -> f64 { StandardNormal.sample(rng) };
-    let frame = UnitQuaternion::from_quaternion(nalgebra::Quaternion::new(normal(), normal(), normal(), normal()));
+    let frame =
+        UnitQuaternion::from_quaternion(nalgebra::Quaternion::new(normal(), normal(), normal(), normal()));
     let golden = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
     let directions: Vec<Vector3<f64>> = (0..setup.poses)
         .map(|j| {
@@ -56,7 +57,10 @@ pub fn simulate_holds(
         }
         if let Some(next) = forces.get(j + 1) {
             let turn = UnitQuaternion::rotation_between(force, next).unwrap_or_else(|| {
-                UnitQuaternion::from_axis_angle(&nalgebra::Unit::new_normalize(perpendicular(force)), std::f64::consts::PI)
+                UnitQuaternion::from_axis_angle(
+                    &nalgebra::Unit::new_normalize(perpendicular(force)),
+                    std::f64::consts::PI,
+                )
             });
             let steps = samples(setup.turn_s);
             for step in 0..steps {

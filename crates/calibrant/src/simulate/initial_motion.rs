@@ -38,7 +38,8 @@ pub fn initial_motion(
         nodes.push(a);
     }
     if limits.rest == Rest::Both {
-        let mean = (nodes.iter().sum::<Vector3<f64>>() - (nodes[0] + nodes[intervals]) * 0.5) / intervals as f64;
+        let mean =
+            (nodes.iter().sum::<Vector3<f64>>() - (nodes[0] + nodes[intervals]) * 0.5) / intervals as f64;
         nodes.iter_mut().for_each(|node| *node -= mean);
     }
     let raw = JerkControlledMotion::uniform(interval_s, nodes)?;
@@ -90,7 +91,8 @@ mod tests {
             rest: Rest::Both,
         };
         for index in 0..50 {
-            let motion = initial_motion(10, 1.0, 3, &limits, &mut stream(7, Purpose::Motion, index)).expect("valid");
+            let motion =
+                initial_motion(10, 1.0, 3, &limits, &mut stream(7, Purpose::Motion, index)).expect("valid");
             assert!(motion.velocity_mps()[10].amax() < 1e-12, "at rest at the end");
             let (mut v, mut d) = (Vector3::zeros(), Vector3::zeros());
             let dt = 1e-3;

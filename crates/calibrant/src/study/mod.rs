@@ -86,7 +86,12 @@ pub fn run_study(
 }
 
 /// Draws sensor `index`, moves it, records it, calibrates it.
-fn simulate_case(problem: &StudyProblem<'_>, settings: &StudySettings, rate_hz: f64, index: u64) -> Result<SingleCase> {
+fn simulate_case(
+    problem: &StudyProblem<'_>,
+    settings: &StudySettings,
+    rate_hz: f64,
+    index: u64,
+) -> Result<SingleCase> {
     let sensor = problem.sensor;
     let mut rng = stream(settings.seed, Purpose::Sensor, index);
     let truth = draw_sensor(sensor, &mut rng);
@@ -97,7 +102,8 @@ fn simulate_case(problem: &StudyProblem<'_>, settings: &StudySettings, rate_hz: 
     };
     let noise = sensor.noise(&truth.matrix.diagonal()).unwrap_or_else(Vector3::zeros);
     let times = sample_times(&command.motion, rate_hz);
-    let recording = simulate_recording(&truth, &noise, sensor.unit, sensor.axes, &true_motion, &times, &mut rng);
+    let recording =
+        simulate_recording(&truth, &noise, sensor.unit, sensor.axes, &true_motion, &times, &mut rng);
     let problem = CalibrationProblem { sensor, recording: &recording, stimulus: Stimulus::Motion(command) };
     let calibration = calibrate(&problem, &settings.calibration)?;
     Ok(SingleCase { truth, true_motion, recording, calibration })
@@ -107,7 +113,8 @@ fn simulate_case(problem: &StudyProblem<'_>, settings: &StudySettings, rate_hz: 
 const NORMAL_95: f64 = 1.959_963_984_540_054;
 
 fn summarise(calibration: &Calibration, outcomes: &[SensorOutcome]) -> Vec<ParameterSummary> {
-    let mean = |f: &dyn Fn(&SensorOutcome) -> f64| outcomes.iter().map(f).sum::<f64>() / outcomes.len() as f64;
+    let mean =
+        |f: &dyn Fn(&SensorOutcome) -> f64| outcomes.iter().map(f).sum::<f64>() / outcomes.len() as f64;
     calibration
         .parameters
         .iter()

@@ -4,7 +4,9 @@
 use calibrant::estimate::{Calibration, CalibrationProblem, CalibrationSettings, Stimulus, calibrate};
 use calibrant::motion::{CommandedMotion, JerkControlledMotion, KnownEnds, Limits, Trust};
 use calibrant::sensor::{Recording, Sensor, SensorModel, SensorParameters};
-use calibrant::simulate::{Purpose, draw_sensor, initial_motion, perturb, sample_times, simulate_recording, stream};
+use calibrant::simulate::{
+    Purpose, draw_sensor, initial_motion, perturb, sample_times, simulate_recording, stream,
+};
 
 /// A simulated sensor on a random motion.
 #[derive(Clone)]
@@ -16,13 +18,26 @@ pub struct Case {
 }
 
 impl Case {
-    pub fn new(model: SensorModel, trust: Trust, intervals: usize, interval_s: f64, rate_hz: f64, seed: u64) -> Self {
+    pub fn new(
+        model: SensorModel,
+        trust: Trust,
+        intervals: usize,
+        interval_s: f64,
+        rate_hz: f64,
+        seed: u64,
+    ) -> Self {
         let mut rng = stream(seed, Purpose::Motion, 0);
         let motion = initial_motion(intervals, interval_s, 3, &Limits::default(), &mut rng).expect("valid");
         Self::with_motion(model, trust, motion, rate_hz, seed)
     }
 
-    pub fn with_motion(model: SensorModel, trust: Trust, motion: JerkControlledMotion, rate_hz: f64, seed: u64) -> Self {
+    pub fn with_motion(
+        model: SensorModel,
+        trust: Trust,
+        motion: JerkControlledMotion,
+        rate_hz: f64,
+        seed: u64,
+    ) -> Self {
         let mut sensor = Sensor::memsic_mxd2020u();
         sensor.model = model;
         sensor.cross_axis_sd = Some(0.01);

@@ -160,7 +160,8 @@ fn steady(recording: &Recording, first: usize, end: usize, window: usize) -> Opt
     let calm = |block: &&Hold| (block.mean - center).norm() <= limit.max(1e-9 * center.norm());
     let from = blocks.iter().find(calm)?.first;
     let to = blocks.iter().rev().find(calm)?.end;
-    let restless = blocks.iter().filter(|block| block.first >= from && block.end <= to && !calm(block)).count();
+    let restless =
+        blocks.iter().filter(|block| block.first >= from && block.end <= to && !calm(block)).count();
     if restless * 10 > blocks.len() {
         return None;
     }

@@ -72,7 +72,8 @@ impl<const P: usize> Directions<'_, P> {
 
     /// Derivative of the reading with respect to the parameters, 3 × P.
     pub(super) fn sensitivity(&self, force: &Vector3<f64>) -> SMatrix<f64, 3, P> {
-        let columns: Vec<_> = self.list.quantities().iter().map(|quantity| quantity.derivative(force)).collect();
+        let columns: Vec<_> =
+            self.list.quantities().iter().map(|quantity| quantity.derivative(force)).collect();
         SMatrix::from_fn(|row, column| columns[column][row])
     }
 
@@ -108,7 +109,8 @@ impl<const P: usize> Directions<'_, P> {
             }
         };
         // a hold with weight zero has no direction of its own: it is not in `holds`
-        let system = Arrowhead::eliminate(self.holds.len(), link, |_| Increment::unknown(), border, rhs).ok()?;
+        let system =
+            Arrowhead::eliminate(self.holds.len(), link, |_| Increment::unknown(), border, rhs).ok()?;
         Some((system, unreduced))
     }
 
@@ -128,10 +130,15 @@ impl<const P: usize> Directions<'_, P> {
                 break;
             }
             last_norm = norm;
-            let trial = system.border_step(damping).and_then(|step| self.take(&sensor, &forces, &system, &step));
+            let trial =
+                system.border_step(damping).and_then(|step| self.take(&sensor, &forces, &system, &step));
             let accepted = trial.and_then(|(trial, trial_forces)| {
                 let trial_chi2 = self.chi2(&trial, &trial_forces);
-                (trial_chi2 <= chi2 * (1.0 + 1e-9) || norm < 1e-6).then_some((trial, trial_forces, trial_chi2))
+                (trial_chi2 <= chi2 * (1.0 + 1e-9) || norm < 1e-6).then_some((
+                    trial,
+                    trial_forces,
+                    trial_chi2,
+                ))
             });
             match accepted.and_then(|found| Some((self.factor(&found.0, &found.1)?, found))) {
                 Some(((next, diagonal), found)) => {
@@ -181,7 +188,9 @@ impl<const P: usize> Directions<'_, P> {
             .iter()
             .zip(&turns[1..])
             .map(|(force, turn)| {
-                (force + tangents(force) * turn * self.gravity).try_normalize(1e-300).map(|u| u * self.gravity)
+                (force + tangents(force) * turn * self.gravity)
+                    .try_normalize(1e-300)
+                    .map(|u| u * self.gravity)
             })
             .collect::<Option<Vec<_>>>()?;
         Some((next, forces))

@@ -26,7 +26,8 @@ mod robust;
 mod verdict;
 
 use super::{
-    Calibration, CalibrationProblem, CalibrationSettings, FitStatistics, HoldCalibration, HoldResult, Recovered, statistics,
+    Calibration, CalibrationProblem, CalibrationSettings, FitStatistics, HoldCalibration, HoldResult,
+    Recovered, statistics,
 };
 use crate::error::{Complaint, Error, Result};
 use crate::motion::{Gravity, Hold};

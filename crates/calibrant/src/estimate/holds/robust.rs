@@ -69,7 +69,8 @@ pub(super) fn fit<const P: usize>(
     };
     let within = pooled_sd(holds, &start, setup.gravity.magnitude_mps2);
     let prior = settings.datasheet_prior.then(|| prior(problem, &list)).flatten();
-    let problem = Problem::<P> { holds, list, gravity: setup.gravity.magnitude_mps2, within, prior, settings };
+    let problem =
+        Problem::<P> { holds, list, gravity: setup.gravity.magnitude_mps2, within, prior, settings };
     problem.check(&start)?;
     problem.run(&start)
 }
@@ -129,11 +130,18 @@ impl<const P: usize> Problem<'_, P> {
     /// Variance of a hold's mean, per axis.
     fn variance(&self, hold: &Hold, between: f64, sensor: &SensorParameters) -> Vector3<f64> {
         Vector3::from_fn(|axis, _| {
-            self.within[axis].powi(2) / hold.samples() as f64 + (between * sensor.matrix[(axis, axis)]).powi(2)
+            self.within[axis].powi(2) / hold.samples() as f64
+                + (between * sensor.matrix[(axis, axis)]).powi(2)
         })
     }
 
-    fn directions(&self, chosen: &[usize], weight: &dyn Fn(usize) -> f64, between: f64, at: &SensorParameters) -> Directions<'_, P> {
+    fn directions(
+        &self,
+        chosen: &[usize],
+        weight: &dyn Fn(usize) -> f64,
+        between: f64,
+        at: &SensorParameters,
+    ) -> Directions<'_, P> {
         Directions {
             list: &self.list,
             holds: chosen.iter().map(|&j| &self.holds[j]).collect(),
@@ -214,7 +222,8 @@ impl<const P: usize> Problem<'_, P> {
                 *weight = (1.0 - x * x).max(0.0).powi(2).max(1e-9);
             }
         }
-        let good: Vec<bool> = self.magnitude_residuals(&sensor).iter().map(|e| e.abs() <= 6.0 * scale).collect();
+        let good: Vec<bool> =
+            self.magnitude_residuals(&sensor).iter().map(|e| e.abs() <= 6.0 * scale).collect();
         if good.iter().filter(|good| **good).count() >= P + 2 { good } else { vec![true; all.len()] }
     }
 
@@ -241,7 +250,8 @@ impl<const P: usize> Problem<'_, P> {
         let mut between = 0.0;
         if degrees > 0.0 && fit.chi2 > degrees {
             let residuals = self.magnitude_residuals(&fit.sensor);
-            let rms = (chosen.iter().map(|&j| residuals[j].powi(2)).sum::<f64>() / chosen.len() as f64).sqrt();
+            let rms =
+                (chosen.iter().map(|&j| residuals[j].powi(2)).sum::<f64>() / chosen.len() as f64).sqrt();
             let (mut low, mut high) = (0.0, rms.max(1e-12 * self.gravity));
             for _ in 0..60 {
                 fit = at(high, &fit.sensor).ok_or_else(singular)?;
@@ -310,10 +320,12 @@ impl<const P: usize> Problem<'_, P> {
         let weakest = eigen.eigenvalues.imin();
         let direction = eigen.eigenvectors.column(weakest);
         let names = self.list.names();
-        let shares: Vec<String> = (0..P).filter(|&k| direction[k].powi(2) > 0.1).map(|k| names[k].clone()).collect();
+        let shares: Vec<String> =
+            (0..P).filter(|&k| direction[k].powi(2) > 0.1).map(|k| names[k].clone()).collect();
         let every = self.directions(&(0..self.holds.len()).collect::<Vec<_>>(), &|_| 1.0, 0.0, &fit.sensor);
         // the directions of the fit for the holds that were used, those of the correction for the others
-        let mut forces = every.forces(&fit.sensor).unwrap_or_else(|| vec![Vector3::zeros(); self.holds.len()]);
+        let mut forces =
+            every.forces(&fit.sensor).unwrap_or_else(|| vec![Vector3::zeros(); self.holds.len()]);
         for (j, force) in (0..used.len()).filter(|&j| used[j]).zip(&fit.forces) {
             forces[j] = *force;
         }

@@ -42,7 +42,11 @@ pub(super) fn explain(
 }
 
 /// Warnings about a fit.
-pub(super) fn warnings(problem: &CalibrationProblem<'_>, calibration: &Calibration, weakest: &[String]) -> Vec<String> {
+pub(super) fn warnings(
+    problem: &CalibrationProblem<'_>,
+    calibration: &Calibration,
+    weakest: &[String],
+) -> Vec<String> {
     let mut warnings = Vec::new();
     let Recovered::Holds(holds) = &calibration.recovered else { return warnings };
     if calibration.status != CalibrationStatus::Converged {
@@ -118,7 +122,8 @@ fn missing_faces(holds: &[&HoldResult]) -> Vec<String> {
         for (sign, word) in [(1.0, "up"), (-1.0, "down")] {
             let mut face = Vector3::zeros();
             face[axis.index()] = sign;
-            let nearest = holds.iter().map(|hold| hold.force_mps2.normalize().dot(&face)).fold(-1.0, f64::max);
+            let nearest =
+                holds.iter().map(|hold| hold.force_mps2.normalize().dot(&face)).fold(-1.0, f64::max);
             if nearest < 0.5 {
                 missing.push(format!("the {axis} axis pointing {word}"));
             }

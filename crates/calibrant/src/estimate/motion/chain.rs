@@ -4,7 +4,9 @@ use super::fit::{Chain, Fit, State};
 use super::model::ChainModel;
 use super::moments::{Position, locate, moments, reference};
 use super::undetermined::{explain, explain_node};
-use super::{CalibrationProblem, CalibrationSettings, CalibrationStatus, CommandedMotion, DMatrix, Trust, Vector3};
+use super::{
+    CalibrationProblem, CalibrationSettings, CalibrationStatus, CommandedMotion, DMatrix, Trust, Vector3,
+};
 use crate::error::{Complaint, Error, Result, UndeterminedGroup};
 use crate::information;
 use crate::motion::KnownEnds;
@@ -60,12 +62,18 @@ impl<'a> Context<'a> {
         let sensor = self.problem.sensor;
         let gain = match sensor.gain {
             Some(gain) => gain,
-            None => Vector3::from_fn(|axis, _| if axis < sensor.axes { self.gain_from_data(axis) } else { 1.0 }),
+            None => {
+                Vector3::from_fn(|axis, _| if axis < sensor.axes { self.gain_from_data(axis) } else { 1.0 })
+            }
         };
         let noise = sensor.noise(&gain).ok_or_else(|| {
             Error::experiment(Complaint::new("the noise of a sample is not given", "set `sensor.noise_mps2`"))
         })?;
-        match sensor.active_axes().iter().find(|axis| !(noise[axis.index()] > 0.0 && noise[axis.index()].is_finite())) {
+        match sensor
+            .active_axes()
+            .iter()
+            .find(|axis| !(noise[axis.index()] > 0.0 && noise[axis.index()].is_finite()))
+        {
             Some(axis) => Err(Error::experiment(Complaint::new(
                 format!("the noise of axis {axis} is {}, not a positive number", noise[axis.index()]),
                 "set `sensor.noise_mps2` (or `noise_counts`) to the standard deviation of one sample",
@@ -78,11 +86,14 @@ impl<'a> Context<'a> {
     fn gain_from_data(&self, axis: usize) -> f64 {
         let nodes = self.command.motion.acceleration_mps2();
         let last = nodes.len() - 1;
-        let ends = (self.reference[last][axis] - self.reference[0][axis]) / (nodes[last][axis] - nodes[0][axis]);
+        let ends =
+            (self.reference[last][axis] - self.reference[0][axis]) / (nodes[last][axis] - nodes[0][axis]);
         let gain = if self.command.trust == Trust::Unknown {
             ends
         } else {
-            let mean = |values: &dyn Fn(usize) -> f64| (0..nodes.len()).map(values).sum::<f64>() / nodes.len() as f64;
+            let mean = |values: &dyn Fn(usize) -> f64| {
+                (0..nodes.len()).map(values).sum::<f64>() / nodes.len() as f64
+            };
             let (a, y) = (mean(&|i| nodes[i][axis]), mean(&|i| self.reference[i][axis]));
             let covariance = mean(&|i| (nodes[i][axis] - a) * (self.reference[i][axis] - y));
             covariance / mean(&|i| (nodes[i][axis] - a).powi(2))
@@ -100,7 +111,8 @@ impl<'a> Context<'a> {
         let pick = |v: &Vector3<f64>| SVector::<f64, D>::from_fn(|k, _| v[axes[k]]);
         let jerk = motion.jerk_mps3();
         // noise that drowns in the rounding of the accelerations themselves is none
-        let rounding = 64.0 * f64::EPSILON * motion.acceleration_mps2().iter().map(Vector3::amax).fold(0.0, f64::max);
+        let rounding =
+            64.0 * f64::EPSILON * motion.acceleration_mps2().iter().map(Vector3::amax).fold(0.0, f64::max);
         let variance: Vec<SVector<f64, D>> = (0..motion.intervals())
             .map(|i| match self.command.trust {
                 Trust::Known => SVector::zeros(),
@@ -144,7 +156,8 @@ impl<'a> Context<'a> {
         let sensor = self.problem.sensor;
         let parameters = sensor.parameter_list().describe(sensor, &sensor.nominal()?);
         let mean = SVector::from_fn(|k, _| parameters[slots[k]].nominal);
-        let weight = SVector::from_fn(|k, _| parameters[slots[k]].spread.map_or(0.0, |spread| spread.powi(-2)));
+        let weight =
+            SVector::from_fn(|k, _| parameters[slots[k]].spread.map_or(0.0, |spread| spread.powi(-2)));
         Some((mean, weight))
     }
 
@@ -312,8 +325,12 @@ fn summarise<M: ChainModel<D, P>, const D: usize, const P: usize>(
         node_sd.push(spread(&at.node1.diagonal().map(|variance| variance.max(0.0).sqrt())));
         let (g0, g1) = (M::sensitivity(&fit.state.a[i]), M::sensitivity(&fit.state.a[i + 1]));
         // covariance of the predicted readings at both nodes
-        let v00 = s * at.node0 * s.transpose() + (s * at.node0_border * g0.transpose()) * 2.0 + g0 * border * g0.transpose();
-        let v11 = s * at.node1 * s.transpose() + (s * at.node1_border * g1.transpose()) * 2.0 + g1 * border * g1.transpose();
+        let v00 = s * at.node0 * s.transpose()
+            + (s * at.node0_border * g0.transpose()) * 2.0
+            + g0 * border * g0.transpose();
+        let v11 = s * at.node1 * s.transpose()
+            + (s * at.node1_border * g1.transpose()) * 2.0
+            + g1 * border * g1.transpose();
         let v10 = s * at.node1_node0 * s.transpose()
             + s * at.node1_border * g0.transpose()
             + g1 * at.node0_border.transpose() * s.transpose()

@@ -91,7 +91,10 @@ impl<M: ChainModel<D, P>, const D: usize, const P: usize> Chain<M, D, P> {
     }
 
     /// The system factored at a state, and the diagonal of the border's information before the chain was eliminated.
-    pub(super) fn factor(&self, state: &State<D, P>) -> Result<(Arrowhead<D, P>, SVector<f64, P>), Undetermined> {
+    pub(super) fn factor(
+        &self,
+        state: &State<D, P>,
+    ) -> Result<(Arrowhead<D, P>, SVector<f64, P>), Undetermined> {
         let (mut border, mut rhs) = (SMatrix::zeros(), SVector::zeros());
         if let Some((mean, weight)) = &self.prior {
             border = SMatrix::from_diagonal(weight);
@@ -103,7 +106,8 @@ impl<M: ChainModel<D, P>, const D: usize, const P: usize> Chain<M, D, P> {
             unreduced += link.c.diagonal();
             link
         };
-        let system = Arrowhead::eliminate(self.moments.len(), link, |i| self.increment(i, state), border, rhs)?;
+        let system =
+            Arrowhead::eliminate(self.moments.len(), link, |i| self.increment(i, state), border, rhs)?;
         Ok((system, unreduced))
     }
 

@@ -11,8 +11,8 @@ mod undetermined;
 mod verdict;
 
 use super::{
-    Calibration, CalibrationProblem, CalibrationSettings, CalibrationStatus, FitStatistics, Recovered, RecoveredMotion,
-    statistics,
+    Calibration, CalibrationProblem, CalibrationSettings, CalibrationStatus, FitStatistics, Recovered,
+    RecoveredMotion, statistics,
 };
 use crate::error::{Complaint, Error, NotIdentifiable, Result};
 use crate::motion::{CommandedMotion, JerkControlledMotion, Trust};
@@ -31,9 +31,8 @@ pub(super) fn calibrate(
     let context = Context::new(problem, command, settings, first, end)?;
     let solved = match problem.sensor.model {
         SensorModel::ScaleBias => solve_axes(&context)?,
-        SensorModel::Full => {
-            solve::<Triaxial, 3, 12>(&context, [0, 1, 2], std::array::from_fn(|k| k)).map_err(not_identifiable)?
-        }
+        SensorModel::Full => solve::<Triaxial, 3, 12>(&context, [0, 1, 2], std::array::from_fn(|k| k))
+            .map_err(not_identifiable)?,
     };
     assemble(&context, solved, first)
 }
@@ -86,7 +85,10 @@ fn assemble(context: &Context<'_>, solved: Solved, first_sample: usize) -> Resul
     }
     let motion =
         JerkControlledMotion::new(context.command.motion.times_s().to_vec(), solved.nodes).map_err(|_| {
-            Error::recording(Complaint::new("the estimated motion is not finite", "check the recording's unit"))
+            Error::recording(Complaint::new(
+                "the estimated motion is not finite",
+                "check the recording's unit",
+            ))
         })?;
     let residuals: Vec<Vector3<f64>> = context
         .positions

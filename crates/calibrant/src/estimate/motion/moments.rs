@@ -70,7 +70,8 @@ pub(super) fn moments<const D: usize>(
     axes: [usize; D],
 ) -> Vec<Moments<D>> {
     let zero = SVector::zeros();
-    let mut moments = vec![Moments { m00: 0.0, m01: 0.0, m11: 0.0, e0: zero, e1: zero, e2: zero, samples: 0 }; z.len() - 1];
+    let mut moments =
+        vec![Moments { m00: 0.0, m01: 0.0, m11: 0.0, e0: zero, e1: zero, e2: zero, samples: 0 }; z.len() - 1];
     for (position, reading) in positions.iter().zip(readings) {
         let i = position.interval as usize;
         let (w0, w1) = (1.0 - position.lambda, position.lambda);

@@ -8,7 +8,11 @@ use crate::information::Undetermined;
 use crate::sensor::{Quantity, SensorModel};
 
 /// Says why these groups of parameters cannot be told apart. `slots` are the chain's parameters in the list.
-pub(super) fn explain(context: &Context<'_>, groups: &[Undetermined], slots: &[usize]) -> Vec<UndeterminedGroup> {
+pub(super) fn explain(
+    context: &Context<'_>,
+    groups: &[Undetermined],
+    slots: &[usize],
+) -> Vec<UndeterminedGroup> {
     let list = context.problem.sensor.parameter_list();
     groups
         .iter()
@@ -59,10 +63,17 @@ fn reason(context: &Context<'_>, quantities: &[Quantity]) -> (String, String) {
     if samples < 2 {
         return (format!("only {samples} sample lies within the motion"), "record more".into());
     }
-    let still = |axis: Axis| nodes.iter().all(|a| (a[axis.index()] - nodes[0][axis.index()]).abs() <= 1e-9 * nodes[0][axis.index()].abs());
+    let still = |axis: Axis| {
+        nodes
+            .iter()
+            .all(|a| (a[axis.index()] - nodes[0][axis.index()]).abs() <= 1e-9 * nodes[0][axis.index()].abs())
+    };
     match columns.as_slice() {
         [axis] if still(*axis) => (
-            format!("axis {axis} does not move, its acceleration is {} m/s² throughout", nodes[0][axis.index()]),
+            format!(
+                "axis {axis} does not move, its acceleration is {} m/s² throughout",
+                nodes[0][axis.index()]
+            ),
             format!("move the sensor along axis {axis}"),
         ),
         [] => ("the samples are too few".into(), "record more".into()),
@@ -102,6 +113,8 @@ pub(super) fn explain_node<const D: usize>(
             "the motion itself is not determined: too few samples to tell the acceleration along {axis} at {} s",
             context.command.motion.times_s()[at.node]
         ),
-        remedy: "sample faster than the motion's intervals, close the recording's gaps, or use trust = \"noisy\"".into(),
+        remedy:
+            "sample faster than the motion's intervals, close the recording's gaps, or use trust = \"noisy\""
+                .into(),
     }
 }

@@ -1,0 +1,319 @@
+//! `calibrant calibrate`: from recordings to parameters with their covariance.
+
+use crate::{Exit, console};
+use calibrant::Error;
+use calibrant::error::Complaint;
+use calibrant::estimate::{
+    Calibration, CalibrationProblem, CalibrationSettings, HoldsSetup, Recovered, Stimulus, calibrate,
+};
+use calibrant::io::{
+    Experiment, Input, Plan, Prior, ReadOptions, RecordingFile, SummaryRow, calibration_json, read_motion,
+    read_recording, write_atomically, write_calibration, write_summary,
+};
+use calibrant::motion::CommandedMotion;
+use calibrant::report::{About, calibration_report, number};
+use calibrant::sensor::ReadingUnit;
+use rayon::prelude::*;
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+/// Calibrate sensors from their recordings.
+///
+/// Writes calibration.json and report.html into DIR; with several recordings into a subfolder of DIR for each, named after its file, and
+/// DIR/summary.csv. One bad recording does not stop the others; the exit status is then the highest of all.
+#[derive(clap::Args)]
+pub(crate) struct Arguments {
+    /// The experiment file (see `calibrant init`).
+    experiment: PathBuf,
+    /// Recordings: CSV with header t_s,ax,ay,az, or text with columns t x y z.
+    #[arg(required = true)]
+    recordings: Vec<PathBuf>,
+    /// The commanded motion (nodes: t_s,ax_mps2,ay_mps2,az_mps2); a [holds] experiment needs none.
+    #[arg(long, value_name = "CSV")]
+    motion: Option<PathBuf>,
+    /// Unit of the readings where the file does not say.
+    #[arg(long, value_enum)]
+    unit: Option<Unit>,
+    /// Print calibration.json on stdout in place of the tables (an array of them for several recordings).
+    #[arg(long)]
+    json: bool,
+    /// Directory for the results.
+    #[arg(short, long, value_name = "DIR")]
+    output: PathBuf,
+}
+
+#[derive(Clone, Copy, clap::ValueEnum)]
+enum Unit {
+    /// Metres per second squared.
+    Mps2,
+    /// Raw counts.
+    Counts,
+}
+
+/// What all recordings of a call share.
+struct Job {
+    experiment: Experiment,
+    experiment_file: PathBuf,
+    command: Option<CommandedMotion>,
+    holds: Option<HoldsSetup>,
+    settings: CalibrationSettings,
+    read: ReadOptions,
+}
+
+struct Done {
+    file: RecordingFile,
+    calibration: Calibration,
+    input: Input,
+}
+
+pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
+    let job = Job::prepare(arguments)?;
+    if let [recording] = arguments.recordings.as_slice() {
+        let started = Instant::now();
+        let done = job.run(recording)?;
+        job.write(&done, recording, &arguments.output, started)?;
+        show(&done, arguments);
+        return Ok(Exit::DONE);
+    }
+    run_many(&job, arguments)
+}
+
+impl Job {
+    fn prepare(arguments: &Arguments) -> calibrant::Result<Self> {
+        let experiment = Experiment::read(&arguments.experiment)?;
+        let (mut command, mut holds) = (None, None);
+        match &experiment.plan {
+            Plan::Motion(plan) => {
+                let path = arguments.motion.as_deref().ok_or_else(|| {
+                    Error::Experiment(Box::new(Complaint::new(
+                        "a [motion] experiment needs the commanded motion",
+                        "add --motion FILE with columns t_s,ax_mps2,ay_mps2,az_mps2 at the nodes (trust unknown uses only its first and last row)",
+                    )))
+                })?;
+                let motion = read_motion(path, experiment.sensor.axes)?;
+                if motion.intervals() != plan.intervals {
+                    console::note(&format!(
+                        "{} has {} intervals, the experiment file {}: the former counts",
+                        path.display(),
+                        motion.intervals(),
+                        plan.intervals
+                    ));
+                }
+                command = Some(CommandedMotion { motion, trust: plan.trust, known_ends: plan.known_ends });
+            }
+            Plan::Holds(plan) => {
+                if arguments.motion.is_some() {
+                    console::warn("--motion is not used: a [holds] experiment needs no motion");
+                }
+                holds = Some(HoldsSetup {
+                    gravity: plan.gravity,
+                    gauge: plan.gauge,
+                    intervals_s: plan.intervals_s.clone(),
+                    minimum_hold_s: plan.minimum_hold_s,
+                });
+            }
+        }
+        let settings = CalibrationSettings {
+            datasheet_prior: experiment.calibrate.prior == Prior::Datasheet,
+            ..CalibrationSettings::default()
+        };
+        let read = ReadOptions {
+            unit: arguments.unit.map(|unit| match unit {
+                Unit::Mps2 => ReadingUnit::MetrePerSecondSquared,
+                Unit::Counts => ReadingUnit::Counts,
+            }),
+            expected_unit: experiment.sensor.unit,
+            axes: experiment.sensor.axes,
+        };
+        Ok(Self { experiment, experiment_file: arguments.experiment.clone(), command, holds, settings, read })
+    }
+
+    fn run(&self, path: &Path) -> calibrant::Result<Done> {
+        let file = read_recording(path, &self.read)?;
+        let stimulus = match (&self.command, &self.holds) {
+            (Some(command), _) => Stimulus::Motion(command),
+            (None, Some(setup)) => Stimulus::Holds(setup),
+            (None, None) => unreachable!("an experiment has a motion or holds"),
+        };
+        let problem =
+            CalibrationProblem { sensor: &self.experiment.sensor, recording: &file.recording, stimulus };
+        let calibration = calibrate(&problem, &self.settings).map_err(|error| in_file(error, path))?;
+        let input = Input {
+            file: name(path),
+            sha256: file.sha256.clone(),
+            samples: file.recording.len(),
+            rate_hz: file.recording.rate_hz(),
+        };
+        Ok(Done { file, calibration, input })
+    }
+
+    /// Writes calibration.json and report.html.
+    fn write(&self, done: &Done, path: &Path, directory: &Path, started: Instant) -> calibrant::Result<()> {
+        write_calibration(&directory.join("calibration.json"), &done.calibration, &done.input)?;
+        let recording = &done.file.recording;
+        let about = About {
+            title: format!("Calibration from {}", name(path)),
+            facts: vec![
+                ("Recording".into(), path.display().to_string()),
+                ("SHA-256".into(), done.input.sha256.clone()),
+                (
+                    "Samples".into(),
+                    format!(
+                        "{} at {} Hz, {} to {} s",
+                        number::count(recording.len()),
+                        number::significant(done.input.rate_hz, 5),
+                        number::significant(recording.times_s.first().copied().unwrap_or(0.0), 6),
+                        number::significant(recording.times_s.last().copied().unwrap_or(0.0), 6)
+                    ),
+                ),
+                ("Experiment".into(), self.experiment_file.display().to_string()),
+                (
+                    "Prior".into(),
+                    if self.settings.datasheet_prior { "datasheet".into() } else { "none".into() },
+                ),
+            ],
+            findings: done.file.findings.iter().map(ToString::to_string).collect(),
+            elapsed: Some(format!("{:.3} s", started.elapsed().as_secs_f64())),
+            program: format!("calibrant {}", env!("CARGO_PKG_VERSION")),
+            ..About::default()
+        };
+        let html = calibration_report(&done.calibration, recording, &about);
+        write_atomically(&directory.join("report.html"), |out| out.write_all(html.as_bytes()))
+    }
+}
+
+/// Names the recording in an error that does not.
+fn in_file(error: Error, path: &Path) -> Error {
+    match error {
+        Error::Recording(complaint) if complaint.file.is_none() => {
+            Error::Recording(Box::new(complaint.in_file(path)))
+        }
+        other => other,
+    }
+}
+
+fn name(path: &Path) -> String {
+    path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned())
+}
+
+fn show(done: &Done, arguments: &Arguments) {
+    for finding in &done.file.findings {
+        console::note(&format!("{}: {finding}", done.input.file));
+    }
+    for warning in &done.calibration.warnings {
+        console::warn(warning);
+    }
+    if arguments.json {
+        return console::print(&calibration_json(&done.calibration, &done.input));
+    }
+    if let Recovered::Holds(holds) = &done.calibration.recovered {
+        console::print(&(console::holds(holds) + "\n"));
+    }
+    console::print(&console::parameters(&done.calibration));
+    console::print(&console::fit(&done.calibration));
+    console::print(&format!("\n{}\n", arguments.output.join("report.html").display()));
+}
+
+/// Calibrates many recordings in parallel. None stops the others.
+fn run_many(job: &Job, arguments: &Arguments) -> calibrant::Result<Exit> {
+    let folders = folders(&arguments.recordings);
+    let bar = console::progress(arguments.recordings.len() as u64, "calibrating");
+    let outcomes: Vec<calibrant::Result<Done>> = arguments
+        .recordings
+        .par_iter()
+        .zip(&folders)
+        .map(|(path, folder)| {
+            let started = Instant::now();
+            let done = job.run(path).and_then(|mut done| {
+                job.write(&done, path, &arguments.output.join(folder), started)?;
+                // thousands of recordings need not stay in memory
+                done.file.recording.times_s = Vec::new();
+                done.file.recording.readings = Vec::new();
+                if !arguments.json {
+                    done.calibration.residuals = Vec::new();
+                }
+                Ok(done)
+            });
+            bar.inc(1);
+            done
+        })
+        .collect();
+    bar.finish_and_clear();
+
+    let mut exit = Exit::DONE;
+    let mut rows = Vec::new();
+    for ((path, folder), outcome) in arguments.recordings.iter().zip(&folders).zip(&outcomes) {
+        match outcome {
+            Ok(done) => {
+                for finding in &done.file.findings {
+                    console::note(&format!("{folder}: {finding}"));
+                }
+                for warning in &done.calibration.warnings {
+                    console::warn(&format!("{folder}: {warning}"));
+                }
+                let p = done.calibration.fit.p_value.map_or_else(|| "–".into(), number::probability);
+                rows.push(vec![
+                    folder.clone(),
+                    done.calibration.status.name().into(),
+                    p,
+                    done.calibration.warnings.len().to_string(),
+                ]);
+            }
+            Err(error) => {
+                console::error(error);
+                exit = exit.max(Exit::of(error));
+                rows.push(vec![folder.clone(), "ERROR".into(), "–".into(), name(path)]);
+            }
+        }
+    }
+    let summary: Vec<_> = folders
+        .iter()
+        .zip(&outcomes)
+        .map(|(folder, outcome)| SummaryRow {
+            file: folder.clone(),
+            outcome: outcome.as_ref().map(|done| &done.calibration).map_err(ToString::to_string),
+        })
+        .collect();
+    let path = arguments.output.join("summary.csv");
+    write_summary(&path, &summary)?;
+    if arguments.json {
+        let texts: Vec<_> =
+            outcomes.iter().flatten().map(|done| calibration_json(&done.calibration, &done.input)).collect();
+        console::print(&format!("[\n{}]\n", texts.join(",\n")));
+    } else {
+        console::print(&console::table(&["recording", "status", "p-value", "warnings"], &rows));
+        let failed = outcomes.iter().filter(|outcome| outcome.is_err()).count();
+        console::print(&format!(
+            "\n{} calibrated, {failed} failed: {}\n",
+            outcomes.len() - failed,
+            path.display()
+        ));
+    }
+    Ok(exit)
+}
+
+/// A subfolder for each recording: its name without ending, with a number where names repeat.
+fn folders(recordings: &[PathBuf]) -> Vec<String> {
+    let stem = |path: &PathBuf| {
+        path.file_stem().map_or_else(|| "recording".into(), |stem| stem.to_string_lossy().into_owned())
+    };
+    let mut count: HashMap<String, usize> = HashMap::new();
+    let mut taken: std::collections::HashSet<String> = recordings.iter().map(stem).collect();
+    recordings
+        .iter()
+        .map(|path| {
+            let stem = stem(path);
+            let seen = count.entry(stem.clone()).or_insert(0);
+            *seen += 1;
+            if *seen == 1 {
+                return stem;
+            }
+            let mut k = *seen;
+            while !taken.insert(format!("{stem}-{k}")) {
+                k += 1;
+            }
+            format!("{stem}-{k}")
+        })
+        .collect()
+}

@@ -1,0 +1,187 @@
+//! What people see: tables on stdout, errors, notes and progress on stderr.
+
+use calibrant::Error;
+use calibrant::estimate::{Calibration, HoldCalibration, Recovered};
+use calibrant::report::number;
+use indicatif::{ProgressBar, ProgressStyle};
+use miette::{LabeledSpan, MietteDiagnostic, NamedSource, Report};
+use std::io::Write;
+
+/// Prints to stdout; a reader that has gone away (`| head`) is no error.
+pub(crate) fn print(text: &str) {
+    let _ = std::io::stdout().write_all(text.as_bytes());
+}
+
+/// Prints a note to stderr.
+pub(crate) fn note(text: &str) {
+    let _ = writeln!(std::io::stderr(), "note: {text}");
+}
+
+/// Prints a warning to stderr.
+pub(crate) fn warn(text: &str) {
+    let _ = writeln!(std::io::stderr(), "warning: {text}");
+}
+
+/// Prints an error to stderr, with the place in the file underlined where it is known.
+pub(crate) fn error(error: &Error) {
+    let _ = match error.complaint() {
+        Some(complaint) if complaint.excerpt.is_some() => {
+            let (text, range) = complaint.excerpt.clone().unwrap_or_default();
+            let mut title = complaint.clone();
+            (title.excerpt, title.help) = (None, String::new());
+            let mut diagnostic =
+                MietteDiagnostic::new(title.to_string()).with_label(LabeledSpan::at(range, "here"));
+            if !complaint.help.is_empty() {
+                diagnostic = diagnostic.with_help(complaint.help.clone());
+            }
+            let name = complaint
+                .file
+                .as_ref()
+                .map_or_else(|| "experiment".into(), |file| file.display().to_string());
+            let report = Report::new(diagnostic).with_source_code(NamedSource::new(name, text));
+            writeln!(std::io::stderr(), "error: {report:?}")
+        }
+        _ => writeln!(std::io::stderr(), "error: {error}"),
+    };
+}
+
+/// A progress bar on stderr; invisible where stderr is not a terminal.
+pub(crate) fn progress(length: u64, what: &str) -> ProgressBar {
+    let bar = ProgressBar::new(length);
+    let template = format!("{{spinner}} {what} [{{bar:30}}] {{human_pos}}/{{human_len}} {{per_sec}} {{eta}}");
+    if let Ok(style) = ProgressStyle::with_template(&template) {
+        bar.set_style(style.progress_chars("=> "));
+    }
+    bar
+}
+
+/// Rows of cells as a table with aligned columns: the first left, the others right.
+pub(crate) fn table(header: &[&str], rows: &[Vec<String>]) -> String {
+    let width = |column: usize| {
+        rows.iter()
+            .map(|row| row.get(column).map_or(0, |cell| cell.chars().count()))
+            .fold(header[column].chars().count(), usize::max)
+    };
+    let widths: Vec<usize> = (0..header.len()).map(width).collect();
+    let line = |cells: &[String]| {
+        let mut line = String::new();
+        for (column, (cell, width)) in cells.iter().zip(&widths).enumerate() {
+            let pad = " ".repeat(width.saturating_sub(cell.chars().count()));
+            let gap = if column == 0 { "  " } else { "   " };
+            if column == 0 {
+                line.push_str(&format!("{gap}{cell}{pad}"));
+            } else {
+                line.push_str(&format!("{gap}{pad}{cell}"));
+            }
+        }
+        line.trim_end().to_owned() + "\n"
+    };
+    let mut text = line(&header.iter().map(|cell| (*cell).to_owned()).collect::<Vec<_>>());
+    text.push_str(&format!("  {}\n", "─".repeat(widths.iter().sum::<usize>() + 3 * (widths.len() - 1))));
+    rows.iter().for_each(|row| text.push_str(&line(row)));
+    text
+}
+
+/// The parameters of a calibration.
+pub(crate) fn parameters(calibration: &Calibration) -> String {
+    let rows: Vec<_> = calibration
+        .parameters
+        .iter()
+        .zip(calibration.values.iter().zip(calibration.sd()))
+        .map(|(parameter, (value, sd))| {
+            vec![
+                parameter.name.clone(),
+                number::with_sd(*value, sd),
+                parameter.unit.to_owned(),
+                number::significant(parameter.nominal, 6),
+                parameter.spread.map_or_else(|| "–".into(), |spread| number::significant(spread, 3)),
+            ]
+        })
+        .collect();
+    table(&["parameter", "estimate ± sd", "unit", "nominal", "datasheet sd"], &rows)
+}
+
+/// How well the model fits, in a few lines.
+pub(crate) fn fit(calibration: &Calibration) -> String {
+    let fit = &calibration.fit;
+    let p = fit.p_value.map_or_else(String::new, |p| format!(", p-value {}", number::probability(p)));
+    let mut text = format!(
+        "  {} after {} iteration{}; χ² {} with {} degrees of freedom{p}\n",
+        calibration.status.name(),
+        calibration.iterations,
+        if calibration.iterations == 1 { "" } else { "s" },
+        number::significant(fit.chi2, 5),
+        number::count(fit.degrees_of_freedom),
+    );
+    if let Some(found) = fit.noise_estimate {
+        let axes = calibration
+            .fit
+            .whiteness
+            .len()
+            .max(if matches!(calibration.recovered, Recovered::Holds(_)) { 3 } else { 1 });
+        let list = |noise: &dyn Fn(usize) -> f64| {
+            (0..axes).map(|axis| number::significant(noise(axis), 3)).collect::<Vec<_>>().join(", ")
+        };
+        let assumed = fit
+            .assumed_noise
+            .map_or_else(String::new, |noise| format!(" (assumed {})", list(&|axis| noise[axis])));
+        text.push_str(&format!(
+            "  noise of one sample: {} {}{assumed}\n",
+            list(&|axis| found[axis]),
+            calibration.unit.symbol()
+        ));
+    }
+    text
+}
+
+/// The holds of a static calibration.
+pub(crate) fn holds(holds: &HoldCalibration) -> String {
+    let rows: Vec<_> = holds
+        .holds
+        .iter()
+        .enumerate()
+        .map(|(k, result)| {
+            let mut row = vec![
+                (k + 1).to_string(),
+                format!("{:.2}", result.hold.start_s),
+                format!("{:.2}", result.hold.end_s),
+                result.hold.samples().to_string(),
+            ];
+            row.extend(result.force_mps2.iter().map(|f| format!("{f:.3}")));
+            row.push(format!("{:+.2}", 1e3 * result.magnitude_residual_mps2));
+            row.push(format!("{:+.1}", result.studentised_residual));
+            row.push(if result.used { "yes".into() } else { "NO".into() });
+            row
+        })
+        .collect();
+    let header = [
+        "hold",
+        "start s",
+        "end s",
+        "samples",
+        "fx m/s²",
+        "fy m/s²",
+        "fz m/s²",
+        "|f|−g mm/s²",
+        "in sd",
+        "used",
+    ];
+    let mut text = table(&header, &rows);
+    text.push_str(&format!(
+        "  {} holds {}, gravity {} m/s²; rms of |f| − g {} mm/s²; condition number {}\n",
+        holds.holds.len(),
+        if holds.detected { "found" } else { "given" },
+        number::with_sd_or_exact(holds.gravity.magnitude_mps2, holds.gravity.sd_mps2),
+        number::significant(1e3 * holds.magnitude_residual_rms_mps2, 3),
+        number::significant(holds.condition_number, 3),
+    ));
+    text.push_str(&if holds.between_holds_dominates {
+        format!(
+            "  standard deviations follow from the scatter between holds ({} mm/s² beyond the noise within them)\n",
+            number::significant(1e3 * holds.between_holds_sd_mps2, 3)
+        )
+    } else {
+        "  standard deviations follow from the noise within holds, which explains the scatter between them\n".into()
+    });
+    text
+}

@@ -1,0 +1,46 @@
+//! `calibrant init`: a commented experiment file to start from.
+
+use crate::{Exit, console};
+use calibrant::Error;
+use calibrant::error::Complaint;
+use calibrant::io::{PRESETS, preset, write_atomically};
+use std::path::PathBuf;
+
+/// Write a commented experiment file to start from.
+#[derive(clap::Args)]
+pub(crate) struct Arguments {
+    /// Which one: report, report-unknown, report-noisy, static-poses, static-poses-counts.
+    #[arg(default_value = "report")]
+    preset: String,
+    /// Where to write it (default: stdout).
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// Replace the file if there is one.
+    #[arg(long)]
+    force: bool,
+}
+
+pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
+    let complain = |message, help| Err(Error::Experiment(Box::new(Complaint::new(message, help))));
+    let Some(text) = preset(&arguments.preset) else {
+        let names: Vec<_> = PRESETS.iter().map(|(name, _)| *name).collect();
+        return complain(
+            format!("there is no preset `{}`", arguments.preset),
+            format!("choose one of {}", names.join(", ")),
+        );
+    };
+    match &arguments.output {
+        None => console::print(text),
+        Some(path) if path.exists() && !arguments.force => {
+            return complain(
+                format!("{} is there already", path.display()),
+                "choose another name, or add --force".into(),
+            );
+        }
+        Some(path) => {
+            write_atomically(path, |out| out.write_all(text.as_bytes()))?;
+            console::note(&format!("wrote {}; edit it, then: calibrant simulate {0} -o DIR", path.display()));
+        }
+    }
+    Ok(Exit::DONE)
+}

@@ -1,0 +1,163 @@
+//! `calibrant simulate`: a sensor out of the datasheet and its recording.
+
+use crate::{Exit, console};
+use calibrant::Error;
+use calibrant::error::Complaint;
+use calibrant::io::{
+    Experiment, HoldsPlan, MotionPlan, Plan, read_motion, write_motion, write_recording, write_truth,
+};
+use calibrant::motion::{JerkControlledMotion, KnownEnds, Limits, Trust};
+use calibrant::sensor::{ReadingUnit, Sensor};
+use calibrant::simulate::{
+    HoldsSimulation, Purpose, draw_sensor, initial_motion, perturb, sample_times, simulate_holds,
+    simulate_recording, stream,
+};
+use nalgebra::Vector3;
+use std::path::{Path, PathBuf};
+
+/// Simulate a sensor drawn from the datasheet, and its recording.
+///
+/// Writes recording.csv and truth.json; for a [motion] also motion.csv, the commanded motion that `calibrate --motion` wants, and with process
+/// noise true_motion.csv, the one that really happened.
+#[derive(clap::Args)]
+pub(crate) struct Arguments {
+    /// The experiment file (see `calibrant init`).
+    experiment: PathBuf,
+    /// The commanded motion (nodes: t_s,ax_mps2,ay_mps2,az_mps2); default: the random initial motion.
+    #[arg(long, value_name = "CSV")]
+    motion: Option<PathBuf>,
+    /// Seed of everything random (default: the one in [study], 1).
+    #[arg(long)]
+    seed: Option<u64>,
+    /// Directory for the results.
+    #[arg(short, long, value_name = "DIR")]
+    output: PathBuf,
+}
+
+pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
+    let experiment = Experiment::read(&arguments.experiment)?;
+    let seed = arguments.seed.unwrap_or(experiment.study.seed);
+    check_simulable(&experiment.sensor, &arguments.experiment)?;
+    let samples = match &experiment.plan {
+        Plan::Motion(plan) => simulate_motion(arguments, &experiment, plan, seed)?,
+        Plan::Holds(plan) => {
+            if arguments.motion.is_some() {
+                console::warn("--motion is not used: a [holds] experiment has no motion");
+            }
+            simulate_poses(arguments, &experiment, plan, seed)?
+        }
+    };
+    console::print(&format!(
+        "{samples} samples, seed {seed}: {}\n",
+        arguments.output.join("recording.csv").display()
+    ));
+    Ok(Exit::DONE)
+}
+
+/// A simulation needs numbers where a calibration can do without.
+fn check_simulable(sensor: &Sensor, file: &Path) -> calibrant::Result<()> {
+    let missing = |key: &str| {
+        let complaint =
+            Complaint::new(format!("a simulation needs `{key}`"), "add it to the experiment file");
+        Err(Error::Experiment(Box::new(complaint.in_file(file).about_key(format!("sensor.{key}")))))
+    };
+    if sensor.gain.is_none() {
+        return missing("gain_counts_per_mps2");
+    }
+    match sensor.noise(&sensor.gain.unwrap_or_else(|| Vector3::repeat(1.0))) {
+        None if sensor.unit == ReadingUnit::Counts => missing("noise_counts"),
+        None => missing("noise_mps2"),
+        Some(_) => Ok(()),
+    }
+}
+
+/// The commanded motion: the given one, or the random initial one of the experiment.
+pub(crate) fn commanded_motion(
+    motion: Option<&Path>,
+    plan: &MotionPlan,
+    axes: usize,
+    limits: &Limits,
+    seed: u64,
+) -> calibrant::Result<JerkControlledMotion> {
+    if let Some(path) = motion {
+        return read_motion(path, axes);
+    }
+    // with both ends known and nothing in between, the ends must differ: draw again until they do by a tenth of the peak
+    for draw in 0..100 {
+        let motion = initial_motion(
+            plan.intervals,
+            plan.interval_s,
+            axes,
+            limits,
+            &mut stream(seed, Purpose::Motion, draw),
+        )?;
+        let a = motion.acceleration_mps2();
+        let apart = (0..axes).all(|k| {
+            let peak = a.iter().fold(0.0_f64, |peak, a| peak.max(a[k].abs()));
+            (a[plan.intervals][k] - a[0][k]).abs() >= 0.1 * peak
+        });
+        if plan.trust != Trust::Unknown || plan.known_ends != KnownEnds::Both || apart {
+            return Ok(motion);
+        }
+    }
+    initial_motion(plan.intervals, plan.interval_s, axes, limits, &mut stream(seed, Purpose::Motion, 0))
+}
+
+fn simulate_motion(
+    arguments: &Arguments,
+    experiment: &Experiment,
+    plan: &MotionPlan,
+    seed: u64,
+) -> calibrant::Result<usize> {
+    let sensor = &experiment.sensor;
+    let motion = commanded_motion(arguments.motion.as_deref(), plan, sensor.axes, &experiment.limits, seed)?;
+    let mut rng = stream(seed, Purpose::Sensor, 0);
+    let truth = draw_sensor(sensor, &mut rng);
+    let happened = match plan.trust {
+        Trust::Noisy(noise) => Some(perturb(&motion, &noise, sensor.axes, &mut rng)?),
+        Trust::Known | Trust::Unknown => None,
+    };
+    let noise = sensor.noise(&truth.matrix.diagonal()).unwrap_or_else(Vector3::zeros);
+    let times = sample_times(&motion, plan.rate_hz);
+    let moved = happened.as_ref().unwrap_or(&motion);
+    let recording = simulate_recording(&truth, &noise, sensor.unit, sensor.axes, moved, &times, &mut rng);
+    let output = &arguments.output;
+    write_motion(&output.join("motion.csv"), &motion, sensor.axes)?;
+    if let Some(happened) = &happened {
+        write_motion(&output.join("true_motion.csv"), happened, sensor.axes)?;
+    }
+    write_truth(&output.join("truth.json"), seed, &sensor.parameter_list(), sensor.unit, &truth)?;
+    write_recording(&output.join("recording.csv"), &recording)?;
+    Ok(recording.len())
+}
+
+fn simulate_poses(
+    arguments: &Arguments,
+    experiment: &Experiment,
+    plan: &HoldsPlan,
+    seed: u64,
+) -> calibrant::Result<usize> {
+    let sensor = &experiment.sensor;
+    let mut rng = stream(seed, Purpose::Sensor, 0);
+    let truth = plan.gauge.apply(&draw_sensor(sensor, &mut rng));
+    let noise = sensor.noise(&truth.matrix.diagonal()).unwrap_or_else(Vector3::zeros);
+    let setup = HoldsSimulation {
+        poses: plan.poses,
+        hold_s: plan.hold_s,
+        turn_s: 2.0,
+        rate_hz: plan.rate_hz,
+        gravity_mps2: plan.gravity.magnitude_mps2,
+        between_holds_sd_mps2: 0.0,
+    };
+    let (recording, _) = simulate_holds(&truth, &noise, sensor.unit, &setup, &mut rng);
+    let output = &arguments.output;
+    write_truth(
+        &output.join("truth.json"),
+        seed,
+        &plan.gauge.parameter_list(sensor.model),
+        sensor.unit,
+        &truth,
+    )?;
+    write_recording(&output.join("recording.csv"), &recording)?;
+    Ok(recording.len())
+}
