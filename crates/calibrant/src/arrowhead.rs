@@ -91,8 +91,6 @@ struct Gain<const D: usize, const P: usize> {
     kp: SMatrix<f64, D, P>,
     /// Covariance of `w` when node i and border are known: the inverse of the pivot.
     covariance: SMatrix<f64, D, D>,
-    /// Does the prior weigh `w` (finite positive variance)?
-    weighed: [bool; D],
 }
 
 /// The factored system. Node 0 is known.
@@ -141,7 +139,6 @@ impl<const D: usize, const P: usize> Arrowhead<D, P> {
             let (mut t, mut l, mut d) = (SVector::zeros(), SVector::zeros(), SVector::repeat(1.0));
             let mut rho = SVector::<f64, D>::zeros();
             let (mut pull, mut pull_rhs) = (SVector::<f64, D>::zeros(), SVector::<f64, D>::zeros());
-            let mut weighed = [false; D];
             for axis in 0..D {
                 let q = known.variance[axis];
                 if known.fixed[axis] {
@@ -153,7 +150,6 @@ impl<const D: usize, const P: usize> Arrowhead<D, P> {
                     (l[axis], d[axis]) = (1.0, 0.0);
                 } else {
                     (t[axis], l[axis], rho[axis]) = (1.0, q.sqrt(), known.residual[axis]);
-                    weighed[axis] = q > 0.0;
                 }
             }
 
@@ -182,7 +178,7 @@ impl<const D: usize, const P: usize> Arrowhead<D, P> {
                 + SMatrix::from_diagonal(&pull);
             h = (h + h.transpose()) * 0.5;
             unreduced = here.h00.diagonal() + t.component_mul(&unreduced) + pull;
-            gains.push(Gain { t, l, rho, k0, ka, kp, covariance, weighed });
+            gains.push(Gain { t, l, rho, k0, ka, kp, covariance });
         }
         gains.reverse();
         information = (information + information.transpose()) * 0.5;
@@ -235,6 +231,7 @@ impl<const D: usize, const P: usize> Arrowhead<D, P> {
     ) {
         let mut node = SMatrix::<f64, D, D>::zeros();
         let mut node_border = SMatrix::<f64, D, P>::zeros();
+        let mut before: Option<Before<D, P>> = None;
         for (i, gain) in self.gains.iter().enumerate() {
             let lm = SMatrix::from_diagonal(&gain.l);
             let w_node = -(gain.ka * node + gain.kp * node_border.transpose());
@@ -245,8 +242,10 @@ impl<const D: usize, const P: usize> Arrowhead<D, P> {
             let next_border = tm * node_border + lm * w_border;
             let next = next_node * tm + tm * w_node.transpose() * lm + lm * w_w * lm;
             let next = (next + next.transpose()) * 0.5;
-            let increment_information =
-                (0..D).filter(|&axis| gain.weighed[axis]).map(|axis| w_w[(axis, axis)]).sum();
+            let far = before.map(|(border_before, node_before)| {
+                let w_before = -(gain.ka * node_before + gain.kp * border_before.transpose());
+                (border_before, tm * node_before + lm * w_before)
+            });
             visit(
                 i,
                 &IntervalCovariance {
@@ -255,13 +254,17 @@ impl<const D: usize, const P: usize> Arrowhead<D, P> {
                     node1_node0: next_node,
                     node0_border: node_border,
                     node1_border: next_border,
-                    increment_information,
+                    before: far,
                 },
             );
+            before = Some((node_border, next_node));
             (node, node_border) = (next, next_border);
         }
     }
 }
+
+/// Covariance of a node with the border (D × P), and of a later node with it (D × D).
+pub type Before<const D: usize, const P: usize> = (SMatrix<f64, D, P>, SMatrix<f64, D, D>);
 
 /// Joint covariance of an interval's two nodes with each other and with the border.
 #[derive(Debug, Clone)]
@@ -276,9 +279,8 @@ pub struct IntervalCovariance<const D: usize, const P: usize> {
     pub node0_border: SMatrix<f64, D, P>,
     /// Last node with border.
     pub node1_border: SMatrix<f64, D, P>,
-    /// Posterior variance of the increment over its prior variance, summed over the coordinates that have one: the part of
-    /// the increment's degrees of freedom that the prior, not the data, determined.
-    pub increment_information: f64,
+    /// The node before the first: its covariance with the border, and that of the last node with it.
+    pub before: Option<Before<D, P>>,
 }
 
 /// Inverse of a pivot, or the coordinate on which there is no information. `l`, `d` tell which coordinates have no prior; `scale` is the
@@ -416,6 +418,10 @@ mod tests {
                 if i > 0 {
                     let expected: Matrix2<f64> = covariance.fixed_view::<2, 2>(2 * i, 2 * i - 2).into_owned();
                     assert!((at.node1_node0 - expected).amax() < tolerance * 100.0);
+                }
+                if i > 1 {
+                    let expected: Matrix2<f64> = covariance.fixed_view::<2, 2>(2 * i, 2 * i - 4).into_owned();
+                    assert!((at.before.expect("a node before").1 - expected).amax() < tolerance * 100.0);
                 }
             }
         });

@@ -3,6 +3,7 @@
 use super::fit::{Chain, Fit, State};
 use super::model::ChainModel;
 use super::moments::{Position, locate, moments, reference};
+use super::pairs::PairSums;
 use super::undetermined::{explain, explain_node};
 use super::{
     CalibrationProblem, CalibrationSettings, CalibrationStatus, CommandedMotion, DMatrix, Trust, Vector3,
@@ -21,6 +22,8 @@ pub(super) struct Context<'a> {
     /// Readings within the motion, and where they lie on it.
     pub(super) readings: &'a [Vector3<f64>],
     pub(super) positions: Vec<Position>,
+    /// Pairs of nearby samples, for the whiteness test.
+    pairs: PairSums,
     /// The reading nearest to each node.
     reference: Vec<Vector3<f64>>,
     /// Standard deviation of a sample, in the unit of the readings.
@@ -38,12 +41,14 @@ impl<'a> Context<'a> {
         let times = &problem.recording.times_s[first..end];
         let readings = &problem.recording.readings[first..end];
         let tau = command.motion.times_s();
+        let positions = locate(times, tau);
         let mut context = Self {
             problem,
             command,
             settings,
             readings,
-            positions: locate(times, tau),
+            pairs: PairSums::new(&positions, command.motion.intervals()),
+            positions,
             reference: reference(times, readings, tau),
             noise: Vector3::repeat(1.0),
         };
@@ -177,6 +182,8 @@ pub(super) struct Solved {
     pub(super) node_sd: Vec<Vector3<f64>>,
     /// Effective number of unknowns that each axis' readings paid for: the trace of the hat matrix.
     pub(super) leverage: Vector3<f64>,
+    /// For each lag from 1, what the fit takes from the autocovariance of each axis' residuals: `c_l = Σ_k P_{k,k+l}`.
+    pub(super) shortfall: Vec<Vector3<f64>>,
     pub(super) chi2: f64,
     pub(super) degrees_of_freedom: usize,
     pub(super) status: CalibrationStatus,
@@ -196,6 +203,7 @@ impl Solved {
             nodes: vec![Vector3::zeros(); nodes],
             node_sd: vec![Vector3::zeros(); nodes],
             leverage: Vector3::zeros(),
+            shortfall: vec![Vector3::zeros(); parts[0].shortfall.len()],
             chi2: 0.0,
             degrees_of_freedom: 0,
             status: CalibrationStatus::Converged,
@@ -216,6 +224,9 @@ impl Solved {
                 *sum += sd;
             }
             whole.leverage += part.leverage;
+            for (sum, shortfall) in whole.shortfall.iter_mut().zip(&part.shortfall) {
+                *sum += shortfall;
+            }
             whole.chi2 += part.chi2;
             whole.degrees_of_freedom += part.degrees_of_freedom;
             whole.iterations = whole.iterations.max(part.iterations);
@@ -237,7 +248,7 @@ pub(super) fn solve<M: ChainModel<D, P>, const D: usize, const P: usize>(
     let chain = context.chain::<M, D, P>(axes, slots);
     let start = starting_state(context, &chain, axes, slots)?;
     let fit = chain.fit(start, context.settings).map_err(|node| vec![explain_node(context, axes, node)])?;
-    Ok(summarise(&chain, fit, axes, slots))
+    Ok(summarise(&chain, fit, &context.pairs, axes, slots))
 }
 
 /// Checks that the parameters are determined where the motion is as commanded, and finds parameters to begin with.
@@ -302,6 +313,7 @@ fn starting_state<M: ChainModel<D, P>, const D: usize, const P: usize>(
 fn summarise<M: ChainModel<D, P>, const D: usize, const P: usize>(
     chain: &Chain<M, D, P>,
     fit: Fit<D, P>,
+    pairs: &PairSums,
     axes: [usize; D],
     slots: [usize; P],
 ) -> Solved {
@@ -321,24 +333,42 @@ fn summarise<M: ChainModel<D, P>, const D: usize, const P: usize>(
     let s = M::matrix(&fit.state.p);
     let mut node_sd = vec![Vector3::zeros()];
     let mut leverage = SVector::<f64, D>::zeros();
+    let mut shortfall = vec![SVector::<f64, D>::zeros(); pairs.lags];
+    let mut g = M::sensitivity(&fit.state.a[0]);
+    // variance of the fitted reading at the node before, and its covariance with the one before that and the sensitivity there
+    let mut v_start = (g * border * g.transpose()).diagonal();
+    let mut before: Option<(SMatrix<f64, D, P>, SVector<f64, D>)> = None;
     fit.system.walk_covariance(&border, |i, at| {
         node_sd.push(spread(&at.node1.diagonal().map(|variance| variance.max(0.0).sqrt())));
-        let (g0, g1) = (M::sensitivity(&fit.state.a[i]), M::sensitivity(&fit.state.a[i + 1]));
-        // covariance of the predicted readings at both nodes
-        let v00 = s * at.node0 * s.transpose()
-            + (s * at.node0_border * g0.transpose()) * 2.0
-            + g0 * border * g0.transpose();
-        let v11 = s * at.node1 * s.transpose()
-            + (s * at.node1_border * g1.transpose()) * 2.0
-            + g1 * border * g1.transpose();
-        let v10 = s * at.node1_node0 * s.transpose()
-            + s * at.node1_border * g0.transpose()
-            + g1 * at.node0_border.transpose() * s.transpose()
-            + g1 * border * g0.transpose();
+        let next = M::sensitivity(&fit.state.a[i + 1]);
+        // covariance of the fitted readings at two nodes, from that of nodes and parameters
+        let readings = |nodes: &SMatrix<f64, D, D>, n1: &SMatrix<f64, D, P>, n0: &SMatrix<f64, D, P>, g0: &SMatrix<f64, D, P>| {
+            (s * nodes * s.transpose()
+                + s * n1 * g0.transpose()
+                + next * n0.transpose() * s.transpose()
+                + next * border * g0.transpose())
+            .diagonal()
+        };
+        let v_end = readings(&at.node1, &at.node1_border, &at.node1_border, &next);
+        let v_step = readings(&at.node1_node0, &at.node1_border, &at.node0_border, &g);
         let m = &chain.moments[i];
-        leverage += (v00.diagonal() * m.m00 + v10.diagonal() * (2.0 * m.m01) + v11.diagonal() * m.m11)
-            .component_mul(&chain.weight);
+        leverage += v_start * m.m00 + v_step * (2.0 * m.m01) + v_end * m.m11;
+        for (sum, pair) in shortfall.iter_mut().zip(pairs.of(i)) {
+            let w = &pair.within;
+            *sum += v_start * w.m11 + v_step * (w.m12 + w.m21) + v_end * w.m22;
+        }
+        if let (Some((g_before, v_before)), Some((node_border, nodes))) = (&before, &at.before) {
+            let v_far = readings(nodes, &at.node1_border, node_border, g_before);
+            for (sum, pair) in shortfall.iter_mut().zip(pairs.of(i)) {
+                let a = &pair.across;
+                *sum += v_before * a.m11 + v_far * a.m12 + v_start * a.m21 + v_step * a.m22;
+            }
+        }
+        before = Some((g, v_step));
+        (g, v_start) = (next, v_end);
     });
+    leverage.component_mul_assign(&chain.weight);
+    shortfall.iter_mut().for_each(|c| c.component_mul_assign(&chain.weight));
 
     let samples: usize = chain.moments.iter().map(|m| m.samples).sum();
     let mut residuals = samples * D + if chain.prior.is_some() { P } else { 0 };
@@ -356,6 +386,7 @@ fn summarise<M: ChainModel<D, P>, const D: usize, const P: usize>(
         nodes: fit.state.a.iter().map(spread).collect(),
         node_sd,
         leverage: spread(&leverage),
+        shortfall: shortfall.iter().map(spread).collect(),
         chi2: fit.chi2,
         degrees_of_freedom: residuals.saturating_sub(unknowns),
         status,
