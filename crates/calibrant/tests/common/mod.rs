@@ -1,0 +1,20 @@
+//! What several of the tests need.
+
+use std::path::{Path, PathBuf};
+
+/// A recording that was not made here, under `../shared/data` beside the workspace (or where `CALIBRANT_DATA` says).
+///
+/// `None`, and a line on stderr, where it is absent: the test that asked is skipped then.
+#[allow(dead_code)] // not every test needs data
+pub(crate) fn shared_data(name: &str) -> Option<PathBuf> {
+    let beside = || Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data");
+    let path = std::env::var_os("CALIBRANT_DATA").map_or_else(beside, PathBuf::from).join(name);
+    if path.is_file() {
+        return Some(path);
+    }
+    eprintln!(
+        "SKIPPED: {} is not there; set CALIBRANT_DATA to the directory with the recordings",
+        path.display()
+    );
+    None
+}
