@@ -9,3 +9,4 @@ mod good;
 mod real;
 mod recordings;
 mod results;
+mod study;

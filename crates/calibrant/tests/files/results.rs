@@ -142,7 +142,8 @@ fn calibration(
     }
 }
 
-fn uniaxial() -> Calibration {
+/// A calibration of a sensor of one axis, on a motion of one interval.
+pub(super) fn uniaxial() -> Calibration {
     let sensor = Sensor { axes: 1, ..Sensor::memsic_mxd2020u() };
     let nodes = vec![Vector3::zeros(), Vector3::new(2.0, 0.0, 0.0)];
     let motion = JerkControlledMotion::uniform(1.0, nodes).expect("good");

@@ -75,16 +75,15 @@ impl<'a> Section<'a> {
             if !keys::of(name).contains(&key.get_ref().as_ref()) {
                 let complaint =
                     document.complain(key.span(), "unknown key".into(), keys::suggest(name, key.get_ref()));
-                return Err(Error::experiment(
-                    complaint.about_key(section.full(&keys::shorten(key.get_ref()))),
-                ));
+                return Err(Error::experiment(complaint.about_key(section.full(key.get_ref()))));
             }
         }
         Ok(section)
     }
 
     fn full(&self, key: &str) -> String {
-        if self.name.is_empty() { key.to_owned() } else { format!("{}.{key}", self.name) }
+        let key = keys::shorten(key);
+        if self.name.is_empty() { key } else { format!("{}.{key}", self.name) }
     }
 
     /// The subtable of this name, where there is one. `name` is its full name, as in the list of keys.
@@ -223,7 +222,9 @@ impl<'a> Entry<'a> {
             .ok()
             .and_then(|number| u64::try_from(number).ok())
             .filter(|number| (least..=most).contains(number))
-            .ok_or_else(|| self.complain(format!("{whole} is out of range"), help))
+            .ok_or_else(|| {
+                self.complain(format!("{} is out of range", keys::shorten(&whole.to_string())), help)
+            })
     }
 
     /// [`whole`](Self::whole), as a size.

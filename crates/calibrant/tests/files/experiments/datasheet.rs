@@ -4,6 +4,12 @@ use super::Case;
 
 pub(super) const CASES: &[Case] = &[
     (
+        "schema = 1",
+        "schema = 1234567890123456789012345678901234567890123456789012345678901234567890",
+        "line 1, column 10: `schema`: 123456789012345678901234567890123456789012345678901234567890… is out of range \
+         (a whole number from 0)",
+    ),
+    (
         "schema = 1⏎",
         "",
         "line 1, column 1: `schema`: this required key is missing (the first line of an experiment file is schema = 1)",
