@@ -10,9 +10,7 @@ use calibrant::estimate::{
 };
 use calibrant::motion::{CommandedMotion, Gravity, InputNoise, KnownEnds, Limits, Trust};
 use calibrant::sensor::{Gauge, Quantity, Sensor, SensorModel};
-use calibrant::simulate::{
-    HoldsSimulation, Purpose, draw_sensor, initial_motion, simulate_holds, stream,
-};
+use calibrant::simulate::{HoldsSimulation, Purpose, draw_sensor, initial_motion, simulate_holds, stream};
 use calibrant::study::{Study, StudyProblem, StudySettings, run_study};
 use nalgebra::{DMatrix, DVector, Vector3};
 use rayon::prelude::*;
@@ -35,7 +33,14 @@ fn assert_coverage(name: &str, coverage: f64, n: usize) {
     assert!((coverage - 0.95).abs() < 5.0 * error, "{name}: {coverage} covered");
 }
 
-fn study(model: SensorModel, trust: Trust, intervals: usize, interval_s: f64, rate_hz: f64, limit: f64) -> Study {
+fn study(
+    model: SensorModel,
+    trust: Trust,
+    intervals: usize,
+    interval_s: f64,
+    rate_hz: f64,
+    limit: f64,
+) -> Study {
     let sensor = Sensor { model, cross_axis_sd: Some(0.005), ..Sensor::memsic_mxd2020u() };
     let limits = Limits {
         acceleration_mps2: Some(Vector3::repeat(limit)),
@@ -47,7 +52,8 @@ fn study(model: SensorModel, trust: Trust, intervals: usize, interval_s: f64, ra
     let known_ends = if trust == Trust::Unknown { KnownEnds::Both } else { KnownEnds::Start };
     let command = CommandedMotion { motion, trust, known_ends };
     let problem = StudyProblem { sensor: &sensor, command: &command, rate_hz, sensors: SENSORS };
-    run_study(&problem, &StudySettings { seed: 20, ..StudySettings::default() }, &|_| ()).expect("identifiable")
+    run_study(&problem, &StudySettings { seed: 20, ..StudySettings::default() }, &|_| ())
+        .expect("identifiable")
 }
 
 /// The whole covariance, not only its diagonal: the empirical covariance of the errors, whitened by the predicted one, is the unit matrix.
@@ -108,21 +114,27 @@ fn the_whiteness_test_rarely_cries_wolf() {
         let alarms: usize = (0..500_u64)
             .into_par_iter()
             .map(|seed| {
-                let case = common::Case::new(SensorModel::ScaleBias, trust, intervals, interval_s, rate, seed);
+                let case =
+                    common::Case::new(SensorModel::ScaleBias, trust, intervals, interval_s, rate, seed);
                 let fit = case.calibrate().expect("identifiable").fit;
                 fit.whiteness.iter().filter(|test| test.p_value < 0.05).count()
             })
             .sum();
         let share = alarms as f64 / 1500.0;
         println!("{trust:?} {rate} Hz: {share}");
-        assert!((0.02..0.09).contains(&share), "{trust:?} {rate} Hz: {share} of white recordings called coloured");
+        assert!(
+            (0.02..0.09).contains(&share),
+            "{trust:?} {rate} Hz: {share} of white recordings called coloured"
+        );
     }
 }
 
 #[test]
 fn static_holds_deliver_the_promised_covariance() {
     // with and without a disturbance of the holds beyond the noise within them
-    for (between, g_sd, gauge) in [(0.0, 0.0, Gauge::Upper), (2e-3, 0.0, Gauge::Symmetric), (2e-3, 5e-3, Gauge::Lower)] {
+    for (between, g_sd, gauge) in
+        [(0.0, 0.0, Gauge::Upper), (2e-3, 0.0, Gauge::Symmetric), (2e-3, 5e-3, Gauge::Lower)]
+    {
         let recordings = 1000;
         let sensor = Sensor {
             noise_mps2: Some(Vector3::repeat(0.01)),
@@ -135,7 +147,10 @@ fn static_holds_deliver_the_promised_covariance() {
             .map(|index| {
                 let mut rng = stream(5, Purpose::Sensor, index);
                 let truth = gauge.apply(&draw_sensor(&sensor, &mut rng));
-                let g_error = draw_sensor(&Sensor { bias_sd_mps2: Some(Vector3::repeat(g_sd)), ..sensor.clone() }, &mut rng);
+                let g_error = draw_sensor(
+                    &Sensor { bias_sd_mps2: Some(Vector3::repeat(g_sd)), ..sensor.clone() },
+                    &mut rng,
+                );
                 let simulation = HoldsSimulation {
                     poses: 24,
                     hold_s: 3.0,
@@ -151,12 +166,19 @@ fn static_holds_deliver_the_promised_covariance() {
                     gauge,
                     ..HoldsSetup::default()
                 };
-                let problem =
-                    CalibrationProblem { sensor: &sensor, recording: &recording, stimulus: Stimulus::Holds(&setup) };
+                let problem = CalibrationProblem {
+                    sensor: &sensor,
+                    recording: &recording,
+                    stimulus: Stimulus::Holds(&setup),
+                };
                 let calibration = calibrate(&problem, &CalibrationSettings::default()).expect("identifiable");
                 let Recovered::Holds(holds) = &calibration.recovered else { panic!("holds") };
                 let found = holds.holds.len();
-                let errors = list.quantities().iter().zip(&calibration.values).map(|(q, v)| v - Quantity::of(*q, &truth));
+                let errors = list
+                    .quantities()
+                    .iter()
+                    .zip(&calibration.values)
+                    .map(|(q, v)| v - Quantity::of(*q, &truth));
                 (errors.collect(), calibration.sd(), found)
             })
             .collect();

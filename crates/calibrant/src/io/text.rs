@@ -51,7 +51,9 @@ pub(super) fn as_text(bytes: &[u8]) -> Checked<&str> {
             Complaint::new("the text is encoded in UTF-16", "save it as UTF-8 (or plain ASCII)").into()
         );
     }
-    if let Some(offset) = bytes.iter().position(|&byte| byte == 0) {
+    // the search for one byte is much faster than the search for its place
+    if bytes.contains(&0) {
+        let offset = bytes.iter().take_while(|&&byte| byte != 0).count();
         return Err(Complaint::new(
             format!("this is binary data, not text: NUL byte at offset {offset}"),
             "export the data as text",

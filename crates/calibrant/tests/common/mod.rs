@@ -1,75 +1,28 @@
-//! Shared by the integration tests.
-#![allow(dead_code)]
+//! What several of the tests need.
 
-use calibrant::estimate::{Calibration, CalibrationProblem, CalibrationSettings, Stimulus, calibrate};
-use calibrant::motion::{CommandedMotion, JerkControlledMotion, KnownEnds, Limits, Trust};
-use calibrant::sensor::{Recording, Sensor, SensorModel, SensorParameters};
-use calibrant::simulate::{
-    Purpose, draw_sensor, initial_motion, perturb, sample_times, simulate_recording, stream,
-};
+#![allow(dead_code)] // not every test needs everything
 
-/// A simulated sensor on a random motion.
-#[derive(Clone)]
-pub struct Case {
-    pub sensor: Sensor,
-    pub truth: SensorParameters,
-    pub command: CommandedMotion,
-    pub recording: Recording,
-}
+mod case;
 
-impl Case {
-    pub fn new(
-        model: SensorModel,
-        trust: Trust,
-        intervals: usize,
-        interval_s: f64,
-        rate_hz: f64,
-        seed: u64,
-    ) -> Self {
-        let mut rng = stream(seed, Purpose::Motion, 0);
-        let motion = initial_motion(intervals, interval_s, 3, &Limits::default(), &mut rng).expect("valid");
-        Self::with_motion(model, trust, motion, rate_hz, seed)
+pub(crate) use case::Case;
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+/// A recording that was not made here, under `../shared/data` beside the workspace (or where `CALIBRANT_DATA` says).
+///
+/// `None`, and a line on stderr that the harness does not capture, where it is absent: the test that asked is skipped then.
+pub(crate) fn shared_data(name: &str) -> Option<PathBuf> {
+    let beside = || Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data");
+    let path = std::env::var_os("CALIBRANT_DATA").map_or_else(beside, PathBuf::from).join(name);
+    if path.is_file() {
+        return Some(path);
     }
-
-    pub fn with_motion(
-        model: SensorModel,
-        trust: Trust,
-        motion: JerkControlledMotion,
-        rate_hz: f64,
-        seed: u64,
-    ) -> Self {
-        let mut sensor = Sensor::memsic_mxd2020u();
-        sensor.model = model;
-        sensor.cross_axis_sd = Some(0.01);
-        let mut rng = stream(seed, Purpose::Sensor, 0);
-        let truth = draw_sensor(&sensor, &mut rng);
-        let happened = match trust {
-            Trust::Noisy(noise) => perturb(&motion, &noise, 3, &mut rng).expect("valid"),
-            _ => motion.clone(),
-        };
-        let times = sample_times(&motion, rate_hz);
-        let noise = sensor.noise_mps2.expect("given");
-        let recording = simulate_recording(&truth, &noise, sensor.unit, 3, &happened, &times, &mut rng);
-        let known_ends = if trust == Trust::Unknown { KnownEnds::Both } else { KnownEnds::Start };
-        Self { sensor, truth, command: CommandedMotion { motion, trust, known_ends }, recording }
-    }
-
-    pub fn with_trust(&self, trust: Trust, known_ends: KnownEnds) -> Self {
-        let mut case = self.clone();
-        case.command.trust = trust;
-        case.command.known_ends = known_ends;
-        case
-    }
-
-    pub fn problem(&self) -> CalibrationProblem<'_> {
-        CalibrationProblem {
-            sensor: &self.sensor,
-            recording: &self.recording,
-            stimulus: Stimulus::Motion(&self.command),
-        }
-    }
-
-    pub fn calibrate(&self) -> calibrant::Result<Calibration> {
-        calibrate(&self.problem(), &CalibrationSettings::default())
-    }
+    // not eprintln!, which the test harness keeps to itself
+    let _ = writeln!(
+        std::io::stderr(),
+        "SKIPPED: {} is not there; set CALIBRANT_DATA to the directory with the recordings",
+        path.display()
+    );
+    None
 }

@@ -342,7 +342,10 @@ fn summarise<M: ChainModel<D, P>, const D: usize, const P: usize>(
         node_sd.push(spread(&at.node1.diagonal().map(|variance| variance.max(0.0).sqrt())));
         let next = M::sensitivity(&fit.state.a[i + 1]);
         // covariance of the fitted readings at two nodes, from that of nodes and parameters
-        let readings = |nodes: &SMatrix<f64, D, D>, n1: &SMatrix<f64, D, P>, n0: &SMatrix<f64, D, P>, g0: &SMatrix<f64, D, P>| {
+        let readings = |nodes: &SMatrix<f64, D, D>,
+                        n1: &SMatrix<f64, D, P>,
+                        n0: &SMatrix<f64, D, P>,
+                        g0: &SMatrix<f64, D, P>| {
             (s * nodes * s.transpose()
                 + s * n1 * g0.transpose()
                 + next * n0.transpose() * s.transpose()

@@ -119,7 +119,11 @@ fn assemble(context: &Context<'_>, solved: Solved, first_sample: usize) -> Resul
         let left = samples - solved.leverage[k];
         noise_estimate[k] = if left > 0.5 { (squares / left).sqrt() } else { f64::NAN };
         let shortfall: Vec<f64> = solved.shortfall.iter().map(|c| c[k]).collect();
-        fit.whiteness.extend(statistics::ljung_box(residuals.iter().map(move |r| r[k]), &shortfall, solved.leverage[k]));
+        fit.whiteness.extend(statistics::ljung_box(
+            residuals.iter().map(move |r| r[k]),
+            &shortfall,
+            solved.leverage[k],
+        ));
     }
     if noise_estimate.iter().all(|noise| noise.is_finite()) {
         fit.noise_estimate = Some(noise_estimate);

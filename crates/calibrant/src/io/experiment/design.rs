@@ -1,6 +1,7 @@
 //! `[design]`: what an optimal motion minimises, and how hard it is looked for.
 
-use super::document::{Bounds, Section};
+use super::bounds::Bounds;
+use super::document::Section;
 use super::keys;
 use crate::error::Result;
 use crate::sensor::{ParameterList, Sensor};
@@ -124,12 +125,16 @@ fn read_weights(section: &Section<'_>, list: &ParameterList) -> Result<Vec<(Stri
     let names = list.names();
     let mut weights = Vec::new();
     for (name, value) in Section::open(&entry, "design.weights")?.entries() {
+        if value.is_table() {
+            let help = "write for example \"scale.x\" = 1.0";
+            return Err(value.complain("the name of a parameter has a dot and so needs quotes", help));
+        }
         if list.position(name).is_none() {
             let near = keys::nearest(name, names.iter().map(String::as_str));
             let hint = near.map_or(String::new(), |near| format!("did you mean \"{near}\"? "));
             return Err(value.complain(
                 format!("this sensor has no parameter \"{}\"", keys::shorten(name)),
-                format!("{hint}its parameters are {}; write the name in quotes", names.join(", ")),
+                format!("{hint}its parameters are {}", names.join(", ")),
             ));
         }
         weights.push((name.to_owned(), value.number(&WEIGHT)?));

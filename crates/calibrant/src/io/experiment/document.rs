@@ -1,9 +1,9 @@
 //! An experiment file as a tree of values that know their place, and complaints that point at it.
 
+use super::bounds::Bounds;
 use super::keys;
 use crate::error::{Complaint, Error, Result};
 use nalgebra::Vector3;
-use std::fmt;
 use std::ops::Range;
 use std::path::Path;
 use toml::Spanned;
@@ -39,11 +39,14 @@ impl Document<'_> {
     /// A complaint of the TOML parser.
     pub(super) fn syntax(&self, error: &toml::de::Error) -> Error {
         let span = error.span().unwrap_or(0..0);
-        Error::experiment(self.complain(
-            span,
-            format!("not valid TOML: {}", error.message().replace('\n', " ")),
-            "see https://toml.io".into(),
-        ))
+        let message = error.message().replace('\n', " ");
+        let (message, help) = match self.text.get(span.clone()) {
+            Some(key) if message == "duplicate key" => {
+                (format!("the key `{}` is there twice", keys::shorten(key)), "keep one of them")
+            }
+            _ => (format!("not valid TOML: {message}"), "see https://toml.io"),
+        };
+        Error::experiment(self.complain(span, message, help.into()))
     }
 }
 
@@ -72,16 +75,15 @@ impl<'a> Section<'a> {
             if !keys::of(name).contains(&key.get_ref().as_ref()) {
                 let complaint =
                     document.complain(key.span(), "unknown key".into(), keys::suggest(name, key.get_ref()));
-                return Err(Error::experiment(
-                    complaint.about_key(section.full(&keys::shorten(key.get_ref()))),
-                ));
+                return Err(Error::experiment(complaint.about_key(section.full(key.get_ref()))));
             }
         }
         Ok(section)
     }
 
     fn full(&self, key: &str) -> String {
-        if self.name.is_empty() { key.to_owned() } else { format!("{}.{key}", self.name) }
+        let key = keys::shorten(key);
+        if self.name.is_empty() { key } else { format!("{}.{key}", self.name) }
     }
 
     /// The subtable of this name, where there is one. `name` is its full name, as in the list of keys.
@@ -220,7 +222,9 @@ impl<'a> Entry<'a> {
             .ok()
             .and_then(|number| u64::try_from(number).ok())
             .filter(|number| (least..=most).contains(number))
-            .ok_or_else(|| self.complain(format!("{whole} is out of range"), help))
+            .ok_or_else(|| {
+                self.complain(format!("{} is out of range", keys::shorten(&whole.to_string())), help)
+            })
     }
 
     /// [`whole`](Self::whole), as a size.
@@ -233,7 +237,8 @@ impl<'a> Entry<'a> {
     /// One of these words, and what it stands for.
     pub(super) fn word<T: Copy>(&self, words: &[(&str, T)]) -> Result<T> {
         let all: Vec<_> = words.iter().map(|(word, _)| format!("\"{word}\"")).collect();
-        let help = format!("one of {}", all.join(", "));
+        let help =
+            if all.len() == 1 { format!("write {}", all[0]) } else { format!("one of {}", all.join(", ")) };
         let Some(text) = self.value.get_ref().as_str() else {
             return Err(self.wrong_type("a string", &help));
         };
@@ -258,44 +263,13 @@ impl<'a> Entry<'a> {
         Ok(array.iter().enumerate().map(item).collect())
     }
 
+    /// Is the value a table?
+    pub(super) fn is_table(&self) -> bool {
+        self.value.get_ref().is_table()
+    }
+
     /// The text of the value, where it is a string.
     pub(super) fn text(&self) -> Option<&'a str> {
         self.value.get_ref().as_str()
-    }
-}
-
-/// The range of a number and its unit.
-pub(super) struct Bounds {
-    least: f64,
-    open: bool,
-    most: f64,
-    unit: &'static str,
-}
-
-impl Bounds {
-    /// Above `least`, up to `most`.
-    pub(super) const fn above(least: f64, most: f64, unit: &'static str) -> Self {
-        Self { least, open: true, most, unit }
-    }
-
-    /// From `least` to `most`.
-    pub(super) const fn from(least: f64, most: f64, unit: &'static str) -> Self {
-        Self { least, open: false, most, unit }
-    }
-
-    fn contain(&self, number: f64) -> bool {
-        number <= self.most && if self.open { number > self.least } else { number >= self.least }
-    }
-}
-
-impl fmt::Display for Bounds {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { least, open, most, unit } = self;
-        let space = if unit.is_empty() { "" } else { " " };
-        write!(
-            f,
-            "a number {} {least}{space}{unit}, at most {most}{space}{unit}",
-            if *open { "above" } else { "from" }
-        )
     }
 }

@@ -1,6 +1,7 @@
 //! `[holds]`: static calibration in several poses.
 
-use super::document::{Bounds, Entry, Section};
+use super::bounds::Bounds;
+use super::document::{Entry, Section};
 use super::motion::{MOST_SAMPLES, RATE_HZ};
 use crate::error::Result;
 use crate::motion::Gravity;
@@ -109,8 +110,7 @@ fn read_intervals(entry: &Entry<'_>) -> Result<Vec<(f64, f64)>> {
     for item in items {
         let pair = item.items(HELP)?;
         let [start, end] = pair.as_slice() else {
-            return Err(item
-                .complain(format!("a hold has a start and an end, this has {} numbers", pair.len()), HELP));
+            return Err(item.complain(format!("a hold has two numbers, this has {}", pair.len()), HELP));
         };
         let (start, end) = (start.number(&TIME)?, end.number(&TIME)?);
         if end <= start {

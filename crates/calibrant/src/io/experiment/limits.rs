@@ -1,6 +1,7 @@
 //! `[limits]`: what the arm can do.
 
-use super::document::{Bounds, Section};
+use super::bounds::Bounds;
+use super::document::Section;
 use crate::error::Result;
 use crate::motion::{Limits, Rest};
 use nalgebra::Vector3;

@@ -3,6 +3,7 @@
 //! Unknown keys, wrong types and values out of range are errors that point at line and column; an unknown key is answered with
 //! the nearest known one. [`presets`](super::preset()) are commented examples of every key.
 
+mod bounds;
 mod design;
 mod document;
 mod holds;

@@ -1,6 +1,7 @@
 //! `[motion]`: a commanded motion, its intervals and how far it is trusted.
 
-use super::document::{Bounds, Section};
+use super::bounds::Bounds;
+use super::document::Section;
 use crate::error::Result;
 use crate::motion::{InputNoise, KnownEnds, Trust};
 

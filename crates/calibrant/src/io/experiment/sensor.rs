@@ -1,6 +1,7 @@
 //! `[sensor]`: the datasheet.
 
-use super::document::{Bounds, Section};
+use super::bounds::Bounds;
+use super::document::Section;
 use crate::error::Result;
 use crate::sensor::{ReadingUnit, Sensor, SensorModel};
 use nalgebra::Vector3;
@@ -27,9 +28,9 @@ pub(super) fn read(section: &Section<'_>) -> Result<Sensor> {
         _ => kind.word(&[("accelerometer", ())])?,
     }
     let entry = section.need("axes", "axes = 1 or axes = 3")?;
-    let axes = entry.size(1, 3)?;
-    if axes == 2 {
-        return Err(entry.complain("2 is not a number of axes that is supported", "1 or 3"));
+    let axes = entry.size(0, u64::MAX)?;
+    if axes != 1 && axes != 3 {
+        return Err(entry.complain(format!("{axes} axes are not supported"), "1 or 3"));
     }
     let entry = section.need("model", "model = \"scale-bias\" or \"full\"")?;
     let model = entry.word(&[("scale-bias", SensorModel::ScaleBias), ("full", SensorModel::Full)])?;

@@ -87,7 +87,10 @@ pub(super) fn count(number: usize, noun: &str) -> String {
 
 /// A number in six significant digits, without trailing zeros.
 pub(super) fn short(number: f64) -> String {
-    format!("{number:.5e}")
-        .parse::<f64>()
-        .map_or_else(|_| number.to_string(), |rounded| format!("{rounded:?}"))
+    let rounded = format!("{number:.5e}").parse().unwrap_or(number);
+    if rounded == 0.0 || (1e-4..1e9).contains(&rounded.abs()) {
+        rounded.to_string()
+    } else {
+        format!("{rounded:e}")
+    }
 }

@@ -23,6 +23,7 @@ use super::text::{self, Checked};
 use crate::error::{Complaint, Error, Result};
 use crate::sensor::{ReadingUnit, Recording};
 use columns::Columns;
+use finding::count;
 use rows::Rows;
 use sha2::{Digest, Sha256};
 use std::path::Path;
@@ -116,19 +117,22 @@ fn parse(bytes: &[u8], options: &ReadOptions) -> Checked<RecordingFile> {
     }
     rows.report(&mut findings);
     if rows.times_s.len() < 2 {
-        return Err(Complaint::new(
-            match rows.rows() {
-                0 => "there is a header but no sample below it".to_owned(),
-                n => format!("{} of {n} rows can be used; two are needed at least", rows.times_s.len()),
-            },
-            findings.iter().map(ToString::to_string).collect::<Vec<_>>().join("; "),
-        )
-        .into());
+        return Err(too_short(&rows, last, &findings).into());
     }
     let Rows { times_s, readings, lines, .. } = rows;
     let recording = Recording { times_s, readings, axes: options.axes, unit: columns.unit };
     quality::examine(&recording, &lines, &mut findings);
     Ok(RecordingFile { recording, findings, sha256: hex_sha256(bytes), lines: last })
+}
+
+fn too_short(rows: &Rows<'_>, last: usize, findings: &[Finding]) -> Complaint {
+    let message = match rows.rows() {
+        0 => "there is a header but no sample below it".to_owned(),
+        n => format!("only {} in {}", count(rows.times_s.len(), "usable sample"), count(n, "row")),
+    };
+    let mut help = vec!["a recording needs two samples at least".to_owned()];
+    help.extend(findings.iter().map(ToString::to_string));
+    Complaint::new(message, help.join("; ")).at_line(last)
 }
 
 /// About how many rows a text has, from the length of the lines in its middle.

@@ -1,0 +1,230 @@
+//! Broken recordings and motions: every complaint word for word.
+
+use calibrant::io::{ReadOptions, parse_motion, parse_recording, read_motion, read_recording};
+use calibrant::sensor::ReadingUnit;
+
+/// The bytes of a file and what is said of it.
+type Case = (&'static [u8], &'static str);
+
+const OPTIONS: ReadOptions =
+    ReadOptions { unit: None, expected_unit: ReadingUnit::MetrePerSecondSquared, axes: 3 };
+
+#[test]
+fn recordings() {
+    let directory = tempfile::tempdir().expect("a directory");
+    for (bytes, expected) in RECORDINGS {
+        let error = parse_recording(bytes, &OPTIONS).expect_err(expected);
+        assert_eq!(error.to_string(), *expected);
+        assert!(error.is_invalid_recording() && !error.is_invalid_experiment());
+        let path = directory.path().join("recording.csv");
+        std::fs::write(&path, bytes).expect("written");
+        let named = read_recording(&path, &OPTIONS).expect_err(expected).to_string();
+        let complaint = error.complaint().expect("a complaint");
+        let place: String =
+            [complaint.line, complaint.column].iter().flatten().map(|n| format!(":{n}")).collect();
+        assert!(named.starts_with(&format!("{}{place}: ", path.display())), "{named}");
+        assert!(named.contains(&complaint.message), "{named}");
+    }
+}
+
+#[test]
+fn motions() {
+    for (bytes, expected) in MOTIONS {
+        let error = parse_motion(bytes, 3).expect_err(expected);
+        assert_eq!(error.to_string(), *expected);
+        assert!(error.is_invalid_experiment() && !error.is_invalid_recording());
+    }
+}
+
+#[test]
+fn what_is_no_file_is_named() {
+    let directory = tempfile::tempdir().expect("a directory");
+    let error = read_recording(directory.path(), &OPTIONS).expect_err("a directory");
+    assert!(error.is_invalid_recording());
+    assert!(
+        error.to_string().ends_with("this is a directory, not the recording (name a file in it)"),
+        "{error}"
+    );
+    let absent = directory.path().join("absent.csv");
+    let error = read_motion(&absent, 3).expect_err("absent");
+    assert!(error.is_invalid_experiment());
+    assert!(
+        error.to_string().starts_with(&format!("{}: cannot read the motion: ", absent.display())),
+        "{error}"
+    );
+    assert!(error.to_string().ends_with("(check the name and the working directory)"), "{error}");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn an_endless_device_is_refused_at_once() {
+    let error = read_recording("/dev/zero".as_ref(), &OPTIONS).expect_err("zeros");
+    assert!(error.to_string().contains("binary data, not text: NUL byte at offset 0"), "{error}");
+}
+
+const RECORDINGS: &[Case] = &[
+    (b"", "the file is empty (a recording has a header t_s,ax,ay,az and a row for each sample)"),
+    (b"\n \n\n", "the file is empty (a recording has a header t_s,ax,ay,az and a row for each sample)"),
+    (
+        b"# nothing\n// here\n",
+        "the file has only comments (a recording has a header t_s,ax,ay,az and a row for each sample)",
+    ),
+    (
+        b"t_s,ax,ay,az\n",
+        "line 1: there is a header but no sample below it (a recording needs two samples at least)",
+    ),
+    (
+        b"t_s,ax,ay,az\n0,1,2,3\n",
+        "line 2: only 1 usable sample in 1 row (a recording needs two samples at least)",
+    ),
+    (
+        b"t_s,ax,ay,az\n0,1,2,3\n0,1,2,3\n1,nan,2,3\n",
+        "line 4: only 1 usable sample in 3 rows (a recording needs two samples at least; line 4: 1 sample with a missing or NaN value dropped; line 3: 1 row equal to the one before dropped)",
+    ),
+    (
+        b"t_s,ax,ay,temp\n0,1,2,3\n1,2,3,4\n",
+        "line 1: column az missing; the columns are `t_s`, `ax`, `ay`, `temp` (header t_s,ax,ay,az; the axes may end in _mps2, _counts or _g)",
+    ),
+    (
+        b"time;x;y;z\n0;1;2;3\n",
+        "line 1: columns t_s, ax, ay, az missing; the columns are `time`, `x`, `y`, `z` (header t_s,ax,ay,az; the axes may end in _mps2, _counts or _g)",
+    ),
+    (
+        b"t_s,ax_mps2,ax_counts,ay_mps2,az_mps2\n0,1,2,3,4\n",
+        "line 1: axis x has two columns, the second is `ax_counts` (keep one of them)",
+    ),
+    (
+        b"t_s,ax_mps2,ay_g,az_mps2\n0,1,2,3\n",
+        "line 1: the axes have different units: `ay_g` after one in m/s² (all axes need the same suffix)",
+    ),
+    (
+        b"t_s,ax,ay_g,az\n0,1,2,3\n",
+        "line 1: the axes have different units: `ay_g` after one in no stated unit (all axes need the same suffix)",
+    ),
+    (
+        b"t_s,t_s,ax,ay,az\n0,0,1,2,3\n",
+        "line 1: the time has two columns, the second is `t_s` (keep one of them)",
+    ),
+    (
+        b"t_s,ax,ay,az\n0,1,2,3\n1,1,2,3\n0.5,1,2,3\n",
+        "line 4: time goes backwards, from 1.0 s to 0.5 s (are these files put together, or did a counter wrap? split the file here)",
+    ),
+    (
+        b"t_s,ax,ay,az\n0,1,2,3\n1,1,2,3\nt_s,ax,ay,az\n0,1,2,3\n",
+        r#"line 4, column 1: "t_s" in column `t_s` is not a number (a second header: are these files put together? keep one of them)"#,
+    ),
+    (
+        b"t_s,ax,ay,az\n0,1,2,3\n1,1,oops,3\n2,1,2,3\n",
+        r#"line 3, column 5: "oops" in column `ay` is not a number (numbers look like 9.81 or 1e-3; a missing value is an empty field or NaN)"#,
+    ),
+    (
+        "t_s,ax,ay,az\n0,1,2,3\n1,µ1,2,3\n2,1,2,3\n".as_bytes(),
+        r#"line 3, column 3: "µ1" in column `ax` is not a number (numbers look like 9.81 or 1e-3; a missing value is an empty field or NaN)"#,
+    ),
+    (
+        b"t_s;ax;ay;az\n0,0;1,5;2,5;3,5\n1,0;1,5;2,5;3,5\n",
+        r#"line 2, column 1: "0,0" in column `t_s` is not a number (numbers need a decimal point, not a comma)"#,
+    ),
+    (
+        b"t_s,ax,ay,az\n0,0,1,5,2,5,3,5\n1,0,1,5,2,5,3,5\n",
+        "line 2: 8 columns where the header has 4 (numbers need a decimal point, not a comma; columns need one delimiter)",
+    ),
+    (
+        b"t_s,ax,ay,az\n0,1,2,3\n1,1,2\n2,1,2,3\n",
+        "line 3: 3 columns where the header has 4 (was the line cut off, or written while the file was read?)",
+    ),
+    (
+        b"t_s,ax,ay,az\n0,1,2,3\n1,1,2,3,4\n2,1,2,3\n",
+        "line 3: 5 columns where the header has 4 (numbers need a decimal point, not a comma; columns need one delimiter)",
+    ),
+    (b"0 1 2\n1 2 3\n", "line 1: 3 columns where 4 are needed (without a header the columns are t x y z)"),
+    (
+        b"t_s,ax,ay,az\n0,1,2,3\n1,inf,2,3\n2,1,2,3\n",
+        r#"line 3, column 3: "inf" in column `ax` is out of range (is the unit right? is the file damaged?)"#,
+    ),
+    (
+        b"t_s,ax,ay,az\n0,1,2,3\n1,1,2,1e13\n2,1,2,3\n",
+        r#"line 3, column 7: "1e13" in column `az` is out of range (is the unit right? is the file damaged?)"#,
+    ),
+    (
+        b"t_s,ax,ay,az\n1763690000000000,1,2,3\n",
+        r#"line 2, column 1: "1763690000000000" in column `t_s` is out of range (times are in seconds)"#,
+    ),
+    (
+        b"t_s,ax,ay,az\n0,1,\x002,3\n",
+        "this is binary data, not text: NUL byte at offset 17 (export the data as text)",
+    ),
+    (
+        b"t_s,ax,ay,az\n0,1,2,3\n# caf\xe9\n",
+        "line 3: not UTF-8 text: byte 0xe9 at offset 26 (save it as UTF-8 (or plain ASCII))",
+    ),
+    (
+        b"\xff\xfet\x00_\x00s\x00,\x00a\x00x\x00\n\x00",
+        "the text is encoded in UTF-16 (save it as UTF-8 (or plain ASCII))",
+    ),
+];
+
+const MOTIONS: &[Case] = &[
+    (b"", "the file is empty (a motion has the header t_s,ax_mps2,ay_mps2,az_mps2 and a row for each node)"),
+    (
+        b"t_s,ax_mps2,ay_mps2,az_mps2\n",
+        "a motion needs at least two nodes, this one has 0 (a motion has the header t_s,ax_mps2,ay_mps2,az_mps2 and a row for each node)",
+    ),
+    (
+        b"0,1,2,3\n1,2,3,4\n",
+        "line 1, column 1: there is no header, the first field is 0 (the header is t_s,ax_mps2,ay_mps2,az_mps2)",
+    ),
+    (
+        b"t_s,ax_mps2,ay_mps2\n0,1,2\n",
+        "line 1: column az_mps2 is missing (the header is t_s,ax_mps2,ay_mps2,az_mps2)",
+    ),
+    (
+        b"t_s,ax_mps2,ay_mps2,az_mps2,vx\n0,1,2,3,4\n",
+        "line 1, column 29: column `vx` is not known (the header is t_s,ax_mps2,ay_mps2,az_mps2)",
+    ),
+    (
+        b"t_s,ax_mps2,ay_mps2,az_mps2,t_s\n0,1,2,3,4\n",
+        "line 1, column 29: column `t_s` is there twice (the header is t_s,ax_mps2,ay_mps2,az_mps2)",
+    ),
+    (
+        b"t_s,ax,ay,az\n0,1,2,3\n",
+        "line 1, column 5: column `ax` is not known (the header is t_s,ax_mps2,ay_mps2,az_mps2)",
+    ),
+    (
+        b"t_s,ax_mps2,ay_mps2,az_mps2\n0,1,2,3\n",
+        "a motion needs at least two nodes, this one has 1 (a motion has the header t_s,ax_mps2,ay_mps2,az_mps2 and a row for each node)",
+    ),
+    (
+        b"t_s,ax_mps2,ay_mps2,az_mps2\n0,1,2,3\n1,nan,2,3\n",
+        r#"line 3, column 3: "nan" for axis x is not a usable number (times are in s, accelerations in m/s²)"#,
+    ),
+    (
+        b"t_s,ax_mps2,ay_mps2,az_mps2\n0,1,2,3\n1,,2,3\n",
+        r#"line 3, column 3: "" for axis x is not a number (numbers look like 9.81 or 1e-3)"#,
+    ),
+    (
+        b"t_s,ax_mps2,ay_mps2,az_mps2\n0,1,2,3\ninf,1,2,3\n",
+        r#"line 3, column 1: "inf" for the time is not a usable number (times are in s, accelerations in m/s²)"#,
+    ),
+    (
+        b"t_s,ax_mps2,ay_mps2,az_mps2\n0,1,2,3\n1,1e10,2,3\n",
+        r#"line 3, column 3: "1e10" for axis x is not a usable number (times are in s, accelerations in m/s²)"#,
+    ),
+    (
+        b"t_s,ax_mps2,ay_mps2,az_mps2\n0,1,2,3\n1,1,x,3\n",
+        r#"line 3, column 5: "x" for axis y is not a number (numbers look like 9.81 or 1e-3)"#,
+    ),
+    (
+        b"t_s,ax_mps2,ay_mps2,az_mps2\n0,1,2,3\n1,1,2\n",
+        "line 3: 3 columns where the header has 4 (every node needs a time and an acceleration for each axis)",
+    ),
+    (
+        b"t_s,ax_mps2,ay_mps2,az_mps2\n0,1,2,3\n1,1,2,3\n1,4,5,6\n",
+        "line 4: node times must increase: 1.0 s comes after 1.0 s (sort the rows and remove duplicates)",
+    ),
+    (b"t_s,ax_mps2\x00", "this is binary data, not text: NUL byte at offset 11 (export the data as text)"),
+    (
+        b"t_s,ax_mps2\xff",
+        "line 1: not UTF-8 text: byte 0xff at offset 11 (save it as UTF-8 (or plain ASCII))",
+    ),
+];

@@ -1,0 +1,74 @@
+//! Broken experiment files: every complaint word for word.
+
+mod datasheet;
+mod holds;
+mod motion;
+
+use calibrant::io::Experiment;
+
+const MOTION: &str = r#"schema = 1
+
+[sensor]
+kind = "accelerometer"
+axes = 3
+model = "scale-bias"
+noise_mps2 = 2e-4
+bias_sd_mps2 = 0.1
+scale_sd = 0.005
+
+[motion]
+intervals = 10
+interval_s = 1.0
+rate_hz = 10.0
+trust = "known"
+"#;
+
+const HOLDS: &str = r#"schema = 1
+
+[sensor]
+kind = "accelerometer"
+axes = 3
+model = "full"
+unit = "counts"
+
+[holds]
+gravity_mps2 = 9.81
+gauge = "upper"
+"#;
+
+/// A change to a good file (old, new; `⏎` stands for a line end) and what is said of it.
+type Case = (&'static str, &'static str, &'static str);
+
+#[test]
+fn unknown_keys_and_the_datasheet() {
+    refuse(MOTION, datasheet::CASES);
+}
+
+#[test]
+fn motion_limits_design_and_study() {
+    refuse(MOTION, motion::CASES);
+}
+
+#[test]
+fn gravity_gauge_and_given_holds() {
+    refuse(HOLDS, holds::CASES);
+}
+
+fn refuse(good: &str, cases: &[Case]) {
+    assert!(Experiment::parse(good, None).is_ok());
+    for (old, new, expected) in cases {
+        let (old, new) = (old.replace('⏎', "\n"), new.replace('⏎', "\n"));
+        assert!(good.contains(&old), "{old}");
+        let text = good.replacen(&old, &new, 1);
+        let error = Experiment::parse(&text, None).expect_err(expected);
+        assert_eq!(error.to_string(), *expected);
+        assert!(error.is_invalid_experiment() && !error.is_invalid_recording());
+        let complaint = error.complaint().expect("a complaint");
+        let (excerpt, range) = complaint.excerpt.as_ref().expect("the text");
+        assert_eq!(*excerpt, text);
+        let before = &text[..range.start];
+        assert_eq!(complaint.line, Some(before.matches('\n').count() + 1), "{error}");
+        let column = before.rsplit('\n').next().map_or(0, |line| line.chars().count()) + 1;
+        assert_eq!(complaint.column, Some(column), "{error}");
+    }
+}

@@ -1,0 +1,198 @@
+//! Good experiment files: what they say arrives, and what they leave out has its default.
+
+use calibrant::io::{
+    CriterionLetter, Experiment, HoldsPlan, MotionPlan, PRESETS, Plan, Prior, ScaleBy, preset,
+};
+use calibrant::motion::{Gravity, KnownEnds, Rest, Trust};
+use calibrant::sensor::{Gauge, ReadingUnit, Sensor, SensorModel};
+use nalgebra::Vector3;
+
+fn parse(text: &str) -> Experiment {
+    Experiment::parse(text, None).unwrap_or_else(|error| panic!("{error}\n{text}"))
+}
+
+fn motion(experiment: &Experiment) -> &MotionPlan {
+    match &experiment.plan {
+        Plan::Motion(plan) => plan,
+        Plan::Holds(_) => panic!("holds"),
+    }
+}
+
+fn holds(experiment: &Experiment) -> &HoldsPlan {
+    match &experiment.plan {
+        Plan::Holds(plan) => plan,
+        Plan::Motion(_) => panic!("motion"),
+    }
+}
+
+#[test]
+fn every_preset_is_valid_also_with_its_commented_keys_switched_on_one_by_one() {
+    for (name, text) in PRESETS {
+        parse(text);
+        assert_eq!(preset(name), Some(*text));
+        for (at, line) in text.lines().enumerate() {
+            let Some(key) = line.strip_prefix("# ").filter(|line| line.contains(" = ")) else { continue };
+            let with = |key: &str| {
+                let lines = text.lines().enumerate().map(|(i, line)| if i == at { key } else { line });
+                Experiment::parse(&lines.collect::<Vec<_>>().join("\n"), None)
+            };
+            // latitude and height stand for gravity, and go together: no line is good alone
+            match with(key) {
+                Ok(_) => assert!(!key.starts_with("latitude") && !key.starts_with("height")),
+                Err(error) => {
+                    assert!(error.to_string().contains("gravity is given twice"), "{name}: {key}: {error}")
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn the_report_preset_is_the_report() {
+    let experiment = parse(preset("report").expect("known"));
+    assert_eq!(experiment.sensor, Sensor::memsic_mxd2020u());
+    let expected = MotionPlan {
+        intervals: 10,
+        interval_s: 1.0,
+        rate_hz: 10.0,
+        trust: Trust::Known,
+        known_ends: KnownEnds::Start,
+    };
+    assert_eq!(*motion(&experiment), expected);
+    assert_eq!(experiment.limits.acceleration_mps2, Some(Vector3::repeat(30.0)));
+    assert_eq!(experiment.limits.rest, Rest::Both);
+    assert_eq!((experiment.study.sensors, experiment.study.seed), (30, 1));
+    assert_eq!((experiment.design.criterion, experiment.design.starts), (CriterionLetter::A, 30));
+    assert_eq!(experiment.calibrate.prior, Prior::None);
+
+    let unknown = parse(preset("report-unknown").expect("known"));
+    assert_eq!((motion(&unknown).trust, motion(&unknown).known_ends), (Trust::Unknown, KnownEnds::Both));
+    assert_eq!((motion(&unknown).intervals, unknown.study.sensors), (14, 50));
+    let noisy = parse(preset("report-noisy").expect("known"));
+    assert_eq!(motion(&noisy).trust.name(), "noisy");
+    assert_eq!(noisy.limits.jerk_mps3, Some(Vector3::repeat(20.0)));
+}
+
+#[test]
+fn static_presets_are_for_si_and_for_counts() {
+    let si = parse(preset("static-poses").expect("known"));
+    assert_eq!((si.sensor.unit, si.sensor.model), (ReadingUnit::MetrePerSecondSquared, SensorModel::Full));
+    let counts = parse(preset("static-poses-counts").expect("known"));
+    assert_eq!(
+        (counts.sensor.unit, counts.sensor.gain, counts.sensor.offset),
+        (ReadingUnit::Counts, None, None)
+    );
+    assert_eq!(holds(&counts).gravity, Gravity { magnitude_mps2: 9.81744, sd_mps2: 0.0 });
+    assert_eq!((holds(&counts).gauge, holds(&counts).gravity_source.as_str()), (Gauge::Upper, "given"));
+}
+
+const HOLDS: &str =
+    "schema = 1\n[sensor]\nkind = 'accelerometer'\naxes = 3\nmodel = 'full'\n[holds]\ngauge = 'lower'\n";
+
+#[test]
+fn gravity_comes_from_latitude_and_height() {
+    let experiment = parse(&format!("{HOLDS}latitude_deg = 52.2\nheight_m = 30\n"));
+    let plan = holds(&experiment);
+    assert_eq!(plan.gravity, Gravity::from_latitude(52.2, 30.0));
+    assert_eq!(plan.gravity_source, "from latitude 52.2°, height 30 m");
+    let experiment = parse(&format!("{HOLDS}latitude_deg = 52.2\nheight_m = 30\ngravity_sd_mps2 = 1e-3\n"));
+    assert_eq!(holds(&experiment).gravity.sd_mps2, 1e-3);
+}
+
+#[test]
+fn what_holds_leaves_out_has_its_default() {
+    let experiment = parse(&format!("{HOLDS}gravity_mps2 = 9.81\n"));
+    let plan = holds(&experiment);
+    assert_eq!((plan.poses, plan.hold_s, plan.rate_hz, plan.minimum_hold_s), (24, 5.0, 100.0, 1.0));
+    assert_eq!((plan.gravity.sd_mps2, &plan.intervals_s), (0.0, &None));
+    let experiment = parse(&format!("{HOLDS}gravity_mps2 = 9.81\nintervals_s = [[-1, 2.5], [2.5, 7]]\n"));
+    assert_eq!(holds(&experiment).intervals_s, Some(vec![(-1.0, 2.5), (2.5, 7.0)]));
+}
+
+const MOTION: &str = "schema = 1\nsensor = { kind = 'accelerometer', axes = 3, model = 'full', noise_mps2 = [1e-4, 2, 3], \
+                      bias_sd_mps2 = 0.1, scale_sd = [0.1, 0.2, 0.3], cross_axis_sd = 0.01 }\n\
+                      [motion]\nintervals = 0x0A\ninterval_s = 5\nrate_hz = 2\n";
+
+#[test]
+fn numbers_may_be_given_per_axis() {
+    let experiment = parse(&format!("{MOTION}trust = 'known'\n[limits]\njerk_mps3 = [1, 2, 3]\n"));
+    assert_eq!(experiment.sensor.noise_mps2, Some(Vector3::new(1e-4, 2.0, 3.0)));
+    assert_eq!(experiment.sensor.scale_sd, Some(Vector3::new(0.1, 0.2, 0.3)));
+    assert_eq!(experiment.limits.jerk_mps3, Some(Vector3::new(1.0, 2.0, 3.0)));
+    assert_eq!(motion(&experiment).intervals, 10);
+}
+
+#[test]
+fn an_unknown_motion_has_both_ends_known_without_saying_so() {
+    let experiment = parse(&format!("{MOTION}trust = 'unknown'\n"));
+    assert_eq!(motion(&experiment).known_ends, KnownEnds::Both);
+    assert_eq!(motion(&parse(&format!("{MOTION}trust = 'known'\n"))).known_ends, KnownEnds::Start);
+}
+
+#[test]
+fn design_and_prior_arrive() {
+    let text = format!(
+        "{MOTION}trust = 'known'\n[design]\ncriterion = 'c'\nweights = {{ 'matrix.xy' = 2, 'bias.z' = 0.5 }}\n\
+         range_mps2 = 20\nscale_by = 'datasheet'\nstarts = 3\nseed = 9\ncertificate = false\n\
+         [calibrate]\nprior = 'datasheet'\n"
+    );
+    let experiment = parse(&text);
+    let design = &experiment.design;
+    assert_eq!((design.criterion, design.criterion.name()), (CriterionLetter::C, "c"));
+    assert_eq!(design.weights, [("bias.z".to_owned(), 0.5), ("matrix.xy".to_owned(), 2.0)]);
+    assert_eq!((design.scale_by, design.range_mps2), (ScaleBy::Datasheet, Some(20.0)));
+    assert_eq!((design.starts, design.seed, design.certificate), (3, 9, false));
+    assert_eq!(experiment.calibrate.prior, Prior::Datasheet);
+}
+
+#[test]
+fn counts_have_gain_offset_and_noise() {
+    let text = MOTION.replace(
+        "noise_mps2 = [1e-4, 2, 3]",
+        "unit = 'counts', gain_counts_per_mps2 = 415, offset_counts = -3, noise_counts = 10",
+    );
+    let sensor = parse(&format!("{text}trust = 'known'\n")).sensor;
+    assert_eq!((sensor.gain, sensor.offset), (Some(Vector3::repeat(415.0)), Some(Vector3::repeat(-3.0))));
+    assert_eq!((sensor.noise_counts, sensor.noise_mps2), (Some(Vector3::repeat(10.0)), None));
+}
+
+#[test]
+fn files_are_read_with_byte_order_mark_and_refused_when_no_text() {
+    let directory = tempfile::tempdir().expect("a directory");
+    let path = directory.path().join("experiment.toml");
+    let read = |bytes: &[u8]| {
+        std::fs::write(&path, bytes).expect("written");
+        Experiment::read(&path)
+    };
+    let text = preset("report").expect("known").replace('\n', "\r\n");
+    assert!(read(&[b"\xef\xbb\xbf", text.as_bytes()].concat()).is_ok());
+    let said = |bytes: &[u8]| {
+        let error = read(bytes).expect_err("refused");
+        assert!(error.is_invalid_experiment());
+        error.to_string().replace(&path.display().to_string(), "FILE")
+    };
+    assert_eq!(
+        said(b"schema = 1\n\xff"),
+        "FILE:2: not UTF-8 text: byte 0xff at offset 11 (save it as UTF-8 (or plain ASCII))"
+    );
+    assert_eq!(
+        said(b"a\0b"),
+        "FILE: this is binary data, not text: NUL byte at offset 1 (export the data as text)"
+    );
+    assert_eq!(
+        said(&[b'#'; 1_100_000]),
+        "FILE: the experiment file is larger than 1 MiB (this is hardly the file that you mean)"
+    );
+    assert_eq!(
+        said(text.replace("axes = 3", "axes = 5").as_bytes()),
+        "FILE:8:8: `sensor.axes`: 5 axes are not supported (1 or 3)"
+    );
+    std::fs::remove_file(&path).expect("removed");
+    let error = Experiment::read(&path).expect_err("absent").to_string();
+    assert!(
+        error.contains("cannot read the experiment file: ") && error.contains("check the name"),
+        "{error}"
+    );
+    let error = Experiment::read(directory.path()).expect_err("a directory").to_string();
+    assert!(error.contains("this is a directory, not the experiment file"), "{error}");
+}

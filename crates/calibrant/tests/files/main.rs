@@ -1,0 +1,12 @@
+//! Every file that is read or written: good ones, broken ones, and there and back again.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod broken;
+mod experiments;
+mod good;
+mod real;
+mod recordings;
+mod results;
+mod study;

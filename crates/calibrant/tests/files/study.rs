@@ -1,0 +1,76 @@
+//! `study.json`, field by field.
+
+use super::results::uniaxial;
+use calibrant::io::{study_json, write_study};
+use calibrant::motion::JerkControlledMotion;
+use calibrant::sensor::{ReadingUnit, Recording, Sensor, SensorParameters};
+use calibrant::study::{ParameterSummary, SensorOutcome, SingleCase, Study};
+use nalgebra::Vector3;
+use serde_json::{Value, json};
+
+fn study() -> Study {
+    let sensor = Sensor { axes: 1, ..Sensor::memsic_mxd2020u() };
+    let nodes = vec![Vector3::zeros(), Vector3::new(2.0, 0.0, 0.0)];
+    let motion = JerkControlledMotion::uniform(1.0, nodes).expect("good");
+    let case = SingleCase {
+        truth: SensorParameters::identity(),
+        true_motion: motion.clone(),
+        recording: Recording {
+            times_s: vec![0.0, 0.5, 1.0],
+            readings: vec![Vector3::zeros(); 3],
+            axes: 1,
+            unit: ReadingUnit::MetrePerSecondSquared,
+        },
+        calibration: uniaxial(),
+    };
+    Study {
+        parameters: sensor.parameter_list().describe(&sensor, &SensorParameters::identity()),
+        sensor,
+        trust: "known",
+        seed: 5,
+        rate_hz: 2.0,
+        motion,
+        outcomes: vec![SensorOutcome {
+            truth: vec![0.1, 1.0],
+            values: vec![0.2, f64::NAN],
+            sd: vec![0.3, 0.4],
+            p_value: None,
+            status: "converged",
+        }],
+        summary: vec![ParameterSummary {
+            name: "bias.x".into(),
+            unit: "m/s²",
+            predicted_sd: 1.0,
+            realised_rms: 2.0,
+            mean_error: 3.0,
+            coverage_95: 0.5,
+        }],
+        single: case.clone(),
+        fine: case,
+    }
+}
+
+#[test]
+fn every_field_arrives_and_the_bytes_are_the_same_each_time() {
+    let text = study_json(&study());
+    let json: Value = serde_json::from_str(&text).expect("JSON");
+    assert_eq!((&json["schema"], &json["seed"], &json["trust"]), (&json!(1), &json!(5), &json!("known")));
+    let parameter = json!({"name": "scale.x", "unit": "1", "nominal": 1.0, "spread_sd": 0.005});
+    assert_eq!(json["parameters"][1], parameter);
+    let sensor = json!({
+        "status": "converged", "p_value": null, "truth": [0.1, 1.0], "value": [0.2, null], "sd": [0.3, 0.4]
+    });
+    assert_eq!(json["sensors"], json!([sensor]));
+    assert_eq!(json["summary"][0]["coverage_95"], 0.5);
+    assert_eq!(json["motion"]["velocity_mps"], json!([[0.0], [1.0]]));
+    let single = &json["single"];
+    assert_eq!((&single["samples"], &single["rate_hz"]), (&json!(3), &json!(2.0)));
+    let parameter = json!({"name": "bias.x", "unit": "m/s²", "truth": 0.0, "value": 0.5, "sd": 0.5});
+    assert_eq!(single["parameters"][0], parameter);
+    assert_eq!(single["recovered_motion"]["acceleration_sd_mps2"], json!([[0.0], [0.0]]));
+
+    let directory = tempfile::tempdir().expect("a directory");
+    let path = directory.path().join("study.json");
+    write_study(&path, &study()).expect("written");
+    assert_eq!(std::fs::read_to_string(path).expect("read"), text);
+}

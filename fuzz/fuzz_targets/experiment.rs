@@ -1,0 +1,27 @@
+//! An experiment file is refused in words that point at it, or gives numbers that are finite.
+#![no_main]
+
+use calibrant::io::{Experiment, Plan};
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|text: &str| {
+    match Experiment::parse(text, None) {
+        Ok(experiment) => {
+            let sensor = &experiment.sensor;
+            let numbers = [sensor.gain, sensor.offset, sensor.noise_mps2, sensor.bias_sd_mps2, sensor.scale_sd];
+            assert!(numbers.iter().flatten().all(|vector| vector.iter().all(|number| number.is_finite())));
+            match experiment.plan {
+                Plan::Motion(plan) => assert!(plan.interval_s > 0.0 && plan.rate_hz.is_finite() && plan.intervals > 0),
+                Plan::Holds(plan) => assert!(plan.gravity.magnitude_mps2 > 0.0 && plan.gravity.sd_mps2 >= 0.0),
+            }
+        }
+        Err(error) => {
+            assert!(error.is_invalid_experiment());
+            let complaint = error.complaint().expect("a complaint");
+            assert!(!complaint.message.is_empty() && complaint.line >= Some(1) && complaint.column >= Some(1));
+            if let Some((excerpt, range)) = &complaint.excerpt {
+                assert!(excerpt.get(range.clone()).is_some(), "the range is within the excerpt");
+            }
+        }
+    }
+});
