@@ -10,7 +10,7 @@ use calibrant::sensor::{Recording, Sensor, SensorModel, SensorParameters};
 use calibrant::simulate::{
     Purpose, draw_sensor, initial_motion, perturb, sample_times, simulate_recording, stream,
 };
-use common::Case;
+use common::case::Case;
 use nalgebra::{DMatrix, DVector, Vector3};
 
 /// Relative difference of two vectors, in standard deviations of `sd`.

@@ -115,7 +115,7 @@ fn the_whiteness_test_rarely_cries_wolf() {
             .into_par_iter()
             .map(|seed| {
                 let case =
-                    common::Case::new(SensorModel::ScaleBias, trust, intervals, interval_s, rate, seed);
+                    common::case::Case::new(SensorModel::ScaleBias, trust, intervals, interval_s, rate, seed);
                 let fit = case.calibrate().expect("identifiable").fit;
                 fit.whiteness.iter().filter(|test| test.p_value < 0.05).count()
             })

@@ -2,9 +2,7 @@
 
 #![allow(dead_code)] // not every test needs everything
 
-mod case;
-
-pub(crate) use case::Case;
+pub(crate) mod case;
 
 use std::io::Write;
 use std::path::{Path, PathBuf};

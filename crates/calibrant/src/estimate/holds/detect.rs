@@ -50,7 +50,7 @@ pub fn find_holds(recording: &Recording, minimum_s: f64) -> Result<Vec<Hold>> {
         return Ok(Vec::new());
     }
     let variance = window_variance(recording, window);
-    let Some(threshold) = threshold(&variance) else { return Ok(Vec::new()) };
+    let Some(threshold) = threshold(&variance, resolution(recording)) else { return Ok(Vec::new()) };
     let mut holds = Vec::new();
     let mut k = 0;
     while k < variance.len() {
@@ -112,15 +112,31 @@ fn window_variance(recording: &Recording, window: usize) -> Vec<f64> {
     variance
 }
 
-/// The variance that separates still from moving; `None` where nothing is still.
-fn threshold(variance: &[f64]) -> Option<f64> {
+/// The variance below which a recording cannot tell: that of its quantisation, `q²/12` per axis with the smallest step `q` between samples,
+/// and a millionth of its range, below which the running sums round.
+fn resolution(recording: &Recording) -> f64 {
+    let mean = recording.readings.iter().sum::<Vector3<f64>>() / recording.len() as f64;
+    let range = recording.readings.iter().map(|y| (y - mean).norm_squared()).fold(0.0, f64::max);
+    let mut steps = Vector3::repeat(f64::INFINITY);
+    for pair in recording.readings.windows(2) {
+        for axis in 0..3 {
+            let step = (pair[1][axis] - pair[0][axis]).abs();
+            if step > 0.0 {
+                steps[axis] = steps[axis].min(step);
+            }
+        }
+    }
+    let quantisation: f64 = steps.iter().filter(|step| step.is_finite()).map(|step| step * step / 12.0).sum();
+    (quantisation + 1e-12 * range).max(f64::MIN_POSITIVE)
+}
+
+/// The variance that separates still from moving; `None` where nothing is still. Variances below `floor` are all the same.
+fn threshold(variance: &[f64], floor: f64) -> Option<f64> {
     let finite: Vec<f64> = variance.iter().copied().filter(|v| v.is_finite()).collect();
     let largest = finite.iter().copied().fold(0.0, f64::max);
     if finite.is_empty() {
         return None;
     }
-    // noiseless recordings: stillness is then rounding
-    let floor = (largest * 1e-16).max(f64::MIN_POSITIVE);
     let decade = |v: f64| v.max(floor).log10();
     let lowest = decade(finite.iter().copied().fold(f64::INFINITY, f64::min));
     let bins = ((decade(largest) - lowest) / BIN).ceil() as usize + 1;

@@ -43,6 +43,8 @@ struct Weighted<const P: usize> {
     fit: Fit<P>,
     covariance: DMatrix<f64>,
     between: f64,
+    /// The sensor whose gains turned `between` into the unit of the readings.
+    gains_of: SensorParameters,
 }
 
 struct Problem<'a, const P: usize> {
@@ -237,8 +239,8 @@ impl<const P: usize> Problem<'_, P> {
     fn weigh(&self, used: &[bool], start: &SensorParameters) -> Result<Weighted<P>> {
         let chosen: Vec<usize> = (0..used.len()).filter(|&j| used[j]).collect();
         let degrees = chosen.len().saturating_sub(P) as f64;
-        let at = |between: f64, from: &SensorParameters| {
-            self.directions(&chosen, &|_| 1.0, between, from).fit(from, self.settings)
+        let at = |between: f64, gains_of: &SensorParameters, from: &SensorParameters| {
+            self.directions(&chosen, &|_| 1.0, between, gains_of).fit(from, self.settings)
         };
         let singular = || {
             Error::recording(Complaint::new(
@@ -246,7 +248,8 @@ impl<const P: usize> Problem<'_, P> {
                 "check the unit of the recording and that the holds are what they should be",
             ))
         };
-        let mut fit = at(0.0, start).ok_or_else(singular)?;
+        let mut fit = at(0.0, start, start).ok_or_else(singular)?;
+        let gains_of = fit.sensor;
         let mut between = 0.0;
         if degrees > 0.0 && fit.chi2 > degrees {
             let residuals = self.magnitude_residuals(&fit.sensor);
@@ -254,7 +257,7 @@ impl<const P: usize> Problem<'_, P> {
                 (chosen.iter().map(|&j| residuals[j].powi(2)).sum::<f64>() / chosen.len() as f64).sqrt();
             let (mut low, mut high) = (0.0, rms.max(1e-12 * self.gravity));
             for _ in 0..60 {
-                fit = at(high, &fit.sensor).ok_or_else(singular)?;
+                fit = at(high, &gains_of, &fit.sensor).ok_or_else(singular)?;
                 if fit.chi2 <= degrees {
                     break;
                 }
@@ -263,7 +266,7 @@ impl<const P: usize> Problem<'_, P> {
             }
             for _ in 0..40 {
                 between = 0.5 * (low + high);
-                fit = at(between, &fit.sensor).ok_or_else(singular)?;
+                fit = at(between, &gains_of, &fit.sensor).ok_or_else(singular)?;
                 if (fit.chi2 / degrees - 1.0).abs() < 1e-10 {
                     break;
                 }
@@ -272,7 +275,7 @@ impl<const P: usize> Problem<'_, P> {
         }
         let information = DMatrix::from_fn(P, P, |i, j| fit.information[(i, j)]);
         let covariance = information::covariance(&information).ok_or_else(singular)?;
-        Ok(Weighted { fit, covariance, between })
+        Ok(Weighted { fit, covariance, between, gains_of })
     }
 
     /// Residual of each hold in standard deviations expected of it, its own influence removed.
@@ -291,7 +294,7 @@ impl<const P: usize> Problem<'_, P> {
                 let magnitude = s.norm();
                 let u = s / magnitude;
                 let row = inverse.tr_mul(&u); // uᵀ C
-                let v = self.variance(hold, weighted.between, sensor);
+                let v = self.variance(hold, weighted.between, &weighted.gains_of);
                 let own = row.component_mul(&row).dot(&v);
                 let j = directions.sensitivity(&(u * self.gravity)).tr_mul(&row);
                 let j = DVector::from_fn(P, |k, _| j[k]);
@@ -312,7 +315,7 @@ impl<const P: usize> Problem<'_, P> {
     }
 
     fn summarise(&self, used: Vec<bool>, weighted: Weighted<P>) -> Robust {
-        let Weighted { fit, covariance, between } = &weighted;
+        let Weighted { fit, covariance, between, .. } = &weighted;
         let scaled = DMatrix::from_fn(P, P, |i, j| {
             fit.information[(i, j)] / (fit.information[(i, i)] * fit.information[(j, j)]).sqrt()
         });
