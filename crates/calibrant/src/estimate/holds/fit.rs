@@ -127,6 +127,15 @@ impl<const P: usize> Directions<'_, P> {
             norm = system.gradient_norm();
             if norm <= settings.tolerance || (norm < 1e-6 && norm > 0.5 * last_norm) {
                 status = CalibrationStatus::Converged;
+                // the parameters rest; the directions still follow their last step
+                let last = system.border_step(0.0).and_then(|step| self.take(&sensor, &forces, &system, &step));
+                if let Some((next, turned)) = last
+                    && let Some(factored) = self.factor(&next, &turned)
+                {
+                    (sensor, forces) = (next, turned);
+                    (system, unreduced) = factored;
+                    chi2 = self.chi2(&sensor, &forces);
+                }
                 break;
             }
             last_norm = norm;
