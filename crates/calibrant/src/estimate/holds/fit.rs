@@ -128,7 +128,8 @@ impl<const P: usize> Directions<'_, P> {
             if norm <= settings.tolerance || (norm < 1e-6 && norm > 0.5 * last_norm) {
                 status = CalibrationStatus::Converged;
                 // the parameters rest; the directions still follow their last step
-                let last = system.border_step(0.0).and_then(|step| self.take(&sensor, &forces, &system, &step));
+                let last =
+                    system.border_step(0.0).and_then(|step| self.take(&sensor, &forces, &system, &step));
                 if let Some((next, turned)) = last
                     && let Some(factored) = self.factor(&next, &turned)
                 {

@@ -132,8 +132,9 @@ impl<const P: usize> Problem<'_, P> {
     /// Variance of a hold's mean, per axis.
     fn variance(&self, hold: &Hold, between: f64, sensor: &SensorParameters) -> Vector3<f64> {
         Vector3::from_fn(|axis, _| {
+            // the gain of a reading is the norm of its row of S, whatever the gauge
             self.within[axis].powi(2) / hold.samples() as f64
-                + (between * sensor.matrix[(axis, axis)]).powi(2)
+                + between.powi(2) * sensor.matrix.row(axis).norm_squared()
         })
     }
 
