@@ -272,3 +272,18 @@ fn limits_and_population_are_reproducible() {
     assert_eq!(motion(1), motion(1));
     assert_ne!(motion(1), motion(2));
 }
+
+#[test]
+fn a_reversed_axis_is_estimated_and_pointed_out() {
+    for trust in [Trust::Known, Trust::Unknown, Trust::Noisy(InputNoise { floor_mps3: 0.01, ratio: 0.01 })] {
+        let mut case = Case::new(SensorModel::ScaleBias, trust, 14, 5.0, 2.0, 11);
+        case.recording.readings.iter_mut().for_each(|y| y.y = -y.y);
+        let calibration = case.calibrate().expect("identifiable");
+        assert_eq!(calibration.status, CalibrationStatus::Converged, "{trust:?}");
+        assert!(
+            (calibration.values[4] + case.truth.matrix[(1, 1)]).abs() < 5.0 * calibration.sd()[4],
+            "{trust:?}"
+        );
+        assert!(calibration.warnings.iter().any(|warning| warning.contains("axis y is negative")));
+    }
+}

@@ -12,7 +12,7 @@ pub struct Undetermined {
 }
 
 /// Relative size of an eigenvalue that counts as zero: rounding of the elimination, with a margin.
-const RANK_TOLERANCE: f64 = 1e-13;
+const RANK_TOLERANCE: f64 = 5e-15;
 /// Share of a null direction above which a parameter counts as involved.
 const INVOLVED: f64 = 1e-6;
 

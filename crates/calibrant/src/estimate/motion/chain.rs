@@ -67,9 +67,9 @@ impl<'a> Context<'a> {
         let sensor = self.problem.sensor;
         let gain = match sensor.gain {
             Some(gain) => gain,
-            None => {
-                Vector3::from_fn(|axis, _| if axis < sensor.axes { self.gain_from_data(axis) } else { 1.0 })
-            }
+            None => Vector3::from_fn(
+                |axis, _| if axis < sensor.axes { self.gain_from_data(axis).abs() } else { 1.0 },
+            ),
         };
         let noise = sensor.noise(&gain).ok_or_else(|| {
             Error::experiment(Complaint::new("the noise of a sample is not given", "set `sensor.noise_mps2`"))
@@ -87,7 +87,7 @@ impl<'a> Context<'a> {
         }
     }
 
-    /// Rough gain of one axis: reading against commanded acceleration, over the samples or (trust `unknown`) the two ends.
+    /// Rough gain of one axis, negative where the axis is reversed: reading against commanded acceleration, over the samples or (trust `unknown`) the two ends.
     fn gain_from_data(&self, axis: usize) -> f64 {
         let nodes = self.command.motion.acceleration_mps2();
         let last = nodes.len() - 1;
@@ -103,7 +103,7 @@ impl<'a> Context<'a> {
             let covariance = mean(&|i| (nodes[i][axis] - a) * (self.reference[i][axis] - y));
             covariance / mean(&|i| (nodes[i][axis] - a).powi(2))
         };
-        if gain.is_finite() && gain != 0.0 { gain.abs() } else { 1.0 }
+        if gain.is_finite() && gain != 0.0 { gain } else { 1.0 }
     }
 
     /// The chain of these axes.
@@ -166,9 +166,15 @@ impl<'a> Context<'a> {
         Some((mean, weight))
     }
 
-    /// Parameters to begin with for trust `unknown`: nominal gain (or that of the two ends), bias from the start.
+    /// Parameters to begin with for trust `unknown`: the gain that the two ends show, unless noise hides it and a nominal one is known; the
+    /// bias from the start.
     fn start_from_ends(&self, axis: usize) -> (f64, f64) {
-        let gain = self.problem.sensor.gain.map_or_else(|| self.gain_from_data(axis), |gain| gain[axis]);
+        let last = self.reference.len() - 1;
+        let clear = (self.reference[last][axis] - self.reference[0][axis]).abs() > 10.0 * self.noise[axis];
+        let gain = match self.problem.sensor.gain {
+            Some(nominal) if !clear => nominal[axis],
+            _ => self.gain_from_data(axis),
+        };
         (self.reference[0][axis] - gain * self.command.motion.acceleration_mps2()[0][axis], gain)
     }
 }
