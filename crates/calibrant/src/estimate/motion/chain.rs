@@ -296,21 +296,16 @@ fn starting_state<M: ChainModel<D, P>, const D: usize, const P: usize>(
         (a[0], a[last]) = (commanded[0], commanded[last]);
         return Ok(State { p, a });
     }
-    let rigid = chain.rigid();
-    let origin = State { p: SVector::zeros(), a: commanded };
-    let rigid_node = |node| vec![explain_node(context, axes, node)];
-    let (system, reference) = rigid.factor(&origin).map_err(rigid_node)?;
-    check(&system.information, &reference)?;
-    let mut start = rigid.fit(origin, context.settings).map_err(rigid_node)?.state;
+    // with the motion as commanded the problem is linear in the parameters: one step from anywhere
+    let mut start = State { p: SVector::zeros(), a: commanded };
+    let as_commanded = chain.as_commanded(&start);
+    check(&as_commanded.information, &as_commanded.information.diagonal())?;
+    if let Some(step) = as_commanded.border_step(0.0) {
+        start.p = step;
+    }
     if context.command.trust != Trust::Known {
-        let (system, reference) = chain.factor(&start).map_err(rigid_node)?;
-        check(&system.information, &reference)?;
-    } else if let Some(gain) = context.problem.sensor.gain {
-        // begin at the nominal sensor, so that the reported iterations are those of a user's problem
-        start.p = SVector::zeros();
-        for (k, &axis) in axes.iter().enumerate() {
-            start.p[D + k] = gain[axis];
-        }
+        let factored = chain.factor(&start).map_err(|node| vec![explain_node(context, axes, node)])?;
+        check(&factored.0.information, &factored.1)?;
     }
     Ok(start)
 }

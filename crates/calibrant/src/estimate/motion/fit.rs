@@ -95,11 +95,7 @@ impl<M: ChainModel<D, P>, const D: usize, const P: usize> Chain<M, D, P> {
         &self,
         state: &State<D, P>,
     ) -> Result<(Arrowhead<D, P>, SVector<f64, P>), Undetermined> {
-        let (mut border, mut rhs) = (SMatrix::zeros(), SVector::zeros());
-        if let Some((mean, weight)) = &self.prior {
-            border = SMatrix::from_diagonal(weight);
-            rhs = (mean - state.p).component_mul(weight);
-        }
+        let (border, rhs) = self.prior_equations(state);
         let mut unreduced = border.diagonal();
         let link = |i| {
             let link = self.link(i, state);
@@ -111,17 +107,22 @@ impl<M: ChainModel<D, P>, const D: usize, const P: usize> Chain<M, D, P> {
         Ok((system, unreduced))
     }
 
-    /// The same chain with every increment known exactly.
-    pub(super) fn rigid(&self) -> Self {
-        Self {
-            moments: self.moments.clone(),
-            reference: self.reference.clone(),
-            weight: self.weight,
-            variance: vec![SVector::zeros(); self.variance.len()],
-            commanded: self.commanded.clone(),
-            fixed: vec![[false; D]; self.fixed.len()],
-            prior: self.prior,
-            model: PhantomData,
+    /// The equations of the parameters alone, the motion as it is in `state`.
+    pub(super) fn as_commanded(&self, state: &State<D, P>) -> Arrowhead<D, P> {
+        let (mut information, mut rhs) = self.prior_equations(state);
+        for i in 0..self.moments.len() {
+            let link = self.link(i, state);
+            information += link.c;
+            rhs += link.gp;
+        }
+        Arrowhead::of_border(information, rhs)
+    }
+
+    /// What the prior adds to the equations of the parameters.
+    fn prior_equations(&self, state: &State<D, P>) -> (SMatrix<f64, P, P>, SVector<f64, P>) {
+        match &self.prior {
+            Some((mean, weight)) => (SMatrix::from_diagonal(weight), (mean - state.p).component_mul(weight)),
+            None => (SMatrix::zeros(), SVector::zeros()),
         }
     }
 
