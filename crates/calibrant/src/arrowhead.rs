@@ -96,6 +96,8 @@ struct Gain<const D: usize, const P: usize> {
 /// The factored system. Node 0 is known.
 #[derive(Debug, Clone)]
 pub struct Arrowhead<const D: usize, const P: usize> {
+    intervals: usize,
+    /// One for each interval; none where the chain is rigid.
     gains: Vec<Gain<D, P>>,
     /// Schur complement `F` on the border: the information on the parameters, chain marginalised.
     pub information: SMatrix<f64, P, P>,
@@ -136,7 +138,8 @@ impl<const D: usize, const P: usize> Arrowhead<D, P> {
             information += here.c;
             border_rhs += here.gp;
 
-            let (mut t, mut l, mut d) = (SVector::zeros(), SVector::zeros(), SVector::repeat(1.0));
+            let (mut t, mut l, mut d) =
+                (SVector::<f64, D>::zeros(), SVector::<f64, D>::zeros(), SVector::<f64, D>::repeat(1.0));
             let mut rho = SVector::<f64, D>::zeros();
             let (mut pull, mut pull_rhs) = (SVector::<f64, D>::zeros(), SVector::<f64, D>::zeros());
             for axis in 0..D {
@@ -157,38 +160,35 @@ impl<const D: usize, const P: usize> Arrowhead<D, P> {
             g -= h * rho;
             border_rhs -= b.tr_mul(&rho);
             let g0 = here.g0 - here.h01 * rho;
-            let (tm, lm) = (SMatrix::from_diagonal(&t), SMatrix::from_diagonal(&l));
-            let lh = lm * h;
-            let pivot = SMatrix::from_diagonal(&d) + lh * lm;
-            let to_node = lm * here.h01.transpose() + lh * tm;
-            let to_border = lm * b;
+            let pivot = SMatrix::from_fn(|r, c| l[r] * h[(r, c)] * l[c] + if r == c { d[r] } else { 0.0 });
+            let to_node = SMatrix::from_fn(|r, c| l[r] * (here.h01[(c, r)] + h[(r, c)] * t[c]));
+            let to_border = SMatrix::from_fn(|r, c| l[r] * b[(r, c)]);
             let rhs_w = l.component_mul(&g);
             let covariance = invert(&pivot, &d, &l, &unreduced)
                 .map_err(|coordinate| Undetermined { node: i + 1, coordinate })?;
             let (k0, ka, kp) = (covariance * rhs_w, covariance * to_node, covariance * to_border);
 
-            let th = tm * h;
-            let node_border = here.b0 + tm * b;
-            information -= to_border.tr_mul(&kp);
+            subtract_symmetric_product(&mut information, &to_border, &kp);
             border_rhs -= to_border.tr_mul(&k0);
-            let cross = here.h01 * tm;
             g = g0 + t.component_mul(&g) - to_node.tr_mul(&k0) + pull_rhs;
-            b = node_border - to_node.tr_mul(&kp);
-            h = here.h00 + cross + cross.transpose() + th * tm - to_node.tr_mul(&ka)
-                + SMatrix::from_diagonal(&pull);
-            h = (h + h.transpose()) * 0.5;
+            b = SMatrix::from_fn(|r, c| here.b0[(r, c)] + t[r] * b[(r, c)]) - to_node.tr_mul(&kp);
+            let reduced = to_node.tr_mul(&ka);
+            h = SMatrix::from_fn(|r, c| {
+                let own = here.h00[(r, c)] + t[r] * h[(r, c)] * t[c] + if r == c { pull[r] } else { 0.0 };
+                let cross = here.h01[(r, c)] * t[c] + t[r] * here.h01[(c, r)];
+                own + cross - 0.5 * (reduced[(r, c)] + reduced[(c, r)])
+            });
             unreduced = here.h00.diagonal() + t.component_mul(&unreduced) + pull;
             gains.push(Gain { t, l, rho, k0, ka, kp, covariance });
         }
         gains.reverse();
-        information = (information + information.transpose()) * 0.5;
-        Ok(Self { gains, information, rhs: border_rhs })
+        Ok(Self { intervals, gains, information, rhs: border_rhs })
     }
 
-    /// A system without a chain.
+    /// The system of a chain whose increments are all known exactly: the parameters' own equations, nothing to eliminate.
     #[must_use]
-    pub fn of_border(information: SMatrix<f64, P, P>, rhs: SVector<f64, P>) -> Self {
-        Self { gains: Vec::new(), information, rhs }
+    pub fn rigid(intervals: usize, information: SMatrix<f64, P, P>, rhs: SVector<f64, P>) -> Self {
+        Self { intervals, gains: Vec::new(), information, rhs }
     }
 
     /// The border's step `(F + damping · diag F)⁻¹ g`; `None` where `F` is not positive definite.
@@ -218,8 +218,11 @@ impl<const D: usize, const P: usize> Arrowhead<D, P> {
     /// The chain's step that goes with a step of the border: `δa_0 … δa_N`, with `δa_0 = 0`.
     #[must_use]
     pub fn chain_step(&self, border_step: &SVector<f64, P>) -> Vec<SVector<f64, D>> {
+        if self.gains.is_empty() {
+            return vec![SVector::zeros(); self.intervals + 1];
+        }
         let mut step = SVector::zeros();
-        let mut steps = Vec::with_capacity(self.gains.len() + 1);
+        let mut steps = Vec::with_capacity(self.intervals + 1);
         steps.push(step);
         for gain in &self.gains {
             let w = gain.k0 - gain.ka * step - gain.kp * border_step;
@@ -235,6 +238,11 @@ impl<const D: usize, const P: usize> Arrowhead<D, P> {
         border: &SMatrix<f64, P, P>,
         mut visit: impl FnMut(usize, &IntervalCovariance<D, P>),
     ) {
+        if self.gains.is_empty() {
+            let at = IntervalCovariance::known();
+            (0..self.intervals).for_each(|i| visit(i, &at));
+            return;
+        }
         let mut node = SMatrix::<f64, D, D>::zeros();
         let mut node_border = SMatrix::<f64, D, P>::zeros();
         let mut before: Option<Before<D, P>> = None;
@@ -269,6 +277,23 @@ impl<const D: usize, const P: usize> Arrowhead<D, P> {
     }
 }
 
+/// `F ← F − XᵀY` where the product is symmetric: both halves from one.
+fn subtract_symmetric_product<const D: usize, const P: usize>(
+    f: &mut SMatrix<f64, P, P>,
+    x: &SMatrix<f64, D, P>,
+    y: &SMatrix<f64, D, P>,
+) {
+    for j in 0..P {
+        for i in 0..=j {
+            let product: f64 = (0..D).map(|k| x[(k, i)] * y[(k, j)]).sum();
+            f[(i, j)] -= product;
+            if i != j {
+                f[(j, i)] -= product;
+            }
+        }
+    }
+}
+
 /// Covariance of a node with the border (D × P), and of a later node with it (D × D).
 pub type Before<const D: usize, const P: usize> = (SMatrix<f64, D, P>, SMatrix<f64, D, D>);
 
@@ -287,6 +312,21 @@ pub struct IntervalCovariance<const D: usize, const P: usize> {
     pub node1_border: SMatrix<f64, D, P>,
     /// The node before the first: its covariance with the border, and that of the last node with it.
     pub before: Option<Before<D, P>>,
+}
+
+impl<const D: usize, const P: usize> IntervalCovariance<D, P> {
+    /// Both nodes are known.
+    fn known() -> Self {
+        let (node, border) = (SMatrix::zeros(), SMatrix::zeros());
+        Self {
+            node0: node,
+            node1: node,
+            node1_node0: node,
+            node0_border: border,
+            node1_border: border,
+            before: Some((border, node)),
+        }
+    }
 }
 
 /// Inverse of a pivot, or the coordinate on which there is no information. `l`, `d` tell which coordinates have no prior; `scale` is the

@@ -13,6 +13,8 @@ pub struct Undetermined {
 
 /// Relative size of an eigenvalue that counts as zero: rounding of the elimination, with a margin.
 const RANK_TOLERANCE: f64 = 5e-15;
+/// A smallest eigenvalue above this is beyond doubt.
+const SAFE: f64 = 1e-9;
 /// Share of a null direction above which a parameter counts as involved.
 const INVOLVED: f64 = 1e-6;
 
@@ -40,6 +42,12 @@ pub fn undetermined(information: &DMatrix<f64>, reference: &DVector<f64>) -> Vec
     let size = reference.len();
     let scale = reference.map(|r| if r > 0.0 { 1.0 / r.sqrt() } else { 1.0 });
     let scaled = DMatrix::from_fn(size, size, |i, j| information[(i, j)] * scale[i] * scale[j]);
+    // the common case at a fraction of the cost: the smallest eigenvalue is at least 1/trace of the inverse
+    if let Some(cholesky) = scaled.clone().cholesky()
+        && cholesky.inverse().trace() < 1.0 / SAFE
+    {
+        return Vec::new();
+    }
     let eigen = scaled.symmetric_eigen();
     let largest = eigen.eigenvalues.amax();
     let floor = RANK_TOLERANCE * largest.max(f64::MIN_POSITIVE) * size as f64;

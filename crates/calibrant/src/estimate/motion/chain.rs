@@ -1,18 +1,18 @@
 //! One chain from the problem to its solution.
 
 use super::fit::{Chain, Fit, State};
-use super::model::ChainModel;
+use super::model::{self, FittedNode, reading_covariance};
 use super::moments::{Position, locate, moments, reference};
 use super::pairs::PairSums;
 use super::undetermined::{explain, explain_node};
 use super::{
     CalibrationProblem, CalibrationSettings, CalibrationStatus, CommandedMotion, DMatrix, Trust, Vector3,
 };
+use crate::arrowhead::Arrowhead;
 use crate::error::{Complaint, Error, Result, UndeterminedGroup};
 use crate::information;
 use crate::motion::KnownEnds;
 use nalgebra::{SMatrix, SVector};
-use std::marker::PhantomData;
 
 /// What every chain of a problem shares.
 pub(super) struct Context<'a> {
@@ -107,11 +107,7 @@ impl<'a> Context<'a> {
     }
 
     /// The chain of these axes.
-    fn chain<M: ChainModel<D, P>, const D: usize, const P: usize>(
-        &self,
-        axes: [usize; D],
-        slots: [usize; P],
-    ) -> Chain<M, D, P> {
+    fn chain<const D: usize, const P: usize>(&self, axes: [usize; D], slots: [usize; P]) -> Chain<D, P> {
         let motion = &self.command.motion;
         let pick = |v: &Vector3<f64>| SVector::<f64, D>::from_fn(|k, _| v[axes[k]]);
         let jerk = motion.jerk_mps3();
@@ -150,7 +146,7 @@ impl<'a> Context<'a> {
             commanded,
             fixed,
             prior: self.prior(slots),
-            model: PhantomData,
+            rigid: self.command.trust == Trust::Known,
         }
     }
 
@@ -246,24 +242,29 @@ impl Solved {
 }
 
 /// Solves the chain of these axes; `slots` are the places of its parameters in the list.
-pub(super) fn solve<M: ChainModel<D, P>, const D: usize, const P: usize>(
+pub(super) fn solve<const D: usize, const P: usize>(
     context: &Context<'_>,
     axes: [usize; D],
     slots: [usize; P],
 ) -> std::result::Result<Solved, Vec<UndeterminedGroup>> {
-    let chain = context.chain::<M, D, P>(axes, slots);
-    let start = starting_state(context, &chain, axes, slots)?;
-    let fit = chain.fit(start, context.settings).map_err(|node| vec![explain_node(context, axes, node)])?;
+    let chain = context.chain::<D, P>(axes, slots);
+    let (start, factored) = starting_state(context, &chain, axes, slots)?;
+    let fit = chain
+        .fit(start, factored, context.settings)
+        .map_err(|node| vec![explain_node(context, axes, node)])?;
     Ok(summarise(&chain, fit, &context.pairs, axes, slots))
 }
 
+/// A state and its factored system, with the diagonal of the information before the chain was eliminated.
+type Start<const D: usize, const P: usize> = (State<D, P>, (Arrowhead<D, P>, SVector<f64, P>));
+
 /// Checks that the parameters are determined where the motion is as commanded, and finds parameters to begin with.
-fn starting_state<M: ChainModel<D, P>, const D: usize, const P: usize>(
+fn starting_state<const D: usize, const P: usize>(
     context: &Context<'_>,
-    chain: &Chain<M, D, P>,
+    chain: &Chain<D, P>,
     axes: [usize; D],
     slots: [usize; P],
-) -> std::result::Result<State<D, P>, Vec<UndeterminedGroup>> {
+) -> std::result::Result<Start<D, P>, Vec<UndeterminedGroup>> {
     let commanded: Vec<SVector<f64, D>> = context
         .command
         .motion
@@ -278,41 +279,49 @@ fn starting_state<M: ChainModel<D, P>, const D: usize, const P: usize>(
         let groups = information::undetermined(&information, &reference);
         if groups.is_empty() { Ok(()) } else { Err(explain(context, &groups, &slots)) }
     };
+    let factor =
+        |state: &State<D, P>| chain.factor(state).map_err(|node| vec![explain_node(context, axes, node)]);
+
     if context.command.trust == Trust::Unknown {
         // the motion in between is free, so only the two known ends speak of the parameters
-        let w = SMatrix::from_diagonal(&chain.weight);
-        let (g0, g1) = (M::sensitivity(&commanded[0]), M::sensitivity(&commanded[last]));
-        let mut information = g0.tr_mul(&(w * g0)) + g1.tr_mul(&(w * g1));
+        let mut ends =
+            model::information::<D, P>(&chain.weight, [1.0, 0.0, 1.0], &commanded[0], &commanded[last]);
         if let Some((_, weight)) = &chain.prior {
-            information += SMatrix::from_diagonal(weight);
+            ends += SMatrix::from_diagonal(weight);
         }
-        check(&information, &information.diagonal())?;
-        let mut p = SVector::zeros();
-        for (k, &axis) in axes.iter().enumerate() {
-            (p[k], p[D + k]) = context.start_from_ends(axis);
-        }
-        let inverse = M::matrix(&p).try_inverse().unwrap_or_else(SMatrix::identity);
-        let mut a: Vec<_> = chain.reference.iter().map(|z| inverse * (z - M::bias(&p))).collect();
+        check(&ends, &ends.diagonal())?;
+        let start = axes.map(|axis| context.start_from_ends(axis));
+        let p = model::diagonal::<D, P>(
+            &SVector::from_fn(|k, _| start[k].0),
+            &SVector::from_fn(|k, _| start[k].1),
+        );
+        let mut a: Vec<_> = chain
+            .reference
+            .iter()
+            .map(|z| SVector::from_fn(|k, _| (z[k] - start[k].0) / start[k].1))
+            .collect();
         (a[0], a[last]) = (commanded[0], commanded[last]);
-        return Ok(State { p, a });
+        let state = State { p, a };
+        let factored = factor(&state)?;
+        return Ok((state, factored));
     }
     // with the motion as commanded the problem is linear in the parameters: one step from anywhere
-    let mut start = State { p: SVector::zeros(), a: commanded };
-    let as_commanded = chain.as_commanded(&start);
+    let mut state = State { p: SVector::zeros(), a: commanded };
+    let as_commanded = chain.as_commanded(&state);
     check(&as_commanded.information, &as_commanded.information.diagonal())?;
     if let Some(step) = as_commanded.border_step(0.0) {
-        start.p = step;
+        state.p = step;
     }
+    let factored = factor(&state)?;
     if context.command.trust != Trust::Known {
-        let factored = chain.factor(&start).map_err(|node| vec![explain_node(context, axes, node)])?;
         check(&factored.0.information, &factored.1)?;
     }
-    Ok(start)
+    Ok((state, factored))
 }
 
 /// Covariances, leverage and degrees of freedom of a fitted chain.
-fn summarise<M: ChainModel<D, P>, const D: usize, const P: usize>(
-    chain: &Chain<M, D, P>,
+fn summarise<const D: usize, const P: usize>(
+    chain: &Chain<D, P>,
     fit: Fit<D, P>,
     pairs: &PairSums,
     axes: [usize; D],
@@ -331,45 +340,36 @@ fn summarise<M: ChainModel<D, P>, const D: usize, const P: usize>(
         }
         whole
     };
-    let s = M::matrix(&fit.state.p);
-    let mut node_sd = vec![Vector3::zeros()];
+    let s = model::matrix(&fit.state.p);
+    let mut node_sd = Vec::with_capacity(fit.state.a.len());
+    node_sd.push(Vector3::zeros());
     let mut leverage = SVector::<f64, D>::zeros();
     let mut shortfall = vec![SVector::<f64, D>::zeros(); pairs.lags];
-    let mut g = M::sensitivity(&fit.state.a[0]);
-    // variance of the fitted reading at the node before, and its covariance with the one before that and the sensitivity there
-    let mut v_start = (g * border * g.transpose()).diagonal();
-    let mut before: Option<(SMatrix<f64, D, P>, SVector<f64, D>)> = None;
+    let mut start = FittedNode { a: fit.state.a[0], with_parameters: SMatrix::zeros() };
+    let mut v_start = reading_covariance(&s, &SMatrix::zeros(), &start, &start, &border);
+    // the node before the interval, and the covariance of the readings there with those at the interval's start
+    let mut before: Option<(FittedNode<D, P>, SVector<f64, D>)> = None;
     fit.system.walk_covariance(&border, |i, at| {
         node_sd.push(spread(&at.node1.diagonal().map(|variance| variance.max(0.0).sqrt())));
-        let next = M::sensitivity(&fit.state.a[i + 1]);
-        // covariance of the fitted readings at two nodes, from that of nodes and parameters
-        let readings = |nodes: &SMatrix<f64, D, D>,
-                        n1: &SMatrix<f64, D, P>,
-                        n0: &SMatrix<f64, D, P>,
-                        g0: &SMatrix<f64, D, P>| {
-            (s * nodes * s.transpose()
-                + s * n1 * g0.transpose()
-                + next * n0.transpose() * s.transpose()
-                + next * border * g0.transpose())
-            .diagonal()
-        };
-        let v_end = readings(&at.node1, &at.node1_border, &at.node1_border, &next);
-        let v_step = readings(&at.node1_node0, &at.node1_border, &at.node0_border, &g);
+        let end = FittedNode { a: fit.state.a[i + 1], with_parameters: at.node1_border };
+        let v_end = reading_covariance(&s, &at.node1, &end, &end, &border);
+        let v_step = reading_covariance(&s, &at.node1_node0, &end, &start, &border);
         let m = &chain.moments[i];
         leverage += v_start * m.m00 + v_step * (2.0 * m.m01) + v_end * m.m11;
         for (sum, pair) in shortfall.iter_mut().zip(pairs.of(i)) {
             let w = &pair.within;
             *sum += v_start * w.m11 + v_step * (w.m12 + w.m21) + v_end * w.m22;
         }
-        if let (Some((g_before, v_before)), Some((node_border, nodes))) = (&before, &at.before) {
-            let v_far = readings(nodes, &at.node1_border, node_border, g_before);
+        if let (Some((node, v_before)), Some((_, nodes))) = (&before, &at.before) {
+            let v_far = reading_covariance(&s, nodes, &end, node, &border);
             for (sum, pair) in shortfall.iter_mut().zip(pairs.of(i)) {
                 let a = &pair.across;
                 *sum += v_before * a.m11 + v_far * a.m12 + v_start * a.m21 + v_step * a.m22;
             }
         }
-        before = Some((g, v_step));
-        (g, v_start) = (next, v_end);
+        let passed = std::mem::replace(&mut start, end);
+        before = Some((passed, v_step));
+        v_start = v_end;
     });
     leverage.component_mul_assign(&chain.weight);
     shortfall.iter_mut().for_each(|c| c.component_mul_assign(&chain.weight));

@@ -7,15 +7,14 @@
 //! Each iteration linearises at the present (p, a), factors the arrowhead and steps. Only the border is damped: for given
 //! parameters the motion is a linear problem and needs none.
 
-use super::model::ChainModel;
+use super::model;
 use super::moments::Moments;
 use crate::arrowhead::{Arrowhead, Increment, Link, Undetermined};
 use crate::estimate::{CalibrationSettings, CalibrationStatus};
 use nalgebra::{SMatrix, SVector};
-use std::marker::PhantomData;
 
-/// One chain: D readings, P parameters.
-pub(super) struct Chain<M, const D: usize, const P: usize> {
+/// One chain: D readings, P = D (D + 1) parameters.
+pub(super) struct Chain<const D: usize, const P: usize> {
     /// Moments of each interval about `reference`.
     pub(super) moments: Vec<Moments<D>>,
     /// Reference reading `z` at each node.
@@ -30,7 +29,8 @@ pub(super) struct Chain<M, const D: usize, const P: usize> {
     pub(super) fixed: Vec<[bool; D]>,
     /// Prior on the parameters: mean and inverse variance.
     pub(super) prior: Option<(SVector<f64, P>, SVector<f64, P>)>,
-    pub(super) model: PhantomData<M>,
+    /// Is every increment known exactly? Then there is no chain to eliminate.
+    pub(super) rigid: bool,
 }
 
 /// Parameters and motion.
@@ -53,33 +53,38 @@ pub(super) struct Fit<const D: usize, const P: usize> {
     pub(super) chi2: f64,
 }
 
-impl<M: ChainModel<D, P>, const D: usize, const P: usize> Chain<M, D, P> {
+impl<const D: usize, const P: usize> Chain<D, P> {
     /// Normal equations of one interval at a state.
     fn link(&self, i: usize, state: &State<D, P>) -> Link<D, P> {
         let m = &self.moments[i];
         let (a0, a1) = (&state.a[i], &state.a[i + 1]);
-        let w = SMatrix::from_diagonal(&self.weight);
-        let s = M::matrix(&state.p);
-        let (d0, d1) =
-            (M::reading(&state.p, a0) - self.reference[i], M::reading(&state.p, a1) - self.reference[i + 1]);
-        // weighted residual sums Σ (1 − λ) r and Σ λ r
-        let r0 = w * (m.e0 - d0 * m.m00 - d1 * m.m01);
-        let r1 = w * (m.e1 - d0 * m.m01 - d1 * m.m11);
-        let (g0, g1) = (M::sensitivity(a0), M::sensitivity(a1));
-        let (wg0, wg1) = (w * g0, w * g1);
-        let sws = s.tr_mul(&(w * s));
-        let cross = g0.tr_mul(&wg1);
+        let s = model::matrix(&state.p);
+        let (r0, r1) = self.residuals(i, state);
+        let sws = SMatrix::<f64, D, D>::from_fn(|i, j| {
+            (0..D).map(|row| s[(row, i)] * self.weight[row] * s[(row, j)]).sum()
+        });
         Link {
             h00: sws * m.m00,
             h01: sws * m.m01,
             h11: sws * m.m11,
-            b0: s.tr_mul(&(wg0 * m.m00 + wg1 * m.m01)),
-            b1: s.tr_mul(&(wg0 * m.m01 + wg1 * m.m11)),
-            c: g0.tr_mul(&wg0) * m.m00 + (cross + cross.transpose()) * m.m01 + g1.tr_mul(&wg1) * m.m11,
+            b0: model::coupling(&s, &self.weight, [m.m00, m.m01], a0, a1),
+            b1: model::coupling(&s, &self.weight, [m.m01, m.m11], a0, a1),
+            c: model::information(&self.weight, [m.m00, m.m01, m.m11], a0, a1),
             g0: s.tr_mul(&r0),
             g1: s.tr_mul(&r1),
-            gp: g0.tr_mul(&r0) + g1.tr_mul(&r1),
+            gp: model::gradient(a0, &r0, a1, &r1),
         }
+    }
+
+    /// Weighted residual sums `W Σ (1 − λ) r` and `W Σ λ r` of one interval.
+    fn residuals(&self, i: usize, state: &State<D, P>) -> (SVector<f64, D>, SVector<f64, D>) {
+        let m = &self.moments[i];
+        let d0 = model::reading(&state.p, &state.a[i]) - self.reference[i];
+        let d1 = model::reading(&state.p, &state.a[i + 1]) - self.reference[i + 1];
+        (
+            (m.e0 - d0 * m.m00 - d1 * m.m01).component_mul(&self.weight),
+            (m.e1 - d0 * m.m01 - d1 * m.m11).component_mul(&self.weight),
+        )
     }
 
     fn increment(&self, i: usize, state: &State<D, P>) -> Increment<D> {
@@ -95,6 +100,11 @@ impl<M: ChainModel<D, P>, const D: usize, const P: usize> Chain<M, D, P> {
         &self,
         state: &State<D, P>,
     ) -> Result<(Arrowhead<D, P>, SVector<f64, P>), Undetermined> {
+        if self.rigid {
+            let system = self.as_commanded(state);
+            let unreduced = system.information.diagonal();
+            return Ok((system, unreduced));
+        }
         let (border, rhs) = self.prior_equations(state);
         let mut unreduced = border.diagonal();
         let link = |i| {
@@ -110,12 +120,13 @@ impl<M: ChainModel<D, P>, const D: usize, const P: usize> Chain<M, D, P> {
     /// The equations of the parameters alone, the motion as it is in `state`.
     pub(super) fn as_commanded(&self, state: &State<D, P>) -> Arrowhead<D, P> {
         let (mut information, mut rhs) = self.prior_equations(state);
-        for i in 0..self.moments.len() {
-            let link = self.link(i, state);
-            information += link.c;
-            rhs += link.gp;
+        for (i, m) in self.moments.iter().enumerate() {
+            let (a0, a1) = (&state.a[i], &state.a[i + 1]);
+            let (r0, r1) = self.residuals(i, state);
+            information += model::information::<D, P>(&self.weight, [m.m00, m.m01, m.m11], a0, a1);
+            rhs += model::gradient::<D, P>(a0, &r0, a1, &r1);
         }
-        Arrowhead::of_border(information, rhs)
+        Arrowhead::rigid(self.moments.len(), information, rhs)
     }
 
     /// What the prior adds to the equations of the parameters.
@@ -129,9 +140,9 @@ impl<M: ChainModel<D, P>, const D: usize, const P: usize> Chain<M, D, P> {
     /// χ² of the data, the process noise and the prior.
     pub(super) fn chi2(&self, state: &State<D, P>) -> f64 {
         let mut chi2 = 0.0;
-        let mut d0 = M::reading(&state.p, &state.a[0]) - self.reference[0];
+        let mut d0 = model::reading(&state.p, &state.a[0]) - self.reference[0];
         for (i, m) in self.moments.iter().enumerate() {
-            let d1 = M::reading(&state.p, &state.a[i + 1]) - self.reference[i + 1];
+            let d1 = model::reading(&state.p, &state.a[i + 1]) - self.reference[i + 1];
             let increment = self.commanded[i] - (state.a[i + 1] - state.a[i]);
             for axis in 0..D {
                 let (x0, x1) = (d0[axis], d1[axis]);
@@ -153,16 +164,17 @@ impl<M: ChainModel<D, P>, const D: usize, const P: usize> Chain<M, D, P> {
         chi2
     }
 
-    /// Iterates from a state.
+    /// Iterates from a state, factored.
     pub(super) fn fit(
         &self,
         mut state: State<D, P>,
+        (mut system, unreduced): (Arrowhead<D, P>, SVector<f64, P>),
         settings: &CalibrationSettings,
     ) -> Result<Fit<D, P>, Undetermined> {
         let mut chi2 = self.chi2(&state);
         let mut damping = 0.0_f64;
         let mut last_norm = f64::INFINITY;
-        let (mut system, _) = self.factor(&state)?;
+        let floor = self.rounding_floor(&system, &unreduced);
         let mut status = CalibrationStatus::IterationLimit;
         let mut iterations = 0;
         let mut norm = last_norm;
@@ -170,7 +182,7 @@ impl<M: ChainModel<D, P>, const D: usize, const P: usize> Chain<M, D, P> {
             iterations += 1;
             // for given parameters the motion is a linear problem that each step solves: only the parameters need come to rest
             norm = system.gradient_norm();
-            if norm <= settings.tolerance || (norm < ROUNDING_FLOOR && norm > 0.5 * last_norm) {
+            if norm <= settings.tolerance || (norm < floor && norm > 0.5 * last_norm) {
                 status = CalibrationStatus::Converged;
                 // the parameters rest; the motion still follows their last step
                 if let Some(last) = self.step(&state, &system, 0.0) {
@@ -186,7 +198,7 @@ impl<M: ChainModel<D, P>, const D: usize, const P: usize> Chain<M, D, P> {
                 break;
             };
             let trial_chi2 = self.chi2(&trial);
-            if trial_chi2 <= chi2 + 1e-9 * chi2.abs().max(1.0) || norm < ROUNDING_FLOOR {
+            if trial_chi2 <= chi2 + 1e-9 * chi2.abs().max(1.0) || norm < floor {
                 (state, chi2) = (trial, trial_chi2);
                 (system, _) = self.factor(&state)?;
                 damping = if damping < 1e-6 { 0.0 } else { damping / 10.0 };
@@ -202,12 +214,21 @@ impl<M: ChainModel<D, P>, const D: usize, const P: usize> Chain<M, D, P> {
         Ok(Fit { state, system, status, iterations, gradient_norm: norm, chi2 })
     }
 
+    /// A step shorter than this many standard deviations that no longer shrinks is rounding: that of the readings in units of their noise,
+    /// summed over the samples, and magnified where the chain takes most of the information away.
+    fn rounding_floor(&self, system: &Arrowhead<D, P>, unreduced: &SVector<f64, P>) -> f64 {
+        let samples: usize = self.moments.iter().map(|m| m.samples).sum();
+        let in_noise =
+            self.reference.iter().map(|z| z.component_mul(z).dot(&self.weight)).fold(0.0, f64::max).sqrt();
+        let magnified = unreduced.component_div(&system.information.diagonal()).amax().sqrt();
+        let rounding = 4.0 * f64::EPSILON * in_noise * (samples as f64).sqrt() * magnified;
+        // never so large that a step that matters would pass
+        rounding.clamp(1e-6, 1e-3)
+    }
+
     fn step(&self, state: &State<D, P>, system: &Arrowhead<D, P>, damping: f64) -> Option<State<D, P>> {
         let p_step = system.border_step(damping)?;
         let a = state.a.iter().zip(system.chain_step(&p_step)).map(|(a, step)| a + step).collect();
         Some(State { p: state.p + p_step, a })
     }
 }
-
-/// A step shorter than this many standard deviations that no longer shrinks is rounding.
-const ROUNDING_FLOOR: f64 = 1e-6;

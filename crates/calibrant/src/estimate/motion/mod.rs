@@ -19,8 +19,10 @@ use crate::error::{Complaint, Error, NotIdentifiable, Result};
 use crate::motion::{CommandedMotion, JerkControlledMotion, Trust};
 use crate::sensor::{Axis, SensorModel, SensorParameters};
 use chain::{Context, Solved, solve};
-use model::{Triaxial, Uniaxial};
 use nalgebra::{DMatrix, Matrix3, Vector3};
+
+/// Places in the parameter list of the full chain's parameters, which are sorted by reading: bias, then row of `S`.
+const FULL_SLOTS: [usize; 12] = [0, 3, 6, 7, 1, 8, 4, 9, 2, 10, 11, 5];
 
 /// Calibrates from a motion.
 pub(super) fn calibrate(
@@ -32,8 +34,10 @@ pub(super) fn calibrate(
     let context = Context::new(problem, command, settings, first, end)?;
     let solved = match problem.sensor.model {
         SensorModel::ScaleBias => solve_axes(&context)?,
-        SensorModel::Full => solve::<Triaxial, 3, 12>(&context, [0, 1, 2], std::array::from_fn(|k| k))
-            .map_err(not_identifiable)?,
+        SensorModel::Full => {
+            let whole = solve::<3, 12>(&context, [0, 1, 2], FULL_SLOTS).map_err(not_identifiable)?;
+            Solved::merge(vec![whole])
+        }
     };
     assemble(&context, solved, first)
 }
@@ -68,7 +72,7 @@ fn solve_axes(context: &Context<'_>) -> Result<Solved> {
     let mut parts = Vec::with_capacity(axes);
     let mut undetermined = Vec::new();
     for axis in 0..axes {
-        match solve::<Uniaxial, 1, 2>(context, [axis], [axis, axes + axis]) {
+        match solve::<1, 2>(context, [axis], [axis, axes + axis]) {
             Ok(part) => parts.push(part),
             Err(groups) => undetermined.extend(groups),
         }
@@ -91,14 +95,14 @@ fn assemble(context: &Context<'_>, solved: Solved, first_sample: usize) -> Resul
                 "check the recording's unit",
             ))
         })?;
+    let fitted: Vec<_> = motion.acceleration_mps2().iter().map(|a| sensor.reading(a)).collect();
     let residuals: Vec<Vector3<f64>> = context
         .positions
         .iter()
         .zip(context.readings)
         .map(|(position, reading)| {
             let i = position.interval as usize;
-            let nodes = motion.acceleration_mps2();
-            reading - sensor.reading(&(nodes[i] * (1.0 - position.lambda) + nodes[i + 1] * position.lambda))
+            reading - (fitted[i] * (1.0 - position.lambda) + fitted[i + 1] * position.lambda)
         })
         .collect();
     let samples = residuals.len() as f64;
@@ -114,16 +118,13 @@ fn assemble(context: &Context<'_>, solved: Solved, first_sample: usize) -> Resul
     let mut noise_estimate = Vector3::zeros();
     for &axis in problem.sensor.active_axes() {
         let k = axis.index();
-        let squares: f64 = residuals.iter().map(|r| r[k] * r[k]).sum();
+        let own: Vec<f64> = residuals.iter().map(|r| r[k]).collect();
+        let squares = statistics::dot(&own, &own);
         fit.residual_rms[k] = (squares / samples).sqrt();
         let left = samples - solved.leverage[k];
         noise_estimate[k] = if left > 0.5 { (squares / left).sqrt() } else { f64::NAN };
         let shortfall: Vec<f64> = solved.shortfall.iter().map(|c| c[k]).collect();
-        fit.whiteness.extend(statistics::ljung_box(
-            residuals.iter().map(move |r| r[k]),
-            &shortfall,
-            solved.leverage[k],
-        ));
+        fit.whiteness.extend(statistics::ljung_box(&own, &shortfall, solved.leverage[k]));
     }
     if noise_estimate.iter().all(|noise| noise.is_finite()) {
         fit.noise_estimate = Some(noise_estimate);

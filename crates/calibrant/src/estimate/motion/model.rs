@@ -1,87 +1,199 @@
-//! The two sensor models on a chain of node accelerations.
+//! The sensor model on a chain of node accelerations, one reading or three.
+//!
+//! `y = S a + b` is linear in the parameters for given `a`. Sorted by reading, `p = (b_1, S_11 … S_1D, b_2, S_21 …)`, its sensitivity is block diagonal:
+//! reading r depends on its own D + 1 parameters only, through `ã = (1, a)`. So P = D (D + 1): 2 for one axis, 12 for three, and everything
+//! that normal equations need of the parameters is an outer product of `ã`.
 
-use nalgebra::{Matrix1, Matrix1x2, Matrix3, SMatrix, SVector, Vector1, Vector2, Vector3};
+use nalgebra::{SMatrix, SVector};
 
-/// A sensor model `y = S a + b` with D readings and P parameters, linear in `a` for given `p` and in `p` for given `a`.
-pub(super) trait ChainModel<const D: usize, const P: usize> {
-    /// The matrix `S`.
-    fn matrix(p: &SVector<f64, P>) -> SMatrix<f64, D, D>;
-    /// The bias `b`.
-    fn bias(p: &SVector<f64, P>) -> SVector<f64, D>;
-    /// `G(a) = ∂(S a + b)/∂p`.
-    fn sensitivity(a: &SVector<f64, D>) -> SMatrix<f64, D, P>;
-    /// The reading `S a + b`.
-    fn reading(p: &SVector<f64, P>, a: &SVector<f64, D>) -> SVector<f64, D> {
-        Self::matrix(p) * a + Self::bias(p)
-    }
+/// Entry k of `ã = (1, a)`.
+fn lifted<const D: usize>(a: &SVector<f64, D>, k: usize) -> f64 {
+    if k == 0 { 1.0 } else { a[k - 1] }
 }
 
-/// One axis of the scale-bias model: p = (b, K).
-pub(super) struct Uniaxial;
-
-impl ChainModel<1, 2> for Uniaxial {
-    fn matrix(p: &Vector2<f64>) -> Matrix1<f64> {
-        Matrix1::new(p[1])
-    }
-
-    fn bias(p: &Vector2<f64>) -> Vector1<f64> {
-        Vector1::new(p[0])
-    }
-
-    fn sensitivity(a: &Vector1<f64>) -> Matrix1x2<f64> {
-        Matrix1x2::new(1.0, a[0])
-    }
+/// The matrix `S`.
+pub(super) fn matrix<const D: usize, const P: usize>(p: &SVector<f64, P>) -> SMatrix<f64, D, D> {
+    SMatrix::from_fn(|row, column| p[row * (D + 1) + 1 + column])
 }
 
-/// The full model, p in the order of [`ParameterList`](crate::sensor::ParameterList): b, diagonal of S, off-diagonal entries row by row.
-pub(super) struct Triaxial;
+/// The reading `S a + b`.
+pub(super) fn reading<const D: usize, const P: usize>(
+    p: &SVector<f64, P>,
+    a: &SVector<f64, D>,
+) -> SVector<f64, D> {
+    SVector::from_fn(|row, _| (0..=D).map(|k| p[row * (D + 1) + k] * lifted(a, k)).sum())
+}
 
-/// (row, column) of the entries of S in their order.
-const ENTRIES: [(usize, usize); 9] = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 0), (1, 2), (2, 0), (2, 1)];
-
-impl ChainModel<3, 12> for Triaxial {
-    fn matrix(p: &SVector<f64, 12>) -> Matrix3<f64> {
-        let mut s = Matrix3::zeros();
-        for (k, entry) in ENTRIES.into_iter().enumerate() {
-            s[entry] = p[3 + k];
-        }
-        s
+/// Parameters of a sensor without cross-axis terms.
+pub(super) fn diagonal<const D: usize, const P: usize>(
+    bias: &SVector<f64, D>,
+    gain: &SVector<f64, D>,
+) -> SVector<f64, P> {
+    let mut p = SVector::zeros();
+    for row in 0..D {
+        p[row * (D + 1)] = bias[row];
+        p[row * (D + 1) + 1 + row] = gain[row];
     }
+    p
+}
 
-    fn bias(p: &SVector<f64, 12>) -> Vector3<f64> {
-        Vector3::new(p[0], p[1], p[2])
+/// `Σ_ij m_ij G(a_i)ᵀ W G(a_j)` over the two nodes of an interval, with `m = (m_00, m_01, m_11)`.
+pub(super) fn information<const D: usize, const P: usize>(
+    weight: &SVector<f64, D>,
+    m: [f64; 3],
+    a0: &SVector<f64, D>,
+    a1: &SVector<f64, D>,
+) -> SMatrix<f64, P, P> {
+    let mut information = SMatrix::zeros();
+    for j in 0..=D {
+        for k in 0..=j {
+            let (x0, x1, y0, y1) = (lifted(a0, j), lifted(a1, j), lifted(a0, k), lifted(a1, k));
+            let sum = m[0] * x0 * y0 + m[1] * (x0 * y1 + x1 * y0) + m[2] * x1 * y1;
+            for row in 0..D {
+                let at = row * (D + 1);
+                information[(at + j, at + k)] = weight[row] * sum;
+                information[(at + k, at + j)] = weight[row] * sum;
+            }
+        }
     }
+    information
+}
 
-    fn sensitivity(a: &Vector3<f64>) -> SMatrix<f64, 3, 12> {
-        let mut g = SMatrix::<f64, 3, 12>::zeros();
-        for row in 0..3 {
-            g[(row, row)] = 1.0;
+/// `Sᵀ W (m_0 G(a_0) + m_1 G(a_1))`.
+pub(super) fn coupling<const D: usize, const P: usize>(
+    s: &SMatrix<f64, D, D>,
+    weight: &SVector<f64, D>,
+    m: [f64; 2],
+    a0: &SVector<f64, D>,
+    a1: &SVector<f64, D>,
+) -> SMatrix<f64, D, P> {
+    let mut coupling = SMatrix::zeros();
+    for k in 0..=D {
+        let sum = m[0] * lifted(a0, k) + m[1] * lifted(a1, k);
+        for row in 0..D {
+            for node in 0..D {
+                coupling[(node, row * (D + 1) + k)] = s[(row, node)] * weight[row] * sum;
+            }
         }
-        for (k, (row, column)) in ENTRIES.into_iter().enumerate() {
-            g[(row, 3 + k)] = a[column];
-        }
-        g
     }
+    coupling
+}
+
+/// `G(a_0)ᵀ r_0 + G(a_1)ᵀ r_1`.
+pub(super) fn gradient<const D: usize, const P: usize>(
+    a0: &SVector<f64, D>,
+    r0: &SVector<f64, D>,
+    a1: &SVector<f64, D>,
+    r1: &SVector<f64, D>,
+) -> SVector<f64, P> {
+    let mut gradient = SVector::zeros();
+    for row in 0..D {
+        for k in 0..=D {
+            gradient[row * (D + 1) + k] = r0[row] * lifted(a0, k) + r1[row] * lifted(a1, k);
+        }
+    }
+    gradient
+}
+
+/// A node of the chain as a fit leaves it: its acceleration and the covariance of that with the parameters.
+pub(super) struct FittedNode<const D: usize, const P: usize> {
+    pub(super) a: SVector<f64, D>,
+    pub(super) with_parameters: SMatrix<f64, D, P>,
+}
+
+/// Covariance of the fitted readings at two nodes, reading by reading, from the covariance of the nodes (`one` with `other`) and of the parameters.
+pub(super) fn reading_covariance<const D: usize, const P: usize>(
+    s: &SMatrix<f64, D, D>,
+    nodes: &SMatrix<f64, D, D>,
+    one: &FittedNode<D, P>,
+    other: &FittedNode<D, P>,
+    parameters: &SMatrix<f64, P, P>,
+) -> SVector<f64, D> {
+    SVector::from_fn(|row, _| {
+        let at = row * (D + 1);
+        let mut covariance = 0.0;
+        for i in 0..D {
+            for j in 0..D {
+                covariance += s[(row, i)] * nodes[(i, j)] * s[(row, j)];
+            }
+            for k in 0..=D {
+                covariance += s[(row, i)]
+                    * (one.with_parameters[(i, at + k)] * lifted(&other.a, k)
+                        + other.with_parameters[(i, at + k)] * lifted(&one.a, k));
+            }
+        }
+        for j in 0..=D {
+            for k in 0..=D {
+                covariance += lifted(&one.a, j) * parameters[(at + j, at + k)] * lifted(&other.a, k);
+            }
+        }
+        covariance
+    })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::motion::JerkControlledMotion;
     use crate::sensor::{ParameterList, SensorModel, SensorParameters};
+    use nalgebra::{Matrix3, Vector3};
+
+    type P = SVector<f64, 12>;
+
+    fn parameters() -> P {
+        P::from_fn(|i, _| (i as f64 + 1.0).sin())
+    }
+
+    /// G(a) by differences; the model is linear, so they are exact to rounding.
+    fn sensitivity(a: &Vector3<f64>) -> SMatrix<f64, 3, 12> {
+        let p = parameters();
+        SMatrix::from_fn(|row, k| {
+            let mut q = p;
+            q[k] += 1.0;
+            reading(&q, a)[row] - reading(&p, a)[row]
+        })
+    }
 
     #[test]
-    fn the_full_model_agrees_with_the_parameter_list() {
+    fn the_model_agrees_with_the_parameter_list() {
         let list = ParameterList::new(3, SensorModel::Full);
-        let p = SVector::<f64, 12>::from_fn(|i, _| (i as f64 + 1.0).sin());
+        let p = parameters();
         let mut sensor = SensorParameters { bias: Vector3::zeros(), matrix: Matrix3::zeros() };
-        for (quantity, value) in list.quantities().iter().zip(p.iter()) {
-            quantity.add_to(&mut sensor, *value);
+        for (slot, value) in super::super::FULL_SLOTS.into_iter().zip(p.iter()) {
+            list.quantities()[slot].add_to(&mut sensor, *value);
         }
         let a = Vector3::new(0.3, -2.0, 5.0);
-        assert!((Triaxial::reading(&p, &a) - sensor.reading(&a)).amax() < 1e-15);
-        let g = Triaxial::sensitivity(&a);
-        for (k, quantity) in list.quantities().iter().enumerate() {
-            assert_eq!(g.column(k), quantity.derivative(&a));
+        assert!((reading(&p, &a) - sensor.reading(&a)).amax() < 1e-15);
+        assert_eq!(matrix::<3, 12>(&p), sensor.matrix);
+        for (k, slot) in super::super::FULL_SLOTS.into_iter().enumerate() {
+            let derivative = list.quantities()[slot].derivative(&a);
+            assert!((sensitivity(&a).column(k) - derivative).amax() < 1e-14);
         }
+    }
+
+    #[test]
+    fn the_outer_products_equal_dense_matrix_products() {
+        let (a0, a1) = (Vector3::new(0.3, -2.0, 5.0), Vector3::new(1.3, 0.4, -4.0));
+        let (g0, g1) = (sensitivity(&a0), sensitivity(&a1));
+        let weight = Vector3::new(1.0, 2.0, 3.0);
+        let w = Matrix3::from_diagonal(&weight);
+        let m = [0.7, 0.2, 0.5];
+        let dense = g0.tr_mul(&(w * g0)) * m[0]
+            + (g0.tr_mul(&(w * g1)) + g1.tr_mul(&(w * g0))) * m[1]
+            + g1.tr_mul(&(w * g1)) * m[2];
+        assert!((information::<3, 12>(&weight, m, &a0, &a1) - dense).amax() < 1e-12);
+        let s = matrix::<3, 12>(&parameters());
+        let dense = s.tr_mul(&(w * (g0 * m[0] + g1 * m[1])));
+        assert!((coupling::<3, 12>(&s, &weight, [m[0], m[1]], &a0, &a1) - dense).amax() < 1e-12);
+        let dense = g0.tr_mul(&a1) + g1.tr_mul(&a0);
+        assert!((gradient::<3, 12>(&a0, &a1, &a1, &a0) - dense).amax() < 1e-12);
+    }
+
+    #[test]
+    fn one_axis_is_bias_and_scale() {
+        let p = diagonal::<1, 2>(&SVector::repeat(0.5), &SVector::repeat(2.0));
+        assert_eq!(reading(&p, &SVector::<f64, 1>::repeat(3.0))[0], 6.5);
+        let motion = JerkControlledMotion::uniform(1.0, vec![Vector3::zeros(); 2]).expect("valid");
+        assert_eq!(motion.intervals(), 1);
     }
 }
