@@ -1,6 +1,6 @@
 //! `calibrant calibrate`: from recordings to parameters with their covariance.
 
-use crate::{Exit, console};
+use crate::{Exit, console, place};
 use calibrant::Error;
 use calibrant::error::Complaint;
 use calibrant::estimate::{
@@ -68,6 +68,7 @@ struct Done {
 }
 
 pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
+    place::check_directory(&arguments.output)?;
     let job = Job::prepare(arguments)?;
     if let [recording] = arguments.recordings.as_slice() {
         let started = Instant::now();
@@ -88,7 +89,7 @@ impl Job {
                 let path = arguments.motion.as_deref().ok_or_else(|| {
                     Error::Experiment(Box::new(Complaint::new(
                         "a [motion] experiment needs the commanded motion",
-                        "add --motion FILE with columns t_s,ax_mps2,ay_mps2,az_mps2 at the nodes (trust unknown uses only its first and last row)",
+                        "add --motion FILE with columns t_s,ax_mps2,ay_mps2,az_mps2 at the nodes; trust unknown uses only its first and last row",
                     )))
                 })?;
                 let motion = read_motion(path, experiment.sensor.axes)?;

@@ -1,6 +1,6 @@
 //! `calibrant study`: many simulated sensors, truth beside estimate.
 
-use crate::{Exit, console};
+use crate::{Exit, console, place};
 use calibrant::Error;
 use calibrant::error::Complaint;
 use calibrant::estimate::CalibrationSettings;
@@ -41,6 +41,7 @@ pub(crate) struct Arguments {
 
 pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     let started = Instant::now();
+    place::check_directory(&arguments.output)?;
     let experiment = match &arguments.experiment {
         Some(path) => Experiment::read(path)?,
         None => Experiment::parse(preset(DEFAULT).unwrap_or_default(), None)?,

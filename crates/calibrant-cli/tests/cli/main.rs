@@ -1,6 +1,7 @@
 //! The program as its users meet it: commands, files, messages, exit status.
 
 mod bench;
+mod broken;
 mod commands;
 mod determinism;
 mod real;
