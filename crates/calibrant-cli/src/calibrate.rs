@@ -70,14 +70,22 @@ struct Done {
 pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     place::check_directory(&arguments.output)?;
     let job = Job::prepare(arguments)?;
-    if let [recording] = arguments.recordings.as_slice() {
-        let started = Instant::now();
-        let done = job.run(recording)?;
+    let [recording] = arguments.recordings.as_slice() else { return run_many(&job, arguments) };
+    let started = Instant::now();
+    let outcome = job.run(recording).and_then(|done| {
         job.write(&done, recording, &arguments.output, started)?;
-        show(&done, arguments);
-        return Ok(Exit::DONE);
+        Ok(done)
+    });
+    match outcome {
+        Ok(done) => {
+            show(&done, arguments);
+            Ok(Exit::DONE)
+        }
+        Err(error) => {
+            console::error_in(&error, recording);
+            Ok(Exit::of(&error))
+        }
     }
-    run_many(&job, arguments)
 }
 
 impl Job {
@@ -262,9 +270,9 @@ fn run_many(job: &Job, arguments: &Arguments) -> calibrant::Result<Exit> {
                 ]);
             }
             Err(error) => {
-                console::error(error);
+                console::error_in(error, path);
                 exit = exit.max(Exit::of(error));
-                rows.push(vec![folder.clone(), "ERROR".into(), "–".into(), name(path)]);
+                rows.push(vec![folder.clone(), "ERROR".into(), "–".into(), "–".into()]);
             }
         }
     }

@@ -6,3 +6,4 @@ mod commands;
 mod determinism;
 mod real;
 mod repaired;
+mod undetermined;
