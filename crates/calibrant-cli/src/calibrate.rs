@@ -14,7 +14,7 @@ use calibrant::motion::CommandedMotion;
 use calibrant::report::{About, calibration_report, number};
 use calibrant::sensor::ReadingUnit;
 use rayon::prelude::*;
-use std::collections::HashMap;
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -302,27 +302,26 @@ fn run_many(job: &Job, arguments: &Arguments) -> calibrant::Result<Exit> {
     Ok(exit)
 }
 
-/// A subfolder for each recording: its name without ending, with a number where names repeat.
+/// A subfolder for each recording: its name without ending, with a number where names repeat (capitals or not: not every file system
+/// tells them apart), or where another file of DIR has that name.
 fn folders(recordings: &[PathBuf]) -> Vec<String> {
     let stem = |path: &PathBuf| {
-        path.file_stem().map_or_else(|| "recording".into(), |stem| stem.to_string_lossy().into_owned())
+        let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
+        // `...csv` is a name without its ending, too: `..`
+        stem.filter(|stem| stem != "." && stem != "..").unwrap_or_else(|| "recording".into())
     };
-    let mut count: HashMap<String, usize> = HashMap::new();
-    let mut taken: std::collections::HashSet<String> = recordings.iter().map(stem).collect();
+    let mut seen = HashSet::from(["summary.csv".to_owned()]);
+    let mut taken: HashSet<String> = recordings.iter().map(|path| stem(path).to_lowercase()).collect();
     recordings
         .iter()
         .map(|path| {
             let stem = stem(path);
-            let seen = count.entry(stem.clone()).or_insert(0);
-            *seen += 1;
-            if *seen == 1 {
+            if seen.insert(stem.to_lowercase()) {
                 return stem;
             }
-            let mut k = *seen;
-            while !taken.insert(format!("{stem}-{k}")) {
-                k += 1;
-            }
-            format!("{stem}-{k}")
+            let numbered = |k: usize| format!("{stem}-{k}");
+            let free = (2..).map(numbered).find(|name| taken.insert(name.to_lowercase()));
+            free.unwrap_or(stem)
         })
         .collect()
 }

@@ -4,6 +4,7 @@ mod bench;
 mod broken;
 mod commands;
 mod determinism;
+mod many;
 mod real;
 mod repaired;
 mod undetermined;
