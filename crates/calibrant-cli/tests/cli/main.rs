@@ -4,6 +4,7 @@ mod bench;
 mod broken;
 mod commands;
 mod determinism;
+mod examples;
 mod many;
 mod real;
 mod repaired;
