@@ -127,8 +127,9 @@ fn summary(study: &Study) -> String {
     let header =
         ["parameter", "unit", "predicted sd", "realised rms error", "ratio", "95 % intervals that hold"];
     let title = format!(
-        "{} sensors, trust {}, {} intervals, {} Hz, seed {}\n",
+        "{} sensor{}, trust {}, {} intervals, {} Hz, seed {}\n",
         number::count(study.outcomes.len()),
+        if study.outcomes.len() == 1 { "" } else { "s" },
         study.trust,
         study.motion.intervals(),
         number::significant(study.rate_hz, 4),

@@ -172,7 +172,8 @@ fn the_study_of_the_report_needs_no_file() {
     assert_eq!(names(&study["summary"]), SCALE_BIAS);
     assert!((study["fine"]["rate_hz"].as_f64().expect("a number") - 10.0).abs() < 1e-9);
     assert_report(&bench, "study/report.html");
-    bench.run("study --sensors 2").done();
+    let outcome = bench.run("study --sensors 1").done();
+    assert!(outcome.stdout.starts_with("1 sensor, trust unknown"), "{}", outcome.stdout);
     assert!(bench.path("calibrant-study/study.json").is_file());
 }
 
