@@ -1,6 +1,6 @@
 //! `calibrant calibrate`: from recordings to parameters with their covariance.
 
-use crate::{Exit, console};
+use crate::{Exit, console, place};
 use calibrant::Error;
 use calibrant::error::Complaint;
 use calibrant::estimate::{
@@ -14,7 +14,7 @@ use calibrant::motion::CommandedMotion;
 use calibrant::report::{About, calibration_report, number};
 use calibrant::sensor::ReadingUnit;
 use rayon::prelude::*;
-use std::collections::HashMap;
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -68,15 +68,24 @@ struct Done {
 }
 
 pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
+    place::check_directory(&arguments.output)?;
     let job = Job::prepare(arguments)?;
-    if let [recording] = arguments.recordings.as_slice() {
-        let started = Instant::now();
-        let done = job.run(recording)?;
+    let [recording] = arguments.recordings.as_slice() else { return run_many(&job, arguments) };
+    let started = Instant::now();
+    let outcome = job.run(recording).and_then(|done| {
         job.write(&done, recording, &arguments.output, started)?;
-        show(&done, arguments);
-        return Ok(Exit::DONE);
+        Ok(done)
+    });
+    match outcome {
+        Ok(done) => {
+            show(&done, arguments);
+            Ok(Exit::DONE)
+        }
+        Err(error) => {
+            console::error_in(&error, recording);
+            Ok(Exit::of(&error))
+        }
     }
-    run_many(&job, arguments)
 }
 
 impl Job {
@@ -88,7 +97,7 @@ impl Job {
                 let path = arguments.motion.as_deref().ok_or_else(|| {
                     Error::Experiment(Box::new(Complaint::new(
                         "a [motion] experiment needs the commanded motion",
-                        "add --motion FILE with columns t_s,ax_mps2,ay_mps2,az_mps2 at the nodes (trust unknown uses only its first and last row)",
+                        "add --motion FILE with columns t_s,ax_mps2,ay_mps2,az_mps2 at the nodes; trust unknown uses only its first and last row",
                     )))
                 })?;
                 let motion = read_motion(path, experiment.sensor.axes)?;
@@ -261,9 +270,9 @@ fn run_many(job: &Job, arguments: &Arguments) -> calibrant::Result<Exit> {
                 ]);
             }
             Err(error) => {
-                console::error(error);
+                console::error_in(error, path);
                 exit = exit.max(Exit::of(error));
-                rows.push(vec![folder.clone(), "ERROR".into(), "–".into(), name(path)]);
+                rows.push(vec![folder.clone(), "ERROR".into(), "–".into(), "–".into()]);
             }
         }
     }
@@ -293,27 +302,26 @@ fn run_many(job: &Job, arguments: &Arguments) -> calibrant::Result<Exit> {
     Ok(exit)
 }
 
-/// A subfolder for each recording: its name without ending, with a number where names repeat.
+/// A subfolder for each recording: its name without ending, with a number where names repeat (capitals or not: not every file system
+/// tells them apart), or where another file of DIR has that name.
 fn folders(recordings: &[PathBuf]) -> Vec<String> {
     let stem = |path: &PathBuf| {
-        path.file_stem().map_or_else(|| "recording".into(), |stem| stem.to_string_lossy().into_owned())
+        let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
+        // `...csv` is a name without its ending, too: `..`
+        stem.filter(|stem| stem != "." && stem != "..").unwrap_or_else(|| "recording".into())
     };
-    let mut count: HashMap<String, usize> = HashMap::new();
-    let mut taken: std::collections::HashSet<String> = recordings.iter().map(stem).collect();
+    let mut seen = HashSet::from(["summary.csv".to_owned()]);
+    let mut taken: HashSet<String> = recordings.iter().map(|path| stem(path).to_lowercase()).collect();
     recordings
         .iter()
         .map(|path| {
             let stem = stem(path);
-            let seen = count.entry(stem.clone()).or_insert(0);
-            *seen += 1;
-            if *seen == 1 {
+            if seen.insert(stem.to_lowercase()) {
                 return stem;
             }
-            let mut k = *seen;
-            while !taken.insert(format!("{stem}-{k}")) {
-                k += 1;
-            }
-            format!("{stem}-{k}")
+            let numbered = |k: usize| format!("{stem}-{k}");
+            let free = (2..).map(numbered).find(|name| taken.insert(name.to_lowercase()));
+            free.unwrap_or(stem)
         })
         .collect()
 }

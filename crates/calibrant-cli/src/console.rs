@@ -6,6 +6,7 @@ use calibrant::report::number;
 use indicatif::{ProgressBar, ProgressStyle};
 use miette::{LabeledSpan, MietteDiagnostic, NamedSource, Report};
 use std::io::Write;
+use std::path::Path;
 
 /// Prints to stdout; a reader that has gone away (`| head`) is no error.
 pub(crate) fn print(text: &str) {
@@ -43,6 +44,15 @@ pub(crate) fn error(error: &Error) {
         }
         _ => writeln!(std::io::stderr(), "error: {error}"),
     };
+}
+
+/// Prints an error about this recording to stderr: one that does not name it gets its name.
+pub(crate) fn error_in(found: &Error, recording: &Path) {
+    if found.is_not_identifiable() {
+        let _ = writeln!(std::io::stderr(), "error: {}: {found}", recording.display());
+    } else {
+        error(found);
+    }
 }
 
 /// A progress bar on stderr; invisible where stderr is not a terminal.

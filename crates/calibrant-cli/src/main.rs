@@ -3,6 +3,7 @@
 mod calibrate;
 mod console;
 mod init;
+mod place;
 mod simulate;
 mod study;
 

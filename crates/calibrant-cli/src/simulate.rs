@@ -1,6 +1,6 @@
 //! `calibrant simulate`: a sensor out of the datasheet and its recording.
 
-use crate::{Exit, console};
+use crate::{Exit, console, place};
 use calibrant::Error;
 use calibrant::error::Complaint;
 use calibrant::io::{
@@ -35,6 +35,7 @@ pub(crate) struct Arguments {
 }
 
 pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
+    place::check_directory(&arguments.output)?;
     let experiment = Experiment::read(&arguments.experiment)?;
     let seed = arguments.seed.unwrap_or(experiment.study.seed);
     check_simulable(&experiment.sensor, &arguments.experiment)?;

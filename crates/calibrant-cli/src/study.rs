@@ -1,6 +1,6 @@
 //! `calibrant study`: many simulated sensors, truth beside estimate.
 
-use crate::{Exit, console};
+use crate::{Exit, console, place};
 use calibrant::Error;
 use calibrant::error::Complaint;
 use calibrant::estimate::CalibrationSettings;
@@ -41,6 +41,7 @@ pub(crate) struct Arguments {
 
 pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     let started = Instant::now();
+    place::check_directory(&arguments.output)?;
     let experiment = match &arguments.experiment {
         Some(path) => Experiment::read(path)?,
         None => Experiment::parse(preset(DEFAULT).unwrap_or_default(), None)?,
@@ -126,8 +127,9 @@ fn summary(study: &Study) -> String {
     let header =
         ["parameter", "unit", "predicted sd", "realised rms error", "ratio", "95 % intervals that hold"];
     let title = format!(
-        "{} sensors, trust {}, {} intervals, {} Hz, seed {}\n",
+        "{} sensor{}, trust {}, {} intervals, {} Hz, seed {}\n",
         number::count(study.outcomes.len()),
+        if study.outcomes.len() == 1 { "" } else { "s" },
         study.trust,
         study.motion.intervals(),
         number::significant(study.rate_hz, 4),

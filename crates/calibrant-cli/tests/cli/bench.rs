@@ -1,0 +1,141 @@
+//! A directory in which the program runs, and what came of a run.
+
+use serde_json::Value;
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// A temporary directory, the working directory of every command.
+pub(crate) struct Bench {
+    directory: tempfile::TempDir,
+}
+
+impl Bench {
+    pub(crate) fn new() -> Self {
+        Self { directory: tempfile::tempdir().expect("a temporary directory") }
+    }
+
+    pub(crate) fn path(&self, name: &str) -> PathBuf {
+        self.directory.path().join(name)
+    }
+
+    /// Writes a file, its directories too.
+    pub(crate) fn write(&self, name: &str, content: impl AsRef<[u8]>) {
+        let path = self.path(name);
+        std::fs::create_dir_all(path.parent().expect("inside")).expect("a directory");
+        std::fs::write(path, content).expect("written");
+    }
+
+    pub(crate) fn read(&self, name: &str) -> String {
+        std::fs::read_to_string(self.path(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
+    }
+
+    pub(crate) fn json(&self, name: &str) -> Value {
+        serde_json::from_str(&self.read(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
+    }
+
+    /// Writes a preset as an experiment file, after these replacements; each must find its text.
+    pub(crate) fn preset(&self, preset: &str, file: &str, edits: &[(&str, &str)]) {
+        let mut text = self.run(&format!("init {preset}")).done().stdout;
+        for (from, to) in edits {
+            assert!(text.contains(from), "{preset}: {from}");
+            text = text.replacen(from, to, 1);
+        }
+        self.write(file, text);
+    }
+
+    /// Runs the program; the arguments are separated by blanks.
+    pub(crate) fn run(&self, arguments: &str) -> Outcome {
+        let output = Command::new(env!("CARGO_BIN_EXE_calibrant"))
+            .args(arguments.split_whitespace())
+            .current_dir(self.directory.path())
+            .env_remove("RAYON_NUM_THREADS")
+            .env_remove("FORCE_COLOR")
+            .output()
+            .expect("the program runs");
+        let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("UTF-8");
+        let outcome = Outcome {
+            command: format!("calibrant {arguments}"),
+            status: output.status.code().expect("an exit status, not a signal"),
+            stdout: text(output.stdout),
+            stderr: text(output.stderr),
+        };
+        assert!(!outcome.stderr.contains("panicked at"), "{outcome:?}");
+        outcome
+    }
+
+    /// Every file and directory, by its path from here.
+    pub(crate) fn files(&self) -> BTreeSet<String> {
+        fn collect(root: &Path, directory: &Path, found: &mut BTreeSet<String>) {
+            for entry in std::fs::read_dir(directory).expect("a directory") {
+                let path = entry.expect("readable").path();
+                let name = path.strip_prefix(root).expect("inside").to_string_lossy().replace('\\', "/");
+                found.insert(name);
+                if path.is_dir() {
+                    collect(root, &path, found);
+                }
+            }
+        }
+        let mut found = BTreeSet::new();
+        collect(self.directory.path(), self.directory.path(), &mut found);
+        found
+    }
+
+    /// A run that must fail with this exit status, say all of these, and write nothing at all.
+    pub(crate) fn refuses(&self, arguments: &str, status: i32, says: &[&str]) {
+        let before = self.files();
+        let outcome = self.run(arguments);
+        assert_eq!(outcome.status, status, "{outcome:?}");
+        says.iter().for_each(|text| outcome.says(text));
+        assert_eq!(outcome.stdout, "", "{outcome:?}");
+        assert_eq!(self.files(), before, "nothing is written: {outcome:?}");
+    }
+}
+
+/// How a run ended.
+#[derive(Debug)]
+pub(crate) struct Outcome {
+    pub(crate) command: String,
+    pub(crate) status: i32,
+    pub(crate) stdout: String,
+    pub(crate) stderr: String,
+}
+
+impl Outcome {
+    /// The run, which must have been a success.
+    pub(crate) fn done(self) -> Self {
+        assert_eq!(self.status, 0, "{}\n{}", self.command, self.stderr);
+        self
+    }
+
+    /// Stderr must contain this text, wherever lines are broken.
+    pub(crate) fn says(&self, text: &str) {
+        // long messages beside an excerpt are wrapped with a bar on the left
+        let stderr = self.stderr.replace("\n  │ ", " ");
+        let words = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(
+            words(&stderr).contains(&words(text)),
+            "{} does not say: {text}\n{}",
+            self.command,
+            self.stderr
+        );
+    }
+}
+
+/// Names of parameters, in order.
+pub(crate) fn names(parameters: &Value) -> Vec<&str> {
+    let list = parameters.as_array().expect("an array");
+    list.iter().map(|parameter| parameter["name"].as_str().expect("a name")).collect()
+}
+
+/// Each parameter of a `calibration.json` must lie within five standard deviations of `truth.json`.
+pub(crate) fn assert_close_to_truth(calibration: &Value, truth: &Value) {
+    assert_eq!(names(&calibration["parameters"]), names(&truth["parameters"]));
+    let list = |value: &Value| value["parameters"].as_array().expect("an array").clone();
+    for (found, truth) in list(calibration).iter().zip(list(truth)) {
+        let number = |value: &Value, field: &str| value[field].as_f64().expect("a number");
+        let (error, sd) = (number(found, "value") - number(&truth, "value"), number(found, "sd"));
+        assert!(sd > 0.0 && error.abs() < 5.0 * sd, "{found} against {truth}");
+        assert_eq!(found["unit"], truth["unit"]);
+    }
+}

@@ -1,0 +1,232 @@
+//! Every command from its start to the files it leaves.
+
+use crate::bench::{Bench, assert_close_to_truth, names};
+use serde_json::Value;
+
+const SCALE_BIAS: [&str; 6] = ["bias.x", "bias.y", "bias.z", "scale.x", "scale.y", "scale.z"];
+const UPPER: [&str; 9] =
+    ["bias.x", "bias.y", "bias.z", "scale.x", "scale.y", "scale.z", "matrix.xy", "matrix.xz", "matrix.yz"];
+
+/// The fields that every `calibration.json` has, in the unit of its readings.
+fn assert_calibration_fields(calibration: &Value, expected: &[&str], unit: &str) {
+    assert_eq!(names(&calibration["parameters"]), expected);
+    for parameter in calibration["parameters"].as_array().expect("an array") {
+        assert!(parameter["unit"].is_string() && parameter["value"].is_f64() && parameter["sd"].is_f64());
+    }
+    for matrix in ["covariance", "correlation"] {
+        let rows = calibration[matrix].as_array().expect("rows");
+        assert_eq!(rows.len(), expected.len(), "{matrix}");
+        assert!(rows.iter().all(|row| row.as_array().is_some_and(|row| row.len() == expected.len())));
+    }
+    let sd = calibration["parameters"][0]["sd"].as_f64().expect("a number");
+    let variance = calibration["covariance"][0][0].as_f64().expect("a number");
+    assert!((sd * sd / variance - 1.0).abs() < 1e-12);
+    let fit = &calibration["fit"];
+    assert!(fit["chi2"].is_f64() && fit["degrees_of_freedom"].is_u64() && fit.get("p_value").is_some());
+    for field in ["residual_rms", "noise_estimate"] {
+        assert_eq!(fit[format!("{field}_{unit}")].as_array().map(Vec::len), Some(3), "{field}: {fit}");
+    }
+    assert_eq!(calibration["status"], "converged");
+    let input = &calibration["input"];
+    assert_eq!(input["sha256"].as_str().map(str::len), Some(64));
+    assert!(input["samples"].is_u64() && input["rate_hz"].is_f64());
+    assert_eq!(calibration["convention"]["direction"], "true to raw: y = S s + b");
+}
+
+fn assert_report(bench: &Bench, name: &str) {
+    let html = bench.read(name);
+    assert!(html.starts_with("<!DOCTYPE html>") || html.starts_with("<!doctype html>"), "{name}");
+    assert!(html.trim_end().ends_with("</html>"), "{name} is whole");
+}
+
+#[test]
+fn without_arguments_the_help_is_shown() {
+    let outcome = Bench::new().run("");
+    assert_eq!((outcome.status, outcome.stdout.as_str()), (2, ""));
+    for word in ["Usage: calibrant", "init", "simulate", "calibrate", "study", "--threads"] {
+        outcome.says(word);
+    }
+    let version = Bench::new().run("--version").done().stdout;
+    assert_eq!(version, format!("calibrant {}\n", env!("CARGO_PKG_VERSION")));
+}
+
+#[test]
+fn motion_presets_go_from_init_to_calibration() {
+    for (preset, intervals) in [("report", 10), ("report-noisy", 10), ("report-unknown", 14)] {
+        let bench = Bench::new();
+        bench.run(&format!("init {preset} -o experiment.toml")).done().says("wrote experiment.toml");
+        let outcome = bench.run("simulate experiment.toml --seed 3 -o simulated").done();
+        assert!(outcome.stdout.contains("seed 3: simulated/recording.csv"), "{outcome:?}");
+        assert_eq!(bench.path("simulated/true_motion.csv").exists(), preset == "report-noisy");
+        let command =
+            "calibrate experiment.toml simulated/recording.csv --motion simulated/motion.csv -o result";
+        let outcome = bench.run(command).done();
+        if preset == "report-noisy" {
+            outcome
+                .says("warning: the recording says less than the datasheet about scale.x, scale.y, scale.z");
+        } else {
+            assert_eq!(outcome.stderr, "", "{preset}");
+        }
+        for word in SCALE_BIAS.iter().chain(&["estimate ± sd", "converged", "result/report.html"]) {
+            assert!(outcome.stdout.contains(word), "{preset}: {word}\n{}", outcome.stdout);
+        }
+        let calibration = bench.json("result/calibration.json");
+        assert_calibration_fields(&calibration, &SCALE_BIAS, "mps2");
+        let motion = &calibration["motion"];
+        for (field, length) in [
+            ("times_s", intervals + 1),
+            ("acceleration_mps2", intervals + 1),
+            ("jerk_mps3", intervals),
+            ("velocity_mps", intervals + 1),
+            ("displacement_m", intervals + 1),
+        ] {
+            assert_eq!(motion[field].as_array().map(Vec::len), Some(length), "{preset}: {field}");
+        }
+        assert!(calibration.get("holds").is_none());
+        assert_close_to_truth(&calibration, &bench.json("simulated/truth.json"));
+        assert_report(&bench, "result/report.html");
+    }
+}
+
+#[test]
+fn one_axis_has_one_column() {
+    let bench = Bench::new();
+    bench.preset("report", "experiment.toml", &[("axes = 3", "axes = 1")]);
+    bench.run("simulate experiment.toml -o simulated").done();
+    assert!(bench.read("simulated/recording.csv").starts_with("t_s,ax_mps2\n"));
+    bench
+        .run("calibrate experiment.toml simulated/recording.csv --motion simulated/motion.csv -o result")
+        .done();
+    let calibration = bench.json("result/calibration.json");
+    assert_eq!(names(&calibration["parameters"]), ["bias.x", "scale.x"]);
+    assert_close_to_truth(&calibration, &bench.json("simulated/truth.json"));
+}
+
+#[test]
+fn static_poses_go_from_init_to_calibration() {
+    let bench = Bench::new();
+    bench.run("init static-poses -o experiment.toml").done();
+    bench.run("simulate experiment.toml -o simulated").done();
+    let outcome = bench.run("calibrate experiment.toml simulated/recording.csv -o result").done();
+    assert!(outcome.stdout.contains("24 holds found, gravity 9.80665"), "{}", outcome.stdout);
+    let calibration = bench.json("result/calibration.json");
+    assert_calibration_fields(&calibration, &UPPER, "mps2");
+    assert_eq!(calibration["convention"]["gauge"], "upper");
+    assert_eq!(calibration["holds"]["table"].as_array().map(Vec::len), Some(24));
+    assert!(calibration.get("motion").is_none());
+    assert_close_to_truth(&calibration, &bench.json("simulated/truth.json"));
+    assert_report(&bench, "result/report.html");
+}
+
+#[test]
+fn static_poses_in_counts_are_simulated_once_gain_and_noise_are_given() {
+    let bench = Bench::new();
+    bench.run("init static-poses-counts -o experiment.toml").done();
+    let says = "experiment.toml: `sensor.gain_counts_per_mps2`: a simulation needs `gain_counts_per_mps2`";
+    bench.refuses("simulate experiment.toml -o simulated", 2, &[says]);
+    bench.preset(
+        "static-poses-counts",
+        "complete.toml",
+        &[
+            ("# gain_counts", "gain_counts"),
+            ("# offset_counts", "offset_counts"),
+            ("# noise_counts", "noise_counts"),
+        ],
+    );
+    bench.run("simulate complete.toml -o simulated").done();
+    assert!(bench.read("simulated/recording.csv").starts_with("t_s,ax_counts,ay_counts,az_counts\n"));
+    // the gain need not be known
+    bench.run("calibrate experiment.toml simulated/recording.csv -o result").done();
+    let calibration = bench.json("result/calibration.json");
+    assert_calibration_fields(&calibration, &UPPER, "counts");
+    assert_eq!(calibration["parameters"][3]["unit"], "counts/(m/s²)");
+    assert_close_to_truth(&calibration, &bench.json("simulated/truth.json"));
+}
+
+#[test]
+fn init_prints_a_preset_or_keeps_the_file_that_is_there() {
+    let bench = Bench::new();
+    let preset = bench.run("init").done().stdout;
+    assert!(preset.contains("schema = 1"));
+    assert_eq!(preset, bench.run("init report").done().stdout);
+    bench.write("mine.toml", "mine");
+    bench.refuses("init -o mine.toml", 2, &["mine.toml is there already", "--force"]);
+    assert_eq!(bench.read("mine.toml"), "mine");
+    bench.run("init -o mine.toml --force").done();
+    assert_eq!(bench.read("mine.toml"), preset);
+    bench.run("init -o new/folder/file.toml").done();
+    assert_eq!(bench.read("new/folder/file.toml"), preset);
+}
+
+#[test]
+fn the_study_of_the_report_needs_no_file() {
+    let bench = Bench::new();
+    let outcome = bench.run("study --sensors 5 -o study").done();
+    assert_eq!(outcome.stderr, "");
+    for text in ["5 sensors, trust unknown, 14 intervals, 2.000 Hz, seed 1", "scale.z", "study/report.html"] {
+        assert!(outcome.stdout.contains(text), "{text}\n{}", outcome.stdout);
+    }
+    let study = bench.json("study/study.json");
+    assert_eq!(study["sensors"].as_array().map(Vec::len), Some(5));
+    assert_eq!(names(&study["parameters"]), SCALE_BIAS);
+    assert_eq!(names(&study["summary"]), SCALE_BIAS);
+    assert!((study["fine"]["rate_hz"].as_f64().expect("a number") - 10.0).abs() < 1e-9);
+    assert_report(&bench, "study/report.html");
+    let outcome = bench.run("study --sensors 1").done();
+    assert!(outcome.stdout.starts_with("1 sensor, trust unknown"), "{}", outcome.stdout);
+    assert!(bench.path("calibrant-study/study.json").is_file());
+}
+
+#[test]
+fn a_study_follows_its_experiment_and_its_motion() {
+    let bench = Bench::new();
+    bench.preset("report", "experiment.toml", &[("sensors = 30", "sensors = 3"), ("seed = 1", "seed = 9")]);
+    bench.run("simulate experiment.toml -o simulated").done();
+    bench.run("study experiment.toml --motion simulated/motion.csv --seed 4 -o study").done();
+    let study = bench.json("study/study.json");
+    assert_eq!((&study["seed"], &study["trust"]), (&4.into(), &"known".into()));
+    assert_eq!(study["sensors"].as_array().map(Vec::len), Some(3));
+    let motion = bench.read("simulated/motion.csv");
+    let node = motion.lines().nth(1).and_then(|line| line.strip_prefix("0.0,")).expect("the first node");
+    assert!(bench.read("study/study.json").contains(&format!("[{}]", node.replace(',', ", "))), "{node}");
+}
+
+#[test]
+fn json_on_stdout_is_the_file_and_nothing_else() {
+    let bench = Bench::new();
+    bench.preset("report", "experiment.toml", &[]);
+    bench.run("simulate experiment.toml -o a").done();
+    bench.run("simulate experiment.toml --seed 2 -o b").done();
+    let calibrate = "calibrate experiment.toml --motion a/motion.csv --json";
+    let outcome = bench.run(&format!("{calibrate} a/recording.csv -o one")).done();
+    assert_eq!(outcome.stdout, bench.read("one/calibration.json"));
+    let outcome = bench.run("study --sensors 3 --json -o study").done();
+    assert_eq!(outcome.stdout, bench.read("study/study.json"));
+    let outcome = bench.run(&format!("{calibrate} a/recording.csv b/recording.csv -o two")).done();
+    let list: Value = serde_json::from_str(&outcome.stdout).expect("JSON");
+    assert_eq!(list.as_array().map(Vec::len), Some(2));
+    assert_eq!(list[0], bench.json("two/recording/calibration.json"));
+    assert_eq!(list[1], bench.json("two/recording-2/calibration.json"));
+}
+
+#[test]
+fn the_unit_is_the_option_where_the_header_does_not_say() {
+    let bench = Bench::new();
+    bench.preset("static-poses", "experiment.toml", &[]);
+    bench.run("simulate experiment.toml -o simulated").done();
+    let plain = bench.read("simulated/recording.csv").replace("_mps2", "");
+    bench.write("plain.csv", plain);
+    bench.run("calibrate experiment.toml plain.csv -o result").done();
+    bench.run("calibrate experiment.toml plain.csv --unit mps2 -o named").done();
+    assert_eq!(bench.read("result/calibration.json"), bench.read("named/calibration.json"));
+    bench.refuses(
+        "calibrate experiment.toml plain.csv --unit counts -o refused",
+        3,
+        &["plain.csv: the recording is in counts, the sensor's readings in m/s²"],
+    );
+    bench.refuses(
+        "calibrate experiment.toml simulated/recording.csv --unit counts -o refused",
+        3,
+        &["simulated/recording.csv:1: the header says m/s², but the unit was given as counts"],
+    );
+}

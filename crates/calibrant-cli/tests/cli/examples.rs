@@ -1,0 +1,101 @@
+//! The commands in the READMEs of `examples/` run, and print what is said there.
+
+use crate::bench::Bench;
+use std::path::{Path, PathBuf};
+
+/// Copies a folder into the bench.
+fn copy(bench: &Bench, from: &Path, to: &str) {
+    for entry in std::fs::read_dir(from).expect("a folder") {
+        let path = entry.expect("readable").path();
+        let name = path.file_name().expect("a name").to_string_lossy().into_owned();
+        let name = if to.is_empty() { name } else { format!("{to}/{name}") };
+        if path.is_dir() {
+            copy(bench, &path, &name);
+        } else {
+            bench.write(&name, std::fs::read(&path).expect("readable"));
+        }
+    }
+}
+
+/// The fenced blocks of a text, with their language.
+fn blocks(text: &str) -> Vec<(&str, Vec<&str>)> {
+    let mut blocks: Vec<(&str, Vec<&str>)> = Vec::new();
+    let mut inside = false;
+    for line in text.lines() {
+        match line.strip_prefix("```") {
+            Some(_) if inside => inside = false,
+            Some(language) => {
+                blocks.push((language, Vec::new()));
+                inside = true;
+            }
+            None if inside => blocks.last_mut().expect("begun").1.push(line),
+            None => (),
+        }
+    }
+    blocks
+}
+
+/// Runs a README: lines of `sh` blocks that begin with `calibrant` (a comment may give another exit status than 0), and the lines of
+/// the `text` block below them, which the last command must have printed in this order; `…` stands for lines left out.
+fn follow(name: &str, commands: usize) {
+    let folder: PathBuf = [env!("CARGO_MANIFEST_DIR"), "../../examples", name].iter().collect();
+    let bench = Bench::new();
+    copy(&bench, &folder, "");
+    let readme = bench.read("README.md");
+    let (mut ran, mut printed) = (0, String::new());
+    for (language, lines) in blocks(&readme) {
+        if language == "sh" {
+            for line in lines.iter().filter_map(|line| line.strip_prefix("calibrant ")) {
+                let (arguments, comment) = line.split_once(" #").unwrap_or((line, ""));
+                let status = comment
+                    .split("exit status ")
+                    .nth(1)
+                    .map_or(0, |status| status.trim().parse().unwrap_or_else(|_| panic!("{name}: {line}")));
+                let outcome = bench.run(arguments);
+                assert_eq!(outcome.status, status, "{name}: {outcome:?}");
+                printed = outcome.stdout + &outcome.stderr;
+                ran += 1;
+            }
+        } else if language == "text" {
+            let mut rest = printed.lines();
+            for line in lines.iter().map(|line| line.trim()).filter(|line| *line != "…") {
+                let found = rest.any(|printed| printed.trim() == line);
+                assert!(found, "{name}: README.md says\n{line}\nbut the program\n{printed}");
+            }
+        }
+    }
+    assert_eq!(ran, commands, "{name}: number of commands");
+}
+
+#[test]
+fn robot_motion() {
+    follow("01_robot_motion", 7);
+}
+
+#[test]
+fn unknown_motion() {
+    follow("02_unknown_motion", 5);
+}
+
+#[test]
+fn static_poses() {
+    follow("03_static_poses", 6);
+}
+
+#[test]
+fn many_sensors() {
+    follow("04_many_sensors", 5);
+}
+
+#[test]
+fn every_example_is_followed() {
+    let root: PathBuf = [env!("CARGO_MANIFEST_DIR"), "../../examples"].iter().collect();
+    let mut names: Vec<_> = std::fs::read_dir(root)
+        .expect("examples")
+        .map(|entry| entry.expect("readable").path())
+        .filter(|path| path.is_dir())
+        .map(|path| path.file_name().expect("a name").to_string_lossy().into_owned())
+        .collect();
+    names.sort();
+    assert_eq!(names, ["01_robot_motion", "02_unknown_motion", "03_static_poses", "04_many_sensors"]);
+}

@@ -1,0 +1,11 @@
+//! The program as its users meet it: commands, files, messages, exit status.
+
+mod bench;
+mod broken;
+mod commands;
+mod determinism;
+mod examples;
+mod many;
+mod real;
+mod repaired;
+mod undetermined;

@@ -1,0 +1,108 @@
+//! Several recordings in one call: none stops the others, none overwrites another.
+
+use crate::bench::Bench;
+
+/// An experiment, its motion, and recordings of as many sensors as names.
+fn bench(recordings: &[&str]) -> Bench {
+    let bench = Bench::new();
+    bench.preset("report", "experiment.toml", &[]);
+    bench.run("simulate experiment.toml -o simulated").done();
+    for (seed, name) in recordings.iter().enumerate() {
+        // the motion of the first seed, the sensor of another
+        let seed = seed + 1;
+        bench
+            .run(&format!("simulate experiment.toml --motion simulated/motion.csv --seed {seed} -o made"))
+            .done();
+        bench.write(name, bench.read("made/recording.csv"));
+    }
+    bench
+}
+
+const CALIBRATE: &str = "calibrate experiment.toml --motion simulated/motion.csv";
+
+#[test]
+fn one_bad_recording_does_not_stop_the_others() {
+    let bench = bench(&["a.csv", "b.csv", "c.csv"]);
+    let cut: String = bench.read("b.csv").replace("\n0.3,", "\n0.3,oops,");
+    bench.write("b.csv", cut);
+    let outcome = bench.run(&format!("{CALIBRATE} a.csv b.csv c.csv missing.csv -o result"));
+    assert_eq!(outcome.status, 3, "{outcome:?}");
+    outcome.says("b.csv:5:5: \"oops\" in column `ax_mps2` is not a number");
+    outcome.says("missing.csv: cannot read the recording");
+    assert!(outcome.stdout.contains("2 calibrated, 2 failed: result/summary.csv"), "{outcome:?}");
+    for (folder, there) in [("a", true), ("b", false), ("c", true), ("missing", false)] {
+        assert_eq!(bench.path(&format!("result/{folder}/calibration.json")).is_file(), there, "{folder}");
+        assert_eq!(bench.path(&format!("result/{folder}")).is_dir(), there, "{folder}");
+    }
+    let summary = bench.read("result/summary.csv");
+    let rows: Vec<&str> = summary.lines().collect();
+    assert!(
+        rows[0].starts_with(
+            "file,status,error,chi2,degrees_of_freedom,p_value,bias.x_mps2,bias.x_sd_mps2,bias.y_mps2,"
+        ),
+        "{summary}"
+    );
+    assert!(rows[0].ends_with(",scale.z,scale.z_sd"), "{summary}");
+    let starts =
+        ["a,converged,,", "b,error,\"b.csv:5:5: \"\"oops\"\" in column", "c,converged,,", "missing,error,"];
+    assert_eq!(rows.len(), 1 + starts.len(), "{summary}");
+    for (row, start) in rows[1..].iter().zip(starts) {
+        assert!(row.starts_with(start), "{row}");
+    }
+    let values: Vec<&str> = rows[3].split(',').skip(6).collect();
+    let calibration = bench.read("result/c/calibration.json");
+    assert_eq!(values.len(), 12, "{summary}");
+    for (pair, field) in values.chunks(2).flat_map(|pair| [(pair[0], "value"), (pair[1], "sd")]) {
+        assert!(calibration.contains(&format!("\"{field}\": {pair},")), "{field} {pair}");
+    }
+}
+
+#[test]
+fn the_worst_exit_status_counts_and_the_undetermined_one_is_named() {
+    let bench = bench(&["a.csv"]);
+    let short: String = bench.read("a.csv").lines().take(3).map(|line| format!("{line}\n")).collect();
+    bench.write("short.csv", short.replace("\n0.1,", "\n99,"));
+    bench.write("broken.csv", "");
+    let outcome = bench.run(&format!("{CALIBRATE} a.csv short.csv broken.csv -o result"));
+    assert_eq!(outcome.status, 4, "{outcome:?}");
+    outcome.says("error: short.csv: the data cannot determine the parameters; bias.x and scale.x");
+    outcome.says("error: broken.csv: the file is empty");
+    let summary = bench.read("result/summary.csv");
+    assert!(summary.contains("\nshort,error,the data cannot determine the parameters; bias.x"), "{summary}");
+}
+
+#[test]
+fn files_of_one_name_do_not_collide() {
+    let bench = bench(&["one/rec.csv", "two/rec.csv", "rec-2.csv", "three/rec.txt"]);
+    let command = format!("{CALIBRATE} one/rec.csv two/rec.csv rec-2.csv three/rec.txt -o result");
+    bench.run(&command).done();
+    let value = |folder: &str| {
+        let calibration = bench.json(&format!("result/{folder}/calibration.json"));
+        (calibration["input"]["file"].to_string(), calibration["input"]["sha256"].to_string())
+    };
+    let (one, two, dash, three) = (value("rec"), value("rec-3"), value("rec-2"), value("rec-4"));
+    assert_eq!((one.0.as_str(), two.0.as_str()), ("\"rec.csv\"", "\"rec.csv\""));
+    assert_eq!((dash.0.as_str(), three.0.as_str()), ("\"rec-2.csv\"", "\"rec.txt\""));
+    let mut sums = [one.1, two.1, dash.1, three.1];
+    sums.sort();
+    assert!(sums.windows(2).all(|pair| pair[0] != pair[1]), "four recordings");
+    let summary = bench.read("result/summary.csv");
+    let files: Vec<_> = summary.lines().skip(1).filter_map(|row| row.split(',').next()).collect();
+    assert_eq!(files, ["rec", "rec-3", "rec-2", "rec-4"]);
+}
+
+#[test]
+fn no_name_of_a_recording_leads_out_of_its_subfolder() {
+    let bench = bench(&["...csv", "..csv", "summary.csv.txt", "Rec.csv", "rec.csv"]);
+    let before = bench.files();
+    bench.run(&format!("{CALIBRATE} ...csv ..csv summary.csv.txt Rec.csv rec.csv -o result")).done();
+    let new: Vec<String> = bench.files().difference(&before).cloned().collect();
+    assert!(new.iter().all(|file| file.starts_with("result")), "{new:?}");
+    assert_eq!(new.iter().filter(|file| file.ends_with("/calibration.json")).count(), 5, "{new:?}");
+    assert!(!new.iter().any(|file| file == "result/calibration.json"), "{new:?}");
+    let folders: Vec<String> =
+        new.iter().filter_map(|file| Some(file.strip_suffix("/report.html")?.to_lowercase())).collect();
+    let distinct: std::collections::BTreeSet<_> = folders.iter().collect();
+    assert_eq!(distinct.len(), 5, "also where capitals do not tell names apart: {folders:?}");
+    assert!(bench.path("result/summary.csv").is_file());
+}

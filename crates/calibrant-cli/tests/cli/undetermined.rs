@@ -1,0 +1,102 @@
+//! What the data cannot determine is named: exit status 4, and nothing is written.
+
+use crate::bench::Bench;
+
+/// A motion that leaves one axis as it is: the column of a `motion.csv` at this value throughout.
+fn with_column(motion: &str, column: usize, value: impl Fn(usize) -> Option<&'static str>) -> String {
+    let rows = motion.lines().enumerate().map(|(row, line)| {
+        let mut fields: Vec<&str> = line.split(',').collect();
+        if let Some(value) = value(row) {
+            fields[column] = value;
+        }
+        fields.join(",") + "\n"
+    });
+    rows.collect()
+}
+
+#[test]
+fn an_axis_that_does_not_move() {
+    let bench = Bench::new();
+    bench.preset("report", "experiment.toml", &[]);
+    bench.run("simulate experiment.toml -o simulated").done();
+    let motion = bench.read("simulated/motion.csv");
+    bench.write("still.csv", with_column(&motion, 2, |row| (row > 0).then_some("2.0")));
+    bench.run("simulate experiment.toml --motion still.csv -o still").done();
+    bench.refuses(
+        "calibrate experiment.toml still/recording.csv --motion still/motion.csv -o result",
+        4,
+        &[
+            "still/recording.csv: the data cannot determine the parameters",
+            "bias.y and scale.y cannot be told apart: axis y does not move, its acceleration is 2 m/s² throughout",
+            "move the sensor along axis y",
+        ],
+    );
+}
+
+#[test]
+fn equal_ends_of_an_unknown_motion() {
+    let bench = Bench::new();
+    bench.preset("report-unknown", "experiment.toml", &[]);
+    bench.run("simulate experiment.toml -o simulated").done();
+    let motion = bench.read("simulated/motion.csv");
+    let last = motion.lines().count() - 1;
+    let ends = |row: usize| (row == 1 || row == last).then_some("1.5");
+    bench.write("ends.csv", with_column(&motion, 3, ends));
+    bench.refuses(
+        "calibrate experiment.toml simulated/recording.csv --motion ends.csv -o result",
+        4,
+        &[
+            "bias.z and scale.z cannot be told apart",
+            "axis z has the same acceleration, 1.5 m/s², at both ends",
+        ],
+    );
+}
+
+#[test]
+fn a_full_matrix_from_an_unknown_motion() {
+    let bench = Bench::new();
+    bench.preset("report-unknown", "experiment.toml", &[]);
+    bench.preset("report-unknown", "full.toml", &[("\"scale-bias\"", "\"full\"")]);
+    bench.run("simulate experiment.toml -o simulated").done();
+    bench.refuses(
+        "calibrate full.toml simulated/recording.csv --motion simulated/motion.csv -o result",
+        4,
+        &[
+            "2 combinations of bias.x, scale.x, matrix.xy, matrix.xz left free",
+            "2 combinations of bias.z, scale.z, matrix.zx, matrix.zy left free",
+            "use model = \"scale-bias\"",
+        ],
+    );
+}
+
+#[test]
+fn too_few_holds() {
+    for (poses, says) in [("8", "8 holds give 8 equations"), ("1", "only one hold was found")] {
+        let bench = Bench::new();
+        bench.preset("static-poses", "experiment.toml", &[("poses = 24", &format!("poses = {poses}"))]);
+        bench.run("simulate experiment.toml -o simulated").done();
+        bench.refuses(
+            "calibrate experiment.toml simulated/recording.csv -o result",
+            4,
+            &[
+                "combination",
+                "of bias.x, bias.y, bias.z, scale.x",
+                "matrix.yz left free",
+                says,
+                "at least 12",
+            ],
+        );
+    }
+}
+
+#[test]
+fn no_hold_at_all() {
+    let bench = Bench::new();
+    bench.preset("static-poses", "experiment.toml", &[("minimum_hold_s = 1.0", "minimum_hold_s = 10.0")]);
+    bench.run("simulate experiment.toml -o simulated").done();
+    bench.refuses(
+        "calibrate experiment.toml simulated/recording.csv -o result",
+        4,
+        &["no hold was found in the recording: the sensor was never still for long enough"],
+    );
+}
