@@ -2,7 +2,7 @@
 
 use super::fit::{Chain, Fit, State};
 use super::model::{self, FittedNode, reading_covariance};
-use super::moments::{Position, locate, moments, reference};
+use super::moments::{Positions, moments, reference};
 use super::pairs::PairSums;
 use super::undetermined::{explain, explain_node};
 use super::{
@@ -21,7 +21,7 @@ pub(super) struct Context<'a> {
     pub(super) settings: &'a CalibrationSettings,
     /// Readings within the motion, and where they lie on it.
     pub(super) readings: &'a [Vector3<f64>],
-    pub(super) positions: Vec<Position>,
+    pub(super) positions: Positions,
     /// Pairs of nearby samples, for the whiteness test.
     pairs: PairSums,
     /// The reading nearest to each node.
@@ -41,13 +41,13 @@ impl<'a> Context<'a> {
         let times = &problem.recording.times_s[first..end];
         let readings = &problem.recording.readings[first..end];
         let tau = command.motion.times_s();
-        let positions = locate(times, tau);
+        let positions = Positions::locate(times, tau);
         let mut context = Self {
             problem,
             command,
             settings,
             readings,
-            pairs: PairSums::new(&positions, command.motion.intervals()),
+            pairs: PairSums::new(&positions),
             positions,
             reference: reference(times, readings, tau),
             noise: Vector3::repeat(1.0),

@@ -96,15 +96,17 @@ fn assemble(context: &Context<'_>, solved: Solved, first_sample: usize) -> Resul
             ))
         })?;
     let fitted: Vec<_> = motion.acceleration_mps2().iter().map(|a| sensor.reading(a)).collect();
-    let residuals: Vec<Vector3<f64>> = context
-        .positions
-        .iter()
-        .zip(context.readings)
-        .map(|(position, reading)| {
-            let i = position.interval as usize;
-            reading - (fitted[i] * (1.0 - position.lambda) + fitted[i + 1] * position.lambda)
-        })
-        .collect();
+    let mut residuals = Vec::with_capacity(context.readings.len());
+    for i in 0..context.positions.intervals() {
+        let samples = context.positions.of(i);
+        let lambda = &context.positions.lambda[samples.clone()];
+        residuals.extend(
+            lambda
+                .iter()
+                .zip(&context.readings[samples])
+                .map(|(l, y)| y - (fitted[i] * (1.0 - l) + fitted[i + 1] * *l)),
+        );
+    }
     let samples = residuals.len() as f64;
     let mut fit = FitStatistics {
         chi2: solved.chi2,

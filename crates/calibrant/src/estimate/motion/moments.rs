@@ -28,27 +28,49 @@ pub(super) struct Moments<const D: usize> {
 }
 
 /// Where the samples lie on the chain.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Position {
-    /// Interval.
-    pub(super) interval: u32,
-    /// Place within it, 0 to 1.
-    pub(super) lambda: f64,
+#[derive(Debug, Clone)]
+pub(super) struct Positions {
+    /// First sample of each interval, and one past the last sample of all.
+    starts: Vec<usize>,
+    /// Place of each sample within its interval, 0 to 1.
+    pub(super) lambda: Vec<f64>,
 }
 
-/// Locates samples on breakpoints `tau` in one pass; both ascend. Times outside are clamped to the ends.
-pub(super) fn locate(times: &[f64], tau: &[f64]) -> Vec<Position> {
-    let last = tau.len() - 2;
-    let mut i = 0;
-    times
-        .iter()
-        .map(|&t| {
-            while i < last && t >= tau[i + 1] {
-                i += 1;
+impl Positions {
+    /// Locates samples on breakpoints `tau` in one pass; both ascend. Times outside are clamped to the ends.
+    pub(super) fn locate(times: &[f64], tau: &[f64]) -> Self {
+        let intervals = tau.len() - 1;
+        let mut starts = Vec::with_capacity(intervals + 1);
+        let mut lambda = Vec::with_capacity(times.len());
+        for i in 0..intervals {
+            starts.push(lambda.len());
+            let duration = tau[i + 1] - tau[i];
+            let place = |t: f64| ((t - tau[i]) / duration).clamp(0.0, 1.0);
+            let rest = &times[lambda.len()..];
+            if i + 1 == intervals {
+                lambda.extend(rest.iter().map(|&t| place(t)));
+            } else {
+                lambda.extend(rest.iter().take_while(|&&t| t < tau[i + 1]).map(|&t| place(t)));
             }
-            Position { interval: i as u32, lambda: ((t - tau[i]) / (tau[i + 1] - tau[i])).clamp(0.0, 1.0) }
-        })
-        .collect()
+        }
+        starts.push(lambda.len());
+        Self { starts, lambda }
+    }
+
+    /// Number of intervals.
+    pub(super) fn intervals(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    /// Number of samples.
+    pub(super) fn samples(&self) -> usize {
+        self.lambda.len()
+    }
+
+    /// The samples of interval i.
+    pub(super) fn of(&self, i: usize) -> std::ops::Range<usize> {
+        self.starts[i]..self.starts[i + 1]
+    }
 }
 
 /// The reading nearest in time to each breakpoint: the reference `z`.
@@ -64,28 +86,38 @@ pub(super) fn reference(times: &[f64], readings: &[Vector3<f64>], tau: &[f64]) -
 
 /// The moments of the axes `axes` about the reference readings `z`.
 pub(super) fn moments<const D: usize>(
-    positions: &[Position],
+    positions: &Positions,
     readings: &[Vector3<f64>],
     z: &[Vector3<f64>],
     axes: [usize; D],
 ) -> Vec<Moments<D>> {
     let zero = SVector::zeros();
-    let mut moments =
-        vec![Moments { m00: 0.0, m01: 0.0, m11: 0.0, e0: zero, e1: zero, e2: zero, samples: 0 }; z.len() - 1];
-    for (position, reading) in positions.iter().zip(readings) {
-        let i = position.interval as usize;
-        let (w0, w1) = (1.0 - position.lambda, position.lambda);
-        let m = &mut moments[i];
-        m.m00 += w0 * w0;
-        m.m01 += w0 * w1;
-        m.m11 += w1 * w1;
-        m.samples += 1;
-        for (k, &axis) in axes.iter().enumerate() {
-            let e = reading[axis] - (w0 * z[i][axis] + w1 * z[i + 1][axis]);
-            m.e0[k] += w0 * e;
-            m.e1[k] += w1 * e;
-            m.e2[k] += e * e;
-        }
-    }
-    moments
+    (0..positions.intervals())
+        .map(|i| {
+            let samples = positions.of(i);
+            let mut m = Moments {
+                m00: 0.0,
+                m01: 0.0,
+                m11: 0.0,
+                e0: zero,
+                e1: zero,
+                e2: zero,
+                samples: samples.len(),
+            };
+            let (z0, z1) = (axes.map(|axis| z[i][axis]), axes.map(|axis| z[i + 1][axis]));
+            for (&w1, reading) in positions.lambda[samples.clone()].iter().zip(&readings[samples]) {
+                let w0 = 1.0 - w1;
+                m.m00 += w0 * w0;
+                m.m01 += w0 * w1;
+                m.m11 += w1 * w1;
+                for k in 0..D {
+                    let e = reading[axes[k]] - (w0 * z0[k] + w1 * z1[k]);
+                    m.e0[k] += w0 * e;
+                    m.e1[k] += w1 * e;
+                    m.e2[k] += e * e;
+                }
+            }
+            m
+        })
+        .collect()
 }

@@ -4,7 +4,8 @@
 //! off-diagonal sum `c_l = Σ_k P_{k,k+l}` is what the l-th autocovariance is short of. `P_{k,m}` is the covariance of the fitted
 //! readings at two samples, bilinear in their places `λ`, so c_l needs only these sums for each interval, once for all axes.
 
-use super::moments::Position;
+use super::moments::Positions;
+use crate::estimate::statistics::dot;
 use nalgebra::Matrix2;
 
 /// Largest lag of the whiteness test.
@@ -27,27 +28,38 @@ pub(super) struct PairSums {
 }
 
 impl PairSums {
-    pub(super) fn new(positions: &[Position], intervals: usize) -> Self {
-        let lags = LAGS.min(positions.len() / intervals).max(1);
-        let zero = PairSum { within: Matrix2::zeros(), across: Matrix2::zeros() };
-        let mut sums = vec![zero; lags * intervals];
-        for (m, later) in positions.iter().enumerate() {
-            let i = later.interval as usize;
-            for lag in 1..=lags.min(m) {
-                let earlier = positions[m - lag];
-                let sum = &mut sums[i * lags + lag - 1];
-                let target = match i - earlier.interval as usize {
-                    0 => &mut sum.within,
-                    1 => &mut sum.across,
-                    // irregular sampling: too far apart to matter
-                    _ => break,
-                };
-                let (x, y) = (earlier.lambda, later.lambda);
-                target.m11 += (1.0 - x) * (1.0 - y);
-                target.m12 += (1.0 - x) * y;
-                target.m21 += x * (1.0 - y);
-                target.m22 += x * y;
+    pub(super) fn new(positions: &Positions) -> Self {
+        let lambda = &positions.lambda;
+        let mut running = Vec::with_capacity(lambda.len() + 1);
+        let mut total = 0.0;
+        running.push(total);
+        running.extend(lambda.iter().map(|l| {
+            total += l;
+            total
+        }));
+        // pairs (k, k + lag) for k in from..to
+        let sum = |from: usize, to: usize, lag: usize| {
+            if to <= from {
+                return Matrix2::zeros();
             }
+            let (x, y) = (running[to] - running[from], running[to + lag] - running[from + lag]);
+            let xy = dot(&lambda[from..to], &lambda[from + lag..to + lag]);
+            Matrix2::new((to - from) as f64 - x - y + xy, y - xy, x - xy, xy)
+        };
+        let lags = LAGS.min(positions.samples() / positions.intervals()).max(1);
+        let mut sums = Vec::with_capacity(lags * positions.intervals());
+        let mut before = 0;
+        for i in 0..positions.intervals() {
+            let own = positions.of(i);
+            for lag in 1..=lags {
+                let first = own.start.saturating_sub(lag).max(before);
+                sums.push(PairSum {
+                    within: sum(own.start, own.end.saturating_sub(lag), lag),
+                    // irregular sampling may make pairs that span a whole interval: too far apart to matter
+                    across: sum(first, own.start.min(own.end.saturating_sub(lag)), lag),
+                });
+            }
+            before = own.start;
         }
         Self { lags, sums }
     }

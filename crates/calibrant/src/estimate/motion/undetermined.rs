@@ -31,7 +31,7 @@ pub(super) fn explain(
 }
 
 fn reason(context: &Context<'_>, quantities: &[Quantity]) -> (String, String) {
-    let samples = context.positions.len();
+    let samples = context.positions.samples();
     let nodes = context.command.motion.acceleration_mps2();
     let mut columns: Vec<Axis> = quantities
         .iter()

@@ -15,7 +15,7 @@ pub(super) fn warnings(context: &Context<'_>, calibration: &Calibration) -> Vec<
         ));
     }
     let recorded = context.problem.recording.len();
-    let used = context.positions.len();
+    let used = context.positions.samples();
     if used < recorded {
         warnings.push(format!(
             "{} of {recorded} samples lie outside the motion's {} to {} s and were not used",
