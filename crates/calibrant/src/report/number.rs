@@ -86,7 +86,7 @@ pub fn probability(p: f64) -> String {
         "< 0.0001".to_string()
     } else if p > 0.9999 {
         "> 0.9999".to_string()
-    } else if p < 0.095 || p > 0.99 {
+    } else if !(0.095..=0.99).contains(&p) {
         significant(p, 2).trim_end_matches('.').to_string()
     } else {
         fixed(p, 2)
@@ -111,7 +111,7 @@ pub fn count(n: usize) -> String {
     }
     let mut text = String::new();
     for (i, digit) in digits.chars().enumerate() {
-        if i > 0 && (digits.len() - i) % 3 == 0 {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
             text.push('\u{202f}');
         }
         text.push(digit);

@@ -34,9 +34,9 @@ pub fn study_report(study: &Study, about: &About) -> String {
     page.push(summary_table(study));
     page.push(parameters_against_truth(study).html());
     page.push(parameter_errors(study).html());
-    for figure in [standardised_errors(study), p_values(study)].into_iter().flatten() {
-        page.push(figure.html());
-    }
+    let figures = [standardised_errors(study), p_values(study)];
+    let figures: String = figures.iter().flatten().map(|figure| figure.html()).collect();
+    page.push(format!("<div class=\"pair\">{figures}</div>"));
 
     page.section("One sensor in detail", &rates("The population's rate", &study.single));
     single(&mut page, &study.single);

@@ -16,7 +16,10 @@ fn about() -> About {
 /// One self-contained file without numbers that are none.
 fn assert_sound(html: &str) {
     assert!(html.starts_with("<!DOCTYPE html>") && html.trim_end().ends_with("</html>"));
+    // references within the page are fine: clip paths
+    let html_without_references = html.replace("url(#", "");
     for bad in ["http", "NaN", "nan,", "inf ", "\"inf", "url(", "<script", "src=", "@import"] {
+        let html = &html_without_references;
         assert!(!html.contains(bad), "{bad}: …{}…", excerpt(html, bad));
     }
     for tag in ["table", "figure", "svg", "div", "tr", "td", "text"] {

@@ -10,10 +10,10 @@ use crate::report::number;
 pub(in crate::report) fn correlation_map(calibration: &Calibration) -> String {
     let correlation = calibration.correlation();
     let names: Vec<String> =
-        calibration.parameters.iter().map(|p| escape(&p.name).replacen('.', ".<wbr>", 1)).collect();
+        calibration.parameters.iter().map(|p| escape(&p.name).replacen('.', ".<br>", 1)).collect();
     let mut rows = String::new();
     for (i, name) in names.iter().enumerate() {
-        rows.push_str(&format!("<tr><th scope=\"row\">{}</th>", name.replace("<wbr>", "")));
+        rows.push_str(&format!("<tr><th scope=\"row\">{}</th>", name.replace("<br>", "")));
         for j in 0..=i {
             rows.push_str(&cell(correlation[(i, j)], i == j));
         }
@@ -41,9 +41,11 @@ fn cell(r: f64, diagonal: bool) -> String {
     if !r.is_finite() {
         return format!("<td>{}</td>", number::UNKNOWN);
     }
+    if diagonal {
+        return "<td style=\"background:#e8ebee\">1</td>".to_string();
+    }
     let ink = if r.abs() > 0.72 { "#fff" } else { "#1b1f24" };
-    let text = if diagonal { "1".to_string() } else { number::fixed(r, 2) };
-    format!("<td style=\"background:{};color:{ink}\">{text}</td>", colour(r))
+    format!("<td style=\"background:{};color:{ink}\">{}</td>", colour(r), number::fixed(r, 2))
 }
 
 /// From blue over white to vermillion, for −1 to 1.

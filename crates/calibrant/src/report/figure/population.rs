@@ -122,11 +122,11 @@ pub(in crate::report) fn p_values(study: &Study) -> Option<Figure> {
     let ends = vec![(0.0, expected), (1.0, expected)];
     let panel =
         Panel::new("", "p-value of the fit", "number of sensors")
-            .with(Series::new("sensors", colour::SKY, Mark::Area, bins.outline()))
             .with(
                 Series::new("±2 sd of chance", colour::ORANGE, Mark::Band, ends.clone())
                     .with_spread(vec![spread.min(expected); 2]),
             )
+            .with(Series::new("sensors", colour::SKY, Mark::Area, bins.outline()))
             .with(Series::dashed("expected", colour::VERMILLION, ends));
     let caption = "Good: flat, apart from chance. A peak at 0 means that model or noise do not describe the data, one at 1 that the \
                    assumed noise is too large.";

@@ -10,10 +10,12 @@ pub(in crate::report) struct DisplayUnit {
 }
 
 impl DisplayUnit {
-    /// A unit in which `largest`, given in `unit`, is neither tiny nor long: mm/s² and µm/s² for m/s², ppm for `1`.
+    /// A unit in which `largest`, given in `unit`, is neither tiny nor long: mm/s² and µm/s² for m/s²; % and
+    /// ppm for `1`.
     pub(in crate::report) fn suited(unit: &'static str, largest: f64) -> Self {
         let small = largest > 0.0 && largest < 0.03;
         match unit {
+            "1" if small && largest > 2e-3 => Self { factor: 100.0, symbol: "%" },
             "m/s²" if small && largest < 3e-5 => Self { factor: 1e6, symbol: "µm/s²" },
             "m/s²" if small => Self { factor: 1e3, symbol: "mm/s²" },
             "1" if small => Self { factor: 1e6, symbol: "ppm" },
