@@ -103,7 +103,7 @@ pub(crate) fn parameters(calibration: &Calibration) -> String {
                 parameter.name.clone(),
                 number::with_sd(*value, sd),
                 parameter.unit.to_owned(),
-                number::significant(parameter.nominal, 6),
+                parameter.nominal.map_or_else(|| "–".into(), |nominal| number::significant(nominal, 6)),
                 parameter.spread.map_or_else(|| "–".into(), |spread| number::significant(spread, 3)),
             ]
         })

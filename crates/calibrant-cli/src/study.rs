@@ -132,7 +132,7 @@ fn summary(study: &Study) -> String {
         if study.outcomes.len() == 1 { "" } else { "s" },
         study.trust,
         study.motion.intervals(),
-        number::significant(study.rate_hz, 4),
+        number::short(study.rate_hz),
         study.seed
     );
     title + &console::table(&header, &rows)

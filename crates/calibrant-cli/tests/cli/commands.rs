@@ -163,7 +163,7 @@ fn the_study_of_the_report_needs_no_file() {
     let bench = Bench::new();
     let outcome = bench.run("study --sensors 5 -o study").done();
     assert_eq!(outcome.stderr, "");
-    for text in ["5 sensors, trust unknown, 14 intervals, 2.000 Hz, seed 1", "scale.z", "study/report.html"] {
+    for text in ["5 sensors, trust unknown, 14 intervals, 2 Hz, seed 1", "scale.z", "study/report.html"] {
         assert!(outcome.stdout.contains(text), "{text}\n{}", outcome.stdout);
     }
     let study = bench.json("study/study.json");

@@ -239,8 +239,10 @@ pub(crate) fn study(sensors: usize) -> Study {
     let sd = [8e-5, 6e-5, 9e-5, 4e-5, 7e-5, 5e-5];
     let outcomes: Vec<SensorOutcome> = (0..sensors)
         .map(|_| {
-            let truth: Vec<f64> =
-                parameters.iter().map(|q| q.nominal + dice.normal(q.spread.unwrap_or(0.1))).collect();
+            let truth: Vec<f64> = parameters
+                .iter()
+                .map(|q| q.nominal.unwrap_or(0.0) + dice.normal(q.spread.unwrap_or(0.1)))
+                .collect();
             let values = truth.iter().zip(sd).map(|(value, sd)| value + dice.normal(sd)).collect();
             let p_value = (0..6).fold(0.5, |p: f64, _| (p + dice.normal(0.7)).rem_euclid(1.0));
             SensorOutcome { truth, values, sd: sd.to_vec(), p_value: Some(p_value), status: "converged" }

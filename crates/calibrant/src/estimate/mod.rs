@@ -18,7 +18,7 @@ mod motion;
 mod problem;
 mod result;
 mod settings;
-mod statistics;
+pub(crate) mod statistics;
 
 pub use holds::{HoldsSetup, find_holds, holds_between};
 pub use problem::{CalibrationProblem, Stimulus};

@@ -1,6 +1,6 @@
 //! Tests on the residuals.
 
-use super::Whiteness;
+use super::{Calibration, Whiteness};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 /// Probability of a χ² at least this large with so many degrees of freedom; `None` without degrees of freedom.
@@ -49,4 +49,29 @@ pub(crate) fn dot(x: &[f64], y: &[f64]) -> f64 {
         }
     }
     sums.iter().sum::<f64>() + rest
+}
+
+/// Parameters so far from their nominal value that a mistake is more likely than a rare sensor.
+pub(crate) fn implausible(calibration: &Calibration) -> Option<String> {
+    const FAR: f64 = 10.0;
+    let (name, times) = calibration
+        .parameters
+        .iter()
+        .zip(&calibration.values)
+        .filter_map(|(parameter, value)| {
+            let spread = parameter.spread.filter(|spread| *spread > 0.0)?;
+            Some((&parameter.name, ((value - parameter.nominal?) / spread).abs()))
+        })
+        .max_by(|one, other| one.1.total_cmp(&other.1))?;
+    (times > FAR).then(|| {
+        format!(
+            "{name} is {times:.0} datasheet standard deviations from its nominal value: check the unit of the recording, gravity, the order and \
+             the direction of the axes"
+        )
+    })
+}
+
+/// A small probability in words: `1.2e-7`, or `below 1e-300` where the number underflows.
+pub(crate) fn small(p: f64) -> String {
+    if p < 1e-300 { "below 1e-300".into() } else { format!("{p:.1e}") }
 }

@@ -82,7 +82,7 @@ pub(super) struct EstimateFields {
     unit: &'static str,
     value: f64,
     sd: f64,
-    nominal: f64,
+    nominal: Option<f64>,
     spread_sd: Option<f64>,
 }
 

@@ -42,7 +42,7 @@ struct StudyFile<'a> {
 struct ParameterFields<'a> {
     name: &'a str,
     unit: &'static str,
-    nominal: f64,
+    nominal: Option<f64>,
     spread_sd: Option<f64>,
 }
 

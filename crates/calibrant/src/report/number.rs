@@ -33,7 +33,7 @@ pub fn with_sd(value: f64, sd: f64) -> String {
 
 /// As [`with_sd`]; a value of no uncertainty stands alone.
 pub fn with_sd_or_exact(value: f64, sd: f64) -> String {
-    if sd > 0.0 { with_sd(value, sd) } else { significant(value, 8) }
+    if sd > 0.0 { with_sd(value, sd) } else { without_trailing_zeros(&significant(value, 8)) }
 }
 
 /// The value rounded to two significant digits of its standard deviation, without it.
@@ -66,7 +66,7 @@ pub fn significant(value: f64, digits: usize) -> String {
 }
 
 /// A number that someone wrote down, such as a nominal value: at most six significant digits, no trailing zeros.
-pub(super) fn short(value: f64) -> String {
+pub fn short(value: f64) -> String {
     if value == 0.0 { "0".to_string() } else { without_trailing_zeros(&significant(value, 6)) }
 }
 

@@ -25,7 +25,7 @@ pub(super) fn parameter_table(calibration: &Calibration, truth: Option<&SensorPa
             Cell::Name(parameter.name.clone()),
             Cell::Text(unit.to_string()),
             Cell::Number(number::with_sd(value, sd)),
-            Cell::Number(number::short(parameter.nominal)),
+            Cell::Number(parameter.nominal.map_or(number::UNKNOWN.to_string(), number::short)),
         ];
         if with_spread {
             let spread = parameter.spread.filter(|spread| *spread > 0.0);

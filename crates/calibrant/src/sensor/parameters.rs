@@ -175,13 +175,15 @@ impl ParameterList {
         self.quantities.iter().position(|quantity| quantity.name() == name)
     }
 
-    /// Name, unit, nominal value and datasheet spread of each parameter, for a sensor with these nominal values.
+    /// Name, unit, nominal value and datasheet spread of each parameter; the gains of `like` turn relative spreads into those of the readings
+    /// (the nominal sensor, or the estimate where no nominal gain is known).
     #[must_use]
-    pub fn describe(&self, sensor: &Sensor, nominal: &SensorParameters) -> Vec<Parameter> {
+    pub fn describe(&self, sensor: &Sensor, like: &SensorParameters) -> Vec<Parameter> {
+        let nominal = sensor.nominal();
         self.quantities
             .iter()
             .map(|&quantity| {
-                let gain = |axis: Axis| nominal.matrix[(axis.index(), axis.index())];
+                let gain = |axis: Axis| like.matrix[(axis.index(), axis.index())].abs();
                 let spread = match quantity {
                     Quantity::Bias(axis) => sensor.bias_sd_mps2.map(|sd| sd[axis.index()] * gain(axis)),
                     Quantity::Scale(axis) => sensor.scale_sd.map(|sd| sd[axis.index()] * gain(axis)),
@@ -192,7 +194,7 @@ impl ParameterList {
                 Parameter {
                     name: quantity.name(),
                     unit: quantity.unit(sensor.unit),
-                    nominal: quantity.of(nominal),
+                    nominal: nominal.map(|nominal| quantity.of(&nominal)),
                     spread,
                 }
             })
@@ -207,8 +209,8 @@ pub struct Parameter {
     pub name: String,
     /// Unit of value, nominal value and spread.
     pub unit: &'static str,
-    /// Nominal value.
-    pub nominal: f64,
+    /// Nominal value, where the datasheet gives it.
+    pub nominal: Option<f64>,
     /// Datasheet spread: the standard deviation over the population, where the datasheet gives it.
     pub spread: Option<f64>,
 }

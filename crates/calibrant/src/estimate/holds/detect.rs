@@ -9,6 +9,8 @@ use crate::motion::Hold;
 use crate::sensor::Recording;
 use nalgebra::Vector3;
 
+/// The window is half the shortest hold, but no longer than this, s: turns between holds must show.
+const LONGEST_WINDOW_S: f64 = 0.5;
 /// Width of a bin of log₁₀ variance.
 const BIN: f64 = 0.05;
 /// Where the separation between still and moving is looked for, in decades of variance above the peak of stillness.
@@ -39,7 +41,7 @@ const WANDER: f64 = 2.0;
 /// ```
 pub fn find_holds(recording: &Recording, minimum_s: f64) -> Result<Vec<Hold>> {
     let rate = recording.rate_hz();
-    let window = ((minimum_s / 2.0 * rate).round() as usize).max(5);
+    let window = (((minimum_s / 2.0).min(LONGEST_WINDOW_S) * rate).round() as usize).max(5);
     if minimum_s * rate < 8.0 {
         return Err(Error::recording(Complaint::new(
             format!("at {rate:.3} Hz a hold of {minimum_s} s has only {:.1} samples", minimum_s * rate),
@@ -127,7 +129,8 @@ fn resolution(recording: &Recording) -> f64 {
         }
     }
     let quantisation: f64 = steps.iter().filter(|step| step.is_finite()).map(|step| step * step / 12.0).sum();
-    (quantisation + 1e-12 * range).max(f64::MIN_POSITIVE)
+    // in a recording without noise the smallest step is a movement
+    (quantisation.min(1e-4 * range) + 1e-12 * range).max(f64::MIN_POSITIVE)
 }
 
 /// The variance that separates still from moving; `None` where nothing is still. Variances below `floor` are all the same.

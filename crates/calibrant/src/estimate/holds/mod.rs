@@ -165,6 +165,6 @@ fn assemble(
         first_sample: 0,
         warnings: Vec::new(),
     };
-    calibration.warnings = verdict::warnings(problem, &calibration, &robust.weakest);
+    calibration.warnings = verdict::warnings(&calibration, &robust.weakest);
     calibration
 }

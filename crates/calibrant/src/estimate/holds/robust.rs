@@ -83,7 +83,7 @@ fn prior<const P: usize>(
 ) -> Option<(SVector<f64, P>, SVector<f64, P>)> {
     let parameters = list.describe(problem.sensor, &problem.sensor.nominal()?);
     Some((
-        SVector::from_fn(|k, _| parameters[k].nominal),
+        SVector::from_fn(|k, _| parameters[k].nominal.unwrap_or(0.0)),
         SVector::from_fn(|k, _| parameters[k].spread.map_or(0.0, |spread| spread.powi(-2))),
     ))
 }

@@ -1,8 +1,9 @@
 //! What a user should know about a static calibration, in words.
 
-use super::{Calibration, CalibrationProblem, HoldResult, Recovered};
+use super::{Calibration, HoldResult, Recovered};
 use crate::error::UndeterminedGroup;
 use crate::estimate::CalibrationStatus;
+use crate::estimate::statistics::implausible;
 use crate::motion::Hold;
 use crate::sensor::{Axis, ParameterList};
 use nalgebra::Vector3;
@@ -42,11 +43,7 @@ pub(super) fn explain(
 }
 
 /// Warnings about a fit.
-pub(super) fn warnings(
-    problem: &CalibrationProblem<'_>,
-    calibration: &Calibration,
-    weakest: &[String],
-) -> Vec<String> {
+pub(super) fn warnings(calibration: &Calibration, weakest: &[String]) -> Vec<String> {
     let mut warnings = Vec::new();
     let Recovered::Holds(holds) = &calibration.recovered else { return warnings };
     if calibration.status != CalibrationStatus::Converged {
@@ -109,9 +106,7 @@ pub(super) fn warnings(
             }
         }
     }
-    if problem.sensor.gain.is_none() {
-        warnings.push("no nominal gain is given: the nominal values shown are those of the data".into());
-    }
+    warnings.extend(implausible(calibration));
     warnings
 }
 

@@ -156,7 +156,7 @@ impl<'a> Context<'a> {
         }
         let sensor = self.problem.sensor;
         let parameters = sensor.parameter_list().describe(sensor, &sensor.nominal()?);
-        let mean = SVector::from_fn(|k, _| parameters[slots[k]].nominal);
+        let mean = SVector::from_fn(|k, _| parameters[slots[k]].nominal.unwrap_or(0.0));
         let weight =
             SVector::from_fn(|k, _| parameters[slots[k]].spread.map_or(0.0, |spread| spread.powi(-2)));
         Some((mean, weight))

@@ -17,8 +17,9 @@ pub(super) fn explain(
     groups
         .iter()
         .map(|group| {
-            let quantities: Vec<Quantity> =
-                group.parameters.iter().map(|&k| list.quantities()[slots[k]]).collect();
+            let mut places: Vec<usize> = group.parameters.iter().map(|&k| slots[k]).collect();
+            places.sort_unstable();
+            let quantities: Vec<Quantity> = places.iter().map(|&k| list.quantities()[k]).collect();
             let (reason, remedy) = reason(context, &quantities);
             UndeterminedGroup {
                 parameters: quantities.iter().map(|quantity| quantity.name()).collect(),
@@ -55,7 +56,7 @@ fn reason(context: &Context<'_>, quantities: &[Quantity]) -> (String, String) {
         return (
             format!(
                 "axis {axis} has the same acceleration, {} m/s², at both ends, and with trust unknown only the ends speak of the sensor",
-                nodes[0][axis.index()]
+                short(nodes[0][axis.index()])
             ),
             format!("let axis {axis} end at another acceleration than it starts with"),
         );
@@ -72,7 +73,7 @@ fn reason(context: &Context<'_>, quantities: &[Quantity]) -> (String, String) {
         [axis] if still(*axis) => (
             format!(
                 "axis {axis} does not move, its acceleration is {} m/s² throughout",
-                nodes[0][axis.index()]
+                short(nodes[0][axis.index()])
             ),
             format!("move the sensor along axis {axis}"),
         ),
@@ -86,6 +87,11 @@ fn reason(context: &Context<'_>, quantities: &[Quantity]) -> (String, String) {
             "move the axes independently of each other".into(),
         ),
     }
+}
+
+/// A number to four decimals, without zeros behind.
+fn short(value: f64) -> f64 {
+    (value * 1e4).round() / 1e4
 }
 
 /// `x, y and z`

@@ -3,6 +3,7 @@
 use super::Calibration;
 use super::chain::Context;
 use crate::estimate::CalibrationStatus;
+use crate::estimate::statistics::{implausible, small};
 use crate::sensor::Axis;
 
 /// Warnings about a fit.
@@ -34,8 +35,9 @@ pub(super) fn warnings(context: &Context<'_>, calibration: &Calibration) -> Vec<
             .fold(0.0, f64::max);
         if p < 1e-3 {
             warnings.push(format!(
-                "the fit is worse than the noise explains (χ² p-value {p:.1e}; residual noise {worst:.3} times the assumed one): \
-                 the standard deviations are too small by about that factor, or the motion was not the commanded one"
+                "the fit is worse than the noise explains (χ² p-value {}; residual noise {worst:.3} times the assumed one): \
+                 the standard deviations are too small by about that factor, or the motion was not the commanded one",
+                small(p)
             ));
         } else if p > 1.0 - 1e-3 {
             warnings.push(format!(
@@ -47,14 +49,12 @@ pub(super) fn warnings(context: &Context<'_>, calibration: &Calibration) -> Vec<
     for (axis, test) in context.problem.sensor.active_axes().iter().zip(&calibration.fit.whiteness) {
         if test.p_value < 1e-4 {
             warnings.push(format!(
-                "the residuals of axis {axis} are not white (Ljung–Box p-value {:.1e}): something is left unmodelled",
-                test.p_value
+                "the residuals of axis {axis} are not white (Ljung–Box p-value {}): something is left unmodelled",
+                small(test.p_value)
             ));
         }
     }
-    if context.problem.sensor.gain.is_none() {
-        warnings.push("no nominal gain is given: the nominal values shown are those of the data".into());
-    }
+    warnings.extend(implausible(calibration));
     warnings.extend(weak(calibration));
     if let Some(axis) = negative_scale(calibration) {
         warnings.push(format!("the scale factor of axis {axis} is negative: is the axis reversed?"));

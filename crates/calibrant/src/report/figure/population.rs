@@ -18,7 +18,7 @@ pub(in crate::report) fn parameters_against_truth(study: &Study) -> Figure {
     let panels: Vec<Panel> = groups(study)
         .into_iter()
         .map(|group| {
-            let error = |value: f64, index: usize| value - study.parameters[index].nominal;
+            let error = |value: f64, index: usize| value - study.parameters[index].nominal.unwrap_or(0.0);
             let values = group.members.iter().flat_map(|&p| study.outcomes.iter().map(move |o| (p, o)));
             let unit = DisplayUnit::suited_to(
                 group.unit,

@@ -55,10 +55,10 @@ fn hemisphere(holds: &HoldCalibration, name: &str, upper: bool) -> String {
     }
     svg.push_str(&format!("<path d=\"M{0} 0H{RADIUS}M0 {0}V{RADIUS}\" stroke=\"#d0d7de\"/>", -RADIUS));
     for (label, x, y) in [
-        ("+x", RADIUS + 15.0, 4.0),
-        ("−x", -RADIUS - 15.0, 4.0),
-        ("+y", 0.0, -RADIUS - 6.0),
-        ("−y", 0.0, RADIUS + 16.0),
+        ("+x", RADIUS + 28.0, 4.0),
+        ("−x", -RADIUS - 28.0, 4.0),
+        ("+y", 0.0, -RADIUS - 20.0),
+        ("−y", 0.0, RADIUS + 30.0),
     ] {
         svg.push_str(&format!(
             "<text x=\"{x}\" y=\"{y}\" font-size=\"13\" text-anchor=\"middle\">{label}</text>"
