@@ -23,7 +23,7 @@
 //! report's problems (5), (6) and (3) are the rows `q = 0`, `0 < q < ∞` and `q = ∞` of one table.
 //!
 //! # Cost
-//! `O(N D (D + P)²)` flops; one [`Gain`] of `D (2D + P + 1)` numbers is kept for each interval. Links are asked for one at a time, so
+//! `O(N D (D + P)²)` flops; one gain of `D (2D + P + 1)` numbers is kept for each interval. Links are asked for one at a time, so
 //! that the caller need not store them. What is left after the elimination, the Schur complement `F` on the border, is the Fisher
 //! information of the parameters with the motion marginalised.
 

@@ -1,7 +1,7 @@
 //! Results as pages to look at: the figures as data, then HTML; no mathematics.
 //!
 //! Each entry point returns one self-contained HTML file. A page is a list of pieces: a verdict, tables whose cells already have
-//! their digits ([`number`]), and figures, which are data ([`figure`]) until the page is written.
+//! their digits ([`number`]), and figures, which are data (`figure`) until the page is written.
 
 mod about;
 mod calibration;

@@ -34,7 +34,7 @@ impl ReadingUnit {
 
 /// An accelerometer's datasheet: its model, the unit of its readings, its noise and the spread of its errors.
 ///
-/// Spreads and noise are in SI; [`Sensor::noise`] and [`Sensor::parameters`] convert them to the unit of the readings with the
+/// Spreads and noise are in SI; [`Sensor::noise`] and [`ParameterList::describe`] convert them to the unit of the readings with the
 /// nominal gain. Where the readings are counts and no nominal gain is known, it comes from the data.
 ///
 /// # Examples
