@@ -29,7 +29,7 @@ pub fn calibration_report(calibration: &Calibration, recording: &Recording, abou
 
     page.section(
         "Parameters",
-        "Readings are y = S s + b: biases are the entries of b, scale factors and matrix entries those of S.",
+        "Readings are y = S s + b: biases are the entries of b, scale factors and matrix entries those of S.",
     );
     page.push(parameter_table(calibration, about.truth.as_ref()));
     page.subsection("Correction, raw → true");

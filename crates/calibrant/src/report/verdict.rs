@@ -117,13 +117,14 @@ fn judge(calibration: &Calibration) -> (Grade, String) {
     (grade, sentence)
 }
 
+/// Parameters known little better than the datasheet; those known worse have a warning of their own.
 fn hardly_determined(calibration: &Calibration) -> Option<String> {
     let names: Vec<&str> = calibration
         .parameters
         .iter()
         .zip(calibration.sd())
         .filter(|(parameter, sd)| {
-            parameter.spread.is_some_and(|spread| spread > 0.0 && *sd > HARDLY_DETERMINED * spread)
+            parameter.spread.is_some_and(|spread| spread > 0.0 && (HARDLY_DETERMINED * spread..=spread).contains(sd))
         })
         .map(|(parameter, _)| parameter.name.as_str())
         .collect();
