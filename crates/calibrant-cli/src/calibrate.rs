@@ -79,7 +79,7 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     match outcome {
         Ok(done) => {
             show(&done, arguments);
-            Ok(Exit::DONE)
+            Ok(Exit::of_status(done.calibration.status))
         }
         Err(error) => {
             console::error_in(&error, recording);
@@ -100,6 +100,14 @@ impl Job {
                         "add --motion FILE with columns t_s,ax_mps2,ay_mps2,az_mps2 at the nodes; trust unknown uses only its first and last row",
                     )))
                 })?;
+                if let Some(recording) =
+                    arguments.recordings.iter().find(|recording| same_file(recording, path))
+                {
+                    return Err(Error::Experiment(Box::new(Complaint::new(
+                        format!("{} is both the motion and a recording", recording.display()),
+                        "leave it out of the recordings, or keep them in a folder of their own",
+                    ))));
+                }
                 let motion = read_motion(path, experiment.sensor.axes)?;
                 if motion.intervals() != plan.intervals {
                     console::note(&format!(
@@ -206,6 +214,10 @@ fn name(path: &Path) -> String {
     path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned())
 }
 
+fn same_file(one: &Path, other: &Path) -> bool {
+    matches!((one.canonicalize(), other.canonicalize()), (Ok(one), Ok(other)) if one == other)
+}
+
 fn show(done: &Done, arguments: &Arguments) {
     for finding in &done.file.findings {
         console::note(&format!("{}: {finding}", done.input.file));
@@ -261,6 +273,7 @@ fn run_many(job: &Job, arguments: &Arguments) -> calibrant::Result<Exit> {
                 for warning in &done.calibration.warnings {
                     console::warn(&format!("{folder}: {warning}"));
                 }
+                exit = exit.max(Exit::of_status(done.calibration.status));
                 let p = done.calibration.fit.p_value.map_or_else(|| "–".into(), number::probability);
                 rows.push(vec![
                     folder.clone(),

@@ -10,7 +10,14 @@ use std::path::Path;
 
 /// Prints to stdout; a reader that has gone away (`| head`) is no error.
 pub(crate) fn print(text: &str) {
-    let _ = std::io::stdout().write_all(text.as_bytes());
+    let mut out = std::io::stdout();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
+            let _ = writeln!(std::io::stderr(), "error: cannot write to standard output: {error}");
+            std::process::exit(2);
+        }
+        _ => {}
+    }
 }
 
 /// Prints a note to stderr.

@@ -8,6 +8,7 @@ mod simulate;
 mod study;
 
 use calibrant::Error;
+use calibrant::estimate::CalibrationStatus;
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
 
@@ -42,6 +43,11 @@ impl Exit {
     const USAGE: Exit = Exit(2);
     const RECORDING: Exit = Exit(3);
     const NOT_IDENTIFIABLE: Exit = Exit(4);
+
+    /// The exit status of a calibration: one that did not converge has determined nothing.
+    fn of_status(status: CalibrationStatus) -> Exit {
+        if status == CalibrationStatus::Converged { Exit::DONE } else { Exit::NOT_IDENTIFIABLE }
+    }
 
     /// The exit status of an error.
     fn of(error: &Error) -> Exit {

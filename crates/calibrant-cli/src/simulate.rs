@@ -115,7 +115,7 @@ fn simulate_motion(
     let mut rng = stream(seed, Purpose::Sensor, 0);
     let truth = draw_sensor(sensor, &mut rng);
     let happened = match plan.trust {
-        Trust::Noisy(noise) => Some(perturb(&motion, &noise, sensor.axes, &mut rng)?),
+        Trust::Noisy(noise) => Some(perturb(&motion, &noise, sensor.axes, plan.known_ends, &mut rng)?),
         Trust::Known | Trust::Unknown => None,
     };
     let noise = sensor.noise(&truth.matrix.diagonal()).unwrap_or_else(Vector3::zeros);

@@ -66,7 +66,7 @@ fn measure(model: &str, trust: &str, intervals: usize, per_interval: usize) -> R
     let mut rng = stream(1, Purpose::Sensor, 0);
     let truth = draw_sensor(&sensor, &mut rng);
     let happened = match trust {
-        Trust::Noisy(noise) => perturb(&motion, &noise, 3, &mut rng)?,
+        Trust::Noisy(noise) => perturb(&motion, &noise, 3, KnownEnds::Start, &mut rng)?,
         _ => motion.clone(),
     };
     let times = sample_times(&motion, per_interval as f64);

@@ -196,6 +196,10 @@ impl Error {
         Self::Experiment(Box::new(complaint))
     }
 
+    pub(crate) fn undetermined(group: UndeterminedGroup) -> Self {
+        Self::NotIdentifiable(Box::new(NotIdentifiable { groups: vec![group] }))
+    }
+
     pub(crate) fn recording(complaint: Complaint) -> Self {
         Self::Recording(Box::new(complaint))
     }

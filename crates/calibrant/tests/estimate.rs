@@ -136,7 +136,7 @@ fn an_increment_without_noise_is_a_constraint() {
         for ends in [KnownEnds::Start, KnownEnds::Both] {
             let truth = SensorParameters::identity();
             let mut rng = stream(4, Purpose::Sensor, 0);
-            let happened = perturb(&motion, &noise, 3, &mut rng).expect("valid");
+            let happened = perturb(&motion, &noise, 3, ends, &mut rng).expect("valid");
             let sensor = Sensor { model, ..Sensor::memsic_mxd2020u() };
             let times = sample_times(&motion, 20.0);
             let recording = simulate_recording(
@@ -285,5 +285,31 @@ fn a_reversed_axis_is_estimated_and_pointed_out() {
             "{trust:?}"
         );
         assert!(calibration.warnings.iter().any(|warning| warning.contains("axis y is negative")));
+    }
+}
+
+#[test]
+fn a_dead_sensor_is_not_calibrated() {
+    for trust in [Trust::Known, Trust::Unknown, Trust::Noisy(InputNoise { floor_mps3: 0.01, ratio: 0.01 })] {
+        let mut case = Case::new(SensorModel::ScaleBias, trust, 14, 5.0, 2.0, 11);
+        case.recording.readings.iter_mut().for_each(|y| y.x = 0.0);
+        let error = case.calibrate().expect_err("axis x is dead");
+        assert!(error.is_not_identifiable(), "{trust:?}: {error}");
+    }
+}
+
+#[test]
+fn large_process_noise_converges() {
+    for ratio in [0.1, 0.3] {
+        for seed in 0..20 {
+            let noise = InputNoise { floor_mps3: 0.01, ratio };
+            let case = Case::new(SensorModel::ScaleBias, Trust::Noisy(noise), 10, 1.0, 10.0, seed);
+            let calibration = case.calibrate().expect("identifiable");
+            assert_eq!(calibration.status, CalibrationStatus::Converged, "ratio {ratio}, seed {seed}");
+            for k in 0..3 {
+                let off = (calibration.values[3 + k] - case.truth.matrix[(k, k)]) / calibration.sd()[3 + k];
+                assert!(off.abs() < 6.0, "ratio {ratio}, seed {seed}: {off} sd");
+            }
+        }
     }
 }

@@ -315,3 +315,43 @@ fn holds_are_found_at_any_noise_and_unit() {
         }
     }
 }
+
+#[test]
+fn six_faces_do_not_determine_cross_axis_terms() {
+    let mut rng = stream(12, Purpose::Sensor, 0);
+    let truth = draw_sensor(&sensor(SensorModel::ScaleBias), &mut rng);
+    let mut recording =
+        Recording { times_s: vec![], readings: vec![], axes: 3, unit: ReadingUnit::MetrePerSecondSquared };
+    let faces = [Vector3::x(), -Vector3::x(), Vector3::y(), -Vector3::y(), Vector3::z(), -Vector3::z()];
+    for k in 0..24 * 500 {
+        let (pose, next) = (faces[(k / 500) % 6], faces[(k / 500 + 1) % 6]);
+        // four seconds still, one second of turning
+        let done = ((k % 500) as f64 / 100.0 - 4.0).max(0.0);
+        let force = (pose * (1.0 - done) + next * done + Vector3::new(0.2, 0.1, 0.3) * (done * (1.0 - done)))
+            * 9.80665;
+        let noise =
+            Vector3::from_fn(|axis, _| 0.02 * (((k * 7919 + axis * 104_729) % 1009) as f64 / 1009.0 - 0.5));
+        recording.times_s.push(k as f64 * 0.01);
+        recording.readings.push(truth.reading(&force) + noise);
+    }
+    let error = run(&sensor(SensorModel::Full), &recording, &HoldsSetup::default()).expect_err("faces only");
+    assert!(error.is_not_identifiable(), "{error}");
+    let text = error.to_string();
+    assert!(text.contains("matrix.x") && text.contains("use model = \"scale-bias\""), "{text}");
+    let calibration =
+        run(&sensor(SensorModel::ScaleBias), &recording, &HoldsSetup::default()).expect("identifiable");
+    for k in 0..3 {
+        assert!((calibration.values[3 + k] - truth.matrix[(k, k)]).abs() < 5.0 * calibration.sd()[3 + k]);
+    }
+}
+
+#[test]
+fn a_gyroscope_is_not_calibrated_as_an_accelerometer() {
+    let Some(path) = common::shared_data("xsens-mti-static/xsens_gyro.mat") else { return };
+    let options = ReadOptions { unit: None, expected_unit: ReadingUnit::Counts, axes: 3 };
+    let recording = read_recording(&path, &options).expect("readable").recording;
+    let sensor =
+        Sensor { unit: ReadingUnit::Counts, gain: None, offset: None, ..Sensor::triaxial(SensorModel::Full) };
+    let error = run(&sensor, &recording, &HoldsSetup::default()).expect_err("no gravity in there");
+    assert!(error.is_not_identifiable() || error.is_invalid_recording(), "{error}");
+}

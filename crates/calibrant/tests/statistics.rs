@@ -10,7 +10,10 @@ use calibrant::estimate::{
 };
 use calibrant::motion::{CommandedMotion, Gravity, InputNoise, KnownEnds, Limits, Trust};
 use calibrant::sensor::{Gauge, Quantity, Sensor, SensorModel};
-use calibrant::simulate::{HoldsSimulation, Purpose, draw_sensor, initial_motion, simulate_holds, stream};
+use calibrant::simulate::{
+    HoldsSimulation, Purpose, draw_sensor, initial_motion, perturb, simulate_holds, simulate_recording,
+    stream,
+};
 use calibrant::study::{Study, StudyProblem, StudySettings, run_study};
 use nalgebra::{DMatrix, DVector, Vector3};
 use rayon::prelude::*;
@@ -195,4 +198,54 @@ fn static_holds_deliver_the_promised_covariance() {
             assert!((0.91..0.98).contains(&coverage), "{name}: {coverage} covered");
         }
     }
+}
+
+/// The joint estimate of motion and parameters has a bias that grows with the number of noisy intervals; the warning knows how large it is.
+#[test]
+fn the_bias_of_a_long_noisy_motion_is_foretold() {
+    let noise = Trust::Noisy(InputNoise { floor_mps3: 0.01, ratio: 0.01 });
+    let foretold = |intervals| {
+        let case = common::case::Case::new(SensorModel::ScaleBias, noise, intervals, 1.0, 10.0, 3);
+        let warnings = case.calibrate().expect("identifiable").warnings;
+        warnings.iter().find(|warning| warning.contains("is biased by about")).map(|warning| {
+            let words: Vec<&str> = warning.split_whitespace().collect();
+            let at = words.iter().position(|word| *word == "about").expect("a number follows");
+            words[at + 1].parse::<f64>().expect("a number")
+        })
+    };
+    assert_eq!(foretold(10), None, "the report's example is hardly biased");
+    let long = foretold(2000).expect("a long noisy motion is biased");
+    let errors: Vec<[f64; 3]> = (0..100_u64)
+        .into_par_iter()
+        .map(|seed| {
+            let case = common::case::Case::new(SensorModel::ScaleBias, noise, 2000, 1.0, 10.0, 3);
+            let mut rng = stream(77, Purpose::Sensor, seed);
+            let happened = perturb(
+                &case.command.motion,
+                &InputNoise { floor_mps3: 0.01, ratio: 0.01 },
+                3,
+                KnownEnds::Start,
+                &mut rng,
+            )
+            .expect("valid");
+            let recording = simulate_recording(
+                &case.truth,
+                &Vector3::repeat(2e-4),
+                case.sensor.unit,
+                3,
+                &happened,
+                &case.recording.times_s,
+                &mut rng,
+            );
+            let case = common::case::Case { recording, ..case };
+            let calibration = case.calibrate().expect("identifiable");
+            let sd = calibration.sd();
+            std::array::from_fn(|k| (calibration.values[3 + k] - case.truth.matrix[(k, k)]) / sd[3 + k])
+        })
+        .collect();
+    let measured = (0..3)
+        .map(|k| errors.iter().map(|error| error[k]).sum::<f64>() / errors.len() as f64)
+        .fold(0.0_f64, |largest, mean| largest.max(mean.abs()));
+    // a mean over 100 sensors is known to 0.1 standard deviations
+    assert!((measured - long).abs() < 0.4, "measured {measured}, foretold {long}");
 }

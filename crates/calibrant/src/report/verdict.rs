@@ -124,7 +124,9 @@ fn hardly_determined(calibration: &Calibration) -> Option<String> {
         .iter()
         .zip(calibration.sd())
         .filter(|(parameter, sd)| {
-            parameter.spread.is_some_and(|spread| spread > 0.0 && (HARDLY_DETERMINED * spread..=spread).contains(sd))
+            parameter
+                .spread
+                .is_some_and(|spread| spread > 0.0 && (HARDLY_DETERMINED * spread..=spread).contains(sd))
         })
         .map(|(parameter, _)| parameter.name.as_str())
         .collect();

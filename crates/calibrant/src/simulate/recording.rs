@@ -1,7 +1,7 @@
 //! Recordings of a motion.
 
 use super::Rng;
-use crate::motion::{InputNoise, JerkControlledMotion};
+use crate::motion::{InputNoise, JerkControlledMotion, KnownEnds};
 use crate::sensor::{ReadingUnit, Recording, SensorParameters};
 use nalgebra::Vector3;
 use rand_distr::{Distribution, StandardNormal};
@@ -17,12 +17,16 @@ pub fn sample_times(motion: &JerkControlledMotion, rate_hz: f64) -> Vec<f64> {
 
 /// The motion that happens when this one is commanded: process noise `w_i ~ N(0, σ_u(u_i)²)` on each interval's jerk, the report's `ū_i = u_i + w_i`.
 ///
+/// Where both ends are known, the walk is drawn given that it ends where it was commanded to: the deviation at the end is taken back in proportion to
+/// the variance of the increments up to each node (a bridge).
+///
 /// # Errors
 /// As [`JerkControlledMotion::new`], where the noise is not finite.
 pub fn perturb(
     command: &JerkControlledMotion,
     noise: &InputNoise,
     axes: usize,
+    known_ends: KnownEnds,
     rng: &mut Rng,
 ) -> crate::Result<JerkControlledMotion> {
     let mut a = command.acceleration_mps2()[0];
@@ -32,6 +36,23 @@ pub fn perturb(
         let w = Vector3::from_fn(|k, _| if k < axes { sd[k] * normal(rng) } else { 0.0 });
         a += (u + w) * command.interval_s(i);
         nodes.push(a);
+    }
+    if known_ends == KnownEnds::Both {
+        let deviation = a - command.acceleration_mps2()[command.intervals()];
+        let variances: Vec<Vector3<f64>> = command
+            .jerk_mps3()
+            .iter()
+            .enumerate()
+            .map(|(i, u)| (noise.sd(u) * command.interval_s(i)).map(|sd| sd * sd))
+            .collect();
+        let total: Vector3<f64> = variances.iter().sum();
+        let mut passed = Vector3::zeros();
+        for (node, variance) in nodes[1..].iter_mut().zip(&variances) {
+            passed += variance;
+            *node -= Vector3::from_fn(
+                |k, _| if total[k] > 0.0 { deviation[k] * passed[k] / total[k] } else { 0.0 },
+            );
+        }
     }
     JerkControlledMotion::new(command.times_s().to_vec(), nodes)
 }

@@ -97,7 +97,7 @@ fn simulate_case(
     let truth = draw_sensor(sensor, &mut rng);
     let command = problem.command;
     let true_motion = match command.trust {
-        Trust::Noisy(noise) => perturb(&command.motion, &noise, sensor.axes, &mut rng)?,
+        Trust::Noisy(noise) => perturb(&command.motion, &noise, sensor.axes, command.known_ends, &mut rng)?,
         Trust::Known | Trust::Unknown => command.motion.clone(),
     };
     let noise = sensor.noise(&truth.matrix.diagonal()).unwrap_or_else(Vector3::zeros);

@@ -43,7 +43,7 @@ impl Case {
         let mut rng = stream(seed, Purpose::Sensor, 0);
         let truth = draw_sensor(&sensor, &mut rng);
         let happened = match trust {
-            Trust::Noisy(noise) => perturb(&motion, &noise, 3, &mut rng).expect("valid"),
+            Trust::Noisy(noise) => perturb(&motion, &noise, 3, KnownEnds::Start, &mut rng).expect("valid"),
             _ => motion.clone(),
         };
         let times = sample_times(&motion, rate_hz);

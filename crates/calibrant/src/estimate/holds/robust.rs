@@ -168,7 +168,13 @@ impl<const P: usize> Problem<'_, P> {
         let information = DMatrix::from_fn(P, P, |i, j| fit.information[(i, j)]);
         let groups = information::undetermined(&information, &DVector::from_fn(P, |i, _| fit.unreduced[i]));
         if groups.is_empty() {
-            return Ok(());
+            return match hardly_determined(&information) {
+                tangled if tangled.is_empty() => Ok(()),
+                tangled => {
+                    let group = explain(self.holds, &self.list, &tangled, 1);
+                    Err(Error::NotIdentifiable(Box::new(NotIdentifiable { groups: vec![group] })))
+                }
+            };
         }
         let groups = groups
             .iter()
@@ -198,7 +204,29 @@ impl<const P: usize> Problem<'_, P> {
             }
             weighted = self.weigh(&used, &weighted.fit.sensor)?;
         }
+        self.plausible(&used, &weighted)?;
         Ok(self.summarise(used, weighted))
+    }
+
+    /// Do the holds look like gravity at all?
+    fn plausible(&self, used: &[bool], weighted: &Weighted<P>) -> Result<()> {
+        let residuals = self.magnitude_residuals(&weighted.fit.sensor);
+        let count = used.iter().filter(|used| **used).count();
+        let squares: f64 = residuals.iter().zip(used).filter(|(_, used)| **used).map(|(e, _)| e * e).sum();
+        let rms = (squares / count as f64).sqrt();
+        let shares = 3 * count >= 2 * used.len();
+        if shares && rms < 0.02 * self.gravity && rms.is_finite() {
+            return Ok(());
+        }
+        Err(Error::recording(Complaint::new(
+            format!(
+                "the holds do not look like gravity: {} of {} fit, with magnitudes that scatter by {:.0} mm/s²",
+                count,
+                used.len(),
+                1e3 * rms
+            ),
+            "is this an accelerometer, still in each hold, in the unit that was given? Give the holds yourself with holds.intervals_s otherwise",
+        )))
     }
 
     /// Holds that a robust fit does not find far off.
@@ -310,7 +338,7 @@ impl<const P: usize> Problem<'_, P> {
                     return internal;
                 }
                 // external: the scatter estimated without this hold
-                internal * ((degrees - 1.0) / (degrees - internal * internal).max(1e-9)).sqrt()
+                internal * ((degrees - 1.0) / (degrees - internal * internal).max(1e-3 * degrees)).sqrt()
             })
             .collect()
     }
@@ -351,6 +379,28 @@ impl<const P: usize> Problem<'_, P> {
             used,
         }
     }
+}
+
+/// A condition number at which the data no longer determine a combination: the noise in the directions of the holds then decides it.
+const HOPELESS: f64 = 1e5;
+
+/// Parameters that make up the combinations whose information, scaled, is a vanishing part of the best.
+fn hardly_determined(information: &DMatrix<f64>) -> Vec<usize> {
+    let size = information.nrows();
+    let scaled = DMatrix::from_fn(size, size, |i, j| {
+        information[(i, j)] / (information[(i, i)] * information[(j, j)]).sqrt()
+    });
+    let eigen = scaled.symmetric_eigen();
+    let floor = eigen.eigenvalues.max() / HOPELESS;
+    (0..size)
+        .filter(|&k| {
+            let share: f64 = (0..size)
+                .filter(|&e| eigen.eigenvalues[e] < floor)
+                .map(|e| eigen.eigenvectors[(k, e)].powi(2))
+                .sum();
+            share > 0.1
+        })
+        .collect()
 }
 
 /// Largest studentised residual that chance explains, among so many holds.

@@ -28,16 +28,23 @@ pub(super) fn explain(
             list.len()
         ),
         count => format!(
-            "the {count} holds do not spread enough: they lie in too few different orientations, or on one circle"
+            "the {count} holds do not spread enough: they lie in too few different orientations, on one circle, or all along the sensor's axes"
         ),
     };
+    let cross_terms = parameters.iter().any(|&k| names[k].starts_with("matrix."));
     UndeterminedGroup {
         parameters: if every { names } else { parameters.iter().map(|&k| names[k].clone()).collect() },
         free_combinations: if every { list.len().saturating_sub(holds.len()) } else { free_combinations },
         reason,
         remedy: format!(
-            "hold the sensor still in at least {} well-spread orientations: each axis up, down and at angles in between",
-            list.len() + 3
+            "hold the sensor still, longer than holds.minimum_hold_s, in at least {} well-spread orientations: each axis up, down and at angles in \
+             between{}",
+            list.len() + 3,
+            if cross_terms {
+                "; the six faces alone do not determine cross-axis terms, for them use model = \"scale-bias\""
+            } else {
+                ""
+            }
         ),
     }
 }
@@ -59,7 +66,7 @@ pub(super) fn warnings(calibration: &Calibration, weakest: &[String]) -> Vec<Str
         .filter(|(_, hold)| !hold.used)
         .map(|(k, hold)| {
             format!(
-                "hold {} ({:.1} to {:.1} s) was left out: its magnitude is off by {:.2} mm/s², {:.1} standard deviations",
+                "hold {} ({:.1} to {:.1} s) was left out: its magnitude is off by {:.3} mm/s², {:.1} standard deviations",
                 k + 1,
                 hold.hold.start_s,
                 hold.hold.end_s,
@@ -106,8 +113,43 @@ pub(super) fn warnings(calibration: &Calibration, weakest: &[String]) -> Vec<Str
             }
         }
     }
+    warnings.extend(trend(&used));
+    if holds.between_holds_sd_mps2 > 0.02 {
+        warnings.push(format!(
+            "the holds scatter by {:.0} mm/s² beyond their noise: something moves, drifts, clips or is not gravity",
+            1e3 * holds.between_holds_sd_mps2
+        ));
+    }
+    if !(9.7..=9.9).contains(&holds.gravity.magnitude_mps2) {
+        warnings.push(format!(
+            "gravity is given as {} m/s²: results are in that unit",
+            holds.gravity.magnitude_mps2
+        ));
+    }
     warnings.extend(implausible(calibration));
     warnings
+}
+
+/// Residuals that follow time: a drift of temperature, for one, which the model does not have.
+fn trend(holds: &[&HoldResult]) -> Option<String> {
+    let n = holds.len() as f64;
+    let mean = |f: &dyn Fn(&HoldResult) -> f64| holds.iter().map(|hold| f(hold)).sum::<f64>() / n;
+    let (time, residual) =
+        (|hold: &HoldResult| hold.hold.start_s, |hold: &HoldResult| hold.magnitude_residual_mps2);
+    let (t, e) = (mean(&time), mean(&residual));
+    let (tt, ee, te) = (
+        mean(&|hold| (time(hold) - t).powi(2)),
+        mean(&|hold| (residual(hold) - e).powi(2)),
+        mean(&|hold| (time(hold) - t) * (residual(hold) - e)),
+    );
+    let r = te / (tt * ee).sqrt();
+    // |r| √(n − 2)/√(1 − r²) is Student's t; 3.5 is about one in a thousand
+    let t_value = r.abs() * ((n - 2.0) / (1.0 - r * r).max(1e-9)).sqrt();
+    (holds.len() > 10 && t_value > 3.5).then(|| {
+        format!(
+            "the residuals of the holds follow time (correlation {r:.2}): did the temperature drift? The standard deviations do not cover this"
+        )
+    })
 }
 
 /// Directions, out of ±x, ±y, ±z, near which there is no hold.

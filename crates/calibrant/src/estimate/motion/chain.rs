@@ -186,6 +186,8 @@ pub(super) struct Solved {
     pub(super) leverage: Vector3<f64>,
     /// For each lag from 1, what the fit takes from the autocovariance of each axis' residuals: `c_l = Σ_k P_{k,k+l}`.
     pub(super) shortfall: Vec<Vector3<f64>>,
+    /// First-order bias of the joint estimate of motion and parameters; empty unless the motion is noisy.
+    pub(super) bias: Vec<f64>,
     pub(super) chi2: f64,
     pub(super) degrees_of_freedom: usize,
     pub(super) status: CalibrationStatus,
@@ -206,6 +208,7 @@ impl Solved {
             node_sd: vec![Vector3::zeros(); nodes],
             leverage: Vector3::zeros(),
             shortfall: vec![Vector3::zeros(); parts[0].shortfall.len()],
+            bias: vec![0.0; size],
             chi2: 0.0,
             degrees_of_freedom: 0,
             status: CalibrationStatus::Converged,
@@ -215,6 +218,7 @@ impl Solved {
         for part in parts {
             for (i, &row) in part.slots.iter().enumerate() {
                 whole.values[row] = part.values[i];
+                whole.bias[row] = part.bias[i];
                 for (j, &column) in part.slots.iter().enumerate() {
                     whole.covariance[(row, column)] = part.covariance[(i, j)];
                 }
@@ -371,6 +375,7 @@ fn summarise<const D: usize, const P: usize>(
         before = Some((passed, v_step));
         v_start = v_end;
     });
+    let bias = border * information_of_the_walk(chain, &fit, &s);
     leverage.component_mul_assign(&chain.weight);
     shortfall.iter_mut().for_each(|c| c.component_mul_assign(&chain.weight));
 
@@ -391,10 +396,39 @@ fn summarise<const D: usize, const P: usize>(
         node_sd,
         leverage: spread(&leverage),
         shortfall: shortfall.iter().map(spread).collect(),
+        bias: bias.iter().copied().collect(),
         chi2: fit.chi2,
         degrees_of_freedom: residuals.saturating_sub(unknowns),
         status,
         iterations: fit.iterations,
         gradient_norm: fit.gradient_norm,
     }
+}
+
+/// Gradient of `½ ln det H_aa` with respect to the parameters, zero unless increments have a finite variance.
+///
+/// The joint minimum over motion and parameters maximises the likelihood but for this term, that of the motion integrated out: a larger `S` needs
+/// less process noise to explain the same readings. So the estimate is off by about `F⁻¹` times this gradient, of the order of N variances of the
+/// relative scale factor. With `T = Σ_i Σ_k` covariance of the acceleration at sample k given the parameters, `∂/∂S_rc = w_r (S T)_rc`.
+fn information_of_the_walk<const D: usize, const P: usize>(
+    chain: &Chain<D, P>,
+    fit: &Fit<D, P>,
+    s: &SMatrix<f64, D, D>,
+) -> SVector<f64, P> {
+    let mut gradient = SVector::zeros();
+    if chain.rigid || chain.variance.iter().all(|variance| variance.iter().all(|q| !q.is_finite())) {
+        return gradient;
+    }
+    let mut t = SMatrix::<f64, D, D>::zeros();
+    fit.system.walk_covariance(&SMatrix::zeros(), |i, at| {
+        let m = &chain.moments[i];
+        t += at.node0 * m.m00 + (at.node1_node0 + at.node1_node0.transpose()) * m.m01 + at.node1 * m.m11;
+    });
+    let st = s * t;
+    for row in 0..D {
+        for column in 0..D {
+            gradient[row * (D + 1) + 1 + column] = chain.weight[row] * st[(row, column)];
+        }
+    }
+    gradient
 }

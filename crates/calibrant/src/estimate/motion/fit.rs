@@ -193,12 +193,18 @@ impl<const D: usize, const P: usize> Chain<D, P> {
                 break;
             }
             last_norm = norm;
-            let Some(trial) = self.step(&state, &system, damping) else {
+            let Some(mut trial) = self.step(&state, &system, damping) else {
                 status = CalibrationStatus::Stalled;
                 break;
             };
-            let trial_chi2 = self.chi2(&trial);
-            if trial_chi2 <= chi2 + 1e-9 * chi2.abs().max(1.0) || norm < floor {
+            let acceptable = chi2 + 1e-9 * chi2.abs().max(1.0);
+            let mut trial_chi2 = self.chi2(&trial);
+            if trial_chi2 > acceptable && norm >= floor {
+                // a step of parameters and motion together leaves the curved valley: let the motion follow the parameters exactly
+                trial = self.follow(trial)?;
+                trial_chi2 = self.chi2(&trial);
+            }
+            if trial_chi2 <= acceptable || norm < floor {
                 (state, chi2) = (trial, trial_chi2);
                 (system, _) = self.factor(&state)?;
                 damping = if damping < 1e-6 { 0.0 } else { damping / 10.0 };
@@ -214,6 +220,15 @@ impl<const D: usize, const P: usize> Chain<D, P> {
         Ok(Fit { state, system, status, iterations, gradient_norm: norm, chi2 })
     }
 
+    /// The motion that is best for the parameters of a state: a linear problem, solved in one step.
+    fn follow(&self, mut state: State<D, P>) -> Result<State<D, P>, Undetermined> {
+        let (system, _) = self.factor(&state)?;
+        for (a, step) in state.a.iter_mut().zip(system.chain_step(&SVector::zeros())) {
+            *a += step;
+        }
+        Ok(state)
+    }
+
     /// A step shorter than this many standard deviations that no longer shrinks is rounding: that of the readings in units of their noise,
     /// summed over the samples, and magnified where the chain takes most of the information away.
     fn rounding_floor(&self, system: &Arrowhead<D, P>, unreduced: &SVector<f64, P>) -> f64 {
@@ -223,7 +238,7 @@ impl<const D: usize, const P: usize> Chain<D, P> {
         let magnified = unreduced.component_div(&system.information.diagonal()).amax().sqrt();
         let rounding = 4.0 * f64::EPSILON * in_noise * (samples as f64).sqrt() * magnified;
         // never so large that a step that matters would pass
-        rounding.clamp(1e-6, 1e-3)
+        rounding.clamp(1e-6, 1e-2)
     }
 
     fn step(&self, state: &State<D, P>, system: &Arrowhead<D, P>, damping: f64) -> Option<State<D, P>> {

@@ -88,6 +88,7 @@ fn assemble(context: &Context<'_>, solved: Solved, first_sample: usize) -> Resul
     for (quantity, value) in list.quantities().iter().zip(&solved.values) {
         quantity.add_to(&mut sensor, *value);
     }
+    let bias = solved.bias;
     let motion =
         JerkControlledMotion::new(context.command.motion.times_s().to_vec(), solved.nodes).map_err(|_| {
             Error::recording(Complaint::new(
@@ -151,7 +152,8 @@ fn assemble(context: &Context<'_>, solved: Solved, first_sample: usize) -> Resul
         first_sample,
         warnings: Vec::new(),
     };
-    calibration.warnings = verdict::warnings(context, &calibration);
+    verdict::respond(context, &calibration)?;
+    calibration.warnings = verdict::warnings(context, &calibration, &bias);
     Ok(calibration)
 }
 

@@ -6,7 +6,7 @@ use crate::error::Result;
 use crate::sensor::{ReadingUnit, Sensor, SensorModel};
 use nalgebra::Vector3;
 
-const NOISE_MPS2: Bounds = Bounds::from(1e-12, 1e6, "m/s²");
+const NOISE_MPS2: Bounds = Bounds::from(1e-7, 1e6, "m/s²");
 const NOISE_COUNTS: Bounds = Bounds::from(1e-9, 1e9, "counts");
 const BIAS_SD: Bounds = Bounds::from(0.0, 1e6, "m/s²");
 const SCALE_SD: Bounds = Bounds::from(0.0, 10.0, "");

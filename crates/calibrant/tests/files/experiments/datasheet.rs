@@ -75,7 +75,7 @@ pub(super) const CASES: &[Case] = &[
     (
         "noise_mps2 = 2e-4",
         "noise_mps2 = -2e-4",
-        "line 7, column 14: `sensor.noise_mps2`: -0.0002 is out of range (a number from 1e-12 m/s², at most 1e6 m/s²)",
+        "line 7, column 14: `sensor.noise_mps2`: -0.0002 is out of range (a number from 1e-7 m/s², at most 1e6 m/s²)",
     ),
     (
         "noise_mps2 = 2e-4",
@@ -85,7 +85,7 @@ pub(super) const CASES: &[Case] = &[
     (
         "noise_mps2 = 2e-4",
         r#"noise_mps2 = [1e-4, 2e-4, "x"]"#,
-        "line 7, column 27: `sensor.noise_mps2[2]`: a number is needed here, not a string (a number from 1e-12 m/s², at most 1e6 m/s²)",
+        "line 7, column 27: `sensor.noise_mps2[2]`: a number is needed here, not a string (a number from 1e-7 m/s², at most 1e6 m/s²)",
     ),
     (
         "noise_mps2 = 2e-4",
