@@ -4,7 +4,7 @@ use super::fit::{Chain, Fit, State};
 use super::model::{self, FittedNode, reading_covariance};
 use super::moments::{Positions, moments, reference};
 use super::pairs::PairSums;
-use super::undetermined::{explain, explain_node};
+use super::undetermined::{View, explain, explain_node};
 use super::{
     CalibrationProblem, CalibrationSettings, CalibrationStatus, CommandedMotion, DMatrix, Trust, Vector3,
 };
@@ -277,11 +277,11 @@ fn starting_state<const D: usize, const P: usize>(
         .map(|a| SVector::from_fn(|k, _| a[axes[k]]))
         .collect();
     let last = commanded.len() - 1;
-    let check = |information: &SMatrix<f64, P, P>, reference: &SVector<f64, P>| {
+    let check = |information: &SMatrix<f64, P, P>, reference: &SVector<f64, P>, view: View| {
         let information = DMatrix::from_fn(P, P, |i, j| information[(i, j)]);
         let reference = nalgebra::DVector::from_fn(P, |i, _| reference[i]);
         let groups = information::undetermined(&information, &reference);
-        if groups.is_empty() { Ok(()) } else { Err(explain(context, &groups, &slots)) }
+        if groups.is_empty() { Ok(()) } else { Err(explain(context, &groups, &slots, view)) }
     };
     let factor =
         |state: &State<D, P>| chain.factor(state).map_err(|node| vec![explain_node(context, axes, node)]);
@@ -293,7 +293,7 @@ fn starting_state<const D: usize, const P: usize>(
         if let Some((_, weight)) = &chain.prior {
             ends += SMatrix::from_diagonal(weight);
         }
-        check(&ends, &ends.diagonal())?;
+        check(&ends, &ends.diagonal(), View::Ends)?;
         let start = axes.map(|axis| context.start_from_ends(axis));
         let p = model::diagonal::<D, P>(
             &SVector::from_fn(|k, _| start[k].0),
@@ -312,13 +312,13 @@ fn starting_state<const D: usize, const P: usize>(
     // with the motion as commanded the problem is linear in the parameters: one step from anywhere
     let mut state = State { p: SVector::zeros(), a: commanded };
     let as_commanded = chain.as_commanded(&state);
-    check(&as_commanded.information, &as_commanded.information.diagonal())?;
+    check(&as_commanded.information, &as_commanded.information.diagonal(), View::Command)?;
     if let Some(step) = as_commanded.border_step(0.0) {
         state.p = step;
     }
     let factored = factor(&state)?;
     if context.command.trust != Trust::Known {
-        check(&factored.0.information, &factored.1)?;
+        check(&factored.0.information, &factored.1, View::Noise)?;
     }
     Ok((state, factored))
 }
