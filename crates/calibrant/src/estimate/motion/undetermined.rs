@@ -1,17 +1,29 @@
 //! What the recording cannot determine, in the user's words.
 
+use super::Axis;
 use super::chain::Context;
-use super::{Axis, Trust};
 use crate::arrowhead;
 use crate::error::UndeterminedGroup;
 use crate::information::Undetermined;
 use crate::sensor::{Quantity, SensorModel};
+
+/// What was looked at when the information was found wanting.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum View {
+    /// The motion as commanded.
+    Command,
+    /// Its two ends alone.
+    Ends,
+    /// The motion with its process noise; as commanded, it would do.
+    Noise,
+}
 
 /// Says why these groups of parameters cannot be told apart. `slots` are the chain's parameters in the list.
 pub(super) fn explain(
     context: &Context<'_>,
     groups: &[Undetermined],
     slots: &[usize],
+    view: View,
 ) -> Vec<UndeterminedGroup> {
     let list = context.problem.sensor.parameter_list();
     groups
@@ -20,7 +32,7 @@ pub(super) fn explain(
             let mut places: Vec<usize> = group.parameters.iter().map(|&k| slots[k]).collect();
             places.sort_unstable();
             let quantities: Vec<Quantity> = places.iter().map(|&k| list.quantities()[k]).collect();
-            let (reason, remedy) = reason(context, &quantities);
+            let (reason, remedy) = reason(context, &quantities, view);
             UndeterminedGroup {
                 parameters: quantities.iter().map(|quantity| quantity.name()).collect(),
                 free_combinations: group.free_combinations,
@@ -31,7 +43,13 @@ pub(super) fn explain(
         .collect()
 }
 
-fn reason(context: &Context<'_>, quantities: &[Quantity]) -> (String, String) {
+fn reason(context: &Context<'_>, quantities: &[Quantity], view: View) -> (String, String) {
+    if view == View::Noise {
+        return (
+            "the process noise is so large beside the measurement noise that the command says nothing of the sensor".into(),
+            "check motion.input_noise and sensor.noise_mps2, or use trust = \"unknown\" with both ends known".into(),
+        );
+    }
     let samples = context.positions.samples();
     let nodes = context.command.motion.acceleration_mps2();
     let mut columns: Vec<Axis> = quantities
@@ -43,7 +61,7 @@ fn reason(context: &Context<'_>, quantities: &[Quantity]) -> (String, String) {
         .collect();
     columns.sort_unstable();
     columns.dedup();
-    if context.command.trust == Trust::Unknown {
+    if view == View::Ends {
         if context.problem.sensor.model == SensorModel::Full {
             return (
                 "with an unknown motion only the two known ends speak of the sensor: two equations for the four unknowns of each \
