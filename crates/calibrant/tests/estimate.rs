@@ -313,3 +313,13 @@ fn large_process_noise_converges() {
         }
     }
 }
+
+#[test]
+fn a_long_recording_on_few_intervals_converges_to_rounding() {
+    // the chain takes almost all information away, so rounding is magnified: 7 iterations, not 50
+    let noise = Trust::Noisy(InputNoise { floor_mps3: 0.01, ratio: 0.01 });
+    let case = Case::new(SensorModel::Full, noise, 14, 1.0, 7143.0, 1);
+    let calibration = case.calibrate().expect("identifiable");
+    assert_eq!(calibration.status, CalibrationStatus::Converged);
+    assert!(calibration.iterations <= 12, "{} iterations", calibration.iterations);
+}

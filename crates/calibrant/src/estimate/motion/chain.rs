@@ -252,15 +252,14 @@ pub(super) fn solve<const D: usize, const P: usize>(
     slots: [usize; P],
 ) -> std::result::Result<Solved, Vec<UndeterminedGroup>> {
     let chain = context.chain::<D, P>(axes, slots);
-    let (start, factored) = starting_state(context, &chain, axes, slots)?;
-    let fit = chain
-        .fit(start, factored, context.settings)
-        .map_err(|node| vec![explain_node(context, axes, node)])?;
+    let (start, system) = starting_state(context, &chain, axes, slots)?;
+    let fit =
+        chain.fit(start, system, context.settings).map_err(|node| vec![explain_node(context, axes, node)])?;
     Ok(summarise(&chain, fit, &context.pairs, axes, slots))
 }
 
-/// A state and its factored system, with the diagonal of the information before the chain was eliminated.
-type Start<const D: usize, const P: usize> = (State<D, P>, (Arrowhead<D, P>, SVector<f64, P>));
+/// A state and its factored system.
+type Start<const D: usize, const P: usize> = (State<D, P>, Arrowhead<D, P>);
 
 /// Checks that the parameters are determined where the motion is as commanded, and finds parameters to begin with.
 fn starting_state<const D: usize, const P: usize>(
@@ -306,8 +305,8 @@ fn starting_state<const D: usize, const P: usize>(
             .collect();
         (a[0], a[last]) = (commanded[0], commanded[last]);
         let state = State { p, a };
-        let factored = factor(&state)?;
-        return Ok((state, factored));
+        let (system, _) = factor(&state)?;
+        return Ok((state, system));
     }
     // with the motion as commanded the problem is linear in the parameters: one step from anywhere
     let mut state = State { p: SVector::zeros(), a: commanded };
@@ -316,11 +315,11 @@ fn starting_state<const D: usize, const P: usize>(
     if let Some(step) = as_commanded.border_step(0.0) {
         state.p = step;
     }
-    let factored = factor(&state)?;
+    let (system, unreduced) = factor(&state)?;
     if context.command.trust != Trust::Known {
-        check(&factored.0.information, &factored.1, View::Noise)?;
+        check(&system.information, &unreduced, View::Noise)?;
     }
-    Ok((state, factored))
+    Ok((state, system))
 }
 
 /// Covariances, leverage and degrees of freedom of a fitted chain.

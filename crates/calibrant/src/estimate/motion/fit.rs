@@ -33,6 +33,12 @@ pub(super) struct Chain<const D: usize, const P: usize> {
     pub(super) rigid: bool,
 }
 
+/// A step shorter than this, in standard deviations, is rounding as soon as it no longer halves.
+const SHORT: f64 = 1e-6;
+/// A step shorter than this is rounding when it has not halved for three iterations: of a million samples in few intervals, say. χ² then no longer
+/// tells steps apart.
+const STEADY: f64 = 1e-4;
+
 /// Parameters and motion.
 #[derive(Clone)]
 pub(super) struct State<const D: usize, const P: usize> {
@@ -168,21 +174,25 @@ impl<const D: usize, const P: usize> Chain<D, P> {
     pub(super) fn fit(
         &self,
         mut state: State<D, P>,
-        (mut system, unreduced): (Arrowhead<D, P>, SVector<f64, P>),
+        mut system: Arrowhead<D, P>,
         settings: &CalibrationSettings,
     ) -> Result<Fit<D, P>, Undetermined> {
         let mut chi2 = self.chi2(&state);
         let mut damping = 0.0_f64;
-        let mut last_norm = f64::INFINITY;
-        let floor = self.rounding_floor(&system, &unreduced);
+        let (mut best, mut since) = (f64::INFINITY, 0);
         let mut status = CalibrationStatus::IterationLimit;
         let mut iterations = 0;
-        let mut norm = last_norm;
+        let mut norm = best;
         while iterations < settings.max_iterations {
             iterations += 1;
             // for given parameters the motion is a linear problem that each step solves: only the parameters need come to rest
             norm = system.gradient_norm();
-            if norm <= settings.tolerance || (norm < floor && norm > 0.5 * last_norm) {
+            if norm < 0.5 * best {
+                (best, since) = (norm, 0);
+            } else {
+                since += 1;
+            }
+            if norm <= settings.tolerance || (norm < SHORT && since >= 1) || (norm < STEADY && since >= 3) {
                 status = CalibrationStatus::Converged;
                 // the parameters rest; the motion still follows their last step
                 if let Some(last) = self.step(&state, &system, 0.0) {
@@ -192,25 +202,24 @@ impl<const D: usize, const P: usize> Chain<D, P> {
                 }
                 break;
             }
-            last_norm = norm;
             let Some(mut trial) = self.step(&state, &system, damping) else {
                 status = CalibrationStatus::Stalled;
                 break;
             };
             let acceptable = chi2 + 1e-9 * chi2.abs().max(1.0);
             let mut trial_chi2 = self.chi2(&trial);
-            if trial_chi2 > acceptable && norm >= floor {
+            if trial_chi2 > acceptable && norm >= STEADY {
                 // a step of parameters and motion together leaves the curved valley: let the motion follow the parameters exactly
                 trial = self.follow(trial)?;
                 trial_chi2 = self.chi2(&trial);
             }
-            if trial_chi2 <= acceptable || norm < floor {
+            if trial_chi2 <= acceptable || norm < STEADY {
                 (state, chi2) = (trial, trial_chi2);
                 (system, _) = self.factor(&state)?;
                 damping = if damping < 1e-6 { 0.0 } else { damping / 10.0 };
             } else {
                 damping = (damping * 10.0).max(1e-3);
-                last_norm = f64::INFINITY;
+                since = 0;
                 if damping > 1e12 {
                     status = CalibrationStatus::Stalled;
                     break;
@@ -227,18 +236,6 @@ impl<const D: usize, const P: usize> Chain<D, P> {
             *a += step;
         }
         Ok(state)
-    }
-
-    /// A step shorter than this many standard deviations that no longer shrinks is rounding: that of the readings in units of their noise,
-    /// summed over the samples, and magnified where the chain takes most of the information away.
-    fn rounding_floor(&self, system: &Arrowhead<D, P>, unreduced: &SVector<f64, P>) -> f64 {
-        let samples: usize = self.moments.iter().map(|m| m.samples).sum();
-        let in_noise =
-            self.reference.iter().map(|z| z.component_mul(z).dot(&self.weight)).fold(0.0, f64::max).sqrt();
-        let magnified = unreduced.component_div(&system.information.diagonal()).amax().sqrt();
-        let rounding = 4.0 * f64::EPSILON * in_noise * (samples as f64).sqrt() * magnified;
-        // never so large that a step that matters would pass
-        rounding.clamp(1e-6, 1e-2)
     }
 
     fn step(&self, state: &State<D, P>, system: &Arrowhead<D, P>, damping: f64) -> Option<State<D, P>> {
