@@ -230,3 +230,17 @@ fn the_unit_is_the_option_where_the_header_does_not_say() {
         &["simulated/recording.csv:1: the header says m/s², but the unit was given as counts"],
     );
 }
+
+#[test]
+fn standard_output_that_cannot_be_written_is_an_error() {
+    let bench = Bench::new();
+    let full = std::fs::OpenOptions::new().write(true).open("/dev/full");
+    let Ok(full) = full else { return }; // only some systems have it
+    let status = std::process::Command::new(env!("CARGO_BIN_EXE_calibrant"))
+        .args(["init", "report"])
+        .current_dir(bench.path("."))
+        .stdout(full)
+        .status()
+        .expect("started");
+    assert_eq!(status.code(), Some(2));
+}

@@ -3,6 +3,8 @@
 mod bench;
 mod broken;
 mod commands;
+#[path = "../../../calibrant/tests/common/data.rs"]
+mod data;
 mod determinism;
 mod examples;
 mod many;

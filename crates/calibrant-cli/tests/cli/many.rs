@@ -106,3 +106,16 @@ fn no_name_of_a_recording_leads_out_of_its_subfolder() {
     assert_eq!(distinct.len(), 5, "also where capitals do not tell names apart: {folders:?}");
     assert!(bench.path("result/summary.csv").is_file());
 }
+
+#[test]
+fn the_motion_is_no_recording() {
+    // `*.csv` catches motion.csv as well
+    let bench = Bench::new();
+    bench.preset("report", "experiment.toml", &[]);
+    bench.run("simulate experiment.toml -o simulated").done();
+    bench.refuses(
+        "calibrate experiment.toml simulated/recording.csv simulated/motion.csv --motion simulated/motion.csv -o result",
+        2,
+        &["simulated/motion.csv is both the motion and a recording", "leave it out of the recordings"],
+    );
+}

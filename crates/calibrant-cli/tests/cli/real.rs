@@ -1,30 +1,11 @@
 //! A recording that was not made here: the static one that comes with imu_tk.
 
 use crate::bench::{Bench, names};
-use std::io::Write;
-use std::path::{Path, PathBuf};
-
-/// The recording, under `../shared/data` beside the workspace or where `CALIBRANT_DATA` says; `None`, and a line on stderr, where it is absent.
-fn recording() -> Option<PathBuf> {
-    let beside = || Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data");
-    let path = std::env::var_os("CALIBRANT_DATA")
-        .map_or_else(beside, PathBuf::from)
-        .join("xsens-mti-static/xsens_acc.mat");
-    if path.is_file() {
-        return Some(path);
-    }
-    // not eprintln!, which the test harness keeps to itself
-    let _ = writeln!(
-        std::io::stderr(),
-        "SKIPPED: {} is not there; set CALIBRANT_DATA to the directory with the recordings",
-        path.display()
-    );
-    None
-}
+use crate::data::shared_data;
 
 #[test]
 fn the_recording_of_imu_tk_is_calibrated_from_its_38_holds() {
-    let Some(path) = recording() else { return };
+    let Some(path) = shared_data("xsens-mti-static/xsens_acc.mat") else { return };
     let bench = Bench::new();
     bench.preset("static-poses-counts", "experiment.toml", &[]);
     std::fs::copy(&path, bench.path("xsens_acc.mat")).expect("copied");
@@ -34,7 +15,7 @@ fn the_recording_of_imu_tk_is_calibrated_from_its_38_holds() {
     assert_eq!(calibration["holds"]["table"].as_array().map(Vec::len), Some(38));
     assert_eq!(calibration["input"]["samples"], 51_175);
     assert_eq!(calibration["status"], "converged");
-    // imu_tk of 2016 on the same file; it weighs samples, not holds, hence not the same digits
+    // imu_tk of 2016 on the same file; it takes a fixed number of samples of each hold, hence not the same digits
     let expected = [33124.18, 33275.18, 32364.42];
     assert_eq!(names(&calibration["parameters"])[..3], ["bias.x", "bias.y", "bias.z"]);
     for (k, bias) in expected.iter().enumerate() {
