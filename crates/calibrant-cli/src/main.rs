@@ -15,7 +15,7 @@ use std::process::ExitCode;
 /// Calibrate inertial sensors: parameters with an honest covariance, from a recording.
 ///
 /// Exit status: 0 done; 2 bad usage or experiment file, or a result that cannot be written; 3 bad recording; 4 the data cannot determine the
-/// parameters.
+/// parameters, or the iteration did not converge.
 #[derive(Parser)]
 #[command(name = "calibrant", version, about, long_about, arg_required_else_help = true)]
 struct Cli {

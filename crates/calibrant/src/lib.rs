@@ -1,4 +1,4 @@
-//! calibrant finds the best motion for calibrating an inertial sensor, and calibrates the sensor from what was recorded.
+//! calibrant calibrates inertial sensors from a recording, says how well, and says when it cannot. (Finding the best motion to record comes next.)
 //!
 //! # The problem
 //! A sensor reports `y = S s + b + ν`, `ν ~ N(0, Σ_ν)`, of a stimulus `s` (true → raw). Calibrating it means estimating the parameters
