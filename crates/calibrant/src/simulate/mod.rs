@@ -8,10 +8,11 @@ mod initial_motion;
 mod population;
 mod recording;
 
+pub use crate::motion::sample_times;
 pub use holds::{HoldsSimulation, simulate_holds};
 pub use initial_motion::initial_motion;
 pub use population::draw_sensor;
-pub use recording::{perturb, sample_times, simulate_recording};
+pub use recording::{perturb, simulate_recording};
 
 use rand::SeedableRng;
 pub use rand_chacha::ChaCha8Rng as Rng;
