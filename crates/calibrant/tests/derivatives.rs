@@ -75,7 +75,7 @@ fn difference(f: &dyn Fn(f64) -> f64, h: f64) -> f64 {
 /// Prior information, where the data alone leave the parameters undetermined (full model, unknown motion).
 fn prior(setting: &MotionInformation) -> DMatrix<f64> {
     let size = if setting.model == SensorModel::Full { 12 } else { 6 };
-    let strength = if setting.trust == Trust::Unknown && size == 12 { 50.0 } else { 0.0 };
+    let strength = if setting.trust == Trust::Unknown && size == 12 { 5e3 } else { 0.0 };
     DMatrix::from_diagonal_element(size, size, strength)
 }
 
