@@ -24,12 +24,18 @@ pub enum Purpose {
     Motion,
     /// Parameters, process noise and measurement noise of a sensor.
     Sensor,
+    /// A start of the search for the best motion.
+    Start,
 }
 
 /// The random stream of item `index` for a purpose, under a seed.
 #[must_use]
 pub fn stream(seed: u64, purpose: Purpose, index: u64) -> Rng {
     let mut rng = Rng::seed_from_u64(seed);
-    rng.set_stream(2 * index + purpose as u64);
+    rng.set_stream(match purpose {
+        Purpose::Motion => 2 * index,
+        Purpose::Sensor => 2 * index + 1,
+        Purpose::Start => u64::MAX - index,
+    });
     rng
 }
