@@ -49,6 +49,27 @@ fn case(name: &str) -> (Limits, Trust, f64) {
 }
 
 #[test]
+fn trace() {
+    let (limits, trust, _) = case("D4");
+    let sensor = Sensor { axes: 1, ..Sensor::memsic_mxd2020u() };
+    let problem = DesignProblem {
+        sensor: &sensor,
+        at: SensorParameters::identity(),
+        intervals: 10,
+        interval_s: 1.0,
+        rate_hz: 10.0,
+        trust,
+        known_ends: KnownEnds::Start,
+        limits: &limits,
+        criterion: Criterion::A(AOptimality { scale: DVector::repeat(2, 1.0) }),
+        prior: None,
+    };
+    let settings = DesignSettings { starts: 1, certificate: false, ..DesignSettings::default() };
+    let d = design(&problem, &settings, &|_| ()).expect("solved");
+    println!("{:?}", d.optimal.motion.acceleration_mps2().iter().map(|a| a.x).collect::<Vec<_>>());
+}
+
+#[test]
 fn try_all() {
     for name in ["D1", "D3", "D4"] {
         let (limits, trust, reference) = case(name);

@@ -1,5 +1,6 @@
 //! Design: the motion whose recording determines the parameters best, and the proof of how good it is.
 
+mod certificate;
 mod conic;
 mod curvature;
 mod evaluate;
