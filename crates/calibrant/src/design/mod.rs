@@ -4,6 +4,7 @@ mod certificate;
 mod conic;
 mod curvature;
 mod evaluate;
+mod hessian;
 mod local;
 mod problem;
 mod region;
