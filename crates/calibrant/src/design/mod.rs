@@ -1,10 +1,12 @@
 //! Design: the motion whose recording determines the parameters best, and the proof of how good it is.
 
+mod admissible;
 mod evaluate;
 mod problem;
 mod result;
 mod settings;
 
+pub use admissible::{LimitKind, LimitUse, ROUNDING, limit_use};
 pub use evaluate::evaluate;
 pub use problem::DesignProblem;
 pub use result::{Certificate, Design, DesignStatus, Evaluation, StartOutcome};
