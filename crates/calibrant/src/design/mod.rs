@@ -5,6 +5,7 @@ mod evaluate;
 mod problem;
 mod result;
 mod settings;
+mod statement;
 mod sweep;
 
 pub use admissible::{LimitKind, LimitUse, ROUNDING, limit_use};
