@@ -3,6 +3,7 @@
 use super::design::{CertificateFields, EvaluationFields, SettingFields};
 use super::json;
 use super::output::write_atomically;
+use super::summary::ending;
 use crate::design::{DesignProblem, DesignSettings, Sweep, SweepPoint};
 use crate::error::Result;
 use serde::Serialize;
@@ -47,10 +48,10 @@ pub fn write_sweep_csv(path: &Path, sweep: &Sweep) -> Result<()> {
             "gap".into(),
         ];
         for parameter in &sweep.parameters {
-            header.push(format!("{}_sd{}", parameter.name, suffix(parameter.unit)));
+            header.push(format!("{}_sd{}", parameter.name, ending(parameter.unit)));
         }
         for parameter in &sweep.parameters {
-            header.push(format!("{}_sd_initial{}", parameter.name, suffix(parameter.unit)));
+            header.push(format!("{}_sd_initial{}", parameter.name, ending(parameter.unit)));
         }
         csv.write_record(&header)?;
         for point in &sweep.points {
@@ -58,16 +59,6 @@ pub fn write_sweep_csv(path: &Path, sweep: &Sweep) -> Result<()> {
         }
         csv.flush()
     })
-}
-
-/// A unit behind a name.
-fn suffix(unit: &str) -> &'static str {
-    match unit {
-        "m/s²" => "_mps2",
-        "counts" => "_counts",
-        "counts/(m/s²)" => "_counts_per_mps2",
-        _ => "",
-    }
 }
 
 fn row(point: &SweepPoint, parameters: usize) -> Vec<String> {
