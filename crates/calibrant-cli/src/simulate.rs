@@ -2,6 +2,7 @@
 
 use crate::{Exit, console, place};
 use calibrant::Error;
+use calibrant::design::initial_motion;
 use calibrant::error::Complaint;
 use calibrant::io::{
     Experiment, HoldsPlan, MotionPlan, Plan, read_motion, write_motion, write_recording, write_truth,
@@ -9,8 +10,7 @@ use calibrant::io::{
 use calibrant::motion::{JerkControlledMotion, KnownEnds, Limits, Trust};
 use calibrant::sensor::{ReadingUnit, Sensor};
 use calibrant::simulate::{
-    HoldsSimulation, Purpose, draw_sensor, initial_motion, perturb, sample_times, simulate_holds,
-    simulate_recording, stream,
+    HoldsSimulation, Purpose, draw_sensor, perturb, sample_times, simulate_holds, simulate_recording, stream,
 };
 use nalgebra::Vector3;
 use std::path::{Path, PathBuf};
