@@ -76,10 +76,11 @@ fn check_simulable(sensor: &Sensor, file: &Path) -> calibrant::Result<()> {
 pub(crate) fn commanded_motion(
     motion: Option<&Path>,
     plan: &MotionPlan,
-    axes: usize,
+    sensor: &Sensor,
     limits: &Limits,
     seed: u64,
 ) -> calibrant::Result<JerkControlledMotion> {
+    let (axes, limits) = (sensor.axes, &limits.within_range(sensor.range_mps2));
     if let Some(path) = motion {
         return read_motion(path, axes);
     }
@@ -111,7 +112,7 @@ fn simulate_motion(
     seed: u64,
 ) -> calibrant::Result<usize> {
     let sensor = &experiment.sensor;
-    let motion = commanded_motion(arguments.motion.as_deref(), plan, sensor.axes, &experiment.limits, seed)?;
+    let motion = commanded_motion(arguments.motion.as_deref(), plan, sensor, &experiment.limits, seed)?;
     let mut rng = stream(seed, Purpose::Sensor, 0);
     let truth = draw_sensor(sensor, &mut rng);
     let happened = match plan.trust {
