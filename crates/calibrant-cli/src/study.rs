@@ -63,7 +63,7 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     let motion = crate::simulate::commanded_motion(
         arguments.motion.as_deref(),
         plan,
-        sensor.axes,
+        sensor,
         &experiment.limits,
         seed,
     )?;
