@@ -1,9 +1,10 @@
 //! Reports of made-up results, to look at: `cargo run --example report_gallery -- DIRECTORY`.
 
-use calibrant::report::{About, calibration_report, study_report};
-use calibrant::{estimate, motion, sensor, study};
+use calibrant::report::{About, calibration_report, design_report, study_report};
+use calibrant::{design, estimate, information, motion, sensor, study};
 use std::path::PathBuf;
 
+mod designs;
 mod fakes;
 
 fn main() -> std::io::Result<()> {
@@ -55,6 +56,11 @@ fn main() -> std::io::Result<()> {
             &about("Static calibration", "mti.csv", recording.len()),
         ),
     )?;
+
+    let (sensor, limits) = (sensor::Sensor::memsic_mxd2020u(), designs::arm());
+    let problem = designs::problem(&sensor, &limits);
+    let design = designs::design_of(&problem, 30);
+    write("design.html", design_report(&design, &about("Design for the report's sensor", "–", 101)))?;
 
     let case = fakes::motion_case(3, 20, 10_000.0, 9);
     write(

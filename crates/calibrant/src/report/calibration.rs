@@ -49,7 +49,7 @@ pub fn calibration_report(calibration: &Calibration, recording: &Recording, abou
         Recovered::Holds(holds) => hold_section(&mut page, calibration, holds, recording),
     }
     page.section("Correlations", "");
-    page.push(correlation_map(calibration));
+    page.push(correlation_map(&calibration.parameters, &calibration.covariance));
     page.finish(title, &about.footer())
 }
 

@@ -3,9 +3,12 @@
 use super::{About, calibration_report, study_report};
 use crate::estimate::{Calibration, Recovered};
 use crate::sensor::Recording;
-use crate::{estimate, motion, sensor, study};
+use crate::{design, estimate, information, motion, sensor, study};
 use nalgebra::Vector3;
 
+mod design_pages;
+#[path = "../../examples/report_gallery/designs.rs"]
+mod designs;
 #[path = "../../examples/report_gallery/fakes.rs"]
 mod fakes;
 
