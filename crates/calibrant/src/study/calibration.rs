@@ -1,12 +1,14 @@
 //! Sensors that are moved by the same command and calibrated once.
 
-use super::{ParameterSummary, SensorOutcome, SingleCase, Study};
+use super::record::record;
+use super::summary::summarise;
+use super::{SensorOutcome, SingleCase, Study};
+use crate::design::DesignSettings;
 use crate::error::Result;
-use crate::estimate::{Calibration, CalibrationProblem, CalibrationSettings, Stimulus, calibrate};
-use crate::motion::{CommandedMotion, Trust};
+use crate::estimate::{CalibrationProblem, CalibrationSettings, Stimulus, calibrate};
+use crate::motion::CommandedMotion;
 use crate::sensor::Sensor;
-use crate::simulate::{Purpose, draw_sensor, perturb, sample_times, simulate_recording, stream};
-use nalgebra::Vector3;
+use crate::simulate::{Purpose, draw_sensor, stream};
 use rayon::prelude::*;
 
 /// A population and the motion that calibrates it.
@@ -22,17 +24,23 @@ pub struct StudyProblem<'a> {
     pub sensors: usize,
 }
 
-/// How a study is run.
+/// How studies are run.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct StudySettings {
-    /// Seed of everything random.
+    /// Seed of everything random. Sensors of the same number are the same in every study under one seed.
     pub seed: u64,
     /// How each sensor is calibrated.
     pub calibration: CalibrationSettings,
+    /// How each motion is designed. Every sensor's design has a seed of its own that follows from the study's, and only the first sensor's has a
+    /// certificate.
+    pub design: DesignSettings,
+    /// Rate at which the sensor looked at in detail is recorded once more, Hz; five times the rate where it is not given, as in the report (2 Hz and
+    /// 10 Hz).
+    pub detail_rate_hz: Option<f64>,
 }
 
-/// The detail case is shown at this multiple of the rate too, as the report does (2 Hz and 10 Hz).
-const FINE_RATE: f64 = 5.0;
+/// The detail case is shown at this multiple of the rate too.
+const DETAIL_RATE: f64 = 5.0;
 
 /// Runs a study, in parallel; `progress` is called with 1 after each sensor.
 ///
@@ -49,7 +57,8 @@ pub fn run_study(
     progress: &(dyn Fn(u64) + Sync),
 ) -> Result<Study> {
     let single = simulate_case(problem, settings, problem.rate_hz, 0)?;
-    let fine = simulate_case(problem, settings, problem.rate_hz * FINE_RATE, 0)?;
+    let detail_rate_hz = settings.detail_rate_hz.unwrap_or(problem.rate_hz * DETAIL_RATE);
+    let fine = simulate_case(problem, settings, detail_rate_hz, 0)?;
     let list = problem.sensor.parameter_list();
     let outcomes = (0..problem.sensors as u64)
         .into_par_iter()
@@ -65,6 +74,8 @@ pub fn run_study(
             })
         })
         .collect::<Result<Vec<_>>>()?;
+    let triples: Vec<_> =
+        outcomes.iter().map(|outcome| (&outcome.truth[..], &outcome.values[..], &outcome.sd[..])).collect();
     Ok(Study {
         sensor: problem.sensor.clone(),
         parameters: single.calibration.parameters.clone(),
@@ -72,7 +83,7 @@ pub fn run_study(
         seed: settings.seed,
         rate_hz: problem.rate_hz,
         motion: problem.command.motion.clone(),
-        summary: summarise(&single.calibration, &outcomes),
+        summary: summarise(&single.calibration.parameters, &triples),
         outcomes,
         single,
         fine,
@@ -90,38 +101,8 @@ fn simulate_case(
     let mut rng = stream(settings.seed, Purpose::Sensor, index);
     let truth = draw_sensor(sensor, &mut rng);
     let command = problem.command;
-    let true_motion = match command.trust {
-        Trust::Noisy(noise) => perturb(&command.motion, &noise, sensor.axes, command.known_ends, &mut rng)?,
-        Trust::Known | Trust::Unknown => command.motion.clone(),
-    };
-    let noise = sensor.noise(&truth.matrix.diagonal()).unwrap_or_else(Vector3::zeros);
-    let times = sample_times(&command.motion, rate_hz);
-    let recording =
-        simulate_recording(&truth, &noise, sensor.unit, sensor.axes, &true_motion, &times, &mut rng);
+    let (true_motion, recording) = record(sensor, &truth, command, rate_hz, &mut rng)?;
     let problem = CalibrationProblem { sensor, recording: &recording, stimulus: Stimulus::Motion(command) };
     let calibration = calibrate(&problem, &settings.calibration)?;
     Ok(SingleCase { truth, true_motion, recording, calibration })
-}
-
-/// Half-width of a 95 % interval in standard deviations.
-const NORMAL_95: f64 = 1.959_963_984_540_054;
-
-fn summarise(calibration: &Calibration, outcomes: &[SensorOutcome]) -> Vec<ParameterSummary> {
-    let mean =
-        |f: &dyn Fn(&SensorOutcome) -> f64| outcomes.iter().map(f).sum::<f64>() / outcomes.len() as f64;
-    calibration
-        .parameters
-        .iter()
-        .enumerate()
-        .map(|(k, parameter)| ParameterSummary {
-            name: parameter.name.clone(),
-            unit: parameter.unit,
-            predicted_sd: mean(&|outcome| outcome.sd[k].powi(2)).sqrt(),
-            realised_rms: mean(&|outcome| (outcome.values[k] - outcome.truth[k]).powi(2)).sqrt(),
-            mean_error: mean(&|outcome| outcome.values[k] - outcome.truth[k]),
-            coverage_95: mean(&|outcome| {
-                f64::from((outcome.values[k] - outcome.truth[k]).abs() <= NORMAL_95 * outcome.sd[k])
-            }),
-        })
-        .collect()
 }

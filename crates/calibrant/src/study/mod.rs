@@ -4,18 +4,22 @@
 //! |---|---|---|
 //! | [`run_study`]: sensors moved by the same command, truth beside estimate | Figures 4 to 6 | [`Study`] |
 //! | [`trace_surface`]: the criterion over the jerks of two intervals | Figure 7 | [`TraceSurface`] |
-//! | `run_design_study`: each sensor calibrated on a random motion, and again on the one designed for it | Figures 8 to 11, 13, 14 | [`DesignStudy`] |
+//! | [`run_design_study`]: each sensor calibrated on a random motion, and again on the one designed for it | Figures 8 to 11, 13, 14 | [`DesignStudy`] |
 //!
-//! `run_studies` runs what is asked for of these, one after the other.
+//! [`run_studies`] runs what is asked for of these, one after the other.
 
 mod calibration;
+mod design_loop;
 mod improvement;
+mod record;
 mod result;
+mod summary;
 mod surface;
 mod together;
 
 pub use calibration::{StudyProblem, StudySettings, run_study};
+pub use design_loop::{DesignStudyProblem, run_design_study};
 pub use improvement::*;
 pub use result::*;
 pub use surface::{SurfaceSettings, TraceSurface, trace_surface};
-pub use together::*;
+pub use together::{Studies, StudiesProblem, run_studies};

@@ -38,18 +38,12 @@ pub struct TraceSurface {
 
 /// Draws the surface for the first axis of a sensor, at its nominal parameters.
 ///
-/// `progress` is called with 1 after each row.
-///
 /// # Errors
 /// As [`evaluate`].
 ///
 /// # References
 /// `vamvaka2021`
-pub fn trace_surface(
-    sensor: &Sensor,
-    settings: &SurfaceSettings,
-    progress: &(dyn Fn(u64) + Sync),
-) -> Result<TraceSurface> {
+pub fn trace_surface(sensor: &Sensor, settings: &SurfaceSettings) -> Result<TraceSurface> {
     let sensor = Sensor { axes: 1, model: SensorModel::ScaleBias, ..sensor.clone() };
     let limits = Limits::default();
     let problem = DesignProblem {
@@ -79,9 +73,7 @@ pub fn trace_surface(
                 let trace = evaluate(&problem, &motion)?.value;
                 Ok(trace.is_finite().then(|| trace.log10()))
             });
-            let row = row.collect::<Result<Vec<_>>>();
-            progress(1);
-            row
+            row.collect::<Result<Vec<_>>>()
         })
         .collect::<Result<Vec<_>>>()?;
     Ok(TraceSurface { settings: *settings, jerk_mps3, log10_trace })
