@@ -5,12 +5,14 @@ mod evaluate;
 mod problem;
 mod result;
 mod settings;
+mod sweep;
 
 pub use admissible::{LimitKind, LimitUse, ROUNDING, limit_use};
 pub use evaluate::evaluate;
 pub use problem::DesignProblem;
 pub use result::{Certificate, Design, DesignStatus, Evaluation, StartOutcome};
 pub use settings::DesignSettings;
+pub use sweep::{Sweep, SweepPoint, SweepVariable, sweep};
 
 use crate::error::Result;
 use crate::simulate::{Purpose, initial_motion, stream};
