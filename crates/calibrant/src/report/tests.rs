@@ -52,8 +52,8 @@ fn a_motion_calibration_shows_every_parameter_figure_and_axis() {
     assert_sound(&html);
     assert_names_all(&html, &case.calibration);
     for text in [
-        "the report&#39;s Figure 4",
-        "the report&#39;s Figure 5",
+        "Figure 4 of the report",
+        "Figure 5 of the report",
         "axis z",
         "time (s)",
         "p-value",
@@ -82,7 +82,7 @@ fn a_study_shows_the_figures_of_the_report() {
     let html = study_report(&study, &about());
     assert_sound(&html);
     for figure in 4..=6 {
-        assert!(html.contains(&format!("The report&#39;s Figure {figure}")), "Figure {figure}");
+        assert!(html.contains(&format!("Figure {figure} of the report")), "Figure {figure}");
     }
 }
 

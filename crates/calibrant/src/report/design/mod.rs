@@ -6,7 +6,8 @@ pub(super) mod starts;
 mod verdict;
 
 pub(super) use limits::limit_table;
-pub(super) use promised::{criterion_table, promised_table};
+pub(super) use promised::{criterion_table, promised_table, times};
+pub(super) use verdict::scaling;
 
 use super::About;
 use super::figure::{
@@ -45,7 +46,7 @@ pub fn design_report(design: &Design, about: &About) -> String {
         "What was minimised: criterion {}, {} (C is the covariance of the parameters{}).",
         design.criterion.letter(),
         design.criterion.formula(),
-        verdict::scaling(&design.criterion)
+        scaling(&design.criterion)
     ));
     page.push(criterion_table(design));
     if let Some(certificate) = &design.certificate {

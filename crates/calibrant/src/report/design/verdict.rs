@@ -165,7 +165,7 @@ fn improvement(design: &Design) -> Option<String> {
 }
 
 /// What the criterion's covariance was divided by, in words.
-pub(super) fn scaling(criterion: &Criterion) -> &'static str {
+pub(in crate::report) fn scaling(criterion: &Criterion) -> &'static str {
     let scale = match criterion {
         Criterion::A(a) => &a.scale,
         Criterion::D(d) => &d.scale,

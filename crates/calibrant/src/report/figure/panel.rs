@@ -209,7 +209,9 @@ impl Range {
     fn padded(&self, fraction: f64) -> (f64, f64) {
         if self.log {
             let room = (self.high / self.low).powf(fraction).max(1.2);
-            return (self.low / room, self.high * room);
+            let (low, high) = (self.low / room, self.high * room);
+            // two round numbers at least, so that the axis can be read
+            return if high / low < 5.0 { (round_below(low), round_above(high)) } else { (low, high) };
         }
         let width = self.high - self.low;
         let smallest = 1e-9 * self.low.abs().max(self.high.abs());
@@ -220,6 +222,18 @@ impl Range {
             (self.low - room, self.high + room)
         }
     }
+}
+
+/// The largest of …, 1, 2, 5, 10, … that is not above a positive value.
+fn round_below(value: f64) -> f64 {
+    let decade = 10f64.powf(value.log10().floor());
+    [5.0, 2.0].into_iter().map(|m| m * decade).find(|&round| round <= value).unwrap_or(decade)
+}
+
+/// The smallest of …, 1, 2, 5, 10, … that is not below a positive value.
+fn round_above(value: f64) -> f64 {
+    let decade = 10f64.powf(value.log10().floor());
+    [1.0, 2.0, 5.0].into_iter().map(|m| m * decade).find(|&round| round >= value).unwrap_or(10.0 * decade)
 }
 
 #[cfg(test)]
