@@ -1,13 +1,16 @@
 //! Design: the motion whose recording determines the parameters best, and the proof of how good it is.
 
 mod admissible;
+mod assessment;
 mod evaluate;
 mod problem;
 mod result;
 mod settings;
+mod statement;
 mod sweep;
 
 pub use admissible::{LimitKind, LimitUse, ROUNDING, limit_use};
+pub use assessment::{Assessment, OtherSetting, assess};
 pub use evaluate::evaluate;
 pub use problem::DesignProblem;
 pub use result::{Certificate, Design, DesignStatus, Evaluation, StartOutcome};
