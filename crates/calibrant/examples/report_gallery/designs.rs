@@ -42,7 +42,9 @@ pub(crate) fn swing(problem: &DesignProblem<'_>, periods: [f64; 3]) -> Evaluatio
     let of = |amplitude: &Vector3<f64>| {
         let nodes = (0..=problem.intervals).map(|i| {
             let phase = std::f64::consts::TAU * i as f64 / problem.intervals as f64;
-            Vector3::from_fn(|k, _| if k < axes { amplitude[k] * (periods[k] * phase).cos() } else { 0.0 })
+            Vector3::from_fn(|k, _| {
+                if k < axes { periods[k].signum() * amplitude[k] * (periods[k] * phase).cos() } else { 0.0 }
+            })
         });
         JerkControlledMotion::uniform(problem.interval_s, nodes.collect()).expect("valid motion")
     };

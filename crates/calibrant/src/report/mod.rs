@@ -22,4 +22,4 @@ mod tests;
 pub use about::About;
 pub use calibration::calibration_report;
 pub use design::design_report;
-pub use study::{studies_report, study_report};
+pub use study::study_report;

@@ -47,7 +47,7 @@ pub(in crate::report) fn limit_table(
             Cell::Text(found.axis.to_string()),
             Cell::Text(found.kind.unit().to_string()),
             Cell::Number(allowed),
-            Cell::Number(number::short(value)),
+            Cell::Number(number::significant(value, 4)),
             Cell::Number(number::fixed(found.time_s, 2)),
         ];
         if found.is_violated() {

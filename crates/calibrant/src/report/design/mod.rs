@@ -64,7 +64,7 @@ pub fn design_report(design: &Design, about: &About) -> String {
     );
     let motions =
         [Drawn::before("initial", &design.initial.motion), Drawn::after("optimal", &design.optimal.motion)];
-    let title8 = "Figure 8 of the report: initial against optimal jerk and acceleration";
+    let title8 = "Figure 8 of the report: initial against optimal jerk (a) and acceleration (b)";
     page.push(jerk_and_acceleration(title8, &motions, axes, &design.limits).html());
     page.push(velocity_and_displacement(&motions, axes, &design.limits).html());
     if let Some(figure) = states(&motions, axes, &design.limits) {

@@ -109,7 +109,7 @@ pub(in crate::report) fn jerk_and_acceleration(
     axes: &[Axis],
     limits: &Limits,
 ) -> Figure {
-    let caption = "Upper row: jerk, constant in each interval. Lower row: acceleration, its integral. A good motion uses the limits: \
+    let caption = "(a) Jerk, constant in each interval. (b) Acceleration, its integral. A good motion uses the limits: \
                    where a curve touches a dashed line, that limit holds it back and widening it would help most.";
     figure(title, &[Profile::Jerk, Profile::Acceleration], motions, axes, limits, caption)
 }
@@ -139,7 +139,7 @@ pub(in crate::report) fn velocity_and_displacement(
         }
     );
     let profiles = [Profile::Velocity, Profile::Displacement];
-    figure("Velocity and displacement", &profiles, motions, axes, limits, &caption)
+    figure("Velocity (a) and displacement (b)", &profiles, motions, axes, limits, &caption)
 }
 
 fn figure(
@@ -152,10 +152,11 @@ fn figure(
 ) -> Figure {
     let mut far: Vec<String> = Vec::new();
     let mut panels = Vec::new();
-    for &profile in profiles {
+    for (&profile, letter) in profiles.iter().zip(["(a) ", "(b) "]) {
+        let letter = if profiles.len() > 1 { letter } else { "" };
         let mut hidden = Vec::new();
         for &axis in axes {
-            let mut panel = Panel::new(format!("axis {axis}"), TIME, profile.label());
+            let mut panel = Panel::new(format!("{letter}axis {axis}"), TIME, profile.label());
             for drawn in motions {
                 let mark = Mark::Line { width: drawn.width, dashes: "" };
                 let curve = profile.curve(drawn.motion, axis);

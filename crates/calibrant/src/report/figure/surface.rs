@@ -8,16 +8,16 @@ use crate::report::number;
 use crate::study::TraceSurface;
 
 /// Left edge, top edge and side of the map, in a drawing of `WIDTH` by `HEIGHT`.
-const LEFT: f64 = 62.0;
+const LEFT: f64 = 78.0;
 const TOP: f64 = 12.0;
 const SIDE: f64 = 360.0;
-const WIDTH: f64 = 540.0;
+const WIDTH: f64 = 556.0;
 const HEIGHT: f64 = 428.0;
 /// Left edge and width of the colour bar.
-const BAR: (f64, f64) = (446.0, 18.0);
+const BAR: (f64, f64) = (462.0, 18.0);
 const INK: &str = "#1b1f24";
 /// At most so many bands.
-const MOST_BANDS: f64 = 15.0;
+const MOST_BANDS: f64 = 18.0;
 
 /// The map; dark is good.
 pub(in crate::report) fn trace_map(surface: &TraceSurface) -> String {
@@ -33,7 +33,7 @@ pub(in crate::report) fn trace_map(surface: &TraceSurface) -> String {
     let caption = format!(
         "A uniaxial sensor and two intervals of {} s, at {} Hz, starting at {} m/s²: decimal logarithm of the sum of the variances of bias \
          and scale factor (in SI units) over the jerks of both intervals. What to see: a peak where both jerks vanish, because a sensor \
-         that hardly moves tells nothing of its scale factor (at zero it tells nothing at all), and the smallest values in the corners \
+         that hardly moves tells nothing of its scale factor (at zero it tells nothing at all), and the smallest values in corners, \
          where the jerks are largest: the optimum lies on the limits. Edges of the bands are contours. The report estimates at each \
          point, draws a surface in space, and does not say which logarithm it takes; the trace needs no estimation, as it follows from \
          the motion alone.",
@@ -59,6 +59,7 @@ fn drawing(surface: &TraceSurface) -> String {
         return svg;
     }
     let bands = Bands::over(low, high);
+    svg.push_str("<g shape-rendering=\"crispEdges\">");
     let cell = SIDE / count as f64;
     let mut undetermined = Vec::new();
     for j in 0..count {
@@ -88,6 +89,7 @@ fn drawing(surface: &TraceSurface) -> String {
             start = i;
         }
     }
+    svg.push_str("</g>");
     undetermined.into_iter().for_each(|(x, y)| svg.push_str(&cross(x, y)));
     svg.push_str(&axes(surface));
     svg.push_str(&bar(&bands));
@@ -172,8 +174,18 @@ struct Bands {
 
 impl Bands {
     fn over(low: f64, high: f64) -> Self {
-        let steps =
-            [(0.01, 2), (0.02, 2), (0.05, 2), (0.1, 1), (0.2, 1), (0.5, 1), (1.0, 0), (2.0, 0), (5.0, 0)];
+        let steps = [
+            (0.01, 2),
+            (0.02, 2),
+            (0.05, 2),
+            (0.1, 1),
+            (0.2, 1),
+            (0.25, 2),
+            (0.5, 1),
+            (1.0, 0),
+            (2.0, 0),
+            (5.0, 0),
+        ];
         let fits = |&&(step, _): &&(f64, usize)| (high - low) / step <= MOST_BANDS - 1.0;
         let &(step, decimals) = steps.iter().find(fits).unwrap_or(&(50.0, 0));
         let start = (low / step).floor();
@@ -220,7 +232,7 @@ mod tests {
     fn bands_hold_all_values_between_round_numbers() {
         for (low, high) in [(-9.43, -6.21), (-9.4, -9.39), (-3.0, -3.0), (-12.0, 55.0)] {
             let bands = Bands::over(low, high);
-            assert!(bands.count <= 16 && bands.low <= low + 1e-12, "{low} {high}: {} bands", bands.count);
+            assert!(bands.count <= 19 && bands.low <= low + 1e-12, "{low} {high}: {} bands", bands.count);
             assert!(bands.low + bands.step * bands.count as f64 >= high - 1e-12);
             assert_eq!(bands.of(low), 0);
         }

@@ -7,7 +7,7 @@ mod settings;
 use super::About;
 use super::figure::trace_map;
 use super::html::{Page, escape, facts, list, verdict_box};
-use crate::study::{Studies, Study};
+use crate::study::Studies;
 
 /// Studies as one HTML file: for each that was run its settings, a summary, and the report's figures: 4 to 6 (calibration), 7 (the surface of the
 /// trace), 8 to 11 (initial against optimal motion), 13 and 14 (the same with process noise).
@@ -15,7 +15,7 @@ use crate::study::{Studies, Study};
 /// Self-contained as [`calibration_report`](super::calibration_report) is; of a large population, the figures that show sensors one by one show
 /// an evenly spread part, and say so.
 #[must_use]
-pub fn studies_report(studies: &Studies, about: &About) -> String {
+pub fn study_report(studies: &Studies, about: &About) -> String {
     let mut judged = Vec::new();
     if let Some(study) = &studies.calibration {
         judged.push(calibration::judge(study));
@@ -40,16 +40,6 @@ pub fn studies_report(studies: &Studies, about: &About) -> String {
     if let Some(study) = &studies.noisy {
         design::chapter(&mut page, study, &design::NOISY);
     }
-    page.finish(title(about), &about.footer())
-}
-
-/// One study of calibrations as an HTML file: settings, summary over the population, and the report's Figures 4, 5 and 6.
-///
-/// As [`studies_report`] of this study alone.
-#[must_use]
-pub fn study_report(study: &Study, about: &About) -> String {
-    let mut page = headed(about, &[calibration::judge(study)], &[]);
-    calibration::chapter(&mut page, study);
     page.finish(title(about), &about.footer())
 }
 
