@@ -9,6 +9,6 @@ mod identifiability;
 
 pub use covariance::covariance;
 pub use criterion::Criterion;
-pub use expected::{MotionInformation, PartInformation};
+pub use expected::{InformationDerivative, Linearised, MotionInformation, PartInformation};
 pub(crate) use explanation::{MotionFacts, View, explain};
 pub use identifiability::{Undetermined, undetermined};
