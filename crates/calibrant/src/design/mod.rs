@@ -1,14 +1,19 @@
 //! Design: the motion whose recording determines the parameters best, and the proof of how good it is.
 
+mod admissible;
 mod evaluate;
 mod problem;
 mod result;
 mod settings;
+mod statement;
+mod sweep;
 
+pub use admissible::{LimitKind, LimitUse, ROUNDING, limit_use};
 pub use evaluate::evaluate;
 pub use problem::DesignProblem;
 pub use result::{Certificate, Design, DesignStatus, Evaluation, StartOutcome};
 pub use settings::DesignSettings;
+pub use sweep::{Sweep, SweepPoint, SweepVariable, sweep};
 
 use crate::error::Result;
 use crate::simulate::{Purpose, initial_motion, stream};

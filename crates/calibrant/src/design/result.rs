@@ -29,6 +29,14 @@ pub struct Design {
     pub certificate: Option<Certificate>,
 }
 
+impl Design {
+    /// Number of starts that converged.
+    #[must_use]
+    pub fn starts_converged(&self) -> usize {
+        self.starts.iter().filter(|start| start.status == DesignStatus::Converged).count()
+    }
+}
+
 /// What a recording of a motion will tell.
 #[derive(Debug, Clone)]
 pub struct Evaluation {

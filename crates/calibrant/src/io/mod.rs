@@ -5,7 +5,8 @@
 //! | experiment (TOML) | [`Experiment::read`] | [`preset()`], [`PRESETS`] |
 //! | `recording.csv` and other recordings | [`read_recording`] | [`write_recording`] |
 //! | `motion.csv` | [`read_motion`] | [`write_motion`] |
-//! | `calibration.json` | | [`write_calibration`] |
+//! | `calibration.json` | [`read_calibration`], as what is known before a design | [`write_calibration`] |
+//! | `design.json`, `motion_dense.csv` | | [`write_design`], [`write_dense_motion`] |
 //! | `truth.json`, `study.json`, `summary.csv` | | [`write_truth`], [`write_study`], [`write_summary`] |
 //!
 //! Everything is SI inside; conversions happen here. No input makes the readers panic, and no NaN or infinity passes them. Every
@@ -14,6 +15,9 @@
 
 mod calibration;
 mod delimited;
+mod dense;
+mod design;
+mod earlier;
 mod experiment;
 mod fields;
 mod json;
@@ -27,6 +31,9 @@ mod text;
 mod truth;
 
 pub use calibration::{Input, calibration_json, write_calibration};
+pub use dense::write_dense_motion;
+pub use design::{design_json, write_design};
+pub use earlier::{EarlierCalibration, parse_calibration, read_calibration};
 pub use experiment::{
     CalibrateOptions, CriterionLetter, DesignOptions, Experiment, HoldsPlan, MotionPlan, Plan, Prior,
     ScaleBy, StudyOptions,

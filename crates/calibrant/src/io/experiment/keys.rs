@@ -40,7 +40,16 @@ const KEYS: &[(&str, &[&str])] = &[
     ("calibrate", &["prior"]),
     (
         "limits",
-        &["acceleration_mps2", "jerk_mps3", "intercept_mps2", "velocity_mps", "displacement_m", "rest"],
+        &[
+            "acceleration_mps2",
+            "jerk_mps3",
+            "intercept_mps2",
+            "velocity_mps",
+            "displacement_m",
+            "rest",
+            "start_acceleration_mps2",
+            "end_acceleration_mps2",
+        ],
     ),
     ("design", &["criterion", "weights", "range_mps2", "scale_by", "starts", "seed", "certificate"]),
     ("study", &["sensors", "seed"]),

@@ -9,6 +9,8 @@ use nalgebra::Vector3;
 const ACCELERATION: Bounds = Bounds::above(0.0, 1e9, "m/s²");
 const JERK: Bounds = Bounds::above(0.0, 1e9, "m/s³");
 const VELOCITY: Bounds = Bounds::above(0.0, 1e9, "m/s");
+/// A prescribed acceleration: of either sign, or zero.
+const END: Bounds = Bounds::from(-1e9, 1e9, "m/s²");
 const DISPLACEMENT: Bounds = Bounds::above(0.0, 1e9, "m");
 
 /// Reads `[limits]`.
@@ -26,7 +28,7 @@ pub(super) fn read(section: &Section<'_>, axes: usize) -> Result<Limits> {
         velocity_mps: limit("velocity_mps", &VELOCITY)?,
         displacement_m: limit("displacement_m", &DISPLACEMENT)?,
         rest,
-        start_acceleration_mps2: None,
-        end_acceleration_mps2: None,
+        start_acceleration_mps2: limit("start_acceleration_mps2", &END)?,
+        end_acceleration_mps2: limit("end_acceleration_mps2", &END)?,
     })
 }

@@ -10,6 +10,7 @@ mod holds;
 mod keys;
 mod limits;
 mod motion;
+mod problem;
 mod sensor;
 mod study;
 
