@@ -9,14 +9,15 @@ use super::parameters::parameter_table;
 use super::table::{Cell, Table};
 use super::{About, html, number};
 use crate::estimate::Recovered;
-use crate::study::{SingleCase, Study};
+use crate::study::{SingleCase, Studies, Study};
 
 /// A study as one HTML file: settings, summary over the population, and the report's Figures 4, 5 and 6.
 ///
 /// Self-contained as [`calibration_report`](super::calibration_report) is; of a large population, the figures that show sensors one by one show
 /// an evenly spread part, and say so.
 #[must_use]
-pub fn study_report(study: &Study, about: &About) -> String {
+pub fn study_report(studies: &Studies, about: &About) -> String {
+    let Some(study) = &studies.calibration else { return String::new() };
     let mut page = Page::default();
     let title = if about.title.is_empty() { "Study" } else { &about.title };
     page.push(format!("<h1>{}</h1>", escape(title)));
