@@ -1,5 +1,7 @@
 //! `calibrant design`: the motion whose recording determines the parameters best.
 
+mod evaluate;
+mod sweep;
 mod table;
 
 use crate::{Exit, console, place};
@@ -15,7 +17,8 @@ use std::time::Instant;
 
 /// Find the motion whose recording will determine the parameters best, and prove how close to the best possible it is.
 ///
-/// Writes design.json, motion.csv (what `simulate` and `calibrate` take as --motion) and report.html into DIR.
+/// Writes design.json, motion.csv (what `simulate` and `calibrate` take as --motion) and report.html into DIR. With --evaluate, evaluation.json too; with
+/// --sweep, sweep.json, sweep.csv and report.html instead.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
     /// The experiment file, with a [motion] (see `calibrant init`).
@@ -24,8 +27,15 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "JSON")]
     from: Vec<PathBuf>,
     /// Write motion_dense.csv too: position, velocity, acceleration and jerk at this rate.
-    #[arg(long, value_name = "HZ", value_parser = rate)]
+    #[arg(long, value_name = "HZ", value_parser = rate, conflicts_with = "sweep")]
     sample_rate: Option<f64>,
+    /// Is this motion any good? What it tells, beside the best one, and which limits it breaks.
+    #[arg(long, value_name = "CSV", conflicts_with = "sweep")]
+    evaluate: Option<PathBuf>,
+    /// What can be had as one thing changes: duration=5,10,20, or FROM:TO:COUNT (geometric; FROM:TO:COUNT:linear); also acceleration, jerk, intercept,
+    /// velocity, displacement, rate, noise.
+    #[arg(long, value_name = "NAME=VALUES", value_parser = sweep::parse)]
+    sweep: Option<sweep::Request>,
     /// What is minimised: A, D, E, M, c or I (default: the one in [design]).
     #[arg(long, value_name = "LETTER", value_parser = letter)]
     criterion: Option<CriterionLetter>,
@@ -69,7 +79,11 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     place::check_directory(&arguments.output)?;
     let job = Job::prepare(arguments)?;
     let problem = job.problem(&arguments.experiment)?;
-    run_design(arguments, &job, &problem)
+    match (&arguments.evaluate, &arguments.sweep) {
+        (Some(path), _) => evaluate::run(arguments, &job, &problem, path),
+        (None, Some(request)) => sweep::run(arguments, &job, &problem, request),
+        (None, None) => run_design(arguments, &job, &problem),
+    }
 }
 
 impl Job {

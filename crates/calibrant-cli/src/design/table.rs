@@ -2,6 +2,7 @@
 
 use crate::console;
 use calibrant::design::{Design, LimitUse, limit_use};
+use calibrant::information::Criterion;
 use calibrant::report::number::significant;
 
 /// Before, after and the bound, parameter by parameter; the criterion; the starts; what the certificate says.
@@ -70,6 +71,15 @@ fn reached(uses: &[LimitUse]) -> String {
     names.sort_unstable();
     names.dedup();
     names.join(", ")
+}
+
+/// How far above a bound: in percent, for criterion D in nats.
+pub(crate) fn gap(criterion: &Criterion, gap: f64) -> String {
+    let gap = gap.max(0.0);
+    match criterion {
+        Criterion::D(_) => format!("{} nats", significant(gap, 2)),
+        _ => format!("{} %", significant(100.0 * gap, 2)),
+    }
 }
 
 /// `3.1×`.

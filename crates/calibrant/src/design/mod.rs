@@ -1,6 +1,7 @@
 //! Design: the motion whose recording determines the parameters best, and the proof of how good it is.
 
 mod admissible;
+mod assessment;
 mod certificate;
 mod conic;
 mod curvature;
@@ -16,6 +17,7 @@ mod statement;
 mod sweep;
 
 pub use admissible::{LimitKind, LimitUse, ROUNDING, limit_use};
+pub use assessment::{Assessment, OtherSetting, assess};
 pub use evaluate::evaluate;
 pub use problem::DesignProblem;
 pub use result::{Certificate, Design, DesignStatus, Evaluation, StartOutcome};

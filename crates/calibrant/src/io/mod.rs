@@ -7,6 +7,7 @@
 //! | `motion.csv` | [`read_motion`] | [`write_motion`] |
 //! | `calibration.json` | [`read_calibration`], as what is known before a design | [`write_calibration`] |
 //! | `design.json`, `motion_dense.csv` | | [`write_design`], [`write_dense_motion`] |
+//! | `evaluation.json`, `sweep.json`, `sweep.csv` | | [`write_evaluation`], [`write_sweep`], [`write_sweep_csv`] |
 //! | `truth.json`, `study.json`, `summary.csv` | | [`write_truth`], [`write_study`], [`write_summary`] |
 //!
 //! Everything is SI inside; conversions happen here. No input makes the readers panic, and no NaN or infinity passes them. Every
@@ -18,6 +19,7 @@ mod delimited;
 mod dense;
 mod design;
 mod earlier;
+mod evaluation;
 mod experiment;
 mod fields;
 mod json;
@@ -27,6 +29,7 @@ mod preset;
 mod recording;
 mod study;
 mod summary;
+mod sweep;
 mod text;
 mod truth;
 
@@ -34,6 +37,7 @@ pub use calibration::{Input, calibration_json, write_calibration};
 pub use dense::write_dense_motion;
 pub use design::{design_json, write_design};
 pub use earlier::{EarlierCalibration, parse_calibration, read_calibration};
+pub use evaluation::{evaluation_json, write_evaluation};
 pub use experiment::{
     CalibrateOptions, CriterionLetter, DesignOptions, Experiment, HoldsPlan, MotionPlan, NoisyVariant, Plan,
     Prior, ScaleBy, StudyOptions, UnknownVariant,
@@ -46,4 +50,5 @@ pub use recording::{
 };
 pub use study::{study_json, write_study};
 pub use summary::{SummaryRow, write_summary};
+pub use sweep::{sweep_json, write_sweep, write_sweep_csv};
 pub use truth::{truth_json, write_truth};
