@@ -1,7 +1,12 @@
-//! Fisher information and covariance of the parameters, and what the data leave undetermined.
+//! Fisher information and covariance of the parameters, the criteria of optimality, and what the data leave undetermined.
 
+pub(crate) mod chain_model;
 mod covariance;
+pub mod criterion;
+mod expected;
 mod identifiability;
 
 pub use covariance::covariance;
+pub use criterion::Criterion;
+pub use expected::{MotionInformation, PartInformation};
 pub use identifiability::{Undetermined, undetermined};

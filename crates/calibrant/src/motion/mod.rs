@@ -5,9 +5,11 @@ mod gravity;
 mod hold;
 mod jerk_controlled;
 mod limits;
+mod sampling;
 
 pub use command::{CommandedMotion, InputNoise, KnownEnds, Trust};
 pub use gravity::Gravity;
 pub use hold::Hold;
 pub use jerk_controlled::JerkControlledMotion;
-pub use limits::{Limits, Rest};
+pub use limits::{AxisLimits, Limits, Rest};
+pub use sampling::{IntervalSums, sample_times};

@@ -89,6 +89,7 @@ mod tests {
             velocity_mps: Some(Vector3::new(10.0, 5.0, 2.0)),
             displacement_m: Some(Vector3::repeat(8.0)),
             rest: Rest::Both,
+            ..Limits::default()
         };
         for index in 0..50 {
             let motion =

@@ -17,6 +17,7 @@ const KEYS: &[(&str, &[&str])] = &[
             "bias_sd_mps2",
             "scale_sd",
             "cross_axis_sd",
+            "range_mps2",
         ],
     ),
     ("motion", &["intervals", "interval_s", "rate_hz", "trust", "known_ends", "input_noise"]),

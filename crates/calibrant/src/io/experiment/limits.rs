@@ -26,5 +26,7 @@ pub(super) fn read(section: &Section<'_>, axes: usize) -> Result<Limits> {
         velocity_mps: limit("velocity_mps", &VELOCITY)?,
         displacement_m: limit("displacement_m", &DISPLACEMENT)?,
         rest,
+        start_acceleration_mps2: None,
+        end_acceleration_mps2: None,
     })
 }
