@@ -7,6 +7,7 @@ mod conic;
 mod curvature;
 mod evaluate;
 mod feasibility;
+mod hessian;
 mod initial;
 mod local;
 mod problem;
