@@ -163,6 +163,7 @@ fn assemble(
         }),
         residuals: Vec::new(),
         first_sample: 0,
+        datasheet_prior: settings.datasheet_prior,
         warnings: Vec::new(),
     };
     calibration.warnings = verdict::warnings(&calibration, &robust.weakest);
