@@ -81,7 +81,7 @@ fn a_optimality(parameters: usize) -> Criterion {
 fn assert_admissible(name: &str, design: &Design, limits: &Limits) {
     let motion = &design.optimal.motion;
     let duration = motion.times_s()[motion.intervals()];
-    let steps = 10_000;
+    let steps = 10_000_u32.div_ceil(motion.intervals() as u32) * motion.intervals() as u32;
     let dt = duration / f64::from(steps);
     let within = |what: &str, value: f64, limit: Option<Vector3<f64>>, axis: usize, t: f64| {
         if let Some(limit) = limit {

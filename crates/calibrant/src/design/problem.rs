@@ -59,7 +59,7 @@ impl DesignProblem<'_> {
         }
     }
 
-    pub(super) fn check(&self) -> Result<()> {
+    pub(crate) fn check(&self) -> Result<()> {
         let limits = self.effective_limits();
         for &axis in self.sensor.active_axes() {
             let l = limits.axis(axis.index());
