@@ -6,9 +6,21 @@ use serde_json::Value;
 /// Two starts and no certificate: seconds matter in tests.
 const QUICK: &str = "--starts 2 --no-certificate";
 
+/// The report's experiment with every limit of an arm, and these edits.
+fn arm(bench: &Bench, file: &str, edits: &[(&str, &str)]) {
+    let mut all = vec![
+        ("# acceleration_mps2", "acceleration_mps2"),
+        ("# velocity_mps", "velocity_mps"),
+        ("# displacement_m", "displacement_m"),
+        ("# rest = \"both\"", "rest = \"both\""),
+    ];
+    all.extend(edits);
+    bench.preset("report", file, &all);
+}
+
 fn bench() -> Bench {
     let bench = Bench::new();
-    bench.preset("report", "arm.toml", &[]);
+    arm(&bench, "arm.toml", &[]);
     bench
 }
 
@@ -83,12 +95,8 @@ fn the_same_seed_gives_the_same_bytes_whatever_the_threads() {
 #[test]
 fn every_criterion_by_its_letter() {
     let bench = Bench::new();
-    let design = ["# weights = {", "weights = {"];
-    bench.preset(
-        "report",
-        "arm.toml",
-        &[(design[0], design[1]), ("# range_mps2 = 20.0", "range_mps2 = 20.0")],
-    );
+    let edits = [("# weights = {", "weights = {"), ("# range_mps2 = 20.0", "range_mps2 = 20.0")];
+    arm(&bench, "arm.toml", &edits);
     for letter in ["A", "D", "E", "M", "c", "I"] {
         bench.run(&format!("design arm.toml {QUICK} --criterion {letter} -o {letter}")).done();
         let file = bench.json(&format!("{letter}/design.json"));
@@ -116,7 +124,7 @@ fn what_is_known_already_counts() {
     let guess = bench.json("c/calibration.json")["parameters"][0]["value"].clone();
     assert_eq!(after["setting"]["guess"][0], guess);
     assert!(after["setting"]["prior_information"].is_array());
-    bench.preset("report", "prior.toml", &[("prior = \"none\"", "prior = \"datasheet\"")]);
+    arm(&bench, "prior.toml", &[("prior = \"none\"", "prior = \"datasheet\"")]);
     bench.run(&format!("design prior.toml {QUICK} -o prior")).done();
     let prior = &bench.json("prior/design.json")["setting"]["prior_information"];
     assert!((prior[0][0].as_f64().expect("a number") - 100.0).abs() < 1e-9, "1/0.1²");
@@ -190,7 +198,7 @@ fn sweeps_say_what_things_cost() {
 fn limits_that_clash_are_named_before_the_search() {
     let bench = bench();
     let with = |line: &str| {
-        bench.preset("report", "clash.toml", &[("rest = \"both\"", &format!("rest = \"both\"\n{line}"))]);
+        arm(&bench, "clash.toml", &[("[calibrate]", &format!("{line}\n[calibrate]"))]);
     };
     with("start_acceleration_mps2 = [0.0, 31.0, 0.0]");
     bench.refuses(
@@ -198,14 +206,8 @@ fn limits_that_clash_are_named_before_the_search() {
         4,
         &["clash.toml: `limits.start_acceleration_mps2`: the limits admit no motion: the acceleration at the start of axis y, 31 m/s², lies beyond"],
     );
-    bench.preset(
-        "report",
-        "clash.toml",
-        &[
-            ("jerk_mps3 = 30.0", "jerk_mps3 = 1.0"),
-            ("rest = \"both\"", "rest = \"both\"\nstart_acceleration_mps2 = 9.0"),
-        ],
-    );
+    let slow = ("jerk_mps3 = 30.0", "jerk_mps3 = 1.0");
+    arm(&bench, "clash.toml", &[slow, ("# start_acceleration_mps2 = 0.0", "start_acceleration_mps2 = 9.0")]);
     bench.refuses(
         "design clash.toml -o none",
         4,
@@ -232,16 +234,7 @@ fn limits_that_clash_are_named_before_the_search() {
 fn wrong_requests_are_refused_and_nothing_is_written() {
     let bench = bench();
     bench.preset("static-poses", "static.toml", &[]);
-    bench.preset(
-        "report",
-        "free.toml",
-        &[
-            ("acceleration_mps2 = 30.0", ""),
-            ("intercept_mps2 = 30.0", ""),
-            ("velocity_mps = 10.0", ""),
-            ("displacement_m = 10.0", ""),
-        ],
-    );
+    bench.preset("report", "free.toml", &[("intercept_mps2 = 30.0", "")]);
     bench.write("not.json", "t_s,ax\n1,2\n");
     bench.write("other.json", "{ \"schema\": 7 }");
     bench.write("empty.csv", "");
@@ -273,7 +266,7 @@ fn wrong_requests_are_refused_and_nothing_is_written() {
 #[test]
 fn a_calibration_of_another_sensor_is_refused() {
     let bench = bench();
-    bench.preset("report", "one.toml", &[("axes = 3", "axes = 1")]);
+    arm(&bench, "one.toml", &[("axes = 3", "axes = 1")]);
     bench.run("simulate one.toml -o s").done();
     bench.run("calibrate one.toml s/recording.csv --motion s/motion.csv -o c").done();
     bench.run(&format!("design one.toml {QUICK} --from c/calibration.json -o d")).done();
