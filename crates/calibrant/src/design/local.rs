@@ -89,7 +89,9 @@ impl<const D: usize, const P: usize> Part<D, P> {
             let Some((step, promise)) = self.step(&a, &model, &mut watch, &mut weights) else {
                 return end(a, value, iteration, DesignStatus::Stalled);
             };
-            if std::env::var("TRACE").is_ok() { eprintln!("{iteration} value {value:e} promise {promise:e} bend {bend:e}"); }
+            if std::env::var("TRACE").is_ok() {
+                eprintln!("{iteration} value {value:e} promise {promise:e} bend {bend:e}");
+            }
             if promise <= CONVERGED {
                 return end(a, value, iteration, DesignStatus::Converged);
             }
