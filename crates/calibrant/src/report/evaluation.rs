@@ -16,6 +16,8 @@ use nalgebra::Vector3;
 
 /// A motion whose standard deviations are all within this factor of the best is as good as it gets.
 const AS_GOOD: f64 = 1.05;
+/// An efficiency above this hides what single parameters would gain.
+const BLIND: f64 = 0.8;
 /// Beyond this factor, the better motion is worth the effort.
 const WORTH_IT: f64 = 1.5;
 
@@ -143,6 +145,13 @@ fn compared(assessment: &Assessment, design: &Design, sentences: &mut Vec<String
             sentence.push_str(&format!("; against the lower bound it is {}", number::percent(certain)));
         }
         sentences.push(sentence + ".");
+        if efficiency > BLIND && most > WORTH_IT {
+            sentences.push(
+                "The criterion hardly sees the difference because it is dominated by parameters that no motion improves: judge by the standard \
+                 deviations."
+                    .to_string(),
+            );
+        }
     }
     Some(most)
 }
