@@ -7,7 +7,7 @@ use crate::design::{
 };
 use crate::error::{Result, UndeterminedGroup};
 use crate::information::Criterion;
-use crate::motion::{KnownEnds, Limits, Rest, Trust};
+use crate::motion::{InputNoise, KnownEnds, Limits, Rest, Trust};
 use crate::sensor::{Parameter, SensorModel};
 use nalgebra::{DMatrix, Vector3};
 use serde::Serialize;
@@ -180,7 +180,7 @@ impl<'a> CertificateFields<'a> {
 
 /// The limits, the sensor's range among them; only those that there are.
 #[derive(Serialize)]
-struct LimitsFields {
+pub(super) struct LimitsFields {
     #[serde(skip_serializing_if = "Option::is_none")]
     acceleration_mps2: Option<Vec<f64>>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -199,7 +199,7 @@ struct LimitsFields {
 }
 
 impl LimitsFields {
-    fn of(limits: &Limits, axes: usize) -> Self {
+    pub(super) fn of(limits: &Limits, axes: usize) -> Self {
         let of = |limit: &Option<Vector3<f64>>| limit.as_ref().map(|limit| per_axis(limit, axes));
         Self {
             acceleration_mps2: of(&limits.acceleration_mps2),
@@ -308,9 +308,15 @@ pub(super) struct SettingFields {
 }
 
 #[derive(Serialize)]
-struct InputNoiseFields {
+pub(super) struct InputNoiseFields {
     floor_mps3: f64,
     ratio: f64,
+}
+
+impl InputNoiseFields {
+    pub(super) fn of(noise: &InputNoise) -> Self {
+        Self { floor_mps3: noise.floor_mps3, ratio: noise.ratio }
+    }
 }
 
 impl SettingFields {
@@ -335,9 +341,7 @@ impl SettingFields {
                 KnownEnds::Both => "both",
             },
             input_noise: match problem.trust {
-                Trust::Noisy(noise) => {
-                    Some(InputNoiseFields { floor_mps3: noise.floor_mps3, ratio: noise.ratio })
-                }
+                Trust::Noisy(noise) => Some(InputNoiseFields::of(&noise)),
                 Trust::Known | Trust::Unknown => None,
             },
             guess: list.quantities().iter().map(|quantity| quantity.of(&problem.at)).collect(),

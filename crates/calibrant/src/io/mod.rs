@@ -39,8 +39,8 @@ pub use design::{design_json, write_design};
 pub use earlier::{EarlierCalibration, parse_calibration, read_calibration};
 pub use evaluation::{evaluation_json, write_evaluation};
 pub use experiment::{
-    CalibrateOptions, CriterionLetter, DesignOptions, Experiment, HoldsPlan, MotionPlan, Plan, Prior,
-    ScaleBy, StudyOptions,
+    CalibrateOptions, CriterionLetter, DesignOptions, Experiment, HoldsPlan, MotionPlan, NoisyVariant, Plan,
+    Prior, ScaleBy, StudyOptions, UnknownVariant,
 };
 pub use motion::{parse_motion, read_motion, write_motion};
 pub use output::write_atomically;

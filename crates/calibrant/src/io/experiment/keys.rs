@@ -52,7 +52,41 @@ const KEYS: &[(&str, &[&str])] = &[
         ],
     ),
     ("design", &["criterion", "weights", "range_mps2", "scale_by", "starts", "seed", "certificate"]),
-    ("study", &["sensors", "seed"]),
+    ("study", &["sensors", "seed", "motions", "starts", "surface", "unknown", "noisy"]),
+    ("study.surface", &["jerk_mps3", "points", "start_acceleration_mps2", "interval_s", "rate_hz"]),
+    (
+        "study.unknown",
+        &[
+            "sensors",
+            "intervals",
+            "interval_s",
+            "rate_hz",
+            "detail_rate_hz",
+            "acceleration_mps2",
+            "jerk_mps3",
+            "intercept_mps2",
+            "velocity_mps",
+            "displacement_m",
+            "rest",
+            "start_acceleration_mps2",
+            "end_acceleration_mps2",
+        ],
+    ),
+    (
+        "study.noisy",
+        &[
+            "input_noise",
+            "acceleration_mps2",
+            "jerk_mps3",
+            "intercept_mps2",
+            "velocity_mps",
+            "displacement_m",
+            "rest",
+            "start_acceleration_mps2",
+            "end_acceleration_mps2",
+        ],
+    ),
+    ("study.noisy.input_noise", &["floor_mps3", "ratio"]),
 ];
 
 /// The keys of a section.
