@@ -157,7 +157,8 @@ fn figure(
         let mut hidden = Vec::new();
         for &axis in axes {
             let mut panel = Panel::new(format!("{letter}axis {axis}"), TIME, profile.label());
-            for drawn in motions {
+            // thin over bold: both show where they coincide
+            for drawn in motions.iter().rev() {
                 let mark = Mark::Line { width: drawn.width, dashes: "" };
                 let curve = profile.curve(drawn.motion, axis);
                 panel = panel.with(Series::new(drawn.name, drawn.colour, mark, curve));
