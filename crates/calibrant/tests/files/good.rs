@@ -1,10 +1,11 @@
 //! Good experiment files: what they say arrives, and what they leave out has its default.
 
 use calibrant::io::{
-    CriterionLetter, Experiment, HoldsPlan, MotionPlan, PRESETS, Plan, Prior, ScaleBy, preset,
+    CriterionLetter, Experiment, HoldsPlan, MotionPlan, NoisyVariant, PRESETS, Plan, Prior, ScaleBy, preset,
 };
-use calibrant::motion::{Gravity, KnownEnds, Rest, Trust};
+use calibrant::motion::{Gravity, InputNoise, KnownEnds, Limits, Trust};
 use calibrant::sensor::{Gauge, ReadingUnit, Sensor, SensorModel};
+use calibrant::study::SurfaceSettings;
 use nalgebra::Vector3;
 
 fn parse(text: &str) -> Experiment {
