@@ -31,7 +31,7 @@ pub(crate) fn design(design: &Design) -> String {
     if !reached.is_empty() {
         text.push_str(&format!("  the motion goes to its limits of {reached}\n"));
     }
-    text + "\n" + &wrapped(&design.statement()) + "\n"
+    text + "\n" + &wrapped(&design.statement())
 }
 
 fn criterion(design: &Design) -> String {
@@ -46,8 +46,6 @@ fn criterion(design: &Design) -> String {
 }
 
 fn starts(design: &Design) -> String {
-    let best = design.starts.iter().map(|start| start.value).fold(f64::INFINITY, f64::min);
-    let near = |value: f64| design.criterion.gap(value, best).abs() < 1e-3;
     let all = design.starts.len();
     if all == 0 {
         return String::new();
@@ -56,7 +54,7 @@ fn starts(design: &Design) -> String {
         "  {all} start{}, {} converged, {} of them to within 0.1 % of the best; {} iterations\n",
         if all == 1 { "" } else { "s" },
         design.starts_converged(),
-        design.starts.iter().filter(|start| near(start.value)).count(),
+        design.starts_at_best(),
         design.iterations
     )
 }

@@ -23,7 +23,7 @@ pub(super) struct Found {
 }
 
 /// Values that differ by less than this, relatively, are equal.
-const EQUAL: f64 = 1e-7;
+const EQUAL: f64 = 1e-9;
 
 /// Searches the best motion. `initial` is the first start of every axis, `inside` an admissible motion at a relative distance `slack` from every limit.
 pub(super) fn search(

@@ -67,14 +67,12 @@ impl Design {
     }
 
     fn uncertified(&self) -> String {
-        let best = self.starts.iter().map(|start| start.value).fold(f64::INFINITY, f64::min);
-        let near = |value: f64| self.criterion.gap(value, best).abs() < 1e-3;
-        let agree = self.starts.iter().filter(|start| near(start.value)).count();
         match self.starts.len() {
             0 => "No lower bound was computed, so a better motion cannot be ruled out.".into(),
             starts => format!(
-                "This is the best of {starts} starts, {agree} of which ended here (within 0.1 %). No lower bound was computed, so a better motion cannot \
-                 be ruled out."
+                "This is the best of {starts} starts, {} of which ended there (within 0.1 %). No lower bound was computed, so a better motion cannot \
+                 be ruled out.",
+                self.starts_at_best()
             ),
         }
     }

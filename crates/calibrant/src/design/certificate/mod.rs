@@ -1,36 +1,38 @@
 //! The certificate: how much better any admissible motion could be.
 
+mod conic;
+mod motion_variance;
+mod polynomial;
+mod reach;
+mod relaxation;
+
 // Clarabel's semidefinite cone calls BLAS and LAPACK by their Fortran names: the linker finds them here
 use lapack_over_nalgebra as _;
 
-#[cfg(test)]
-mod tests {
-    use clarabel::algebra::CscMatrix;
-    use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SolverStatus, SupportedConeT};
+use crate::motion::{AxisLimits, IntervalSums};
 
-    #[test]
-    fn a_semidefinite_program_is_solved() {
-        // the largest t with A − t I ⪰ 0 is the smallest eigenvalue of A; size 5 takes the general code path
-        let size = 5;
-        let (mut rows, mut values, mut b) = (Vec::new(), Vec::new(), Vec::new());
-        for j in 0..size {
-            for i in 0..=j {
-                let scale = if i == j { 1.0 } else { std::f64::consts::SQRT_2 };
-                if i == j {
-                    rows.push(b.len());
-                    values.push(1.0);
-                }
-                b.push(scale * (1.0 / (1.0 + (i + j) as f64)));
-            }
-        }
-        let column = rows.len();
-        let a = CscMatrix::new(b.len(), 1, vec![0, column], rows, values);
-        let settings = DefaultSettings { verbose: false, ..DefaultSettings::default() };
-        let cones = [SupportedConeT::PSDTriangleConeT(size)];
-        let mut solver =
-            DefaultSolver::new(&CscMatrix::zeros((1, 1)), &[-1.0], &a, &b, &cones, settings).expect("valid");
-        solver.solve();
-        assert_eq!(solver.solution.status, SolverStatus::Solved);
-        assert!((solver.solution.x[0] - 3.287_928_772_171_575e-6).abs() < 1e-8, "{}", solver.solution.x[0]);
-    }
+/// One axis of a chain of intervals of equal duration.
+#[derive(Debug, Clone)]
+pub(crate) struct AxisChain {
+    /// Duration of an interval, s.
+    pub(crate) interval_s: f64,
+    /// Samples of each interval.
+    pub(crate) sums: Vec<IntervalSums>,
+    /// The limits; they hold for all t.
+    pub(crate) limits: AxisLimits,
+    /// The motion variance is `V = Σ α² − (Σ α + shift)²/mass`.
+    pub(crate) shift: f64,
+    /// At least the number of samples.
+    pub(crate) mass: f64,
 }
+
+/// The states that are carried from interval to interval.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct States {
+    velocity: bool,
+    displacement: bool,
+    sum: bool,
+}
+
+#[cfg(test)]
+mod tests;
