@@ -1,11 +1,15 @@
 //! Designs that look real: a swinging motion in place of the optimum, evaluated as the solver would.
 
-use super::{design, information, motion, sensor};
-use design::{Certificate, Design, DesignProblem, DesignSettings, DesignStatus, Evaluation, StartOutcome};
+use super::{design, information, motion, sensor, simulate};
+use design::{
+    Certificate, Design, DesignProblem, DesignStatus, Evaluation, StartOutcome, Sweep, SweepPoint,
+    SweepVariable,
+};
 use information::criterion::{AOptimality, Criterion};
 use motion::{JerkControlledMotion, KnownEnds, Limits, Rest, Trust};
 use nalgebra::{DVector, Vector3};
 use sensor::{Axis, Sensor, SensorParameters};
+use simulate::{Purpose, initial_motion, stream};
 
 /// The report's sensor on an arm with limits on everything.
 pub(crate) fn arm() -> Limits {
@@ -61,8 +65,9 @@ pub(crate) fn swing(problem: &DesignProblem<'_>, periods: [f64; 3]) -> Evaluatio
 
 /// A design of this problem with a certificate and so many starts.
 pub(crate) fn design_of(problem: &DesignProblem<'_>, starts: usize) -> Design {
-    let settings = DesignSettings { starts: 1, ..DesignSettings::default() };
-    let found = design::design(problem, &settings, &|_| ()).expect("a bounded problem");
+    let limits = problem.effective_limits();
+    let random = initial_motion(10, 1.0, problem.sensor.axes, &limits, &mut stream(1, Purpose::Motion, 0));
+    let initial = design::evaluate(problem, &random.expect("valid")).expect("a valid setting");
     let optimal = swing(problem, [1.0, 2.0, 1.0]);
     let sd = optimal.sd();
     let starts = (0..starts)
@@ -90,6 +95,38 @@ pub(crate) fn design_of(problem: &DesignProblem<'_>, starts: usize) -> Design {
         optimal,
         starts,
         iterations: 312,
-        ..found
+        status: DesignStatus::Converged,
+        criterion: problem.criterion.clone(),
+        parameters: problem.sensor.parameter_list().describe(problem.sensor, &problem.at),
+        initial,
+        limits,
+    }
+}
+
+/// Designs over the displacement allowed, one of which is impossible and one unfinished.
+pub(crate) fn sweep(sensor: &Sensor) -> Sweep {
+    let asked = [0.1, 0.5, 1.0, 2.0, 5.0, 10.0];
+    let points = asked.iter().map(|&asked| {
+        let limits = Limits { displacement_m: Some(Vector3::repeat(asked)), ..arm() };
+        let problem = problem(sensor, &limits);
+        let mut design = design_of(&problem, 3);
+        design.optimal = swing(&problem, [2.0; 3]);
+        let sd = design.optimal.sd();
+        if let Some(certificate) = &mut design.certificate {
+            certificate.sd_lower_bound = sd.iter().map(|sd| sd * 0.97).collect();
+        }
+        if asked == 1.0 {
+            design.status = DesignStatus::IterationLimit;
+        }
+        let outcome = if asked == 0.1 { Err("the limits <clash>".to_string()) } else { Ok(design) };
+        SweepPoint { asked, value: asked, intervals: 10, outcome }
+    });
+    let limits = arm();
+    let problem = problem(sensor, &limits);
+    Sweep {
+        variable: SweepVariable::Displacement,
+        criterion: problem.criterion.clone(),
+        parameters: sensor.parameter_list().describe(sensor, &problem.at),
+        points: points.collect(),
     }
 }

@@ -1,6 +1,8 @@
 //! Reports of made-up results, to look at: `cargo run --example report_gallery -- DIRECTORY`.
 
-use calibrant::report::{About, calibration_report, design_report, study_report};
+use calibrant::report::{
+    About, calibration_report, design_report, evaluation_report, study_report, sweep_report,
+};
 use calibrant::{design, estimate, information, motion, sensor, simulate, study};
 use std::path::PathBuf;
 
@@ -62,6 +64,14 @@ fn main() -> std::io::Result<()> {
     let problem = designs::problem(&sensor, &limits);
     let design = designs::design_of(&problem, 30);
     write("design.html", design_report(&design, &about("Design for the report's sensor", "–", 101)))?;
+
+    let own = designs::swing(&problem, [1.0; 3]).motion;
+    let assessment = design::assess(&problem, &own, Ok(design)).expect("a valid setting");
+    write(
+        "evaluation.html",
+        evaluation_report(&assessment, &about("Is my motion any good?", "mine.csv", 101)),
+    )?;
+    write("sweep.html", sweep_report(&designs::sweep(&sensor), &about("Displacement", "–", 101)))?;
 
     let case = fakes::motion_case(3, 20, 10_000.0, 9);
     write(

@@ -1,7 +1,6 @@
 //! The limits and how far a motion uses them.
 
-use crate::design::{LimitKind, limit_use};
-use crate::motion::{JerkControlledMotion, Limits};
+use crate::design::{LimitKind, LimitUse};
 use crate::report::number;
 use crate::report::table::{Cell, Table};
 
@@ -9,16 +8,11 @@ use crate::report::table::{Cell, Table};
 const ACTIVE: f64 = 0.9999;
 
 /// One row for each limit of each axis, at the time when the motion is worst.
-pub(in crate::report) fn limit_table(
-    limits: &Limits,
-    axes: usize,
-    name: &str,
-    motion: &JerkControlledMotion,
-) -> String {
+pub(in crate::report) fn limit_table(uses: &[LimitUse], name: &str) -> String {
     let reached = format!("largest of the {name}");
     let columns = ["limit", "axis", "unit", "allowed", reached.as_str(), "at time (s)", "used"];
     let mut table = Table::new("", &columns);
-    let mut rows = limit_use(limits, axes, motion);
+    let mut rows = uses.to_vec();
     rows.sort_by_key(|found| (found.kind, found.axis));
     if rows.is_empty() {
         return "<p>There are no limits.</p>".to_string();

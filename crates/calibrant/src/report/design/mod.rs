@@ -6,8 +6,9 @@ pub(super) mod starts;
 mod verdict;
 
 pub(super) use limits::limit_table;
-pub(super) use promised::{criterion_table, promised_table, times};
-pub(super) use verdict::scaling;
+pub(super) use promised::{above, promised_table, times};
+pub(super) use starts::status;
+pub(super) use verdict::{scaling, undetermined_items, violation};
 
 use super::About;
 use super::figure::{
@@ -15,8 +16,9 @@ use super::figure::{
     velocity_and_displacement,
 };
 use super::html::{Page, escape, facts};
-use crate::design::Design;
+use crate::design::{Design, limit_use};
 use crate::sensor::{Axis, Parameter};
+use promised::criterion_table;
 use verdict::verdict;
 
 /// A design as one HTML file: the certificate in words, what the motion promises beside the initial one, the motions with their limits,
@@ -71,12 +73,14 @@ pub fn design_report(design: &Design, about: &About) -> String {
         page.push(figure.html());
     }
     page.subsection("Limits and how far they are used");
-    page.push(limit_table(&design.limits, axes.len(), "optimal motion", &design.optimal.motion));
+    page.push(limit_table(&limit_use(&design.limits, axes.len(), &design.optimal.motion), "optimal motion"));
 
     page.section("Confidence", "How certain the parameters will be, and which errors come together.");
-    if let Some(figure) =
-        confidence_ellipses(&design.parameters, ("initial", &design.initial), ("optimal", &design.optimal))
-    {
+    if let Some(figure) = confidence_ellipses(
+        &design.parameters,
+        ("initial", &design.initial),
+        Some(("optimal", &design.optimal)),
+    ) {
         page.push(figure.html());
     }
     match &design.optimal.covariance {

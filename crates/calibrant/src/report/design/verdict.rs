@@ -2,7 +2,7 @@
 
 use super::axes;
 use super::promised::{above, times};
-use crate::design::{Certificate, Design, DesignStatus, Evaluation, limit_use};
+use crate::design::{Certificate, Design, DesignStatus, Evaluation, LimitUse, limit_use};
 use crate::information::Criterion;
 use crate::motion::Limits;
 use crate::report::About;
@@ -199,20 +199,20 @@ pub(in crate::report) fn undetermined_items(evaluation: &Evaluation) -> Vec<Stri
 }
 
 /// One item for each limit that a motion breaks.
-pub(in crate::report) fn violations(limits: &Limits, axes: usize, evaluation: &Evaluation) -> Vec<String> {
-    limit_use(limits, axes, &evaluation.motion)
-        .into_iter()
-        .filter(|found| found.is_violated())
-        .map(|found| {
-            let unit = found.kind.unit();
-            format!(
-                "{} of axis {}: {} {unit} at {} s, allowed {} {unit}",
-                found.kind.name(),
-                found.axis,
-                number::significant(found.value, 4),
-                number::short(found.time_s),
-                number::short(found.limit)
-            )
-        })
-        .collect()
+fn violations(limits: &Limits, axes: usize, evaluation: &Evaluation) -> Vec<String> {
+    let uses = limit_use(limits, axes, &evaluation.motion);
+    uses.iter().filter(|found| found.is_violated()).map(violation).collect()
+}
+
+/// A broken limit in words.
+pub(in crate::report) fn violation(found: &LimitUse) -> String {
+    let unit = found.kind.unit();
+    format!(
+        "{} of axis {}: {} {unit} at {} s, allowed {} {unit}",
+        found.kind.name(),
+        found.axis,
+        number::significant(found.value, 4),
+        number::short(found.time_s),
+        number::short(found.limit)
+    )
 }

@@ -16,7 +16,7 @@ const SAME_SIZE: f64 = 3.0;
 pub(in crate::report) fn confidence_ellipses(
     parameters: &[Parameter],
     before: (&str, &Evaluation),
-    after: (&str, &Evaluation),
+    after: Option<(&str, &Evaluation)>,
 ) -> Option<Figure> {
     let pairs: Vec<(Axis, usize, usize)> = Axis::ALL
         .into_iter()
@@ -28,9 +28,10 @@ pub(in crate::report) fn confidence_ellipses(
     let block = |evaluation: &Evaluation, i: usize, j: usize| {
         evaluation.covariance.as_ref().and_then(|c| factor(c, i, j))
     };
+    let after_name = after.map_or("", |after| after.0);
     let (mut together, mut alone, mut magnified) = (Vec::new(), Vec::new(), false);
     for &(axis, i, j) in &pairs {
-        let (old, new) = (block(before.1, i, j), block(after.1, i, j));
+        let (old, new) = (block(before.1, i, j), after.and_then(|after| block(after.1, i, j)));
         let Some(largest) = old.or(new) else { continue };
         let units = units(parameters, i, j, &largest);
         let mut panel = panel(format!("axis {axis}"), units);
@@ -38,17 +39,17 @@ pub(in crate::report) fn confidence_ellipses(
             panel = panel.with(ellipse(before.0, colour::BLUE, 1.6, &old, units));
         }
         if let Some(new) = new {
-            panel = panel.with(ellipse(after.0, colour::VERMILLION, 2.2, &new, units));
+            panel = panel.with(ellipse(after_name, colour::VERMILLION, 2.2, &new, units));
         }
         together.push(panel.with(centre()));
         if let (Some(old), Some(new)) = (old, new) {
             let own = self::units(parameters, i, j, &new);
             let ratio = (extent(&old).x / extent(&new).x).max(extent(&old).y / extent(&new).y);
             magnified |= ratio > SAME_SIZE;
-            let title = format!("axis {axis}, {} alone", after.0);
+            let title = format!("axis {axis}, {after_name} alone");
             alone.push(
                 self::panel(title, own)
-                    .with(ellipse(after.0, colour::VERMILLION, 2.2, &new, own))
+                    .with(ellipse(after_name, colour::VERMILLION, 2.2, &new, own))
                     .with(centre()),
             );
         }
@@ -64,7 +65,7 @@ pub(in crate::report) fn confidence_ellipses(
         together.append(&mut alone);
         caption.push_str(&format!(
             " The two differ so much in size that the {} one is shown again by itself, magnified: mind its axes.",
-            after.0
+            after_name
         ));
     }
     Some(

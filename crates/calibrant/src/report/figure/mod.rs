@@ -17,6 +17,7 @@ mod residuals;
 mod sphere;
 mod starts;
 mod surface;
+mod sweep;
 mod thin;
 mod unit;
 
@@ -31,6 +32,7 @@ pub(super) use residuals::{autocorrelations, histograms, residuals_over_time};
 pub(super) use sphere::hold_directions;
 pub(super) use starts::start_values;
 pub(super) use surface::trace_map;
+pub(super) use sweep::sweep_curves;
 pub(super) use unit::DisplayUnit;
 
 use super::html::escape;

@@ -1,6 +1,7 @@
 //! Initial against optimal motions over many sensors: the report's chapter 4.
 
 use super::settings::settings;
+use crate::design::limit_use;
 use crate::report::design::{axes, limit_table, times};
 use crate::report::figure::{
     DisplayUnit, Drawn, absolute_errors, confidence_ellipses, jerk_and_acceleration, optimal_motions, traces,
@@ -66,13 +67,13 @@ pub(super) fn chapter(page: &mut Page, study: &DesignStudy, chapter: &Chapter) {
         [Drawn::before("initial", &design.initial.motion), Drawn::after("optimal", &design.optimal.motion)];
     page.push(jerk_and_acceleration(chapter.motion, &motions, axes, &study.limits).html());
     page.push(velocity_and_displacement(&motions, axes, &study.limits).html());
-    page.push(limit_table(&study.limits, axes.len(), "optimal motion", &design.optimal.motion));
+    page.push(limit_table(&limit_use(&study.limits, axes.len(), &design.optimal.motion), "optimal motion"));
     if study.motions_shown > 1 {
         page.push(optimal_motions(chapter.motions, study, axes).html());
     }
     page.push(traces(chapter.traces, study).html());
     page.push(absolute_errors(chapter.errors, study).html());
-    let (initial, optimal) = (("initial", &design.initial), ("optimal", &design.optimal));
+    let (initial, optimal) = (("initial", &design.initial), Some(("optimal", &design.optimal)));
     if let Some(figure) = confidence_ellipses(&study.parameters, initial, optimal) {
         page.push(figure.html());
     }
