@@ -9,9 +9,10 @@ use calibrant::Error;
 use calibrant::design::{Design, DesignProblem, DesignSettings, DesignStatus, design};
 use calibrant::error::Complaint;
 use calibrant::io::{
-    CriterionLetter, EarlierCalibration, Experiment, design_json, read_calibration, write_dense_motion,
-    write_design, write_motion,
+    CriterionLetter, EarlierCalibration, Experiment, Prior, design_json, read_calibration, write_atomically,
+    write_dense_motion, write_design, write_motion,
 };
+use calibrant::report::{About, design_report, number};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -108,6 +109,38 @@ impl Job {
         self.experiment.design_problem(&self.earlier).map_err(|error| in_file(error, file))
     }
 
+    /// What the report says beside the design.
+    fn about(&self, arguments: &Arguments, problem: &DesignProblem<'_>, title: String) -> About {
+        let fact = |label: &str, text: String| (label.to_owned(), text);
+        let mut facts = vec![
+            fact("Experiment", arguments.experiment.display().to_string()),
+            fact(
+                "Motion",
+                format!(
+                    "{} intervals of {} s, {} Hz, trust {}",
+                    problem.intervals,
+                    number::short(problem.interval_s),
+                    number::short(problem.rate_hz),
+                    problem.trust.name()
+                ),
+            ),
+            fact("Starts", format!("{}, seed {}", self.settings.starts, self.settings.seed)),
+        ];
+        for path in &arguments.from {
+            facts.push(fact("Known before", path.display().to_string()));
+        }
+        if self.experiment.calibrate.prior == Prior::Datasheet {
+            facts.push(fact("Prior", "datasheet".into()));
+        }
+        About {
+            title,
+            facts,
+            elapsed: Some(format!("{:.1} s", self.started.elapsed().as_secs_f64())),
+            program: format!("calibrant {}", env!("CARGO_PKG_VERSION")),
+            ..About::default()
+        }
+    }
+
     /// Solves the problem, with a progress bar over its starts.
     fn design(&self, problem: &DesignProblem<'_>) -> calibrant::Result<Design> {
         let bar = console::progress((self.settings.starts * problem.parts().len()) as u64, "starts");
@@ -140,7 +173,12 @@ fn run_design(arguments: &Arguments, job: &Job, problem: &DesignProblem<'_>) -> 
         console::print(&design_json(&design, problem, &job.settings));
     } else {
         console::print(&table::design(&design));
-        console::print(&format!("\n{}\n", arguments.output.join("motion.csv").display()));
+        let output = &arguments.output;
+        console::print(&format!(
+            "\n{}\n{}\n",
+            output.join("motion.csv").display(),
+            output.join("report.html").display()
+        ));
     }
     Ok(exit_of(&design))
 }
@@ -158,7 +196,10 @@ fn write(
         write_dense_motion(&output.join("motion_dense.csv"), &design.optimal.motion, axes, rate_hz)?;
     }
     write_design(&output.join("design.json"), design, problem, &job.settings)?;
-    write_motion(&output.join("motion.csv"), &design.optimal.motion, axes)
+    write_motion(&output.join("motion.csv"), &design.optimal.motion, axes)?;
+    let about = job.about(arguments, problem, "Design of a motion".into());
+    let html = design_report(design, &about);
+    write_atomically(&output.join("report.html"), |out| out.write_all(html.as_bytes()))
 }
 
 /// The exit status of a design, with what is to be said of it.

@@ -76,11 +76,10 @@ fn check_simulable(sensor: &Sensor, file: &Path) -> calibrant::Result<()> {
 pub(crate) fn commanded_motion(
     motion: Option<&Path>,
     plan: &MotionPlan,
-    sensor: &Sensor,
+    axes: usize,
     limits: &Limits,
     seed: u64,
 ) -> calibrant::Result<JerkControlledMotion> {
-    let (axes, limits) = (sensor.axes, &limits.within_range(sensor.range_mps2));
     if let Some(path) = motion {
         return read_motion(path, axes);
     }
@@ -112,7 +111,8 @@ fn simulate_motion(
     seed: u64,
 ) -> calibrant::Result<usize> {
     let sensor = &experiment.sensor;
-    let motion = commanded_motion(arguments.motion.as_deref(), plan, sensor, &experiment.limits, seed)?;
+    let limits = experiment.limits.within_range(sensor.range_mps2);
+    let motion = commanded_motion(arguments.motion.as_deref(), plan, sensor.axes, &limits, seed)?;
     let mut rng = stream(seed, Purpose::Sensor, 0);
     let truth = draw_sensor(sensor, &mut rng);
     let happened = match plan.trust {

@@ -157,17 +157,12 @@ fn widest(limits: &AxisLimits, times: &[f64]) -> Option<Vec<f64>> {
 
 /// Any admissible motion, exactly: the convex program of the region, without an objective.
 fn any(limits: &AxisLimits, times: &[f64]) -> Option<Vec<f64>> {
-    let region = Region::new(*limits, times);
+    let mut region = Region::new(*limits, times);
     let n = times.len() - 1;
     if !region.size.is_finite() {
-        // nothing but prescribed ends and rest
-        let line = |i: usize| {
-            let (start, end) = (limits.start.or(limits.end)?, limits.end.or(limits.start)?);
-            Some(start + (end - start) * i as f64 / n as f64)
-        };
-        let nodes: Vec<f64> = (0..=n).map(|i| line(i).unwrap_or(0.0)).collect();
-        let rests = limits.rest != Rest::Both || n > 1;
-        return rests.then_some(nodes);
+        // nothing but prescribed ends, and rest
+        let ends = [limits.start, limits.end].into_iter().flatten();
+        region.size = ends.fold(1.0, |size: f64, end| size.max(end.abs()));
     }
     let mut watch = Watch::default();
     // watched intervals are few and are found soon
@@ -302,7 +297,8 @@ fn clash(axis: Axis, limits: &AxisLimits, times: &[f64]) -> Complaint {
     let (message, help) = match names.split_last() {
         Some((last, rest)) if !rest.is_empty() && any(limits, times).is_none() => (
             format!(
-                "the limits admit no motion of {duration} s along axis {axis}: its limits on {} and {last} clash, though without any one of them there is a motion",
+                "the limits admit no motion of {duration} s in intervals of {} s along axis {axis}: its limits on {} and {last} clash, though without any one of them there is a motion",
+                times[1] - times[0],
                 rest.join(", ")
             ),
             format!("loosen one of {}, or take more time", keys.join(", ")),

@@ -55,7 +55,7 @@ fn a_minimal_clashing_set_is_named() {
     let limits = AxisLimits {
         acceleration: Some(10.0),
         jerk: Some(1.0),
-        velocity: Some(2.0),
+        velocity: Some(10.0),
         displacement: Some(1e6),
         start: Some(9.0),
         ..AxisLimits::default()
