@@ -83,5 +83,5 @@ pub(super) const CASES: &[Case] = &[
 pub(super) const HOLDS_CASES: &[Case] = &[(
     r#"gauge = "upper""#,
     r#"gauge = "upper"⏎[study.surface]"#,
-    "line 13, column 1: `study.surface`: this needs a [motion] (take it out, or describe a motion)",
+    "line 12, column 1: `study.surface`: this needs a [motion] (take it out, or describe a motion)",
 )];
