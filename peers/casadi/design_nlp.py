@@ -26,10 +26,13 @@ OPTIONS = {
     "ipopt.sb": "yes",
     "print_time": False,
     "error_on_fail": False,
+    "show_eval_warnings": False,  # the line search tries motions where F is singular to rounding; IPOPT backs off
     "ipopt.linear_solver": "mumps",
     "ipopt.nlp_scaling_method": "none",
-    "ipopt.max_iter": 500,
+    "ipopt.max_iter": 300,
     "ipopt.tol": 1e-8,
+    "ipopt.fast_step_computation": "yes",
+    "ipopt.mu_init": 1.0,  # a little better than 0.1 here, in time and in optima found; \"adaptive\" takes twice as long
 }
 
 
@@ -109,7 +112,7 @@ def axes_information(problem, axes, whole, stimulus, spread):
 
 
 class Program:
-    """The nonlinear program of a problem: unknowns x = [nodes/unit, |u|/unit, t, L], objective, constraints, their bounds."""
+    """The nonlinear program of a problem: unknowns x = [nodes, velocities, displacements, |u|, t, L], objective, constraints, their bounds."""
 
     def __init__(self, problem, options=None):
         self.problem = problem
@@ -131,6 +134,12 @@ class Program:
         factors = dict(zip(p.limits, (1.0, dt, 1.0, 1 / dt, 1 / dt**2)))
         return np.min([limit * factors[key] for key, limit in p.limits.items() if limit is not None], axis=0)
 
+    def _largest_step(self):
+        """Bounds of |a_{i+1} - a_i| in units: v is a quadratic and d a cubic within +-limit, so |a| <= 8 v/dt, 96 d/dt^2 (Markov)."""
+        p, dt = self.problem, self.problem.interval_s
+        factors = dict(zip(p.limits, (2.0, dt, np.inf, 16 / dt, 192 / dt**2)))
+        return np.min([limit * factors[key] for key, limit in p.limits.items() if limit is not None], axis=0) / self.unit
+
     def _unknown(self, name, count, low=-np.inf, high=np.inf):
         x = ca.SX.sym(name, count)
         self.unknowns.append(x)
@@ -150,21 +159,45 @@ class Program:
         high = np.inf if limit is None else np.repeat(limit / self.unit, p.intervals + 1)
         x = ca.reshape(self._unknown("a", (p.intervals + 1) * p.axes, -high, high), p.intervals + 1, p.axes)
         self.nodes = x * ca.repmat(ca.DM(self.unit).T, p.intervals + 1, 1)
-        for limit, rows in p.limited(p.times_per_interval):
-            if limit is p.limits["acceleration_mps2"]:
-                continue
-            for axis in range(p.axes):
-                share = rows * (self.unit[axis] / limit[axis])
-                self._constrain(ca.mtimes(ca.sparsify(ca.DM(share)), x[:, axis]), -1, 1)
-        if p.rest_at_end:
-            for axis in range(p.axes):
-                self._constrain(ca.mtimes(ca.DM(p.end_velocity()).T, x[:, axis]) / p.interval_s, 0, 0)
+        for key, rows in zip(("jerk_mps3", "intercept_mps2"), p.lines()):
+            if p.limits[key] is not None:
+                for axis in range(p.axes):
+                    share = rows * (self.unit[axis] / p.limits[key][axis])
+                    self._constrain(ca.mtimes(ca.sparsify(ca.DM(share)), x[:, axis]), -1, 1)
+        # velocity, and displacement where it is limited, as unknowns at the nodes: rows stay short
+        self.orders = 2 if p.limits["displacement_m"] is not None else 1
+        self.orders *= p.limits["velocity_mps"] is not None or p.rest_at_end or self.orders == 2
+        for axis in range(p.axes * (self.orders > 0)):
+            self._path(x[:, axis], axis)
         self.size = self._jerk_size(x) if p.noisy and p.ratio > 0 else ca.SX.zeros(p.intervals, p.axes)
+
+    def _path(self, a, axis):
+        """Velocity and displacement of an axis from rest, in units of unit dt and unit dt^2: unknowns at the nodes, limits between them."""
+        p = self.problem
+        step = self.unit[axis] * p.interval_s ** np.arange(1, self.orders + 1)
+        given = [p.limits["velocity_mps"], p.limits["displacement_m"]][: self.orders]
+        most = [np.inf if limit is None else limit[axis] / unit for limit, unit in zip(given, step)]
+        high = np.repeat(most, p.intervals)
+        if p.rest_at_end:
+            high[p.intervals - 1] = 0
+        state = ca.reshape(self._unknown(f"path{axis}", len(high), -high, high), p.intervals, self.orders)
+        state = ca.vertcat(ca.SX.zeros(1, self.orders), state)
+        for i in range(p.intervals):
+            for l in np.arange(1, p.times_per_interval + 1) / p.times_per_interval:
+                rise = a[i + 1] - a[i]
+                v = state[i, 0] + l * a[i] + l**2 / 2 * rise
+                d = state[i, 1] + l * state[i, 0] + l**2 / 2 * a[i] + l**3 / 6 * rise if self.orders == 2 else None
+                for order, reached in enumerate([v, d][: self.orders]):
+                    if l == 1:
+                        self._constrain(reached - state[i + 1, order], 0, 0)
+                    elif np.isfinite(most[order]):
+                        self._constrain(reached / most[order], -1, 1)
 
     def _jerk_size(self, x):
         """w >= |u|, which is not smooth where it matters: an interval of constant acceleration is the quietest."""
         p = self.problem
-        w = ca.reshape(self._unknown("w", p.intervals * p.axes, 0), p.intervals, p.axes)
+        high = np.repeat(self._largest_step(), p.intervals)
+        w = ca.reshape(self._unknown("w", p.intervals * p.axes, 0, high), p.intervals, p.axes)
         step = x[1:, :] - x[:-1, :]
         self._constrain(ca.vec(w - step), 0, np.inf)
         self._constrain(ca.vec(w + step), 0, np.inf)
@@ -214,6 +247,9 @@ class Program:
         p = self.problem
         value = p.value(motion)
         parts = [(motion / self.unit).T.ravel()]
+        for axis in range(p.axes):
+            states = [rows @ motion[:, axis] / self.unit[axis] for rows in p.path(1)]
+            parts += [state / p.interval_s**order for order, state in enumerate(states[: self.orders], start=1)]
         if p.noisy and p.ratio > 0:
             parts.append((np.abs(np.diff(motion, axis=0)) / self.unit).T.ravel() + 0.01)
         if p.letter == "M":

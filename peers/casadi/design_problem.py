@@ -162,13 +162,15 @@ class DesignProblem:
             v, d = velocity[-1], displacement[-1]
         return np.array(velocity), np.array(displacement)
 
+    def lines(self):
+        """Rows that take the nodes of one axis to the jerks u_i and the intercepts x_i = a_i - u_i tau_i."""
+        nodes = np.eye(self.intervals + 1)
+        jerk = np.diff(nodes, axis=0) / self.interval_s
+        return jerk, nodes[:-1] - jerk * (np.arange(self.intervals) * self.interval_s)[:, None]
+
     def limited(self, times_per_interval):
         """Pairs (limit per axis, rows): |rows a| <= limit, for each limit given."""
-        n = self.intervals
-        jerk = np.diff(np.eye(n + 1), axis=0) / self.interval_s
-        intercept = np.eye(n + 1)[:-1] - jerk * (np.arange(n) * self.interval_s)[:, None]
-        velocity, displacement = self.path(times_per_interval)
-        rows = (np.eye(n + 1), jerk, intercept, velocity, displacement)
+        rows = (np.eye(self.intervals + 1), *self.lines(), *self.path(times_per_interval))
         return [(limit, part) for limit, part in zip(self.limits.values(), rows) if limit is not None]
 
     def end_velocity(self):
