@@ -64,7 +64,7 @@ def random_criterion(rng, axes, model):
     if letter == "c":
         chosen = rng.choice(names, size=rng.integers(1, len(names) + 1), replace=False)
         weights = {str(name): rounded(10 ** rng.uniform(-1, 1)) for name in sorted(chosen)}
-    if letter != "I" and rng.random() < 0.5:
+    if letter not in "cI" and rng.random() < 0.5:  # c has its weights, I its units
         scale = [0.1 if name.startswith("bias") else 0.005 for name in names]
     return {
         "letter": letter,
