@@ -1,6 +1,6 @@
 """Small random design problems: do calibrant's answers hold up, and is a lower bound ever above a value that exists?
 
-Two to six intervals (three and more for the full model), one axis or three, every combination of limits that keeps the motion's variance bounded, trust known and noisy,
+Two to six intervals (three and more for the full model), one axis or three, every combination of limits that bounds the acceleration, trust known and noisy,
 every criterion, nominal matrices with and without cross-axis sensitivity. The file is that of `design.py`, without `calibrant`.
 
 Usage: random_designs.py SEED COUNT OUT.json                            writes problems
@@ -28,10 +28,10 @@ def rounded(value):
 
 
 def random_limits(rng, interval_s, intervals):
-    """At least one limit, not the intercept alone: that one leaves the first jerk free. Sizes at which each may bind."""
+    """Limits that bound the acceleration: jerk needs the intercept's and the other way round. Sizes at which each may bind."""
     while True:
-        given = rng.random(len(LIMITS)) < 0.45
-        if given.any() and not (given[2] and given.sum() == 1):
+        acceleration, jerk, intercept, velocity, displacement = given = rng.random(len(LIMITS)) < 0.45
+        if acceleration or velocity or displacement or (jerk and intercept):
             break
     a_max = 10 ** rng.uniform(0.3, 1.7)
     duration = interval_s * intervals
