@@ -2,6 +2,7 @@
 
 use crate::{Exit, console, place};
 use calibrant::Error;
+use calibrant::design::initial_motion;
 use calibrant::error::Complaint;
 use calibrant::io::{
     Experiment, HoldsPlan, MotionPlan, Plan, read_motion, write_motion, write_recording, write_truth,
@@ -9,8 +10,7 @@ use calibrant::io::{
 use calibrant::motion::{JerkControlledMotion, KnownEnds, Limits, Trust};
 use calibrant::sensor::{ReadingUnit, Sensor};
 use calibrant::simulate::{
-    HoldsSimulation, Purpose, draw_sensor, initial_motion, perturb, sample_times, simulate_holds,
-    simulate_recording, stream,
+    HoldsSimulation, Purpose, draw_sensor, perturb, sample_times, simulate_holds, simulate_recording, stream,
 };
 use nalgebra::Vector3;
 use std::path::{Path, PathBuf};
@@ -76,10 +76,11 @@ fn check_simulable(sensor: &Sensor, file: &Path) -> calibrant::Result<()> {
 pub(crate) fn commanded_motion(
     motion: Option<&Path>,
     plan: &MotionPlan,
-    axes: usize,
+    sensor: &Sensor,
     limits: &Limits,
     seed: u64,
 ) -> calibrant::Result<JerkControlledMotion> {
+    let (axes, limits) = (sensor.axes, &limits.within_range(sensor.range_mps2));
     if let Some(path) = motion {
         return read_motion(path, axes);
     }
@@ -111,7 +112,7 @@ fn simulate_motion(
     seed: u64,
 ) -> calibrant::Result<usize> {
     let sensor = &experiment.sensor;
-    let motion = commanded_motion(arguments.motion.as_deref(), plan, sensor.axes, &experiment.limits, seed)?;
+    let motion = commanded_motion(arguments.motion.as_deref(), plan, sensor, &experiment.limits, seed)?;
     let mut rng = stream(seed, Purpose::Sensor, 0);
     let truth = draw_sensor(sensor, &mut rng);
     let happened = match plan.trust {

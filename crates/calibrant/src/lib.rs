@@ -54,6 +54,7 @@
 //! [`study`] compares truth and estimate over many. [`io`] and [`report`] may use all and are used by none.
 
 pub mod arrowhead;
+pub mod design;
 pub mod error;
 pub mod estimate;
 pub mod information;

@@ -10,10 +10,12 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("motion", &["error", "sensor"]),
     ("information", &["error", "sensor", "motion", "arrowhead"]),
     ("estimate", &["error", "sensor", "motion", "arrowhead", "information"]),
+    ("design", &["error", "sensor", "motion", "arrowhead", "information"]),
     ("simulate", &["error", "sensor", "motion"]),
-    ("study", &["error", "sensor", "motion", "simulate", "estimate"]),
-    ("io", &["error", "sensor", "motion", "simulate", "estimate", "study"]),
-    ("report", &["error", "sensor", "motion", "simulate", "estimate", "study"]),
+    ("design", &["error", "sensor", "motion", "arrowhead", "information", "simulate"]),
+    ("study", &["error", "sensor", "motion", "information", "simulate", "estimate", "design"]),
+    ("io", &["error", "sensor", "motion", "information", "simulate", "estimate", "design", "study"]),
+    ("report", &["error", "sensor", "motion", "information", "simulate", "estimate", "design", "study"]),
 ];
 
 fn sources(directory: &Path) -> Vec<PathBuf> {

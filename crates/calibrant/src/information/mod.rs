@@ -1,7 +1,14 @@
-//! Fisher information and covariance of the parameters, and what the data leave undetermined.
+//! Fisher information and covariance of the parameters, the criteria of optimality, and what the data leave undetermined.
 
+pub(crate) mod chain_model;
 mod covariance;
+pub mod criterion;
+mod expected;
+mod explanation;
 mod identifiability;
 
 pub use covariance::covariance;
+pub use criterion::Criterion;
+pub use expected::{InformationDerivative, Linearised, MotionInformation, PartInformation};
+pub(crate) use explanation::{MotionFacts, View, explain};
 pub use identifiability::{Undetermined, undetermined};

@@ -29,4 +29,57 @@ pub struct Limits {
     pub displacement_m: Option<Vector3<f64>>,
     /// Where the velocity is zero.
     pub rest: Rest,
+    /// Prescribed acceleration at the start, m/s².
+    pub start_acceleration_mps2: Option<Vector3<f64>>,
+    /// Prescribed acceleration at the end, m/s².
+    pub end_acceleration_mps2: Option<Vector3<f64>>,
+}
+
+impl Limits {
+    /// The same, with accelerations that a sensor of this range can report.
+    #[must_use]
+    pub fn within_range(&self, range_mps2: Option<Vector3<f64>>) -> Self {
+        let acceleration_mps2 = match (self.acceleration_mps2, range_mps2) {
+            (Some(arm), Some(range)) => Some(arm.zip_map(&range, f64::min)),
+            (arm, range) => arm.or(range),
+        };
+        Self { acceleration_mps2, ..self.clone() }
+    }
+
+    /// The limits of one axis, 0 to 2.
+    #[must_use]
+    pub fn axis(&self, k: usize) -> AxisLimits {
+        let of = |limit: &Option<Vector3<f64>>| limit.map(|limit| limit[k]);
+        AxisLimits {
+            acceleration: of(&self.acceleration_mps2),
+            jerk: of(&self.jerk_mps3),
+            intercept: of(&self.intercept_mps2),
+            velocity: of(&self.velocity_mps),
+            displacement: of(&self.displacement_m),
+            rest: self.rest,
+            start: of(&self.start_acceleration_mps2),
+            end: of(&self.end_acceleration_mps2),
+        }
+    }
+}
+
+/// The limits of one axis, SI; they hold at all times. Velocity and displacement count from rest at the origin.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct AxisLimits {
+    /// Largest acceleration.
+    pub acceleration: Option<f64>,
+    /// Largest jerk.
+    pub jerk: Option<f64>,
+    /// Largest intercept of an interval's line at t = 0.
+    pub intercept: Option<f64>,
+    /// Largest velocity.
+    pub velocity: Option<f64>,
+    /// Largest displacement.
+    pub displacement: Option<f64>,
+    /// Where the velocity is zero; the start always is.
+    pub rest: Rest,
+    /// Prescribed acceleration at the start.
+    pub start: Option<f64>,
+    /// Prescribed acceleration at the end.
+    pub end: Option<f64>,
 }

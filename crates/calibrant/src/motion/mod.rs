@@ -1,13 +1,17 @@
 //! Where the sensor is: jerk-controlled motion, how far it is trusted, static holds, gravity and the arm's limits.
 
+mod at_time;
 mod command;
 mod gravity;
 mod hold;
 mod jerk_controlled;
 mod limits;
+mod sampling;
 
+pub use at_time::MotionState;
 pub use command::{CommandedMotion, InputNoise, KnownEnds, Trust};
 pub use gravity::Gravity;
 pub use hold::Hold;
 pub use jerk_controlled::JerkControlledMotion;
-pub use limits::{Limits, Rest};
+pub use limits::{AxisLimits, Limits, Rest};
+pub use sampling::{IntervalSums, sample_times};

@@ -5,6 +5,7 @@
 
 mod about;
 mod calibration;
+mod design;
 mod figure;
 mod fit;
 mod holds;
@@ -20,4 +21,5 @@ mod tests;
 
 pub use about::About;
 pub use calibration::calibration_report;
+pub use design::design_report;
 pub use study::study_report;

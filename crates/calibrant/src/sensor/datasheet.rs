@@ -67,6 +67,8 @@ pub struct Sensor {
     pub scale_sd: Option<Vector3<f64>>,
     /// Datasheet spread of the cross-axis sensitivities (the off-diagonal entries relative to the gain; radians for small angles).
     pub cross_axis_sd: Option<f64>,
+    /// Largest stimulus that the sensor can report, per axis, m/s²: a limit of every motion.
+    pub range_mps2: Option<Vector3<f64>>,
 }
 
 impl Sensor {
@@ -84,6 +86,7 @@ impl Sensor {
             bias_sd_mps2: None,
             scale_sd: None,
             cross_axis_sd: None,
+            range_mps2: None,
         }
     }
 

@@ -8,10 +8,11 @@ mod initial_motion;
 mod population;
 mod recording;
 
+pub use crate::motion::sample_times;
 pub use holds::{HoldsSimulation, simulate_holds};
 pub use initial_motion::initial_motion;
 pub use population::draw_sensor;
-pub use recording::{perturb, sample_times, simulate_recording};
+pub use recording::{perturb, simulate_recording};
 
 use rand::SeedableRng;
 pub use rand_chacha::ChaCha8Rng as Rng;
@@ -23,12 +24,18 @@ pub enum Purpose {
     Motion,
     /// Parameters, process noise and measurement noise of a sensor.
     Sensor,
+    /// A start of the search for the best motion.
+    Start,
 }
 
 /// The random stream of item `index` for a purpose, under a seed.
 #[must_use]
 pub fn stream(seed: u64, purpose: Purpose, index: u64) -> Rng {
     let mut rng = Rng::seed_from_u64(seed);
-    rng.set_stream(2 * index + purpose as u64);
+    rng.set_stream(match purpose {
+        Purpose::Motion => 2 * index,
+        Purpose::Sensor => 2 * index + 1,
+        Purpose::Start => u64::MAX - index,
+    });
     rng
 }

@@ -6,15 +6,6 @@ use crate::sensor::{ReadingUnit, Recording, SensorParameters};
 use nalgebra::Vector3;
 use rand_distr::{Distribution, StandardNormal};
 
-/// Sample times `t_j = j/f_s` from the start of a motion to its end, both included: `M = T f_s + 1`.
-#[must_use]
-pub fn sample_times(motion: &JerkControlledMotion, rate_hz: f64) -> Vec<f64> {
-    let start = motion.times_s()[0];
-    let duration = motion.times_s()[motion.intervals()] - start;
-    let last = (duration * rate_hz * (1.0 + 1e-12)).floor() as usize;
-    (0..=last).map(|j| start + j as f64 / rate_hz).collect()
-}
-
 /// The motion that happens when this one is commanded: process noise `w_i ~ N(0, σ_u(u_i)²)` on each interval's jerk, the report's `ū_i = u_i + w_i`.
 ///
 /// Where both ends are known, the walk is drawn given that it ends where it was commanded to: the deviation at the end is taken back in proportion to

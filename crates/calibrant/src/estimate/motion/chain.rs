@@ -1,7 +1,6 @@
 //! One chain from the problem to its solution.
 
 use super::fit::{Chain, Fit, State};
-use super::model::{self, FittedNode, reading_covariance};
 use super::moments::{Positions, moments, reference};
 use super::pairs::PairSums;
 use super::undetermined::{View, explain, explain_node};
@@ -10,7 +9,10 @@ use super::{
 };
 use crate::arrowhead::Arrowhead;
 use crate::error::{Complaint, Error, Result, UndeterminedGroup};
-use crate::information;
+use crate::information::{
+    self,
+    chain_model::{self as model, FittedNode, reading_covariance},
+};
 use crate::motion::KnownEnds;
 use nalgebra::{SMatrix, SVector};
 

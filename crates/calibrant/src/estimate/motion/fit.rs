@@ -7,10 +7,10 @@
 //! Each iteration linearises at the present (p, a), factors the arrowhead and steps. Only the border is damped: for given
 //! parameters the motion is a linear problem and needs none.
 
-use super::model;
 use super::moments::Moments;
 use crate::arrowhead::{Arrowhead, Increment, Link, Undetermined};
 use crate::estimate::{CalibrationSettings, CalibrationStatus};
+use crate::information::chain_model as model;
 use nalgebra::{SMatrix, SVector};
 
 /// One chain: D readings, P = D (D + 1) parameters.

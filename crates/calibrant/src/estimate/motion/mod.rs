@@ -5,7 +5,6 @@
 
 mod chain;
 mod fit;
-mod model;
 mod moments;
 mod pairs;
 mod undetermined;
@@ -16,13 +15,11 @@ use super::{
     RecoveredMotion, statistics,
 };
 use crate::error::{Complaint, Error, NotIdentifiable, Result};
+use crate::information::chain_model::FULL_SLOTS;
 use crate::motion::{CommandedMotion, JerkControlledMotion, Trust};
 use crate::sensor::{Axis, SensorModel, SensorParameters};
 use chain::{Context, Solved, solve};
 use nalgebra::{DMatrix, Matrix3, Vector3};
-
-/// Places in the parameter list of the full chain's parameters, which are sorted by reading: bias, then row of `S`.
-const FULL_SLOTS: [usize; 12] = [0, 3, 6, 7, 1, 8, 4, 9, 2, 10, 11, 5];
 
 /// Calibrates from a motion.
 pub(super) fn calibrate(

@@ -10,6 +10,7 @@ const NOISE_MPS2: Bounds = Bounds::from(1e-7, 1e6, "m/s²");
 const NOISE_COUNTS: Bounds = Bounds::from(1e-9, 1e9, "counts");
 const BIAS_SD: Bounds = Bounds::from(0.0, 1e6, "m/s²");
 const SCALE_SD: Bounds = Bounds::from(0.0, 10.0, "");
+const RANGE: Bounds = Bounds::above(0.0, 1e9, "m/s²");
 const CROSS_AXIS_SD: Bounds = Bounds::from(0.0, 10.0, "");
 const GAIN: Bounds = Bounds::above(0.0, 1e12, "counts/(m/s²)");
 const OFFSET: Bounds = Bounds::from(-1e12, 1e12, "counts");
@@ -74,6 +75,7 @@ pub(super) fn read(section: &Section<'_>) -> Result<Sensor> {
         noise_counts: per_axis("noise_counts", &NOISE_COUNTS)?,
         bias_sd_mps2: per_axis("bias_sd_mps2", &BIAS_SD)?,
         scale_sd: per_axis("scale_sd", &SCALE_SD)?,
+        range_mps2: section.get("range_mps2").map(|entry| entry.per_axis(axes, &RANGE)).transpose()?,
         cross_axis_sd: section.get("cross_axis_sd").map(|entry| entry.number(&CROSS_AXIS_SD)).transpose()?,
     })
 }

@@ -6,18 +6,21 @@
 
 use nalgebra::{SMatrix, SVector};
 
+/// Places in the parameter list of the full chain's parameters, which are sorted by reading: bias, then row of `S`.
+pub(crate) const FULL_SLOTS: [usize; 12] = [0, 3, 6, 7, 1, 8, 4, 9, 2, 10, 11, 5];
+
 /// Entry k of `ã = (1, a)`.
 fn lifted<const D: usize>(a: &SVector<f64, D>, k: usize) -> f64 {
     if k == 0 { 1.0 } else { a[k - 1] }
 }
 
 /// The matrix `S`.
-pub(super) fn matrix<const D: usize, const P: usize>(p: &SVector<f64, P>) -> SMatrix<f64, D, D> {
+pub(crate) fn matrix<const D: usize, const P: usize>(p: &SVector<f64, P>) -> SMatrix<f64, D, D> {
     SMatrix::from_fn(|row, column| p[row * (D + 1) + 1 + column])
 }
 
 /// The reading `S a + b`.
-pub(super) fn reading<const D: usize, const P: usize>(
+pub(crate) fn reading<const D: usize, const P: usize>(
     p: &SVector<f64, P>,
     a: &SVector<f64, D>,
 ) -> SVector<f64, D> {
@@ -25,7 +28,7 @@ pub(super) fn reading<const D: usize, const P: usize>(
 }
 
 /// Parameters of a sensor without cross-axis terms.
-pub(super) fn diagonal<const D: usize, const P: usize>(
+pub(crate) fn diagonal<const D: usize, const P: usize>(
     bias: &SVector<f64, D>,
     gain: &SVector<f64, D>,
 ) -> SVector<f64, P> {
@@ -38,7 +41,7 @@ pub(super) fn diagonal<const D: usize, const P: usize>(
 }
 
 /// `Σ_ij m_ij G(a_i)ᵀ W G(a_j)` over the two nodes of an interval, with `m = (m_00, m_01, m_11)`.
-pub(super) fn information<const D: usize, const P: usize>(
+pub(crate) fn information<const D: usize, const P: usize>(
     weight: &SVector<f64, D>,
     m: [f64; 3],
     a0: &SVector<f64, D>,
@@ -60,7 +63,7 @@ pub(super) fn information<const D: usize, const P: usize>(
 }
 
 /// `Sᵀ W (m_0 G(a_0) + m_1 G(a_1))`.
-pub(super) fn coupling<const D: usize, const P: usize>(
+pub(crate) fn coupling<const D: usize, const P: usize>(
     s: &SMatrix<f64, D, D>,
     weight: &SVector<f64, D>,
     m: [f64; 2],
@@ -80,7 +83,7 @@ pub(super) fn coupling<const D: usize, const P: usize>(
 }
 
 /// `G(a_0)ᵀ r_0 + G(a_1)ᵀ r_1`.
-pub(super) fn gradient<const D: usize, const P: usize>(
+pub(crate) fn gradient<const D: usize, const P: usize>(
     a0: &SVector<f64, D>,
     r0: &SVector<f64, D>,
     a1: &SVector<f64, D>,
@@ -96,13 +99,13 @@ pub(super) fn gradient<const D: usize, const P: usize>(
 }
 
 /// A node of the chain as a fit leaves it: its acceleration and the covariance of that with the parameters.
-pub(super) struct FittedNode<const D: usize, const P: usize> {
-    pub(super) a: SVector<f64, D>,
-    pub(super) with_parameters: SMatrix<f64, D, P>,
+pub(crate) struct FittedNode<const D: usize, const P: usize> {
+    pub(crate) a: SVector<f64, D>,
+    pub(crate) with_parameters: SMatrix<f64, D, P>,
 }
 
 /// Covariance of the fitted readings at two nodes, reading by reading, from the covariance of the nodes (`one` with `other`) and of the parameters.
-pub(super) fn reading_covariance<const D: usize, const P: usize>(
+pub(crate) fn reading_covariance<const D: usize, const P: usize>(
     s: &SMatrix<f64, D, D>,
     nodes: &SMatrix<f64, D, D>,
     one: &FittedNode<D, P>,
@@ -159,13 +162,13 @@ mod tests {
         let list = ParameterList::new(3, SensorModel::Full);
         let p = parameters();
         let mut sensor = SensorParameters { bias: Vector3::zeros(), matrix: Matrix3::zeros() };
-        for (slot, value) in super::super::FULL_SLOTS.into_iter().zip(p.iter()) {
+        for (slot, value) in FULL_SLOTS.into_iter().zip(p.iter()) {
             list.quantities()[slot].add_to(&mut sensor, *value);
         }
         let a = Vector3::new(0.3, -2.0, 5.0);
         assert!((reading(&p, &a) - sensor.reading(&a)).amax() < 1e-15);
         assert_eq!(matrix::<3, 12>(&p), sensor.matrix);
-        for (k, slot) in super::super::FULL_SLOTS.into_iter().enumerate() {
+        for (k, slot) in FULL_SLOTS.into_iter().enumerate() {
             let derivative = list.quantities()[slot].derivative(&a);
             assert!((sensitivity(&a).column(k) - derivative).amax() < 1e-14);
         }

@@ -1,0 +1,153 @@
+//! An upper bound that holds whatever the solver did.
+//!
+//! Wanted: the largest `cᵀy` where every entry of y is in [−1, 1] and `b − A y ∈ K`, K a product of cones. For any z in the dual cone and any such y
+//!
+//! `cᵀy ≤ cᵀy + zᵀ(b − A y) = bᵀz + (c − Aᵀz)ᵀy ≤ bᵀz + ‖c − Aᵀz‖₁`.
+//!
+//! So the solver's z need not solve anything: it is moved into the dual cone by a shift of its eigenvalues, what remains of its equations is paid
+//! for in full, and so are the roundings of this very computation. A solver that stops early gives a looser bound, never a wrong one.
+//!
+//! # References
+//! `jansson2008`
+
+use clarabel::algebra::CscMatrix;
+use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SolverStatus, SupportedConeT};
+use nalgebra::DMatrix;
+
+/// `constant + Σ coefficient · y_column`.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Row {
+    pub(super) constant: f64,
+    pub(super) terms: Vec<(usize, f64)>,
+}
+
+/// Maximise `constant + cᵀy` over `|y_j| ≤ 1`, rows that are zero, rows that are not negative, and symmetric matrices that are positive semidefinite.
+#[derive(Debug, Default)]
+pub(super) struct MomentProgram {
+    /// Number of unknowns.
+    pub(super) columns: usize,
+    /// What is maximised.
+    pub(super) objective: Row,
+    /// Rows that are zero.
+    pub(super) zero: Vec<Row>,
+    /// Rows that are not negative.
+    pub(super) nonnegative: Vec<Row>,
+    /// Size and upper triangle, column by column.
+    pub(super) semidefinite: Vec<(usize, Vec<Row>)>,
+}
+
+/// A bound and how it came about.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct DualBound {
+    /// The bound.
+    pub(super) value: f64,
+    /// What was added for the solver's residual and for rounding; part of `value`.
+    pub(super) correction: f64,
+    /// Did the solver end as it should?
+    pub(super) solved: bool,
+    /// Its iterations.
+    pub(super) iterations: u32,
+}
+
+/// Relative size of the roundings that are paid for, on every product of the bound: some thousand times the unit roundoff, for the coefficients are
+/// themselves results of a short computation.
+const ROUNDING: f64 = 1e-12;
+
+impl MomentProgram {
+    /// Solves, and bounds. `None` where the solver refused to start.
+    pub(super) fn bound(&self, max_iterations: u32) -> Option<DualBound> {
+        let (a, b, cones) = self.standard_form();
+        let mut q = vec![0.0; self.columns];
+        for &(column, coefficient) in &self.objective.terms {
+            q[column] -= coefficient;
+        }
+        let settings = DefaultSettings {
+            verbose: false,
+            max_iter: max_iterations,
+            tol_gap_abs: 1e-6,
+            tol_gap_rel: 1e-6,
+            tol_feas: 1e-9,
+            max_threads: 1,
+            chordal_decomposition_enable: false,
+            presolve_enable: false,
+            ..DefaultSettings::default()
+        };
+        let zero = CscMatrix::zeros((self.columns, self.columns));
+        let mut solver = DefaultSolver::new(&zero, &q, &a, &b, &cones, settings).ok()?;
+        solver.solve();
+        let solution = &solver.solution;
+        let solved = matches!(solution.status, SolverStatus::Solved | SolverStatus::AlmostSolved);
+        let mut z = solution.z.clone();
+        if z.len() != b.len() || !z.iter().all(|entry| entry.is_finite()) {
+            return None;
+        }
+        self.project(&mut z);
+
+        let mut residual = q;
+        let mut size = 0.0;
+        for column in 0..self.columns {
+            for place in a.colptr[column]..a.colptr[column + 1] {
+                let product = a.nzval[place] * z[a.rowval[place]];
+                residual[column] += product;
+                size += product.abs();
+            }
+        }
+        let mut value = self.objective.constant;
+        for (b, z) in b.iter().zip(&z) {
+            value += b * z;
+            size += (b * z).abs();
+        }
+        let correction = residual.iter().map(|r| r.abs()).sum::<f64>() + ROUNDING * (size + value.abs());
+        Some(DualBound { value: value + correction, correction, solved, iterations: solution.iterations })
+    }
+
+    /// `A y + s = b`, s in the cones: zero, not negative, then the matrices as scaled triangles.
+    fn standard_form(&self) -> (CscMatrix<f64>, Vec<f64>, Vec<SupportedConeT<f64>>) {
+        let (mut rows, mut columns, mut values, mut b) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        let mut push = |row: &Row, scale: f64| {
+            for &(column, coefficient) in &row.terms {
+                rows.push(b.len());
+                columns.push(column);
+                values.push(-scale * coefficient);
+            }
+            b.push(scale * row.constant);
+        };
+        self.zero.iter().chain(&self.nonnegative).for_each(|row| push(row, 1.0));
+        let mut cones = vec![
+            SupportedConeT::ZeroConeT(self.zero.len()),
+            SupportedConeT::NonnegativeConeT(self.nonnegative.len()),
+        ];
+        for (size, triangle) in &self.semidefinite {
+            let mut entries = triangle.iter();
+            for j in 0..*size {
+                for (i, row) in entries.by_ref().take(j + 1).enumerate() {
+                    push(row, if i == j { 1.0 } else { std::f64::consts::SQRT_2 });
+                }
+            }
+            cones.push(SupportedConeT::PSDTriangleConeT(*size));
+        }
+        let a = CscMatrix::new_from_triplets(b.len(), self.columns, rows, columns, values);
+        (a, b, cones)
+    }
+
+    /// Moves z into the dual cone.
+    fn project(&self, z: &mut [f64]) {
+        let (free, rest) = z.split_at_mut(self.zero.len());
+        debug_assert_eq!(free.len(), self.zero.len());
+        let (plain, mut rest) = rest.split_at_mut(self.nonnegative.len());
+        plain.iter_mut().for_each(|z| *z = z.max(0.0));
+        for &(size, _) in &self.semidefinite {
+            let (block, after) = rest.split_at_mut(size * (size + 1) / 2);
+            rest = after;
+            let place = |i: usize, j: usize| j * (j + 1) / 2 + i;
+            let matrix = DMatrix::from_fn(size, size, |i, j| {
+                let entry = block[place(i.min(j), i.max(j))];
+                if i == j { entry } else { entry / std::f64::consts::SQRT_2 }
+            });
+            let rounding = 100.0 * size as f64 * f64::EPSILON * matrix.norm();
+            let smallest = matrix.symmetric_eigenvalues().min();
+            let shift = (rounding - smallest).max(0.0);
+            (0..size).for_each(|i| block[place(i, i)] += shift);
+        }
+    }
+}

@@ -1,0 +1,178 @@
+//! The largest motion variance that any admissible motion of one axis can have.
+
+use super::reach::Reach;
+use super::relaxation::Segment;
+use super::{AxisChain, States};
+use crate::motion::Rest;
+
+/// An upper bound on the motion variance `V = Σ α² − (Σ α + shift)²/mass` over all admissible motions of one axis.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct MotionVarianceBound {
+    /// The bound, (m/s²)².
+    pub(crate) value: f64,
+    /// Where it comes from.
+    pub(crate) kind: BoundKind,
+    /// Did the conic solver end as it should? The bound holds in any case; where it did not, it is looser than need be.
+    pub(crate) solved: bool,
+    /// Part of `value` that pays for the solver's residual and for rounding.
+    pub(crate) correction: f64,
+}
+
+/// Where a bound comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum BoundKind {
+    /// Moment relaxation of the whole chain.
+    Chain {
+        /// Is `(Σ α + shift)²/mass` part of it, or dropped?
+        mean: bool,
+        /// Were velocity or displacement states needed?
+        states: bool,
+    },
+    /// Moment relaxations of stretches of the chain that may each start and end anywhere.
+    Stretches,
+    /// Every node at its largest acceleration at once.
+    Reach,
+}
+
+impl BoundKind {
+    /// What it is and why it may be loose, for a reader who has not seen one before.
+    pub(crate) fn explanation(self) -> &'static str {
+        match self {
+            Self::Chain { states: false, mean: true } => {
+                "a moment relaxation of the whole motion, in most cases exact to within rounding"
+            }
+            Self::Chain { states: false, .. } => {
+                "a moment relaxation of the whole motion that leaves out what the mean acceleration costs: loose where the best motion is not balanced"
+            }
+            Self::Chain { states: true, .. } => {
+                "a moment relaxation of the whole motion that holds velocity and displacement to their limits at four times in each interval and leaves out what the mean acceleration costs: usually loose by some percent of a standard deviation"
+            }
+            Self::Stretches => {
+                "the motion is long, so its stretches were bounded one by one as if each could start and end anywhere: loose where they cannot"
+            }
+            Self::Reach => {
+                "every node was taken at its largest acceleration at once, which no motion may be able to do: can be loose by a factor"
+            }
+        }
+    }
+}
+
+/// Most iterations of the conic solver; it needs some 20.
+const MAX_ITERATIONS: u32 = 100;
+/// Places inside each interval at which limits on velocity and displacement are imposed.
+const INSIDE: [f64; 3] = [0.25, 0.5, 0.75];
+/// Most intervals for moments up to degree 6 with states: seconds.
+const MOST_HIGH_ORDER: usize = 12;
+/// Most intervals of a whole chain with states, and without: seconds.
+const MOST_WITH_STATES: usize = 100;
+const MOST_WITHOUT_STATES: usize = 1000;
+/// Most intervals over which the running sum is carried: its scale grows with the chain.
+const MOST_WITH_MEAN: usize = 200;
+/// Intervals of a stretch, and most different stretches that are relaxed.
+const STRETCH: usize = 8;
+const MOST_STRETCHES: usize = 12;
+
+/// Bounds the motion variance; `None` where nothing bounds the acceleration.
+pub(crate) fn motion_variance_bound(chain: &AxisChain) -> Option<MotionVarianceBound> {
+    bound_within(chain, MAX_ITERATIONS)
+}
+
+pub(super) fn bound_within(chain: &AxisChain, max_iterations: u32) -> Option<MotionVarianceBound> {
+    let (n, l) = (chain.sums.len(), &chain.limits);
+    let reach = Reach::of(chain);
+    let value = reach.sum_of_squares(chain, 0..n);
+    if !value.is_finite() {
+        return None;
+    }
+    let cheap = MotionVarianceBound { value, kind: BoundKind::Reach, solved: true, correction: 0.0 };
+    let displacement = l.displacement.is_some();
+    let velocity = displacement || l.velocity.is_some() || l.rest == Rest::Both;
+    let most = if velocity { MOST_WITH_STATES } else { MOST_WITHOUT_STATES };
+    let relaxed = if n <= most {
+        let sum = !velocity && n <= MOST_WITH_MEAN && chain.mass.is_finite();
+        let order = if velocity && n <= MOST_HIGH_ORDER { 3 } else { 2 };
+        let states = States { velocity, displacement, sum };
+        let segment = Segment {
+            chain,
+            reach: &reach,
+            range: 0..n,
+            width: 1,
+            states,
+            open: false,
+            inside: &INSIDE,
+            order,
+        };
+        relax(&segment, max_iterations, BoundKind::Chain { mean: sum, states: velocity })
+    } else {
+        stretches(chain, &reach, States { velocity, displacement, sum: false }, max_iterations)
+    };
+    Some(relaxed.into_iter().fold(cheap, |best, bound| if bound.value < best.value { bound } else { best }))
+}
+
+fn relax(segment: &Segment<'_>, max_iterations: u32, kind: BoundKind) -> Option<MotionVarianceBound> {
+    let scale = segment.reach.sum_of_squares(segment.chain, segment.range.clone());
+    if scale == 0.0 {
+        return None;
+    }
+    let bound = segment.relax(scale)?.bound(max_iterations)?;
+    Some(MotionVarianceBound {
+        value: (bound.value * scale).max(0.0),
+        kind,
+        solved: bound.solved,
+        correction: bound.correction * scale,
+    })
+}
+
+/// The sum of the bounds of stretches; equal stretches are relaxed once.
+fn stretches(
+    chain: &AxisChain,
+    reach: &Reach,
+    states: States,
+    max_iterations: u32,
+) -> Option<MotionVarianceBound> {
+    let n = chain.sums.len();
+    // the same bounds everywhere make stretches equal, but for the report's intercept, which counts from t = 0
+    let uniform = reach.everywhere();
+    let (reach, moves) = if chain.limits.intercept.is_some() { (reach, true) } else { (&uniform, false) };
+    let mut total =
+        MotionVarianceBound { value: 0.0, kind: BoundKind::Stretches, solved: true, correction: 0.0 };
+    let mut known: Vec<(std::ops::Range<usize>, MotionVarianceBound)> = Vec::new();
+    for first in (0..n).step_by(STRETCH) {
+        let range = first..(first + STRETCH).min(n);
+        let same =
+            |other: &std::ops::Range<usize>| !moves && chain.sums[other.clone()] == chain.sums[range.clone()];
+        let part = if let Some((_, part)) = known.iter().find(|(other, _)| same(other)) {
+            part.clone()
+        } else {
+            let cheap = MotionVarianceBound {
+                value: reach.sum_of_squares(chain, range.clone()),
+                kind: BoundKind::Reach,
+                solved: true,
+                correction: 0.0,
+            };
+            let relaxed = if known.len() < MOST_STRETCHES {
+                let segment = Segment {
+                    chain,
+                    reach,
+                    range: range.clone(),
+                    width: 1,
+                    states,
+                    open: true,
+                    inside: &INSIDE,
+                    order: 2,
+                };
+                relax(&segment, max_iterations, BoundKind::Stretches)
+            } else {
+                None
+            };
+            let part = relaxed.filter(|bound| bound.value < cheap.value).unwrap_or(cheap);
+            known.push((range, part.clone()));
+            part
+        };
+        total.value += part.value;
+        total.correction += part.correction;
+        total.solved &= part.solved;
+    }
+    total.value *= 1.0 + 1e-12;
+    Some(total)
+}

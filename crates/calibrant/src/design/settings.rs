@@ -1,0 +1,20 @@
+//! How a design is looked for.
+
+/// How a design is looked for.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DesignSettings {
+    /// Number of starts for each axis (or for all axes of a full sensor).
+    pub starts: usize,
+    /// Seed of the random starts and of the initial motion.
+    pub seed: u64,
+    /// Is a lower bound wanted that no admissible motion can beat?
+    pub certificate: bool,
+    /// Most iterations of one start.
+    pub max_iterations: usize,
+}
+
+impl Default for DesignSettings {
+    fn default() -> Self {
+        Self { starts: 30, seed: 1, certificate: true, max_iterations: 200 }
+    }
+}
