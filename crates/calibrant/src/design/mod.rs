@@ -1,10 +1,16 @@
 //! Design: the motion whose recording determines the parameters best, and the proof of how good it is.
 
-pub mod certificate;
+mod certificate;
+mod conic;
+mod curvature;
 mod evaluate;
+mod local;
 mod problem;
+mod region;
 mod result;
+mod search;
 mod settings;
+mod starts;
 
 pub use evaluate::evaluate;
 pub use problem::DesignProblem;
@@ -12,7 +18,10 @@ pub use result::{Certificate, Design, DesignStatus, Evaluation, StartOutcome};
 pub use settings::DesignSettings;
 
 use crate::error::Result;
+use crate::motion::JerkControlledMotion;
 use crate::simulate::{Purpose, initial_motion, stream};
+use nalgebra::Vector3;
+use search::search;
 
 /// Finds the best motion; `progress` is called with 1 after each start.
 ///
@@ -32,17 +41,22 @@ pub fn design(
         &limits,
         &mut stream(settings.seed, Purpose::Motion, 0),
     )?;
+    let rest =
+        JerkControlledMotion::uniform(problem.interval_s, vec![Vector3::zeros(); problem.intervals + 1])?;
+    let found = search(problem, settings, &limits, &initial, (&rest, 1.0), progress)?;
+    let best = JerkControlledMotion::uniform(problem.interval_s, found.nodes)?;
     let initial = evaluate(problem, &initial)?;
-    progress(1);
+    let optimal = evaluate(problem, &best)?;
+    let certificate = if settings.certificate { certificate::certify(problem, optimal.value)? } else { None };
     Ok(Design {
-        status: DesignStatus::Converged,
+        status: found.status,
         criterion: problem.criterion.clone(),
         parameters: problem.sensor.parameter_list().describe(problem.sensor, &problem.at),
-        optimal: initial.clone(),
+        optimal,
         initial,
-        starts: Vec::new(),
-        iterations: 0,
+        iterations: found.starts.iter().map(|start| start.iterations).sum(),
+        starts: found.starts,
         limits,
-        certificate: None,
+        certificate,
     })
 }

@@ -216,6 +216,12 @@ impl<const D: usize, const P: usize> PartInformation<D, P> {
         self.tau[i + 1] - self.tau[i]
     }
 
+    /// Does a motion tell the same here as there?
+    pub(crate) fn is_like(&self, other: &Self) -> bool {
+        (&self.tau, &self.sums, &self.weight, &self.s) == (&other.tau, &other.sums, &other.weight, &other.s)
+            && (self.trust, self.known_ends) == (other.trust, other.known_ends)
+    }
+
     /// Process noise `σ_u(u) = floor + ratio |u|`, where the motion is noisy: (floor, ratio).
     #[must_use]
     pub fn input_noise(&self) -> Option<(f64, f64)> {

@@ -8,5 +8,5 @@ mod identifiability;
 
 pub use covariance::covariance;
 pub use criterion::Criterion;
-pub use expected::{MotionInformation, PartInformation};
+pub use expected::{InformationDerivative, Linearised, MotionInformation, PartInformation};
 pub use identifiability::{Undetermined, undetermined};

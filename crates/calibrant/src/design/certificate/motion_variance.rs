@@ -74,10 +74,15 @@ const MOST_STRETCHES: usize = 12;
 
 /// Bounds the motion variance; `None` where nothing bounds the acceleration.
 pub(crate) fn motion_variance_bound(chain: &AxisChain) -> Option<MotionVarianceBound> {
-    bound_within(chain, MAX_ITERATIONS)
+    bound_within(chain, MAX_ITERATIONS, 3)
 }
 
-pub(super) fn bound_within(chain: &AxisChain, max_iterations: u32) -> Option<MotionVarianceBound> {
+/// The same with at most so many iterations of the conic solver, and moments up to degree `2 · most_order`.
+pub(super) fn bound_within(
+    chain: &AxisChain,
+    max_iterations: u32,
+    most_order: u8,
+) -> Option<MotionVarianceBound> {
     let (n, l) = (chain.sums.len(), &chain.limits);
     let reach = Reach::of(chain);
     let value = reach.sum_of_squares(chain, 0..n);
@@ -90,7 +95,7 @@ pub(super) fn bound_within(chain: &AxisChain, max_iterations: u32) -> Option<Mot
     let most = if velocity { MOST_WITH_STATES } else { MOST_WITHOUT_STATES };
     let relaxed = if n <= most {
         let sum = !velocity && n <= MOST_WITH_MEAN && chain.mass.is_finite();
-        let order = if velocity && n <= MOST_HIGH_ORDER { 3 } else { 2 };
+        let order = if velocity && n <= MOST_HIGH_ORDER { most_order } else { 2 };
         let states = States { velocity, displacement, sum };
         let segment = Segment {
             chain,
