@@ -23,6 +23,7 @@ mod motion_variance;
 mod polynomial;
 mod reach;
 mod relaxation;
+mod tighten;
 mod variances;
 
 pub(super) use variances::certify;

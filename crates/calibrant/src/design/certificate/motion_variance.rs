@@ -72,6 +72,8 @@ const MOST_WITHOUT_STATES: usize = 1000;
 /// Most intervals over which the running sum is carried, its scale grows with the chain; and with other states beside it.
 const MOST_WITH_MEAN: usize = 200;
 const MOST_WITH_STATES_AND_MEAN: usize = 30;
+/// Most intervals whose bounds are tightened by linear programs.
+const MOST_TIGHTENED: usize = 30;
 /// Intervals of a stretch, and most different stretches that are relaxed.
 const STRETCH: usize = 8;
 const MOST_STRETCHES: usize = 12;
@@ -88,14 +90,17 @@ pub(super) fn bound_within(
     most_order: u8,
 ) -> Option<MotionVarianceBound> {
     let (n, l) = (chain.sums.len(), &chain.limits);
-    let reach = Reach::of(chain);
-    let value = reach.sum_of_squares(chain, 0..n);
-    if !value.is_finite() {
+    let mut reach = Reach::of(chain);
+    if !reach.sum_of_squares(chain, 0..n).is_finite() {
         return None;
     }
-    let cheap = MotionVarianceBound { value, kind: BoundKind::Reach, solved: true, correction: 0.0 };
     let displacement = l.displacement.is_some();
     let velocity = displacement || l.velocity.is_some() || l.rest == Rest::Both;
+    if n <= MOST_TIGHTENED && (velocity || l.intercept.is_some()) {
+        reach = reach.tightened(chain, &INSIDE);
+    }
+    let value = reach.sum_of_squares(chain, 0..n);
+    let cheap = MotionVarianceBound { value, kind: BoundKind::Reach, solved: true, correction: 0.0 };
     let most = if velocity { MOST_WITH_STATES } else { MOST_WITHOUT_STATES };
     let mut best = cheap;
     let mut consider = |bound: Option<MotionVarianceBound>| {

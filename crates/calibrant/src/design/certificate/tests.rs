@@ -173,26 +173,35 @@ fn climbed(number: u64) -> (AxisChain, f64) {
         chain.limits.end = Some(a[n]);
     }
     let free: Vec<usize> = (usize::from(fix_start)..=n - usize::from(fix_end)).collect();
-    let mut best = variance(&chain, &a);
-    let mut step = 1.0 / size;
-    for _ in 0..3000 {
-        let mut next = a.clone();
-        let i = free[rng.random_range(0..free.len())];
-        let weight = |i: usize| if i == 0 || i == n { 0.5 } else { 1.0 };
-        let change = step * rng.random_range(-1.0..1.0);
-        next[i] += change / weight(i);
-        if stops || rng.random_bool(0.5) {
-            let j = free[rng.random_range(0..free.len())];
-            next[j] -= change / weight(j);
+    let begin = a;
+    let mut top = 0.0_f64;
+    // local optima abound: start again, first far, then near
+    for _ in 0..12 {
+        let mut a = begin.clone();
+        let mut best = f64::NEG_INFINITY;
+        let mut step = 4.0 / size;
+        for k in 0..600 {
+            let mut next = a.clone();
+            let i = free[rng.random_range(0..free.len())];
+            let weight = |i: usize| if i == 0 || i == n { 0.5 } else { 1.0 };
+            let change = step * rng.random_range(-1.0..1.0);
+            next[i] += change / weight(i);
+            if stops || rng.random_bool(0.5) {
+                let j = free[rng.random_range(0..free.len())];
+                next[j] -= change / weight(j);
+            }
+            let value = variance(&chain, &next);
+            // wander about at first
+            if (k < 60 || value > best) && breach(&chain, &next) <= 1.0 {
+                best = value;
+                a = next;
+            } else {
+                step = (step * 0.99).max(1e-4 / size);
+            }
         }
-        if breach(&chain, &next) <= 1.0 && variance(&chain, &next) > best {
-            best = variance(&chain, &next);
-            a = next;
-        } else {
-            step = (step * 0.995).max(1e-4 / size);
-        }
+        top = top.max(best);
     }
-    (chain, best)
+    (chain, top)
 }
 
 #[test]
@@ -208,6 +217,19 @@ fn no_admissible_motion_beats_the_bound_and_most_come_near_it() {
             bound.kind != BoundKind::Reach || best == 0.0 || bound.value < best * 1.5,
             "{number}: {bound:?} {best} {chain:?}"
         );
+        if bound.value > 1.35 * best {
+            let b3 = motion_variance_bound(&chain).expect("b");
+            println!(
+                "{number} n{} ratio {:.3} o3 {:.3} {:?} corr {:.1e} sum {} {:?}",
+                chain.sums.len(),
+                bound.value / best,
+                b3.value / best,
+                b3.kind,
+                bound.correction / best,
+                chain.shift,
+                chain.limits
+            );
+        }
         ratios.push(bound.value / best);
     }
     ratios.sort_by(f64::total_cmp);
