@@ -210,31 +210,13 @@ fn no_admissible_motion_beats_the_bound_and_most_come_near_it() {
     for number in 0..100 {
         let (chain, best) = climbed(number);
         // the higher order where it costs something: a few
-        let order = if number % 20 == 0 { 3 } else { 2 };
+        let order = if number % 50 == 0 { 3 } else { 2 };
         let bound = bound_within(&chain, 100, order).expect("bounded");
         assert!(bound.value >= best, "{number}: {} < {best}, {chain:?}", bound.value);
-        assert!(
-            bound.kind != BoundKind::Reach || best == 0.0 || bound.value < best * 1.5,
-            "{number}: {bound:?} {best} {chain:?}"
-        );
-        if bound.value > 1.35 * best {
-            let b3 = motion_variance_bound(&chain).expect("b");
-            println!(
-                "{number} n{} ratio {:.3} o3 {:.3} {:?} corr {:.1e} sum {} {:?}",
-                chain.sums.len(),
-                bound.value / best,
-                b3.value / best,
-                b3.kind,
-                bound.correction / best,
-                chain.shift,
-                chain.limits
-            );
-        }
         ratios.push(bound.value / best);
     }
     ratios.sort_by(f64::total_cmp);
-    println!("median {}, 90 % {}, worst {}", ratios[50], ratios[90], ratios[99]);
-    assert!(ratios[50] < 1.1 && ratios[90] < 1.6, "{ratios:?}");
+    assert!(ratios[50] < 1.01 && ratios[90] < 1.1, "{ratios:?}");
 }
 
 #[test]
@@ -260,4 +242,102 @@ fn a_long_chain_is_bounded_by_its_stretches() {
     let a: Vec<f64> = (0..129).map(|i| if i % 2 == 0 { 15.0 } else { -15.0 }).collect();
     assert!(breach(&chain, &a) <= 1.0);
     assert!(bound.value > variance(&chain, &a) && bound.value < 3.0 * variance(&chain, &a), "{bound:?}");
+}
+
+mod of_a_design {
+    use crate::design::certificate::certify;
+    use crate::design::{DesignProblem, evaluate};
+    use crate::information::Criterion;
+    use crate::information::criterion::{AOptimality, COptimality, DOptimality, EOptimality, MOptimality};
+    use crate::motion::{InputNoise, JerkControlledMotion, KnownEnds, Limits, Trust};
+    use crate::sensor::{Sensor, SensorModel, SensorParameters};
+    use crate::simulate::{Purpose, initial_motion, stream};
+    use nalgebra::{DMatrix, DVector, Vector3};
+
+    fn problem<'a>(sensor: &'a Sensor, limits: &'a Limits, trust: Trust) -> DesignProblem<'a> {
+        let scale = DVector::repeat(sensor.parameter_list().len(), 1.0);
+        DesignProblem {
+            sensor,
+            at: SensorParameters::identity(),
+            intervals: 10,
+            interval_s: 1.0,
+            rate_hz: 10.0,
+            trust,
+            known_ends: if trust == Trust::Unknown { KnownEnds::Both } else { KnownEnds::Start },
+            limits,
+            criterion: Criterion::A(AOptimality { scale }),
+            prior: None,
+        }
+    }
+
+    fn box_limits(limit: f64) -> Limits {
+        let all = Some(Vector3::repeat(limit));
+        Limits { acceleration_mps2: all, jerk_mps3: all, ..Limits::default() }
+    }
+
+    const NOISY: Trust = Trust::Noisy(InputNoise { floor_mps3: 0.01, ratio: 0.01 });
+
+    #[test]
+    fn the_certificates_of_d1_and_d4_reach_the_reference() {
+        let sensor = Sensor { axes: 1, ..Sensor::memsic_mxd2020u() };
+        for (limit, trust, f, sd) in
+            [(30.0, Trust::Known, 3.965_463_8e-10, 7.118_84e-7), (20.0, NOISY, 1.103_672e-5, 3.320_37e-3)]
+        {
+            let limits = box_limits(limit);
+            let certificate =
+                certify(&problem(&sensor, &limits, trust), f).expect("determined").expect("bounded");
+            assert!((-1e-7..2e-3).contains(&certificate.gap), "{certificate:?}");
+            // the reference prints six digits, of which those of D4 agree with its f to 7e-6
+            let scale = sd / certificate.sd_lower_bound[1] - 1.0;
+            assert!((-1e-5..1e-3).contains(&scale), "{certificate:?}");
+            assert!(certificate.explanation.contains("scale factors:"), "{}", certificate.explanation);
+        }
+    }
+
+    #[test]
+    fn no_motion_beats_the_certificate_of_any_criterion() {
+        let limits = box_limits(5.0);
+        for model in [SensorModel::ScaleBias, SensorModel::Full] {
+            for (number, trust) in [Trust::Known, NOISY, Trust::Unknown].into_iter().enumerate() {
+                if model == SensorModel::Full && trust == Trust::Unknown {
+                    continue; // two readings do not determine four parameters
+                }
+                let sensor = Sensor { model, ..Sensor::memsic_mxd2020u() };
+                let mut problem = problem(&sensor, &limits, trust);
+                problem.intervals = 6;
+                let size = sensor.parameter_list().len();
+                let ones = DVector::repeat(size, 1.0);
+                let prior = DMatrix::from_fn(size, size, |i, j| 1e4 / (1.0 + (i as f64 - j as f64).abs()));
+                let mut rng = stream(3, Purpose::Motion, number as u64);
+                let motions: Vec<JerkControlledMotion> = (0..20)
+                    .map(|_| {
+                        let motion = initial_motion(6, 1.0, 3, &limits, &mut rng).expect("admissible");
+                        let nodes = motion.acceleration_mps2().iter().map(|a| a * 5.0).collect();
+                        JerkControlledMotion::uniform(1.0, nodes).expect("a motion")
+                    })
+                    .collect();
+                for criterion in [
+                    Criterion::A(AOptimality { scale: ones.clone() }),
+                    Criterion::D(DOptimality { scale: ones.clone() }),
+                    Criterion::E(EOptimality { scale: ones.clone() }),
+                    Criterion::M(MOptimality { scale: ones.clone() }),
+                    Criterion::C(COptimality { weights: ones.clone() }),
+                ] {
+                    for prior in [None, Some(prior.clone())] {
+                        problem.criterion = criterion.clone();
+                        problem.prior = prior;
+                        let certificate = certify(&problem, 1.0).expect("determined").expect("bounded");
+                        for motion in &motions {
+                            let value = evaluate(&problem, motion).expect("determined").value;
+                            let letter = criterion.letter();
+                            assert!(
+                                value >= certificate.lower_bound,
+                                "{letter} {value} {certificate:?} {trust:?}"
+                            );
+                        }
+                    }
+                }
+            }
+        }
+    }
 }
