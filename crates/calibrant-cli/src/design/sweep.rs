@@ -90,7 +90,12 @@ pub(super) fn run(
         console::print(&sweep_json(&swept, problem, &job.settings));
     } else {
         console::print(&table(&swept));
-        console::print(&format!("\n{}\n", arguments.output.join("sweep.csv").display()));
+        let output = &arguments.output;
+        console::print(&format!(
+            "\n{}\n{}\n",
+            output.join("sweep.csv").display(),
+            output.join("report.html").display()
+        ));
     }
     let good = |point: &calibrant::design::SweepPoint| {
         point.outcome.as_ref().is_ok_and(|design| design.optimal.covariance.is_some())
