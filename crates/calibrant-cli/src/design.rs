@@ -94,7 +94,9 @@ impl Job {
         if let Some(letter) = arguments.criterion {
             experiment.design.criterion = letter;
         }
-        let earlier = arguments.from.iter().map(|path| read_calibration(path)).collect::<Result<_, _>>()?;
+        let earlier: Vec<_> =
+            arguments.from.iter().map(|path| read_calibration(path)).collect::<Result<_, _>>()?;
+        warn_of_strangers(&earlier);
         let otherwise = experiment.design_settings();
         let settings = DesignSettings {
             starts: arguments.starts.map_or(otherwise.starts, |starts| starts as usize),
@@ -147,6 +149,27 @@ impl Job {
         let outcome = design(problem, &self.settings, &|done| bar.inc(done));
         bar.finish_and_clear();
         outcome
+    }
+}
+
+/// Calibrations whose information adds up should be of one sensor.
+fn warn_of_strangers(earlier: &[EarlierCalibration]) {
+    let Some((last, others)) = earlier.split_last() else { return };
+    for other in others {
+        let degrees_of_freedom = last.values.len() as f64;
+        // far beyond chance: mean and variance of χ² are k and 2k
+        let most = degrees_of_freedom + 6.0 * (2.0 * degrees_of_freedom).sqrt();
+        if let Some(chi2) = last.chi2_against(other).filter(|chi2| *chi2 > most) {
+            let name = |calibration: &EarlierCalibration| {
+                calibration.file.as_ref().map_or_else(String::new, |file| file.display().to_string())
+            };
+            console::warn(&format!(
+                "{} and {} disagree beyond their uncertainty (χ² {} for {degrees_of_freedom} parameters): are they of the same sensor?",
+                name(other),
+                name(last),
+                number::significant(chi2, 3)
+            ));
+        }
     }
 }
 

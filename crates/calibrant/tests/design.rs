@@ -158,10 +158,10 @@ fn every_criterion_is_served_best_by_its_own_design() {
     };
     let noise = Trust::Noisy(InputNoise { floor_mps3: 1e-3, ratio: 1e-3 });
     for (model, trust, starts) in [
-        (SensorModel::ScaleBias, Trust::Known, 30),
-        (SensorModel::ScaleBias, noise, 30),
-        (SensorModel::Full, Trust::Known, 24),
-        (SensorModel::Full, noise, 12),
+        (SensorModel::ScaleBias, Trust::Known, 20),
+        (SensorModel::ScaleBias, noise, 20),
+        (SensorModel::Full, Trust::Known, 12),
+        (SensorModel::Full, noise, 4),
     ] {
         let sensor = Sensor { noise_mps2: Some(Vector3::repeat(0.01)), ..Sensor::triaxial(model) };
         let size = sensor.parameter_list().len();
@@ -179,7 +179,7 @@ fn every_criterion_is_served_best_by_its_own_design() {
             .iter()
             .map(|criterion| {
                 let problem =
-                    DesignProblem { intervals: 6, ..problem(&sensor, &limits, trust, criterion.clone()) };
+                    DesignProblem { intervals: 4, ..problem(&sensor, &limits, trust, criterion.clone()) };
                 let settings = DesignSettings { starts, certificate: false, ..DesignSettings::default() };
                 let design = design(&problem, &settings, &|_| ()).expect("solved");
                 assert_admissible(criterion.letter(), &design, &limits);

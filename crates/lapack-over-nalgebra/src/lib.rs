@@ -15,9 +15,6 @@
 //! # References
 //! `anderson1999` (LAPACK Users' Guide)
 
-use blas_src as _;
-use lapack_src as _;
-
 mod cholesky;
 mod eigen;
 mod product;

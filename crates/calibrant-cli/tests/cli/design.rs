@@ -120,6 +120,11 @@ fn what_is_known_already_counts() {
     for (name, recordings) in [("after", 2.0_f64), ("twice", 3.0)] {
         assert!((bias("alone") / bias(name) / recordings.sqrt() - 1.0).abs() < 0.01, "{name}");
     }
+    bench.run("simulate arm.toml --seed 2 -o s2").done();
+    bench.run("calibrate arm.toml s2/recording.csv --motion s2/motion.csv -o c2").done();
+    let outcome = bench
+        .run(&format!("design arm.toml {QUICK} --from c/calibration.json --from c2/calibration.json -o no"));
+    outcome.says("warning: c/calibration.json and c2/calibration.json disagree beyond their uncertainty (χ²");
     let after = bench.json("after/design.json");
     let guess = bench.json("c/calibration.json")["parameters"][0]["value"].clone();
     assert_eq!(after["setting"]["guess"][0], guess);

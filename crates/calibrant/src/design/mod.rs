@@ -59,15 +59,17 @@ pub fn design(
     let found = search(problem, settings, &limits, &initial, (&inside, slack), progress)?;
     let best = JerkControlledMotion::uniform(problem.interval_s, found.nodes)?;
     let initial = evaluate(problem, &initial)?;
+    let optimal = evaluate(problem, &best)?;
+    let certificate = if settings.certificate { certificate::certify(problem, optimal.value)? } else { None };
     Ok(Design {
         status: found.status,
         criterion: problem.criterion.clone(),
         parameters: problem.sensor.parameter_list().describe(problem.sensor, &problem.at),
-        optimal: evaluate(problem, &best)?,
+        optimal,
         initial,
         iterations: found.starts.iter().map(|start| start.iterations).sum(),
         starts: found.starts,
         limits,
-        certificate: None,
+        certificate,
     })
 }

@@ -13,6 +13,9 @@ use rand::RngExt;
 
 /// Far beyond every limit.
 const STRETCH: f64 = 1e6;
+/// How often a corner that leaves parameters undetermined is moved aside, and how far.
+const ATTEMPTS: usize = 5;
+const ASIDE: f64 = 0.3;
 
 impl<const D: usize, const P: usize> Part<D, P> {
     /// An admissible motion, stretched until it touches a limit on every axis.
@@ -28,8 +31,27 @@ impl<const D: usize, const P: usize> Part<D, P> {
         self.restored(nodes)
     }
 
-    /// The corner of start `number`; `None` where the convex solver fails.
+    /// The corner of start `number`, moved a little towards other corners where it leaves parameters undetermined; `None` where the convex solver fails.
     pub(super) fn corner(&self, number: usize, rng: &mut Rng) -> Option<Nodes<D>> {
+        let mut start = self.furthest(number, rng)?;
+        for _ in 0..ATTEMPTS {
+            if self.value(&start).is_finite() {
+                break;
+            }
+            start = mix(&start, &self.furthest(0, rng)?, ASIDE);
+        }
+        Some(start)
+    }
+
+    /// An optimum, moved towards a random corner by a random part of the way.
+    pub(super) fn kicked(&self, optimum: &[SVector<f64, D>], rng: &mut Rng) -> Option<Nodes<D>> {
+        let part = rng.random_range(0.05..0.6);
+        let number = rng.random_range(0..3);
+        Some(self.restored(mix(optimum, &self.furthest(number, rng)?, part)))
+    }
+
+    /// The admissible motion that goes furthest in a random direction of kind `number % 3`.
+    fn furthest(&self, number: usize, rng: &mut Rng) -> Option<Nodes<D>> {
         let nodes = self.inside.len();
         let mut program = ConicProgram::default();
         program.add_variables(nodes * D);
@@ -45,6 +67,11 @@ impl<const D: usize, const P: usize> Part<D, P> {
             .collect();
         Some(self.restored(corner))
     }
+}
+
+/// The point this part of the way from one motion to another.
+fn mix<const D: usize>(from: &[SVector<f64, D>], to: &[SVector<f64, D>], part: f64) -> Nodes<D> {
+    from.iter().zip(to).map(|(from, to)| from + (to - from) * part).collect()
 }
 
 /// The direction of start `number`, by node.

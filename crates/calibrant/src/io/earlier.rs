@@ -4,7 +4,7 @@ use super::text;
 use crate::error::{Complaint, Error, Result};
 use crate::information::covariance;
 use crate::sensor::{ParameterList, Quantity, ReadingUnit, SensorParameters};
-use nalgebra::{DMatrix, Matrix3, Vector3};
+use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
 
@@ -65,6 +65,19 @@ impl EarlierCalibration {
     #[must_use]
     pub fn information(&self) -> &DMatrix<f64> {
         &self.information
+    }
+
+    /// How far its estimates are from those of another calibration of the same parameters: squared, in units of their joint covariance, χ² of as many degrees of
+    /// freedom as there are parameters if both are of one sensor. `None` where the parameters are not the same.
+    #[must_use]
+    pub fn chi2_against(&self, other: &Self) -> Option<f64> {
+        if self.parameters != other.parameters {
+            return None;
+        }
+        let between: Vec<f64> = self.values.iter().zip(&other.values).map(|(a, b)| a - b).collect();
+        let between = DVector::from_vec(between);
+        let information = covariance(&(&self.covariance + &other.covariance))?;
+        Some(between.dot(&(information * &between)))
     }
 
     /// The sensor that it found, whose parameters must be those of `list`.

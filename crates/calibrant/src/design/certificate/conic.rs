@@ -26,6 +26,8 @@ pub(super) struct Row {
 pub(super) struct MomentProgram {
     /// Number of unknowns.
     pub(super) columns: usize,
+    /// Unknowns that cannot be negative either: means of squares.
+    pub(super) squares: Vec<usize>,
     /// What is maximised.
     pub(super) objective: Row,
     /// Rows that are zero.
@@ -43,15 +45,16 @@ pub(super) struct DualBound {
     pub(super) value: f64,
     /// What was added for the solver's residual and for rounding; part of `value`.
     pub(super) correction: f64,
-    /// Did the solver end as it should?
+    /// Did the solver end as it should, or near enough?
     pub(super) solved: bool,
-    /// Its iterations.
-    pub(super) iterations: u32,
 }
 
 /// Relative size of the roundings that are paid for, on every product of the bound: some thousand times the unit roundoff, for the coefficients are
 /// themselves results of a short computation.
 const ROUNDING: f64 = 1e-12;
+
+/// Share of a bound that the correction may take where the solver stopped for lack of progress.
+const NEAR_ENOUGH: f64 = 0.02;
 
 impl MomentProgram {
     /// Solves, and bounds. `None` where the solver refused to start.
@@ -66,7 +69,7 @@ impl MomentProgram {
             max_iter: max_iterations,
             tol_gap_abs: 1e-6,
             tol_gap_rel: 1e-6,
-            tol_feas: 1e-9,
+            tol_feas: 1e-8,
             max_threads: 1,
             chordal_decomposition_enable: false,
             presolve_enable: false,
@@ -76,7 +79,7 @@ impl MomentProgram {
         let mut solver = DefaultSolver::new(&zero, &q, &a, &b, &cones, settings).ok()?;
         solver.solve();
         let solution = &solver.solution;
-        let solved = matches!(solution.status, SolverStatus::Solved | SolverStatus::AlmostSolved);
+        let ended = matches!(solution.status, SolverStatus::Solved | SolverStatus::AlmostSolved);
         let mut z = solution.z.clone();
         if z.len() != b.len() || !z.iter().all(|entry| entry.is_finite()) {
             return None;
@@ -97,8 +100,14 @@ impl MomentProgram {
             value += b * z;
             size += (b * z).abs();
         }
-        let correction = residual.iter().map(|r| r.abs()).sum::<f64>() + ROUNDING * (size + value.abs());
-        Some(DualBound { value: value + correction, correction, solved, iterations: solution.iterations })
+        // what remains is −rᵀy: at most |r_j| each, and nothing where r_j and y_j are not negative
+        let mut remains: Vec<f64> = residual.iter().map(|r| r.abs()).collect();
+        for &column in &self.squares {
+            remains[column] = (-residual[column]).max(0.0);
+        }
+        let correction = remains.iter().sum::<f64>() + ROUNDING * (size + value.abs());
+        let solved = ended || correction <= NEAR_ENOUGH * value.abs();
+        Some(DualBound { value: value + correction, correction, solved })
     }
 
     /// `A y + s = b`, s in the cones: zero, not negative, then the matrices as scaled triangles.

@@ -44,6 +44,9 @@ impl BoundKind {
             Self::Chain { states: false, .. } => {
                 "a moment relaxation of the whole motion that leaves out what the mean acceleration costs: loose where the best motion is not balanced"
             }
+            Self::Chain { states: true, mean: true } => {
+                "a moment relaxation of the whole motion that holds velocity and displacement to their limits at four times in each interval: usually loose by some percent of a standard deviation"
+            }
             Self::Chain { states: true, .. } => {
                 "a moment relaxation of the whole motion that holds velocity and displacement to their limits at four times in each interval and leaves out what the mean acceleration costs: usually loose by some percent of a standard deviation"
             }
@@ -66,31 +69,53 @@ const MOST_HIGH_ORDER: usize = 12;
 /// Most intervals of a whole chain with states, and without: seconds.
 const MOST_WITH_STATES: usize = 100;
 const MOST_WITHOUT_STATES: usize = 1000;
-/// Most intervals over which the running sum is carried: its scale grows with the chain.
+/// Most intervals over which the running sum is carried, its scale grows with the chain; and with other states beside it.
 const MOST_WITH_MEAN: usize = 200;
+const MOST_WITH_STATES_AND_MEAN: usize = 30;
+/// Most intervals whose bounds are tightened by linear programs.
+const MOST_TIGHTENED: usize = 30;
 /// Intervals of a stretch, and most different stretches that are relaxed.
 const STRETCH: usize = 8;
 const MOST_STRETCHES: usize = 12;
 
 /// Bounds the motion variance; `None` where nothing bounds the acceleration.
 pub(crate) fn motion_variance_bound(chain: &AxisChain) -> Option<MotionVarianceBound> {
-    bound_within(chain, MAX_ITERATIONS)
+    bound_within(chain, MAX_ITERATIONS, 3)
 }
 
-pub(super) fn bound_within(chain: &AxisChain, max_iterations: u32) -> Option<MotionVarianceBound> {
+/// The same with at most so many iterations of the conic solver, and moments up to degree `2 · most_order`.
+pub(super) fn bound_within(
+    chain: &AxisChain,
+    max_iterations: u32,
+    most_order: u8,
+) -> Option<MotionVarianceBound> {
     let (n, l) = (chain.sums.len(), &chain.limits);
-    let reach = Reach::of(chain);
-    let value = reach.sum_of_squares(chain, 0..n);
-    if !value.is_finite() {
+    let mut reach = Reach::of(chain);
+    if !reach.sum_of_squares(chain, 0..n).is_finite() {
         return None;
     }
-    let cheap = MotionVarianceBound { value, kind: BoundKind::Reach, solved: true, correction: 0.0 };
     let displacement = l.displacement.is_some();
     let velocity = displacement || l.velocity.is_some() || l.rest == Rest::Both;
+    if n <= MOST_TIGHTENED && (velocity || l.intercept.is_some()) {
+        reach = reach.tightened(chain, &INSIDE);
+    }
+    let value = reach.sum_of_squares(chain, 0..n);
+    let cheap = MotionVarianceBound { value, kind: BoundKind::Reach, solved: true, correction: 0.0 };
     let most = if velocity { MOST_WITH_STATES } else { MOST_WITHOUT_STATES };
-    let relaxed = if n <= most {
-        let sum = !velocity && n <= MOST_WITH_MEAN && chain.mass.is_finite();
-        let order = if velocity && n <= MOST_HIGH_ORDER { 3 } else { 2 };
+    let mut best = cheap;
+    let mut consider = |bound: Option<MotionVarianceBound>| {
+        best =
+            bound.into_iter().fold(best.clone(), |best, new| if new.value < best.value { new } else { best });
+    };
+    if n > most {
+        consider(stretches(chain, &reach, States { velocity, displacement, sum: false }, max_iterations));
+        return Some(best);
+    }
+    // the running sum is one more state: with velocity and displacement only to second order, and not where rest at the end makes the mean small
+    let with_mean = chain.mass.is_finite()
+        && n <= if velocity { MOST_WITH_STATES_AND_MEAN } else { MOST_WITH_MEAN }
+        && !(velocity && l.rest == Rest::Both);
+    let with_order = |sum: bool, order: u8| {
         let states = States { velocity, displacement, sum };
         let segment = Segment {
             chain,
@@ -103,10 +128,14 @@ pub(super) fn bound_within(chain: &AxisChain, max_iterations: u32) -> Option<Mot
             order,
         };
         relax(&segment, max_iterations, BoundKind::Chain { mean: sum, states: velocity })
-    } else {
-        stretches(chain, &reach, States { velocity, displacement, sum: false }, max_iterations)
     };
-    Some(relaxed.into_iter().fold(cheap, |best, bound| if bound.value < best.value { bound } else { best }))
+    if with_mean {
+        consider(with_order(true, 2));
+    }
+    if velocity || !with_mean {
+        consider(with_order(false, if velocity && n <= MOST_HIGH_ORDER { most_order } else { 2 }));
+    }
+    Some(best)
 }
 
 fn relax(segment: &Segment<'_>, max_iterations: u32, kind: BoundKind) -> Option<MotionVarianceBound> {

@@ -1,12 +1,12 @@
-//! The order-2 sparse moment relaxation of a chain.
+//! The sparse moment relaxation of a chain.
 //!
 //! The motion variance is a quadratic of the motion, its maximum over the admissible motions a nonconvex problem. In place of one motion, take a
-//! distribution of motions: the mean variance is then linear in the moments of the distribution. What moments of degree at most four must satisfy
+//! distribution of motions: the mean variance is then linear in the moments of the distribution. What moments up to a degree must satisfy
 //! is convex, so that the largest value over all vectors that satisfy it bounds the motion variance from above:
 //!
-//! - the moment matrix of `(1, z, z²)` is positive semidefinite, for the few variables z of one interval: its two nodes and the states that the
+//! - the moment matrix of `(1, z, z²)`, or up to `z³`, is positive semidefinite, for the few variables z of one interval: its two nodes and the states that the
 //!   limits need at its start (velocity, displacement, the running sum of the samples);
-//! - for every limit, `|ℓ(z)| ≤ 1`, the moment matrix of `(1, z)` weighted with `1 − ℓ²` is so too, and `(1 − ℓ²)(1 − k²)` has a mean that is not
+//! - for every limit, `|ℓ(z)| ≤ 1`, that of one degree less, weighted with `1 − ℓ²`, is so too, and that of two degrees less with `(1 − ℓ²)(1 − k²)`
 //!   negative for any two of them. Limits that hold for all t hold at the quarters of the interval;
 //! - two neighbours agree on all moments of the node and the states that they share.
 //!
@@ -83,6 +83,9 @@ impl Segment<'_> {
                 let degree = degree(&monomial);
                 if degree > 0 && !(symmetric && degree % 2 == 1) {
                     clique.columns.insert(monomial, program.columns);
+                    if monomial.iter().all(|exponent| exponent % 2 == 0) {
+                        program.squares.push(program.columns);
+                    }
                     program.columns += 1;
                 }
             }
