@@ -2,6 +2,7 @@
 
 mod calibrate;
 mod console;
+mod design;
 mod init;
 mod place;
 mod simulate;
@@ -12,10 +13,10 @@ use calibrant::estimate::CalibrationStatus;
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
 
-/// Calibrate inertial sensors: parameters with an honest covariance, from a recording.
+/// Calibrate inertial sensors: parameters with an honest covariance from a recording, and the best motion to record.
 ///
-/// Exit status: 0 done; 2 bad usage or experiment file, or a result that cannot be written; 3 bad recording; 4 the data cannot determine the
-/// parameters, or the iteration did not converge.
+/// Exit status: 0 done; 2 bad usage or experiment file, or a result that cannot be written; 3 bad recording; 4 the data or the motion cannot determine
+/// the parameters, the limits admit no motion, or the iteration did not converge.
 #[derive(Parser)]
 #[command(name = "calibrant", version, about, long_about, arg_required_else_help = true)]
 struct Cli {
@@ -29,6 +30,7 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     Init(init::Arguments),
+    Design(design::Arguments),
     Simulate(simulate::Arguments),
     Calibrate(calibrate::Arguments),
     Study(study::Arguments),
@@ -51,7 +53,7 @@ impl Exit {
 
     /// The exit status of an error.
     fn of(error: &Error) -> Exit {
-        if error.is_not_identifiable() {
+        if error.is_not_identifiable() || error.is_infeasible() {
             Exit::NOT_IDENTIFIABLE
         } else if error.is_invalid_recording() {
             Exit::RECORDING
@@ -70,6 +72,7 @@ fn main() -> ExitCode {
     }
     let outcome = match cli.command {
         Command::Init(arguments) => init::run(&arguments),
+        Command::Design(arguments) => design::run(&arguments),
         Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Calibrate(arguments) => calibrate::run(&arguments),
         Command::Study(arguments) => study::run(&arguments),

@@ -2,6 +2,7 @@
 
 use crate::{Exit, console, place};
 use calibrant::Error;
+use calibrant::design::initial_motion;
 use calibrant::error::Complaint;
 use calibrant::io::{
     Experiment, HoldsPlan, MotionPlan, Plan, read_motion, write_motion, write_recording, write_truth,
@@ -9,8 +10,7 @@ use calibrant::io::{
 use calibrant::motion::{JerkControlledMotion, KnownEnds, Limits, Trust};
 use calibrant::sensor::{ReadingUnit, Sensor};
 use calibrant::simulate::{
-    HoldsSimulation, Purpose, draw_sensor, initial_motion, perturb, sample_times, simulate_holds,
-    simulate_recording, stream,
+    HoldsSimulation, Purpose, draw_sensor, perturb, sample_times, simulate_holds, simulate_recording, stream,
 };
 use nalgebra::Vector3;
 use std::path::{Path, PathBuf};
@@ -111,7 +111,8 @@ fn simulate_motion(
     seed: u64,
 ) -> calibrant::Result<usize> {
     let sensor = &experiment.sensor;
-    let motion = commanded_motion(arguments.motion.as_deref(), plan, sensor.axes, &experiment.limits, seed)?;
+    let limits = experiment.limits.within_range(sensor.range_mps2);
+    let motion = commanded_motion(arguments.motion.as_deref(), plan, sensor.axes, &limits, seed)?;
     let mut rng = stream(seed, Purpose::Sensor, 0);
     let truth = draw_sensor(sensor, &mut rng);
     let happened = match plan.trust {

@@ -11,14 +11,17 @@ pub type Result<T> = std::result::Result<T, Error>;
 
 /// Everything that can go wrong.
 ///
-/// Ask it with [`is_invalid_experiment`](Error::is_invalid_experiment), [`is_invalid_recording`](Error::is_invalid_recording) and
-/// [`is_not_identifiable`](Error::is_not_identifiable) rather than by matching: variants may be added.
+/// Ask it with [`is_invalid_experiment`](Error::is_invalid_experiment), [`is_invalid_recording`](Error::is_invalid_recording),
+/// [`is_not_identifiable`](Error::is_not_identifiable) and [`is_infeasible`](Error::is_infeasible) rather than by matching: variants may be added.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
     /// The experiment file, the commanded motion or an option makes no sense (exit status 2).
     #[error("{0}")]
     Experiment(Box<Complaint>),
+    /// The limits admit no motion (exit status 4).
+    #[error("{0}")]
+    Infeasible(Box<Complaint>),
     /// The recording cannot be used (exit status 3).
     #[error("{0}")]
     Recording(Box<Complaint>),
@@ -183,17 +186,29 @@ impl Error {
         matches!(self, Self::NotIdentifiable(_))
     }
 
+    /// Do the limits admit no motion?
+    #[must_use]
+    pub fn is_infeasible(&self) -> bool {
+        matches!(self, Self::Infeasible(_))
+    }
+
     /// The complaint about an input, where this is one.
     #[must_use]
     pub fn complaint(&self) -> Option<&Complaint> {
         match self {
-            Self::Experiment(complaint) | Self::Recording(complaint) => Some(complaint),
+            Self::Experiment(complaint) | Self::Recording(complaint) | Self::Infeasible(complaint) => {
+                Some(complaint)
+            }
             _ => None,
         }
     }
 
     pub(crate) fn experiment(complaint: Complaint) -> Self {
         Self::Experiment(Box::new(complaint))
+    }
+
+    pub(crate) fn infeasible(complaint: Complaint) -> Self {
+        Self::Infeasible(Box::new(complaint))
     }
 
     pub(crate) fn undetermined(group: UndeterminedGroup) -> Self {

@@ -1,4 +1,4 @@
-//! calibrant calibrates inertial sensors from a recording, says how well, and says when it cannot. (Finding the best motion to record comes next.)
+//! calibrant calibrates inertial sensors from a recording, says how well, and says when it cannot; and it finds the best motion to record.
 //!
 //! # The problem
 //! A sensor reports `y = S s + b + ν`, `ν ~ N(0, Σ_ν)`, of a stimulus `s` (true → raw). Calibrating it means estimating the parameters
@@ -12,6 +12,13 @@
 //! unknown (`Σ_w = ∞`, only the ends known) is one setting, [`motion::Trust`]. Where there is no robot, the sensor is held still in several
 //! orientations: `|s| = g`, directions unknown ([`estimate::HoldsSetup`]).
 //!
+//! # The second problem
+//! Which motion to record? With `Σ_p` the covariance that the first problem will give and `Φ` one of the [criteria](information::criterion),
+//!
+//! ```text
+//! minimise over a:  Φ(Σ_p(a, p̄))   subject to the arm's limits, at all times
+//! ```
+//!
 //! # The types
 //!
 //! | what | type |
@@ -22,6 +29,9 @@
 //! | a commanded motion and the trust in it | [`motion::CommandedMotion`], [`motion::JerkControlledMotion`] |
 //! | the problem, and how to solve it | [`estimate::CalibrationProblem`], [`estimate::CalibrationSettings`] |
 //! | estimates, covariance, fit, recovered motion | [`estimate::Calibration`] |
+//! | the motion to find, and how | [`design::DesignProblem`], [`design::DesignSettings`] |
+//! | the best motion, what it promises, and the proof | [`design::Design`], [`design::Certificate`] |
+//! | a motion of one's own beside it; the best as one thing changes | [`design::Assessment`], [`design::Sweep`] |
 //! | a population of simulated sensors | [`study::Study`] |
 //!
 //! # An example
@@ -50,7 +60,7 @@
 //!
 //! # The modules
 //! Data flow one way: [`sensor`] and [`motion`] say what is measured; [`arrowhead`] is the one linear-algebra kernel; [`information`] turns
-//! its result into covariance and into words about what is undetermined; [`estimate`] calibrates; [`simulate`] makes sensors and recordings;
+//! its result into covariance and into words about what is undetermined; [`estimate`] calibrates; [`design`] finds the motion; [`simulate`] makes sensors and recordings;
 //! [`study`] compares truth and estimate over many. [`io`] and [`report`] may use all and are used by none.
 
 pub mod arrowhead;

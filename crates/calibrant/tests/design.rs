@@ -1,16 +1,66 @@
-//! The reference cases of the design problem.
+//! The reference cases of the design problem, and what every design must keep.
 
-use calibrant::design::{Design, DesignProblem, DesignSettings, design};
+use calibrant::design::{Design, DesignProblem, DesignSettings, DesignStatus, design};
 use calibrant::information::Criterion;
-use calibrant::information::criterion::AOptimality;
+use calibrant::information::criterion::{
+    AOptimality, COptimality, DOptimality, EOptimality, IOptimality, MOptimality,
+};
 use calibrant::motion::{InputNoise, KnownEnds, Limits, Rest, Trust};
-use calibrant::sensor::{Sensor, SensorParameters};
+use calibrant::sensor::{Sensor, SensorModel, SensorParameters};
 use nalgebra::{DVector, Vector3};
 
-fn solve(limits: &Limits, trust: Trust, seed: u64) -> Design {
-    let sensor = Sensor::memsic_mxd2020u();
-    let problem = DesignProblem {
-        sensor: &sensor,
+/// A case of the specification: its limits, the trust, the reference value of the A-criterion of one axis, and the tolerance.
+struct Case {
+    name: &'static str,
+    limits: Limits,
+    trust: Trust,
+    reference: f64,
+    tolerance: f64,
+}
+
+fn cases() -> Vec<Case> {
+    let all = |limit: f64| Some(Vector3::repeat(limit));
+    let d1 = Limits { acceleration_mps2: all(30.0), jerk_mps3: all(30.0), ..Limits::default() };
+    vec![
+        Case {
+            name: "D1",
+            limits: d1.clone(),
+            trust: Trust::Known,
+            reference: 3.965_463_8e-10,
+            tolerance: 1e-6,
+        },
+        Case {
+            name: "D2",
+            limits: Limits { intercept_mps2: all(30.0), jerk_mps3: all(30.0), ..Limits::default() },
+            trust: Trust::Known,
+            reference: 3.973_324_1e-10,
+            tolerance: 1e-6,
+        },
+        Case {
+            name: "D3",
+            limits: Limits { velocity_mps: all(10.0), displacement_m: all(10.0), rest: Rest::Both, ..d1 },
+            trust: Trust::Known,
+            reference: 3.990_274_9e-10,
+            tolerance: 2e-4, // its reference keeps the limits at ten times of each interval only
+        },
+        Case {
+            name: "D4",
+            limits: Limits { acceleration_mps2: all(20.0), jerk_mps3: all(20.0), ..Limits::default() },
+            trust: Trust::Noisy(InputNoise { floor_mps3: 0.01, ratio: 0.01 }),
+            reference: 1.103_672e-5,
+            tolerance: 1e-6,
+        },
+    ]
+}
+
+fn problem<'a>(
+    sensor: &'a Sensor,
+    limits: &'a Limits,
+    trust: Trust,
+    criterion: Criterion,
+) -> DesignProblem<'a> {
+    DesignProblem {
+        sensor,
         at: SensorParameters::identity(),
         intervals: 10,
         interval_s: 1.0,
@@ -18,87 +68,133 @@ fn solve(limits: &Limits, trust: Trust, seed: u64) -> Design {
         trust,
         known_ends: KnownEnds::Start,
         limits,
-        criterion: Criterion::A(AOptimality { scale: DVector::repeat(6, 1.0) }),
+        criterion,
         prior: None,
-    };
-    let settings = DesignSettings { seed, certificate: false, ..DesignSettings::default() };
-    design(&problem, &settings, &|_| ()).expect("solved")
+    }
 }
 
-fn case(name: &str) -> (Limits, Trust, f64) {
-    let all = |limit: f64| Some(Vector3::repeat(limit));
-    let d1 = Limits { acceleration_mps2: all(30.0), jerk_mps3: all(30.0), ..Limits::default() };
-    match name {
-        "D1" => (d1, Trust::Known, 3.965_463_8e-10),
-        "D2" => (
-            Limits { intercept_mps2: all(30.0), jerk_mps3: all(30.0), ..Limits::default() },
-            Trust::Known,
-            3.973_324_1e-10,
-        ),
-        "D3" => (
-            Limits { velocity_mps: all(10.0), displacement_m: all(10.0), rest: Rest::Both, ..d1 },
-            Trust::Known,
-            3.990_274_9e-10,
-        ),
-        _ => (
-            Limits { acceleration_mps2: all(20.0), jerk_mps3: all(20.0), ..Limits::default() },
-            Trust::Noisy(InputNoise { floor_mps3: 0.01, ratio: 0.01 }),
-            1.103_672e-5,
-        ),
+fn a_optimality(parameters: usize) -> Criterion {
+    Criterion::A(AOptimality { scale: DVector::repeat(parameters, 1.0) })
+}
+
+/// The motion keeps its limits at 10 000 times, by integration of its jerk that knows nothing of nodes.
+fn assert_admissible(name: &str, design: &Design, limits: &Limits) {
+    let motion = &design.optimal.motion;
+    let duration = motion.times_s()[motion.intervals()];
+    let steps = 10_000_u32.div_ceil(motion.intervals() as u32) * motion.intervals() as u32;
+    let dt = duration / f64::from(steps);
+    let within = |what: &str, value: f64, limit: Option<Vector3<f64>>, axis: usize, t: f64| {
+        if let Some(limit) = limit {
+            let excess = value.abs() / limit[axis] - 1.0;
+            assert!(excess <= 1e-9, "{name}: {what} of axis {axis} exceeds its limit by {excess:e} at {t} s");
+        }
+    };
+    let (jerk, intercept) = (motion.jerk_mps3(), motion.intercept_mps2());
+    for axis in 0..3 {
+        // exact within each interval: the jerk is constant
+        let (mut v, mut d) = (0.0, 0.0);
+        for step in 0..steps {
+            let t = f64::from(step) * dt;
+            let (i, _) = motion.locate(t + 0.5 * dt);
+            let (a, u) = (motion.acceleration_at(t)[axis], jerk[i][axis]);
+            within("acceleration", a, limits.acceleration_mps2, axis, t);
+            within("jerk", u, limits.jerk_mps3, axis, t);
+            within("intercept", intercept[i][axis], limits.intercept_mps2, axis, t);
+            within("velocity", v, limits.velocity_mps, axis, t);
+            within("displacement", d, limits.displacement_m, axis, t);
+            d += v * dt + a * dt * dt / 2.0 + u * dt.powi(3) / 6.0;
+            v += a * dt + u * dt * dt / 2.0;
+        }
+        if limits.rest == Rest::Both {
+            assert!(v.abs() < 1e-9, "{name}: axis {axis} ends at {v} m/s");
+        }
     }
 }
 
 #[test]
-fn trace() {
-    let (limits, trust, _) = case("D4");
-    let sensor = Sensor { axes: 1, ..Sensor::memsic_mxd2020u() };
-    let problem = DesignProblem {
-        sensor: &sensor,
-        at: SensorParameters::identity(),
-        intervals: 10,
-        interval_s: 1.0,
-        rate_hz: 10.0,
-        trust,
-        known_ends: KnownEnds::Start,
-        limits: &limits,
-        criterion: Criterion::A(AOptimality { scale: DVector::repeat(2, 1.0) }),
-        prior: None,
-    };
-    let settings = DesignSettings { starts: 1, certificate: false, ..DesignSettings::default() };
-    let d = design(&problem, &settings, &|_| ()).expect("solved");
-    println!("{:?}", d.optimal.motion.acceleration_mps2().iter().map(|a| a.x).collect::<Vec<_>>());
+fn the_reference_cases_are_reached_from_every_seed() {
+    let sensor = Sensor::memsic_mxd2020u();
+    for case in cases() {
+        for seed in 1..=20 {
+            let problem = problem(&sensor, &case.limits, case.trust, a_optimality(6));
+            let settings = DesignSettings { seed, certificate: false, ..DesignSettings::default() };
+            let design = design(&problem, &settings, &|_| ()).expect("solved");
+            let ratio = design.optimal.value / (3.0 * case.reference);
+            assert!(ratio <= 1.0 + case.tolerance, "{} seed {seed}: {ratio}", case.name);
+            // far below would be a bug: D1 to D3 know no better optimum, D4 none by more than its reference's rounding
+            assert!(ratio >= 1.0 - 1e-6, "{} seed {seed}: {ratio}", case.name);
+            assert_eq!(design.status, DesignStatus::Converged, "{} seed {seed}", case.name);
+            assert!(design.initial.value > design.optimal.value);
+            assert_eq!(design.starts.len(), 90, "no start is lost");
+            assert_admissible(case.name, &design, &case.limits);
+        }
+    }
 }
 
 #[test]
-fn try_all() {
-    for name in ["D1", "D3", "D4"] {
-        let (limits, trust, reference) = case(name);
-        for seed in 1..=2 {
-            let start = std::time::Instant::now();
-            let design = solve(&limits, trust, seed);
-            let best = design.optimal.value / 3.0;
-            let hits = design.starts.iter().filter(|s| s.value <= reference * (1.0 + 1e-6)).count();
-            let iterations: Vec<_> = design.starts.iter().map(|s| s.iterations).collect();
-            println!(
-                "{name} {seed}: {:e} ratio-1 {:e} sdK {:e} hits {hits}/{} {:?} {:?} its {:?} ",
-                best,
-                best / reference - 1.0,
-                design.optimal.sd()[3],
-                design.starts.len(),
-                design.status,
-                start.elapsed(),
-                iterations.iter().sum::<usize>()
-            );
-            let mut values: Vec<_> = design.starts.iter().map(|s| s.value / reference - 1.0).collect();
-            values.sort_by(f64::total_cmp);
-            println!("{:?}", &values[..12]);
-            let mut bad: Vec<_> = design.starts.iter().map(|s| s.status).collect();
-            bad.retain(|s| *s != calibrant::design::DesignStatus::Converged);
-            println!("   {}", bad.len());
-            if seed == 1 {
-                println!(
-                    "{:?}",
-                    design.optimal.motion.acceleration_mps2().iter().map(|a| a.x).collect::<Vec<_>>()
+fn the_result_does_not_depend_on_the_number_of_threads() {
+    let sensor = Sensor::memsic_mxd2020u();
+    let case = &cases()[2];
+    let run = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("pool");
+        let problem = problem(&sensor, &case.limits, case.trust, a_optimality(6));
+        let settings = DesignSettings { starts: 6, certificate: false, ..DesignSettings::default() };
+        pool.install(|| design(&problem, &settings, &|_| ()).expect("solved"))
+    };
+    let (one, three) = (run(1), run(3));
+    assert_eq!(one.optimal.motion, three.optimal.motion);
+    assert_eq!(one.starts, three.starts);
+}
+
+/// Every criterion's best motion is better in its own criterion than the best motions of the others.
+#[test]
+fn every_criterion_is_served_best_by_its_own_design() {
+    let all = |limit: f64| Some(Vector3::repeat(limit));
+    let limits = Limits {
+        acceleration_mps2: all(20.0),
+        jerk_mps3: all(30.0),
+        velocity_mps: all(12.0),
+        ..Limits::default()
+    };
+    let noise = Trust::Noisy(InputNoise { floor_mps3: 1e-3, ratio: 1e-3 });
+    for (model, trust, starts) in [
+        (SensorModel::ScaleBias, Trust::Known, 20),
+        (SensorModel::ScaleBias, noise, 20),
+        (SensorModel::Full, Trust::Known, 12),
+        (SensorModel::Full, noise, 4),
+    ] {
+        let sensor = Sensor { noise_mps2: Some(Vector3::repeat(0.01)), ..Sensor::triaxial(model) };
+        let size = sensor.parameter_list().len();
+        let scale = DVector::from_fn(size, |i, _| if i < 3 { 0.1 } else { 0.005 });
+        let range = IOptimality::new(&sensor.parameter_list(), &SensorParameters::identity(), 20.0);
+        let criteria = [
+            Criterion::A(AOptimality { scale: scale.clone() }),
+            Criterion::D(DOptimality { scale: scale.clone() }),
+            Criterion::E(EOptimality { scale: scale.clone() }),
+            Criterion::M(MOptimality { scale: scale.clone() }),
+            Criterion::C(COptimality { weights: DVector::from_fn(size, |i, _| f64::from(u8::from(i == 3))) }),
+            Criterion::I(range.expect("regular")),
+        ];
+        let designs: Vec<_> = criteria
+            .iter()
+            .map(|criterion| {
+                let problem =
+                    DesignProblem { intervals: 4, ..problem(&sensor, &limits, trust, criterion.clone()) };
+                let settings = DesignSettings { starts, certificate: false, ..DesignSettings::default() };
+                let design = design(&problem, &settings, &|_| ()).expect("solved");
+                assert_admissible(criterion.letter(), &design, &limits);
+                design
+            })
+            .collect();
+        for (criterion, own) in criteria.iter().zip(&designs) {
+            for other in &designs {
+                let value = criterion.value(other.optimal.covariance.as_ref().expect("determined"));
+                let gap = criterion.gap(own.optimal.value, value);
+                assert!(
+                    gap <= 1e-6,
+                    "{model:?} {trust:?}: the best motion for {} is {gap:e} worse than that for {}",
+                    criterion.letter(),
+                    other.criterion.letter()
                 );
             }
         }

@@ -5,11 +5,15 @@
 
 mod common;
 
+use calibrant::design::{DesignProblem, DesignSettings, design};
 use calibrant::estimate::{
     CalibrationProblem, CalibrationSettings, HoldsSetup, Recovered, Stimulus, calibrate,
 };
-use calibrant::motion::{CommandedMotion, Gravity, InputNoise, KnownEnds, Limits, Trust};
-use calibrant::sensor::{Gauge, Quantity, Sensor, SensorModel};
+use calibrant::information::criterion::{AOptimality, Criterion};
+use calibrant::motion::{
+    CommandedMotion, Gravity, InputNoise, JerkControlledMotion, KnownEnds, Limits, Trust,
+};
+use calibrant::sensor::{Gauge, Quantity, Sensor, SensorModel, SensorParameters};
 use calibrant::simulate::{
     HoldsSimulation, Purpose, draw_sensor, initial_motion, perturb, simulate_holds, simulate_recording,
     stream,
@@ -44,7 +48,6 @@ fn study(
     rate_hz: f64,
     limit: f64,
 ) -> Study {
-    let sensor = Sensor { model, cross_axis_sd: Some(0.005), ..Sensor::memsic_mxd2020u() };
     let limits = Limits {
         acceleration_mps2: Some(Vector3::repeat(limit)),
         jerk_mps3: Some(Vector3::repeat(limit)),
@@ -52,6 +55,11 @@ fn study(
     };
     let mut rng = stream(1, Purpose::Motion, 0);
     let motion = initial_motion(intervals, interval_s, 3, &limits, &mut rng).expect("valid");
+    study_of(model, trust, motion, rate_hz)
+}
+
+fn study_of(model: SensorModel, trust: Trust, motion: JerkControlledMotion, rate_hz: f64) -> Study {
+    let sensor = Sensor { model, cross_axis_sd: Some(0.005), ..Sensor::memsic_mxd2020u() };
     let known_ends = if trust == Trust::Unknown { KnownEnds::Both } else { KnownEnds::Start };
     let command = CommandedMotion { motion, trust, known_ends };
     let problem = StudyProblem { sensor: &sensor, command: &command, rate_hz, sensors: SENSORS };
@@ -106,6 +114,50 @@ fn noisy_motion_delivers_the_promised_covariance() {
     let noise = Trust::Noisy(InputNoise { floor_mps3: 0.01, ratio: 0.01 });
     assert_honest(&study(SensorModel::ScaleBias, noise, 10, 1.0, 10.0, 20.0));
     assert_honest(&study(SensorModel::Full, noise, 10, 1.0, 10.0, 20.0));
+}
+
+/// The best motion of the report's chapter 4 within ±bound on x and u.
+fn optimal_motion(trust: Trust, bound: f64) -> JerkControlledMotion {
+    let sensor = Sensor::memsic_mxd2020u();
+    let limits = Limits {
+        intercept_mps2: Some(Vector3::repeat(bound)),
+        jerk_mps3: Some(Vector3::repeat(bound)),
+        ..Limits::default()
+    };
+    let problem = DesignProblem {
+        sensor: &sensor,
+        at: SensorParameters::identity(),
+        intervals: 10,
+        interval_s: 1.0,
+        rate_hz: 10.0,
+        trust,
+        known_ends: KnownEnds::Start,
+        limits: &limits,
+        criterion: Criterion::A(AOptimality { scale: DVector::repeat(6, 1.0) }),
+        prior: None,
+    };
+    let settings = DesignSettings { starts: 5, certificate: false, ..DesignSettings::default() };
+    design(&problem, &settings, &|_| ()).expect("bounded").optimal.motion
+}
+
+#[test]
+fn optimal_known_motion_delivers_the_promised_covariance() {
+    let motion = optimal_motion(Trust::Known, 30.0);
+    assert_honest(&study_of(SensorModel::ScaleBias, Trust::Known, motion, 10.0));
+}
+
+#[test]
+fn optimal_noisy_motion_delivers_the_promised_covariance() {
+    let noise = Trust::Noisy(InputNoise { floor_mps3: 0.01, ratio: 0.01 });
+    let study = study_of(SensorModel::ScaleBias, noise, optimal_motion(noise, 20.0), 10.0);
+    assert_honest(&study);
+    // the joint estimate is biased by order N var(K)/K²: a few hundredths of a standard deviation
+    for row in study.summary.iter().filter(|row| row.name.starts_with("scale.")) {
+        let bias = study.motion.intervals() as f64 * row.predicted_sd.powi(2);
+        let error = row.predicted_sd / (SENSORS as f64).sqrt();
+        println!("{}: mean error {:.2e} ± {error:.1e}, order {bias:.1e}", row.name, row.mean_error);
+        assert!(row.mean_error.abs() < 2.0 * bias + 5.0 * error, "{}: {}", row.name, row.mean_error);
+    }
 }
 
 /// Share of white recordings that the whiteness test calls coloured at 5 %.

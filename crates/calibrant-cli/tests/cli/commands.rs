@@ -161,34 +161,82 @@ fn init_prints_a_preset_or_keeps_the_file_that_is_there() {
 #[test]
 fn the_study_of_the_report_needs_no_file() {
     let bench = Bench::new();
-    let outcome = bench.run("study --sensors 5 -o study").done();
+    let outcome = bench.run("study --sensors 2 --starts 2 -o study").done();
     assert_eq!(outcome.stderr, "");
-    for text in ["5 sensors, trust unknown, 14 intervals, 2 Hz, seed 1", "scale.z", "study/report.html"] {
+    for text in [
+        "2 sensors, trust unknown, 14 intervals, 2 Hz, seed 1",
+        "2 sensors, trust known, initial against optimal motion, 10 intervals, 10 Hz, seed 1",
+        "2 sensors, trust noisy, initial against optimal motion",
+        "scale.z",
+        "study/report.html",
+    ] {
         assert!(outcome.stdout.contains(text), "{text}\n{}", outcome.stdout);
     }
     let study = bench.json("study/study.json");
-    assert_eq!(study["sensors"].as_array().map(Vec::len), Some(5));
-    assert_eq!(names(&study["parameters"]), SCALE_BIAS);
-    assert_eq!(names(&study["summary"]), SCALE_BIAS);
-    assert!((study["fine"]["rate_hz"].as_f64().expect("a number") - 10.0).abs() < 1e-9);
+    let unknown = &study["calibration"];
+    assert!((unknown["fine"]["rate_hz"].as_f64().expect("a number") - 10.0).abs() < 1e-9);
+    assert_eq!(study["surface"]["log10_trace"].as_array().map(Vec::len), Some(41));
+    assert_eq!(study["surface"]["log10_trace"][20][20], Value::Null);
+    for part in ["calibration", "design", "noisy"] {
+        assert_eq!(study[part]["sensors"].as_array().map(Vec::len), Some(2), "{part}");
+        assert_eq!(names(&study[part]["parameters"]), SCALE_BIAS, "{part}");
+    }
+    assert_eq!(names(&unknown["summary"]), SCALE_BIAS);
+    assert_eq!(study["noisy"]["input_noise"]["ratio"], 0.01);
+    assert_eq!(study["noisy"]["limits"]["jerk_mps3"][0], 20.0);
+    for part in ["design", "noisy"] {
+        let scale = &study[part]["summary"][3];
+        assert_eq!(scale["optimal"]["name"], "scale.x");
+        assert!(scale["predicted_factor"].as_f64().is_some_and(|factor| factor > 1.0), "{scale}");
+        assert!(scale["realised_factor_standard_error"].is_number(), "{scale}");
+    }
     assert_report(&bench, "study/report.html");
-    let outcome = bench.run("study --sensors 1").done();
-    assert!(outcome.stdout.starts_with("1 sensor, trust unknown"), "{}", outcome.stdout);
-    assert!(bench.path("calibrant-study/study.json").is_file());
 }
 
 #[test]
 fn a_study_follows_its_experiment_and_its_motion() {
     let bench = Bench::new();
-    bench.preset("report", "experiment.toml", &[("sensors = 30", "sensors = 3"), ("seed = 1", "seed = 9")]);
+    bench.preset("report", "whole.toml", &[("sensors = 30", "sensors = 3")]);
+    let whole = bench.read("whole.toml");
+    let alone = &whole[..whole.find("[study.surface]").expect("there")];
+    bench.write("experiment.toml", alone);
     bench.run("simulate experiment.toml -o simulated").done();
-    bench.run("study experiment.toml --motion simulated/motion.csv --seed 4 -o study").done();
+    bench.run("study experiment.toml --motion simulated/motion.csv --seed 4 --starts 2 -o study").done();
     let study = bench.json("study/study.json");
-    assert_eq!((&study["seed"], &study["trust"]), (&4.into(), &"known".into()));
-    assert_eq!(study["sensors"].as_array().map(Vec::len), Some(3));
+    for absent in ["calibration", "surface", "noisy"] {
+        assert_eq!(study[absent], Value::Null, "{absent}");
+    }
+    let design = &study["design"];
+    assert_eq!((&design["seed"], &design["trust"]), (&4.into(), &"known".into()));
+    assert_eq!((&design["starts"], &design["initial_given"]), (&2.into(), &true.into()));
+    assert_eq!(design["sensors"].as_array().map(Vec::len), Some(3));
     let motion = bench.read("simulated/motion.csv");
     let node = motion.lines().nth(1).and_then(|line| line.strip_prefix("0.0,")).expect("the first node");
     assert!(bench.read("study/study.json").contains(&format!("[{}]", node.replace(',', ", "))), "{node}");
+}
+
+#[test]
+fn a_study_without_a_design_says_why() {
+    let bench = Bench::new();
+    bench.preset("report-unknown", "unknown.toml", &[]);
+    let outcome = bench.run("study unknown.toml --sensors 2 -o unknown").done();
+    assert_eq!(
+        outcome.stderr,
+        "note: no motion was designed: nothing is known of the motion but its ends, so none can be commanded\n"
+    );
+    bench.write(
+        "free.toml",
+        bench.run("init report-noisy").done().stdout.replace("acceleration_mps2 = 20.0", ""),
+    );
+    let outcome = bench.run("study free.toml --sensors 2 -o free").done();
+    assert!(outcome.stderr.contains("nothing bounds the acceleration of axis x"), "{}", outcome.stderr);
+    for study in ["unknown", "free"] {
+        let json = bench.json(&format!("{study}/study.json"));
+        assert_eq!((&json["design"], &json["noisy"]), (&Value::Null, &Value::Null));
+        assert_eq!(json["calibration"]["sensors"].as_array().map(Vec::len), Some(2));
+        assert_eq!(json["remarks"].as_array().map(Vec::len), Some(1));
+        assert_report(&bench, &format!("{study}/report.html"));
+    }
 }
 
 #[test]
@@ -200,7 +248,7 @@ fn json_on_stdout_is_the_file_and_nothing_else() {
     let calibrate = "calibrate experiment.toml --motion a/motion.csv --json";
     let outcome = bench.run(&format!("{calibrate} a/recording.csv -o one")).done();
     assert_eq!(outcome.stdout, bench.read("one/calibration.json"));
-    let outcome = bench.run("study --sensors 3 --json -o study").done();
+    let outcome = bench.run("study --sensors 2 --starts 1 --json -o study").done();
     assert_eq!(outcome.stdout, bench.read("study/study.json"));
     let outcome = bench.run(&format!("{calibrate} a/recording.csv b/recording.csv -o two")).done();
     let list: Value = serde_json::from_str(&outcome.stdout).expect("JSON");

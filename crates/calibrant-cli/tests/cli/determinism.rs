@@ -30,9 +30,9 @@ fn a_calibration_does_not_depend_on_threads_or_folders() {
 #[test]
 fn a_study_does_not_depend_on_threads() {
     let bench = Bench::new();
-    bench.run("study --sensors 40 --threads 1 -o one").done();
-    bench.run("study --sensors 40 --threads 2 -o two").done();
+    bench.run("study --sensors 3 --starts 2 --threads 1 -o one").done();
+    bench.run("study --sensors 3 --starts 2 --threads 2 -o two").done();
     assert!(bench.read("one/study.json") == bench.read("two/study.json"));
-    bench.run("study --sensors 40 --seed 2 -o other").done();
+    bench.run("study --sensors 3 --starts 2 --seed 2 -o other").done();
     assert!(bench.read("one/study.json") != bench.read("other/study.json"));
 }

@@ -5,6 +5,7 @@ mod broken;
 mod commands;
 #[path = "../../../calibrant/tests/common/data.rs"]
 mod data;
+mod design;
 mod determinism;
 mod examples;
 mod many;

@@ -124,6 +124,7 @@ fn calibrated(
         recovered: Recovered::Motion(RecoveredMotion { motion, acceleration_sd_mps2, trust: "unknown" }),
         residuals,
         first_sample: 0,
+        datasheet_prior: false,
         warnings: Vec::new(),
     }
 }
@@ -216,6 +217,7 @@ pub(crate) fn hold_case(count: usize, samples_per_hold: usize) -> (Calibration, 
         }),
         residuals: Vec::new(),
         first_sample: 0,
+        datasheet_prior: false,
         warnings: vec![
             "hold 18 was left out: its residual is 21 times what is expected; it was probably not still"
                 .to_string(),

@@ -1,10 +1,14 @@
 //! Reports of made-up results, to look at: `cargo run --example report_gallery -- DIRECTORY`.
 
-use calibrant::report::{About, calibration_report, study_report};
-use calibrant::{estimate, motion, sensor, study};
+use calibrant::report::{
+    About, calibration_report, design_report, evaluation_report, study_report, sweep_report,
+};
+use calibrant::{design, estimate, information, motion, sensor, simulate, study};
 use std::path::PathBuf;
 
+mod designs;
 mod fakes;
+mod studies;
 
 fn main() -> std::io::Result<()> {
     let directory = PathBuf::from(std::env::args().nth(1).unwrap_or_else(|| ".".to_string()));
@@ -56,6 +60,19 @@ fn main() -> std::io::Result<()> {
         ),
     )?;
 
+    let (sensor, limits) = (sensor::Sensor::memsic_mxd2020u(), designs::arm());
+    let problem = designs::problem(&sensor, &limits);
+    let design = designs::design_of(&problem, 30);
+    write("design.html", design_report(&design, &about("Design for the report's sensor", "–", 101)))?;
+
+    let own = designs::swing(&problem, [1.0; 3]).motion;
+    let assessment = design::assess(&problem, &own, Ok(design)).expect("a valid setting");
+    write(
+        "evaluation.html",
+        evaluation_report(&assessment, &about("Is my motion any good?", "mine.csv", 101)),
+    )?;
+    write("sweep.html", sweep_report(&designs::sweep(&sensor), &about("Displacement", "–", 101)))?;
+
     let case = fakes::motion_case(3, 20, 10_000.0, 9);
     write(
         "long.html",
@@ -66,9 +83,12 @@ fn main() -> std::io::Result<()> {
         ),
     )?;
 
-    write("study.html", study_report(&fakes::study(50), &about("Study of 50 sensors", "–", 0)))?;
+    write("study.html", study_report(&studies::everything(50, 30), &about("Study of 50 sensors", "–", 0)))?;
     write(
         "study_large.html",
-        study_report(&fakes::study(100_000), &about("Study of 100 000 sensors", "–", 0)),
+        study_report(
+            &studies::calibrations(fakes::study(100_000)),
+            &about("Study of 100 000 sensors", "–", 0),
+        ),
     )
 }

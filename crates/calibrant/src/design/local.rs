@@ -13,7 +13,7 @@
 use super::conic::{ConicProgram, ConicSolution, Row};
 use super::curvature::{Curvature, pieces};
 use super::region::{Region, Watch};
-use super::{DesignSettings, DesignStatus};
+use super::{DesignSettings, DesignStatus, hessian};
 use crate::information::{Criterion, Linearised, PartInformation, covariance};
 use nalgebra::{DMatrix, SMatrix, SVector};
 
@@ -62,7 +62,7 @@ impl<const D: usize, const P: usize> Part<D, P> {
             .unwrap_or(f64::INFINITY)
     }
 
-    fn covariance(&self, at: &Linearised<D, P>) -> Option<DMatrix<f64>> {
+    pub(super) fn covariance(&self, at: &Linearised<D, P>) -> Option<DMatrix<f64>> {
         let f = at.information + self.prior;
         covariance(&DMatrix::from_fn(P, P, |i, j| f[(i, j)]))
     }
@@ -89,9 +89,6 @@ impl<const D: usize, const P: usize> Part<D, P> {
             let Some((step, promise)) = self.step(&a, &model, &mut watch, &mut weights) else {
                 return end(a, value, iteration, DesignStatus::Stalled);
             };
-            if std::env::var("TRACE").is_ok() {
-                eprintln!("{iteration} value {value:e} promise {promise:e} bend {bend:e}");
-            }
             if promise <= CONVERGED {
                 return end(a, value, iteration, DesignStatus::Converged);
             }
@@ -142,13 +139,23 @@ impl<const D: usize, const P: usize> Part<D, P> {
             self.information.total(a, &self.information.derivative(&at, &fixed(omega)))
         };
         let pieces = pieces(&self.criterion, &c);
+        let noisy = self.information.input_noise().is_some_and(|(_, ratio)| ratio > 0.0);
+        if noisy
+            && pieces.len() == 1
+            && a.len() * D <= hessian::LARGEST
+            && !matches!(self.criterion, Criterion::E(_))
+        {
+            let mut bends = self.positive_curvature(a)?;
+            bends.iter_mut().flatten().for_each(|row| *row *= bend.sqrt());
+            let pieces = vec![(pieces[0].0, self.gradient(a)?)];
+            return Some(Model { pieces, bends, noise: Vec::new(), matrix: None });
+        }
         let mut model = Model { pieces: Vec::new(), bends: Vec::new(), noise: Vec::new(), matrix: None };
         let total: f64 = weights.iter().take(pieces.len()).sum();
         let single = pieces.len() == 1;
         for ((value, Curvature { first, forms }), weight) in pieces.into_iter().zip(weights) {
             let derivative = self.information.derivative(&at, &fixed(&first));
-            let kinked = self.information.input_noise().is_some_and(|(_, ratio)| ratio > 0.0);
-            let slope = if single && kinked {
+            let slope = if single && noisy {
                 model.noise = derivative.variances.iter().map(|v| v * -bend).collect();
                 let total = self.information.total(a, &derivative);
                 derivative

@@ -1,9 +1,14 @@
 //! Design: the motion whose recording determines the parameters best, and the proof of how good it is.
 
+mod admissible;
+mod assessment;
 mod certificate;
 mod conic;
 mod curvature;
 mod evaluate;
+mod feasibility;
+mod hessian;
+mod initial;
 mod local;
 mod problem;
 mod region;
@@ -11,28 +16,36 @@ mod result;
 mod search;
 mod settings;
 mod starts;
+mod statement;
+mod sweep;
 
+pub use admissible::{LimitKind, LimitUse, ROUNDING, limit_use};
+pub use assessment::{Assessment, OtherSetting, assess};
 pub use evaluate::evaluate;
+pub use feasibility::check_feasible;
+pub use initial::initial_motion;
 pub use problem::DesignProblem;
 pub use result::{Certificate, Design, DesignStatus, Evaluation, StartOutcome};
 pub use settings::DesignSettings;
+pub use sweep::{Sweep, SweepPoint, SweepVariable, sweep};
 
 use crate::error::Result;
 use crate::motion::JerkControlledMotion;
-use crate::simulate::{Purpose, initial_motion, stream};
-use nalgebra::Vector3;
+use crate::simulate::{Purpose, stream};
 use search::search;
 
 /// Finds the best motion; `progress` is called with 1 after each start.
 ///
 /// # Errors
-/// [`Error::Experiment`](crate::Error::Experiment) where nothing bounds the motion.
+/// [`Error::Experiment`](crate::Error::Experiment) where nothing bounds the motion; [`Error::Infeasible`](crate::Error::Infeasible) where the limits
+/// admit none.
 pub fn design(
     problem: &DesignProblem<'_>,
     settings: &DesignSettings,
     progress: &(dyn Fn(u64) + Sync),
 ) -> Result<Design> {
     problem.check()?;
+    check_feasible(problem)?;
     let limits = problem.effective_limits();
     let initial = initial_motion(
         problem.intervals,
@@ -41,9 +54,9 @@ pub fn design(
         &limits,
         &mut stream(settings.seed, Purpose::Motion, 0),
     )?;
-    let rest =
-        JerkControlledMotion::uniform(problem.interval_s, vec![Vector3::zeros(); problem.intervals + 1])?;
-    let found = search(problem, settings, &limits, &initial, (&rest, 1.0), progress)?;
+    let (inside, slack) =
+        feasibility::inside(&limits, problem.sensor.axes, problem.intervals, problem.interval_s)?;
+    let found = search(problem, settings, &limits, &initial, (&inside, slack), progress)?;
     let best = JerkControlledMotion::uniform(problem.interval_s, found.nodes)?;
     let initial = evaluate(problem, &initial)?;
     let optimal = evaluate(problem, &best)?;

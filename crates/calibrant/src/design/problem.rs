@@ -37,12 +37,7 @@ impl DesignProblem<'_> {
     /// The limits with the sensor's range among them.
     #[must_use]
     pub fn effective_limits(&self) -> Limits {
-        let mut limits = self.limits.clone();
-        limits.acceleration_mps2 = match (limits.acceleration_mps2, self.sensor.range_mps2) {
-            (Some(arm), Some(range)) => Some(arm.zip_map(&range, f64::min)),
-            (arm, range) => arm.or(range),
-        };
-        limits
+        self.limits.within_range(self.sensor.range_mps2)
     }
 
     /// The setting of the experiment.
@@ -64,7 +59,7 @@ impl DesignProblem<'_> {
         }
     }
 
-    pub(super) fn check(&self) -> Result<()> {
+    pub(crate) fn check(&self) -> Result<()> {
         let limits = self.effective_limits();
         for &axis in self.sensor.active_axes() {
             let l = limits.axis(axis.index());

@@ -29,6 +29,25 @@ pub struct Design {
     pub certificate: Option<Certificate>,
 }
 
+impl Design {
+    /// Number of starts that converged.
+    #[must_use]
+    pub fn starts_converged(&self) -> usize {
+        self.starts.iter().filter(|start| start.status == DesignStatus::Converged).count()
+    }
+
+    /// Number of starts that ended within 0.1 % (for D 0.001 nats) of the best of their axes.
+    #[must_use]
+    pub fn starts_at_best(&self) -> usize {
+        let best = |axes: &[Axis]| {
+            let own = self.starts.iter().filter(|start| start.axes == axes);
+            own.map(|start| start.value).fold(f64::INFINITY, f64::min)
+        };
+        let near = |start: &&StartOutcome| self.criterion.gap(start.value, best(&start.axes)).abs() < 1e-3;
+        self.starts.iter().filter(near).count()
+    }
+}
+
 /// What a recording of a motion will tell.
 #[derive(Debug, Clone)]
 pub struct Evaluation {

@@ -1,5 +1,8 @@
 //! The search: many starts, in parallel, and the best motion of each axis.
 //!
+//! Half of the starts are corners of the admissible region; the others are kicked out of the best optimum so far, in three rounds, so that the result
+//! does not depend on the number of threads.
+//!
 //! Axes of a scale-bias sensor share nothing, so each is designed by itself, and those that have the same problem are designed once, with the starts of
 //! all of them. Among motions that are equally good each axis takes the one most like its initial motion: optima come in pairs, `a` and `−a`,
 //! and often more.
@@ -23,7 +26,7 @@ pub(super) struct Found {
 }
 
 /// Values that differ by less than this, relatively, are equal.
-const EQUAL: f64 = 1e-7;
+const EQUAL: f64 = 1e-9;
 
 /// Searches the best motion. `initial` is the first start of every axis, `inside` an admissible motion at a relative distance `slack` from every limit.
 pub(super) fn search(
@@ -138,20 +141,29 @@ impl Found {
             initial.acceleration_mps2().iter().map(|a| SVector::from_fn(|k, _| a[axes[k].index()])).collect()
         };
         let first = groups[0][0].index() as u64;
-        let outcomes: Vec<LocalOptimum<D>> = (0..settings.starts * groups.len())
-            .into_par_iter()
-            .map(|number| {
-                let start = if number < groups.len() {
-                    Some(part.stretched(own(&groups[number])))
-                } else {
+        let count = settings.starts * D * groups.len();
+        let mut outcomes: Vec<LocalOptimum<D>> = Vec::with_capacity(count);
+        // half of the starts at corners, then rounds of kicks from the best so far
+        let rounds = [count.div_ceil(2), count * 2 / 3, count * 5 / 6, count];
+        for end in rounds {
+            let best =
+                outcomes.iter().min_by(|a, b| a.value.total_cmp(&b.value)).map(|best| best.nodes.clone());
+            let round: Vec<_> = (outcomes.len()..end.max(outcomes.len()))
+                .into_par_iter()
+                .map(|number| {
                     let mut rng = stream(settings.seed, Purpose::Start, 3 * number as u64 + first);
-                    part.corner(number, &mut rng)
-                };
-                let outcome = part.improve(start.unwrap_or_else(|| own(&groups[0])), settings);
-                progress(1);
-                outcome
-            })
-            .collect();
+                    let start = match &best {
+                        _ if number < groups.len() => part.stretched(own(&groups[number])),
+                        None => part.corner(number, &mut rng).unwrap_or_else(|| own(&groups[0])),
+                        Some(best) => part.kicked(best, &mut rng).unwrap_or_else(|| own(&groups[0])),
+                    };
+                    let outcome = part.improve(start, settings);
+                    progress(1);
+                    outcome
+                })
+                .collect();
+            outcomes.extend(round);
+        }
         let axes: Vec<Axis> = groups.iter().flatten().copied().collect();
         for (number, outcome) in outcomes.iter().enumerate() {
             self.starts.push(StartOutcome {

@@ -55,6 +55,8 @@ pub struct Calibration {
     pub residuals: Vec<Vector3<f64>>,
     /// Index into the recording of each residual's sample: the samples within the motion are contiguous, this is the first.
     pub first_sample: usize,
+    /// Did the datasheet count as a prior?
+    pub datasheet_prior: bool,
     /// Things a user should know, in words.
     pub warnings: Vec<String>,
 }

@@ -4,9 +4,11 @@ pub(crate) mod chain_model;
 mod covariance;
 pub mod criterion;
 mod expected;
+mod explanation;
 mod identifiability;
 
 pub use covariance::covariance;
 pub use criterion::Criterion;
 pub use expected::{InformationDerivative, Linearised, MotionInformation, PartInformation};
+pub(crate) use explanation::{MotionFacts, View, explain};
 pub use identifiability::{Undetermined, undetermined};

@@ -5,7 +5,9 @@
 //! | experiment (TOML) | [`Experiment::read`] | [`preset()`], [`PRESETS`] |
 //! | `recording.csv` and other recordings | [`read_recording`] | [`write_recording`] |
 //! | `motion.csv` | [`read_motion`] | [`write_motion`] |
-//! | `calibration.json` | | [`write_calibration`] |
+//! | `calibration.json` | [`read_calibration`], as what is known before a design | [`write_calibration`] |
+//! | `design.json`, `motion_dense.csv` | | [`write_design`], [`write_dense_motion`] |
+//! | `evaluation.json`, `sweep.json`, `sweep.csv` | | [`write_evaluation`], [`write_sweep`], [`write_sweep_csv`] |
 //! | `truth.json`, `study.json`, `summary.csv` | | [`write_truth`], [`write_study`], [`write_summary`] |
 //!
 //! Everything is SI inside; conversions happen here. No input makes the readers panic, and no NaN or infinity passes them. Every
@@ -14,6 +16,10 @@
 
 mod calibration;
 mod delimited;
+mod dense;
+mod design;
+mod earlier;
+mod evaluation;
 mod experiment;
 mod fields;
 mod json;
@@ -23,13 +29,18 @@ mod preset;
 mod recording;
 mod study;
 mod summary;
+mod sweep;
 mod text;
 mod truth;
 
 pub use calibration::{Input, calibration_json, write_calibration};
+pub use dense::write_dense_motion;
+pub use design::{design_json, write_design};
+pub use earlier::{EarlierCalibration, parse_calibration, read_calibration};
+pub use evaluation::{evaluation_json, write_evaluation};
 pub use experiment::{
-    CalibrateOptions, CriterionLetter, DesignOptions, Experiment, HoldsPlan, MotionPlan, Plan, Prior,
-    ScaleBy, StudyOptions,
+    CalibrateOptions, CriterionLetter, DesignOptions, Experiment, HoldsPlan, MotionPlan, NoisyVariant, Plan,
+    Prior, ScaleBy, StudyOptions, UnknownVariant,
 };
 pub use motion::{parse_motion, read_motion, write_motion};
 pub use output::write_atomically;
@@ -39,4 +50,5 @@ pub use recording::{
 };
 pub use study::{study_json, write_study};
 pub use summary::{SummaryRow, write_summary};
+pub use sweep::{sweep_json, write_sweep, write_sweep_csv};
 pub use truth::{truth_json, write_truth};

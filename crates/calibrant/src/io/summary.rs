@@ -76,7 +76,7 @@ fn number(value: Option<f64>) -> String {
 }
 
 /// A unit as it ends a column's name.
-fn ending(unit: &str) -> &'static str {
+pub(super) fn ending(unit: &str) -> &'static str {
     match unit {
         "m/s²" => "_mps2",
         "counts" => "_counts",

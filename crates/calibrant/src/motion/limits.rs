@@ -36,6 +36,16 @@ pub struct Limits {
 }
 
 impl Limits {
+    /// The same, with accelerations that a sensor of this range can report.
+    #[must_use]
+    pub fn within_range(&self, range_mps2: Option<Vector3<f64>>) -> Self {
+        let acceleration_mps2 = match (self.acceleration_mps2, range_mps2) {
+            (Some(arm), Some(range)) => Some(arm.zip_map(&range, f64::min)),
+            (arm, range) => arm.or(range),
+        };
+        Self { acceleration_mps2, ..self.clone() }
+    }
+
     /// The limits of one axis, 0 to 2.
     #[must_use]
     pub fn axis(&self, k: usize) -> AxisLimits {

@@ -1,5 +1,6 @@
 //! Where the sensor is: jerk-controlled motion, how far it is trusted, static holds, gravity and the arm's limits.
 
+mod at_time;
 mod command;
 mod gravity;
 mod hold;
@@ -7,6 +8,7 @@ mod jerk_controlled;
 mod limits;
 mod sampling;
 
+pub use at_time::MotionState;
 pub use command::{CommandedMotion, InputNoise, KnownEnds, Trust};
 pub use gravity::Gravity;
 pub use hold::Hold;

@@ -49,7 +49,7 @@ pub fn calibration_report(calibration: &Calibration, recording: &Recording, abou
         Recovered::Holds(holds) => hold_section(&mut page, calibration, holds, recording),
     }
     page.section("Correlations", "");
-    page.push(correlation_map(calibration));
+    page.push(correlation_map(&calibration.parameters, &calibration.covariance));
     page.finish(title, &about.footer())
 }
 
@@ -73,16 +73,16 @@ fn motion_section(
     page.section("Motion", lead);
     let truth = about.true_motion.as_ref();
     let title = match truth {
-        Some(_) => "Actual, measured and estimated acceleration (the report's Figure 4)",
-        None => "Measured and estimated acceleration (the report's Figure 4)",
+        Some(_) => "Actual, measured and estimated acceleration (Figure 4 of the report)",
+        None => "Measured and estimated acceleration (Figure 4 of the report)",
     };
     page.push(acceleration_figure(title, calibration, recovered, recording, truth).html());
     if let Some(figure) = motion_error_figure(recovered, recording, truth) {
         page.push(figure.html());
     }
     let title = match truth {
-        Some(_) => "Actual and estimated states and inputs (the report's Figure 5)",
-        None => "Estimated states and inputs (the report's Figure 5)",
+        Some(_) => "Actual and estimated states and inputs (Figure 5 of the report)",
+        None => "Estimated states and inputs (Figure 5 of the report)",
     };
     page.push(state_and_jerk_figure(title, recovered, recording, truth).html());
 }

@@ -73,6 +73,25 @@ pub(super) fn list(items: &[String]) -> String {
     format!("<ul>{items}</ul>")
 }
 
+/// The verdict in a prominent box of this class (`good`, `caution`, `bad`): a word, a sentence, and headed lists that qualify it.
+pub(super) fn verdict_box(
+    class: &str,
+    word: &str,
+    sentence: &str,
+    remarks: &[(&str, Vec<String>)],
+) -> String {
+    let lists: String = remarks
+        .iter()
+        .filter(|(_, items)| !items.is_empty())
+        .map(|(heading, items)| format!("<p><strong>{}</strong></p>{}", escape(heading), list(items)))
+        .collect();
+    format!(
+        "<div class=\"verdict {class}\"><p><span class=\"word\">{}</span> {}</p>{lists}</div>",
+        escape(word),
+        escape(sentence)
+    )
+}
+
 /// Labels and values in two columns.
 pub(super) fn facts<'a>(facts: impl IntoIterator<Item = (&'a str, &'a str)>) -> String {
     let rows: String = facts

@@ -5,6 +5,8 @@
 
 mod about;
 mod calibration;
+mod design;
+mod evaluation;
 mod figure;
 mod fit;
 mod holds;
@@ -12,6 +14,7 @@ mod html;
 pub mod number;
 mod parameters;
 mod study;
+mod sweep;
 mod table;
 mod verdict;
 
@@ -20,4 +23,7 @@ mod tests;
 
 pub use about::About;
 pub use calibration::calibration_report;
+pub use design::design_report;
+pub use evaluation::evaluation_report;
 pub use study::study_report;
+pub use sweep::sweep_report;

@@ -151,7 +151,8 @@ fn trimmed(text: &str) -> &str {
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { text }
 }
 
-fn superscript(exponent: i32) -> String {
+/// An exponent: `⁻⁷`.
+pub(super) fn superscript(exponent: i32) -> String {
     exponent
         .to_string()
         .chars()

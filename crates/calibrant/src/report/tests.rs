@@ -3,11 +3,17 @@
 use super::{About, calibration_report, study_report};
 use crate::estimate::{Calibration, Recovered};
 use crate::sensor::Recording;
-use crate::{estimate, motion, sensor, study};
+use crate::{design, estimate, information, motion, sensor, simulate, study};
 use nalgebra::Vector3;
 
+mod design_pages;
+#[path = "../../examples/report_gallery/designs.rs"]
+mod designs;
 #[path = "../../examples/report_gallery/fakes.rs"]
 mod fakes;
+#[path = "../../examples/report_gallery/studies.rs"]
+mod studies;
+mod study_pages;
 
 fn about() -> About {
     About { title: "A test".to_string(), program: "calibrant".to_string(), ..About::default() }
@@ -49,8 +55,8 @@ fn a_motion_calibration_shows_every_parameter_figure_and_axis() {
     assert_sound(&html);
     assert_names_all(&html, &case.calibration);
     for text in [
-        "the report&#39;s Figure 4",
-        "the report&#39;s Figure 5",
+        "Figure 4 of the report",
+        "Figure 5 of the report",
         "axis z",
         "time (s)",
         "p-value",
@@ -75,11 +81,11 @@ fn a_static_calibration_shows_every_parameter_and_hold() {
 
 #[test]
 fn a_study_shows_the_figures_of_the_report() {
-    let study = fakes::study(50);
+    let study = studies::calibrations(fakes::study(50));
     let html = study_report(&study, &about());
     assert_sound(&html);
     for figure in 4..=6 {
-        assert!(html.contains(&format!("The report&#39;s Figure {figure}")), "Figure {figure}");
+        assert!(html.contains(&format!("Figure {figure} of the report")), "Figure {figure}");
     }
 }
 
@@ -109,7 +115,7 @@ fn large_inputs_give_small_files() {
     let html = calibration_report(&case.calibration, &case.recording, &about());
     assert_sound(&html);
     assert!(html.len() < 2_000_000, "{} bytes", html.len());
-    let html = study_report(&fakes::study(100_000), &about());
+    let html = study_report(&studies::calibrations(fakes::study(100_000)), &about());
     assert_sound(&html);
     assert!(html.len() < 2_000_000, "{} bytes", html.len());
 }
@@ -154,6 +160,6 @@ fn degenerate_results_are_reported_without_panic() {
     }
     assert_sound(&calibration_report(&calibration, &recording, &about()));
 
-    assert_sound(&study_report(&fakes::study(0), &about()));
-    assert_sound(&study_report(&fakes::study(1), &about()));
+    assert_sound(&study_report(&studies::calibrations(fakes::study(0)), &about()));
+    assert_sound(&study_report(&studies::calibrations(fakes::study(1)), &about()));
 }

@@ -39,18 +39,8 @@ pub(super) fn verdict(calibration: &Calibration, about: &About) -> String {
     let mut remarks = calibration.warnings.clone();
     remarks.extend(hardly_determined(calibration));
     let grade = if remarks.is_empty() { grade } else { grade.max(Grade::Caution) };
-    let headed = |heading: &str, items: &[String]| match items {
-        [] => String::new(),
-        items => format!("<p><strong>{heading}</strong></p>{}", html::list(items)),
-    };
-    format!(
-        "<div class=\"verdict {}\"><p><span class=\"word\">{}</span> {}</p>{}{}</div>",
-        grade.class(),
-        grade.word(),
-        html::escape(&sentence),
-        headed("Warnings", &remarks),
-        headed("About the recording", &about.findings)
-    )
+    let remarks = [("Warnings", remarks), ("About the recording", about.findings.clone())];
+    html::verdict_box(grade.class(), grade.word(), &sentence, &remarks)
 }
 
 fn judge(calibration: &Calibration) -> (Grade, String) {

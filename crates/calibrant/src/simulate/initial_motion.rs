@@ -11,8 +11,8 @@ const DEFAULT_LIMIT: f64 = 30.0;
 /// A random motion: jerk `u_i ~ U(−1, 1) u_max/10`, start `a_0 ~ U(−1, 1) a_max/10`, shrunk into the limits; on each of `axes` axes.
 ///
 /// All limits are linear in the motion, so shrinking means multiplying each axis by one factor. Velocity and displacement are bounded by their
-/// Bézier control points, which holds between the nodes too. At rest at the end, the mean acceleration is taken off first. Limits that
-/// are not given count as ±30 (m/s², m/s³) for the draw and do not bind.
+/// Bézier control points, which holds between the nodes too. At rest at the end, the mean acceleration is taken off first. Where the acceleration has no
+/// limit, that of the intercept counts for the draw; limits that are not given count as ±30 (m/s², m/s³) for the draw and do not bind.
 ///
 /// # Errors
 /// As [`JerkControlledMotion::uniform`].
@@ -23,7 +23,9 @@ pub fn initial_motion(
     limits: &Limits,
     rng: &mut Rng,
 ) -> crate::Result<JerkControlledMotion> {
-    let a_max = limits.acceleration_mps2.unwrap_or_else(|| Vector3::repeat(DEFAULT_LIMIT));
+    // the first interval's line begins at its intercept
+    let a_max =
+        limits.acceleration_mps2.or(limits.intercept_mps2).unwrap_or_else(|| Vector3::repeat(DEFAULT_LIMIT));
     let u_max = limits.jerk_mps3.unwrap_or_else(|| Vector3::repeat(DEFAULT_LIMIT));
     let mut draw = |limit: &Vector3<f64>| {
         Vector3::from_fn(|k, _| {

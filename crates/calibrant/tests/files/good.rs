@@ -1,10 +1,11 @@
 //! Good experiment files: what they say arrives, and what they leave out has its default.
 
 use calibrant::io::{
-    CriterionLetter, Experiment, HoldsPlan, MotionPlan, PRESETS, Plan, Prior, ScaleBy, preset,
+    CriterionLetter, Experiment, HoldsPlan, MotionPlan, NoisyVariant, PRESETS, Plan, Prior, ScaleBy, preset,
 };
-use calibrant::motion::{Gravity, KnownEnds, Rest, Trust};
+use calibrant::motion::{Gravity, InputNoise, KnownEnds, Limits, Trust};
 use calibrant::sensor::{Gauge, ReadingUnit, Sensor, SensorModel};
+use calibrant::study::SurfaceSettings;
 use nalgebra::Vector3;
 
 fn parse(text: &str) -> Experiment {
@@ -59,9 +60,29 @@ fn the_report_preset_is_the_report() {
         known_ends: KnownEnds::Start,
     };
     assert_eq!(*motion(&experiment), expected);
-    assert_eq!(experiment.limits.acceleration_mps2, Some(Vector3::repeat(30.0)));
-    assert_eq!(experiment.limits.rest, Rest::Both);
-    assert_eq!((experiment.study.sensors, experiment.study.seed), (30, 1));
+    let bounds = |bound: f64| Limits {
+        intercept_mps2: Some(Vector3::repeat(bound)),
+        jerk_mps3: Some(Vector3::repeat(bound)),
+        ..Limits::default()
+    };
+    assert_eq!(experiment.limits, bounds(30.0));
+    let study = &experiment.study;
+    assert_eq!((study.sensors, study.seed, study.motions, study.starts), (30, 1, 10, None));
+    let surface =
+        SurfaceSettings { jerk_mps3: 0.5, points: 41, start_mps2: 0.0, interval_s: 1.0, rate_hz: 10.0 };
+    assert_eq!(study.surface, Some(surface));
+    let unknown = study.unknown.as_ref().expect("there");
+    assert_eq!((unknown.sensors, unknown.detail_rate_hz), (50, Some(10.0)));
+    let expected = MotionPlan {
+        intervals: 14,
+        interval_s: 5.0,
+        rate_hz: 2.0,
+        trust: Trust::Unknown,
+        known_ends: KnownEnds::Both,
+    };
+    assert_eq!(unknown.plan, expected);
+    let noise = InputNoise { floor_mps3: 0.01, ratio: 0.01 };
+    assert_eq!(study.noisy, Some(NoisyVariant { noise, limits: Some(bounds(20.0)) }));
     assert_eq!((experiment.design.criterion, experiment.design.starts), (CriterionLetter::A, 30));
     assert_eq!(experiment.calibrate.prior, Prior::None);
 
@@ -195,4 +216,21 @@ fn files_are_read_with_byte_order_mark_and_refused_when_no_text() {
     );
     let error = Experiment::read(directory.path()).expect_err("a directory").to_string();
     assert!(error.contains("this is a directory, not the experiment file"), "{error}");
+}
+
+#[test]
+fn a_variant_takes_what_it_does_not_say_from_the_motion() {
+    let text = preset("report").expect("known");
+    let head = &text[..text.find("[study]").expect("there")];
+    let experiment = parse(&format!(
+        "{head}[study]\nsensors = 4\n[study.surface]\n[study.unknown]\n[study.noisy]\ninput_noise = {{ floor_mps3 = 0.1, ratio = 0.0 }}\n"
+    ));
+    let (plan, study) = (motion(&experiment), &experiment.study);
+    let surface = study.surface.expect("there");
+    assert_eq!((surface.points, surface.interval_s, surface.rate_hz), (41, plan.interval_s, plan.rate_hz));
+    let unknown = study.unknown.as_ref().expect("there");
+    assert_eq!((unknown.sensors, unknown.plan.intervals, &unknown.limits), (4, plan.intervals, &None));
+    assert_eq!(study.noisy.as_ref().map(|noisy| noisy.limits.is_none()), Some(true));
+    let none = parse(&format!("{head}[study]\nstarts = 3\n")).study;
+    assert_eq!((none.starts, none.surface, none.unknown, none.noisy), (Some(3), None, None, None));
 }

@@ -4,6 +4,7 @@
 mod common;
 
 mod broken;
+mod earlier;
 mod experiments;
 mod good;
 mod real;

@@ -105,7 +105,7 @@ fn links_are_followed_and_devices_stay_devices() {
     assert!(std::fs::metadata("/dev/null").expect("there").file_type().is_char_device());
 }
 
-fn input() -> Input {
+pub(super) fn input() -> Input {
     Input { file: "a.csv".into(), sha256: "00ff".into(), samples: 7, rate_hz: 10.0 }
 }
 
@@ -138,6 +138,7 @@ fn calibration(
         recovered,
         residuals: Vec::new(),
         first_sample: 0,
+        datasheet_prior: true,
         warnings: vec!["a \"word\"".into()],
     }
 }
@@ -164,6 +165,7 @@ fn calibration_json_of_a_motion() {
     let bias =
         json!({"name": "bias.x", "unit": "m/s²", "value": 0.5, "sd": 0.5, "nominal": 0.0, "spread_sd": 0.1});
     assert_eq!(json["parameters"][0], bias);
+    assert_eq!(json["prior"], "datasheet");
     assert_eq!(json["covariance"], json!([[0.25, 0.0], [0.0, 0.25]]));
     assert_eq!(json["correlation"], json!([[1.0, 0.0], [0.0, 1.0]]));
     assert_eq!(json["fit"]["residual_rms_mps2"], json!([1.0]));

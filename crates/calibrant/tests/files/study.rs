@@ -4,11 +4,13 @@ use super::results::uniaxial;
 use calibrant::io::{study_json, write_study};
 use calibrant::motion::JerkControlledMotion;
 use calibrant::sensor::{ReadingUnit, Recording, Sensor, SensorParameters};
-use calibrant::study::{ParameterSummary, SensorOutcome, SingleCase, Study};
+use calibrant::study::{
+    ParameterSummary, SensorOutcome, SingleCase, Studies, Study, SurfaceSettings, TraceSurface,
+};
 use nalgebra::Vector3;
 use serde_json::{Value, json};
 
-fn study() -> Study {
+fn studies() -> Studies {
     let sensor = Sensor { axes: 1, ..Sensor::memsic_mxd2020u() };
     let nodes = vec![Vector3::zeros(), Vector3::new(2.0, 0.0, 0.0)];
     let motion = JerkControlledMotion::uniform(1.0, nodes).expect("good");
@@ -23,7 +25,7 @@ fn study() -> Study {
         },
         calibration: uniaxial(),
     };
-    Study {
+    let study = Study {
         parameters: sensor.parameter_list().describe(&sensor, &SensorParameters::identity()),
         sensor,
         trust: "known",
@@ -47,14 +49,32 @@ fn study() -> Study {
         }],
         single: case.clone(),
         fine: case,
+    };
+    let surface = TraceSurface {
+        settings: SurfaceSettings {
+            jerk_mps3: 0.5,
+            points: 2,
+            start_mps2: 0.1,
+            interval_s: 1.0,
+            rate_hz: 10.0,
+        },
+        jerk_mps3: vec![-0.5, 0.5],
+        log10_trace: vec![vec![None, Some(-2.0)], vec![Some(-3.0), None]],
+    };
+    Studies {
+        calibration: Some(study),
+        surface: Some(surface),
+        remarks: vec!["no motion was designed".into()],
+        ..Studies::default()
     }
 }
 
 #[test]
 fn every_field_arrives_and_the_bytes_are_the_same_each_time() {
-    let text = study_json(&study());
-    let json: Value = serde_json::from_str(&text).expect("JSON");
-    assert_eq!((&json["schema"], &json["seed"], &json["trust"]), (&json!(1), &json!(5), &json!("known")));
+    let text = study_json(&studies());
+    let whole: Value = serde_json::from_str(&text).expect("JSON");
+    let json = &whole["calibration"];
+    assert_eq!((&whole["schema"], &json["seed"], &json["trust"]), (&json!(1), &json!(5), &json!("known")));
     let parameter = json!({"name": "scale.x", "unit": "1", "nominal": 1.0, "spread_sd": 0.005});
     assert_eq!(json["parameters"][1], parameter);
     let sensor = json!({
@@ -69,8 +89,16 @@ fn every_field_arrives_and_the_bytes_are_the_same_each_time() {
     assert_eq!(single["parameters"][0], parameter);
     assert_eq!(single["recovered_motion"]["acceleration_sd_mps2"], json!([[0.0], [0.0]]));
 
+    let surface = json!({
+        "start_acceleration_mps2": 0.1, "interval_s": 1.0, "rate_hz": 10.0, "jerk_mps3": [-0.5, 0.5],
+        "log10_trace": [[null, -2.0], [-3.0, null]]
+    });
+    assert_eq!(whole["surface"], surface);
+    assert_eq!((&whole["design"], &whole["noisy"]), (&Value::Null, &Value::Null));
+    assert_eq!(whole["remarks"], json!(["no motion was designed"]));
+
     let directory = tempfile::tempdir().expect("a directory");
     let path = directory.path().join("study.json");
-    write_study(&path, &study()).expect("written");
+    write_study(&path, &studies()).expect("written");
     assert_eq!(std::fs::read_to_string(path).expect("read"), text);
 }

@@ -81,7 +81,8 @@ pub(super) fn calibrate(
         SensorModel::ScaleBias => robust::fit::<6>(problem, setup, settings, &holds)?,
         SensorModel::Full => robust::fit::<9>(problem, setup, settings, &holds)?,
     };
-    Ok(assemble(problem, setup, holds, robust))
+    let calibration = assemble(problem, setup, holds, robust);
+    Ok(Calibration { datasheet_prior: settings.datasheet_prior, ..calibration })
 }
 
 /// Puts the result together.
@@ -163,6 +164,7 @@ fn assemble(
         }),
         residuals: Vec::new(),
         first_sample: 0,
+        datasheet_prior: false,
         warnings: Vec::new(),
     };
     calibration.warnings = verdict::warnings(&calibration, &robust.weakest);

@@ -147,6 +147,7 @@ fn assemble(context: &Context<'_>, solved: Solved, first_sample: usize) -> Resul
         }),
         residuals,
         first_sample,
+        datasheet_prior: context.settings.datasheet_prior,
         warnings: Vec::new(),
     };
     verdict::respond(context, &calibration)?;

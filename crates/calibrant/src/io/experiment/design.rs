@@ -27,6 +27,9 @@ pub enum CriterionLetter {
 }
 
 impl CriterionLetter {
+    /// All of them.
+    pub const ALL: [Self; 6] = [Self::A, Self::D, Self::E, Self::M, Self::C, Self::I];
+
     /// As written in experiment files: `A`, `D`, `E`, `M`, `c`, `I`.
     #[must_use]
     pub fn name(self) -> &'static str {

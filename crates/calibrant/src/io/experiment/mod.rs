@@ -4,19 +4,22 @@
 //! the nearest known one. [`presets`](super::preset()) are commented examples of every key.
 
 mod bounds;
+mod calibrate;
 mod design;
 mod document;
 mod holds;
 mod keys;
 mod limits;
 mod motion;
+mod problem;
 mod sensor;
 mod study;
 
+pub use calibrate::{CalibrateOptions, Prior};
 pub use design::{CriterionLetter, DesignOptions, ScaleBy};
 pub use holds::HoldsPlan;
 pub use motion::MotionPlan;
-pub use study::{CalibrateOptions, Prior, StudyOptions};
+pub use study::{NoisyVariant, StudyOptions, UnknownVariant};
 
 use super::text;
 use crate::error::{Error, Result};
@@ -114,15 +117,15 @@ impl Experiment {
             limits: root
                 .section("limits")?
                 .map_or(Ok(Limits::default()), |section| limits::read(&section, sensor.axes))?,
-            calibrate: root.section("calibrate")?.map_or(Ok(CalibrateOptions::default()), |section| {
-                study::read_calibrate(&section, &sensor)
-            })?,
+            calibrate: root
+                .section("calibrate")?
+                .map_or(Ok(CalibrateOptions::default()), |section| calibrate::read(&section, &sensor))?,
             design: root
                 .section("design")?
                 .map_or(Ok(DesignOptions::default()), |section| design::read(&section, &sensor, &list))?,
             study: root
                 .section("study")?
-                .map_or(Ok(StudyOptions::default()), |section| study::read_study(&section))?,
+                .map_or(Ok(StudyOptions::default()), |section| study::read(&section, &plan, sensor.axes))?,
             sensor,
             plan,
         })

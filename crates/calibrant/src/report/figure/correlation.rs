@@ -2,20 +2,20 @@
 //!
 //! A table rather than a plot: its letters keep their size on a phone, and its numbers can be read aloud and copied.
 
-use crate::estimate::Calibration;
 use crate::report::html::escape;
 use crate::report::number;
+use crate::sensor::Parameter;
+use nalgebra::DMatrix;
 
-/// The correlation matrix: its lower triangle, coloured by sign and size.
-pub(in crate::report) fn correlation_map(calibration: &Calibration) -> String {
-    let correlation = calibration.correlation();
-    let names: Vec<String> =
-        calibration.parameters.iter().map(|p| escape(&p.name).replacen('.', ".<br>", 1)).collect();
+/// The correlations of a covariance: their lower triangle, coloured by sign and size.
+pub(in crate::report) fn correlation_map(parameters: &[Parameter], covariance: &DMatrix<f64>) -> String {
+    let sd = covariance.diagonal().map(f64::sqrt);
+    let names: Vec<String> = parameters.iter().map(|p| escape(&p.name).replacen('.', ".<br>", 1)).collect();
     let mut rows = String::new();
     for (i, name) in names.iter().enumerate() {
         rows.push_str(&format!("<tr><th scope=\"row\">{}</th>", name.replace("<br>", "")));
         for j in 0..=i {
-            rows.push_str(&cell(correlation[(i, j)], i == j));
+            rows.push_str(&cell(covariance[(i, j)] / (sd[i] * sd[j]), i == j));
         }
         rows.push_str("</tr>\n");
     }

@@ -19,7 +19,7 @@ pub(super) fn svg(panel: &Panel) -> String {
     let Some([x, y]) = panel.ranges() else {
         return nothing(panel, height);
     };
-    let plots: Vec<Plot> = panel.series.iter().flat_map(plots).collect();
+    let plots: Vec<Plot> = panel.series.iter().flat_map(|series| plots(panel, series)).collect();
     let mut layout = Layout::new(x, y)
         .with_width(WIDTH)
         .with_height(height)
@@ -42,6 +42,12 @@ pub(super) fn svg(panel: &Panel) -> String {
     if let Some(step) = panel.x_step {
         layout = layout.with_x_tick_step(step);
     }
+    if panel.log_x {
+        layout = layout.with_log_x();
+    }
+    if panel.log_y {
+        layout = layout.with_log_y();
+    }
     for shade in &panel.shades {
         layout = layout.with_shaded_region(
             ShadedRegion::vertical(shade.from, shade.to).with_color(shade.colour).with_opacity(0.3),
@@ -61,7 +67,8 @@ fn theme() -> Theme {
     }
 }
 
-fn plots(series: &Series) -> Vec<Plot> {
+fn plots(panel: &Panel, series: &Series) -> Vec<Plot> {
+    let drawn = || series.finite().filter(|&(x, y, _)| panel.shows(x, y));
     let line = |points: Vec<(f64, f64)>, width: f64, dashes: &str| {
         let style = if dashes.is_empty() { LineStyle::Solid } else { LineStyle::Custom(dashes.to_string()) };
         LinePlot::new()
@@ -70,7 +77,7 @@ fn plots(series: &Series) -> Vec<Plot> {
             .with_stroke_width(width)
             .with_line_style(style)
     };
-    let points: Vec<(f64, f64)> = series.finite().map(|(x, y, _)| (x, y)).collect();
+    let points: Vec<(f64, f64)> = drawn().map(|(x, y, _)| (x, y)).collect();
     if points.is_empty() {
         return Vec::new();
     }
@@ -90,13 +97,13 @@ fn plots(series: &Series) -> Vec<Plot> {
                 .into(),
         ],
         Mark::Band => {
-            let (low, high): (Vec<f64>, Vec<f64>) = series.finite().map(|(_, y, s)| (y - s, y + s)).unzip();
+            let (low, high): (Vec<f64>, Vec<f64>) = drawn().map(|(_, y, s)| (y - s, y + s)).unzip();
             let x: Vec<f64> = points.iter().map(|point| point.0).collect();
             vec![BandPlot::new(x, low, high).with_color(series.colour).with_opacity(0.25).into()]
         }
         Mark::Area => vec![line(points, 1.2, "").with_fill().with_fill_opacity(0.35).into()],
         Mark::ErrorBars => {
-            series.finite().map(|(x, y, s)| line(vec![(x, y - s), (x, y + s)], 1.1, "").into()).collect()
+            drawn().map(|(x, y, s)| line(vec![(x, y - s), (x, y + s)], 1.1, "").into()).collect()
         }
         // one line that returns to zero between the stems: it draws the zero line too
         Mark::Stems => {

@@ -5,22 +5,34 @@
 //! series themselves. [`draw`] is the only place that knows the plotting library.
 
 mod correlation;
+mod design_population;
 mod draw;
+mod ellipse;
 mod holds;
 mod motion;
+mod motion_pair;
 mod panel;
 mod population;
 mod residuals;
 mod sphere;
+mod starts;
+mod surface;
+mod sweep;
 mod thin;
 mod unit;
 
 pub(super) use correlation::correlation_map;
+pub(super) use design_population::{absolute_errors, optimal_motions, traces};
+pub(super) use ellipse::confidence_ellipses;
 pub(super) use holds::{hold_residuals, recording_overview};
 pub(super) use motion::{acceleration_figure, motion_error_figure, state_and_jerk_figure};
+pub(super) use motion_pair::{Drawn, jerk_and_acceleration, states, velocity_and_displacement};
 pub(super) use population::{p_values, parameter_errors, parameters_against_truth, standardised_errors};
 pub(super) use residuals::{autocorrelations, histograms, residuals_over_time};
 pub(super) use sphere::hold_directions;
+pub(super) use starts::start_values;
+pub(super) use surface::trace_map;
+pub(super) use sweep::sweep_curves;
 pub(super) use unit::DisplayUnit;
 
 use super::html::escape;

@@ -9,7 +9,7 @@ use crate::motion::JerkControlledMotion;
 use crate::sensor::{Axis, Correction, ReadingUnit, Recording};
 use nalgebra::Vector3;
 
-const TIME: &str = "time (s)";
+pub(super) const TIME: &str = "time (s)";
 
 /// Acceleration as measured, as it was where that is known, and as estimated: the report's Figure 4.
 pub(in crate::report) fn acceleration_figure(
@@ -161,12 +161,12 @@ fn panels_by_axis(recording: &Recording, label: &str, fill: impl Fn(Axis, Panel)
         .collect()
 }
 
-fn nodes(motion: &JerkControlledMotion, axis: Axis) -> Vec<(f64, f64)> {
+pub(super) fn nodes(motion: &JerkControlledMotion, axis: Axis) -> Vec<(f64, f64)> {
     let values = motion.acceleration_mps2().iter().map(|a| a[axis.index()]);
     thinned(motion.times_s().iter().copied().zip(values).collect())
 }
 
-fn steps(motion: &JerkControlledMotion, values: &[Vector3<f64>], axis: Axis) -> Vec<(f64, f64)> {
+pub(super) fn steps(motion: &JerkControlledMotion, values: &[Vector3<f64>], axis: Axis) -> Vec<(f64, f64)> {
     let ends = motion.times_s().windows(2);
     thinned(
         ends.zip(values)

@@ -17,6 +17,9 @@ pub(super) enum Mark {
     Stems,
 }
 
+/// Colour of limits.
+const LIMIT: &str = super::colour::BLACK;
+
 /// Shapes of markers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Shape {
@@ -99,6 +102,10 @@ pub(super) struct Panel {
     pub(super) x_step: Option<f64>,
     /// Equal ranges of both axes in a square.
     pub(super) square: bool,
+    /// Logarithmic x axis; only positive points are drawn.
+    pub(super) log_x: bool,
+    /// Logarithmic y axis; only positive points are drawn.
+    pub(super) log_y: bool,
     /// What to say in place of a plot where there is nothing to show.
     pub(super) when_empty: String,
 }
@@ -123,16 +130,37 @@ impl Panel {
         self
     }
 
+    /// Dashed lines at plus and minus `limit` over the whole width.
+    pub(super) fn with_limits(mut self, limit: f64) -> Self {
+        let x = || self.series.iter().flat_map(Series::finite).map(|point| point.0);
+        let (first, last) = (x().fold(f64::INFINITY, f64::min), x().fold(f64::NEG_INFINITY, f64::max));
+        let mark = Mark::Line { width: 1.2, dashes: "7 4" };
+        for (label, y) in [("limit", limit), ("", -limit)] {
+            self.series.push(Series::new(label, LIMIT, mark, vec![(first, y), (last, y)]));
+        }
+        self
+    }
+
+    /// The largest magnitude on the y axis.
+    pub(super) fn largest(&self) -> f64 {
+        self.series.iter().flat_map(Series::finite).fold(0.0, |most, (_, y, _)| most.max(y.abs()))
+    }
+
+    /// Can this point be drawn on these axes?
+    pub(super) fn shows(&self, x: f64, y: f64) -> bool {
+        (!self.log_x || x > 0.0) && (!self.log_y || y > 0.0)
+    }
+
     /// Ranges of the axes; `None` where nothing can be drawn.
     pub(super) fn ranges(&self) -> Option<[(f64, f64); 2]> {
-        let mut x = Range::default();
-        let mut y = Range::default();
+        let mut x = Range { log: self.log_x, ..Range::default() };
+        let mut y = Range { log: self.log_y, ..Range::default() };
         for series in &self.series {
-            for (px, py, spread) in series.finite() {
+            for (px, py, spread) in series.finite().filter(|point| self.shows(point.0, point.1)) {
                 x.include(px);
                 y.include(py - spread);
                 y.include(py + spread);
-                if series.starts_at_zero() {
+                if series.starts_at_zero() && !self.log_y {
                     y.include(0.0);
                 }
             }
@@ -142,12 +170,12 @@ impl Panel {
         }
         self.y_includes.iter().for_each(|&value| y.include(value));
         if self.square {
-            let both = Range { low: x.low.min(y.low), high: x.high.max(y.high) }.padded(0.05);
+            let both = Range { low: x.low.min(y.low), high: x.high.max(y.high), log: false }.padded(0.05);
             return Some([both, both]);
         }
         let flush = self.series.iter().any(Series::starts_at_zero);
         let (low, high) = y.padded(0.07);
-        let low = if flush && y.low >= 0.0 { 0.0 } else { low };
+        let low = if flush && y.low >= 0.0 && !self.log_y { 0.0 } else { low };
         Some([x.padded(0.02), (low, high)])
     }
 }
@@ -156,17 +184,18 @@ impl Panel {
 struct Range {
     low: f64,
     high: f64,
+    log: bool,
 }
 
 impl Default for Range {
     fn default() -> Self {
-        Self { low: f64::INFINITY, high: f64::NEG_INFINITY }
+        Self { low: f64::INFINITY, high: f64::NEG_INFINITY, log: false }
     }
 }
 
 impl Range {
     fn include(&mut self, value: f64) {
-        if value.is_finite() {
+        if value.is_finite() && (!self.log || value > 0.0) {
             self.low = self.low.min(value);
             self.high = self.high.max(value);
         }
@@ -178,6 +207,12 @@ impl Range {
 
     /// The range with some room on both sides; never of zero width.
     fn padded(&self, fraction: f64) -> (f64, f64) {
+        if self.log {
+            let room = (self.high / self.low).powf(fraction).max(1.2);
+            let (low, high) = (self.low / room, self.high * room);
+            // two round numbers at least, so that the axis can be read
+            return if high / low < 5.0 { (round_below(low), round_above(high)) } else { (low, high) };
+        }
         let width = self.high - self.low;
         let smallest = 1e-9 * self.low.abs().max(self.high.abs());
         if width > smallest {
@@ -187,6 +222,18 @@ impl Range {
             (self.low - room, self.high + room)
         }
     }
+}
+
+/// The largest of …, 1, 2, 5, 10, … that is not above a positive value.
+fn round_below(value: f64) -> f64 {
+    let decade = 10f64.powf(value.log10().floor());
+    [5.0, 2.0].into_iter().map(|m| m * decade).find(|&round| round <= value).unwrap_or(decade)
+}
+
+/// The smallest of …, 1, 2, 5, 10, … that is not below a positive value.
+fn round_above(value: f64) -> f64 {
+    let decade = 10f64.powf(value.log10().floor());
+    [1.0, 2.0, 5.0].into_iter().map(|m| m * decade).find(|&round| round >= value).unwrap_or(10.0 * decade)
 }
 
 #[cfg(test)]

@@ -63,7 +63,7 @@ pub(in crate::report) fn parameters_against_truth(study: &Study) -> Figure {
         subset(study, sensors.len())
     );
     let columns = if panels.len() > 2 { 3 } else { 2 };
-    Figure::new("The report's Figure 6: actual and estimated parameter errors", panels, caption)
+    Figure::new("Figure 6 of the report: actual and estimated parameter errors", panels, caption)
         .with_columns(columns)
 }
 

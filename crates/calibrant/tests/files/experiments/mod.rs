@@ -3,6 +3,7 @@
 mod datasheet;
 mod holds;
 mod motion;
+mod study;
 
 use calibrant::io::Experiment;
 
@@ -47,6 +48,12 @@ fn unknown_keys_and_the_datasheet() {
 #[test]
 fn motion_limits_design_and_study() {
     refuse(MOTION, motion::CASES);
+}
+
+#[test]
+fn the_experiments_of_a_study() {
+    refuse(MOTION, study::CASES);
+    refuse(HOLDS, study::HOLDS_CASES);
 }
 
 #[test]

@@ -1,31 +1,13 @@
-//! `study.json`: truth and estimate of a population of simulated sensors.
+//! Truth and estimate of a population of simulated sensors.
 
-use super::fields::{FitFields, MotionFields, axes_of, values_of};
-use super::json;
-use crate::error::Result;
 use crate::estimate::Recovered;
+use crate::io::fields::{FitFields, MotionFields, axes_of, values_of};
 use crate::sensor::{Parameter, ParameterList};
 use crate::study::{ParameterSummary, SensorOutcome, SingleCase, Study};
 use serde::Serialize;
-use std::path::Path;
-
-/// Writes `study.json`: the summary, every sensor, and the two sensors that were looked at in detail (without their samples).
-///
-/// # Errors
-/// [`Error::Output`](crate::Error::Output) where it cannot be written.
-pub fn write_study(path: &Path, study: &Study) -> Result<()> {
-    json::write_json(path, &StudyFile::of(study))
-}
-
-/// The text that [`write_study`] writes.
-#[must_use]
-pub fn study_json(study: &Study) -> String {
-    json::to_json(&StudyFile::of(study))
-}
 
 #[derive(Serialize)]
-struct StudyFile<'a> {
-    schema: u32,
+pub(super) struct StudyFields<'a> {
     seed: u64,
     trust: &'static str,
     rate_hz: f64,
@@ -39,7 +21,7 @@ struct StudyFile<'a> {
 }
 
 #[derive(Serialize)]
-struct ParameterFields<'a> {
+pub(super) struct ParameterFields<'a> {
     name: &'a str,
     unit: &'static str,
     nominal: Option<f64>,
@@ -47,7 +29,7 @@ struct ParameterFields<'a> {
 }
 
 #[derive(Serialize)]
-struct SummaryFields<'a> {
+pub(super) struct SummaryFields<'a> {
     name: &'a str,
     unit: &'static str,
     predicted_sd: f64,
@@ -86,24 +68,10 @@ struct CaseParameter {
     sd: f64,
 }
 
-impl<'a> StudyFile<'a> {
-    fn of(study: &'a Study) -> Self {
+impl<'a> StudyFields<'a> {
+    pub(super) fn of(study: &'a Study) -> Self {
         let axes = axes_of(&study.parameters);
         let list = study.sensor.parameter_list();
-        let parameter = |parameter: &'a Parameter| ParameterFields {
-            name: &parameter.name,
-            unit: parameter.unit,
-            nominal: parameter.nominal,
-            spread_sd: parameter.spread,
-        };
-        let summary = |summary: &'a ParameterSummary| SummaryFields {
-            name: &summary.name,
-            unit: summary.unit,
-            predicted_sd: summary.predicted_sd,
-            realised_rms: summary.realised_rms,
-            mean_error: summary.mean_error,
-            coverage_95: summary.coverage_95,
-        };
         let outcome = |outcome: &'a SensorOutcome| OutcomeFields {
             status: outcome.status,
             p_value: outcome.p_value,
@@ -112,17 +80,40 @@ impl<'a> StudyFile<'a> {
             sd: &outcome.sd,
         };
         Self {
-            schema: 1,
             seed: study.seed,
             trust: study.trust,
             rate_hz: study.rate_hz,
             reading_unit: study.sensor.unit.symbol(),
-            parameters: study.parameters.iter().map(parameter).collect(),
+            parameters: study.parameters.iter().map(ParameterFields::of).collect(),
             motion: MotionFields::of(&study.motion, axes, None),
-            summary: study.summary.iter().map(summary).collect(),
+            summary: study.summary.iter().map(SummaryFields::of).collect(),
             sensors: study.outcomes.iter().map(outcome).collect(),
             single: CaseFields::of(&study.single, &list, axes),
             fine: CaseFields::of(&study.fine, &list, axes),
+        }
+    }
+}
+
+impl<'a> ParameterFields<'a> {
+    pub(super) fn of(parameter: &'a Parameter) -> Self {
+        Self {
+            name: &parameter.name,
+            unit: parameter.unit,
+            nominal: parameter.nominal,
+            spread_sd: parameter.spread,
+        }
+    }
+}
+
+impl<'a> SummaryFields<'a> {
+    pub(super) fn of(summary: &'a ParameterSummary) -> Self {
+        Self {
+            name: &summary.name,
+            unit: summary.unit,
+            predicted_sd: summary.predicted_sd,
+            realised_rms: summary.realised_rms,
+            mean_error: summary.mean_error,
+            coverage_95: summary.coverage_95,
         }
     }
 }

@@ -1,33 +1,31 @@
-//! The report on a population of sensors.
+//! Calibrations of a population of sensors: the report's chapter 3.
 
-use super::figure::{
+use crate::estimate::Recovered;
+use crate::report::figure::{
     DisplayUnit, acceleration_figure, motion_error_figure, p_values, parameter_errors,
     parameters_against_truth, standardised_errors, state_and_jerk_figure,
 };
-use super::html::{Page, escape, facts};
-use super::parameters::parameter_table;
-use super::table::{Cell, Table};
-use super::{About, html, number};
-use crate::estimate::Recovered;
+use crate::report::html::Page;
+use crate::report::number;
+use crate::report::parameters::parameter_table;
+use crate::report::table::{Cell, Table};
 use crate::study::{SingleCase, Study};
 
-/// A study as one HTML file: settings, summary over the population, and the report's Figures 4, 5 and 6.
-///
-/// Self-contained as [`calibration_report`](super::calibration_report) is; of a large population, the figures that show sensors one by one show
-/// an evenly spread part, and say so.
-#[must_use]
-pub fn study_report(study: &Study, about: &About) -> String {
-    let mut page = Page::default();
-    let title = if about.title.is_empty() { "Study" } else { &about.title };
-    page.push(format!("<h1>{}</h1>", escape(title)));
-    page.push(facts(about.facts.iter().map(|(label, value)| (label.as_str(), value.as_str()))));
-    page.push(verdict(study, about));
-
-    page.section("Settings", "");
-    page.push(settings(study));
-
+/// The report's chapter 3: calibrations of many sensors, and one of them in detail (Figures 4 to 6).
+pub(super) fn chapter(page: &mut Page, study: &Study) {
     page.section(
-        "Summary over the sensors",
+        "Calibration of a population",
+        "Each sensor is moved by the same command, recorded and calibrated; truth and estimate are compared.",
+    );
+    page.push(settings(study));
+    page.subsection("One sensor in detail");
+    page.paragraph(&rates("The population's rate", &study.single));
+    single(page, &study.single);
+    page.subsection("The same sensor at the higher rate");
+    page.paragraph(&rates("Recorded faster", &study.fine));
+    fine(page, &study.fine);
+    page.subsection("All sensors");
+    page.paragraph(
         "If the calibrations are honest, the realised error equals the stated standard deviation, the mean error is near zero, and \
          95 % of the intervals hold the truth.",
     );
@@ -37,12 +35,6 @@ pub fn study_report(study: &Study, about: &About) -> String {
     let figures = [standardised_errors(study), p_values(study)];
     let figures: String = figures.iter().flatten().map(|figure| figure.html()).collect();
     page.push(format!("<div class=\"pair\">{figures}</div>"));
-
-    page.section("One sensor in detail", &rates("The population's rate", &study.single));
-    single(&mut page, &study.single);
-    page.section("One sensor at the higher rate", &rates("Recorded faster", &study.fine));
-    fine(&mut page, &study.fine);
-    page.finish(title, &about.footer())
 }
 
 fn rates(what: &str, case: &SingleCase) -> String {
@@ -57,7 +49,7 @@ fn rates(what: &str, case: &SingleCase) -> String {
 fn single(page: &mut Page, case: &SingleCase) {
     page.push(parameter_table(&case.calibration, Some(&case.truth)));
     if let Recovered::Motion(recovered) = &case.calibration.recovered {
-        let title = "The report's Figure 4: actual, measured and estimated acceleration";
+        let title = "Figure 4 of the report: actual, measured and estimated acceleration";
         let truth = Some(&case.true_motion);
         page.push(acceleration_figure(title, &case.calibration, recovered, &case.recording, truth).html());
         if let Some(figure) = motion_error_figure(recovered, &case.recording, truth) {
@@ -69,22 +61,21 @@ fn single(page: &mut Page, case: &SingleCase) {
 fn fine(page: &mut Page, case: &SingleCase) {
     page.push(parameter_table(&case.calibration, Some(&case.truth)));
     if let Recovered::Motion(recovered) = &case.calibration.recovered {
-        let title = "The report's Figure 5: actual and estimated states and inputs";
+        let title = "Figure 5 of the report: actual and estimated states and inputs";
         page.push(state_and_jerk_figure(title, recovered, &case.recording, Some(&case.true_motion)).html());
     }
 }
 
-fn verdict(study: &Study, about: &About) -> String {
+/// What the population says: is it good, and why.
+pub(super) fn judge(study: &Study) -> (bool, String) {
     let all = study.outcomes.len();
     let converged = study.outcomes.iter().filter(|outcome| outcome.status == "converged").count();
-    let estimates = study.outcomes.len() * study.summary.len();
     let coverage =
         study.summary.iter().map(|entry| entry.coverage_95).sum::<f64>() / study.summary.len().max(1) as f64;
     // estimates of one sensor are correlated, so the sensors alone count
     let chance = 2.0 * (0.95 * 0.05 / all.max(1) as f64).sqrt();
     let honest = (coverage - 0.95).abs() <= chance;
-    let good = honest && converged == all && all > 0;
-    let judged = if estimates == 0 {
+    let judged = if all == 0 || study.summary.is_empty() {
         "There is nothing to judge.".to_string()
     } else if honest {
         format!(
@@ -98,15 +89,9 @@ fn verdict(study: &Study, about: &About) -> String {
             if coverage < 0.95 { "small" } else { "large" }
         )
     };
-    format!(
-        "<div class=\"verdict {}\"><p><span class=\"word\">{}</span> {} of {} calibrations converged. {}</p>{}</div>",
-        if good { "good" } else { "caution" },
-        if good { "✓ As stated." } else { "! Look closer." },
-        number::count(converged),
-        number::count(all),
-        escape(&judged),
-        html::list(&about.findings)
-    )
+    let sentence =
+        format!("{} of {} calibrations converged. {judged}", number::count(converged), number::count(all));
+    (honest && converged == all && all > 0, sentence)
 }
 
 fn settings(study: &Study) -> String {

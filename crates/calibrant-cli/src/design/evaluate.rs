@@ -1,0 +1,157 @@
+//! `calibrant design --evaluate`: is a motion of one's own any good?
+
+use super::{Arguments, Job, exit_of, in_file, write};
+use crate::{Exit, console};
+use calibrant::design::{Assessment, DesignProblem, LimitKind, LimitUse, assess};
+use calibrant::io::{evaluation_json, read_motion, write_evaluation};
+use calibrant::report::number::{short, significant};
+use std::path::Path;
+
+pub(super) fn run(
+    arguments: &Arguments,
+    job: &Job,
+    problem: &DesignProblem<'_>,
+    path: &Path,
+) -> calibrant::Result<Exit> {
+    let motion = read_motion(path, problem.sensor.axes)?;
+    // what is wrong with the motion itself is said before the search
+    calibrant::design::evaluate(problem, &motion)?;
+    let optimum = match job.design(problem) {
+        Ok(design) => {
+            write(arguments, job, problem, &design)?;
+            Ok(design)
+        }
+        Err(error) if error.is_infeasible() || error.is_not_identifiable() => Err(error.to_string()),
+        Err(error) => return Err(in_file(error, &arguments.experiment)),
+    };
+    let assessment = assess(problem, &motion, optimum)?;
+    write_evaluation(&arguments.output.join("evaluation.json"), &assessment, problem, &job.settings)?;
+    if arguments.json {
+        console::print(&evaluation_json(&assessment, problem, &job.settings));
+    } else {
+        console::print(&text(&assessment, path));
+        console::print(&format!("\n{}\n", arguments.output.join("evaluation.json").display()));
+    }
+    for group in &assessment.evaluation.undetermined {
+        console::warn(&format!(
+            "{} leaves {} undetermined: {} ({})",
+            path.display(),
+            group.parameters.join(", "),
+            group.reason,
+            group.remedy
+        ));
+    }
+    let determined = assessment.evaluation.covariance.is_some();
+    let optimum = match &assessment.optimum {
+        Ok(design) => exit_of(design),
+        Err(why) => {
+            console::warn(&format!("there is nothing to compare with: {why}"));
+            Exit::NOT_IDENTIFIABLE
+        }
+    };
+    Ok(if determined { optimum } else { Exit::NOT_IDENTIFIABLE })
+}
+
+fn text(assessment: &Assessment, path: &Path) -> String {
+    let own = assessment.evaluation.sd();
+    let design = assessment.optimum.as_ref().ok();
+    let best = design.map(|design| design.optimal.sd());
+    let bound = design.and_then(|design| design.certificate.as_ref()).map(|bound| &bound.sd_lower_bound);
+    let rows: Vec<_> = assessment
+        .parameters
+        .iter()
+        .enumerate()
+        .map(|(k, parameter)| {
+            let other = |sd: Option<f64>| sd.map_or_else(|| "–".into(), |sd| significant(sd, 4));
+            let best = best.as_ref().map(|best| best[k]);
+            vec![
+                parameter.name.clone(),
+                parameter.unit.to_owned(),
+                significant(own[k], 4),
+                other(best),
+                best.map_or_else(|| "–".into(), |best| super::table::factor(own[k] / best)),
+                other(bound.and_then(|bound| bound.get(k)).copied()),
+            ]
+        })
+        .collect();
+    let header = ["parameter", "unit", "sd own", "sd optimal", "own/optimal", "sd at least"];
+    let mut text = format!(
+        "criterion {} ({}): {} own, {} optimal\n",
+        assessment.criterion.letter(),
+        assessment.criterion.formula(),
+        significant(assessment.evaluation.value, 5),
+        design.map_or_else(|| "–".into(), |design| significant(design.optimal.value, 5))
+    );
+    text.push_str(&console::table(&header, &rows));
+    if let Some(other) = &assessment.other_setting {
+        text.push_str(&super::table::wrapped(&format!(
+            "{} has {} intervals over {} s, the experiment {} over {} s: the optimum is that of the experiment, so part of the difference is due to that.",
+            path.display(),
+            other.intervals,
+            short(other.duration_s),
+            other.experiment_intervals,
+            short(other.experiment_duration_s)
+        )));
+    }
+    if let Some(efficiency) = assessment.efficiency() {
+        let certain = assessment.certain_efficiency().map_or_else(String::new, |certain| {
+            format!(
+                " (at least {} % of what any admissible motion could do)",
+                significant(100.0 * certain, 3)
+            )
+        });
+        text.push_str(&super::table::wrapped(&format!(
+            "Efficiency {} % of the best motion found{certain}: {}.",
+            significant(100.0 * efficiency, 3),
+            recordings(efficiency)
+        )));
+    }
+    text.push('\n');
+    let broken = assessment.violations();
+    if broken.is_empty() {
+        text.push_str("  all limits are kept, at all times\n");
+    }
+    for found in &broken {
+        text.push_str(&format!("  {}\n", violation(found)));
+    }
+    text
+}
+
+/// What an efficiency means.
+fn recordings(efficiency: f64) -> String {
+    if efficiency > 1.0 + 1e-6 {
+        "it is better than the best motion within the limits".into()
+    } else if efficiency > 0.99 {
+        "as good as it gets".into()
+    } else {
+        format!(
+            "it takes {} recordings of it to learn what one of the best motion tells",
+            significant(1.0 / efficiency, 3)
+        )
+    }
+}
+
+fn violation(found: &LimitUse) -> String {
+    let (axis, unit) = (found.axis, found.kind.unit());
+    let number = |value: f64| significant(value, 4);
+    match found.kind {
+        LimitKind::RestAtEnd => {
+            format!("BROKEN: axis {axis} still moves at the end, at {} {unit}", number(found.value))
+        }
+        LimitKind::StartAcceleration | LimitKind::EndAcceleration => format!(
+            "BROKEN: {} of axis {axis} is {} {unit}, prescribed is {}",
+            found.kind.name(),
+            number(found.value),
+            number(found.limit)
+        ),
+        kind => format!(
+            "BROKEN: {} of axis {axis} is {} {unit} at {} s, {} beyond the limit of {} ({} %)",
+            kind.name(),
+            number(found.value),
+            number(found.time_s),
+            number(found.excess()),
+            number(found.limit),
+            significant(100.0 * found.violation, 3)
+        ),
+    }
+}

@@ -1,0 +1,100 @@
+//! A design as people read it.
+
+use crate::console;
+use calibrant::design::{Design, LimitUse, limit_use};
+use calibrant::information::Criterion;
+use calibrant::report::number::significant;
+
+/// Before, after and the bound, parameter by parameter; the criterion; the starts; what the certificate says.
+pub(crate) fn design(design: &Design) -> String {
+    let (before, after) = (design.initial.sd(), design.optimal.sd());
+    let bound = design.certificate.as_ref().map(|certificate| &certificate.sd_lower_bound);
+    let rows: Vec<_> = design
+        .parameters
+        .iter()
+        .enumerate()
+        .map(|(k, parameter)| {
+            vec![
+                parameter.name.clone(),
+                parameter.unit.to_owned(),
+                significant(before[k], 4),
+                significant(after[k], 4),
+                factor(before[k] / after[k]),
+                bound.and_then(|bound| bound.get(k)).map_or_else(|| "–".into(), |sd| significant(*sd, 4)),
+            ]
+        })
+        .collect();
+    let header = ["parameter", "unit", "sd initial", "sd optimal", "better by", "sd at least"];
+    let mut text = criterion(design) + &console::table(&header, &rows) + &starts(design);
+    let axes = design.parameters.iter().filter(|parameter| parameter.name.starts_with("bias.")).count();
+    let reached = reached(&limit_use(&design.limits, axes, &design.optimal.motion));
+    if !reached.is_empty() {
+        text.push_str(&format!("  the motion goes to its limits of {reached}\n"));
+    }
+    text + "\n" + &wrapped(&design.statement())
+}
+
+fn criterion(design: &Design) -> String {
+    let (criterion, digits) = (&design.criterion, 5);
+    format!(
+        "criterion {} ({}): {} initial, {} optimal\n",
+        criterion.letter(),
+        criterion.formula(),
+        significant(design.initial.value, digits),
+        significant(design.optimal.value, digits)
+    )
+}
+
+fn starts(design: &Design) -> String {
+    let all = design.starts.len();
+    if all == 0 {
+        return String::new();
+    }
+    format!(
+        "  {all} start{}, {} converged, {} of them to within 0.1 % of the best; {} iterations\n",
+        if all == 1 { "" } else { "s" },
+        design.starts_converged(),
+        design.starts_at_best(),
+        design.iterations
+    )
+}
+
+/// The limits that a motion reaches to a thousandth.
+fn reached(uses: &[LimitUse]) -> String {
+    let mut names: Vec<&str> = uses
+        .iter()
+        .filter(|found| found.limit > 0.0 && found.value.abs() >= 0.999 * found.limit)
+        .map(|found| found.kind.name())
+        .collect();
+    names.sort_unstable();
+    names.dedup();
+    names.join(", ")
+}
+
+/// How far above a bound: in percent, for criterion D in nats.
+pub(crate) fn gap(criterion: &Criterion, gap: f64) -> String {
+    let gap = gap.max(0.0);
+    match criterion {
+        Criterion::D(_) => format!("{} nats", significant(gap, 2)),
+        _ => format!("{} %", significant(100.0 * gap, 2)),
+    }
+}
+
+/// `3.1×`.
+pub(crate) fn factor(ratio: f64) -> String {
+    if ratio.is_finite() { format!("{}×", significant(ratio, 3)) } else { "–".into() }
+}
+
+/// A paragraph of at most a hundred characters a line, indented.
+pub(crate) fn wrapped(text: &str) -> String {
+    let (mut lines, mut line) = (String::new(), String::new());
+    for word in text.split_whitespace() {
+        if line.chars().count() + word.chars().count() > 100 {
+            lines.push_str(&format!("  {}\n", line.trim_end()));
+            line.clear();
+        }
+        line.push_str(word);
+        line.push(' ');
+    }
+    lines + &format!("  {}\n", line.trim_end())
+}

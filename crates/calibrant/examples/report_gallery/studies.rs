@@ -1,0 +1,124 @@
+//! Studies that look real: swings in place of the optima, errors drawn from the predicted covariance.
+
+use super::{design, designs, fakes, motion, sensor, simulate, study};
+use design::{DesignStatus, Evaluation};
+use motion::{InputNoise, Trust};
+use rand_distr::{Distribution, StandardNormal};
+use sensor::Sensor;
+use simulate::{Purpose, Rng, draw_sensor, initial_motion, stream};
+use study::{
+    DesignOutcome, DesignStudy, Factor, Improvement, MotionOutcome, ParameterSummary, Studies, Study,
+    SurfaceSettings, TraceRange, TraceSummary, trace_surface,
+};
+
+/// One study of calibrations and nothing else.
+pub(crate) fn calibrations(study: Study) -> Studies {
+    Studies { calibration: Some(study), ..Studies::default() }
+}
+
+/// All of the report's experiments.
+pub(crate) fn everything(calibrated: usize, designed: usize) -> Studies {
+    let surface =
+        SurfaceSettings { jerk_mps3: 0.5, points: 41, start_mps2: 0.0, interval_s: 1.0, rate_hz: 10.0 };
+    Studies {
+        calibration: Some(fakes::study(calibrated)),
+        surface: Some(trace_surface(&Sensor::memsic_mxd2020u(), &surface).expect("valid settings")),
+        design: Some(design_study(designed, Trust::Known)),
+        noisy: Some(design_study(designed, Trust::Noisy(InputNoise { floor_mps3: 0.01, ratio: 0.01 }))),
+        remarks: vec!["an experiment that was not run, <and why>".to_string()],
+    }
+}
+
+/// Initial against swinging motions.
+pub(crate) fn design_study(sensors: usize, trust: Trust) -> DesignStudy {
+    let (sensor, limits) = (Sensor::memsic_mxd2020u(), designs::arm());
+    let problem = design::DesignProblem { trust, ..designs::problem(&sensor, &limits) };
+    let list = sensor.parameter_list();
+    let outcomes: Vec<DesignOutcome> = (0..sensors as u64)
+        .map(|index| {
+            let mut rng = stream(5, Purpose::Sensor, index);
+            let truth = draw_sensor(&sensor, &mut rng);
+            let truth: Vec<f64> = list.quantities().iter().map(|quantity| quantity.of(&truth)).collect();
+            let random = initial_motion(10, 1.0, 3, &limits, &mut stream(5, Purpose::Motion, index));
+            let initial = design::evaluate(&problem, &random.expect("valid")).expect("valid");
+            let optimal = designs::swing(&problem, [2.0, if index % 3 == 0 { -2.0 } else { 2.0 }, 2.0]);
+            DesignOutcome {
+                initial: estimated(&truth, initial, &mut rng),
+                optimal: estimated(&truth, optimal, &mut rng),
+                truth,
+                design_status: DesignStatus::Converged,
+            }
+        })
+        .collect();
+    let design = designs::design_of(&problem, 30);
+    DesignStudy {
+        sensor: sensor.clone(),
+        parameters: design.parameters.clone(),
+        intervals: 10,
+        interval_s: 1.0,
+        rate_hz: 10.0,
+        trust,
+        known_ends: problem.known_ends,
+        limits: design.limits.clone(),
+        criterion: problem.criterion.clone(),
+        datasheet_prior: false,
+        initial_given: false,
+        starts: 30,
+        seed: 5,
+        motions_shown: 10.min(outcomes.len()),
+        summary: (0..list.len()).map(|p| improvement(&design.parameters[p], p, &outcomes)).collect(),
+        trace: TraceSummary {
+            initial: range(outcomes.iter().map(|outcome| outcome.initial.trace).collect()),
+            optimal: range(outcomes.iter().map(|outcome| outcome.optimal.trace).collect()),
+        },
+        outcomes,
+        design,
+    }
+}
+
+fn estimated(truth: &[f64], evaluation: Evaluation, rng: &mut Rng) -> MotionOutcome {
+    let sd = evaluation.sd();
+    let draw = |(value, sd): (&f64, &f64)| {
+        let z: f64 = StandardNormal.sample(rng);
+        value + sd * z
+    };
+    MotionOutcome {
+        values: truth.iter().zip(&sd).map(draw).collect(),
+        trace: sd.iter().map(|sd| sd * sd).sum(),
+        sd,
+        predicted_criterion: evaluation.value,
+        motion: evaluation.motion,
+        p_value: Some(0.4),
+        status: "converged",
+    }
+}
+
+fn improvement(parameter: &sensor::Parameter, p: usize, outcomes: &[DesignOutcome]) -> Improvement {
+    let n = outcomes.len() as f64;
+    let of = |motion: fn(&DesignOutcome) -> &MotionOutcome| {
+        let error = |o: &DesignOutcome| motion(o).values[p] - o.truth[p];
+        ParameterSummary {
+            name: parameter.name.clone(),
+            unit: parameter.unit,
+            predicted_sd: (outcomes.iter().map(|o| motion(o).sd[p].powi(2)).sum::<f64>() / n).sqrt(),
+            realised_rms: (outcomes.iter().map(|o| error(o).powi(2)).sum::<f64>() / n).sqrt(),
+            mean_error: outcomes.iter().map(error).sum::<f64>() / n,
+            coverage_95: outcomes.iter().filter(|o| error(o).abs() < 1.96 * motion(o).sd[p]).count() as f64
+                / n,
+        }
+    };
+    let (initial, optimal) = (of(|o| &o.initial), of(|o| &o.optimal));
+    let factor = |value: f64, share: f64| Factor { value, standard_error: Some(share * value / n.sqrt()) };
+    Improvement {
+        predicted: factor(initial.predicted_sd / optimal.predicted_sd, 0.3),
+        realised: factor(initial.realised_rms / optimal.realised_rms, 1.0),
+        initial,
+        optimal,
+    }
+}
+
+fn range(mut values: Vec<f64>) -> TraceRange {
+    values.sort_by(f64::total_cmp);
+    let at = |place: usize| values.get(place).copied().unwrap_or(f64::NAN);
+    TraceRange { least: at(0), median: at(values.len() / 2), most: at(values.len().saturating_sub(1)) }
+}
