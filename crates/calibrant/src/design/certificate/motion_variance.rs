@@ -119,16 +119,9 @@ pub(super) fn bound_within(
         && !(velocity && l.rest == Rest::Both);
     let with_order = |sum: bool, order: u8| {
         let states = States { velocity, displacement, sum };
-        let segment = Segment {
-            chain,
-            reach: &reach,
-            range: 0..n,
-            width: 1,
-            states,
-            open: false,
-            inside: &INSIDE,
-            order,
-        };
+        let width = if velocity && !sum && order == 2 && (3..=MOST_WIDE).contains(&n) { 2 } else { 1 };
+        let segment =
+            Segment { chain, reach: &reach, range: 0..n, width, states, open: false, inside: &INSIDE, order };
         relax(&segment, max_iterations, BoundKind::Chain { mean: sum, states: velocity })
     };
     if with_mean {
