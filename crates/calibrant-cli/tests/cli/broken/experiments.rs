@@ -56,7 +56,7 @@ fn the_line_is_shown_and_underlined() {
     bench.preset("report", "broken.toml", &[("interval_s", "intervall_s")]);
     let stderr = bench.run("simulate broken.toml -o result").stderr;
     let shown: Vec<&str> = stderr.lines().collect();
-    let at = shown.iter().position(|line| line.starts_with(" 18 │ intervall_s = 1.0 ")).expect(&stderr);
+    let at = shown.iter().position(|line| line.starts_with(" 19 │ intervall_s = 1.0 ")).expect(&stderr);
     assert!(shown[at + 1].contains("─────┬─────"), "{stderr}");
     assert!(!stderr.contains('\u{1b}'), "no colours where stderr is no terminal: {stderr:?}");
 }
