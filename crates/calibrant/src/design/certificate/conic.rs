@@ -88,10 +88,10 @@ impl MomentProgram {
 
         let mut residual = q;
         let mut size = 0.0;
-        for column in 0..self.columns {
+        for (column, residual) in residual.iter_mut().enumerate() {
             for place in a.colptr[column]..a.colptr[column + 1] {
                 let product = a.nzval[place] * z[a.rowval[place]];
-                residual[column] += product;
+                *residual += product;
                 size += product.abs();
             }
         }

@@ -66,6 +66,8 @@ const MAX_ITERATIONS: u32 = 100;
 const INSIDE: [f64; 3] = [0.25, 0.5, 0.75];
 /// Most intervals for moments up to degree 6 with states: seconds.
 const MOST_HIGH_ORDER: usize = 12;
+/// Most intervals of a chain with states that are looked at in pairs: seconds.
+const MOST_WIDE: usize = 40;
 /// Most intervals of a whole chain with states, and without: seconds.
 const MOST_WITH_STATES: usize = 100;
 const MOST_WITHOUT_STATES: usize = 1000;
@@ -117,16 +119,9 @@ pub(super) fn bound_within(
         && !(velocity && l.rest == Rest::Both);
     let with_order = |sum: bool, order: u8| {
         let states = States { velocity, displacement, sum };
-        let segment = Segment {
-            chain,
-            reach: &reach,
-            range: 0..n,
-            width: 1,
-            states,
-            open: false,
-            inside: &INSIDE,
-            order,
-        };
+        let width = if velocity && !sum && order == 2 && (3..=MOST_WIDE).contains(&n) { 2 } else { 1 };
+        let segment =
+            Segment { chain, reach: &reach, range: 0..n, width, states, open: false, inside: &INSIDE, order };
         relax(&segment, max_iterations, BoundKind::Chain { mean: sum, states: velocity })
     };
     if with_mean {

@@ -6,8 +6,8 @@
 //!
 //! - the moment matrix of `(1, z, z²)`, or up to `z³`, is positive semidefinite, for the few variables z of one interval: its two nodes and the states that the
 //!   limits need at its start (velocity, displacement, the running sum of the samples);
-//! - for every limit, `|ℓ(z)| ≤ 1`, that of one degree less, weighted with `1 − ℓ²`, is so too, and that of two degrees less with `(1 − ℓ²)(1 − k²)`
-//!   negative for any two of them. Limits that hold for all t hold at the quarters of the interval;
+//! - for every limit, `|ℓ(z)| ≤ 1`, that of one degree less, weighted with `1 − ℓ²`, is so too, and that of two degrees less with
+//!   `(1 − ℓ²)(1 − k²)` for any two of them. Limits that hold for all t hold at the quarters of the interval;
 //! - two neighbours agree on all moments of the node and the states that they share.
 //!
 //! Every variable is divided by a bound of its own, so that no moment exceeds one in size. Where nothing tells a motion from its mirror image −a,
