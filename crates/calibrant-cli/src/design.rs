@@ -18,7 +18,7 @@ use std::time::Instant;
 
 /// Find the motion whose recording will determine the parameters best, and prove how close to the best possible it is.
 ///
-/// Writes design.json, motion.csv (what `simulate` and `calibrate` take as --motion) and report.html into DIR. With --evaluate, evaluation.json too; with
+/// Writes design.json, motion.csv (what `simulate` and `calibrate` take as --motion) and report.html into DIR. With --evaluate, evaluation.json and evaluation.html too; with
 /// --sweep, sweep.json, sweep.csv and report.html instead.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {

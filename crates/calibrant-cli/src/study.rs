@@ -86,7 +86,6 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
             Some(path) => format!("Study of {}", path.display()),
             None => "Calibration and optimal experimental design: the report's chapters 3 and 4".into(),
         },
-        findings: studies.remarks.clone(),
         elapsed: Some(format!(
             "{simulated:.3} s, {:.0} sensors per second",
             problem.steps() as f64 / simulated

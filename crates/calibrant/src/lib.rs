@@ -32,7 +32,7 @@
 //! | the motion to find, and how | [`design::DesignProblem`], [`design::DesignSettings`] |
 //! | the best motion, what it promises, and the proof | [`design::Design`], [`design::Certificate`] |
 //! | a motion of one's own beside it; the best as one thing changes | [`design::Assessment`], [`design::Sweep`] |
-//! | a population of simulated sensors | [`study::Study`] |
+//! | a population of simulated sensors | [`study::Study`], [`study::DesignStudy`] |
 //!
 //! # An example
 //! Simulate a sensor of the report on a random motion and calibrate it:

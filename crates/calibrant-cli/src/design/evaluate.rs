@@ -3,7 +3,8 @@
 use super::{Arguments, Job, exit_of, in_file, write};
 use crate::{Exit, console};
 use calibrant::design::{Assessment, DesignProblem, LimitKind, LimitUse, assess};
-use calibrant::io::{evaluation_json, read_motion, write_evaluation};
+use calibrant::io::{evaluation_json, read_motion, write_atomically, write_evaluation};
+use calibrant::report::evaluation_report;
 use calibrant::report::number::{short, significant};
 use std::path::Path;
 
@@ -26,11 +27,16 @@ pub(super) fn run(
     };
     let assessment = assess(problem, &motion, optimum)?;
     write_evaluation(&arguments.output.join("evaluation.json"), &assessment, problem, &job.settings)?;
+    let name = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+    let html =
+        evaluation_report(&assessment, &job.about(arguments, problem, format!("Assessment of {name}")));
+    let page = arguments.output.join("evaluation.html");
+    write_atomically(&page, |out| out.write_all(html.as_bytes()))?;
     if arguments.json {
         console::print(&evaluation_json(&assessment, problem, &job.settings));
     } else {
         console::print(&text(&assessment, path));
-        console::print(&format!("\n{}\n", arguments.output.join("evaluation.json").display()));
+        console::print(&format!("\n{}\n", page.display()));
     }
     for group in &assessment.evaluation.undetermined {
         console::warn(&format!(

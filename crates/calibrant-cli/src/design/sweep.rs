@@ -3,8 +3,9 @@
 use super::{Arguments, Job, in_file};
 use crate::{Exit, console};
 use calibrant::design::{DesignProblem, DesignStatus, Sweep, SweepVariable, sweep};
-use calibrant::io::{sweep_json, write_sweep, write_sweep_csv};
+use calibrant::io::{sweep_json, write_atomically, write_sweep, write_sweep_csv};
 use calibrant::report::number::{short, significant};
+use calibrant::report::sweep_report;
 
 /// Most values of a sweep.
 const MOST: usize = 1000;
@@ -81,12 +82,20 @@ pub(super) fn run(
     let swept = outcome.map_err(|error| in_file(error, &arguments.experiment))?;
     write_sweep(&arguments.output.join("sweep.json"), &swept, problem, &job.settings)?;
     write_sweep_csv(&arguments.output.join("sweep.csv"), &swept)?;
+    let title = format!("Best motions over the {}", swept.variable.name());
+    let html = sweep_report(&swept, &job.about(arguments, problem, title));
+    write_atomically(&arguments.output.join("report.html"), |out| out.write_all(html.as_bytes()))?;
     say(&swept);
     if arguments.json {
         console::print(&sweep_json(&swept, problem, &job.settings));
     } else {
         console::print(&table(&swept));
-        console::print(&format!("\n{}\n", arguments.output.join("sweep.csv").display()));
+        let output = &arguments.output;
+        console::print(&format!(
+            "\n{}\n{}\n",
+            output.join("sweep.csv").display(),
+            output.join("report.html").display()
+        ));
     }
     let good = |point: &calibrant::design::SweepPoint| {
         point.outcome.as_ref().is_ok_and(|design| design.optimal.covariance.is_some())

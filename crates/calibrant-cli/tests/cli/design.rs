@@ -38,6 +38,7 @@ fn a_design_leaves_a_motion_and_everything_needed_to_judge_it() {
         assert!(outcome.stdout.contains(word), "{word}\n{}", outcome.stdout);
     }
     assert_eq!(outcome.stderr, "");
+    assert!(bench.read("d/report.html").trim_end().ends_with("</html>"));
     let design = bench.json("d/design.json");
     assert_eq!((&design["schema"], &design["status"]), (&Value::from(1), &Value::from("converged")));
     assert_eq!(names(&design["parameters"]), ["bias.x", "bias.y", "bias.z", "scale.x", "scale.y", "scale.z"]);
@@ -143,6 +144,7 @@ fn a_motion_of_ones_own_is_judged() {
     for words in ["sd own", "of the best motion found: it takes", "all limits are kept, at all times"] {
         assert!(outcome.stdout.contains(words), "{words}\n{}", outcome.stdout);
     }
+    assert!(bench.read("e/evaluation.html").trim_end().ends_with("</html>"));
     let file = bench.json("e/evaluation.json");
     assert_eq!((&file["admissible"], &file["determined"]), (&Value::from(true), &Value::from(true)));
     let efficiency = file["efficiency"].as_f64().expect("a number");
@@ -187,6 +189,7 @@ fn sweeps_say_what_things_cost() {
     assert!(value(1) < value(0), "more time tells more");
     let csv = bench.read("d/sweep.csv");
     assert!(csv.starts_with("duration_s,duration_s_asked,intervals,status,error,criterion_A,"), "{csv}");
+    assert!(bench.read("d/report.html").trim_end().ends_with("</html>"));
     assert!(csv.contains(",scale.x_sd,") && csv.contains(",bias.x_sd_mps2,"), "{csv}");
     assert_eq!(csv.lines().count(), 3);
     bench.run(&format!("design arm.toml {QUICK} --sweep limits.velocity_mps=2:10:3 -o v")).done();

@@ -88,6 +88,11 @@ fn many_sensors() {
 }
 
 #[test]
+fn design_a_motion() {
+    follow("05_design_a_motion", 9);
+}
+
+#[test]
 fn every_example_is_followed() {
     let root: PathBuf = [env!("CARGO_MANIFEST_DIR"), "../../examples"].iter().collect();
     let mut names: Vec<_> = std::fs::read_dir(root)
@@ -97,5 +102,8 @@ fn every_example_is_followed() {
         .map(|path| path.file_name().expect("a name").to_string_lossy().into_owned())
         .collect();
     names.sort();
-    assert_eq!(names, ["01_robot_motion", "02_unknown_motion", "03_static_poses", "04_many_sensors"]);
+    assert_eq!(
+        names,
+        ["01_robot_motion", "02_unknown_motion", "03_static_poses", "04_many_sensors", "05_design_a_motion"]
+    );
 }

@@ -217,10 +217,10 @@ fn spare(limits: &AxisLimits, times: &[f64], a: &[f64]) -> f64 {
         .iter()
         .map(|found| 1.0 - found.value.abs() / found.limit)
         .fold(1.0, f64::min);
-    for i in 0..=n {
+    for (i, node) in a.iter().enumerate() {
         let prescribed = (i == 0 && limits.start.is_some()) || (i == n && limits.end.is_some());
         if let (false, Some(limit)) = (prescribed, limits.acceleration) {
-            least = least.min(1.0 - a[i].abs() / limit);
+            least = least.min(1.0 - node.abs() / limit);
         }
     }
     for (i, x) in motion.intercept_mps2().iter().enumerate() {

@@ -1,6 +1,6 @@
 //! `calibration.json` as it is read back: what is known of a sensor before the next motion is designed.
 
-use super::text;
+use super::text::{self, Checked};
 use crate::error::{Complaint, Error, Result};
 use crate::information::covariance;
 use crate::sensor::{ParameterList, Quantity, ReadingUnit, SensorParameters};
@@ -57,7 +57,7 @@ pub fn read_calibration(path: &Path) -> Result<EarlierCalibration> {
 /// # Ok::<(), calibrant::Error>(())
 /// ```
 pub fn parse_calibration(bytes: &[u8]) -> Result<EarlierCalibration> {
-    parse(bytes).map_err(Error::experiment)
+    parse(bytes).map_err(|complaint| Error::experiment(*complaint))
 }
 
 impl EarlierCalibration {
@@ -148,10 +148,10 @@ struct ParameterFields {
     value: Option<f64>,
 }
 
-fn parse(bytes: &[u8]) -> std::result::Result<EarlierCalibration, Complaint> {
+fn parse(bytes: &[u8]) -> Checked<EarlierCalibration> {
     const AGAIN: &str = "give a calibration.json that `calibrant calibrate` wrote";
-    let complain = |message: String| Err(Complaint::new(message, AGAIN));
-    let text = text::as_text(bytes).map_err(|complaint| *complaint)?;
+    let complain = |message: String| Err(Box::new(Complaint::new(message, AGAIN)));
+    let text = text::as_text(bytes)?;
     let file: File = serde_json::from_str(text).map_err(|error| broken(&error, AGAIN))?;
     match file.schema {
         Some(schema) if schema == 1 => (),
@@ -166,7 +166,7 @@ fn parse(bytes: &[u8]) -> std::result::Result<EarlierCalibration, Complaint> {
     let covariance_rows = file.covariance.ok_or_else(|| missing("covariance"))?;
     if status != "converged" {
         let message = format!("this calibration did not converge: its status is \"{status}\"");
-        return Err(Complaint::new(message, "calibrate again; its report says what is wrong"));
+        return Err(Complaint::new(message, "calibrate again; its report says what is wrong").into());
     }
     let (mut names, mut values) = (Vec::new(), Vec::new());
     for (i, parameter) in parameters.into_iter().enumerate() {

@@ -19,13 +19,12 @@ pub(in crate::report) fn promised_table(
 ) -> String {
     let with_spread = parameters.iter().any(|parameter| parameter.spread.is_some());
     let (first, second) = (format!("sd, {}", before.0), format!("sd, {}", after.0));
-    let mut columns = vec!["parameter", "unit"];
-    if with_spread {
-        columns.push("datasheet spread");
-    }
-    columns.extend([first.as_str(), second.as_str(), "improvement"]);
+    let mut columns = vec!["parameter", "unit", first.as_str(), second.as_str(), "improvement"];
     if bound.is_some() {
         columns.extend(["lower bound of the sd", "above the bound"]);
+    }
+    if with_spread {
+        columns.push("datasheet spread");
     }
     let mut table = Table::new("", &columns);
     for (i, ((parameter, old), new)) in parameters.iter().zip(before.1.sd()).zip(after.1.sd()).enumerate() {
@@ -41,13 +40,6 @@ pub(in crate::report) fn promised_table(
             Cell::Name(parameter.name.clone()),
             Cell::Text(if unit.symbol.is_empty() { number::UNKNOWN.into() } else { unit.symbol.into() }),
         ];
-        if with_spread {
-            let symbol = if parameter.unit == "1" { "" } else { parameter.unit };
-            let spread = parameter.spread.map(|spread| format!("{} {symbol}", number::short(spread)));
-            row.push(Cell::Number(
-                spread.map_or_else(|| number::UNKNOWN.into(), |text| text.trim_end().into()),
-            ));
-        }
         row.extend([shown(old), shown(new), Cell::Number(times(old / new))]);
         if let Some(bound) = bound {
             let bound = bound.get(i).copied().unwrap_or(f64::NAN);
@@ -62,6 +54,13 @@ pub(in crate::report) fn promised_table(
                 number::UNKNOWN.into()
             };
             row.extend([Cell::Number(bound), Cell::Number(above)]);
+        }
+        if with_spread {
+            let symbol = if parameter.unit == "1" { "" } else { parameter.unit };
+            let spread = parameter.spread.map(|spread| format!("{} {symbol}", number::short(spread)));
+            row.push(Cell::Number(
+                spread.map_or_else(|| number::UNKNOWN.into(), |text| text.trim_end().into()),
+            ));
         }
         table.row(row);
     }
