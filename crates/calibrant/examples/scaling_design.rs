@@ -14,7 +14,9 @@ fn main() -> calibrant::Result<()> {
     let reach =
         Limits { velocity_mps: all(10.0), displacement_m: all(10.0), rest: Rest::Both, ..plain.clone() };
     let noisy = Trust::Noisy(InputNoise { floor_mps3: 0.01, ratio: 0.01 });
-    println!("| limits | trust | N | iterations | per iteration, ms | per iteration and interval, µs | status |");
+    println!(
+        "| limits | trust | N | iterations | per iteration, ms | per iteration and interval, µs | status |"
+    );
     println!("|---|---|--:|--:|--:|--:|---|");
     for (name, limits, trust) in [
         ("acceleration, jerk", &plain, Trust::Known),
