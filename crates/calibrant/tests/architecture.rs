@@ -10,7 +10,6 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("motion", &["error", "sensor"]),
     ("information", &["error", "sensor", "motion", "arrowhead"]),
     ("estimate", &["error", "sensor", "motion", "arrowhead", "information"]),
-    ("design", &["error", "sensor", "motion", "arrowhead", "information"]),
     ("simulate", &["error", "sensor", "motion"]),
     ("design", &["error", "sensor", "motion", "arrowhead", "information", "simulate"]),
     ("study", &["error", "sensor", "motion", "information", "simulate", "estimate", "design"]),
