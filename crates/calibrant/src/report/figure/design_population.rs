@@ -54,8 +54,8 @@ pub(in crate::report) fn optimal_motions(title: &str, study: &DesignStudy, axes:
     let caption = format!(
         "Is there one best motion? Each later line is drawn thinner, so that all can be seen where they coincide. {} A motion and its \
          mirror image tell the same, and so does the same motion on another axis with the same limits: where only those appear, there is one \
-         best motion. The report sees this too; its curves look sinusoidal, and each starts from one initial motion, while here each design \
-         is the best of {} start{}.",
+         best motion. The report sees this too. Its curves look sinusoidal; \
+         where these do not, the limits above do not ask for it. It starts each design from one motion, here each is the best of {} start{}.",
         alike.join(" "),
         study.starts,
         if study.starts == 1 { "" } else { "s" }

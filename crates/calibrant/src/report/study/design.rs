@@ -4,8 +4,8 @@ use super::settings::settings;
 use crate::design::limit_use;
 use crate::report::design::{axes, limit_table, times};
 use crate::report::figure::{
-    DisplayUnit, Drawn, absolute_errors, confidence_ellipses, jerk_and_acceleration, optimal_motions, traces,
-    velocity_and_displacement,
+    DisplayUnit, Drawn, absolute_errors, confidence_ellipses, jerk_and_acceleration, optimal_motions, states,
+    traces, velocity_and_displacement,
 };
 use crate::report::html::Page;
 use crate::report::number;
@@ -66,6 +66,9 @@ pub(super) fn chapter(page: &mut Page, study: &DesignStudy, chapter: &Chapter) {
     let motions =
         [Drawn::before("initial", &design.initial.motion), Drawn::after("optimal", &design.optimal.motion)];
     page.push(jerk_and_acceleration(chapter.motion, &motions, axes, &study.limits).html());
+    if let Some(figure) = states(&motions, axes, &study.limits) {
+        page.push(figure.html());
+    }
     page.push(velocity_and_displacement(&motions, axes, &study.limits).html());
     page.push(limit_table(&limit_use(&study.limits, axes.len(), &design.optimal.motion), "optimal motion"));
     if study.motions_shown > 1 {
