@@ -221,7 +221,7 @@ fn files_are_read_with_byte_order_mark_and_refused_when_no_text() {
 #[test]
 fn a_variant_takes_what_it_does_not_say_from_the_motion() {
     let text = preset("report").expect("known");
-    let head = &text[..text.find("[study]").expect("there")];
+    let head = &text[..=text.find("\n[study]").expect("there")];
     let experiment = parse(&format!(
         "{head}[study]\nsensors = 4\n[study.surface]\n[study.unknown]\n[study.noisy]\ninput_noise = {{ floor_mps3 = 0.1, ratio = 0.0 }}\n"
     ));
