@@ -10,7 +10,7 @@
 //! # References
 //! `boyd2004`, `pukelsheim2006`
 
-use super::conic::{ConicProgram, ConicSolution, Row};
+use super::conic::{ConicProgram, Row};
 use super::curvature::{Curvature, pieces};
 use super::region::{Region, Watch};
 use super::{DesignSettings, DesignStatus, hessian};
@@ -50,6 +50,8 @@ const EXHAUSTED: f64 = 1e-5;
 const BOLDER: f64 = 0.25;
 /// The least of it.
 const LEAST_BEND: f64 = 1e-3;
+/// Relative size of an eigenvalue that adds nothing to the rank.
+const RANK: f64 = 1e-12;
 
 impl<const D: usize, const P: usize> Part<D, P> {
     /// Value of the criterion; infinite where the motion does not determine the parameters.
@@ -224,7 +226,7 @@ impl<const D: usize, const P: usize> Part<D, P> {
                     *weight = solution.multipliers[first + k].max(1e-12);
                 }
             }
-            let promise = self.promise(a, model, &solution, &next);
+            let promise = self.promise(a, model, &next);
             return Some((self.restored(next), promise));
         }
         None
@@ -332,14 +334,7 @@ impl<const D: usize, const P: usize> Part<D, P> {
         if largest > 0.0 { largest } else { 1.0 }
     }
 
-    fn promise(
-        &self,
-        a: &[SVector<f64, D>],
-        model: &Model<D>,
-        solution: &ConicSolution,
-        next: &[SVector<f64, D>],
-    ) -> f64 {
-        let _ = solution;
+    fn promise(&self, a: &[SVector<f64, D>], model: &Model<D>, next: &[SVector<f64, D>]) -> f64 {
         let along = |form: &[SVector<f64, D>]| -> f64 {
             form.iter().zip(next.iter().zip(a)).map(|(form, (next, a))| form.dot(&(next - a))).sum()
         };
@@ -397,26 +392,27 @@ struct Model<const D: usize> {
 
 /// The same sum of squares with as few forms as its rank.
 fn reduce<const D: usize>(bends: &mut Vec<Nodes<D>>) {
-    let count = bends.len();
+    let (count, nodes) = (bends.len(), bends.first().map_or(0, Vec::len));
     if count < 3 {
         return;
     }
-    let gram = DMatrix::from_fn(count, count, |i, j| {
-        bends[i].iter().zip(&bends[j]).map(|(x, y)| x.dot(y)).sum::<f64>()
-    });
+    let forms = DMatrix::from_fn(count, nodes * D, |m, at| bends[m][at / D][at % D]);
+    // the smaller of the two Gram matrices has the same rank
+    let tall = count > nodes * D;
+    let gram = if tall { forms.tr_mul(&forms) } else { &forms * forms.transpose() };
     let eigen = gram.symmetric_eigen();
     let largest = eigen.eigenvalues.amax();
-    let kept: Vec<usize> = (0..count).filter(|&k| eigen.eigenvalues[k] > 1e-12 * largest).collect();
+    let kept: Vec<usize> =
+        (0..eigen.eigenvalues.len()).filter(|&k| eigen.eigenvalues[k] > RANK * largest).collect();
     if kept.len() == count {
         return;
     }
-    let nodes = bends[0].len();
     *bends = kept
         .into_iter()
         .map(|k| {
-            (0..nodes)
-                .map(|i| bends.iter().enumerate().map(|(m, bend)| bend[i] * eigen.eigenvectors[(m, k)]).sum())
-                .collect()
+            let direction = eigen.eigenvectors.column(k);
+            let row = if tall { direction * eigen.eigenvalues[k].sqrt() } else { forms.tr_mul(&direction) };
+            (0..nodes).map(|i| SVector::from_fn(|d, _| row[i * D + d])).collect()
         })
         .collect();
 }

@@ -55,7 +55,8 @@ impl Region {
         self.tau.len() - 1
     }
 
-    fn has_states(&self) -> bool {
+    /// Do limits count that velocity or displacement enter?
+    pub(super) fn has_states(&self) -> bool {
         self.limits.velocity.is_some() || self.limits.displacement.is_some() || self.limits.rest == Rest::Both
     }
 

@@ -1,6 +1,6 @@
 //! The search: many starts, in parallel, and the best motion of each axis.
 //!
-//! Half of the starts are corners of the admissible region; the others are kicked out of the best optimum so far, in three rounds, so that the result
+//! Half of the starts are random motions and corners of the admissible region; the others are kicked out of the best optimum so far, in three rounds, so that the result
 //! does not depend on the number of threads.
 //!
 //! Axes of a scale-bias sensor share nothing, so each is designed by itself, and those that have the same problem are designed once, with the starts of
@@ -143,7 +143,7 @@ impl Found {
         let first = groups[0][0].index() as u64;
         let count = settings.starts * D * groups.len();
         let mut outcomes: Vec<LocalOptimum<D>> = Vec::with_capacity(count);
-        // half of the starts at corners, then rounds of kicks from the best so far
+        // half of the starts at random, then rounds of kicks from the best so far
         let rounds = [count.div_ceil(2), count * 2 / 3, count * 5 / 6, count];
         for end in rounds {
             let best =
@@ -154,7 +154,7 @@ impl Found {
                     let mut rng = stream(settings.seed, Purpose::Start, 3 * number as u64 + first);
                     let start = match &best {
                         _ if number < groups.len() => part.stretched(own(&groups[number])),
-                        None => part.corner(number, &mut rng).unwrap_or_else(|| own(&groups[0])),
+                        None => part.start(number, &mut rng).unwrap_or_else(|| own(&groups[0])),
                         Some(best) => part.kicked(best, &mut rng).unwrap_or_else(|| own(&groups[0])),
                     };
                     let outcome = part.improve(start, settings);

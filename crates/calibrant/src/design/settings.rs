@@ -15,6 +15,6 @@ pub struct DesignSettings {
 
 impl Default for DesignSettings {
     fn default() -> Self {
-        Self { starts: 30, seed: 1, certificate: true, max_iterations: 100 }
+        Self { starts: 30, seed: 1, certificate: true, max_iterations: 300 }
     }
 }

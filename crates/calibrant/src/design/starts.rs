@@ -1,12 +1,12 @@
 //! Where the search begins.
 //!
-//! The criterion is the convex-to-be-maximised kind: good motions lie at the corners of the admissible region. So a start is a corner, the admissible
-//! motion that goes furthest in a random direction. Directions are white noise, a wave of random frequency and phase, and a jerk at its limit all the
-//! time whose sign is random but for the turns at the limit of the acceleration: the best there is where noise grows with the jerk.
+//! The information is convex in the motion, so good motions lie at corners of the admissible region. Every other start is a modest random motion, from
+//! which the search grows along the directions that tell most; the others are corners, the admissible motions that go furthest along a wave of random
+//! frequency and phase. Kicks go most of the way from the best motion so far to a random corner: shorter ones come back.
 
 use super::conic::ConicProgram;
 use super::local::{Nodes, Part};
-use super::region::{Region, Watch};
+use super::region::Watch;
 use crate::simulate::Rng;
 use nalgebra::SVector;
 use rand::RngExt;
@@ -16,6 +16,10 @@ const STRETCH: f64 = 1e6;
 /// How often a corner that leaves parameters undetermined is moved aside, and how far.
 const ATTEMPTS: usize = 5;
 const ASIDE: f64 = 0.3;
+/// A modest motion's share of the limits.
+const MODEST: f64 = 0.1;
+/// What part of the way to a corner a kick goes.
+const KICK: std::ops::Range<f64> = 0.4..0.9;
 
 impl<const D: usize, const P: usize> Part<D, P> {
     /// An admissible motion, stretched until it touches a limit on every axis.
@@ -31,33 +35,52 @@ impl<const D: usize, const P: usize> Part<D, P> {
         self.restored(nodes)
     }
 
-    /// The corner of start `number`, moved a little towards other corners where it leaves parameters undetermined; `None` where the convex solver fails.
-    pub(super) fn corner(&self, number: usize, rng: &mut Rng) -> Option<Nodes<D>> {
-        let mut start = self.furthest(number, rng)?;
+    /// Start `number`, moved a little towards a corner where it leaves parameters undetermined; `None` where the convex solver fails.
+    pub(super) fn start(&self, number: usize, rng: &mut Rng) -> Option<Nodes<D>> {
+        let mut start = if number.is_multiple_of(2) { self.modest(rng) } else { self.corner(wave, rng)? };
         for _ in 0..ATTEMPTS {
             if self.value(&start).is_finite() {
                 break;
             }
-            start = mix(&start, &self.furthest(0, rng)?, ASIDE);
+            start = mix(&start, &self.corner(noise, rng)?, ASIDE);
         }
         Some(start)
     }
 
     /// An optimum, moved towards a random corner by a random part of the way.
     pub(super) fn kicked(&self, optimum: &[SVector<f64, D>], rng: &mut Rng) -> Option<Nodes<D>> {
-        let part = rng.random_range(0.05..0.6);
-        let number = rng.random_range(0..3);
-        Some(self.restored(mix(optimum, &self.furthest(number, rng)?, part)))
+        let part = rng.random_range(KICK);
+        let direction = if rng.random_bool(0.5) { wave } else { noise };
+        Some(self.restored(mix(optimum, &self.corner(direction, rng)?, part)))
     }
 
-    /// The admissible motion that goes furthest in a random direction of kind `number % 3`.
-    fn furthest(&self, number: usize, rng: &mut Rng) -> Option<Nodes<D>> {
+    /// A random motion well inside the limits, like the initial one. Its mean is zero where velocity or displacement are limited.
+    fn modest(&self, rng: &mut Rng) -> Nodes<D> {
+        let mut nodes: Nodes<D> = self.inside.clone();
+        for (k, region) in self.regions.iter().enumerate() {
+            let largest = region.size / region.tau[1];
+            let jerk = region.limits.jerk.map_or(largest, |jerk| jerk.min(largest));
+            let mut a = MODEST * region.size * rng.random_range(-1.0..1.0);
+            let mut walk = vec![a];
+            for i in 0..region.intervals() {
+                a += MODEST * jerk * rng.random_range(-1.0..1.0) * (region.tau[i + 1] - region.tau[i]);
+                walk.push(a);
+            }
+            let drifts = region.has_states();
+            let mean = if drifts { walk.iter().sum::<f64>() / walk.len() as f64 } else { 0.0 };
+            nodes.iter_mut().zip(walk).for_each(|(node, a)| node[k] += a - mean);
+        }
+        self.restored(nodes)
+    }
+
+    /// The admissible motion that goes furthest in a random direction.
+    fn corner(&self, direction: impl Fn(usize, &mut Rng) -> Vec<f64>, rng: &mut Rng) -> Option<Nodes<D>> {
         let nodes = self.inside.len();
         let mut program = ConicProgram::default();
         program.add_variables(nodes * D);
         for (k, region) in self.regions.iter().enumerate() {
             region.add_to(&mut program, |i| i * D + k, &Watch::default());
-            for (i, weight) in direction(number, region, rng).into_iter().enumerate() {
+            for (i, weight) in direction(nodes, rng).into_iter().enumerate() {
                 program.add_linear(i * D + k, -weight);
             }
         }
@@ -74,34 +97,15 @@ fn mix<const D: usize>(from: &[SVector<f64, D>], to: &[SVector<f64, D>], part: f
     from.iter().zip(to).map(|(from, to)| from + (to - from) * part).collect()
 }
 
-/// The direction of start `number`, by node.
-fn direction(number: usize, region: &Region, rng: &mut Rng) -> Vec<f64> {
-    let nodes = region.intervals() + 1;
+/// White noise.
+fn noise(nodes: usize, rng: &mut Rng) -> Vec<f64> {
+    (0..nodes).map(|_| rng.random_range(-1.0..1.0)).collect()
+}
+
+/// A wave of random frequency and phase; a little noise decides between corners that are equally far.
+fn wave(nodes: usize, rng: &mut Rng) -> Vec<f64> {
     let frequency = rng.random_range(0.0..std::f64::consts::PI);
     let phase = rng.random_range(0.0..std::f64::consts::TAU);
-    let noise: Vec<f64> = (0..nodes).map(|_| rng.random_range(-1.0..1.0)).collect();
-    match number % 3 {
-        0 => noise,
-        1 => (0..nodes).map(|i| (frequency * i as f64 + phase).cos() + 0.01 * noise[i]).collect(),
-        _ => {
-            let largest = region.limits.acceleration.or(region.limits.intercept).unwrap_or(f64::INFINITY);
-            let jerk = region.limits.jerk.unwrap_or(region.size / region.tau[1]);
-            let mut a = noise[0] * region.size;
-            let mut weights = vec![0.01 * noise[0]; nodes];
-            for i in 0..nodes - 1 {
-                let step = jerk * (region.tau[i + 1] - region.tau[i]);
-                let sign = if (a + step).abs() > largest && (a - step).abs() < largest {
-                    -1.0
-                } else if (a - step).abs() > largest && (a + step).abs() < largest {
-                    1.0
-                } else {
-                    noise[i + 1].signum()
-                };
-                a += sign * step;
-                weights[i] -= sign;
-                weights[i + 1] += sign;
-            }
-            weights
-        }
-    }
+    let noise = noise(nodes, rng).into_iter().enumerate();
+    noise.map(|(i, noise)| (frequency * i as f64 + phase).cos() + 0.01 * noise).collect()
 }
