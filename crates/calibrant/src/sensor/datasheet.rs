@@ -6,27 +6,31 @@ use nalgebra::{Matrix3, Vector3};
 /// Unit of a sensor's readings.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ReadingUnit {
-    /// Metres per second squared.
+    /// Metres per second squared, of an accelerometer.
     MetrePerSecondSquared,
+    /// Radians per second, of a gyroscope.
+    RadianPerSecond,
     /// Raw counts of the analogue-to-digital converter.
     Counts,
 }
 
 impl ReadingUnit {
-    /// As it is printed: `m/s²` or `counts`.
+    /// As it is printed: `m/s²`, `rad/s` or `counts`.
     #[must_use]
     pub fn symbol(self) -> &'static str {
         match self {
             Self::MetrePerSecondSquared => "m/s²",
+            Self::RadianPerSecond => "rad/s",
             Self::Counts => "counts",
         }
     }
 
-    /// As it ends a column's name: `mps2` or `counts`.
+    /// As it ends a column's name: `mps2`, `radps` or `counts`.
     #[must_use]
     pub fn suffix(self) -> &'static str {
         match self {
             Self::MetrePerSecondSquared => "mps2",
+            Self::RadianPerSecond => "radps",
             Self::Counts => "counts",
         }
     }
@@ -123,7 +127,7 @@ impl Sensor {
     #[must_use]
     pub fn noise(&self, gain: &Vector3<f64>) -> Option<Vector3<f64>> {
         match self.unit {
-            ReadingUnit::MetrePerSecondSquared => self.noise_mps2,
+            ReadingUnit::MetrePerSecondSquared | ReadingUnit::RadianPerSecond => self.noise_mps2,
             ReadingUnit::Counts => {
                 self.noise_counts.or_else(|| self.noise_mps2.map(|noise| noise.component_mul(gain)))
             }

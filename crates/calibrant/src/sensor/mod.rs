@@ -7,11 +7,13 @@
 mod axis;
 mod datasheet;
 mod gauge;
+mod imu;
 mod parameters;
 mod recording;
 
 pub use axis::Axis;
 pub use datasheet::{ReadingUnit, Sensor};
 pub use gauge::{Correction, Gauge};
+pub use imu::{CalibratedImu, ImuParameters, ImuQuantity, ImuRecording, Triad};
 pub use parameters::{Parameter, ParameterList, Quantity, SensorModel, SensorParameters};
 pub use recording::Recording;

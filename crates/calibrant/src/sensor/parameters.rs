@@ -64,7 +64,7 @@ impl Quantity {
     pub fn unit(self, reading: ReadingUnit) -> &'static str {
         match (self, reading) {
             (Self::Bias(_), unit) => unit.symbol(),
-            (_, ReadingUnit::MetrePerSecondSquared) => "1",
+            (_, ReadingUnit::MetrePerSecondSquared | ReadingUnit::RadianPerSecond) => "1",
             (_, ReadingUnit::Counts) => "counts/(m/s²)",
         }
     }

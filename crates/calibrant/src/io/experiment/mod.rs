@@ -137,7 +137,7 @@ fn read_plan(root: &Section<'_>, sensor: &Sensor) -> Result<Plan> {
         (Some(section), None) => {
             if sensor.noise_mps2.is_none() && sensor.noise_counts.is_none() {
                 let help = match sensor.unit {
-                    ReadingUnit::MetrePerSecondSquared => {
+                    ReadingUnit::MetrePerSecondSquared | ReadingUnit::RadianPerSecond => {
                         "noise_mps2 = 2e-4, for example: the noise of one sample"
                     }
                     ReadingUnit::Counts => "noise_counts = 10.0, for example: the noise of one sample",

@@ -60,7 +60,9 @@ pub(super) fn read(section: &Section<'_>) -> Result<Sensor> {
         return Err(entry.complain("the noise is given twice, in counts and in m/s²", "keep one of the two"));
     }
     let (gain, offset) = match unit {
-        ReadingUnit::MetrePerSecondSquared => (Some(Vector3::repeat(1.0)), Some(Vector3::zeros())),
+        ReadingUnit::MetrePerSecondSquared | ReadingUnit::RadianPerSecond => {
+            (Some(Vector3::repeat(1.0)), Some(Vector3::zeros()))
+        }
         ReadingUnit::Counts => {
             (per_axis("gain_counts_per_mps2", &GAIN)?, per_axis("offset_counts", &OFFSET)?)
         }

@@ -1,0 +1,201 @@
+//! An inertial measurement unit: an accelerometer and a gyroscope that share a frame.
+//!
+//! `y_a = S_a f + b_a + ν_a`, `y_g = S_g ω + b_g + Γ f + ν_g`, true → raw: `f` the specific force in m/s², `ω` the angular rate in rad/s, both in the
+//! true frame. `Γ` is the g-sensitivity, what the gyroscope shows of specific force.
+
+use super::{Axis, Quantity, ReadingUnit, Recording, SensorParameters};
+use nalgebra::{DMatrix, Matrix3, Vector3};
+use std::fmt;
+
+/// One of the two sensors of an IMU.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Triad {
+    /// Specific force.
+    Accelerometer,
+    /// Angular rate.
+    Gyroscope,
+}
+
+impl Triad {
+    /// Both.
+    pub const ALL: [Self; 2] = [Self::Accelerometer, Self::Gyroscope];
+
+    /// `accelerometer` or `gyroscope`: how names of parameters begin.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Accelerometer => "accelerometer",
+            Self::Gyroscope => "gyroscope",
+        }
+    }
+
+    /// Unit of its stimulus: m/s² or rad/s.
+    #[must_use]
+    pub fn stimulus_unit(self) -> ReadingUnit {
+        match self {
+            Self::Accelerometer => ReadingUnit::MetrePerSecondSquared,
+            Self::Gyroscope => ReadingUnit::RadianPerSecond,
+        }
+    }
+}
+
+impl fmt::Display for Triad {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// A recording of an IMU. Its sensors share a clock, not necessarily their sample times.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ImuRecording {
+    /// Readings in m/s² or counts.
+    pub accelerometer: Option<Recording>,
+    /// Readings in rad/s or counts.
+    pub gyroscope: Option<Recording>,
+    /// Temperature in °C at the sample times of the accelerometer (of the gyroscope where there is none).
+    pub temperature_c: Option<Vec<f64>>,
+}
+
+impl ImuRecording {
+    /// The recording of one sensor.
+    #[must_use]
+    pub fn triad(&self, triad: Triad) -> Option<&Recording> {
+        match triad {
+            Triad::Accelerometer => self.accelerometer.as_ref(),
+            Triad::Gyroscope => self.gyroscope.as_ref(),
+        }
+    }
+}
+
+/// The values of an IMU's parameters.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ImuParameters {
+    /// `b_a`, `S_a`.
+    pub accelerometer: SensorParameters,
+    /// `b_g`, `S_g`.
+    pub gyroscope: SensorParameters,
+    /// `Γ`, in the unit of the gyroscope's readings per m/s².
+    pub g_sensitivity: Matrix3<f64>,
+}
+
+impl ImuParameters {
+    /// A perfect IMU.
+    #[must_use]
+    pub fn identity() -> Self {
+        Self {
+            accelerometer: SensorParameters::identity(),
+            gyroscope: SensorParameters::identity(),
+            g_sensitivity: Matrix3::zeros(),
+        }
+    }
+
+    /// The parameters of one sensor.
+    #[must_use]
+    pub fn triad(&self, triad: Triad) -> &SensorParameters {
+        match triad {
+            Triad::Accelerometer => &self.accelerometer,
+            Triad::Gyroscope => &self.gyroscope,
+        }
+    }
+}
+
+/// One scalar quantity of an IMU's model.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ImuQuantity {
+    /// A quantity of one of the sensors; printed `gyroscope.scale.x`.
+    Of(Triad, Quantity),
+    /// Entry of `Γ`, (row, column): what gyroscope axis `row` shows of the specific force along `column`; printed `gyroscope.g_sensitivity.xy`.
+    GSensitivity(Axis, Axis),
+}
+
+impl ImuQuantity {
+    /// Its name everywhere: files, tables, errors and plots.
+    #[must_use]
+    pub fn name(self) -> String {
+        match self {
+            Self::Of(triad, quantity) => format!("{triad}.{}", quantity.name()),
+            Self::GSensitivity(row, column) => format!("gyroscope.g_sensitivity.{row}{column}"),
+        }
+    }
+
+    /// Its unit, for readings of its sensor in this unit; pure numbers are printed as `1`.
+    #[must_use]
+    pub fn unit(self, reading: ReadingUnit) -> &'static str {
+        match (self, reading) {
+            (Self::Of(_, Quantity::Bias(_)), unit) => unit.symbol(),
+            (Self::Of(Triad::Accelerometer, _), ReadingUnit::Counts) => "counts/(m/s²)",
+            (Self::Of(Triad::Gyroscope, _), ReadingUnit::Counts) => "counts/(rad/s)",
+            (Self::Of(..), _) => "1",
+            (Self::GSensitivity(..), ReadingUnit::Counts) => "counts/(m/s²)",
+            (Self::GSensitivity(..), _) => "(rad/s)/(m/s²)",
+        }
+    }
+
+    /// The sensor that it belongs to.
+    #[must_use]
+    pub fn triad(self) -> Triad {
+        match self {
+            Self::Of(triad, _) => triad,
+            Self::GSensitivity(..) => Triad::Gyroscope,
+        }
+    }
+
+    /// Its value in an IMU.
+    #[must_use]
+    pub fn of(self, imu: &ImuParameters) -> f64 {
+        match self {
+            Self::Of(triad, quantity) => quantity.of(imu.triad(triad)),
+            Self::GSensitivity(row, column) => imu.g_sensitivity[(row.index(), column.index())],
+        }
+    }
+
+    /// Adds `step` to it.
+    pub fn add_to(self, imu: &mut ImuParameters, step: f64) {
+        match self {
+            Self::Of(Triad::Accelerometer, quantity) => quantity.add_to(&mut imu.accelerometer, step),
+            Self::Of(Triad::Gyroscope, quantity) => quantity.add_to(&mut imu.gyroscope, step),
+            Self::GSensitivity(row, column) => imu.g_sensitivity[(row.index(), column.index())] += step,
+        }
+    }
+
+    /// Derivative of the reading of its sensor with respect to it, at a stimulus of that sensor and a specific force.
+    #[must_use]
+    pub fn derivative(self, stimulus: &Vector3<f64>, force: &Vector3<f64>) -> Vector3<f64> {
+        match self {
+            Self::Of(_, quantity) => quantity.derivative(stimulus),
+            Self::GSensitivity(row, column) => {
+                let mut derivative = Vector3::zeros();
+                derivative[row.index()] = force[column.index()];
+                derivative
+            }
+        }
+    }
+}
+
+/// A calibrated IMU as it is exchanged with other programs: what `convert`, `apply` and `compare` work on.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CalibratedImu {
+    /// The values; those of a sensor that was not calibrated are of no meaning.
+    pub parameters: ImuParameters,
+    /// Unit of the accelerometer's readings; `None` where there is no accelerometer.
+    pub accelerometer_unit: Option<ReadingUnit>,
+    /// Unit of the gyroscope's readings; `None` where there is no gyroscope.
+    pub gyroscope_unit: Option<ReadingUnit>,
+    /// The quantities that the covariance speaks of, in its order.
+    pub quantities: Vec<ImuQuantity>,
+    /// Covariance of these quantities; `None` where it is not known.
+    pub covariance: Option<DMatrix<f64>>,
+    /// The true frame, in words.
+    pub frame: String,
+}
+
+impl CalibratedImu {
+    /// Unit of a sensor's readings; `None` where it was not calibrated.
+    #[must_use]
+    pub fn unit(&self, triad: Triad) -> Option<ReadingUnit> {
+        match triad {
+            Triad::Accelerometer => self.accelerometer_unit,
+            Triad::Gyroscope => self.gyroscope_unit,
+        }
+    }
+}
