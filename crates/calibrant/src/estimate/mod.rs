@@ -14,6 +14,7 @@
 //! Gaussian and as large as assumed; the fit's [`FitStatistics`] say whether the data agree.
 
 mod holds;
+mod imu;
 mod motion;
 mod problem;
 mod result;
@@ -21,6 +22,10 @@ mod settings;
 pub(crate) mod statistics;
 
 pub use holds::{HoldsSetup, find_holds, holds_between};
+pub use imu::{
+    Gyroscope, ImuCalibration, ImuProblem, ImuSetup, KnownTerm, RotationResult, StillGyroscope, Turn,
+    TurnResult, calibrate_imu,
+};
 pub use problem::{CalibrationProblem, Stimulus};
 pub use result::*;
 pub use settings::CalibrationSettings;

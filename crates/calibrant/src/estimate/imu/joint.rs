@@ -1,0 +1,373 @@
+//! The one least-squares problem of a whole IMU, for given weights: Gauss–Newton on directions and parameters.
+//!
+//! The unknown directions `f_j` of the holds are a chain whose links are the rotations between them, with the parameters as the border: the arrowhead
+//! again. Residuals:
+//!
+//! | of | residual | unknowns |
+//! |---|---|---|
+//! | a hold, accelerometer | `ȳ_a − S_a f_j − b_a` | `f_j`, accelerometer |
+//! | a hold, gyroscope | `ȳ_g − b_g − Γ f_j` | `f_j`, gyroscope |
+//! | a rotation | the part of `Rᵀ f_i` across `f_k`, over g: 2 numbers | `f_i`, `f_k`, gyroscope |
+//! | a turn of known angle | `∫ (y_g − b_g − Γ f) dt − S_g φ e` | gyroscope |
+
+use super::rotation::{Rotation, Samples};
+use crate::arrowhead::{Arrowhead, Increment, Link};
+use crate::estimate::{CalibrationSettings, CalibrationStatus};
+use crate::sensor::{ImuParameters, ImuQuantity, Triad};
+use nalgebra::{Matrix2, Matrix3, Matrix3x2, SMatrix, SVector, Vector2, Vector3};
+
+/// Room for all parameters: 12 of each sensor, 9 of the g-sensitivity.
+pub(super) const P: usize = 33;
+
+/// A hold with its weights.
+#[derive(Debug, Clone)]
+pub(super) struct HoldData {
+    pub(super) accelerometer: Vector3<f64>,
+    /// Inverse variances of the mean.
+    pub(super) accelerometer_weight: Vector3<f64>,
+    /// Mean reading of the gyroscope and its inverse variances.
+    pub(super) gyroscope: Option<(Vector3<f64>, Vector3<f64>)>,
+    /// Specific force, where its direction is known.
+    pub(super) known: Option<Vector3<f64>>,
+}
+
+/// A rotation from one hold to the next one used.
+#[derive(Clone)]
+pub(super) struct RotationData<'a> {
+    /// Place among the holds of the one it begins with.
+    pub(super) from: usize,
+    pub(super) samples: Samples<'a>,
+    /// Can it be integrated?
+    pub(super) used: bool,
+    /// Does it count, or is it an outlier?
+    pub(super) counts: bool,
+}
+
+/// A turn of known angle about an axis that is fixed in the sensor.
+#[derive(Debug, Clone)]
+pub(super) struct TurnData {
+    /// `∫ y_g dt` and the duration.
+    pub(super) integral: Vector3<f64>,
+    pub(super) duration_s: f64,
+    /// `∫ f dt`.
+    pub(super) force: Vector3<f64>,
+    /// `φ e`, rad.
+    pub(super) angle: Vector3<f64>,
+    /// Inverse variances of the integral.
+    pub(super) weight: Vector3<f64>,
+}
+
+/// The problem for given weights.
+pub(super) struct Joint<'a> {
+    pub(super) quantities: Vec<ImuQuantity>,
+    pub(super) gravity: f64,
+    pub(super) holds: Vec<HoldData>,
+    pub(super) rotations: Vec<RotationData<'a>>,
+    pub(super) turns: Vec<TurnData>,
+    /// Noise of one gyroscope sample.
+    pub(super) gyroscope_noise: Vector3<f64>,
+    /// Standard deviation of a rotation's error beyond this noise, rad per axis.
+    pub(super) excess_rad: f64,
+    /// Mean and inverse variance of each quantity; 0 where nothing is known beforehand.
+    pub(super) prior: Option<(Vec<f64>, Vec<f64>)>,
+}
+
+/// A point of the iteration.
+#[derive(Debug, Clone)]
+pub(super) struct State {
+    pub(super) imu: ImuParameters,
+    pub(super) forces: Vec<Vector3<f64>>,
+}
+
+/// A rotation at a state: what is left of gravity across the direction found, and how it depends on everything.
+pub(super) struct Miss {
+    /// Where gravity would be by the gyroscope, across `f_k`, rad.
+    pub(super) error: Vector2<f64>,
+    by_from: Matrix2<f64>,
+    by_to: Matrix2<f64>,
+    pub(super) by_parameters: SMatrix<f64, 2, P>,
+    /// Covariance of the error from the gyroscope's noise.
+    pub(super) covariance: Matrix2<f64>,
+    pub(super) rotation: Rotation,
+}
+
+/// Where it ended.
+pub(super) struct Fit {
+    pub(super) state: State,
+    pub(super) information: SMatrix<f64, P, P>,
+    pub(super) unreduced: SVector<f64, P>,
+    pub(super) chi2: f64,
+    pub(super) status: CalibrationStatus,
+    pub(super) iterations: usize,
+    pub(super) gradient_norm: f64,
+}
+
+/// Two unit vectors perpendicular to `f` and to each other.
+fn tangents(f: &Vector3<f64>) -> Matrix3x2<f64> {
+    let u = f.normalize();
+    let other = if u.x.abs() < 0.6 { Vector3::x() } else { Vector3::y() };
+    let one = u.cross(&other).normalize();
+    Matrix3x2::from_columns(&[one, u.cross(&one)])
+}
+
+impl Joint<'_> {
+    fn sensitivity(&self, triad: Triad, stimulus: &Vector3<f64>, force: &Vector3<f64>) -> SMatrix<f64, 3, P> {
+        let mut matrix = SMatrix::<f64, 3, P>::zeros();
+        for (k, quantity) in self.quantities.iter().enumerate() {
+            if quantity.triad() == triad {
+                matrix.set_column(k, &quantity.derivative(stimulus, force));
+            }
+        }
+        matrix
+    }
+
+    /// What a rotation says at a state; `None` where the gyroscope's matrix is singular.
+    pub(super) fn miss(&self, data: &RotationData<'_>, state: &State) -> Option<Miss> {
+        let rotation = data.samples.integrate(&state.imu, &self.gyroscope_noise)?;
+        let (from, to) = (state.forces[data.from], state.forces[data.from + 1]);
+        let back = rotation.start_from_end.transpose();
+        let carried = back * from;
+        let tangents = tangents(&to);
+        let across = tangents.transpose() / self.gravity;
+        let by_turn = across * back * from.cross_matrix();
+        let mut by_parameters = SMatrix::<f64, 2, P>::zeros();
+        for (k, quantity) in self.quantities.iter().enumerate() {
+            if quantity.triad() == Triad::Gyroscope {
+                by_parameters.set_column(k, &(by_turn * rotation.derivative(*quantity)));
+            }
+        }
+        Some(Miss {
+            error: across * carried,
+            by_from: across * back * self::tangents(&from) * self.gravity,
+            by_to: -Matrix2::identity() * (carried.dot(&to) / self.gravity.powi(2)),
+            by_parameters,
+            covariance: by_turn * rotation.covariance * by_turn.transpose(),
+            rotation,
+        })
+    }
+
+    /// Weight of a rotation.
+    fn weight(&self, miss: &Miss) -> Matrix2<f64> {
+        let variance = miss.covariance + Matrix2::identity() * (self.excess_rad.powi(2) + 1e-18);
+        variance.try_inverse().unwrap_or_else(Matrix2::zeros)
+    }
+
+    /// All rotations that can be integrated.
+    pub(super) fn misses(&self, state: &State) -> Option<Vec<Option<Miss>>> {
+        use rayon::prelude::*;
+        self.rotations
+            .par_iter()
+            .map(|data| if data.used { self.miss(data, state).map(Some) } else { Some(None) })
+            .collect()
+    }
+
+    fn turn_residual(&self, turn: &TurnData, imu: &ImuParameters) -> Vector3<f64> {
+        turn.integral
+            - imu.gyroscope.bias * turn.duration_s
+            - imu.g_sensitivity * turn.force
+            - imu.gyroscope.matrix * turn.angle
+    }
+
+    fn chi2(&self, state: &State, misses: &[Option<Miss>]) -> f64 {
+        let weighted = |r: Vector3<f64>, w: &Vector3<f64>| r.component_mul(&r).dot(w);
+        let imu = &state.imu;
+        let holds: f64 = self
+            .holds
+            .iter()
+            .zip(&state.forces)
+            .map(|(hold, force)| {
+                let own = weighted(
+                    hold.accelerometer - imu.accelerometer.reading(force),
+                    &hold.accelerometer_weight,
+                );
+                own + hold.gyroscope.as_ref().map_or(0.0, |(mean, weight)| {
+                    weighted(mean - imu.gyroscope.bias - imu.g_sensitivity * force, weight)
+                })
+            })
+            .sum();
+        let rotations: f64 = misses
+            .iter()
+            .zip(&self.rotations)
+            .filter(|(_, data)| data.counts)
+            .filter_map(|(miss, _)| miss.as_ref())
+            .map(|miss| miss.error.dot(&(self.weight(miss) * miss.error)))
+            .sum();
+        let turns: f64 =
+            self.turns.iter().map(|turn| weighted(self.turn_residual(turn, imu), &turn.weight)).sum();
+        let prior = self.prior.as_ref().map_or(0.0, |(mean, weight)| {
+            let off = self.quantities.iter().zip(mean.iter().zip(weight));
+            off.map(|(quantity, (mean, weight))| (mean - quantity.of(imu)).powi(2) * weight).sum()
+        });
+        holds + rotations + turns + prior
+    }
+
+    fn factor(&self, state: &State, misses: &[Option<Miss>]) -> Option<(Arrowhead<2, P>, SVector<f64, P>)> {
+        let imu = &state.imu;
+        let (mut border, mut rhs) = (SMatrix::<f64, P, P>::zeros(), SVector::<f64, P>::zeros());
+        if let Some((mean, weight)) = &self.prior {
+            for (k, quantity) in self.quantities.iter().enumerate() {
+                border[(k, k)] += weight[k];
+                rhs[k] += (mean[k] - quantity.of(imu)) * weight[k];
+            }
+        }
+        for turn in &self.turns {
+            let mut j = self.sensitivity(Triad::Gyroscope, &turn.angle, &turn.force);
+            for (k, quantity) in self.quantities.iter().enumerate() {
+                if matches!(quantity, ImuQuantity::Of(Triad::Gyroscope, crate::sensor::Quantity::Bias(_))) {
+                    j.column_mut(k).scale_mut(turn.duration_s);
+                }
+            }
+            let w = Matrix3::from_diagonal(&turn.weight);
+            border += j.tr_mul(&(w * j));
+            rhs += j.tr_mul(&turn.weight.component_mul(&self.turn_residual(turn, imu)));
+        }
+        let mut unreduced = border.diagonal();
+        // places that no quantity takes
+        for k in self.quantities.len()..P {
+            border[(k, k)] = 1.0;
+        }
+        let link = |j: usize| {
+            let (hold, force) = (&self.holds[j], &state.forces[j]);
+            let turn = tangents(force) * self.gravity;
+            let mut link = Link {
+                h00: SMatrix::zeros(),
+                h01: SMatrix::zeros(),
+                h11: SMatrix::zeros(),
+                b0: SMatrix::zeros(),
+                b1: SMatrix::zeros(),
+                c: SMatrix::zeros(),
+                g0: SVector::zeros(),
+                g1: SVector::zeros(),
+                gp: SVector::zeros(),
+            };
+            let mut add =
+                |by_force: Matrix3<f64>, g: SMatrix<f64, 3, P>, r: Vector3<f64>, weight: &Vector3<f64>| {
+                    let w = Matrix3::from_diagonal(weight);
+                    let wr = weight.component_mul(&r);
+                    link.c += g.tr_mul(&(w * g));
+                    link.gp += g.tr_mul(&wr);
+                    if hold.known.is_none() {
+                        let turn = by_force * turn;
+                        link.h11 += turn.tr_mul(&(w * turn));
+                        link.b1 += turn.tr_mul(&(w * g));
+                        link.g1 += turn.tr_mul(&wr);
+                    }
+                };
+            let g = self.sensitivity(Triad::Accelerometer, force, force);
+            let r = hold.accelerometer - imu.accelerometer.reading(force);
+            add(imu.accelerometer.matrix, g, r, &hold.accelerometer_weight);
+            if let Some((mean, weight)) = &hold.gyroscope {
+                let g = self.sensitivity(Triad::Gyroscope, &Vector3::zeros(), force);
+                let r = mean - imu.gyroscope.bias - imu.g_sensitivity * force;
+                add(imu.g_sensitivity, g, r, weight);
+            }
+            let counted = |before: &usize| self.rotations[*before].counts;
+            if let Some(miss) = j.checked_sub(1).filter(counted).and_then(|before| misses[before].as_ref()) {
+                let w = self.weight(miss);
+                let wr = -(w * miss.error);
+                let (g, wg) = (&miss.by_parameters, w * miss.by_parameters);
+                link.c += g.tr_mul(&wg);
+                link.gp += g.tr_mul(&wr);
+                if self.holds[j - 1].known.is_none() {
+                    link.h00 += miss.by_from.tr_mul(&(w * miss.by_from));
+                    link.b0 += miss.by_from.tr_mul(&wg);
+                    link.g0 += miss.by_from.tr_mul(&wr);
+                }
+                if hold.known.is_none() {
+                    link.h11 += miss.by_to.tr_mul(&(w * miss.by_to));
+                    link.b1 += miss.by_to.tr_mul(&wg);
+                    link.g1 += miss.by_to.tr_mul(&wr);
+                }
+                if hold.known.is_none() && self.holds[j - 1].known.is_none() {
+                    link.h01 += miss.by_from.tr_mul(&(w * miss.by_to));
+                }
+            }
+            unreduced += link.c.diagonal();
+            link
+        };
+        let increment =
+            |j: usize| Increment { fixed: [self.holds[j].known.is_some(); 2], ..Increment::unknown() };
+        let system = Arrowhead::eliminate(self.holds.len(), link, increment, border, rhs).ok()?;
+        Some((system, unreduced))
+    }
+
+    /// Iterates from a state; `None` where a matrix is or becomes singular.
+    pub(super) fn fit(&self, start: State, settings: &CalibrationSettings) -> Option<Fit> {
+        let mut state = start;
+        let misses = self.misses(&state)?;
+        let mut chi2 = self.chi2(&state, &misses);
+        let (mut system, mut unreduced) = self.factor(&state, &misses)?;
+        let (mut status, mut iterations) = (CalibrationStatus::IterationLimit, 0);
+        let (mut damping, mut norm, mut last_norm) = (0.0_f64, f64::INFINITY, f64::INFINITY);
+        while iterations < settings.max_iterations {
+            iterations += 1;
+            norm = system.gradient_norm();
+            if norm <= settings.tolerance || (norm < 1e-6 && norm > 0.5 * last_norm) {
+                status = CalibrationStatus::Converged;
+                break;
+            }
+            last_norm = norm;
+            let trial = system.border_step(damping).and_then(|step| self.take(&state, &system, &step));
+            let accepted = trial.and_then(|trial| {
+                let trial_misses = self.misses(&trial)?;
+                let trial_chi2 = self.chi2(&trial, &trial_misses);
+                (trial_chi2 <= chi2 * (1.0 + 1e-9) || norm < 1e-6).then_some((
+                    trial,
+                    trial_misses,
+                    trial_chi2,
+                ))
+            });
+            match accepted.and_then(|found| Some((self.factor(&found.0, &found.1)?, found))) {
+                Some(((next, diagonal), found)) => {
+                    (state, _, chi2) = found;
+                    (system, unreduced) = (next, diagonal);
+                    damping = if damping < 1e-6 { 0.0 } else { damping / 10.0 };
+                }
+                None => {
+                    damping = (damping * 10.0).max(1e-4);
+                    last_norm = f64::INFINITY;
+                    if damping > 1e14 {
+                        status = CalibrationStatus::Stalled;
+                        break;
+                    }
+                }
+            }
+        }
+        Some(Fit {
+            state,
+            information: system.information,
+            unreduced,
+            chi2,
+            status,
+            iterations,
+            gradient_norm: norm,
+        })
+    }
+
+    /// The state after a step, the directions scaled back to gravity.
+    fn take(&self, state: &State, system: &Arrowhead<2, P>, step: &SVector<f64, P>) -> Option<State> {
+        let mut imu = state.imu;
+        for (quantity, step) in self.quantities.iter().zip(step.iter()) {
+            quantity.add_to(&mut imu, *step);
+        }
+        if imu.accelerometer.matrix.determinant() <= 0.0 {
+            return None;
+        }
+        let turns = system.chain_step(step);
+        let forces = state
+            .forces
+            .iter()
+            .zip(&turns[1..])
+            .zip(&self.holds)
+            .map(|((force, turn), hold)| {
+                if hold.known.is_some() {
+                    return Some(*force);
+                }
+                (force + tangents(force) * turn * self.gravity)
+                    .try_normalize(1e-300)
+                    .map(|u| u * self.gravity)
+            })
+            .collect::<Option<Vec<_>>>()?;
+        Some(State { imu, forces })
+    }
+}

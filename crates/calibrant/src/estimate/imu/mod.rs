@@ -1,0 +1,28 @@
+//! A whole IMU from one recording: held still in several orientations and turned in between, or turned by known angles.
+//!
+//! Holds give the accelerometer, as in a static calibration, and the gyroscope's bias; the rotations between them give the gyroscope's matrix: gravity
+//! before a rotation, carried through it by the gyroscope, is gravity after it. All of it is one least-squares problem with one covariance
+//! (`joint`), in which the unknown directions of the holds form a chain whose links are the rotations.
+//!
+//! The weights come from the data: noise within holds, scatter between them, and the excess of the rotations' errors over their noise (`weights`). Rotations
+//! that do not fit are left out and listed.
+//!
+//! The true frame is that of the accelerometer in its gauge; the gyroscope's matrix is given in it, so its misalignment to the accelerometer is in there. With
+//! known directions (`ImuSetup::directions`) it is the frame of these directions.
+//!
+//! # References
+//! `tedaldi2014`, `ferraris1995`
+
+mod joint;
+mod problem;
+mod result;
+mod rotation;
+mod solver;
+mod start;
+mod still;
+mod verdict;
+mod weights;
+
+pub use problem::{Gyroscope, ImuProblem, ImuSetup, KnownTerm, Turn};
+pub use result::{ImuCalibration, RotationResult, StillGyroscope, TurnResult};
+pub use solver::calibrate_imu;

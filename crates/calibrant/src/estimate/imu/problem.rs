@@ -1,0 +1,84 @@
+//! What is to be calibrated of an IMU, and what is known of its recording.
+
+use crate::estimate::HoldsSetup;
+use crate::sensor::{ImuQuantity, ImuRecording, ReadingUnit, Sensor, SensorModel};
+use nalgebra::Vector3;
+
+/// An IMU, a recording of it, and what is known beforehand.
+#[derive(Debug, Clone, Copy)]
+pub struct ImuProblem<'a> {
+    /// The accelerometer's datasheet.
+    pub accelerometer: &'a Sensor,
+    /// The gyroscope's.
+    pub gyroscope: &'a Gyroscope,
+    /// Both recordings.
+    pub recording: &'a ImuRecording,
+    /// How it was recorded.
+    pub setup: &'a ImuSetup,
+}
+
+/// A gyroscope's datasheet.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Gyroscope {
+    /// Unit of the readings: rad/s or counts.
+    pub unit: ReadingUnit,
+    /// Which errors the model has.
+    pub model: SensorModel,
+    /// Nominal gain in counts/(rad/s), where it is known; 1 for rad/s.
+    pub gain: Option<Vector3<f64>>,
+    /// Standard deviation of one sample's noise, in the unit of the readings; from the holds where it is not known.
+    pub noise: Option<Vector3<f64>>,
+    /// Is the g-sensitivity estimated?
+    pub g_sensitivity: bool,
+}
+
+impl Default for Gyroscope {
+    fn default() -> Self {
+        Self {
+            unit: ReadingUnit::RadianPerSecond,
+            model: SensorModel::Full,
+            gain: None,
+            noise: None,
+            g_sensitivity: false,
+        }
+    }
+}
+
+/// How an IMU was recorded.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ImuSetup {
+    /// The holds.
+    pub holds: HoldsSetup,
+    /// Direction of the specific force in each of the given holds (up), unit vectors in the true frame; `None` where only its magnitude is known.
+    pub directions: Option<Vec<Vector3<f64>>>,
+    /// Turns of known angle.
+    pub turns: Vec<Turn>,
+    /// Quantities that are known beforehand.
+    pub known: Vec<KnownTerm>,
+}
+
+/// A turn of known angle about an axis that is fixed in the sensor: the Ferraris procedure, or a turntable.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Turn {
+    /// First and last time of the section, s.
+    pub start_s: f64,
+    /// End of the section, s.
+    pub end_s: f64,
+    /// The axis, a unit vector in the true frame.
+    pub axis: Vector3<f64>,
+    /// The angle, positive by the right-hand rule, rad.
+    pub angle_rad: f64,
+    /// Standard uncertainty of the angle, and of the axis' direction times the angle, rad.
+    pub angle_sd_rad: f64,
+}
+
+/// A quantity that is known beforehand.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct KnownTerm {
+    /// The quantity.
+    pub quantity: ImuQuantity,
+    /// Its value.
+    pub value: f64,
+    /// Its standard uncertainty; `None` where it is fixed at the value.
+    pub sd: Option<f64>,
+}

@@ -1,0 +1,140 @@
+//! What the calibration of an IMU gives.
+
+use crate::estimate::{CalibrationStatus, HoldCalibration};
+use crate::sensor::{CalibratedImu, ImuParameters, ImuQuantity, ReadingUnit};
+use nalgebra::{DMatrix, Vector3};
+
+/// A calibrated IMU: parameters, their one covariance, and everything needed to judge them.
+#[derive(Debug, Clone)]
+pub struct ImuCalibration {
+    /// How the iteration ended.
+    pub status: CalibrationStatus,
+    /// Iterations of the joint problem.
+    pub iterations: usize,
+    /// Length of the step that is left, in standard deviations.
+    pub gradient_norm: f64,
+    /// The quantities that were estimated.
+    pub quantities: Vec<ImuQuantity>,
+    /// Estimates.
+    pub values: Vec<f64>,
+    /// Covariance, p × p; entry (i, j) in unit i times unit j. Directions are marginalised.
+    pub covariance: DMatrix<f64>,
+    /// What share of each quantity's information came from what was known beforehand, 0 to 1.
+    pub prior_share: Vec<f64>,
+    /// The estimates as a model, fixed quantities included.
+    pub imu: ImuParameters,
+    /// Unit of the accelerometer's readings.
+    pub accelerometer_unit: ReadingUnit,
+    /// Unit of the gyroscope's readings.
+    pub gyroscope_unit: ReadingUnit,
+    /// Weighted sum of squares of all residuals.
+    pub chi2: f64,
+    /// Residuals less unknowns.
+    pub degrees_of_freedom: usize,
+    /// The holds.
+    pub holds: HoldCalibration,
+    /// What the gyroscope showed in the holds.
+    pub still: StillGyroscope,
+    /// The rotations between holds, in order of time.
+    pub rotations: Vec<RotationResult>,
+    /// Error of a rotation beyond what the gyroscope's noise explains, per axis, rad.
+    pub rotation_excess_sd_rad: f64,
+    /// The turns of known angle.
+    pub turns: Vec<TurnResult>,
+    /// Things a user should know, in words.
+    pub warnings: Vec<String>,
+}
+
+/// The gyroscope in the holds.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StillGyroscope {
+    /// Standard deviation of one sample within holds, in the unit of the readings.
+    pub noise: Vector3<f64>,
+    /// Standard deviation between holds beyond this noise: a wandering bias, the Earth's rotation, g-sensitivity that is not estimated.
+    pub between_holds_sd: Vector3<f64>,
+}
+
+/// A rotation between two holds and its fit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RotationResult {
+    /// The hold that it begins with, from 0.
+    pub from_hold: usize,
+    /// The hold that it ends in.
+    pub to_hold: usize,
+    /// Begin, s.
+    pub start_s: f64,
+    /// End, s.
+    pub end_s: f64,
+    /// Angle that the sensor went through, all turns to and fro, rad.
+    pub path_rad: f64,
+    /// Largest rate, rad/s.
+    pub peak_radps: f64,
+    /// Angle between gravity carried through the rotation and gravity found after it, rad.
+    pub error_rad: f64,
+    /// The same before the calibration, with the datasheet's or no gain errors: a plain mean bias and the mean gain; rad.
+    pub error_before_rad: f64,
+    /// Its error in standard deviations expected of it, its own influence removed.
+    pub studentised: f64,
+    /// Was it used?
+    pub used: bool,
+    /// Why it was not used, in words.
+    pub reason: Option<String>,
+}
+
+/// A turn of known angle and its fit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TurnResult {
+    /// Begin, s.
+    pub start_s: f64,
+    /// End, s.
+    pub end_s: f64,
+    /// The rotation that was made, `φ e`, rad.
+    pub angle_rad: Vector3<f64>,
+    /// The rotation that the calibrated gyroscope shows, rad.
+    pub measured_rad: Vector3<f64>,
+}
+
+impl ImuCalibration {
+    /// Standard deviation of each estimate.
+    #[must_use]
+    pub fn sd(&self) -> Vec<f64> {
+        self.covariance.diagonal().iter().map(|variance| variance.max(0.0).sqrt()).collect()
+    }
+
+    /// Unit of a quantity.
+    #[must_use]
+    pub fn unit_of(&self, quantity: ImuQuantity) -> &'static str {
+        quantity.unit(match quantity.triad() {
+            crate::sensor::Triad::Accelerometer => self.accelerometer_unit,
+            crate::sensor::Triad::Gyroscope => self.gyroscope_unit,
+        })
+    }
+
+    /// Root mean square of the angles by which gravity misses, over the rotations that were used, rad.
+    #[must_use]
+    pub fn rotation_rms_rad(&self) -> f64 {
+        let used: Vec<f64> = self
+            .rotations
+            .iter()
+            .filter(|rotation| rotation.used)
+            .map(|rotation| rotation.error_rad)
+            .collect();
+        (used.iter().map(|error| error * error).sum::<f64>() / used.len().max(1) as f64).sqrt()
+    }
+
+    /// As it is exchanged with other programs.
+    #[must_use]
+    pub fn calibrated(&self) -> CalibratedImu {
+        CalibratedImu {
+            parameters: self.imu,
+            accelerometer_unit: Some(self.accelerometer_unit),
+            gyroscope_unit: Some(self.gyroscope_unit),
+            quantities: self.quantities.clone(),
+            covariance: Some(self.covariance.clone()),
+            frame: format!(
+                "fixed by the accelerometer's gauge: its matrix is {} triangular or symmetric with a positive diagonal",
+                self.holds.gauge.name()
+            ),
+        }
+    }
+}

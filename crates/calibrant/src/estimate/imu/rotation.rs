@@ -1,0 +1,245 @@
+//! The rotation between two holds, integrated from the gyroscope's readings on SO(3), with its derivatives and its noise.
+//!
+//! With `M = S_g⁻¹` the corrected rate is `ω = M (y − b − Γ f)`, and `R(t)`, from the sensor's frame at time t to that at the start, follows `Ṙ = R ω^`. Between
+//! two samples the rate is taken to be linear; the Magnus expansion then gives `R_{k+1} = R_k exp(Ω^)`,
+//! `Ω = h (ω_k + ω_{k+1})/2 + h²/12 ω_k × ω_{k+1}`: the second term is the coning that a sum of rates misses.
+//!
+//! A small change `δω(t)` turns the end by `δθ` (in the frame of the start): `R(T) → exp(δθ^) R(T)`, `δθ = ∫ R(t) δω(t) dt`. So three sums over the samples
+//! give all derivatives: `∫ R ω_cᵀ`, `∫ R`, `∫ R f_c`; and white noise of covariance `Σ_ν` per sample adds `Σ_k w_k² R_k M Σ_ν Mᵀ R_kᵀ`, `w_k` the weight of sample k in s.
+//!
+//! # References
+//! `iserles1999`, `tedaldi2014`
+
+use crate::sensor::{ImuParameters, ImuQuantity, Quantity, Triad};
+use nalgebra::{Matrix3, UnitQuaternion, Vector3};
+
+/// The readings of a rotation.
+#[derive(Clone, Copy)]
+pub(super) struct Samples<'a> {
+    pub(super) times_s: &'a [f64],
+    pub(super) readings: &'a [Vector3<f64>],
+    /// Specific force at these times, where the gyroscope feels it.
+    pub(super) forces: Option<&'a [Vector3<f64>]>,
+    /// How far the bias is from its mean at the start and at the end; in between it is taken to drift evenly.
+    pub(super) drift: [Vector3<f64>; 2],
+}
+
+/// An integrated rotation.
+#[derive(Debug, Clone)]
+pub(super) struct Rotation {
+    /// Takes vectors of the sensor's frame at the end to that at the start.
+    pub(super) start_from_end: Matrix3<f64>,
+    /// `∫ R(t) e_r ω_c dt`: column r of entry c.
+    by_rate: [Matrix3<f64>; 3],
+    /// `∫ R(t) dt`.
+    by_time: Matrix3<f64>,
+    /// `∫ R(t) e_r f_c dt`.
+    by_force: [Matrix3<f64>; 3],
+    /// `M`.
+    correction: Matrix3<f64>,
+    /// Covariance of `δθ` from the noise of the samples.
+    pub(super) covariance: Matrix3<f64>,
+    /// Path length `∫ |ω| dt`, rad.
+    pub(super) path_rad: f64,
+    /// Largest rate, rad/s.
+    pub(super) peak_radps: f64,
+}
+
+impl Samples<'_> {
+    /// Integrates them for an IMU; `None` where the gyroscope's matrix is singular. `noise` is the standard deviation of one sample.
+    pub(super) fn integrate(&self, imu: &ImuParameters, noise: &Vector3<f64>) -> Option<Rotation> {
+        let correction = imu.gyroscope.matrix.try_inverse()?;
+        let spread =
+            correction * Matrix3::from_diagonal(&noise.component_mul(noise)) * correction.transpose();
+        let force = |k: usize| self.forces.map_or_else(Vector3::zeros, |forces| forces[k]);
+        let last = self.times_s.len() - 1;
+        let (from, duration) = (self.times_s[0], self.times_s[last] - self.times_s[0]);
+        let bias = |k: usize| {
+            let part = (self.times_s[k] - from) / duration;
+            imu.gyroscope.bias + self.drift[0] + (self.drift[1] - self.drift[0]) * part
+        };
+        let rate = |k: usize| correction * (self.readings[k] - bias(k) - imu.g_sensitivity * force(k));
+        let mut attitude = UnitQuaternion::identity();
+        let mut rotation = Rotation {
+            start_from_end: Matrix3::identity(),
+            by_rate: [Matrix3::zeros(); 3],
+            by_time: Matrix3::zeros(),
+            by_force: [Matrix3::zeros(); 3],
+            correction,
+            covariance: Matrix3::zeros(),
+            path_rad: 0.0,
+            peak_radps: 0.0,
+        };
+        let mut here = rate(0);
+        for k in 0..=last {
+            let before = if k > 0 { self.times_s[k] - self.times_s[k - 1] } else { 0.0 };
+            let after = if k < last { self.times_s[k + 1] - self.times_s[k] } else { 0.0 };
+            let weight = 0.5 * (before + after);
+            let r = attitude.to_rotation_matrix().into_inner();
+            let weighted = r * weight;
+            for c in 0..3 {
+                rotation.by_rate[c] += weighted * here[c];
+            }
+            rotation.by_time += weighted;
+            if self.forces.is_some() {
+                let f = force(k);
+                for c in 0..3 {
+                    rotation.by_force[c] += weighted * f[c];
+                }
+            }
+            rotation.covariance += r * spread * r.transpose() * (weight * weight);
+            rotation.peak_radps = rotation.peak_radps.max(here.norm());
+            rotation.path_rad += weight * here.norm();
+            if k < last {
+                let next = rate(k + 1);
+                let turn = (here + next) * (0.5 * after) + here.cross(&next) * (after * after / 12.0);
+                attitude *= UnitQuaternion::from_scaled_axis(turn);
+                here = next;
+            }
+        }
+        rotation.start_from_end = attitude.to_rotation_matrix().into_inner();
+        Some(rotation)
+    }
+}
+
+impl Samples<'_> {
+    /// A vector of the start's frame as the end sees it, from every `step`-th sample only: a first look.
+    pub(super) fn carried_back(
+        &self,
+        imu: &ImuParameters,
+        step: usize,
+        vector: &Vector3<f64>,
+    ) -> Option<Vector3<f64>> {
+        let correction = imu.gyroscope.matrix.try_inverse()?;
+        let mut attitude = UnitQuaternion::identity();
+        let last = self.times_s.len() - 1;
+        let mut k = 0;
+        while k < last {
+            let next = (k + step).min(last);
+            let mean = self.readings[k..=next].iter().sum::<Vector3<f64>>() / (next - k + 1) as f64;
+            let turn = correction * (mean - imu.gyroscope.bias) * (self.times_s[next] - self.times_s[k]);
+            attitude *= UnitQuaternion::from_scaled_axis(turn);
+            k = next;
+        }
+        Some(attitude.inverse() * vector)
+    }
+}
+
+impl Rotation {
+    /// Derivative of `δθ` with respect to a quantity; zero for those of the accelerometer.
+    pub(super) fn derivative(&self, quantity: ImuQuantity) -> Vector3<f64> {
+        // a reading that is larger by δy means a rate that is smaller by M δy
+        let entry = |sums: &[Matrix3<f64>; 3], row: usize, column: usize| {
+            -(sums[column] * self.correction.column(row))
+        };
+        match quantity {
+            ImuQuantity::Of(Triad::Accelerometer, _) => Vector3::zeros(),
+            ImuQuantity::Of(Triad::Gyroscope, quantity) => match quantity {
+                Quantity::Bias(axis) => -(self.by_time * self.correction.column(axis.index())),
+                Quantity::Scale(axis) => entry(&self.by_rate, axis.index(), axis.index()),
+                Quantity::CrossAxis(row, column) => entry(&self.by_rate, row.index(), column.index()),
+                Quantity::Symmetric(row, column) => {
+                    entry(&self.by_rate, row.index(), column.index())
+                        + entry(&self.by_rate, column.index(), row.index())
+                }
+            },
+            ImuQuantity::GSensitivity(row, column) => entry(&self.by_force, row.index(), column.index()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sensor::{Axis, ParameterList, SensorModel, SensorParameters};
+
+    fn imu() -> ImuParameters {
+        ImuParameters {
+            gyroscope: SensorParameters {
+                bias: Vector3::new(0.02, -0.03, 0.01),
+                matrix: Matrix3::new(1.05, 0.02, -0.01, 0.03, 0.97, 0.02, -0.02, 0.01, 1.02),
+            },
+            g_sensitivity: Matrix3::new(1.0, 0.5, -0.3, 0.2, -0.8, 0.1, 0.4, 0.3, 0.6) * 1e-3,
+            ..ImuParameters::identity()
+        }
+    }
+
+    /// A motion whose attitude is known in closed form: coning, `R(t) = exp(φ t e_z) exp(β e_x) exp(−φ t e_z)`.
+    fn coning(rate_hz: f64) -> (Vec<f64>, Vec<Vector3<f64>>, Vec<Vector3<f64>>, Matrix3<f64>) {
+        let (phi, beta, end) = (3.0, 0.4, 1.7);
+        let n = (end * rate_hz) as usize;
+        let attitude = |t: f64| {
+            let about = |axis: Vector3<f64>, angle: f64| UnitQuaternion::from_scaled_axis(axis * angle);
+            about(Vector3::z(), phi * t) * about(Vector3::x(), beta) * about(Vector3::z(), -phi * t)
+        };
+        let times: Vec<f64> = (0..=n).map(|k| end * k as f64 / n as f64).collect();
+        let forces: Vec<_> =
+            times.iter().map(|t| attitude(*t).inverse() * Vector3::new(0.0, 0.0, 9.8)).collect();
+        let imu = imu();
+        let readings = times
+            .iter()
+            .zip(&forces)
+            .map(|(t, force)| {
+                let h = 1e-5;
+                let step = (attitude(t - h).inverse() * attitude(t + h)).scaled_axis() / (2.0 * h);
+                imu.gyroscope.reading(&step) + imu.g_sensitivity * force
+            })
+            .collect();
+        let exact = (attitude(0.0).inverse() * attitude(end)).to_rotation_matrix().into_inner();
+        (times, readings, forces, exact)
+    }
+
+    #[test]
+    fn coning_is_followed_where_a_sum_of_rates_is_not_enough() {
+        let error = |rate: f64| {
+            let (times_s, readings, forces, exact) = coning(rate);
+            let samples = Samples {
+                times_s: &times_s,
+                readings: &readings,
+                forces: Some(&forces),
+                drift: [Vector3::zeros(); 2],
+            };
+            let rotation = samples.integrate(&imu(), &Vector3::zeros()).expect("regular");
+            (rotation.start_from_end - exact).norm()
+        };
+        let (coarse, fine) = (error(50.0), error(100.0));
+        assert!(coarse < 2e-4 && fine < coarse, "{coarse:e} {fine:e}");
+        assert!(fine < 5e-5, "{fine:e}");
+    }
+
+    #[test]
+    fn derivatives_equal_differences() {
+        let (times_s, readings, forces, _) = coning(400.0);
+        let samples = Samples {
+            times_s: &times_s,
+            readings: &readings,
+            forces: Some(&forces),
+            drift: [Vector3::zeros(); 2],
+        };
+        let at = imu();
+        let rotation = samples.integrate(&at, &Vector3::zeros()).expect("regular");
+        let mut quantities: Vec<ImuQuantity> = ParameterList::new(3, SensorModel::Full)
+            .quantities()
+            .iter()
+            .map(|quantity| ImuQuantity::Of(Triad::Gyroscope, *quantity))
+            .collect();
+        quantities.extend(
+            Axis::ALL
+                .iter()
+                .flat_map(|row| Axis::ALL.iter().map(|column| ImuQuantity::GSensitivity(*row, *column))),
+        );
+        for quantity in quantities {
+            let step = 1e-5;
+            let moved = |by: f64| {
+                let mut imu = at;
+                quantity.add_to(&mut imu, by);
+                samples.integrate(&imu, &Vector3::zeros()).expect("regular").start_from_end
+            };
+            let change = (moved(step) - moved(-step)) / (2.0 * step) * rotation.start_from_end.transpose();
+            let turn = Vector3::new(change[(2, 1)], change[(0, 2)], change[(1, 0)]);
+            let error = (turn - rotation.derivative(quantity)).norm();
+            // the sums are of second order in the sample step, enough for a search direction
+            assert!(error < 1e-4 * turn.norm().max(1.0), "{}: {error:e}", quantity.name());
+        }
+    }
+}

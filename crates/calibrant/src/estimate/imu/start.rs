@@ -1,0 +1,141 @@
+//! Where the iteration begins: the gyroscope's gain and the order of its axes, where the datasheet does not say.
+//!
+//! A rotation turns gravity by no more than the angle that the gyroscope went through, so each rotation bounds the gain from above, and one about an axis
+//! across gravity gives it. From that bound downwards gains are tried, and if none brings gravity back, all orders and signs of the axes.
+
+use super::joint::{Joint, State};
+use crate::sensor::{Axis, ImuParameters, ReadingUnit};
+use nalgebra::{Matrix3, Vector3};
+use rayon::prelude::*;
+
+/// Median error of a rotation beyond which something is wrong with units or axes, rad.
+pub(super) const WRONG: f64 = 0.2;
+/// Gains that are tried: so many, each smaller by this factor.
+const GAINS: usize = 16;
+const FACTOR: f64 = 0.92;
+/// A rotation is cut down to about so many samples for a first look.
+const SAMPLES: usize = 150;
+
+/// A start, and the median error of the rotations with it, rad.
+pub(super) struct Start {
+    pub(super) imu: ImuParameters,
+    pub(super) median_rad: f64,
+    /// The gyroscope's axes along the accelerometer's x, y and z, where they differ: `-y`.
+    pub(super) axes: Option<[String; 3]>,
+}
+
+/// Finds a start. `nominal` is the gyroscope's matrix by its datasheet (the identity for rad/s), where it is known.
+pub(super) fn find(
+    joint: &Joint<'_>,
+    state: &State,
+    unit: ReadingUnit,
+    nominal: Option<Matrix3<f64>>,
+) -> Option<Start> {
+    let with = |matrix: Matrix3<f64>| {
+        let mut imu = state.imu;
+        imu.gyroscope.matrix = matrix;
+        imu
+    };
+    if let Some(matrix) = nominal {
+        let imu = with(matrix);
+        let median_rad = median(joint, state, &imu)?;
+        if median_rad <= WRONG || unit != ReadingUnit::Counts {
+            return Some(Start { imu, median_rad, axes: None });
+        }
+    }
+    let largest = gain_bound(joint, state)?;
+    let gains: Vec<f64> = (0..GAINS).map(|k| 1.1 * largest * FACTOR.powi(k as i32)).collect();
+    let best = |orders: &[Matrix3<f64>]| {
+        let tries: Vec<Matrix3<f64>> =
+            orders.iter().flat_map(|order| gains.iter().map(move |gain| order * *gain)).collect();
+        tries
+            .into_par_iter()
+            .filter_map(|matrix| Some((median(joint, state, &with(matrix))?, matrix)))
+            .min_by(|one, other| one.0.total_cmp(&other.0))
+    };
+    let (mut median_rad, mut matrix) = best(&[Matrix3::identity()])?;
+    let mut axes = None;
+    if median_rad > WRONG {
+        let orders = orders();
+        if let Some((other, found)) = best(&orders).filter(|(other, _)| *other < 0.5 * median_rad) {
+            (median_rad, matrix) = (other, found);
+            axes = Some(names(&matrix));
+        }
+    }
+    Some(Start { imu: with(matrix), median_rad, axes })
+}
+
+/// Median over the rotations of the angle by which gravity misses.
+pub(super) fn median(joint: &Joint<'_>, state: &State, imu: &ImuParameters) -> Option<f64> {
+    let mut errors: Vec<f64> = joint
+        .rotations
+        .iter()
+        .filter(|data| data.used)
+        .map(|data| {
+            let step = data.samples.times_s.len().div_ceil(SAMPLES);
+            let turned = data.samples.carried_back(imu, step, &state.forces[data.from])?;
+            Some(turned.angle(&state.forces[data.from + 1]))
+        })
+        .collect::<Option<_>>()?;
+    if errors.is_empty() {
+        return None;
+    }
+    let middle = errors.len() / 2;
+    Some(*errors.select_nth_unstable_by(middle, f64::total_cmp).1)
+}
+
+/// The largest gain that no rotation contradicts, a few outliers apart.
+fn gain_bound(joint: &Joint<'_>, state: &State) -> Option<f64> {
+    let mut bounds: Vec<f64> = joint
+        .rotations
+        .iter()
+        .filter(|data| data.used)
+        .filter_map(|data| {
+            let angle = state.forces[data.from].angle(&state.forces[data.from + 1]);
+            let samples = &data.samples;
+            let path: f64 = samples
+                .times_s
+                .windows(2)
+                .zip(samples.readings)
+                .map(|(t, y)| (t[1] - t[0]) * (y - state.imu.gyroscope.bias).norm())
+                .sum();
+            (angle > 0.2).then_some(path / angle)
+        })
+        .collect();
+    bounds.sort_by(f64::total_cmp);
+    bounds.get(bounds.len() / 10).copied().filter(|bound| *bound > 0.0)
+}
+
+/// All orders and signs of three axes.
+fn orders() -> Vec<Matrix3<f64>> {
+    let permutations = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
+    let mut orders = Vec::new();
+    for permutation in permutations {
+        for signs in 0..8 {
+            orders.push(Matrix3::from_fn(|row, column| {
+                let sign = if signs >> row & 1 == 0 { 1.0 } else { -1.0 };
+                if permutation[row] == column { sign } else { 0.0 }
+            }));
+        }
+    }
+    orders
+}
+
+/// The gyroscope's axis along each of the accelerometer's.
+fn names(matrix: &Matrix3<f64>) -> [String; 3] {
+    std::array::from_fn(|column| {
+        let row = matrix.column(column).iamax();
+        let sign = if matrix[(row, column)] < 0.0 { "-" } else { "" };
+        format!("{sign}{}", Axis::ALL[row])
+    })
+}
+
+/// The means of the gyroscope's readings over the holds, averaged: its bias where nothing turns.
+pub(super) fn mean_bias(joint: &Joint<'_>) -> Vector3<f64> {
+    let (mut sum, mut weights) = (Vector3::zeros(), Vector3::zeros());
+    for (mean, weight) in joint.holds.iter().filter_map(|hold| hold.gyroscope.as_ref()) {
+        sum += mean.component_mul(weight);
+        weights += weight;
+    }
+    sum.component_div(&weights.map(|weight| weight.max(f64::MIN_POSITIVE)))
+}

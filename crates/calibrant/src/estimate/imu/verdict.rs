@@ -1,0 +1,92 @@
+//! What a user should know about the calibration of an IMU, in words.
+
+use super::ImuCalibration;
+use super::joint::{Joint, State};
+use super::start::{Start, WRONG};
+use crate::error::{Complaint, Error, NotIdentifiable, Result, UndeterminedGroup};
+use crate::estimate::CalibrationStatus;
+use crate::information::Undetermined;
+use crate::sensor::{ReadingUnit, Triad};
+
+/// Says what is not determined, and what would determine it.
+pub(super) fn undetermined(joint: &Joint<'_>, groups: &[Undetermined]) -> NotIdentifiable {
+    let rotations = joint.rotations.iter().filter(|rotation| rotation.used).count();
+    let reason = match rotations {
+        0 if joint.holds.len() < 2 => "there is no rotation between two holds".to_owned(),
+        0 => "no rotation between the holds can be integrated: the gyroscope has too few samples in them, or pauses".to_owned(),
+        1 => "one rotation between two holds gives two equations".to_owned(),
+        count => format!("the {count} rotations between the holds do not turn about all axes, or turn by too little"),
+    };
+    let remedy = "turn the sensor between the holds, by 90° and more, about each of its axes, away from the vertical; at least 8 rotations";
+    let names =
+        |places: &[usize]| -> Vec<String> { places.iter().map(|&k| joint.quantities[k].name()).collect() };
+    let all: Vec<usize> =
+        (0..joint.quantities.len()).filter(|&k| joint.quantities[k].triad() == Triad::Gyroscope).collect();
+    let group = |parameters: Vec<String>, free_combinations: usize| UndeterminedGroup {
+        parameters,
+        free_combinations,
+        reason: reason.clone(),
+        remedy: remedy.into(),
+    };
+    NotIdentifiable {
+        groups: if groups.is_empty() {
+            vec![group(names(&all), all.len().saturating_sub(3 + 2 * rotations).max(1))]
+        } else {
+            groups.iter().map(|found| group(names(&found.parameters), found.free_combinations)).collect()
+        },
+    }
+}
+
+/// Refuses readings that cannot be angular rates in the unit given.
+pub(super) fn plausible(joint: &Joint<'_>, state: &State, start: &Start, unit: ReadingUnit) -> Result<()> {
+    if start.median_rad <= WRONG {
+        return Ok(());
+    }
+    let degrees = start.median_rad.to_degrees();
+    let message = format!(
+        "half of the rotations miss gravity by more than {degrees:.0}°: the gyroscope's readings do not fit the accelerometer's"
+    );
+    if unit == ReadingUnit::RadianPerSecond {
+        let mut imu = state.imu;
+        imu.gyroscope.matrix *= 180.0 / std::f64::consts::PI;
+        if super::start::median(joint, state, &imu).is_some_and(|median| median < 0.5 * start.median_rad) {
+            return Err(Error::recording(Complaint::new(
+                format!(
+                    "the gyroscope's readings are in deg/s, not rad/s: so read, the rotations miss gravity by {degrees:.0}°"
+                ),
+                "say that the gyroscope is in deg/s",
+            )));
+        }
+    }
+    Err(Error::recording(Complaint::new(
+        message,
+        "do both files belong to one recording, with one clock? are the axes of the gyroscope those of the accelerometer? does the gyroscope saturate?",
+    )))
+}
+
+/// Warnings about a fit.
+pub(super) fn warnings(calibration: &ImuCalibration, axes: Option<&[String; 3]>) -> Vec<String> {
+    let mut warnings = Vec::new();
+    if calibration.status != CalibrationStatus::Converged {
+        warnings.push(format!(
+            "the iteration did not converge ({}): the numbers are the best found, not the optimum",
+            calibration.status.name()
+        ));
+    }
+    if let Some([x, y, z]) = axes {
+        warnings.push(format!(
+            "the gyroscope's axes are not the accelerometer's: along x, y and z of the accelerometer lie {x}, {y} and {z} of the gyroscope"
+        ));
+    }
+    for rotation in calibration.rotations.iter().filter(|rotation| !rotation.used) {
+        let reason = rotation.reason.as_deref().unwrap_or("it does not fit");
+        warnings.push(format!(
+            "the rotation from hold {} to hold {} ({:.1} to {:.1} s) was left out: {reason}",
+            rotation.from_hold + 1,
+            rotation.to_hold + 1,
+            rotation.start_s,
+            rotation.end_s
+        ));
+    }
+    warnings
+}

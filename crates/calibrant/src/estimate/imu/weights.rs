@@ -1,0 +1,201 @@
+//! How much a rotation counts, and the rotations that must be left out.
+//!
+//! The noise of the samples explains only part of a rotation's error; the rest (scale factors that depend on the rate, a wandering bias, clocks, what the
+//! model lacks) is estimated from the scatter itself: the excess `σ_r` for which χ² of the rotations equals its degrees of freedom (Paule and Mandel), in the
+//! problem linearised at the present estimate, directions fixed (they are known ten times better than a rotation can tell).
+
+use super::joint::{Joint, Miss};
+use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
+
+/// A rotation is left out when an error as large as its own would be seen in fewer than this share of recordings.
+const SIGNIFICANCE: f64 = 0.01;
+/// Rounds of leaving out one rotation, or taking one back.
+const ROUNDS: usize = 200;
+
+/// The rotations, weighed.
+pub(super) struct Weighed {
+    /// `σ_r`, rad.
+    pub(super) excess_rad: f64,
+    pub(super) used: Vec<bool>,
+    /// Error of each rotation, its own influence removed, in standard deviations: `χ²` of two degrees of freedom.
+    pub(super) studentised: Vec<f64>,
+    /// The step of the gyroscope's parameters that these weights ask for.
+    pub(super) step: DVector<f64>,
+    /// Its length in standard deviations.
+    pub(super) length: f64,
+}
+
+impl Weighed {
+    /// No rotation at all.
+    pub(super) fn none(rotations: usize) -> Self {
+        Self {
+            excess_rad: 0.0,
+            used: vec![false; rotations],
+            studentised: vec![f64::INFINITY; rotations],
+            step: DVector::zeros(0),
+            length: 0.0,
+        }
+    }
+}
+
+/// The linear problem: errors `e_i + J_i δp`, and what the rest of the data say of δp.
+struct Linear<'a> {
+    misses: Vec<Option<&'a Miss>>,
+    /// Places of the gyroscope's quantities.
+    places: Vec<usize>,
+    rest: DMatrix<f64>,
+    rest_rhs: DVector<f64>,
+}
+
+/// Weighs the rotations of a problem, given their misses (`None` for those that cannot be used).
+pub(super) fn weigh(
+    joint: &Joint<'_>,
+    misses: &[Option<Miss>],
+    rest: &DMatrix<f64>,
+    rest_rhs: &DVector<f64>,
+) -> Option<Weighed> {
+    let places: Vec<usize> = (0..joint.quantities.len())
+        .filter(|&k| joint.quantities[k].triad() == crate::sensor::Triad::Gyroscope)
+        .collect();
+    let linear = Linear {
+        misses: misses.iter().map(Option::as_ref).collect(),
+        places,
+        rest: rest.clone(),
+        rest_rhs: rest_rhs.clone(),
+    };
+    let mut used: Vec<bool> = misses.iter().map(Option::is_some).collect();
+    let all = used.iter().filter(|used| **used).count();
+    let mut excess;
+    let mut solved;
+    let mut rounds = 0;
+    loop {
+        (excess, solved) = linear.excess(&used)?;
+        let studentised = linear.studentised(&used, excess, &solved);
+        let count = used.iter().filter(|used| **used).count();
+        let limit = critical(all);
+        let worst = (0..used.len())
+            .filter(|&i| used[i] && studentised[i] > limit)
+            .max_by(|&a, &b| studentised[a].total_cmp(&studentised[b]));
+        let best = (0..used.len())
+            .filter(|&i| !used[i] && misses[i].is_some() && studentised[i] <= limit)
+            .min_by(|&a, &b| studentised[a].total_cmp(&studentised[b]));
+        rounds += 1;
+        match (worst, best) {
+            (Some(i), _) if 2 * count > linear.places.len() + 4 && rounds < ROUNDS => used[i] = false,
+            (_, Some(i)) if rounds < ROUNDS => used[i] = true,
+            _ => {
+                return Some(Weighed {
+                    excess_rad: excess,
+                    used,
+                    studentised,
+                    length: solved.length,
+                    step: solved.step,
+                });
+            }
+        }
+    }
+}
+
+struct Solved {
+    step: DVector<f64>,
+    covariance: DMatrix<f64>,
+    chi2: f64,
+    length: f64,
+}
+
+impl Linear<'_> {
+    fn weight(&self, miss: &Miss, excess: f64) -> Matrix2<f64> {
+        (miss.covariance + Matrix2::identity() * (excess * excess + 1e-18))
+            .try_inverse()
+            .unwrap_or_else(Matrix2::zeros)
+    }
+
+    fn jacobian(&self, miss: &Miss) -> DMatrix<f64> {
+        DMatrix::from_fn(2, self.places.len(), |row, k| miss.by_parameters[(row, self.places[k])])
+    }
+
+    fn error(&self, miss: &Miss, jacobian: &DMatrix<f64>, step: &DVector<f64>) -> Vector2<f64> {
+        let change = jacobian * step;
+        miss.error + Vector2::new(change[0], change[1])
+    }
+
+    fn solve(&self, used: &[bool], excess: f64) -> Option<Solved> {
+        let (mut f, mut g) = (self.rest.clone(), self.rest_rhs.clone());
+        for (miss, _) in self.misses.iter().zip(used).filter(|(_, used)| **used) {
+            let Some(miss) = miss else { continue };
+            let (j, w) = (self.jacobian(miss), self.weight(miss, excess));
+            let w = DMatrix::from_fn(2, 2, |a, b| w[(a, b)]);
+            let wj = &w * &j;
+            f += j.tr_mul(&wj);
+            g -= wj.tr_mul(&DVector::from_column_slice(miss.error.as_slice()));
+        }
+        let covariance = crate::information::covariance(&f)?;
+        let step = &covariance * &g;
+        let length = step.dot(&g).max(0.0).sqrt();
+        let mut chi2 = 0.0;
+        for (miss, _) in self.misses.iter().zip(used).filter(|(_, used)| **used) {
+            let Some(miss) = miss else { continue };
+            let error = self.error(miss, &self.jacobian(miss), &step);
+            chi2 += error.dot(&(self.weight(miss, excess) * error));
+        }
+        Some(Solved { step, covariance, chi2, length })
+    }
+
+    /// The excess that makes χ² equal its degrees of freedom, zero where the noise explains the scatter.
+    fn excess(&self, used: &[bool]) -> Option<(f64, Solved)> {
+        let count = used.iter().filter(|used| **used).count();
+        // what the holds say of the bias are as many equations as it has unknowns
+        let unknowns = self
+            .places
+            .len()
+            .saturating_sub((0..self.places.len()).filter(|&k| self.rest[(k, k)] > 0.0).count());
+        let degrees = (2 * count).saturating_sub(unknowns) as f64;
+        let mut solved = self.solve(used, 0.0)?;
+        if degrees == 0.0 || solved.chi2 <= degrees {
+            return Some((0.0, solved));
+        }
+        let (mut low, mut high) = (0.0, 1e-4);
+        while high < 1e2 {
+            solved = self.solve(used, high)?;
+            if solved.chi2 <= degrees {
+                break;
+            }
+            (low, high) = (high, 4.0 * high);
+        }
+        let mut excess = high;
+        for _ in 0..40 {
+            excess = 0.5 * (low + high);
+            solved = self.solve(used, excess)?;
+            if (solved.chi2 / degrees - 1.0).abs() < 1e-6 {
+                break;
+            }
+            if solved.chi2 > degrees { low = excess } else { high = excess }
+        }
+        Some((excess, solved))
+    }
+
+    fn studentised(&self, used: &[bool], excess: f64, solved: &Solved) -> Vec<f64> {
+        self.misses
+            .iter()
+            .zip(used)
+            .map(|(miss, used)| {
+                let Some(miss) = miss else { return f64::INFINITY };
+                let j = self.jacobian(miss);
+                let own = miss.covariance + Matrix2::identity() * (excess * excess + 1e-18);
+                let from = &j * &solved.covariance * j.transpose();
+                let from = Matrix2::new(from[(0, 0)], from[(0, 1)], from[(1, 0)], from[(1, 1)]);
+                let expected = if *used { own - from } else { own + from };
+                let error = self.error(miss, &j, &solved.step);
+                // a rotation that decides the parameters by itself has no error of its own
+                let inverse =
+                    expected.try_inverse().filter(|_| expected.determinant() > 1e-6 * own.determinant());
+                inverse.map_or(0.0, |inverse| error.dot(&(inverse * error)).max(0.0).sqrt())
+            })
+            .collect()
+    }
+}
+
+/// Largest error that chance explains among so many rotations: from χ² of two degrees of freedom, `exp(−x²/2)`.
+fn critical(rotations: usize) -> f64 {
+    (-2.0 * (SIGNIFICANCE / rotations.max(1) as f64).ln()).sqrt()
+}
