@@ -1,7 +1,7 @@
 //! The search: many starts, in parallel, and the best motion of each axis.
 //!
-//! Half of the starts are random motions and corners of the admissible region; the others are kicked out of the best optimum so far, in three rounds, so that the result
-//! does not depend on the number of threads.
+//! Half of the starts are random motions and corners of the admissible region; the others are kicked out of the best optimum so far. They run in rounds, so
+//! that the result does not depend on the number of threads, and end early once many starts agree on the best.
 //!
 //! Axes of a scale-bias sensor share nothing, so each is designed by itself, and those that have the same problem are designed once, with the starts of
 //! all of them. Among motions that are equally good each axis takes the one most like its initial motion: optima come in pairs, `a` and `−a`,
@@ -27,6 +27,9 @@ pub(super) struct Found {
 
 /// Values that differ by less than this, relatively, are equal.
 const EQUAL: f64 = 1e-9;
+/// So many starts that end at the best value, relatively as close as this, need no more beside them.
+const AGREED: usize = 10;
+const AGREEMENT: f64 = 1e-7;
 
 /// Searches the best motion. `initial` is the first start of every axis, `inside` an admissible motion at a relative distance `slack` from every limit.
 pub(super) fn search(
@@ -128,6 +131,12 @@ impl<const D: usize, const P: usize> Part<D, P> {
 }
 
 impl Found {
+    /// Do enough starts end at the best value?
+    fn agreed<const D: usize>(outcomes: &[LocalOptimum<D>], best: f64) -> bool {
+        let close = |outcome: &&LocalOptimum<D>| outcome.value <= best + AGREEMENT * best.abs();
+        outcomes.iter().filter(close).count() >= AGREED
+    }
+
     /// Runs the starts of a part and takes the best motion for each of its `groups` of axes.
     fn take<const D: usize, const P: usize>(
         &mut self,
@@ -141,13 +150,18 @@ impl Found {
             initial.acceleration_mps2().iter().map(|a| SVector::from_fn(|k, _| a[axes[k].index()])).collect()
         };
         let first = groups[0][0].index() as u64;
-        let count = settings.starts * D * groups.len();
+        let count = settings.starts * groups.len();
         let mut outcomes: Vec<LocalOptimum<D>> = Vec::with_capacity(count);
         // half of the starts at random, then rounds of kicks from the best so far
-        let rounds = [count.div_ceil(2), count * 2 / 3, count * 5 / 6, count];
+        let half = count.div_ceil(2);
+        let rounds = [count.div_ceil(3), half, count * 2 / 3, count * 5 / 6, count];
         for end in rounds {
-            let best =
-                outcomes.iter().min_by(|a, b| a.value.total_cmp(&b.value)).map(|best| best.nodes.clone());
+            let best = outcomes.iter().min_by(|a, b| a.value.total_cmp(&b.value));
+            if best.is_some_and(|best| Self::agreed(&outcomes, best.value)) {
+                progress((count - outcomes.len()) as u64);
+                break;
+            }
+            let best = best.filter(|_| outcomes.len() >= half).map(|best| best.nodes.clone());
             let round: Vec<_> = (outcomes.len()..end.max(outcomes.len()))
                 .into_par_iter()
                 .map(|number| {
