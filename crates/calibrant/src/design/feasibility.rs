@@ -293,12 +293,12 @@ fn clash(axis: Axis, limits: &AxisLimits, times: &[f64]) -> Complaint {
     }
     let names: Vec<&str> = kinds.iter().map(|kind| kind.name()).collect();
     let keys: Vec<String> = kinds.iter().map(|kind| format!("limits.{}", kind.key())).collect();
-    let duration = times[times.len() - 1] - times[0];
+    let rounded = |time: f64| (time * 1e9).round() / 1e9;
+    let (duration, interval) = (rounded(times[times.len() - 1] - times[0]), rounded(times[1] - times[0]));
     let (message, help) = match names.split_last() {
         Some((last, rest)) if !rest.is_empty() && any(limits, times).is_none() => (
             format!(
-                "the limits admit no motion of {duration} s in intervals of {} s along axis {axis}: its limits on {} and {last} clash, though without any one of them there is a motion",
-                times[1] - times[0],
+                "the limits admit no motion of {duration} s in intervals of {interval} s along axis {axis}: its limits on {} and {last} clash, though without any one of them there is a motion",
                 rest.join(", ")
             ),
             format!("loosen one of {}, or take more time", keys.join(", ")),
