@@ -126,6 +126,13 @@ impl<const D: usize, const P: usize> Part<D, P> {
                 }
             }
         }
+        // a start that ended there and converged says that it is an optimum
+        let close = best.value + AGREEMENT * best.value.abs();
+        let converged =
+            |outcome: &LocalOptimum<D>| outcome.value <= close && outcome.status == DesignStatus::Converged;
+        if outcomes.iter().any(converged) {
+            return choice.map(|(nodes, _)| (nodes, DesignStatus::Converged));
+        }
         choice
     }
 }
@@ -150,7 +157,7 @@ impl Found {
             initial.acceleration_mps2().iter().map(|a| SVector::from_fn(|k, _| a[axes[k].index()])).collect()
         };
         let first = groups[0][0].index() as u64;
-        let count = settings.starts * groups.len();
+        let count = settings.starts * D * groups.len();
         let mut outcomes: Vec<LocalOptimum<D>> = Vec::with_capacity(count);
         // half of the starts at random, then rounds of kicks from the best so far
         let half = count.div_ceil(2);
@@ -167,7 +174,7 @@ impl Found {
                 .map(|number| {
                     let mut rng = stream(settings.seed, Purpose::Start, 3 * number as u64 + first);
                     let start = match &best {
-                        _ if number < groups.len() => part.stretched(own(&groups[number])),
+                        _ if number < groups.len() => part.stretched_if_better(own(&groups[number])),
                         None => part.start(number, &mut rng).unwrap_or_else(|| own(&groups[0])),
                         Some(best) => part.kicked(best, &mut rng).unwrap_or_else(|| own(&groups[0])),
                     };
