@@ -119,8 +119,8 @@ impl Job {
             fact(
                 "Motion",
                 format!(
-                    "{} intervals of {} s, {} Hz, trust {}",
-                    problem.intervals,
+                    "{} of {} s, {} Hz, trust {}",
+                    number::counted(problem.intervals, "interval"),
                     number::short(problem.interval_s),
                     number::short(problem.rate_hz),
                     problem.trust.name()
@@ -145,24 +145,36 @@ impl Job {
 
     /// Solves the problem, with a progress bar over its starts.
     fn design(&self, problem: &DesignProblem<'_>) -> calibrant::Result<Design> {
-        let bar = console::progress((self.settings.starts * problem.parts().len()) as u64, "starts");
+        let bar = console::progress((self.settings.starts * problem.sensor.axes) as u64, "starts");
         let outcome = design(problem, &self.settings, &|done| bar.inc(done));
         bar.finish_and_clear();
         outcome
     }
 }
 
-/// Calibrations whose information adds up should be of one sensor.
+/// Calibrations whose information adds up should be of one sensor, and not the same one twice.
 fn warn_of_strangers(earlier: &[EarlierCalibration]) {
+    let name = |calibration: &EarlierCalibration| {
+        calibration.file.as_ref().map_or_else(String::new, |file| file.display().to_string())
+    };
+    for (number, calibration) in earlier.iter().enumerate() {
+        let same = |other: &&EarlierCalibration| {
+            other.values == calibration.values && other.covariance == calibration.covariance
+        };
+        if let Some(other) = earlier[..number].iter().find(same) {
+            console::warn(&format!(
+                "{} and {} say the same to the last digit; if they are of one recording, what it knows counts twice: name it once",
+                name(other),
+                name(calibration)
+            ));
+        }
+    }
     let Some((last, others)) = earlier.split_last() else { return };
     for other in others {
         let degrees_of_freedom = last.values.len() as f64;
         // far beyond chance: mean and variance of χ² are k and 2k
         let most = degrees_of_freedom + 6.0 * (2.0 * degrees_of_freedom).sqrt();
         if let Some(chi2) = last.chi2_against(other).filter(|chi2| *chi2 > most) {
-            let name = |calibration: &EarlierCalibration| {
-                calibration.file.as_ref().map_or_else(String::new, |file| file.display().to_string())
-            };
             console::warn(&format!(
                 "{} and {} disagree beyond their uncertainty (χ² {} for {degrees_of_freedom} parameters): are they of the same sensor?",
                 name(other),
@@ -173,17 +185,13 @@ fn warn_of_strangers(earlier: &[EarlierCalibration]) {
     }
 }
 
-/// Names the experiment file in an error about a key of it.
+/// Names the experiment file in an error about its limits, or about a key of it.
 fn in_file(error: Error, file: &Path) -> Error {
     let named = |complaint: Box<Complaint>| {
-        if complaint.file.is_none() && complaint.key.is_some() {
-            Box::new(complaint.in_file(file))
-        } else {
-            complaint
-        }
+        if complaint.file.is_none() { Box::new(complaint.in_file(file)) } else { complaint }
     };
     match error {
-        Error::Experiment(complaint) => Error::Experiment(named(complaint)),
+        Error::Experiment(complaint) if complaint.key.is_some() => Error::Experiment(named(complaint)),
         Error::Infeasible(complaint) => Error::Infeasible(named(complaint)),
         other => other,
     }
@@ -227,7 +235,7 @@ fn write(
 
 /// The exit status of a design, with what is to be said of it.
 fn exit_of(design: &Design) -> Exit {
-    if design.status != DesignStatus::Converged {
+    if design.status != DesignStatus::Converged && design.optimal.covariance.is_some() {
         console::warn(&format!(
             "the search ended as \"{}\": the motion is admissible, but a better one may be near (raise --starts, or loosen what is very tight)",
             design.status.name()

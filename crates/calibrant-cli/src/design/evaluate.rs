@@ -5,7 +5,7 @@ use crate::{Exit, console};
 use calibrant::design::{Assessment, DesignProblem, LimitKind, LimitUse, assess};
 use calibrant::io::{evaluation_json, read_motion, write_atomically, write_evaluation};
 use calibrant::report::evaluation_report;
-use calibrant::report::number::{short, significant};
+use calibrant::report::number::{counted, short, significant};
 use std::path::Path;
 
 pub(super) fn run(
@@ -82,18 +82,19 @@ fn text(assessment: &Assessment, path: &Path) -> String {
         .collect();
     let header = ["parameter", "unit", "sd own", "sd optimal", "own/optimal", "sd at least"];
     let mut text = format!(
-        "criterion {} ({}): {} own, {} optimal\n",
+        "criterion {} ({}{}): {} own, {} optimal\n",
         assessment.criterion.letter(),
         assessment.criterion.formula(),
+        assessment.criterion.scaling(),
         significant(assessment.evaluation.value, 5),
         design.map_or_else(|| "–".into(), |design| significant(design.optimal.value, 5))
     );
     text.push_str(&console::table(&header, &rows));
     if let Some(other) = &assessment.other_setting {
         text.push_str(&super::table::wrapped(&format!(
-            "{} has {} intervals over {} s, the experiment {} over {} s: the optimum is that of the experiment, so part of the difference is due to that.",
+            "{} has {} over {} s, the experiment {} over {} s: the optimum is that of the experiment, so part of the difference is due to that.",
             path.display(),
-            other.intervals,
+            counted(other.intervals, "interval"),
             short(other.duration_s),
             other.experiment_intervals,
             short(other.experiment_duration_s)

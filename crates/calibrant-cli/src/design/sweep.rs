@@ -4,7 +4,7 @@ use super::{Arguments, Job, in_file};
 use crate::{Exit, console};
 use calibrant::design::{DesignProblem, DesignStatus, Sweep, SweepVariable, sweep};
 use calibrant::io::{sweep_json, write_atomically, write_sweep, write_sweep_csv};
-use calibrant::report::number::{short, significant};
+use calibrant::report::number::{counted, short, significant};
 use calibrant::report::sweep_report;
 
 /// Most values of a sweep.
@@ -113,10 +113,10 @@ fn say(swept: &Sweep) {
     for point in &swept.points {
         if (point.value - point.asked).abs() > 1e-9 * point.asked {
             console::note(&format!(
-                "{name} {} {unit} is not a whole number of intervals: {} {unit}, {} intervals, instead",
+                "{name} {} {unit} is not a whole number of intervals: {} {unit}, {}, instead",
                 short(point.asked),
                 short(point.value),
-                point.intervals
+                counted(point.intervals, "interval")
             ));
         }
         match &point.outcome {

@@ -1,9 +1,9 @@
 //! A design as people read it.
 
 use crate::console;
-use calibrant::design::{Design, LimitUse, limit_use};
+use calibrant::design::{AT_BEST, Design, LimitUse, limit_use};
 use calibrant::information::Criterion;
-use calibrant::report::number::significant;
+use calibrant::report::number::{counted, short, significant};
 
 /// Before, after and the bound, parameter by parameter; the criterion; the starts; what the certificate says.
 pub(crate) fn design(design: &Design) -> String {
@@ -37,9 +37,10 @@ pub(crate) fn design(design: &Design) -> String {
 fn criterion(design: &Design) -> String {
     let (criterion, digits) = (&design.criterion, 5);
     format!(
-        "criterion {} ({}): {} initial, {} optimal\n",
+        "criterion {} ({}{}): {} initial, {} optimal\n",
         criterion.letter(),
         criterion.formula(),
+        criterion.scaling(),
         significant(design.initial.value, digits),
         significant(design.optimal.value, digits)
     )
@@ -50,12 +51,16 @@ fn starts(design: &Design) -> String {
     if all == 0 {
         return String::new();
     }
+    let at_best = match &design.criterion {
+        _ if !design.optimal.value.is_finite() => String::new(),
+        Criterion::D(_) => format!(", {} within {AT_BEST} nats of the best", design.starts_at_best()),
+        _ => format!(", {} within {} % of the best", design.starts_at_best(), short(100.0 * AT_BEST)),
+    };
     format!(
-        "  {all} start{}, {} converged, {} of them to within 0.1 % of the best; {} iterations\n",
-        if all == 1 { "" } else { "s" },
+        "  {}, {} converged{at_best}; {}\n",
+        counted(all, "start"),
         design.starts_converged(),
-        design.starts_at_best(),
-        design.iterations
+        counted(design.iterations, "iteration")
     )
 }
 

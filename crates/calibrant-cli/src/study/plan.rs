@@ -1,6 +1,7 @@
 //! Which experiments an experiment file and the options ask for.
 
 use crate::simulate::commanded_motion;
+use calibrant::design::limit_use;
 use calibrant::estimate::CalibrationSettings;
 use calibrant::io::{Experiment, MotionPlan, Prior};
 use calibrant::motion::{CommandedMotion, JerkControlledMotion, Limits, Trust};
@@ -47,6 +48,9 @@ impl<'a> Material<'a> {
         };
         let axes = experiment.sensor.axes;
         material.given = choice.motion.map(|path| calibrant::io::read_motion(path, axes)).transpose()?;
+        if let Some(motion) = &material.given {
+            material.remarks.extend(beyond_limits(experiment, motion));
+        }
         let study = &experiment.study;
         let design = material.design_study(plan.trust, &experiment.limits)?;
         let obstacle = design.obstacle();
@@ -112,6 +116,18 @@ impl<'a> Material<'a> {
             remarks: self.remarks.clone(),
         }
     }
+}
+
+/// Says where a given motion breaks the limits that the best one keeps, which makes the comparison unfair.
+fn beyond_limits(experiment: &Experiment, motion: &JerkControlledMotion) -> Option<String> {
+    let limits = experiment.limits.within_range(experiment.sensor.range_mps2);
+    let broken: Vec<String> = limit_use(&limits, experiment.sensor.axes, motion)
+        .iter()
+        .filter(|found| found.is_violated())
+        .map(|found| format!("{} of axis {}", found.kind.name(), found.axis))
+        .collect();
+    (!broken.is_empty())
+        .then(|| format!("the given motion breaks limits that the optimal one keeps: {}", broken.join(", ")))
 }
 
 fn calibration(

@@ -213,6 +213,9 @@ fn a_study_follows_its_experiment_and_its_motion() {
     let motion = bench.read("simulated/motion.csv");
     let node = motion.lines().nth(1).and_then(|line| line.strip_prefix("0.0,")).expect("the first node");
     assert!(bench.read("study/study.json").contains(&format!("[{}]", node.replace(',', ", "))), "{node}");
+    bench.write("fast.csv", "t_s,ax_mps2,ay_mps2,az_mps2\n0,40,1,1\n5,-40,-1,-1\n10,40,2,3\n");
+    let outcome = bench.run("study experiment.toml --motion fast.csv --starts 2 -o fast").done();
+    outcome.says("note: the given motion breaks limits that the optimal one keeps: intercept of axis x");
 }
 
 #[test]

@@ -34,7 +34,14 @@ fn sd(file: &Value, name: &str) -> f64 {
 fn a_design_leaves_a_motion_and_everything_needed_to_judge_it() {
     let bench = bench();
     let outcome = bench.run(&format!("design arm.toml {QUICK} --sample-rate 20 -o d")).done();
-    for word in ["criterion A (trace C)", "sd initial", "sd optimal", "scale.z", "6 starts", "d/motion.csv"] {
+    for word in [
+        "criterion A (trace C, in SI units)",
+        "sd initial",
+        "sd optimal",
+        "scale.z",
+        "6 starts",
+        "d/motion.csv",
+    ] {
         assert!(outcome.stdout.contains(word), "{word}\n{}", outcome.stdout);
     }
     assert_eq!(outcome.stderr, "");
@@ -115,7 +122,8 @@ fn what_is_known_already_counts() {
     bench.run(&format!("design arm.toml {QUICK} -o alone")).done();
     bench.run(&format!("design arm.toml {QUICK} --from c/calibration.json -o after")).done();
     let twice = "--from c/calibration.json --from c/calibration.json";
-    bench.run(&format!("design arm.toml {QUICK} {twice} -o twice")).done();
+    let outcome = bench.run(&format!("design arm.toml {QUICK} {twice} -o twice")).done();
+    outcome.says("warning: c/calibration.json and c/calibration.json say the same to the last digit");
     let bias = |name: &str| sd(&bench.json(&format!("{name}/design.json")), "bias.x");
     // the bias is known as well from any recording of this length, so information adds up: 1, 2 and 3 recordings
     for (name, recordings) in [("after", 2.0_f64), ("twice", 3.0)] {
@@ -179,6 +187,44 @@ fn a_motion_that_leaves_something_undetermined_says_why() {
 }
 
 #[test]
+fn counts_and_criteria_are_put_into_words() {
+    let bench = Bench::new();
+    let edits = [
+        ("axes = 3", "axes = 1"),
+        ("intervals = 10", "intervals = 1"),
+        ("starts = 30", "starts = 1"),
+        ("scale_by = \"none\"", "scale_by = \"datasheet\""),
+    ];
+    arm(&bench, "one.toml", &edits);
+    bench.write("own.csv", "t_s,ax_mps2\n0,1\n2,-1\n");
+    let outcome = bench.run("design one.toml --evaluate own.csv -o d").done();
+    for words in [
+        "criterion A (trace C, each parameter divided by its datasheet spread)",
+        "own.csv has 1 interval over 2 s, the experiment 1 over 1 s",
+    ] {
+        let stdout = outcome.stdout.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(stdout.contains(words), "{words}\n{stdout}");
+    }
+    let outcome = bench.run("design one.toml -o d").done();
+    assert!(outcome.stdout.contains("1 start, 1 converged, 1 within 0.001 % of the best"), "{outcome:?}");
+    let outcome = bench.run("design one.toml --no-certificate --sweep duration=0.4,2 -o d").done();
+    outcome.says("duration 0.4 s is not a whole number of intervals: 1 s, 1 interval, instead");
+}
+
+#[test]
+fn too_few_intervals_for_a_full_sensor_are_named() {
+    let bench = Bench::new();
+    let full = [("model = \"scale-bias\"", "model = \"full\""), ("# cross_axis_sd", "cross_axis_sd")];
+    arm(&bench, "full.toml", &[full[0], full[1], ("intervals = 10", "intervals = 2")]);
+    let outcome = bench.run(&format!("design full.toml {QUICK} -o d"));
+    assert_eq!(outcome.status, 4, "{outcome:?}");
+    outcome.says("the motion has 3 nodes, too few for the accelerations along x, y and z to be independent of each other (use at least 3 intervals)");
+    // there is no best to be near to
+    assert!(!outcome.stderr.contains("a better one may be near"), "{outcome:?}");
+    assert!(!outcome.stdout.contains("of the best"), "{outcome:?}");
+}
+
+#[test]
 fn sweeps_say_what_things_cost() {
     let bench = bench();
     let outcome = bench.run(&format!("design arm.toml {QUICK} --sweep duration=5,10.4 -o d")).done();
@@ -220,7 +266,7 @@ fn limits_that_clash_are_named_before_the_search() {
         "design clash.toml -o none",
         4,
         &[
-            "the limits admit no motion of 10 s in intervals of 1 s along axis x: its limits on jerk",
+            "clash.toml: the limits admit no motion of 10 s in intervals of 1 s along axis x: its limits on jerk",
             "acceleration at the start clash",
         ],
     );

@@ -151,7 +151,6 @@ pub fn limit_use(limits: &Limits, axes: usize, motion: &JerkControlledMotion) ->
 }
 
 /// The worst relative violation of one axis' limits by node accelerations `a`; 0 where all are kept.
-#[allow(dead_code, reason = "the solver's")]
 pub(crate) fn worst_violation(limits: &AxisLimits, times: &[f64], a: &[f64]) -> f64 {
     axis_use(limits, times, a).into_iter().fold(0.0, |worst, found| found.violation.max(worst))
 }

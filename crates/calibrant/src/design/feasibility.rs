@@ -55,8 +55,9 @@ pub(crate) fn interior_motion(limits: &AxisLimits, times: &[f64]) -> Option<Inte
         return Some(Interior { nodes: vec![0.0; times.len()], slack: 1.0 });
     }
     let by_control_points = widest(limits, times);
-    let found = by_control_points.or_else(|| any(limits, times))?;
-    let nodes = settled(found, limits, times);
+    let mut nodes = by_control_points.or_else(|| any(limits, times))?;
+    let region = Region::new(*limits, times);
+    (0..2).for_each(|_| region.settle(&mut nodes));
     let slack = spare(limits, times, &nodes);
     (slack > ROOM && worst_violation(limits, times, &nodes) <= 1e-9).then_some(Interior { nodes, slack })
 }
@@ -180,25 +181,6 @@ fn any(limits: &AxisLimits, times: &[f64]) -> Option<Vec<f64>> {
     None
 }
 
-/// The prescribed values and the rest, exact to rounding.
-fn settled(mut a: Vec<f64>, limits: &AxisLimits, times: &[f64]) -> Vec<f64> {
-    let n = times.len() - 1;
-    if let Some(start) = limits.start {
-        a[0] = start;
-    }
-    if let Some(end) = limits.end {
-        a[n] = end;
-    }
-    if limits.rest == Rest::Both && n > 1 {
-        for _ in 0..2 {
-            let v: f64 = (0..n).map(|i| (a[i] + a[i + 1]) / 2.0 * (times[i + 1] - times[i])).sum();
-            let inner: f64 = (1..n).map(|i| (times[i + 1] - times[i - 1]) / 2.0).sum();
-            a[1..n].iter_mut().for_each(|a| *a -= v / inner);
-        }
-    }
-    a
-}
-
 /// The smallest share of any limit that a motion has to spare, prescribed values left out; negative where one is broken.
 fn spare(limits: &AxisLimits, times: &[f64], a: &[f64]) -> f64 {
     let n = times.len() - 1;
@@ -293,12 +275,12 @@ fn clash(axis: Axis, limits: &AxisLimits, times: &[f64]) -> Complaint {
     }
     let names: Vec<&str> = kinds.iter().map(|kind| kind.name()).collect();
     let keys: Vec<String> = kinds.iter().map(|kind| format!("limits.{}", kind.key())).collect();
-    let duration = times[times.len() - 1] - times[0];
+    let rounded = |time: f64| (time * 1e9).round() / 1e9;
+    let (duration, interval) = (rounded(times[times.len() - 1] - times[0]), rounded(times[1] - times[0]));
     let (message, help) = match names.split_last() {
         Some((last, rest)) if !rest.is_empty() && any(limits, times).is_none() => (
             format!(
-                "the limits admit no motion of {duration} s in intervals of {} s along axis {axis}: its limits on {} and {last} clash, though without any one of them there is a motion",
-                times[1] - times[0],
+                "the limits admit no motion of {duration} s in intervals of {interval} s along axis {axis}: its limits on {} and {last} clash, though without any one of them there is a motion",
                 rest.join(", ")
             ),
             format!("loosen one of {}, or take more time", keys.join(", ")),

@@ -68,6 +68,21 @@ fn a_minimal_clashing_set_is_named() {
 }
 
 #[test]
+fn a_clash_names_durations_without_the_rounding_of_sums() {
+    let limits = AxisLimits {
+        acceleration: Some(10.0),
+        displacement: Some(0.01),
+        start: Some(9.0),
+        end: Some(-9.0),
+        jerk: Some(25.0),
+        ..AxisLimits::default()
+    };
+    let times: Vec<f64> = (0..=3).map(|i| f64::from(i) * 0.3).collect();
+    let said = clash(Axis::X, &limits, &times).to_string();
+    assert!(said.starts_with("the limits admit no motion of 0.9 s in intervals of 0.3 s"), "{said}");
+}
+
+#[test]
 fn clashes_between_the_nodes_are_found() {
     // one interval, at rest at both ends: a falls from 4 to −4, the velocity peaks at 1 m/s in the middle
     let limits = AxisLimits {

@@ -85,10 +85,15 @@ impl<const D: usize, const P: usize> Part<D, P> {
         };
         let mut bend = 1.0;
         for iteration in 0..settings.max_iterations {
-            let Some(model) = self.model(&a, &weights, bend) else {
+            let Some(mut model) = self.model(&a, &weights, bend) else {
                 return end(a, value, iteration, DesignStatus::Stalled);
             };
-            let Some((step, promise)) = self.step(&a, &model, &mut watch, &mut weights) else {
+            let mut found = self.step(&a, &model, &mut watch, &mut weights);
+            if found.is_none() && model.matrix.take().is_some() {
+                // matrix entries of too different size: the slope alone still tells where to go
+                found = self.step(&a, &model, &mut watch, &mut weights);
+            }
+            let Some((step, promise)) = found else {
                 return end(a, value, iteration, DesignStatus::Stalled);
             };
             if promise <= CONVERGED {

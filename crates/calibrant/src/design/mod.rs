@@ -25,7 +25,7 @@ pub use evaluate::evaluate;
 pub use feasibility::check_feasible;
 pub use initial::initial_motion;
 pub use problem::DesignProblem;
-pub use result::{Certificate, Design, DesignStatus, Evaluation, StartOutcome};
+pub use result::{AT_BEST, Certificate, Design, DesignStatus, Evaluation, StartOutcome};
 pub use settings::DesignSettings;
 pub use sweep::{Sweep, SweepPoint, SweepVariable, sweep};
 

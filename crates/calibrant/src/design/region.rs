@@ -186,22 +186,26 @@ impl Region {
         worst
     }
 
+    /// Restores the equalities to rounding: prescribed ends, and rest at the end by an equal change of all inner nodes.
+    pub(super) fn settle(&self, a: &mut [f64]) {
+        let (n, l) = (self.intervals(), &self.limits);
+        for (node, value) in [(0, l.start), (n, l.end)] {
+            if let Some(value) = value {
+                a[node] = value;
+            }
+        }
+        if l.rest == Rest::Both && n > 1 {
+            let v: f64 = (0..n).map(|i| (a[i] + a[i + 1]) / 2.0 * (self.tau[i + 1] - self.tau[i])).sum();
+            let inner: f64 = (1..n).map(|i| (self.tau[i + 1] - self.tau[i - 1]) / 2.0).sum();
+            a[1..n].iter_mut().for_each(|a| *a -= v / inner);
+        }
+    }
+
     /// The admissible motion next to one that is so up to the accuracy of the convex solver: equalities are restored exactly, then the motion is shrunk
     /// towards `inside`, an admissible motion that keeps a relative distance `slack` from every limit.
     pub(super) fn restore(&self, a: &mut [f64], inside: &[f64], slack: f64) {
-        let n = self.intervals();
-        let l = &self.limits;
         for _ in 0..2 {
-            for (node, value) in [(0, l.start), (n, l.end)] {
-                if let Some(value) = value {
-                    a[node] = value;
-                }
-            }
-            if l.rest == Rest::Both && n > 1 {
-                let v: f64 = (0..n).map(|i| (a[i] + a[i + 1]) / 2.0 * (self.tau[i + 1] - self.tau[i])).sum();
-                let inner: f64 = (1..n).map(|i| (self.tau[i + 1] - self.tau[i - 1]) / 2.0).sum();
-                a[1..n].iter_mut().for_each(|a| *a -= v / inner);
-            }
+            self.settle(a);
             let breach = self.breach(a);
             if breach <= 0.0 {
                 return;

@@ -6,6 +6,12 @@ use crate::motion::{JerkControlledMotion, Limits};
 use crate::sensor::{Axis, Parameter};
 use nalgebra::DMatrix;
 
+/// A start that ends within this of the best (relatively; for criterion D in nats) has reached it.
+///
+/// Far below a percent: criterion A in SI units is nearly the variance of the biases alone, and motions whose scale factors differ by a third differ by a
+/// thousandth in it.
+pub const AT_BEST: f64 = 1e-5;
+
 /// The best motion found, beside the initial one, and how close to the best possible it is.
 #[derive(Debug, Clone)]
 pub struct Design {
@@ -36,14 +42,15 @@ impl Design {
         self.starts.iter().filter(|start| start.status == DesignStatus::Converged).count()
     }
 
-    /// Number of starts that ended within 0.1 % (for D 0.001 nats) of the best of their axes.
+    /// Number of starts that ended within [`AT_BEST`] of the best of their axes.
     #[must_use]
     pub fn starts_at_best(&self) -> usize {
         let best = |axes: &[Axis]| {
             let own = self.starts.iter().filter(|start| start.axes == axes);
             own.map(|start| start.value).fold(f64::INFINITY, f64::min)
         };
-        let near = |start: &&StartOutcome| self.criterion.gap(start.value, best(&start.axes)).abs() < 1e-3;
+        let near =
+            |start: &&StartOutcome| self.criterion.gap(start.value, best(&start.axes)).abs() <= AT_BEST;
         self.starts.iter().filter(near).count()
     }
 }

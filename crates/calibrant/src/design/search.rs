@@ -1,7 +1,7 @@
 //! The search: many starts, in parallel, and the best motion of each axis.
 //!
-//! Half of the starts are random motions and corners of the admissible region; the others are kicked out of the best optimum so far, in three rounds, so that the result
-//! does not depend on the number of threads.
+//! Half of the starts are random motions and corners of the admissible region; the others are kicked out of the best optimum so far. They run in rounds, so
+//! that the result does not depend on the number of threads, and end early once many starts agree on the best.
 //!
 //! Axes of a scale-bias sensor share nothing, so each is designed by itself, and those that have the same problem are designed once, with the starts of
 //! all of them. Among motions that are equally good each axis takes the one most like its initial motion: optima come in pairs, `a` and `−a`,
@@ -27,6 +27,9 @@ pub(super) struct Found {
 
 /// Values that differ by less than this, relatively, are equal.
 const EQUAL: f64 = 1e-9;
+/// So many starts that end at the best value, relatively as close as this, need no more beside them.
+const AGREED: usize = 10;
+const AGREEMENT: f64 = 1e-7;
 
 /// Searches the best motion. `initial` is the first start of every axis, `inside` an admissible motion at a relative distance `slack` from every limit.
 pub(super) fn search(
@@ -123,11 +126,24 @@ impl<const D: usize, const P: usize> Part<D, P> {
                 }
             }
         }
+        // a start that ended there and converged says that it is an optimum
+        let close = best.value + AGREEMENT * best.value.abs();
+        let converged =
+            |outcome: &LocalOptimum<D>| outcome.value <= close && outcome.status == DesignStatus::Converged;
+        if outcomes.iter().any(converged) {
+            return choice.map(|(nodes, _)| (nodes, DesignStatus::Converged));
+        }
         choice
     }
 }
 
 impl Found {
+    /// Do enough starts end at the best value?
+    fn agreed<const D: usize>(outcomes: &[LocalOptimum<D>], best: f64) -> bool {
+        let close = |outcome: &&LocalOptimum<D>| outcome.value <= best + AGREEMENT * best.abs();
+        outcomes.iter().filter(close).count() >= AGREED
+    }
+
     /// Runs the starts of a part and takes the best motion for each of its `groups` of axes.
     fn take<const D: usize, const P: usize>(
         &mut self,
@@ -144,16 +160,21 @@ impl Found {
         let count = settings.starts * D * groups.len();
         let mut outcomes: Vec<LocalOptimum<D>> = Vec::with_capacity(count);
         // half of the starts at random, then rounds of kicks from the best so far
-        let rounds = [count.div_ceil(2), count * 2 / 3, count * 5 / 6, count];
+        let half = count.div_ceil(2);
+        let rounds = [count.div_ceil(3), half, count * 2 / 3, count * 5 / 6, count];
         for end in rounds {
-            let best =
-                outcomes.iter().min_by(|a, b| a.value.total_cmp(&b.value)).map(|best| best.nodes.clone());
+            let best = outcomes.iter().min_by(|a, b| a.value.total_cmp(&b.value));
+            if best.is_some_and(|best| Self::agreed(&outcomes, best.value)) {
+                progress((count - outcomes.len()) as u64);
+                break;
+            }
+            let best = best.filter(|_| outcomes.len() >= half).map(|best| best.nodes.clone());
             let round: Vec<_> = (outcomes.len()..end.max(outcomes.len()))
                 .into_par_iter()
                 .map(|number| {
                     let mut rng = stream(settings.seed, Purpose::Start, 3 * number as u64 + first);
                     let start = match &best {
-                        _ if number < groups.len() => part.stretched(own(&groups[number])),
+                        _ if number < groups.len() => part.stretched_if_better(own(&groups[number])),
                         None => part.start(number, &mut rng).unwrap_or_else(|| own(&groups[0])),
                         Some(best) => part.kicked(best, &mut rng).unwrap_or_else(|| own(&groups[0])),
                     };

@@ -3,7 +3,7 @@
 /// How a design is looked for.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DesignSettings {
-    /// Number of starts for each axis (or for all axes of a full sensor).
+    /// Most starts for each axis: the search ends earlier once ten end at the same best value.
     pub starts: usize,
     /// Seed of the random starts and of the initial motion.
     pub seed: u64,

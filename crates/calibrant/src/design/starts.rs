@@ -22,8 +22,13 @@ const MODEST: f64 = 0.1;
 const KICK: std::ops::Range<f64> = 0.4..0.9;
 
 impl<const D: usize, const P: usize> Part<D, P> {
-    /// An admissible motion, stretched until it touches a limit on every axis.
-    pub(super) fn stretched(&self, mut nodes: Nodes<D>) -> Nodes<D> {
+    /// An admissible motion, stretched until it touches a limit on every axis where that helps: with noise in proportion to the jerk it may not.
+    pub(super) fn stretched_if_better(&self, nodes: Nodes<D>) -> Nodes<D> {
+        let stretched = self.stretched(nodes.clone());
+        if self.value(&stretched) < self.value(&nodes) { stretched } else { nodes }
+    }
+
+    fn stretched(&self, mut nodes: Nodes<D>) -> Nodes<D> {
         for (k, region) in self.regions.iter().enumerate() {
             if region.limits.start.is_some() || region.limits.end.is_some() {
                 continue;

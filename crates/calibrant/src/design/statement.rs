@@ -1,6 +1,6 @@
 //! What a design's certificate means, for someone who sees one for the first time.
 
-use super::{Certificate, Design, DesignStatus};
+use super::{AT_BEST, Certificate, Design, DesignStatus};
 use crate::information::Criterion;
 
 impl Design {
@@ -29,18 +29,19 @@ impl Design {
         let criterion = if let Criterion::D(_) = self.criterion {
             // a typical sd is exp(Φ_D / 2p)
             let sd = (certificate.gap / (2.0 * self.parameters.len() as f64)).exp_m1();
+            let typical = if sd < 1.0 { percent(sd) } else { format!("a factor of {}", short(1.0 + sd)) };
             format!(
-                "No admissible motion can bring criterion D below {}; this one is within {} nats of that, {} in a typical standard deviation",
+                "No admissible motion can bring criterion D below {}; this one is within {} nats of that, {typical} in a typical standard deviation",
                 short(certificate.lower_bound),
                 short(certificate.gap.max(0.0)),
-                percent(sd)
             )
         } else {
+            let gap = certificate.gap;
+            let near = if gap < 1.0 { format!("within {} of that", percent(gap)) } else { times(1.0 + gap) };
             format!(
-                "No admissible motion can bring criterion {letter} below {}; this one has {}, within {} of that",
+                "No admissible motion can bring criterion {letter} below {}; this one has {}, {near}",
                 short(certificate.lower_bound),
                 short(value),
-                percent(certificate.gap)
             )
         };
         format!("{criterion}. {}", self.certified_sd(certificate)).trim_end().to_owned()
@@ -63,16 +64,21 @@ impl Design {
             return format!("{bound}; this one gives it that, and every other parameter its least sd too.");
         }
         let others = if sd.len() > 1 { ", and every other parameter is closer to its bound" } else { "" };
-        format!("{bound}; this one gives {}, {} more{others}.", short(sd[k]), percent(excess(k)))
+        let more = if excess(k) < 1.0 { percent(excess(k)) + " more" } else { times(1.0 + excess(k)) };
+        format!("{bound}; this one gives {}, {more}{others}.", short(sd[k]))
     }
 
     fn uncertified(&self) -> String {
         match self.starts.len() {
             0 => "No lower bound was computed, so a better motion cannot be ruled out.".into(),
             starts => format!(
-                "This is the best of {starts} starts, {} of which ended there (within 0.1 %). No lower bound was computed, so a better motion cannot \
-                 be ruled out.",
-                self.starts_at_best()
+                "This is the best of {starts} starts, {} of which ended there (within {}). No lower bound was computed, so a better motion cannot be \
+                 ruled out.",
+                self.starts_at_best(),
+                match self.criterion {
+                    Criterion::D(_) => format!("{AT_BEST} nats"),
+                    _ => format!("{} %", 100.0 * AT_BEST),
+                }
             ),
         }
     }
@@ -103,7 +109,17 @@ fn superscript(digit: char) -> char {
     }
 }
 
-/// A small relative difference: `0.3 %`, `less than 0.01 %`.
+/// A multiple: `3.4 times that`.
+fn times(factor: f64) -> String {
+    let number = match factor {
+        f if f < 9.95 => format!("{f:.1}"),
+        f if f < 999.5 => format!("{f:.0}"),
+        f => short(f),
+    };
+    format!("{number} times that")
+}
+
+/// A relative difference below one, at least 0.01 %: `0.32 %`.
 fn percent(relative: f64) -> String {
     let percent = 100.0 * relative.max(0.0);
     match percent {
@@ -131,6 +147,11 @@ mod tests {
         assert_eq!(
             (percent(0.0), percent(0.0032), percent(0.25)),
             ("0.01 %".into(), "0.32 %".into(), "25 %".into())
+        );
+        // a loose bound is a matter of factors: 51489740 % tells nobody anything
+        assert_eq!(
+            (times(2.04), times(14.2), times(514_898.4)),
+            ("2.0 times that".into(), "14 times that".into(), "5.149 × 10⁵ times that".into())
         );
     }
 }

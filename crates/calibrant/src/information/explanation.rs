@@ -107,6 +107,14 @@ fn reason(facts: MotionFacts<'_>, quantities: &[Quantity]) -> (String, String) {
             format!("the {samples} samples within the motion see too little movement along axis {axis}"),
             "record more samples, or move more".into(),
         ),
+        several if nodes.len() <= several.len() => (
+            format!(
+                "the motion has {} nodes, too few for the accelerations along {} to be independent of each other",
+                nodes.len(),
+                words(several)
+            ),
+            format!("use at least {} intervals", several.len()),
+        ),
         several => (
             format!("the accelerations along {} depend on each other linearly", words(several)),
             "move the axes independently of each other".into(),

@@ -6,9 +6,11 @@ pub mod criterion;
 mod expected;
 mod explanation;
 mod identifiability;
+mod part;
 
 pub use covariance::covariance;
 pub use criterion::Criterion;
-pub use expected::{InformationDerivative, Linearised, MotionInformation, PartInformation};
+pub use expected::MotionInformation;
 pub(crate) use explanation::{MotionFacts, View, explain};
 pub use identifiability::{Undetermined, undetermined};
+pub use part::{InformationDerivative, Linearised, PartInformation};

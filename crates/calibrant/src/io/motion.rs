@@ -132,7 +132,11 @@ fn read_header(line: Line<'_>, delimiter: Delimiter, axes: usize) -> Checked<Vec
     if missing.is_empty() {
         return Ok(slots);
     }
-    Err(Complaint::new(format!("column {} is missing", missing.join(", ")), help).at_line(line.number).into())
+    let message = match missing.as_slice() {
+        [one] => format!("column {one} is missing"),
+        several => format!("columns {} are missing", several.join(", ")),
+    };
+    Err(Complaint::new(message, help).at_line(line.number).into())
 }
 
 fn read_row(line: Line<'_>, delimiter: Delimiter, slots: &[Option<usize>]) -> Checked<[f64; 4]> {

@@ -1,7 +1,7 @@
 //! The report on a motion of one's own: what it tells, beside the best one and the limits.
 
 use super::About;
-use super::design::{axes, limit_table, promised_table, scaling, times, undetermined_items, violation};
+use super::design::{axes, limit_table, promised_table, times, undetermined_items, violation};
 use super::figure::{
     DisplayUnit, Drawn, confidence_ellipses, correlation_map, jerk_and_acceleration, states,
     velocity_and_displacement,
@@ -158,11 +158,11 @@ fn compared(assessment: &Assessment, design: &Design, sentences: &mut Vec<String
 
 fn not_alike(other: &OtherSetting) -> String {
     format!(
-        "Mind that the motion takes {} s in {} intervals, while the best motion is for the experiment's {} s in {} intervals.",
+        "Mind that the motion takes {} s in {}, while the best motion is for the experiment's {} s in {}.",
         number::short(other.duration_s),
-        other.intervals,
+        number::counted(other.intervals, "interval"),
         number::short(other.experiment_duration_s),
-        other.experiment_intervals
+        number::counted(other.experiment_intervals, "interval")
     )
 }
 
@@ -187,7 +187,7 @@ fn criterion_table(assessment: &Assessment) -> String {
         "criterion {}, {}{}",
         assessment.criterion.letter(),
         assessment.criterion.formula(),
-        scaling(&assessment.criterion)
+        assessment.criterion.scaling()
     );
     let mut table = Table::new("", &[name.as_str(), "value", "efficiency of your motion"]);
     let mut row = |name: &str, value: f64, efficiency: Option<f64>| {

@@ -65,6 +65,11 @@ pub fn significant(value: f64, digits: usize) -> String {
     fixed(value, decimals_for(value, digits))
 }
 
+/// So many of something: `1 interval`, `10 intervals`.
+pub fn counted(count: usize, what: &str) -> String {
+    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
+}
+
 /// A number that someone wrote down, such as a nominal value: at most six significant digits, no trailing zeros.
 pub fn short(value: f64) -> String {
     if value == 0.0 { "0".to_string() } else { without_trailing_zeros(&significant(value, 6)) }

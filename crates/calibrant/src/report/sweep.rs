@@ -1,7 +1,7 @@
 //! The report on a sweep: what can be had as one thing about the experiment changes.
 
 use super::About;
-use super::design::{above, scaling, status};
+use super::design::{above, status};
 use super::figure::{DisplayUnit, sweep_curves};
 use super::html::{Page, escape, facts, verdict_box};
 use super::number;
@@ -31,7 +31,7 @@ pub fn sweep_report(sweep: &Sweep, about: &About) -> String {
             "Minimised was criterion {}, {}{}.",
             sweep.criterion.letter(),
             sweep.criterion.formula(),
-            scaling(&sweep.criterion)
+            sweep.criterion.scaling()
         ),
     );
     page.push(table(sweep));

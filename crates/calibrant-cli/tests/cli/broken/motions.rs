@@ -10,6 +10,7 @@ const CASES: &[(&[u8], &str)] = &[
     (b"0,1,2,3\n1,2,3,4\n", ":1:1: there is no header, the first field is 0"),
     (b"t_s,ax,ay,az\n0,1,2,3\n1,2,3,4\n", ":1:5: column `ax` is not known"),
     (b"t_s,ax_mps2,ay_mps2\n0,1,2\n1,2,3\n", ":1: column az_mps2 is missing"),
+    (b"t_s,ax_mps2\n0,1\n1,2\n", ":1: columns ay_mps2, az_mps2 are missing"),
     (b"t_s,ax_mps2,ay_mps2,az_mps2\n0,1,2,3\n1,nan,3,4\n", ":3:3: \"nan\" for axis x is not a usable number"),
     (
         b"t_s,ax_mps2,ay_mps2,az_mps2\n0,1,2,3\n1,2,1e300,4\n",

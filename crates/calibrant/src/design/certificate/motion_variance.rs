@@ -32,6 +32,8 @@ pub(crate) enum BoundKind {
     Stretches,
     /// Every node at its largest acceleration at once.
     Reach,
+    /// Every node as far from the middle of the motion as the largest jerk takes it.
+    Jerk,
 }
 
 impl BoundKind {
@@ -55,6 +57,9 @@ impl BoundKind {
             }
             Self::Reach => {
                 "every node was taken at its largest acceleration at once, which no motion may be able to do: can be loose by a factor"
+            }
+            Self::Jerk => {
+                "in the time that there is, the largest jerk takes no node further from the acceleration in the middle; exact where a straight line keeps the limits"
             }
         }
     }
@@ -109,6 +114,7 @@ pub(super) fn bound_within(
         best =
             bound.into_iter().fold(best.clone(), |best, new| if new.value < best.value { new } else { best });
     };
+    consider(by_jerk(chain, &reach));
     if n > most {
         consider(stretches(chain, &reach, States { velocity, displacement, sum: false }, max_iterations));
         return Some(best);
@@ -131,6 +137,21 @@ pub(super) fn bound_within(
         consider(with_order(false, if velocity && n <= MOST_HIGH_ORDER { most_order } else { 2 }));
     }
     Some(best)
+}
+
+/// What the jerk alone admits: `V ≤ Σ (α − c)² + (mass − M) c² + 2 |shift| |c|` for every c, here the acceleration in the middle of the motion.
+///
+/// The relaxations divide by the largest acceleration, beside which a small jerk is lost in the solver's tolerance; this bound is not.
+fn by_jerk(chain: &AxisChain, reach: &Reach) -> Option<MotionVarianceBound> {
+    let (n, jerk) = (chain.sums.len(), chain.limits.jerk?);
+    let samples: f64 = chain.sums.iter().map(|sum| sum.samples).sum();
+    let apart =
+        (0..=n).map(|i| jerk * chain.interval_s * (i as f64 - n as f64 / 2.0).abs()).collect::<Vec<_>>();
+    let middle = reach.a[n / 2].max(reach.a[n.div_ceil(2)]);
+    let spread = Reach { a: apart, ..reach.clone() }.sum_of_squares(chain, 0..n);
+    let value = spread + (chain.mass - samples).max(0.0) * middle * middle + 2.0 * chain.shift.abs() * middle;
+    let kind = BoundKind::Jerk;
+    value.is_finite().then_some(MotionVarianceBound { value, kind, solved: true, correction: 0.0 })
 }
 
 fn relax(segment: &Segment<'_>, max_iterations: u32, kind: BoundKind) -> Option<MotionVarianceBound> {

@@ -103,6 +103,28 @@ fn small_motions_have_the_optimum_of_hand() {
 }
 
 #[test]
+fn a_slow_motion_is_bounded_by_its_jerk_whatever_the_acceleration() {
+    // a jerk of 0.001 for 10 s, beside an acceleration of 500: the best motion is a straight line
+    let chain = case(10, AxisLimits { acceleration: Some(500.0), jerk: Some(1e-3), ..D1 });
+    let line: Vec<f64> = (0..=10).map(|i| 1e-3 * f64::from(i)).collect();
+    let best = variance(&chain, &line);
+    let bound = motion_variance_bound(&chain).expect("bounded");
+    assert_eq!(bound.kind, BoundKind::Jerk);
+    assert!(
+        bound.value >= best * (1.0 - 1e-12) && bound.value < best * (1.0 + 1e-9),
+        "{} {best}",
+        bound.value
+    );
+    // what is known of the bias before counts too
+    let informed = AxisChain { shift: 0.3, mass: chain.mass + 20.0, ..chain };
+    let bound = motion_variance_bound(&informed).expect("bounded");
+    for offset in [-500.0, -1.0, 0.0, 1.0, 500.0_f64] {
+        let a: Vec<f64> = line.iter().map(|a| (a + offset).clamp(-500.0, 500.0)).collect();
+        assert!(bound.value >= variance(&informed, &a), "{bound:?} {offset}");
+    }
+}
+
+#[test]
 fn nothing_that_bounds_the_motion_is_no_bound() {
     assert_eq!(motion_variance_bound(&case(3, AxisLimits { acceleration: None, ..D1 })), None);
 }
@@ -248,11 +270,13 @@ mod of_a_design {
     use crate::design::certificate::certify;
     use crate::design::{DesignProblem, evaluate};
     use crate::information::Criterion;
-    use crate::information::criterion::{AOptimality, COptimality, DOptimality, EOptimality, MOptimality};
+    use crate::information::criterion::{
+        AOptimality, COptimality, DOptimality, EOptimality, IOptimality, MOptimality,
+    };
     use crate::motion::{InputNoise, JerkControlledMotion, KnownEnds, Limits, Trust};
     use crate::sensor::{Sensor, SensorModel, SensorParameters};
     use crate::simulate::{Purpose, initial_motion, stream};
-    use nalgebra::{DMatrix, DVector, Vector3};
+    use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
     fn problem<'a>(sensor: &'a Sensor, limits: &'a Limits, trust: Trust) -> DesignProblem<'a> {
         let scale = DVector::repeat(sensor.parameter_list().len(), 1.0);
@@ -295,6 +319,24 @@ mod of_a_design {
     }
 
     #[test]
+    fn a_bound_that_is_met_exactly_is_not_passed_by_rounding() {
+        let sensor = Sensor { axes: 1, ..Sensor::memsic_mxd2020u() };
+        let limits = box_limits(30.0);
+        let mut problem = problem(&sensor, &limits, Trust::Known);
+        problem.criterion = Criterion::C(COptimality { weights: DVector::from_vec(vec![1.0, 0.0]) });
+        // without a mean the bias is known as well as it can be
+        for number in 1..100 {
+            let size = 0.1 * f64::from(number);
+            problem.prior = Some(DMatrix::from_diagonal(&DVector::from_vec(vec![100.0 / size, 4e4 * size])));
+            let nodes = (0..=10).map(|i| Vector3::repeat(size * (f64::from(i) - 5.0) / 5.0)).collect();
+            let motion = JerkControlledMotion::uniform(1.0, nodes).expect("a motion");
+            let value = evaluate(&problem, &motion).expect("determined").value;
+            let certificate = certify(&problem, value).expect("determined").expect("bounded");
+            assert!((0.0..1e-9).contains(&certificate.gap), "{number}: {}", certificate.gap);
+        }
+    }
+
+    #[test]
     fn no_motion_beats_the_certificate_of_any_criterion() {
         let limits = box_limits(5.0);
         for model in [SensorModel::ScaleBias, SensorModel::Full] {
@@ -305,7 +347,12 @@ mod of_a_design {
                 let sensor = Sensor { model, ..Sensor::memsic_mxd2020u() };
                 let mut problem = problem(&sensor, &limits, trust);
                 problem.intervals = 6;
-                let size = sensor.parameter_list().len();
+                if model == SensorModel::Full {
+                    // not the nominal one: the weights of I are diagonal there
+                    problem.at.matrix = Matrix3::new(1.0, 0.3, -0.05, 0.02, 0.98, 0.2, 0.1, -0.4, 1.02);
+                }
+                let list = sensor.parameter_list();
+                let size = list.len();
                 let ones = DVector::repeat(size, 1.0);
                 let prior = DMatrix::from_fn(size, size, |i, j| 1e4 / (1.0 + (i as f64 - j as f64).abs()));
                 let mut rng = stream(3, Purpose::Motion, number as u64);
@@ -322,6 +369,7 @@ mod of_a_design {
                     Criterion::E(EOptimality { scale: ones.clone() }),
                     Criterion::M(MOptimality { scale: ones.clone() }),
                     Criterion::C(COptimality { weights: ones.clone() }),
+                    Criterion::I(IOptimality::new(&list, &problem.at, 20.0).expect("regular")),
                 ] {
                     for prior in [None, Some(prior.clone())] {
                         problem.criterion = criterion.clone();

@@ -67,6 +67,9 @@ fn independence(criterion: &Criterion, at: &DMatrix<f64>) -> f64 {
     if scaled.amax() == 0.0 { 1.0 } else { (1.0 + scaled.symmetric_eigenvalues().min() - 1e-14).max(0.0) }
 }
 
+/// By how much, relatively, rounding may have made a bound on the information too small: a bound that the motion meets exactly must not end above its value.
+const ROUNDING: f64 = 1e-12;
+
 /// Lower bounds on variances, with what they share.
 struct Bounds<'a> {
     problem: &'a DesignProblem<'a>,
@@ -86,7 +89,10 @@ impl Bounds<'_> {
     fn variance(&mut self, place: usize, quantity: Quantity, all: &[Quantity]) -> Option<f64> {
         let prior = |i: usize, j: usize| self.problem.prior.as_ref().map_or(0.0, |prior| prior[(i, j)]);
         let (row, column) = match quantity {
-            Quantity::Bias(_) => return Some(1.0 / (self.still[(place, place)] + prior(place, place))),
+            Quantity::Bias(_) => {
+                let information = self.still[(place, place)] + prior(place, place);
+                return Some(1.0 / (information * (1.0 + ROUNDING)));
+            }
             Quantity::Scale(axis) => (axis.index(), axis.index()),
             Quantity::CrossAxis(row, column) => (row.index(), column.index()),
             // no motion is designed for this parametrisation
@@ -142,7 +148,7 @@ impl Bounds<'_> {
                 }
             }
         }
-        (information.is_finite() && information > 0.0).then(|| 1.0 / information)
+        (information.is_finite() && information > 0.0).then(|| 1.0 / (information * (1.0 + ROUNDING)))
     }
 
     fn explain(&mut self, reason: &str) {

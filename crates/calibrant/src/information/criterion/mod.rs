@@ -75,6 +75,24 @@ impl Criterion {
         }
     }
 
+    /// What the parameters are divided by before they are compared, to be said behind the formula: empty where that changes nothing (I), or is part of the
+    /// weights (c).
+    #[must_use]
+    pub fn scaling(&self) -> &'static str {
+        let scale = match self {
+            Self::A(a) => &a.scale,
+            Self::D(d) => &d.scale,
+            Self::E(e) => &e.scale,
+            Self::M(m) => &m.scale,
+            Self::C(_) | Self::I(_) => return "",
+        };
+        if scale.iter().all(|&s| s == 1.0) {
+            ", in SI units"
+        } else {
+            ", each parameter divided by its datasheet spread"
+        }
+    }
+
     /// Its value at a covariance.
     #[must_use]
     pub fn value(&self, covariance: &DMatrix<f64>) -> f64 {

@@ -8,7 +8,7 @@ mod verdict;
 pub(super) use limits::limit_table;
 pub(super) use promised::{above, promised_table, times};
 pub(super) use starts::status;
-pub(super) use verdict::{scaling, undetermined_items, violation};
+pub(super) use verdict::{undetermined_items, violation};
 
 use super::About;
 use super::figure::{
@@ -48,7 +48,7 @@ pub fn design_report(design: &Design, about: &About) -> String {
         "What was minimised: criterion {}, {} (C is the covariance of the parameters{}).",
         design.criterion.letter(),
         design.criterion.formula(),
-        scaling(&design.criterion)
+        design.criterion.scaling()
     ));
     page.push(criterion_table(design));
     if let Some(certificate) = &design.certificate {

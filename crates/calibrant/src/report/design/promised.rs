@@ -76,9 +76,13 @@ pub(in crate::report) fn times(factor: f64) -> String {
     }
 }
 
-/// An excess over a bound; rounding may put it a hair below zero.
+/// An excess over a bound; rounding may put it a hair below zero. A loose bound is a matter of factors.
 pub(in crate::report) fn above(excess: f64) -> String {
-    if excess.abs() < 5e-5 { "< 0.01 %".to_string() } else { number::percent(excess) }
+    match excess {
+        _ if excess.abs() < 5e-5 => "< 0.01 %".to_string(),
+        _ if excess < 10.0 => number::percent(excess),
+        _ => format!("{} times", number::significant(excess, 2)),
+    }
 }
 
 /// The criterion's value for both motions, and its bound.
@@ -109,7 +113,7 @@ pub(in crate::report) fn criterion_table(design: &Design) -> String {
         row(
             "lower bound",
             shown(certificate.lower_bound),
-            format!("No admissible motion is below it; the optimal motion is at most {gap} above."),
+            format!("No admissible motion is below it; the optimal motion is at most {gap} above it."),
         );
     }
     table.html()

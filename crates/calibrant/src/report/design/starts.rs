@@ -1,13 +1,11 @@
 //! The starts of the search in numbers.
 
-use crate::design::{DesignStatus, StartOutcome};
+use crate::design::{AT_BEST, DesignStatus, StartOutcome};
 use crate::information::Criterion;
 use crate::report::number;
 use crate::report::table::{Cell, Table};
 use crate::sensor::Axis;
 
-/// Starts that end within this of the best (relatively; for criterion D in nats) count as having reached it.
-const REACHED: f64 = 1e-5;
 /// A longer table is folded.
 const MOST_UNFOLDED: usize = 40;
 
@@ -26,7 +24,7 @@ impl StartGroup<'_> {
 
     /// How many reached the best.
     pub(in crate::report) fn reached(&self) -> usize {
-        self.sorted.iter().filter(|start| self.excess(start).abs() <= REACHED).count()
+        self.sorted.iter().filter(|start| self.excess(start).abs() <= AT_BEST).count()
     }
 }
 
@@ -57,8 +55,8 @@ pub(in crate::report) fn name(axes: &[Axis]) -> String {
 /// One sentence for each group: how many starts reached its best value.
 pub(in crate::report) fn sentences(starts: &[StartOutcome], criterion: &Criterion) -> Vec<String> {
     let within = match criterion {
-        Criterion::D(_) => format!("{} nats", number::significant(REACHED, 1)),
-        _ => format!("{} %", number::short(100.0 * REACHED)),
+        Criterion::D(_) => format!("{} nats", number::significant(AT_BEST, 1)),
+        _ => format!("{} %", number::short(100.0 * AT_BEST)),
     };
     groups(starts, criterion)
         .iter()
@@ -100,8 +98,8 @@ pub(in crate::report) fn start_table(starts: &[StartOutcome], criterion: &Criter
             let excess = group.excess(start);
             let excess = match criterion {
                 Criterion::D(_) => number::significant(excess, 2),
-                _ if excess.abs() < 5e-13 => "0 %".to_string(),
-                _ if excess.abs() < 1e-4 => format!("{} ppm", number::significant(1e6 * excess, 2)),
+                _ if excess == 0.0 => "0 %".to_string(),
+                _ if excess <= AT_BEST => format!("< {} %", number::short(100.0 * AT_BEST)),
                 _ => number::percent(excess),
             };
             let cells = vec![

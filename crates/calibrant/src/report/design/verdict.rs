@@ -94,13 +94,14 @@ fn bound(design: &Design, certificate: &Certificate, sentences: &mut Vec<String>
     let unit = DisplayUnit::suited(parameter.unit, sd);
     let shown = |value: f64| format!("{} {}", number::significant(value * unit.factor, 4), unit.symbol);
     sentences.push(format!(
-        "No motion within the limits can give {} a standard deviation below {}; this one gives {}, {} above that.",
+        "No motion within the limits can give {} a standard deviation below {}; this one gives {}, {}.",
         parameter.name,
         shown(least).trim_end(),
         shown(sd).trim_end(),
         match sd / least - 1.0 {
-            excess if excess < 5e-5 => "less than 0.01 %".to_string(),
-            excess => number::percent(excess),
+            excess if excess < 5e-5 => "less than 0.01 % above that".to_string(),
+            excess if excess < 1.0 => format!("{} above that", number::percent(excess)),
+            excess => format!("{} times that", number::significant(1.0 + excess, 2)),
         }
     ));
     if excess.len() > 1 {
@@ -162,18 +163,6 @@ fn improvement(design: &Design) -> Option<String> {
         );
     }
     Some(sentence)
-}
-
-/// What the criterion's covariance was divided by, in words.
-pub(in crate::report) fn scaling(criterion: &Criterion) -> &'static str {
-    let scale = match criterion {
-        Criterion::A(a) => &a.scale,
-        Criterion::D(d) => &d.scale,
-        Criterion::E(e) => &e.scale,
-        Criterion::M(m) => &m.scale,
-        Criterion::C(_) | Criterion::I(_) => return "",
-    };
-    if scale.iter().all(|&s| s == 1.0) { ", in SI units" } else { ", each divided by its datasheet spread" }
 }
 
 /// One item for each group of parameters that a motion leaves undetermined.

@@ -1,7 +1,6 @@
 //! What a study of initial against optimal motions was asked for.
 
 use crate::motion::{KnownEnds, Rest, Trust};
-use crate::report::design::scaling;
 use crate::report::number;
 use crate::report::table::{Cell, Table};
 use crate::sensor::Axis;
@@ -32,7 +31,7 @@ pub(super) fn settings(study: &DesignStudy) -> String {
             "criterion {}, {}{}",
             study.criterion.letter(),
             study.criterion.formula(),
-            scaling(&study.criterion)
+            study.criterion.scaling()
         ),
     );
     let initial = if study.initial_given {
