@@ -1,7 +1,7 @@
 //! The noise of a sensor on stdout.
 
 use crate::console;
-use calibrant::noise::{Coefficient, PowerLaw, TriadNoise, coefficient_units};
+use calibrant::noise::{Coefficient, CoefficientUnit, PowerLaw, TriadNoise, coefficient_units};
 use calibrant::report::{coefficient_name, number};
 
 /// Coefficients, samples, and why something is not determined.
@@ -16,7 +16,7 @@ pub(super) fn of(noise: &TriadNoise) -> String {
         number::significant(stretch.rate_hz(), 5)
     );
     let mut rows = Vec::new();
-    let mut reasons: Vec<(String, Vec<String>)> = Vec::new();
+    let mut reasons: Vec<(String, String)> = Vec::new();
     for process in [PowerLaw::White, PowerLaw::Flicker, PowerLaw::RandomWalk, PowerLaw::Quantisation] {
         let units = coefficient_units(noise.triad, process, noise.unit);
         for axis in &noise.axes {
@@ -36,22 +36,30 @@ pub(super) fn of(noise: &TriadNoise) -> String {
                     vec![name, number::with_sd(found.value, found.sd), interval, unit, customary.join(", ")]
                 }
                 Coefficient::NotDetermined { limit, reason } => {
-                    match reasons.iter_mut().find(|(known, _)| known == reason) {
-                        Some((_, names)) => names.push(name.clone()),
-                        None => reasons.push((reason.clone(), vec![name.clone()])),
+                    let what = coefficient_name(noise, process);
+                    match reasons.iter_mut().find(|(known, names)| known == reason && names.starts_with(what))
+                    {
+                        Some((_, names)) => names.push_str(&format!(", {}", axis.axis)),
+                        None => reasons.push((reason.clone(), name.clone())),
                     }
+                    let customary: Vec<String> = limit.map_or_else(Vec::new, |limit| {
+                        let below = |unit: &CoefficientUnit| {
+                            format!("< {} {}", number::significant(unit.factor * limit, 2), unit.symbol)
+                        };
+                        units[1..].iter().map(below).collect()
+                    });
                     let limit = limit.map_or_else(
                         || "–".to_owned(),
                         |limit| format!("< {}", number::significant(limit, 2)),
                     );
-                    vec![name, "not determined".to_owned(), limit, unit, String::new()]
+                    vec![name, "not determined".to_owned(), limit, unit, customary.join(", ")]
                 }
             });
         }
     }
     text.push_str(&console::table(&["coefficient", "value ± sd", "95 %", "unit", "customary"], &rows));
     for (reason, names) in reasons {
-        text.push_str(&format!("  not determined, {}: {reason}\n", names.join(", ")));
+        text.push_str(&format!("  {names} not determined: {reason}\n"));
     }
     let list = |values: &dyn Fn(usize) -> Option<f64>| {
         let shown = |k| values(k).map_or_else(|| "–".to_owned(), |value| number::significant(value, 3));

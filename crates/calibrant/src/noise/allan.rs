@@ -41,7 +41,8 @@ pub struct AllanPoint {
     pub tau_s: f64,
     /// σ(τ), in the unit of the readings.
     pub deviation: f64,
-    /// The process that dominates there, by the lag-1 autocorrelation of the cluster means; that of the cluster time before where there are too few clusters to tell.
+    /// The process that dominates there, by the lag-1 autocorrelation of the cluster means. Slopes of a sum of processes only rise with the cluster
+    /// time, so it is never one of a lower slope than before; with fewer than 30 clusters it is that of the cluster time before.
     pub process: PowerLaw,
     /// Equivalent degrees of freedom of σ² under this process.
     pub degrees_of_freedom: f64,
@@ -74,11 +75,11 @@ impl AllanDeviation {
             )));
         }
         let phase = phase(readings);
-        let mut process = PowerLaw::White;
+        let mut process = PowerLaw::ALL[0];
         let points = cluster_sizes(n)
             .into_iter()
             .map(|m| {
-                process = identify(&phase, m).unwrap_or(process);
+                process = process.max(identify(&phase, m).unwrap_or(PowerLaw::White));
                 AllanPoint::of(&phase, m, interval_s, process)
             })
             .collect();

@@ -151,7 +151,11 @@ impl<'a> Regression<'a> {
             let least = (0..active.len()).min_by(|&i, &j| excess(i).total_cmp(&excess(j)));
             match least {
                 Some(i) if active.len() > 1 && excess(i) < 0.0 => drop(active.remove(i)),
-                _ => return regression,
+                // of two that cannot be told apart, one stands for both
+                _ => match regression.weaker_rival(&significance) {
+                    Some(i) => drop(active.remove(i)),
+                    None => return regression,
+                },
             }
         }
     }
@@ -203,6 +207,14 @@ impl<'a> Regression<'a> {
     /// How many standard deviations the square of a coefficient is above zero.
     fn significance(&self, i: usize) -> f64 {
         self.theta[self.active[i]] / self.variance(i, 0.0).sqrt()
+    }
+
+    /// The less significant of bias instability and rate random walk, where both are active and neither is significant.
+    fn weaker_rival(&self, significance: &[f64]) -> Option<usize> {
+        let position = |process: PowerLaw| self.active.iter().position(|&a| a == process as usize);
+        let (b, k) = (position(PowerLaw::Flicker)?, position(PowerLaw::RandomWalk)?);
+        let neither = significance[b].max(significance[k]) < SIGNIFICANT;
+        neither.then_some(if significance[b] < significance[k] { b } else { k })
     }
 
     fn p_value(&self) -> Option<f64> {
@@ -300,25 +312,20 @@ impl<'a> Regression<'a> {
         let longest = tau(scales[scales.len() - 1]);
         let name = |a: usize| ["quantisation", "white noise", "bias instability", "rate random walk"][a];
         let here = process as usize;
+        let apart = format!(
+            "bias instability and rate random walk cannot be told apart with cluster times up to {longest}: record for longer"
+        );
         if self.active.contains(&here) {
             let flat = |a: usize| a >= PowerLaw::Flicker as usize;
             let beside = self.active.iter().copied().find(|&a| a != here && flat(a) && flat(here));
             let rival = self.rival(here).or(beside);
             return match rival {
-                Some(rival) => format!(
-                    "{} and {} cannot be told apart with cluster times up to {longest}: record for longer",
-                    name(here),
-                    name(rival)
-                ),
+                Some(_) => apart,
                 None => format!("it is hardly seen in cluster times up to {longest}: record for longer"),
             };
         }
-        if let Some(&rival) = self.active.iter().find(|&&a| self.rival(a) == Some(here)) {
-            return format!(
-                "{} and {} cannot be told apart with cluster times up to {longest}: record for longer",
-                name(rival),
-                name(here)
-            );
+        if self.active.iter().any(|&a| self.rival(a) == Some(here)) {
+            return apart;
         }
         let others: Vec<&str> = self.active.iter().map(|&a| name(a)).collect();
         let explain = if others.len() == 1 { "explains" } else { "explain" };

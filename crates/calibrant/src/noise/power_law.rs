@@ -12,7 +12,7 @@ use std::f64::consts::{LN_2, PI};
 /// // flicker noise of B = 1 has a flat Allan deviation of 0.664
 /// assert!((PowerLaw::Flicker.allan_variance(1000.0).sqrt() - 0.664).abs() < 1e-3);
 /// ```
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum PowerLaw {
     /// White noise of the angle or velocity, coefficient Q.
     Quantisation,

@@ -7,6 +7,11 @@ use super::number;
 use super::table::{Cell, Table};
 use crate::noise::{AxisNoise, Coefficient, PowerLaw, TriadNoise, coefficient_units};
 
+/// Samples that scatter more than white noise by this factor are disturbed.
+const DISTURBED: f64 = 1.05;
+/// Samples that scatter less by this factor are correlated.
+const FILTERED: f64 = 0.95;
+
 /// The noise of one or two sensors as one HTML file: what is determined, the Allan deviation plots, tables in SI and in customary units.
 ///
 /// Self-contained as [`calibration_report`](super::calibration_report) is.
@@ -31,8 +36,8 @@ pub(super) fn noise_section(page: &mut Page, noise: &TriadNoise) {
         &format!(
             "From {} samples at rest, {} to {} s, at {} Hz.",
             number::count(stretch.samples()),
-            number::significant(stretch.start_s, 5),
-            number::significant(stretch.end_s, 5),
+            number::fixed(stretch.start_s, 2),
+            number::fixed(stretch.end_s, 2),
             number::significant(stretch.rate_hz(), 5)
         ),
     );
@@ -56,94 +61,85 @@ pub fn coefficient_name(noise: &TriadNoise, process: PowerLaw) -> &'static str {
 }
 
 fn coefficient_table(noise: &TriadNoise) -> String {
-    let mut table = Table::new("", &["", "value ± sd", "95 % interval", "unit", "customary"]);
-    let order = [PowerLaw::White, PowerLaw::Flicker, PowerLaw::RandomWalk, PowerLaw::Quantisation];
-    for process in order {
-        let units = coefficient_units(noise.triad, process, noise.unit);
+    let mut table = Table::new(
+        "",
+        &["", "value ± sd", "95 % interval, and the same in customary units; or why it is not determined"],
+    );
+    for process in [PowerLaw::White, PowerLaw::Flicker, PowerLaw::RandomWalk, PowerLaw::Quantisation] {
         for axis in &noise.axes {
-            let name = Cell::Name(format!("{} {}", coefficient_name(noise, process), axis.axis));
-            let unit = Cell::Text(units[0].symbol.to_string());
-            match axis.fit.model.coefficient(process) {
-                Coefficient::Determined(found) => {
-                    let mut customary: Vec<String> = units[1..]
-                        .iter()
-                        .map(|unit| {
-                            format!(
-                                "{} {}",
-                                number::with_sd(unit.factor * found.value, unit.factor * found.sd),
-                                unit.symbol
-                            )
-                        })
-                        .collect();
-                    if let (PowerLaw::Flicker, Some(tau)) = (process, axis.fit.flat_tau_s) {
-                        customary.push(format!("clearest at {} s", number::significant(tau, 2)));
-                    }
-                    table.row(vec![
-                        name,
-                        Cell::Number(number::with_sd(found.value, found.sd)),
-                        Cell::Number(format!(
-                            "{} to {}",
-                            number::significant(found.low, 3),
-                            number::significant(found.high, 3)
-                        )),
-                        unit,
-                        Cell::Words(customary.join("; ")),
-                    ]);
-                }
-                Coefficient::NotDetermined { limit, reason } => table.row(vec![
-                    name,
-                    Cell::Number("not determined".to_string()),
-                    Cell::Number(limit.map_or_else(
-                        || number::UNKNOWN.to_string(),
-                        |limit| format!("below {}", number::significant(limit, 2)),
-                    )),
-                    unit,
-                    Cell::Words(capitalised(reason)),
-                ]),
-            }
+            let name = format!("{} {}", coefficient_name(noise, process), axis.axis);
+            let (value, words) = coefficient_in_words(noise, axis, process);
+            table.row(vec![Cell::Name(name), Cell::Number(value), Cell::Words(words)]);
         }
     }
     table.html()
+}
+
+/// A coefficient with its unit, and what else is known of it.
+fn coefficient_in_words(noise: &TriadNoise, axis: &AxisNoise, process: PowerLaw) -> (String, String) {
+    let units = coefficient_units(noise.triad, process, noise.unit);
+    let unit = units[0].symbol;
+    match axis.fit.model.coefficient(process) {
+        Coefficient::Determined(found) => {
+            let ends = [found.low, found.high].map(|end| number::significant(end, 3));
+            let mut words = vec![format!("95 %: {} to {}", ends[0], ends[1])];
+            words.extend(units[1..].iter().map(|unit| {
+                let found = found.scaled(unit.factor);
+                format!("{} {}", number::with_sd(found.value, found.sd), unit.symbol)
+            }));
+            if let (PowerLaw::Flicker, Some(tau)) = (process, axis.fit.flat_tau_s) {
+                words.push(format!("clearest at {} s", number::significant(tau, 2)));
+            }
+            (format!("{} {unit}", number::with_sd(found.value, found.sd)), words.join("; "))
+        }
+        Coefficient::NotDetermined { limit, reason } => {
+            let limit = limit.map_or_else(String::new, |limit| {
+                let limits: Vec<String> = units
+                    .iter()
+                    .map(|unit| format!("{} {}", number::significant(unit.factor * limit, 2), unit.symbol))
+                    .collect();
+                format!("95 %: below {}. ", limits.join(" = "))
+            });
+            ("not determined".to_string(), format!("{limit}{}.", capitalised(reason)))
+        }
+    }
 }
 
 fn capitalised(text: &str) -> String {
     let mut letters = text.chars();
-    letters.next().map_or_else(String::new, |first| format!("{}{}.", first.to_uppercase(), letters.as_str()))
+    letters.next().map_or_else(String::new, |first| format!("{}{}", first.to_uppercase(), letters.as_str()))
 }
 
+/// The white noise of one sample beside what the samples scatter.
 fn sample_table(noise: &TriadNoise) -> String {
     let unit = noise.unit.symbol();
-    let (white, sd) = (format!("σ = N √rate ({unit})"), format!("sd of the samples ({unit})"));
-    let mut table = Table::new("", &["axis", &white, &sd, "ratio", "what it means"]);
+    let (white, sd) = (format!("N √rate ({unit})"), format!("sd of samples ({unit})"));
+    let mut table = Table::new("", &["axis", &white, &sd, "ratio", "samples"]);
     for axis in &noise.axes {
         let sigma = axis.fit.model.white_noise_per_sample(noise.stretch.rate_hz());
-        let shown = |value: Option<f64>, digits| {
+        let ratio = sigma.map(|sigma| axis.sample_sd / sigma);
+        let shown = |value: Option<f64>| {
             Cell::Number(
-                value.map_or_else(|| number::UNKNOWN.to_string(), |value| number::significant(value, digits)),
+                value.map_or_else(|| number::UNKNOWN.to_string(), |value| number::significant(value, 3)),
             )
+        };
+        let what = match ratio {
+            None => number::UNKNOWN,
+            Some(ratio) if ratio > DISTURBED => "disturbed",
+            Some(ratio) if ratio < FILTERED => "correlated",
+            Some(_) => "independent",
         };
         table.row(vec![
             Cell::Name(axis.axis.to_string()),
-            shown(sigma, 3),
-            shown(Some(axis.sample_sd), 3),
-            shown(sigma.map(|sigma| axis.sample_sd / sigma), 3),
-            Cell::Words(meaning(axis, sigma).to_string()),
+            shown(sigma),
+            shown(Some(axis.sample_sd)),
+            shown(ratio),
+            Cell::Text(what.to_string()),
         ]);
     }
-    table.html()
-}
-
-fn meaning(axis: &AxisNoise, sigma: Option<f64>) -> &'static str {
-    match sigma.map(|sigma| axis.sample_sd / sigma) {
-        None => "The white noise is not determined: use the samples' standard deviation.",
-        Some(ratio) if ratio > 1.15 => {
-            "The samples scatter more than their means: disturbances that average out fast. σ is what a mean of many samples has."
-        }
-        Some(ratio) if ratio < 0.87 => {
-            "The samples scatter less than their means: they are correlated, as after a filter. σ is what a mean of many samples has."
-        }
-        Some(_) => "Both agree: the samples are independent.",
-    }
+    let explanation = "N √rate is the noise that a sample would have if it were independent of the others: the one that says how well a mean of many is known, and \
+                       the one to calibrate with. Samples that scatter less are correlated, as after a filter; those that scatter more are disturbed by something that averages out.";
+    format!("{}<p>{}</p>", table.html(), escape(explanation))
 }
 
 fn verdict(noise: &[TriadNoise], about: &About) -> String {
@@ -155,20 +151,24 @@ fn verdict(noise: &[TriadNoise], about: &About) -> String {
     };
     let total = axes().count();
     let of = |process: PowerLaw, name: &str| match determined(process) {
-        0 => format!("{name} on none"),
-        n if n == total => format!("{name} on all axes"),
-        n => format!("{name} on {n} of {total}"),
+        0 => format!("{name}: on no axis"),
+        n if n == total => format!("{name}: on all axes"),
+        n => format!("{name}: on {n} of {total} axes"),
     };
+    let slow = determined(PowerLaw::Flicker) + determined(PowerLaw::RandomWalk);
     let (class, word) = match () {
-        () if !explained => ("bad", "✗ Not explained."),
+        () if !explained => ("bad", "✗ The noise is not explained."),
         () if drifts || determined(PowerLaw::White) < total => ("caution", "! Look closer."),
-        () => ("good", "✓ The noise is determined as far as this recording goes."),
+        () if slow == 0 => {
+            ("caution", "! White noise is determined; for the slow noises the recording is too short.")
+        }
+        () => ("good", "✓ White noise and slow noise are determined."),
     };
     let sentence = format!(
-        "Determined: {}; {}; {}.",
-        of(PowerLaw::White, "white noise"),
-        of(PowerLaw::Flicker, "bias instability"),
-        of(PowerLaw::RandomWalk, "rate random walk")
+        "White noise (N): {}; {}; {}.",
+        of(PowerLaw::White, "").trim_start_matches(": "),
+        of(PowerLaw::Flicker, "bias instability (B)"),
+        of(PowerLaw::RandomWalk, "rate random walk (K)")
     );
     let warnings = noise.iter().flat_map(|triad| triad.warnings.clone()).collect();
     verdict_box(class, word, &sentence, &[("Warnings", warnings), ("Findings", about.findings.clone())])

@@ -1,6 +1,7 @@
 //! The Allan deviation plot.
 
 use super::panel::{Mark, Panel, Series, Shape};
+use super::unit::DisplayUnit;
 use super::{Figure, colour};
 use crate::noise::{AxisNoise, PowerLaw, TriadNoise};
 
@@ -9,7 +10,8 @@ const LINE: usize = 60;
 
 /// Allan deviation of each axis with its 95 % bounds, the fitted model and the processes that it consists of.
 pub(in crate::report) fn allan_figure(noise: &TriadNoise) -> Figure {
-    let unit = noise.unit.symbol();
+    let highest = noise.axes.iter().flat_map(|axis| &axis.allan.points).map(|point| point.deviation);
+    let unit = DisplayUnit::suited_to(noise.unit.symbol(), highest);
     let mut panels: Vec<Panel> = noise.axes.iter().map(|axis| panel(axis, unit)).collect();
     // the same range everywhere, so that axes can be compared by eye
     let extremes: Vec<f64> =
@@ -26,32 +28,31 @@ pub(in crate::report) fn allan_figure(noise: &TriadNoise) -> Figure {
     } else {
         caption.to_string()
     };
-    Figure::new(format!("Allan deviation of the {}", noise.triad), panels, caption)
+    Figure::new(format!("Allan deviation of the {}", noise.triad), panels, caption).with_columns(2)
 }
 
-fn panel(axis: &AxisNoise, unit: &str) -> Panel {
+fn panel(axis: &AxisNoise, unit: DisplayUnit) -> Panel {
     let points = &axis.allan.points;
     let (first, last) =
         (points.first().map_or(1.0, |point| point.tau_s), points.last().map_or(1.0, |point| point.tau_s));
     let curve = |f: &dyn Fn(f64) -> f64, from: f64, to: f64| -> Vec<(f64, f64)> {
         let tau = |i: usize| from * (to / from).powf(i as f64 / (LINE - 1) as f64);
-        (0..LINE).map(|i| (tau(i), f(tau(i)))).collect()
+        (0..LINE).map(|i| (tau(i), unit.factor * f(tau(i)))).collect()
     };
-    let mut panel = Panel::new(
-        format!("axis {}", axis.axis),
-        "cluster time τ (s)",
-        format!("Allan deviation σ ({unit})"),
-    );
+    let mut panel =
+        Panel::new(format!("axis {}", axis.axis), "cluster time τ (s)", unit.label("Allan deviation σ"));
     (panel.log_x, panel.log_y) = (true, true);
     // a band is symmetric: about the middle of the bounds
-    let middle = points.iter().map(|point| (point.tau_s, 0.5 * (point.low + point.high))).collect();
-    let half = points.iter().map(|point| 0.5 * (point.high - point.low)).collect();
-    let marks = points.iter().map(|point| (point.tau_s, point.deviation)).collect();
+    let middle =
+        points.iter().map(|point| (point.tau_s, 0.5 * unit.factor * (point.low + point.high))).collect();
+    let half = points.iter().map(|point| 0.5 * unit.factor * (point.high - point.low)).collect();
+    let marks = points.iter().map(|point| (point.tau_s, unit.factor * point.deviation)).collect();
     panel = panel
         .with(Series::new("95 % bounds", colour::SKY, Mark::Band, middle).with_spread(half))
         .with(Series::dots("Allan deviation", colour::BLUE, Shape::Circle, marks));
 
-    let (fit, lowest) = (&axis.fit, 0.5 * points.iter().map(|point| point.low).fold(f64::INFINITY, f64::min));
+    let (fit, lowest) =
+        (&axis.fit, 0.5 * unit.factor * points.iter().map(|point| point.low).fold(f64::INFINITY, f64::min));
     let parts = [
         (PowerLaw::Quantisation, "quantisation Q", colour::GREY),
         (PowerLaw::White, "white noise N", colour::GREEN),
@@ -78,6 +79,6 @@ fn panel(axis: &AxisNoise, unit: &str) -> Panel {
             part,
         ));
     }
-    let fitted = curve(&|tau| fit.model.deviation(tau), fit.shortest_tau_s, fit.longest_tau_s.max(last));
+    let fitted = curve(&|tau| fit.model.deviation(tau), fit.shortest_tau_s, fit.longest_tau_s);
     panel.with(Series::line("fit", colour::BLACK, fitted))
 }
