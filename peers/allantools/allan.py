@@ -80,7 +80,7 @@ def main():
         if drift["significant"]:
             print(f"  drift {drift['per_s']:.6f} ± {drift['sd']:.6f} m/s^2/s")
     print(f"calibrant, whole command: {seconds:.3f} s for 3 axes of {samples} samples")
-    sys.exit(failed)
+    sys.exit(int(failed))
 
 
 main()

@@ -200,7 +200,10 @@ mod tests {
                 (3.0 * (points - 1.0) / (2.0 * size) - 2.0 * (points - 2.0) / points) * 4.0 * size * size
                     / (4.0 * size * size + 5.0);
             let found = degrees_of_freedom(PowerLaw::White, n, m);
-            assert!((found / white - 1.0).abs() < 0.01, "white {n} {m}: {found} {white}");
+            assert!(
+                (found / white - 1.0).abs() < if 100 * m < n { 0.01 } else { 0.08 },
+                "white {n} {m}: {found} {white}"
+            );
             let walk = (points - 2.0) / size
                 * ((points - 1.0).powi(2) - 3.0 * size * (points - 1.0) + 4.0 * size * size)
                 / (points - 3.0).powi(2);
