@@ -4,6 +4,7 @@ mod calibrate;
 mod console;
 mod design;
 mod init;
+mod noise;
 mod place;
 mod simulate;
 mod study;
@@ -34,6 +35,7 @@ enum Command {
     Simulate(simulate::Arguments),
     Calibrate(calibrate::Arguments),
     Study(study::Arguments),
+    Noise(noise::Arguments),
 }
 
 /// How a command ended: the exit status.
@@ -76,6 +78,7 @@ fn main() -> ExitCode {
         Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Calibrate(arguments) => calibrate::run(&arguments),
         Command::Study(arguments) => study::run(&arguments),
+        Command::Noise(arguments) => noise::run(&arguments),
     };
     let exit = outcome.unwrap_or_else(|error| {
         console::error(&error);

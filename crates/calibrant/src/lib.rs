@@ -32,6 +32,7 @@
 //! | the motion to find, and how | [`design::DesignProblem`], [`design::DesignSettings`] |
 //! | the best motion, what it promises, and the proof | [`design::Design`], [`design::Certificate`] |
 //! | a motion of one's own beside it; the best as one thing changes | [`design::Assessment`], [`design::Sweep`] |
+//! | the noise of a sensor at rest, its Allan deviation | [`noise::TriadNoise`], [`noise::AllanDeviation`] |
 //! | a population of simulated sensors | [`study::Study`], [`study::DesignStudy`] |
 //!
 //! # An example
@@ -60,7 +61,7 @@
 //!
 //! # The modules
 //! Data flow one way: [`sensor`] and [`motion`] say what is measured; [`arrowhead`] is the one linear-algebra kernel; [`information`] turns
-//! its result into covariance and into words about what is undetermined; [`estimate`] calibrates; [`design`] finds the motion; [`simulate`] makes sensors and recordings;
+//! its result into covariance and into words about what is undetermined; [`noise`] examines a sensor at rest; [`estimate`] calibrates; [`design`] finds the motion; [`simulate`] makes sensors and recordings;
 //! [`study`] compares truth and estimate over many. [`io`] and [`report`] may use all and are used by none.
 
 pub mod arrowhead;
@@ -70,6 +71,7 @@ pub mod estimate;
 pub mod information;
 pub mod io;
 pub mod motion;
+pub mod noise;
 pub mod report;
 pub mod sensor;
 pub mod simulate;

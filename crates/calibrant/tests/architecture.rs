@@ -10,11 +10,15 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("motion", &["error", "sensor"]),
     ("information", &["error", "sensor", "motion", "arrowhead"]),
     ("estimate", &["error", "sensor", "motion", "arrowhead", "information"]),
-    ("simulate", &["error", "sensor", "motion"]),
+    ("noise", &["error", "sensor", "motion"]),
+    ("simulate", &["error", "sensor", "motion", "noise"]),
     ("design", &["error", "sensor", "motion", "arrowhead", "information", "simulate"]),
     ("study", &["error", "sensor", "motion", "information", "simulate", "estimate", "design"]),
-    ("io", &["error", "sensor", "motion", "information", "simulate", "estimate", "design", "study"]),
-    ("report", &["error", "sensor", "motion", "information", "simulate", "estimate", "design", "study"]),
+    ("io", &["error", "sensor", "motion", "information", "noise", "simulate", "estimate", "design", "study"]),
+    (
+        "report",
+        &["error", "sensor", "motion", "information", "noise", "simulate", "estimate", "design", "study"],
+    ),
 ];
 
 fn sources(directory: &Path) -> Vec<PathBuf> {

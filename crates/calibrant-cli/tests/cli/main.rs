@@ -9,6 +9,7 @@ mod design;
 mod determinism;
 mod examples;
 mod many;
+mod noise;
 mod real;
 mod repaired;
 mod undetermined;

@@ -8,6 +8,7 @@
 //! | `calibration.json` | [`read_calibration`], as what is known before a design | [`write_calibration`] |
 //! | `design.json`, `motion_dense.csv` | | [`write_design`], [`write_dense_motion`] |
 //! | `evaluation.json`, `sweep.json`, `sweep.csv` | | [`write_evaluation`], [`write_sweep`], [`write_sweep_csv`] |
+//! | `noise.json` | | [`write_noise`] |
 //! | `truth.json`, `study.json`, `summary.csv` | | [`write_truth`], [`write_study`], [`write_summary`] |
 //!
 //! Everything is SI inside; conversions happen here. No input makes the readers panic, and no NaN or infinity passes them. Every
@@ -24,6 +25,7 @@ mod experiment;
 mod fields;
 mod json;
 mod motion;
+mod noise;
 mod output;
 mod preset;
 mod recording;
@@ -43,6 +45,7 @@ pub use experiment::{
     Prior, ScaleBy, StudyOptions, UnknownVariant,
 };
 pub use motion::{parse_motion, read_motion, write_motion};
+pub use noise::{noise_json, write_noise};
 pub use output::write_atomically;
 pub use preset::{PRESETS, preset};
 pub use recording::{

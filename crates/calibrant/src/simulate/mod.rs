@@ -5,12 +5,14 @@
 
 mod holds;
 mod initial_motion;
+mod noise;
 mod population;
 mod recording;
 
 pub use crate::motion::sample_times;
 pub use holds::{HoldsSimulation, simulate_holds};
 pub use initial_motion::initial_motion;
+pub use noise::simulate_noise;
 pub use population::draw_sensor;
 pub use recording::{perturb, simulate_recording};
 

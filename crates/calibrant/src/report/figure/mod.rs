@@ -4,6 +4,7 @@
 //! not, each its own SVG that scales with its column, so that letters stay legible on a phone. The legend is made from the
 //! series themselves. [`draw`] is the only place that knows the plotting library.
 
+mod allan;
 mod correlation;
 mod design_population;
 mod draw;
@@ -21,6 +22,7 @@ mod sweep;
 mod thin;
 mod unit;
 
+pub(super) use allan::allan_figure;
 pub(super) use correlation::correlation_map;
 pub(super) use design_population::{absolute_errors, optimal_motions, traces};
 pub(super) use ellipse::confidence_ellipses;

@@ -10,7 +10,7 @@ pub(in crate::report) struct DisplayUnit {
 }
 
 impl DisplayUnit {
-    /// A unit in which `largest`, given in `unit`, is neither tiny nor long: mm/s² and µm/s² for m/s²; % and
+    /// A unit in which `largest`, given in `unit`, is neither tiny nor long: mm/s² and µm/s² for m/s²; mrad/s for rad/s; % and
     /// ppm for `1`.
     pub(in crate::report) fn suited(unit: &'static str, largest: f64) -> Self {
         let small = largest > 0.0 && largest < 0.03;
@@ -18,6 +18,7 @@ impl DisplayUnit {
             "1" if small && largest > 2e-3 => Self { factor: 100.0, symbol: "%" },
             "m/s²" if small && largest < 3e-5 => Self { factor: 1e6, symbol: "µm/s²" },
             "m/s²" if small => Self { factor: 1e3, symbol: "mm/s²" },
+            "rad/s" if small => Self { factor: 1e3, symbol: "mrad/s" },
             "1" if small => Self { factor: 1e6, symbol: "ppm" },
             "1" => Self { factor: 1.0, symbol: "" },
             other => Self { factor: 1.0, symbol: other },

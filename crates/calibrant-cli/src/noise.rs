@@ -1,0 +1,186 @@
+//! `calibrant noise`: Allan deviation and noise of a sensor at rest.
+
+mod read;
+mod table;
+
+use crate::{Exit, console, place};
+use calibrant::Error;
+use calibrant::error::Complaint;
+use calibrant::estimate::find_holds;
+use calibrant::io::{noise_json, write_atomically, write_noise};
+use calibrant::noise::{Stretch, TriadNoise};
+use calibrant::report::{About, noise_report, number};
+use calibrant::sensor::{ReadingUnit, Recording, Triad};
+use nalgebra::Vector3;
+use std::path::PathBuf;
+use std::time::Instant;
+
+/// Shortest hold that is looked for, s.
+const SHORTEST_HOLD_S: f64 = 1.0;
+
+/// Find the noise of a sensor at rest: Allan deviation, random walks, bias instability.
+///
+/// The longest hold of the recording is examined, or the interval of --hold. What the recording is too short to tell is reported as not
+/// determined. Writes noise.json and report.html into DIR.
+#[derive(clap::Args)]
+pub(crate) struct Arguments {
+    /// Recording: CSV with header t_s,ax,ay,az, or text with columns t x y z.
+    recording: PathBuf,
+    /// What the columns are readings of.
+    #[arg(long, value_enum, default_value = "accelerometer")]
+    sensor: SensorKind,
+    /// Unit of the readings where the file does not say.
+    #[arg(long, value_enum)]
+    unit: Option<Unit>,
+    /// Nominal gain in counts per m/s² or rad/s (one number or x,y,z): states the noise of readings in counts in SI and customary units.
+    #[arg(long, value_name = "GAIN", value_delimiter = ',', num_args = 1..=3)]
+    gain: Vec<f64>,
+    /// Start and end of the interval at rest, s (default: the longest hold that is found).
+    #[arg(long, num_args = 2, value_names = ["START", "END"], allow_negative_numbers = true)]
+    hold: Option<Vec<f64>>,
+    /// Print noise.json on stdout in place of the tables.
+    #[arg(long)]
+    json: bool,
+    /// Directory for noise.json and report.html.
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, clap::ValueEnum)]
+enum SensorKind {
+    Accelerometer,
+    Gyroscope,
+}
+
+#[derive(Clone, Copy, clap::ValueEnum)]
+enum Unit {
+    /// Metres per second squared.
+    Mps2,
+    /// Radians per second.
+    Radps,
+    /// Raw counts.
+    Counts,
+}
+
+impl Unit {
+    fn reading_unit(self) -> ReadingUnit {
+        match self {
+            Self::Mps2 => ReadingUnit::MetrePerSecondSquared,
+            Self::Radps => ReadingUnit::RadianPerSecond,
+            Self::Counts => ReadingUnit::Counts,
+        }
+    }
+}
+
+pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
+    if let Some(directory) = &arguments.output {
+        place::check_directory(directory)?;
+    }
+    let started = Instant::now();
+    let gain = gain(&arguments.gain)?;
+    let triad = match arguments.sensor {
+        SensorKind::Accelerometer => Triad::Accelerometer,
+        SensorKind::Gyroscope => Triad::Gyroscope,
+    };
+    let unit = arguments.unit.map(Unit::reading_unit);
+    let file = read::read(&arguments.recording, triad, unit, gain.is_some())?;
+    let in_file = |error: Error| match error {
+        Error::Recording(complaint) if complaint.file.is_none() => {
+            Error::Recording(Box::new(complaint.in_file(&arguments.recording)))
+        }
+        other => other,
+    };
+    let mut noise = Vec::new();
+    for triad in Triad::ALL {
+        if let Some(recording) = file.imu.triad(triad) {
+            let found = examine(triad, recording, arguments.hold.as_deref()).map_err(in_file)?;
+            noise.push(match &gain {
+                Some(gain) => found.with_gain(recording, gain),
+                None => found,
+            });
+        }
+    }
+
+    for finding in &file.findings {
+        console::note(&format!("{}: {finding}", file.input.file));
+    }
+    noise.iter().flat_map(|triad| &triad.warnings).for_each(|warning| console::warn(warning));
+    if arguments.json {
+        console::print(&noise_json(&noise, &file.input));
+    } else {
+        noise.iter().for_each(|triad| console::print(&table::of(triad)));
+    }
+    if let Some(directory) = &arguments.output {
+        write_noise(&directory.join("noise.json"), &noise, &file.input)?;
+        let about = About {
+            title: format!("Noise from {}", file.input.file),
+            facts: vec![
+                ("Recording".into(), arguments.recording.display().to_string()),
+                ("SHA-256".into(), file.input.sha256.clone()),
+                (
+                    "Samples".into(),
+                    format!(
+                        "{} at {} Hz",
+                        number::count(file.input.samples),
+                        number::significant(file.input.rate_hz, 5)
+                    ),
+                ),
+                (
+                    "Hold".into(),
+                    if arguments.hold.is_some() {
+                        "as given".into()
+                    } else {
+                        "the longest that was found".into()
+                    },
+                ),
+            ],
+            findings: file.findings.clone(),
+            elapsed: Some(format!("{:.3} s", started.elapsed().as_secs_f64())),
+            program: format!("calibrant {}", env!("CARGO_PKG_VERSION")),
+            ..About::default()
+        };
+        let html = noise_report(&noise, &about);
+        let page = directory.join("report.html");
+        write_atomically(&page, |out| out.write_all(html.as_bytes()))?;
+        if !arguments.json {
+            console::print(&format!("{}\n", page.display()));
+        }
+    }
+    Ok(Exit::DONE)
+}
+
+/// The noise of one sensor, in the interval that was given or in its longest hold.
+fn examine(triad: Triad, recording: &Recording, hold: Option<&[f64]>) -> calibrant::Result<TriadNoise> {
+    let (start_s, end_s) = match hold {
+        Some(&[start, end]) => (start, end),
+        _ => longest_hold(recording)?,
+    };
+    TriadNoise::of(triad, recording, Stretch::between(recording, start_s, end_s)?)
+}
+
+fn longest_hold(recording: &Recording) -> calibrant::Result<(f64, f64)> {
+    let holds = find_holds(recording, SHORTEST_HOLD_S)?;
+    let longest = holds.iter().max_by(|a, b| a.duration_s().total_cmp(&b.duration_s()));
+    longest.map(|hold| (hold.start_s, hold.end_s)).ok_or_else(|| {
+        Error::Recording(Box::new(Complaint::new(
+            format!("no hold of {SHORTEST_HOLD_S} s or more is found"),
+            "noise needs the sensor at rest; if it was, give the interval with --hold START END",
+        )))
+    })
+}
+
+fn gain(given: &[f64]) -> calibrant::Result<Option<Vector3<f64>>> {
+    let gain = match *given {
+        [] => return Ok(None),
+        [all] => Vector3::repeat(all),
+        [x, y, z] => Vector3::new(x, y, z),
+        _ => Vector3::zeros(),
+    };
+    if gain.iter().all(|gain| gain.is_finite() && *gain != 0.0) {
+        return Ok(Some(gain.abs()));
+    }
+    Err(Error::Experiment(Box::new(Complaint::new(
+        "--gain is one number or three, none of them zero",
+        "counts per m/s² or per rad/s: --gain 415,413,415",
+    ))))
+}

@@ -1,0 +1,76 @@
+//! The noise of a sensor on stdout.
+
+use crate::console;
+use calibrant::noise::{Coefficient, CoefficientUnit, PowerLaw, TriadNoise, coefficient_units};
+use calibrant::report::{coefficient_name, number};
+
+/// Coefficients, samples, and why something is not determined.
+pub(super) fn of(noise: &TriadNoise) -> String {
+    let stretch = &noise.stretch;
+    let mut text = format!(
+        "  {}: {} samples at rest, {:.2} to {:.2} s, {} Hz\n\n",
+        noise.triad,
+        number::count(stretch.samples()),
+        stretch.start_s,
+        stretch.end_s,
+        number::significant(stretch.rate_hz(), 5)
+    );
+    let mut rows = Vec::new();
+    let mut reasons: Vec<(String, String)> = Vec::new();
+    for process in [PowerLaw::White, PowerLaw::Flicker, PowerLaw::RandomWalk, PowerLaw::Quantisation] {
+        let units = coefficient_units(noise.triad, process, noise.unit);
+        for axis in &noise.axes {
+            let name = format!("{} {}", coefficient_name(noise, process), axis.axis);
+            let unit = units[0].symbol.to_owned();
+            let shown = |value: f64| number::significant(value, 3);
+            rows.push(match axis.fit.model.coefficient(process) {
+                Coefficient::Determined(found) => {
+                    let mut customary: Vec<String> = units[1..]
+                        .iter()
+                        .map(|unit| format!("{} {}", shown(unit.factor * found.value), unit.symbol))
+                        .collect();
+                    if let (PowerLaw::Flicker, Some(tau)) = (process, axis.fit.flat_tau_s) {
+                        customary.push(format!("at {} s", number::significant(tau, 2)));
+                    }
+                    let interval = format!("{} to {}", shown(found.low), shown(found.high));
+                    vec![name, number::with_sd(found.value, found.sd), interval, unit, customary.join(", ")]
+                }
+                Coefficient::NotDetermined { limit, reason } => {
+                    let what = coefficient_name(noise, process);
+                    match reasons.iter_mut().find(|(known, names)| known == reason && names.starts_with(what))
+                    {
+                        Some((_, names)) => names.push_str(&format!(", {}", axis.axis)),
+                        None => reasons.push((reason.clone(), name.clone())),
+                    }
+                    let customary: Vec<String> = limit.map_or_else(Vec::new, |limit| {
+                        let below = |unit: &CoefficientUnit| {
+                            format!("< {} {}", number::significant(unit.factor * limit, 2), unit.symbol)
+                        };
+                        units[1..].iter().map(below).collect()
+                    });
+                    let limit = limit.map_or_else(
+                        || "–".to_owned(),
+                        |limit| format!("< {}", number::significant(limit, 2)),
+                    );
+                    vec![name, "not determined".to_owned(), limit, unit, customary.join(", ")]
+                }
+            });
+        }
+    }
+    text.push_str(&console::table(&["coefficient", "value ± sd", "95 %", "unit", "customary"], &rows));
+    for (reason, names) in reasons {
+        text.push_str(&format!("  {names} not determined: {reason}\n"));
+    }
+    let list = |values: &dyn Fn(usize) -> Option<f64>| {
+        let shown = |k| values(k).map_or_else(|| "–".to_owned(), |value| number::significant(value, 3));
+        (0..noise.axes.len()).map(shown).collect::<Vec<_>>().join(", ")
+    };
+    let rate = stretch.rate_hz();
+    text.push_str(&format!(
+        "  one sample: white noise N √rate {} {unit}; standard deviation {} {unit}\n\n",
+        list(&|k| noise.axes[k].fit.model.white_noise_per_sample(rate)),
+        list(&|k| Some(noise.axes[k].sample_sd)),
+        unit = noise.unit.symbol()
+    ));
+    text
+}

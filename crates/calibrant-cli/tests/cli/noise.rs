@@ -1,0 +1,105 @@
+//! `calibrant noise`.
+
+use crate::bench::Bench;
+use crate::data::shared_data;
+use serde_json::Value;
+use std::fmt::Write;
+
+/// A recording of `n` samples at 100 Hz whose readings pass every test of whiteness that matters here.
+fn recording(header: &str, n: u32, size: f64) -> String {
+    let mut state = 1_u64;
+    let mut uniform = || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
+    };
+    let mut text = format!("{header}\n");
+    for k in 0..n {
+        let [x, y, z] = [uniform(), uniform(), 9.8 + uniform()].map(|value| size * value);
+        writeln!(text, "{:.2},{x:.9},{y:.9},{z:.9}", f64::from(k) / 100.0).expect("written");
+    }
+    text
+}
+
+#[test]
+fn white_noise_is_found_and_what_is_not_seen_is_said() {
+    let bench = Bench::new();
+    bench.write("still.csv", recording("t_s,ax_mps2,ay_mps2,az_mps2", 6000, 0.1));
+    let outcome = bench.run("noise still.csv -o result").done();
+    for text in [
+        "velocity random walk N x",
+        "µg/√Hz",
+        "m/s/√h",
+        "not determined",
+        "record for longer",
+        "result/report.html",
+    ] {
+        assert!(outcome.stdout.contains(text), "{text}\n{}", outcome.stdout);
+    }
+    let json = bench.json("result/noise.json");
+    let axis = &json["sensors"][0]["axes"][2];
+    // uniform numbers: 0.1/√12 per sample
+    let n = axis["random_walk"]["value"].as_f64().expect("determined");
+    assert!((n / (0.1 / 12.0_f64.sqrt() * 0.1) - 1.0).abs() < 0.05, "{n}");
+    assert_eq!(
+        (&axis["bias_instability"]["determined"], &axis["bias_instability"]["value"]),
+        (&Value::Bool(false), &Value::Null)
+    );
+    assert!(
+        axis["bias_instability"]["upper_limit"].is_f64() && axis["bias_instability"]["reason"].is_string()
+    );
+    assert!(bench.read("result/report.html").contains("Allan deviation of the accelerometer"));
+
+    let printed = bench.run("noise still.csv --json").done();
+    assert_eq!(printed.stdout, bench.read("result/noise.json"));
+    let part = bench.run("noise still.csv --hold 10 30 --json").done();
+    let part: Value = serde_json::from_str(&part.stdout).expect("JSON");
+    assert_eq!(
+        (&part["sensors"][0]["first_sample"], &part["sensors"][0]["end_sample"]),
+        (&1000.into(), &3001.into())
+    );
+}
+
+#[test]
+fn counts_stay_counts_without_a_gain() {
+    let bench = Bench::new();
+    bench.write("still.csv", recording("t_s,ax_counts,ay_counts,az_counts", 3000, 20.0));
+    let outcome = bench.run("noise still.csv --unit counts").done();
+    assert!(outcome.stdout.contains("counts/√Hz") && !outcome.stdout.contains("µg"), "{}", outcome.stdout);
+    let outcome = bench.run("noise still.csv --sensor gyroscope --gain 4778,4758,4766").done();
+    assert!(
+        outcome.stdout.contains("angle random walk N z") && outcome.stdout.contains("deg/√h"),
+        "{}",
+        outcome.stdout
+    );
+}
+
+#[test]
+fn what_cannot_be_used_is_refused() {
+    let bench = Bench::new();
+    bench.write("still.csv", recording("t_s,ax,ay,az", 3000, 0.1));
+    bench.refuses(
+        "noise still.csv --hold 1 1.2 -o result",
+        3,
+        &["still.csv: 21 samples at rest from 1 to 1.2 s"],
+    );
+    bench.refuses("noise still.csv --gain 1,2 -o result", 2, &["--gain is one number or three"]);
+    bench.refuses("noise missing.csv -o result", 3, &["missing.csv"]);
+}
+
+#[test]
+fn the_mti_at_rest() {
+    let Some(path) = shared_data("xsens-mti-static/xsens_acc.mat") else { return };
+    let bench = Bench::new();
+    std::fs::copy(&path, bench.path("xsens_acc.mat")).expect("copied");
+    let outcome = bench.run("noise xsens_acc.mat --gain 415,413,415 -o result").done();
+    assert!(
+        outcome.stdout.contains("accelerometer: 5199 samples at rest, 0.28 to 52.25 s, 100.01 Hz"),
+        "{}",
+        outcome.stdout
+    );
+    for axis in bench.json("result/noise.json")["sensors"][0]["axes"].as_array().expect("axes") {
+        let n = axis["random_walk"]["value"].as_f64().expect("determined");
+        assert!((8e-4..9.5e-4).contains(&n), "{n} m/s²/√Hz");
+        assert_eq!(axis["bias_instability"]["determined"], false);
+    }
+}

@@ -1,0 +1,203 @@
+//! `noise.json`: the noise of a sensor at rest, its Allan deviation and its coefficients.
+
+use super::calibration::Input;
+use super::json;
+use crate::error::Result;
+use crate::noise::{AllanPoint, AxisNoise, CONFIDENCE, Coefficient, PowerLaw, TriadNoise, coefficient_units};
+use crate::sensor::{ReadingUnit, Triad};
+use serde::Serialize;
+use std::path::Path;
+
+/// Writes `noise.json`.
+///
+/// Coefficients carry their unit beside them, in the unit of the readings and in customary ones; a coefficient that is not determined has a
+/// `reason` and, where the recording gives one, an `upper_limit`.
+///
+/// # Errors
+/// [`Error::Output`](crate::Error::Output) where it cannot be written.
+pub fn write_noise(path: &Path, noise: &[TriadNoise], input: &Input) -> Result<()> {
+    json::write_json(path, &NoiseFile::of(noise, input))
+}
+
+/// The text that [`write_noise`] writes.
+#[must_use]
+pub fn noise_json(noise: &[TriadNoise], input: &Input) -> String {
+    json::to_json(&NoiseFile::of(noise, input))
+}
+
+#[derive(Serialize)]
+struct NoiseFile<'a> {
+    schema: u32,
+    confidence: f64,
+    sensors: Vec<TriadFields<'a>>,
+    input: &'a Input,
+}
+
+impl<'a> NoiseFile<'a> {
+    fn of(noise: &'a [TriadNoise], input: &'a Input) -> Self {
+        Self {
+            schema: 1,
+            confidence: CONFIDENCE,
+            sensors: noise.iter().map(TriadFields::of).collect(),
+            input,
+        }
+    }
+}
+
+#[derive(Serialize)]
+struct TriadFields<'a> {
+    sensor: &'static str,
+    reading_unit: &'static str,
+    first_sample: usize,
+    end_sample: usize,
+    start_s: f64,
+    end_s: f64,
+    interval_s: f64,
+    interval_jitter: f64,
+    axes: Vec<AxisFields<'a>>,
+    warnings: &'a [String],
+}
+
+impl<'a> TriadFields<'a> {
+    fn of(noise: &'a TriadNoise) -> Self {
+        let rate = noise.stretch.rate_hz();
+        Self {
+            sensor: noise.triad.name(),
+            reading_unit: noise.unit.symbol(),
+            first_sample: noise.stretch.first,
+            end_sample: noise.stretch.end,
+            start_s: noise.stretch.start_s,
+            end_s: noise.stretch.end_s,
+            interval_s: noise.stretch.interval_s,
+            interval_jitter: noise.stretch.jitter,
+            axes: noise.axes.iter().map(|axis| AxisFields::of(axis, noise.triad, noise.unit, rate)).collect(),
+            warnings: &noise.warnings,
+        }
+    }
+}
+
+#[derive(Serialize)]
+struct AxisFields<'a> {
+    axis: String,
+    white_noise_per_sample: Option<f64>,
+    sample_sd: f64,
+    random_walk: CoefficientFields<'a>,
+    bias_instability: CoefficientFields<'a>,
+    rate_random_walk: CoefficientFields<'a>,
+    quantisation: CoefficientFields<'a>,
+    bias_instability_tau_s: Option<f64>,
+    drift: DriftFields,
+    fit: FitFields,
+    allan: AllanFields,
+}
+
+impl<'a> AxisFields<'a> {
+    fn of(axis: &'a AxisNoise, triad: Triad, unit: ReadingUnit, rate_hz: f64) -> Self {
+        let model = &axis.fit.model;
+        let of = |process| CoefficientFields::of(model.coefficient(process), triad, process, unit);
+        let points = &axis.allan.points;
+        let column = |f: fn(&AllanPoint) -> f64| points.iter().map(f).collect();
+        Self {
+            axis: axis.axis.to_string(),
+            white_noise_per_sample: model.white_noise_per_sample(rate_hz),
+            sample_sd: axis.sample_sd,
+            random_walk: of(PowerLaw::White),
+            bias_instability: of(PowerLaw::Flicker),
+            rate_random_walk: of(PowerLaw::RandomWalk),
+            quantisation: of(PowerLaw::Quantisation),
+            bias_instability_tau_s: axis.fit.flat_tau_s,
+            drift: DriftFields {
+                per_s: axis.fit.drift.per_s,
+                sd: axis.fit.drift.sd,
+                significant: axis.fit.drift.is_significant(),
+            },
+            fit: FitFields {
+                shortest_tau_s: axis.fit.shortest_tau_s,
+                longest_tau_s: axis.fit.longest_tau_s,
+                chi2: axis.fit.chi2,
+                degrees_of_freedom: axis.fit.degrees_of_freedom,
+                p_value: axis.fit.p_value,
+            },
+            allan: AllanFields {
+                cluster_samples: points.iter().map(|point| point.cluster).collect(),
+                tau_s: column(|point| point.tau_s),
+                deviation: column(|point| point.deviation),
+                low: column(|point| point.low),
+                high: column(|point| point.high),
+                degrees_of_freedom: column(|point| point.degrees_of_freedom),
+            },
+        }
+    }
+}
+
+#[derive(Serialize)]
+struct CoefficientFields<'a> {
+    determined: bool,
+    unit: &'static str,
+    value: Option<f64>,
+    sd: Option<f64>,
+    low: Option<f64>,
+    high: Option<f64>,
+    customary: Vec<CustomaryFields>,
+    upper_limit: Option<f64>,
+    reason: Option<&'a str>,
+}
+
+impl<'a> CoefficientFields<'a> {
+    fn of(coefficient: &'a Coefficient, triad: Triad, process: PowerLaw, unit: ReadingUnit) -> Self {
+        let units = coefficient_units(triad, process, unit);
+        let found = coefficient.estimate();
+        let customary = |unit: &crate::noise::CoefficientUnit| {
+            let estimate = found?.scaled(unit.factor);
+            Some(CustomaryFields { unit: unit.symbol, value: estimate.value, sd: estimate.sd })
+        };
+        let reason = match coefficient {
+            Coefficient::Determined(_) => None,
+            Coefficient::NotDetermined { reason, .. } => Some(reason.as_str()),
+        };
+        Self {
+            determined: found.is_some(),
+            unit: units[0].symbol,
+            value: found.map(|found| found.value),
+            sd: found.map(|found| found.sd),
+            low: found.map(|found| found.low),
+            high: found.map(|found| found.high),
+            customary: units[1..].iter().filter_map(customary).collect(),
+            upper_limit: coefficient.limit(),
+            reason,
+        }
+    }
+}
+
+#[derive(Serialize)]
+struct CustomaryFields {
+    unit: &'static str,
+    value: f64,
+    sd: f64,
+}
+
+#[derive(Serialize)]
+struct DriftFields {
+    per_s: f64,
+    sd: f64,
+    significant: bool,
+}
+
+#[derive(Serialize)]
+struct FitFields {
+    shortest_tau_s: f64,
+    longest_tau_s: f64,
+    chi2: f64,
+    degrees_of_freedom: usize,
+    p_value: Option<f64>,
+}
+
+#[derive(Serialize)]
+struct AllanFields {
+    cluster_samples: Vec<usize>,
+    tau_s: Vec<f64>,
+    deviation: Vec<f64>,
+    low: Vec<f64>,
+    high: Vec<f64>,
+    degrees_of_freedom: Vec<f64>,
+}

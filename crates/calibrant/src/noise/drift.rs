@@ -1,0 +1,49 @@
+//! A linear drift: no noise, but it looks like one at long cluster times.
+
+use super::{NoiseModel, PowerLaw};
+use std::f64::consts::PI;
+
+/// A drift counts as seen beyond this many standard deviations.
+const SIGNIFICANT: f64 = 3.5;
+
+/// The slope of a straight line through the readings.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Drift {
+    /// Slope, in the unit of the readings per second.
+    pub per_s: f64,
+    /// Its standard deviation if the noise is as determined.
+    pub sd: f64,
+}
+
+impl Drift {
+    /// The least-squares slope of the readings at equal intervals, judged by the noise.
+    ///
+    /// Its variance over a duration `T` is `72 Q²/T⁴ + 12 N²/T³ + 9 B²/(π T²) + 6 K²/(5 T)`.
+    #[must_use]
+    pub fn of(readings: &[f64], interval_s: f64, noise: &NoiseModel) -> Self {
+        let n = readings.len() as f64;
+        let middle = 0.5 * (n - 1.0);
+        let mean = readings.iter().sum::<f64>() / n;
+        let moment: f64 = readings.iter().enumerate().map(|(k, y)| (k as f64 - middle) * (y - mean)).sum();
+        let per_s = moment / (n * (n * n - 1.0) / 12.0) / interval_s;
+        let t = n * interval_s;
+        let square = |process: PowerLaw| noise.squares[process as usize];
+        let variance = 72.0 * square(PowerLaw::Quantisation) / t.powi(4)
+            + 12.0 * square(PowerLaw::White) / t.powi(3)
+            + 9.0 * square(PowerLaw::Flicker) / (PI * t * t)
+            + 1.2 * square(PowerLaw::RandomWalk) / t;
+        Self { per_s, sd: variance.sqrt() }
+    }
+
+    /// Is it more than the noise explains?
+    #[must_use]
+    pub fn is_significant(&self) -> bool {
+        self.per_s.abs() > SIGNIFICANT * self.sd
+    }
+
+    /// What it adds to the Allan deviation at cluster time `τ`: `R τ/√2`.
+    #[must_use]
+    pub fn allan_deviation(&self, tau_s: f64) -> f64 {
+        self.per_s.abs() * tau_s / std::f64::consts::SQRT_2
+    }
+}

@@ -1,0 +1,365 @@
+//! The coefficients that explain an Allan deviation.
+
+use super::moments::PROCESSES;
+use super::{Coefficient, Drift, Estimate, Moments, NoiseModel, PowerLaw, allan, interval};
+use crate::error::{Complaint, Error, Result};
+use nalgebra::{DMatrix, DVector};
+use statrs::distribution::{ChiSquared, ContinuousCDF};
+
+/// Fewest samples: six cluster times.
+const FEWEST: usize = 96;
+/// A coefficient is determined if its square is this many standard deviations above zero, those that it would have if it were zero.
+const SIGNIFICANT: f64 = 3.0;
+/// Below this many it is left out, for each process; in between it is kept beside the others, so that their uncertainty includes it, but not determined.
+/// Quantisation has no place in between: kept for nothing, it would take a share of the white noise at the cluster times that say most about that.
+const NEGLIGIBLE: [f64; PROCESSES] = [SIGNIFICANT, 2.0, 2.0, 2.0];
+/// Bias instability and rate random walk are told apart if χ² with the one is less by this than with the other in its place.
+const TOLD_APART: f64 = 3.0;
+/// Fewest cluster times that are fitted.
+const FEWEST_SCALES: usize = 5;
+/// Below this probability the processes do not explain the Allan deviation.
+const MISFIT: f64 = 1e-3;
+/// Of the limit of a coefficient that is not determined: probability that it is exceeded.
+const LIMIT_TAIL: f64 = 0.05;
+const ITERATIONS: usize = 50;
+
+/// The noise of one axis, as its Allan deviation shows it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NoiseFit {
+    /// The coefficients.
+    pub model: NoiseModel,
+    /// A linear drift beside the noise; it was subtracted before the coefficients were estimated.
+    pub drift: Drift,
+    /// Shortest cluster time that was fitted, s: shorter ones are not explained by any sum of the processes.
+    pub shortest_tau_s: f64,
+    /// Longest cluster time that was fitted, s.
+    pub longest_tau_s: f64,
+    /// Where the flicker noise has its largest share of the fitted Allan variance, s; `None` where B is not determined.
+    pub flat_tau_s: Option<f64>,
+    /// χ² of the fitted Allan variances.
+    pub chi2: f64,
+    /// Cluster times less coefficients.
+    pub degrees_of_freedom: usize,
+    /// Probability of a χ² at least as high; `None` without degrees of freedom.
+    pub p_value: Option<f64>,
+}
+
+impl NoiseFit {
+    /// Fits readings at equal intervals; `moments` are those of their number.
+    ///
+    /// # Errors
+    /// [`Error::Recording`] for fewer than 96 samples, and where readings never change.
+    ///
+    /// # Panics
+    /// If `moments` are those of another number of samples.
+    ///
+    /// # Examples
+    /// ```
+    /// use calibrant::noise::{Moments, NoiseFit, PowerLaw};
+    /// use calibrant::simulate::{Purpose, simulate_noise, stream};
+    ///
+    /// // white noise of N = 0.02 u/√Hz at 100 Hz: 0.2 u per sample
+    /// let readings = simulate_noise(PowerLaw::White, 0.02, 0.01, 5000, &mut stream(1, Purpose::Sensor, 0));
+    /// let fit = NoiseFit::of(&readings, 0.01, &Moments::of(5000))?;
+    /// let n = fit.model.random_walk.estimate().expect("determined");
+    /// assert!(n.low < 0.02 && 0.02 < n.high && n.sd < 5e-4);
+    /// assert!(fit.model.rate_random_walk.estimate().is_none());
+    /// # Ok::<(), calibrant::Error>(())
+    /// ```
+    pub fn of(readings: &[f64], interval_s: f64, moments: &Moments) -> Result<Self> {
+        let n = readings.len();
+        assert_eq!(n, moments.samples(), "the moments are those of the readings");
+        if n < FEWEST {
+            return Err(Error::recording(Complaint::new(
+                format!("{n} samples of one hold do not determine its noise"),
+                format!("it takes {FEWEST} samples at least; record the sensor at rest for minutes"),
+            )));
+        }
+        let observed = moments.observe(&allan::phase(readings));
+        if observed.iter().any(|v| !v.is_finite() || *v <= 0.0) {
+            return Err(Error::recording(Complaint::new(
+                "the readings do not change: there is no noise to be seen",
+                "is the axis connected? its resolution may be coarser than its noise",
+            )));
+        }
+        let regression = Regression::choose(moments, &observed);
+        let model = regression.model(interval_s);
+        let drift = Drift::of(readings, interval_s, &model);
+        let scales = &moments.scales()[regression.first..];
+        let tau = |m: Option<&usize>| m.map_or(0.0, |&m| m as f64 * interval_s);
+        let share = |tau: f64| model.share(PowerLaw::Flicker, tau) / model.deviation(tau);
+        let flat_tau_s = model.bias_instability.value().and_then(|_| {
+            let (low, high) = (tau(scales.first()).ln(), tau(scales.last()).ln());
+            let taus = (0..=200).map(|k| (low + (high - low) * f64::from(k) / 200.0).exp());
+            taus.max_by(|&a, &b| share(a).total_cmp(&share(b)))
+        });
+        let degrees_of_freedom = scales.len() - regression.active.len();
+        let p_value = regression.p_value();
+        Ok(Self {
+            drift,
+            shortest_tau_s: tau(scales.first()),
+            longest_tau_s: tau(scales.last()),
+            flat_tau_s,
+            chi2: regression.chi2,
+            degrees_of_freedom,
+            p_value,
+            model,
+        })
+    }
+
+    /// Do the processes explain the Allan deviation?
+    #[must_use]
+    pub fn explains(&self) -> bool {
+        self.p_value.is_none_or(|p| p >= MISFIT)
+    }
+}
+
+/// Generalised least squares of the Allan variances on the variances of some of the processes, a sample interval being 1.
+struct Regression<'a> {
+    moments: &'a Moments,
+    observed: &'a DVector<f64>,
+    /// First scale that is used.
+    first: usize,
+    /// The processes.
+    active: Vec<usize>,
+    /// Squares of all coefficients; zero for those that are not active.
+    theta: [f64; PROCESSES],
+    /// `θ̂ = G ν`, a row for each active process.
+    gain: DMatrix<f64>,
+    chi2: f64,
+}
+
+impl<'a> Regression<'a> {
+    /// The processes that are significant, on the scales that they explain.
+    fn choose(moments: &'a Moments, observed: &'a DVector<f64>) -> Self {
+        let last = moments.scales().len().saturating_sub(FEWEST_SCALES);
+        let all = Self::reduced(moments, observed, 0);
+        if all.explains() {
+            return all;
+        }
+        // quantisation shows at the shortest cluster times only
+        (1..=last).map(|first| Self::reduced(moments, observed, first)).find(Self::explains).unwrap_or(all)
+    }
+
+    /// Leaves out the least significant process until none is negligible.
+    fn reduced(moments: &'a Moments, observed: &'a DVector<f64>, first: usize) -> Self {
+        let mut active: Vec<usize> = (usize::from(first > 0)..PROCESSES).collect();
+        loop {
+            let regression = Self::of(moments, observed, first, &active);
+            let significance: Vec<f64> = (0..active.len()).map(|i| regression.significance(i)).collect();
+            let excess = |i: usize| significance[i] - NEGLIGIBLE[active[i]];
+            let least = (0..active.len()).min_by(|&i, &j| excess(i).total_cmp(&excess(j)));
+            match least {
+                Some(i) if active.len() > 1 && excess(i) < 0.0 => drop(active.remove(i)),
+                // of two that cannot be told apart, one stands for both
+                _ => match regression.weaker_rival(&significance) {
+                    Some(i) => drop(active.remove(i)),
+                    None => return regression,
+                },
+            }
+        }
+    }
+
+    fn of(moments: &'a Moments, observed: &'a DVector<f64>, first: usize, active: &[usize]) -> Self {
+        let size = observed.len() - first;
+        let values = observed.rows(first, size);
+        let design = moments.mean().view((first, 0), (size, PROCESSES)).select_columns(active);
+        // to begin with, each variance is as uncertain as white noise makes it, for itself
+        let mut weight = DMatrix::zeros(size, size);
+        let unit = moments.covariance(&[0.0, 1.0, 0.0, 0.0], first);
+        for j in 0..size {
+            let relative = unit[(j, j)] / moments.mean()[(first + j, 1)].powi(2);
+            weight[(j, j)] = 1.0 / (relative * values[j] * values[j]);
+        }
+        let mut theta = [0.0; PROCESSES];
+        let mut gain = DMatrix::zeros(active.len(), size);
+        for _ in 0..ITERATIONS {
+            let normal = design.transpose() * &weight;
+            let Some(next) = scaled_inverse(&(&normal * &design)).map(|inverse| inverse * normal) else {
+                break;
+            };
+            gain = next;
+            let found = &gain * values;
+            let before = theta;
+            active.iter().zip(found.iter()).for_each(|(&a, &value)| theta[a] = value);
+            let Some(inverse) = scaled_inverse(&moments.covariance(&positive(theta), first)) else { break };
+            weight = inverse;
+            let change =
+                |a: usize| (theta[a] - before[a]).abs() <= 1e-9 * theta[a].abs().max(before[a].abs());
+            if (0..PROCESSES).all(change) {
+                break;
+            }
+        }
+        let residual =
+            values - &design * DVector::from_iterator(active.len(), active.iter().map(|&a| theta[a]));
+        let chi2 = residual.dot(&(&weight * &residual));
+        Self { moments, observed, first, active: active.to_vec(), theta, gain, chi2 }
+    }
+
+    /// Variance of the estimate of active process `i` if its `θ` were this.
+    fn variance(&self, i: usize, theta_i: f64) -> f64 {
+        let mut theta = positive(self.theta);
+        theta[self.active[i]] = theta_i;
+        let row = self.gain.row(i).transpose();
+        (self.moments.covariance(&theta, self.first) * &row).dot(&row)
+    }
+
+    /// How many standard deviations the square of a coefficient is above zero.
+    fn significance(&self, i: usize) -> f64 {
+        self.theta[self.active[i]] / self.variance(i, 0.0).sqrt()
+    }
+
+    /// The less significant of bias instability and rate random walk, where both are active and neither is significant.
+    fn weaker_rival(&self, significance: &[f64]) -> Option<usize> {
+        let position = |process: PowerLaw| self.active.iter().position(|&a| a == process as usize);
+        let (b, k) = (position(PowerLaw::Flicker)?, position(PowerLaw::RandomWalk)?);
+        let neither = significance[b].max(significance[k]) < SIGNIFICANT;
+        neither.then_some(if significance[b] < significance[k] { b } else { k })
+    }
+
+    fn p_value(&self) -> Option<f64> {
+        let freedom = self.observed.len() - self.first - self.active.len();
+        (freedom > 0).then(|| ChiSquared::new(freedom as f64).map_or(f64::NAN, |chi2| chi2.sf(self.chi2)))
+    }
+
+    fn explains(&self) -> bool {
+        self.p_value().is_none_or(|p| p >= MISFIT)
+    }
+
+    fn model(&self, interval_s: f64) -> NoiseModel {
+        let of = |process| self.coefficient(process, interval_s);
+        NoiseModel {
+            quantisation: of(PowerLaw::Quantisation),
+            random_walk: of(PowerLaw::White),
+            bias_instability: of(PowerLaw::Flicker),
+            rate_random_walk: of(PowerLaw::RandomWalk),
+            squares: std::array::from_fn(|a| {
+                self.theta[a].max(0.0) * interval_s.powi(-PowerLaw::ALL[a].interval_power())
+            }),
+        }
+    }
+
+    fn coefficient(&self, process: PowerLaw, interval_s: f64) -> Coefficient {
+        let a = process as usize;
+        // θ is that of the square of the coefficient for an interval of 1
+        let to_coefficient = |theta: f64| (theta * interval_s.powi(-process.interval_power())).sqrt();
+        let position = self.active.iter().position(|&active| active == a);
+        if let Some(i) = position
+            && self.is_determined(i)
+        {
+            let theta = self.theta[a];
+            let sd = self.variance(i, theta).sqrt();
+            let (low, high) = interval::bounds(theta, |theta| self.variance(i, theta));
+            let value = to_coefficient(theta);
+            return Coefficient::Determined(Estimate {
+                value,
+                sd: 0.5 * value * sd / theta,
+                low: to_coefficient(low),
+                high: to_coefficient(high),
+            });
+        }
+        let limit = match position {
+            Some(i) => self.limit(i),
+            None => {
+                // in place of a process that it cannot be told from, or beside all
+                let mut with: Vec<usize> =
+                    self.active.iter().copied().filter(|&b| self.rival(b) != Some(a)).collect();
+                with.push(a);
+                with.sort_unstable();
+                let i = with.iter().position(|&active| active == a).unwrap_or(0);
+                Self::of(self.moments, self.observed, self.first, &with).limit(i)
+            }
+        };
+        let limit = limit.is_finite().then(|| to_coefficient(limit));
+        Coefficient::NotDetermined { limit, reason: self.reason(process, interval_s) }
+    }
+
+    /// Is active process `i` determined? One that is alone always is.
+    fn is_determined(&self, i: usize) -> bool {
+        (self.active.len() == 1 || self.significance(i) >= SIGNIFICANT)
+            && self.rival(self.active[i]).is_none()
+    }
+
+    /// The other of bias instability and rate random walk, where it explains as much in place of the one.
+    fn rival(&self, process: usize) -> Option<usize> {
+        const FLICKER: usize = PowerLaw::Flicker as usize;
+        const WALK: usize = PowerLaw::RandomWalk as usize;
+        let other = match process {
+            FLICKER => WALK,
+            WALK => FLICKER,
+            _ => return None,
+        };
+        if self.active.contains(&other) {
+            return None;
+        }
+        let mut active: Vec<usize> =
+            self.active.iter().map(|&a| if a == process { other } else { a }).collect();
+        active.sort_unstable();
+        let swapped = Self::of(self.moments, self.observed, self.first, &active);
+        (swapped.theta[other] > 0.0 && swapped.chi2 < self.chi2 + TOLD_APART).then_some(other)
+    }
+
+    /// Upper limit of the square of the coefficient of active process `i`.
+    fn limit(&self, i: usize) -> f64 {
+        // an estimate below zero is as good as one at the standard deviation that a coefficient of zero has
+        let seen = self.theta[self.active[i]].max(self.variance(i, 0.0).sqrt());
+        interval::upper(seen, &|theta| self.variance(i, theta), LIMIT_TAIL)
+    }
+
+    fn reason(&self, process: PowerLaw, interval_s: f64) -> String {
+        let scales = self.moments.scales();
+        let tau = |m: usize| crate::noise::triad::short_time(m as f64 * interval_s);
+        let longest = tau(scales[scales.len() - 1]);
+        let name = |a: usize| ["quantisation", "white noise", "bias instability", "rate random walk"][a];
+        let here = process as usize;
+        let apart = format!(
+            "bias instability and rate random walk cannot be told apart with cluster times up to {longest}: record for longer"
+        );
+        if self.active.contains(&here) {
+            let flat = |a: usize| a >= PowerLaw::Flicker as usize;
+            let beside = self.active.iter().copied().find(|&a| a != here && flat(a) && flat(here));
+            let rival = self.rival(here).or(beside);
+            return match rival {
+                Some(_) => apart,
+                None => format!("it is hardly seen in cluster times up to {longest}: record for longer"),
+            };
+        }
+        if self.active.iter().any(|&a| self.rival(a) == Some(here)) {
+            return apart;
+        }
+        let others: Vec<&str> = self.active.iter().map(|&a| name(a)).collect();
+        let explain = if others.len() == 1 { "explains" } else { "explain" };
+        let others = others.join(" and ");
+        match process {
+            PowerLaw::Quantisation if self.first > 0 => {
+                format!("cluster times below {} were not fitted", tau(scales[self.first]))
+            }
+            PowerLaw::Quantisation => {
+                format!("{others} {explain} the shortest cluster times; slope −1 is not seen")
+            }
+            PowerLaw::White => format!("{others} {explain} the short cluster times; slope −½ is not seen"),
+            PowerLaw::Flicker => format!(
+                "{others} {explain} all cluster times up to {longest}; no flat part is reached: record for longer"
+            ),
+            PowerLaw::RandomWalk => format!(
+                "{others} {explain} all cluster times up to {longest}; slope +½ is not reached: record for longer"
+            ),
+        }
+    }
+}
+
+fn positive(theta: [f64; PROCESSES]) -> [f64; PROCESSES] {
+    theta.map(|value| value.max(0.0))
+}
+
+/// Inverse of a symmetric positive definite matrix whose entries span many decades.
+fn scaled_inverse(matrix: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+    let scale = matrix.diagonal().map(|d| 1.0 / d.sqrt());
+    if scale.iter().any(|s| !s.is_finite()) {
+        return None;
+    }
+    let scaled =
+        DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |i, j| matrix[(i, j)] * scale[i] * scale[j]);
+    let inverse = scaled.cholesky()?.inverse();
+    Some(DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |i, j| inverse[(i, j)] * scale[i] * scale[j]))
+}

@@ -1,0 +1,72 @@
+//! Noise from a recording: the Allan deviation of a long hold, and the coefficients of the noises that explain it.
+//!
+//! # The quantity
+//! Let `y_1 … y_n` be readings at intervals `τ₀` while the sensor is still, and `x_k = Σ_{i ≤ k} y_i`. The means of two adjacent clusters of `m`
+//! readings, `τ = m τ₀`, differ by `d_k = (x_{k+2m} − 2 x_{k+m} + x_k)/m`, and the overlapping Allan variance is
+//!
+//! ```text
+//! σ²(τ) = 1/(2M) Σ_{k=1}^{M} d_k²,   M = n − 2m + 1
+//! ```
+//!
+//! [`AllanDeviation`] computes it, with degrees of freedom and confidence bounds for each cluster time.
+//!
+//! # The model
+//! Five processes of IEEE 952 and 1293, told apart by the slope of `σ` on logarithmic axes ([`PowerLaw`]):
+//!
+//! | process | coefficient | σ²(τ) | slope of σ |
+//! |---|---|---|---|
+//! | quantisation of the angle or velocity | Q | 3 Q²/τ² | −1 |
+//! | angle or velocity random walk: white noise of the reading | N | N²/τ | −½ |
+//! | bias instability: flicker noise of the reading | B | (2 ln 2/π) B² = (0.664 B)² | 0 |
+//! | rate random walk | K | K² τ/3 | +½ |
+//! | linear drift | R | R² τ²/2 | +1 |
+//!
+//! # The fit
+//! The first four are random and their variances add, so the Allan variances at cluster times `m = 1, 2, 4, …` are linear in `θ = (Q², N², B², K²)`.
+//! A linear drift is not noise: it is subtracted exactly, at each cluster time, with the mean of the differences,
+//!
+//! ```text
+//! ν_m = ½ [ mean(d²) − mean(d)² ],   E ν = A θ,   cov(ν_j, ν_k) = Σ_{a,b} θ_a θ_b V^{ab}_{jk}
+//! ```
+//!
+//! and estimated by itself ([`Drift`]). `A` and `V` follow exactly from the generalised autocovariance of each process (`moments`), overlap and the
+//! correlation between cluster times included. `θ` is the generalised least-squares estimate with the covariance of its own model, iterated
+//! (the generalised method of wavelet moments of `guerrier2013`, with the Allan variance as its wavelet variance). Coefficients that are
+//! negligible are left out, the least significant first; those that are not three standard deviations above zero are **not determined**, and have
+//! the limit that the recording sets. Cluster times
+//! so short that no sum of these processes explains them (filtered or sampled noise) are left out and named.
+//!
+//! # Confidence
+//! An estimate of a variance is skewed. The bounds of `θ_i` are those values under which an estimate as high, or as low, as this one has a
+//! probability of 2.5 %, the estimate following a gamma distribution with the mean and the variance that the model gives it *there*.
+//! With few degrees of freedom this is the familiar χ² interval. A Monte Carlo test checks the coverage.
+//!
+//! # References
+//! `ieee952`, `ieee1293`, `riley2008`, `greenhall2003`, `riley2004`, `guerrier2013`, `kasdin1995`
+
+mod allan;
+mod coefficient;
+mod drift;
+mod fit;
+mod interval;
+mod lags;
+mod model;
+mod moments;
+mod power_law;
+mod stretch;
+mod triad;
+mod unit;
+
+pub use allan::{AllanDeviation, AllanPoint};
+pub use coefficient::{Coefficient, Estimate};
+pub use drift::Drift;
+pub use fit::NoiseFit;
+pub use model::NoiseModel;
+pub use moments::Moments;
+pub use power_law::PowerLaw;
+pub use stretch::Stretch;
+pub use triad::{AxisNoise, TriadNoise};
+pub use unit::{CoefficientUnit, coefficient_units};
+
+/// Probability that a stated interval covers the truth.
+pub const CONFIDENCE: f64 = 0.95;

@@ -1,0 +1,49 @@
+//! The coefficients of one axis.
+
+use super::{Coefficient, PowerLaw};
+
+/// The coefficients of the noise of one axis, in the unit of the readings `u`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NoiseModel {
+    /// Quantisation Q of the summed readings, u·s.
+    pub quantisation: Coefficient,
+    /// Velocity (accelerometer) or angle (gyroscope) random walk N: density of the white noise, u/√Hz.
+    pub random_walk: Coefficient,
+    /// Bias instability B, u; the flat part of the Allan deviation is 0.664 B.
+    pub bias_instability: Coefficient,
+    /// Rate random walk K, u/√s.
+    pub rate_random_walk: Coefficient,
+    /// Squares of all coefficients as they were fitted, also of those that are seen but not determined.
+    pub(super) squares: [f64; 4],
+}
+
+impl NoiseModel {
+    /// The coefficient of a process.
+    #[must_use]
+    pub fn coefficient(&self, process: PowerLaw) -> &Coefficient {
+        match process {
+            PowerLaw::Quantisation => &self.quantisation,
+            PowerLaw::White => &self.random_walk,
+            PowerLaw::Flicker => &self.bias_instability,
+            PowerLaw::RandomWalk => &self.rate_random_walk,
+        }
+    }
+
+    /// The Allan deviation that one process contributes to the fit at cluster time `τ`, determined or not.
+    #[must_use]
+    pub fn share(&self, process: PowerLaw, tau_s: f64) -> f64 {
+        (self.squares[process as usize] * process.allan_variance(tau_s)).sqrt()
+    }
+
+    /// The fitted Allan deviation: that of all processes together.
+    #[must_use]
+    pub fn deviation(&self, tau_s: f64) -> f64 {
+        PowerLaw::ALL.iter().map(|&process| self.share(process, tau_s).powi(2)).sum::<f64>().sqrt()
+    }
+
+    /// Standard deviation of the white noise of one sample, `σ_ν = N √f_s`; `None` where N is not determined.
+    #[must_use]
+    pub fn white_noise_per_sample(&self, rate_hz: f64) -> Option<f64> {
+        Some(self.random_walk.value()? * rate_hz.sqrt())
+    }
+}

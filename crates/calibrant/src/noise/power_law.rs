@@ -1,0 +1,190 @@
+//! The random processes whose sum is the noise of a sensor at rest.
+
+use std::f64::consts::{LN_2, PI};
+
+/// A random process with a power-law spectrum; each has its slope in an Allan deviation plot.
+///
+/// # Examples
+/// ```
+/// use calibrant::noise::PowerLaw;
+///
+/// assert_eq!(PowerLaw::White.slope(), -0.5);
+/// // flicker noise of B = 1 has a flat Allan deviation of 0.664
+/// assert!((PowerLaw::Flicker.allan_variance(1000.0).sqrt() - 0.664).abs() < 1e-3);
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum PowerLaw {
+    /// White noise of the angle or velocity, coefficient Q.
+    Quantisation,
+    /// White noise of the reading, coefficient N: angle or velocity random walk.
+    White,
+    /// Flicker noise of the reading, coefficient B: bias instability.
+    Flicker,
+    /// Random walk of the reading, coefficient K: rate random walk.
+    RandomWalk,
+}
+
+/// Beyond this many of the longer cluster, the flicker covariance is its asymptote: the exact expression loses its digits there.
+const FAR: f64 = 50.0;
+
+impl PowerLaw {
+    /// All, in the order of their slopes.
+    pub const ALL: [Self; 4] = [Self::Quantisation, Self::White, Self::Flicker, Self::RandomWalk];
+
+    /// Slope of the Allan deviation on logarithmic axes.
+    #[must_use]
+    pub fn slope(self) -> f64 {
+        [-1.0, -0.5, 0.0, 0.5][self as usize]
+    }
+
+    /// Letter of its coefficient.
+    #[must_use]
+    pub fn letter(self) -> char {
+        ['Q', 'N', 'B', 'K'][self as usize]
+    }
+
+    /// Allan variance at cluster time `τ` for a coefficient of 1, the textbook's continuous form (see [the module](crate::noise)).
+    #[must_use]
+    pub fn allan_variance(self, tau_s: f64) -> f64 {
+        match self {
+            Self::Quantisation => 3.0 / (tau_s * tau_s),
+            Self::White => 1.0 / tau_s,
+            Self::Flicker => 2.0 * LN_2 / PI,
+            Self::RandomWalk => tau_s / 3.0,
+        }
+    }
+
+    /// Power of the sample interval by which the square of the coefficient is multiplied to have it for an interval of 1.
+    pub(super) fn interval_power(self) -> i32 {
+        [-2, -1, 0, 1][self as usize]
+    }
+
+    /// Generalised autocovariance of the summed readings `x` at a lag of whole samples, for a coefficient and a sample interval of 1.
+    ///
+    /// Generalised: up to even polynomials of degree two, which differences of clusters do not see. Each is the exact one of its sequence:
+    /// white `y`, a sum of white steps, and for flicker noise the fractional sum of order ½ of white noise (`kasdin1995`), whose generalised autocovariance is
+    /// `−(2/π) Σ_{i ≤ |h|} 1/(2i − 1)`; summed twice it is `(4h² − 1)/(8π) ψ(|h| + ½)`.
+    fn phase_covariance(self, lag: f64) -> f64 {
+        let h = lag.abs();
+        match self {
+            Self::Quantisation => f64::from(u8::from(h == 0.0)),
+            Self::White => -0.5 * h,
+            Self::Flicker => (4.0 * h * h - 1.0) / (8.0 * PI) * digamma_of_half_integer(h),
+            Self::RandomWalk => (h * h * h - h) / 12.0,
+        }
+    }
+
+    /// `E d_j(s) d_k(s + lag)` of differences between adjacent clusters of `j` and of `k` samples that begin at `s` and `s + lag`, for a coefficient and
+    /// a sample interval of 1.
+    pub(super) fn covariance_of_differences(self, j: usize, k: usize, lag: i64) -> f64 {
+        let (j, k, h) = (j as f64, k as f64, lag as f64);
+        if self == Self::Flicker {
+            let apart = h + k - j;
+            if apart.abs() > FAR * j.max(k) {
+                return -j * k / (PI * apart * apart);
+            }
+        } else if h > 2.0 * j || h < -2.0 * k {
+            return 0.0; // clusters that do not meet
+        }
+        const SECOND_DIFFERENCE: [f64; 3] = [1.0, -2.0, 1.0];
+        let mut sum = 0.0;
+        for (p, u) in SECOND_DIFFERENCE.iter().enumerate() {
+            for (q, v) in SECOND_DIFFERENCE.iter().enumerate() {
+                sum += u * v * self.phase_covariance(h + q as f64 * k - p as f64 * j);
+            }
+        }
+        sum / (j * k)
+    }
+
+    /// The process that dominates the difference of adjacent clusters, by the lag-1 autocorrelation of the cluster means (`riley2004`).
+    ///
+    /// `None` for fewer than 30 clusters: too few to tell.
+    #[must_use]
+    pub fn identify(means: &[f64]) -> Option<Self> {
+        const FEWEST: usize = 30;
+        let mut values = means.to_vec();
+        let mut differences = 0.0;
+        loop {
+            let n = values.len();
+            if n < FEWEST {
+                return None;
+            }
+            let mean = values.iter().sum::<f64>() / n as f64;
+            values.iter_mut().for_each(|value| *value -= mean);
+            let squares: f64 = values.iter().map(|value| value * value).sum();
+            let products: f64 = values.windows(2).map(|pair| pair[0] * pair[1]).sum();
+            let r = products / squares;
+            if !r.is_finite() {
+                return None;
+            }
+            let order = r / (1.0 + r);
+            if order < 0.25 || differences >= 1.0 {
+                // spectrum of the reading ∝ f^α
+                let alpha = -2.0 * (order + differences);
+                return Some(match alpha.round() as i32 {
+                    1.. => Self::Quantisation,
+                    0 => Self::White,
+                    -1 => Self::Flicker,
+                    _ => Self::RandomWalk,
+                });
+            }
+            values = values.windows(2).map(|pair| pair[1] - pair[0]).collect();
+            differences += 1.0;
+        }
+    }
+}
+
+/// `ψ(h + ½)` of a whole number `h ≥ 0`.
+fn digamma_of_half_integer(h: f64) -> f64 {
+    const ASYMPTOTIC: f64 = 12.0;
+    if h >= ASYMPTOTIC {
+        let square = 1.0 / (h * h);
+        return h.ln() + square * (1.0 / 24.0 - square * (7.0 / 960.0 - square * 31.0 / 8064.0));
+    }
+    // ψ(½) = −γ − 2 ln 2, ψ(x + 1) = ψ(x) + 1/x
+    const EULER: f64 = 0.577_215_664_901_532_9;
+    (0..h as usize).map(|i| 1.0 / (i as f64 + 0.5)).sum::<f64>() - EULER - 2.0 * LN_2
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn variance(process: PowerLaw, m: usize) -> f64 {
+        0.5 * process.covariance_of_differences(m, m, 0)
+    }
+
+    #[test]
+    fn allan_variances_are_those_of_the_sequences() {
+        for m in [1_usize, 2, 7, 64, 4096] {
+            let x = m as f64;
+            assert!((variance(PowerLaw::Quantisation, m) * x * x - 3.0).abs() < 1e-12);
+            assert!((variance(PowerLaw::White, m) * x - 1.0).abs() < 1e-12);
+            let walk = (2.0 * x * x + 1.0) / (6.0 * x);
+            assert!((variance(PowerLaw::RandomWalk, m) / walk - 1.0).abs() < 1e-9, "{m}");
+        }
+        // a fractional sum of order ½ differenced once has the variance 4/π
+        assert!((2.0 * variance(PowerLaw::Flicker, 1) - 4.0 / PI).abs() < 1e-12);
+        assert!((variance(PowerLaw::Flicker, 1000) - 2.0 * LN_2 / PI).abs() < 1e-5);
+    }
+
+    #[test]
+    fn long_cluster_times_have_the_textbook_form() {
+        for process in PowerLaw::ALL {
+            let ratio = variance(process, 10_000) / process.allan_variance(10_000.0);
+            assert!((ratio - 1.0).abs() < 1e-6, "{process:?}: {ratio}");
+        }
+    }
+
+    #[test]
+    fn the_far_flicker_covariance_continues_the_near_one() {
+        for (j, k) in [(1, 1), (4, 64), (64, 64)] {
+            let edge = (FAR * 64_f64.min(j.max(k) as f64)) as i64 + j as i64 - k as i64;
+            let (near, far) = (
+                PowerLaw::Flicker.covariance_of_differences(j, k, edge),
+                PowerLaw::Flicker.covariance_of_differences(j, k, edge + 1),
+            );
+            assert!((near / far - 1.0).abs() < 0.05, "{j}, {k}: {near} {far}");
+        }
+    }
+}

@@ -1,0 +1,216 @@
+//! The noise of a sensor of three axes.
+
+use super::{AllanDeviation, Moments, NoiseFit, Stretch};
+use crate::error::Result;
+use crate::sensor::{Axis, ReadingUnit, Recording, Triad};
+use nalgebra::Vector3;
+
+/// A sample's standard deviation that exceeds the white noise by this factor is worth a word: not all of it averages out.
+const BEYOND_WHITE: f64 = 1.15;
+/// Jitter of the sample times that is worth a word.
+const JITTER: f64 = 0.2;
+
+/// The noise of one sensor at rest.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TriadNoise {
+    /// Which sensor.
+    pub triad: Triad,
+    /// Unit of the readings, and of all coefficients but for seconds and hertz.
+    pub unit: ReadingUnit,
+    /// The samples that were examined.
+    pub stretch: Stretch,
+    /// A result for each axis.
+    pub axes: Vec<AxisNoise>,
+    /// What the user should know.
+    pub warnings: Vec<String>,
+}
+
+/// The noise of one axis.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AxisNoise {
+    /// Which axis.
+    pub axis: Axis,
+    /// Its Allan deviation.
+    pub allan: AllanDeviation,
+    /// The coefficients.
+    pub fit: NoiseFit,
+    /// Standard deviation of the samples about their mean, in the unit of the readings.
+    pub sample_sd: f64,
+}
+
+impl TriadNoise {
+    /// The noise of a recording within a stretch in which the sensor is at rest.
+    ///
+    /// # Errors
+    /// [`Error::Recording`](crate::Error::Recording) where the stretch is too short or an axis never changes.
+    ///
+    /// # Examples
+    /// ```
+    /// use calibrant::noise::{PowerLaw, Stretch, TriadNoise};
+    /// use calibrant::sensor::{ReadingUnit, Recording, Triad};
+    /// use calibrant::simulate::{Purpose, simulate_noise, stream};
+    /// use nalgebra::Vector3;
+    ///
+    /// let mut rng = stream(1, Purpose::Sensor, 0);
+    /// let axis: Vec<_> = (0..3).map(|_| simulate_noise(PowerLaw::White, 1e-3, 0.01, 6000, &mut rng)).collect();
+    /// let recording = Recording {
+    ///     times_s: (0..6000).map(|k| f64::from(k) * 0.01).collect(),
+    ///     readings: (0..6000).map(|k| Vector3::new(axis[0][k], axis[1][k], 9.8 + axis[2][k])).collect(),
+    ///     axes: 3,
+    ///     unit: ReadingUnit::MetrePerSecondSquared,
+    /// };
+    /// let noise = TriadNoise::of(Triad::Accelerometer, &recording, Stretch::between(&recording, 0.0, 60.0)?)?;
+    /// let sigma = noise.white_noise_per_sample().expect("determined");
+    /// assert!((sigma - Vector3::repeat(0.01)).amax() < 5e-4);
+    /// # Ok::<(), calibrant::Error>(())
+    /// ```
+    pub fn of(triad: Triad, recording: &Recording, stretch: Stretch) -> Result<Self> {
+        let moments = Moments::of(stretch.samples());
+        let readings = &recording.readings[stretch.first..stretch.end];
+        let axis = |&axis: &Axis| {
+            let values: Vec<f64> = readings.iter().map(|reading| reading[axis.index()]).collect();
+            let n = values.len() as f64;
+            let mean = values.iter().sum::<f64>() / n;
+            let squares: f64 = values.iter().map(|y| (y - mean).powi(2)).sum();
+            Ok(AxisNoise {
+                axis,
+                allan: AllanDeviation::of(&values, stretch.interval_s)?,
+                fit: NoiseFit::of(&values, stretch.interval_s, &moments)
+                    .map_err(|error| about(error, axis))?,
+                sample_sd: (squares / (n - 1.0)).sqrt(),
+            })
+        };
+        let axes: Vec<AxisNoise> = recording.active_axes().iter().map(axis).collect::<Result<_>>()?;
+        let mut noise = Self { triad, unit: recording.unit, stretch, axes, warnings: Vec::new() };
+        noise.warnings = noise.remarks(readings);
+        Ok(noise)
+    }
+
+    /// Standard deviation of the white noise of one sample, `σ_ν = N √f_s`, per axis, in the unit of the readings: what a calibration needs where its
+    /// datasheet gives no noise. `None` where N is not determined on an axis. Axes that were not recorded are zero.
+    #[must_use]
+    pub fn white_noise_per_sample(&self) -> Option<Vector3<f64>> {
+        let mut sigma = Vector3::zeros();
+        for axis in &self.axes {
+            sigma[axis.axis.index()] = axis.fit.model.white_noise_per_sample(self.stretch.rate_hz())?;
+        }
+        Some(sigma)
+    }
+
+    /// The same noise in the stimulus' unit, for a sensor of these gains in counts per stimulus unit.
+    ///
+    /// Does nothing where readings are not in counts.
+    #[must_use]
+    pub fn with_gain(mut self, recording: &Recording, gain: &Vector3<f64>) -> Self {
+        if self.unit != ReadingUnit::Counts {
+            return self;
+        }
+        let mut physical = recording.clone();
+        physical.unit = self.triad.stimulus_unit();
+        physical.readings.iter_mut().for_each(|reading| *reading = reading.component_div(gain));
+        if let Ok(noise) = Self::of(self.triad, &physical, self.stretch.clone()) {
+            self = noise;
+        }
+        self
+    }
+
+    fn remarks(&self, readings: &[Vector3<f64>]) -> Vec<String> {
+        let unit = self.unit.symbol();
+        let mut remarks = Vec::new();
+        if self.stretch.jitter > JITTER {
+            remarks.push(format!(
+                "the sample times vary by up to {:.0} % of the interval: short cluster times are less certain than stated",
+                100.0 * self.stretch.jitter
+            ));
+        }
+        if self.stretch.parts > 1 {
+            remarks.push(format!(
+                "gaps cut the hold into {} parts; the longest, {}, was examined",
+                self.stretch.parts,
+                short_time(self.stretch.duration_s())
+            ));
+        }
+        for axis in &self.axes {
+            let (name, fit) = (axis.axis, &axis.fit);
+            if fit.drift.is_significant() {
+                remarks.push(format!(
+                    "{} {name} drifts by {} {unit} per hour ({:.0} standard deviations of what its noise explains): warming up? The drift was \
+                     subtracted; it is no random walk",
+                    self.triad,
+                    three_digits(3600.0 * fit.drift.per_s),
+                    fit.drift.per_s.abs() / fit.drift.sd
+                ));
+            }
+            if !fit.explains() {
+                remarks.push(format!(
+                    "{} {name}: no sum of the processes explains the Allan deviation (χ² {} with {} degrees of freedom): vibration, or a sensor that was \
+                     touched? Do not trust the intervals",
+                    self.triad,
+                    three_digits(fit.chi2),
+                    fit.degrees_of_freedom
+                ));
+            } else if fit.shortest_tau_s > 1.5 * self.stretch.interval_s {
+                remarks.push(format!(
+                    "{} {name}: samples less than {} apart are correlated (filtered in the sensor?); shorter cluster times were not fitted",
+                    self.triad,
+                    short_time(fit.shortest_tau_s)
+                ));
+            }
+            let white = fit.model.white_noise_per_sample(self.stretch.rate_hz());
+            if let Some(white) = white
+                && axis.sample_sd > BEYOND_WHITE * white
+            {
+                remarks.push(format!(
+                    "{} {name}: the samples' standard deviation, {} {unit}, exceeds the white noise, {} {unit}: part of it does not average out like \
+                     independent samples",
+                    self.triad,
+                    three_digits(axis.sample_sd),
+                    three_digits(white)
+                ));
+            }
+            let index = name.index();
+            let step = readings
+                .windows(2)
+                .map(|pair| (pair[1][index] - pair[0][index]).abs())
+                .filter(|step| *step > 0.0)
+                .fold(f64::INFINITY, f64::min);
+            if step.is_finite() && step > axis.sample_sd {
+                remarks.push(format!(
+                    "{} {name}: its resolution, {} {unit}, is coarser than its noise: what is stated is rounding as much as noise",
+                    self.triad,
+                    three_digits(step)
+                ));
+            }
+        }
+        remarks
+    }
+}
+
+/// Names the axis in an error.
+fn about(error: crate::Error, axis: Axis) -> crate::Error {
+    match error {
+        crate::Error::Recording(mut complaint) => {
+            complaint.message = format!("axis {axis}: {}", complaint.message);
+            crate::Error::Recording(complaint)
+        }
+        other => other,
+    }
+}
+
+/// A time as people say it: `0.32 s`, `17 s`, `4.2 min`, `1.5 h`.
+pub(super) fn short_time(seconds: f64) -> String {
+    match seconds {
+        s if s < 120.0 => format!("{} s", two_digits(s)),
+        s if s < 7200.0 => format!("{} min", two_digits(s / 60.0)),
+        s => format!("{} h", two_digits(s / 3600.0)),
+    }
+}
+
+fn two_digits(value: f64) -> String {
+    format!("{value:.1e}").parse::<f64>().map_or_else(|_| value.to_string(), |rounded| rounded.to_string())
+}
+
+fn three_digits(value: f64) -> String {
+    let rounded: f64 = format!("{value:.2e}").parse().unwrap_or(value);
+    if (1e-3..1e6).contains(&rounded.abs()) { rounded.to_string() } else { format!("{rounded:e}") }
+}

@@ -1,0 +1,60 @@
+//! Pages on the noise of a sensor.
+
+use super::super::noise_report;
+use super::{about, assert_sound};
+use crate::noise::{PowerLaw, Stretch, TriadNoise};
+use crate::sensor::{ReadingUnit, Recording, Triad};
+use crate::simulate::{Purpose, simulate_noise, stream};
+use nalgebra::Vector3;
+
+fn noise(triad: Triad, unit: ReadingUnit, drift: f64) -> TriadNoise {
+    let (n, interval) = (6000, 0.01);
+    let mut rng = stream(3, Purpose::Sensor, 0);
+    let mut axis = |walk: f64| {
+        let mut values = simulate_noise(PowerLaw::White, 1e-3, interval, n, &mut rng);
+        let walk = simulate_noise(PowerLaw::RandomWalk, walk, interval, n, &mut rng);
+        values.iter_mut().zip(walk).for_each(|(value, walk)| *value += walk);
+        values
+    };
+    let axes = [axis(0.0), axis(5e-3), axis(0.0)];
+    let recording = Recording {
+        times_s: (0..n).map(|k| k as f64 * interval).collect(),
+        readings: (0..n)
+            .map(|k| Vector3::new(axes[0][k], axes[1][k], axes[2][k] + drift * k as f64))
+            .collect(),
+        axes: 3,
+        unit,
+    };
+    let stretch = Stretch::between(&recording, 0.0, 60.0).expect("long enough");
+    TriadNoise::of(triad, &recording, stretch).expect("noisy")
+}
+
+#[test]
+fn a_page_shows_the_plot_the_coefficients_and_what_is_not_determined() {
+    let accelerometer = noise(Triad::Accelerometer, ReadingUnit::MetrePerSecondSquared, 0.0);
+    let gyroscope = noise(Triad::Gyroscope, ReadingUnit::Counts, 0.0);
+    let html = noise_report(&[accelerometer, gyroscope], &about());
+    assert_sound(&html);
+    for text in [
+        "Allan deviation of the accelerometer",
+        "Allan deviation of the gyroscope",
+        "velocity random walk N z",
+        "rate random walk K y",
+        "µg/√Hz",
+        "counts/√Hz",
+        "not determined",
+        "record for longer",
+        "cluster time τ (s)",
+    ] {
+        assert!(html.contains(text), "{text}");
+    }
+}
+
+#[test]
+fn a_drift_is_told_apart() {
+    let html = noise_report(&[noise(Triad::Gyroscope, ReadingUnit::RadianPerSecond, 1e-6)], &about());
+    assert_sound(&html);
+    assert!(
+        html.contains("gyroscope z drifts by") && html.contains("linear drift") && html.contains("deg/√h")
+    );
+}
