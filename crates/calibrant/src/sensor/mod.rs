@@ -6,7 +6,9 @@
 
 mod axis;
 mod datasheet;
+mod entries;
 mod gauge;
+mod gauge_change;
 mod imu;
 mod parameters;
 mod recording;
