@@ -259,11 +259,12 @@ impl CalibratedImu {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use crate::sensor::{ReadingUnit, SensorParameters};
 
-    pub(crate) fn imu() -> CalibratedImu {
+    /// An IMU in counts with everything in it.
+    pub(in crate::sensor) fn imu() -> CalibratedImu {
         let parameters = ImuParameters {
             accelerometer: SensorParameters {
                 bias: Vector3::new(33124.0, 33275.0, 32364.0),
