@@ -13,6 +13,7 @@
 //! eliminated (Schur complement, [`arrowhead`](crate::arrowhead)). It holds to first order in the noise, for noise that is white,
 //! Gaussian and as large as assumed; the fit's [`FitStatistics`] say whether the data agree.
 
+mod comparison;
 mod holds;
 mod motion;
 mod problem;
@@ -20,6 +21,7 @@ mod result;
 mod settings;
 pub(crate) mod statistics;
 
+pub use comparison::{ComparedQuantity, Comparison, OverallDifference};
 pub use holds::{HoldsSetup, find_holds, holds_between};
 pub use problem::{CalibrationProblem, Stimulus};
 pub use result::*;
