@@ -41,7 +41,7 @@ impl Gauge {
             Self::Symmetric => s.cholesky().is_some(),
             _ => s.diagonal().min() > 0.0,
         };
-        positive && self.residuals(s) == Vector3::zeros()
+        positive && self.is_form_of(s)
     }
 
     /// The same matrix with what this gauge sets to zero exactly so.
@@ -66,11 +66,16 @@ impl Gauge {
     /// ```
     #[must_use]
     pub fn of(matrix: &Matrix3<f64>) -> Option<Self> {
-        let has = |gauge: &Self| gauge.residuals(matrix) == Vector3::zeros();
         if *matrix == Matrix3::from_diagonal(&matrix.diagonal()) {
             return None;
         }
-        [Self::Lower, Self::Upper, Self::Symmetric].into_iter().find(has)
+        Self::ALL.into_iter().find(|gauge| gauge.is_form_of(matrix))
+    }
+
+    /// Has a matrix this form exactly? A diagonal one has every form.
+    #[must_use]
+    pub fn is_form_of(self, matrix: &Matrix3<f64>) -> bool {
+        self.residuals(matrix) == Vector3::zeros()
     }
 }
 
