@@ -1,7 +1,11 @@
 //! The command line of calibrant: parse, call, print. One file per command.
 
+mod apply;
 mod calibrate;
+mod calibration_file;
+mod compare;
 mod console;
+mod convert;
 mod design;
 mod init;
 mod place;
@@ -34,6 +38,9 @@ enum Command {
     Simulate(simulate::Arguments),
     Calibrate(calibrate::Arguments),
     Study(study::Arguments),
+    Convert(convert::Arguments),
+    Apply(apply::Arguments),
+    Compare(compare::Arguments),
 }
 
 /// How a command ended: the exit status.
@@ -76,6 +83,9 @@ fn main() -> ExitCode {
         Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Calibrate(arguments) => calibrate::run(&arguments),
         Command::Study(arguments) => study::run(&arguments),
+        Command::Convert(arguments) => convert::run(&arguments),
+        Command::Apply(arguments) => apply::run(&arguments),
+        Command::Compare(arguments) => compare::run(&arguments),
     };
     let exit = outcome.unwrap_or_else(|error| {
         console::error(&error);
