@@ -69,13 +69,18 @@ fn row(quantity: &ComparedQuantity) -> Vec<String> {
         (false, true) => quantity.unit_a.to_owned(),
         (false, false) => format!("{} | {}", quantity.unit_a, quantity.unit_b),
     };
+    // what rounding alone makes is no difference
+    let rounding = 1e-12 * quantity.a.value.abs().max(quantity.b.value.abs());
+    let equal = quantity.difference.is_some_and(|difference| difference.abs() <= rounding);
+    let [difference, in_sd] =
+        [quantity.difference, quantity.in_sd].map(|found| found.map(|found| if equal { 0.0 } else { found }));
     let dash = || "–".to_owned();
     vec![
         quantity.invariant.name(),
         value(&quantity.a),
         value(&quantity.b),
-        quantity.difference.map_or_else(dash, |difference| number::significant(scale * difference, 3)),
-        quantity.in_sd.map_or_else(dash, |in_sd| format!("{in_sd:+.1}")),
+        difference.map_or_else(dash, |difference| number::significant(scale * difference, 3)),
+        in_sd.map_or_else(dash, |in_sd| format!("{in_sd:+.1}")),
         unit,
     ]
 }

@@ -184,8 +184,9 @@ fn text(imu: &CalibratedImu, triad: Triad, unit: ReadingUnit) -> Checked<String>
             "turn the frame with --gauge upper",
         ));
     };
+    // + 0.0: no negative zeros
     let row = |values: &[f64]| {
-        values.iter().map(|value| format!("{value:>24?}")).collect::<Vec<_>>().join(" ") + "\n"
+        values.iter().map(|value| format!("{:>24?}", value + 0.0)).collect::<Vec<_>>().join(" ") + "\n"
     };
     let matrix = |matrix: &Matrix3<f64>| {
         let rows = matrix.row_iter().map(|entries| row(&entries.iter().copied().collect::<Vec<_>>()));

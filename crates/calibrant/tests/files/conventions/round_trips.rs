@@ -105,7 +105,7 @@ fn todays_calibration_json_is_read_as_an_imu() {
     assert_eq!(file.inputs, [crate::results::input()]);
     assert!(file.imu.frame.contains("gauge of the accelerometer"), "{}", file.imu.frame);
     // into schema 2 and back
-    assert_eq!(there_and_back(&file, ImuFormat::CalibrantJson), [file.clone()]);
+    assert_eq!(there_and_back(&file, ImuFormat::CalibrantJson), std::slice::from_ref(&file));
     let turned = file.imu.in_gauge(Gauge::Lower).expect("regular");
     let overall = Comparison::of(&file.imu, &turned).overall.expect("covariances");
     assert!(overall.chi2 < 1e-12 && overall.degrees_of_freedom == 9, "{overall:?}");
