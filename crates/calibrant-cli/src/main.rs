@@ -1,7 +1,11 @@
 //! The command line of calibrant: parse, call, print. One file per command.
 
+mod apply;
 mod calibrate;
+mod calibration_file;
+mod compare;
 mod console;
+mod convert;
 mod design;
 mod init;
 mod noise;
@@ -36,6 +40,9 @@ enum Command {
     Calibrate(calibrate::Arguments),
     Study(study::Arguments),
     Noise(noise::Arguments),
+    Convert(convert::Arguments),
+    Apply(apply::Arguments),
+    Compare(compare::Arguments),
 }
 
 /// How a command ended: the exit status.
@@ -79,6 +86,9 @@ fn main() -> ExitCode {
         Command::Calibrate(arguments) => calibrate::run(&arguments),
         Command::Study(arguments) => study::run(&arguments),
         Command::Noise(arguments) => noise::run(&arguments),
+        Command::Convert(arguments) => convert::run(&arguments),
+        Command::Apply(arguments) => apply::run(&arguments),
+        Command::Compare(arguments) => compare::run(&arguments),
     };
     let exit = outcome.unwrap_or_else(|error| {
         console::error(&error);

@@ -29,6 +29,7 @@
 //! | a commanded motion and the trust in it | [`motion::CommandedMotion`], [`motion::JerkControlledMotion`] |
 //! | the problem, and how to solve it | [`estimate::CalibrationProblem`], [`estimate::CalibrationSettings`] |
 //! | estimates, covariance, fit, recovered motion | [`estimate::Calibration`] |
+//! | an IMU calibrated here or elsewhere, its correction, two of them compared | [`sensor::CalibratedImu`], [`sensor::ImuCorrection`], [`estimate::Comparison`] |
 //! | the motion to find, and how | [`design::DesignProblem`], [`design::DesignSettings`] |
 //! | the best motion, what it promises, and the proof | [`design::Design`], [`design::Certificate`] |
 //! | a motion of one's own beside it; the best as one thing changes | [`design::Assessment`], [`design::Sweep`] |

@@ -3,6 +3,7 @@
 mod bench;
 mod broken;
 mod commands;
+mod conventions;
 #[path = "../../../calibrant/tests/common/data.rs"]
 mod data;
 mod design;

@@ -13,6 +13,7 @@
 //! eliminated (Schur complement, [`arrowhead`](crate::arrowhead)). It holds to first order in the noise, for noise that is white,
 //! Gaussian and as large as assumed; the fit's [`FitStatistics`] say whether the data agree.
 
+mod comparison;
 mod holds;
 mod imu;
 mod motion;
@@ -21,6 +22,7 @@ mod result;
 mod settings;
 pub(crate) mod statistics;
 
+pub use comparison::{ComparedQuantity, Comparison, OverallDifference};
 pub use holds::{HoldsSetup, find_holds, holds_between};
 pub use imu::{
     Gyroscope, ImuCalibration, ImuProblem, ImuSetup, KnownTerm, RotationResult, StillGyroscope, Turn,

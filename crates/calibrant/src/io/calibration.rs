@@ -5,11 +5,11 @@ use super::json;
 use crate::error::Result;
 use crate::estimate::{Calibration, HoldCalibration, HoldResult, Recovered};
 use crate::sensor::{Correction, ReadingUnit};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::path::Path;
 
 /// The recording that a calibration came from.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Input {
     /// Name of the file, without its directory (so that the result does not depend on where it lay).
     pub file: String,

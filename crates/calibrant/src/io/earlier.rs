@@ -1,5 +1,6 @@
 //! `calibration.json` as it is read back: what is known of a sensor before the next motion is designed.
 
+use super::json;
 use super::text::{self, Checked};
 use crate::error::{Complaint, Error, Result};
 use crate::information::covariance;
@@ -148,11 +149,12 @@ struct ParameterFields {
     value: Option<f64>,
 }
 
-fn parse(bytes: &[u8]) -> Checked<EarlierCalibration> {
+pub(super) fn parse(bytes: &[u8]) -> Checked<EarlierCalibration> {
     const AGAIN: &str = "give a calibration.json that `calibrant calibrate` wrote";
     let complain = |message: String| Err(Box::new(Complaint::new(message, AGAIN)));
     let text = text::as_text(bytes)?;
-    let file: File = serde_json::from_str(text).map_err(|error| broken(&error, AGAIN))?;
+    let file: File =
+        serde_json::from_str(text).map_err(|error| json::broken(&error, "a calibration.json", AGAIN))?;
     match file.schema {
         Some(schema) if schema == 1 => (),
         Some(schema) => {
@@ -212,17 +214,4 @@ fn parse(bytes: &[u8]) -> Checked<EarlierCalibration> {
         has_datasheet_prior: file.prior.as_deref() == Some("datasheet"),
         information,
     })
-}
-
-/// What serde says, without its place at the end of the text: that goes before it.
-fn broken(error: &serde_json::Error, help: &str) -> Complaint {
-    let message = error.to_string();
-    let message = message.split(" at line ").next().unwrap_or_default().to_owned();
-    let what = if error.is_data() { "not a calibration.json" } else { "not valid JSON" };
-    let complaint = Complaint::new(format!("{what}: {message}"), help);
-    if error.line() > 0 {
-        complaint.at_line(error.line()).at_column(error.column().max(1))
-    } else {
-        complaint
-    }
 }

@@ -1,7 +1,7 @@
 //! JSON for people and programs: indented, but with rows of numbers on one line.
 
 use super::output::write_atomically;
-use crate::error::Result;
+use crate::error::{Complaint, Result};
 use serde::Serialize;
 use serde_json::ser::{Formatter, Serializer};
 use std::io::{self, Write};
@@ -25,6 +25,19 @@ pub(super) fn to_json(value: &impl Serialize) -> String {
     }
     out.push(b'\n');
     String::from_utf8(out).unwrap_or_default()
+}
+
+/// What serde says of a file that should be `what`, without the place at the end of its text: that goes before it.
+pub(super) fn broken(error: &serde_json::Error, what: &str, help: &str) -> Complaint {
+    let message = error.to_string();
+    let message = message.split(" at line ").next().unwrap_or_default();
+    let found = if error.is_data() { format!("not {what}") } else { "not valid JSON".into() };
+    let complaint = Complaint::new(format!("{found}: {message}"), help);
+    if error.line() > 0 {
+        complaint.at_line(error.line()).at_column(error.column().max(1))
+    } else {
+        complaint
+    }
 }
 
 /// Objects, and arrays of objects or arrays, take a line for each entry; arrays of scalars take one line.

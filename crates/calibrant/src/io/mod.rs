@@ -6,6 +6,8 @@
 //! | `recording.csv` and other recordings | [`read_recording`] | [`write_recording`] |
 //! | `motion.csv` | [`read_motion`] | [`write_motion`] |
 //! | `calibration.json` | [`read_calibration`], as what is known before a design | [`write_calibration`] |
+//! | calibrations of an IMU, ours and of other programs | [`read_calibrated_imu`] | [`write_calibrated_imu`] |
+//! | corrected recordings, comparisons | | [`write_corrected_recording`], [`comparison_json`] |
 //! | `design.json`, `motion_dense.csv` | | [`write_design`], [`write_dense_motion`] |
 //! | `evaluation.json`, `sweep.json`, `sweep.csv` | | [`write_evaluation`], [`write_sweep`], [`write_sweep_csv`] |
 //! | `noise.json` | | [`write_noise`] |
@@ -16,6 +18,9 @@
 //! silent. Everything is written beside its place and then renamed ([`write_atomically`]), so a result is whole or absent.
 
 mod calibration;
+mod comparison;
+mod convention;
+mod corrected;
 mod delimited;
 mod dense;
 mod design;
@@ -36,6 +41,12 @@ mod text;
 mod truth;
 
 pub use calibration::{Input, calibration_json, write_calibration};
+pub use comparison::comparison_json;
+pub use convention::{
+    CalibratedImuFile, ImuFormat, ImuNoise, ImuReadOptions, RawUnits, WrittenImu, calibrated_imu_texts,
+    parse_calibrated_imu, read_calibrated_imu, read_kalibr_noise, write_calibrated_imu,
+};
+pub use corrected::write_corrected_recording;
 pub use dense::write_dense_motion;
 pub use design::{design_json, write_design};
 pub use earlier::{EarlierCalibration, parse_calibration, read_calibration};

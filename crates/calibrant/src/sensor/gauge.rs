@@ -19,6 +19,9 @@ pub enum Gauge {
 }
 
 impl Gauge {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Lower, Self::Upper, Self::Symmetric];
+
     /// As written in experiment files: `lower`, `upper`, `symmetric`.
     #[must_use]
     pub fn name(self) -> &'static str {

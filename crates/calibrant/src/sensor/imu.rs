@@ -198,4 +198,20 @@ impl CalibratedImu {
             Triad::Gyroscope => self.gyroscope_unit,
         }
     }
+
+    /// The same IMU without g-sensitivity, as if it were known to be zero.
+    #[must_use]
+    pub fn without_g_sensitivity(&self) -> Self {
+        let kept: Vec<usize> = (0..self.quantities.len())
+            .filter(|&k| !matches!(self.quantities[k], ImuQuantity::GSensitivity(..)))
+            .collect();
+        let mut imu = self.clone();
+        imu.parameters.g_sensitivity = Matrix3::zeros();
+        imu.quantities = kept.iter().map(|&k| self.quantities[k]).collect();
+        imu.covariance = self
+            .covariance
+            .as_ref()
+            .map(|sigma| DMatrix::from_fn(kept.len(), kept.len(), |i, j| sigma[(kept[i], kept[j])]));
+        imu
+    }
 }

@@ -6,8 +6,12 @@
 
 mod axis;
 mod datasheet;
+mod entries;
 mod gauge;
+mod gauge_change;
 mod imu;
+mod imu_correction;
+mod invariant;
 mod parameters;
 mod recording;
 
@@ -15,5 +19,7 @@ pub use axis::Axis;
 pub use datasheet::{ReadingUnit, Sensor};
 pub use gauge::{Correction, Gauge};
 pub use imu::{CalibratedImu, ImuParameters, ImuQuantity, ImuRecording, Triad};
+pub use imu_correction::{CorrectedRecording, CorrectedTriad, ImuCorrection};
+pub use invariant::{Invariant, InvariantValue};
 pub use parameters::{Parameter, ParameterList, Quantity, SensorModel, SensorParameters};
 pub use recording::Recording;

@@ -4,6 +4,7 @@
 mod common;
 
 mod broken;
+mod conventions;
 mod earlier;
 mod experiments;
 mod good;

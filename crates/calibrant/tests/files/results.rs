@@ -186,8 +186,8 @@ fn calibration_json_of_a_motion() {
     assert_eq!(std::fs::read_to_string(path).expect("read"), text, "the same bytes each time");
 }
 
-#[test]
-fn calibration_json_of_holds_in_counts() {
+/// A static calibration of a sensor with readings in counts, in the upper gauge.
+pub(super) fn holds_in_counts() -> Calibration {
     let sensor = Sensor { unit: ReadingUnit::Counts, ..Sensor::triaxial(SensorModel::Full) };
     let hold = Hold {
         first: 0,
@@ -219,7 +219,12 @@ fn calibration_json_of_holds_in_counts() {
         matrix: Matrix3::new(2.0, 1.0, 0.0, 0.0, 4.0, 0.0, 0.0, 0.0, 8.0),
     };
     let list = Gauge::Upper.parameter_list(SensorModel::Full);
-    let text = calibration_json(&calibration(&sensor, parameters, Recovered::Holds(holds), list), &input());
+    calibration(&sensor, parameters, Recovered::Holds(holds), list)
+}
+
+#[test]
+fn calibration_json_of_holds_in_counts() {
+    let text = calibration_json(&holds_in_counts(), &input());
     let json: Value = serde_json::from_str(&text).expect("JSON");
     assert_eq!(json["parameters"].as_array().map(Vec::len), Some(9));
     assert_eq!(json["holds"]["table"][0]["mean_counts"], json!([1.0, 2.0, 3.0]));

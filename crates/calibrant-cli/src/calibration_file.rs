@@ -1,0 +1,103 @@
+//! A calibration that a command reads, in whatever format: the options that all of them share.
+
+use crate::console;
+use calibrant::Result;
+use calibrant::io::{CalibratedImuFile, ImuFormat, ImuReadOptions, RawUnits, read_calibrated_imu};
+use calibrant::sensor::{CalibratedImu, Triad};
+use std::path::Path;
+
+/// A format on the command line.
+#[derive(Clone, Copy, clap::ValueEnum)]
+pub(crate) enum Format {
+    /// calibrant JSON.
+    Calibrant,
+    /// Kalibr's imu.yaml, scale-misalignment model.
+    Kalibr,
+    /// imu_tk's .calib, one file for each sensor.
+    #[value(name = "imu_tk", alias = "imu-tk")]
+    ImuTk,
+    /// imucal's JSON.
+    Imucal,
+    /// A C header with the correction (ours only, where it is read).
+    C,
+}
+
+impl From<Format> for ImuFormat {
+    fn from(format: Format) -> Self {
+        match format {
+            Format::Calibrant => Self::CalibrantJson,
+            Format::Kalibr => Self::Kalibr,
+            Format::ImuTk => Self::ImuTk,
+            Format::Imucal => Self::Imucal,
+            Format::C => Self::CHeader,
+        }
+    }
+}
+
+/// How calibrations are read where their files do not say everything.
+#[derive(clap::Args)]
+pub(crate) struct Reading {
+    /// Format of the calibration (default: by its content).
+    #[arg(long, value_enum)]
+    pub(crate) from: Option<Format>,
+    /// Unit of the readings where the file does not say (imu_tk's, some of imucal's).
+    #[arg(long, value_enum)]
+    pub(crate) unit: Option<Unit>,
+    /// The sensor that a file of one sensor is of, where it does not say (imu_tk's).
+    #[arg(long, value_enum)]
+    sensor: Option<Sensor>,
+}
+
+/// Unit of readings.
+#[derive(Clone, Copy, clap::ValueEnum)]
+pub(crate) enum Unit {
+    /// m/s² and rad/s.
+    #[value(alias = "mps2", alias = "radps")]
+    Si,
+    /// Raw counts.
+    Counts,
+}
+
+#[derive(Clone, Copy, clap::ValueEnum)]
+enum Sensor {
+    Accelerometer,
+    Gyroscope,
+}
+
+impl Reading {
+    /// Reads a calibration; what its reader found is told.
+    pub(crate) fn read(&self, path: &Path) -> Result<CalibratedImuFile> {
+        let options = ImuReadOptions {
+            format: self.from.map(ImuFormat::from),
+            units: self.unit.map(|unit| match unit {
+                Unit::Si => RawUnits::Si,
+                Unit::Counts => RawUnits::Counts,
+            }),
+            triad: self.sensor.map(|sensor| match sensor {
+                Sensor::Accelerometer => Triad::Accelerometer,
+                Sensor::Gyroscope => Triad::Gyroscope,
+            }),
+        };
+        let file = read_calibrated_imu(path, &options)?;
+        for finding in &file.findings {
+            console::note(&format!("{}: {finding}", path.display()));
+        }
+        Ok(file)
+    }
+}
+
+/// A calibration in a line: its sensors with their units, whether it has a covariance.
+pub(crate) fn in_words(imu: &CalibratedImu) -> String {
+    let mut words: Vec<String> = Triad::ALL
+        .into_iter()
+        .filter_map(|triad| Some(format!("{triad} in {}", imu.unit(triad)?.symbol())))
+        .collect();
+    if imu.gyroscope_unit.is_some() && imu.parameters.g_sensitivity.iter().any(|&entry| entry != 0.0) {
+        words.push("g-sensitivity".into());
+    }
+    words.push(match &imu.covariance {
+        Some(covariance) => format!("covariance of {} parameters", covariance.nrows()),
+        None => "no covariance".into(),
+    });
+    words.join(", ")
+}

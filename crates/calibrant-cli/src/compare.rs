@@ -1,0 +1,86 @@
+//! `calibrant compare`: two calibrations side by side, whatever their conventions.
+
+use crate::calibration_file::{Reading, in_words};
+use crate::{Exit, console};
+use calibrant::estimate::{ComparedQuantity, Comparison};
+use calibrant::io::comparison_json;
+use calibrant::report::number;
+use calibrant::sensor::InvariantValue;
+use std::path::PathBuf;
+
+/// Compare two calibrations by what does not depend on the true frame: gains, angles between axes, biases, g-sensitivity.
+///
+/// Any two formats that `calibrant convert` reads. The difference is also given in joint standard deviations where there is a covariance, and as one χ² of all
+/// parameters.
+#[derive(clap::Args)]
+pub(crate) struct Arguments {
+    /// The first calibration.
+    a: PathBuf,
+    /// The second.
+    b: PathBuf,
+    #[command(flatten)]
+    reading: Reading,
+    /// Print JSON in place of the table.
+    #[arg(long)]
+    json: bool,
+}
+
+pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
+    let (a, b) = (arguments.reading.read(&arguments.a)?.imu, arguments.reading.read(&arguments.b)?.imu);
+    let comparison = Comparison::of(&a, &b);
+    let (name_a, name_b) = (arguments.a.display().to_string(), arguments.b.display().to_string());
+    if arguments.json {
+        console::print(&comparison_json(&comparison, &name_a, &name_b));
+        return Ok(Exit::DONE);
+    }
+    console::print(&format!("A: {name_a} ({})\nB: {name_b} ({})\n\n", in_words(&a), in_words(&b)));
+    let rows: Vec<_> = comparison.quantities.iter().map(row).collect();
+    let header = ["quantity", "A", "B", "B − A", "in sd", "unit"];
+    console::print(&console::table(&header, &rows));
+    if let Some(overall) = comparison.overall {
+        let verdict = if overall.p_value < 0.01 {
+            "they differ by more than their uncertainties explain"
+        } else {
+            "their uncertainties explain the difference"
+        };
+        console::print(&format!(
+            "  all parameters together: {verdict}; χ² {} with {} degrees of freedom, p-value {}\n",
+            number::significant(overall.chi2, 5),
+            number::count(overall.degrees_of_freedom),
+            number::probability(overall.p_value)
+        ));
+    }
+    for note in &comparison.notes {
+        console::note(note);
+    }
+    Ok(Exit::DONE)
+}
+
+/// A row of the table, angles in degrees.
+fn row(quantity: &ComparedQuantity) -> Vec<String> {
+    let is_angle = quantity.unit_a == "rad";
+    let scale = if is_angle { 1f64.to_degrees() } else { 1.0 };
+    let value = |value: &InvariantValue| match value.sd {
+        Some(sd) => number::with_sd(scale * value.value, scale * sd),
+        None => number::significant(scale * value.value, 8),
+    };
+    let unit = match (is_angle, quantity.unit_a == quantity.unit_b) {
+        (true, _) => "°".to_owned(),
+        (false, true) => quantity.unit_a.to_owned(),
+        (false, false) => format!("{} | {}", quantity.unit_a, quantity.unit_b),
+    };
+    // what rounding alone makes is no difference
+    let rounding = 1e-12 * quantity.a.value.abs().max(quantity.b.value.abs());
+    let equal = quantity.difference.is_some_and(|difference| difference.abs() <= rounding);
+    let [difference, in_sd] =
+        [quantity.difference, quantity.in_sd].map(|found| found.map(|found| if equal { 0.0 } else { found }));
+    let dash = || "–".to_owned();
+    vec![
+        quantity.invariant.name(),
+        value(&quantity.a),
+        value(&quantity.b),
+        difference.map_or_else(dash, |difference| number::significant(scale * difference, 3)),
+        in_sd.map_or_else(dash, |in_sd| format!("{in_sd:+.1}")),
+        unit,
+    ]
+}

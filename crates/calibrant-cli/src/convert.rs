@@ -1,0 +1,102 @@
+//! `calibrant convert`: a calibration in another convention.
+
+use crate::calibration_file::{Format, Reading, in_words};
+use crate::{Exit, console};
+use calibrant::Error;
+use calibrant::error::Complaint;
+use calibrant::io::{ImuFormat, read_kalibr_noise, write_calibrated_imu};
+use calibrant::sensor::Gauge;
+use std::path::PathBuf;
+
+/// Convert a calibration between conventions: calibrant JSON, Kalibr, imu_tk, imucal, C header.
+///
+/// The correction stays the same to the last digits; what a format cannot carry is said, and refused where the correction would be another. imu_tk has one file
+/// for each sensor: NAME.calib stands for NAME_acc.calib and NAME_gyro.calib.
+#[derive(clap::Args)]
+pub(crate) struct Arguments {
+    /// The calibration.
+    #[arg(value_name = "IN")]
+    input: PathBuf,
+    /// Where to write it; its format follows from the extension: .json (calibrant), .yaml (Kalibr), .calib (imu_tk), .h (C).
+    #[arg(value_name = "OUT")]
+    output: PathBuf,
+    #[command(flatten)]
+    reading: Reading,
+    /// Format of OUT.
+    #[arg(long, value_enum)]
+    to: Option<Format>,
+    /// Turn the true frame of both sensors into this gauge of the accelerometer.
+    #[arg(long, value_enum)]
+    gauge: Option<GaugeName>,
+    /// A Kalibr imu.yaml with noise densities, update rate and topic to put into OUT.
+    #[arg(long, value_name = "YAML")]
+    noise: Option<PathBuf>,
+    /// Leave the gyroscope's g-sensitivity out: the correction changes.
+    #[arg(long)]
+    drop_g_sensitivity: bool,
+}
+
+#[derive(Clone, Copy, clap::ValueEnum)]
+enum GaugeName {
+    /// Lower triangular: true x along the accelerometer's x axis (Kalibr).
+    Lower,
+    /// Upper triangular: true z along the accelerometer's z axis (imu_tk).
+    Upper,
+    /// Symmetric: as close as possible to all three axes.
+    Symmetric,
+}
+
+impl From<GaugeName> for Gauge {
+    fn from(gauge: GaugeName) -> Self {
+        match gauge {
+            GaugeName::Lower => Self::Lower,
+            GaugeName::Upper => Self::Upper,
+            GaugeName::Symmetric => Self::Symmetric,
+        }
+    }
+}
+
+pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
+    let format = match arguments.to {
+        Some(format) => format.into(),
+        None => ImuFormat::of_extension(&arguments.output).ok_or_else(|| {
+            let complaint = Complaint::new(
+                "the extension does not tell the format to write",
+                "say it with --to: calibrant, kalibr, imu_tk, imucal, c",
+            );
+            Error::Experiment(Box::new(complaint.in_file(&arguments.output)))
+        })?,
+    };
+    let mut file = arguments.reading.read(&arguments.input)?;
+    let read = format!("{} ({}): {}\n", arguments.input.display(), file.format.title(), in_words(&file.imu));
+    if let Some(path) = &arguments.noise {
+        file.noise = Some(read_kalibr_noise(path)?);
+    }
+    if arguments.drop_g_sensitivity {
+        let largest = file.imu.parameters.g_sensitivity.row_iter().map(|row| row.norm()).fold(0.0, f64::max);
+        if largest > 0.0 {
+            let unit = file.imu.gyroscope_unit.map_or("", |unit| unit.symbol());
+            console::warn(&format!(
+                "the g-sensitivity is left out: readings of the gyroscope are off by up to {:.2e} {unit} at 1 g",
+                9.80665 * largest
+            ));
+        }
+        file.imu = file.imu.without_g_sensitivity();
+    }
+    if let Some(gauge) = arguments.gauge {
+        file.imu = file.imu.in_gauge(gauge.into())?;
+    }
+    let written = write_calibrated_imu(&arguments.output, &file, format)?;
+    console::print(&read);
+    for warning in &written.warnings {
+        console::warn(warning);
+    }
+    let files: Vec<_> = written.files.iter().map(|path| path.display().to_string()).collect();
+    console::print(&format!(
+        "{} ({}), true frame: {}\n",
+        files.join(" and "),
+        format.title(),
+        file.imu.frame
+    ));
+    Ok(Exit::DONE)
+}

@@ -1,0 +1,281 @@
+//! Are two calibrations of one sensor the same, whatever their conventions?
+//!
+//! Quantity by quantity on what does not depend on the true frame ([`Invariant`]); and as a whole, with both brought into one frame (the lower gauge of the same
+//! sensor): `χ² = dᵀ (Σ_A + Σ_B)⁺ d` over the parameters that either covariance speaks of, `d` their difference. This supposes that the two come
+//! from different recordings; of the same recording, `χ²` comes out too small.
+
+use super::statistics::chi2_p_value;
+use crate::sensor::{CalibratedImu, Gauge, ImuQuantity, Invariant, InvariantValue, Quantity, Triad};
+use nalgebra::{DMatrix, DVector};
+
+/// Two calibrations side by side.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Comparison {
+    /// The invariants that both have, in the order of a table.
+    pub quantities: Vec<ComparedQuantity>,
+    /// All parameters together; `None` without a covariance (see [`notes`](Comparison::notes)).
+    pub overall: Option<OverallDifference>,
+    /// What could not be compared, and what the comparison supposes.
+    pub notes: Vec<String>,
+}
+
+/// One invariant in two calibrations.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ComparedQuantity {
+    /// Which one.
+    pub invariant: Invariant,
+    /// Its unit in the first calibration.
+    pub unit_a: &'static str,
+    /// Its unit in the second.
+    pub unit_b: &'static str,
+    /// In the first.
+    pub a: InvariantValue,
+    /// In the second.
+    pub b: InvariantValue,
+    /// Second minus first; `None` where the units differ.
+    pub difference: Option<f64>,
+    /// The difference in joint standard deviations; a calibration without a covariance counts as exact. `None` where neither has one.
+    pub in_sd: Option<f64>,
+}
+
+/// Difference of all parameters together.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OverallDifference {
+    /// `dᵀ (Σ_A + Σ_B)⁺ d`.
+    pub chi2: f64,
+    /// Rank of `Σ_A + Σ_B`.
+    pub degrees_of_freedom: usize,
+    /// Probability of a larger `χ²` if both are calibrations of one sensor.
+    pub p_value: f64,
+}
+
+impl Comparison {
+    /// Compares two calibrations.
+    ///
+    /// # Examples
+    /// ```
+    /// use calibrant::estimate::Comparison;
+    /// use calibrant::sensor::{CalibratedImu, ImuParameters, ImuQuantity, ReadingUnit};
+    /// use nalgebra::DMatrix;
+    /// let quantities = ImuQuantity::full_list(true, false, false)[..6].to_vec(); // bias and scale factors
+    /// let a = CalibratedImu {
+    ///     parameters: ImuParameters::identity(),
+    ///     accelerometer_unit: Some(ReadingUnit::MetrePerSecondSquared),
+    ///     gyroscope_unit: None,
+    ///     quantities,
+    ///     covariance: Some(DMatrix::identity(6, 6) * 1e-6),
+    ///     frame: String::new(),
+    /// };
+    /// let mut b = a.clone();
+    /// b.parameters.accelerometer.bias.x = 0.004;
+    /// let comparison = Comparison::of(&a, &b);
+    /// assert!((comparison.quantities[0].in_sd.unwrap() - 4.0 / 2f64.sqrt()).abs() < 1e-9);
+    /// assert!((comparison.overall.unwrap().chi2 - 8.0).abs() < 1e-9);
+    /// ```
+    #[must_use]
+    pub fn of(a: &CalibratedImu, b: &CalibratedImu) -> Self {
+        let mut notes = Vec::new();
+        for triad in Triad::ALL {
+            match (a.unit(triad), b.unit(triad)) {
+                (Some(one), Some(other)) if one != other => notes.push(format!(
+                    "the readings of the {triad} are in {} in A and in {} in B: its biases and gains cannot be compared",
+                    one.symbol(),
+                    other.symbol()
+                )),
+                (Some(_), None) => notes.push(format!("only A has a {triad}")),
+                (None, Some(_)) => notes.push(format!("only B has a {triad}")),
+                _ => {}
+            }
+        }
+        let of_b = b.invariants();
+        let quantities: Vec<_> = a
+            .invariants()
+            .into_iter()
+            .filter_map(|in_a| Some((in_a, *of_b.iter().find(|in_b| in_b.invariant == in_a.invariant)?)))
+            .map(|(in_a, in_b)| compared(a, b, in_a, in_b))
+            .collect();
+        match (&a.covariance, &b.covariance) {
+            (None, None) => notes
+                .push("neither has a covariance: how significant the differences are is not known".into()),
+            (Some(_), None) => notes.push("B has no covariance: its values count as exact".into()),
+            (None, Some(_)) => notes.push("A has no covariance: its values count as exact".into()),
+            (Some(_), Some(_)) => notes.push(
+                "significance supposes different recordings; two calibrations of the same one differ by less"
+                    .into(),
+            ),
+        }
+        let overall = overall(a, b, &mut notes);
+        Self { quantities, overall, notes }
+    }
+}
+
+fn compared(
+    a: &CalibratedImu,
+    b: &CalibratedImu,
+    in_a: InvariantValue,
+    in_b: InvariantValue,
+) -> ComparedQuantity {
+    let invariant = in_a.invariant;
+    let comparable = invariant.in_unit_of().is_none_or(|triad| a.unit(triad) == b.unit(triad));
+    let difference = comparable.then_some(in_b.value - in_a.value);
+    let sd = match (in_a.sd, in_b.sd) {
+        // close to zero in the one: no first-order sd there, and so none of the difference
+        (None, Some(_)) if covers(a, invariant) => None,
+        (Some(_), None) if covers(b, invariant) => None,
+        (None, None) => None,
+        (one, other) => Some(one.unwrap_or(0.0).hypot(other.unwrap_or(0.0))),
+    };
+    let in_sd = difference.zip(sd).map(|(difference, sd)| difference / sd);
+    let (unit_a, unit_b) = (invariant.unit(a), invariant.unit(b));
+    ComparedQuantity { invariant, unit_a, unit_b, a: in_a, b: in_b, difference, in_sd }
+}
+
+/// Does the covariance of an IMU say anything of an invariant?
+fn covers(imu: &CalibratedImu, invariant: Invariant) -> bool {
+    let has_matrix = |triad: Triad| {
+        let matrix = |quantity: &ImuQuantity| matches!(quantity, ImuQuantity::Of(of, q) if *of == triad && !matches!(q, Quantity::Bias(_)));
+        imu.quantities.iter().any(matrix)
+    };
+    imu.covariance.is_some()
+        && match invariant {
+            Invariant::Bias(triad, axis) => {
+                imu.quantities.contains(&ImuQuantity::Of(triad, Quantity::Bias(axis)))
+            }
+            Invariant::Gain(triad, _) | Invariant::Angle(triad, ..) => has_matrix(triad),
+            Invariant::AngleBetween(..) => Triad::ALL.into_iter().any(has_matrix),
+            Invariant::GSensitivity(_) => {
+                imu.quantities.iter().any(|quantity| matches!(quantity, ImuQuantity::GSensitivity(..)))
+            }
+        }
+}
+
+/// All parameters together, in the lower gauge of the first sensor that both have in one unit.
+fn overall(a: &CalibratedImu, b: &CalibratedImu, notes: &mut Vec<String>) -> Option<OverallDifference> {
+    if a.covariance.is_none() && b.covariance.is_none() {
+        return None;
+    }
+    let in_both = |triad: Triad| a.unit(triad).is_some() && a.unit(triad) == b.unit(triad);
+    let reference = Triad::ALL.into_iter().find(|&triad| in_both(triad))?;
+    let turned = (a.in_gauge_of(reference, Gauge::Lower), b.in_gauge_of(reference, Gauge::Lower));
+    let (a, b) = match turned {
+        (Ok(a), Ok(b)) => (a, b),
+        (Err(error), _) | (_, Err(error)) => {
+            notes.push(format!("the two cannot be brought into one frame: {error}"));
+            return None;
+        }
+    };
+    let mut list: Vec<ImuQuantity> = Vec::new();
+    for imu in [&a, &b] {
+        let listed = imu.quantities.iter().filter(|_| imu.covariance.is_some());
+        let common = listed.filter(|quantity| in_both(quantity.triad()));
+        common.for_each(|quantity| {
+            if !list.contains(quantity) {
+                list.push(*quantity);
+            }
+        });
+    }
+    let mut sigma = DMatrix::zeros(list.len(), list.len());
+    for imu in [&a, &b] {
+        let Some(covariance) = &imu.covariance else { continue };
+        let place: Vec<_> =
+            list.iter().map(|quantity| imu.quantities.iter().position(|q| q == quantity)).collect();
+        for (i, row) in place.iter().enumerate() {
+            for (j, column) in place.iter().enumerate() {
+                if let (Some(row), Some(column)) = (row, column) {
+                    sigma[(i, j)] += covariance[(*row, *column)];
+                }
+            }
+        }
+    }
+    let difference = DVector::from_iterator(
+        list.len(),
+        list.iter().map(|quantity| quantity.of(&b.parameters) - quantity.of(&a.parameters)),
+    );
+    let (chi2, degrees_of_freedom) = mahalanobis(&sigma, &difference);
+    let p_value = chi2_p_value(chi2, degrees_of_freedom)?;
+    Some(OverallDifference { chi2, degrees_of_freedom, p_value })
+}
+
+/// `dᵀ Σ⁺ d` and the rank of `Σ`, scaled to unit diagonal so that units do not matter.
+fn mahalanobis(sigma: &DMatrix<f64>, difference: &DVector<f64>) -> (f64, usize) {
+    let sd = sigma.diagonal().map(|variance| variance.max(0.0).sqrt());
+    let scale = sd.map(|sd| if sd > 0.0 { 1.0 / sd } else { 0.0 });
+    let correlation = DMatrix::from_fn(sd.len(), sd.len(), |i, j| scale[i] * sigma[(i, j)] * scale[j]);
+    let scaled = difference.component_mul(&scale);
+    let eigen = correlation.symmetric_eigen();
+    let least = 1e-10 * eigen.eigenvalues.amax();
+    let mut chi2 = 0.0;
+    let mut rank = 0;
+    for (value, vector) in eigen.eigenvalues.iter().zip(eigen.eigenvectors.column_iter()) {
+        if *value > least {
+            chi2 += vector.dot(&scaled).powi(2) / value;
+            rank += 1;
+        }
+    }
+    (chi2, rank)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sensor::{ImuParameters, ReadingUnit};
+
+    fn imu() -> CalibratedImu {
+        let mut parameters = ImuParameters::identity();
+        for (k, quantity) in ImuQuantity::full_list(true, true, true).into_iter().enumerate() {
+            quantity.add_to(&mut parameters, 1e-3 * ((5 * k % 13) as f64 - 6.0));
+        }
+        let quantities = ImuQuantity::full_list(true, true, true);
+        let n = quantities.len();
+        let root =
+            DMatrix::from_fn(n, n, |i, j| if i == j { 1e-3 } else { 1e-5 * ((i * 3 + j * 5) % 7) as f64 });
+        CalibratedImu {
+            parameters,
+            accelerometer_unit: Some(ReadingUnit::MetrePerSecondSquared),
+            gyroscope_unit: Some(ReadingUnit::RadianPerSecond),
+            quantities,
+            covariance: Some(&root * root.transpose()),
+            frame: String::new(),
+        }
+    }
+
+    #[test]
+    fn one_sensor_in_two_gauges_does_not_differ() {
+        let other = imu().in_gauge(Gauge::Upper).expect("regular");
+        let comparison = Comparison::of(&imu(), &other);
+        let overall = comparison.overall.expect("covariances");
+        assert!(overall.chi2 < 1e-15 && overall.p_value > 0.999, "{overall:?}");
+        assert_eq!(overall.degrees_of_freedom, 30, "3 of 33 are the frame");
+        assert!(comparison.quantities.iter().all(|row| row.in_sd.is_none_or(|in_sd| in_sd.abs() < 1e-8)));
+    }
+
+    #[test]
+    fn the_overall_difference_does_not_depend_on_the_gauge() {
+        let mut other = imu();
+        for quantity in ImuQuantity::full_list(true, true, true) {
+            let step = if quantity.name().contains('x') { 2e-5 } else { -1e-5 };
+            quantity.add_to(&mut other.parameters, step);
+        }
+        let one = Comparison::of(&imu(), &other).overall.expect("covariances");
+        let turned = other.in_gauge(Gauge::Symmetric).expect("regular");
+        let two = Comparison::of(&imu(), &turned).overall.expect("covariances");
+        assert!((one.chi2 / two.chi2 - 1.0).abs() < 1e-6, "{one:?} {two:?}");
+        assert!(one.chi2 > 1e-3);
+    }
+
+    #[test]
+    fn what_cannot_be_compared_is_said() {
+        let exact = CalibratedImu { covariance: None, ..imu() };
+        let said = |a: &CalibratedImu, b: &CalibratedImu| Comparison::of(a, b).notes.join("; ");
+        assert!(said(&imu(), &exact).contains("B has no covariance"));
+        assert!(said(&exact, &exact).contains("neither has a covariance"));
+        assert_eq!(Comparison::of(&exact, &exact).overall, None);
+        let counts = CalibratedImu { gyroscope_unit: Some(ReadingUnit::Counts), ..imu() };
+        let comparison = Comparison::of(&imu(), &counts);
+        assert!(comparison.notes[0].contains("in rad/s in A and in counts in B"), "{:?}", comparison.notes);
+        let gain = comparison.quantities.iter().find(|row| row.invariant.name() == "gyroscope.gain.x");
+        assert_eq!(gain.expect("shown").difference, None);
+        let alone = CalibratedImu { gyroscope_unit: None, ..imu() };
+        assert!(said(&imu(), &alone).contains("only A has a gyroscope"));
+    }
+}

@@ -1,0 +1,66 @@
+//! A corrected recording as CSV.
+
+use super::output::write_atomically;
+use crate::error::Result;
+use crate::sensor::{Axis, CorrectedRecording, CorrectedTriad, Triad};
+use std::io::{self, Write};
+use std::path::Path;
+
+/// Writes a corrected recording as CSV: `t_s,ax_mps2,ay_mps2,az_mps2,ax_sd_mps2,…,gx_radps,…,gx_sd_radps,…`.
+///
+/// A sensor that is not there has no columns, nor has an uncertainty that is not known. `sd` is the standard uncertainty of the correction, which is the same
+/// error in every sample: it does not average out; the noise of the sample is not in it. Where the sensors' times differ, every time has a row, and
+/// a sensor without a sample there empty fields. Numbers have the fewest digits that read back to the same bits.
+///
+/// # Errors
+/// [`Error::Output`](crate::Error::Output) where it cannot be written.
+pub fn write_corrected_recording(path: &Path, recording: &CorrectedRecording) -> Result<()> {
+    let triads: Vec<_> =
+        [(Triad::Accelerometer, &recording.accelerometer), (Triad::Gyroscope, &recording.gyroscope)]
+            .into_iter()
+            .filter_map(|(triad, corrected)| Some((triad, corrected.as_ref()?)))
+            .collect();
+    write_atomically(path, |out| {
+        write!(out, "t_s")?;
+        for (triad, corrected) in &triads {
+            header(out, *triad, corrected)?;
+        }
+        writeln!(out)?;
+        let mut next = vec![0; triads.len()];
+        loop {
+            let times =
+                triads.iter().zip(&next).filter_map(|((_, corrected), &k)| corrected.times_s.get(k).copied());
+            let Some(time) = times.reduce(f64::min) else { return Ok(()) };
+            write!(out, "{time:?}")?;
+            for ((_, corrected), k) in triads.iter().zip(&mut next) {
+                let here = corrected.times_s.get(*k) == Some(&time);
+                row(out, corrected, here.then_some(*k))?;
+                *k += usize::from(here);
+            }
+            writeln!(out)?;
+        }
+    })
+}
+
+fn header(out: &mut dyn Write, triad: Triad, corrected: &CorrectedTriad) -> io::Result<()> {
+    let (letter, unit) = (&triad.name()[..1], triad.stimulus_unit().suffix());
+    for axis in Axis::ALL {
+        write!(out, ",{letter}{axis}_{unit}")?;
+    }
+    if corrected.sd.is_some() {
+        for axis in Axis::ALL {
+            write!(out, ",{letter}{axis}_sd_{unit}")?;
+        }
+    }
+    Ok(())
+}
+
+fn row(out: &mut dyn Write, corrected: &CorrectedTriad, sample: Option<usize>) -> io::Result<()> {
+    for vectors in [Some(&corrected.values), corrected.sd.as_ref()].into_iter().flatten() {
+        match sample.and_then(|k| vectors.get(k)) {
+            Some(values) => values.iter().try_for_each(|value| write!(out, ",{value:?}"))?,
+            None => write!(out, ",,,")?,
+        }
+    }
+    Ok(())
+}

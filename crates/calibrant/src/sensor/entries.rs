@@ -1,0 +1,135 @@
+//! The entries of an IMU's model as one vector: biases, matrices and g-sensitivity, whichever of them were estimated.
+//!
+//! `b_a` (3), `S_a` row by row (9), `b_g` (3), `S_g` (9), `Γ` (9). Derivatives of what is computed from an IMU are taken with respect to these, and a
+//! covariance of any list of quantities becomes one of the entries.
+
+use super::{Axis, CalibratedImu, ImuParameters, ImuQuantity, Quantity, SensorParameters, Triad};
+use nalgebra::{DMatrix, Matrix3, SMatrix, SVector, Vector3};
+
+/// Number of entries.
+pub(super) const ENTRIES: usize = 33;
+
+/// A value for each entry.
+pub(super) type EntryVector = SVector<f64, ENTRIES>;
+
+/// A matrix over the entries.
+pub(super) type EntryMatrix = SMatrix<f64, ENTRIES, ENTRIES>;
+
+/// Place of the bias of an axis.
+pub(super) fn bias(triad: Triad, axis: usize) -> usize {
+    first(triad) + axis
+}
+
+/// Place of an entry of a sensor's matrix.
+pub(super) fn matrix(triad: Triad, row: usize, column: usize) -> usize {
+    first(triad) + 3 + 3 * row + column
+}
+
+/// Place of an entry of `Γ`.
+pub(super) fn g_sensitivity(row: usize, column: usize) -> usize {
+    24 + 3 * row + column
+}
+
+fn first(triad: Triad) -> usize {
+    match triad {
+        Triad::Accelerometer => 0,
+        Triad::Gyroscope => 12,
+    }
+}
+
+/// The entries of an IMU.
+pub(super) fn of(imu: &ImuParameters) -> EntryVector {
+    let mut entries = EntryVector::zeros();
+    for triad in Triad::ALL {
+        let sensor = imu.triad(triad);
+        for row in 0..3 {
+            entries[bias(triad, row)] = sensor.bias[row];
+            for column in 0..3 {
+                entries[matrix(triad, row, column)] = sensor.matrix[(row, column)];
+            }
+        }
+    }
+    for row in 0..3 {
+        for column in 0..3 {
+            entries[g_sensitivity(row, column)] = imu.g_sensitivity[(row, column)];
+        }
+    }
+    entries
+}
+
+/// An IMU of these entries: the inverse of [`of`].
+pub(super) fn to_imu(entries: &EntryVector) -> ImuParameters {
+    let sensor = |triad| SensorParameters {
+        bias: Vector3::from_fn(|row, _| entries[bias(triad, row)]),
+        matrix: Matrix3::from_fn(|row, column| entries[matrix(triad, row, column)]),
+    };
+    ImuParameters {
+        accelerometer: sensor(Triad::Accelerometer),
+        gyroscope: sensor(Triad::Gyroscope),
+        g_sensitivity: Matrix3::from_fn(|row, column| entries[g_sensitivity(row, column)]),
+    }
+}
+
+/// What one unit of a quantity adds to the entries.
+pub(super) fn of_quantity(quantity: ImuQuantity) -> EntryVector {
+    let mut imu = to_imu(&EntryVector::zeros());
+    quantity.add_to(&mut imu, 1.0);
+    of(&imu)
+}
+
+/// Covariance of the entries of an IMU, zero where they are known exactly; `None` where the IMU has no covariance.
+pub(super) fn covariance(imu: &CalibratedImu) -> Option<EntryMatrix> {
+    let sigma = imu.covariance.as_ref()?;
+    let embedding: Vec<_> = imu.quantities.iter().map(|&quantity| of_quantity(quantity)).collect();
+    let embedding = DMatrix::from_fn(ENTRIES, embedding.len(), |entry, k| embedding[k][entry]);
+    let entries = &embedding * sigma * embedding.transpose();
+    Some(EntryMatrix::from_fn(|i, j| 0.5 * (entries[(i, j)] + entries[(j, i)])))
+}
+
+impl ImuQuantity {
+    /// Every quantity of a full model, in the order of a result: bias, scale factors and cross-axis sensitivities of each sensor that is there, then
+    /// the g-sensitivity.
+    #[must_use]
+    pub fn full_list(accelerometer: bool, gyroscope: bool, g_sensitivity: bool) -> Vec<Self> {
+        let mut list = Vec::new();
+        for (triad, there) in [(Triad::Accelerometer, accelerometer), (Triad::Gyroscope, gyroscope)] {
+            if there {
+                list.extend(Axis::ALL.map(|axis| Self::Of(triad, Quantity::Bias(axis))));
+                list.extend(Axis::ALL.map(|axis| Self::Of(triad, Quantity::Scale(axis))));
+                let pairs = Axis::ALL.into_iter().flat_map(|row| Axis::ALL.map(|column| (row, column)));
+                list.extend(
+                    pairs
+                        .filter(|(row, column)| row != column)
+                        .map(|(row, column)| Self::Of(triad, Quantity::CrossAxis(row, column))),
+                );
+            }
+        }
+        if g_sensitivity {
+            let pairs = Axis::ALL.into_iter().flat_map(|row| Axis::ALL.map(|column| (row, column)));
+            list.extend(pairs.map(|(row, column)| Self::GSensitivity(row, column)));
+        }
+        list
+    }
+
+    /// Is it an entry of a matrix (its diagonal or another), not a bias?
+    #[must_use]
+    pub(super) fn in_matrix_of(self, triad: Triad) -> bool {
+        matches!(self, Self::Of(of, quantity) if of == triad && !matches!(quantity, Quantity::Bias(_)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn entries_go_there_and_back_and_every_quantity_has_its_place() {
+        let entries = EntryVector::from_fn(|k, _| k as f64 + 1.0);
+        assert_eq!(of(&to_imu(&entries)), entries);
+        let imu = to_imu(&entries);
+        for quantity in ImuQuantity::full_list(true, true, true) {
+            assert_eq!(of_quantity(quantity).dot(&entries), quantity.of(&imu), "{}", quantity.name());
+        }
+        assert_eq!(ImuQuantity::full_list(true, true, true).len(), ENTRIES);
+    }
+}

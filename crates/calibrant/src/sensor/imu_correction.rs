@@ -1,0 +1,347 @@
+//! The correction of an IMU, raw → true, and how well it is known.
+//!
+//! `f = C_a (y_a − b_a)`, `ω = C_g (y_g − b_g − Γ f)` with `C = S⁻¹`. An error of the parameters moves a corrected reading by
+//! `df = −C_a (db_a + dS_a f)` and `dω = −C_g (db_g + dS_g ω + dΓ f + Γ df)`; the covariance of the parameters gives that of the correction. The
+//! noise of the reading is not in it.
+
+use super::entries::{self, ENTRIES, EntryMatrix};
+use super::{CalibratedImu, Correction, ImuQuantity, ImuRecording, Recording, Triad};
+use crate::error::{Complaint, Error, Result};
+use nalgebra::{Matrix3, SMatrix, Vector3};
+
+/// The correction of an IMU: `f = C_a (y_a − b_a)`, `ω = C_g (y_g − b_g − Γ f)`.
+///
+/// # Examples
+/// ```
+/// use calibrant::sensor::{CalibratedImu, ImuCorrection, ImuParameters, ReadingUnit};
+/// use nalgebra::Vector3;
+/// let mut parameters = ImuParameters::identity();
+/// parameters.accelerometer.bias = Vector3::new(0.1, 0.0, 0.0);
+/// let imu = CalibratedImu {
+///     parameters,
+///     accelerometer_unit: Some(ReadingUnit::MetrePerSecondSquared),
+///     gyroscope_unit: None,
+///     quantities: vec![],
+///     covariance: None,
+///     frame: String::new(),
+/// };
+/// let correction = ImuCorrection::of(&imu)?;
+/// let force = correction.force(&Vector3::new(0.3, 0.0, 9.8)).expect("has an accelerometer");
+/// assert!((force.x - 0.2).abs() < 1e-15);
+/// # Ok::<(), calibrant::Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct ImuCorrection {
+    /// That of the accelerometer, where there is one.
+    pub accelerometer: Option<Correction>,
+    /// That of the gyroscope, where there is one, g-sensitivity apart.
+    pub gyroscope: Option<Correction>,
+    /// `Γ`, in the unit of the gyroscope's readings per m/s².
+    pub g_sensitivity: Matrix3<f64>,
+    covariance: Option<Box<EntryMatrix>>,
+    known: [bool; 2],
+}
+
+/// A corrected recording of an IMU.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct CorrectedRecording {
+    /// Specific force, m/s².
+    pub accelerometer: Option<CorrectedTriad>,
+    /// Angular rate, rad/s.
+    pub gyroscope: Option<CorrectedTriad>,
+}
+
+/// Corrected readings of one sensor over time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CorrectedTriad {
+    /// Sample times, s.
+    pub times_s: Vec<f64>,
+    /// Corrected readings, in the sensor's SI unit.
+    pub values: Vec<Vector3<f64>>,
+    /// Standard uncertainty of the correction at each; `None` where the calibration has no covariance of this sensor.
+    pub sd: Option<Vec<Vector3<f64>>>,
+}
+
+impl ImuCorrection {
+    /// The correction of a calibrated IMU.
+    ///
+    /// # Errors
+    /// [`Error::Experiment`] where a matrix has no inverse, or there is a g-sensitivity without an accelerometer to correct it with.
+    pub fn of(imu: &CalibratedImu) -> Result<Self> {
+        let of = |triad: Triad| match imu.unit(triad) {
+            None => Ok(None),
+            Some(_) => match Correction::of(imu.parameters.triad(triad)) {
+                Some(correction) if correction.matrix.iter().all(|entry| entry.is_finite()) => {
+                    Ok(Some(correction))
+                }
+                _ => Err(Error::experiment(Complaint::new(
+                    format!("the matrix S of the {triad} is singular, so that it reports nothing"),
+                    "calibrate again",
+                ))),
+            },
+        };
+        let (accelerometer, gyroscope) = (of(Triad::Accelerometer)?, of(Triad::Gyroscope)?);
+        let g_sensitivity = if gyroscope.is_some() { imu.parameters.g_sensitivity } else { Matrix3::zeros() };
+        if g_sensitivity != Matrix3::zeros() && accelerometer.is_none() {
+            return Err(Error::experiment(Complaint::new(
+                "the gyroscope's g-sensitivity cannot be corrected without an accelerometer",
+                "convert the whole IMU, or set the g-sensitivity to zero",
+            )));
+        }
+        let covariance = entries::covariance(imu).map(Box::new);
+        let known = Triad::ALL.map(|triad| {
+            covariance.is_some()
+                && imu
+                    .quantities
+                    .iter()
+                    .any(|quantity| matches!(quantity, ImuQuantity::Of(of, _) if *of == triad))
+        });
+        Ok(Self { accelerometer, gyroscope, g_sensitivity, covariance, known })
+    }
+
+    /// Corrected specific force, m/s²; `None` without an accelerometer.
+    #[must_use]
+    pub fn force(&self, reading: &Vector3<f64>) -> Option<Vector3<f64>> {
+        self.accelerometer.map(|correction| correction.apply(reading))
+    }
+
+    /// Corrected angular rate, rad/s, at this (corrected) specific force; `None` without a gyroscope.
+    #[must_use]
+    pub fn rate(&self, reading: &Vector3<f64>, force: &Vector3<f64>) -> Option<Vector3<f64>> {
+        self.gyroscope.map(|correction| correction.apply(&(reading - self.g_sensitivity * force)))
+    }
+
+    /// Standard uncertainty of the corrected force, m/s² per axis; `None` where it is not known.
+    #[must_use]
+    pub fn force_sd(&self, force: &Vector3<f64>) -> Option<Vector3<f64>> {
+        let (correction, covariance) = (self.accelerometer?, self.covariance.as_deref()?);
+        let errors = reading_errors(force);
+        let block = covariance.fixed_view::<12, 12>(0, 0);
+        let variance =
+            correction.matrix * (errors * block * errors.transpose()) * correction.matrix.transpose();
+        self.known[0].then(|| variance.diagonal().map(sqrt))
+    }
+
+    /// Standard uncertainty of the corrected rate at this force, rad/s per axis; `None` where it is not known.
+    #[must_use]
+    pub fn rate_sd(&self, rate: &Vector3<f64>, force: &Vector3<f64>) -> Option<Vector3<f64>> {
+        let (correction, covariance) = (self.gyroscope?, self.covariance.as_deref()?);
+        let own = reading_errors(rate);
+        let of_reading = if self.g_sensitivity == Matrix3::zeros() && !self.covers_g_sensitivity() {
+            own * covariance.fixed_view::<12, 12>(12, 12) * own.transpose()
+        } else {
+            let mut errors = SMatrix::<f64, 3, ENTRIES>::zeros();
+            if let Some(accelerometer) = self.accelerometer {
+                let through_force = -self.g_sensitivity * accelerometer.matrix * reading_errors(force);
+                errors.fixed_view_mut::<3, 12>(0, 0).copy_from(&through_force);
+            }
+            errors.fixed_view_mut::<3, 12>(0, 12).copy_from(&own);
+            for row in 0..3 {
+                for column in 0..3 {
+                    errors[(row, entries::g_sensitivity(row, column))] = force[column];
+                }
+            }
+            errors * covariance * errors.transpose()
+        };
+        let variance = correction.matrix * of_reading * correction.matrix.transpose();
+        self.known[1].then(|| variance.diagonal().map(sqrt))
+    }
+
+    fn covers_g_sensitivity(&self) -> bool {
+        let first = entries::g_sensitivity(0, 0);
+        self.covariance.as_ref().is_some_and(|sigma| (first..ENTRIES).any(|k| sigma[(k, k)] > 0.0))
+    }
+
+    /// A corrected recording: every sensor that the calibration and the recording both have.
+    ///
+    /// The specific force at a sample of the gyroscope is interpolated where the sensors' times differ.
+    ///
+    /// # Errors
+    /// [`Error::Recording`] where the readings are in another unit than the calibration's, or where there is a g-sensitivity to correct and the
+    /// recording has no accelerometer.
+    pub fn apply(&self, imu: &CalibratedImu, recording: &ImuRecording) -> Result<CorrectedRecording> {
+        for triad in Triad::ALL {
+            if let (Some(unit), Some(readings)) = (imu.unit(triad), recording.triad(triad))
+                && unit != readings.unit
+            {
+                return Err(Error::recording(Complaint::new(
+                    format!(
+                        "the readings of the {triad} are in {}, the calibration is of readings in {}",
+                        readings.unit.symbol(),
+                        unit.symbol()
+                    ),
+                    "give the recording that is in the calibration's unit, or say its unit with --unit",
+                )));
+            }
+        }
+        let accelerometer = recording.accelerometer.as_ref().filter(|_| self.accelerometer.is_some());
+        let accelerometer = accelerometer.map(|readings| self.correct_forces(readings));
+        let gyroscope = match recording.gyroscope.as_ref().filter(|_| self.gyroscope.is_some()) {
+            None => None,
+            Some(readings) => {
+                let needed = self.g_sensitivity != Matrix3::zeros() || self.covers_g_sensitivity();
+                if needed && accelerometer.is_none() {
+                    return Err(Error::recording(Complaint::new(
+                        "the gyroscope's g-sensitivity is corrected with the specific force, and this recording has no accelerometer",
+                        "give the recording of both sensors",
+                    )));
+                }
+                Some(self.correct_rates(readings, accelerometer.as_ref()))
+            }
+        };
+        Ok(CorrectedRecording { accelerometer, gyroscope })
+    }
+
+    fn correct_forces(&self, readings: &Recording) -> CorrectedTriad {
+        let values: Vec<_> = readings.readings.iter().filter_map(|reading| self.force(reading)).collect();
+        let sd = values.iter().map(|force| self.force_sd(force)).collect();
+        CorrectedTriad { times_s: readings.times_s.clone(), values, sd }
+    }
+
+    fn correct_rates(&self, readings: &Recording, forces: Option<&CorrectedTriad>) -> CorrectedTriad {
+        let force_at = |k: usize| match forces {
+            None => Vector3::zeros(),
+            Some(forces) => match forces.times_s.get(k) {
+                Some(&t) if t == readings.times_s[k] => forces.values[k],
+                _ => forces.at(readings.times_s[k]),
+            },
+        };
+        let samples = readings.readings.iter().enumerate();
+        let found: Vec<_> = samples
+            .filter_map(|(k, reading)| {
+                let force = force_at(k);
+                self.rate(reading, &force).map(|rate| (rate, force))
+            })
+            .collect();
+        let sd = found.iter().map(|(rate, force)| self.rate_sd(rate, force)).collect();
+        let values = found.into_iter().map(|(rate, _)| rate).collect();
+        CorrectedTriad { times_s: readings.times_s.clone(), values, sd }
+    }
+}
+
+impl CorrectedTriad {
+    /// The value at a time, linear between samples, the nearest one outside; zero where there is no sample.
+    fn at(&self, time_s: f64) -> Vector3<f64> {
+        let after = self.times_s.partition_point(|&t| t < time_s);
+        match (after.checked_sub(1), self.times_s.get(after)) {
+            (_, None) => self.values.last().copied().unwrap_or_else(Vector3::zeros),
+            (None, _) => self.values[0],
+            (Some(before), Some(&t1)) => {
+                let t0 = self.times_s[before];
+                self.values[before].lerp(&self.values[after], (time_s - t0) / (t1 - t0))
+            }
+        }
+    }
+}
+
+/// Derivative of a reading with respect to bias and matrix of its sensor (12 entries) at a stimulus.
+fn reading_errors(stimulus: &Vector3<f64>) -> SMatrix<f64, 3, 12> {
+    let mut errors = SMatrix::zeros();
+    for row in 0..3 {
+        errors[(row, entries::bias(Triad::Accelerometer, row))] = 1.0;
+        for column in 0..3 {
+            errors[(row, entries::matrix(Triad::Accelerometer, row, column))] = stimulus[column];
+        }
+    }
+    errors
+}
+
+/// Square root of a variance, which rounding may have made a little negative.
+fn sqrt(variance: f64) -> f64 {
+    variance.max(0.0).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sensor::ReadingUnit;
+    use crate::sensor::gauge_change::tests::imu;
+
+    fn readings(imu: &CalibratedImu) -> (Vector3<f64>, Vector3<f64>) {
+        let (force, rate) = (Vector3::new(1.0, -5.0, 8.0), Vector3::new(0.4, -1.2, 0.3));
+        let gyroscope = imu.parameters.gyroscope.reading(&rate) + imu.parameters.g_sensitivity * force;
+        (imu.parameters.accelerometer.reading(&force), gyroscope)
+    }
+
+    #[test]
+    fn the_correction_undoes_the_readings() {
+        let imu = imu();
+        let (y_a, y_g) = readings(&imu);
+        let correction = ImuCorrection::of(&imu).expect("regular");
+        let force = correction.force(&y_a).expect("there");
+        assert!((force - Vector3::new(1.0, -5.0, 8.0)).amax() < 1e-11);
+        assert!(
+            (correction.rate(&y_g, &force).expect("there") - Vector3::new(0.4, -1.2, 0.3)).amax() < 1e-11
+        );
+    }
+
+    #[test]
+    fn its_uncertainty_is_that_of_differences() {
+        let imu = imu();
+        let (y_a, y_g) = readings(&imu);
+        let corrected = |imu: &CalibratedImu| {
+            let correction = ImuCorrection::of(imu).expect("regular");
+            let force = correction.force(&y_a).expect("there");
+            (force, correction.rate(&y_g, &force).expect("there"))
+        };
+        let columns: Vec<_> = imu
+            .quantities
+            .iter()
+            .map(|&quantity| {
+                let moved = |step: f64| {
+                    let mut moved = imu.clone();
+                    quantity.add_to(&mut moved.parameters, step);
+                    corrected(&moved)
+                };
+                let (h, (up, down)) = (1e-3, (moved(1e-3), moved(-1e-3)));
+                ((up.0 - down.0) / (2.0 * h), (up.1 - down.1) / (2.0 * h))
+            })
+            .collect();
+        let sigma = imu.covariance.as_ref().expect("there");
+        let sd = |of: &dyn Fn(usize) -> f64| {
+            let row = nalgebra::DVector::from_fn(columns.len(), |k, _| of(k));
+            row.dot(&(sigma * &row)).sqrt()
+        };
+        let correction = ImuCorrection::of(&imu).expect("regular");
+        let (force, rate) = corrected(&imu);
+        for axis in 0..3 {
+            let expected = (sd(&|k| columns[k].0[axis]), sd(&|k| columns[k].1[axis]));
+            let found = (
+                correction.force_sd(&force).expect("known")[axis],
+                correction.rate_sd(&rate, &force).expect("known")[axis],
+            );
+            assert!((found.0 / expected.0 - 1.0).abs() < 1e-5, "{found:?} {expected:?}");
+            assert!((found.1 / expected.1 - 1.0).abs() < 1e-5, "{found:?} {expected:?}");
+        }
+    }
+
+    #[test]
+    fn the_force_is_interpolated_at_the_gyroscopes_times() {
+        let imu = imu();
+        let (y_a, y_g) = readings(&imu);
+        let triad = |times_s: Vec<f64>, reading| Recording {
+            readings: vec![reading; times_s.len()],
+            times_s,
+            axes: 3,
+            unit: ReadingUnit::Counts,
+        };
+        let mut recording = ImuRecording {
+            accelerometer: Some(triad(vec![0.0, 1.0, 2.0], y_a)),
+            gyroscope: Some(triad(vec![-1.0, 0.5, 1.0, 7.0], y_g)),
+            temperature_c: None,
+        };
+        let correction = ImuCorrection::of(&imu).expect("regular");
+        let found = correction.apply(&imu, &recording).expect("both there").gyroscope.expect("there");
+        assert_eq!(found.values.len(), 4);
+        assert!(found.values.iter().all(|rate| (rate - Vector3::new(0.4, -1.2, 0.3)).amax() < 1e-10));
+        assert_eq!(found.sd.expect("known").len(), 4);
+        recording.accelerometer = None;
+        let error = correction.apply(&imu, &recording).expect_err("g-sensitivity").to_string();
+        assert!(error.contains("has no accelerometer"), "{error}");
+        let of_si = CalibratedImu { gyroscope_unit: Some(ReadingUnit::RadianPerSecond), ..imu };
+        let error = correction.apply(&of_si, &recording).expect_err("another unit");
+        assert!(
+            error.is_invalid_recording() && error.to_string().contains("in counts, the calibration is of")
+        );
+    }
+}

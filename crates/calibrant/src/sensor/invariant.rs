@@ -1,0 +1,256 @@
+//! What two calibrations of one sensor must agree on, whatever their true frames: lengths of the sensitivity axes, angles between them, biases.
+//!
+//! Row i of `S` is the sensitivity axis of sensor axis i: `y_i = S_i · s + b_i`. Another true frame turns all rows of both sensors together (`S R`), so that
+//! their lengths (the gains), the angles between them and the biases stay. An angle between axes of which one is `u` and the other `v` is
+//! `atan2(|u × v|, u · v)`, exact for small angles too; its derivative is `−(v̂ − û cos θ) · du / (|u| sin θ)`, likewise for `v`.
+
+use super::entries::{self, EntryMatrix, EntryVector};
+use super::{Axis, CalibratedImu, ImuParameters, ReadingUnit, Triad};
+use nalgebra::Vector3;
+
+/// A quantity that does not depend on the true frame.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Invariant {
+    /// Bias of an axis, in the unit of the readings.
+    Bias(Triad, Axis),
+    /// Length of a sensitivity axis: the gain, in the unit of the readings per unit of the stimulus.
+    Gain(Triad, Axis),
+    /// Angle between two axes of one sensor, rad.
+    Angle(Triad, Axis, Axis),
+    /// Angle between an axis of the accelerometer and one of the gyroscope, rad.
+    AngleBetween(Axis, Axis),
+    /// Length of a row of `Γ`: the most that a gyroscope axis shows of 1 m/s².
+    GSensitivity(Axis),
+}
+
+/// An invariant of an IMU.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct InvariantValue {
+    /// Which one.
+    pub invariant: Invariant,
+    /// Its value.
+    pub value: f64,
+    /// Its standard deviation to first order. `None` without a covariance, and where a length or an angle is so close to zero that the
+    /// first order says nothing (below three of its standard deviations: it cannot be negative).
+    pub sd: Option<f64>,
+}
+
+impl Invariant {
+    /// All that an IMU with these sensors has, in the order of a table.
+    #[must_use]
+    pub fn list(accelerometer: bool, gyroscope: bool) -> Vec<Self> {
+        use Axis::{X, Y, Z};
+        let mut list = Vec::new();
+        for (triad, there) in [(Triad::Accelerometer, accelerometer), (Triad::Gyroscope, gyroscope)] {
+            if there {
+                list.extend(Axis::ALL.map(|axis| Self::Bias(triad, axis)));
+                list.extend(Axis::ALL.map(|axis| Self::Gain(triad, axis)));
+                list.extend([(X, Y), (X, Z), (Y, Z)].map(|(one, other)| Self::Angle(triad, one, other)));
+            }
+        }
+        if accelerometer && gyroscope {
+            list.extend(Axis::ALL.into_iter().flat_map(|a| Axis::ALL.map(|g| Self::AngleBetween(a, g))));
+        }
+        if gyroscope {
+            list.extend(Axis::ALL.map(Self::GSensitivity));
+        }
+        list
+    }
+
+    /// Its name: `gyroscope.gain.x`, `accelerometer.angle.xy`, `angle.accelerometer_x.gyroscope_y`.
+    #[must_use]
+    pub fn name(self) -> String {
+        match self {
+            Self::Bias(triad, axis) => format!("{triad}.bias.{axis}"),
+            Self::Gain(triad, axis) => format!("{triad}.gain.{axis}"),
+            Self::Angle(triad, one, other) => format!("{triad}.angle.{one}{other}"),
+            Self::AngleBetween(a, g) => format!("angle.accelerometer_{a}.gyroscope_{g}"),
+            Self::GSensitivity(axis) => format!("gyroscope.g_sensitivity.{axis}"),
+        }
+    }
+
+    /// Its unit in this IMU; angles are in rad.
+    #[must_use]
+    pub fn unit(self, imu: &CalibratedImu) -> &'static str {
+        let counts = |triad| imu.unit(triad) == Some(ReadingUnit::Counts);
+        match self {
+            Self::Bias(triad, _) => imu.unit(triad).unwrap_or(triad.stimulus_unit()).symbol(),
+            Self::Gain(Triad::Accelerometer, _) if counts(Triad::Accelerometer) => "counts/(m/s²)",
+            Self::Gain(Triad::Gyroscope, _) if counts(Triad::Gyroscope) => "counts/(rad/s)",
+            Self::Gain(..) => "1",
+            Self::Angle(..) | Self::AngleBetween(..) => "rad",
+            Self::GSensitivity(_) if counts(Triad::Gyroscope) => "counts/(m/s²)",
+            Self::GSensitivity(_) => "(rad/s)/(m/s²)",
+        }
+    }
+
+    /// Does it depend on the unit of a sensor's readings? `None` for angles.
+    #[must_use]
+    pub fn in_unit_of(self) -> Option<Triad> {
+        match self {
+            Self::Bias(triad, _) | Self::Gain(triad, _) => Some(triad),
+            Self::GSensitivity(_) => Some(Triad::Gyroscope),
+            Self::Angle(..) | Self::AngleBetween(..) => None,
+        }
+    }
+
+    /// Can it come close to zero without changing sign?
+    fn is_folded(self) -> bool {
+        match self {
+            Self::AngleBetween(a, g) => a == g,
+            Self::GSensitivity(_) => true,
+            _ => false,
+        }
+    }
+
+    /// Its value in an IMU.
+    #[must_use]
+    pub fn of(self, imu: &ImuParameters) -> f64 {
+        self.with_gradient(imu).0
+    }
+
+    /// Its value, and its derivative with respect to the entries of the IMU.
+    fn with_gradient(self, imu: &ImuParameters) -> (f64, EntryVector) {
+        let mut gradient = EntryVector::zeros();
+        let row = |triad: Triad, axis: Axis| imu.triad(triad).matrix.row(axis.index()).transpose();
+        let value = match self {
+            Self::Bias(triad, axis) => {
+                gradient[entries::bias(triad, axis.index())] = 1.0;
+                imu.triad(triad).bias[axis.index()]
+            }
+            Self::Gain(triad, axis) => {
+                let u = row(triad, axis);
+                put(&mut gradient, &unit_or_zero(&u), |k| entries::matrix(triad, axis.index(), k));
+                u.norm()
+            }
+            Self::GSensitivity(axis) => {
+                let u = imu.g_sensitivity.row(axis.index()).transpose();
+                put(&mut gradient, &unit_or_zero(&u), |k| entries::g_sensitivity(axis.index(), k));
+                u.norm()
+            }
+            Self::Angle(triad, one, other) => {
+                let (u, v) = (row(triad, one), row(triad, other));
+                put(&mut gradient, &angle_gradient(&u, &v), |k| entries::matrix(triad, one.index(), k));
+                put(&mut gradient, &angle_gradient(&v, &u), |k| entries::matrix(triad, other.index(), k));
+                angle(&u, &v)
+            }
+            Self::AngleBetween(a, g) => {
+                let (u, v) = (row(Triad::Accelerometer, a), row(Triad::Gyroscope, g));
+                let place = |triad, axis: Axis| move |k| entries::matrix(triad, axis.index(), k);
+                put(&mut gradient, &angle_gradient(&u, &v), place(Triad::Accelerometer, a));
+                put(&mut gradient, &angle_gradient(&v, &u), place(Triad::Gyroscope, g));
+                angle(&u, &v)
+            }
+        };
+        (value, gradient)
+    }
+}
+
+impl CalibratedImu {
+    /// Everything about it that does not depend on the true frame, with standard deviations where it has a covariance.
+    ///
+    /// # Examples
+    /// ```
+    /// use calibrant::sensor::{CalibratedImu, ImuParameters, ReadingUnit};
+    /// let imu = CalibratedImu {
+    ///     parameters: ImuParameters::identity(),
+    ///     accelerometer_unit: Some(ReadingUnit::MetrePerSecondSquared),
+    ///     gyroscope_unit: None,
+    ///     quantities: vec![],
+    ///     covariance: None,
+    ///     frame: String::new(),
+    /// };
+    /// let angle = imu.invariants()[6];
+    /// assert_eq!(angle.invariant.name(), "accelerometer.angle.xy");
+    /// assert!((angle.value.to_degrees() - 90.0).abs() < 1e-12);
+    /// ```
+    #[must_use]
+    pub fn invariants(&self) -> Vec<InvariantValue> {
+        let covariance = entries::covariance(self).map(Box::new);
+        Invariant::list(self.accelerometer_unit.is_some(), self.gyroscope_unit.is_some())
+            .into_iter()
+            .map(|invariant| {
+                let (value, gradient) = invariant.with_gradient(&self.parameters);
+                let sd = |sigma: &EntryMatrix| gradient.dot(&(sigma * gradient)).max(0.0).sqrt();
+                let sd = covariance.as_deref().map(sd).filter(|&sd| sd > 0.0);
+                let sd = sd.filter(|&sd| !invariant.is_folded() || value > 3.0 * sd);
+                InvariantValue { invariant, value, sd }
+            })
+            .collect()
+    }
+}
+
+fn put(gradient: &mut EntryVector, row: &Vector3<f64>, place: impl Fn(usize) -> usize) {
+    for k in 0..3 {
+        gradient[place(k)] += row[k];
+    }
+}
+
+fn unit_or_zero(u: &Vector3<f64>) -> Vector3<f64> {
+    u.try_normalize(0.0).unwrap_or_else(Vector3::zeros)
+}
+
+fn angle(u: &Vector3<f64>, v: &Vector3<f64>) -> f64 {
+    let (u, v) = (unit_or_zero(u), unit_or_zero(v));
+    u.cross(&v).norm().atan2(u.dot(&v))
+}
+
+/// Derivative of the angle between `u` and `v` with respect to `u`; zero where they are parallel.
+fn angle_gradient(u: &Vector3<f64>, v: &Vector3<f64>) -> Vector3<f64> {
+    let (direction, other) = (unit_or_zero(u), unit_or_zero(v));
+    let across = other - direction * direction.dot(&other);
+    let length = u.norm();
+    if length > 0.0 { -unit_or_zero(&across) / length } else { Vector3::zeros() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sensor::Gauge;
+    use crate::sensor::entries::ENTRIES;
+    use crate::sensor::gauge_change::tests::imu;
+
+    #[test]
+    fn they_are_the_same_in_every_gauge_and_so_are_their_standard_deviations() {
+        // the gauge gives up what the covariance said of the rotation, which no invariant sees
+        let before = imu().invariants();
+        for gauge in [Gauge::Lower, Gauge::Upper, Gauge::Symmetric] {
+            let after = imu().in_gauge(gauge).expect("regular").invariants();
+            for (a, b) in before.iter().zip(&after) {
+                let name = a.invariant.name();
+                assert!((a.value - b.value).abs() <= 1e-12 * a.value.abs().max(1.0), "{gauge:?} {name}");
+                match (a.sd, b.sd) {
+                    (Some(one), Some(other)) => assert!((one / other - 1.0).abs() < 1e-8, "{gauge:?} {name}"),
+                    (one, other) => assert_eq!(one, other, "{name}"),
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn gradients_are_those_of_differences() {
+        let parameters = imu().parameters;
+        for invariant in Invariant::list(true, true) {
+            let (_, gradient) = invariant.with_gradient(&parameters);
+            for entry in 0..ENTRIES {
+                let h = if entry < 24 { 1e-2 } else { 1e-5 };
+                let at = |step: f64| {
+                    let mut moved = entries::of(&parameters);
+                    moved[entry] += step;
+                    invariant.of(&entries::to_imu(&moved))
+                };
+                let difference = (at(h) - at(-h)) / (2.0 * h);
+                assert!((difference - gradient[entry]).abs() < 1e-7, "{} {entry}", invariant.name());
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_close_to_zero_has_no_first_order_sd() {
+        let mut imu = imu();
+        imu.parameters.g_sensitivity *= 1e-9;
+        let g_sensitivity =
+            imu.invariants().into_iter().find(|value| value.invariant.is_folded() && value.value < 1e-6);
+        assert_eq!(g_sensitivity.expect("there").sd, None);
+    }
+}

@@ -1,0 +1,289 @@
+//! Broken calibrations of every format: refused with the reason, and the place where it is known.
+
+use super::{COUNTS, SI, alone, file, imu};
+use calibrant::io::{
+    ImuFormat, ImuReadOptions, RawUnits, calibrated_imu_texts, parse_calibrated_imu, read_calibrated_imu,
+};
+use calibrant::sensor::{Gauge, Triad};
+use proptest::prelude::*;
+
+fn text(format: ImuFormat) -> String {
+    let imu = match format {
+        ImuFormat::ImuTk => alone(&imu(COUNTS, false), Triad::Accelerometer),
+        _ => imu(SI, true).in_gauge(Gauge::Lower).expect("regular"),
+    };
+    calibrated_imu_texts(&file(imu), format).expect("carried").remove(0).1
+}
+
+fn said_of(text: &str, options: &ImuReadOptions) -> String {
+    let error = parse_calibrated_imu(text.as_bytes(), options).expect_err("broken");
+    assert!(error.is_invalid_experiment());
+    let said = error.to_string();
+    assert!(!said.contains("NaN"), "{said}");
+    said
+}
+
+/// Each case: what is replaced in a good file, by what, and what is said then.
+fn check(format: ImuFormat, cases: &[(&str, &str, &str)]) {
+    let good = text(format);
+    for (from, to, says) in cases {
+        assert!(good.contains(from), "{from}: {good}");
+        let said = said_of(&good.replacen(from, to, 1), &ImuReadOptions::default());
+        assert!(said.contains(says), "{from} → {to}: {said}");
+    }
+}
+
+#[test]
+fn calibrant_json() {
+    check(
+        ImuFormat::CalibrantJson,
+        &[
+            ("\"schema\": 2", "\"schema\": 3", "schema 3 of a calibration is not known to this version"),
+            ("\"schema\": 2,", "", "the field `schema` is missing"),
+            ("\"schema\": 2,", "\"schema\": 2 \"x\",", "line 2, column 15: not valid JSON"),
+            (
+                "\"schema\": 2,",
+                "\"schema\": 2, \"status\": \"stalled\",",
+                "did not converge: its status is \"stalled\"",
+            ),
+            ("\"direction\"", "\"way\"", "the field `direction` is missing"),
+            ("true to raw: y_a", "raw to true: y_a", "`direction` must be true to raw"),
+            ("\"frame\"", "\"fame\"", "the field `frame` is missing"),
+            (
+                "\"gauge\": \"lower\"",
+                "\"gauge\": \"upper\"",
+                "`gauge` is \"upper\", but the matrix of the accelerometer has not this form",
+            ),
+            (
+                "\"reading_unit\": \"m/s²\"",
+                "\"reading_unit\": \"g\"",
+                "`accelerometer.reading_unit` is \"g\" (write \"m/s²\" or \"counts\")",
+            ),
+            (
+                "\"reading_unit\": \"m/s²\"",
+                "\"reading_unit\": \"counts\"",
+                "the field `accelerometer.bias_counts` is missing",
+            ),
+            ("\"bias_mps2\": [", "\"bias_mps2\": [0.0, ", "`accelerometer.bias_mps2` has 4 numbers, not 3"),
+            (
+                "\"bias_mps2\": [",
+                "\"bias_mps2\": [1e30], \"x\": [",
+                "`accelerometer.bias_mps2` has 1 numbers, not 3",
+            ),
+            ("\"matrix\": [", "\"matrix\": [[1.0], ", "`accelerometer.matrix` is not 3 × 3"),
+            ("\"matrix\": [", "\"matrix\": [null, ", "not a calibration of calibrant: invalid type: null"),
+            (
+                "accelerometer.bias.x",
+                "accelerometer.bias.w",
+                "\"accelerometer.bias.w\" is no parameter of this IMU",
+            ),
+            ("accelerometer.bias.x", "accelerometer.bias.y", "accelerometer.bias.y is"),
+            (
+                "\"unit\": \"m/s²\"",
+                "\"unit\": \"counts\"",
+                "accelerometer.bias.x is in counts, its sensor says m/s²",
+            ),
+            ("\"covariance\": [\n", "\"covariance\": [\n    [1.0],\n", "the covariance is not 30 × 30"),
+            ("\"parameters\"", "\"params\"", "the field `parameters` is missing"),
+        ],
+    );
+    let good = text(ImuFormat::CalibrantJson);
+    let start = good.find("\"covariance\": [").expect("there");
+    for (to, says) in [
+        ("null", "entry (1, 1) of the covariance is not a number"),
+        ("-1.0", "not positive definite"),
+        ("0.0", "not positive definite"),
+    ] {
+        let (head, tail) = good.split_at(start);
+        let comma = tail.find(',').expect("a row");
+        let bracket = tail[..comma].rfind('[').expect("a row") + 1;
+        let broken = format!("{head}{}{to}{}", &tail[..bracket], &tail[comma..]);
+        let said = said_of(&broken, &ImuReadOptions::default());
+        assert!(said.contains(says), "{to}: {said}");
+    }
+    // one axis is no IMU
+    let uniaxial = r#"{ "schema": 1, "status": "converged", "covariance": [[4e-4]],
+        "parameters": [{ "name": "bias.x", "unit": "m/s²", "value": 0.1, "sd": 0.02 }] }"#;
+    assert!(
+        said_of(uniaxial, &ImuReadOptions::default()).contains("a sensor with one axis; an IMU has three")
+    );
+}
+
+#[test]
+fn kalibr() {
+    check(
+        ImuFormat::Kalibr,
+        &[
+            ("imu0:", "imu0: [", "not Kalibr's imu.yaml: "),
+            ("imu0:", "imu1: 3\nimu0:", "the file has imu0 and imu1, and one is read"),
+            ("imu0:", "cam0: 3\nimu0:", "there are other keys beside imu0"),
+            (
+                "  accelerometers:",
+                "  accelerometer:",
+                "there is no calibration in it: model scale-misalignment",
+            ),
+            ("    M:\n", "    N:\n", "`accelerometers.M` is missing"),
+            ("    M:\n", "    M:\n    - [1.0, 2.0, 3.0]\n", "`accelerometers.M` is not 3 × 3"),
+            ("    M:\n    - [", "    M:\n    - [big, ", "not Kalibr's imu.yaml"),
+            ("    M:\n    - [", "    M:\n    - [.nan, ", "non-finite float `.nan` rejected"),
+            ("C_gyro_i:\n    - [", "C_gyro_i:\n    - [1", "`gyroscopes.C_gyro_i` is not a rotation"),
+            ("T_i_b:\n", "T_i_b:\n  - [1.0]\n", "`T_i_b` is not 4 × 4"),
+            ("T_i_b:\n  - [1.0", "T_i_b:\n  - [2.0", "`T_i_b` is not a rotation"),
+            ("accelerometer_unit: m/s²", "accelerometer_unit: g", "`calibrant.accelerometer_unit` is \"g\""),
+            (
+                "accelerometer_bias: [",
+                "accelerometer_bias: [0.0, ",
+                "`calibrant.accelerometer_bias` has 4 numbers",
+            ),
+            ("imu0:\n", "imu0:\n  update_rate: -3\n", "`update_rate` is not a positive number"),
+        ],
+    );
+    let said = said_of("imu0:\n  accelerometers:\n    M: [1, 2\n", &ImuReadOptions::default());
+    assert!(said.starts_with("line "), "with its place: {said}");
+}
+
+#[test]
+fn imu_tk() {
+    check(
+        ImuFormat::ImuTk,
+        &[
+            ("# sensor: accelerometer", "", "is this the accelerometer's or the gyroscope's?"),
+            ("# readings in: counts", "", "in which unit are the readings of the accelerometer?"),
+            ("# readings in: counts", "# readings in: g", "its unit of readings is not known"),
+            ("33124.0", "33124.0 1.0", "line 11, column 17: there is more than 21 numbers: 32130.28"),
+            ("33124.0", "", "the file has 20 of 21 numbers"),
+            ("33124.0", "nan", "not a number: nan"),
+            ("33124.0", "1e30", "a number of the accelerometer is not finite or beyond 1e12"),
+            ("33124.0", "3,3", "line 9, column 18: not a number: 3,3"),
+        ],
+    );
+    let asked = "1 0 0\n0 1 0\n0 0 1\n0.0024 0 0\n0 0.0024 0\n0 0 0.0024\n1\n2\n3\n";
+    let triad = Some(Triad::Accelerometer);
+    let said = said_of(asked, &ImuReadOptions { triad, ..Default::default() });
+    assert!(said.contains("a scale of 0.0024 looks like counts: --unit counts"), "{said}");
+    let zero = asked.replace("0.0024", "0");
+    let said = said_of(&zero, &ImuReadOptions { triad, units: Some(RawUnits::Si), ..Default::default() });
+    assert!(said.contains("the matrix of the accelerometer is singular"), "{said}");
+}
+
+#[test]
+fn imucal() {
+    check(
+        ImuFormat::Imucal,
+        &[
+            (
+                "\"cal_type\": \"Ferraris\"",
+                "\"cal_type\": \"Magic\"",
+                "cal_type \"Magic\" is not known (Ferraris and Turntable are)",
+            ),
+            (
+                "\"_format_version\": \"2.0.0\"",
+                "\"_format_version\": \"3.0.0\"",
+                "format version 3.0.0 is not known",
+            ),
+            (
+                "\"from_acc_unit\": \"m/s^2\"",
+                "\"from_acc_unit\": null",
+                "in which unit are the readings of the accelerometer? `from_acc_unit` is null",
+            ),
+            (
+                "\"from_gyr_unit\": \"deg/s\"",
+                "\"from_gyr_unit\": \"rpm\"",
+                "`from_gyr_unit` is \"rpm\", which is not known",
+            ),
+            (
+                "\"acc_unit\": \"m/s^2\"",
+                "\"acc_unit\": \"a.u.\"",
+                "`acc_unit` is \"a.u.\", which is not known",
+            ),
+            ("\"gyr_unit\": \"deg/s\"", "\"gyr_unit\": null", "`gyr_unit` is missing"),
+            ("\"K_a\": ", "\"K_x\": ", "`K_a` is missing"),
+            ("\"b_g\": [", "\"b_g\": [0.0, ", "`b_g` has 4 numbers, not 3"),
+            ("\"R_g\": [", "\"R_g\": [[1.0], ", "`R_g` is not 3 × 3"),
+            ("\"b_a\": [", "\"b_a\": [\"x\", ", "not imucal's JSON: invalid type: string"),
+            ("\"K_a\": [", "\"K_a\": 3, \"x\": [", "not imucal's JSON: invalid type: integer"),
+        ],
+    );
+}
+
+#[test]
+fn c_header() {
+    check(
+        ImuFormat::CHeader,
+        &[
+            (
+                "calibrant_accelerometer_bias[3] = {",
+                "calibrant_accelerometer_bias[3] = { 1.0,",
+                "has 4 numbers, not 3",
+            ),
+            (
+                "calibrant_accelerometer_bias[3] = {",
+                "calibrant_accelerometer_bias[3] = { x,",
+                "`calibrant_accelerometer_bias`: not a number: x",
+            ),
+            (
+                "calibrant_accelerometer_bias[3] =",
+                "accelerometer_bias[3] =",
+                "`calibrant_accelerometer_bias` is missing",
+            ),
+            (
+                " * accelerometer: readings in",
+                " * accelerometer:",
+                "the comment with the unit of the accelerometer is missing",
+            ),
+            ("readings in m/s^2", "readings in g", "the unit of the accelerometer is \"g\""),
+        ],
+    );
+    let said = said_of("#ifndef OTHER_H\n#define OTHER_H\n#endif\n", &ImuReadOptions::default());
+    assert!(said.contains("there is no `calibrant_accelerometer_matrix`"), "{said}");
+}
+
+#[test]
+fn what_is_no_calibration_is_not_recognised() {
+    for (text, says) in [
+        ("", "the file is empty"),
+        ("\n\n", "the file is empty"),
+        ("hello", "this is no calibration in a format that is known (name its format with --from"),
+        ("t_s,ax,ay,az\n0,0,0,1\n", "this is no calibration in a format that is known"),
+        ("{}", "the field `schema` is missing"),
+        ("[]", "not a calibration of calibrant"),
+        ("\u{0}\u{1}", "binary data"),
+    ] {
+        let said = said_of(text, &ImuReadOptions::default());
+        assert!(said.contains(says), "{text:?}: {said}");
+    }
+    let error = read_calibrated_imu(std::path::Path::new("no/such.calib"), &ImuReadOptions::default());
+    assert!(error.expect_err("absent").to_string().starts_with("no/such.calib: cannot read the calibration"));
+}
+
+#[test]
+fn every_beginning_of_a_file_is_refused_or_whole_and_nothing_panics() {
+    for format in ImuFormat::ALL {
+        let text = text(format);
+        let ends: Vec<usize> = text.char_indices().map(|(at, _)| at).step_by(7).collect();
+        for end in ends {
+            for from in ImuFormat::ALL {
+                let options = ImuReadOptions {
+                    format: Some(from),
+                    units: Some(RawUnits::Si),
+                    triad: Some(Triad::Gyroscope),
+                };
+                let _ = parse_calibrated_imu(&text.as_bytes()[..end], &options);
+            }
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(128))]
+
+    #[test]
+    fn changed_bytes_never_panic(at in 0usize..10_000, byte in 0u8..128, format in 0usize..5) {
+        let mut bytes = text(ImuFormat::ALL[format]).into_bytes();
+        let at = at % bytes.len();
+        bytes[at] = byte;
+        if let Ok(file) = parse_calibrated_imu(&bytes, &ImuReadOptions::default()) {
+            prop_assert!(file.imu.parameters.accelerometer.matrix.iter().all(|entry| entry.is_finite()));
+        }
+    }
+}
