@@ -7,6 +7,7 @@ mod broken;
 mod earlier;
 mod experiments;
 mod good;
+mod imu;
 mod real;
 mod recordings;
 mod results;
