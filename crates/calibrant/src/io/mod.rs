@@ -4,6 +4,7 @@
 //! |---|---|---|
 //! | experiment (TOML) | [`Experiment::read`] | [`preset()`], [`PRESETS`] |
 //! | `recording.csv` and other recordings | [`read_recording`] | [`write_recording`] |
+//! | recordings of a whole IMU, in many formats | [`read_imu_recording`], [`read_imu_pair`] | |
 //! | `motion.csv` | [`read_motion`] | [`write_motion`] |
 //! | `calibration.json` | [`read_calibration`], as what is known before a design | [`write_calibration`] |
 //! | calibrations of an IMU, ours and of other programs | [`read_calibrated_imu`] | [`write_calibrated_imu`] |
@@ -60,7 +61,9 @@ pub use noise::{noise_json, write_noise};
 pub use output::write_atomically;
 pub use preset::{PRESETS, preset};
 pub use recording::{
-    Finding, FindingKind, ReadOptions, RecordingFile, parse_recording, read_recording, write_recording,
+    ColumnMapping, ColumnMeaning, ColumnUnit, FileFormat, Finding, FindingKind, ImuColumn, ImuFile,
+    ImuReadOptions, ImuUnit, ReadOptions, RecordingFile, TimeUnit, parse_imu_pair, parse_imu_recording,
+    parse_recording, read_imu_pair, read_imu_recording, read_recording, write_recording,
 };
 pub use study::{study_json, write_study};
 pub use summary::{SummaryRow, write_summary};

@@ -8,6 +8,7 @@ mod conventions;
 mod earlier;
 mod experiments;
 mod good;
+mod imu;
 mod real;
 mod recordings;
 mod results;

@@ -152,7 +152,8 @@ impl<'a> Entry<'a> {
         Error::experiment(complaint.about_key(self.key.clone()))
     }
 
-    fn wrong_type(&self, needed: &str, help: &str) -> Error {
+    /// A complaint that the value is of another type than is needed.
+    pub(super) fn wrong_type(&self, needed: &str, help: &str) -> Error {
         let found = match self.value.get_ref() {
             DeValue::String(_) => "a string",
             DeValue::Integer(_) => "a whole number",

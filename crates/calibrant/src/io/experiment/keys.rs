@@ -2,7 +2,7 @@
 
 /// Each section and its keys; the first is the top of the file.
 const KEYS: &[(&str, &[&str])] = &[
-    ("", &["schema", "sensor", "motion", "holds", "calibrate", "limits", "design", "study"]),
+    ("", &["schema", "sensor", "motion", "holds", "columns", "calibrate", "limits", "design", "study"]),
     (
         "sensor",
         &[
@@ -35,6 +35,21 @@ const KEYS: &[(&str, &[&str])] = &[
             "poses",
             "hold_s",
             "rate_hz",
+        ],
+    ),
+    (
+        "columns",
+        &[
+            "format",
+            "time",
+            "time_unit",
+            "rate_hz",
+            "accelerometer",
+            "accelerometer_unit",
+            "gyroscope",
+            "gyroscope_unit",
+            "temperature",
+            "topic",
         ],
     ),
     ("calibrate", &["prior"]),

@@ -1,10 +1,11 @@
-//! The experiment file (TOML): the sensor's datasheet, the motion or the holds, and the options of each command.
+//! The experiment file (TOML): the sensor's datasheet, the motion or the holds, the columns of recordings, and the options of each command.
 //!
 //! Unknown keys, wrong types and values out of range are errors that point at line and column; an unknown key is answered with
 //! the nearest known one. [`presets`](super::preset()) are commented examples of every key.
 
 mod bounds;
 mod calibrate;
+mod columns;
 mod design;
 mod document;
 mod holds;
@@ -21,7 +22,7 @@ pub use holds::HoldsPlan;
 pub use motion::MotionPlan;
 pub use study::{NoisyVariant, StudyOptions, UnknownVariant};
 
-use super::text;
+use super::{ImuReadOptions, text};
 use crate::error::{Error, Result};
 use crate::motion::Limits;
 use crate::sensor::{ReadingUnit, Sensor, SensorModel};
@@ -39,6 +40,8 @@ pub struct Experiment {
     pub sensor: Sensor,
     /// `[motion]` or `[holds]`.
     pub plan: Plan,
+    /// `[columns]`: what the recordings' files do not say themselves; nothing where the section is absent.
+    pub columns: ImuReadOptions,
     /// `[limits]`; none where the section is absent.
     pub limits: Limits,
     /// `[calibrate]`.
@@ -117,6 +120,9 @@ impl Experiment {
             limits: root
                 .section("limits")?
                 .map_or(Ok(Limits::default()), |section| limits::read(&section, sensor.axes))?,
+            columns: root
+                .section("columns")?
+                .map_or(Ok(ImuReadOptions::default()), |section| columns::read(&section))?,
             calibrate: root
                 .section("calibrate")?
                 .map_or(Ok(CalibrateOptions::default()), |section| calibrate::read(&section, &sensor))?,

@@ -2,29 +2,27 @@
 
 use super::ReadOptions;
 use super::finding::{Finding, FindingKind};
+use super::row::Layout;
 use crate::error::Complaint;
 use crate::io::delimited::{Delimiter, Line};
 use crate::io::text::Checked;
 use crate::sensor::{Axis, ReadingUnit};
 
 /// Standard gravity, m/s²: what a reading of 1 g means.
-const STANDARD_GRAVITY_MPS2: f64 = 9.80665;
+pub(super) const STANDARD_GRAVITY_MPS2: f64 = 9.80665;
 
 const UNITS: &str = "header t_s,ax,ay,az; the axes may end in _mps2, _counts or _g";
 
 /// The columns of a recording.
 pub(super) struct Columns {
-    pub(super) delimiter: Delimiter,
-    /// For each column: 0 for the time, 1 to 3 for the axes, `None` where it is not needed.
-    pub(super) slots: Vec<Option<usize>>,
-    /// Names, for complaints; empty where there is no header.
-    pub(super) names: Vec<String>,
+    /// Slot 0 is the time, 1 to 3 the axes.
+    pub(super) layout: Layout,
+    /// Number of axes.
+    pub(super) axes: usize,
     /// Unit of the readings, after the conversion.
     pub(super) unit: ReadingUnit,
     /// Readings are multiplied by this.
     pub(super) factor: f64,
-    /// Is the line that they were found in a header (and not the first row)?
-    pub(super) has_header: bool,
 }
 
 impl Columns {
@@ -69,13 +67,12 @@ impl Columns {
             );
             findings.push(Finding::new(FindingKind::IgnoredColumns, Some(line.number), message));
         }
+        let slots = (0..columns).map(|column| (column < needed).then_some(column)).collect();
         Ok(Self {
-            delimiter,
-            slots: (0..columns).map(|column| (column < needed).then_some(column)).collect(),
-            names: Vec::new(),
+            layout: Layout { delimiter, slots, names: Vec::new(), has_header: false, ticks: false },
+            axes: options.axes,
             unit: options.unit.unwrap_or(options.expected_unit),
             factor: 1.0,
-            has_header: false,
         })
     }
 
@@ -146,18 +143,13 @@ impl Columns {
             findings.push(Finding::new(FindingKind::IgnoredColumns, Some(line.number), message));
         }
         let (unit, factor) = resolve_unit(suffix.unwrap_or(Suffix::None), line, options, findings)?;
-        Ok(Self { delimiter, slots, names, unit, factor, has_header: true })
-    }
-
-    /// Name of a column, for complaints.
-    pub(super) fn name(&self, column: usize) -> String {
-        self.names
-            .get(column)
-            .map_or_else(|| format!("column {}", column + 1), |name| format!("column `{name}`"))
+        let layout = Layout { delimiter, slots, names, has_header: true, ticks: false };
+        Ok(Self { layout, axes: options.axes, unit, factor })
     }
 }
 
-fn list(names: &[String], most: usize) -> String {
+/// Names in back quotes, at most so many of them.
+pub(super) fn list(names: &[String], most: usize) -> String {
     let shown: Vec<String> = names
         .iter()
         .take(most)

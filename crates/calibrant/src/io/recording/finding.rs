@@ -25,6 +25,10 @@ pub enum FindingKind {
     ConstantAxis,
     /// Readings stay at the extreme value as if clipped there.
     Saturation,
+    /// Where the sample times come from, where it is not simply a column of seconds.
+    Clock,
+    /// Something about the temperature.
+    Temperature,
 }
 
 /// Something noticed in a recording: what, where, and what was done about it.
@@ -61,9 +65,10 @@ pub(super) struct Tally {
 }
 
 impl Tally {
-    pub(super) fn add(&mut self, line: usize) {
+    /// One more, at this line (`None` in a file that has no lines).
+    pub(super) fn add(&mut self, line: Option<usize>) {
         self.count += 1;
-        self.first.get_or_insert(line);
+        self.first = self.first.or(line);
     }
 
     /// One finding for all; `say` puts the count into words.

@@ -11,11 +11,17 @@
 
 mod columns;
 mod finding;
+mod imu;
 mod quality;
+mod row;
 mod rows;
 mod write;
 
 pub use finding::{Finding, FindingKind};
+pub use imu::{
+    ColumnMapping, ColumnMeaning, ColumnUnit, FileFormat, ImuColumn, ImuFile, ImuReadOptions, ImuUnit,
+    TimeUnit, parse_imu_pair, parse_imu_recording, read_imu_pair, read_imu_recording,
+};
 pub use write::write_recording;
 
 use super::delimited::Lines;
@@ -108,7 +114,7 @@ fn parse(bytes: &[u8], options: &ReadOptions) -> Checked<RecordingFile> {
     let capacity = estimated_rows(text, first.text);
     let mut rows = Rows::new(&columns, capacity);
     let mut last = first.number;
-    if !columns.has_header {
+    if !columns.layout.has_header {
         rows.take(first)?;
     }
     for line in lines {

@@ -19,12 +19,18 @@ const PLATEAU_RATIO: usize = 4;
 /// Looks at a recording of at least two samples.
 pub(super) fn examine(recording: &Recording, lines: &LineMap, findings: &mut Vec<Finding>) {
     sampling(recording, lines, findings);
+    readings(recording, "", lines, findings);
+}
+
+/// Looks for axes that are not connected or clipped. `of` goes before the word axis, as in `gyroscope axis x`.
+pub(super) fn readings(recording: &Recording, of: &str, lines: &LineMap, findings: &mut Vec<Finding>) {
     for &axis in recording.active_axes() {
         let values: Vec<f64> = recording.readings.iter().map(|reading| reading[axis.index()]).collect();
         let (least, most) =
             values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, m), &v| (l.min(v), m.max(v)));
         if least == most {
-            let message = format!("axis {axis} never changes: {} throughout; is it connected?", short(least));
+            let message =
+                format!("{of}axis {axis} never changes: {} throughout; is it connected?", short(least));
             findings.push(Finding::new(FindingKind::ConstantAxis, None, message));
             continue;
         }
@@ -34,7 +40,7 @@ pub(super) fn examine(recording: &Recording, lines: &LineMap, findings: &mut Vec
         {
             if length >= PLATEAU && length > PLATEAU_RATIO * plateaus.elsewhere {
                 let message = format!(
-                    "axis {axis} may be saturated: {length} samples in a row at its {word} value {} {}",
+                    "{of}axis {axis} may be saturated: {length} samples in a row at its {word} value {} {}",
                     short(value),
                     recording.unit.symbol()
                 );
@@ -44,7 +50,8 @@ pub(super) fn examine(recording: &Recording, lines: &LineMap, findings: &mut Vec
     }
 }
 
-fn sampling(recording: &Recording, lines: &LineMap, findings: &mut Vec<Finding>) {
+/// Looks for gaps and irregular sampling.
+pub(super) fn sampling(recording: &Recording, lines: &LineMap, findings: &mut Vec<Finding>) {
     let rate = recording.rate_hz();
     let median = 1.0 / rate;
     let (mut gaps, mut longest, mut least, mut most) = (0_usize, (0.0, 0), f64::INFINITY, 0.0_f64);

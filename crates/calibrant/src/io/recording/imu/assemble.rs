@@ -1,0 +1,268 @@
+//! From the values of a file to a recording: times, units, what is missing or twice, and what is noticed on the way.
+
+use super::clock::{self, at};
+use super::column::ColumnMeaning;
+use super::draft::Draft;
+use super::options::ImuReadOptions;
+use super::readings::{check_gravity, question, stated_unit};
+use super::samples::{SLOTS, Samples, TEMPERATURE, slots_of};
+use super::unit::{ColumnUnit, ImuUnit};
+use crate::error::Complaint;
+use crate::io::recording::finding::{Finding, FindingKind, Tally, count};
+use crate::io::recording::quality;
+use crate::io::recording::rows::{LineMap, backwards, report_duplicates, report_truncated};
+use crate::io::text::Checked;
+use crate::sensor::{ImuRecording, ReadingUnit, Recording, Triad};
+use nalgebra::Vector3;
+
+/// A recording put together, and what was noticed.
+pub(super) struct Assembled {
+    pub(super) recording: ImuRecording,
+    pub(super) findings: Vec<Finding>,
+}
+
+/// Puts the recording together; the draft learns which of its columns turned out to be of no use.
+pub(super) fn assemble(draft: &mut Draft, samples: &Samples, options: &ImuReadOptions) -> Checked<Assembled> {
+    let mut findings = Vec::new();
+    if samples.rows == 0 {
+        let complaint = Complaint::new("there is a header but no sample below it", TWO);
+        return Err(samples.last_line.map_or(complaint.clone(), |line| complaint.at_line(line)).into());
+    }
+    let triads = with_values(draft, samples)?;
+    let units =
+        triads.iter().map(|&triad| stated_unit(draft, options, triad)).collect::<Checked<Vec<_>>>()?;
+    let times = clock::times(draft, samples, options, &mut findings);
+    // the questions are asked all at once
+    let times = match times {
+        Ok(times) => times,
+        Err(complaint) if units.contains(&None) => {
+            return Err(ask(Some(*complaint), samples, &triads, &units).into());
+        }
+        Err(complaint) => return Err(complaint),
+    };
+    if units.contains(&None) {
+        return Err(ask(None, samples, &triads, &units).into());
+    }
+    let kept = increasing(&times, samples, &mut findings)?;
+    let mut recording = ImuRecording::default();
+    let mut maps: Vec<LineMap> = Vec::new();
+    for (&triad, unit) in triads.iter().zip(units.iter().flatten()) {
+        let (readings, lines) = readings(triad, *unit, &times, &kept, samples, &mut findings)?;
+        if triad == Triad::Accelerometer {
+            check_gravity(&readings, *unit)?;
+            recording.accelerometer = Some(readings);
+        } else {
+            recording.gyroscope = Some(readings);
+        }
+        for axis in crate::sensor::Axis::ALL {
+            draft.set_unit(ColumnMeaning::Reading(triad, axis), ColumnUnit::Reading(*unit));
+        }
+        maps.push(lines);
+    }
+    report_truncated(samples.truncated, &mut findings);
+    recording.temperature_c = temperature(draft, &times, &kept, samples, &recording, &mut findings);
+    examine(&recording, &triads, &maps, &mut findings);
+    Ok(Assembled { recording, findings })
+}
+
+const TWO: &str = "a recording needs two samples at least";
+
+/// The sensors that have columns with values in them.
+fn with_values(draft: &mut Draft, samples: &Samples) -> Checked<Vec<Triad>> {
+    let mut triads = Vec::new();
+    let mut empty = Vec::new();
+    for triad in Triad::ALL {
+        let slots = slots_of(triad);
+        if samples.slot(slots[0]).is_empty() {
+            continue;
+        }
+        if slots.iter().any(|&slot| samples.slot(slot).iter().all(|value| value.is_nan())) {
+            empty.push(triad.name());
+            for axis in crate::sensor::Axis::ALL {
+                draft.leave_aside(ColumnMeaning::Reading(triad, axis), "an axis has no values");
+            }
+        } else {
+            triads.push(triad);
+        }
+    }
+    if triads.is_empty() {
+        let message = format!("the columns of the {} are empty", empty.join(" and the "));
+        return Err(Complaint::new(message, "were they recorded, and exported?").into());
+    }
+    Ok(triads)
+}
+
+/// One complaint that asks everything.
+fn ask(
+    clock: Option<Complaint>,
+    samples: &Samples,
+    triads: &[Triad],
+    units: &[Option<ImuUnit>],
+) -> Complaint {
+    let (mut questions, mut answers) = (Vec::new(), Vec::new());
+    for (&triad, _) in triads.iter().zip(units).filter(|(_, unit)| unit.is_none()) {
+        let raw = raw(triad, samples);
+        questions.push(question(triad, &raw));
+        answers.push(format!("--{triad}-unit {}", ImuUnit::choices(triad)));
+    }
+    if let Some(clock) = clock {
+        questions.push(clock.message);
+        answers.push(clock.help.trim_start_matches("say ").to_owned());
+    }
+    let last = if answers.iter().any(|answer| answer.contains("[columns]")) {
+        ""
+    } else {
+        " (also in [columns] of an experiment file)"
+    };
+    Complaint::new(questions.join("; "), format!("say {}{last}", answers.join("; ")))
+}
+
+/// The readings of a sensor as they are in the file.
+fn raw(triad: Triad, samples: &Samples) -> Recording {
+    let [x, y, z] = slots_of(triad).map(|slot| samples.slot(slot));
+    let readings: Vec<Vector3<f64>> = (0..samples.rows)
+        .map(|row| Vector3::new(x[row], y[row], z[row]))
+        .filter(|reading| reading.iter().all(|value| value.is_finite()))
+        .collect();
+    Recording { times_s: vec![0.0; readings.len()], readings, axes: 3, unit: ReadingUnit::Counts }
+}
+
+/// The rows whose times increase. Those that repeat the time before are dropped; one that goes back is an error.
+fn increasing(times: &[f64], samples: &Samples, findings: &mut Vec<Finding>) -> Checked<Vec<usize>> {
+    let mut kept: Vec<usize> = Vec::with_capacity(times.len());
+    let (mut untimed, mut same_rows, mut same_times) = (Tally::default(), Tally::default(), Tally::default());
+    for (row, &t) in times.iter().enumerate() {
+        if t.is_nan() {
+            untimed.add(samples.lines.line(row));
+            continue;
+        }
+        if let Some(&before) = kept.last() {
+            if t == times[before] {
+                let same = (0..SLOTS).all(|slot| {
+                    let values = samples.slot(slot);
+                    values.is_empty()
+                        || values[row] == values[before]
+                        || (values[row].is_nan() && values[before].is_nan())
+                });
+                if same { &mut same_rows } else { &mut same_times }.add(samples.lines.line(row));
+                continue;
+            }
+            if t < times[before] {
+                return Err(at(backwards(times[before], t), samples, row).into());
+            }
+        }
+        kept.push(row);
+    }
+    untimed.report(FindingKind::Missing, findings, |n| format!("{} without a time dropped", count(n, "row")));
+    report_duplicates(&same_rows, &same_times, findings);
+    Ok(kept)
+}
+
+/// The readings of a sensor, in its unit after the conversion; samples that lack a value are dropped.
+fn readings(
+    triad: Triad,
+    unit: ImuUnit,
+    times: &[f64],
+    kept: &[usize],
+    samples: &Samples,
+    findings: &mut Vec<Finding>,
+) -> Checked<(Recording, LineMap)> {
+    let (unit, factor) = unit.reading();
+    let [x, y, z] = slots_of(triad).map(|slot| samples.slot(slot));
+    let mut recording = Recording {
+        times_s: Vec::with_capacity(kept.len()),
+        readings: Vec::with_capacity(kept.len()),
+        axes: 3,
+        unit,
+    };
+    let mut lines = LineMap::default();
+    let mut missing = Tally::default();
+    for &row in kept {
+        let reading = Vector3::new(x[row], y[row], z[row]);
+        if reading.x.is_nan() || reading.y.is_nan() || reading.z.is_nan() {
+            missing.add(samples.lines.line(row));
+            continue;
+        }
+        if let Some(line) = samples.lines.line(row) {
+            lines.push(recording.times_s.len(), line);
+        }
+        recording.times_s.push(times[row]);
+        recording.readings.push(reading * factor);
+    }
+    missing.report(FindingKind::Missing, findings, |n| {
+        format!("{} of the {triad} with a missing or NaN value dropped", count(n, "sample"))
+    });
+    if recording.len() < 2 {
+        let message = format!(
+            "only {} of the {triad} in {}",
+            count(recording.len(), "usable sample"),
+            count(samples.rows, "row")
+        );
+        let mut help = vec![TWO.to_owned()];
+        help.extend(findings.iter().map(ToString::to_string));
+        let complaint = Complaint::new(message, help.join("; "));
+        return Err(samples.last_line.map_or(complaint.clone(), |line| complaint.at_line(line)).into());
+    }
+    Ok((recording, lines))
+}
+
+/// Temperatures at the sample times of the first sensor: straight lines between the rows that have one.
+fn temperature(
+    draft: &mut Draft,
+    times: &[f64],
+    kept: &[usize],
+    samples: &Samples,
+    recording: &ImuRecording,
+    findings: &mut Vec<Finding>,
+) -> Option<Vec<f64>> {
+    let values = samples.slot(TEMPERATURE);
+    if values.is_empty() {
+        return None;
+    }
+    let known: Vec<(f64, f64)> =
+        kept.iter().filter(|&&row| values[row].is_finite()).map(|&row| (times[row], values[row])).collect();
+    if known.is_empty() {
+        draft.leave_aside(ColumnMeaning::Temperature, "it has no values");
+        return None;
+    }
+    let at = &recording.accelerometer.as_ref().or(recording.gyroscope.as_ref())?.times_s;
+    if known.len() < kept.len() {
+        let message = format!(
+            "the temperature is there in {} of {}: between them it is interpolated",
+            known.len(),
+            count(kept.len(), "row")
+        );
+        findings.push(Finding::new(FindingKind::Temperature, None, message));
+    }
+    let mut next = 0;
+    let interpolate = |&t: &f64| {
+        while next < known.len() && known[next].0 < t {
+            next += 1;
+        }
+        match (next.checked_sub(1).map(|before| known[before]), known.get(next)) {
+            (Some((t0, c0)), Some(&(t1, c1))) => c0 + (c1 - c0) * ((t - t0) / (t1 - t0)),
+            (Some((_, c)), None) | (None, Some(&(_, c))) => c,
+            (None, None) => 0.0, // `known` is not empty
+        }
+    };
+    Some(at.iter().map(interpolate).collect())
+}
+
+/// Looks for gaps, irregular sampling, axes that are not connected, clipped readings.
+fn examine(recording: &ImuRecording, triads: &[Triad], lines: &[LineMap], findings: &mut Vec<Finding>) {
+    let sensors: Vec<_> =
+        triads.iter().filter_map(|&triad| Some((triad, recording.triad(triad)?))).zip(lines).collect();
+    let shared = sensors.windows(2).all(|pair| pair[0].0.1.times_s == pair[1].0.1.times_s);
+    for (k, ((triad, sensor), lines)) in sensors.iter().enumerate() {
+        if k == 0 || !shared {
+            let from = findings.len();
+            quality::sampling(sensor, lines, findings);
+            if !shared {
+                findings[from..]
+                    .iter_mut()
+                    .for_each(|finding| finding.message = format!("{triad}: {}", finding.message));
+            }
+        }
+        quality::readings(sensor, &format!("{triad} "), lines, findings);
+    }
+}

@@ -1,0 +1,263 @@
+//! Recordings of a whole IMU, in the formats of many programs.
+//!
+//! | format | recognised by | times | units |
+//! |---|---|---|---|
+//! | MT Manager | comments `// Update Rate`, `// DeviceId`, … above `PacketCounter…` | `SampleTimeFine` 0.1 ms, or `PacketCounter` and the rate | m/s², rad/s |
+//! | Movella DOT | `sep=`, `DeviceTag:`, … above `PacketCounter…` | `SampleTimeFine` µs | m/s², deg/s |
+//! | EuRoC | `#timestamp [ns],…` | ns | m/s², rad/s |
+//! | imu_tk | four columns of numbers, `t x y z`; two files | s | asked for |
+//! | imucal | `n_samples,gyr_x,…` | counter; the rate is asked for | asked for |
+//! | CSV | none of these | by name, or `[columns]` | by name, or asked for |
+//!
+//! All of them go the same way: [`head`] finds the header, a format's own file says what its columns mean ([`draft`]), [`samples`] reads the rows,
+//! [`clock`] makes times and [`readings`] units of them, [`assemble`] puts the recording together. A unit that the file does not state is
+//! asked for, with what its values suggest; it is never guessed.
+
+mod assemble;
+mod clock;
+mod column;
+mod csv;
+mod draft;
+mod euroc;
+mod format;
+mod head;
+mod imu_tk;
+mod imucal;
+mod movella_dot;
+mod mt_manager;
+mod naming;
+mod options;
+mod readings;
+mod samples;
+mod unit;
+mod xsens;
+
+pub use column::{ColumnMeaning, ImuColumn};
+pub use format::FileFormat;
+pub use options::{ColumnMapping, ImuReadOptions};
+pub use unit::{ColumnUnit, ImuUnit, TimeUnit};
+
+use super::finding::Finding;
+use super::row::Layout;
+use super::{LARGEST, estimated_rows, hex_sha256};
+use crate::error::{Complaint, Error, Result};
+use crate::io::text::{self, Checked};
+use crate::sensor::{ImuRecording, Triad};
+use assemble::assemble;
+use draft::Draft;
+use head::Head;
+use samples::Samples;
+use std::path::Path;
+
+/// A recording of an IMU as it was read.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ImuFile {
+    /// The samples: times in s, strictly increasing, everything finite; SI or counts.
+    pub recording: ImuRecording,
+    /// The format, as recognised or given.
+    pub format: FileFormat,
+    /// The columns in their order, used or not; of both files for a pair.
+    pub columns: Vec<ImuColumn>,
+    /// What was noticed and repaired.
+    pub findings: Vec<Finding>,
+    /// Number of rows, dropped ones included; of the longer file for a pair.
+    pub rows: usize,
+    /// SHA-256 of the file's bytes, hexadecimal; of the bytes of both, one after the other, for a pair.
+    pub sha256: String,
+}
+
+/// Reads a recording of an IMU in any known format.
+///
+/// # Errors
+/// [`Error::Recording`] with file, line and column: a file that cannot be read; no column of a sensor, or one from which gravity was removed, or
+/// only orientation; an axis that is missing or there twice; a unit or the sample rate that the file does not state (the message asks for it and says
+/// what the values suggest) or that contradicts the options; a row with the wrong number of columns, or something that is not a number; a time
+/// that goes backwards; fewer than two samples.
+pub fn read_imu_recording(path: &Path, options: &ImuReadOptions) -> Result<ImuFile> {
+    let in_file = |complaint: Box<Complaint>| Error::recording(complaint.in_file(path));
+    let bytes = read(path).map_err(in_file)?;
+    parse(&bytes, options).map_err(in_file)
+}
+
+/// Reads the bytes of a recording of an IMU.
+///
+/// # Errors
+/// As [`read_imu_recording`], without the name of the file.
+///
+/// # Examples
+/// ```
+/// use calibrant::io::{FileFormat, ImuReadOptions, parse_imu_recording};
+///
+/// let text = "// Update Rate: 100.0Hz\nPacketCounter\tAcc_X\tAcc_Y\tAcc_Z\tGyr_X\tGyr_Y\tGyr_Z\n\
+///             65534\t0.1\t0.2\t9.81\t0.0\t0.1\t0.0\n65535\t0.2\t0.1\t9.80\t0.1\t0.0\t0.1\n00001\t0.1\t0.1\t9.82\t0.0\t0.0\t0.0\n";
+/// let file = parse_imu_recording(text.as_bytes(), &ImuReadOptions::default())?;
+/// assert_eq!(file.format, FileFormat::MtManager);
+/// let gyroscope = file.recording.gyroscope.expect("there");
+/// assert_eq!(gyroscope.times_s, [0.0, 0.01, 0.03], "the counter began anew, and one sample was lost");
+/// # Ok::<(), calibrant::Error>(())
+/// ```
+pub fn parse_imu_recording(bytes: &[u8], options: &ImuReadOptions) -> Result<ImuFile> {
+    parse(bytes, options).map_err(|complaint| Error::recording(*complaint))
+}
+
+/// Reads a recording whose accelerometer and gyroscope are in a file each, as imu_tk's are: `t x y z`.
+///
+/// A file with a header serves as well: `t_s,x,y,z`, or any that has the sensor's columns by name. The sensors share a clock; their sample times may differ.
+///
+/// # Errors
+/// As [`read_imu_recording`], for each file.
+pub fn read_imu_pair(accelerometer: &Path, gyroscope: &Path, options: &ImuReadOptions) -> Result<ImuFile> {
+    let one = |path: &Path, triad: Triad| {
+        let in_file = |complaint: Box<Complaint>| Error::recording(complaint.in_file(path));
+        let bytes = read(path).map_err(in_file)?;
+        let file = parse_one(&bytes, options, triad).map_err(in_file)?;
+        Ok((bytes, file))
+    };
+    // each is read by a thread of its own
+    let (accelerometer, gyroscope) =
+        rayon::join(|| one(accelerometer, Triad::Accelerometer), || one(gyroscope, Triad::Gyroscope));
+    let ((mut bytes, first), (second_bytes, second)) = (accelerometer?, gyroscope?);
+    bytes.extend(second_bytes);
+    Ok(joined(first, second, hex_sha256(&bytes)))
+}
+
+/// Reads the bytes of a pair of files, accelerometer and gyroscope.
+///
+/// # Errors
+/// As [`read_imu_pair`], without the names of the files.
+///
+/// # Examples
+/// ```
+/// use calibrant::io::{ImuReadOptions, ImuUnit, parse_imu_pair};
+/// let options = ImuReadOptions {
+///     accelerometer_unit: Some(ImuUnit::Counts),
+///     gyroscope_unit: Some(ImuUnit::Counts),
+///     ..ImuReadOptions::default()
+/// };
+/// let file = parse_imu_pair(b"0.00 33108 33329 36429\n0.01 33096 33336 36437\n", b"0.00 32786 32429 32499\n0.01 32797 32410 32531\n", &options)?;
+/// assert_eq!(file.recording.gyroscope.expect("there").readings[1].y, 32410.0);
+/// # Ok::<(), calibrant::Error>(())
+/// ```
+pub fn parse_imu_pair(accelerometer: &[u8], gyroscope: &[u8], options: &ImuReadOptions) -> Result<ImuFile> {
+    let one = |bytes: &[u8], triad: Triad| {
+        parse_one(bytes, options, triad).map_err(|complaint| {
+            let message = format!("{triad}: {}", complaint.message);
+            Error::recording(Complaint { message, ..*complaint })
+        })
+    };
+    let (first, second) = (one(accelerometer, Triad::Accelerometer)?, one(gyroscope, Triad::Gyroscope)?);
+    Ok(joined(first, second, hex_sha256(&[accelerometer, gyroscope].concat())))
+}
+
+fn read(path: &Path) -> Checked<Vec<u8>> {
+    text::read_bytes(path, LARGEST, "the recording")
+}
+
+fn parse(bytes: &[u8], options: &ImuReadOptions) -> Checked<ImuFile> {
+    let text = text::as_text(bytes)?;
+    let head = Head::find(text)?;
+    let format = match options.format {
+        Some(format) => format,
+        None => sniffed(&head, options)?,
+    };
+    let draft = match format {
+        FileFormat::MtManager => mt_manager::draft(&head),
+        FileFormat::MovellaDot => movella_dot::draft(&head),
+        FileFormat::Euroc => euroc::draft(&head),
+        FileFormat::Imucal => imucal::draft(&head),
+        FileFormat::ImuTk => imu_tk::draft(&head, None)?,
+        FileFormat::Csv => csv::draft(&head),
+        FileFormat::Mcap | FileFormat::Parquet => return Err(not_binary(format).into()),
+    };
+    let (recording, sha256) = rayon::join(|| rows(draft, head, text, options), || hex_sha256(bytes));
+    Ok(ImuFile { sha256, ..recording? })
+}
+
+/// The format of a text. With the columns named, four of them need not be imu_tk's.
+fn sniffed(head: &Head<'_>, options: &ImuReadOptions) -> Checked<FileFormat> {
+    match FileFormat::of_text(head) {
+        Ok(FileFormat::ImuTk) | Err(_) if !options.columns.is_empty() => Ok(FileFormat::Csv),
+        format => format,
+    }
+}
+
+/// One file of a pair.
+fn parse_one(bytes: &[u8], options: &ImuReadOptions, triad: Triad) -> Checked<ImuFile> {
+    let text = text::as_text(bytes)?;
+    let head = Head::find(text)?;
+    let mut draft = if head.names.is_empty() {
+        imu_tk::draft(&head, Some(triad))?
+    } else {
+        Draft::new(FileFormat::Csv, imu_tk::named(&head, triad))
+    };
+    draft.keep_only(triad);
+    // the other sensor's unit, or the columns of one file that holds both, are not meant
+    let options = ImuReadOptions { columns: ColumnMapping::default(), ..options.clone() };
+    rows(draft, head, text, &options)
+}
+
+/// Reads the rows of a text whose columns are known.
+fn rows(mut draft: Draft, head: Head<'_>, text: &str, options: &ImuReadOptions) -> Checked<ImuFile> {
+    let line = head.line();
+    let at_header = |complaint: Box<Complaint>| Box::new(complaint.at_line(line));
+    draft.map(options).map_err(at_header)?;
+    draft.set_time_unit(options).map_err(at_header)?;
+    let slots = draft.slots().map_err(at_header)?;
+    let layout = Layout {
+        delimiter: head.delimiter,
+        slots,
+        names: head.names.iter().map(|name| (*name).to_owned()).collect(),
+        has_header: !head.names.is_empty(),
+        ticks: draft.time_unit() != Some(TimeUnit::Second),
+    };
+    let capacity = estimated_rows(text, head.first_row.map_or("", |line| line.text));
+    let mut samples = Samples::of_text(&layout, head.first_row.into_iter().chain(head.rest), capacity)?;
+    samples.last_line = samples.last_line.or(Some(line));
+    finish(draft, &samples, options)
+}
+
+/// From the values of a file to its recording.
+fn finish(mut draft: Draft, samples: &Samples, options: &ImuReadOptions) -> Checked<ImuFile> {
+    let assembled = assemble(&mut draft, samples, options)?;
+    Ok(ImuFile {
+        recording: assembled.recording,
+        format: draft.format,
+        columns: draft.columns,
+        findings: assembled.findings,
+        rows: samples.rows,
+        sha256: String::new(),
+    })
+}
+
+/// Two files as one recording.
+fn joined(first: ImuFile, second: ImuFile, sha256: String) -> ImuFile {
+    let named = |triad: Triad, findings: Vec<Finding>| {
+        findings.into_iter().map(move |mut finding| {
+            if !finding.message.starts_with(triad.name()) {
+                finding.message = format!("{triad}: {}", finding.message);
+            }
+            finding
+        })
+    };
+    ImuFile {
+        recording: ImuRecording {
+            accelerometer: first.recording.accelerometer,
+            gyroscope: second.recording.gyroscope,
+            temperature_c: first.recording.temperature_c,
+        },
+        format: first.format,
+        columns: first.columns.into_iter().chain(second.columns).collect(),
+        findings: named(Triad::Accelerometer, first.findings)
+            .chain(named(Triad::Gyroscope, second.findings))
+            .collect(),
+        rows: first.rows.max(second.rows),
+        sha256,
+    }
+}
+
+fn not_binary(format: FileFormat) -> Complaint {
+    Complaint::new(
+        format!("the format was given as {}, but this is text", format.name()),
+        "leave --format away: the format is recognised by the content",
+    )
+}

@@ -1,0 +1,20 @@
+//! CSV exports of the Movella DOT app: acceleration in m/s², rate in **deg/s**, `SampleTimeFine` in µs modulo 2³², `OutputRate:,60Hz` above the
+//! header in some versions.
+
+use super::draft::Draft;
+use super::format::FileFormat;
+use super::head::Head;
+use super::unit::{ImuUnit, TimeUnit};
+use super::xsens;
+
+pub(super) fn draft(head: &Head<'_>) -> Draft {
+    Draft {
+        time_wraps_at: Some(2.0_f64.powi(32)),
+        counter_wraps_at: Some(2.0_f64.powi(16)),
+        rate_hz: head.number("OutputRate").map(|rate| (rate, "OutputRate")),
+        ..Draft::new(
+            FileFormat::MovellaDot,
+            xsens::columns(&head.names, ImuUnit::DegreePerSecond, TimeUnit::Microsecond),
+        )
+    }
+}
