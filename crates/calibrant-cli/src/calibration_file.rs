@@ -2,7 +2,7 @@
 
 use crate::console;
 use calibrant::Result;
-use calibrant::io::{CalibratedImuFile, ImuFormat, ImuReadOptions, RawUnits, read_calibrated_imu};
+use calibrant::io::{CalibratedImuFile, ConventionOptions, ImuFormat, RawUnits, read_calibrated_imu};
 use calibrant::sensor::{CalibratedImu, Triad};
 use std::path::Path;
 
@@ -67,7 +67,7 @@ enum Sensor {
 impl Reading {
     /// Reads a calibration; what its reader found is told.
     pub(crate) fn read(&self, path: &Path) -> Result<CalibratedImuFile> {
-        let options = ImuReadOptions {
+        let options = ConventionOptions {
             format: self.from.map(ImuFormat::from),
             units: self.unit.map(|unit| match unit {
                 Unit::Si => RawUnits::Si,

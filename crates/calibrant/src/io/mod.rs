@@ -44,7 +44,7 @@ mod truth;
 pub use calibration::{Input, calibration_json, write_calibration};
 pub use comparison::comparison_json;
 pub use convention::{
-    CalibratedImuFile, ImuFormat, ImuNoise, ImuReadOptions, RawUnits, WrittenImu, calibrated_imu_texts,
+    CalibratedImuFile, ConventionOptions, ImuFormat, ImuNoise, RawUnits, WrittenImu, calibrated_imu_texts,
     parse_calibrated_imu, read_calibrated_imu, read_kalibr_noise, write_calibrated_imu,
 };
 pub use corrected::write_corrected_recording;

@@ -8,7 +8,7 @@
 //! # References
 //! `tedaldi2014`, `imu_tk`
 
-use super::{CalibratedImuFile, ImuFormat, ImuReadOptions, complaint, written_by};
+use super::{CalibratedImuFile, ConventionOptions, ImuFormat, complaint, written_by};
 use crate::error::Complaint;
 use crate::io::delimited::Lines;
 use crate::io::text::Checked;
@@ -68,7 +68,7 @@ pub(super) fn joined(accelerometer: CalibratedImuFile, gyroscope: CalibratedImuF
     file
 }
 
-pub(super) fn read(text: &str, options: &ImuReadOptions) -> Checked<CalibratedImuFile> {
+pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<CalibratedImuFile> {
     let mut numbers = Vec::with_capacity(COUNT);
     let (mut triad, mut unit, mut frame) = (None, None, None);
     let mut last = 1;

@@ -10,7 +10,7 @@
 //! `ferraris1995`, `imucal`
 
 use super::core::{matrix3, rows, vector3};
-use super::{CalibratedImuFile, ImuFormat, ImuReadOptions, RawUnits, complaint, written_by};
+use super::{CalibratedImuFile, ConventionOptions, ImuFormat, RawUnits, complaint, written_by};
 use crate::io::json;
 use crate::io::text::Checked;
 use crate::sensor::{CalibratedImu, ImuParameters, ImuQuantity, ReadingUnit, SensorParameters, Triad};
@@ -81,7 +81,7 @@ fn unit_of_readings(
     }
 }
 
-pub(super) fn read(text: &str, options: &ImuReadOptions) -> Checked<CalibratedImuFile> {
+pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<CalibratedImuFile> {
     let fields: Fields =
         serde_json::from_str(text).map_err(|error| json::broken(&error, "imucal's JSON", HELP))?;
     match fields.cal_type.as_deref() {

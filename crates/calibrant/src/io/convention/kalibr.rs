@@ -12,7 +12,7 @@
 //! `rehder2016`, `kalibr`
 
 use super::core::{matrix3, vector3};
-use super::{CalibratedImuFile, ImuFormat, ImuReadOptions, RawUnits, complaint, written_by};
+use super::{CalibratedImuFile, ConventionOptions, ImuFormat, RawUnits, complaint, written_by};
 use crate::error::{Complaint, Error, Result};
 use crate::io::text::{self, Checked};
 use crate::sensor::{CalibratedImu, Gauge, ImuParameters, ImuQuantity, ReadingUnit, SensorParameters, Triad};
@@ -177,7 +177,7 @@ pub fn read_kalibr_noise(path: &Path) -> Result<ImuNoise> {
     read().map_err(|complaint| Error::experiment(complaint.in_file(path)))
 }
 
-pub(super) fn read(text: &str, options: &ImuReadOptions) -> Checked<CalibratedImuFile> {
+pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<CalibratedImuFile> {
     let imu = parse(text)?;
     let noise = imu.noise()?;
     let Some(accelerometers) = &imu.accelerometers else {

@@ -71,7 +71,7 @@ impl RawUnits {
 
 /// How a calibration is read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct ImuReadOptions {
+pub struct ConventionOptions {
     /// The format; by content where it is not given.
     pub format: Option<ImuFormat>,
     /// Unit of the readings, for files that do not say.
@@ -96,20 +96,23 @@ pub struct WrittenImu {
 /// # Errors
 /// [`Error::Experiment`] with the file, and line and column where they are known: a file that cannot be read; a format that is not recognised; fields
 /// that are missing or no numbers; a matrix that is singular; a unit or a sensor that the file does not say and the options do not either.
-pub fn read_calibrated_imu(path: &Path, options: &ImuReadOptions) -> Result<CalibratedImuFile> {
+pub fn read_calibrated_imu(path: &Path, options: &ConventionOptions) -> Result<CalibratedImuFile> {
     if let Some(pair) = imu_tk::pair_instead_of(path) {
         let read = |path: &PathBuf, triad| {
-            read_one(path, &ImuReadOptions { format: Some(ImuFormat::ImuTk), triad: Some(triad), ..*options })
+            read_one(
+                path,
+                &ConventionOptions { format: Some(ImuFormat::ImuTk), triad: Some(triad), ..*options },
+            )
         };
         let (accelerometer, gyroscope) =
             (read(&pair[0], Triad::Accelerometer)?, read(&pair[1], Triad::Gyroscope)?);
         return Ok(imu_tk::joined(accelerometer, gyroscope));
     }
     let triad = options.triad.or_else(|| imu_tk::triad_of_name(path));
-    read_one(path, &ImuReadOptions { triad, ..*options })
+    read_one(path, &ConventionOptions { triad, ..*options })
 }
 
-fn read_one(path: &Path, options: &ImuReadOptions) -> Result<CalibratedImuFile> {
+fn read_one(path: &Path, options: &ConventionOptions) -> Result<CalibratedImuFile> {
     let bytes = text::read_bytes(path, LARGEST, "the calibration")
         .map_err(|complaint| Error::experiment(*complaint))?;
     parse(&bytes, options).map_err(|complaint| Error::experiment(complaint.in_file(path)))
@@ -123,20 +126,20 @@ fn read_one(path: &Path, options: &ImuReadOptions) -> Result<CalibratedImuFile> 
 /// # Examples
 /// An accelerometer as imu_tk writes it: misalignment, scale, bias.
 /// ```
-/// use calibrant::io::{ImuReadOptions, RawUnits, parse_calibrated_imu};
+/// use calibrant::io::{ConventionOptions, RawUnits, parse_calibrated_imu};
 /// use calibrant::sensor::Triad;
 ///
 /// let text = "1 0 0\n0 1 0\n0 0 1\n\n0.0024 0 0\n0 0.0024 0\n0 0 0.0024\n\n33124\n33275\n32364\n";
-/// let options = ImuReadOptions { units: Some(RawUnits::Counts), triad: Some(Triad::Accelerometer), ..Default::default() };
+/// let options = ConventionOptions { units: Some(RawUnits::Counts), triad: Some(Triad::Accelerometer), ..Default::default() };
 /// let file = parse_calibrated_imu(text.as_bytes(), &options)?;
 /// assert!((file.imu.parameters.accelerometer.matrix[(0, 0)] - 1.0 / 0.0024).abs() < 1e-9, "counts per m/s²");
 /// # Ok::<(), calibrant::Error>(())
 /// ```
-pub fn parse_calibrated_imu(bytes: &[u8], options: &ImuReadOptions) -> Result<CalibratedImuFile> {
+pub fn parse_calibrated_imu(bytes: &[u8], options: &ConventionOptions) -> Result<CalibratedImuFile> {
     parse(bytes, options).map_err(|complaint| Error::experiment(*complaint))
 }
 
-fn parse(bytes: &[u8], options: &ImuReadOptions) -> Checked<CalibratedImuFile> {
+fn parse(bytes: &[u8], options: &ConventionOptions) -> Checked<CalibratedImuFile> {
     let text = text::as_text(bytes)?;
     let format = match options.format {
         Some(format) => format,

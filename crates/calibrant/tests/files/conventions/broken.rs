@@ -2,7 +2,7 @@
 
 use super::{COUNTS, SI, alone, file, imu};
 use calibrant::io::{
-    ImuFormat, ImuReadOptions, RawUnits, calibrated_imu_texts, parse_calibrated_imu, read_calibrated_imu,
+    ConventionOptions, ImuFormat, RawUnits, calibrated_imu_texts, parse_calibrated_imu, read_calibrated_imu,
 };
 use calibrant::sensor::{Gauge, Triad};
 use proptest::prelude::*;
@@ -15,7 +15,7 @@ fn text(format: ImuFormat) -> String {
     calibrated_imu_texts(&file(imu), format).expect("carried").remove(0).1
 }
 
-fn said_of(text: &str, options: &ImuReadOptions) -> String {
+fn said_of(text: &str, options: &ConventionOptions) -> String {
     let error = parse_calibrated_imu(text.as_bytes(), options).expect_err("broken");
     assert!(error.is_invalid_experiment());
     let said = error.to_string();
@@ -28,7 +28,7 @@ fn check(format: ImuFormat, cases: &[(&str, &str, &str)]) {
     let good = text(format);
     for (from, to, says) in cases {
         assert!(good.contains(from), "{from}: {good}");
-        let said = said_of(&good.replacen(from, to, 1), &ImuReadOptions::default());
+        let said = said_of(&good.replacen(from, to, 1), &ConventionOptions::default());
         assert!(said.contains(says), "{from} → {to}: {said}");
     }
 }
@@ -98,14 +98,14 @@ fn calibrant_json() {
         let comma = tail.find(',').expect("a row");
         let bracket = tail[..comma].rfind('[').expect("a row") + 1;
         let broken = format!("{head}{}{to}{}", &tail[..bracket], &tail[comma..]);
-        let said = said_of(&broken, &ImuReadOptions::default());
+        let said = said_of(&broken, &ConventionOptions::default());
         assert!(said.contains(says), "{to}: {said}");
     }
     // one axis is no IMU
     let uniaxial = r#"{ "schema": 1, "status": "converged", "covariance": [[4e-4]],
         "parameters": [{ "name": "bias.x", "unit": "m/s²", "value": 0.1, "sd": 0.02 }] }"#;
     assert!(
-        said_of(uniaxial, &ImuReadOptions::default()).contains("a sensor with one axis; an IMU has three")
+        said_of(uniaxial, &ConventionOptions::default()).contains("a sensor with one axis; an IMU has three")
     );
 }
 
@@ -138,7 +138,7 @@ fn kalibr() {
             ("imu0:\n", "imu0:\n  update_rate: -3\n", "`update_rate` is not a positive number"),
         ],
     );
-    let said = said_of("imu0:\n  accelerometers:\n    M: [1, 2\n", &ImuReadOptions::default());
+    let said = said_of("imu0:\n  accelerometers:\n    M: [1, 2\n", &ConventionOptions::default());
     assert!(said.starts_with("line "), "with its place: {said}");
 }
 
@@ -159,10 +159,10 @@ fn imu_tk() {
     );
     let asked = "1 0 0\n0 1 0\n0 0 1\n0.0024 0 0\n0 0.0024 0\n0 0 0.0024\n1\n2\n3\n";
     let triad = Some(Triad::Accelerometer);
-    let said = said_of(asked, &ImuReadOptions { triad, ..Default::default() });
+    let said = said_of(asked, &ConventionOptions { triad, ..Default::default() });
     assert!(said.contains("a scale of 0.0024 looks like counts: --unit counts"), "{said}");
     let zero = asked.replace("0.0024", "0");
-    let said = said_of(&zero, &ImuReadOptions { triad, units: Some(RawUnits::Si), ..Default::default() });
+    let said = said_of(&zero, &ConventionOptions { triad, units: Some(RawUnits::Si), ..Default::default() });
     assert!(said.contains("the matrix of the accelerometer is singular"), "{said}");
 }
 
@@ -234,7 +234,7 @@ fn c_header() {
             ("readings in m/s^2", "readings in g", "the unit of the accelerometer is \"g\""),
         ],
     );
-    let said = said_of("#ifndef OTHER_H\n#define OTHER_H\n#endif\n", &ImuReadOptions::default());
+    let said = said_of("#ifndef OTHER_H\n#define OTHER_H\n#endif\n", &ConventionOptions::default());
     assert!(said.contains("there is no `calibrant_accelerometer_matrix`"), "{said}");
 }
 
@@ -249,10 +249,10 @@ fn what_is_no_calibration_is_not_recognised() {
         ("[]", "not a calibration of calibrant"),
         ("\u{0}\u{1}", "binary data"),
     ] {
-        let said = said_of(text, &ImuReadOptions::default());
+        let said = said_of(text, &ConventionOptions::default());
         assert!(said.contains(says), "{text:?}: {said}");
     }
-    let error = read_calibrated_imu(std::path::Path::new("no/such.calib"), &ImuReadOptions::default());
+    let error = read_calibrated_imu(std::path::Path::new("no/such.calib"), &ConventionOptions::default());
     assert!(error.expect_err("absent").to_string().starts_with("no/such.calib: cannot read the calibration"));
 }
 
@@ -263,7 +263,7 @@ fn every_beginning_of_a_file_is_refused_or_whole_and_nothing_panics() {
         let ends: Vec<usize> = text.char_indices().map(|(at, _)| at).step_by(7).collect();
         for end in ends {
             for from in ImuFormat::ALL {
-                let options = ImuReadOptions {
+                let options = ConventionOptions {
                     format: Some(from),
                     units: Some(RawUnits::Si),
                     triad: Some(Triad::Gyroscope),
@@ -282,7 +282,7 @@ proptest! {
         let mut bytes = text(ImuFormat::ALL[format]).into_bytes();
         let at = at % bytes.len();
         bytes[at] = byte;
-        if let Ok(file) = parse_calibrated_imu(&bytes, &ImuReadOptions::default()) {
+        if let Ok(file) = parse_calibrated_imu(&bytes, &ConventionOptions::default()) {
             prop_assert!(file.imu.parameters.accelerometer.matrix.iter().all(|entry| entry.is_finite()));
         }
     }

@@ -6,7 +6,7 @@ mod round_trips;
 mod warnings;
 
 use calibrant::io::{
-    CalibratedImuFile, ImuFormat, ImuReadOptions, Input, calibrated_imu_texts, parse_calibrated_imu,
+    CalibratedImuFile, ConventionOptions, ImuFormat, Input, calibrated_imu_texts, parse_calibrated_imu,
 };
 use calibrant::sensor::{
     CalibratedImu, ImuCorrection, ImuParameters, ImuQuantity, ReadingUnit, SensorParameters, Triad,
@@ -75,7 +75,7 @@ pub(crate) fn there_and_back(file: &CalibratedImuFile, format: ImuFormat) -> Vec
     texts
         .iter()
         .map(|(_, text)| {
-            parse_calibrated_imu(text.as_bytes(), &ImuReadOptions::default())
+            parse_calibrated_imu(text.as_bytes(), &ConventionOptions::default())
                 .unwrap_or_else(|error| panic!("{}: {error}\n{text}", format.name()))
         })
         .collect()

@@ -3,8 +3,8 @@
 use super::{COUNTS, SI, alone, file, imu, largest_difference, readings, there_and_back};
 use calibrant::estimate::Comparison;
 use calibrant::io::{
-    CalibratedImuFile, ImuFormat, ImuNoise, ImuReadOptions, RawUnits, calibration_json, parse_calibrated_imu,
-    read_calibrated_imu, read_kalibr_noise, write_calibrated_imu,
+    CalibratedImuFile, ConventionOptions, ImuFormat, ImuNoise, RawUnits, calibration_json,
+    parse_calibrated_imu, read_calibrated_imu, read_kalibr_noise, write_calibrated_imu,
 };
 use calibrant::sensor::{Gauge, ImuQuantity, ReadingUnit, Triad};
 use proptest::prelude::*;
@@ -98,7 +98,7 @@ fn the_json_says_what_it_means() {
 fn todays_calibration_json_is_read_as_an_imu() {
     let calibration = crate::results::holds_in_counts();
     let text = calibration_json(&calibration, &crate::results::input());
-    let file = parse_calibrated_imu(text.as_bytes(), &ImuReadOptions::default()).expect("schema 1");
+    let file = parse_calibrated_imu(text.as_bytes(), &ConventionOptions::default()).expect("schema 1");
     assert_eq!(file.imu.parameters.accelerometer, calibration.sensor);
     assert_eq!(file.imu.covariance.as_ref(), Some(&calibration.covariance));
     assert_eq!((file.imu.accelerometer_unit, file.imu.gyroscope_unit), (Some(calibration.unit), None));
@@ -121,7 +121,7 @@ fn imu_tk_has_one_file_for_each_sensor_and_is_read_as_a_pair() {
     let names: Vec<_> =
         written.files.iter().map(|file| file.file_name().expect("a name").to_owned()).collect();
     assert_eq!(names, ["xsens_acc.calib", "xsens_gyro.calib"]);
-    let after = read_calibrated_imu(&path, &ImuReadOptions::default()).expect("the pair");
+    let after = read_calibrated_imu(&path, &ConventionOptions::default()).expect("the pair");
     assert!(after.imu.accelerometer_unit.is_some() && after.imu.gyroscope_unit.is_some());
     assert!(largest_difference(&before, &after.imu, &readings(&before, 1000, 3)) < 1e-12);
     // one sensor keeps the name, and the name tells the sensor where the file does not
@@ -131,7 +131,7 @@ fn imu_tk_has_one_file_for_each_sensor_and_is_read_as_a_pair() {
     let plain = "1 0 0\n0 1 0\n0 0 1\n\n0.0002 0 0\n0 0.0002 0\n0 0 0.0002\n\n32777\n32459\n32511\n";
     let named = directory.path().join("test_imu_gyro.calib");
     std::fs::write(&named, plain).expect("written");
-    let options = ImuReadOptions { units: Some(RawUnits::Counts), ..Default::default() };
+    let options = ConventionOptions { units: Some(RawUnits::Counts), ..Default::default() };
     let found = read_calibrated_imu(&named, &options).expect("imu_tk's own");
     assert_eq!(found.imu.gyroscope_unit, Some(ReadingUnit::Counts));
     assert!((found.imu.parameters.gyroscope.matrix[(1, 1)] - 5000.0).abs() < 1e-9);
@@ -150,7 +150,7 @@ fn imu_tks_published_result_is_that_of_its_file() {
         1.0 / gains[1],
         1.0 / gains[2]
     );
-    let options = ImuReadOptions {
+    let options = ConventionOptions {
         units: Some(RawUnits::Counts),
         triad: Some(Triad::Accelerometer),
         ..Default::default()
@@ -200,7 +200,7 @@ fn kalibrs_own_file_is_read() {
   time_offset: 0.0
   update_rate: 200.0
 ";
-    let file = parse_calibrated_imu(text.as_bytes(), &ImuReadOptions::default()).expect("Kalibr's");
+    let file = parse_calibrated_imu(text.as_bytes(), &ConventionOptions::default()).expect("Kalibr's");
     let p = &file.imu.parameters;
     assert_eq!(p.accelerometer.matrix[(1, 0)], 0.02);
     assert!((p.gyroscope.matrix[(0, 1)] + 0.3).abs() < 1e-15, "M_g C_gyro_i");
@@ -219,7 +219,7 @@ fn kalibrs_own_file_is_read() {
     std::fs::write(&path, plain).expect("written");
     assert_eq!(read_kalibr_noise(&path).expect("noise").gyroscope_density, Some(1.87e-4));
     let error =
-        read_calibrated_imu(&path, &ImuReadOptions::default()).expect_err("no calibration").to_string();
+        read_calibrated_imu(&path, &ConventionOptions::default()).expect_err("no calibration").to_string();
     assert!(error.contains("there is no calibration in it: model calibrated"), "{error}");
 }
 
@@ -229,7 +229,7 @@ fn imucals_units_are_converted() {
       "K_a": [[2, 0, 0], [0, 2, 0], [0, 0, 2]], "R_a": [[1, 0, 0], [0, 1, 0], [0, 0, 1]], "b_a": [0.1, 0, 0],
       "K_g": [[1, 0, 0], [0, 1, 0], [0, 0, 1]], "R_g": [[1, 0, 0], [0, 1, 0], [0, 0, 1]],
       "K_ga": [[0.5, 0, 0], [0, 0, 0], [0, 0, 0]], "b_g": [0.2, 0, 0], "cal_type": "Turntable", "_format_version": "2.0.0"}"#;
-    let imu = parse_calibrated_imu(text.as_bytes(), &ImuReadOptions::default()).expect("imucal's").imu;
+    let imu = parse_calibrated_imu(text.as_bytes(), &ConventionOptions::default()).expect("imucal's").imu;
     let p = &imu.parameters;
     assert!((p.accelerometer.matrix[(0, 0)] - 2.0).abs() < 1e-15, "g per g");
     assert!((p.accelerometer.bias.x - 0.980665).abs() < 1e-15);
