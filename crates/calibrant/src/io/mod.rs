@@ -35,6 +35,7 @@ mod noise;
 mod output;
 mod preset;
 mod recording;
+mod sections;
 mod study;
 mod summary;
 mod sweep;
@@ -53,8 +54,8 @@ pub use design::{design_json, write_design};
 pub use earlier::{EarlierCalibration, parse_calibration, read_calibration};
 pub use evaluation::{evaluation_json, write_evaluation};
 pub use experiment::{
-    CalibrateOptions, CriterionLetter, DesignOptions, Experiment, HoldsPlan, MotionPlan, NoisyVariant, Plan,
-    Prior, ScaleBy, StudyOptions, UnknownVariant,
+    CalibrateOptions, CriterionLetter, DesignOptions, Experiment, HoldsPlan, ImuPlan, MotionPlan,
+    NoisyVariant, Plan, Prior, ScaleBy, StudyOptions, UnknownVariant,
 };
 pub use motion::{parse_motion, read_motion, write_motion};
 pub use noise::{noise_json, write_noise};
@@ -65,6 +66,7 @@ pub use recording::{
     ImuReadOptions, ImuUnit, ReadOptions, RecordingFile, TimeUnit, parse_imu_pair, parse_imu_recording,
     parse_recording, read_imu_pair, read_imu_recording, read_recording, write_recording,
 };
+pub use sections::{Section, SectionKind, parse_sections, read_sections};
 pub use study::{study_json, write_study};
 pub use summary::{SummaryRow, write_summary};
 pub use sweep::{sweep_json, write_sweep, write_sweep_csv};
