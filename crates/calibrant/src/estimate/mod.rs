@@ -20,7 +20,9 @@ mod result;
 mod settings;
 pub(crate) mod statistics;
 
-pub use holds::{HoldsSetup, find_holds, holds_between};
+pub use holds::{
+    Coverage, ExpectedCalibration, HoldsSetup, coverage, expected_calibration, find_holds, holds_between,
+};
 pub use problem::{CalibrationProblem, Stimulus};
 pub use result::*;
 pub use settings::CalibrationSettings;
