@@ -4,6 +4,7 @@ mod calibrate;
 mod console;
 mod design;
 mod init;
+mod inspect;
 mod place;
 mod simulate;
 mod study;
@@ -30,6 +31,7 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     Init(init::Arguments),
+    Inspect(inspect::Arguments),
     Design(design::Arguments),
     Simulate(simulate::Arguments),
     Calibrate(calibrate::Arguments),
@@ -72,6 +74,7 @@ fn main() -> ExitCode {
     }
     let outcome = match cli.command {
         Command::Init(arguments) => init::run(&arguments),
+        Command::Inspect(arguments) => inspect::run(&arguments),
         Command::Design(arguments) => design::run(&arguments),
         Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Calibrate(arguments) => calibrate::run(&arguments),

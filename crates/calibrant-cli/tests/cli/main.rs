@@ -8,6 +8,7 @@ mod data;
 mod design;
 mod determinism;
 mod examples;
+mod inspect;
 mod many;
 mod real;
 mod repaired;

@@ -4,7 +4,7 @@
 //! |---|---|---|
 //! | experiment (TOML) | [`Experiment::read`] | [`preset()`], [`PRESETS`] |
 //! | `recording.csv` and other recordings | [`read_recording`] | [`write_recording`] |
-//! | recordings of a whole IMU, in many formats | [`read_imu_recording`], [`read_imu_pair`] | |
+//! | recordings of a whole IMU, in many formats | [`read_imu_recording`], [`read_imu_pair`] | [`inspection_json`] |
 //! | `motion.csv` | [`read_motion`] | [`write_motion`] |
 //! | `calibration.json` | [`read_calibration`], as what is known before a design | [`write_calibration`] |
 //! | `design.json`, `motion_dense.csv` | | [`write_design`], [`write_dense_motion`] |
@@ -23,6 +23,7 @@ mod earlier;
 mod evaluation;
 mod experiment;
 mod fields;
+mod inspection;
 mod json;
 mod motion;
 mod output;
@@ -43,6 +44,7 @@ pub use experiment::{
     CalibrateOptions, CriterionLetter, DesignOptions, Experiment, HoldsPlan, MotionPlan, NoisyVariant, Plan,
     Prior, ScaleBy, StudyOptions, UnknownVariant,
 };
+pub use inspection::{HoldsInspection, Inspection, SensorInspection, inspect, inspection_json};
 pub use motion::{parse_motion, read_motion, write_motion};
 pub use output::write_atomically;
 pub use preset::{PRESETS, preset};
