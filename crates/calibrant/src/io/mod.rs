@@ -4,7 +4,7 @@
 //! |---|---|---|
 //! | experiment (TOML) | [`Experiment::read`] | [`preset()`], [`PRESETS`] |
 //! | `recording.csv` and other recordings | [`read_recording`] | [`write_recording`] |
-//! | recordings of a whole IMU, in many formats | [`read_imu_recording`], [`read_imu_pair`] | |
+//! | recordings of a whole IMU, in many formats | [`read_imu_recording`], [`read_imu_pair`] | [`inspection_json`] |
 //! | `motion.csv` | [`read_motion`] | [`write_motion`] |
 //! | `calibration.json` | [`read_calibration`], as what is known before a design | [`write_calibration`] |
 //! | calibrations of an IMU, ours and of other programs | [`read_calibrated_imu`] | [`write_calibrated_imu`] |
@@ -29,6 +29,7 @@ mod earlier;
 mod evaluation;
 mod experiment;
 mod fields;
+mod inspection;
 mod json;
 mod motion;
 mod noise;
@@ -57,6 +58,7 @@ pub use experiment::{
     CalibrateOptions, CriterionLetter, DesignOptions, Experiment, HoldsPlan, ImuPlan, MotionPlan,
     NoisyVariant, Plan, Prior, ScaleBy, StudyOptions, UnknownVariant,
 };
+pub use inspection::{HoldsInspection, Inspection, SensorInspection, inspect, inspection_json};
 pub use motion::{parse_motion, read_motion, write_motion};
 pub use noise::{noise_json, write_noise};
 pub use output::write_atomically;
