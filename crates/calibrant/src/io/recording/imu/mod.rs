@@ -48,7 +48,7 @@ pub use unit::{ColumnUnit, ImuUnit, TimeUnit};
 
 use super::finding::Finding;
 use super::row::Layout;
-use super::{LARGEST, estimated_rows, hex_sha256};
+use super::{LARGEST, estimated_rows, hex_sha256, hex_sha256_of};
 use crate::error::{Complaint, Error, Result};
 use crate::io::text::{self, Checked};
 use crate::sensor::{ImuRecording, Triad};
@@ -116,18 +116,23 @@ pub fn parse_imu_recording(bytes: &[u8], options: &ImuReadOptions) -> Result<Imu
 /// # Errors
 /// As [`read_imu_recording`], for each file.
 pub fn read_imu_pair(accelerometer: &Path, gyroscope: &Path, options: &ImuReadOptions) -> Result<ImuFile> {
-    let one = |path: &Path, triad: Triad| {
-        let in_file = |complaint: Box<Complaint>| Error::recording(complaint.in_file(path));
-        let bytes = read(path).map_err(in_file)?;
-        let file = parse_one(&bytes, options, triad).map_err(in_file)?;
-        Ok((bytes, file))
+    let in_file = |path: &Path, complaint: Box<Complaint>| Error::recording(complaint.in_file(path));
+    let bytes = |path: &Path| read(path).map_err(|complaint| in_file(path, complaint));
+    let (first, second) = (bytes(accelerometer)?, bytes(gyroscope)?);
+    let one = |path: &Path, bytes: &[u8], triad: Triad| {
+        parse_one(bytes, options, triad).map_err(|complaint| in_file(path, complaint))
     };
-    // each is read by a thread of its own
-    let (accelerometer, gyroscope) =
-        rayon::join(|| one(accelerometer, Triad::Accelerometer), || one(gyroscope, Triad::Gyroscope));
-    let ((mut bytes, first), (second_bytes, second)) = (accelerometer?, gyroscope?);
-    bytes.extend(second_bytes);
-    Ok(joined(first, second, hex_sha256(&bytes)))
+    // one beside the other: this is what a calibration waits for
+    let ((accelerometer, gyroscope), sha256) = rayon::join(
+        || {
+            rayon::join(
+                || one(accelerometer, &first, Triad::Accelerometer),
+                || one(gyroscope, &second, Triad::Gyroscope),
+            )
+        },
+        || hex_sha256_of(&[&first, &second]),
+    );
+    Ok(joined(accelerometer?, gyroscope?, sha256))
 }
 
 /// Reads the bytes of a pair of files, accelerometer and gyroscope.
@@ -155,7 +160,7 @@ pub fn parse_imu_pair(accelerometer: &[u8], gyroscope: &[u8], options: &ImuReadO
         })
     };
     let (first, second) = (one(accelerometer, Triad::Accelerometer)?, one(gyroscope, Triad::Gyroscope)?);
-    Ok(joined(first, second, hex_sha256(&[accelerometer, gyroscope].concat())))
+    Ok(joined(first, second, hex_sha256_of(&[accelerometer, gyroscope])))
 }
 
 fn read(path: &Path) -> Checked<Vec<u8>> {
