@@ -1,11 +1,12 @@
 //! `calibrant inspect`: what a recording holds, and what a calibration from it may be expected to determine.
 
+use crate::reading::Reading;
 use crate::{Exit, console};
 use calibrant::Error;
 use calibrant::error::Complaint;
 use calibrant::io::{
-    Experiment, FileFormat, HoldsInspection, ImuFile, ImuReadOptions, ImuUnit, Inspection, SensorInspection,
-    TimeUnit, inspect, inspection_json, read_imu_pair, read_imu_recording,
+    Experiment, HoldsInspection, ImuFile, ImuReadOptions, Inspection, SensorInspection, inspect,
+    inspection_json, read_imu_pair, read_imu_recording,
 };
 use calibrant::report::number::{count, short, significant};
 use calibrant::sensor::{Axis, ReadingUnit, Triad};
@@ -21,52 +22,14 @@ pub(crate) struct Arguments {
     file: PathBuf,
     /// The gyroscope's file of a pair (imu_tk).
     second: Option<PathBuf>,
-    /// The format: mt-manager, movella-dot, euroc, imu-tk, imucal, csv, mcap or parquet (default: by content).
-    #[arg(long, value_parser = format)]
-    format: Option<FileFormat>,
-    /// Unit of the accelerometer where the file does not say: m/s2, g or counts.
-    #[arg(long, value_name = "UNIT", value_parser = accelerometer_unit)]
-    accelerometer_unit: Option<ImuUnit>,
-    /// Unit of the gyroscope where the file does not say: rad/s, deg/s or counts.
-    #[arg(long, value_name = "UNIT", value_parser = gyroscope_unit)]
-    gyroscope_unit: Option<ImuUnit>,
-    /// Unit of the time column where its name does not say: s, ms, us or ns; samples for a counter.
-    #[arg(long, value_name = "UNIT", value_parser = time_unit)]
-    time_unit: Option<TimeUnit>,
-    /// Sample rate, Hz, for files without sample times.
-    #[arg(long, value_name = "HZ")]
-    rate_hz: Option<f64>,
-    /// Topic of a bag that has more than one IMU.
-    #[arg(long)]
-    topic: Option<String>,
+    #[command(flatten)]
+    reading: Reading,
     /// Experiment file whose [columns] say what is what.
     #[arg(long, value_name = "EXPERIMENT")]
     columns: Option<PathBuf>,
     /// Print everything as JSON.
     #[arg(long)]
     json: bool,
-}
-
-fn format(text: &str) -> Result<FileFormat, String> {
-    let all = || FileFormat::ALL.map(FileFormat::name).join(", ");
-    FileFormat::parse(text).ok_or_else(|| format!("the formats are {}", all()))
-}
-
-fn unit(text: &str, triad: Triad) -> Result<ImuUnit, String> {
-    let choices = || format!("the {triad} is in {}", ImuUnit::choices(triad));
-    ImuUnit::parse(text).filter(|unit| unit.suits(triad)).ok_or_else(choices)
-}
-
-fn accelerometer_unit(text: &str) -> Result<ImuUnit, String> {
-    unit(text, Triad::Accelerometer)
-}
-
-fn gyroscope_unit(text: &str) -> Result<ImuUnit, String> {
-    unit(text, Triad::Gyroscope)
-}
-
-fn time_unit(text: &str) -> Result<TimeUnit, String> {
-    TimeUnit::parse(text).ok_or_else(|| "times are in s, ms, us or ns, or samples".into())
 }
 
 pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
@@ -85,15 +48,7 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
 }
 
 fn options(arguments: &Arguments) -> calibrant::Result<ImuReadOptions> {
-    let given = ImuReadOptions {
-        format: arguments.format,
-        time_unit: arguments.time_unit,
-        accelerometer_unit: arguments.accelerometer_unit,
-        gyroscope_unit: arguments.gyroscope_unit,
-        rate_hz: arguments.rate_hz,
-        topic: arguments.topic.clone(),
-        ..ImuReadOptions::default()
-    };
+    let given = arguments.reading.options();
     let Some(experiment) = &arguments.columns else { return Ok(given) };
     let columns = Experiment::read(experiment)?.columns;
     if columns == ImuReadOptions::default() {

@@ -11,6 +11,7 @@ mod init;
 mod inspect;
 mod noise;
 mod place;
+mod reading;
 mod simulate;
 mod study;
 

@@ -261,7 +261,8 @@ impl Joint<'_> {
                 let r = mean - imu.gyroscope.bias - imu.g_sensitivity * force;
                 add(imu.g_sensitivity, g, r, weight);
             }
-            let counted = |before: &usize| self.rotations[*before].counts;
+            let counted =
+                |before: &usize| self.rotations.get(*before).is_some_and(|rotation| rotation.counts);
             if let Some(miss) = j.checked_sub(1).filter(counted).and_then(|before| misses[before].as_ref()) {
                 let w = self.weight(miss);
                 let wr = -(w * miss.error);
