@@ -94,11 +94,30 @@ pub struct TurnResult {
     pub measured_rad: Vector3<f64>,
 }
 
+impl RotationResult {
+    /// Could the gyroscope's readings be integrated through it? Path, rate and errors of one that could not are zero and mean nothing.
+    #[must_use]
+    pub fn is_integrated(&self) -> bool {
+        self.path_rad > 0.0
+    }
+}
+
 impl ImuCalibration {
     /// Standard deviation of each estimate.
     #[must_use]
     pub fn sd(&self) -> Vec<f64> {
         self.covariance.diagonal().iter().map(|variance| variance.max(0.0).sqrt()).collect()
+    }
+
+    /// Correlation matrix of the estimates.
+    #[must_use]
+    pub fn correlation(&self) -> DMatrix<f64> {
+        let sd = self.sd();
+        DMatrix::from_fn(sd.len(), sd.len(), |i, j| match sd[i] * sd[j] {
+            _ if i == j => 1.0,
+            scale if scale > 0.0 => self.covariance[(i, j)] / scale,
+            _ => 0.0,
+        })
     }
 
     /// Unit of a quantity.
@@ -110,16 +129,22 @@ impl ImuCalibration {
         })
     }
 
-    /// Root mean square of the angles by which gravity misses, over the rotations that were used, rad.
+    /// Root mean square of the angles by which gravity misses, over the rotations that were used, rad; zero where there is none.
     #[must_use]
     pub fn rotation_rms_rad(&self) -> f64 {
-        let used: Vec<f64> = self
-            .rotations
-            .iter()
-            .filter(|rotation| rotation.used)
-            .map(|rotation| rotation.error_rad)
-            .collect();
-        (used.iter().map(|error| error * error).sum::<f64>() / used.len().max(1) as f64).sqrt()
+        self.rms_of_used(|rotation| rotation.error_rad)
+    }
+
+    /// The same before the calibration, rad.
+    #[must_use]
+    pub fn rotation_rms_before_rad(&self) -> f64 {
+        self.rms_of_used(|rotation| rotation.error_before_rad)
+    }
+
+    fn rms_of_used(&self, error: fn(&RotationResult) -> f64) -> f64 {
+        let squares: Vec<f64> =
+            self.rotations.iter().filter(|rotation| rotation.used).map(|r| error(r).powi(2)).collect();
+        (squares.iter().sum::<f64>() / squares.len().max(1) as f64).sqrt()
     }
 
     /// As it is exchanged with other programs.
