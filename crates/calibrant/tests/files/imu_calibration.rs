@@ -7,6 +7,7 @@ use calibrant::io::{
     ConventionOptions, ImuFormat, Input, calibrated_imu_texts, imu_calibration_json, parse_calibrated_imu,
     read_calibrated_imu, write_imu_calibration,
 };
+use calibrant::sensor::{Axis, ImuQuantity, Quantity, Triad};
 use calibrant::{estimate, motion, sensor};
 use serde_json::Value;
 
@@ -71,6 +72,18 @@ fn it_says_everything_that_is_needed_to_judge_it() {
     let tau = std::f64::consts::TAU;
     assert!((number(&turn["angle_rad"][2]) - tau).abs() < 1e-12);
     assert!((number(&turn["measured_rad"][2]) - tau).abs() < 0.02, "{turn}");
+}
+
+#[test]
+fn it_says_what_the_true_frame_is() {
+    let mut calibration = imu_case(14, 1).calibration;
+    let frame = calibration.calibrated().frame;
+    assert_eq!(
+        frame,
+        "fixed by the accelerometer's gauge: its matrix is upper triangular with a positive diagonal"
+    );
+    calibration.quantities[8] = ImuQuantity::Of(Triad::Accelerometer, Quantity::CrossAxis(Axis::Y, Axis::X));
+    assert_eq!(calibration.calibrated().frame, "that of the known directions of the holds");
 }
 
 #[test]

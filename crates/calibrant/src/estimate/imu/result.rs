@@ -1,7 +1,7 @@
 //! What the calibration of an IMU gives.
 
 use crate::estimate::{CalibrationStatus, HoldCalibration};
-use crate::sensor::{CalibratedImu, ImuParameters, ImuQuantity, ReadingUnit};
+use crate::sensor::{CalibratedImu, Gauge, ImuParameters, ImuQuantity, ReadingUnit, SensorModel, Triad};
 use nalgebra::{DMatrix, Vector3};
 
 /// A calibrated IMU: parameters, their one covariance, and everything needed to judge them.
@@ -124,8 +124,8 @@ impl ImuCalibration {
     #[must_use]
     pub fn unit_of(&self, quantity: ImuQuantity) -> &'static str {
         quantity.unit(match quantity.triad() {
-            crate::sensor::Triad::Accelerometer => self.accelerometer_unit,
-            crate::sensor::Triad::Gyroscope => self.gyroscope_unit,
+            Triad::Accelerometer => self.accelerometer_unit,
+            Triad::Gyroscope => self.gyroscope_unit,
         })
     }
 
@@ -156,10 +156,29 @@ impl ImuCalibration {
             gyroscope_unit: Some(self.gyroscope_unit),
             quantities: self.quantities.clone(),
             covariance: Some(self.covariance.clone()),
-            frame: format!(
-                "fixed by the accelerometer's gauge: its matrix is {} triangular or symmetric with a positive diagonal",
-                self.holds.gauge.name()
-            ),
+            frame: self.frame(),
         }
+    }
+
+    /// Did known directions of the holds fix the true frame (or the accelerometer's gauge)? Then its matrix has more entries than any gauge leaves.
+    #[must_use]
+    pub fn frame_is_known(&self) -> bool {
+        let gauge = self.holds.gauge.parameter_list(SensorModel::Full);
+        self.quantities.iter().any(|quantity| {
+            matches!(quantity, ImuQuantity::Of(Triad::Accelerometer, of) if !gauge.quantities().contains(of))
+        })
+    }
+
+    /// The true frame, in words.
+    fn frame(&self) -> String {
+        if self.frame_is_known() {
+            return "that of the known directions of the holds".to_owned();
+        }
+        let form = match self.holds.gauge {
+            Gauge::Lower => "lower triangular",
+            Gauge::Upper => "upper triangular",
+            Gauge::Symmetric => "symmetric",
+        };
+        format!("fixed by the accelerometer's gauge: its matrix is {form} with a positive diagonal")
     }
 }
