@@ -7,6 +7,7 @@
 //! | recordings of a whole IMU, in many formats | [`read_imu_recording`], [`read_imu_pair`] | [`inspection_json`] |
 //! | `motion.csv` | [`read_motion`] | [`write_motion`] |
 //! | `calibration.json` | [`read_calibration`], as what is known before a design | [`write_calibration`] |
+//! | `calibration.json` of a whole IMU | [`read_calibrated_imu`] | [`write_imu_calibration`] |
 //! | calibrations of an IMU, ours and of other programs | [`read_calibrated_imu`] | [`write_calibrated_imu`] |
 //! | corrected recordings, comparisons | | [`write_corrected_recording`], [`comparison_json`] |
 //! | `design.json`, `motion_dense.csv` | | [`write_design`], [`write_dense_motion`] |
@@ -29,6 +30,8 @@ mod earlier;
 mod evaluation;
 mod experiment;
 mod fields;
+mod holds;
+mod imu_calibration;
 mod inspection;
 mod json;
 mod motion;
@@ -58,6 +61,7 @@ pub use experiment::{
     CalibrateOptions, CriterionLetter, DesignOptions, Experiment, HoldsPlan, ImuPlan, MotionPlan,
     NoisyVariant, Plan, Prior, ScaleBy, StudyOptions, UnknownVariant,
 };
+pub use imu_calibration::{imu_calibration_json, write_imu_calibration};
 pub use inspection::{HoldsInspection, Inspection, SensorInspection, inspect, inspection_json};
 pub use motion::{parse_motion, read_motion, write_motion};
 pub use noise::{noise_json, write_noise};

@@ -9,6 +9,7 @@ mod earlier;
 mod experiments;
 mod good;
 mod imu;
+mod imu_calibration;
 mod real;
 mod recordings;
 mod results;

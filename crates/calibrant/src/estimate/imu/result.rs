@@ -1,7 +1,7 @@
 //! What the calibration of an IMU gives.
 
 use crate::estimate::{CalibrationStatus, HoldCalibration};
-use crate::sensor::{CalibratedImu, ImuParameters, ImuQuantity, ReadingUnit};
+use crate::sensor::{CalibratedImu, Gauge, ImuParameters, ImuQuantity, ReadingUnit, SensorModel, Triad};
 use nalgebra::{DMatrix, Vector3};
 
 /// A calibrated IMU: parameters, their one covariance, and everything needed to judge them.
@@ -94,6 +94,14 @@ pub struct TurnResult {
     pub measured_rad: Vector3<f64>,
 }
 
+impl RotationResult {
+    /// Could the gyroscope's readings be integrated through it? Path, rate and errors of one that could not are zero and mean nothing.
+    #[must_use]
+    pub fn is_integrated(&self) -> bool {
+        self.path_rad > 0.0
+    }
+}
+
 impl ImuCalibration {
     /// Standard deviation of each estimate.
     #[must_use]
@@ -101,25 +109,42 @@ impl ImuCalibration {
         self.covariance.diagonal().iter().map(|variance| variance.max(0.0).sqrt()).collect()
     }
 
+    /// Correlation matrix of the estimates.
+    #[must_use]
+    pub fn correlation(&self) -> DMatrix<f64> {
+        let sd = self.sd();
+        DMatrix::from_fn(sd.len(), sd.len(), |i, j| match sd[i] * sd[j] {
+            _ if i == j => 1.0,
+            scale if scale > 0.0 => self.covariance[(i, j)] / scale,
+            _ => 0.0,
+        })
+    }
+
     /// Unit of a quantity.
     #[must_use]
     pub fn unit_of(&self, quantity: ImuQuantity) -> &'static str {
         quantity.unit(match quantity.triad() {
-            crate::sensor::Triad::Accelerometer => self.accelerometer_unit,
-            crate::sensor::Triad::Gyroscope => self.gyroscope_unit,
+            Triad::Accelerometer => self.accelerometer_unit,
+            Triad::Gyroscope => self.gyroscope_unit,
         })
     }
 
-    /// Root mean square of the angles by which gravity misses, over the rotations that were used, rad.
+    /// Root mean square of the angles by which gravity misses, over the rotations that were used, rad; zero where there is none.
     #[must_use]
     pub fn rotation_rms_rad(&self) -> f64 {
-        let used: Vec<f64> = self
-            .rotations
-            .iter()
-            .filter(|rotation| rotation.used)
-            .map(|rotation| rotation.error_rad)
-            .collect();
-        (used.iter().map(|error| error * error).sum::<f64>() / used.len().max(1) as f64).sqrt()
+        self.rms_of_used(|rotation| rotation.error_rad)
+    }
+
+    /// The same before the calibration, rad.
+    #[must_use]
+    pub fn rotation_rms_before_rad(&self) -> f64 {
+        self.rms_of_used(|rotation| rotation.error_before_rad)
+    }
+
+    fn rms_of_used(&self, error: fn(&RotationResult) -> f64) -> f64 {
+        let squares: Vec<f64> =
+            self.rotations.iter().filter(|rotation| rotation.used).map(|r| error(r).powi(2)).collect();
+        (squares.iter().sum::<f64>() / squares.len().max(1) as f64).sqrt()
     }
 
     /// As it is exchanged with other programs.
@@ -131,10 +156,29 @@ impl ImuCalibration {
             gyroscope_unit: Some(self.gyroscope_unit),
             quantities: self.quantities.clone(),
             covariance: Some(self.covariance.clone()),
-            frame: format!(
-                "fixed by the accelerometer's gauge: its matrix is {} triangular or symmetric with a positive diagonal",
-                self.holds.gauge.name()
-            ),
+            frame: self.frame(),
         }
+    }
+
+    /// Did known directions of the holds fix the true frame (or the accelerometer's gauge)? Then its matrix has more entries than any gauge leaves.
+    #[must_use]
+    pub fn frame_is_known(&self) -> bool {
+        let gauge = self.holds.gauge.parameter_list(SensorModel::Full);
+        self.quantities.iter().any(|quantity| {
+            matches!(quantity, ImuQuantity::Of(Triad::Accelerometer, of) if !gauge.quantities().contains(of))
+        })
+    }
+
+    /// The true frame, in words.
+    fn frame(&self) -> String {
+        if self.frame_is_known() {
+            return "that of the known directions of the holds".to_owned();
+        }
+        let form = match self.holds.gauge {
+            Gauge::Lower => "lower triangular",
+            Gauge::Upper => "upper triangular",
+            Gauge::Symmetric => "symmetric",
+        };
+        format!("fixed by the accelerometer's gauge: its matrix is {form} with a positive diagonal")
     }
 }

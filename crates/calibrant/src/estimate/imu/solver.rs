@@ -2,7 +2,7 @@
 
 use super::faces::{self, First};
 use super::joint::{Fit, HoldData, Joint, Miss, RotationData, State, TurnData};
-use super::rotation::Samples;
+use super::rotation::{LocalBias, Samples};
 use super::still::{Still, between_sd, pooled_noise, still, weigh};
 use super::verdict::{self, undetermined};
 use super::weights::{self, Weighed};
@@ -12,12 +12,15 @@ use crate::estimate::{
     CalibrationProblem, CalibrationSettings, HoldCalibration, Recovered, Stimulus, calibrate,
 };
 use crate::information;
+use crate::motion::Hold;
 use crate::sensor::{
     ImuParameters, ImuQuantity, ParameterList, Quantity, ReadingUnit, Recording, SensorParameters, Triad,
 };
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use std::ops::Range;
 
+/// A rotation begins this long before the end of a hold, s: a hand begins to turn so gently that the first milliradians look still.
+const MARGIN_S: f64 = 0.3;
 /// A pause between samples longer than so many steps makes a rotation useless.
 const GAP: f64 = 5.0;
 /// Rounds in which weights and estimate follow each other.
@@ -290,15 +293,18 @@ fn felt_forces(
     )
 }
 
-/// The gyroscope's samples from the end of each used hold to the start of the next.
+/// The gyroscope's samples from shortly before the end of each used hold to shortly after the start of the next.
 fn rotation_spans(gyroscope: &Recording, holds: &HoldCalibration, chosen: &[usize]) -> Vec<Range<usize>> {
     chosen
         .windows(2)
         .map(|pair| {
             let (from, to) = (&holds.holds[pair[0]].hold, &holds.holds[pair[1]].hold);
-            let first = gyroscope.times_s.partition_point(|&t| t <= from.end_s).saturating_sub(1);
-            let end = (gyroscope.times_s.partition_point(|&t| t < to.start_s) + 1).min(gyroscope.len());
-            first..end
+            let margin = |hold: &Hold| (0.25 * hold.duration_s()).min(MARGIN_S);
+            let (start_s, end_s) = (from.end_s - margin(from), to.start_s + margin(to));
+            let first = gyroscope.times_s.partition_point(|&t| t <= start_s).saturating_sub(1);
+            let end = (gyroscope.times_s.partition_point(|&t| t < end_s) + 1).min(gyroscope.len());
+            let covers = gyroscope.times_s[first] <= from.end_s && gyroscope.times_s[end - 1] >= to.start_s;
+            first..if covers { end } else { first + 1 }
         })
         .collect()
 }
@@ -312,14 +318,14 @@ fn samples<'a>(
         times_s: &gyroscope.times_s[span.clone()],
         readings: &gyroscope.readings[span.clone()],
         forces: felt.map(|felt| &felt[span.clone()]),
-        drift: [Vector3::zeros(); 2],
+        drift: [LocalBias::none(); 2],
     }
 }
 
 /// Can a rotation be integrated?
 fn usable(gyroscope: &Recording, span: &Range<usize>, rate_hz: f64) -> std::result::Result<(), String> {
     if span.len() < 3 {
-        return Err("it has fewer than three samples of the gyroscope".into());
+        return Err("the gyroscope's recording does not cover it".into());
     }
     let longest = gyroscope.times_s[span.clone()].windows(2).map(|t| t[1] - t[0]).fold(0.0, f64::max);
     if longest * rate_hz > GAP {
@@ -462,20 +468,24 @@ fn apply(joint: &mut Joint<'_>, weighed: &Weighed) {
 /// The bias of a rotation is that of the holds before and after it, as far as these tell: a hold's deviation from the mean bias counts by the share of it that
 /// is not noise.
 fn follow_drift(joint: &mut Joint<'_>, state: &State, between: &Vector3<f64>) {
-    let imu = &state.imu;
-    let deviations: Vec<Vector3<f64>> = joint
+    let biases: Vec<LocalBias> = joint
         .holds
         .iter()
         .zip(&state.forces)
         .map(|(hold, force)| {
-            hold.gyroscope.map_or_else(Vector3::zeros, |(mean, weight)| {
-                let share = between.component_mul(between).component_mul(&weight);
-                (mean - imu.gyroscope.bias - imu.g_sensitivity * force).component_mul(&share)
+            hold.gyroscope.map_or_else(LocalBias::none, |(mean, weight)| {
+                let true_variance = between.component_mul(between);
+                LocalBias {
+                    mean,
+                    force: *force,
+                    share: true_variance.component_mul(&weight),
+                    variance: weight.map(|weight| 1.0 / weight) - true_variance,
+                }
             })
         })
         .collect();
     for rotation in &mut joint.rotations {
-        rotation.samples.drift = [deviations[rotation.from], deviations[rotation.from + 1]];
+        rotation.samples.drift = [biases[rotation.from], biases[rotation.from + 1]];
     }
 }
 

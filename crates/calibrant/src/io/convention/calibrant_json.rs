@@ -14,11 +14,24 @@ use serde::{Deserialize, Serialize};
 const KIND: &str = "calibrated IMU";
 const HELP: &str = "give a file that calibrant wrote";
 
+/// How every file of this schema begins, whatever else it holds.
 #[derive(Serialize)]
-struct File {
+pub(in crate::io) struct Heading {
     schema: u32,
     kind: &'static str,
     program: String,
+}
+
+impl Heading {
+    pub(in crate::io) fn new() -> Self {
+        Self { schema: 2, kind: KIND, program: format!("calibrant {}", env!("CARGO_PKG_VERSION")) }
+    }
+}
+
+#[derive(Serialize)]
+struct File {
+    #[serde(flatten)]
+    heading: Heading,
     #[serde(flatten)]
     core: ImuCore,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -49,9 +62,7 @@ struct NoiseFields {
 
 pub(super) fn write(file: &CalibratedImuFile) -> String {
     json::to_json(&File {
-        schema: 2,
-        kind: KIND,
-        program: format!("calibrant {}", env!("CARGO_PKG_VERSION")),
+        heading: Heading::new(),
         core: ImuCore::of(&file.imu, &file.inputs),
         noise: file.noise.as_ref().map(NoiseFields::of),
     })

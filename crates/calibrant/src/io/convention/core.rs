@@ -77,6 +77,8 @@ struct ParameterCore {
     unit: Option<String>,
     value: Option<f64>,
     sd: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none", skip_deserializing)]
+    prior_share: Option<f64>,
 }
 
 impl ImuCore {
@@ -88,6 +90,7 @@ impl ImuCore {
             unit: Some(quantity.unit(unit_of(imu, quantity.triad())).into()),
             value: Some(quantity.of(&imu.parameters)),
             sd: sd(k),
+            prior_share: None,
         };
         let optional = |rows: Rows| rows.into_iter().map(|row| row.into_iter().map(Some).collect()).collect();
         let triad = |triad| imu.unit(triad).map(|unit| TriadCore::of(triad, unit, &imu.parameters));
@@ -104,6 +107,14 @@ impl ImuCore {
             covariance: imu.covariance.as_ref().map(|sigma| optional(matrix_rows(sigma))),
             inputs: Some(inputs.to_vec()),
         }
+    }
+
+    /// The same, saying of each parameter what share of its information came from what was known beforehand.
+    pub(in crate::io) fn with_prior_share(mut self, prior_share: &[f64]) -> Self {
+        for (parameter, share) in self.parameters.iter_mut().flatten().zip(prior_share) {
+            parameter.prior_share = Some(*share);
+        }
+        self
     }
 
     /// The IMU that the fields describe, and its recordings.

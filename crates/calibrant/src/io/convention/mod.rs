@@ -21,6 +21,8 @@ mod imucal;
 mod kalibr;
 mod schema_one;
 
+pub(in crate::io) use calibrant_json::Heading;
+pub(in crate::io) use core::ImuCore;
 pub use format::ImuFormat;
 pub use kalibr::{ImuNoise, read_kalibr_noise};
 

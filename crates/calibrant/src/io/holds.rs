@@ -1,0 +1,67 @@
+//! The holds of a calibration in its JSON file.
+
+use super::fields::{InUnit, per_axis};
+use crate::estimate::{HoldCalibration, HoldResult};
+use crate::sensor::ReadingUnit;
+use serde::Serialize;
+
+/// Gravity, gauge, scatter, and a row for each hold.
+#[derive(Serialize)]
+pub(super) struct HoldsFields {
+    gravity_mps2: f64,
+    gravity_sd_mps2: f64,
+    gauge: &'static str,
+    detected: bool,
+    between_holds_sd_mps2: f64,
+    between_holds_dominates: bool,
+    magnitude_residual_rms_mps2: f64,
+    condition_number: f64,
+    table: Vec<HoldFields>,
+}
+
+#[derive(Serialize)]
+struct HoldFields {
+    first_sample: usize,
+    end_sample: usize,
+    samples: usize,
+    start_s: f64,
+    end_s: f64,
+    #[serde(flatten)]
+    mean: InUnit<Vec<f64>>,
+    #[serde(flatten)]
+    sd: InUnit<Vec<f64>>,
+    force_mps2: Vec<f64>,
+    magnitude_residual_mps2: f64,
+    studentised_residual: f64,
+    used: bool,
+}
+
+impl HoldsFields {
+    /// The holds of an accelerometer with readings in this unit.
+    pub(super) fn of(holds: &HoldCalibration, unit: ReadingUnit) -> Self {
+        let fields = |result: &HoldResult| HoldFields {
+            first_sample: result.hold.first,
+            end_sample: result.hold.end,
+            samples: result.hold.samples(),
+            start_s: result.hold.start_s,
+            end_s: result.hold.end_s,
+            mean: InUnit::new("mean", unit, per_axis(&result.hold.mean, 3)),
+            sd: InUnit::new("sd", unit, per_axis(&result.hold.sd, 3)),
+            force_mps2: per_axis(&result.force_mps2, 3),
+            magnitude_residual_mps2: result.magnitude_residual_mps2,
+            studentised_residual: result.studentised_residual,
+            used: result.used,
+        };
+        Self {
+            gravity_mps2: holds.gravity.magnitude_mps2,
+            gravity_sd_mps2: holds.gravity.sd_mps2,
+            gauge: holds.gauge.name(),
+            detected: holds.detected,
+            between_holds_sd_mps2: holds.between_holds_sd_mps2,
+            between_holds_dominates: holds.between_holds_dominates,
+            magnitude_residual_rms_mps2: holds.magnitude_residual_rms_mps2,
+            condition_number: holds.condition_number,
+            table: holds.holds.iter().map(fields).collect(),
+        }
+    }
+}
