@@ -3,8 +3,10 @@
 use crate::calibration_file::{Reading, Unit, in_words};
 use crate::{Exit, console};
 use calibrant::Error;
-use calibrant::error::Complaint;
-use calibrant::io::{ReadOptions, read_recording, write_corrected_recording};
+use calibrant::io::{
+    FileFormat, ImuFile, ImuReadOptions, ImuUnit, ReadOptions, read_imu_pair, read_imu_recording,
+    read_recording, write_corrected_recording,
+};
 use calibrant::report::number;
 use calibrant::sensor::{CalibratedImu, CorrectedTriad, ImuCorrection, ImuRecording, ReadingUnit, Triad};
 use std::path::{Path, PathBuf};
@@ -17,8 +19,13 @@ use std::path::{Path, PathBuf};
 pub(crate) struct Arguments {
     /// The calibration, in any format that `calibrant convert` reads.
     calibration: PathBuf,
-    /// The recording: CSV with header t_s,ax,ay,az, or text with columns t x y z.
+    /// The recording, in any format that `calibrant inspect` knows.
     recording: PathBuf,
+    /// The gyroscope's file, where the sensors have a file each (imu_tk).
+    #[arg(long, value_name = "FILE")]
+    gyroscope: Option<PathBuf>,
+    #[command(flatten)]
+    file: crate::reading::Reading,
     #[command(flatten)]
     reading: Reading,
     /// Where to write the corrected recording.
@@ -29,7 +36,7 @@ pub(crate) struct Arguments {
 pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     let imu = arguments.reading.read(&arguments.calibration)?.imu;
     let correction = ImuCorrection::of(&imu)?;
-    let recording = read_for(&imu, &arguments.recording, arguments.reading.unit)?;
+    let recording = read_for(&imu, arguments)?;
     let corrected =
         correction.apply(&imu, &recording).map_err(|error| in_file(error, &arguments.recording))?;
     for triad in Triad::ALL {
@@ -56,26 +63,59 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     Ok(Exit::DONE)
 }
 
-/// The recording that a calibration is applied to.
-///
-/// The one place that reads it: a recording of an accelerometer alone so far.
-fn read_for(imu: &CalibratedImu, path: &Path, unit: Option<Unit>) -> calibrant::Result<ImuRecording> {
-    let Some(expected_unit) = imu.accelerometer_unit else {
-        let complaint = Complaint::new(
-            "the calibration is of a gyroscope alone, and recordings of a gyroscope are not read yet",
-            "give the calibration of an accelerometer or of a whole IMU",
-        );
-        return Err(Error::Recording(Box::new(complaint.in_file(path))));
+/// The recording that a calibration is applied to: what its file does not say of units is taken to be as the calibration has it.
+fn read_for(imu: &CalibratedImu, arguments: &Arguments) -> calibrant::Result<ImuRecording> {
+    let path = &arguments.recording;
+    let read = |options: &ImuReadOptions| match &arguments.gyroscope {
+        Some(gyroscope) => read_imu_pair(path, gyroscope, options),
+        None => read_imu_recording(path, options),
     };
-    let unit = unit.map(|unit| match unit {
+    let given = arguments.file.options();
+    let si = |triad: Triad, unit: ReadingUnit| match (unit, triad) {
+        (ReadingUnit::Counts, _) => ImuUnit::Counts,
+        (_, Triad::Accelerometer) => ImuUnit::MetrePerSecondSquared,
+        (_, Triad::Gyroscope) => ImuUnit::RadianPerSecond,
+    };
+    let chosen = arguments.reading.unit.map(|unit| match unit {
         Unit::Si => ReadingUnit::MetrePerSecondSquared,
         Unit::Counts => ReadingUnit::Counts,
     });
-    let file = read_recording(path, &ReadOptions { unit, expected_unit, axes: 3 })?;
+    let unit = |triad: Triad| chosen.or(imu.unit(triad)).map(|unit| si(triad, unit));
+    let assumed = given.clone().or(ImuReadOptions {
+        accelerometer_unit: unit(Triad::Accelerometer),
+        gyroscope_unit: unit(Triad::Gyroscope),
+        ..ImuReadOptions::default()
+    });
+    let file = read(&given)
+        .or_else(|_| read(&assumed))
+        .or_else(|error| one_sensor(imu, arguments).map_err(|_| error))?;
     for finding in &file.findings {
         console::note(&format!("{}: {finding}", path.display()));
     }
-    Ok(ImuRecording { accelerometer: Some(file.recording), ..ImuRecording::default() })
+    Ok(file.recording)
+}
+
+/// A file of one sensor alone, `t x y z`, for a calibration of one.
+fn one_sensor(imu: &CalibratedImu, arguments: &Arguments) -> calibrant::Result<ImuFile> {
+    let (triad, expected_unit) = match (imu.accelerometer_unit, imu.gyroscope_unit) {
+        (Some(unit), _) => (Triad::Accelerometer, unit),
+        (None, Some(unit)) => (Triad::Gyroscope, unit),
+        (None, None) => (Triad::Accelerometer, ReadingUnit::MetrePerSecondSquared),
+    };
+    let file = read_recording(&arguments.recording, &ReadOptions { unit: None, expected_unit, axes: 3 })?;
+    let mut recording = ImuRecording::default();
+    match triad {
+        Triad::Accelerometer => recording.accelerometer = Some(file.recording),
+        Triad::Gyroscope => recording.gyroscope = Some(file.recording),
+    }
+    Ok(ImuFile {
+        recording,
+        format: FileFormat::ImuTk,
+        columns: Vec::new(),
+        findings: file.findings,
+        rows: file.lines,
+        sha256: file.sha256,
+    })
 }
 
 /// The error, about this file.

@@ -24,7 +24,7 @@ const SHORTEST_HOLD_S: f64 = 1.0;
 /// determined. Writes noise.json and report.html into DIR.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
-    /// Recording: CSV with header t_s,ax,ay,az, or text with columns t x y z.
+    /// Recording, in any format that `calibrant inspect` knows, or of one sensor alone: columns t x y z.
     recording: PathBuf,
     /// What the columns are readings of.
     #[arg(long, value_enum, default_value = "accelerometer")]
@@ -32,6 +32,8 @@ pub(crate) struct Arguments {
     /// Unit of the readings where the file does not say.
     #[arg(long, value_enum)]
     unit: Option<Unit>,
+    #[command(flatten)]
+    reading: crate::reading::Reading,
     /// Nominal gain in counts per m/s² or rad/s (one number or x,y,z): states the noise of readings in counts in SI and customary units.
     #[arg(long, value_name = "GAIN", value_delimiter = ',', num_args = 1..=3)]
     gain: Vec<f64>,
@@ -83,7 +85,7 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
         SensorKind::Gyroscope => Triad::Gyroscope,
     };
     let unit = arguments.unit.map(Unit::reading_unit);
-    let file = read::read(&arguments.recording, triad, unit, gain.is_some())?;
+    let file = read::read(&arguments.recording, triad, unit, gain.is_some(), &arguments.reading.options())?;
     let in_file = |error: Error| match error {
         Error::Recording(complaint) if complaint.file.is_none() => {
             Error::Recording(Box::new(complaint.in_file(&arguments.recording)))

@@ -43,7 +43,10 @@ pub(super) fn run(arguments: &Arguments, experiment: &Experiment, plan: &ImuPlan
         calibrate_imu(&problem, &CalibrationSettings::default()).map_err(|error| in_file(error, path))?;
     let main = file.recording.accelerometer.as_ref();
     let input = Input {
-        file: name(path),
+        file: arguments
+            .gyroscope
+            .as_ref()
+            .map_or_else(|| name(path), |second| format!("{} and {}", name(path), name(second))),
         sha256: file.sha256.clone(),
         samples: main.map_or(0, calibrant::sensor::Recording::len),
         rate_hz: main.map_or(0.0, calibrant::sensor::Recording::rate_hz),

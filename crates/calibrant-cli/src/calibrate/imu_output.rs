@@ -3,7 +3,7 @@
 use super::Arguments;
 use crate::console;
 use calibrant::estimate::ImuCalibration;
-use calibrant::io::{ImuFile, Input};
+use calibrant::io::{ImuFile, Input, imu_calibration_json, write_imu_calibration};
 
 pub(super) fn write(
     arguments: &Arguments,
@@ -11,12 +11,18 @@ pub(super) fn write(
     file: &ImuFile,
     input: &Input,
 ) -> calibrant::Result<()> {
-    let _ = (arguments, calibration, file, input);
-    Ok(())
+    let _ = file;
+    write_imu_calibration(
+        &arguments.output.join("calibration.json"),
+        calibration,
+        std::slice::from_ref(input),
+    )
 }
 
 pub(super) fn show(arguments: &Arguments, calibration: &ImuCalibration, input: &Input) {
-    let _ = (arguments, input);
+    if arguments.json {
+        return console::print(&imu_calibration_json(calibration, std::slice::from_ref(input)));
+    }
     for ((quantity, value), sd) in
         calibration.quantities.iter().zip(&calibration.values).zip(calibration.sd())
     {

@@ -1,7 +1,9 @@
 //! The recording, whatever its format.
 
-use calibrant::io::{Input, ReadOptions, read_recording};
-use calibrant::sensor::{ImuRecording, ReadingUnit, Triad};
+use calibrant::Error;
+use calibrant::error::Complaint;
+use calibrant::io::{ImuReadOptions, Input, ReadOptions, read_imu_recording, read_recording};
+use calibrant::sensor::{ImuRecording, ReadingUnit, Recording, Triad};
 use std::path::Path;
 
 /// A recording of one sensor or two.
@@ -11,24 +13,50 @@ pub(super) struct File {
     pub(super) input: Input,
 }
 
-/// Reads a recording of one sensor.
+/// Reads the recording of one sensor, from a file of its own or from one of a whole IMU.
 pub(super) fn read(
     path: &Path,
     triad: Triad,
     unit: Option<ReadingUnit>,
     counts: bool,
+    options: &ImuReadOptions,
 ) -> calibrant::Result<File> {
+    // a gyroscope's columns come first by name: a file of one sensor calls any of them ax, ay, az
+    match triad {
+        Triad::Accelerometer => alone(path, triad, unit, counts).or_else(|_| of_imu(path, triad, options)),
+        Triad::Gyroscope => {
+            of_imu(path, triad, options).or_else(|error| alone(path, triad, unit, counts).map_err(|_| error))
+        }
+    }
+}
+
+fn of_imu(path: &Path, triad: Triad, options: &ImuReadOptions) -> calibrant::Result<File> {
+    let file = read_imu_recording(path, options)?;
+    let mut imu = ImuRecording::default();
+    match triad {
+        Triad::Accelerometer => imu.accelerometer = file.recording.accelerometer,
+        Triad::Gyroscope => imu.gyroscope = file.recording.gyroscope,
+    }
+    let Some(recording) = imu.triad(triad) else {
+        let complaint = Complaint::new(format!("the file has no {triad}"), "choose the other with --sensor");
+        return Err(Error::Recording(Box::new(complaint.in_file(path))));
+    };
+    let input = input(path, file.sha256, recording);
+    Ok(File { input, findings: file.findings.iter().map(ToString::to_string).collect(), imu })
+}
+
+fn input(path: &Path, sha256: String, recording: &Recording) -> Input {
+    let file = path
+        .file_name()
+        .map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned());
+    Input { file, sha256, samples: recording.len(), rate_hz: recording.rate_hz() }
+}
+
+fn alone(path: &Path, triad: Triad, unit: Option<ReadingUnit>, counts: bool) -> calibrant::Result<File> {
     // a gain makes sense for counts only
     let expected_unit = if counts { ReadingUnit::Counts } else { triad.stimulus_unit() };
     let file = read_recording(path, &ReadOptions { unit, expected_unit, axes: 3 })?;
-    let input = Input {
-        file: path
-            .file_name()
-            .map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned()),
-        sha256: file.sha256,
-        samples: file.recording.len(),
-        rate_hz: file.recording.rate_hz(),
-    };
+    let input = input(path, file.sha256, &file.recording);
     let mut imu = ImuRecording::default();
     match triad {
         Triad::Accelerometer => imu.accelerometer = Some(file.recording),
