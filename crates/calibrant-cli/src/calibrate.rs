@@ -1,5 +1,9 @@
 //! `calibrant calibrate`: from recordings to parameters with their covariance.
 
+mod imu;
+mod imu_output;
+
+use crate::reading::Reading;
 use crate::{Exit, console, place};
 use calibrant::Error;
 use calibrant::error::Complaint;
@@ -32,6 +36,14 @@ pub(crate) struct Arguments {
     /// The commanded motion (nodes: t_s,ax_mps2,ay_mps2,az_mps2); a [holds] experiment needs none.
     #[arg(long, value_name = "CSV")]
     motion: Option<PathBuf>,
+    /// The gyroscope's file, where an IMU's sensors have a file each (imu_tk).
+    #[arg(long, value_name = "FILE")]
+    gyroscope: Option<PathBuf>,
+    /// List of the sections of a Ferraris session (JSON, as imucal writes it): faces and turns.
+    #[arg(long, value_name = "JSON")]
+    sections: Option<PathBuf>,
+    #[command(flatten)]
+    reading: Reading,
     /// Unit of the readings where the file does not say.
     #[arg(long, value_enum)]
     unit: Option<Unit>,
@@ -69,7 +81,11 @@ struct Done {
 
 pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     place::check_directory(&arguments.output)?;
-    let job = Job::prepare(arguments)?;
+    let experiment = Experiment::read(&arguments.experiment)?;
+    if let Some(plan) = &experiment.imu {
+        return imu::run(arguments, &experiment, plan);
+    }
+    let job = Job::prepare(arguments, experiment)?;
     let [recording] = arguments.recordings.as_slice() else { return run_many(&job, arguments) };
     let started = Instant::now();
     let outcome = job.run(recording).and_then(|done| {
@@ -89,8 +105,10 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
 }
 
 impl Job {
-    fn prepare(arguments: &Arguments) -> calibrant::Result<Self> {
-        let experiment = Experiment::read(&arguments.experiment)?;
+    fn prepare(arguments: &Arguments, experiment: Experiment) -> calibrant::Result<Self> {
+        if arguments.gyroscope.is_some() || arguments.sections.is_some() {
+            console::warn("--gyroscope and --sections are not used: they are for kind = \"imu\"");
+        }
         let (mut command, mut holds) = (None, None);
         match &experiment.plan {
             Plan::Motion(plan) => {

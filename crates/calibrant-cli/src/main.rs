@@ -8,8 +8,10 @@ mod console;
 mod convert;
 mod design;
 mod init;
+mod inspect;
 mod noise;
 mod place;
+mod reading;
 mod simulate;
 mod study;
 
@@ -35,6 +37,7 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     Init(init::Arguments),
+    Inspect(inspect::Arguments),
     Design(design::Arguments),
     Simulate(simulate::Arguments),
     Calibrate(calibrate::Arguments),
@@ -81,6 +84,7 @@ fn main() -> ExitCode {
     }
     let outcome = match cli.command {
         Command::Init(arguments) => init::run(&arguments),
+        Command::Inspect(arguments) => inspect::run(&arguments),
         Command::Design(arguments) => design::run(&arguments),
         Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Calibrate(arguments) => calibrate::run(&arguments),

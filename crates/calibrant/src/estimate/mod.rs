@@ -23,7 +23,9 @@ mod settings;
 pub(crate) mod statistics;
 
 pub use comparison::{ComparedQuantity, Comparison, OverallDifference};
-pub use holds::{HoldsSetup, find_holds, holds_between};
+pub use holds::{
+    Coverage, ExpectedCalibration, HoldsSetup, coverage, expected_calibration, find_holds, holds_between,
+};
 pub use imu::{
     Gyroscope, ImuCalibration, ImuProblem, ImuSetup, KnownTerm, RotationResult, StillGyroscope, Turn,
     TurnResult, calibrate_imu,

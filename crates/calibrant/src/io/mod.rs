@@ -4,7 +4,7 @@
 //! |---|---|---|
 //! | experiment (TOML) | [`Experiment::read`] | [`preset()`], [`PRESETS`] |
 //! | `recording.csv` and other recordings | [`read_recording`] | [`write_recording`] |
-//! | recordings of a whole IMU, in many formats | [`read_imu_recording`], [`read_imu_pair`] | |
+//! | recordings of a whole IMU, in many formats | [`read_imu_recording`], [`read_imu_pair`] | [`inspection_json`] |
 //! | `motion.csv` | [`read_motion`] | [`write_motion`] |
 //! | `calibration.json` | [`read_calibration`], as what is known before a design | [`write_calibration`] |
 //! | `calibration.json` of a whole IMU | [`read_calibrated_imu`] | [`write_imu_calibration`] |
@@ -32,12 +32,14 @@ mod experiment;
 mod fields;
 mod holds;
 mod imu_calibration;
+mod inspection;
 mod json;
 mod motion;
 mod noise;
 mod output;
 mod preset;
 mod recording;
+mod sections;
 mod study;
 mod summary;
 mod sweep;
@@ -56,10 +58,11 @@ pub use design::{design_json, write_design};
 pub use earlier::{EarlierCalibration, parse_calibration, read_calibration};
 pub use evaluation::{evaluation_json, write_evaluation};
 pub use experiment::{
-    CalibrateOptions, CriterionLetter, DesignOptions, Experiment, HoldsPlan, MotionPlan, NoisyVariant, Plan,
-    Prior, ScaleBy, StudyOptions, UnknownVariant,
+    CalibrateOptions, CriterionLetter, DesignOptions, Experiment, HoldsPlan, ImuPlan, MotionPlan,
+    NoisyVariant, Plan, Prior, ScaleBy, StudyOptions, UnknownVariant,
 };
 pub use imu_calibration::{imu_calibration_json, write_imu_calibration};
+pub use inspection::{HoldsInspection, Inspection, SensorInspection, inspect, inspection_json};
 pub use motion::{parse_motion, read_motion, write_motion};
 pub use noise::{noise_json, write_noise};
 pub use output::write_atomically;
@@ -69,6 +72,7 @@ pub use recording::{
     ImuReadOptions, ImuUnit, ReadOptions, RecordingFile, TimeUnit, parse_imu_pair, parse_imu_recording,
     parse_recording, read_imu_pair, read_imu_recording, read_recording, write_recording,
 };
+pub use sections::{Section, SectionKind, parse_sections, read_sections};
 pub use study::{study_json, write_study};
 pub use summary::{SummaryRow, write_summary};
 pub use sweep::{sweep_json, write_sweep, write_sweep_csv};

@@ -7,6 +7,9 @@ pub const PRESETS: &[(&str, &str)] = &[
     ("report-noisy", include_str!("../../presets/report-noisy.toml")),
     ("static-poses", include_str!("../../presets/static-poses.toml")),
     ("static-poses-counts", include_str!("../../presets/static-poses-counts.toml")),
+    ("imu", include_str!("../../presets/imu.toml")),
+    ("imu-counts", include_str!("../../presets/imu-counts.toml")),
+    ("ferraris", include_str!("../../presets/ferraris.toml")),
 ];
 
 /// The text of the preset of this name.

@@ -11,6 +11,16 @@ pub(super) type Checked<T> = std::result::Result<T, Box<Complaint>>;
 ///
 /// Reads in pieces and looks for NUL bytes on the way, so that a device or a disk image does not fill the memory.
 pub(super) fn read_bytes(path: &Path, limit: u64, what: &str) -> Checked<Vec<u8>> {
+    read_bytes_unless(path, limit, what, |_| false)
+}
+
+/// The same, except that files which begin as `is_known` says may be binary.
+pub(super) fn read_bytes_unless(
+    path: &Path,
+    limit: u64,
+    what: &str,
+    is_known: impl Fn(&[u8]) -> bool,
+) -> Checked<Vec<u8>> {
     const PIECE: u64 = 1 << 20;
     let complain = |message: String, help: &str| Box::new(Complaint::new(message, help).in_file(path));
     if path.is_dir() {
@@ -38,7 +48,7 @@ pub(super) fn read_bytes(path: &Path, limit: u64, what: &str) -> Checked<Vec<u8>
                 "this is hardly the file that you mean",
             ));
         }
-        if bytes[before..].contains(&0) {
+        if bytes[before..].contains(&0) && !is_known(&bytes) {
             as_text(&bytes).map_err(|complaint| complaint.in_file(path))?;
         }
     }

@@ -4,6 +4,7 @@
 //! number of threads or on the order in which items are made.
 
 mod holds;
+mod imu;
 mod initial_motion;
 mod noise;
 mod population;
@@ -11,6 +12,7 @@ mod recording;
 
 pub use crate::motion::sample_times;
 pub use holds::{HoldsSimulation, simulate_holds};
+pub use imu::{ImuSimulation, simulate_imu};
 pub use initial_motion::initial_motion;
 pub use noise::simulate_noise;
 pub use population::draw_sensor;

@@ -20,7 +20,9 @@
 //! A robust fit (Tukey's biweight) finds candidates; a hold is left out when its studentised deletion residual is beyond the 1 %
 //! point of Student's t, Bonferroni-corrected for the number of holds. Holds left out are listed with their residual.
 
+mod coverage;
 mod detect;
+mod expected;
 mod fit;
 mod robust;
 mod verdict;
@@ -35,7 +37,9 @@ use crate::sensor::{Gauge, SensorModel, SensorParameters};
 use nalgebra::{Matrix3, Vector3};
 use robust::Robust;
 
+pub use coverage::{Coverage, coverage};
 pub use detect::{find_holds, holds_between};
+pub use expected::{ExpectedCalibration, expected_calibration};
 
 /// What is known of the holds.
 #[derive(Debug, Clone, PartialEq)]

@@ -47,6 +47,7 @@ struct Weighted<const P: usize> {
     gains_of: SensorParameters,
 }
 
+/// The holds with what weighs them.
 struct Problem<'a, const P: usize> {
     holds: &'a [Hold],
     list: ParameterList,
@@ -73,8 +74,23 @@ pub(super) fn fit<const P: usize>(
     let prior = settings.datasheet_prior.then(|| prior(problem, &list)).flatten();
     let problem =
         Problem::<P> { holds, list, gravity: setup.gravity.magnitude_mps2, within, prior, settings };
-    problem.check(&start)?;
+    problem.information(&start)?;
     problem.run(&start)
+}
+
+/// The sensor that the holds look like, their scatter, and the information that they would give on its parameters.
+pub(super) fn expect<const P: usize>(
+    holds: &[Hold],
+    list: ParameterList,
+    gravity: f64,
+) -> Result<(SensorParameters, Vector3<f64>, DMatrix<f64>)> {
+    let settings = CalibrationSettings::default();
+    let start =
+        sphere(holds, gravity).ok_or_else(|| Error::NotIdentifiable(Box::new(too_few(holds, &list))))?;
+    let within = pooled_sd(holds, &start, gravity);
+    let problem = Problem::<P> { holds, list, gravity, within, prior: None, settings: &settings };
+    let information = problem.information(&start)?;
+    Ok((start, within, information))
 }
 
 fn prior<const P: usize>(
@@ -157,8 +173,8 @@ impl<const P: usize> Problem<'_, P> {
         }
     }
 
-    /// Are the parameters determined at all?
-    fn check(&self, start: &SensorParameters) -> Result<()> {
+    /// The information that the holds give on a sensor's parameters; an error where it does not determine them all.
+    fn information(&self, start: &SensorParameters) -> Result<DMatrix<f64>> {
         let all: Vec<usize> = (0..self.holds.len()).collect();
         let none = CalibrationSettings { max_iterations: 0, ..self.settings.clone() };
         let fit = self
@@ -169,7 +185,7 @@ impl<const P: usize> Problem<'_, P> {
         let groups = information::undetermined(&information, &DVector::from_fn(P, |i, _| fit.unreduced[i]));
         if groups.is_empty() {
             return match hardly_determined(&information) {
-                tangled if tangled.is_empty() => Ok(()),
+                tangled if tangled.is_empty() => Ok(information),
                 tangled => {
                     let group = explain(self.holds, &self.list, &tangled, 1);
                     Err(Error::NotIdentifiable(Box::new(NotIdentifiable { groups: vec![group] })))

@@ -19,6 +19,10 @@ use nalgebra::{Matrix2, Matrix3, Matrix3x2, SMatrix, SVector, Vector2, Vector3};
 /// Room for all parameters: 12 of each sensor, 9 of the g-sensitivity.
 pub(super) const P: usize = 33;
 
+/// A step this short, in standard deviations, needs no test: the derivatives of a rotation are exact to second order in the sample step only, so that the last steps
+/// may not lower χ².
+const CLOSE: f64 = 0.1;
+
 /// A hold with its weights.
 #[derive(Debug, Clone)]
 pub(super) struct HoldData {
@@ -261,7 +265,8 @@ impl Joint<'_> {
                 let r = mean - imu.gyroscope.bias - imu.g_sensitivity * force;
                 add(imu.g_sensitivity, g, r, weight);
             }
-            let counted = |before: &usize| self.rotations[*before].counts;
+            let counted =
+                |before: &usize| self.rotations.get(*before).is_some_and(|rotation| rotation.counts);
             if let Some(miss) = j.checked_sub(1).filter(counted).and_then(|before| misses[before].as_ref()) {
                 let w = self.weight(miss);
                 let wr = -(w * miss.error);
@@ -311,7 +316,7 @@ impl Joint<'_> {
             let accepted = trial.and_then(|trial| {
                 let trial_misses = self.misses(&trial)?;
                 let trial_chi2 = self.chi2(&trial, &trial_misses);
-                (trial_chi2 <= chi2 * (1.0 + 1e-9) || norm < 1e-6).then_some((
+                (trial_chi2 <= chi2 * (1.0 + 1e-9) || norm < CLOSE).then_some((
                     trial,
                     trial_misses,
                     trial_chi2,

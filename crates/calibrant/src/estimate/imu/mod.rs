@@ -13,6 +13,7 @@
 //! # References
 //! `tedaldi2014`, `ferraris1995`
 
+mod faces;
 mod joint;
 mod problem;
 mod result;

@@ -20,8 +20,38 @@ pub(super) struct Samples<'a> {
     pub(super) readings: &'a [Vector3<f64>],
     /// Specific force at these times, where the gyroscope feels it.
     pub(super) forces: Option<&'a [Vector3<f64>]>,
-    /// How far the bias is from its mean at the start and at the end; in between it is taken to drift evenly.
-    pub(super) drift: [Vector3<f64>; 2],
+    /// What the holds before and after say of the bias; in between it is taken to drift evenly.
+    pub(super) drift: [LocalBias; 2],
+}
+
+/// The bias at one end of a rotation: `b + share ∘ (mean − b − Γ f)`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct LocalBias {
+    /// Mean reading of the hold.
+    pub(super) mean: Vector3<f64>,
+    /// Specific force in it.
+    pub(super) force: Vector3<f64>,
+    /// How far it counts against the mean bias of all, 0 to 1: the share of its variance that is a true deviation.
+    pub(super) share: Vector3<f64>,
+    /// Variance of the mean from the noise of its samples.
+    pub(super) variance: Vector3<f64>,
+}
+
+impl LocalBias {
+    /// The bias is that of all holds.
+    pub(super) fn none() -> Self {
+        Self {
+            mean: Vector3::zeros(),
+            force: Vector3::zeros(),
+            share: Vector3::zeros(),
+            variance: Vector3::zeros(),
+        }
+    }
+
+    fn of(&self, imu: &ImuParameters) -> Vector3<f64> {
+        let deviation = self.mean - imu.gyroscope.bias - imu.g_sensitivity * self.force;
+        imu.gyroscope.bias + self.share.component_mul(&deviation)
+    }
 }
 
 /// An integrated rotation.
@@ -31,8 +61,10 @@ pub(super) struct Rotation {
     pub(super) start_from_end: Matrix3<f64>,
     /// `∫ R(t) e_r ω_c dt`: column r of entry c.
     by_rate: [Matrix3<f64>; 3],
-    /// `∫ R(t) dt`.
-    by_time: Matrix3<f64>,
+    /// `∫ R(t) (1 − x) dt` and `∫ R(t) x dt` with x from 0 to 1: how far the holds before and after say what the bias is.
+    by_start: Matrix3<f64>,
+    by_end: Matrix3<f64>,
+    drift: [LocalBias; 2],
     /// `∫ R(t) e_r f_c dt`.
     by_force: [Matrix3<f64>; 3],
     /// `M`.
@@ -54,16 +86,19 @@ impl Samples<'_> {
         let force = |k: usize| self.forces.map_or_else(Vector3::zeros, |forces| forces[k]);
         let last = self.times_s.len() - 1;
         let (from, duration) = (self.times_s[0], self.times_s[last] - self.times_s[0]);
+        let ends = self.drift.map(|end| end.of(imu));
         let bias = |k: usize| {
             let part = (self.times_s[k] - from) / duration;
-            imu.gyroscope.bias + self.drift[0] + (self.drift[1] - self.drift[0]) * part
+            ends[0] + (ends[1] - ends[0]) * part
         };
         let rate = |k: usize| correction * (self.readings[k] - bias(k) - imu.g_sensitivity * force(k));
         let mut attitude = UnitQuaternion::identity();
         let mut rotation = Rotation {
             start_from_end: Matrix3::identity(),
             by_rate: [Matrix3::zeros(); 3],
-            by_time: Matrix3::zeros(),
+            by_start: Matrix3::zeros(),
+            by_end: Matrix3::zeros(),
+            drift: self.drift,
             by_force: [Matrix3::zeros(); 3],
             correction,
             covariance: Matrix3::zeros(),
@@ -80,7 +115,9 @@ impl Samples<'_> {
             for c in 0..3 {
                 rotation.by_rate[c] += weighted * here[c];
             }
-            rotation.by_time += weighted;
+            let part = (self.times_s[k] - from) / duration;
+            rotation.by_start += weighted * (1.0 - part);
+            rotation.by_end += weighted * part;
             if self.forces.is_some() {
                 let f = force(k);
                 for c in 0..3 {
@@ -96,6 +133,12 @@ impl Samples<'_> {
                 attitude *= UnitQuaternion::from_scaled_axis(turn);
                 here = next;
             }
+        }
+        // the noise of the two means
+        for (sums, end) in [(rotation.by_start, &self.drift[0]), (rotation.by_end, &self.drift[1])] {
+            let noise = end.share.component_mul(&end.share).component_mul(&end.variance);
+            let by_mean = sums * correction;
+            rotation.covariance += by_mean * Matrix3::from_diagonal(&noise) * by_mean.transpose();
         }
         rotation.start_from_end = attitude.to_rotation_matrix().into_inner();
         Some(rotation)
@@ -135,7 +178,11 @@ impl Rotation {
         match quantity {
             ImuQuantity::Of(Triad::Accelerometer, _) => Vector3::zeros(),
             ImuQuantity::Of(Triad::Gyroscope, quantity) => match quantity {
-                Quantity::Bias(axis) => -(self.by_time * self.correction.column(axis.index())),
+                Quantity::Bias(axis) => {
+                    let [start, end] = self.drift.map(|end| end.share[axis.index()]);
+                    let left = self.by_start * (1.0 - start) + self.by_end * (1.0 - end);
+                    -(left * self.correction.column(axis.index()))
+                }
                 Quantity::Scale(axis) => entry(&self.by_rate, axis.index(), axis.index()),
                 Quantity::CrossAxis(row, column) => entry(&self.by_rate, row.index(), column.index()),
                 Quantity::Symmetric(row, column) => {
@@ -143,7 +190,12 @@ impl Rotation {
                         + entry(&self.by_rate, column.index(), row.index())
                 }
             },
-            ImuQuantity::GSensitivity(row, column) => entry(&self.by_force, row.index(), column.index()),
+            ImuQuantity::GSensitivity(row, column) => {
+                let (r, c) = (row.index(), column.index());
+                let [start, end] = self.drift.map(|end| end.share[r] * end.force[c]);
+                let own = self.by_force[c] - self.by_start * start - self.by_end * end;
+                -(own * self.correction.column(r))
+            }
         }
     }
 }
@@ -197,7 +249,7 @@ mod tests {
                 times_s: &times_s,
                 readings: &readings,
                 forces: Some(&forces),
-                drift: [Vector3::zeros(); 2],
+                drift: [LocalBias::none(); 2],
             };
             let rotation = samples.integrate(&imu(), &Vector3::zeros()).expect("regular");
             (rotation.start_from_end - exact).norm()
@@ -214,7 +266,7 @@ mod tests {
             times_s: &times_s,
             readings: &readings,
             forces: Some(&forces),
-            drift: [Vector3::zeros(); 2],
+            drift: [LocalBias::none(); 2],
         };
         let at = imu();
         let rotation = samples.integrate(&at, &Vector3::zeros()).expect("regular");

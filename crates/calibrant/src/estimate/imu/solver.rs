@@ -1,22 +1,26 @@
 //! From the recording to the joint problem, its weights, and its solution.
 
+use super::faces::{self, First};
 use super::joint::{Fit, HoldData, Joint, Miss, RotationData, State, TurnData};
-use super::rotation::Samples;
+use super::rotation::{LocalBias, Samples};
 use super::still::{Still, between_sd, pooled_noise, still, weigh};
 use super::verdict::{self, undetermined};
 use super::weights::{self, Weighed};
 use super::{ImuCalibration, ImuProblem, RotationResult, StillGyroscope, TurnResult, start};
 use crate::error::{Complaint, Error, Result};
 use crate::estimate::{
-    Calibration, CalibrationProblem, CalibrationSettings, HoldCalibration, Recovered, Stimulus, calibrate,
+    CalibrationProblem, CalibrationSettings, HoldCalibration, Recovered, Stimulus, calibrate,
 };
 use crate::information;
+use crate::motion::Hold;
 use crate::sensor::{
     ImuParameters, ImuQuantity, ParameterList, Quantity, ReadingUnit, Recording, SensorParameters, Triad,
 };
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use std::ops::Range;
 
+/// A rotation begins this long before the end of a hold, s: a hand begins to turn so gently that the first milliradians look still.
+const MARGIN_S: f64 = 0.3;
 /// A pause between samples longer than so many steps makes a rotation useless.
 const GAP: f64 = 5.0;
 /// Rounds in which weights and estimate follow each other.
@@ -33,14 +37,11 @@ const SETTLED: f64 = 0.02;
 pub fn calibrate_imu(problem: &ImuProblem<'_>, settings: &CalibrationSettings) -> Result<ImuCalibration> {
     let (accelerometer, gyroscope) = recordings(problem)?;
     let setup = problem.setup;
-    let sensor = problem.accelerometer;
-    let first = calibrate(
-        &CalibrationProblem { sensor, recording: accelerometer, stimulus: Stimulus::Holds(&setup.holds) },
-        settings,
-    )?;
-    let Recovered::Holds(holds) = &first.recovered else {
-        return Err(Error::experiment(Complaint::new("an IMU is calibrated from holds", "use [holds]")));
+    let first = match &setup.directions {
+        Some(directions) => faces::fit(problem, accelerometer, directions)?,
+        None => from_holds(problem, accelerometer, settings)?,
     };
+    let holds = &first.holds;
     let chosen: Vec<usize> = (0..holds.holds.len()).filter(|&j| holds.holds[j].used).collect();
     let forces: Vec<Vector3<f64>> = chosen.iter().map(|&j| holds.holds[j].force_mps2).collect();
     let stills: Vec<Option<Still>> = chosen.iter().map(|&j| still(gyroscope, &holds.holds[j].hold)).collect();
@@ -53,15 +54,20 @@ pub fn calibrate_imu(problem: &ImuProblem<'_>, settings: &CalibrationSettings) -
     let noise = problem.gyroscope.noise.unwrap_or_else(|| pooled_noise(&stills));
     let g_forces = problem.gyroscope.g_sensitivity.then_some(forces.as_slice());
     let between = between_sd(&stills, &noise, g_forces);
-    let mut data = hold_data(&first, holds, &chosen);
+    let mut data = hold_data(&first, &chosen, setup.directions.is_some());
     weigh(&mut data, &stills, &noise, &between);
 
+    let still_bias = start::mean_bias(&data);
     let felt = problem
         .gyroscope
         .g_sensitivity
         .then(|| felt_forces(accelerometer, gyroscope, &first.sensor))
         .flatten();
-    let spans = rotation_spans(gyroscope, holds, &chosen);
+    let spans = match setup.directions {
+        // the sensor was put down anew on each face: what it went through in between says less than the turns
+        Some(_) if !setup.turns.is_empty() => Vec::new(),
+        _ => rotation_spans(gyroscope, holds, &chosen),
+    };
     let rate = gyroscope.rate_hz();
     let rotations: Vec<RotationData<'_>> = spans
         .iter()
@@ -78,7 +84,7 @@ pub fn calibrate_imu(problem: &ImuProblem<'_>, settings: &CalibrationSettings) -
         gravity: setup.holds.gravity.magnitude_mps2,
         holds: data,
         rotations,
-        turns: turns(problem, gyroscope, &noise)?,
+        turns: turns(problem, gyroscope, &noise, felt.as_deref(), &still_bias)?,
         gyroscope_noise: noise,
         excess_rad: 0.0,
         prior: prior(problem),
@@ -169,9 +175,25 @@ fn recordings<'a>(problem: &ImuProblem<'a>) -> Result<(&'a Recording, &'a Record
     Ok((accelerometer, gyroscope))
 }
 
-/// The used holds with the accelerometer's weights of the static calibration.
-fn hold_data(first: &Calibration, holds: &HoldCalibration, chosen: &[usize]) -> Vec<HoldData> {
+/// The accelerometer by its static calibration.
+fn from_holds(
+    problem: &ImuProblem<'_>,
+    recording: &Recording,
+    settings: &CalibrationSettings,
+) -> Result<First> {
+    let stimulus = Stimulus::Holds(&problem.setup.holds);
+    let first =
+        calibrate(&CalibrationProblem { sensor: problem.accelerometer, recording, stimulus }, settings)?;
+    let Recovered::Holds(holds) = first.recovered else {
+        return Err(Error::experiment(Complaint::new("an IMU is calibrated from holds", "use [holds]")));
+    };
     let within = first.fit.noise_estimate.unwrap_or_else(Vector3::zeros);
+    Ok(First { sensor: first.sensor, within, holds, warnings: first.warnings })
+}
+
+/// The used holds with the accelerometer's weights.
+fn hold_data(first: &First, chosen: &[usize], known: bool) -> Vec<HoldData> {
+    let (holds, within) = (&first.holds, first.within);
     let gain = Vector3::from_fn(|axis, _| first.sensor.matrix.row(axis).norm_squared());
     let between = holds.between_holds_sd_mps2.powi(2);
     chosen
@@ -183,7 +205,7 @@ fn hold_data(first: &Calibration, holds: &HoldCalibration, chosen: &[usize]) -> 
                 accelerometer: hold.mean,
                 accelerometer_weight: variance.map(|variance| 1.0 / variance.max(f64::MIN_POSITIVE)),
                 gyroscope: None,
-                known: None,
+                known: known.then_some(holds.holds[j].force_mps2),
             }
         })
         .collect()
@@ -231,10 +253,10 @@ fn prior(problem: &ImuProblem<'_>) -> Option<(Vec<f64>, Vec<f64>)> {
     )
 }
 
-fn start_values(problem: &ImuProblem<'_>, first: &Calibration, joint: &Joint<'_>) -> ImuParameters {
+fn start_values(problem: &ImuProblem<'_>, first: &First, joint: &Joint<'_>) -> ImuParameters {
     let mut imu = ImuParameters {
         accelerometer: first.sensor,
-        gyroscope: SensorParameters { bias: start::mean_bias(joint), matrix: Matrix3::identity() },
+        gyroscope: SensorParameters { bias: start::mean_bias(&joint.holds), matrix: Matrix3::identity() },
         g_sensitivity: Matrix3::zeros(),
     };
     if let Some(gain) = problem.gyroscope.gain {
@@ -271,15 +293,18 @@ fn felt_forces(
     )
 }
 
-/// The gyroscope's samples from the end of each used hold to the start of the next.
+/// The gyroscope's samples from shortly before the end of each used hold to shortly after the start of the next.
 fn rotation_spans(gyroscope: &Recording, holds: &HoldCalibration, chosen: &[usize]) -> Vec<Range<usize>> {
     chosen
         .windows(2)
         .map(|pair| {
             let (from, to) = (&holds.holds[pair[0]].hold, &holds.holds[pair[1]].hold);
-            let first = gyroscope.times_s.partition_point(|&t| t <= from.end_s).saturating_sub(1);
-            let end = (gyroscope.times_s.partition_point(|&t| t < to.start_s) + 1).min(gyroscope.len());
-            first..end
+            let margin = |hold: &Hold| (0.25 * hold.duration_s()).min(MARGIN_S);
+            let (start_s, end_s) = (from.end_s - margin(from), to.start_s + margin(to));
+            let first = gyroscope.times_s.partition_point(|&t| t <= start_s).saturating_sub(1);
+            let end = (gyroscope.times_s.partition_point(|&t| t < end_s) + 1).min(gyroscope.len());
+            let covers = gyroscope.times_s[first] <= from.end_s && gyroscope.times_s[end - 1] >= to.start_s;
+            first..if covers { end } else { first + 1 }
         })
         .collect()
 }
@@ -293,14 +318,14 @@ fn samples<'a>(
         times_s: &gyroscope.times_s[span.clone()],
         readings: &gyroscope.readings[span.clone()],
         forces: felt.map(|felt| &felt[span.clone()]),
-        drift: [Vector3::zeros(); 2],
+        drift: [LocalBias::none(); 2],
     }
 }
 
 /// Can a rotation be integrated?
 fn usable(gyroscope: &Recording, span: &Range<usize>, rate_hz: f64) -> std::result::Result<(), String> {
     if span.len() < 3 {
-        return Err("it has fewer than three samples of the gyroscope".into());
+        return Err("the gyroscope's recording does not cover it".into());
     }
     let longest = gyroscope.times_s[span.clone()].windows(2).map(|t| t[1] - t[0]).fold(0.0, f64::max);
     if longest * rate_hz > GAP {
@@ -310,8 +335,13 @@ fn usable(gyroscope: &Recording, span: &Range<usize>, rate_hz: f64) -> std::resu
 }
 
 /// The turns of known angle, with the integrals of the readings.
-fn turns(problem: &ImuProblem<'_>, gyroscope: &Recording, noise: &Vector3<f64>) -> Result<Vec<TurnData>> {
-    let gain = problem.gyroscope.gain.unwrap_or_else(|| Vector3::repeat(1.0));
+fn turns(
+    problem: &ImuProblem<'_>,
+    gyroscope: &Recording,
+    noise: &Vector3<f64>,
+    felt: Option<&[Vector3<f64>]>,
+    still_bias: &Vector3<f64>,
+) -> Result<Vec<TurnData>> {
     problem
         .setup
         .turns
@@ -333,21 +363,25 @@ fn turns(problem: &ImuProblem<'_>, gyroscope: &Recording, noise: &Vector3<f64>) 
                 )));
             }
             let (times, readings) = (&gyroscope.times_s[first..end], &gyroscope.readings[first..end]);
-            let (mut integral, mut variance) = (Vector3::zeros(), Vector3::zeros());
+            let (mut integral, mut variance, mut force) =
+                (Vector3::zeros(), Vector3::zeros(), Vector3::zeros());
             for k in 0..times.len() {
                 let before = if k > 0 { times[k] - times[k - 1] } else { 0.0 };
                 let after = if k + 1 < times.len() { times[k + 1] - times[k] } else { 0.0 };
                 let weight = 0.5 * (before + after);
                 integral += readings[k] * weight;
+                force += felt.map_or_else(Vector3::zeros, |felt| felt[first + k]) * weight;
                 variance += noise.component_mul(noise) * (weight * weight);
             }
-            let placed = gain * turn.angle_sd_rad;
-            variance += placed.component_mul(&placed);
             let duration_s = times[times.len() - 1] - times[0];
+            // the gain, roughly: what the readings add up to beyond their bias, over the angle
+            let bias = still_bias * duration_s;
+            let gain = (integral - bias).norm() / turn.angle_rad.abs();
+            variance += Vector3::repeat((gain * turn.angle_sd_rad).powi(2));
             Ok(TurnData {
                 integral,
                 duration_s,
-                force: Vector3::zeros(),
+                force,
                 angle: turn.axis * turn.angle_rad,
                 weight: variance.map(|variance| 1.0 / variance.max(f64::MIN_POSITIVE)),
             })
@@ -434,20 +468,24 @@ fn apply(joint: &mut Joint<'_>, weighed: &Weighed) {
 /// The bias of a rotation is that of the holds before and after it, as far as these tell: a hold's deviation from the mean bias counts by the share of it that
 /// is not noise.
 fn follow_drift(joint: &mut Joint<'_>, state: &State, between: &Vector3<f64>) {
-    let imu = &state.imu;
-    let deviations: Vec<Vector3<f64>> = joint
+    let biases: Vec<LocalBias> = joint
         .holds
         .iter()
         .zip(&state.forces)
         .map(|(hold, force)| {
-            hold.gyroscope.map_or_else(Vector3::zeros, |(mean, weight)| {
-                let share = between.component_mul(between).component_mul(&weight);
-                (mean - imu.gyroscope.bias - imu.g_sensitivity * force).component_mul(&share)
+            hold.gyroscope.map_or_else(LocalBias::none, |(mean, weight)| {
+                let true_variance = between.component_mul(between);
+                LocalBias {
+                    mean,
+                    force: *force,
+                    share: true_variance.component_mul(&weight),
+                    variance: weight.map(|weight| 1.0 / weight) - true_variance,
+                }
             })
         })
         .collect();
     for rotation in &mut joint.rotations {
-        rotation.samples.drift = [deviations[rotation.from], deviations[rotation.from + 1]];
+        rotation.samples.drift = [biases[rotation.from], biases[rotation.from + 1]];
     }
 }
 
@@ -492,7 +530,7 @@ impl Finished<'_> {
         holds: &HoldCalibration,
         gyroscope: &Recording,
         axes: Option<[String; 3]>,
-        first: &Calibration,
+        first: &First,
     ) -> Result<ImuCalibration> {
         let (joint, fit) = (self.joint, self.fit);
         let size = joint.quantities.len();

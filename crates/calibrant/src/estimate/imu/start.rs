@@ -3,7 +3,7 @@
 //! A rotation turns gravity by no more than the angle that the gyroscope went through, so each rotation bounds the gain from above, and one about an axis
 //! across gravity gives it. From that bound downwards gains are tried, and if none brings gravity back, all orders and signs of the axes.
 
-use super::joint::{Joint, State};
+use super::joint::{HoldData, Joint, State};
 use crate::sensor::{Axis, ImuParameters, ReadingUnit};
 use nalgebra::{Matrix3, Vector3};
 use rayon::prelude::*;
@@ -131,9 +131,9 @@ fn names(matrix: &Matrix3<f64>) -> [String; 3] {
 }
 
 /// The means of the gyroscope's readings over the holds, averaged: its bias where nothing turns.
-pub(super) fn mean_bias(joint: &Joint<'_>) -> Vector3<f64> {
+pub(super) fn mean_bias(holds: &[HoldData]) -> Vector3<f64> {
     let (mut sum, mut weights) = (Vector3::zeros(), Vector3::zeros());
-    for (mean, weight) in joint.holds.iter().filter_map(|hold| hold.gyroscope.as_ref()) {
+    for (mean, weight) in holds.iter().filter_map(|hold| hold.gyroscope.as_ref()) {
         sum += mean.component_mul(weight);
         weights += weight;
     }

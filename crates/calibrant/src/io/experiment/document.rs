@@ -129,6 +129,14 @@ impl<'a> Section<'a> {
         })
     }
 
+    /// A table that is the value of an entry or an item of a list; `name` is its place in the list of keys.
+    pub(super) fn item(entry: &Entry<'a>, name: &'static str) -> Result<Self> {
+        let Some(table) = entry.value.get_ref().as_table() else {
+            return Err(entry.wrong_type("a table", "write { key = value, … }"));
+        };
+        Self::checked(entry.document, name, entry.value.span(), table)
+    }
+
     /// Only its keys' values are checked by the caller, not their names (a table of parameter names).
     pub(super) fn open(entry: &Entry<'a>, name: &'static str) -> Result<Self> {
         let Some(table) = entry.value.get_ref().as_table() else {

@@ -2,10 +2,12 @@
 
 use super::bounds::Bounds;
 use super::document::{Entry, Section};
+use super::gyroscope::direction;
 use super::motion::{MOST_SAMPLES, RATE_HZ};
 use crate::error::Result;
 use crate::motion::Gravity;
 use crate::sensor::Gauge;
+use nalgebra::Vector3;
 
 const GRAVITY: Bounds = Bounds::from(0.1, 100.0, "m/s²");
 const GRAVITY_SD: Bounds = Bounds::from(0.0, 1.0, "m/s²");
@@ -25,6 +27,8 @@ pub struct HoldsPlan {
     pub gauge: Gauge,
     /// Start and end of each hold, s, in order, where the user gives them; otherwise they are looked for.
     pub intervals_s: Option<Vec<(f64, f64)>>,
+    /// Direction of the specific force (up) in each of these holds, where it is known.
+    pub directions: Option<Vec<Vector3<f64>>>,
     /// Shortest stretch of stillness that counts as a hold, s.
     pub minimum_hold_s: f64,
     /// Number of poses of a simulated recording.
@@ -57,11 +61,15 @@ pub(super) fn read(section: &Section<'_>) -> Result<HoldsPlan> {
         let message = format!("a hold of {hold_s} s at {rate_hz} Hz has less than one sample step");
         return Err(section.complain(&message, "raise rate_hz or hold_s", ""));
     }
+    let intervals_s = section.get("intervals_s").map(|entry| read_intervals(&entry)).transpose()?;
+    let directions =
+        section.get("directions").map(|entry| read_directions(&entry, intervals_s.as_deref())).transpose()?;
     Ok(HoldsPlan {
         gravity,
         gravity_source,
         gauge,
-        intervals_s: section.get("intervals_s").map(|entry| read_intervals(&entry)).transpose()?,
+        intervals_s,
+        directions,
         minimum_hold_s: number("minimum_hold_s", &DURATION, 1.0)?,
         poses,
         hold_s,
@@ -96,6 +104,17 @@ fn read_gravity(section: &Section<'_>) -> Result<(Gravity, String)> {
         }
         (None, None, None) => Err(section.missing("gravity_mps2", HELP)),
     }
+}
+
+fn read_directions(entry: &Entry<'_>, intervals: Option<&[(f64, f64)]>) -> Result<Vec<Vector3<f64>>> {
+    const HELP: &str =
+        "one for each of intervals_s, in the same order: [\"x\", \"-x\", \"y\", \"-y\", \"z\", \"-z\"]";
+    let directions: Vec<Vector3<f64>> = entry.items(HELP)?.iter().map(direction).collect::<Result<_>>()?;
+    if intervals.map_or(0, <[_]>::len) == directions.len() {
+        return Ok(directions);
+    }
+    let message = format!("{} directions for {} holds", directions.len(), intervals.map_or(0, <[_]>::len));
+    Err(entry.complain(message, HELP))
 }
 
 fn read_intervals(entry: &Entry<'_>) -> Result<Vec<(f64, f64)>> {

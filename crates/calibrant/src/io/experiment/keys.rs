@@ -2,7 +2,22 @@
 
 /// Each section and its keys; the first is the top of the file.
 const KEYS: &[(&str, &[&str])] = &[
-    ("", &["schema", "sensor", "motion", "holds", "columns", "calibrate", "limits", "design", "study"]),
+    (
+        "",
+        &[
+            "schema",
+            "sensor",
+            "motion",
+            "holds",
+            "gyroscope",
+            "known",
+            "columns",
+            "calibrate",
+            "limits",
+            "design",
+            "study",
+        ],
+    ),
     (
         "sensor",
         &[
@@ -31,12 +46,29 @@ const KEYS: &[(&str, &[&str])] = &[
             "height_m",
             "gauge",
             "intervals_s",
+            "directions",
             "minimum_hold_s",
             "poses",
             "hold_s",
             "rate_hz",
         ],
     ),
+    (
+        "gyroscope",
+        &[
+            "unit",
+            "model",
+            "gain_counts_per_radps",
+            "noise_radps",
+            "noise_counts",
+            "g_sensitivity",
+            "turns",
+            "turn_angle_deg",
+            "turn_sd_deg",
+        ],
+    ),
+    ("gyroscope.turns", &["start_s", "end_s", "axis", "angle_deg", "angle_sd_deg"]),
+    ("known.term", &["value", "sd"]),
     (
         "columns",
         &[

@@ -8,6 +8,7 @@ mod calibrate;
 mod columns;
 mod design;
 mod document;
+mod gyroscope;
 mod holds;
 mod keys;
 mod limits;
@@ -18,6 +19,7 @@ mod study;
 
 pub use calibrate::{CalibrateOptions, Prior};
 pub use design::{CriterionLetter, DesignOptions, ScaleBy};
+pub use gyroscope::ImuPlan;
 pub use holds::HoldsPlan;
 pub use motion::MotionPlan;
 pub use study::{NoisyVariant, StudyOptions, UnknownVariant};
@@ -40,6 +42,8 @@ pub struct Experiment {
     pub sensor: Sensor,
     /// `[motion]` or `[holds]`.
     pub plan: Plan,
+    /// `[gyroscope]` and `[known]`, for an IMU.
+    pub imu: Option<ImuPlan>,
     /// `[columns]`: what the recordings' files do not say themselves; nothing where the section is absent.
     pub columns: ImuReadOptions,
     /// `[limits]`; none where the section is absent.
@@ -112,6 +116,7 @@ impl Experiment {
             |name| root.section(name)?.ok_or_else(|| root.missing(name, "the sensor's datasheet: [sensor]"));
         let sensor = sensor::read(&need("sensor")?)?;
         let plan = read_plan(&root, &sensor)?;
+        let imu = read_imu(&root, &plan)?;
         let list = match &plan {
             Plan::Motion(_) => sensor.parameter_list(),
             Plan::Holds(holds) => holds.gauge.parameter_list(sensor.model),
@@ -134,7 +139,37 @@ impl Experiment {
                 .map_or(Ok(StudyOptions::default()), |section| study::read(&section, &plan, sensor.axes))?,
             sensor,
             plan,
+            imu,
         })
+    }
+}
+
+/// The second sensor of an IMU: there if, and only if, the kind is \"imu\".
+fn read_imu(root: &Section<'_>, plan: &Plan) -> Result<Option<ImuPlan>> {
+    let sensor = root.section("sensor")?;
+    let is_imu = sensor.as_ref().and_then(|section| section.get("kind")?.text()) == Some("imu");
+    let known = root.get("known").map(|entry| Section::open(&entry, "known")).transpose()?;
+    match (root.section("gyroscope")?, is_imu) {
+        (Some(section), true) => match plan {
+            Plan::Holds(_) => gyroscope::read(&section, known.as_ref()).map(Some),
+            Plan::Motion(_) => Err(section.complain(
+                "an IMU is calibrated from holds and what lies between them",
+                "[holds] in place of [motion], or kind = \"accelerometer\"",
+                "",
+            )),
+        },
+        (Some(section), false) => {
+            Err(section.complain("only an IMU has a gyroscope", "kind = \"imu\" in [sensor]", ""))
+        }
+        (None, true) => {
+            Err(root.missing("gyroscope", "kind = \"imu\" needs [gyroscope]: its unit, at least"))
+        }
+        (None, false) => match known {
+            Some(section) => {
+                Err(section.complain("[known] is read for an IMU only", "kind = \"imu\" in [sensor]", ""))
+            }
+            None => Ok(None),
+        },
     }
 }
 

@@ -20,7 +20,8 @@ pub(super) fn read(section: &Section<'_>) -> Result<Sensor> {
     let kind = section.need("kind", "kind = \"accelerometer\"")?;
     match kind.text() {
         Some("accelerometer") => (),
-        Some("gyroscope" | "magnetometer" | "imu") => {
+        Some("imu") => (),
+        Some("gyroscope" | "magnetometer") => {
             return Err(kind.complain(
                 "only accelerometers can be calibrated so far",
                 "kind = \"accelerometer\" is the one that is supported",

@@ -152,5 +152,12 @@ fn estimated_rows(text: &str, first: &str) -> usize {
 }
 
 fn hex_sha256(bytes: &[u8]) -> String {
-    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
+    hex_sha256_of(&[bytes])
+}
+
+/// SHA-256 of several pieces, one after the other.
+fn hex_sha256_of(pieces: &[&[u8]]) -> String {
+    let mut hash = Sha256::new();
+    pieces.iter().for_each(|piece| hash.update(piece));
+    hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
 }

@@ -5,7 +5,7 @@ use crate::io::delimited::{Delimiter, Line};
 use crate::io::text::Checked;
 
 /// Largest time and reading that make sense, in any unit.
-const LARGEST: f64 = 1e12;
+pub(super) const LARGEST: f64 = 1e12;
 /// Whole numbers above this are not exact as `f64`.
 const EXACT: u64 = 1 << 53;
 

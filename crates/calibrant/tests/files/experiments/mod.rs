@@ -1,5 +1,6 @@
 //! Broken experiment files: every complaint word for word.
 
+mod columns;
 mod datasheet;
 mod holds;
 mod motion;
@@ -59,6 +60,11 @@ fn the_experiments_of_a_study() {
 #[test]
 fn gravity_gauge_and_given_holds() {
     refuse(HOLDS, holds::CASES);
+}
+
+#[test]
+fn columns_of_recordings() {
+    refuse(HOLDS, columns::CASES);
 }
 
 fn refuse(good: &str, cases: &[Case]) {

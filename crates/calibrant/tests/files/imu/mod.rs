@@ -1,7 +1,9 @@
 //! Recordings of a whole IMU: every format, every question, every complaint.
 
+mod bag;
 mod broken;
 mod good;
+mod parquet;
 mod real;
 
 use calibrant::io::{ImuFile, ImuReadOptions, ImuUnit, parse_imu_recording};

@@ -199,7 +199,8 @@ fn readings(
             count(samples.rows, "row")
         );
         let mut help = vec![TWO.to_owned()];
-        help.extend(findings.iter().map(ToString::to_string));
+        let dropped = findings.iter().filter(|finding| finding.kind != FindingKind::Clock);
+        help.extend(dropped.map(ToString::to_string));
         let complaint = Complaint::new(message, help.join("; "));
         return Err(samples.last_line.map_or(complaint.clone(), |line| complaint.at_line(line)).into());
     }

@@ -80,6 +80,17 @@ impl FileFormat {
         !matches!(self, Self::Mcap | Self::Parquet)
     }
 
+    /// The binary format that begins with these bytes.
+    pub(super) fn of_magic(bytes: &[u8]) -> Option<Self> {
+        if bytes.starts_with(b"\x89MCAP0\r\n") {
+            Some(Self::Mcap)
+        } else if bytes.starts_with(b"PAR1") {
+            Some(Self::Parquet)
+        } else {
+            None
+        }
+    }
+
     /// The format of a text that begins like this.
     pub(super) fn of_text(head: &Head<'_>) -> Checked<Self> {
         let names = head.lower_names();

@@ -7,6 +7,7 @@
 //! | EuRoC | `#timestamp [ns],…` | ns | m/s², rad/s |
 //! | imu_tk | four columns of numbers, `t x y z`; two files | s | asked for |
 //! | imucal | `n_samples,gyr_x,…` | counter; the rate is asked for | asked for |
+//! | MCAP, Parquet | their first bytes | `header.stamp`; by name or type | m/s², rad/s; by name, or asked for |
 //! | CSV | none of these | by name, or `[columns]` | by name, or asked for |
 //!
 //! All of them go the same way: [`head`] finds the header, a format's own file says what its columns mean ([`draft`]), [`samples`] reads the rows,
@@ -14,6 +15,8 @@
 //! asked for, with what its values suggest; it is never guessed.
 
 mod assemble;
+#[cfg(feature = "mcap")]
+mod cdr;
 mod clock;
 mod column;
 mod csv;
@@ -23,14 +26,20 @@ mod format;
 mod head;
 mod imu_tk;
 mod imucal;
+#[cfg(feature = "mcap")]
+mod mcap;
 mod movella_dot;
 mod mt_manager;
 mod naming;
 mod options;
+#[cfg(feature = "parquet")]
+mod parquet;
 mod readings;
 mod samples;
 mod unit;
 mod xsens;
+#[cfg(feature = "mcap")]
+mod zstd;
 
 pub use column::{ColumnMeaning, ImuColumn};
 pub use format::FileFormat;
@@ -39,7 +48,7 @@ pub use unit::{ColumnUnit, ImuUnit, TimeUnit};
 
 use super::finding::Finding;
 use super::row::Layout;
-use super::{LARGEST, estimated_rows, hex_sha256};
+use super::{LARGEST, estimated_rows, hex_sha256, hex_sha256_of};
 use crate::error::{Complaint, Error, Result};
 use crate::io::text::{self, Checked};
 use crate::sensor::{ImuRecording, Triad};
@@ -107,18 +116,23 @@ pub fn parse_imu_recording(bytes: &[u8], options: &ImuReadOptions) -> Result<Imu
 /// # Errors
 /// As [`read_imu_recording`], for each file.
 pub fn read_imu_pair(accelerometer: &Path, gyroscope: &Path, options: &ImuReadOptions) -> Result<ImuFile> {
-    let one = |path: &Path, triad: Triad| {
-        let in_file = |complaint: Box<Complaint>| Error::recording(complaint.in_file(path));
-        let bytes = read(path).map_err(in_file)?;
-        let file = parse_one(&bytes, options, triad).map_err(in_file)?;
-        Ok((bytes, file))
+    let in_file = |path: &Path, complaint: Box<Complaint>| Error::recording(complaint.in_file(path));
+    let bytes = |path: &Path| read(path).map_err(|complaint| in_file(path, complaint));
+    let (first, second) = (bytes(accelerometer)?, bytes(gyroscope)?);
+    let one = |path: &Path, bytes: &[u8], triad: Triad| {
+        parse_one(bytes, options, triad).map_err(|complaint| in_file(path, complaint))
     };
-    // each is read by a thread of its own
-    let (accelerometer, gyroscope) =
-        rayon::join(|| one(accelerometer, Triad::Accelerometer), || one(gyroscope, Triad::Gyroscope));
-    let ((mut bytes, first), (second_bytes, second)) = (accelerometer?, gyroscope?);
-    bytes.extend(second_bytes);
-    Ok(joined(first, second, hex_sha256(&bytes)))
+    // one beside the other: this is what a calibration waits for
+    let ((accelerometer, gyroscope), sha256) = rayon::join(
+        || {
+            rayon::join(
+                || one(accelerometer, &first, Triad::Accelerometer),
+                || one(gyroscope, &second, Triad::Gyroscope),
+            )
+        },
+        || hex_sha256_of(&[&first, &second]),
+    );
+    Ok(joined(accelerometer?, gyroscope?, sha256))
 }
 
 /// Reads the bytes of a pair of files, accelerometer and gyroscope.
@@ -146,14 +160,24 @@ pub fn parse_imu_pair(accelerometer: &[u8], gyroscope: &[u8], options: &ImuReadO
         })
     };
     let (first, second) = (one(accelerometer, Triad::Accelerometer)?, one(gyroscope, Triad::Gyroscope)?);
-    Ok(joined(first, second, hex_sha256(&[accelerometer, gyroscope].concat())))
+    Ok(joined(first, second, hex_sha256_of(&[accelerometer, gyroscope])))
 }
 
 fn read(path: &Path) -> Checked<Vec<u8>> {
-    text::read_bytes(path, LARGEST, "the recording")
+    let is_known = |bytes: &[u8]| FileFormat::of_magic(bytes).is_some();
+    text::read_bytes_unless(path, LARGEST, "the recording", is_known)
 }
 
 fn parse(bytes: &[u8], options: &ImuReadOptions) -> Checked<ImuFile> {
+    if let Some(format) = FileFormat::of_magic(bytes) {
+        if let Some(given) = options.format.filter(|given| *given != format) {
+            let message =
+                format!("the format was given as {}, but this is {}", given.name(), format.description());
+            return Err(Complaint::new(message, LEAVE_AWAY).into());
+        }
+        let (file, sha256) = rayon::join(|| binary(format, bytes, options), || hex_sha256(bytes));
+        return Ok(ImuFile { sha256, ..file? });
+    }
     let text = text::as_text(bytes)?;
     let head = Head::find(text)?;
     let format = match options.format {
@@ -171,6 +195,50 @@ fn parse(bytes: &[u8], options: &ImuReadOptions) -> Checked<ImuFile> {
     };
     let (recording, sha256) = rayon::join(|| rows(draft, head, text, options), || hex_sha256(bytes));
     Ok(ImuFile { sha256, ..recording? })
+}
+
+#[cfg(feature = "mcap")]
+fn read_mcap(bytes: &[u8], options: &ImuReadOptions) -> Checked<ImuFile> {
+    if !options.columns.is_empty() {
+        return Err(Complaint::new(
+            "[columns] names columns, but the messages of a bag say what they hold",
+            "take time, accelerometer, gyroscope and temperature out of [columns]; topic may stay",
+        )
+        .into());
+    }
+    let (mut draft, samples) = mcap::read(bytes, options)?;
+    draft.slots()?;
+    finish(draft, &samples, options)
+}
+
+#[cfg(feature = "parquet")]
+fn read_parquet(bytes: &[u8], options: &ImuReadOptions) -> Checked<ImuFile> {
+    let mut file = parquet::open(bytes)?;
+    file.draft.map(options)?;
+    file.draft.set_time_unit(options)?;
+    let slots = file.draft.slots()?;
+    let samples = parquet::samples(&file, &slots)?;
+    finish(file.draft, &samples, options)
+}
+
+#[cfg(not(feature = "mcap"))]
+fn read_mcap(_: &[u8], _: &ImuReadOptions) -> Checked<ImuFile> {
+    Err(without("mcap"))
+}
+
+#[cfg(not(feature = "parquet"))]
+fn read_parquet(_: &[u8], _: &ImuReadOptions) -> Checked<ImuFile> {
+    Err(without("parquet"))
+}
+
+#[cfg(not(all(feature = "mcap", feature = "parquet")))]
+fn without(feature: &str) -> Box<Complaint> {
+    let message = format!("this build of calibrant does not read {feature} files");
+    Complaint::new(message, format!("build it with the feature `{feature}`")).into()
+}
+
+fn binary(format: FileFormat, bytes: &[u8], options: &ImuReadOptions) -> Checked<ImuFile> {
+    if format == FileFormat::Mcap { read_mcap(bytes, options) } else { read_parquet(bytes, options) }
 }
 
 /// The format of a text. With the columns named, four of them need not be imu_tk's.
@@ -255,9 +323,8 @@ fn joined(first: ImuFile, second: ImuFile, sha256: String) -> ImuFile {
     }
 }
 
+const LEAVE_AWAY: &str = "leave --format away: the format is recognised by the content";
+
 fn not_binary(format: FileFormat) -> Complaint {
-    Complaint::new(
-        format!("the format was given as {}, but this is text", format.name()),
-        "leave --format away: the format is recognised by the content",
-    )
+    Complaint::new(format!("the format was given as {}, but this is text", format.name()), LEAVE_AWAY)
 }

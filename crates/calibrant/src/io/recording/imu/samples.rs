@@ -1,8 +1,9 @@
 //! The values of a file's used columns, as they are in the file, whatever its format.
 
 use super::column::ColumnMeaning;
+use crate::error::Complaint;
 use crate::io::delimited::Line;
-use crate::io::recording::row::{Layout, RowReader};
+use crate::io::recording::row::{LARGEST, Layout, RowReader};
 use crate::io::recording::rows::LineMap;
 use crate::io::text::Checked;
 use crate::sensor::{Axis, Triad};
@@ -53,6 +54,27 @@ impl Samples {
     /// The values of a slot; empty where it has no column.
     pub(super) fn slot(&self, slot: usize) -> &[f64] {
         &self.columns[slot]
+    }
+
+    /// Values that were read elsewhere, a list for each slot: all of the same length, or empty.
+    pub(super) fn from_columns(columns: [Vec<f64>; SLOTS], origin: i64) -> Checked<Self> {
+        let rows = columns.iter().map(Vec::len).max().unwrap_or(0);
+        if columns.iter().any(|column| !column.is_empty() && column.len() != rows) {
+            return Err(Complaint::new(
+                "the columns have different lengths",
+                "was the file written to its end?",
+            )
+            .into());
+        }
+        for (slot, column) in columns.iter().enumerate() {
+            let most = if slot == TIME { f64::MAX } else { LARGEST };
+            // NaN is a missing value
+            if let Some(row) = column.iter().position(|value| value.abs() > most) {
+                let message = format!("the value {:e} in row {} is out of range", column[row], row + 1);
+                return Err(Complaint::new(message, "is the unit right? is the file damaged?").into());
+            }
+        }
+        Ok(Self { columns, rows, origin, ..Self::default() })
     }
 
     /// Reads the rows of a text.

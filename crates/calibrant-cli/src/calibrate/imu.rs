@@ -1,0 +1,120 @@
+//! `calibrant calibrate` for a whole IMU.
+
+use super::{Arguments, in_file, name};
+use crate::{Exit, console};
+use calibrant::Error;
+use calibrant::error::Complaint;
+use calibrant::estimate::{CalibrationSettings, HoldsSetup, ImuProblem, ImuSetup, Turn, calibrate_imu};
+use calibrant::io::{
+    Experiment, HoldsPlan, ImuFile, ImuPlan, ImuReadOptions, ImuUnit, Input, Plan, Section, SectionKind,
+    read_imu_pair, read_imu_recording, read_sections,
+};
+use calibrant::sensor::ReadingUnit;
+
+pub(super) fn run(arguments: &Arguments, experiment: &Experiment, plan: &ImuPlan) -> calibrant::Result<Exit> {
+    let Plan::Holds(holds) = &experiment.plan else {
+        return Err(Error::Experiment(Box::new(Complaint::new(
+            "an IMU needs [holds]",
+            "see `calibrant init imu`",
+        ))));
+    };
+    let [path] = arguments.recordings.as_slice() else {
+        return Err(Error::Experiment(Box::new(Complaint::new(
+            "an IMU is calibrated from one recording at a time",
+            "where the gyroscope has a file of its own, give it with --gyroscope FILE",
+        ))));
+    };
+    let options = options(arguments, experiment, plan);
+    let file = match &arguments.gyroscope {
+        Some(gyroscope) => read_imu_pair(path, gyroscope, &options)?,
+        None => read_imu_recording(path, &options)?,
+    };
+    for finding in &file.findings {
+        console::note(&format!("{}: {finding}", name(path)));
+    }
+    let setup = setup(arguments, plan, holds, &file)?;
+    let problem = ImuProblem {
+        accelerometer: &experiment.sensor,
+        gyroscope: &plan.gyroscope,
+        recording: &file.recording,
+        setup: &setup,
+    };
+    let calibration =
+        calibrate_imu(&problem, &CalibrationSettings::default()).map_err(|error| in_file(error, path))?;
+    let main = file.recording.accelerometer.as_ref();
+    let input = Input {
+        file: name(path),
+        sha256: file.sha256.clone(),
+        samples: main.map_or(0, calibrant::sensor::Recording::len),
+        rate_hz: main.map_or(0.0, calibrant::sensor::Recording::rate_hz),
+    };
+    super::imu_output::write(arguments, &calibration, &file, &input)?;
+    for warning in &calibration.warnings {
+        console::warn(warning);
+    }
+    super::imu_output::show(arguments, &calibration, &input);
+    Ok(Exit::of_status(calibration.status))
+}
+
+/// What the user says of the file: the command line first, then `[columns]`, then the units of the sensors.
+fn options(arguments: &Arguments, experiment: &Experiment, plan: &ImuPlan) -> ImuReadOptions {
+    let sensors = ImuReadOptions {
+        accelerometer_unit: (experiment.sensor.unit == ReadingUnit::Counts).then_some(ImuUnit::Counts),
+        gyroscope_unit: plan.file_unit,
+        ..ImuReadOptions::default()
+    };
+    arguments.reading.options().or(experiment.columns.clone()).or(sensors)
+}
+
+fn setup(
+    arguments: &Arguments,
+    plan: &ImuPlan,
+    holds: &HoldsPlan,
+    file: &ImuFile,
+) -> calibrant::Result<ImuSetup> {
+    let mut setup = ImuSetup {
+        holds: HoldsSetup {
+            gravity: holds.gravity,
+            gauge: holds.gauge,
+            intervals_s: holds.intervals_s.clone(),
+            minimum_hold_s: holds.minimum_hold_s,
+        },
+        directions: holds.directions.clone(),
+        turns: plan.turns.clone(),
+        known: plan.known.clone(),
+    };
+    if let Some(path) = &arguments.sections {
+        let times = file.recording.accelerometer.as_ref().map_or(&[][..], |recording| &recording.times_s);
+        let sections = read_sections(path)?;
+        if let Some(late) = sections.iter().find(|section| section.end > times.len()) {
+            let message = format!("a section ends at sample {}, the recording at {}", late.end, times.len());
+            let complaint = Complaint::new(message, "are the list and the recording of one session?");
+            return Err(Error::Experiment(Box::new(complaint.in_file(path))));
+        }
+        take_sections(&mut setup, &sections, times, plan);
+    }
+    Ok(setup)
+}
+
+/// Faces and turns from a list of sections.
+fn take_sections(setup: &mut ImuSetup, sections: &[Section], times: &[f64], plan: &ImuPlan) {
+    let (mut intervals, mut directions) = (Vec::new(), Vec::new());
+    for section in sections {
+        let (start_s, end_s) = (times[section.start], times[section.end - 1]);
+        match section.kind {
+            SectionKind::Face(direction) => {
+                intervals.push((start_s, end_s));
+                directions.push(direction);
+            }
+            SectionKind::Turn(axis) => setup.turns.push(Turn {
+                start_s,
+                end_s,
+                axis,
+                angle_rad: plan.section_angle_rad,
+                angle_sd_rad: plan.section_angle_sd_rad,
+            }),
+        }
+    }
+    setup.holds.intervals_s = Some(intervals);
+    setup.directions = Some(directions);
+}

@@ -1,0 +1,229 @@
+//! `calibrant inspect`: what a recording holds, and what a calibration from it may be expected to determine.
+
+use crate::reading::Reading;
+use crate::{Exit, console};
+use calibrant::Error;
+use calibrant::error::Complaint;
+use calibrant::io::{
+    Experiment, HoldsInspection, ImuFile, ImuReadOptions, Inspection, SensorInspection, inspect,
+    inspection_json, read_imu_pair, read_imu_recording,
+};
+use calibrant::report::number::{count, short, significant};
+use calibrant::sensor::{Axis, ReadingUnit, Triad};
+use std::path::PathBuf;
+
+/// Say what a recording of an IMU holds, before anything is calibrated.
+///
+/// Format, columns with their units and what is used or why not, sampling, gaps, saturation, ranges, the holds and how their directions
+/// cover the sphere, and the standard deviations that a calibration of the accelerometer may be expected to have.
+#[derive(clap::Args)]
+pub(crate) struct Arguments {
+    /// The recording: MT Manager, Movella DOT, EuRoC, imucal, CSV, ROS 2 MCAP, Parquet; or the accelerometer's file of a pair.
+    file: PathBuf,
+    /// The gyroscope's file of a pair (imu_tk).
+    second: Option<PathBuf>,
+    #[command(flatten)]
+    reading: Reading,
+    /// Experiment file whose [columns] say what is what.
+    #[arg(long, value_name = "EXPERIMENT")]
+    columns: Option<PathBuf>,
+    /// Print everything as JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
+    let options = options(arguments)?;
+    let file = match &arguments.second {
+        Some(second) => read_imu_pair(&arguments.file, second, &options)?,
+        None => read_imu_recording(&arguments.file, &options)?,
+    };
+    let inspection = inspect(&file);
+    if arguments.json {
+        console::print(&inspection_json(&file, &inspection));
+    } else {
+        console::print(&text(&file, &inspection, arguments));
+    }
+    Ok(Exit::DONE)
+}
+
+fn options(arguments: &Arguments) -> calibrant::Result<ImuReadOptions> {
+    let given = arguments.reading.options();
+    let Some(experiment) = &arguments.columns else { return Ok(given) };
+    let columns = Experiment::read(experiment)?.columns;
+    if columns == ImuReadOptions::default() {
+        return Err(Error::Experiment(Box::new(
+            Complaint::new("there is no [columns] section", "add one, or leave --columns away")
+                .in_file(experiment),
+        )));
+    }
+    Ok(given.or(columns))
+}
+
+fn text(file: &ImuFile, inspection: &Inspection, arguments: &Arguments) -> String {
+    let names = [Some(&arguments.file), arguments.second.as_ref()];
+    let names: Vec<String> = names.iter().flatten().map(|path| path.display().to_string()).collect();
+    let mut text =
+        format!("{}: {}, {} rows\n\n", names.join(", "), file.format.description(), count(file.rows));
+    text.push_str(&columns(file));
+    for sensor in &inspection.sensors {
+        text.push_str(&sampling(sensor));
+    }
+    text.push_str(&ranges(&inspection.sensors));
+    if let Some(temperature) = &file.recording.temperature_c {
+        let least = temperature.iter().copied().fold(f64::INFINITY, f64::min);
+        let most = temperature.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        text.push_str(&format!("  temperature from {} to {} °C\n", short(least), short(most)));
+    }
+    if !file.findings.is_empty() {
+        text.push_str("\nNoticed\n");
+        file.findings.iter().for_each(|finding| text.push_str(&format!("  {finding}\n")));
+    }
+    match &inspection.holds {
+        Some(Ok(found)) => text.push_str(&holds(found, inspection)),
+        Some(Err(why)) => text.push_str(&format!("\nHolds were not looked for: {why}\n")),
+        None => text.push_str("\nWithout an accelerometer there are no holds.\n"),
+    }
+    text
+}
+
+fn columns(file: &ImuFile) -> String {
+    let rows: Vec<_> = file
+        .columns
+        .iter()
+        .map(|column| {
+            vec![
+                column.name.clone(),
+                column.meaning.to_string(),
+                column.unit.map_or("–", |unit| unit.symbol()).to_owned(),
+                column.unused.as_deref().map_or_else(|| "used".to_owned(), |why| format!("not used: {why}")),
+            ]
+        })
+        .collect();
+    console::table(&["column", "meaning", "unit", ""], &rows) + "\n"
+}
+
+fn sampling(sensor: &SensorInspection) -> String {
+    let (start, end) = sensor.span_s;
+    let gaps = match sensor.gaps {
+        0 => "no gaps".to_owned(),
+        1 => format!("1 gap of {} s", short(sensor.lost_s)),
+        many => format!("{many} gaps, {} s lost", short(sensor.lost_s)),
+    };
+    // a nanosecond and less is rounding
+    let jitter = if sensor.jitter_s < 1e-9 {
+        "none".into()
+    } else {
+        format!("{} ms (sd)", significant(1e3 * sensor.jitter_s, 2))
+    };
+    format!(
+        "  {}: {} samples from {} to {} s, {} Hz; steps {} to {} ms, jitter {jitter}; {gaps}\n",
+        sensor.triad,
+        count(sensor.samples),
+        short(start),
+        short(end),
+        significant(sensor.rate_hz, 5),
+        significant(1e3 * sensor.steps_s.0, 4),
+        significant(1e3 * sensor.steps_s.1, 4)
+    )
+}
+
+fn ranges(sensors: &[SensorInspection]) -> String {
+    let row = |sensor: &SensorInspection, axis: Axis| {
+        let cell = |value: f64| significant(value, 5);
+        let k = axis.index();
+        vec![
+            format!("{} {axis}", sensor.triad),
+            cell(sensor.least[k]),
+            cell(sensor.mean[k]),
+            cell(sensor.most[k]),
+            sensor.unit.symbol().to_owned(),
+        ]
+    };
+    let rows: Vec<_> = sensors.iter().flat_map(|sensor| Axis::ALL.map(|axis| row(sensor, axis))).collect();
+    format!("\n{}", console::table(&["readings", "least", "mean", "most", "unit"], &rows))
+}
+
+fn holds(found: &HoldsInspection, inspection: &Inspection) -> String {
+    let total: f64 = found.holds.iter().map(calibrant::motion::Hold::duration_s).sum();
+    let longest = found.holds.iter().map(calibrant::motion::Hold::duration_s).fold(0.0, f64::max);
+    let mut text = match found.holds.len() {
+        0 => "\nNo holds found: the sensor is nowhere still for a second.\n".to_owned(),
+        n => format!(
+            "\n{n} hold{} found, {} s altogether, the longest {} s\n",
+            if n == 1 { "" } else { "s" },
+            short((total * 10.0).round() / 10.0),
+            short((longest * 10.0).round() / 10.0)
+        ),
+    };
+    if let Some(coverage) = &found.coverage {
+        let missing: Vec<String> = Axis::ALL
+            .into_iter()
+            .flat_map(|axis| {
+                [("+", 0), ("−", 1)]
+                    .map(|(sign, k)| (format!("{sign}{axis}"), coverage.axes[axis.index()][k]))
+            })
+            .filter_map(|(name, there)| (!there).then_some(name))
+            .collect();
+        text.push_str(&format!(
+            "  directions: the emptiest place is {}° from the nearest hold, at {}{}\n",
+            significant(coverage.gap_rad.to_degrees(), 2),
+            direction(&coverage.emptiest),
+            if missing.is_empty() {
+                String::new()
+            } else {
+                format!("; none within 30° of {}", missing.join(", "))
+            }
+        ));
+    }
+    if let (Some((mean, noise)), Some(gyroscope)) =
+        (&found.gyroscope_at_rest, inspection.sensors.iter().find(|sensor| sensor.triad == Triad::Gyroscope))
+    {
+        let list = |v: &nalgebra::Vector3<f64>, digits| {
+            v.iter().map(|x| significant(*x, digits)).collect::<Vec<_>>().join(", ")
+        };
+        text.push_str(&format!(
+            "  gyroscope in the holds: mean {}, noise of one sample {} {}\n",
+            list(mean, 5),
+            list(noise, 2),
+            gyroscope.unit.symbol()
+        ));
+    }
+    match &found.expected {
+        Ok(expected) => {
+            let (sd, relative) = (expected.sd(), expected.relative_sd());
+            let in_counts = expected.unit == ReadingUnit::Counts;
+            let rows: Vec<_> = expected
+                .list
+                .quantities()
+                .iter()
+                .enumerate()
+                .map(|(k, quantity)| {
+                    let si = if k < 3 {
+                        format!("{} m/s²", significant(relative[k], 2))
+                    } else {
+                        format!("{} %", significant(100.0 * relative[k], 2))
+                    };
+                    let own = if in_counts {
+                        format!("{} {}", significant(sd[k], 2), quantity.unit(expected.unit))
+                    } else {
+                        String::new()
+                    };
+                    vec![quantity.name(), si, own]
+                })
+                .collect();
+            text.push_str("\nExpected standard deviations of the accelerometer (upper gauge, full model), if noise is all there is\n");
+            text.push_str(&console::table(&["parameter", "sd", ""], &rows));
+            text.push_str(&format!(
+                "  condition number {}; what else scatters between holds comes on top, and `calibrate` finds it\n",
+                significant(expected.condition_number, 3)
+            ));
+        }
+        Err(why) => text.push_str(&format!("\nThe holds do not determine the accelerometer: {why}\n")),
+    }
+    text
+}
+
+fn direction(unit: &nalgebra::Vector3<f64>) -> String {
+    format!("({:+.1}, {:+.1}, {:+.1})", unit.x, unit.y, unit.z)
+}

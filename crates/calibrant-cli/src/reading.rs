@@ -1,0 +1,63 @@
+//! The options that say what a recording's file does not say itself, for every command that reads one.
+
+use calibrant::io::{FileFormat, ImuReadOptions, ImuUnit, TimeUnit};
+use calibrant::sensor::Triad;
+
+#[derive(clap::Args, Clone)]
+pub(crate) struct Reading {
+    /// The format: mt-manager, movella-dot, euroc, imu-tk, imucal, csv, mcap or parquet (default: by content).
+    #[arg(long, value_parser = format)]
+    format: Option<FileFormat>,
+    /// Unit of the accelerometer where the file does not say: m/s2, g or counts.
+    #[arg(long, value_name = "UNIT", value_parser = accelerometer_unit)]
+    accelerometer_unit: Option<ImuUnit>,
+    /// Unit of the gyroscope where the file does not say: rad/s, deg/s or counts.
+    #[arg(long, value_name = "UNIT", value_parser = gyroscope_unit)]
+    gyroscope_unit: Option<ImuUnit>,
+    /// Unit of the time column where its name does not say: s, ms, us or ns; samples for a counter.
+    #[arg(long, value_name = "UNIT", value_parser = time_unit)]
+    time_unit: Option<TimeUnit>,
+    /// Sample rate, Hz, for files without sample times.
+    #[arg(long, value_name = "HZ")]
+    rate_hz: Option<f64>,
+    /// Topic of a bag that has more than one IMU.
+    #[arg(long)]
+    topic: Option<String>,
+}
+
+impl Reading {
+    /// As the readers take them.
+    pub(crate) fn options(&self) -> ImuReadOptions {
+        ImuReadOptions {
+            format: self.format,
+            time_unit: self.time_unit,
+            accelerometer_unit: self.accelerometer_unit,
+            gyroscope_unit: self.gyroscope_unit,
+            rate_hz: self.rate_hz,
+            topic: self.topic.clone(),
+            ..ImuReadOptions::default()
+        }
+    }
+}
+
+fn format(text: &str) -> Result<FileFormat, String> {
+    let all = || FileFormat::ALL.map(FileFormat::name).join(", ");
+    FileFormat::parse(text).ok_or_else(|| format!("the formats are {}", all()))
+}
+
+fn unit(text: &str, triad: Triad) -> Result<ImuUnit, String> {
+    let choices = || format!("the {triad} is in {}", ImuUnit::choices(triad));
+    ImuUnit::parse(text).filter(|unit| unit.suits(triad)).ok_or_else(choices)
+}
+
+fn accelerometer_unit(text: &str) -> Result<ImuUnit, String> {
+    unit(text, Triad::Accelerometer)
+}
+
+fn gyroscope_unit(text: &str) -> Result<ImuUnit, String> {
+    unit(text, Triad::Gyroscope)
+}
+
+fn time_unit(text: &str) -> Result<TimeUnit, String> {
+    TimeUnit::parse(text).ok_or_else(|| "times are in s, ms, us or ns, or samples".into())
+}

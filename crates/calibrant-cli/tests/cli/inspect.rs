@@ -1,0 +1,119 @@
+//! `calibrant inspect`.
+
+use crate::bench::Bench;
+use crate::data::shared_data;
+
+/// Twelve poses of three seconds at 50 Hz, turns of half a second between them, and a gyroscope.
+fn poses(header: &str, unit_per_g: f64) -> String {
+    let mut text = header.to_owned() + "\n";
+    let mut t = 0;
+    for pose in 0..12 {
+        let angle = |pose: usize| [0.7 * pose as f64, 1.9 * pose as f64];
+        for k in 0..175 {
+            let (from, to) = (angle(pose), angle(pose + 1));
+            let share = if k < 150 { 0.0 } else { (k - 150) as f64 / 25.0 };
+            let [a, b] = [0, 1].map(|i| from[i] + share * (to[i] - from[i]));
+            // a little noise that is the same every time
+            let noise = |axis: u64| 0.002 * (((t * 7919 + axis * 104_729) % 1013) as f64 / 1013.0 - 0.5);
+            let f = [a.sin() * b.cos(), a.sin() * b.sin(), a.cos()];
+            let rate = if share > 0.0 { 1.4 } else { 0.0 };
+            text += &format!("{}", 20 * t);
+            for (axis, f) in f.iter().enumerate() {
+                text += &format!(",{:.6}", unit_per_g * (f + noise(axis as u64)));
+            }
+            for axis in 0..3 {
+                text += &format!(",{:.6}", rate + noise(3 + axis));
+            }
+            text += "\n";
+            t += 1;
+        }
+    }
+    text
+}
+
+#[test]
+fn a_recording_is_described_before_it_is_calibrated() {
+    let bench = Bench::new();
+    bench.write("imu.csv", poses("t_ms,ax_g,ay_g,az_g,gx_radps,gy_radps,gz_radps", 1.0));
+    let outcome = bench.run("inspect imu.csv").done();
+    for words in [
+        "imu.csv: CSV, 2100 rows",
+        "ax_g",
+        "accelerometer x",
+        "50.000 Hz",
+        "no gaps",
+        "12 holds found",
+        "directions: the emptiest place is",
+        "gyroscope in the holds: mean ",
+        "Expected standard deviations of the accelerometer",
+        "matrix.yz",
+    ] {
+        assert!(outcome.stdout.contains(words), "{words}\n{}", outcome.stdout);
+    }
+    bench.write("inspection.json", bench.run("inspect imu.csv --json").done().stdout);
+    let json = bench.json("inspection.json");
+    assert_eq!((json["format"].as_str(), json["rows"].as_u64()), (Some("csv"), Some(2100)));
+    assert_eq!(json["holds"]["count"], 12);
+    assert_eq!(json["sensors"][1]["unit"], "rad/s");
+    assert_eq!(json["columns"][0]["meaning"], "time");
+    let sd = json["holds"]["expected"]["parameters"][0]["sd"].as_f64().expect("a number");
+    assert!(sd > 1e-5 && sd < 5e-3, "{sd}");
+}
+
+#[test]
+fn questions_are_answered_by_options_or_by_an_experiment() {
+    let bench = Bench::new();
+    bench.write("imu.csv", poses("time,ax,ay,az,gx,gy,gz", 9.81));
+    bench.refuses(
+        "inspect imu.csv",
+        3,
+        &[
+            "the accelerometer's columns have no unit: magnitudes around 9.81 suggest m/s²",
+            "the gyroscope's columns have no unit: magnitudes up to 1.4 may be rad/s, or deg/s of slow turns",
+            "the time column `time` has no unit: steps of 20 suggest ms",
+        ],
+    );
+    let options = "--accelerometer-unit m/s2 --gyroscope-unit rad/s --time-unit ms";
+    let expected = bench.run(&format!("inspect imu.csv {options}")).done().stdout;
+    bench.preset("static-poses", "experiment.toml", &[(
+        "\n[holds]",
+        "\n[columns]\ntime_unit = \"ms\"\naccelerometer_unit = \"m/s²\"\ngyroscope_unit = \"rad/s\"\n\n[holds]",
+    )]);
+    assert_eq!(bench.run("inspect imu.csv --columns experiment.toml").done().stdout, expected);
+    bench.preset("static-poses", "none.toml", &[]);
+    bench.refuses("inspect imu.csv --columns none.toml", 2, &["none.toml: there is no [columns] section"]);
+    bench.refuses("inspect imu.csv --gyroscope-unit g", 2, &["the gyroscope is in rad/s, deg/s or counts"]);
+    bench.refuses("inspect imu.csv --format text", 2, &["the formats are mt-manager, movella-dot"]);
+    bench.refuses("inspect absent.csv", 3, &["cannot read the recording"]);
+}
+
+#[test]
+fn the_pair_of_imu_tk_promises_what_a_calibration_then_finds() {
+    let (Some(accelerometer), Some(gyroscope)) =
+        (shared_data("xsens-mti-static/xsens_acc.mat"), shared_data("xsens-mti-static/xsens_gyro.mat"))
+    else {
+        return;
+    };
+    let bench = Bench::new();
+    std::fs::copy(accelerometer, bench.path("acc.mat")).expect("copied");
+    std::fs::copy(gyroscope, bench.path("gyr.mat")).expect("copied");
+    let units = "--accelerometer-unit counts --gyroscope-unit counts";
+    let outcome = bench.run(&format!("inspect acc.mat gyr.mat {units}")).done();
+    assert!(outcome.stdout.contains("38 holds found"), "{}", outcome.stdout);
+    bench.write(
+        "inspection.json",
+        bench.run(&format!("inspect acc.mat gyr.mat {units} --json")).done().stdout,
+    );
+    let json = bench.json("inspection.json");
+    let expected = &json["holds"]["expected"];
+    assert_eq!(expected["parameters"].as_array().map(Vec::len), Some(9));
+    // the calibration's own standard deviations follow from the scatter between holds: larger, but not by orders of magnitude
+    bench.preset("static-poses-counts", "experiment.toml", &[]);
+    bench.run("calibrate experiment.toml acc.mat -o result").done();
+    let found = bench.json("result/calibration.json");
+    for k in 0..9 {
+        let sd = |json: &serde_json::Value| json["parameters"][k]["sd"].as_f64().expect("a number");
+        let ratio = sd(&found) / sd(expected);
+        assert!((0.9..30.0).contains(&ratio), "{k}: {ratio}");
+    }
+}

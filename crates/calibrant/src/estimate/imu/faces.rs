@@ -1,0 +1,194 @@
+//! The accelerometer from holds whose directions are known: six faces on a table, a turntable, a robot.
+//!
+//! `ȳ_j = S f_j + b + ε_j` with known `f_j`: linear least squares, and no gauge, since the directions are the true frame. `ε_j` is the noise of the mean and how
+//! well the sensor was placed, `σ_b` in m/s² per axis, chosen so that χ² equals its degrees of freedom (Paule and Mandel).
+
+use super::ImuProblem;
+use crate::error::{Complaint, Error, NotIdentifiable, Result, UndeterminedGroup};
+use crate::estimate::{HoldCalibration, HoldResult, HoldsSetup, holds_between};
+use crate::information;
+use crate::motion::Hold;
+use crate::sensor::{ParameterList, Recording, SensorParameters};
+use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
+
+/// The accelerometer, before the joint problem.
+pub(super) struct First {
+    pub(super) sensor: SensorParameters,
+    /// Standard deviation of a sample within holds.
+    pub(super) within: Vector3<f64>,
+    pub(super) holds: HoldCalibration,
+    pub(super) warnings: Vec<String>,
+}
+
+/// Fits the accelerometer to holds of known directions.
+pub(super) fn fit(
+    problem: &ImuProblem<'_>,
+    recording: &Recording,
+    directions: &[Vector3<f64>],
+) -> Result<First> {
+    let setup = &problem.setup.holds;
+    let intervals = setup.intervals_s.as_deref().unwrap_or_default();
+    if intervals.len() != directions.len() {
+        return Err(Error::experiment(Complaint::new(
+            format!("{} holds are given, and {} directions", intervals.len(), directions.len()),
+            "each hold of holds.intervals_s needs one direction, in the same order",
+        )));
+    }
+    let holds = holds_between(recording, intervals)?;
+    let forces: Vec<Vector3<f64>> =
+        directions.iter().map(|direction| direction.normalize() * setup.gravity.magnitude_mps2).collect();
+    let list = ParameterList::new(3, problem.accelerometer.model);
+    let linear = Linear { holds: &holds, forces: &forces, list: &list, within: pooled(&holds) };
+    let (sensor, between, condition) = linear.solve()?;
+    let correction = sensor.matrix.try_inverse().unwrap_or_else(Matrix3::identity);
+    let results: Vec<HoldResult> = holds
+        .iter()
+        .zip(&forces)
+        .map(|(hold, force)| {
+            let corrected = correction * (hold.mean - sensor.bias);
+            HoldResult {
+                hold: hold.clone(),
+                force_mps2: *force,
+                magnitude_residual_mps2: corrected.norm() - setup.gravity.magnitude_mps2,
+                studentised_residual: if between > 0.0 { (corrected - force).norm() / between } else { 0.0 },
+                used: true,
+            }
+        })
+        .collect();
+    let squares: f64 = results.iter().map(|result| result.magnitude_residual_mps2.powi(2)).sum();
+    let rms = (squares / results.len().max(1) as f64).sqrt();
+    Ok(First {
+        sensor,
+        within: linear.within,
+        holds: summary(setup, results, between, rms, condition),
+        warnings: Vec::new(),
+    })
+}
+
+fn summary(
+    setup: &HoldsSetup,
+    holds: Vec<HoldResult>,
+    between: f64,
+    rms: f64,
+    condition: f64,
+) -> HoldCalibration {
+    HoldCalibration {
+        holds,
+        gravity: setup.gravity,
+        gauge: setup.gauge,
+        between_holds_sd_mps2: between,
+        between_holds_dominates: between > 0.0,
+        magnitude_residual_rms_mps2: rms,
+        condition_number: condition,
+        detected: false,
+    }
+}
+
+fn pooled(holds: &[Hold]) -> Vector3<f64> {
+    let degrees: f64 = holds.iter().map(|hold| (hold.samples() - 1) as f64).sum();
+    let squares: Vector3<f64> =
+        holds.iter().map(|hold| hold.sd.component_mul(&hold.sd) * (hold.samples() - 1) as f64).sum();
+    (squares / degrees.max(1.0)).map(f64::sqrt)
+}
+
+struct Linear<'a> {
+    holds: &'a [Hold],
+    forces: &'a [Vector3<f64>],
+    list: &'a ParameterList,
+    within: Vector3<f64>,
+}
+
+impl Linear<'_> {
+    /// The sensor, `σ_b` and the condition number of the scaled information.
+    fn solve(&self) -> Result<(SensorParameters, f64, f64)> {
+        let ones = Vector3::repeat(1.0);
+        let (f, _) = self.normal(0.0, &ones);
+        let groups = information::undetermined(&f, &f.diagonal());
+        if !groups.is_empty() {
+            return Err(Error::NotIdentifiable(Box::new(self.undetermined(&groups))));
+        }
+        let size = self.list.len();
+        let scaled = DMatrix::from_fn(size, size, |i, j| f[(i, j)] / (f[(i, i)] * f[(j, j)]).sqrt());
+        let eigenvalues = scaled.symmetric_eigenvalues();
+        let condition = eigenvalues.max() / eigenvalues.min().max(f64::MIN_POSITIVE);
+        let singular = || {
+            Error::recording(Complaint::new(
+                "the fit of the faces breaks down",
+                "check the directions of the holds and the unit of the recording",
+            ))
+        };
+        let mut sensor = self.fit(0.0, &ones).ok_or_else(singular)?;
+        let gain = Vector3::from_fn(|axis, _| sensor.matrix.row(axis).norm());
+        let degrees = (3 * self.holds.len()).saturating_sub(size) as f64;
+        if degrees == 0.0 || self.chi2(&sensor, 0.0, &gain) <= degrees {
+            return Ok((sensor, 0.0, condition));
+        }
+        let (mut low, mut high) = (0.0, self.forces[0].norm());
+        let mut between = high;
+        for _ in 0..60 {
+            between = 0.5 * (low + high);
+            sensor = self.fit(between, &gain).ok_or_else(singular)?;
+            if self.chi2(&sensor, between, &gain) > degrees { low = between } else { high = between }
+        }
+        Ok((sensor, between, condition))
+    }
+
+    fn weight(&self, hold: &Hold, between: f64, gain: &Vector3<f64>) -> Vector3<f64> {
+        let variance = self.within.component_mul(&self.within) / hold.samples() as f64
+            + gain.component_mul(gain) * (between * between);
+        variance.map(|variance| 1.0 / variance.max(f64::MIN_POSITIVE))
+    }
+
+    fn normal(&self, between: f64, gain: &Vector3<f64>) -> (DMatrix<f64>, DVector<f64>) {
+        let size = self.list.len();
+        let (mut f, mut g) = (DMatrix::zeros(size, size), DVector::zeros(size));
+        for (hold, force) in self.holds.iter().zip(self.forces) {
+            let weight = self.weight(hold, between, gain);
+            let columns: Vec<Vector3<f64>> =
+                self.list.quantities().iter().map(|quantity| quantity.derivative(force)).collect();
+            for i in 0..size {
+                let weighted = columns[i].component_mul(&weight);
+                g[i] += weighted.dot(&hold.mean);
+                for j in 0..size {
+                    f[(i, j)] += weighted.dot(&columns[j]);
+                }
+            }
+        }
+        (f, g)
+    }
+
+    fn fit(&self, between: f64, gain: &Vector3<f64>) -> Option<SensorParameters> {
+        let (f, g) = self.normal(between, gain);
+        let values = information::covariance(&f)? * g;
+        let mut sensor = SensorParameters { bias: Vector3::zeros(), matrix: Matrix3::zeros() };
+        for (quantity, value) in self.list.quantities().iter().zip(values.iter()) {
+            quantity.add_to(&mut sensor, *value);
+        }
+        Some(sensor)
+    }
+
+    fn chi2(&self, sensor: &SensorParameters, between: f64, gain: &Vector3<f64>) -> f64 {
+        self.holds
+            .iter()
+            .zip(self.forces)
+            .map(|(hold, force)| {
+                let r = hold.mean - sensor.reading(force);
+                r.component_mul(&r).dot(&self.weight(hold, between, gain))
+            })
+            .sum()
+    }
+
+    fn undetermined(&self, groups: &[information::Undetermined]) -> NotIdentifiable {
+        let names = self.list.names();
+        let groups = groups
+            .iter()
+            .map(|group| UndeterminedGroup {
+                parameters: group.parameters.iter().map(|&k| format!("accelerometer.{}", names[k])).collect(),
+                free_combinations: group.free_combinations,
+                reason: format!("the {} directions do not span all axes, up and down", self.holds.len()),
+                remedy: "hold each axis up and down: six faces".into(),
+            })
+            .collect();
+        NotIdentifiable { groups }
+    }
+}

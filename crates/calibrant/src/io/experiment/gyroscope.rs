@@ -1,0 +1,174 @@
+//! `[gyroscope]` and `[known]`: the second sensor of an IMU, its turns, and what is known beforehand.
+
+use super::bounds::Bounds;
+use super::document::{Entry, Section};
+use crate::error::Result;
+use crate::estimate::{Gyroscope, KnownTerm, Turn};
+use crate::io::ImuUnit;
+use crate::sensor::{Axis, ImuQuantity, ParameterList, ReadingUnit, SensorModel, Triad};
+use nalgebra::Vector3;
+
+const GAIN: Bounds = Bounds::above(0.0, 1e12, "counts/(rad/s)");
+const NOISE_RADPS: Bounds = Bounds::from(1e-9, 1e3, "rad/s");
+const NOISE_COUNTS: Bounds = Bounds::from(1e-9, 1e9, "counts");
+const TIME: Bounds = Bounds::from(-1e12, 1e12, "s");
+const ANGLE: Bounds = Bounds::from(-1e6, 1e6, "degrees");
+const ANGLE_SD: Bounds = Bounds::from(0.0, 360.0, "degrees");
+const NUMBER: Bounds = Bounds::from(-1e12, 1e12, "");
+const COMPONENT: Bounds = Bounds::from(-1e3, 1e3, "");
+
+/// The second sensor of an IMU, as `[gyroscope]` and `[known]` describe it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ImuPlan {
+    /// The datasheet.
+    pub gyroscope: Gyroscope,
+    /// Unit of the readings in the file, where the file does not say.
+    pub file_unit: Option<ImuUnit>,
+    /// Turns of known angle.
+    pub turns: Vec<Turn>,
+    /// Angle of the turns of a list of sections, rad.
+    pub section_angle_rad: f64,
+    /// Standard uncertainty of that angle and of its axis, rad.
+    pub section_angle_sd_rad: f64,
+    /// Quantities that are known beforehand.
+    pub known: Vec<KnownTerm>,
+}
+
+/// Reads `[gyroscope]` and `[known]`.
+pub(super) fn read(section: &Section<'_>, known: Option<&Section<'_>>) -> Result<ImuPlan> {
+    let file_unit = match section.get("unit") {
+        None => None,
+        Some(entry) => Some(entry.word(&[
+            ("radps", ImuUnit::RadianPerSecond),
+            ("degps", ImuUnit::DegreePerSecond),
+            ("counts", ImuUnit::Counts),
+        ])?),
+    };
+    let unit =
+        if file_unit == Some(ImuUnit::Counts) { ReadingUnit::Counts } else { ReadingUnit::RadianPerSecond };
+    let model = section.get("model").map_or(Ok(SensorModel::Full), |entry| {
+        entry.word(&[("scale-bias", SensorModel::ScaleBias), ("full", SensorModel::Full)])
+    })?;
+    let counts = ["gain_counts_per_radps", "noise_counts"];
+    if unit != ReadingUnit::Counts
+        && let Some(entry) = counts.iter().find_map(|key| section.get(key))
+    {
+        return Err(entry.complain(
+            "readings in rad/s or deg/s have no counts",
+            "write unit = \"counts\" in [gyroscope], or leave this key away",
+        ));
+    }
+    if let (ReadingUnit::Counts, Some(entry)) = (unit, section.get("noise_radps")) {
+        return Err(entry.complain("the readings are counts", "noise_counts = …"));
+    }
+    let per_axis = |key: &str, bounds: &Bounds| -> Result<Option<Vector3<f64>>> {
+        section.get(key).map(|entry| entry.per_axis(3, bounds)).transpose()
+    };
+    let noise = match unit {
+        ReadingUnit::Counts => per_axis("noise_counts", &NOISE_COUNTS)?,
+        _ => per_axis("noise_radps", &NOISE_RADPS)?,
+    };
+    let angle = |key: &str, bounds: &Bounds, otherwise: f64| {
+        section.get(key).map_or(Ok(otherwise), |entry| entry.number(bounds)).map(f64::to_radians)
+    };
+    Ok(ImuPlan {
+        gyroscope: Gyroscope {
+            unit,
+            model,
+            gain: per_axis("gain_counts_per_radps", &GAIN)?,
+            noise,
+            g_sensitivity: section.get("g_sensitivity").map_or(Ok(false), |entry| entry.flag())?,
+        },
+        file_unit,
+        turns: section.get("turns").map_or(Ok(Vec::new()), |entry| turns(&entry))?,
+        section_angle_rad: angle("turn_angle_deg", &ANGLE, -360.0)?,
+        section_angle_sd_rad: angle("turn_sd_deg", &ANGLE_SD, 0.5)?,
+        known: known.map_or(Ok(Vec::new()), read_known)?,
+    })
+}
+
+fn turns(entry: &Entry<'_>) -> Result<Vec<Turn>> {
+    const HELP: &str = "turns = [{ start_s = 10.0, end_s = 14.0, axis = \"x\", angle_deg = 360.0 }]";
+    entry
+        .items(HELP)?
+        .iter()
+        .map(|item| {
+            let turn = Section::item(item, "gyroscope.turns")?;
+            let number = |key: &str, bounds: &Bounds| turn.need(key, HELP)?.number(bounds);
+            let (start_s, end_s) = (number("start_s", &TIME)?, number("end_s", &TIME)?);
+            if end_s <= start_s {
+                let message = format!("the turn ends at {end_s} s, not after its start at {start_s} s");
+                return Err(item.complain(message, HELP));
+            }
+            let angle = turn.need("angle_deg", HELP)?;
+            let angle_rad = angle.number(&ANGLE)?.to_radians();
+            if angle_rad == 0.0 {
+                return Err(
+                    angle.complain("a turn by nothing", "its angle in degrees, right-handed about its axis")
+                );
+            }
+            let sd = turn.get("angle_sd_deg").map_or(Ok(0.5), |entry| entry.number(&ANGLE_SD))?;
+            let axis = direction(&turn.need("axis", HELP)?)?;
+            Ok(Turn { start_s, end_s, axis, angle_rad, angle_sd_rad: sd.to_radians() })
+        })
+        .collect()
+}
+
+/// A direction: `"x"`, `"-z"`, or three numbers.
+pub(super) fn direction(entry: &Entry<'_>) -> Result<Vector3<f64>> {
+    const HELP: &str = "\"x\", \"-x\", …, or three numbers: [0.0, 0.6, 0.8]";
+    if let Some(text) = entry.text() {
+        let (sign, name) = text.strip_prefix('-').map_or((1.0, text), |name| (-1.0, name));
+        let name = name.strip_prefix('+').unwrap_or(name);
+        return match Axis::ALL.iter().position(|axis| axis.to_string() == name) {
+            Some(axis) => Ok(Vector3::from_fn(|k, _| if k == axis { sign } else { 0.0 })),
+            None => Err(entry.complain(format!("\"{text}\" is no direction"), HELP)),
+        };
+    }
+    let items = entry.items(HELP)?;
+    let [x, y, z] = items.as_slice() else {
+        return Err(entry.complain(format!("a direction has three numbers, this has {}", items.len()), HELP));
+    };
+    let vector = Vector3::new(x.number(&COMPONENT)?, y.number(&COMPONENT)?, z.number(&COMPONENT)?);
+    vector.try_normalize(1e-9).ok_or_else(|| entry.complain("a direction of no length", HELP))
+}
+
+fn read_known(section: &Section<'_>) -> Result<Vec<KnownTerm>> {
+    let all = every_quantity();
+    section
+        .entries()
+        .map(|(name, entry)| {
+            const HELP: &str = "a number fixes it; { value = 0.0, sd = 0.01 } is a prior";
+            let Some(&quantity) = all.iter().find(|quantity| quantity.name() == name) else {
+                let names: Vec<String> = all.iter().map(|quantity| quantity.name()).collect();
+                let near = super::keys::nearest(name, names.iter().map(String::as_str));
+                let help = near.map_or_else(
+                    || "names are gyroscope.bias.x, accelerometer.scale.y, gyroscope.matrix.xy, …".into(),
+                    |near| format!("did you mean \"{near}\"?"),
+                );
+                return Err(entry.complain(format!("no quantity is named \"{name}\""), help));
+            };
+            if !entry.is_table() {
+                return Ok(KnownTerm { quantity, value: entry.number(&NUMBER)?, sd: None });
+            }
+            let term = Section::item(&entry, "known.term")?;
+            let value = term.need("value", HELP)?.number(&NUMBER)?;
+            let sd = term.get("sd").map(|entry| entry.number(&Bounds::above(0.0, 1e12, ""))).transpose()?;
+            Ok(KnownTerm { quantity, value, sd })
+        })
+        .collect()
+}
+
+fn every_quantity() -> Vec<ImuQuantity> {
+    let list = ParameterList::new(3, SensorModel::Full);
+    let mut all: Vec<ImuQuantity> = Triad::ALL
+        .iter()
+        .flat_map(|triad| list.quantities().iter().map(|quantity| ImuQuantity::Of(*triad, *quantity)))
+        .collect();
+    all.extend(
+        Axis::ALL
+            .iter()
+            .flat_map(|row| Axis::ALL.iter().map(|column| ImuQuantity::GSensitivity(*row, *column))),
+    );
+    all
+}

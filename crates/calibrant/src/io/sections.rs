@@ -1,0 +1,109 @@
+//! A list of the sections of a Ferraris session, as imucal writes it: `{"x_p": {"start": 540, "end": 1271}, …, "x_rot": …}`, by sample.
+
+use super::text::{self, Checked};
+use crate::error::{Complaint, Error, Result};
+use crate::sensor::Axis;
+use nalgebra::Vector3;
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// Largest list, bytes.
+const LARGEST: u64 = 1 << 20;
+const NAMES: &str = "x_p, x_a, y_p, … (an axis up, or down) and x_rot, y_rot, z_rot";
+
+/// One section: from sample `start` up to, not including, sample `end`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Section {
+    /// What was done in it.
+    pub kind: SectionKind,
+    /// First sample.
+    pub start: usize,
+    /// One past the last sample.
+    pub end: usize,
+}
+
+/// What was done in a section.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum SectionKind {
+    /// Held still, the specific force along this direction.
+    Face(Vector3<f64>),
+    /// Turned about this axis.
+    Turn(Vector3<f64>),
+}
+
+/// Reads a list of sections, in order of time.
+///
+/// # Errors
+/// [`Error::Experiment`] with the file: one that cannot be read or is no such list, a name that is not known, a section without samples.
+pub fn read_sections(path: &Path) -> Result<Vec<Section>> {
+    let bytes = text::read_bytes(path, LARGEST, "the list of sections")
+        .map_err(|complaint| Error::experiment(*complaint))?;
+    parse(&bytes).map_err(|complaint| Error::experiment(complaint.in_file(path)))
+}
+
+/// Reads the bytes of a list of sections.
+///
+/// # Errors
+/// As [`read_sections`], without the name of the file.
+///
+/// # Examples
+/// ```
+/// use calibrant::io::{SectionKind, parse_sections};
+/// use nalgebra::Vector3;
+/// let sections = parse_sections(br#"{"x_a": {"start": 90, "end": 99}, "z_rot": {"start": 5, "end": 80}}"#)?;
+/// assert_eq!(sections[0].kind, SectionKind::Turn(Vector3::z()));
+/// assert_eq!(sections[1].kind, SectionKind::Face(-Vector3::x()));
+/// # Ok::<(), calibrant::Error>(())
+/// ```
+pub fn parse_sections(bytes: &[u8]) -> Result<Vec<Section>> {
+    parse(bytes).map_err(|complaint| Error::experiment(*complaint))
+}
+
+#[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Samples {
+    start: usize,
+    end: usize,
+}
+
+fn parse(bytes: &[u8]) -> Checked<Vec<Section>> {
+    let text = text::as_text(bytes)?;
+    let list: BTreeMap<String, Samples> = serde_json::from_str(text).map_err(|error| {
+        let complaint = Complaint::new(
+            format!("no list of sections: {error}"),
+            "write {\"x_p\": {\"start\": 540, \"end\": 1271}, …}, in samples",
+        );
+        if error.line() > 0 {
+            complaint.at_line(error.line()).at_column(error.column().max(1))
+        } else {
+            complaint
+        }
+    })?;
+    let mut sections = Vec::with_capacity(list.len());
+    for (name, Samples { start, end }) in list {
+        let kind = kind(&name)
+            .ok_or_else(|| Complaint::new(format!("the section \"{name}\" is not known"), NAMES))?;
+        if end < start + 2 {
+            let message = format!("the section \"{name}\" from sample {start} to {end} has no samples");
+            return Err(Complaint::new(message, "its end must be after its start").into());
+        }
+        sections.push(Section { kind, start, end });
+    }
+    if sections.is_empty() {
+        return Err(Complaint::new("the list has no sections", NAMES).into());
+    }
+    sections.sort_by_key(|section| section.start);
+    Ok(sections)
+}
+
+fn kind(name: &str) -> Option<SectionKind> {
+    let (axis, what) = name.split_once('_')?;
+    let axis = Axis::ALL.iter().position(|known| known.to_string() == axis)?;
+    let direction = Vector3::from_fn(|k, _| if k == axis { 1.0 } else { 0.0 });
+    match what {
+        "p" => Some(SectionKind::Face(direction)),
+        "a" => Some(SectionKind::Face(-direction)),
+        "rot" => Some(SectionKind::Turn(direction)),
+        _ => None,
+    }
+}

@@ -1,0 +1,243 @@
+//! ROS 2 bags, written with the crate `mcap`.
+
+use super::findings;
+use calibrant::io::{
+    ColumnMapping, FileFormat, ImuFile, ImuReadOptions, parse_imu_recording, read_imu_recording,
+};
+use mcap::records::MessageHeader;
+use std::collections::BTreeMap;
+use std::io::Cursor;
+
+/// A message `sensor_msgs/msg/Imu` in little-endian CDR.
+fn cdr(stamp_ns: u64, frame: &str, rate: [f64; 3], force: [f64; 3], absent: [bool; 2]) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    bytes.extend(((stamp_ns / 1_000_000_000) as i32).to_le_bytes());
+    bytes.extend(((stamp_ns % 1_000_000_000) as u32).to_le_bytes());
+    bytes.extend((frame.len() as u32 + 1).to_le_bytes());
+    bytes.extend(frame.bytes().chain([0]));
+    while !bytes.len().is_multiple_of(8) {
+        bytes.push(0);
+    }
+    let covariance = |absent: bool| [if absent { -1.0 } else { 0.0 }, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+    let numbers = [0.0, 0.0, 0.0, 1.0].into_iter().chain(covariance(true));
+    let numbers = numbers.chain(rate).chain(covariance(absent[0])).chain(force).chain(covariance(absent[1]));
+    numbers.for_each(|number: f64| bytes.extend(number.to_le_bytes()));
+    [vec![0, 1, 0, 0], bytes].concat()
+}
+
+const STAMP: u64 = 1_700_000_000_123_456_789;
+
+fn message(k: u64) -> Vec<u8> {
+    let x = k as f64;
+    cdr(STAMP + 5_000_000 * k, "imu_link", [0.1 * x, 0.2, -0.1], [0.3, 9.7, 0.1 * x], [false; 2])
+}
+
+/// A bag with these topics: name, type, encoding, messages.
+fn bag(topics: &[(&str, &str, &str, Vec<Vec<u8>>)]) -> Vec<u8> {
+    let options = mcap::WriteOptions::new().compression(None).profile("ros2");
+    let mut writer = mcap::Writer::with_options(Cursor::new(Vec::new()), options).expect("a writer");
+    for (topic, schema, encoding, messages) in topics {
+        let schema = writer.add_schema(schema, "ros2msg", b"std_msgs/Header header").expect("a schema");
+        let channel = writer.add_channel(schema, topic, encoding, &BTreeMap::new()).expect("a channel");
+        for (k, message) in messages.iter().enumerate() {
+            let time = 1000 * k as u64;
+            let header =
+                MessageHeader { channel_id: channel, sequence: k as u32, log_time: time, publish_time: time };
+            writer.write_to_known_channel(&header, message).expect("written");
+        }
+    }
+    writer.finish().expect("finished");
+    writer.into_inner().into_inner()
+}
+
+const IMU: &str = "sensor_msgs/msg/Imu";
+
+fn one() -> Vec<u8> {
+    bag(&[
+        ("/chatter", "std_msgs/msg/String", "cdr", vec![vec![0, 1, 0, 0, 1, 0, 0, 0, 0]]),
+        ("/imu/data_raw", IMU, "cdr", (0..5).map(message).collect()),
+    ])
+}
+
+fn read(bytes: &[u8]) -> ImuFile {
+    parse_imu_recording(bytes, &ImuReadOptions::default()).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn refused(bytes: &[u8], options: &ImuReadOptions) -> String {
+    parse_imu_recording(bytes, options).expect_err("refused").to_string()
+}
+
+/// The same bag with its one chunk compressed.
+fn compressed(bytes: &[u8], name: &str, compress: impl Fn(&[u8]) -> Vec<u8>) -> Vec<u8> {
+    let mut out = mcap::MAGIC.to_vec();
+    let record = |out: &mut Vec<u8>, opcode: u8, body: &[u8]| {
+        out.push(opcode);
+        out.extend((body.len() as u64).to_le_bytes());
+        out.extend(body);
+    };
+    for found in mcap::read::LinearReader::new(bytes).expect("a bag") {
+        if let mcap::records::Record::Chunk { header, data } = found.expect("a record") {
+            let packed = compress(&data);
+            let mut body = Vec::new();
+            body.extend(header.message_start_time.to_le_bytes());
+            body.extend(header.message_end_time.to_le_bytes());
+            body.extend(header.uncompressed_size.to_le_bytes());
+            body.extend(header.uncompressed_crc.to_le_bytes());
+            body.extend((name.len() as u32).to_le_bytes());
+            body.extend(name.bytes());
+            body.extend((packed.len() as u64).to_le_bytes());
+            body.extend(packed);
+            record(&mut out, 6, &body);
+        }
+    }
+    record(&mut out, 15, &[0; 4]);
+    record(&mut out, 2, &[0; 20]);
+    out.extend(mcap::MAGIC);
+    out
+}
+
+#[test]
+fn a_bag_reads_its_imu() {
+    let file = read(&one());
+    assert_eq!((file.format, file.rows), (FileFormat::Mcap, 5));
+    let (accelerometer, gyroscope) = (
+        file.recording.accelerometer.as_ref().expect("there"),
+        file.recording.gyroscope.as_ref().expect("there"),
+    );
+    assert_eq!(gyroscope.times_s, [0.0, 0.005, 0.01, 0.015, 0.02]);
+    assert_eq!(gyroscope.readings[3].as_slice(), [0.1 * 3.0, 0.2, -0.1]);
+    assert_eq!(accelerometer.readings[4].as_slice(), [0.3, 9.7, 0.4]);
+    assert_eq!(findings(&file)[0], "times count from the first, `header.stamp` = 1700000000123456789 ns");
+    // from a file, whose bytes are no text
+    let directory = tempfile::tempdir().expect("a directory");
+    let path = directory.path().join("bag_0.mcap");
+    std::fs::write(&path, one()).expect("written");
+    assert_eq!(read_imu_recording(&path, &ImuReadOptions::default()).expect("good"), file);
+}
+
+#[test]
+fn a_bag_compressed_with_zstd_reads_the_same() {
+    let plain = one();
+    let packed = compressed(&plain, "zstd", |data| {
+        ruzstd::encoding::compress_to_vec(data, ruzstd::encoding::CompressionLevel::Fastest)
+    });
+    assert_eq!(read(&packed).recording, read(&plain).recording);
+    assert_eq!(
+        refused(&compressed(&plain, "lz4", <[u8]>::to_vec), &ImuReadOptions::default()),
+        "the bag is compressed with lz4, which is not read (write it again without compression, or with zstd: `mcap compress --compression zstd`)"
+    );
+    let broken = compressed(&plain, "zstd", |data| data[..data.len() / 2].to_vec());
+    assert!(
+        refused(&broken, &ImuReadOptions::default()).starts_with("the MCAP container is damaged: "),
+        "{}",
+        refused(&broken, &ImuReadOptions::default())
+    );
+}
+
+#[test]
+fn a_bag_that_was_cut_off_is_read_as_far_as_it_goes_or_refused() {
+    let whole = one();
+    let (mut read, mut refused) = (0, 0);
+    for length in 8..whole.len() {
+        match parse_imu_recording(&whole[..length], &ImuReadOptions::default()) {
+            Ok(file) => {
+                assert!(file.rows >= 2);
+                read += 1;
+            }
+            Err(error) => {
+                assert!(error.is_invalid_recording());
+                refused += 1;
+            }
+        }
+    }
+    assert!(read > 0 && refused > 0, "{read} {refused}");
+}
+
+#[test]
+fn a_sensor_that_is_not_there_is_left_out() {
+    let messages = |absent| {
+        let message = |k: u64| cdr(STAMP + 5_000_000 * k, "", [0.1 * k as f64, 0.2, 0.1], [0.0; 3], absent);
+        (0..3).map(message).collect::<Vec<_>>()
+    };
+    let file = read(&bag(&[("/imu", IMU, "cdr", messages([false, true]))]));
+    assert!(file.recording.accelerometer.is_none() && file.recording.gyroscope.is_some());
+    let column = file.columns.iter().find(|column| column.name == "linear_acceleration.x").expect("there");
+    assert_eq!(column.unused.as_deref(), Some("its covariance begins with −1: the IMU does not have it"));
+    let neither = bag(&[("/imu", IMU, "cdr", messages([true, true]))]);
+    assert!(
+        refused(&neither, &ImuReadOptions::default())
+            .starts_with("the file holds orientation only (`orientation`)")
+    );
+}
+
+#[test]
+fn bags_that_cannot_be_used_say_why() {
+    let two = bag(&[
+        ("/front/imu", IMU, "cdr", (0..3).map(message).collect()),
+        ("/rear/imu", IMU, "cdr", (0..2).map(message).collect()),
+    ]);
+    let topic = |topic: &str| ImuReadOptions { topic: Some(topic.into()), ..ImuReadOptions::default() };
+    assert_eq!(parse_imu_recording(&two, &topic("/rear/imu")).expect("good").rows, 2);
+    let plain = ImuReadOptions::default();
+    let flat = |k: u64| cdr(STAMP + 5_000_000 * k, "", [0.1, 0.2, 0.1], [0.0, 0.01, 0.02], [false; 2]);
+    let names = ["angular_velocity.x", "angular_velocity.y", "angular_velocity.z"].map(str::to_owned);
+    let mapped = ImuReadOptions {
+        columns: ColumnMapping { gyroscope: Some(names), ..ColumnMapping::default() },
+        ..plain.clone()
+    };
+    for (bytes, options, expected) in [
+        (
+            two.clone(),
+            plain.clone(),
+            "there is more than one IMU: /front/imu (3 messages), /rear/imu (2 messages) (say --topic, or topic in [columns])",
+        ),
+        (
+            two,
+            topic("/imu"),
+            "there are no messages of sensor_msgs/msg/Imu on `/imu`; the topics of such messages: `/front/imu`, `/rear/imu` (names count letter by letter, the slash too)",
+        ),
+        (
+            bag(&[("/chatter", "std_msgs/msg/String", "cdr", vec![])]),
+            plain.clone(),
+            "the bag has no messages of sensor_msgs/msg/Imu; its topics are `/chatter (std_msgs/msg/String)` (record the topic of the IMU)",
+        ),
+        (bag(&[]), plain.clone(), "the bag has no topics (record the topic of the IMU)"),
+        (
+            bag(&[("/imu", IMU, "json", vec![b"{}".to_vec()])]),
+            plain.clone(),
+            "messages of `/imu` are encoded as `json` (only CDR is read)",
+        ),
+        (
+            bag(&[("/imu", IMU, "cdr", vec![message(0), message(1)[..100].to_vec()])]),
+            plain.clone(),
+            "message 2 of `/imu` cannot be read: it is too short (was it recorded as sensor_msgs/msg/Imu by ROS 2?)",
+        ),
+        (
+            bag(&[("/imu", IMU, "cdr", vec![[vec![0, 7], message(0)[2..].to_vec()].concat()])]),
+            plain.clone(),
+            "message 1 of `/imu` cannot be read: its encapsulation is not plain CDR (was it recorded as sensor_msgs/msg/Imu by ROS 2?)",
+        ),
+        (
+            bag(&[("/imu", IMU, "cdr", vec![message(0)])]),
+            plain.clone(),
+            "only 1 usable sample of the accelerometer in 1 row (a recording needs two samples at least)",
+        ),
+        (
+            bag(&[("/imu", IMU, "cdr", (0..4).map(flat).collect())]),
+            plain.clone(),
+            "gravity has been removed from the accelerometer: its magnitude is 0.0224 m/s² half of the time or less (export the sensor's own readings; is it really an acceleration, in the unit that is stated?)",
+        ),
+        (
+            one(),
+            mapped,
+            "[columns] names columns, but the messages of a bag say what they hold (take time, accelerometer, gyroscope and temperature out of [columns]; topic may stay)",
+        ),
+        (
+            one(),
+            ImuReadOptions { format: Some(FileFormat::Csv), ..plain.clone() },
+            "the format was given as csv, but this is ROS 2 bag (MCAP) (leave --format away: the format is recognised by the content)",
+        ),
+    ] {
+        assert_eq!(refused(&bytes, &options), expected);
+    }
+}

@@ -1,0 +1,183 @@
+//! Parquet files, written with the crate `parquet`.
+
+use super::{findings, units};
+use calibrant::io::{FileFormat, ImuFile, ImuReadOptions, ImuUnit, TimeUnit, parse_imu_recording};
+use parquet::basic::Compression;
+use parquet::column::writer::ColumnWriter;
+use parquet::data_type::ByteArray;
+use parquet::file::properties::WriterProperties;
+use parquet::file::writer::SerializedFileWriter;
+use parquet::schema::parser::parse_message_type;
+use std::sync::Arc;
+
+/// The values of a column; `None` is null.
+enum Values {
+    Double(Vec<Option<f64>>),
+    Float(Vec<f32>),
+    Int64(Vec<i64>),
+    Int32(Vec<i32>),
+    Text(Vec<&'static str>),
+}
+
+fn write(schema: &str, groups: &[Vec<Values>], compression: Compression) -> Vec<u8> {
+    let schema = Arc::new(parse_message_type(&format!("message imu {{ {schema} }}")).expect("a schema"));
+    let properties = Arc::new(WriterProperties::builder().set_compression(compression).build());
+    let mut writer = SerializedFileWriter::new(Vec::new(), schema, properties).expect("a writer");
+    for group in groups {
+        let mut rows = writer.next_row_group().expect("a row group");
+        let mut columns = group.iter();
+        while let Some(mut column) = rows.next_column().expect("a column") {
+            match (column.untyped(), columns.next().expect("values")) {
+                (ColumnWriter::DoubleColumnWriter(writer), Values::Double(values)) => {
+                    let levels: Vec<i16> = values.iter().map(|value| i16::from(value.is_some())).collect();
+                    let present: Vec<f64> = values.iter().flatten().copied().collect();
+                    writer.write_batch(&present, Some(&levels), None).expect("written");
+                }
+                (ColumnWriter::FloatColumnWriter(writer), Values::Float(values)) => {
+                    writer.write_batch(values, None, None).expect("written");
+                }
+                (ColumnWriter::Int64ColumnWriter(writer), Values::Int64(values)) => {
+                    writer.write_batch(values, None, None).expect("written");
+                }
+                (ColumnWriter::Int32ColumnWriter(writer), Values::Int32(values)) => {
+                    writer.write_batch(values, None, None).expect("written");
+                }
+                (ColumnWriter::ByteArrayColumnWriter(writer), Values::Text(values)) => {
+                    let values: Vec<ByteArray> = values.iter().map(|text| ByteArray::from(*text)).collect();
+                    writer.write_batch(&values, None, None).expect("written");
+                }
+                _ => panic!("the schema has another type"),
+            }
+            column.close().expect("closed");
+        }
+        rows.close().expect("closed");
+    }
+    writer.into_inner().expect("finished")
+}
+
+const SCHEMA: &str = "required int64 stamp (TIMESTAMP(NANOS,true)); optional double ax_mps2; optional double ay_mps2; optional double az_mps2; \
+    required float gx_degps; required float gy_degps; required float gz_degps; required int32 temp_c; required binary label (UTF8);";
+const STAMP: i64 = 1_700_000_000_123_456_789;
+
+fn group(from: i64) -> Vec<Values> {
+    let doubles = |x: f64| Values::Double((0..3).map(|k| Some(x + 0.1 * (from + k) as f64)).collect());
+    let floats = |x: f32| Values::Float((0..3).map(|k| x + (from + k) as f32).collect());
+    vec![
+        Values::Int64((0..3).map(|k| STAMP + 10_000_000 * (from + k)).collect()),
+        if from == 0 { Values::Double(vec![Some(0.0), None, Some(0.2)]) } else { doubles(0.0) },
+        doubles(1.0),
+        doubles(9.5),
+        floats(90.0),
+        floats(0.5),
+        floats(-1.5),
+        Values::Int32((0..3).map(|k| 20 + (from + k) as i32).collect()),
+        Values::Text(vec!["a", "b", "c"]),
+    ]
+}
+
+fn read(bytes: &[u8], options: &ImuReadOptions) -> ImuFile {
+    parse_imu_recording(bytes, options).unwrap_or_else(|error| panic!("{error}"))
+}
+
+#[test]
+fn a_table_reads_with_any_compression_that_needs_no_c() {
+    let groups = [group(0), group(3)];
+    for compression in [Compression::UNCOMPRESSED, Compression::SNAPPY, Compression::LZ4_RAW] {
+        let file = read(&write(SCHEMA, &groups, compression), &ImuReadOptions::default());
+        assert_eq!((file.format, file.rows), (FileFormat::Parquet, 6));
+        let (accelerometer, gyroscope) = (
+            file.recording.accelerometer.as_ref().expect("there"),
+            file.recording.gyroscope.as_ref().expect("there"),
+        );
+        assert_eq!(gyroscope.times_s, [0.0, 0.01, 0.02, 0.03, 0.04, 0.05]);
+        assert_eq!(accelerometer.times_s, [0.0, 0.02, 0.03, 0.04, 0.05], "the second has no x");
+        assert_eq!(gyroscope.readings[0].x, std::f64::consts::FRAC_PI_2);
+        assert_eq!(accelerometer.readings[2].as_slice(), [0.1 * 3.0, 1.0 + 0.1 * 3.0, 9.5 + 0.1 * 3.0]);
+        assert_eq!(file.recording.temperature_c, Some(vec![20.0, 22.0, 23.0, 24.0, 25.0]));
+        assert_eq!(
+            findings(&file)[..2],
+            [
+                "times count from the first, `stamp` = 1700000000123456789 ns",
+                "1 sample of the accelerometer with a missing or NaN value dropped"
+            ]
+        );
+        assert_eq!(file.columns[8].unused.as_deref(), Some("not known to be needed"));
+    }
+}
+
+#[test]
+fn tables_that_cannot_be_used_say_why() {
+    let simple = |schema: &str, columns: Vec<Values>| write(schema, &[columns], Compression::UNCOMPRESSED);
+    let gyroscope = || {
+        vec![Values::Float(vec![1.0, 2.0]), Values::Float(vec![1.0, 3.0]), Values::Float(vec![100.0, 2.0])]
+    };
+    let plain = ImuReadOptions::default();
+    let columns = "required float gx; required float gy; required float gz;";
+    let unitless = simple(
+        &format!("required int64 time; {columns}"),
+        [vec![Values::Int64(vec![0, 10])], gyroscope()].into_iter().flatten().collect(),
+    );
+    for (bytes, expected) in [
+        (
+            unitless.clone(),
+            "the gyroscope's columns have no unit: magnitudes up to 100 suggest deg/s; the time column `time` has no unit: steps of 10 suggest ms \
+             (say --gyroscope-unit rad/s, deg/s or counts; --time-unit s, ms, us or ns (time_unit in [columns]), or end its name in _s, _ms, _us or _ns)",
+        ),
+        (
+            simple(
+                "required int64 t_s; required binary gx_radps (UTF8); required float gy_radps; required float gz_radps;",
+                vec![
+                    Values::Int64(vec![0, 10]),
+                    Values::Text(vec!["1", "2"]),
+                    Values::Float(vec![1.0, 2.0]),
+                    Values::Float(vec![1.0, 2.0]),
+                ],
+            ),
+            "column `gx_radps` does not hold numbers (is it the right column? numbers are float, double, int32 or int64)",
+        ),
+        (
+            simple(
+                "required int64 t_s; required float gx_radps; required float gy_radps; required float gz_radps;",
+                vec![
+                    Values::Int64(vec![0, 10]),
+                    Values::Float(vec![1.0, f32::INFINITY]),
+                    Values::Float(vec![1.0, 2.0]),
+                    Values::Float(vec![1.0, 2.0]),
+                ],
+            ),
+            "the value inf in row 2 is out of range (is the unit right? is the file damaged?)",
+        ),
+        (b"PAR1".to_vec(), "the Parquet file is damaged: "),
+        (b"PAR1 and then nothing of the kindPAR1".to_vec(), "the Parquet file is damaged: "),
+    ] {
+        let said = parse_imu_recording(&bytes, &plain).expect_err("refused").to_string();
+        assert!(said.starts_with(expected), "{said}");
+    }
+    let told = ImuReadOptions {
+        time_unit: Some(TimeUnit::Millisecond),
+        ..units(ImuUnit::Counts, ImuUnit::DegreePerSecond)
+    };
+    assert_eq!(read(&unitless, &told).recording.gyroscope.expect("there").times_s, [0.0, 0.01]);
+}
+
+#[test]
+fn a_table_that_is_damaged_is_refused_and_never_ends_the_program() {
+    let whole = write(SCHEMA, &[group(0), group(3)], Compression::SNAPPY);
+    std::panic::set_hook(Box::new(|_| ())); // a panic of the crate that reads the file is caught; its message is noise
+    let (mut read, mut refused) = (0, 0);
+    for at in 4..whole.len() {
+        let mut bytes = whole.clone();
+        bytes[at] ^= 0x55;
+        for bytes in [&bytes[..], &whole[..at]] {
+            match parse_imu_recording(bytes, &ImuReadOptions::default()) {
+                Ok(_) => read += 1,
+                Err(error) => {
+                    assert!(error.is_invalid_recording());
+                    refused += 1;
+                }
+            }
+        }
+    }
+    drop(std::panic::take_hook());
+    assert!(refused > read, "{refused} {read}");
+}
