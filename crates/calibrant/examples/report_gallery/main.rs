@@ -1,13 +1,15 @@
 //! Reports of made-up results, to look at: `cargo run --example report_gallery -- DIRECTORY`.
 
 use calibrant::report::{
-    About, calibration_report, design_report, evaluation_report, study_report, sweep_report,
+    About, calibration_report, design_report, evaluation_report, imu_calibration_report, study_report,
+    sweep_report,
 };
 use calibrant::{design, estimate, information, motion, sensor, simulate, study};
 use std::path::PathBuf;
 
 mod designs;
 mod fakes;
+mod imus;
 mod studies;
 
 fn main() -> std::io::Result<()> {
@@ -59,6 +61,12 @@ fn main() -> std::io::Result<()> {
             &about("Static calibration", "mti.csv", recording.len()),
         ),
     )?;
+
+    let case = imus::imu_case(24, 1);
+    println!("imu: rotation {} is disturbed", imus::DISTURBED + 1);
+    let samples = case.recording.gyroscope.as_ref().map_or(0, sensor::Recording::len);
+    let imu_about = about("A whole IMU, turned by hand", "imu.csv", samples);
+    write("imu.html", imu_calibration_report(&case.calibration, &case.recording, &[], &imu_about))?;
 
     let (sensor, limits) = (sensor::Sensor::memsic_mxd2020u(), designs::arm());
     let problem = designs::problem(&sensor, &limits);

@@ -37,14 +37,18 @@ pub struct About {
 }
 
 impl About {
-    pub(super) fn footer(&self) -> Vec<String> {
+    /// Program and time.
+    pub(super) fn made(&self) -> String {
         let program = if self.program.is_empty() { "calibrant" } else { &self.program };
-        let made = match &self.elapsed {
+        match &self.elapsed {
             Some(elapsed) => format!("{program}, {elapsed}."),
             None => format!("{program}."),
-        };
+        }
+    }
+
+    pub(super) fn footer(&self) -> Vec<String> {
         vec![
-            made,
+            self.made(),
             "“The report” whose figures are named is V. Vamvaka, Optimal Experimental Design for Calibration, 2021. Readings are \
              y = S s + b + ν (true → raw); sd is the standard deviation."
                 .to_string(),

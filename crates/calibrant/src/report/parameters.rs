@@ -90,7 +90,8 @@ pub(super) fn correction(calibration: &Calibration, recording: &Recording) -> St
     )
 }
 
-fn gauge_in_words(gauge: &str) -> &'static str {
+/// What a gauge fixes.
+pub(super) fn gauge_in_words(gauge: &str) -> &'static str {
     match gauge {
         "lower" => {
             "Gravity alone does not fix the true frame. Gauge lower (as Kalibr): S and C are lower triangular, the true x axis \
@@ -107,7 +108,8 @@ fn gauge_in_words(gauge: &str) -> &'static str {
     }
 }
 
-fn rows(matrix: &Matrix3<f64>) -> Vec<Vec<String>> {
+/// A matrix as text, row by row.
+pub(super) fn rows(matrix: &Matrix3<f64>) -> Vec<Vec<String>> {
     let largest = matrix.amax();
     let text = |value: f64| {
         if value.abs() < 1e-14 * largest { "0".to_string() } else { number::significant(value, 7) }
@@ -124,7 +126,8 @@ fn unit_diagonal(matrix: &Matrix3<f64>) -> Vec<Vec<String>> {
     (0..3).map(|row| (0..3).map(|column| text(row, column)).collect()).collect()
 }
 
-fn matrix(name: &str, rows: Vec<Vec<String>>) -> String {
+/// A named matrix as HTML.
+pub(super) fn matrix(name: &str, rows: Vec<Vec<String>>) -> String {
     let body: String = rows
         .iter()
         .map(|row| {

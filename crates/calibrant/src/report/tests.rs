@@ -11,6 +11,7 @@ mod design_pages;
 mod designs;
 #[path = "../../examples/report_gallery/fakes.rs"]
 mod fakes;
+mod imu_pages;
 mod noise_pages;
 #[path = "../../examples/report_gallery/studies.rs"]
 mod studies;

@@ -120,6 +120,18 @@ impl ImuCalibration {
         })
     }
 
+    /// What share of a quantity's information was known beforehand, where it is worth telling: above 5 %.
+    #[must_use]
+    pub fn known_beforehand(&self, place: usize) -> Option<f64> {
+        self.prior_share.get(place).copied().filter(|share| *share > 0.05)
+    }
+
+    /// Places of one sensor's quantities in the list.
+    #[must_use]
+    pub fn places_of(&self, triad: Triad) -> Vec<usize> {
+        (0..self.quantities.len()).filter(|&k| self.quantities[k].triad() == triad).collect()
+    }
+
     /// Unit of a quantity.
     #[must_use]
     pub fn unit_of(&self, quantity: ImuQuantity) -> &'static str {

@@ -8,7 +8,7 @@ use nalgebra::Vector3;
 
 /// Radius of a hemisphere and half the side of its drawing.
 const RADIUS: f64 = 165.0;
-const HALF: f64 = 195.0;
+const HALF: f64 = 212.0;
 
 /// Directions of the specific force in the sensor's frame, one numbered point for each hold.
 pub(in crate::report) fn hold_directions(holds: &HoldCalibration) -> String {

@@ -1,0 +1,83 @@
+//! The calibration of a whole IMU on stdout.
+
+use super::table;
+use calibrant::estimate::ImuCalibration;
+use calibrant::report::{imu_quality, number, over_the_gain};
+use calibrant::sensor::Triad;
+
+/// What was used, the parameters of both sensors, and how good they are.
+pub(crate) fn imu_calibration(calibration: &ImuCalibration) -> String {
+    let mut text = used(calibration);
+    for triad in Triad::ALL {
+        text.push('\n');
+        text.push_str(&parameters(calibration, triad));
+    }
+    text.push('\n');
+    imu_quality(calibration).split("; ").for_each(|part| text.push_str(&format!("  {part}\n")));
+    text.push_str(&format!(
+        "  {} after {}; χ² {} with {} degrees of freedom, weights from the data\n",
+        calibration.status.name(),
+        number::counted(calibration.iterations, "iteration"),
+        number::significant(calibration.chi2, 4),
+        number::count(calibration.degrees_of_freedom),
+    ));
+    text
+}
+
+/// Holds, rotations and turns, and which of them were left out.
+fn used(calibration: &ImuCalibration) -> String {
+    let (holds, rotations) = (&calibration.holds.holds, &calibration.rotations);
+    let count = |used: usize, what: &str, left_out: Vec<String>| {
+        let all = used + left_out.len();
+        match left_out.len() {
+            0 => format!("  {}, all used\n", number::counted(all, what)),
+            _ => {
+                format!("  {}, {used} used; left out: {}\n", number::counted(all, what), left_out.join(", "))
+            }
+        }
+    };
+    let bad_holds = (0..holds.len()).filter(|&k| !holds[k].used).map(|k| (k + 1).to_string());
+    let good_holds = holds.iter().filter(|hold| hold.used).count();
+    let mut text = count(good_holds, "hold", bad_holds.collect());
+    if !rotations.is_empty() {
+        let bad = rotations.iter().filter(|rotation| !rotation.used);
+        let bad = bad.map(|rotation| format!("{} → {}", rotation.from_hold + 1, rotation.to_hold + 1));
+        let good = rotations.iter().filter(|rotation| rotation.used).count();
+        text.push_str(&count(good, "rotation", bad.collect()));
+    }
+    if !calibration.turns.is_empty() {
+        text.push_str(&format!("  {} of known angle\n", number::counted(calibration.turns.len(), "turn")));
+    }
+    text
+}
+
+fn parameters(calibration: &ImuCalibration, triad: Triad) -> String {
+    let places = calibration.places_of(triad);
+    let with_prior = places.iter().any(|&k| calibration.known_beforehand(k).is_some());
+    let mut header = vec!["parameter", "estimate ± sd", "unit", "over the gain"];
+    if with_prior {
+        header.push("known beforehand");
+    }
+    let sd = calibration.sd();
+    let rows: Vec<Vec<String>> = places
+        .into_iter()
+        .map(|k| {
+            let quantity = calibration.quantities[k];
+            let mut row = vec![
+                quantity.name(),
+                number::with_sd(calibration.values[k], sd[k]),
+                calibration.unit_of(quantity).to_owned(),
+                over_the_gain(calibration, quantity, sd[k]),
+            ];
+            if with_prior {
+                let share = calibration.known_beforehand(k);
+                row.push(share.map_or_else(|| "–".to_owned(), |share| format!("{:.0} %", 100.0 * share)));
+            }
+            row
+        })
+        .collect();
+    table(&header, &rows)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,32 @@
+//! What is printed of a simulated IMU.
+
+use super::imu_calibration;
+use calibrant::{estimate, motion, sensor};
+
+#[path = "../../../../calibrant/examples/report_gallery/imus.rs"]
+mod imus;
+
+#[test]
+fn it_says_what_was_used_what_was_found_and_how_good_it_is() {
+    let case = imus::imu_case(14, 1);
+    assert!(case.recording.gyroscope.is_some());
+    let text = imu_calibration(&case.calibration);
+    let from = imus::DISTURBED + 1;
+    for says in [
+        "  14 holds, all used\n",
+        &format!("  13 rotations, 12 used; left out: {from} → {}\n", from + 1),
+        "  1 turn of known angle\n",
+        "accelerometer.matrix.yz",
+        "gyroscope.g_sensitivity.zz",
+        "counts/(rad/s)",
+        "(°/s)/g",
+        "after a rotation, gravity is met within 0.0",
+        "known turns are met within",
+        "converged after",
+    ] {
+        assert!(text.contains(says), "{says}\n{text}");
+    }
+    let known = text.lines().find(|line| line.contains("g_sensitivity.xx")).expect("there");
+    assert!(known.ends_with(" %"), "{known}");
+    assert!(text.lines().all(|line| line.chars().count() <= 120), "{text}");
+}

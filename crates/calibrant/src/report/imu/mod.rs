@@ -1,0 +1,109 @@
+//! The report on a whole IMU: accelerometer and gyroscope, and how they fit each other.
+
+mod axes;
+mod correction;
+mod fit;
+mod parameters;
+mod quality;
+mod rotations;
+mod verdict;
+
+pub use parameters::over_the_gain;
+pub use quality::imu_quality;
+
+use super::About;
+use super::figure::{
+    correlation_map_of, hold_directions, hold_residuals, recording_overview, rotation_errors, still_gyroscope,
+};
+use super::holds::{hold_summary, hold_table};
+use super::html::{Page, escape, facts};
+use super::noise::noise_section;
+use crate::estimate::ImuCalibration;
+use crate::noise::TriadNoise;
+use crate::sensor::{ImuRecording, Triad};
+
+/// A whole IMU as one HTML file: verdict, parameters and corrections of both sensors, holds, rotations, turns, correlations, and its noise where
+/// it was determined.
+///
+/// Self-contained as [`calibration_report`](super::calibration_report) is. `recording` is the one that was calibrated from; `noise` may be empty.
+#[must_use]
+pub fn imu_calibration_report(
+    calibration: &ImuCalibration,
+    recording: &ImuRecording,
+    noise: &[TriadNoise],
+    about: &About,
+) -> String {
+    let mut page = Page::default();
+    let title = if about.title.is_empty() { "Calibration of an IMU" } else { &about.title };
+    page.push(format!("<h1>{}</h1>", escape(title)));
+    page.push(facts(about.facts.iter().map(|(label, value)| (label.as_str(), value.as_str()))));
+    page.push(verdict::verdict(calibration, about));
+
+    page.section(
+        "Parameters",
+        "Readings are y = S f + b of the accelerometer and y = S ω + b + Γ f of the gyroscope, with f the specific force and ω the angular rate: biases are \
+         the entries of b, scale factors and matrix entries those of S, g-sensitivities those of Γ. In files, their names begin with that of the sensor: gyroscope.bias.x.",
+    );
+    for triad in Triad::ALL {
+        page.subsection(capitalised(triad));
+        page.push(parameters::parameter_table(calibration, triad));
+    }
+    page.subsection("Axes");
+    page.push(axes::axis_table(calibration));
+
+    page.section("Correction, raw → true", "");
+    page.push(correction::correction(calibration));
+
+    page.section("Holds", "The IMU was kept still in several orientations; in each, the corrected accelerometer has the magnitude of gravity and the corrected gyroscope is zero.");
+    page.push(hold_summary(&calibration.holds));
+    page.push(hold_residuals(&calibration.holds).html());
+    if let Some(figure) =
+        recording.gyroscope.as_ref().and_then(|readings| still_gyroscope(calibration, readings))
+    {
+        page.push(figure.html());
+    }
+    page.push(hold_directions(&calibration.holds));
+    if let Some(accelerometer) = &recording.accelerometer {
+        page.push(recording_overview(&calibration.holds, accelerometer).html());
+    }
+    page.subsection("Table of the holds");
+    page.push(hold_table(&calibration.holds, calibration.accelerometer_unit));
+
+    if !calibration.rotations.is_empty() {
+        page.section("Rotations", "Between the holds the IMU was turned by hand. The gyroscope must carry gravity from each hold to the next.");
+        page.push(rotations::rotation_summary(calibration));
+        if let Some(figure) = rotation_errors(&calibration.rotations) {
+            page.push(figure.html());
+        }
+        page.subsection("Table of the rotations");
+        page.push(rotations::rotation_table(&calibration.rotations));
+    }
+    if !calibration.turns.is_empty() {
+        page.section(
+            "Turns of known angle",
+            "What the calibrated gyroscope shows of each turn, beside what was made.",
+        );
+        page.push(rotations::turn_table(&calibration.turns));
+    }
+    noise.iter().for_each(|triad| noise_section(&mut page, triad));
+
+    page.section("Fit and correlations", "");
+    page.push(fit::fit_table(calibration));
+    let names: Vec<String> = calibration.quantities.iter().map(|quantity| quantity.name()).collect();
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    page.push(correlation_map_of(&names, &calibration.covariance));
+    page.finish(
+        title,
+        &[
+            about.made(),
+            "Directions are true → raw where nothing else is said; sd is the standard deviation.".to_string(),
+        ],
+    )
+}
+
+fn capitalised(triad: Triad) -> &'static str {
+    match triad {
+        Triad::Accelerometer => "Accelerometer",
+        Triad::Gyroscope => "Gyroscope",
+    }
+}
