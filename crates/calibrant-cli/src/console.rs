@@ -1,9 +1,7 @@
 //! What people see: tables on stdout, errors, notes and progress on stderr.
 
-#[allow(dead_code, unused_imports, reason = "until `calibrate` prints it")]
 mod imu;
 
-#[allow(unused_imports, reason = "until `calibrate` prints it")]
 pub(crate) use imu::imu_calibration;
 
 use calibrant::Error;

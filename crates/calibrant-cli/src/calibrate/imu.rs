@@ -10,8 +10,10 @@ use calibrant::io::{
     read_imu_pair, read_imu_recording, read_sections,
 };
 use calibrant::sensor::ReadingUnit;
+use std::time::Instant;
 
 pub(super) fn run(arguments: &Arguments, experiment: &Experiment, plan: &ImuPlan) -> calibrant::Result<Exit> {
+    let started = Instant::now();
     let Plan::Holds(holds) = &experiment.plan else {
         return Err(Error::Experiment(Box::new(Complaint::new(
             "an IMU needs [holds]",
@@ -51,7 +53,7 @@ pub(super) fn run(arguments: &Arguments, experiment: &Experiment, plan: &ImuPlan
         samples: main.map_or(0, calibrant::sensor::Recording::len),
         rate_hz: main.map_or(0.0, calibrant::sensor::Recording::rate_hz),
     };
-    super::imu_output::write(arguments, &calibration, &file, &input)?;
+    super::imu_output::write(arguments, &calibration, &file, &input, started)?;
     for warning in &calibration.warnings {
         console::warn(warning);
     }
