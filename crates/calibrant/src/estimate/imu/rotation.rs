@@ -216,8 +216,26 @@ mod tests {
         }
     }
 
+    struct Coning {
+        times: Vec<f64>,
+        readings: Vec<Vector3<f64>>,
+        forces: Vec<Vector3<f64>>,
+        exact: Matrix3<f64>,
+    }
+
+    impl Coning {
+        fn samples(&self) -> Samples<'_> {
+            Samples {
+                times_s: &self.times,
+                readings: &self.readings,
+                forces: Some(&self.forces),
+                drift: [LocalBias::none(); 2],
+            }
+        }
+    }
+
     /// A motion whose attitude is known in closed form: coning, `R(t) = exp(φ t e_z) exp(β e_x) exp(−φ t e_z)`.
-    fn coning(rate_hz: f64) -> (Vec<f64>, Vec<Vector3<f64>>, Vec<Vector3<f64>>, Matrix3<f64>) {
+    fn coning(rate_hz: f64) -> Coning {
         let (phi, beta, end) = (3.0, 0.4, 1.7);
         let n = (end * rate_hz) as usize;
         let attitude = |t: f64| {
@@ -238,21 +256,15 @@ mod tests {
             })
             .collect();
         let exact = (attitude(0.0).inverse() * attitude(end)).to_rotation_matrix().into_inner();
-        (times, readings, forces, exact)
+        Coning { times, readings, forces, exact }
     }
 
     #[test]
     fn coning_is_followed_where_a_sum_of_rates_is_not_enough() {
         let error = |rate: f64| {
-            let (times_s, readings, forces, exact) = coning(rate);
-            let samples = Samples {
-                times_s: &times_s,
-                readings: &readings,
-                forces: Some(&forces),
-                drift: [LocalBias::none(); 2],
-            };
-            let rotation = samples.integrate(&imu(), &Vector3::zeros()).expect("regular");
-            (rotation.start_from_end - exact).norm()
+            let coning = coning(rate);
+            let rotation = coning.samples().integrate(&imu(), &Vector3::zeros()).expect("regular");
+            (rotation.start_from_end - coning.exact).norm()
         };
         let (coarse, fine) = (error(50.0), error(100.0));
         assert!(coarse < 2e-4 && fine < coarse, "{coarse:e} {fine:e}");
@@ -261,13 +273,8 @@ mod tests {
 
     #[test]
     fn derivatives_equal_differences() {
-        let (times_s, readings, forces, _) = coning(400.0);
-        let samples = Samples {
-            times_s: &times_s,
-            readings: &readings,
-            forces: Some(&forces),
-            drift: [LocalBias::none(); 2],
-        };
+        let coning = coning(400.0);
+        let samples = coning.samples();
         let at = imu();
         let rotation = samples.integrate(&at, &Vector3::zeros()).expect("regular");
         let mut quantities: Vec<ImuQuantity> = ParameterList::new(3, SensorModel::Full)
