@@ -25,7 +25,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "FILE")]
     gyroscope: Option<PathBuf>,
     #[command(flatten)]
-    file: crate::reading::Reading,
+    file: crate::reading::RecordingOptions,
     #[command(flatten)]
     reading: Reading,
     /// Where to write the corrected recording.

@@ -3,7 +3,7 @@
 mod imu;
 mod imu_output;
 
-use crate::reading::Reading;
+use crate::reading::RecordingOptions;
 use crate::{Exit, console, place};
 use calibrant::Error;
 use calibrant::error::Complaint;
@@ -43,7 +43,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "JSON")]
     sections: Option<PathBuf>,
     #[command(flatten)]
-    reading: Reading,
+    reading: RecordingOptions,
     /// Unit of the readings where the file does not say.
     #[arg(long, value_enum)]
     unit: Option<Unit>,

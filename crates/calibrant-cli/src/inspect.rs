@@ -1,6 +1,6 @@
 //! `calibrant inspect`: what a recording holds, and what a calibration from it may be expected to determine.
 
-use crate::reading::Reading;
+use crate::reading::RecordingOptions;
 use crate::{Exit, console};
 use calibrant::Error;
 use calibrant::error::Complaint;
@@ -23,7 +23,7 @@ pub(crate) struct Arguments {
     /// The gyroscope's file of a pair (imu_tk).
     second: Option<PathBuf>,
     #[command(flatten)]
-    reading: Reading,
+    reading: RecordingOptions,
     /// Experiment file whose [columns] say what is what.
     #[arg(long, value_name = "EXPERIMENT")]
     columns: Option<PathBuf>,

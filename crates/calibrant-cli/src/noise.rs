@@ -33,7 +33,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_enum)]
     unit: Option<Unit>,
     #[command(flatten)]
-    reading: crate::reading::Reading,
+    reading: crate::reading::RecordingOptions,
     /// Nominal gain in counts per m/s² or rad/s (one number or x,y,z): states the noise of readings in counts in SI and customary units.
     #[arg(long, value_name = "GAIN", value_delimiter = ',', num_args = 1..=3)]
     gain: Vec<f64>,

@@ -4,7 +4,7 @@ use calibrant::io::{FileFormat, ImuReadOptions, ImuUnit, TimeUnit};
 use calibrant::sensor::Triad;
 
 #[derive(clap::Args, Clone)]
-pub(crate) struct Reading {
+pub(crate) struct RecordingOptions {
     /// The format: mt-manager, movella-dot, euroc, imu-tk, imucal, csv, mcap or parquet (default: by content).
     #[arg(long, value_parser = format)]
     format: Option<FileFormat>,
@@ -25,7 +25,7 @@ pub(crate) struct Reading {
     topic: Option<String>,
 }
 
-impl Reading {
+impl RecordingOptions {
     /// As the readers take them.
     pub(crate) fn options(&self) -> ImuReadOptions {
         ImuReadOptions {

@@ -9,7 +9,10 @@ const CASES: &[(&str, &[&str])] = &[
     ("calibrat experiment.toml", &["'calibrate'"]),
     (
         "init nosuch",
-        &["there is no preset `nosuch` (choose one of report, report-unknown,", "static-poses-counts)"],
+        &[
+            "there is no preset `nosuch` (choose one of report, report-unknown,",
+            "static-poses-counts, imu, imu-counts, ferraris)",
+        ],
     ),
     ("init report extra", &["unexpected argument 'extra'"]),
     ("simulate experiment.toml", &["--output <DIR>"]),

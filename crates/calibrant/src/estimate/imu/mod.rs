@@ -13,11 +13,14 @@
 //! # References
 //! `tedaldi2014`, `ferraris1995`
 
+mod assemble;
 mod faces;
 mod joint;
 mod problem;
+mod readings;
 mod result;
 mod rotation;
+mod settle;
 mod solver;
 mod start;
 mod still;

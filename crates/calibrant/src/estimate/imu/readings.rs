@@ -1,0 +1,144 @@
+//! What the gyroscope recorded of each rotation and each turn.
+
+use super::ImuProblem;
+use super::joint::TurnData;
+use super::rotation::{LocalBias, Samples};
+use crate::error::{Complaint, Error, Result};
+use crate::estimate::HoldCalibration;
+use crate::motion::Hold;
+use crate::sensor::{Recording, SensorParameters};
+use nalgebra::Vector3;
+use std::ops::Range;
+
+/// A rotation begins this long before the end of a hold, s: a hand begins to turn so gently that the first milliradians look still.
+const MARGIN_S: f64 = 0.3;
+/// A pause between samples longer than so many steps makes a rotation useless.
+const GAP: f64 = 5.0;
+
+/// The specific force at the gyroscope's sample times.
+pub(super) fn felt_forces(
+    accelerometer: &Recording,
+    gyroscope: &Recording,
+    sensor: &SensorParameters,
+) -> Option<Vec<Vector3<f64>>> {
+    let correction = sensor.matrix.try_inverse()?;
+    let force = |k: usize| correction * (accelerometer.readings[k] - sensor.bias);
+    let last = accelerometer.len() - 1;
+    Some(
+        gyroscope
+            .times_s
+            .iter()
+            .map(|&t| {
+                let after = accelerometer.times_s.partition_point(|&at| at < t).min(last);
+                let before = after.saturating_sub(1);
+                let (from, to) = (accelerometer.times_s[before], accelerometer.times_s[after]);
+                let part = if to > from { ((t - from) / (to - from)).clamp(0.0, 1.0) } else { 0.0 };
+                force(before) * (1.0 - part) + force(after) * part
+            })
+            .collect(),
+    )
+}
+
+/// The gyroscope's samples from shortly before the end of each used hold to shortly after the start of the next.
+pub(super) fn rotation_spans(
+    gyroscope: &Recording,
+    holds: &HoldCalibration,
+    chosen: &[usize],
+) -> Vec<Range<usize>> {
+    chosen
+        .windows(2)
+        .map(|pair| {
+            let (from, to) = (&holds.holds[pair[0]].hold, &holds.holds[pair[1]].hold);
+            let margin = |hold: &Hold| (0.25 * hold.duration_s()).min(MARGIN_S);
+            let (start_s, end_s) = (from.end_s - margin(from), to.start_s + margin(to));
+            let first = gyroscope.times_s.partition_point(|&t| t <= start_s).saturating_sub(1);
+            let end = (gyroscope.times_s.partition_point(|&t| t < end_s) + 1).min(gyroscope.len());
+            let covers = gyroscope.times_s[first] <= from.end_s && gyroscope.times_s[end - 1] >= to.start_s;
+            first..if covers { end } else { first + 1 }
+        })
+        .collect()
+}
+
+pub(super) fn samples<'a>(
+    gyroscope: &'a Recording,
+    felt: Option<&'a [Vector3<f64>]>,
+    span: &Range<usize>,
+) -> Samples<'a> {
+    Samples {
+        times_s: &gyroscope.times_s[span.clone()],
+        readings: &gyroscope.readings[span.clone()],
+        forces: felt.map(|felt| &felt[span.clone()]),
+        drift: [LocalBias::none(); 2],
+    }
+}
+
+/// Can a rotation be integrated?
+pub(super) fn usable(
+    gyroscope: &Recording,
+    span: &Range<usize>,
+    rate_hz: f64,
+) -> std::result::Result<(), String> {
+    if span.len() < 3 {
+        return Err("the gyroscope's recording does not cover it".into());
+    }
+    let longest = gyroscope.times_s[span.clone()].windows(2).map(|t| t[1] - t[0]).fold(0.0, f64::max);
+    if longest * rate_hz > GAP {
+        return Err(format!("the gyroscope pauses for {longest:.3} s in it"));
+    }
+    Ok(())
+}
+
+/// The turns of known angle, with the integrals of the readings.
+pub(super) fn turns(
+    problem: &ImuProblem<'_>,
+    gyroscope: &Recording,
+    noise: &Vector3<f64>,
+    felt: Option<&[Vector3<f64>]>,
+    still_bias: &Vector3<f64>,
+) -> Result<Vec<TurnData>> {
+    problem
+        .setup
+        .turns
+        .iter()
+        .enumerate()
+        .map(|(number, turn)| {
+            let first = gyroscope.times_s.partition_point(|&t| t < turn.start_s);
+            let end = gyroscope.times_s.partition_point(|&t| t <= turn.end_s);
+            if end < first + 3 {
+                return Err(Error::recording(Complaint::new(
+                    format!(
+                        "turn {} from {} to {} s has {} samples",
+                        number + 1,
+                        turn.start_s,
+                        turn.end_s,
+                        end.saturating_sub(first)
+                    ),
+                    "correct the times of the turns",
+                )));
+            }
+            let (times, readings) = (&gyroscope.times_s[first..end], &gyroscope.readings[first..end]);
+            let (mut integral, mut variance, mut force) =
+                (Vector3::zeros(), Vector3::zeros(), Vector3::zeros());
+            for k in 0..times.len() {
+                let before = if k > 0 { times[k] - times[k - 1] } else { 0.0 };
+                let after = if k + 1 < times.len() { times[k + 1] - times[k] } else { 0.0 };
+                let weight = 0.5 * (before + after);
+                integral += readings[k] * weight;
+                force += felt.map_or_else(Vector3::zeros, |felt| felt[first + k]) * weight;
+                variance += noise.component_mul(noise) * (weight * weight);
+            }
+            let duration_s = times[times.len() - 1] - times[0];
+            // the gain, roughly: what the readings add up to beyond their bias, over the angle
+            let bias = still_bias * duration_s;
+            let gain = (integral - bias).norm() / turn.angle_rad.abs();
+            variance += Vector3::repeat((gain * turn.angle_sd_rad).powi(2));
+            Ok(TurnData {
+                integral,
+                duration_s,
+                force,
+                angle: turn.axis * turn.angle_rad,
+                weight: variance.map(|variance| 1.0 / variance.max(f64::MIN_POSITIVE)),
+            })
+        })
+        .collect()
+}

@@ -1,0 +1,124 @@
+//! Weights and the gyroscope's parameters in turn, directions fixed, until both rest.
+
+use super::joint::{Joint, State};
+use super::rotation::LocalBias;
+use super::solver::singular;
+use super::weights::{self, Weighed};
+use crate::error::Result;
+use crate::sensor::{ImuQuantity, Quantity, Triad};
+use nalgebra::{DMatrix, DVector, Vector3};
+
+/// Rounds in which weights and estimate follow each other.
+const ROUNDS: usize = 12;
+/// Steps below this many standard deviations end the rounds.
+const SETTLED: f64 = 0.02;
+
+/// What holds, turns and prior say of the gyroscope, directions fixed: the rest of the problem beside the rotations.
+fn rest(joint: &Joint<'_>, state: &State) -> (DMatrix<f64>, DVector<f64>) {
+    let places: Vec<usize> =
+        (0..joint.quantities.len()).filter(|&k| joint.quantities[k].triad() == Triad::Gyroscope).collect();
+    let size = places.len();
+    let (mut f, mut g) = (DMatrix::zeros(size, size), DVector::zeros(size));
+    let imu = &state.imu;
+    let mut add =
+        |stimulus: Vector3<f64>, force: Vector3<f64>, time: f64, r: Vector3<f64>, weight: &Vector3<f64>| {
+            let columns: Vec<Vector3<f64>> = places
+                .iter()
+                .map(|&k| {
+                    let quantity = joint.quantities[k];
+                    let scale =
+                        if matches!(quantity, ImuQuantity::Of(_, Quantity::Bias(_))) { time } else { 1.0 };
+                    quantity.derivative(&stimulus, &force) * scale
+                })
+                .collect();
+            for i in 0..size {
+                let weighted = columns[i].component_mul(weight);
+                g[i] += weighted.dot(&r);
+                for j in 0..size {
+                    f[(i, j)] += weighted.dot(&columns[j]);
+                }
+            }
+        };
+    for (hold, force) in joint.holds.iter().zip(&state.forces) {
+        if let Some((mean, weight)) = &hold.gyroscope {
+            add(Vector3::zeros(), *force, 1.0, mean - imu.gyroscope.bias - imu.g_sensitivity * force, weight);
+        }
+    }
+    for turn in &joint.turns {
+        let r = turn.integral - imu.gyroscope.bias * turn.duration_s - imu.gyroscope.matrix * turn.angle;
+        add(turn.angle, turn.force, turn.duration_s, r, &turn.weight);
+    }
+    if let Some((mean, weight)) = &joint.prior {
+        for (i, &k) in places.iter().enumerate() {
+            f[(i, i)] += weight[k];
+            g[i] += weight[k] * (mean[k] - joint.quantities[k].of(imu));
+        }
+    }
+    (f, g)
+}
+
+pub(super) fn reweigh(joint: &Joint<'_>, state: &State) -> Result<Option<Weighed>> {
+    if joint.rotations.is_empty() {
+        return Ok(None);
+    }
+    let misses = joint.misses(state).ok_or_else(singular)?;
+    if misses.iter().all(Option::is_none) {
+        return Ok(None);
+    }
+    let (f, g) = rest(joint, state);
+    weights::weigh(joint, &misses, &f, &g).map(Some).ok_or_else(singular)
+}
+
+pub(super) fn apply(joint: &mut Joint<'_>, weighed: &Weighed) {
+    joint.excess_rad = weighed.excess_rad;
+    for (rotation, used) in joint.rotations.iter_mut().zip(&weighed.used) {
+        rotation.counts = *used;
+    }
+}
+
+/// The bias of a rotation is that of the holds before and after it, as far as these tell: a hold's deviation from the mean bias counts by the share of it that
+/// is not noise.
+fn follow_drift(joint: &mut Joint<'_>, state: &State, between: &Vector3<f64>) {
+    let biases: Vec<LocalBias> = joint
+        .holds
+        .iter()
+        .zip(&state.forces)
+        .map(|(hold, force)| {
+            hold.gyroscope.map_or_else(LocalBias::none, |(mean, weight)| {
+                let true_variance = between.component_mul(between);
+                LocalBias {
+                    mean,
+                    force: *force,
+                    share: true_variance.component_mul(&weight),
+                    variance: weight.map(|weight| 1.0 / weight) - true_variance,
+                }
+            })
+        })
+        .collect();
+    for rotation in &mut joint.rotations {
+        rotation.samples.drift = [biases[rotation.from], biases[rotation.from + 1]];
+    }
+}
+
+/// Weights and the gyroscope's parameters in turn, directions fixed, until both rest.
+pub(super) fn settle(joint: &mut Joint<'_>, state: &mut State, between: &Vector3<f64>) -> Result<Weighed> {
+    let places: Vec<usize> =
+        (0..joint.quantities.len()).filter(|&k| joint.quantities[k].triad() == Triad::Gyroscope).collect();
+    let mut last = Weighed::none(joint.rotations.len());
+    for _ in 0..ROUNDS {
+        follow_drift(joint, state, between);
+        let Some(weighed) = reweigh(joint, state)? else { break };
+        apply(joint, &weighed);
+        let mut imu = state.imu;
+        for (&k, step) in places.iter().zip(weighed.step.iter()) {
+            joint.quantities[k].add_to(&mut imu, *step);
+        }
+        let rests = weighed.length < SETTLED;
+        last = weighed;
+        state.imu = imu;
+        if rests {
+            break;
+        }
+    }
+    Ok(last)
+}
