@@ -1,15 +1,15 @@
 //! `calibrant apply`: a recording corrected, with the correction's standard uncertainty.
 
 use crate::calibration_file::{Reading, Unit, in_words};
+use crate::reading::in_file;
 use crate::{Exit, console};
-use calibrant::Error;
 use calibrant::io::{
     FileFormat, ImuFile, ImuReadOptions, ImuUnit, ReadOptions, read_imu_pair, read_imu_recording,
     read_recording, write_corrected_recording,
 };
 use calibrant::report::number;
 use calibrant::sensor::{CalibratedImu, CorrectedTriad, ImuCorrection, ImuRecording, ReadingUnit, Triad};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Correct a recording with a calibration: true specific force and angular rate, with the correction's standard uncertainty.
 ///
@@ -116,14 +116,6 @@ fn one_sensor(imu: &CalibratedImu, arguments: &Arguments) -> calibrant::Result<I
         rows: file.lines,
         sha256: file.sha256,
     })
-}
-
-/// The error, about this file.
-fn in_file(error: Error, path: &Path) -> Error {
-    match error {
-        Error::Recording(complaint) => Error::Recording(Box::new(complaint.in_file(path))),
-        other => other,
-    }
 }
 
 /// Samples, size and uncertainty of one sensor in a line or two.

@@ -3,7 +3,7 @@
 mod imu;
 mod imu_output;
 
-use crate::reading::RecordingOptions;
+use crate::reading::{RecordingOptions, in_file, name};
 use crate::{Exit, console, place};
 use calibrant::Error;
 use calibrant::error::Complaint;
@@ -216,20 +216,6 @@ impl Job {
         let html = calibration_report(&done.calibration, recording, &about);
         write_atomically(&directory.join("report.html"), |out| out.write_all(html.as_bytes()))
     }
-}
-
-/// Names the recording in an error that does not.
-fn in_file(error: Error, path: &Path) -> Error {
-    match error {
-        Error::Recording(complaint) if complaint.file.is_none() => {
-            Error::Recording(Box::new(complaint.in_file(path)))
-        }
-        other => other,
-    }
-}
-
-fn name(path: &Path) -> String {
-    path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned())
 }
 
 fn same_file(one: &Path, other: &Path) -> bool {

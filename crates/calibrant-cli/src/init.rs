@@ -9,7 +9,7 @@ use std::path::PathBuf;
 /// Write a commented experiment file to start from.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
-    /// Which one: report, report-unknown, report-noisy, static-poses, static-poses-counts.
+    /// Which one: report, report-unknown, report-noisy, static-poses, static-poses-counts, imu, imu-counts, ferraris.
     #[arg(default_value = "report")]
     preset: String,
     /// Where to write it (default: stdout).

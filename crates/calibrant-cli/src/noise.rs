@@ -3,6 +3,7 @@
 mod read;
 mod table;
 
+use crate::reading::in_file;
 use crate::{Exit, console, place};
 use calibrant::Error;
 use calibrant::error::Complaint;
@@ -86,12 +87,7 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     };
     let unit = arguments.unit.map(Unit::reading_unit);
     let file = read::read(&arguments.recording, triad, unit, gain.is_some(), &arguments.reading.options())?;
-    let in_file = |error: Error| match error {
-        Error::Recording(complaint) if complaint.file.is_none() => {
-            Error::Recording(Box::new(complaint.in_file(&arguments.recording)))
-        }
-        other => other,
-    };
+    let in_file = |error| in_file(error, &arguments.recording);
     let mut noise = Vec::new();
     for triad in Triad::ALL {
         if let Some(recording) = file.imu.triad(triad) {

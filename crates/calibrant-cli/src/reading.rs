@@ -1,7 +1,9 @@
-//! The options that say what a recording's file does not say itself, for every command that reads one.
+//! What every command that reads a recording needs: the options that say what its file does not say itself, and its name in errors.
 
+use calibrant::Error;
 use calibrant::io::{FileFormat, ImuReadOptions, ImuUnit, TimeUnit};
 use calibrant::sensor::Triad;
+use std::path::Path;
 
 #[derive(clap::Args, Clone)]
 pub(crate) struct RecordingOptions {
@@ -60,4 +62,19 @@ fn gyroscope_unit(text: &str) -> Result<ImuUnit, String> {
 
 fn time_unit(text: &str) -> Result<TimeUnit, String> {
     TimeUnit::parse(text).ok_or_else(|| "times are in s, ms, us or ns, or samples".into())
+}
+
+/// Names the recording in an error that does not.
+pub(crate) fn in_file(error: Error, path: &Path) -> Error {
+    match error {
+        Error::Recording(complaint) if complaint.file.is_none() => {
+            Error::Recording(Box::new(complaint.in_file(path)))
+        }
+        other => other,
+    }
+}
+
+/// Name of a file, without its directory.
+pub(crate) fn name(path: &Path) -> String {
+    path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned())
 }

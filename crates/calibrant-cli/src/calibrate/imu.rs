@@ -1,6 +1,7 @@
 //! `calibrant calibrate` for a whole IMU.
 
-use super::{Arguments, in_file, name};
+use super::Arguments;
+use crate::reading::{in_file, name};
 use crate::{Exit, console};
 use calibrant::Error;
 use calibrant::error::Complaint;

@@ -1,5 +1,6 @@
 //! The recording, whatever its format.
 
+use crate::reading::name;
 use calibrant::Error;
 use calibrant::error::Complaint;
 use calibrant::io::{ImuReadOptions, Input, ReadOptions, read_imu_recording, read_recording};
@@ -46,10 +47,7 @@ fn of_imu(path: &Path, triad: Triad, options: &ImuReadOptions) -> calibrant::Res
 }
 
 fn input(path: &Path, sha256: String, recording: &Recording) -> Input {
-    let file = path
-        .file_name()
-        .map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned());
-    Input { file, sha256, samples: recording.len(), rate_hz: recording.rate_hz() }
+    Input { file: name(path), sha256, samples: recording.len(), rate_hz: recording.rate_hz() }
 }
 
 fn alone(path: &Path, triad: Triad, unit: Option<ReadingUnit>, counts: bool) -> calibrant::Result<File> {

@@ -21,6 +21,7 @@ mod problem;
 mod result;
 mod settings;
 pub(crate) mod statistics;
+mod tangents;
 
 pub use comparison::{ComparedQuantity, Comparison, OverallDifference};
 pub use holds::{

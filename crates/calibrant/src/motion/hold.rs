@@ -26,6 +26,14 @@ impl Hold {
         self.end - self.first
     }
 
+    /// Standard deviation of single readings within holds, pooled over them.
+    pub(crate) fn pooled_sd(holds: &[Self]) -> Vector3<f64> {
+        let degrees: f64 = holds.iter().map(|hold| (hold.samples() - 1) as f64).sum();
+        let squares: Vector3<f64> =
+            holds.iter().map(|hold| hold.sd.component_mul(&hold.sd) * (hold.samples() - 1) as f64).sum();
+        (squares / degrees.max(1.0)).map(f64::sqrt)
+    }
+
     /// Duration, s.
     #[must_use]
     pub fn duration_s(&self) -> f64 {

@@ -1,10 +1,11 @@
 //! Gauss–Newton on the directions and the parameters, for given weights of the holds.
 
 use crate::arrowhead::{Arrowhead, Increment, Link};
+use crate::estimate::tangents::tangents;
 use crate::estimate::{CalibrationSettings, CalibrationStatus};
 use crate::motion::Hold;
 use crate::sensor::{ParameterList, SensorParameters};
-use nalgebra::{Matrix3x2, SMatrix, SVector, Vector3};
+use nalgebra::{SMatrix, SVector, Vector3};
 
 /// The problem for given weights.
 pub(super) struct Directions<'a, const P: usize> {
@@ -28,14 +29,6 @@ pub(super) struct Fit<const P: usize> {
     pub(super) status: CalibrationStatus,
     pub(super) iterations: usize,
     pub(super) gradient_norm: f64,
-}
-
-/// Two unit vectors perpendicular to `f` and to each other.
-fn tangents(f: &Vector3<f64>) -> Matrix3x2<f64> {
-    let u = f.normalize();
-    let other = if u.x.abs() < 0.6 { Vector3::x() } else { Vector3::y() };
-    let one = u.cross(&other).normalize();
-    Matrix3x2::from_columns(&[one, u.cross(&one)])
 }
 
 impl<const P: usize> Directions<'_, P> {

@@ -136,12 +136,8 @@ fn sphere(holds: &[Hold], gravity: f64) -> Option<SensorParameters> {
 
 /// Standard deviation of samples within holds, pooled over the holds, not below the rounding of the readings.
 fn pooled_sd(holds: &[Hold], start: &SensorParameters, gravity: f64) -> Vector3<f64> {
-    let degrees: f64 = holds.iter().map(|hold| (hold.samples() - 1) as f64).sum();
-    let squares: Vector3<f64> =
-        holds.iter().map(|hold| hold.sd.component_mul(&hold.sd) * (hold.samples() - 1) as f64).sum();
-    Vector3::from_fn(|axis, _| {
-        (squares[axis] / degrees.max(1.0)).sqrt().max(1e-9 * gravity * start.matrix[(axis, axis)].abs())
-    })
+    let pooled = Hold::pooled_sd(holds);
+    Vector3::from_fn(|axis, _| pooled[axis].max(1e-9 * gravity * start.matrix[(axis, axis)].abs()))
 }
 
 impl<const P: usize> Problem<'_, P> {

@@ -38,7 +38,7 @@ pub(super) fn fit(
     let forces: Vec<Vector3<f64>> =
         directions.iter().map(|direction| direction.normalize() * setup.gravity.magnitude_mps2).collect();
     let list = ParameterList::new(3, problem.accelerometer.model);
-    let linear = Linear { holds: &holds, forces: &forces, list: &list, within: pooled(&holds) };
+    let linear = Linear { holds: &holds, forces: &forces, list: &list, within: Hold::pooled_sd(&holds) };
     let (sensor, between, condition) = linear.solve()?;
     let correction = sensor.matrix.try_inverse().unwrap_or_else(Matrix3::identity);
     let results: Vec<HoldResult> = holds
@@ -82,13 +82,6 @@ fn summary(
         condition_number: condition,
         detected: false,
     }
-}
-
-fn pooled(holds: &[Hold]) -> Vector3<f64> {
-    let degrees: f64 = holds.iter().map(|hold| (hold.samples() - 1) as f64).sum();
-    let squares: Vector3<f64> =
-        holds.iter().map(|hold| hold.sd.component_mul(&hold.sd) * (hold.samples() - 1) as f64).sum();
-    (squares / degrees.max(1.0)).map(f64::sqrt)
 }
 
 struct Linear<'a> {

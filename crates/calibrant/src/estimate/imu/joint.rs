@@ -12,9 +12,10 @@
 
 use super::rotation::{Rotation, Samples};
 use crate::arrowhead::{Arrowhead, Increment, Link};
+use crate::estimate::tangents::tangents;
 use crate::estimate::{CalibrationSettings, CalibrationStatus};
 use crate::sensor::{ImuParameters, ImuQuantity, Triad};
-use nalgebra::{Matrix2, Matrix3, Matrix3x2, SMatrix, SVector, Vector2, Vector3};
+use nalgebra::{Matrix2, Matrix3, SMatrix, SVector, Vector2, Vector3};
 
 /// Room for all parameters: 12 of each sensor, 9 of the g-sensitivity.
 pub(super) const P: usize = 33;
@@ -106,15 +107,12 @@ pub(super) struct Fit {
     pub(super) gradient_norm: f64,
 }
 
-/// Two unit vectors perpendicular to `f` and to each other.
-fn tangents(f: &Vector3<f64>) -> Matrix3x2<f64> {
-    let u = f.normalize();
-    let other = if u.x.abs() < 0.6 { Vector3::x() } else { Vector3::y() };
-    let one = u.cross(&other).normalize();
-    Matrix3x2::from_columns(&[one, u.cross(&one)])
-}
-
 impl Joint<'_> {
+    /// Places of the gyroscope's quantities.
+    pub(super) fn gyroscope_places(&self) -> Vec<usize> {
+        (0..self.quantities.len()).filter(|&k| self.quantities[k].triad() == Triad::Gyroscope).collect()
+    }
+
     fn sensitivity(&self, triad: Triad, stimulus: &Vector3<f64>, force: &Vector3<f64>) -> SMatrix<f64, 3, P> {
         let mut matrix = SMatrix::<f64, 3, P>::zeros();
         for (k, quantity) in self.quantities.iter().enumerate() {
@@ -131,8 +129,7 @@ impl Joint<'_> {
         let (from, to) = (state.forces[data.from], state.forces[data.from + 1]);
         let back = rotation.start_from_end.transpose();
         let carried = back * from;
-        let tangents = tangents(&to);
-        let across = tangents.transpose() / self.gravity;
+        let across = tangents(&to).transpose() / self.gravity;
         let by_turn = across * back * from.cross_matrix();
         let mut by_parameters = SMatrix::<f64, 2, P>::zeros();
         for (k, quantity) in self.quantities.iter().enumerate() {
@@ -142,7 +139,7 @@ impl Joint<'_> {
         }
         Some(Miss {
             error: across * carried,
-            by_from: across * back * self::tangents(&from) * self.gravity,
+            by_from: across * back * tangents(&from) * self.gravity,
             by_to: -Matrix2::identity() * (carried.dot(&to) / self.gravity.powi(2)),
             by_parameters,
             covariance: by_turn * rotation.covariance * by_turn.transpose(),
@@ -165,7 +162,8 @@ impl Joint<'_> {
             .collect()
     }
 
-    fn turn_residual(&self, turn: &TurnData, imu: &ImuParameters) -> Vector3<f64> {
+    /// What a turn leaves unexplained.
+    pub(super) fn turn_residual(&self, turn: &TurnData, imu: &ImuParameters) -> Vector3<f64> {
         turn.integral
             - imu.gyroscope.bias * turn.duration_s
             - imu.g_sensitivity * turn.force

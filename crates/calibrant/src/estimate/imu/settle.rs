@@ -5,7 +5,7 @@ use super::rotation::LocalBias;
 use super::solver::singular;
 use super::weights::{self, Weighed};
 use crate::error::Result;
-use crate::sensor::{ImuQuantity, Quantity, Triad};
+use crate::sensor::{ImuQuantity, Quantity};
 use nalgebra::{DMatrix, DVector, Vector3};
 
 /// Rounds in which weights and estimate follow each other.
@@ -15,8 +15,7 @@ const SETTLED: f64 = 0.02;
 
 /// What holds, turns and prior say of the gyroscope, directions fixed: the rest of the problem beside the rotations.
 fn rest(joint: &Joint<'_>, state: &State) -> (DMatrix<f64>, DVector<f64>) {
-    let places: Vec<usize> =
-        (0..joint.quantities.len()).filter(|&k| joint.quantities[k].triad() == Triad::Gyroscope).collect();
+    let places = joint.gyroscope_places();
     let size = places.len();
     let (mut f, mut g) = (DMatrix::zeros(size, size), DVector::zeros(size));
     let imu = &state.imu;
@@ -45,8 +44,7 @@ fn rest(joint: &Joint<'_>, state: &State) -> (DMatrix<f64>, DVector<f64>) {
         }
     }
     for turn in &joint.turns {
-        let r = turn.integral - imu.gyroscope.bias * turn.duration_s - imu.gyroscope.matrix * turn.angle;
-        add(turn.angle, turn.force, turn.duration_s, r, &turn.weight);
+        add(turn.angle, turn.force, turn.duration_s, joint.turn_residual(turn, imu), &turn.weight);
     }
     if let Some((mean, weight)) = &joint.prior {
         for (i, &k) in places.iter().enumerate() {
@@ -102,8 +100,7 @@ fn follow_drift(joint: &mut Joint<'_>, state: &State, between: &Vector3<f64>) {
 
 /// Weights and the gyroscope's parameters in turn, directions fixed, until both rest.
 pub(super) fn settle(joint: &mut Joint<'_>, state: &mut State, between: &Vector3<f64>) -> Result<Weighed> {
-    let places: Vec<usize> =
-        (0..joint.quantities.len()).filter(|&k| joint.quantities[k].triad() == Triad::Gyroscope).collect();
+    let places = joint.gyroscope_places();
     let mut last = Weighed::none(joint.rotations.len());
     for _ in 0..ROUNDS {
         follow_drift(joint, state, between);

@@ -67,15 +67,16 @@ pub fn calibrate_imu(problem: &ImuProblem<'_>, settings: &CalibrationSettings) -
             counts: true,
         })
         .collect();
+    let quantities = quantities(problem);
     let mut joint = Joint {
-        quantities: quantities(problem),
         gravity: setup.holds.gravity.magnitude_mps2,
         holds: data,
         rotations,
         turns: turns(problem, gyroscope, &noise, felt.as_deref(), &still_bias)?,
         gyroscope_noise: noise,
         excess_rad: 0.0,
-        prior: prior(problem),
+        prior: prior(problem, &quantities),
+        quantities,
     };
     let mut state = State { imu: start_values(problem, &first, &joint), forces };
     if joint.rotations.iter().all(|rotation| !rotation.used) && joint.turns.is_empty() {
@@ -213,9 +214,7 @@ fn quantities(problem: &ImuProblem<'_>) -> Vec<ImuQuantity> {
     let mut quantities = of(Triad::Accelerometer, &accelerometer);
     quantities.extend(of(Triad::Gyroscope, &gyroscope));
     if problem.gyroscope.g_sensitivity {
-        use crate::sensor::Axis;
-        let pairs = Axis::ALL.iter().flat_map(|row| Axis::ALL.iter().map(|column| (*row, *column)));
-        quantities.extend(pairs.map(|(row, column)| ImuQuantity::GSensitivity(row, column)));
+        quantities.extend(ImuQuantity::full_list(false, false, true));
     }
     let fixed = |quantity: &ImuQuantity| {
         setup.known.iter().any(|known| known.quantity == *quantity && known.sd.is_none())
@@ -225,9 +224,8 @@ fn quantities(problem: &ImuProblem<'_>) -> Vec<ImuQuantity> {
 }
 
 /// Mean and inverse variance of each estimated quantity that is known beforehand.
-fn prior(problem: &ImuProblem<'_>) -> Option<(Vec<f64>, Vec<f64>)> {
+fn prior(problem: &ImuProblem<'_>, quantities: &[ImuQuantity]) -> Option<(Vec<f64>, Vec<f64>)> {
     let of = |quantity: &ImuQuantity| problem.setup.known.iter().find(|known| known.quantity == *quantity);
-    let quantities = quantities(problem);
     if quantities.iter().all(|quantity| of(quantity).is_none()) {
         return None;
     }

@@ -6,7 +6,7 @@ use super::start::{Start, WRONG};
 use crate::error::{Complaint, Error, NotIdentifiable, Result, UndeterminedGroup};
 use crate::estimate::CalibrationStatus;
 use crate::information::Undetermined;
-use crate::sensor::{ReadingUnit, Triad};
+use crate::sensor::ReadingUnit;
 
 /// Says what is not determined, and what would determine it.
 pub(super) fn undetermined(joint: &Joint<'_>, groups: &[Undetermined]) -> NotIdentifiable {
@@ -20,8 +20,7 @@ pub(super) fn undetermined(joint: &Joint<'_>, groups: &[Undetermined]) -> NotIde
     let remedy = "turn the sensor between the holds, by 90° and more, about each of its axes, away from the vertical; at least 8 rotations";
     let names =
         |places: &[usize]| -> Vec<String> { places.iter().map(|&k| joint.quantities[k].name()).collect() };
-    let all: Vec<usize> =
-        (0..joint.quantities.len()).filter(|&k| joint.quantities[k].triad() == Triad::Gyroscope).collect();
+    let all = joint.gyroscope_places();
     let group = |parameters: Vec<String>, free_combinations: usize| UndeterminedGroup {
         parameters,
         free_combinations,

@@ -54,9 +54,7 @@ pub(super) fn weigh(
     rest: &DMatrix<f64>,
     rest_rhs: &DVector<f64>,
 ) -> Option<Weighed> {
-    let places: Vec<usize> = (0..joint.quantities.len())
-        .filter(|&k| joint.quantities[k].triad() == crate::sensor::Triad::Gyroscope)
-        .collect();
+    let places = joint.gyroscope_places();
     let linear = Linear {
         misses: misses.iter().map(Option::as_ref).collect(),
         places,

@@ -5,7 +5,7 @@ use super::document::{Entry, Section};
 use crate::error::Result;
 use crate::estimate::{Gyroscope, KnownTerm, Turn};
 use crate::io::ImuUnit;
-use crate::sensor::{Axis, ImuQuantity, ParameterList, ReadingUnit, SensorModel, Triad};
+use crate::sensor::{Axis, ImuQuantity, ReadingUnit, SensorModel};
 use nalgebra::Vector3;
 
 const GAIN: Bounds = Bounds::above(0.0, 1e12, "counts/(rad/s)");
@@ -134,7 +134,7 @@ pub(super) fn direction(entry: &Entry<'_>) -> Result<Vector3<f64>> {
 }
 
 fn read_known(section: &Section<'_>) -> Result<Vec<KnownTerm>> {
-    let all = every_quantity();
+    let all = ImuQuantity::full_list(true, true, true);
     section
         .entries()
         .map(|(name, entry)| {
@@ -157,18 +157,4 @@ fn read_known(section: &Section<'_>) -> Result<Vec<KnownTerm>> {
             Ok(KnownTerm { quantity, value, sd })
         })
         .collect()
-}
-
-fn every_quantity() -> Vec<ImuQuantity> {
-    let list = ParameterList::new(3, SensorModel::Full);
-    let mut all: Vec<ImuQuantity> = Triad::ALL
-        .iter()
-        .flat_map(|triad| list.quantities().iter().map(|quantity| ImuQuantity::Of(*triad, *quantity)))
-        .collect();
-    all.extend(
-        Axis::ALL
-            .iter()
-            .flat_map(|row| Axis::ALL.iter().map(|column| ImuQuantity::GSensitivity(*row, *column))),
-    );
-    all
 }
