@@ -11,8 +11,8 @@ use calibrant::estimate::{
     Calibration, CalibrationProblem, CalibrationSettings, HoldsSetup, Recovered, Stimulus, calibrate,
 };
 use calibrant::io::{
-    Experiment, Input, Plan, Prior, ReadOptions, RecordingFile, SummaryRow, calibration_json, read_motion,
-    read_recording, write_atomically, write_calibration, write_summary,
+    Experiment, ImuReadOptions, Input, Plan, Prior, ReadOptions, RecordingFile, SummaryRow, calibration_json,
+    read_accelerometer, read_motion, write_atomically, write_calibration, write_summary,
 };
 use calibrant::motion::CommandedMotion;
 use calibrant::report::{About, calibration_report, number};
@@ -30,7 +30,7 @@ use std::time::Instant;
 pub(crate) struct Arguments {
     /// The experiment file (see `calibrant init`).
     experiment: PathBuf,
-    /// Recordings: CSV with header t_s,ax,ay,az, or text with columns t x y z.
+    /// Recordings: CSV with header t_s,ax,ay,az, text with columns t x y z, or any file that `calibrant inspect` reads.
     #[arg(required = true)]
     recordings: Vec<PathBuf>,
     /// The commanded motion (nodes: t_s,ax_mps2,ay_mps2,az_mps2); a [holds] experiment needs none.
@@ -71,6 +71,7 @@ struct Job {
     holds: Option<HoldsSetup>,
     settings: CalibrationSettings,
     read: ReadOptions,
+    device: ImuReadOptions,
 }
 
 struct Done {
@@ -161,11 +162,13 @@ impl Job {
             expected_unit: experiment.sensor.unit,
             axes: experiment.sensor.axes,
         };
-        Ok(Self { experiment, experiment_file: arguments.experiment.clone(), command, holds, settings, read })
+        let device = arguments.reading.options().or(experiment.columns.clone());
+        let experiment_file = arguments.experiment.clone();
+        Ok(Self { experiment, experiment_file, command, holds, settings, read, device })
     }
 
     fn run(&self, path: &Path) -> calibrant::Result<Done> {
-        let file = read_recording(path, &self.read)?;
+        let file = read_accelerometer(path, &self.read, &self.device)?;
         let stimulus = match (&self.command, &self.holds) {
             (Some(command), _) => Stimulus::Motion(command),
             (None, Some(setup)) => Stimulus::Holds(setup),

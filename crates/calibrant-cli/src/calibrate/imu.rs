@@ -27,6 +27,9 @@ pub(super) fn run(arguments: &Arguments, experiment: &Experiment, plan: &ImuPlan
             "where the gyroscope has a file of its own, give it with --gyroscope FILE",
         ))));
     };
+    if arguments.unit.is_some() {
+        console::warn("--unit is not used for an IMU: say --accelerometer-unit and --gyroscope-unit");
+    }
     let options = options(arguments, experiment, plan);
     let file = match &arguments.gyroscope {
         Some(gyroscope) => read_imu_pair(path, gyroscope, &options)?,

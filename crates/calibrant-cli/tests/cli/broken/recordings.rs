@@ -27,10 +27,13 @@ const CASES: &[(&[u8], &str)] = &[
         ":2:1: \"0,0\" in column `t_s` is not a number (numbers need a decimal point",
     ),
     (b"t_s,ax,ay\n0,1,2\n1,2,3\n", ":1: column az missing; the columns are `t_s`, `ax`, `ay`"),
-    (b"time,x,y,z\n0,1,2,3\n1,2,3,4\n", ":1: columns t_s, ax, ay, az missing"),
+    (
+        b"time,x,y,z\n0,1,2,3\n1,2,3,4\n",
+        ":1: no column is known to be an accelerometer's or a gyroscope's; the columns are `time`, `x`, `y`, `z`",
+    ),
     (b"t_s,ax_g,ay_counts,az\n0,1,2,3\n", ":1: the axes have different units"),
     (b"0 1 2\n1 2 3\n", ":1: 3 columns where 4 are needed"),
-    (b"{\"t_s\": [0, 1], \"ax\": [1, 2]}\n", ":1: columns t_s, ax, ay, az missing"),
+    (b"{\"t_s\": [0, 1], \"ax\": [1, 2]}\n", ":1: no column is known to be an accelerometer's"),
     (
         b"t_s,ax_counts,ay_counts,az_counts\n0,1,2,3\n1,2,3,4\n",
         ": the recording is in counts, the sensor's readings in m/s²",

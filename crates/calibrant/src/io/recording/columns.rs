@@ -180,6 +180,11 @@ impl Suffix {
     }
 }
 
+/// Is this the name of an axis of a plain text, `ax` to `az_g`?
+pub(super) fn is_axis(name: &str) -> bool {
+    axis_column(name).is_some()
+}
+
 /// The axis (0, 1, 2) and the unit of a column of this name.
 fn axis_column(name: &str) -> Option<(usize, Suffix)> {
     let axis = ["ax", "ay", "az"].iter().position(|axis| name.starts_with(axis))?;

@@ -5,6 +5,8 @@
 //! | `t_s,ax,ay,az`, axes optionally ending in `_mps2`, `_counts`, `_g` | its header |
 //! | `t x y z` (imu_tk's `.mat` files and many others) | a first row of numbers |
 //!
+//! Every other format is that of a whole IMU (`imu/`); [`read_accelerometer`] takes its accelerometer alone.
+//!
 //! Delimiters: comma, semicolon, tab or white space, found in the first line. Comment lines (`#`, `//`, `%`), blank lines, a byte
 //! order mark and line ends of any system are fine. What can be repaired is repaired and told as a [`Finding`]; what would change
 //! the answer unnoticed is an error.
@@ -20,7 +22,7 @@ mod write;
 pub use finding::{Finding, FindingKind};
 pub use imu::{
     ColumnMapping, ColumnMeaning, ColumnUnit, FileFormat, ImuColumn, ImuFile, ImuReadOptions, ImuUnit,
-    TimeUnit, parse_imu_pair, parse_imu_recording, read_imu_pair, read_imu_recording,
+    TimeUnit, parse_imu_pair, parse_imu_recording, read_accelerometer, read_imu_pair, read_imu_recording,
 };
 pub use write::write_recording;
 

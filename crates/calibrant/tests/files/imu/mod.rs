@@ -1,5 +1,6 @@
 //! Recordings of a whole IMU: every format, every question, every complaint.
 
+mod alone;
 mod bag;
 mod broken;
 mod good;

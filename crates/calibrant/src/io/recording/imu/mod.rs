@@ -14,6 +14,7 @@
 //! [`clock`] makes times and [`readings`] units of them, [`assemble`] puts the recording together. A unit that the file does not state is
 //! asked for, with what its values suggest; it is never guessed.
 
+mod accelerometer;
 mod assemble;
 #[cfg(feature = "mcap")]
 mod cdr;
@@ -41,6 +42,7 @@ mod xsens;
 #[cfg(feature = "mcap")]
 mod zstd;
 
+pub use accelerometer::read_accelerometer;
 pub use column::{ColumnMeaning, ImuColumn};
 pub use format::FileFormat;
 pub use options::{ColumnMapping, ImuReadOptions};
