@@ -145,25 +145,39 @@ pub struct UndeterminedGroup {
 impl fmt::Display for NotIdentifiable {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "the data cannot determine the parameters")?;
-        for group in &self.groups {
-            match group.parameters.as_slice() {
-                [] => write!(f, "; {}", group.reason)?,
-                [one] => write!(f, "; {one} is not determined: {}", group.reason)?,
-                [one, two] => write!(f, "; {one} and {two} cannot be told apart: {}", group.reason)?,
-                many => write!(
-                    f,
-                    "; {} combination{} of {} left free: {}",
-                    group.free_combinations,
-                    if group.free_combinations == 1 { "" } else { "s" },
-                    many.join(", "),
-                    group.reason
-                )?,
-            }
-            if !group.remedy.is_empty() {
-                write!(f, " ({})", group.remedy)?;
+        // a reason that several groups share is given once
+        for groups in self.groups.chunk_by(|one, next| one.reason == next.reason) {
+            let what: Vec<String> = groups.iter().filter_map(UndeterminedGroup::what).collect();
+            let colon = if what.is_empty() { "" } else { ": " };
+            write!(f, "; {}{colon}{}", what.join("; "), groups[0].reason)?;
+            let mut remedies: Vec<&str> = groups.iter().map(|group| group.remedy.as_str()).collect();
+            remedies.dedup();
+            let all = remedies.clone();
+            remedies.retain(|one| {
+                !one.is_empty() && !all.iter().any(|other| other != one && other.starts_with(one))
+            });
+            if !remedies.is_empty() {
+                write!(f, " ({})", remedies.join("; "))?;
             }
         }
         Ok(())
+    }
+}
+
+impl UndeterminedGroup {
+    /// What of the parameters is not known; `None` where there is none.
+    pub(crate) fn what(&self) -> Option<String> {
+        match self.parameters.as_slice() {
+            [] => None,
+            [one] => Some(format!("{one} is not determined")),
+            [one, two] => Some(format!("{one} and {two} cannot be told apart")),
+            many => Some(format!(
+                "{} combination{} of {} left free",
+                self.free_combinations,
+                if self.free_combinations == 1 { "" } else { "s" },
+                many.join(", ")
+            )),
+        }
     }
 }
 

@@ -10,7 +10,7 @@ use calibrant::estimate::{
 use calibrant::io::{ImuReadOptions, ImuUnit, SectionKind, read_imu_pair, read_imu_recording, read_sections};
 use calibrant::motion::Gravity;
 use calibrant::sensor::{
-    Gauge, ImuParameters, ImuRecording, ReadingUnit, Sensor, SensorModel, SensorParameters,
+    Gauge, ImuParameters, ImuRecording, ReadingUnit, Recording, Sensor, SensorModel, SensorParameters,
 };
 use calibrant::simulate::{ImuSimulation, Purpose, Rng, simulate_imu, stream};
 use nalgebra::{Matrix3, Rotation3, Vector3};
@@ -237,6 +237,99 @@ fn counts_of_an_unknown_gain_and_axes_in_another_order_are_found() {
     let error = (calibration.imu.gyroscope.matrix - order * truth.gyroscope.matrix).amax();
     assert!(error < 5.0, "{error} of 1000");
     assert!(calibration.warnings.iter().any(|warning| warning.contains("the gyroscope's axes are not")));
+}
+
+#[test]
+fn axes_of_a_gyroscope_in_si_may_be_in_another_order_too() {
+    let (truth, mut recording) = small();
+    let order = Matrix3::new(0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, -1.0);
+    let gyroscope = recording.gyroscope.as_mut().expect("there");
+    gyroscope.readings.iter_mut().for_each(|reading| *reading = order * *reading);
+    let unit = ReadingUnit::MetrePerSecondSquared;
+    let calibration = run(&recording, &Gyroscope::default(), &ImuSetup::default(), unit).expect("found");
+    let error = (calibration.imu.gyroscope.matrix - order * truth.gyroscope.matrix).amax();
+    assert!(error < 5e-3, "{error}");
+    let warning = "along x, y and z of the accelerometer lie y, -x and -z of the gyroscope";
+    assert!(calibration.warnings.iter().any(|found| found.contains(warning)), "{:?}", calibration.warnings);
+}
+
+/// A rotation whose rate was cut off says nothing, however well the others fit.
+#[test]
+fn rotations_in_which_the_gyroscope_saturates_are_left_out() {
+    let (truth, mut recording) = small();
+    let gyroscope = recording.gyroscope.as_mut().expect("there");
+    let limit = 1.6;
+    let whole = gyroscope.readings.clone();
+    gyroscope
+        .readings
+        .iter_mut()
+        .for_each(|reading| *reading = reading.map(|rate| rate.clamp(-limit, limit)));
+    let is_cut = |from: f64, to: f64| {
+        let within = |t: &f64| (from..=to).contains(t);
+        let times = &recording.gyroscope.as_ref().expect("there").times_s;
+        times.iter().zip(&whole).filter(|(t, _)| within(t)).filter(|(_, rate)| rate.amax() > limit).count()
+            > 2
+    };
+    let unit = ReadingUnit::MetrePerSecondSquared;
+    let calibration = run(&recording, &Gyroscope::default(), &ImuSetup::default(), unit).expect("found");
+    let cut: Vec<bool> = calibration.rotations.iter().map(|r| is_cut(r.start_s, r.end_s)).collect();
+    let cuts = cut.iter().filter(|cut| **cut).count();
+    assert!((5..18).contains(&cuts), "{cuts} of {}: the test needs both kinds", cut.len());
+    for (rotation, cut) in calibration.rotations.iter().zip(cut) {
+        let saturates = rotation.reason.as_ref().is_some_and(|reason| reason.contains("saturates"));
+        assert_eq!(saturates, cut, "{rotation:?}");
+    }
+    let error = (calibration.imu.gyroscope.matrix - truth.gyroscope.matrix).amax();
+    assert!(error < 5e-3, "{error}");
+}
+
+/// The noise of an axis that never turns looks like small rotations, so no combination is exactly free.
+#[test]
+fn an_axis_about_which_nothing_turns_is_named() {
+    let (rate_hz, steps) = (100.0, 200);
+    let mut rng = stream(4, Purpose::Sensor, 0);
+    let mut sensor_from_world = Rotation3::from_euler_angles(0.4, 0.3, 0.2);
+    let (mut forces, mut rates) = (Vec::new(), Vec::new());
+    for pose in 0..20 {
+        for _ in 0..300 {
+            forces.push(sensor_from_world * Vector3::new(0.0, 0.0, 9.806_65));
+            rates.push(Vector3::zeros());
+        }
+        let axis = Vector3::ith(pose % 2, 1.0);
+        let rate = (0.8 + 0.1 * f64::from(pose as u32 % 7)) * if pose % 3 == 0 { -1.0 } else { 1.0 };
+        for _ in 0..steps {
+            // half before, half after the sample: the rate is constant
+            let half = Rotation3::new(-axis * rate * 0.5 / rate_hz);
+            sensor_from_world = half * sensor_from_world;
+            forces.push(sensor_from_world * Vector3::new(0.0, 0.0, 9.806_65));
+            rates.push(axis * rate);
+            sensor_from_world = half * sensor_from_world;
+        }
+    }
+    let mut noisy = |of: &[Vector3<f64>], sd: f64, unit: ReadingUnit| Recording {
+        times_s: (0..of.len()).map(|k| k as f64 / rate_hz).collect(),
+        readings: of.iter().map(|y| y + Vector3::from_fn(|_, _| sd * normal(&mut rng))).collect(),
+        axes: 3,
+        unit,
+    };
+    let recording = ImuRecording {
+        accelerometer: Some(noisy(&forces, 0.01, ReadingUnit::MetrePerSecondSquared)),
+        gyroscope: Some(noisy(&rates, 2e-3, ReadingUnit::RadianPerSecond)),
+        temperature_c: None,
+    };
+    let error = fails(&recording, &Gyroscope::default());
+    assert!(error.is_not_identifiable(), "{error}");
+    let message = error.to_string();
+    assert!(message.contains("gyroscope.scale.z") && !message.contains("gyroscope.scale.x"), "{message}");
+}
+
+#[test]
+fn an_axis_that_is_not_connected_is_named() {
+    let (_, mut recording) = small();
+    let readings = &mut recording.gyroscope.as_mut().expect("there").readings;
+    readings.iter_mut().for_each(|reading| reading.y = 0.0);
+    let message = fails(&recording, &Gyroscope::default()).to_string();
+    assert!(message.contains("axis y of the gyroscope never changes"), "{message}");
 }
 
 #[test]

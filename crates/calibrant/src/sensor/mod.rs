@@ -14,6 +14,7 @@ mod imu_correction;
 mod invariant;
 mod parameters;
 mod recording;
+mod saturation;
 
 pub use axis::Axis;
 pub use datasheet::{ReadingUnit, Sensor};
@@ -23,3 +24,4 @@ pub use imu_correction::{CorrectedRecording, CorrectedTriad, ImuCorrection};
 pub use invariant::{Invariant, InvariantValue};
 pub use parameters::{Parameter, ParameterList, Quantity, SensorModel, SensorParameters};
 pub use recording::Recording;
+pub use saturation::Saturation;

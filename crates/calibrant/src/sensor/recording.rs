@@ -29,6 +29,13 @@ impl Recording {
         self.times_s.is_empty()
     }
 
+    /// The one value of an axis that never changes; `None` where it does.
+    #[must_use]
+    pub fn constant(&self, axis: Axis) -> Option<f64> {
+        let value = self.readings.first()?[axis.index()];
+        self.readings.iter().all(|reading| reading[axis.index()] == value).then_some(value)
+    }
+
     /// The axes that were recorded.
     #[must_use]
     pub fn active_axes(&self) -> &'static [Axis] {

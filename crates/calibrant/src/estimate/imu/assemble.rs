@@ -2,7 +2,7 @@
 
 use super::faces::First;
 use super::joint::{Fit, Joint, Miss, State};
-use super::readings::usable;
+use super::readings::Integrable;
 use super::solver::singular;
 use super::verdict;
 use super::weights::Weighed;
@@ -21,6 +21,7 @@ pub(super) struct Finished<'a> {
     pub(super) weighed: &'a Weighed,
     pub(super) before: &'a ImuParameters,
     pub(super) between: Vector3<f64>,
+    pub(super) integrable: &'a Integrable<'a>,
     pub(super) spans: &'a [Range<usize>],
     pub(super) chosen: &'a [usize],
 }
@@ -105,7 +106,6 @@ impl Finished<'_> {
 
     fn rotations(&self, gyroscope: &Recording) -> Vec<RotationResult> {
         let joint = self.joint;
-        let rate = gyroscope.rate_hz();
         let state = &self.fit.state;
         let angle = |miss: &Miss| miss.error.norm().min(1.0).asin();
         joint
@@ -121,13 +121,13 @@ impl Finished<'_> {
                 let (after, before) =
                     if data.used { (at(&state.imu), at(self.before)) } else { (None, None) };
                 let studentised = self.weighed.studentised.get(i).copied().unwrap_or(f64::INFINITY);
-                let reason = match usable(gyroscope, span, rate) {
-                    Err(reason) => Some(reason),
-                    Ok(()) if !data.counts => Some(format!(
+                let reason = match self.integrable.obstacle(span) {
+                    Some(obstacle) => Some(obstacle),
+                    None if !data.counts => Some(format!(
                         "it misses gravity by {:.2}°, {studentised:.1} standard deviations",
                         after.as_ref().map_or(0.0, &angle).to_degrees()
                     )),
-                    Ok(()) => None,
+                    None => None,
                 };
                 RotationResult {
                     from_hold,

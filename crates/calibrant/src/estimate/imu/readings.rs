@@ -6,7 +6,7 @@ use super::rotation::{LocalBias, Samples};
 use crate::error::{Complaint, Error, Result};
 use crate::estimate::HoldCalibration;
 use crate::motion::Hold;
-use crate::sensor::{Recording, SensorParameters};
+use crate::sensor::{Recording, Saturation, SensorParameters};
 use nalgebra::Vector3;
 use std::ops::Range;
 
@@ -72,20 +72,36 @@ pub(super) fn samples<'a>(
     }
 }
 
-/// Can a rotation be integrated?
-pub(super) fn usable(
-    gyroscope: &Recording,
-    span: &Range<usize>,
+/// Can rotations be integrated?
+pub(super) struct Integrable<'a> {
+    gyroscope: &'a Recording,
     rate_hz: f64,
-) -> std::result::Result<(), String> {
-    if span.len() < 3 {
-        return Err("the gyroscope's recording does not cover it".into());
+    saturations: Vec<Saturation>,
+}
+
+impl<'a> Integrable<'a> {
+    pub(super) fn of(gyroscope: &'a Recording) -> Self {
+        Self { gyroscope, rate_hz: gyroscope.rate_hz(), saturations: gyroscope.saturations() }
     }
-    let longest = gyroscope.times_s[span.clone()].windows(2).map(|t| t[1] - t[0]).fold(0.0, f64::max);
-    if longest * rate_hz > GAP {
-        return Err(format!("the gyroscope pauses for {longest:.3} s in it"));
+
+    /// Why a span cannot be integrated; nothing where it can.
+    pub(super) fn obstacle(&self, span: &Range<usize>) -> Option<String> {
+        if span.len() < 3 {
+            return Some("the gyroscope's recording does not cover it".into());
+        }
+        let longest =
+            self.gyroscope.times_s[span.clone()].windows(2).map(|t| t[1] - t[0]).fold(0.0, f64::max);
+        if longest * self.rate_hz > GAP {
+            return Some(format!("the gyroscope pauses for {longest:.3} s in it"));
+        }
+        let readings = &self.gyroscope.readings[span.clone()];
+        let stops = |found: &&Saturation| {
+            let at_the_end = |y: &Vector3<f64>| y[found.axis.index()] == found.value;
+            readings.windows(2).any(|pair| pair.iter().all(at_the_end))
+        };
+        let found = self.saturations.iter().find(stops)?;
+        Some(format!("axis {} of the gyroscope saturates in it", found.axis))
     }
-    Ok(())
 }
 
 /// The turns of known angle, with the integrals of the readings.

@@ -3,16 +3,16 @@
 use super::assemble::Finished;
 use super::faces::{self, First};
 use super::joint::{HoldData, Joint, RotationData, State};
-use super::readings::{felt_forces, rotation_spans, samples, turns, usable};
+use super::readings::{Integrable, felt_forces, rotation_spans, samples, turns};
 use super::settle::{apply, reweigh, settle};
 use super::still::{Still, between_sd, pooled_noise, still, weigh};
-use super::verdict::{self, undetermined};
+use super::verdict::{self, undetermined, vague};
 use super::{ImuCalibration, ImuProblem, start};
 use crate::error::{Complaint, Error, Result};
 use crate::estimate::{CalibrationProblem, CalibrationSettings, Recovered, Stimulus, calibrate};
 use crate::information;
 use crate::sensor::{
-    ImuParameters, ImuQuantity, ParameterList, ReadingUnit, Recording, SensorParameters, Triad,
+    Axis, ImuParameters, ImuQuantity, ParameterList, ReadingUnit, Recording, SensorParameters, Triad,
 };
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
@@ -56,14 +56,14 @@ pub fn calibrate_imu(problem: &ImuProblem<'_>, settings: &CalibrationSettings) -
         Some(_) if !setup.turns.is_empty() => Vec::new(),
         _ => rotation_spans(gyroscope, holds, &chosen),
     };
-    let rate = gyroscope.rate_hz();
+    let integrable = Integrable::of(gyroscope);
     let rotations: Vec<RotationData<'_>> = spans
         .iter()
         .enumerate()
         .map(|(from, span)| RotationData {
             from,
             samples: samples(gyroscope, felt.as_deref(), span),
-            used: usable(gyroscope, span, rate).is_ok(),
+            used: integrable.obstacle(span).is_none(),
             counts: true,
         })
         .collect();
@@ -90,7 +90,7 @@ pub fn calibrate_imu(problem: &ImuProblem<'_>, settings: &CalibrationSettings) -
         };
         let found = start::find(&joint, &state, problem.gyroscope.unit, nominal)
             .ok_or_else(|| Error::NotIdentifiable(Box::new(undetermined(&joint, &[]))))?;
-        verdict::plausible(&joint, &state, &found, problem.gyroscope.unit)?;
+        verdict::plausible(&joint, &state, &found, problem.gyroscope.unit, holds)?;
         state.imu = found.imu;
         axes = found.axes;
     }
@@ -117,6 +117,7 @@ pub fn calibrate_imu(problem: &ImuProblem<'_>, settings: &CalibrationSettings) -
         weighed: &weighed,
         before: &before,
         between,
+        integrable: &integrable,
         spans: &spans,
         chosen: &chosen,
     };
@@ -140,7 +141,17 @@ fn recordings<'a>(problem: &ImuProblem<'a>) -> Result<(&'a Recording, &'a Record
             ))
         })
     };
-    let (accelerometer, gyroscope) = (need(Triad::Accelerometer)?, need(Triad::Gyroscope)?);
+    let moves = |triad: Triad| {
+        let recording = need(triad)?;
+        match Axis::ALL.into_iter().find(|&axis| recording.constant(axis).is_some()) {
+            None => Ok(recording),
+            Some(axis) => Err(Error::recording(Complaint::new(
+                format!("axis {axis} of the {triad} never changes"),
+                "is it connected, and are the columns right?",
+            ))),
+        }
+    };
+    let (accelerometer, gyroscope) = (moves(Triad::Accelerometer)?, moves(Triad::Gyroscope)?);
     if gyroscope.unit != problem.gyroscope.unit {
         return Err(Error::recording(Complaint::new(
             format!(
@@ -262,8 +273,11 @@ fn check(joint: &Joint<'_>, state: &State, settings: &CalibrationSettings) -> Re
     let size = joint.quantities.len();
     let information = DMatrix::from_fn(size, size, |i, j| fit.information[(i, j)]);
     let groups = information::undetermined(&information, &DVector::from_fn(size, |i, _| fit.unreduced[i]));
-    if groups.is_empty() {
-        return Ok(());
+    if !groups.is_empty() {
+        return Err(Error::NotIdentifiable(Box::new(undetermined(joint, &groups))));
     }
-    Err(Error::NotIdentifiable(Box::new(undetermined(joint, &groups))))
+    match information::covariance(&information).and_then(|covariance| vague(joint, state, &covariance)) {
+        Some(vague) => Err(Error::NotIdentifiable(Box::new(vague))),
+        None => Ok(()),
+    }
 }

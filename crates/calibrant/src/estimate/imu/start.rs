@@ -10,6 +10,8 @@ use rayon::prelude::*;
 
 /// Median error of a rotation beyond which something is wrong with units or axes, rad.
 pub(super) const WRONG: f64 = 0.2;
+/// Rotations that no wrong order of the axes fits by chance: three of four within [`WRONG`] for one of 48 orders happens once in 5000 times.
+const ENOUGH: usize = 4;
 /// Gains that are tried: so many, each smaller by this factor.
 const GAINS: usize = 16;
 const FACTOR: f64 = 0.92;
@@ -36,28 +38,39 @@ pub(super) fn find(
         imu.gyroscope.matrix = matrix;
         imu
     };
+    let best = |tries: &[Matrix3<f64>]| {
+        tries
+            .par_iter()
+            .filter_map(|matrix| Some((median(joint, state, &with(*matrix))?, *matrix)))
+            .min_by(|one, other| one.0.total_cmp(&other.0))
+    };
     if let Some(matrix) = nominal {
         let imu = with(matrix);
         let median_rad = median(joint, state, &imu)?;
-        if median_rad <= WRONG || unit != ReadingUnit::Counts {
-            return Some(Start { imu, median_rad, axes: None });
+        let as_it_is = Start { imu, median_rad, axes: None };
+        // few rotations fit some order by chance
+        let few = joint.rotations.iter().filter(|data| data.used).count() < ENOUGH;
+        if median_rad <= WRONG || (unit != ReadingUnit::Counts && few) {
+            return Some(as_it_is);
+        }
+        if unit != ReadingUnit::Counts {
+            let (other, found) = best(&orders().map(|order| order * matrix))?;
+            return Some(match other <= WRONG {
+                true => Start { imu: with(found), median_rad: other, axes: Some(names(&found)) },
+                false => as_it_is,
+            });
         }
     }
     let largest = gain_bound(joint, state)?;
     let gains: Vec<f64> = (0..GAINS).map(|k| 1.1 * largest * FACTOR.powi(k as i32)).collect();
-    let best = |orders: &[Matrix3<f64>]| {
-        let tries: Vec<Matrix3<f64>> =
-            orders.iter().flat_map(|order| gains.iter().map(move |gain| order * *gain)).collect();
-        tries
-            .into_par_iter()
-            .filter_map(|matrix| Some((median(joint, state, &with(matrix))?, matrix)))
-            .min_by(|one, other| one.0.total_cmp(&other.0))
+    let scaled = |orders: &[Matrix3<f64>]| -> Vec<Matrix3<f64>> {
+        orders.iter().flat_map(|order| gains.iter().map(move |gain| order * *gain)).collect()
     };
-    let (mut median_rad, mut matrix) = best(&[Matrix3::identity()])?;
+    let (mut median_rad, mut matrix) = best(&scaled(&[Matrix3::identity()]))?;
     let mut axes = None;
     if median_rad > WRONG {
         let orders = orders();
-        if let Some((other, found)) = best(&orders).filter(|(other, _)| *other < 0.5 * median_rad) {
+        if let Some((other, found)) = best(&scaled(&orders)).filter(|(other, _)| *other < 0.5 * median_rad) {
             (median_rad, matrix) = (other, found);
             axes = Some(names(&matrix));
         }
@@ -107,18 +120,15 @@ fn gain_bound(joint: &Joint<'_>, state: &State) -> Option<f64> {
 }
 
 /// All orders and signs of three axes.
-fn orders() -> Vec<Matrix3<f64>> {
+fn orders() -> [Matrix3<f64>; 48] {
     let permutations = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
-    let mut orders = Vec::new();
-    for permutation in permutations {
-        for signs in 0..8 {
-            orders.push(Matrix3::from_fn(|row, column| {
-                let sign = if signs >> row & 1 == 0 { 1.0 } else { -1.0 };
-                if permutation[row] == column { sign } else { 0.0 }
-            }));
-        }
-    }
-    orders
+    std::array::from_fn(|k| {
+        let (permutation, signs) = (permutations[k / 8], k % 8);
+        Matrix3::from_fn(|row, column| {
+            let sign = if signs >> row & 1 == 0 { 1.0 } else { -1.0 };
+            if permutation[row] == column { sign } else { 0.0 }
+        })
+    })
 }
 
 /// The gyroscope's axis along each of the accelerometer's.

@@ -4,20 +4,27 @@ use super::ImuCalibration;
 use super::joint::{Joint, State};
 use super::start::{Start, WRONG};
 use crate::error::{Complaint, Error, NotIdentifiable, Result, UndeterminedGroup};
-use crate::estimate::CalibrationStatus;
+use crate::estimate::{CalibrationStatus, HoldCalibration};
 use crate::information::Undetermined;
-use crate::sensor::ReadingUnit;
+use crate::sensor::{ImuQuantity, Quantity, ReadingUnit};
+use nalgebra::DMatrix;
+
+/// Holds that scatter by more than this share of gravity are none.
+const MOVING: f64 = 0.005;
+
+/// Entries of the gyroscope's matrix known to less than this share of its gain are not determined.
+const VAGUE: f64 = 0.1;
+const REMEDY: &str = "turn the sensor between the holds, by 90° and more, about each of its axes, away from the vertical; at least 8 rotations";
 
 /// Says what is not determined, and what would determine it.
 pub(super) fn undetermined(joint: &Joint<'_>, groups: &[Undetermined]) -> NotIdentifiable {
     let rotations = joint.rotations.iter().filter(|rotation| rotation.used).count();
     let reason = match rotations {
         0 if joint.holds.len() < 2 => "there is no rotation between two holds".to_owned(),
-        0 => "no rotation between the holds can be integrated: the gyroscope has too few samples in them, or pauses".to_owned(),
+        0 => "no rotation between the holds can be integrated: the gyroscope has too few samples in them, pauses, or saturates".to_owned(),
         1 => "one rotation between two holds gives two equations".to_owned(),
         count => format!("the {count} rotations between the holds do not turn about all axes, or turn by too little"),
     };
-    let remedy = "turn the sensor between the holds, by 90° and more, about each of its axes, away from the vertical; at least 8 rotations";
     let names =
         |places: &[usize]| -> Vec<String> { places.iter().map(|&k| joint.quantities[k].name()).collect() };
     let all = joint.gyroscope_places();
@@ -25,7 +32,7 @@ pub(super) fn undetermined(joint: &Joint<'_>, groups: &[Undetermined]) -> NotIde
         parameters,
         free_combinations,
         reason: reason.clone(),
-        remedy: remedy.into(),
+        remedy: REMEDY.into(),
     };
     NotIdentifiable {
         groups: if groups.is_empty() {
@@ -36,8 +43,44 @@ pub(super) fn undetermined(joint: &Joint<'_>, groups: &[Undetermined]) -> NotIde
     }
 }
 
+/// Entries of the gyroscope's matrix that the data determine so little that the iteration has nothing to hold on to, although no combination is quite free:
+/// the noise of a gyroscope that does not turn looks like a small rotation.
+pub(super) fn vague(joint: &Joint<'_>, state: &State, covariance: &DMatrix<f64>) -> Option<NotIdentifiable> {
+    let matrix = &state.imu.gyroscope.matrix;
+    let gain = (matrix.norm_squared() / 3.0).sqrt();
+    let is_known = |k: usize| joint.prior.as_ref().is_some_and(|(_, weight)| weight[k] > 0.0);
+    let sd = |k: usize| covariance[(k, k)].max(0.0).sqrt() / gain;
+    let entries: Vec<usize> = joint
+        .gyroscope_places()
+        .into_iter()
+        .filter(|&k| match joint.quantities[k] {
+            ImuQuantity::Of(_, Quantity::Bias(_)) | ImuQuantity::GSensitivity(..) => false,
+            _ => sd(k) > VAGUE && !is_known(k),
+        })
+        .collect();
+    let most = entries.iter().map(|&k| sd(k)).fold(0.0, f64::max);
+    let rotations = joint.rotations.iter().filter(|rotation| rotation.used).count();
+    (!entries.is_empty()).then(|| NotIdentifiable {
+        groups: vec![UndeterminedGroup {
+            parameters: entries.iter().map(|&k| joint.quantities[k].name()).collect(),
+            free_combinations: entries.len(),
+            reason: format!(
+                "the {rotations} rotations between the holds hardly turn about some axis: the gain would be known to {:.0} % at best",
+                100.0 * most
+            ),
+            remedy: REMEDY.into(),
+        }],
+    })
+}
+
 /// Refuses readings that cannot be angular rates in the unit given.
-pub(super) fn plausible(joint: &Joint<'_>, state: &State, start: &Start, unit: ReadingUnit) -> Result<()> {
+pub(super) fn plausible(
+    joint: &Joint<'_>,
+    state: &State,
+    start: &Start,
+    unit: ReadingUnit,
+    holds: &HoldCalibration,
+) -> Result<()> {
     if start.median_rad <= WRONG {
         return Ok(());
     }
@@ -56,6 +99,15 @@ pub(super) fn plausible(joint: &Joint<'_>, state: &State, start: &Start, unit: R
                 "say that the gyroscope is in deg/s",
             )));
         }
+    }
+    let scatter = holds.between_holds_sd_mps2;
+    if scatter > MOVING * joint.gravity {
+        let message = format!(
+            "{message}, and the holds themselves scatter by {:.0} mm/s² beyond their noise",
+            1e3 * scatter
+        );
+        let help = "was the sensor still in them? they are the calmest parts of the recording (holds.minimum_hold_s, holds.intervals_s)";
+        return Err(Error::recording(Complaint::new(message, help)));
     }
     Err(Error::recording(Complaint::new(
         message,

@@ -10,11 +10,6 @@ const GAP: f64 = 5.0;
 const GAPS_SHOWN: usize = 3;
 /// Relative deviation of time steps from their median that is not worth a word.
 const JITTER: f64 = 0.01;
-/// A plateau at the extreme value is noticed from this many samples on …
-const PLATEAU: usize = 8;
-/// … if it is this many times longer than any plateau at another value. (The readings of a sensor that lies still repeat
-/// everywhere, or nowhere.)
-const PLATEAU_RATIO: usize = 4;
 
 /// Looks at a recording of at least two samples.
 pub(super) fn examine(recording: &Recording, lines: &LineMap, findings: &mut Vec<Finding>) {
@@ -25,28 +20,22 @@ pub(super) fn examine(recording: &Recording, lines: &LineMap, findings: &mut Vec
 /// Looks for axes that are not connected or clipped. `of` goes before the word axis, as in `gyroscope axis x`.
 pub(super) fn readings(recording: &Recording, of: &str, lines: &LineMap, findings: &mut Vec<Finding>) {
     for &axis in recording.active_axes() {
-        let values: Vec<f64> = recording.readings.iter().map(|reading| reading[axis.index()]).collect();
-        let (least, most) =
-            values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, m), &v| (l.min(v), m.max(v)));
-        if least == most {
+        if let Some(value) = recording.constant(axis) {
             let message =
-                format!("{of}axis {axis} never changes: {} throughout; is it connected?", short(least));
+                format!("{of}axis {axis} never changes: {} throughout; is it connected?", short(value));
             findings.push(Finding::new(FindingKind::ConstantAxis, None, message));
-            continue;
         }
-        let plateaus = Plateaus::of(&values, least, most);
-        for (word, value, (length, first)) in
-            [("smallest", least, plateaus.least), ("largest", most, plateaus.most)]
-        {
-            if length >= PLATEAU && length > PLATEAU_RATIO * plateaus.elsewhere {
-                let message = format!(
-                    "{of}axis {axis} may be saturated: {length} samples in a row at its {word} value {} {}",
-                    short(value),
-                    recording.unit.symbol()
-                );
-                findings.push(Finding::new(FindingKind::Saturation, lines.line(first), message));
-            }
-        }
+    }
+    for found in recording.saturations() {
+        let message = format!(
+            "{of}axis {} may be saturated: {} samples in a row at its {} value {} {}",
+            found.axis,
+            found.samples,
+            if found.is_largest { "largest" } else { "smallest" },
+            short(found.value),
+            recording.unit.symbol()
+        );
+        findings.push(Finding::new(FindingKind::Saturation, lines.line(found.first), message));
     }
 }
 
@@ -98,31 +87,5 @@ pub(super) fn sampling(recording: &Recording, lines: &LineMap, findings: &mut Ve
             short(rate)
         );
         findings.push(Finding::new(FindingKind::IrregularSampling, None, message));
-    }
-}
-
-/// Longest runs of equal readings: at the least value, at the largest (length and first sample), and anywhere else.
-struct Plateaus {
-    least: (usize, usize),
-    most: (usize, usize),
-    elsewhere: usize,
-}
-
-impl Plateaus {
-    fn of(values: &[f64], least: f64, most: f64) -> Self {
-        let mut plateaus = Self { least: (0, 0), most: (0, 0), elsewhere: 0 };
-        let mut first = 0;
-        for run in values.chunk_by(|one, next| one == next) {
-            let found = (run.len(), first);
-            if run[0] == least {
-                plateaus.least = if found.0 > plateaus.least.0 { found } else { plateaus.least };
-            } else if run[0] == most {
-                plateaus.most = if found.0 > plateaus.most.0 { found } else { plateaus.most };
-            } else {
-                plateaus.elsewhere = plateaus.elsewhere.max(run.len());
-            }
-            first += run.len();
-        }
-        plateaus
     }
 }

@@ -171,18 +171,9 @@ pub(in crate::report) fn undetermined_items(evaluation: &Evaluation) -> Vec<Stri
         .undetermined
         .iter()
         .map(|group| {
-            let what = match group.parameters.as_slice() {
-                [one] => format!("{one} is not determined"),
-                [one, two] => format!("{one} and {two} cannot be told apart"),
-                many => format!(
-                    "{} combination{} of {} left free",
-                    group.free_combinations,
-                    if group.free_combinations == 1 { " is" } else { "s are" },
-                    many.join(", ")
-                ),
-            };
+            let what = group.what().map_or_else(String::new, |what| what + ": ");
             let remedy = if group.remedy.is_empty() { String::new() } else { format!(" ({})", group.remedy) };
-            format!("{what}: {}{remedy}", group.reason)
+            format!("{what}{}{remedy}", group.reason)
         })
         .collect()
 }
