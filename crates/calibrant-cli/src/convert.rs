@@ -4,7 +4,7 @@ use crate::calibration_file::{Format, Reading, in_words};
 use crate::{Exit, console};
 use calibrant::Error;
 use calibrant::error::Complaint;
-use calibrant::io::{ImuFormat, read_kalibr_noise, write_calibrated_imu};
+use calibrant::io::{ImuFormat, read_kalibr_noise, read_measured_noise, write_calibrated_imu};
 use calibrant::sensor::Gauge;
 use std::path::PathBuf;
 
@@ -28,8 +28,8 @@ pub(crate) struct Arguments {
     /// Turn the true frame of both sensors into this gauge of the accelerometer.
     #[arg(long, value_enum)]
     gauge: Option<GaugeName>,
-    /// A Kalibr imu.yaml with noise densities, update rate and topic to put into OUT.
-    #[arg(long, value_name = "YAML")]
+    /// Noise densities to put into OUT: noise.json as `calibrant noise` writes it, or a Kalibr imu.yaml.
+    #[arg(long, value_name = "FILE")]
     noise: Option<PathBuf>,
     /// Leave the gyroscope's g-sensitivity out: the correction changes.
     #[arg(long)]
@@ -70,7 +70,9 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     let mut file = arguments.reading.read(&arguments.input)?;
     let read = format!("{} ({}): {}\n", arguments.input.display(), file.format.title(), in_words(&file.imu));
     if let Some(path) = &arguments.noise {
-        file.noise = Some(read_kalibr_noise(path)?);
+        let is_ours = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("json"));
+        file.noise =
+            Some(if is_ours { read_measured_noise(path, &file.imu)? } else { read_kalibr_noise(path)? });
     }
     if arguments.drop_g_sensitivity {
         let largest = file.imu.parameters.g_sensitivity.row_iter().map(|row| row.norm()).fold(0.0, f64::max);

@@ -103,3 +103,35 @@ fn the_mti_at_rest() {
         assert_eq!(axis["bias_instability"]["determined"], false);
     }
 }
+
+/// Kalibr's number is the white noise of one sample over the root of the rate, in SI whatever the readings are.
+#[test]
+fn what_was_measured_goes_into_an_imu_yaml() {
+    let bench = Bench::new();
+    bench.write("still.csv", recording("t_s,ax_counts,ay_counts,az_counts", 6000, 100.0));
+    bench.run("noise still.csv -o noise").done();
+    let calibration = r#"{"acc_unit": "m/s^2", "gyr_unit": "deg/s", "from_acc_unit": "a.u.", "from_gyr_unit": "a.u.", "comment": null,
+        "K_a": [[200.0, 0.0, 0.0], [0.0, 200.0, 0.0], [0.0, 0.0, 200.0]], "R_a": [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+        "b_a": [0.0, 0.0, 0.0], "K_g": [[16.0, 0.0, 0.0], [0.0, 16.0, 0.0], [0.0, 0.0, 16.0]], "R_g": [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+        "K_ga": [[0.0, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]], "b_g": [0.0, 0.0, 0.0], "cal_type": "Ferraris", "_format_version": "2.0.0"}"#;
+    bench.write("imu.json", calibration);
+    bench.run("convert imu.json imu.yaml --noise noise/noise.json").done();
+    let yaml = bench.read("imu.yaml");
+    let value = |key: &str| -> Option<f64> {
+        yaml.lines().find_map(|line| line.trim().strip_prefix(key)?.strip_prefix(": ")?.parse().ok())
+    };
+    let density = value("accelerometer_noise_density").expect("determined");
+    let expected = 100.0 / 12.0_f64.sqrt() * 0.1 / 200.0;
+    assert!((density / expected - 1.0).abs() < 0.05, "{density} beside {expected}");
+    assert!((value("update_rate").expect("known") - 100.0).abs() < 1e-3, "{yaml}");
+    assert_eq!(value("accelerometer_random_walk"), None, "not determined: {yaml}");
+    bench.write("si.csv", recording("t_s,ax_mps2,ay_mps2,az_mps2", 6000, 0.1));
+    bench.run("noise si.csv -o si").done();
+    bench.refuses(
+        "convert imu.json other.yaml --noise si/noise.json",
+        2,
+        &["the noise of the accelerometer is in m/s², the calibration in counts"],
+    );
+    bench.write("none.json", "{}");
+    bench.refuses("convert imu.json other.yaml --noise none.json", 2, &["none.json", "calibrant noise"]);
+}

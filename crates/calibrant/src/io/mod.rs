@@ -50,7 +50,7 @@ pub use calibration::{Input, calibration_json, write_calibration};
 pub use comparison::comparison_json;
 pub use convention::{
     CalibratedImuFile, ConventionOptions, ImuFormat, ImuNoise, RawUnits, WrittenImu, calibrated_imu_texts,
-    parse_calibrated_imu, read_calibrated_imu, read_kalibr_noise, write_calibrated_imu,
+    parse_calibrated_imu, read_calibrated_imu, read_kalibr_noise, read_measured_noise, write_calibrated_imu,
 };
 pub use corrected::write_corrected_recording;
 pub use dense::write_dense_motion;

@@ -19,12 +19,14 @@ mod format;
 mod imu_tk;
 mod imucal;
 mod kalibr;
+mod measured_noise;
 mod schema_one;
 
 pub(in crate::io) use calibrant_json::Heading;
 pub(in crate::io) use core::ImuCore;
 pub use format::ImuFormat;
 pub use kalibr::{ImuNoise, read_kalibr_noise};
+pub use measured_noise::read_measured_noise;
 
 use super::calibration::Input;
 use super::output::write_atomically;
