@@ -4,11 +4,9 @@ use super::Arguments;
 use crate::console;
 use calibrant::estimate::ImuCalibration;
 use calibrant::io::{ImuFile, Input, imu_calibration_json, write_atomically, write_imu_calibration};
-use calibrant::noise::{Stretch, TriadNoise};
+use calibrant::noise::TriadNoise;
 use calibrant::report::{About, imu_calibration_report, number};
-use calibrant::sensor::Triad;
 use nalgebra::Vector3;
-use rayon::prelude::*;
 use std::time::Instant;
 
 /// A hold shorter than this says too little of the noise to be plotted, s.
@@ -54,17 +52,10 @@ fn noise(calibration: &ImuCalibration, file: &ImuFile) -> Vec<TriadNoise> {
     else {
         return Vec::new();
     };
-    Triad::ALL
-        .par_iter()
-        .filter_map(|&triad| {
-            let recording = file.recording.triad(triad)?;
-            let stretch = Stretch::between(recording, hold.start_s, hold.end_s).ok()?;
-            let found = TriadNoise::of(triad, recording, stretch).ok()?;
-            let matrix = calibration.imu.triad(triad).matrix;
-            let gain = Vector3::from_fn(|axis, _| matrix.row(axis).norm());
-            Some(found.with_gain(recording, &gain))
-        })
-        .collect()
+    TriadNoise::of_imu(&file.recording, (hold.start_s, hold.end_s), |triad| {
+        let matrix = calibration.imu.triad(triad).matrix;
+        Vector3::from_fn(|axis, _| matrix.row(axis).norm())
+    })
 }
 
 /// Prints the tables, or calibration.json.

@@ -14,8 +14,7 @@ pub(super) struct Line<'t> {
 impl<'t> Line<'t> {
     /// Is there nothing to read: a blank line, or a comment (`#`, `//`, `%`)?
     pub(super) fn is_void(&self) -> bool {
-        let text = self.text.trim_ascii_start();
-        text.is_empty() || text.starts_with(['#', '%']) || text.starts_with("//")
+        matches!(self.text.trim_ascii_start().as_bytes(), [] | [b'#' | b'%', ..] | [b'/', b'/', ..])
     }
 
     /// Column of a byte of the line, in characters from 1.
@@ -50,7 +49,7 @@ impl<'t> Iterator for Lines<'t> {
             return None;
         }
         self.number += 1;
-        let (text, rest, terminated) = match self.rest.find(char::from(self.end)) {
+        let (text, rest, terminated) = match memchr::memchr(self.end, self.rest.as_bytes()) {
             Some(at) => (&self.rest[..at], &self.rest[at + 1..], true),
             None => (self.rest, "", false),
         };
@@ -106,9 +105,19 @@ impl<'t> Iterator for Fields<'t> {
 impl<'t> Fields<'t> {
     fn next_word(&mut self) -> Option<(usize, &'t str)> {
         let bytes = self.line.as_bytes();
-        let start = self.at + bytes[self.at..].iter().position(|byte| !byte.is_ascii_whitespace())?;
-        let length = bytes[start..].iter().position(u8::is_ascii_whitespace).unwrap_or(bytes.len() - start);
-        self.at = start + length;
+        // most bytes are told by the first comparison
+        let is_space = |at: usize| bytes[at] <= b' ' && bytes[at].is_ascii_whitespace();
+        let mut start = self.at;
+        while start < bytes.len() && is_space(start) {
+            start += 1;
+        }
+        if start == bytes.len() {
+            return None;
+        }
+        self.at = start + 1;
+        while self.at < bytes.len() && !is_space(self.at) {
+            self.at += 1;
+        }
         Some((start, unquote(&self.line[start..self.at])))
     }
 
@@ -137,6 +146,9 @@ impl<'t> Fields<'t> {
 }
 
 fn unquote(field: &str) -> &str {
+    if field.as_bytes().first() != Some(&b'"') {
+        return field;
+    }
     field.strip_prefix('"').and_then(|field| field.strip_suffix('"')).map_or(field, str::trim_ascii)
 }
 

@@ -123,8 +123,8 @@ pub(super) fn differences(phase: &[f64], m: usize) -> impl Iterator<Item = f64> 
     let size = m as f64;
     phase
         .iter()
-        .zip(phase.iter().skip(m))
-        .zip(phase.iter().skip(2 * m))
+        .zip(&phase[m..])
+        .zip(&phase[2 * m..])
         .map(move |((before, at), after)| (after - 2.0 * at + before) / size)
 }
 

@@ -196,17 +196,20 @@ impl<'a> Regression<'a> {
         Self { moments, observed, first, active: active.to_vec(), theta, gain, chi2 }
     }
 
-    /// Variance of the estimate of active process `i` if its `θ` were this.
-    fn variance(&self, i: usize, theta_i: f64) -> f64 {
-        let mut theta = positive(self.theta);
-        theta[self.active[i]] = theta_i;
-        let row = self.gain.row(i).transpose();
-        (self.moments.covariance(&theta, self.first) * &row).dot(&row)
+    /// Variance of the estimate of active process `i`, as a function of what its `θ` would be.
+    fn variance(&self, i: usize) -> impl Fn(f64) -> f64 + use<> {
+        let variance = self.moments.variance_of_sum(&self.gain.row(i).transpose(), self.first);
+        let (theta, place) = (positive(self.theta), self.active[i]);
+        move |theta_i| {
+            let mut theta = theta;
+            theta[place] = theta_i;
+            variance(&theta)
+        }
     }
 
     /// How many standard deviations the square of a coefficient is above zero.
     fn significance(&self, i: usize) -> f64 {
-        self.theta[self.active[i]] / self.variance(i, 0.0).sqrt()
+        self.theta[self.active[i]] / self.variance(i)(0.0).sqrt()
     }
 
     /// The less significant of bias instability and rate random walk, where both are active and neither is significant.
@@ -247,9 +250,9 @@ impl<'a> Regression<'a> {
         if let Some(i) = position
             && self.is_determined(i)
         {
-            let theta = self.theta[a];
-            let sd = self.variance(i, theta).sqrt();
-            let (low, high) = interval::bounds(theta, |theta| self.variance(i, theta));
+            let (theta, variance) = (self.theta[a], self.variance(i));
+            let sd = variance(theta).sqrt();
+            let (low, high) = interval::bounds(theta, variance);
             let value = to_coefficient(theta);
             return Coefficient::Determined(Estimate {
                 value,
@@ -302,8 +305,9 @@ impl<'a> Regression<'a> {
     /// Upper limit of the square of the coefficient of active process `i`.
     fn limit(&self, i: usize) -> f64 {
         // an estimate below zero is as good as one at the standard deviation that a coefficient of zero has
-        let seen = self.theta[self.active[i]].max(self.variance(i, 0.0).sqrt());
-        interval::upper(seen, &|theta| self.variance(i, theta), LIMIT_TAIL)
+        let variance = self.variance(i);
+        let seen = self.theta[self.active[i]].max(variance(0.0).sqrt());
+        interval::upper(seen, &variance, LIMIT_TAIL)
     }
 
     fn reason(&self, process: PowerLaw, interval_s: f64) -> String {

@@ -8,7 +8,10 @@ const RATIO: f64 = 1.12;
 /// Whole numbers from `first` to `last`: all those near the kinks, ever fewer away from them.
 pub(super) fn around(kinks: &[i64], first: i64, last: i64) -> Vec<i64> {
     let mut lags = vec![first, last];
-    for &kink in kinks {
+    let mut kinks = kinks.to_vec();
+    kinks.sort_unstable();
+    kinks.dedup();
+    for kink in kinks {
         let mut add = |offset: i64| {
             lags.extend(
                 [kink - offset, kink + offset].into_iter().filter(|lag| (first..=last).contains(lag)),

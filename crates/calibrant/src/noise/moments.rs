@@ -1,10 +1,14 @@
 //! Mean and covariance of the drift-free Allan variances of each process.
 
+use super::power_law::FlickerTable;
 use super::{PowerLaw, lags};
 use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
 
 /// Number of processes.
 pub(super) const PROCESSES: usize = PowerLaw::ALL.len();
+/// Number of pairs of them.
+const PAIRS: usize = PROCESSES * (PROCESSES + 1) / 2;
 
 /// Mean and covariance of the drift-free Allan variances `ν_m` (see [the module](crate::noise)) of `n` samples at `m = 1, 2, 4, … ≤ n/3`, under each process
 /// with a coefficient and a sample interval of 1. They depend on `n` alone: compute them once for recordings of one length.
@@ -33,6 +37,17 @@ fn pair(a: usize, b: usize) -> usize {
     a * PROCESSES - a * (a + 1) / 2 + b
 }
 
+/// `θ_a θ_b` of each pair, twice where they differ.
+fn factors(theta: &[f64; PROCESSES]) -> [f64; PAIRS] {
+    let mut factors = [0.0; PAIRS];
+    for a in 0..PROCESSES {
+        for b in a..PROCESSES {
+            factors[pair(a, b)] = if a == b { 1.0 } else { 2.0 } * theta[a] * theta[b];
+        }
+    }
+    factors
+}
+
 impl Moments {
     /// The moments for recordings of `n` samples, at least three.
     ///
@@ -43,19 +58,20 @@ impl Moments {
         let scales: Vec<usize> = (0..).map(|k| 1 << k).take_while(|m| 3 * m <= n).collect();
         let size = scales.len();
         let mut mean = DMatrix::zeros(size, PROCESSES);
-        let mut covariance = vec![DMatrix::zeros(size, size); PROCESSES * (PROCESSES + 1) / 2];
-        for j in 0..size {
-            for k in j..size {
-                let two = Pair::of(n, scales[j], scales[k]);
-                for a in 0..PROCESSES {
-                    if j == k {
-                        mean[(j, a)] = 0.5 * (two.at_zero[a] - two.mean[a]);
-                    }
-                    for b in a..PROCESSES {
-                        let value = 0.5 * two.products[pair(a, b)];
-                        covariance[pair(a, b)][(j, k)] = value;
-                        covariance[pair(a, b)][(k, j)] = value;
-                    }
+        let mut covariance = vec![DMatrix::zeros(size, size); PAIRS];
+        let places: Vec<(usize, usize)> = (0..size).flat_map(|j| (j..size).map(move |k| (j, k))).collect();
+        let flicker = FlickerTable::of(n);
+        let pairs: Vec<Pair> =
+            places.par_iter().map(|&(j, k)| Pair::of(n, scales[j], scales[k], &flicker)).collect();
+        for (&(j, k), two) in places.iter().zip(&pairs) {
+            for a in 0..PROCESSES {
+                if j == k {
+                    mean[(j, a)] = 0.5 * (two.at_zero[a] - two.mean[a]);
+                }
+                for b in a..PROCESSES {
+                    let value = 0.5 * two.products[pair(a, b)];
+                    covariance[pair(a, b)][(j, k)] = value;
+                    covariance[pair(a, b)][(k, j)] = value;
                 }
             }
         }
@@ -83,16 +99,32 @@ impl Moments {
     pub(super) fn covariance(&self, theta: &[f64; PROCESSES], first: usize) -> DMatrix<f64> {
         let size = self.scales.len() - first;
         let mut sum = DMatrix::zeros(size, size);
-        for a in 0..PROCESSES {
-            for b in a..PROCESSES {
-                let twice = if a == b { 1.0 } else { 2.0 };
-                let factor = twice * theta[a] * theta[b];
-                if factor != 0.0 {
-                    sum += self.covariance[pair(a, b)].view((first, first), (size, size)) * factor;
-                }
+        for (factor, matrix) in factors(theta).iter().zip(&self.covariance) {
+            if *factor != 0.0 {
+                sum.zip_apply(&matrix.view((first, first), (size, size)), |sum, value| {
+                    *sum += value * factor
+                });
             }
         }
         sum
+    }
+
+    /// The variance of a sum of the variances with these weights, at the scales from `first` on, as a function of `θ`.
+    pub(super) fn variance_of_sum(
+        &self,
+        weights: &DVector<f64>,
+        first: usize,
+    ) -> impl Fn(&[f64; PROCESSES]) -> f64 + use<> {
+        let size = weights.len();
+        let of_pairs: [f64; PAIRS] = std::array::from_fn(|p| {
+            let matrix = self.covariance[p].view((first, first), (size, size));
+            matrix
+                .column_iter()
+                .zip(weights.iter())
+                .map(|(column, weight)| column.dot(weights) * weight)
+                .sum()
+        });
+        move |theta| factors(theta).iter().zip(&of_pairs).map(|(factor, value)| factor * value).sum()
     }
 
     /// The drift-free Allan variances of these values at the scales.
@@ -114,22 +146,20 @@ impl Moments {
 struct Pair {
     at_zero: [f64; PROCESSES],
     mean: [f64; PROCESSES],
-    products: [f64; PROCESSES * (PROCESSES + 1) / 2],
+    products: [f64; PAIRS],
 }
 
 impl Pair {
-    fn of(n: usize, j: usize, k: usize) -> Self {
+    fn of(n: usize, j: usize, k: usize, flicker: &FlickerTable) -> Self {
         let (count_j, count_k) = ((n - 2 * j + 1) as i64, (n - 2 * k + 1) as i64);
         let total = count_j as f64 * count_k as f64;
         let kinks: Vec<i64> = (0..3).flat_map(|p| (0..3).map(move |q| p * j as i64 - q * k as i64)).collect();
         let lags = lags::around(&kinks, 1 - count_j, count_k - 1);
         let weights = lags::weights(&lags);
-        let curves: Vec<[f64; PROCESSES]> = lags
-            .iter()
-            .map(|&lag| PowerLaw::ALL.map(|process| process.covariance_of_differences(j, k, lag)))
-            .collect();
+        let curves: Vec<[f64; PROCESSES]> =
+            lags.iter().map(|&lag| PowerLaw::covariances_of_differences(j, k, lag, flicker)).collect();
 
-        let (mut mean, mut products) = ([0.0; PROCESSES], [0.0; PROCESSES * (PROCESSES + 1) / 2]);
+        let (mut mean, mut products) = ([0.0; PROCESSES], [0.0; PAIRS]);
         for ((&lag, weight), curve) in lags.iter().zip(&weights).zip(&curves) {
             let weight = weight * lags::pairs(count_j, count_k, lag) / total;
             for a in 0..PROCESSES {
@@ -149,21 +179,17 @@ impl Pair {
                 products[p] += mean[a] * mean[b] - rows[p] - columns[p];
             }
         }
-        let at_zero = PowerLaw::ALL.map(|process| process.covariance_of_differences(j, k, 0));
+        let at_zero = PowerLaw::covariances_of_differences(j, k, 0, flicker);
         Self { at_zero, mean, products }
     }
 }
 
 /// Mean over `0 ≤ s < count` of the products of means, which bend within `edge` of both ends.
-fn mean_products(
-    count: i64,
-    edge: i64,
-    means: impl Fn(i64) -> [f64; PROCESSES],
-) -> [f64; PROCESSES * (PROCESSES + 1) / 2] {
+fn mean_products(count: i64, edge: i64, means: impl Fn(i64) -> [f64; PROCESSES]) -> [f64; PAIRS] {
     let last = count - 1;
     let places = lags::around(&[0, edge.min(last), (last - edge).max(0), last], 0, last);
     let weights = lags::weights(&places);
-    let mut sum = [0.0; PROCESSES * (PROCESSES + 1) / 2];
+    let mut sum = [0.0; PAIRS];
     for (&place, weight) in places.iter().zip(&weights) {
         let mean = means(place);
         for a in 0..PROCESSES {
@@ -195,20 +221,23 @@ impl<'a> Integral<'a> {
         Self { lags, curves, sums }
     }
 
-    /// Curve and running sum at a lag.
-    fn at(&self, lag: i64, a: usize) -> (f64, f64) {
+    /// Curves and running sums at a lag.
+    fn at(&self, lag: i64) -> [(f64, f64); PROCESSES] {
         let i = self.lags.partition_point(|&l| l <= lag).clamp(1, self.lags.len() - 1);
         let (left, right) = (self.lags[i - 1], self.lags[i]);
-        let x = (lag - left) as f64;
-        let slope = (self.curves[i][a] - self.curves[i - 1][a]) / (right - left) as f64;
-        let value = self.curves[i - 1][a] + slope * x;
-        (value, self.sums[i - 1][a] + 0.5 * x * (self.curves[i - 1][a] + value))
+        let (x, step) = ((lag - left) as f64, (right - left) as f64);
+        let (before, after, sums) = (&self.curves[i - 1], &self.curves[i], &self.sums[i - 1]);
+        std::array::from_fn(|a| {
+            let value = before[a] + (after[a] - before[a]) / step * x;
+            (value, sums[a] + 0.5 * x * (before[a] + value))
+        })
     }
 
-    /// Mean over the lags `from ..= to`.
+    /// Means over the lags `from ..= to`.
     fn mean(&self, from: i64, to: i64) -> [f64; PROCESSES] {
+        let (from_values, to_values) = (self.at(from), self.at(to));
         std::array::from_fn(|a| {
-            let ((first, before), (last, after)) = (self.at(from, a), self.at(to, a));
+            let ((first, before), (last, after)) = (from_values[a], to_values[a]);
             (after - before + 0.5 * (first + last)) / (to - from + 1) as f64
         })
     }

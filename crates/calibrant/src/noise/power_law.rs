@@ -69,7 +69,7 @@ impl PowerLaw {
         match self {
             Self::Quantisation => f64::from(u8::from(h == 0.0)),
             Self::White => -0.5 * h,
-            Self::Flicker => (4.0 * h * h - 1.0) / (8.0 * PI) * digamma_of_half_integer(h),
+            Self::Flicker => flicker_phase_covariance(h),
             Self::RandomWalk => (h * h * h - h) / 12.0,
         }
     }
@@ -77,6 +77,23 @@ impl PowerLaw {
     /// `E d_j(s) d_k(s + lag)` of differences between adjacent clusters of `j` and of `k` samples that begin at `s` and `s + lag`, for a coefficient and
     /// a sample interval of 1.
     pub(super) fn covariance_of_differences(self, j: usize, k: usize, lag: i64) -> f64 {
+        self.differences(j, k, lag, |h| self.phase_covariance(h))
+    }
+
+    /// The same for all processes, the flicker noise's from a table.
+    pub(super) fn covariances_of_differences(
+        j: usize,
+        k: usize,
+        lag: i64,
+        flicker: &FlickerTable,
+    ) -> [f64; 4] {
+        Self::ALL.map(|process| match process {
+            Self::Flicker => process.differences(j, k, lag, |h| flicker.at(h)),
+            _ => process.covariance_of_differences(j, k, lag),
+        })
+    }
+
+    fn differences(self, j: usize, k: usize, lag: i64, phase_covariance: impl Fn(f64) -> f64) -> f64 {
         let (j, k, h) = (j as f64, k as f64, lag as f64);
         if self == Self::Flicker {
             let apart = h + k - j;
@@ -90,7 +107,7 @@ impl PowerLaw {
         let mut sum = 0.0;
         for (p, u) in SECOND_DIFFERENCE.iter().enumerate() {
             for (q, v) in SECOND_DIFFERENCE.iter().enumerate() {
-                sum += u * v * self.phase_covariance(h + q as f64 * k - p as f64 * j);
+                sum += u * v * phase_covariance(h + q as f64 * k - p as f64 * j);
             }
         }
         sum / (j * k)
@@ -132,6 +149,28 @@ impl PowerLaw {
             differences += 1.0;
         }
     }
+}
+
+/// Autocovariances of the phase of flicker noise at the lags that are asked for again and again: each takes a logarithm.
+pub(super) struct FlickerTable(Vec<f64>);
+
+impl FlickerTable {
+    /// Longest table: 512 KiB.
+    const LONGEST: usize = 1 << 16;
+
+    /// For recordings of `n` samples.
+    pub(super) fn of(n: usize) -> Self {
+        Self((0..=n.min(Self::LONGEST)).map(|h| flicker_phase_covariance(h as f64)).collect())
+    }
+
+    fn at(&self, lag: f64) -> f64 {
+        let h = lag.abs();
+        self.0.get(h as usize).copied().unwrap_or_else(|| flicker_phase_covariance(h))
+    }
+}
+
+fn flicker_phase_covariance(h: f64) -> f64 {
+    (4.0 * h * h - 1.0) / (8.0 * PI) * digamma_of_half_integer(h)
 }
 
 /// `ψ(h + ½)` of a whole number `h ≥ 0`.

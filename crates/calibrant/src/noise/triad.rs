@@ -2,8 +2,9 @@
 
 use super::{AllanDeviation, Moments, NoiseFit, Stretch};
 use crate::error::Result;
-use crate::sensor::{Axis, ReadingUnit, Recording, Triad};
+use crate::sensor::{Axis, ImuRecording, ReadingUnit, Recording, Triad};
 use nalgebra::Vector3;
+use rayon::prelude::*;
 
 /// A sample's standard deviation that exceeds the white noise by this factor is worth a word: not all of it averages out.
 const BEYOND_WHITE: f64 = 1.15;
@@ -66,7 +67,64 @@ impl TriadNoise {
     /// ```
     pub fn of(triad: Triad, recording: &Recording, stretch: Stretch) -> Result<Self> {
         let moments = Moments::of(stretch.samples());
-        let readings = &recording.readings[stretch.first..stretch.end];
+        Self::with_moments(triad, recording, None, stretch, &moments)
+    }
+
+    /// The same in the stimulus' unit, for a sensor of these gains in counts per stimulus unit; as [`of`](Self::of) where readings are not in counts.
+    ///
+    /// # Errors
+    /// As [`of`](Self::of).
+    pub fn of_counts(
+        triad: Triad,
+        recording: &Recording,
+        gain: &Vector3<f64>,
+        stretch: Stretch,
+    ) -> Result<Self> {
+        let moments = Moments::of(stretch.samples());
+        Self::with_moments(triad, recording, Some(gain), stretch, &moments)
+    }
+
+    /// The noise of both sensors from `start_s` to `end_s`, in which they are at rest, in the stimulus' units; a sensor whose samples do not determine it is
+    /// left out. `gain` is in counts per stimulus unit.
+    #[must_use]
+    pub fn of_imu(
+        recording: &ImuRecording,
+        (start_s, end_s): (f64, f64),
+        gain: impl Fn(Triad) -> Vector3<f64> + Sync,
+    ) -> Vec<Self> {
+        let stretches: Vec<(Triad, &Recording, Stretch)> = Triad::ALL
+            .iter()
+            .filter_map(|&triad| {
+                let recording = recording.triad(triad)?;
+                Some((triad, recording, Stretch::between(recording, start_s, end_s).ok()?))
+            })
+            .collect();
+        // most often both have the same number of samples
+        let mut lengths: Vec<usize> = stretches.iter().map(|(_, _, stretch)| stretch.samples()).collect();
+        lengths.dedup();
+        let moments: Vec<Moments> = lengths.into_iter().map(Moments::of).collect();
+        stretches
+            .into_par_iter()
+            .filter_map(|(triad, recording, stretch)| {
+                let moments = moments.iter().find(|moments| moments.samples() == stretch.samples())?;
+                Self::with_moments(triad, recording, Some(&gain(triad)), stretch, moments).ok()
+            })
+            .collect()
+    }
+
+    fn with_moments(
+        triad: Triad,
+        recording: &Recording,
+        gain: Option<&Vector3<f64>>,
+        stretch: Stretch,
+        moments: &Moments,
+    ) -> Result<Self> {
+        let mut readings = recording.readings[stretch.first..stretch.end].to_vec();
+        let mut unit = recording.unit;
+        if let (ReadingUnit::Counts, Some(gain)) = (unit, gain) {
+            unit = triad.stimulus_unit();
+            readings.iter_mut().for_each(|reading| *reading = reading.component_div(gain));
+        }
         let axis = |&axis: &Axis| {
             let values: Vec<f64> = readings.iter().map(|reading| reading[axis.index()]).collect();
             let n = values.len() as f64;
@@ -75,14 +133,14 @@ impl TriadNoise {
             Ok(AxisNoise {
                 axis,
                 allan: AllanDeviation::of(&values, stretch.interval_s)?,
-                fit: NoiseFit::of(&values, stretch.interval_s, &moments)
+                fit: NoiseFit::of(&values, stretch.interval_s, moments)
                     .map_err(|error| about(error, axis))?,
                 sample_sd: (squares / (n - 1.0)).sqrt(),
             })
         };
-        let axes: Vec<AxisNoise> = recording.active_axes().iter().map(axis).collect::<Result<_>>()?;
-        let mut noise = Self { triad, unit: recording.unit, stretch, axes, warnings: Vec::new() };
-        noise.warnings = noise.remarks(readings);
+        let axes: Vec<AxisNoise> = recording.active_axes().par_iter().map(axis).collect::<Result<_>>()?;
+        let mut noise = Self { triad, unit, stretch, axes, warnings: Vec::new() };
+        noise.warnings = noise.remarks(&readings);
         Ok(noise)
     }
 
@@ -95,23 +153,6 @@ impl TriadNoise {
             sigma[axis.axis.index()] = axis.fit.model.white_noise_per_sample(self.stretch.rate_hz())?;
         }
         Some(sigma)
-    }
-
-    /// The same noise in the stimulus' unit, for a sensor of these gains in counts per stimulus unit.
-    ///
-    /// Does nothing where readings are not in counts.
-    #[must_use]
-    pub fn with_gain(mut self, recording: &Recording, gain: &Vector3<f64>) -> Self {
-        if self.unit != ReadingUnit::Counts {
-            return self;
-        }
-        let mut physical = recording.clone();
-        physical.unit = self.triad.stimulus_unit();
-        physical.readings.iter_mut().for_each(|reading| *reading = reading.component_div(gain));
-        if let Ok(noise) = Self::of(self.triad, &physical, self.stretch.clone()) {
-            self = noise;
-        }
-        self
     }
 
     fn remarks(&self, readings: &[Vector3<f64>]) -> Vec<String> {

@@ -51,7 +51,7 @@ pub fn find_holds(recording: &Recording, minimum_s: f64) -> Result<Vec<Hold>> {
     if recording.len() < 2 * window {
         return Ok(Vec::new());
     }
-    let variance = window_variance(recording, window);
+    let variance = window_variance(recording, window, 1.0 / rate);
     let Some(threshold) = threshold(&variance, resolution(recording)) else { return Ok(Vec::new()) };
     let mut holds = Vec::new();
     let mut k = 0;
@@ -76,9 +76,8 @@ pub fn find_holds(recording: &Recording, minimum_s: f64) -> Result<Vec<Hold>> {
 }
 
 /// Sum over the axes of the variance within each window of so many samples; infinite for windows that span a gap.
-fn window_variance(recording: &Recording, window: usize) -> Vec<f64> {
+fn window_variance(recording: &Recording, window: usize, step: f64) -> Vec<f64> {
     let n = recording.len();
-    let step = 1.0 / recording.rate_hz();
     let mean = recording.readings.iter().sum::<Vector3<f64>>() / n as f64;
     let (mut sum, mut squares) = (Vector3::zeros(), 0.0);
     let mut gaps = 0_usize;

@@ -106,7 +106,7 @@ impl Finished<'_> {
 
     fn rotations(&self, gyroscope: &Recording) -> Vec<RotationResult> {
         let joint = self.joint;
-        let state = &self.fit.state;
+        let with_before = State { imu: *self.before, forces: self.fit.state.forces.clone() };
         let angle = |miss: &Miss| miss.error.norm().min(1.0).asin();
         joint
             .rotations
@@ -115,17 +115,14 @@ impl Finished<'_> {
             .enumerate()
             .map(|(i, (data, span))| {
                 let (from_hold, to_hold) = (self.chosen[i], self.chosen[i + 1]);
-                let at = |imu: &ImuParameters| {
-                    joint.miss(data, &State { imu: *imu, forces: state.forces.clone() })
-                };
-                let (after, before) =
-                    if data.used { (at(&state.imu), at(self.before)) } else { (None, None) };
+                let after = self.fit.misses[i].as_ref();
+                let before = after.and_then(|_| joint.miss(data, &with_before));
                 let studentised = self.weighed.studentised.get(i).copied().unwrap_or(f64::INFINITY);
                 let reason = match self.integrable.obstacle(span) {
                     Some(obstacle) => Some(obstacle),
                     None if !data.counts => Some(format!(
                         "it misses gravity by {:.2}°, {studentised:.1} standard deviations",
-                        after.as_ref().map_or(0.0, &angle).to_degrees()
+                        after.map_or(0.0, &angle).to_degrees()
                     )),
                     None => None,
                 };
@@ -134,9 +131,9 @@ impl Finished<'_> {
                     to_hold,
                     start_s: gyroscope.times_s[span.start],
                     end_s: gyroscope.times_s[span.end - 1],
-                    path_rad: after.as_ref().map_or(0.0, |miss| miss.rotation.path_rad),
-                    peak_radps: after.as_ref().map_or(0.0, |miss| miss.rotation.peak_radps),
-                    error_rad: after.as_ref().map_or(0.0, &angle),
+                    path_rad: after.map_or(0.0, |miss| miss.rotation.path_rad),
+                    peak_radps: after.map_or(0.0, |miss| miss.rotation.peak_radps),
+                    error_rad: after.map_or(0.0, &angle),
                     error_before_rad: before.as_ref().map_or(0.0, &angle),
                     studentised: if studentised.is_finite() { studentised } else { 0.0 },
                     used: data.used && data.counts,

@@ -96,9 +96,13 @@ pub(super) struct Miss {
     pub(super) rotation: Rotation,
 }
 
+/// What each rotation says at a state; `None` for those that cannot be integrated.
+pub(super) type Misses = Vec<Option<Miss>>;
+
 /// Where it ended.
 pub(super) struct Fit {
     pub(super) state: State,
+    pub(super) misses: Misses,
     pub(super) information: SMatrix<f64, P, P>,
     pub(super) unreduced: SVector<f64, P>,
     pub(super) chi2: f64,
@@ -154,7 +158,7 @@ impl Joint<'_> {
     }
 
     /// All rotations that can be integrated.
-    pub(super) fn misses(&self, state: &State) -> Option<Vec<Option<Miss>>> {
+    pub(super) fn misses(&self, state: &State) -> Option<Misses> {
         use rayon::prelude::*;
         self.rotations
             .par_iter()
@@ -294,10 +298,9 @@ impl Joint<'_> {
         Some((system, unreduced))
     }
 
-    /// Iterates from a state; `None` where a matrix is or becomes singular.
-    pub(super) fn fit(&self, start: State, settings: &CalibrationSettings) -> Option<Fit> {
-        let mut state = start;
-        let misses = self.misses(&state)?;
+    /// Iterates from a state with its misses; `None` where a matrix is or becomes singular.
+    pub(super) fn fit(&self, start: State, misses: Misses, settings: &CalibrationSettings) -> Option<Fit> {
+        let (mut state, mut misses) = (start, misses);
         let mut chi2 = self.chi2(&state, &misses);
         let (mut system, mut unreduced) = self.factor(&state, &misses)?;
         let (mut status, mut iterations) = (CalibrationStatus::IterationLimit, 0);
@@ -322,7 +325,7 @@ impl Joint<'_> {
             });
             match accepted.and_then(|found| Some((self.factor(&found.0, &found.1)?, found))) {
                 Some(((next, diagonal), found)) => {
-                    (state, _, chi2) = found;
+                    (state, misses, chi2) = found;
                     (system, unreduced) = (next, diagonal);
                     damping = if damping < 1e-6 { 0.0 } else { damping / 10.0 };
                 }
@@ -338,6 +341,7 @@ impl Joint<'_> {
         }
         Some(Fit {
             state,
+            misses,
             information: system.information,
             unreduced,
             chi2,

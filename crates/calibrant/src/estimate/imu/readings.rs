@@ -24,12 +24,15 @@ pub(super) fn felt_forces(
     let correction = sensor.matrix.try_inverse()?;
     let force = |k: usize| correction * (accelerometer.readings[k] - sensor.bias);
     let last = accelerometer.len() - 1;
+    let mut after = 0;
     Some(
         gyroscope
             .times_s
             .iter()
             .map(|&t| {
-                let after = accelerometer.times_s.partition_point(|&at| at < t).min(last);
+                while after < last && accelerometer.times_s[after] < t {
+                    after += 1;
+                }
                 let before = after.saturating_sub(1);
                 let (from, to) = (accelerometer.times_s[before], accelerometer.times_s[after]);
                 let part = if to > from { ((t - from) / (to - from)).clamp(0.0, 1.0) } else { 0.0 };

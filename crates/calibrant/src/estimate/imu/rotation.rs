@@ -11,7 +11,7 @@
 //! `iserles1999`, `tedaldi2014`
 
 use crate::sensor::{ImuParameters, ImuQuantity, Quantity, Triad};
-use nalgebra::{Matrix3, UnitQuaternion, Vector3};
+use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 
 /// The readings of a rotation.
 #[derive(Clone, Copy)]
@@ -81,91 +81,171 @@ impl Samples<'_> {
     /// Integrates them for an IMU; `None` where the gyroscope's matrix is singular. `noise` is the standard deviation of one sample.
     pub(super) fn integrate(&self, imu: &ImuParameters, noise: &Vector3<f64>) -> Option<Rotation> {
         let correction = imu.gyroscope.matrix.try_inverse()?;
-        let spread =
-            correction * Matrix3::from_diagonal(&noise.component_mul(noise)) * correction.transpose();
-        let force = |k: usize| self.forces.map_or_else(Vector3::zeros, |forces| forces[k]);
+        let noise_root = correction * Matrix3::from_diagonal(noise);
+        let by_force = correction * imu.g_sensitivity;
         let last = self.times_s.len() - 1;
         let (from, duration) = (self.times_s[0], self.times_s[last] - self.times_s[0]);
         let ends = self.drift.map(|end| end.of(imu));
-        let bias = |k: usize| {
-            let part = (self.times_s[k] - from) / duration;
-            ends[0] + (ends[1] - ends[0]) * part
+        let drifted = ends[1] - ends[0];
+        let force = |k: usize| self.forces.map_or_else(Vector3::zeros, |forces| forces[k]);
+        let part = |k: usize| (self.times_s[k] - from) / duration;
+        let rate = |k: usize, part: f64, force: &Vector3<f64>| {
+            times(&correction, &(self.readings[k] - ends[0] - drifted * part)) - times(&by_force, force)
         };
-        let rate = |k: usize| correction * (self.readings[k] - bias(k) - imu.g_sensitivity * force(k));
         let mut attitude = UnitQuaternion::identity();
-        let mut rotation = Rotation {
-            start_from_end: Matrix3::identity(),
-            by_rate: [Matrix3::zeros(); 3],
-            by_start: Matrix3::zeros(),
-            by_end: Matrix3::zeros(),
-            drift: self.drift,
-            by_force: [Matrix3::zeros(); 3],
-            correction,
-            covariance: Matrix3::zeros(),
-            path_rad: 0.0,
-            peak_radps: 0.0,
-        };
-        let mut here = rate(0);
+        let mut sums = Sums::default();
+        let (mut path_rad, mut peak_radps) = (0.0, 0.0_f64);
+        let (mut before, mut here_part, mut felt) = (0.0, 0.0, force(0));
+        let mut here = rate(0, 0.0, &felt);
         for k in 0..=last {
-            let before = if k > 0 { self.times_s[k] - self.times_s[k - 1] } else { 0.0 };
             let after = if k < last { self.times_s[k + 1] - self.times_s[k] } else { 0.0 };
             let weight = 0.5 * (before + after);
-            let r = attitude.to_rotation_matrix().into_inner();
-            let weighted = r * weight;
-            for c in 0..3 {
-                rotation.by_rate[c] += weighted * here[c];
-            }
-            let part = (self.times_s[k] - from) / duration;
-            rotation.by_start += weighted * (1.0 - part);
-            rotation.by_end += weighted * part;
-            if self.forces.is_some() {
-                let f = force(k);
-                for c in 0..3 {
-                    rotation.by_force[c] += weighted * f[c];
-                }
-            }
-            rotation.covariance += r * spread * r.transpose() * (weight * weight);
-            rotation.peak_radps = rotation.peak_radps.max(here.norm());
-            rotation.path_rad += weight * here.norm();
+            sums.add(&matrix(&attitude), weight, &here, here_part, &felt, &noise_root);
+            let speed = here.norm();
+            peak_radps = peak_radps.max(speed);
+            path_rad += weight * speed;
             if k < last {
-                let next = rate(k + 1);
+                (before, here_part, felt) = (after, part(k + 1), force(k + 1));
+                let next = rate(k + 1, here_part, &felt);
                 let turn = (here + next) * (0.5 * after) + here.cross(&next) * (after * after / 12.0);
-                attitude *= UnitQuaternion::from_scaled_axis(turn);
+                attitude *= exponential(&turn);
                 here = next;
             }
         }
+        let (by_start, by_end) = (sums.of(3), sums.of(4));
+        let mut covariance = sums.covariance();
         // the noise of the two means
-        for (sums, end) in [(rotation.by_start, &self.drift[0]), (rotation.by_end, &self.drift[1])] {
+        for (by_bias, end) in [(by_start, &self.drift[0]), (by_end, &self.drift[1])] {
             let noise = end.share.component_mul(&end.share).component_mul(&end.variance);
-            let by_mean = sums * correction;
-            rotation.covariance += by_mean * Matrix3::from_diagonal(&noise) * by_mean.transpose();
+            let by_mean = by_bias * correction;
+            covariance += by_mean * Matrix3::from_diagonal(&noise) * by_mean.transpose();
         }
-        rotation.start_from_end = attitude.to_rotation_matrix().into_inner();
-        Some(rotation)
+        Some(Rotation {
+            start_from_end: matrix(&attitude),
+            by_rate: [0, 1, 2].map(|scalar| sums.of(scalar)),
+            by_start,
+            by_end,
+            drift: self.drift,
+            by_force: [5, 6, 7].map(|scalar| sums.of(scalar)),
+            correction,
+            covariance,
+            path_rad,
+            peak_radps,
+        })
+    }
+
+    /// What the readings less a bias add up to, `step` samples at a time: the rotation cut down for a first look.
+    pub(super) fn cut_down(&self, bias: &Vector3<f64>, step: usize) -> Vec<Vector3<f64>> {
+        let last = self.times_s.len() - 1;
+        (0..last)
+            .step_by(step)
+            .map(|k| {
+                let next = (k + step).min(last);
+                let mean = self.readings[k..=next].iter().sum::<Vector3<f64>>() / (next - k + 1) as f64;
+                (mean - bias) * (self.times_s[next] - self.times_s[k])
+            })
+            .collect()
     }
 }
 
-impl Samples<'_> {
-    /// A vector of the start's frame as the end sees it, from every `step`-th sample only: a first look.
-    pub(super) fn carried_back(
-        &self,
-        imu: &ImuParameters,
-        step: usize,
-        vector: &Vector3<f64>,
-    ) -> Option<Vector3<f64>> {
-        let correction = imu.gyroscope.matrix.try_inverse()?;
-        let mut attitude = UnitQuaternion::identity();
-        let last = self.times_s.len() - 1;
-        let mut k = 0;
-        while k < last {
-            let next = (k + step).min(last);
-            let mean = self.readings[k..=next].iter().sum::<Vector3<f64>>() / (next - k + 1) as f64;
-            let turn = correction * (mean - imu.gyroscope.bias) * (self.times_s[next] - self.times_s[k]);
-            attitude *= UnitQuaternion::from_scaled_axis(turn);
-            k = next;
-        }
-        Some(attitude.inverse() * vector)
+/// A vector of the start's frame as the end of a rotation that was [cut down](Samples::cut_down) sees it.
+pub(super) fn carried_back(
+    turns: &[Vector3<f64>],
+    correction: &Matrix3<f64>,
+    vector: &Vector3<f64>,
+) -> Vector3<f64> {
+    let mut attitude = UnitQuaternion::identity();
+    for turn in turns {
+        attitude *= exponential(&times(correction, turn));
     }
+    attitude.inverse() * vector
+}
+
+/// The sums over the samples, entry by entry: this is where a calibration spends its time.
+#[derive(Default)]
+struct Sums {
+    /// `∫ R_rc s dt` in `[c][r]` for s = ω_x, ω_y, ω_z, 1 − x, x, f_x, f_y, f_z: eight at once, as processors like it.
+    of_attitude: [[[f64; 8]; 3]; 3],
+    /// `Σ w² (R N)(R N)ᵀ` with N Nᵀ the covariance of a rate: xx, yy, zz, xy, xz, yz.
+    squares: [f64; 6],
+}
+
+impl Sums {
+    #[inline]
+    fn add(
+        &mut self,
+        r: &Matrix3<f64>,
+        weight: f64,
+        rate: &Vector3<f64>,
+        part: f64,
+        force: &Vector3<f64>,
+        noise_root: &Matrix3<f64>,
+    ) {
+        let scalars = [rate.x, rate.y, rate.z, 1.0 - part, part, force.x, force.y, force.z];
+        for (sums, column) in self.of_attitude.iter_mut().zip(&r.data.0) {
+            for (sums, entry) in sums.iter_mut().zip(column) {
+                let weighted = entry * weight;
+                for i in 0..8 {
+                    sums[i] += weighted * scalars[i];
+                }
+            }
+        }
+        for [x, y, z] in noise_root.data.0 {
+            let n = times(r, &Vector3::new(x * weight, y * weight, z * weight));
+            self.squares[0] += n.x * n.x;
+            self.squares[1] += n.y * n.y;
+            self.squares[2] += n.z * n.z;
+            self.squares[3] += n.x * n.y;
+            self.squares[4] += n.x * n.z;
+            self.squares[5] += n.y * n.z;
+        }
+    }
+
+    /// `∫ R s dt` of the scalar in this place.
+    fn of(&self, scalar: usize) -> Matrix3<f64> {
+        Matrix3::from_fn(|row, column| self.of_attitude[column][row][scalar])
+    }
+
+    fn covariance(&self) -> Matrix3<f64> {
+        let [xx, yy, zz, xy, xz, yz] = self.squares;
+        Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz)
+    }
+}
+
+/// `M v`, written out: general products of matrices cost several times as much here.
+#[inline]
+fn times(m: &Matrix3<f64>, v: &Vector3<f64>) -> Vector3<f64> {
+    Vector3::new(
+        m.m11 * v.x + m.m12 * v.y + m.m13 * v.z,
+        m.m21 * v.x + m.m22 * v.y + m.m23 * v.z,
+        m.m31 * v.x + m.m32 * v.y + m.m33 * v.z,
+    )
+}
+
+#[inline]
+fn matrix(attitude: &UnitQuaternion<f64>) -> Matrix3<f64> {
+    attitude.to_rotation_matrix().into_inner()
+}
+
+/// The rotation by a vector, rad.
+///
+/// # Numerics
+/// Between two samples the angle is small: five terms of the series of `cos` and `sin(x)/x` at half the angle leave less than 1e-16.
+#[inline]
+fn exponential(turn: &Vector3<f64>) -> UnitQuaternion<f64> {
+    const SMALL: f64 = 0.01;
+    let half = turn * 0.5;
+    let h = half.norm_squared();
+    if h > SMALL {
+        return UnitQuaternion::from_scaled_axis(*turn);
+    }
+    // 1 − h/(1·2) (1 − h/(3·4) (1 − …)), and 1 − h/(2·3) (1 − h/(4·5) (1 − …)), from within
+    const COS: [f64; 4] = [1.0 / 56.0, 1.0 / 30.0, 1.0 / 12.0, 1.0 / 2.0];
+    const SINC: [f64; 4] = [1.0 / 72.0, 1.0 / 42.0, 1.0 / 20.0, 1.0 / 6.0];
+    let series =
+        |factors: [f64; 4]| factors.into_iter().fold(1.0, |inner, factor| 1.0 - (h * factor) * inner);
+    let (cos, sinc) = (series(COS), series(SINC));
+    UnitQuaternion::new_unchecked(Quaternion::from_parts(cos, half * sinc))
 }
 
 impl Rotation {
@@ -282,6 +362,19 @@ mod tests {
         let sum = UnitQuaternion::from_scaled_axis(rates.sum::<Vector3<f64>>() * step);
         let naive = (sum.to_rotation_matrix().into_inner() - coning.exact).norm();
         assert!(naive > 0.05, "{naive:e}");
+    }
+
+    #[test]
+    fn the_exponential_is_exact_for_small_and_large_angles() {
+        for angle in [0.0, 1e-9, 1e-3, 0.1, 0.199, 0.201, 2.0] {
+            let turn = Vector3::new(0.6, -0.48, 0.64) * angle;
+            let exact = UnitQuaternion::from_axis_angle(
+                &nalgebra::Unit::new_normalize(Vector3::new(0.6, -0.48, 0.64)),
+                angle,
+            );
+            let error = (exponential(&turn).coords - exact.coords).amax();
+            assert!(error < 3e-16, "{angle}: {error:e}");
+        }
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! Weights and the gyroscope's parameters in turn, directions fixed, until both rest.
 
-use super::joint::{Joint, State};
+use super::joint::{Joint, Misses, State};
 use super::rotation::LocalBias;
 use super::solver::singular;
 use super::weights::{self, Weighed};
@@ -55,16 +55,12 @@ fn rest(joint: &Joint<'_>, state: &State) -> (DMatrix<f64>, DVector<f64>) {
     (f, g)
 }
 
-pub(super) fn reweigh(joint: &Joint<'_>, state: &State) -> Result<Option<Weighed>> {
-    if joint.rotations.is_empty() {
-        return Ok(None);
-    }
-    let misses = joint.misses(state).ok_or_else(singular)?;
+pub(super) fn reweigh(joint: &Joint<'_>, state: &State, misses: &Misses) -> Result<Option<Weighed>> {
     if misses.iter().all(Option::is_none) {
         return Ok(None);
     }
     let (f, g) = rest(joint, state);
-    weights::weigh(joint, &misses, &f, &g).map(Some).ok_or_else(singular)
+    weights::weigh(joint, misses, &f, &g).map(Some).ok_or_else(singular)
 }
 
 pub(super) fn apply(joint: &mut Joint<'_>, weighed: &Weighed) {
@@ -104,7 +100,8 @@ pub(super) fn settle(joint: &mut Joint<'_>, state: &mut State, between: &Vector3
     let mut last = Weighed::none(joint.rotations.len());
     for _ in 0..ROUNDS {
         follow_drift(joint, state, between);
-        let Some(weighed) = reweigh(joint, state)? else { break };
+        let misses = joint.misses(state).ok_or_else(singular)?;
+        let Some(weighed) = reweigh(joint, state, &misses)? else { break };
         apply(joint, &weighed);
         let mut imu = state.imu;
         for (&k, step) in places.iter().zip(weighed.step.iter()) {

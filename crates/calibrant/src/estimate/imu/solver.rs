@@ -97,15 +97,16 @@ pub fn calibrate_imu(problem: &ImuProblem<'_>, settings: &CalibrationSettings) -
     let before = state.imu;
     check(&joint, &state, settings)?;
     let weighed = settle(&mut joint, &mut state, &between)?;
-    let mut fit = joint.fit(state, settings).ok_or_else(singular)?;
+    let misses = joint.misses(&state).ok_or_else(singular)?;
+    let mut fit = joint.fit(state, misses, settings).ok_or_else(singular)?;
     // the weights once more, at the joint optimum
-    let weighed = match reweigh(&joint, &fit.state)? {
+    let weighed = match reweigh(&joint, &fit.state, &fit.misses)? {
         Some(again)
             if again.used != weighed.used
                 || (again.excess_rad - joint.excess_rad).abs() > 0.01 * joint.excess_rad =>
         {
             apply(&mut joint, &again);
-            fit = joint.fit(fit.state, settings).ok_or_else(singular)?;
+            fit = joint.fit(fit.state, fit.misses, settings).ok_or_else(singular)?;
             again
         }
         Some(again) => again,
@@ -269,7 +270,8 @@ fn start_values(problem: &ImuProblem<'_>, first: &First, joint: &Joint<'_>) -> I
 /// Are all parameters determined?
 fn check(joint: &Joint<'_>, state: &State, settings: &CalibrationSettings) -> Result<()> {
     let none = CalibrationSettings { max_iterations: 0, ..settings.clone() };
-    let fit = joint.fit(state.clone(), &none).ok_or_else(singular)?;
+    let misses = joint.misses(state).ok_or_else(singular)?;
+    let fit = joint.fit(state.clone(), misses, &none).ok_or_else(singular)?;
     let size = joint.quantities.len();
     let information = DMatrix::from_fn(size, size, |i, j| fit.information[(i, j)]);
     let groups = information::undetermined(&information, &DVector::from_fn(size, |i, _| fit.unreduced[i]));

@@ -3,7 +3,8 @@
 //! A rotation turns gravity by no more than the angle that the gyroscope went through, so each rotation bounds the gain from above, and one about an axis
 //! across gravity gives it. From that bound downwards gains are tried, and if none brings gravity back, all orders and signs of the axes.
 
-use super::joint::{HoldData, Joint, State};
+use super::joint::{HoldData, Joint, RotationData, State};
+use super::rotation::carried_back;
 use crate::sensor::{Axis, ImuParameters, ReadingUnit};
 use nalgebra::{Matrix3, Vector3};
 use rayon::prelude::*;
@@ -38,15 +39,16 @@ pub(super) fn find(
         imu.gyroscope.matrix = matrix;
         imu
     };
+    let look = FirstLook::of(joint, state);
     let best = |tries: &[Matrix3<f64>]| {
         tries
             .par_iter()
-            .filter_map(|matrix| Some((median(joint, state, &with(*matrix))?, *matrix)))
+            .filter_map(|matrix| Some((look.median(matrix)?, *matrix)))
             .min_by(|one, other| one.0.total_cmp(&other.0))
     };
     if let Some(matrix) = nominal {
         let imu = with(matrix);
-        let median_rad = median(joint, state, &imu)?;
+        let median_rad = look.median(&matrix)?;
         let as_it_is = Start { imu, median_rad, axes: None };
         // few rotations fit some order by chance
         let few = joint.rotations.iter().filter(|data| data.used).count() < ENOUGH;
@@ -78,23 +80,47 @@ pub(super) fn find(
     Some(Start { imu: with(matrix), median_rad, axes })
 }
 
-/// Median over the rotations of the angle by which gravity misses.
-pub(super) fn median(joint: &Joint<'_>, state: &State, imu: &ImuParameters) -> Option<f64> {
-    let mut errors: Vec<f64> = joint
-        .rotations
-        .iter()
-        .filter(|data| data.used)
-        .map(|data| {
+/// The rotations cut down.
+pub(super) struct FirstLook {
+    rotations: Vec<CutDown>,
+}
+
+/// A rotation cut down, with gravity before and after it.
+struct CutDown {
+    turns: Vec<Vector3<f64>>,
+    from: Vector3<f64>,
+    to: Vector3<f64>,
+}
+
+impl FirstLook {
+    /// At a state whose bias counts, whatever its gains.
+    pub(super) fn of(joint: &Joint<'_>, state: &State) -> Self {
+        let used = joint.rotations.iter().filter(|data| data.used);
+        let cut_down = |data: &RotationData<'_>| {
             let step = data.samples.times_s.len().div_ceil(SAMPLES);
-            let turned = data.samples.carried_back(imu, step, &state.forces[data.from])?;
-            Some(turned.angle(&state.forces[data.from + 1]))
-        })
-        .collect::<Option<_>>()?;
-    if errors.is_empty() {
-        return None;
+            CutDown {
+                turns: data.samples.cut_down(&state.imu.gyroscope.bias, step),
+                from: state.forces[data.from],
+                to: state.forces[data.from + 1],
+            }
+        };
+        Self { rotations: used.map(cut_down).collect() }
     }
-    let middle = errors.len() / 2;
-    Some(*errors.select_nth_unstable_by(middle, f64::total_cmp).1)
+
+    /// Median over the rotations of the angle by which gravity misses, for this matrix of the gyroscope.
+    pub(super) fn median(&self, matrix: &Matrix3<f64>) -> Option<f64> {
+        let correction = matrix.try_inverse()?;
+        let mut errors: Vec<f64> = self
+            .rotations
+            .iter()
+            .map(|rotation| carried_back(&rotation.turns, &correction, &rotation.from).angle(&rotation.to))
+            .collect();
+        if errors.is_empty() {
+            return None;
+        }
+        let middle = errors.len() / 2;
+        Some(*errors.select_nth_unstable_by(middle, f64::total_cmp).1)
+    }
 }
 
 /// The largest gain that no rotation contradicts, a few outliers apart.

@@ -2,7 +2,7 @@
 
 use super::ImuCalibration;
 use super::joint::{Joint, State};
-use super::start::{Start, WRONG};
+use super::start::{FirstLook, Start, WRONG};
 use crate::error::{Complaint, Error, NotIdentifiable, Result, UndeterminedGroup};
 use crate::estimate::{CalibrationStatus, HoldCalibration};
 use crate::information::Undetermined;
@@ -89,9 +89,9 @@ pub(super) fn plausible(
         "half of the rotations miss gravity by more than {degrees:.0}°: the gyroscope's readings do not fit the accelerometer's"
     );
     if unit == ReadingUnit::RadianPerSecond {
-        let mut imu = state.imu;
-        imu.gyroscope.matrix *= 180.0 / std::f64::consts::PI;
-        if super::start::median(joint, state, &imu).is_some_and(|median| median < 0.5 * start.median_rad) {
+        let per_degree = state.imu.gyroscope.matrix * (180.0 / std::f64::consts::PI);
+        let median = FirstLook::of(joint, state).median(&per_degree);
+        if median.is_some_and(|median| median < 0.5 * start.median_rad) {
             return Err(Error::recording(Complaint::new(
                 format!(
                     "the gyroscope's readings are in deg/s, not rad/s: so read, the rotations miss gravity by {degrees:.0}°"

@@ -5,7 +5,7 @@
 //! problem linearised at the present estimate, directions fixed (they are known ten times better than a rotation can tell).
 
 use super::joint::{Joint, Miss};
-use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
+use nalgebra::{DMatrix, DVector, Matrix2, Matrix2xX, Vector2};
 
 /// A rotation is left out when an error as large as its own would be seen in fewer than this share of recordings.
 const SIGNIFICANCE: f64 = 0.01;
@@ -40,9 +40,10 @@ impl Weighed {
 
 /// The linear problem: errors `e_i + J_i δp`, and what the rest of the data say of δp.
 struct Linear<'a> {
-    misses: Vec<Option<&'a Miss>>,
-    /// Places of the gyroscope's quantities.
-    places: Vec<usize>,
+    /// The rotations, each with its Jacobian.
+    misses: Vec<Option<(&'a Miss, Matrix2xX<f64>)>>,
+    /// Number of the gyroscope's quantities.
+    size: usize,
     rest: DMatrix<f64>,
     rest_rhs: DVector<f64>,
 }
@@ -55,9 +56,11 @@ pub(super) fn weigh(
     rest_rhs: &DVector<f64>,
 ) -> Option<Weighed> {
     let places = joint.gyroscope_places();
+    let jacobian =
+        |miss: &Miss| Matrix2xX::from_fn(places.len(), |row, k| miss.by_parameters[(row, places[k])]);
     let linear = Linear {
-        misses: misses.iter().map(Option::as_ref).collect(),
-        places,
+        misses: misses.iter().map(|miss| miss.as_ref().map(|miss| (miss, jacobian(miss)))).collect(),
+        size: places.len(),
         rest: rest.clone(),
         rest_rhs: rest_rhs.clone(),
     };
@@ -79,7 +82,7 @@ pub(super) fn weigh(
             .min_by(|&a, &b| studentised[a].total_cmp(&studentised[b]));
         rounds += 1;
         match (worst, best) {
-            (Some(i), _) if 2 * count > linear.places.len() + 4 && rounds < ROUNDS => used[i] = false,
+            (Some(i), _) if 2 * count > linear.size + 4 && rounds < ROUNDS => used[i] = false,
             (_, Some(i)) if rounds < ROUNDS => used[i] = true,
             _ => {
                 return Some(Weighed {
@@ -108,34 +111,38 @@ impl Linear<'_> {
             .unwrap_or_else(Matrix2::zeros)
     }
 
-    fn jacobian(&self, miss: &Miss) -> DMatrix<f64> {
-        DMatrix::from_fn(2, self.places.len(), |row, k| miss.by_parameters[(row, self.places[k])])
+    fn error(miss: &Miss, jacobian: &Matrix2xX<f64>, step: &DVector<f64>) -> Vector2<f64> {
+        let change = jacobian.column_iter().zip(step.iter()).map(|(column, step)| column * *step);
+        miss.error + change.sum::<Vector2<f64>>()
     }
 
-    fn error(&self, miss: &Miss, jacobian: &DMatrix<f64>, step: &DVector<f64>) -> Vector2<f64> {
-        let change = jacobian * step;
-        miss.error + Vector2::new(change[0], change[1])
+    fn used<'s>(&'s self, used: &'s [bool]) -> impl Iterator<Item = &'s (&'s Miss, Matrix2xX<f64>)> {
+        self.misses.iter().zip(used).filter(|(_, used)| **used).filter_map(|(miss, _)| miss.as_ref())
     }
 
     fn solve(&self, used: &[bool], excess: f64) -> Option<Solved> {
         let (mut f, mut g) = (self.rest.clone(), self.rest_rhs.clone());
-        for (miss, _) in self.misses.iter().zip(used).filter(|(_, used)| **used) {
-            let Some(miss) = miss else { continue };
-            let (j, w) = (self.jacobian(miss), self.weight(miss, excess));
-            let w = DMatrix::from_fn(2, 2, |a, b| w[(a, b)]);
-            let wj = &w * &j;
-            f += j.tr_mul(&wj);
-            g -= wj.tr_mul(&DVector::from_column_slice(miss.error.as_slice()));
+        for (miss, jacobian) in self.used(used) {
+            let weight = self.weight(miss, excess);
+            for (b, by_b) in jacobian.column_iter().enumerate() {
+                let weighted = weight * by_b;
+                g[b] -= weighted.dot(&miss.error);
+                for (a, by_a) in jacobian.column_iter().enumerate().take(b + 1) {
+                    f[(a, b)] += by_a.dot(&weighted);
+                }
+            }
         }
+        f.fill_lower_triangle_with_upper_triangle();
         let covariance = crate::information::covariance(&f)?;
         let step = &covariance * &g;
         let length = step.dot(&g).max(0.0).sqrt();
-        let mut chi2 = 0.0;
-        for (miss, _) in self.misses.iter().zip(used).filter(|(_, used)| **used) {
-            let Some(miss) = miss else { continue };
-            let error = self.error(miss, &self.jacobian(miss), &step);
-            chi2 += error.dot(&(self.weight(miss, excess) * error));
-        }
+        let chi2 = self
+            .used(used)
+            .map(|(miss, jacobian)| {
+                let error = Self::error(miss, jacobian, &step);
+                error.dot(&(self.weight(miss, excess) * error))
+            })
+            .sum();
         Some(Solved { step, covariance, chi2, length })
     }
 
@@ -143,10 +150,7 @@ impl Linear<'_> {
     fn excess(&self, used: &[bool]) -> Option<(f64, Solved)> {
         let count = used.iter().filter(|used| **used).count();
         // what the holds say of the bias are as many equations as it has unknowns
-        let unknowns = self
-            .places
-            .len()
-            .saturating_sub((0..self.places.len()).filter(|&k| self.rest[(k, k)] > 0.0).count());
+        let unknowns = self.size.saturating_sub((0..self.size).filter(|&k| self.rest[(k, k)] > 0.0).count());
         let degrees = (2 * count).saturating_sub(unknowns) as f64;
         let mut solved = self.solve(used, 0.0)?;
         if degrees == 0.0 || solved.chi2 <= degrees {
@@ -177,13 +181,11 @@ impl Linear<'_> {
             .iter()
             .zip(used)
             .map(|(miss, used)| {
-                let Some(miss) = miss else { return f64::INFINITY };
-                let j = self.jacobian(miss);
+                let Some((miss, j)) = miss else { return f64::INFINITY };
                 let own = miss.covariance + Matrix2::identity() * (excess * excess + 1e-18);
-                let from = &j * &solved.covariance * j.transpose();
-                let from = Matrix2::new(from[(0, 0)], from[(0, 1)], from[(1, 0)], from[(1, 1)]);
+                let from: Matrix2<f64> = j * &solved.covariance * j.transpose();
                 let expected = if *used { own - from } else { own + from };
-                let error = self.error(miss, &j, &solved.step);
+                let error = Self::error(miss, j, &solved.step);
                 // a rotation that decides the parameters by itself has no error of its own
                 let inverse =
                     expected.try_inverse().filter(|_| expected.determinant() > 1e-6 * own.determinant());

@@ -12,6 +12,7 @@
 //! the answer unnoticed is an error.
 
 mod columns;
+mod decimal;
 mod finding;
 mod imu;
 mod quality;

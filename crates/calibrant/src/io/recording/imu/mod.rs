@@ -120,7 +120,8 @@ pub fn parse_imu_recording(bytes: &[u8], options: &ImuReadOptions) -> Result<Imu
 pub fn read_imu_pair(accelerometer: &Path, gyroscope: &Path, options: &ImuReadOptions) -> Result<ImuFile> {
     let in_file = |path: &Path, complaint: Box<Complaint>| Error::recording(complaint.in_file(path));
     let bytes = |path: &Path| read(path).map_err(|complaint| in_file(path, complaint));
-    let (first, second) = (bytes(accelerometer)?, bytes(gyroscope)?);
+    let (first, second) = rayon::join(|| bytes(accelerometer), || bytes(gyroscope));
+    let (first, second) = (first?, second?);
     let one = |path: &Path, bytes: &[u8], triad: Triad| {
         parse_one(bytes, options, triad).map_err(|complaint| in_file(path, complaint))
     };
