@@ -7,6 +7,7 @@ pub(crate) use imu::imu_calibration;
 use calibrant::Error;
 use calibrant::estimate::{Calibration, HoldCalibration, Recovered};
 use calibrant::report::number;
+use calibrant::sensor::CalibratedImu;
 use indicatif::{ProgressBar, ProgressStyle};
 use miette::{LabeledSpan, MietteDiagnostic, NamedSource, Report};
 use std::io::Write;
@@ -32,6 +33,22 @@ pub(crate) fn note(text: &str) {
 /// Prints a warning to stderr.
 pub(crate) fn warn(text: &str) {
     let _ = writeln!(std::io::stderr(), "warning: {text}");
+}
+
+/// Warns where temperatures lie beyond those at which a calibration was made.
+pub(crate) fn warn_beyond(imu: &CalibratedImu, [coldest, hottest]: [f64; 2]) {
+    if let Some([low, high]) =
+        imu.parameters.thermal.range_c.filter(|[low, high]| coldest < *low || hottest > *high)
+    {
+        let given = if coldest == hottest {
+            format!("{coldest:.1}")
+        } else {
+            format!("{coldest:.1} to {hottest:.1}")
+        };
+        warn(&format!(
+            "the calibration was made at {low:.1} to {high:.1} °C: its polynomials are extrapolated to {given} °C"
+        ));
+    }
 }
 
 /// Prints an error to stderr, with the place in the file underlined where it is known.

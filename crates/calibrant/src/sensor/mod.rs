@@ -14,12 +14,17 @@ mod imu_correction;
 mod invariant;
 mod parameters;
 mod recording;
+mod referred;
+mod temperatures;
+mod thermal;
 
 pub use axis::Axis;
 pub use datasheet::{ReadingUnit, Sensor};
 pub use gauge::{Correction, Gauge};
-pub use imu::{CalibratedImu, ImuParameters, ImuQuantity, ImuRecording, Triad};
+pub use imu::{CalibratedImu, Condition, ImuParameters, ImuQuantity, ImuRecording, Triad};
 pub use imu_correction::{CorrectedRecording, CorrectedTriad, ImuCorrection};
 pub use invariant::{Invariant, InvariantValue};
 pub use parameters::{Parameter, ParameterList, Quantity, SensorModel, SensorParameters};
 pub use recording::Recording;
+pub use temperatures::Temperatures;
+pub use thermal::{HIGHEST_ORDER, Thermal, ThermalPart, ThermalTerm, TriadThermal};
