@@ -35,15 +35,14 @@ pub(crate) fn warn(text: &str) {
     let _ = writeln!(std::io::stderr(), "warning: {text}");
 }
 
-/// Warns where temperatures lie beyond those at which a calibration was made.
+/// Warns where temperatures lie far beyond those at which a calibration was made.
 pub(crate) fn warn_beyond(imu: &CalibratedImu, [coldest, hottest]: [f64; 2]) {
-    if let Some([low, high]) =
-        imu.parameters.thermal.range_c.filter(|[low, high]| coldest < *low || hottest > *high)
-    {
-        let given = if coldest == hottest {
-            format!("{coldest:.1}")
-        } else {
-            format!("{coldest:.1} to {hottest:.1}")
+    let thermal = &imu.parameters.thermal;
+    let Some([low, high]) = thermal.range_c else { return };
+    if thermal.extrapolates_to(coldest) || thermal.extrapolates_to(hottest) {
+        let given = match coldest == hottest {
+            true => format!("{coldest:.1}"),
+            false => format!("{coldest:.1} to {hottest:.1}"),
         };
         warn(&format!(
             "the calibration was made at {low:.1} to {high:.1} °C: its polynomials are extrapolated to {given} °C"

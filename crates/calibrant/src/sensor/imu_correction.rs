@@ -191,7 +191,13 @@ impl ImuCorrection {
                     errors[(row, entries::g_sensitivity(row, column))] = force[column];
                 }
             }
-            errors * covariance * errors.transpose()
+            if self.follows_temperature() {
+                errors * covariance * errors.transpose()
+            } else {
+                const N: usize = entries::AT_REFERENCE;
+                let errors = errors.fixed_view::<3, N>(0, 0);
+                errors * covariance.fixed_view::<N, N>(0, 0) * errors.transpose()
+            }
         };
         let variance = correction.matrix * of_reading * correction.matrix.transpose();
         self.known[1].then(|| variance.diagonal().map(sqrt))

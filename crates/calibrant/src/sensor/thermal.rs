@@ -164,6 +164,15 @@ impl Thermal {
         }
     }
 
+    /// Is a temperature so far outside the range that the polynomials extrapolate: by more than a tenth of the range, or 1 K where that is more?
+    #[must_use]
+    pub fn extrapolates_to(&self, temperature_c: f64) -> bool {
+        self.range_c.is_some_and(|[low, high]| {
+            let margin = (0.1 * (high - low)).max(1.0);
+            temperature_c < low - margin || temperature_c > high + margin
+        })
+    }
+
     /// `τ = T − T₀`, K.
     #[must_use]
     pub fn tau_k(&self, temperature_c: f64) -> f64 {

@@ -110,16 +110,12 @@ pub(super) fn warnings(calibration: &ImuCalibration, axes: Option<&[String; 3]>)
     warnings
 }
 
-/// A polynomial is not to be trusted further than this share of its range beyond it.
-const BEYOND: f64 = 0.1;
-
 /// Warns where the polynomials of temperature are used beyond the temperatures of the holds.
 pub(super) fn extrapolation(thermal: &Thermal, recording_c: Option<[f64; 2]>) -> Vec<String> {
     let (Some([low, high]), Some([coldest, hottest])) = (thermal.range_c, recording_c) else {
         return Vec::new();
     };
-    let margin = BEYOND * (high - low);
-    let beyond = |t: f64| t < low - margin || t > high + margin;
+    let beyond = |t: f64| thermal.extrapolates_to(t);
     let mut warnings = Vec::new();
     if beyond(coldest) || beyond(hottest) {
         warnings.push(format!(
