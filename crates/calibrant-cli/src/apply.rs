@@ -8,7 +8,9 @@ use calibrant::io::{
     read_recording, write_corrected_recording,
 };
 use calibrant::report::number;
-use calibrant::sensor::{CalibratedImu, CorrectedTriad, ImuCorrection, ImuRecording, ReadingUnit, Triad};
+use calibrant::sensor::{
+    CalibratedImu, CorrectedTriad, ImuCorrection, ImuRecording, ReadingUnit, Recording, Triad,
+};
 use std::path::PathBuf;
 
 /// Correct a recording with a calibration: true specific force and angular rate, with the correction's standard uncertainty.
@@ -28,6 +30,9 @@ pub(crate) struct Arguments {
     file: crate::reading::RecordingOptions,
     #[command(flatten)]
     reading: Reading,
+    /// The temperature, °C, where the calibration follows it and the recording does not have it (or another).
+    #[arg(long, value_name = "CELSIUS", allow_negative_numbers = true)]
+    temperature: Option<f64>,
     /// Where to write the corrected recording.
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
@@ -36,7 +41,15 @@ pub(crate) struct Arguments {
 pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     let imu = arguments.reading.read(&arguments.calibration)?.imu;
     let correction = ImuCorrection::of(&imu)?;
-    let recording = read_for(&imu, arguments)?;
+    let mut recording = read_for(&imu, arguments)?;
+    match arguments.temperature {
+        Some(temperature_c) if correction.follows_temperature() => {
+            let sensor = recording.accelerometer.as_ref().or(recording.gyroscope.as_ref());
+            recording.temperature_c = Some(vec![temperature_c; sensor.map_or(0, Recording::len)]);
+        }
+        Some(_) => console::note("--temperature is not used: the calibration does not follow temperature"),
+        None => {}
+    }
     let corrected =
         correction.apply(&imu, &recording).map_err(|error| in_file(error, &arguments.recording))?;
     for triad in Triad::ALL {
@@ -50,6 +63,11 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
             _ => {}
         }
     }
+    if let Some(range) =
+        recording.temperature_c.as_deref().and_then(range).filter(|_| correction.follows_temperature())
+    {
+        console::warn_beyond(&imu, range);
+    }
     write_corrected_recording(&arguments.output, &corrected)?;
     console::print(&format!("{}: {}\n", arguments.calibration.display(), in_words(&imu)));
     for (triad, found) in
@@ -61,6 +79,11 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     }
     console::print(&format!("{}\n", arguments.output.display()));
     Ok(Exit::DONE)
+}
+
+/// Least and greatest of some values.
+fn range(values: &[f64]) -> Option<[f64; 2]> {
+    values.iter().map(|&t| [t, t]).reduce(|[low, high], [t, _]| [low.min(t), high.max(t)])
 }
 
 /// The recording that a calibration is applied to: what its file does not say of units is taken to be as the calibration has it.

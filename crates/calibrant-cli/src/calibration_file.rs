@@ -95,6 +95,9 @@ pub(crate) fn in_words(imu: &CalibratedImu) -> String {
     if imu.gyroscope_unit.is_some() && imu.parameters.g_sensitivity.iter().any(|&entry| entry != 0.0) {
         words.push("g-sensitivity".into());
     }
+    if imu.follows_temperature() {
+        words.push(format!("temperature terms about {} °C", imu.parameters.thermal.reference_c));
+    }
     words.push(match &imu.covariance {
         Some(covariance) => format!("covariance of {} parameters", covariance.nrows()),
         None => "no covariance".into(),

@@ -7,6 +7,7 @@ pub(crate) use imu::imu_calibration;
 use calibrant::Error;
 use calibrant::estimate::{Calibration, HoldCalibration, Recovered};
 use calibrant::report::number;
+use calibrant::sensor::CalibratedImu;
 use indicatif::{ProgressBar, ProgressStyle};
 use miette::{LabeledSpan, MietteDiagnostic, NamedSource, Report};
 use std::io::Write;
@@ -32,6 +33,21 @@ pub(crate) fn note(text: &str) {
 /// Prints a warning to stderr.
 pub(crate) fn warn(text: &str) {
     let _ = writeln!(std::io::stderr(), "warning: {text}");
+}
+
+/// Warns where temperatures lie far beyond those at which a calibration was made.
+pub(crate) fn warn_beyond(imu: &CalibratedImu, [coldest, hottest]: [f64; 2]) {
+    let thermal = &imu.parameters.thermal;
+    let Some([low, high]) = thermal.range_c else { return };
+    if thermal.extrapolates_to(coldest) || thermal.extrapolates_to(hottest) {
+        let given = match coldest == hottest {
+            true => format!("{coldest:.1}"),
+            false => format!("{coldest:.1} to {hottest:.1}"),
+        };
+        warn(&format!(
+            "the calibration was made at {low:.1} to {high:.1} °C: its polynomials are extrapolated to {given} °C"
+        ));
+    }
 }
 
 /// Prints an error to stderr, with the place in the file underlined where it is known.

@@ -34,6 +34,9 @@ pub(crate) struct Arguments {
     /// Leave the gyroscope's g-sensitivity out: the correction changes.
     #[arg(long)]
     drop_g_sensitivity: bool,
+    /// Take biases and gains as they are at this temperature, °C, and leave out what temperature does to them.
+    #[arg(long, value_name = "CELSIUS", allow_negative_numbers = true)]
+    temperature: Option<f64>,
 }
 
 #[derive(Clone, Copy, clap::ValueEnum)]
@@ -84,6 +87,17 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
             ));
         }
         file.imu = file.imu.without_g_sensitivity();
+    }
+    if let Some(temperature_c) = arguments.temperature {
+        if file.imu.follows_temperature() {
+            console::note(&format!(
+                "biases and gains are those at {temperature_c} °C; at others the correction changes"
+            ));
+            console::warn_beyond(&file.imu, [temperature_c; 2]);
+            file.imu = file.imu.at(temperature_c)?;
+        } else {
+            console::note("--temperature is not used: this calibration does not follow temperature");
+        }
     }
     if let Some(gauge) = arguments.gauge {
         file.imu = file.imu.in_gauge(gauge.into())?;

@@ -11,6 +11,7 @@ use calibrant::io::{ImuReadOptions, ImuUnit, SectionKind, read_imu_pair, read_im
 use calibrant::motion::Gravity;
 use calibrant::sensor::{
     Gauge, ImuParameters, ImuRecording, ReadingUnit, Recording, Sensor, SensorModel, SensorParameters,
+    Thermal,
 };
 use calibrant::simulate::{ImuSimulation, Purpose, Rng, simulate_imu, stream};
 use nalgebra::{Matrix3, Rotation3, Vector3};
@@ -167,7 +168,7 @@ fn draw(rng: &mut Rng) -> ImuParameters {
     let accelerometer = Gauge::Upper.apply(&sensor(0.1, 0.01));
     let gyroscope = sensor(0.02, 0.01);
     let g_sensitivity = Matrix3::from_fn(|_, _| 2e-4 * normal(rng));
-    ImuParameters { accelerometer, gyroscope, g_sensitivity }
+    ImuParameters { accelerometer, gyroscope, g_sensitivity, thermal: Thermal::none() }
 }
 
 #[test]

@@ -91,6 +91,7 @@ fn setup(
         directions: holds.directions.clone(),
         turns: plan.turns.clone(),
         known: plan.known.clone(),
+        thermal: plan.thermal,
     };
     if let Some(path) = &arguments.sections {
         let times = file.recording.accelerometer.as_ref().map_or(&[][..], |recording| &recording.times_s);

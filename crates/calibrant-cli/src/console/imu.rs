@@ -2,7 +2,7 @@
 
 use super::table;
 use calibrant::estimate::ImuCalibration;
-use calibrant::report::{imu_quality, number, over_the_gain};
+use calibrant::report::{imu_quality, number, over_the_gain, temperature_in_words};
 use calibrant::sensor::Triad;
 
 /// What was used, the parameters of both sensors, and how good they are.
@@ -11,6 +11,9 @@ pub(crate) fn imu_calibration(calibration: &ImuCalibration) -> String {
     for triad in Triad::ALL {
         text.push('\n');
         text.push_str(&parameters(calibration, triad));
+    }
+    if let Some(line) = temperature_in_words(calibration) {
+        text.push_str(&format!("\n  {line}\n"));
     }
     text.push('\n');
     imu_quality(calibration).split("; ").for_each(|part| text.push_str(&format!("  {part}\n")));

@@ -14,4 +14,5 @@ mod many;
 mod noise;
 mod real;
 mod repaired;
+mod temperature;
 mod undetermined;

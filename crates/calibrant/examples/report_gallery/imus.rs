@@ -11,7 +11,7 @@ use rand_chacha::{ChaCha8Rng, rand_core::SeedableRng};
 use rand_distr::{Distribution, StandardNormal};
 use sensor::{
     Axis, Gauge, ImuParameters, ImuQuantity, ImuRecording, ReadingUnit, Recording, Sensor, SensorModel,
-    SensorParameters,
+    SensorParameters, Thermal,
 };
 
 const RATE_HZ: f64 = 50.0;
@@ -92,6 +92,7 @@ fn truth() -> ImuParameters {
             matrix: Matrix3::new(4778.0, -25.0, 60.0, 18.0, 4764.0, -31.0, 44.0, 9.0, 4766.0),
         },
         g_sensitivity: Matrix3::new(0.1, 0.3, -0.1, 0.0, 0.2, 0.1, -0.2, 0.1, 0.4),
+        thermal: Thermal::none(),
     }
 }
 

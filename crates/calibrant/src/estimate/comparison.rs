@@ -3,6 +3,8 @@
 //! Quantity by quantity on what does not depend on the true frame ([`Invariant`]); and as a whole, with both brought into one frame (the lower gauge of the same
 //! sensor): `χ² = dᵀ (Σ_A + Σ_B)⁺ d` over the parameters that either covariance speaks of, `d` their difference. This supposes that the two come
 //! from different recordings; of the same recording, `χ²` comes out too small.
+//!
+//! Where both follow temperature, B is referred to the reference of A first; where only one does, it is taken at its reference.
 
 use super::statistics::chi2_p_value;
 use crate::sensor::{CalibratedImu, Gauge, ImuQuantity, Invariant, InvariantValue, Quantity, Triad};
@@ -87,6 +89,7 @@ impl Comparison {
                 _ => {}
             }
         }
+        let (a, b) = &brought_together(a, b, &mut notes);
         let of_b = b.invariants();
         let quantities: Vec<_> = a
             .invariants()
@@ -106,6 +109,38 @@ impl Comparison {
         }
         let overall = overall(a, b, &mut notes);
         Self { quantities, overall, notes }
+    }
+}
+
+/// Both at one temperature, with their temperature terms where both have some.
+fn brought_together(
+    a: &CalibratedImu,
+    b: &CalibratedImu,
+    notes: &mut Vec<String>,
+) -> (CalibratedImu, CalibratedImu) {
+    let reference_c = |imu: &CalibratedImu| imu.parameters.thermal.reference_c;
+    let mut only = |name: &str, imu: &CalibratedImu| {
+        notes.push(format!(
+            "only {name} follows temperature: it is compared as it is at its reference of {} °C",
+            reference_c(imu)
+        ));
+        // at its own reference nothing can fail
+        imu.at(reference_c(imu)).unwrap_or_else(|_| imu.clone())
+    };
+    match (a.follows_temperature(), b.follows_temperature()) {
+        (false, false) => (a.clone(), b.clone()),
+        (true, false) => (only("A", a), b.clone()),
+        (false, true) => (a.clone(), only("B", b)),
+        (true, true) => match b.referred_to(reference_c(a)) {
+            Ok(referred) => {
+                notes.push(format!("both are compared as they are at {} °C", reference_c(a)));
+                (a.clone(), referred)
+            }
+            Err(error) => {
+                notes.push(format!("each is compared at its own reference temperature: {error}"));
+                (a.clone(), b.clone())
+            }
+        },
     }
 }
 
@@ -143,6 +178,7 @@ fn covers(imu: &CalibratedImu, invariant: Invariant) -> bool {
             }
             Invariant::Gain(triad, _) | Invariant::Angle(triad, ..) => has_matrix(triad),
             Invariant::AngleBetween(..) => Triad::ALL.into_iter().any(has_matrix),
+            Invariant::Thermal(triad, term) => imu.quantities.contains(&ImuQuantity::Thermal(triad, term)),
             Invariant::GSensitivity(_) => {
                 imu.quantities.iter().any(|quantity| matches!(quantity, ImuQuantity::GSensitivity(..)))
             }

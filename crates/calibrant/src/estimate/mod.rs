@@ -28,8 +28,8 @@ pub use holds::{
     Coverage, ExpectedCalibration, HoldsSetup, coverage, expected_calibration, find_holds, holds_between,
 };
 pub use imu::{
-    Gyroscope, ImuCalibration, ImuProblem, ImuSetup, KnownTerm, RotationResult, StillGyroscope, Turn,
-    TurnResult, calibrate_imu,
+    Gyroscope, ImuCalibration, ImuProblem, ImuSetup, KnownTerm, RotationResult, StillGyroscope, ThermalModel,
+    Turn, TurnResult, calibrate_imu,
 };
 pub use problem::{CalibrationProblem, Stimulus};
 pub use result::*;

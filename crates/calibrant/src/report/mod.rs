@@ -27,7 +27,7 @@ pub use about::About;
 pub use calibration::calibration_report;
 pub use design::design_report;
 pub use evaluation::evaluation_report;
-pub use imu::{imu_calibration_report, imu_quality, over_the_gain};
+pub use imu::{imu_calibration_report, imu_quality, over_the_gain, temperature_in_words};
 pub use noise::{coefficient_name, noise_report};
 pub use study::study_report;
 pub use sweep::sweep_report;

@@ -1,13 +1,22 @@
-//! The entries of an IMU's model as one vector: biases, matrices and g-sensitivity, whichever of them were estimated.
+//! The entries of an IMU's model as one vector: biases, matrices, g-sensitivity and temperature terms, whichever of them were estimated.
 //!
-//! `b_a` (3), `S_a` row by row (9), `b_g` (3), `S_g` (9), `Γ` (9). Derivatives of what is computed from an IMU are taken with respect to these, and a
+//! `b_a` (3), `S_a` row by row (9), `b_g` (3), `S_g` (9), `Γ` (9); then for each sensor `b_1`, `b_2`, `k_1`, `k_2` (3 each). Derivatives of what is computed from an IMU are taken with respect to these, and a
 //! covariance of any list of quantities becomes one of the entries.
 
-use super::{Axis, CalibratedImu, ImuParameters, ImuQuantity, Quantity, SensorParameters, Triad};
+use super::{
+    Axis, CalibratedImu, HIGHEST_ORDER, ImuParameters, ImuQuantity, Quantity, SensorParameters, Thermal,
+    ThermalPart, Triad, TriadThermal,
+};
 use nalgebra::{DMatrix, Matrix3, SMatrix, SVector, Vector3};
 
 /// Number of entries.
-pub(super) const ENTRIES: usize = 33;
+pub(super) const ENTRIES: usize = AT_REFERENCE + 2 * THERMAL_OF_TRIAD;
+
+/// Number of those that do not speak of temperature; they come first.
+pub(super) const AT_REFERENCE: usize = 33;
+
+/// Number of temperature terms of one sensor.
+const THERMAL_OF_TRIAD: usize = 2 * 3 * HIGHEST_ORDER;
 
 /// A value for each entry.
 pub(super) type EntryVector = SVector<f64, ENTRIES>;
@@ -28,6 +37,19 @@ pub(super) fn matrix(triad: Triad, row: usize, column: usize) -> usize {
 /// Place of an entry of `Γ`.
 pub(super) fn g_sensitivity(row: usize, column: usize) -> usize {
     24 + 3 * row + column
+}
+
+/// Place of a temperature term.
+pub(super) fn thermal(triad: Triad, part: ThermalPart, order: usize, axis: usize) -> usize {
+    let of_triad = match triad {
+        Triad::Accelerometer => 0,
+        Triad::Gyroscope => THERMAL_OF_TRIAD,
+    };
+    let of_part = match part {
+        ThermalPart::Bias => 0,
+        ThermalPart::Scale => 3 * HIGHEST_ORDER,
+    };
+    AT_REFERENCE + of_triad + of_part + 3 * (order - 1) + axis
 }
 
 fn first(triad: Triad) -> usize {
@@ -54,19 +76,39 @@ pub(super) fn of(imu: &ImuParameters) -> EntryVector {
             entries[g_sensitivity(row, column)] = imu.g_sensitivity[(row, column)];
         }
     }
+    for triad in Triad::ALL {
+        let terms = imu.thermal.triad(triad);
+        for order in 1..=HIGHEST_ORDER {
+            for axis in 0..3 {
+                entries[thermal(triad, ThermalPart::Bias, order, axis)] = terms.bias[order - 1][axis];
+                entries[thermal(triad, ThermalPart::Scale, order, axis)] = terms.scale[order - 1][axis];
+            }
+        }
+    }
     entries
 }
 
-/// An IMU of these entries: the inverse of [`of`].
+/// An IMU of these entries: the inverse of [`of`], which does not know the reference temperature.
 pub(super) fn to_imu(entries: &EntryVector) -> ImuParameters {
     let sensor = |triad| SensorParameters {
         bias: Vector3::from_fn(|row, _| entries[bias(triad, row)]),
         matrix: Matrix3::from_fn(|row, column| entries[matrix(triad, row, column)]),
     };
+    let triad_thermal = |triad| {
+        let of = |part| {
+            std::array::from_fn(|m| Vector3::from_fn(|axis, _| entries[thermal(triad, part, m + 1, axis)]))
+        };
+        TriadThermal { bias: of(ThermalPart::Bias), scale: of(ThermalPart::Scale) }
+    };
     ImuParameters {
         accelerometer: sensor(Triad::Accelerometer),
         gyroscope: sensor(Triad::Gyroscope),
         g_sensitivity: Matrix3::from_fn(|row, column| entries[g_sensitivity(row, column)]),
+        thermal: Thermal {
+            accelerometer: triad_thermal(Triad::Accelerometer),
+            gyroscope: triad_thermal(Triad::Gyroscope),
+            ..Thermal::none()
+        },
     }
 }
 
@@ -75,6 +117,13 @@ pub(super) fn of_quantity(quantity: ImuQuantity) -> EntryVector {
     let mut imu = to_imu(&EntryVector::zeros());
     quantity.add_to(&mut imu, 1.0);
     of(&imu)
+}
+
+/// A quantity for each entry, though in another order.
+pub(super) fn all_quantities() -> Vec<ImuQuantity> {
+    let mut all = ImuQuantity::full_list(true, true, true);
+    all.extend(ImuQuantity::all_thermal(true, true));
+    all
 }
 
 /// Covariance of the entries of an IMU, zero where they are known exactly; `None` where the IMU has no covariance.
@@ -127,9 +176,11 @@ mod tests {
         let entries = EntryVector::from_fn(|k, _| k as f64 + 1.0);
         assert_eq!(of(&to_imu(&entries)), entries);
         let imu = to_imu(&entries);
-        for quantity in ImuQuantity::full_list(true, true, true) {
-            assert_eq!(of_quantity(quantity).dot(&entries), quantity.of(&imu), "{}", quantity.name());
+        let all = all_quantities();
+        for quantity in &all {
+            assert_eq!(of_quantity(*quantity).dot(&entries), quantity.of(&imu), "{}", quantity.name());
         }
-        assert_eq!(ImuQuantity::full_list(true, true, true).len(), ENTRIES);
+        assert_eq!(ImuQuantity::full_list(true, true, true).len(), AT_REFERENCE);
+        assert_eq!(all.len(), ENTRIES);
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! `S` and `S R` describe the same sensor in two true frames. A gauge (see [`Gauge`]) picks the frame by the form of one sensor's matrix, the
 //! accelerometer's where there is one; the other sensor and the g-sensitivity take the same rotation: `S_a' = S_a R`, `S_g' = S_g R`, `Γ' = Γ R`.
-//! Biases do not change.
+//! Biases do not change, nor what temperature does to biases and gains: `D S` becomes `D S R`.
 //!
 //! `R` depends on `S_a`, so that an error of `S_a` turns everything: `dS' = dS R + S' [δ]×`, where the small rotation `δ` keeps the form of the
 //! reference sensor's matrix: the three entries (or differences of entries) that the gauge sets to zero stay zero, three linear equations for `δ`. This is the exact
@@ -259,6 +259,8 @@ impl CalibratedImu {
                 list.extend(Axis::ALL.map(|column| ImuQuantity::GSensitivity(row, column)));
             }
         }
+        let thermal = |quantity: &&ImuQuantity| matches!(quantity, ImuQuantity::Thermal(..));
+        list.extend(self.quantities.iter().filter(thermal));
         list
     }
 }
@@ -266,7 +268,7 @@ impl CalibratedImu {
 #[cfg(test)]
 pub(super) mod tests {
     use super::*;
-    use crate::sensor::{ReadingUnit, SensorParameters};
+    use crate::sensor::{ReadingUnit, SensorParameters, Thermal};
 
     /// An IMU in counts with everything in it.
     pub(in crate::sensor) fn imu() -> CalibratedImu {
@@ -280,6 +282,7 @@ pub(super) mod tests {
                 matrix: Matrix3::new(4778.0, 30.0, -25.0, 14.0, 4764.0, 60.0, -43.0, 22.0, 4774.0),
             },
             g_sensitivity: Matrix3::new(0.1, 0.02, -0.3, 0.04, 0.2, 0.01, -0.06, 0.05, 0.15),
+            thermal: Thermal::none(),
         };
         let quantities = ImuQuantity::full_list(true, true, true);
         let n = quantities.len();

@@ -1,9 +1,9 @@
 //! An inertial measurement unit: an accelerometer and a gyroscope that share a frame.
 //!
 //! `y_a = S_a f + b_a + ν_a`, `y_g = S_g ω + b_g + Γ f + ν_g`, true → raw: `f` the specific force in m/s², `ω` the angular rate in rad/s, both in the
-//! true frame. `Γ` is the g-sensitivity, what the gyroscope shows of specific force.
+//! true frame. `Γ` is the g-sensitivity, what the gyroscope shows of specific force. `S` and `b` may follow temperature ([`Thermal`]).
 
-use super::{Axis, Quantity, ReadingUnit, Recording, SensorParameters};
+use super::{Axis, Quantity, ReadingUnit, Recording, SensorParameters, Thermal, ThermalPart, ThermalTerm};
 use nalgebra::{DMatrix, Matrix3, Vector3};
 use std::fmt;
 
@@ -76,6 +76,8 @@ pub struct ImuParameters {
     pub gyroscope: SensorParameters,
     /// `Γ`, in the unit of the gyroscope's readings per m/s².
     pub g_sensitivity: Matrix3<f64>,
+    /// What temperature does to biases and gains, which are those at its reference.
+    pub thermal: Thermal,
 }
 
 impl ImuParameters {
@@ -86,6 +88,7 @@ impl ImuParameters {
             accelerometer: SensorParameters::identity(),
             gyroscope: SensorParameters::identity(),
             g_sensitivity: Matrix3::zeros(),
+            thermal: Thermal::none(),
         }
     }
 
@@ -97,6 +100,13 @@ impl ImuParameters {
             Triad::Gyroscope => &self.gyroscope,
         }
     }
+
+    pub(super) fn triad_mut(&mut self, triad: Triad) -> &mut SensorParameters {
+        match triad {
+            Triad::Accelerometer => &mut self.accelerometer,
+            Triad::Gyroscope => &mut self.gyroscope,
+        }
+    }
 }
 
 /// One scalar quantity of an IMU's model.
@@ -106,6 +116,21 @@ pub enum ImuQuantity {
     Of(Triad, Quantity),
     /// Entry of `Γ`, (row, column): what gyroscope axis `row` shows of the specific force along `column`; printed `gyroscope.g_sensitivity.xy`.
     GSensitivity(Axis, Axis),
+    /// A coefficient of what temperature does to one of the sensors; printed `gyroscope.bias_per_k.x`.
+    Thermal(Triad, ThermalTerm),
+}
+
+/// Where the derivative of a reading is taken.
+#[derive(Debug, Clone, Copy)]
+pub struct Condition<'a> {
+    /// The IMU.
+    pub imu: &'a ImuParameters,
+    /// Stimulus of the sensor.
+    pub stimulus: Vector3<f64>,
+    /// Specific force, m/s².
+    pub force: Vector3<f64>,
+    /// Temperature, °C.
+    pub temperature_c: f64,
 }
 
 impl ImuQuantity {
@@ -115,6 +140,7 @@ impl ImuQuantity {
         match self {
             Self::Of(triad, quantity) => format!("{triad}.{}", quantity.name()),
             Self::GSensitivity(row, column) => format!("gyroscope.g_sensitivity.{row}{column}"),
+            Self::Thermal(triad, term) => format!("{triad}.{}", term.name()),
         }
     }
 
@@ -128,6 +154,7 @@ impl ImuQuantity {
             (Self::Of(..), _) => "1",
             (Self::GSensitivity(..), ReadingUnit::Counts) => "counts/(m/s²)",
             (Self::GSensitivity(..), _) => "(rad/s)/(m/s²)",
+            (Self::Thermal(_, term), unit) => term.unit(unit),
         }
     }
 
@@ -135,7 +162,7 @@ impl ImuQuantity {
     #[must_use]
     pub fn triad(self) -> Triad {
         match self {
-            Self::Of(triad, _) => triad,
+            Self::Of(triad, _) | Self::Thermal(triad, _) => triad,
             Self::GSensitivity(..) => Triad::Gyroscope,
         }
     }
@@ -146,29 +173,53 @@ impl ImuQuantity {
         match self {
             Self::Of(triad, quantity) => quantity.of(imu.triad(triad)),
             Self::GSensitivity(row, column) => imu.g_sensitivity[(row.index(), column.index())],
+            Self::Thermal(triad, term) => term.of(imu.thermal.triad(triad)),
         }
     }
 
     /// Adds `step` to it.
     pub fn add_to(self, imu: &mut ImuParameters, step: f64) {
         match self {
-            Self::Of(Triad::Accelerometer, quantity) => quantity.add_to(&mut imu.accelerometer, step),
-            Self::Of(Triad::Gyroscope, quantity) => quantity.add_to(&mut imu.gyroscope, step),
+            Self::Of(triad, quantity) => quantity.add_to(imu.triad_mut(triad), step),
             Self::GSensitivity(row, column) => imu.g_sensitivity[(row.index(), column.index())] += step,
+            Self::Thermal(triad, term) => term.add_to(imu.thermal.triad_mut(triad), step),
         }
     }
 
-    /// Derivative of the reading of its sensor with respect to it, at a stimulus of that sensor and a specific force.
+    /// Is it of a bias, so that readings move by it whatever the stimulus?
     #[must_use]
-    pub fn derivative(self, stimulus: &Vector3<f64>, force: &Vector3<f64>) -> Vector3<f64> {
+    pub fn is_of_bias(self) -> bool {
         match self {
-            Self::Of(_, quantity) => quantity.derivative(stimulus),
-            Self::GSensitivity(row, column) => {
-                let mut derivative = Vector3::zeros();
-                derivative[row.index()] = force[column.index()];
-                derivative
+            Self::Of(_, quantity) => matches!(quantity, Quantity::Bias(_)),
+            Self::Thermal(_, term) => term.part == ThermalPart::Bias,
+            Self::GSensitivity(..) => false,
+        }
+    }
+
+    /// Derivative of the reading of its sensor with respect to it.
+    #[must_use]
+    pub fn derivative(self, at: &Condition<'_>) -> Vector3<f64> {
+        let thermal = &at.imu.thermal;
+        let mut derivative = Vector3::zeros();
+        match self {
+            Self::Of(_, quantity @ Quantity::Bias(_)) => return quantity.derivative(&at.stimulus),
+            Self::Of(triad, quantity) => {
+                let factor = thermal.triad(triad).gain_factor(thermal.tau_k(at.temperature_c));
+                return quantity.derivative(&at.stimulus).component_mul(&factor);
+            }
+            Self::GSensitivity(row, column) => derivative[row.index()] = at.force[column.index()],
+            Self::Thermal(triad, term) => {
+                let axis = term.axis.index();
+                let power = term.power(thermal.tau_k(at.temperature_c));
+                derivative[axis] = match term.part {
+                    ThermalPart::Bias => power,
+                    ThermalPart::Scale => {
+                        power * at.imu.triad(triad).matrix.row(axis).transpose().dot(&at.stimulus)
+                    }
+                };
             }
         }
+        derivative
     }
 }
 
@@ -207,11 +258,16 @@ impl CalibratedImu {
             .collect();
         let mut imu = self.clone();
         imu.parameters.g_sensitivity = Matrix3::zeros();
-        imu.quantities = kept.iter().map(|&k| self.quantities[k]).collect();
-        imu.covariance = self
+        imu.restrict(&kept);
+        imu
+    }
+
+    /// Forgets all but these of the quantities.
+    pub(super) fn restrict(&mut self, kept: &[usize]) {
+        self.quantities = kept.iter().map(|&k| self.quantities[k]).collect();
+        self.covariance = self
             .covariance
             .as_ref()
             .map(|sigma| DMatrix::from_fn(kept.len(), kept.len(), |i, j| sigma[(kept[i], kept[j])]));
-        imu
     }
 }

@@ -2,12 +2,16 @@
 //!
 //! `f = C_a (y_a − b_a)`, `ω = C_g (y_g − b_g − Γ f)` with `C = S⁻¹`. An error of the parameters moves a corrected reading by
 //! `df = −C_a (db_a + dS_a f)` and `dω = −C_g (db_g + dS_g ω + dΓ f + Γ df)`; the covariance of the parameters gives that of the correction. The
-//! noise of the reading is not in it.
+//! noise of the reading is not in it. Where biases and gains follow temperature, all of this is at the temperature of each sample.
 
 use super::entries::{self, ENTRIES, EntryMatrix};
-use super::{CalibratedImu, Correction, ImuQuantity, ImuRecording, Recording, Triad};
+use super::{
+    CalibratedImu, Correction, HIGHEST_ORDER, ImuParameters, ImuQuantity, ImuRecording, Recording,
+    Temperatures, ThermalPart, Triad,
+};
 use crate::error::{Complaint, Error, Result};
 use nalgebra::{Matrix3, SMatrix, Vector3};
+use std::sync::Arc;
 
 /// The correction of an IMU: `f = C_a (y_a − b_a)`, `ω = C_g (y_g − b_g − Γ f)`.
 ///
@@ -38,7 +42,9 @@ pub struct ImuCorrection {
     pub gyroscope: Option<Correction>,
     /// `Γ`, in the unit of the gyroscope's readings per m/s².
     pub g_sensitivity: Matrix3<f64>,
-    covariance: Option<Box<EntryMatrix>>,
+    imu: ImuParameters,
+    temperature_c: f64,
+    covariance: Option<Arc<EntryMatrix>>,
     known: [bool; 2],
 }
 
@@ -88,15 +94,55 @@ impl ImuCorrection {
                 "convert the whole IMU, or set the g-sensitivity to zero",
             )));
         }
-        let covariance = entries::covariance(imu).map(Box::new);
+        let covariance = entries::covariance(imu).map(Arc::new);
         let known = Triad::ALL.map(|triad| {
             covariance.is_some()
                 && imu
                     .quantities
                     .iter()
-                    .any(|quantity| matches!(quantity, ImuQuantity::Of(of, _) if *of == triad))
+                    .any(|quantity| matches!(quantity, ImuQuantity::Of(of, _) | ImuQuantity::Thermal(of, _) if *of == triad))
         });
-        Ok(Self { accelerometer, gyroscope, g_sensitivity, covariance, known })
+        let temperature_c = imu.parameters.thermal.reference_c;
+        Ok(Self {
+            accelerometer,
+            gyroscope,
+            g_sensitivity,
+            imu: imu.parameters,
+            temperature_c,
+            covariance,
+            known,
+        })
+    }
+
+    /// The correction at a temperature, °C; [`of`](Self::of) gives that at the reference.
+    ///
+    /// # Errors
+    /// [`Error::Recording`] where the polynomial of a gain is not positive there.
+    pub fn at(&self, temperature_c: f64) -> Result<Self> {
+        if self.imu.thermal.is_none() {
+            return Ok(Self { temperature_c, ..self.clone() });
+        }
+        let imu = self.imu.at(temperature_c);
+        let tau_k = self.imu.thermal.tau_k(temperature_c);
+        let of = |triad: Triad| match self.imu.thermal.triad(triad).gain_factor(tau_k).min() > 0.0 {
+            true => Ok(Correction::of(imu.triad(triad))),
+            false => Err(Error::recording(Complaint::new(
+                format!("at {temperature_c} °C the polynomial of the {triad}'s gain is not positive"),
+                "this is too far from the temperatures of the calibration",
+            ))),
+        };
+        Ok(Self {
+            accelerometer: self.accelerometer.map_or(Ok(None), |_| of(Triad::Accelerometer))?,
+            gyroscope: self.gyroscope.map_or(Ok(None), |_| of(Triad::Gyroscope))?,
+            temperature_c,
+            ..self.clone()
+        })
+    }
+
+    /// Does the correction depend on temperature, in its values or in what is known of them?
+    #[must_use]
+    pub fn follows_temperature(&self) -> bool {
+        !self.imu.thermal.is_none() || self.covers(entries::AT_REFERENCE..ENTRIES)
     }
 
     /// Corrected specific force, m/s²; `None` without an accelerometer.
@@ -115,10 +161,14 @@ impl ImuCorrection {
     #[must_use]
     pub fn force_sd(&self, force: &Vector3<f64>) -> Option<Vector3<f64>> {
         let (correction, covariance) = (self.accelerometer?, self.covariance.as_deref()?);
-        let errors = reading_errors(force);
-        let block = covariance.fixed_view::<12, 12>(0, 0);
-        let variance =
-            correction.matrix * (errors * block * errors.transpose()) * correction.matrix.transpose();
+        let of_reading = if self.follows_temperature() {
+            let errors = self.all_errors(Triad::Accelerometer, force);
+            errors * covariance * errors.transpose()
+        } else {
+            let errors = reading_errors(force);
+            errors * covariance.fixed_view::<12, 12>(0, 0) * errors.transpose()
+        };
+        let variance = correction.matrix * of_reading * correction.matrix.transpose();
         self.known[0].then(|| variance.diagonal().map(sqrt))
     }
 
@@ -126,30 +176,63 @@ impl ImuCorrection {
     #[must_use]
     pub fn rate_sd(&self, rate: &Vector3<f64>, force: &Vector3<f64>) -> Option<Vector3<f64>> {
         let (correction, covariance) = (self.gyroscope?, self.covariance.as_deref()?);
-        let own = reading_errors(rate);
-        let of_reading = if self.g_sensitivity == Matrix3::zeros() && !self.covers_g_sensitivity() {
+        let felt = self.g_sensitivity != Matrix3::zeros() || self.covers_g_sensitivity();
+        let of_reading = if !felt && !self.follows_temperature() {
+            let own = reading_errors(rate);
             own * covariance.fixed_view::<12, 12>(12, 12) * own.transpose()
         } else {
-            let mut errors = SMatrix::<f64, 3, ENTRIES>::zeros();
+            let mut errors = self.all_errors(Triad::Gyroscope, rate);
             if let Some(accelerometer) = self.accelerometer {
-                let through_force = -self.g_sensitivity * accelerometer.matrix * reading_errors(force);
-                errors.fixed_view_mut::<3, 12>(0, 0).copy_from(&through_force);
+                errors -=
+                    self.g_sensitivity * accelerometer.matrix * self.all_errors(Triad::Accelerometer, force);
             }
-            errors.fixed_view_mut::<3, 12>(0, 12).copy_from(&own);
             for row in 0..3 {
                 for column in 0..3 {
                     errors[(row, entries::g_sensitivity(row, column))] = force[column];
                 }
             }
-            errors * covariance * errors.transpose()
+            if self.follows_temperature() {
+                errors * covariance * errors.transpose()
+            } else {
+                const N: usize = entries::AT_REFERENCE;
+                let errors = errors.fixed_view::<3, N>(0, 0);
+                errors * covariance.fixed_view::<N, N>(0, 0) * errors.transpose()
+            }
         };
         let variance = correction.matrix * of_reading * correction.matrix.transpose();
         self.known[1].then(|| variance.diagonal().map(sqrt))
     }
 
+    /// Derivative of a sensor's reading with respect to all entries but the g-sensitivity, at a stimulus and the temperature of this correction.
+    fn all_errors(&self, triad: Triad, stimulus: &Vector3<f64>) -> SMatrix<f64, 3, ENTRIES> {
+        let thermal = &self.imu.thermal;
+        let tau_k = thermal.tau_k(self.temperature_c);
+        let factor = thermal.triad(triad).gain_factor(tau_k);
+        let response = self.imu.triad(triad).matrix * stimulus;
+        let mut errors = SMatrix::zeros();
+        for row in 0..3 {
+            errors[(row, entries::bias(triad, row))] = 1.0;
+            for column in 0..3 {
+                errors[(row, entries::matrix(triad, row, column))] = factor[row] * stimulus[column];
+            }
+            let mut power = 1.0;
+            for order in 1..=HIGHEST_ORDER {
+                power *= tau_k;
+                errors[(row, entries::thermal(triad, ThermalPart::Bias, order, row))] = power;
+                errors[(row, entries::thermal(triad, ThermalPart::Scale, order, row))] =
+                    power * response[row];
+            }
+        }
+        errors
+    }
+
     fn covers_g_sensitivity(&self) -> bool {
-        let first = entries::g_sensitivity(0, 0);
-        self.covariance.as_ref().is_some_and(|sigma| (first..ENTRIES).any(|k| sigma[(k, k)] > 0.0))
+        self.covers(entries::g_sensitivity(0, 0)..entries::AT_REFERENCE)
+    }
+
+    /// Says the covariance anything of these entries?
+    fn covers(&self, mut entries: std::ops::Range<usize>) -> bool {
+        self.covariance.as_ref().is_some_and(|sigma| entries.any(|k| sigma[(k, k)] > 0.0))
     }
 
     /// A corrected recording: every sensor that the calibration and the recording both have.
@@ -157,8 +240,8 @@ impl ImuCorrection {
     /// The specific force at a sample of the gyroscope is interpolated where the sensors' times differ.
     ///
     /// # Errors
-    /// [`Error::Recording`] where the readings are in another unit than the calibration's, or where there is a g-sensitivity to correct and the
-    /// recording has no accelerometer.
+    /// [`Error::Recording`] where the readings are in another unit than the calibration's, where there is a g-sensitivity to correct and the
+    /// recording has no accelerometer, or where the calibration follows temperature and the recording has none.
     pub fn apply(&self, imu: &CalibratedImu, recording: &ImuRecording) -> Result<CorrectedRecording> {
         for triad in Triad::ALL {
             if let (Some(unit), Some(readings)) = (imu.unit(triad), recording.triad(triad))
@@ -174,8 +257,20 @@ impl ImuCorrection {
                 )));
             }
         }
+        let temperatures = if self.follows_temperature() {
+            Some(Temperatures::of(recording)?.ok_or_else(|| {
+                Error::recording(Complaint::new(
+                    "the calibration follows temperature, and this recording has no temperature",
+                    "say the temperature with --temperature CELSIUS, or give a recording with a column of it",
+                ))
+            })?)
+        } else {
+            None
+        };
+        let temperatures = temperatures.as_ref();
         let accelerometer = recording.accelerometer.as_ref().filter(|_| self.accelerometer.is_some());
-        let accelerometer = accelerometer.map(|readings| self.correct_forces(readings));
+        let accelerometer =
+            accelerometer.map(|readings| self.correct_forces(readings, temperatures)).transpose()?;
         let gyroscope = match recording.gyroscope.as_ref().filter(|_| self.gyroscope.is_some()) {
             None => None,
             Some(readings) => {
@@ -186,19 +281,29 @@ impl ImuCorrection {
                         "give the recording of both sensors",
                     )));
                 }
-                Some(self.correct_rates(readings, accelerometer.as_ref()))
+                Some(self.correct_rates(readings, accelerometer.as_ref(), temperatures)?)
             }
         };
         Ok(CorrectedRecording { accelerometer, gyroscope })
     }
 
-    fn correct_forces(&self, readings: &Recording) -> CorrectedTriad {
-        let values: Vec<_> = readings.readings.iter().filter_map(|reading| self.force(reading)).collect();
-        let sd = values.iter().map(|force| self.force_sd(force)).collect();
-        CorrectedTriad { times_s: readings.times_s.clone(), values, sd }
+    fn correct_forces(
+        &self,
+        readings: &Recording,
+        temperatures: Option<&Temperatures<'_>>,
+    ) -> Result<CorrectedTriad> {
+        self.corrected(readings, temperatures, |here, k| {
+            let force = here.force(&readings.readings[k])?;
+            Some((force, here.force_sd(&force)))
+        })
     }
 
-    fn correct_rates(&self, readings: &Recording, forces: Option<&CorrectedTriad>) -> CorrectedTriad {
+    fn correct_rates(
+        &self,
+        readings: &Recording,
+        forces: Option<&CorrectedTriad>,
+        temperatures: Option<&Temperatures<'_>>,
+    ) -> Result<CorrectedTriad> {
         let force_at = |k: usize| match forces {
             None => Vector3::zeros(),
             Some(forces) => match forces.times_s.get(k) {
@@ -206,16 +311,32 @@ impl ImuCorrection {
                 _ => forces.at(readings.times_s[k]),
             },
         };
-        let samples = readings.readings.iter().enumerate();
-        let found: Vec<_> = samples
-            .filter_map(|(k, reading)| {
-                let force = force_at(k);
-                self.rate(reading, &force).map(|rate| (rate, force))
-            })
-            .collect();
-        let sd = found.iter().map(|(rate, force)| self.rate_sd(rate, force)).collect();
-        let values = found.into_iter().map(|(rate, _)| rate).collect();
-        CorrectedTriad { times_s: readings.times_s.clone(), values, sd }
+        self.corrected(readings, temperatures, |here, k| {
+            let force = force_at(k);
+            let rate = here.rate(&readings.readings[k], &force)?;
+            Some((rate, here.rate_sd(&rate, &force)))
+        })
+    }
+
+    /// Each sample with the correction at its temperature.
+    fn corrected(
+        &self,
+        readings: &Recording,
+        temperatures: Option<&Temperatures<'_>>,
+        correct: impl Fn(&Self, usize) -> Option<(Vector3<f64>, Option<Vector3<f64>>)>,
+    ) -> Result<CorrectedTriad> {
+        let (mut values, mut sd) = (Vec::with_capacity(readings.len()), Vec::with_capacity(readings.len()));
+        for k in 0..readings.readings.len() {
+            let found = match temperatures {
+                None => correct(self, k),
+                Some(temperatures) => correct(&self.at(temperatures.at(readings.times_s[k]))?, k),
+            };
+            if let Some((value, uncertainty)) = found {
+                values.push(value);
+                sd.push(uncertainty);
+            }
+        }
+        Ok(CorrectedTriad { times_s: readings.times_s.clone(), values, sd: sd.into_iter().collect() })
     }
 }
 
@@ -256,6 +377,7 @@ mod tests {
     use super::*;
     use crate::sensor::ReadingUnit;
     use crate::sensor::gauge_change::tests::imu;
+    use crate::sensor::referred::tests::warm;
 
     fn readings(imu: &CalibratedImu) -> (Vector3<f64>, Vector3<f64>) {
         let (force, rate) = (Vector3::new(1.0, -5.0, 8.0), Vector3::new(0.4, -1.2, 0.3));
@@ -277,10 +399,20 @@ mod tests {
 
     #[test]
     fn its_uncertainty_is_that_of_differences() {
-        let imu = imu();
-        let (y_a, y_g) = readings(&imu);
+        is_that_of_differences(&imu(), 25.0);
+    }
+
+    #[test]
+    fn its_uncertainty_is_that_of_differences_at_other_temperatures_too() {
+        for temperature in [12.0, 25.0, 41.0] {
+            is_that_of_differences(&warm(), temperature);
+        }
+    }
+
+    fn is_that_of_differences(imu: &CalibratedImu, temperature_c: f64) {
+        let (y_a, y_g) = readings(imu);
         let corrected = |imu: &CalibratedImu| {
-            let correction = ImuCorrection::of(imu).expect("regular");
+            let correction = ImuCorrection::of(imu).and_then(|of| of.at(temperature_c)).expect("regular");
             let force = correction.force(&y_a).expect("there");
             (force, correction.rate(&y_g, &force).expect("there"))
         };
@@ -293,7 +425,8 @@ mod tests {
                     quantity.add_to(&mut moved.parameters, step);
                     corrected(&moved)
                 };
-                let (h, (up, down)) = (1e-3, (moved(1e-3), moved(-1e-3)));
+                let h = if matches!(quantity, ImuQuantity::Thermal(..)) { 1e-6 } else { 1e-3 };
+                let (up, down) = (moved(h), moved(-h));
                 ((up.0 - down.0) / (2.0 * h), (up.1 - down.1) / (2.0 * h))
             })
             .collect();
@@ -302,8 +435,8 @@ mod tests {
             let row = nalgebra::DVector::from_fn(columns.len(), |k, _| of(k));
             row.dot(&(sigma * &row)).sqrt()
         };
-        let correction = ImuCorrection::of(&imu).expect("regular");
-        let (force, rate) = corrected(&imu);
+        let correction = ImuCorrection::of(imu).and_then(|of| of.at(temperature_c)).expect("regular");
+        let (force, rate) = corrected(imu);
         for axis in 0..3 {
             let expected = (sd(&|k| columns[k].0[axis]), sd(&|k| columns[k].1[axis]));
             let found = (

@@ -5,7 +5,7 @@
 //! `atan2(|u × v|, u · v)`, exact for small angles too; its derivative is `−(v̂ − û cos θ) · du / (|u| sin θ)`, likewise for `v`.
 
 use super::entries::{self, EntryMatrix, EntryVector};
-use super::{Axis, CalibratedImu, ImuParameters, ReadingUnit, Triad};
+use super::{Axis, CalibratedImu, ImuParameters, ImuQuantity, ReadingUnit, ThermalPart, ThermalTerm, Triad};
 use nalgebra::Vector3;
 
 /// A quantity that does not depend on the true frame.
@@ -21,6 +21,8 @@ pub enum Invariant {
     AngleBetween(Axis, Axis),
     /// Length of a row of `Γ`: the most that a gyroscope axis shows of 1 m/s².
     GSensitivity(Axis),
+    /// What temperature does to bias or gain of an axis.
+    Thermal(Triad, ThermalTerm),
 }
 
 /// An invariant of an IMU.
@@ -36,7 +38,7 @@ pub struct InvariantValue {
 }
 
 impl Invariant {
-    /// All that an IMU with these sensors has, in the order of a table.
+    /// All that an IMU with these sensors has at its reference temperature, in the order of a table.
     #[must_use]
     pub fn list(accelerometer: bool, gyroscope: bool) -> Vec<Self> {
         use Axis::{X, Y, Z};
@@ -66,6 +68,7 @@ impl Invariant {
             Self::Angle(triad, one, other) => format!("{triad}.angle.{one}{other}"),
             Self::AngleBetween(a, g) => format!("angle.accelerometer_{a}.gyroscope_{g}"),
             Self::GSensitivity(axis) => format!("gyroscope.g_sensitivity.{axis}"),
+            Self::Thermal(triad, term) => format!("{triad}.{}", term.name()),
         }
     }
 
@@ -81,16 +84,18 @@ impl Invariant {
             Self::Angle(..) | Self::AngleBetween(..) => "rad",
             Self::GSensitivity(_) if counts(Triad::Gyroscope) => "counts/(m/s²)",
             Self::GSensitivity(_) => "(rad/s)/(m/s²)",
+            Self::Thermal(triad, term) => term.unit(imu.unit(triad).unwrap_or(triad.stimulus_unit())),
         }
     }
 
-    /// Does it depend on the unit of a sensor's readings? `None` for angles.
+    /// Does it depend on the unit of a sensor's readings? `None` for angles and shares of a gain.
     #[must_use]
     pub fn in_unit_of(self) -> Option<Triad> {
         match self {
             Self::Bias(triad, _) | Self::Gain(triad, _) => Some(triad),
             Self::GSensitivity(_) => Some(Triad::Gyroscope),
-            Self::Angle(..) | Self::AngleBetween(..) => None,
+            Self::Thermal(triad, ThermalTerm { part: ThermalPart::Bias, .. }) => Some(triad),
+            Self::Angle(..) | Self::AngleBetween(..) | Self::Thermal(..) => None,
         }
     }
 
@@ -114,6 +119,10 @@ impl Invariant {
         let mut gradient = EntryVector::zeros();
         let row = |triad: Triad, axis: Axis| imu.triad(triad).matrix.row(axis.index()).transpose();
         let value = match self {
+            Self::Thermal(triad, term) => {
+                gradient[entries::thermal(triad, term.part, term.order, term.axis.index())] = 1.0;
+                term.of(imu.thermal.triad(triad))
+            }
             Self::Bias(triad, axis) => {
                 gradient[entries::bias(triad, axis.index())] = 1.0;
                 imu.triad(triad).bias[axis.index()]
@@ -167,8 +176,17 @@ impl CalibratedImu {
     #[must_use]
     pub fn invariants(&self) -> Vec<InvariantValue> {
         let covariance = entries::covariance(self).map(Box::new);
-        Invariant::list(self.accelerometer_unit.is_some(), self.gyroscope_unit.is_some())
+        let (accelerometer, gyroscope) = (self.accelerometer_unit.is_some(), self.gyroscope_unit.is_some());
+        let terms = ImuQuantity::all_thermal(accelerometer, gyroscope).into_iter().filter_map(|quantity| {
+            let there = quantity.of(&self.parameters) != 0.0 || self.quantities.contains(&quantity);
+            match quantity {
+                ImuQuantity::Thermal(triad, term) if there => Some(Invariant::Thermal(triad, term)),
+                _ => None,
+            }
+        });
+        Invariant::list(accelerometer, gyroscope)
             .into_iter()
+            .chain(terms)
             .map(|invariant| {
                 let (value, gradient) = invariant.with_gradient(&self.parameters);
                 let sd = |sigma: &EntryMatrix| gradient.dot(&(sigma * gradient)).max(0.0).sqrt();

@@ -27,6 +27,8 @@ pub struct ImuSimulation {
     pub accelerometer_unit: ReadingUnit,
     /// Unit of the gyroscope's readings.
     pub gyroscope_unit: ReadingUnit,
+    /// Temperature at the beginning and at the end, °C, even in between; `None` for an IMU at its reference temperature, of which nothing is recorded.
+    pub temperature_c: Option<[f64; 2]>,
 }
 
 impl Default for ImuSimulation {
@@ -41,6 +43,7 @@ impl Default for ImuSimulation {
             gyroscope_noise: 2e-3,
             accelerometer_unit: ReadingUnit::MetrePerSecondSquared,
             gyroscope_unit: ReadingUnit::RadianPerSecond,
+            temperature_c: None,
         }
     }
 }
@@ -87,23 +90,30 @@ pub fn simulate_imu(imu: &ImuParameters, setup: &ImuSimulation, rng: &mut Rng) -
             }
         }
     }
+    let last = (times_s.len() - 1).max(1) as f64;
+    let temperature_c: Option<Vec<f64>> = setup
+        .temperature_c
+        .map(|[from, to]| (0..times_s.len()).map(|k| from + (to - from) * (k as f64 / last)).collect());
+    let at = |k: usize| temperature_c.as_ref().map_or(*imu, |temperature| imu.at(temperature[k]));
     let noisy =
         |reading: Vector3<f64>, sd: f64, rng: &mut Rng| reading + Vector3::from_fn(|_, _| sd * normal(rng));
     let accelerometer: Vec<_> = forces
         .iter()
-        .map(|force| noisy(imu.accelerometer.reading(force), setup.accelerometer_noise, rng))
+        .enumerate()
+        .map(|(k, force)| noisy(at(k).accelerometer.reading(force), setup.accelerometer_noise, rng))
         .collect();
     let gyroscope: Vec<_> = rates
         .iter()
         .zip(&forces)
-        .map(|(rate, force)| {
-            noisy(imu.gyroscope.reading(rate) + imu.g_sensitivity * force, setup.gyroscope_noise, rng)
+        .enumerate()
+        .map(|(k, (rate, force))| {
+            noisy(at(k).gyroscope.reading(rate) + imu.g_sensitivity * force, setup.gyroscope_noise, rng)
         })
         .collect();
     let recording = |readings, unit| Recording { times_s: times_s.clone(), readings, axes: 3, unit };
     ImuRecording {
         accelerometer: Some(recording(accelerometer, setup.accelerometer_unit)),
         gyroscope: Some(recording(gyroscope, setup.gyroscope_unit)),
-        temperature_c: None,
+        temperature_c,
     }
 }

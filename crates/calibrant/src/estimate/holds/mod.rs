@@ -37,6 +37,8 @@ use crate::sensor::{Gauge, SensorModel, SensorParameters};
 use nalgebra::{Matrix3, Vector3};
 use robust::Robust;
 
+pub(super) use robust::critical;
+
 pub use coverage::{Coverage, coverage};
 pub use detect::{find_holds, holds_between};
 pub use expected::{ExpectedCalibration, expected_calibration};

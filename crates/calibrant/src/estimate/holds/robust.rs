@@ -416,7 +416,7 @@ fn hardly_determined(information: &DMatrix<f64>) -> Vec<usize> {
 }
 
 /// Largest studentised residual that chance explains, among so many holds.
-fn critical(holds: usize, degrees_of_freedom: usize) -> f64 {
+pub(in crate::estimate) fn critical(holds: usize, degrees_of_freedom: usize) -> f64 {
     if degrees_of_freedom < 2 {
         return f64::INFINITY;
     }

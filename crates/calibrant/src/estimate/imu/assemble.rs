@@ -4,6 +4,7 @@ use super::faces::First;
 use super::joint::{Fit, Joint, Miss, State};
 use super::readings::Integrable;
 use super::solver::singular;
+use super::thermal::Climate;
 use super::verdict;
 use super::weights::Weighed;
 use super::{ImuCalibration, ImuProblem, RotationResult, StillGyroscope, TurnResult};
@@ -11,7 +12,7 @@ use crate::error::Result;
 use crate::estimate::HoldCalibration;
 use crate::information;
 use crate::sensor::{ImuParameters, ImuQuantity, Quantity, Recording, Triad};
-use nalgebra::{DMatrix, DVector, Vector3};
+use nalgebra::{DVector, Vector3};
 use std::ops::Range;
 
 /// Everything that the result is put together from.
@@ -24,6 +25,7 @@ pub(super) struct Finished<'a> {
     pub(super) integrable: &'a Integrable<'a>,
     pub(super) spans: &'a [Range<usize>],
     pub(super) chosen: &'a [usize],
+    pub(super) climate: &'a Climate<'a>,
 }
 
 impl Finished<'_> {
@@ -37,8 +39,7 @@ impl Finished<'_> {
     ) -> Result<ImuCalibration> {
         let (joint, fit) = (self.joint, self.fit);
         let size = joint.quantities.len();
-        let information = DMatrix::from_fn(size, size, |i, j| fit.information[(i, j)]);
-        let mut covariance = information::covariance(&information).ok_or_else(singular)?;
+        let mut covariance = information::covariance(&fit.information).ok_or_else(singular)?;
         let prior_share = (0..size)
             .map(|k| {
                 joint
@@ -54,7 +55,8 @@ impl Finished<'_> {
             size,
             joint.quantities.iter().map(|quantity| match quantity {
                 ImuQuantity::Of(Triad::Accelerometer, Quantity::Bias(_))
-                | ImuQuantity::Of(Triad::Gyroscope, _) => 0.0,
+                | ImuQuantity::Of(Triad::Gyroscope, _)
+                | ImuQuantity::Thermal(..) => 0.0,
                 _ => -quantity.of(&imu) / g.magnitude_mps2,
             }),
         );
@@ -68,18 +70,24 @@ impl Finished<'_> {
         for (&j, force) in self.chosen.iter().zip(&fit.state.forces) {
             holds.holds[j].force_mps2 = *force;
         }
-        let correction = imu.gyroscope.matrix.try_inverse().ok_or_else(singular)?;
         let turns = joint
             .turns
             .iter()
             .zip(&problem.setup.turns)
-            .map(|(data, turn)| TurnResult {
-                start_s: turn.start_s,
-                end_s: turn.end_s,
-                angle_rad: data.angle,
-                measured_rad: correction * (data.integral - imu.gyroscope.bias * data.duration_s),
+            .map(|(data, turn)| {
+                let there = imu.at(data.temperature_c).gyroscope;
+                let correction = there.matrix.try_inverse().ok_or_else(singular)?;
+                Ok(TurnResult {
+                    start_s: turn.start_s,
+                    end_s: turn.end_s,
+                    angle_rad: data.angle,
+                    measured_rad: correction * (data.integral - there.bias * data.duration_s),
+                })
             })
-            .collect();
+            .collect::<Result<_>>()?;
+        let follows = !problem.setup.thermal.is_none();
+        let hold_temperatures_c =
+            follows.then(|| holds.holds.iter().map(|hold| self.climate.of_hold(&hold.hold)).collect());
         let mut calibration = ImuCalibration {
             status: fit.status,
             iterations: fit.iterations,
@@ -98,9 +106,11 @@ impl Finished<'_> {
             rotations,
             rotation_excess_sd_rad: joint.excess_rad,
             turns,
+            hold_temperatures_c,
             warnings: first.warnings.clone(),
         };
         calibration.warnings.extend(verdict::warnings(&calibration, axes.as_ref()));
+        calibration.warnings.extend(verdict::extrapolation(&imu.thermal, self.climate.of_recording()));
         Ok(calibration)
     }
 

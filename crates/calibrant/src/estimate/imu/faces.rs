@@ -8,7 +8,7 @@ use crate::error::{Complaint, Error, NotIdentifiable, Result, UndeterminedGroup}
 use crate::estimate::{HoldCalibration, HoldResult, HoldsSetup, holds_between};
 use crate::information;
 use crate::motion::Hold;
-use crate::sensor::{ParameterList, Recording, SensorParameters};
+use crate::sensor::{ParameterList, Recording, SensorParameters, TriadThermal};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
 /// The accelerometer, before the joint problem.
@@ -18,6 +18,19 @@ pub(super) struct First {
     pub(super) within: Vector3<f64>,
     pub(super) holds: HoldCalibration,
     pub(super) warnings: Vec<String>,
+    /// Its temperature terms, and the recording as it would be at the reference temperature, where they were fitted.
+    pub(super) thermal: TriadThermal,
+    pub(super) adjusted: Option<Recording>,
+}
+
+impl First {
+    /// Inverse variances of a hold's mean, for a scatter between holds in m/s².
+    pub(super) fn weight(&self, hold: &Hold, between: f64) -> Vector3<f64> {
+        let gain = Vector3::from_fn(|axis, _| self.sensor.matrix.row(axis).norm_squared());
+        let variance =
+            self.within.component_mul(&self.within) / hold.samples() as f64 + gain * between.powi(2);
+        variance.map(|variance| 1.0 / variance.max(f64::MIN_POSITIVE))
+    }
 }
 
 /// Fits the accelerometer to holds of known directions.
@@ -62,6 +75,8 @@ pub(super) fn fit(
         within: linear.within,
         holds: summary(setup, results, between, rms, condition),
         warnings: Vec::new(),
+        thermal: TriadThermal::default(),
+        adjusted: None,
     })
 }
 

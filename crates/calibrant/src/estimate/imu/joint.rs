@@ -9,16 +9,20 @@
 //! | a hold, gyroscope | `ȳ_g − b_g − Γ f_j` | `f_j`, gyroscope |
 //! | a rotation | the part of `Rᵀ f_i` across `f_k`, over g: 2 numbers | `f_i`, `f_k`, gyroscope |
 //! | a turn of known angle | `∫ (y_g − b_g − Γ f) dt − S_g φ e` | gyroscope |
+//!
+//! `S` and `b` are those at the temperature of the hold, the rotation or the turn.
 
 use super::rotation::{Rotation, Samples};
 use crate::arrowhead::{Arrowhead, Increment, Link};
 use crate::estimate::tangents::tangents;
 use crate::estimate::{CalibrationSettings, CalibrationStatus};
-use crate::sensor::{ImuParameters, ImuQuantity, Triad};
-use nalgebra::{Matrix2, Matrix3, SMatrix, SVector, Vector2, Vector3};
+use crate::sensor::{Condition, ImuParameters, ImuQuantity, Triad};
+use nalgebra::{DMatrix, DVector, Matrix2, Matrix2xX, Matrix3, SMatrix, SVector, Vector2, Vector3};
 
-/// Room for all parameters: 12 of each sensor, 9 of the g-sensitivity.
-pub(super) const P: usize = 33;
+/// Room for the parameters at one temperature: 12 of each sensor, 9 of the g-sensitivity.
+const AT_REFERENCE: usize = 33;
+/// Room for all: 12 temperature terms of each sensor more.
+const ALL: usize = 57;
 
 /// A step this short, in standard deviations, needs no test: the derivatives of a rotation are exact to second order in the sample step only, so that the last steps
 /// may not lower χ².
@@ -34,6 +38,7 @@ pub(super) struct HoldData {
     pub(super) gyroscope: Option<(Vector3<f64>, Vector3<f64>)>,
     /// Specific force, where its direction is known.
     pub(super) known: Option<Vector3<f64>>,
+    pub(super) temperature_c: f64,
 }
 
 /// A rotation from one hold to the next one used.
@@ -60,9 +65,11 @@ pub(super) struct TurnData {
     pub(super) angle: Vector3<f64>,
     /// Inverse variances of the integral.
     pub(super) weight: Vector3<f64>,
+    pub(super) temperature_c: f64,
 }
 
 /// The problem for given weights.
+#[derive(Clone)]
 pub(super) struct Joint<'a> {
     pub(super) quantities: Vec<ImuQuantity>,
     pub(super) gravity: f64,
@@ -90,7 +97,7 @@ pub(super) struct Miss {
     pub(super) error: Vector2<f64>,
     by_from: Matrix2<f64>,
     by_to: Matrix2<f64>,
-    pub(super) by_parameters: SMatrix<f64, 2, P>,
+    pub(super) by_parameters: Matrix2xX<f64>,
     /// Covariance of the error from the gyroscope's noise.
     pub(super) covariance: Matrix2<f64>,
     pub(super) rotation: Rotation,
@@ -103,8 +110,9 @@ pub(super) type Misses = Vec<Option<Miss>>;
 pub(super) struct Fit {
     pub(super) state: State,
     pub(super) misses: Misses,
-    pub(super) information: SMatrix<f64, P, P>,
-    pub(super) unreduced: SVector<f64, P>,
+    pub(super) information: DMatrix<f64>,
+    /// Diagonal of the information before the directions were eliminated.
+    pub(super) unreduced: DVector<f64>,
     pub(super) chi2: f64,
     pub(super) status: CalibrationStatus,
     pub(super) iterations: usize,
@@ -117,11 +125,11 @@ impl Joint<'_> {
         (0..self.quantities.len()).filter(|&k| self.quantities[k].triad() == Triad::Gyroscope).collect()
     }
 
-    fn sensitivity(&self, triad: Triad, stimulus: &Vector3<f64>, force: &Vector3<f64>) -> SMatrix<f64, 3, P> {
+    fn sensitivity<const P: usize>(&self, triad: Triad, at: &Condition<'_>) -> SMatrix<f64, 3, P> {
         let mut matrix = SMatrix::<f64, 3, P>::zeros();
         for (k, quantity) in self.quantities.iter().enumerate() {
             if quantity.triad() == triad {
-                matrix.set_column(k, &quantity.derivative(stimulus, force));
+                matrix.set_column(k, &quantity.derivative(at));
             }
         }
         matrix
@@ -135,10 +143,10 @@ impl Joint<'_> {
         let carried = back * from;
         let across = tangents(&to).transpose() / self.gravity;
         let by_turn = across * back * from.cross_matrix();
-        let mut by_parameters = SMatrix::<f64, 2, P>::zeros();
+        let mut by_parameters = Matrix2xX::zeros(self.quantities.len());
         for (k, quantity) in self.quantities.iter().enumerate() {
             if quantity.triad() == Triad::Gyroscope {
-                by_parameters.set_column(k, &(by_turn * rotation.derivative(*quantity)));
+                by_parameters.set_column(k, &(by_turn * rotation.derivative(*quantity, &state.imu)));
             }
         }
         Some(Miss {
@@ -168,6 +176,7 @@ impl Joint<'_> {
 
     /// What a turn leaves unexplained.
     pub(super) fn turn_residual(&self, turn: &TurnData, imu: &ImuParameters) -> Vector3<f64> {
+        let imu = imu.at(turn.temperature_c);
         turn.integral
             - imu.gyroscope.bias * turn.duration_s
             - imu.g_sensitivity * turn.force
@@ -182,6 +191,7 @@ impl Joint<'_> {
             .iter()
             .zip(&state.forces)
             .map(|(hold, force)| {
+                let imu = imu.at(hold.temperature_c);
                 let own = weighted(
                     hold.accelerometer - imu.accelerometer.reading(force),
                     &hold.accelerometer_weight,
@@ -207,7 +217,11 @@ impl Joint<'_> {
         holds + rotations + turns + prior
     }
 
-    fn factor(&self, state: &State, misses: &[Option<Miss>]) -> Option<(Arrowhead<2, P>, SVector<f64, P>)> {
+    fn factor<const P: usize>(
+        &self,
+        state: &State,
+        misses: &[Option<Miss>],
+    ) -> Option<(Arrowhead<2, P>, SVector<f64, P>)> {
         let imu = &state.imu;
         let (mut border, mut rhs) = (SMatrix::<f64, P, P>::zeros(), SVector::<f64, P>::zeros());
         if let Some((mean, weight)) = &self.prior {
@@ -217,9 +231,11 @@ impl Joint<'_> {
             }
         }
         for turn in &self.turns {
-            let mut j = self.sensitivity(Triad::Gyroscope, &turn.angle, &turn.force);
+            let (stimulus, force, temperature_c) = (turn.angle, turn.force, turn.temperature_c);
+            let mut j: SMatrix<f64, 3, P> =
+                self.sensitivity(Triad::Gyroscope, &Condition { imu, stimulus, force, temperature_c });
             for (k, quantity) in self.quantities.iter().enumerate() {
-                if matches!(quantity, ImuQuantity::Of(Triad::Gyroscope, crate::sensor::Quantity::Bias(_))) {
+                if quantity.is_of_bias() {
                     j.column_mut(k).scale_mut(turn.duration_s);
                 }
             }
@@ -259,11 +275,14 @@ impl Joint<'_> {
                         link.g1 += turn.tr_mul(&wr);
                     }
                 };
-            let g = self.sensitivity(Triad::Accelerometer, force, force);
+            let temperature_c = hold.temperature_c;
+            let felt = Condition { imu: &state.imu, stimulus: *force, force: *force, temperature_c };
+            let imu = state.imu.at(temperature_c);
+            let g = self.sensitivity(Triad::Accelerometer, &felt);
             let r = hold.accelerometer - imu.accelerometer.reading(force);
             add(imu.accelerometer.matrix, g, r, &hold.accelerometer_weight);
             if let Some((mean, weight)) = &hold.gyroscope {
-                let g = self.sensitivity(Triad::Gyroscope, &Vector3::zeros(), force);
+                let g = self.sensitivity(Triad::Gyroscope, &Condition { stimulus: Vector3::zeros(), ..felt });
                 let r = mean - imu.gyroscope.bias - imu.g_sensitivity * force;
                 add(imu.g_sensitivity, g, r, weight);
             }
@@ -272,7 +291,9 @@ impl Joint<'_> {
             if let Some(miss) = j.checked_sub(1).filter(counted).and_then(|before| misses[before].as_ref()) {
                 let w = self.weight(miss);
                 let wr = -(w * miss.error);
-                let (g, wg) = (&miss.by_parameters, w * miss.by_parameters);
+                let mut g = SMatrix::<f64, 2, P>::zeros();
+                g.columns_mut(0, self.quantities.len()).copy_from(&miss.by_parameters);
+                let wg = w * g;
                 link.c += g.tr_mul(&wg);
                 link.gp += g.tr_mul(&wr);
                 if self.holds[j - 1].known.is_none() {
@@ -300,9 +321,21 @@ impl Joint<'_> {
 
     /// Iterates from a state with its misses; `None` where a matrix is or becomes singular.
     pub(super) fn fit(&self, start: State, misses: Misses, settings: &CalibrationSettings) -> Option<Fit> {
+        match self.quantities.len() {
+            ..=AT_REFERENCE => self.iterate::<AT_REFERENCE>(start, misses, settings),
+            _ => self.iterate::<ALL>(start, misses, settings),
+        }
+    }
+
+    fn iterate<const P: usize>(
+        &self,
+        start: State,
+        misses: Misses,
+        settings: &CalibrationSettings,
+    ) -> Option<Fit> {
         let (mut state, mut misses) = (start, misses);
         let mut chi2 = self.chi2(&state, &misses);
-        let (mut system, mut unreduced) = self.factor(&state, &misses)?;
+        let (mut system, mut unreduced) = self.factor::<P>(&state, &misses)?;
         let (mut status, mut iterations) = (CalibrationStatus::IterationLimit, 0);
         let (mut damping, mut norm, mut last_norm) = (0.0_f64, f64::INFINITY, f64::INFINITY);
         while iterations < settings.max_iterations {
@@ -339,11 +372,12 @@ impl Joint<'_> {
                 }
             }
         }
+        let size = self.quantities.len();
         Some(Fit {
             state,
             misses,
-            information: system.information,
-            unreduced,
+            information: DMatrix::from_fn(size, size, |i, j| system.information[(i, j)]),
+            unreduced: DVector::from_fn(size, |k, _| unreduced[k]),
             chi2,
             status,
             iterations,
@@ -352,7 +386,12 @@ impl Joint<'_> {
     }
 
     /// The state after a step, the directions scaled back to gravity.
-    fn take(&self, state: &State, system: &Arrowhead<2, P>, step: &SVector<f64, P>) -> Option<State> {
+    fn take<const P: usize>(
+        &self,
+        state: &State,
+        system: &Arrowhead<2, P>,
+        step: &SVector<f64, P>,
+    ) -> Option<State> {
         let mut imu = state.imu;
         for (quantity, step) in self.quantities.iter().zip(step.iter()) {
             quantity.add_to(&mut imu, *step);

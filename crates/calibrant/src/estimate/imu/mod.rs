@@ -10,6 +10,8 @@
 //! The true frame is that of the accelerometer in its gauge; the gyroscope's matrix is given in it, so its misalignment to the accelerometer is in there. With
 //! known directions (`ImuSetup::directions`) it is the frame of these directions.
 //!
+//! Bias and gain of both sensors may follow temperature, where the recording has one ([`ThermalModel`]).
+//!
 //! # References
 //! `tedaldi2014`, `ferraris1995`
 
@@ -24,9 +26,11 @@ mod settle;
 mod solver;
 mod start;
 mod still;
+mod thermal;
 mod verdict;
 mod weights;
 
 pub use problem::{Gyroscope, ImuProblem, ImuSetup, KnownTerm, Turn};
 pub use result::{ImuCalibration, RotationResult, StillGyroscope, TurnResult};
 pub use solver::calibrate_imu;
+pub use thermal::ThermalModel;

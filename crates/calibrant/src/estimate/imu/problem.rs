@@ -1,5 +1,6 @@
 //! What is to be calibrated of an IMU, and what is known of its recording.
 
+use super::ThermalModel;
 use crate::estimate::HoldsSetup;
 use crate::sensor::{ImuQuantity, ImuRecording, ReadingUnit, Sensor, SensorModel};
 use nalgebra::Vector3;
@@ -55,6 +56,8 @@ pub struct ImuSetup {
     pub turns: Vec<Turn>,
     /// Quantities that are known beforehand.
     pub known: Vec<KnownTerm>,
+    /// What is to follow temperature.
+    pub thermal: ThermalModel,
 }
 
 /// A turn of known angle about an axis that is fixed in the sensor: the Ferraris procedure, or a turntable.

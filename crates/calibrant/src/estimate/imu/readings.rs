@@ -3,10 +3,11 @@
 use super::ImuProblem;
 use super::joint::TurnData;
 use super::rotation::{LocalBias, Samples};
+use super::thermal::Climate;
 use crate::error::{Complaint, Error, Result};
 use crate::estimate::HoldCalibration;
 use crate::motion::Hold;
-use crate::sensor::{Recording, Saturation, SensorParameters};
+use crate::sensor::{ImuParameters, Recording, Saturation, SensorParameters};
 use nalgebra::Vector3;
 use std::ops::Range;
 
@@ -66,12 +67,13 @@ pub(super) fn samples<'a>(
     gyroscope: &'a Recording,
     felt: Option<&'a [Vector3<f64>]>,
     span: &Range<usize>,
+    temperatures_c: [f64; 2],
 ) -> Samples<'a> {
     Samples {
         times_s: &gyroscope.times_s[span.clone()],
         readings: &gyroscope.readings[span.clone()],
         forces: felt.map(|felt| &felt[span.clone()]),
-        drift: [LocalBias::none(); 2],
+        drift: temperatures_c.map(LocalBias::none),
     }
 }
 
@@ -113,7 +115,7 @@ pub(super) fn turns(
     gyroscope: &Recording,
     noise: &Vector3<f64>,
     felt: Option<&[Vector3<f64>]>,
-    still_bias: &Vector3<f64>,
+    still: (&ImuParameters, &Climate<'_>),
 ) -> Result<Vec<TurnData>> {
     problem
         .setup
@@ -148,7 +150,8 @@ pub(super) fn turns(
             }
             let duration_s = times[times.len() - 1] - times[0];
             // the gain, roughly: what the readings add up to beyond their bias, over the angle
-            let bias = still_bias * duration_s;
+            let temperature_c = still.1.mean(turn.start_s, turn.end_s);
+            let bias = still.0.at(temperature_c).gyroscope.bias * duration_s;
             let gain = (integral - bias).norm() / turn.angle_rad.abs();
             variance += Vector3::repeat((gain * turn.angle_sd_rad).powi(2));
             Ok(TurnData {
@@ -157,6 +160,7 @@ pub(super) fn turns(
                 force,
                 angle: turn.axis * turn.angle_rad,
                 weight: variance.map(|variance| 1.0 / variance.max(f64::MIN_POSITIVE)),
+                temperature_c,
             })
         })
         .collect()

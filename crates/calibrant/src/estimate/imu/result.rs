@@ -41,6 +41,8 @@ pub struct ImuCalibration {
     pub rotation_excess_sd_rad: f64,
     /// The turns of known angle.
     pub turns: Vec<TurnResult>,
+    /// Mean temperature of each of the holds, °C, where something follows temperature.
+    pub hold_temperatures_c: Option<Vec<f64>>,
     /// Things a user should know, in words.
     pub warnings: Vec<String>,
 }

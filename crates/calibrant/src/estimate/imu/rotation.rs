@@ -7,10 +7,12 @@
 //! A small change `δω(t)` turns the end by `δθ` (in the frame of the start): `R(T) → exp(δθ^) R(T)`, `δθ = ∫ R(t) δω(t) dt`. So three sums over the samples
 //! give all derivatives: `∫ R ω_cᵀ`, `∫ R`, `∫ R f_c`; and white noise of covariance `Σ_ν` per sample adds `Σ_k w_k² R_k M Σ_ν Mᵀ R_kᵀ`, `w_k` the weight of sample k in s.
 //!
+//! The gain is that at the mean temperature of the holds before and after; the bias goes from that at the one's to that at the other's.
+//!
 //! # References
 //! `iserles1999`, `tedaldi2014`
 
-use crate::sensor::{ImuParameters, ImuQuantity, Quantity, Triad};
+use crate::sensor::{ImuParameters, ImuQuantity, Quantity, ThermalPart, Triad};
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 
 /// The readings of a rotation.
@@ -35,12 +37,15 @@ pub(super) struct LocalBias {
     pub(super) share: Vector3<f64>,
     /// Variance of the mean from the noise of its samples.
     pub(super) variance: Vector3<f64>,
+    /// Temperature of the hold, °C.
+    pub(super) temperature_c: f64,
 }
 
 impl LocalBias {
     /// The bias is that of all holds.
-    pub(super) fn none() -> Self {
+    pub(super) fn none(temperature_c: f64) -> Self {
         Self {
+            temperature_c,
             mean: Vector3::zeros(),
             force: Vector3::zeros(),
             share: Vector3::zeros(),
@@ -49,8 +54,9 @@ impl LocalBias {
     }
 
     fn of(&self, imu: &ImuParameters) -> Vector3<f64> {
-        let deviation = self.mean - imu.gyroscope.bias - imu.g_sensitivity * self.force;
-        imu.gyroscope.bias + self.share.component_mul(&deviation)
+        let bias = imu.at(self.temperature_c).gyroscope.bias;
+        let deviation = self.mean - bias - imu.g_sensitivity * self.force;
+        bias + self.share.component_mul(&deviation)
     }
 }
 
@@ -78,9 +84,14 @@ pub(super) struct Rotation {
 }
 
 impl Samples<'_> {
+    /// Mean temperature of the holds before and after, °C.
+    pub(super) fn temperature_c(&self) -> f64 {
+        middle(&self.drift)
+    }
+
     /// Integrates them for an IMU; `None` where the gyroscope's matrix is singular. `noise` is the standard deviation of one sample.
     pub(super) fn integrate(&self, imu: &ImuParameters, noise: &Vector3<f64>) -> Option<Rotation> {
-        let correction = imu.gyroscope.matrix.try_inverse()?;
+        let correction = imu.at(self.temperature_c()).gyroscope.matrix.try_inverse()?;
         let noise_root = correction * Matrix3::from_diagonal(noise);
         let by_force = correction * imu.g_sensitivity;
         let last = self.times_s.len() - 1;
@@ -248,21 +259,46 @@ fn exponential(turn: &Vector3<f64>) -> UnitQuaternion<f64> {
     UnitQuaternion::new_unchecked(Quaternion::from_parts(cos, half * sinc))
 }
 
+fn middle(ends: &[LocalBias; 2]) -> f64 {
+    0.5 * (ends[0].temperature_c + ends[1].temperature_c)
+}
+
 impl Rotation {
-    /// Derivative of `δθ` with respect to a quantity; zero for those of the accelerometer.
-    pub(super) fn derivative(&self, quantity: ImuQuantity) -> Vector3<f64> {
+    /// Derivative of `δθ` with respect to a quantity of an IMU; zero for those of the accelerometer.
+    pub(super) fn derivative(&self, quantity: ImuQuantity, imu: &ImuParameters) -> Vector3<f64> {
+        let thermal = &imu.thermal;
+        let tau_k = thermal.tau_k(middle(&self.drift));
+        let factor = thermal.gyroscope.gain_factor(tau_k);
         // a reading that is larger by δy means a rate that is smaller by M δy
         let entry = |sums: &[Matrix3<f64>; 3], row: usize, column: usize| {
-            -(sums[column] * self.correction.column(row))
+            -(sums[column] * self.correction.column(row)) * factor[row]
+        };
+        // a bias that is larger by the first in the hold before and by the second in the hold after
+        let bias = |axis: usize, by: [f64; 2]| {
+            let [start, end] = self.drift.map(|end| end.share[axis]);
+            let left = self.by_start * ((1.0 - start) * by[0]) + self.by_end * ((1.0 - end) * by[1]);
+            -(left * self.correction.column(axis))
         };
         match quantity {
-            ImuQuantity::Of(Triad::Accelerometer, _) => Vector3::zeros(),
-            ImuQuantity::Of(Triad::Gyroscope, quantity) => match quantity {
-                Quantity::Bias(axis) => {
-                    let [start, end] = self.drift.map(|end| end.share[axis.index()]);
-                    let left = self.by_start * (1.0 - start) + self.by_end * (1.0 - end);
-                    -(left * self.correction.column(axis.index()))
+            ImuQuantity::Of(Triad::Accelerometer, _) | ImuQuantity::Thermal(Triad::Accelerometer, _) => {
+                Vector3::zeros()
+            }
+            ImuQuantity::Thermal(Triad::Gyroscope, term) => {
+                let axis = term.axis.index();
+                match term.part {
+                    ThermalPart::Bias => {
+                        bias(axis, self.drift.map(|end| term.power(thermal.tau_k(end.temperature_c))))
+                    }
+                    ThermalPart::Scale => {
+                        let row = imu.gyroscope.matrix.row(axis);
+                        let along: Vector3<f64> =
+                            (0..3).map(|column| entry(&self.by_rate, axis, column) * row[column]).sum();
+                        along * (term.power(tau_k) / factor[axis])
+                    }
                 }
+            }
+            ImuQuantity::Of(Triad::Gyroscope, quantity) => match quantity {
+                Quantity::Bias(axis) => bias(axis.index(), [1.0; 2]),
                 Quantity::Scale(axis) => entry(&self.by_rate, axis.index(), axis.index()),
                 Quantity::CrossAxis(row, column) => entry(&self.by_rate, row.index(), column.index()),
                 Quantity::Symmetric(row, column) => {
@@ -309,7 +345,7 @@ mod tests {
                 times_s: &self.times,
                 readings: &self.readings,
                 forces: Some(&self.forces),
-                drift: [LocalBias::none(); 2],
+                drift: [LocalBias::none(25.0); 2],
             }
         }
     }
@@ -380,8 +416,17 @@ mod tests {
     #[test]
     fn derivatives_equal_differences() {
         let coning = coning(400.0);
-        let samples = coning.samples();
-        let at = imu();
+        let end = |temperature_c: f64, share: f64| LocalBias {
+            mean: Vector3::new(0.05, 0.02, -0.04),
+            force: Vector3::new(1.0, -2.0, 9.0),
+            share: Vector3::repeat(share),
+            ..LocalBias::none(temperature_c)
+        };
+        let samples = Samples { drift: [end(28.0, 0.4), end(37.0, 0.7)], ..coning.samples() };
+        let mut at = imu();
+        for quantity in ImuQuantity::thermal_list(Triad::Gyroscope, 2, 2) {
+            quantity.add_to(&mut at, 1e-4);
+        }
         let rotation = samples.integrate(&at, &Vector3::zeros()).expect("regular");
         let mut quantities: Vec<ImuQuantity> = ParameterList::new(3, SensorModel::Full)
             .quantities()
@@ -393,6 +438,7 @@ mod tests {
                 .iter()
                 .flat_map(|row| Axis::ALL.iter().map(|column| ImuQuantity::GSensitivity(*row, *column))),
         );
+        quantities.extend(ImuQuantity::thermal_list(Triad::Gyroscope, 2, 2));
         for quantity in quantities {
             let step = 1e-5;
             let moved = |by: f64| {
@@ -402,7 +448,7 @@ mod tests {
             };
             let change = (moved(step) - moved(-step)) / (2.0 * step) * rotation.start_from_end.transpose();
             let turn = Vector3::new(change[(2, 1)], change[(0, 2)], change[(1, 0)]);
-            let error = (turn - rotation.derivative(quantity)).norm();
+            let error = (turn - rotation.derivative(quantity, &at)).norm();
             // the sums are of second order in the sample step, enough for a search direction
             assert!(error < 1e-4 * turn.norm().max(1.0), "{}: {error:e}", quantity.name());
         }

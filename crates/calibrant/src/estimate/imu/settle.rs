@@ -5,7 +5,7 @@ use super::rotation::LocalBias;
 use super::solver::singular;
 use super::weights::{self, Weighed};
 use crate::error::Result;
-use crate::sensor::{ImuQuantity, Quantity};
+use crate::sensor::Condition;
 use nalgebra::{DMatrix, DVector, Vector3};
 
 /// Rounds in which weights and estimate follow each other.
@@ -19,32 +19,35 @@ fn rest(joint: &Joint<'_>, state: &State) -> (DMatrix<f64>, DVector<f64>) {
     let size = places.len();
     let (mut f, mut g) = (DMatrix::zeros(size, size), DVector::zeros(size));
     let imu = &state.imu;
-    let mut add =
-        |stimulus: Vector3<f64>, force: Vector3<f64>, time: f64, r: Vector3<f64>, weight: &Vector3<f64>| {
-            let columns: Vec<Vector3<f64>> = places
-                .iter()
-                .map(|&k| {
-                    let quantity = joint.quantities[k];
-                    let scale =
-                        if matches!(quantity, ImuQuantity::Of(_, Quantity::Bias(_))) { time } else { 1.0 };
-                    quantity.derivative(&stimulus, &force) * scale
-                })
-                .collect();
-            for i in 0..size {
-                let weighted = columns[i].component_mul(weight);
-                g[i] += weighted.dot(&r);
-                for j in 0..size {
-                    f[(i, j)] += weighted.dot(&columns[j]);
-                }
+    let mut add = |at: Condition<'_>, time: f64, r: Vector3<f64>, weight: &Vector3<f64>| {
+        let columns: Vec<Vector3<f64>> = places
+            .iter()
+            .map(|&k| {
+                let quantity = joint.quantities[k];
+                let scale = if quantity.is_of_bias() { time } else { 1.0 };
+                quantity.derivative(&at) * scale
+            })
+            .collect();
+        for i in 0..size {
+            let weighted = columns[i].component_mul(weight);
+            g[i] += weighted.dot(&r);
+            for j in 0..size {
+                f[(i, j)] += weighted.dot(&columns[j]);
             }
-        };
+        }
+    };
     for (hold, force) in joint.holds.iter().zip(&state.forces) {
         if let Some((mean, weight)) = &hold.gyroscope {
-            add(Vector3::zeros(), *force, 1.0, mean - imu.gyroscope.bias - imu.g_sensitivity * force, weight);
+            let temperature_c = hold.temperature_c;
+            let still = Condition { imu, stimulus: Vector3::zeros(), force: *force, temperature_c };
+            let bias = imu.at(temperature_c).gyroscope.bias;
+            add(still, 1.0, mean - bias - imu.g_sensitivity * force, weight);
         }
     }
     for turn in &joint.turns {
-        add(turn.angle, turn.force, turn.duration_s, joint.turn_residual(turn, imu), &turn.weight);
+        let (stimulus, force, temperature_c) = (turn.angle, turn.force, turn.temperature_c);
+        let at = Condition { imu, stimulus, force, temperature_c };
+        add(at, turn.duration_s, joint.turn_residual(turn, imu), &turn.weight);
     }
     if let Some((mean, weight)) = &joint.prior {
         for (i, &k) in places.iter().enumerate() {
@@ -78,13 +81,15 @@ fn follow_drift(joint: &mut Joint<'_>, state: &State, between: &Vector3<f64>) {
         .iter()
         .zip(&state.forces)
         .map(|(hold, force)| {
-            hold.gyroscope.map_or_else(LocalBias::none, |(mean, weight)| {
+            let none = LocalBias::none(hold.temperature_c);
+            hold.gyroscope.map_or(none, |(mean, weight)| {
                 let true_variance = between.component_mul(between);
                 LocalBias {
                     mean,
                     force: *force,
                     share: true_variance.component_mul(&weight),
                     variance: weight.map(|weight| 1.0 / weight) - true_variance,
+                    ..none
                 }
             })
         })

@@ -5,16 +5,19 @@ use super::faces::{self, First};
 use super::joint::{HoldData, Joint, RotationData, State};
 use super::readings::{Integrable, felt_forces, rotation_spans, samples, turns};
 use super::settle::{apply, reweigh, settle};
-use super::still::{Still, between_sd, pooled_noise, still, weigh};
+use super::still::{Explanation, Still, between_sd, pooled_noise, still, weigh};
+use super::thermal::{self, Climate};
 use super::verdict::{self, undetermined, vague};
 use super::{ImuCalibration, ImuProblem, start};
 use crate::error::{Complaint, Error, Result};
-use crate::estimate::{CalibrationProblem, CalibrationSettings, Recovered, Stimulus, calibrate};
+use crate::estimate::{CalibrationProblem, CalibrationSettings, HoldsSetup, Recovered, Stimulus, calibrate};
 use crate::information;
+use crate::motion::Hold;
 use crate::sensor::{
-    Axis, ImuParameters, ImuQuantity, ParameterList, ReadingUnit, Recording, SensorParameters, Triad,
+    Axis, ImuParameters, ImuQuantity, ParameterList, ReadingUnit, Recording, SensorParameters, Thermal,
+    Triad, TriadThermal,
 };
-use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
+use nalgebra::{Matrix3, Vector3};
 
 /// Calibrates an IMU.
 ///
@@ -25,10 +28,18 @@ use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 pub fn calibrate_imu(problem: &ImuProblem<'_>, settings: &CalibrationSettings) -> Result<ImuCalibration> {
     let (accelerometer, gyroscope) = recordings(problem)?;
     let setup = problem.setup;
-    let first = match &setup.directions {
-        Some(directions) => faces::fit(problem, accelerometer, directions)?,
-        None => from_holds(problem, accelerometer, settings)?,
+    let from = |recording: &Recording, intervals: Option<Vec<(f64, f64)>>| match &setup.directions {
+        Some(directions) => faces::fit(problem, recording, directions),
+        None => from_holds(problem, recording, settings, intervals),
     };
+    let first = from(accelerometer, setup.holds.intervals_s.clone())?;
+    let found: Vec<Hold> = first.holds.holds.iter().map(|result| result.hold.clone()).collect();
+    let climate = Climate::of(problem, &found)?;
+    let first =
+        thermal::accelerometer(problem, accelerometer, first, &climate, settings, |recording, intervals| {
+            from(recording, Some(intervals))
+        })?;
+    let accelerometer = first.adjusted.as_ref().unwrap_or(accelerometer);
     let holds = &first.holds;
     let chosen: Vec<usize> = (0..holds.holds.len()).filter(|&j| holds.holds[j].used).collect();
     let forces: Vec<Vector3<f64>> = chosen.iter().map(|&j| holds.holds[j].force_mps2).collect();
@@ -40,12 +51,21 @@ pub fn calibrate_imu(problem: &ImuProblem<'_>, settings: &CalibrationSettings) -
         )));
     }
     let noise = problem.gyroscope.noise.unwrap_or_else(|| pooled_noise(&stills));
-    let g_forces = problem.gyroscope.g_sensitivity.then_some(forces.as_slice());
-    let between = between_sd(&stills, &noise, g_forces);
-    let mut data = hold_data(&first, &chosen, setup.directions.is_some());
+    let quantities = quantities(problem);
+    let prior = prior(problem, &quantities);
+    let mut data = hold_data(&first, &chosen, setup.directions.is_some(), &climate);
+    let mut thermal = Thermal { accelerometer: first.thermal, ..climate.start };
+    let by = Explanation {
+        forces: problem.gyroscope.g_sensitivity.then_some(forces.as_slice()),
+        tau_k: data.iter().map(|hold| thermal.tau_k(hold.temperature_c)).collect(),
+        fixed: thermal.gyroscope,
+        terms: std::array::from_fn(|axis| thermal::bias_terms(&quantities, prior.as_ref(), axis)),
+    };
+    let between;
+    (between, thermal.gyroscope) = between_sd(&stills, &noise, &by);
     weigh(&mut data, &stills, &noise, &between);
+    let start = start_values(problem, &first, &data, thermal);
 
-    let still_bias = start::mean_bias(&data);
     let felt = problem
         .gyroscope
         .g_sensitivity
@@ -62,23 +82,27 @@ pub fn calibrate_imu(problem: &ImuProblem<'_>, settings: &CalibrationSettings) -
         .enumerate()
         .map(|(from, span)| RotationData {
             from,
-            samples: samples(gyroscope, felt.as_deref(), span),
+            samples: samples(
+                gyroscope,
+                felt.as_deref(),
+                span,
+                [data[from].temperature_c, data[from + 1].temperature_c],
+            ),
             used: integrable.obstacle(span).is_none(),
             counts: true,
         })
         .collect();
-    let quantities = quantities(problem);
     let mut joint = Joint {
         gravity: setup.holds.gravity.magnitude_mps2,
         holds: data,
         rotations,
-        turns: turns(problem, gyroscope, &noise, felt.as_deref(), &still_bias)?,
+        turns: turns(problem, gyroscope, &noise, felt.as_deref(), (&start, &climate))?,
         gyroscope_noise: noise,
         excess_rad: 0.0,
-        prior: prior(problem, &quantities),
+        prior,
         quantities,
     };
-    let mut state = State { imu: start_values(problem, &first, &joint), forces };
+    let mut state = State { imu: start, forces };
     if joint.rotations.iter().all(|rotation| !rotation.used) && joint.turns.is_empty() {
         return Err(Error::NotIdentifiable(Box::new(undetermined(&joint, &[]))));
     }
@@ -121,6 +145,7 @@ pub fn calibrate_imu(problem: &ImuProblem<'_>, settings: &CalibrationSettings) -
         integrable: &integrable,
         spans: &spans,
         chosen: &chosen,
+        climate: &climate,
     };
     finished.assemble(problem, holds, gyroscope, axes, &first)
 }
@@ -181,39 +206,40 @@ fn from_holds(
     problem: &ImuProblem<'_>,
     recording: &Recording,
     settings: &CalibrationSettings,
+    intervals_s: Option<Vec<(f64, f64)>>,
 ) -> Result<First> {
-    let stimulus = Stimulus::Holds(&problem.setup.holds);
+    let setup = HoldsSetup { intervals_s, ..problem.setup.holds.clone() };
+    let stimulus = Stimulus::Holds(&setup);
     let first =
         calibrate(&CalibrationProblem { sensor: problem.accelerometer, recording, stimulus }, settings)?;
     let Recovered::Holds(holds) = first.recovered else {
         return Err(Error::experiment(Complaint::new("an IMU is calibrated from holds", "use [holds]")));
     };
     let within = first.fit.noise_estimate.unwrap_or_else(Vector3::zeros);
-    Ok(First { sensor: first.sensor, within, holds, warnings: first.warnings })
+    let (thermal, adjusted) = (TriadThermal::default(), None);
+    Ok(First { sensor: first.sensor, within, holds, warnings: first.warnings, thermal, adjusted })
 }
 
 /// The used holds with the accelerometer's weights.
-fn hold_data(first: &First, chosen: &[usize], known: bool) -> Vec<HoldData> {
-    let (holds, within) = (&first.holds, first.within);
-    let gain = Vector3::from_fn(|axis, _| first.sensor.matrix.row(axis).norm_squared());
-    let between = holds.between_holds_sd_mps2.powi(2);
+fn hold_data(first: &First, chosen: &[usize], known: bool, climate: &Climate<'_>) -> Vec<HoldData> {
+    let holds = &first.holds;
     chosen
         .iter()
         .map(|&j| {
             let hold = &holds.holds[j].hold;
-            let variance = within.component_mul(&within) / hold.samples() as f64 + gain * between;
             HoldData {
                 accelerometer: hold.mean,
-                accelerometer_weight: variance.map(|variance| 1.0 / variance.max(f64::MIN_POSITIVE)),
+                accelerometer_weight: first.weight(hold, holds.between_holds_sd_mps2),
                 gyroscope: None,
                 known: known.then_some(holds.holds[j].force_mps2),
+                temperature_c: climate.of_hold(hold),
             }
         })
         .collect()
 }
 
-/// The quantities that are estimated: the accelerometer's in its gauge, then the gyroscope's.
-fn quantities(problem: &ImuProblem<'_>) -> Vec<ImuQuantity> {
+/// The quantities that are estimated: the accelerometer's in its gauge, then the gyroscope's, then what temperature does to both.
+pub(super) fn quantities(problem: &ImuProblem<'_>) -> Vec<ImuQuantity> {
     let setup = problem.setup;
     let accelerometer = match setup.directions {
         Some(_) => ParameterList::new(3, problem.accelerometer.model),
@@ -228,6 +254,7 @@ fn quantities(problem: &ImuProblem<'_>) -> Vec<ImuQuantity> {
     if problem.gyroscope.g_sensitivity {
         quantities.extend(ImuQuantity::full_list(false, false, true));
     }
+    quantities.extend(setup.thermal.quantities());
     let fixed = |quantity: &ImuQuantity| {
         setup.known.iter().any(|known| known.quantity == *quantity && known.sd.is_none())
     };
@@ -236,7 +263,7 @@ fn quantities(problem: &ImuProblem<'_>) -> Vec<ImuQuantity> {
 }
 
 /// Mean and inverse variance of each estimated quantity that is known beforehand.
-fn prior(problem: &ImuProblem<'_>, quantities: &[ImuQuantity]) -> Option<(Vec<f64>, Vec<f64>)> {
+pub(super) fn prior(problem: &ImuProblem<'_>, quantities: &[ImuQuantity]) -> Option<(Vec<f64>, Vec<f64>)> {
     let of = |quantity: &ImuQuantity| problem.setup.known.iter().find(|known| known.quantity == *quantity);
     if quantities.iter().all(|quantity| of(quantity).is_none()) {
         return None;
@@ -251,34 +278,35 @@ fn prior(problem: &ImuProblem<'_>, quantities: &[ImuQuantity]) -> Option<(Vec<f6
     )
 }
 
-fn start_values(problem: &ImuProblem<'_>, first: &First, joint: &Joint<'_>) -> ImuParameters {
+fn start_values(
+    problem: &ImuProblem<'_>,
+    first: &First,
+    holds: &[HoldData],
+    thermal: Thermal,
+) -> ImuParameters {
     let mut imu = ImuParameters {
         accelerometer: first.sensor,
-        gyroscope: SensorParameters { bias: start::mean_bias(&joint.holds), matrix: Matrix3::identity() },
+        gyroscope: SensorParameters { bias: start::mean_bias(holds, &thermal), matrix: Matrix3::identity() },
         g_sensitivity: Matrix3::zeros(),
+        thermal,
     };
     if let Some(gain) = problem.gyroscope.gain {
         imu.gyroscope.matrix = Matrix3::from_diagonal(&gain);
     }
-    for known in problem.setup.known.iter().filter(|known| known.sd.is_none()) {
-        let now = known.quantity.of(&imu);
-        known.quantity.add_to(&mut imu, known.value - now);
-    }
+    thermal::set_fixed(&mut imu, &problem.setup.known);
     imu
 }
 
 /// Are all parameters determined?
-fn check(joint: &Joint<'_>, state: &State, settings: &CalibrationSettings) -> Result<()> {
+pub(super) fn check(joint: &Joint<'_>, state: &State, settings: &CalibrationSettings) -> Result<()> {
     let none = CalibrationSettings { max_iterations: 0, ..settings.clone() };
     let misses = joint.misses(state).ok_or_else(singular)?;
     let fit = joint.fit(state.clone(), misses, &none).ok_or_else(singular)?;
-    let size = joint.quantities.len();
-    let information = DMatrix::from_fn(size, size, |i, j| fit.information[(i, j)]);
-    let groups = information::undetermined(&information, &DVector::from_fn(size, |i, _| fit.unreduced[i]));
+    let groups = information::undetermined(&fit.information, &fit.unreduced);
     if !groups.is_empty() {
         return Err(Error::NotIdentifiable(Box::new(undetermined(joint, &groups))));
     }
-    match information::covariance(&information).and_then(|covariance| vague(joint, state, &covariance)) {
+    match information::covariance(&fit.information).and_then(|covariance| vague(joint, state, &covariance)) {
         Some(vague) => Err(Error::NotIdentifiable(Box::new(vague))),
         None => Ok(()),
     }

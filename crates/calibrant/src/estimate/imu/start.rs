@@ -5,7 +5,7 @@
 
 use super::joint::{HoldData, Joint, RotationData, State};
 use super::rotation::carried_back;
-use crate::sensor::{Axis, ImuParameters, ReadingUnit};
+use crate::sensor::{Axis, ImuParameters, ReadingUnit, Thermal};
 use nalgebra::{Matrix3, Vector3};
 use rayon::prelude::*;
 
@@ -98,8 +98,9 @@ impl FirstLook {
         let used = joint.rotations.iter().filter(|data| data.used);
         let cut_down = |data: &RotationData<'_>| {
             let step = data.samples.times_s.len().div_ceil(SAMPLES);
+            let bias = state.imu.at(data.samples.temperature_c()).gyroscope.bias;
             CutDown {
-                turns: data.samples.cut_down(&state.imu.gyroscope.bias, step),
+                turns: data.samples.cut_down(&bias, step),
                 from: state.forces[data.from],
                 to: state.forces[data.from + 1],
             }
@@ -132,11 +133,12 @@ fn gain_bound(joint: &Joint<'_>, state: &State) -> Option<f64> {
         .filter_map(|data| {
             let angle = state.forces[data.from].angle(&state.forces[data.from + 1]);
             let samples = &data.samples;
+            let bias = state.imu.at(samples.temperature_c()).gyroscope.bias;
             let path: f64 = samples
                 .times_s
                 .windows(2)
                 .zip(samples.readings)
-                .map(|(t, y)| (t[1] - t[0]) * (y - state.imu.gyroscope.bias).norm())
+                .map(|(t, y)| (t[1] - t[0]) * (y - bias).norm())
                 .sum();
             (angle > 0.2).then_some(path / angle)
         })
@@ -166,11 +168,13 @@ fn names(matrix: &Matrix3<f64>) -> [String; 3] {
     })
 }
 
-/// The means of the gyroscope's readings over the holds, averaged: its bias where nothing turns.
-pub(super) fn mean_bias(holds: &[HoldData]) -> Vector3<f64> {
+/// The means of the gyroscope's readings over the holds, as they would be at the reference temperature, averaged: its bias where nothing turns.
+pub(super) fn mean_bias(holds: &[HoldData], thermal: &Thermal) -> Vector3<f64> {
     let (mut sum, mut weights) = (Vector3::zeros(), Vector3::zeros());
-    for (mean, weight) in holds.iter().filter_map(|hold| hold.gyroscope.as_ref()) {
-        sum += mean.component_mul(weight);
+    for hold in holds {
+        let Some((mean, weight)) = &hold.gyroscope else { continue };
+        let change = thermal.gyroscope.bias_change(thermal.tau_k(hold.temperature_c));
+        sum += (mean - change).component_mul(weight);
         weights += weight;
     }
     sum.component_div(&weights.map(|weight| weight.max(f64::MIN_POSITIVE)))

@@ -2,7 +2,7 @@
 
 use super::joint::HoldData;
 use crate::motion::Hold;
-use crate::sensor::Recording;
+use crate::sensor::{Recording, ThermalTerm, TriadThermal};
 use nalgebra::{DMatrix, DVector, Vector3};
 
 /// Mean, number of samples and scatter of the gyroscope within a hold.
@@ -30,60 +30,115 @@ pub(super) fn pooled_noise(stills: &[Option<Still>]) -> Vector3<f64> {
     (squares / degrees.max(1.0)).map(f64::sqrt)
 }
 
-/// The scatter between holds that makes χ² equal its degrees of freedom (Paule and Mandel), per axis; each mean is explained by a constant and, where
-/// asked for, by the specific force.
+/// What the means in the holds are explained by, beside a constant.
+pub(super) struct Explanation<'a> {
+    /// The specific forces, where the gyroscope feels them.
+    pub(super) forces: Option<&'a [Vector3<f64>]>,
+    /// `τ` of each hold, K.
+    pub(super) tau_k: Vec<f64>,
+    /// Terms that are fixed.
+    pub(super) fixed: TriadThermal,
+    /// Terms of each axis that are estimated: what they are expected to be, and its inverse variance (0 where nothing is known).
+    pub(super) terms: [Vec<(ThermalTerm, f64, f64)>; 3],
+}
+
+/// The scatter between holds that makes χ² equal its degrees of freedom (Paule and Mandel), per axis; each mean is explained by a constant, by the
+/// specific force where asked for, and by powers of the temperature, which are returned as well.
 pub(super) fn between_sd(
     stills: &[Option<Still>],
     noise: &Vector3<f64>,
-    forces: Option<&[Vector3<f64>]>,
-) -> Vector3<f64> {
-    let rows: Vec<(DVector<f64>, Still)> = stills
-        .iter()
-        .enumerate()
-        .filter_map(|(j, still)| {
-            let mut row = vec![1.0];
-            if let Some(forces) = forces {
-                row.extend(forces[j].iter());
-            }
-            still.map(|still| (DVector::from_vec(row), still))
-        })
-        .collect();
-    let unknowns = rows.first().map_or(1, |(row, _)| row.len());
-    let degrees = rows.len().saturating_sub(unknowns) as f64;
-    Vector3::from_fn(|axis, _| {
-        if degrees == 0.0 {
+    by: &Explanation<'_>,
+) -> (Vector3<f64>, TriadThermal) {
+    let (mut between, mut thermal) = (Vector3::zeros(), by.fixed);
+    for axis in 0..3 {
+        let regression = Regression::new(stills, noise[axis], by, axis);
+        between[axis] = regression.between();
+        let solution = regression.solve(between[axis]).map(|(_, solution)| solution);
+        let first = 1 + by.forces.map_or(0, |_| 3);
+        for (k, (term, expected, _)) in by.terms[axis].iter().enumerate() {
+            term.add_to(&mut thermal, expected + solution.as_ref().map_or(0.0, |found| found[first + k]));
+        }
+    }
+    (between, thermal)
+}
+
+/// The means of one axis as a linear problem.
+struct Regression {
+    rows: Vec<(DVector<f64>, f64, usize)>,
+    /// Inverse variance of each unknown beforehand.
+    prior: DVector<f64>,
+    noise: f64,
+    degrees: f64,
+}
+
+impl Regression {
+    fn new(stills: &[Option<Still>], noise: f64, by: &Explanation<'_>, axis: usize) -> Self {
+        let terms = &by.terms[axis];
+        let rows: Vec<(DVector<f64>, f64, usize)> = stills
+            .iter()
+            .enumerate()
+            .filter_map(|(j, still)| {
+                let still = still.as_ref()?;
+                let mut row = vec![1.0];
+                if let Some(forces) = by.forces {
+                    row.extend(forces[j].iter());
+                }
+                let tau_k = by.tau_k[j];
+                row.extend(terms.iter().map(|(term, ..)| term.power(tau_k)));
+                let expected: f64 = terms.iter().map(|(term, mean, _)| mean * term.power(tau_k)).sum();
+                let mean = still.mean[axis] - by.fixed.bias_change(tau_k)[axis] - expected;
+                Some((DVector::from_vec(row), mean, still.samples))
+            })
+            .collect();
+        let unknowns = rows.first().map_or(1, |(row, ..)| row.len());
+        let mut prior = DVector::zeros(unknowns);
+        for (k, (_, _, weight)) in terms.iter().enumerate() {
+            prior[unknowns - terms.len() + k] = *weight;
+        }
+        let known = prior.iter().filter(|weight| **weight > 0.0).count();
+        let degrees = (rows.len() + known).saturating_sub(unknowns) as f64;
+        Self { rows, prior, noise, degrees }
+    }
+
+    /// χ² and the unknowns.
+    fn solve(&self, between: f64) -> Option<(f64, DVector<f64>)> {
+        let weight = |samples: usize| {
+            1.0 / (self.noise.powi(2) / samples as f64 + between * between).max(f64::MIN_POSITIVE)
+        };
+        let (mut f, mut g) = (DMatrix::from_diagonal(&self.prior), DVector::zeros(self.prior.len()));
+        for (row, mean, samples) in &self.rows {
+            f += row * row.transpose() * weight(*samples);
+            g += row * (weight(*samples) * mean);
+        }
+        let solution = f.cholesky()?.solve(&g);
+        let chi2 = self
+            .rows
+            .iter()
+            .map(|(row, mean, samples)| weight(*samples) * (mean - row.dot(&solution)).powi(2))
+            .sum::<f64>();
+        Some((chi2 + solution.component_mul(&solution).dot(&self.prior), solution))
+    }
+
+    fn between(&self) -> f64 {
+        if self.degrees == 0.0 {
             return 0.0;
         }
-        let chi2 = |between: f64| -> Option<f64> {
-            let weight = |still: &Still| {
-                1.0 / (noise[axis].powi(2) / still.samples as f64 + between * between).max(f64::MIN_POSITIVE)
-            };
-            let (mut f, mut g) = (DMatrix::zeros(unknowns, unknowns), DVector::zeros(unknowns));
-            for (row, still) in &rows {
-                f += row * row.transpose() * weight(still);
-                g += row * (weight(still) * still.mean[axis]);
-            }
-            let solution = f.cholesky()?.solve(&g);
-            Some(
-                rows.iter()
-                    .map(|(row, still)| weight(still) * (still.mean[axis] - row.dot(&solution)).powi(2))
-                    .sum(),
-            )
-        };
-        let size = rows
+        let chi2 = |between: f64| self.solve(between).map(|(chi2, _)| chi2);
+        let size = self
+            .rows
             .iter()
-            .map(|(_, still)| still.mean[axis])
+            .map(|(_, mean, _)| *mean)
             .fold((f64::MAX, f64::MIN), |(low, high), mean| (low.min(mean), high.max(mean)));
         let (mut low, mut high) = (0.0, (size.1 - size.0).max(f64::MIN_POSITIVE));
-        if chi2(0.0).is_none_or(|chi2| chi2 <= degrees) {
+        if chi2(0.0).is_none_or(|chi2| chi2 <= self.degrees) {
             return 0.0;
         }
         for _ in 0..60 {
             let middle = 0.5 * (low + high);
-            if chi2(middle).is_none_or(|chi2| chi2 > degrees) { low = middle } else { high = middle }
+            if chi2(middle).is_none_or(|chi2| chi2 > self.degrees) { low = middle } else { high = middle }
         }
         0.5 * (low + high)
-    })
+    }
 }
 
 /// Gives the holds their gyroscope means with inverse variances.

@@ -6,7 +6,7 @@ use super::start::{FirstLook, Start, WRONG};
 use crate::error::{Complaint, Error, NotIdentifiable, Result, UndeterminedGroup};
 use crate::estimate::{CalibrationStatus, HoldCalibration};
 use crate::information::Undetermined;
-use crate::sensor::{ImuQuantity, Quantity, ReadingUnit};
+use crate::sensor::{ImuQuantity, Quantity, ReadingUnit, Thermal};
 use nalgebra::DMatrix;
 
 /// Holds that scatter by more than this share of gravity are none.
@@ -34,11 +34,31 @@ pub(super) fn undetermined(joint: &Joint<'_>, groups: &[Undetermined]) -> NotIde
         reason: reason.clone(),
         remedy: REMEDY.into(),
     };
+    let by_temperature = |found: &Undetermined| {
+        UndeterminedGroup {
+        parameters: names(&found.parameters),
+        free_combinations: found.free_combinations,
+        reason: format!(
+            "the {} holds and what lies between them have too few temperatures, or each temperature has its own orientation",
+            joint.holds.len()
+        ),
+        remedy: "record over a wider range of temperatures, in several orientations at each; or lower the order in [temperature], or give the terms in [known]".into(),
+    }
+    };
+    let thermal = |found: &Undetermined| {
+        found.parameters.iter().any(|&k| matches!(joint.quantities[k], ImuQuantity::Thermal(..)))
+    };
     NotIdentifiable {
         groups: if groups.is_empty() {
             vec![group(names(&all), all.len().saturating_sub(3 + 2 * rotations).max(1))]
         } else {
-            groups.iter().map(|found| group(names(&found.parameters), found.free_combinations)).collect()
+            groups
+                .iter()
+                .map(|found| match thermal(found) {
+                    true => by_temperature(found),
+                    false => group(names(&found.parameters), found.free_combinations),
+                })
+                .collect()
         },
     }
 }
@@ -54,8 +74,10 @@ pub(super) fn vague(joint: &Joint<'_>, state: &State, covariance: &DMatrix<f64>)
         .gyroscope_places()
         .into_iter()
         .filter(|&k| match joint.quantities[k] {
-            ImuQuantity::Of(_, Quantity::Bias(_)) | ImuQuantity::GSensitivity(..) => false,
-            _ => sd(k) > VAGUE && !is_known(k),
+            ImuQuantity::Of(_, Quantity::Bias(_))
+            | ImuQuantity::GSensitivity(..)
+            | ImuQuantity::Thermal(..) => false,
+            ImuQuantity::Of(..) => sd(k) > VAGUE && !is_known(k),
         })
         .collect();
     let most = entries.iter().map(|&k| sd(k)).fold(0.0, f64::max);
@@ -137,6 +159,27 @@ pub(super) fn warnings(calibration: &ImuCalibration, axes: Option<&[String; 3]>)
             rotation.to_hold + 1,
             rotation.start_s,
             rotation.end_s
+        ));
+    }
+    warnings
+}
+
+/// Warns where the polynomials of temperature are used beyond the temperatures of the holds.
+pub(super) fn extrapolation(thermal: &Thermal, recording_c: Option<[f64; 2]>) -> Vec<String> {
+    let (Some([low, high]), Some([coldest, hottest])) = (thermal.range_c, recording_c) else {
+        return Vec::new();
+    };
+    let beyond = |t: f64| thermal.extrapolates_to(t);
+    let mut warnings = Vec::new();
+    if beyond(coldest) || beyond(hottest) {
+        warnings.push(format!(
+            "the recording goes from {coldest:.1} to {hottest:.1} °C, its holds from {low:.1} to {high:.1} °C only: beyond these the polynomials of temperature extrapolate"
+        ));
+    }
+    if beyond(thermal.reference_c) {
+        warnings.push(format!(
+            "biases and gains are given at the reference of {:.1} °C, beyond the {low:.1} to {high:.1} °C of the holds: there they are extrapolated",
+            thermal.reference_c
         ));
     }
     warnings

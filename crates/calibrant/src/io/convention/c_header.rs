@@ -2,10 +2,10 @@
 //!
 //! Direction raw → true: `f = C_a (y_a − b_a)`, `ω = C_g (y_g − b_g − G f)`. Units and frame are in its comments. The type of the numbers is the macro
 //! `CALIBRANT_REAL`, `double` unless it is defined before (as `float` for small processors). What it cannot carry: the covariance. Our own headers are
-//! read back by the names of their constants.
+//! read back by the names of their constants. Where the calibration follows temperature, the functions take it.
 
 use super::core::vector3;
-use super::{CalibratedImuFile, ImuFormat, complaint, written_by};
+use super::{CalibratedImuFile, ImuFormat, c_temperature, complaint, written_by};
 use crate::error::Complaint;
 use crate::io::text::Checked;
 use crate::sensor::{
@@ -14,7 +14,7 @@ use crate::sensor::{
 use nalgebra::{Matrix3, Vector3};
 use std::fmt::Write;
 
-const HELP: &str = "give a header that calibrant wrote, as it wrote it";
+pub(super) const HELP: &str = "give a header that calibrant wrote, as it wrote it";
 
 pub(super) fn write(file: &CalibratedImuFile) -> Checked<String> {
     let imu = &file.imu;
@@ -31,6 +31,7 @@ pub(super) fn write(file: &CalibratedImuFile) -> Checked<String> {
                 writeln!(out, " * {triad}: readings in {}, corrected in {}", ascii(unit.symbol()), ascii(si));
         }
     }
+    out.push_str(&c_temperature::head(imu));
     for input in &file.inputs {
         let _ = writeln!(out, " * recording: {} (SHA-256 {})", comment(&input.file), comment(&input.sha256));
     }
@@ -39,6 +40,7 @@ pub(super) fn write(file: &CalibratedImuFile) -> Checked<String> {
          #ifndef CALIBRANT_IMU_H\n#define CALIBRANT_IMU_H\n\n\
          #ifndef CALIBRANT_REAL\n#define CALIBRANT_REAL double\n#endif\n",
     );
+    out.push_str(&c_temperature::reference(imu));
     for (triad, of) in
         [(Triad::Accelerometer, correction.accelerometer), (Triad::Gyroscope, correction.gyroscope)]
     {
@@ -53,8 +55,14 @@ pub(super) fn write(file: &CalibratedImuFile) -> Checked<String> {
             "static const CALIBRANT_REAL calibrant_{triad}_matrix[3][3] = {};",
             matrix(&of.matrix)
         );
+        let terms = imu.parameters.thermal.triad(triad);
+        out.push_str(&c_temperature::coefficients(triad, terms, &unit));
+        let function = |at_reference: &str| match terms.is_none() {
+            true => at_reference.to_owned(),
+            false => c_temperature::with_temperature(triad, at_reference),
+        };
         match triad {
-            Triad::Accelerometer => out.push_str(ACCELEROMETER),
+            Triad::Accelerometer => out.push_str(&function(ACCELEROMETER)),
             Triad::Gyroscope => {
                 let _ = writeln!(out, "\n/* What it shows of specific force, ({unit}) per (m/s^2). */");
                 let _ = writeln!(
@@ -62,7 +70,7 @@ pub(super) fn write(file: &CalibratedImuFile) -> Checked<String> {
                     "static const CALIBRANT_REAL calibrant_gyroscope_g_sensitivity[3][3] = {};",
                     matrix(&correction.g_sensitivity)
                 );
-                out.push_str(GYROSCOPE);
+                out.push_str(&function(GYROSCOPE));
             }
         }
     }
@@ -111,7 +119,7 @@ fn comment(text: &str) -> String {
     text.replace("*/", "* /").replace(['\n', '\r'], " ")
 }
 
-fn vector(values: &Vector3<f64>) -> String {
+pub(super) fn vector(values: &Vector3<f64>) -> String {
     format!("{{ {:?}, {:?}, {:?} }}", values.x, values.y, values.z)
 }
 
@@ -149,12 +157,16 @@ pub(super) fn read(text: &str) -> Checked<CalibratedImuFile> {
         ));
     }
     let g_sensitivity = parameters.g_sensitivity != Matrix3::zeros();
+    parameters.thermal = c_temperature::read(text)?;
+    let mut quantities = ImuQuantity::full_list(units[0].is_some(), units[1].is_some(), g_sensitivity);
+    let terms = ImuQuantity::all_thermal(units[0].is_some(), units[1].is_some());
+    quantities.extend(terms.into_iter().filter(|term| term.of(&parameters) != 0.0));
     let frame = text.lines().find_map(|line| line.strip_prefix(" * frame: ")).unwrap_or("not said");
     let imu = CalibratedImu {
         parameters,
         accelerometer_unit: units[0],
         gyroscope_unit: units[1],
-        quantities: ImuQuantity::full_list(units[0].is_some(), units[1].is_some(), g_sensitivity),
+        quantities,
         covariance: None,
         frame: frame.trim().into(),
     };
@@ -179,8 +191,18 @@ fn unit_of(text: &str, triad: Triad) -> Checked<ReadingUnit> {
 }
 
 /// The numbers of a constant, between its braces; `None` where there is no such constant.
-fn numbers(text: &str, name: &str, count: usize) -> Checked<Option<Vec<f64>>> {
-    let Some(start) = text.find(&format!("{name}[3]")) else { return Ok(None) };
+pub(super) fn numbers(text: &str, name: &str, count: usize) -> Checked<Option<Vec<f64>>> {
+    read_constant(text, &format!("{name}[3]"), count)
+}
+
+/// The number of a constant that has one.
+pub(super) fn number(text: &str, name: &str) -> Checked<Option<f64>> {
+    Ok(read_constant(text, &format!("CALIBRANT_REAL {name} ="), 1)?.map(|found| found[0]))
+}
+
+fn read_constant(text: &str, name: &str, count: usize) -> Checked<Option<Vec<f64>>> {
+    let Some(start) = text.find(name) else { return Ok(None) };
+    let name = name.trim_end_matches("[3]");
     let line = 1 + text[..start].matches('\n').count();
     let complain = |message: String| Err(Box::new(Complaint::new(message, HELP).at_line(line)));
     let Some((value, _)) = text[start..].split_once('=').and_then(|(_, rest)| rest.split_once(';')) else {

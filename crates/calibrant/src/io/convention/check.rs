@@ -44,11 +44,42 @@ pub(super) fn usable(imu: &CalibratedImu) -> Checked<()> {
             ));
         }
     }
+    temperature(imu)?;
     ImuCorrection::of(imu).map_err(|error| complaint(error.to_string(), ""))?;
     match &imu.covariance {
         Some(covariance) => covariance_of(covariance, imu.quantities.len()),
         None => Ok(()),
     }
+}
+
+/// Are the temperature terms finite, and the gains positive over their range?
+fn temperature(imu: &CalibratedImu) -> Checked<()> {
+    let thermal = &imu.parameters.thermal;
+    let [low, high] = thermal.range_c.unwrap_or([thermal.reference_c; 2]);
+    let possible = |t: f64| (-273.15..=1000.0).contains(&t);
+    if !(possible(thermal.reference_c) && possible(low) && possible(high) && low <= high) {
+        return Err(complaint(
+            "a temperature is not between -273.15 and 1000 °C, or the range of temperatures is none",
+            "reference_c and range_c are in °C, the range from the least to the greatest",
+        ));
+    }
+    for triad in Triad::ALL {
+        let terms = thermal.triad(triad);
+        let all = terms.bias.iter().chain(&terms.scale).flat_map(|vector| vector.iter());
+        if !all.into_iter().all(|value| value.is_finite() && value.abs() <= LARGEST) {
+            return Err(complaint(
+                format!("a temperature term of the {triad} is not finite or beyond 1e12"),
+                "calibrate again",
+            ));
+        }
+        if [low, high].iter().any(|t| terms.gain_factor(thermal.tau_k(*t)).min() <= 0.0) {
+            return Err(complaint(
+                format!("the polynomial of the {triad}'s gain is not positive in the range of temperatures"),
+                "calibrate again",
+            ));
+        }
+    }
+    Ok(())
 }
 
 /// Is a matrix the covariance of so many quantities: square, finite, symmetric, no negative variance in any direction?

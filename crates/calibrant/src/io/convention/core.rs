@@ -6,6 +6,7 @@
 
 use super::super::calibration::Input;
 use super::complaint;
+use super::temperature::TemperatureCore;
 use crate::io::fields::matrix_rows;
 use crate::io::text::Checked;
 use crate::sensor::{
@@ -25,6 +26,8 @@ pub(in crate::io) struct ImuCore {
     gauge: Option<String>,
     accelerometer: Option<TriadCore>,
     gyroscope: Option<TriadCore>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    temperature: Option<TemperatureCore>,
     parameters: Option<Vec<ParameterCore>>,
     covariance_of: Option<String>,
     covariance: Option<Vec<Vec<Option<f64>>>>,
@@ -100,6 +103,7 @@ impl ImuCore {
             gauge: gauge_of(imu).map(|gauge| gauge.name().into()),
             accelerometer: triad(Triad::Accelerometer),
             gyroscope: triad(Triad::Gyroscope),
+            temperature: TemperatureCore::of(imu),
             parameters: Some(imu.quantities.iter().enumerate().map(parameter).collect()),
             covariance_of: Some(
                 "the parameters in their order; entry (i, j) in the unit of parameter i times that of parameter j".into(),
@@ -140,6 +144,9 @@ impl ImuCore {
                     parameters.g_sensitivity = g_sensitivity;
                 }
             }
+        }
+        if let Some(temperature) = self.temperature {
+            parameters.thermal = temperature.into_thermal(units)?;
         }
         let mut imu = CalibratedImu {
             parameters,
@@ -306,8 +313,10 @@ pub(super) fn quantity_of(
     imu: &CalibratedImu,
     symmetric: Option<&Vec<String>>,
 ) -> Option<ImuQuantity> {
-    let found = ImuQuantity::full_list(imu.accelerometer_unit.is_some(), imu.gyroscope_unit.is_some(), true)
+    let (accelerometer, gyroscope) = (imu.accelerometer_unit.is_some(), imu.gyroscope_unit.is_some());
+    let found = ImuQuantity::full_list(accelerometer, gyroscope, true)
         .into_iter()
+        .chain(ImuQuantity::all_thermal(accelerometer, gyroscope))
         .find(|quantity| quantity.name() == name)?;
     imu.unit(found.triad())?;
     match (found, symmetric) {

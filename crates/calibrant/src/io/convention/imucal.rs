@@ -13,7 +13,9 @@ use super::core::{matrix3, rows, vector3};
 use super::{CalibratedImuFile, ConventionOptions, ImuFormat, RawUnits, complaint, written_by};
 use crate::io::json;
 use crate::io::text::Checked;
-use crate::sensor::{CalibratedImu, ImuParameters, ImuQuantity, ReadingUnit, SensorParameters, Triad};
+use crate::sensor::{
+    CalibratedImu, ImuParameters, ImuQuantity, ReadingUnit, SensorParameters, Thermal, Triad,
+};
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
@@ -144,6 +146,7 @@ pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<Calibrate
             matrix: matrix(&fields.K_g, "K_g")? * matrix(&fields.R_g, "R_g")? * (gyr / rate),
         },
         g_sensitivity: matrix(&fields.K_ga, "K_ga")? * (gyr / force),
+        thermal: Thermal::none(),
     };
     let frame =
         fields.comment.as_deref().and_then(|comment| comment.split_once("frame: ")).map(|(_, frame)| frame);

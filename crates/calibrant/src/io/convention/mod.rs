@@ -3,15 +3,16 @@
 //! | format | file | direction | true frame | units of readings | cannot carry |
 //! |---|---|---|---|---|---|
 //! | [`CalibrantJson`](ImuFormat::CalibrantJson) | `.json` | true → raw | any, said in words and by its gauge | m/s², rad/s, counts | |
-//! | [`Kalibr`](ImuFormat::Kalibr) | `imu.yaml` | true → raw | `M` lower triangular; another frame through `T_i_b` | m/s², rad/s | covariance; biases and counts only in keys that Kalibr does not read |
-//! | [`ImuTk`](ImuFormat::ImuTk) | `.calib`, one for each sensor | raw → true | any; its own results have the upper gauge | not said | covariance, g-sensitivity |
-//! | [`Imucal`](ImuFormat::Imucal) | `.json` with `cal_type` | true → raw | any | named; true rates in deg/s | covariance; one sensor alone |
+//! | [`Kalibr`](ImuFormat::Kalibr) | `imu.yaml` | true → raw | `M` lower triangular; another frame through `T_i_b` | m/s², rad/s | covariance; temperature; biases and counts only in keys that Kalibr does not read |
+//! | [`ImuTk`](ImuFormat::ImuTk) | `.calib`, one for each sensor | raw → true | any; its own results have the upper gauge | not said | covariance, g-sensitivity, temperature |
+//! | [`Imucal`](ImuFormat::Imucal) | `.json` with `cal_type` | true → raw | any | named; true rates in deg/s | covariance; temperature; one sensor alone |
 //! | [`CHeader`](ImuFormat::CHeader) | `.h` | raw → true | any, said in words | named | covariance |
 //!
 //! What a format cannot carry is told as a warning when it is written, and refused where the correction itself would change. What a reader had to
 //! suppose is told as a finding; what is ambiguous (the unit of imu_tk's readings) is asked.
 
 mod c_header;
+mod c_temperature;
 mod calibrant_json;
 mod check;
 mod core;
@@ -21,6 +22,7 @@ mod imucal;
 mod kalibr;
 mod measured_noise;
 mod schema_one;
+mod temperature;
 
 pub(in crate::io) use calibrant_json::Heading;
 pub(in crate::io) use core::ImuCore;
@@ -200,6 +202,15 @@ fn text_of(file: &CalibratedImuFile, format: ImuFormat) -> Checked<Texts> {
         warnings.push(format!(
             "{} has no place for the covariance: keep the calibrant JSON for the standard deviations",
             format.title()
+        ));
+    }
+    if file.imu.follows_temperature() && !matches!(format, ImuFormat::CalibrantJson | ImuFormat::CHeader) {
+        return Err(complaint(
+            format!(
+                "{} has no place for what temperature does to bias and gain, and the correction would be another without it",
+                format.title()
+            ),
+            "choose another format, or take the values at one temperature with --temperature CELSIUS",
         ));
     }
     let one = |text: String| vec![(None, text)];

@@ -3,7 +3,7 @@
 use super::bounds::Bounds;
 use super::document::{Entry, Section};
 use crate::error::Result;
-use crate::estimate::{Gyroscope, KnownTerm, Turn};
+use crate::estimate::{Gyroscope, KnownTerm, ThermalModel, Turn};
 use crate::io::ImuUnit;
 use crate::sensor::{Axis, ImuQuantity, ReadingUnit, SensorModel};
 use nalgebra::Vector3;
@@ -17,7 +17,7 @@ const ANGLE_SD: Bounds = Bounds::from(0.0, 360.0, "degrees");
 const NUMBER: Bounds = Bounds::from(-1e12, 1e12, "");
 const COMPONENT: Bounds = Bounds::from(-1e3, 1e3, "");
 
-/// The second sensor of an IMU, as `[gyroscope]` and `[known]` describe it.
+/// The second sensor of an IMU and what both share, as `[gyroscope]`, `[known]` and `[temperature]` describe it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ImuPlan {
     /// The datasheet.
@@ -32,10 +32,17 @@ pub struct ImuPlan {
     pub section_angle_sd_rad: f64,
     /// Quantities that are known beforehand.
     pub known: Vec<KnownTerm>,
+    /// What is to follow temperature.
+    pub thermal: ThermalModel,
 }
 
-/// Reads `[gyroscope]` and `[known]`.
-pub(super) fn read(section: &Section<'_>, known: Option<&Section<'_>>) -> Result<ImuPlan> {
+/// Reads `[gyroscope]`, `[known]` and `[temperature]`.
+pub(super) fn read(
+    section: &Section<'_>,
+    known: Option<&Section<'_>>,
+    temperature: Option<&Section<'_>>,
+) -> Result<ImuPlan> {
+    let thermal = temperature.map_or(Ok(ThermalModel::default()), super::temperature::read)?;
     let file_unit = match section.get("unit") {
         None => None,
         Some(entry) => Some(entry.word(&[
@@ -83,7 +90,8 @@ pub(super) fn read(section: &Section<'_>, known: Option<&Section<'_>>) -> Result
         turns: section.get("turns").map_or(Ok(Vec::new()), |entry| turns(&entry))?,
         section_angle_rad: angle("turn_angle_deg", &ANGLE, -360.0)?,
         section_angle_sd_rad: angle("turn_sd_deg", &ANGLE_SD, 0.5)?,
-        known: known.map_or(Ok(Vec::new()), read_known)?,
+        known: known.map_or(Ok(Vec::new()), |section| read_known(section, &thermal))?,
+        thermal,
     })
 }
 
@@ -133,8 +141,9 @@ pub(super) fn direction(entry: &Entry<'_>) -> Result<Vector3<f64>> {
     vector.try_normalize(1e-9).ok_or_else(|| entry.complain("a direction of no length", HELP))
 }
 
-fn read_known(section: &Section<'_>) -> Result<Vec<KnownTerm>> {
-    let all = ImuQuantity::full_list(true, true, true);
+fn read_known(section: &Section<'_>, thermal: &ThermalModel) -> Result<Vec<KnownTerm>> {
+    let mut all = ImuQuantity::full_list(true, true, true);
+    all.extend(ImuQuantity::all_thermal(true, true));
     section
         .entries()
         .map(|(name, entry)| {
@@ -148,6 +157,12 @@ fn read_known(section: &Section<'_>) -> Result<Vec<KnownTerm>> {
                 );
                 return Err(entry.complain(format!("no quantity is named \"{name}\""), help));
             };
+            if matches!(quantity, ImuQuantity::Thermal(..)) && !thermal.quantities().contains(&quantity) {
+                return Err(entry.complain(
+                    format!("\"{name}\" is known, and no such term is asked for"),
+                    "raise its order in [temperature]: gyroscope_bias = 1, for example",
+                ));
+            }
             if !entry.is_table() {
                 return Ok(KnownTerm { quantity, value: entry.number(&NUMBER)?, sd: None });
             }

@@ -11,6 +11,7 @@ const KEYS: &[(&str, &[&str])] = &[
             "holds",
             "gyroscope",
             "known",
+            "temperature",
             "columns",
             "calibrate",
             "limits",
@@ -69,6 +70,10 @@ const KEYS: &[(&str, &[&str])] = &[
     ),
     ("gyroscope.turns", &["start_s", "end_s", "axis", "angle_deg", "angle_sd_deg"]),
     ("known.term", &["value", "sd"]),
+    (
+        "temperature",
+        &["reference_c", "accelerometer_bias", "accelerometer_scale", "gyroscope_bias", "gyroscope_scale"],
+    ),
     (
         "columns",
         &[

@@ -16,6 +16,7 @@ mod motion;
 mod problem;
 mod sensor;
 mod study;
+mod temperature;
 
 pub use calibrate::{CalibrateOptions, Prior};
 pub use design::{CriterionLetter, DesignOptions, ScaleBy};
@@ -42,7 +43,7 @@ pub struct Experiment {
     pub sensor: Sensor,
     /// `[motion]` or `[holds]`.
     pub plan: Plan,
-    /// `[gyroscope]` and `[known]`, for an IMU.
+    /// `[gyroscope]`, `[known]` and `[temperature]`, for an IMU.
     pub imu: Option<ImuPlan>,
     /// `[columns]`: what the recordings' files do not say themselves; nothing where the section is absent.
     pub columns: ImuReadOptions,
@@ -149,9 +150,17 @@ fn read_imu(root: &Section<'_>, plan: &Plan) -> Result<Option<ImuPlan>> {
     let sensor = root.section("sensor")?;
     let is_imu = sensor.as_ref().and_then(|section| section.get("kind")?.text()) == Some("imu");
     let known = root.get("known").map(|entry| Section::open(&entry, "known")).transpose()?;
+    let temperature = root.section("temperature")?;
+    if let Some(section) = temperature.as_ref().filter(|_| !is_imu) {
+        return Err(section.complain(
+            "[temperature] is read for an IMU only",
+            "kind = \"imu\" in [sensor]",
+            "",
+        ));
+    }
     match (root.section("gyroscope")?, is_imu) {
         (Some(section), true) => match plan {
-            Plan::Holds(_) => gyroscope::read(&section, known.as_ref()).map(Some),
+            Plan::Holds(_) => gyroscope::read(&section, known.as_ref(), temperature.as_ref()).map(Some),
             Plan::Motion(_) => Err(section.complain(
                 "an IMU is calibrated from holds and what lies between them",
                 "[holds] in place of [motion], or kind = \"accelerometer\"",

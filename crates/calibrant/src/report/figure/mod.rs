@@ -21,6 +21,7 @@ mod starts;
 mod still;
 mod surface;
 mod sweep;
+mod temperature;
 mod thin;
 mod unit;
 
@@ -39,6 +40,7 @@ pub(super) use starts::start_values;
 pub(super) use still::still_gyroscope;
 pub(super) use surface::trace_map;
 pub(super) use sweep::sweep_curves;
+pub(super) use temperature::bias_over_temperature;
 pub(super) use unit::DisplayUnit;
 
 use super::html::escape;

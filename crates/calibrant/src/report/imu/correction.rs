@@ -33,6 +33,16 @@ pub(super) fn correction(calibration: &ImuCalibration) -> String {
         parts.push(matrix(&format!("Γ ({} per m/s²)", g.symbol()), rows(&imu.g_sensitivity)));
         formula = "f = C_a (y_a − b_a),  ω = C_g (y_g − b_g − Γ f)";
     }
+    let thermal = &imu.thermal;
+    let warm = if thermal.is_none() {
+        String::new()
+    } else {
+        format!(
+            "<p>This is the correction at T₀ = {} °C. At another temperature T, replace b by b(T) and C by C(T) = C diag(1/(1 + k₁ τ + k₂ τ²)), with τ = T − T₀, b(T) = b + b₁ τ + b₂ τ² \
+             and the coefficients above; <code>calibrant apply</code> and the C header of <code>calibrant convert</code> do so.</p>",
+            number::significant(thermal.reference_c, 3)
+        )
+    };
     let frame = if calibration.frame_is_known() {
         "The true frame is that of the known directions of the holds."
     } else {
@@ -43,7 +53,7 @@ pub(super) fn correction(calibration: &ImuCalibration) -> String {
          the accelerometer is in C_g. Digits beyond those that are known are given so that rounding adds nothing."
     );
     format!(
-        "<p class=\"formula\">{}</p><div class=\"matrices\">{}</div><p>{}</p>\
+        "<p class=\"formula\">{}</p><div class=\"matrices\">{}</div><p>{}</p>{warm}\
          <details><summary>As text, to copy into a program</summary><pre>{}</pre></details>",
         escape(formula),
         parts.concat(),

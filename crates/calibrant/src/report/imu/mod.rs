@@ -6,14 +6,17 @@ mod fit;
 mod parameters;
 mod quality;
 mod rotations;
+mod temperature;
 mod verdict;
 
 pub use parameters::over_the_gain;
 pub use quality::imu_quality;
+pub use temperature::temperature_in_words;
 
 use super::About;
 use super::figure::{
-    correlation_map_of, hold_directions, hold_residuals, recording_overview, rotation_errors, still_gyroscope,
+    bias_over_temperature, correlation_map_of, hold_directions, hold_residuals, recording_overview,
+    rotation_errors, still_gyroscope,
 };
 use super::holds::{hold_summary, hold_table};
 use super::html::{Page, escape, facts};
@@ -48,6 +51,9 @@ pub fn imu_calibration_report(
         page.subsection(capitalised(triad));
         page.push(parameters::parameter_table(calibration, triad));
     }
+    if let Some(line) = temperature_in_words(calibration) {
+        page.push(format!("<p>{}</p>", escape(&line)));
+    }
     page.subsection("Axes");
     page.push(axes::axis_table(calibration));
 
@@ -59,6 +65,11 @@ pub fn imu_calibration_report(
     page.push(hold_residuals(&calibration.holds).html());
     if let Some(figure) =
         recording.gyroscope.as_ref().and_then(|readings| still_gyroscope(calibration, readings))
+    {
+        page.push(figure.html());
+    }
+    if let Some(figure) =
+        recording.gyroscope.as_ref().and_then(|readings| bias_over_temperature(calibration, readings))
     {
         page.push(figure.html());
     }

@@ -4,7 +4,7 @@ use crate::estimate::ImuCalibration;
 use crate::report::figure::DisplayUnit;
 use crate::report::number;
 use crate::report::table::{Cell, Table};
-use crate::sensor::{ImuQuantity, Quantity, ReadingUnit, Triad};
+use crate::sensor::{ImuQuantity, Quantity, ReadingUnit, ThermalPart, ThermalTerm, Triad};
 
 /// Shares from here on are given in %, smaller ones in ppm.
 const PER_CENT: f64 = 1e-3;
@@ -55,6 +55,7 @@ pub fn over_the_gain(calibration: &ImuCalibration, quantity: ImuQuantity, sd: f6
     let imu = &calibration.imu;
     let (axis, of) = match quantity {
         ImuQuantity::GSensitivity(row, _) => (row, None),
+        ImuQuantity::Thermal(_, term) => return over_temperature(calibration, triad, term, sd),
         ImuQuantity::Of(_, of) => (
             match of {
                 Quantity::Bias(axis) | Quantity::Scale(axis) => axis,
@@ -75,11 +76,25 @@ pub fn over_the_gain(calibration: &ImuCalibration, quantity: ImuQuantity, sd: f6
         Some(Quantity::Scale(_)) => ("1", (!counts).then_some(value - 1.0)),
         Some(_) => ("1", Some(value / gain)),
     };
-    in_display_unit(unit, value, sd / gain)
+    in_display_unit(unit, "", value, sd / gain)
 }
 
-/// A value with its sd in a unit that suits it; the sd alone without a value.
-fn in_display_unit(unit: &'static str, value: Option<f64>, sd: f64) -> String {
+/// The same of a temperature term: in the unit of the stimulus, or as a share of the gain, per K or K².
+fn over_temperature(calibration: &ImuCalibration, triad: Triad, term: ThermalTerm, sd: f64) -> String {
+    let imu = &calibration.imu;
+    let value = term.of(imu.thermal.triad(triad));
+    let per = if term.order == 1 { "/K" } else { "/K²" };
+    match term.part {
+        ThermalPart::Bias => {
+            let gain = imu.triad(triad).matrix.row(term.axis.index()).norm();
+            in_display_unit(triad.stimulus_unit().symbol(), per, Some(value / gain), sd / gain)
+        }
+        ThermalPart::Scale => in_display_unit("1", per, Some(value), sd),
+    }
+}
+
+/// A value with its sd in a unit that suits it, `per` something; the sd alone without a value.
+fn in_display_unit(unit: &'static str, per: &str, value: Option<f64>, sd: f64) -> String {
     let largest = value.unwrap_or(0.0).abs().max(sd);
     let suited = match unit {
         "(rad/s)/(m/s²)" => DisplayUnit { factor: STANDARD_GRAVITY.to_degrees(), symbol: "(°/s)/g" },
@@ -90,5 +105,5 @@ fn in_display_unit(unit: &'static str, value: Option<f64>, sd: f64) -> String {
         Some(value) => number::with_sd(suited.factor * value, suited.factor * sd),
         None => format!("± {}", number::significant(suited.factor * sd, 2)),
     };
-    if suited.symbol.is_empty() { text } else { format!("{text} {}", suited.symbol) }
+    if suited.symbol.is_empty() { text } else { format!("{text} {}{per}", suited.symbol) }
 }

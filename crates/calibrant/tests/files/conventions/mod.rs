@@ -3,13 +3,14 @@
 mod broken;
 mod c_header;
 mod round_trips;
+mod temperature;
 mod warnings;
 
 use calibrant::io::{
     CalibratedImuFile, ConventionOptions, ImuFormat, Input, calibrated_imu_texts, parse_calibrated_imu,
 };
 use calibrant::sensor::{
-    CalibratedImu, ImuCorrection, ImuParameters, ImuQuantity, ReadingUnit, SensorParameters, Triad,
+    CalibratedImu, ImuCorrection, ImuParameters, ImuQuantity, ReadingUnit, SensorParameters, Thermal, Triad,
 };
 use nalgebra::{DMatrix, Matrix3, Vector3};
 use rand::{RngExt, SeedableRng};
@@ -37,6 +38,7 @@ pub(crate) fn imu(unit: [ReadingUnit; 2], g_sensitivity: bool) -> CalibratedImu 
         } else {
             Matrix3::zeros()
         },
+        thermal: Thermal::none(),
     };
     let quantities = ImuQuantity::full_list(true, true, g_sensitivity);
     let n = quantities.len();

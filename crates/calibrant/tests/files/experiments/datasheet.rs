@@ -48,7 +48,7 @@ pub(super) const CASES: &[Case] = &[
     (
         "[motion]",
         "[zebra]",
-        "line 11, column 2: `zebra`: unknown key (the keys here are schema, sensor, motion, holds, gyroscope, known, columns, calibrate, limits, design, study)",
+        "line 11, column 2: `zebra`: unknown key (the keys here are schema, sensor, motion, holds, gyroscope, known, temperature, columns, calibrate, limits, design, study)",
     ),
     (
         r#"kind = "accelerometer""#,

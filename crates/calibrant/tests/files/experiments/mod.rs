@@ -5,6 +5,7 @@ mod datasheet;
 mod holds;
 mod motion;
 mod study;
+mod temperature;
 
 use calibrant::io::Experiment;
 

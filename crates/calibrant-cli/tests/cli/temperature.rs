@@ -1,0 +1,111 @@
+//! An IMU that follows temperature, from its recording to corrected readings and other formats.
+
+use crate::bench::Bench;
+use calibrant::sensor::{ImuParameters, ImuRecording};
+use calibrant::simulate::{ImuSimulation, Purpose, simulate_imu, stream};
+use std::fmt::Write;
+
+/// A bench with `recording.csv`, whose gyroscope's bias moves by 0.2 mrad/s/K from 20 to 45 °C, and `imu.toml`.
+fn bench() -> (Bench, ImuRecording) {
+    let mut truth = ImuParameters::identity();
+    truth.thermal.gyroscope.bias[0].x = 2e-4;
+    let simulation = ImuSimulation { temperature_c: Some([20.0, 45.0]), ..ImuSimulation::default() };
+    let recording = simulate_imu(&truth, &simulation, &mut stream(3, Purpose::Sensor, 8));
+    let bench = Bench::new();
+    bench.write("recording.csv", csv(&recording, true));
+    bench.write("cold.csv", csv(&recording, false));
+    let orders = [
+        ("# gyroscope_bias = 1", "gyroscope_bias = 1"),
+        ("# reference_c = 25.0 ", "reference_c = 25.0 "),
+        ("g_sensitivity = true", "g_sensitivity = false"),
+    ];
+    bench.preset("imu", "imu.toml", &orders);
+    (bench, recording)
+}
+
+fn csv(recording: &ImuRecording, with_temperature: bool) -> String {
+    let [a, g] = [&recording.accelerometer, &recording.gyroscope].map(|triad| triad.as_ref().expect("there"));
+    let temperature = recording.temperature_c.as_ref().expect("simulated");
+    let mut text = String::from("t_s,ax_mps2,ay_mps2,az_mps2,gx_radps,gy_radps,gz_radps");
+    text.push_str(if with_temperature { ",temp_c\n" } else { "\n" });
+    for (k, celsius) in temperature.iter().enumerate() {
+        let (f, w) = (a.readings[k], g.readings[k]);
+        let _ = write!(text, "{},{},{},{},{},{},{}", a.times_s[k], f.x, f.y, f.z, w.x, w.y, w.z);
+        let _ = if with_temperature { writeln!(text, ",{celsius}") } else { writeln!(text) };
+    }
+    text
+}
+
+/// Rows of a CSV file, without its header.
+fn rows(bench: &Bench, name: &str) -> Vec<Vec<f64>> {
+    let text = bench.read(name);
+    let row = |line: &str| line.split(',').map(|word| word.parse().expect("a number")).collect();
+    text.lines().skip(1).map(row).collect()
+}
+
+#[test]
+fn the_temperature_goes_from_the_recording_to_the_corrected_readings() {
+    let (bench, recording) = bench();
+    let done = bench.run("calibrate imu.toml recording.csv -o out").done();
+    for says in ["gyroscope.bias_per_k.x", "rad/s/K", "mrad/s/K", "Biases and gains are those at T₀ = 25"] {
+        assert!(done.stdout.contains(says), "{says}: {}", done.stdout);
+    }
+    assert!(bench.read("out/report.html").contains("bias over temperature"));
+    let json = bench.json("out/calibration.json");
+    let temperature = &json["temperature"];
+    assert_eq!(temperature["reference_c"], 25.0);
+    let slope = |axis: usize| temperature["gyroscope"]["bias_radps_per_k"][axis].as_f64().expect("a number");
+    assert!((slope(0) - 2e-4).abs() < 2e-5 && slope(1).abs() < 2e-5, "{temperature}");
+
+    bench.run("apply out/calibration.json recording.csv -o corrected.csv").done();
+    let warm = rows(&bench, "corrected.csv");
+    let times = &recording.accelerometer.as_ref().expect("there").times_s;
+    let celsius = recording.temperature_c.as_ref().expect("simulated");
+    assert_eq!(warm.len(), times.len());
+    // without the temperature, and with one for all
+    bench.refuses(
+        "apply out/calibration.json cold.csv -o x.csv",
+        3,
+        &["follows temperature, and this recording has no temperature", "--temperature CELSIUS"],
+    );
+    let said = bench.run("apply out/calibration.json cold.csv --temperature 60 -o hot.csv").done().stderr;
+    assert!(said.contains("extrapolated to 60.0 °C"), "{said}");
+    let hot = rows(&bench, "hot.csv");
+    // 60 °C in place of T makes the corrected rate smaller by the slope over the gain
+    let gain = json["gyroscope"]["correction"]["matrix"][0][0].as_f64().expect("a number");
+    for k in [0, times.len() / 2, times.len() - 1] {
+        let column = header_place(&bench, "hot.csv", "gx_radps");
+        let expected = -gain * slope(0) * (60.0 - celsius[k]);
+        let others: f64 = (1..3)
+            .map(|axis| {
+                let entry = json["gyroscope"]["correction"]["matrix"][0][axis].as_f64().expect("a number");
+                -entry * slope(axis) * (60.0 - celsius[k])
+            })
+            .sum();
+        let found = hot[k][column] - warm[k][column];
+        assert!((found - expected - others).abs() < 1e-9, "{k}: {found} beside {expected}");
+    }
+
+    bench.refuses("convert out/calibration.json imu.yaml", 2, &["no place for what temperature does"]);
+    let done = bench.run("convert out/calibration.json imu.yaml --temperature 40").done();
+    assert!(done.stderr.contains("those at 40 °C"), "{}", done.stderr);
+    bench.run("convert out/calibration.json imu.h").done();
+    let table = bench.run("compare out/calibration.json imu.h").done().stdout;
+    assert!(table.contains("gyroscope.bias_per_k.x"), "{table}");
+}
+
+fn header_place(bench: &Bench, name: &str, column: &str) -> usize {
+    let text = bench.read(name);
+    let header = text.lines().next().expect("a header");
+    header.split(',').position(|word| word == column).expect(column)
+}
+
+#[test]
+fn without_a_column_the_experiment_says_what_to_do() {
+    let (bench, _) = bench();
+    bench.refuses(
+        "calibrate imu.toml cold.csv -o out",
+        3,
+        &["is to follow temperature, and the recording has none", "temperature = \"…\" in [columns]"],
+    );
+}

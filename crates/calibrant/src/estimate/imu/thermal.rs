@@ -1,0 +1,376 @@
+//! Temperature: what is asked to follow it, the temperatures of the holds, and the accelerometer's first fit with them.
+//!
+//! The static fit of the holds knows no temperature, so that a drift would count as scatter between holds, or as bad holds. Where terms of the accelerometer
+//! are asked for, they are therefore fitted first, with the accelerometer alone, and the scatter between holds with them (Paule and Mandel, degrees of
+//! freedom less these terms). The static fit is then made with the recording as it would be at the reference temperature: it tells the bad holds.
+
+use super::faces::First;
+use super::joint::{HoldData, Joint, State};
+use super::solver::{self, singular};
+use super::{ImuProblem, KnownTerm};
+use crate::error::{Complaint, Error, NotIdentifiable, Result, UndeterminedGroup};
+use crate::estimate::holds::critical;
+use crate::estimate::{CalibrationSettings, HoldCalibration};
+use crate::motion::Hold;
+use crate::sensor::{
+    ImuParameters, ImuQuantity, Recording, SensorParameters, Temperatures, Thermal, ThermalTerm, Triad,
+};
+use nalgebra::Vector3;
+
+/// Temperatures of holds count as different from here on, K: closer ones are noise and rounding of a thermometer.
+const LEVEL_K: f64 = 0.5;
+/// Rounds of terms and bad holds in turn.
+const ROUNDS: usize = 5;
+
+/// What is to follow temperature: orders of the polynomials, 0 where nothing follows.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct ThermalModel {
+    /// The reference `T₀`, °C; the mean over the holds, to the degree, where it is not given.
+    pub reference_c: Option<f64>,
+    /// Order of the accelerometer's bias, to 2.
+    pub accelerometer_bias: usize,
+    /// Order of the accelerometer's gains.
+    pub accelerometer_scale: usize,
+    /// Order of the gyroscope's bias.
+    pub gyroscope_bias: usize,
+    /// Order of the gyroscope's gains.
+    pub gyroscope_scale: usize,
+}
+
+impl ThermalModel {
+    /// Does nothing follow temperature?
+    #[must_use]
+    pub fn is_none(&self) -> bool {
+        self.quantities().is_empty()
+    }
+
+    /// The terms, in the order of a result.
+    #[must_use]
+    pub fn quantities(&self) -> Vec<ImuQuantity> {
+        let mut list = ImuQuantity::thermal_list(
+            Triad::Accelerometer,
+            self.accelerometer_bias,
+            self.accelerometer_scale,
+        );
+        list.extend(ImuQuantity::thermal_list(Triad::Gyroscope, self.gyroscope_bias, self.gyroscope_scale));
+        list
+    }
+}
+
+/// The temperatures of a problem in which something follows them.
+pub(super) struct Climate<'a> {
+    temperatures: Option<Temperatures<'a>>,
+    /// Nothing but the fixed terms.
+    pub(super) start: Thermal,
+}
+
+impl<'a> Climate<'a> {
+    /// That of a problem with these holds: where nothing follows temperature, it is the reference always.
+    pub(super) fn of(problem: &ImuProblem<'a>, holds: &[Hold]) -> Result<Self> {
+        let model = problem.setup.thermal;
+        let mut start = Thermal::none();
+        if model.is_none() {
+            return Ok(Self { temperatures: None, start });
+        }
+        let Some(temperatures) = Temperatures::of(problem.recording)? else {
+            return Err(Error::recording(Complaint::new(
+                "the calibration is to follow temperature, and the recording has none",
+                "name its column with temperature = \"…\" in [columns], or take [temperature] out of the experiment",
+            )));
+        };
+        let of_holds: Vec<f64> =
+            holds.iter().map(|hold| temperatures.mean(hold.start_s, hold.end_s)).collect();
+        let mean = of_holds.iter().sum::<f64>() / of_holds.len().max(1) as f64;
+        start.reference_c = model.reference_c.unwrap_or(mean.round());
+        start.range_c =
+            of_holds.iter().map(|&t| [t, t]).reduce(|[low, high], [t, _]| [low.min(t), high.max(t)]);
+        let mut imu = ImuParameters { thermal: start, ..ImuParameters::identity() };
+        set_fixed(&mut imu, &problem.setup.known);
+        let climate = Self { temperatures: Some(temperatures), start: imu.thermal };
+        climate.enough(problem, &of_holds)?;
+        Ok(climate)
+    }
+
+    /// Mean temperature between two times.
+    pub(super) fn mean(&self, start_s: f64, end_s: f64) -> f64 {
+        self.temperatures.map_or(self.start.reference_c, |temperatures| temperatures.mean(start_s, end_s))
+    }
+
+    /// That of a hold.
+    pub(super) fn of_hold(&self, hold: &Hold) -> f64 {
+        self.mean(hold.start_s, hold.end_s)
+    }
+
+    /// Least and greatest of the whole recording.
+    pub(super) fn of_recording(&self) -> Option<[f64; 2]> {
+        let values = self.temperatures?.values_c.iter();
+        values.map(|&t| [t, t]).reduce(|[low, high], [t, _]| [low.min(t), high.max(t)])
+    }
+
+    /// Are the temperatures of the holds different enough for the terms of which nothing is known beforehand?
+    fn enough(&self, problem: &ImuProblem<'_>, of_holds: &[f64]) -> Result<()> {
+        let mut sorted = of_holds.to_vec();
+        sorted.sort_by(f64::total_cmp);
+        let (mut levels, mut last) = (0, f64::NEG_INFINITY);
+        for t in &sorted {
+            if *t >= last + LEVEL_K {
+                (levels, last) = (levels + 1, *t);
+            }
+        }
+        let known =
+            |quantity: &ImuQuantity| problem.setup.known.iter().any(|term| term.quantity == *quantity);
+        let unknown: Vec<ImuQuantity> =
+            problem.setup.thermal.quantities().into_iter().filter(|quantity| !known(quantity)).collect();
+        // the terms of one polynomial, which need one temperature more than there are
+        let siblings = |quantity: &ImuQuantity| {
+            let family = |quantity: &ImuQuantity| match quantity {
+                ImuQuantity::Thermal(triad, ThermalTerm { part, axis, .. }) => Some((*triad, *part, *axis)),
+                _ => None,
+            };
+            unknown.iter().filter(|other| family(other) == family(quantity)).count()
+        };
+        let most = unknown.iter().map(siblings).max().unwrap_or(0);
+        if levels > most || most == 0 {
+            return Ok(());
+        }
+        let short: Vec<&ImuQuantity> =
+            unknown.iter().filter(|quantity| siblings(quantity) >= levels).collect();
+        let span = sorted.last().zip(sorted.first()).map_or(0.0, |(high, low)| high - low);
+        let reason = match levels {
+            0 | 1 => format!("the temperature of the holds changed by {span:.1} K only"),
+            _ => format!(
+                "the holds have {levels} temperatures that differ by {LEVEL_K} K or more, and polynomials of order {most} need {}",
+                most + 1
+            ),
+        };
+        Err(Error::NotIdentifiable(Box::new(NotIdentifiable {
+            groups: vec![UndeterminedGroup {
+                parameters: short.iter().map(|quantity| quantity.name()).collect(),
+                free_combinations: short.len(),
+                reason,
+                remedy: "record over a wider range of temperatures, with holds all along it; or lower the order in [temperature], or give the terms in [known]"
+                    .into(),
+            }],
+        })))
+    }
+}
+
+/// Sets the quantities that are fixed beforehand.
+pub(super) fn set_fixed(imu: &mut ImuParameters, known: &[KnownTerm]) {
+    for known in known.iter().filter(|known| known.sd.is_none()) {
+        let now = known.quantity.of(imu);
+        known.quantity.add_to(imu, known.value - now);
+    }
+}
+
+/// The readings of a sensor as they would be at the reference temperature.
+pub(super) fn at_reference(
+    recording: &Recording,
+    triad: Triad,
+    sensor: &SensorParameters,
+    thermal: &Thermal,
+    climate: &Climate<'_>,
+) -> Recording {
+    let mut adjusted = recording.clone();
+    let Some(temperatures) = climate.temperatures else { return adjusted };
+    let terms = thermal.triad(triad);
+    for (reading, &time_s) in adjusted.readings.iter_mut().zip(&recording.times_s) {
+        let tau_k = thermal.tau_k(temperatures.at(time_s));
+        let excess = *reading - sensor.bias - terms.bias_change(tau_k);
+        *reading = sensor.bias + excess.component_div(&terms.gain_factor(tau_k));
+    }
+    adjusted
+}
+
+/// The accelerometer with its temperature terms, beginning with a fit without them. `refit` is that fit with another recording and the times of its holds.
+pub(super) fn accelerometer(
+    problem: &ImuProblem<'_>,
+    recording: &Recording,
+    first: First,
+    climate: &Climate<'_>,
+    settings: &CalibrationSettings,
+    refit: impl Fn(&Recording, Vec<(f64, f64)>) -> Result<First>,
+) -> Result<First> {
+    let follows = problem.setup.thermal.quantities().iter().any(|q| q.triad() == Triad::Accelerometer);
+    if !follows {
+        return Ok(first);
+    }
+    let raw: Vec<Hold> = first.holds.holds.iter().map(|result| result.hold.clone()).collect();
+    let intervals: Vec<(f64, f64)> = raw.iter().map(|hold| (hold.start_s, hold.end_s)).collect();
+    let detected = first.holds.detected;
+    let mut first = first;
+    let mut used = vec![true; raw.len()];
+    for _ in 0..ROUNDS {
+        let alone = Alone::new(problem, &first, &raw, &used, climate);
+        let (state, between) = alone.fit(settings)?;
+        let thermal = state.imu.thermal;
+        let adjusted =
+            at_reference(recording, Triad::Accelerometer, &state.imu.accelerometer, &thermal, climate);
+        let mut next = refit(&adjusted, intervals.clone())?;
+        reconsider(&mut next.holds, alone.degrees(), alone.terms());
+        next.holds.between_holds_sd_mps2 = between;
+        next.holds.between_holds_dominates = between > 0.0;
+        next.holds.detected = detected;
+        next.thermal = thermal.accelerometer;
+        next.adjusted = Some(adjusted);
+        first = next;
+        let chosen: Vec<bool> = first.holds.holds.iter().map(|result| result.used).collect();
+        if chosen == used {
+            break;
+        }
+        used = chosen;
+    }
+    for (result, hold) in first.holds.holds.iter_mut().zip(raw) {
+        result.hold = hold;
+    }
+    Ok(first)
+}
+
+/// The static fit does not know that temperature terms took degrees of freedom, so that its residuals look larger than they are: says again which holds are bad.
+fn reconsider(holds: &mut HoldCalibration, degrees: usize, terms: usize) {
+    let shrink = (degrees as f64 / (degrees + terms).max(1) as f64).sqrt();
+    let limit = critical(holds.holds.len(), degrees);
+    for result in &mut holds.holds {
+        result.studentised_residual *= shrink;
+        result.used |= result.studentised_residual.abs() <= limit;
+    }
+}
+
+/// The accelerometer alone, with what follows temperature.
+struct Alone<'a> {
+    first: &'a First,
+    raw: Vec<&'a Hold>,
+    joint: Joint<'static>,
+    start: State,
+}
+
+impl<'a> Alone<'a> {
+    fn new(
+        problem: &ImuProblem<'_>,
+        first: &'a First,
+        raw: &'a [Hold],
+        used: &[bool],
+        climate: &Climate<'_>,
+    ) -> Self {
+        let chosen: Vec<usize> = (0..raw.len()).filter(|&j| used[j]).collect();
+        let known = problem.setup.directions.is_some();
+        let mut quantities = solver::quantities(problem);
+        quantities.retain(|quantity| quantity.triad() == Triad::Accelerometer);
+        let forces: Vec<Vector3<f64>> = chosen.iter().map(|&j| first.holds.holds[j].force_mps2).collect();
+        let holds = chosen
+            .iter()
+            .zip(&forces)
+            .map(|(&j, force)| HoldData {
+                accelerometer: raw[j].mean,
+                accelerometer_weight: Vector3::zeros(),
+                gyroscope: None,
+                known: known.then_some(*force),
+                temperature_c: climate.of_hold(&raw[j]),
+            })
+            .collect();
+        let mut imu = ImuParameters {
+            accelerometer: first.sensor,
+            thermal: climate.start,
+            ..ImuParameters::identity()
+        };
+        imu.thermal.accelerometer =
+            if first.adjusted.is_some() { first.thermal } else { climate.start.accelerometer };
+        set_fixed(&mut imu, &problem.setup.known);
+        Self {
+            first,
+            raw: chosen.iter().map(|&j| &raw[j]).collect(),
+            joint: Joint {
+                gravity: problem.setup.holds.gravity.magnitude_mps2,
+                holds,
+                rotations: Vec::new(),
+                turns: Vec::new(),
+                gyroscope_noise: Vector3::zeros(),
+                excess_rad: 0.0,
+                prior: solver::prior(problem, &quantities),
+                quantities,
+            },
+            start: State { imu, forces },
+        }
+    }
+
+    /// Number of temperature terms that are estimated.
+    fn terms(&self) -> usize {
+        self.joint.quantities.iter().filter(|quantity| matches!(quantity, ImuQuantity::Thermal(..))).count()
+    }
+
+    /// Residuals and priors less unknowns.
+    fn degrees(&self) -> usize {
+        let of_hold = |hold: &HoldData| if hold.known.is_some() { 3 } else { 1 };
+        let priors = self
+            .joint
+            .prior
+            .as_ref()
+            .map_or(0, |(_, weight)| weight.iter().filter(|weight| **weight > 0.0).count());
+        let equations = self.joint.holds.iter().map(of_hold).sum::<usize>() + priors;
+        equations.saturating_sub(self.joint.quantities.len())
+    }
+
+    /// The problem for a scatter between holds.
+    fn weighed(&self, between: f64) -> Joint<'static> {
+        let mut joint = self.joint.clone();
+        for (hold, raw) in joint.holds.iter_mut().zip(&self.raw) {
+            hold.accelerometer_weight = self.first.weight(raw, between);
+        }
+        joint
+    }
+
+    /// The fit, and the scatter between holds that makes χ² equal its degrees of freedom, m/s².
+    fn fit(&self, settings: &CalibrationSettings) -> Result<(State, f64)> {
+        let degrees = self.degrees() as f64;
+        let at = |between: f64, from: &State| -> Result<(State, f64)> {
+            let weighed = self.weighed(between);
+            let misses = weighed.misses(from).ok_or_else(singular)?;
+            let fit = weighed.fit(from.clone(), misses, settings).ok_or_else(singular)?;
+            Ok((fit.state, fit.chi2))
+        };
+        let rough = self.first.holds.between_holds_sd_mps2;
+        solver::check(&self.weighed(rough), &self.start, settings)?;
+        let (mut state, mut chi2) = at(0.0, &self.start)?;
+        if degrees == 0.0 || chi2 <= degrees {
+            return Ok((state, 0.0));
+        }
+        let (mut low, mut high) = (0.0, rough.max(1e-9 * self.joint.gravity));
+        for _ in 0..60 {
+            (state, chi2) = at(high, &state)?;
+            if chi2 <= degrees {
+                break;
+            }
+            (low, high) = (high, 2.0 * high);
+        }
+        let mut between = high;
+        for _ in 0..40 {
+            between = 0.5 * (low + high);
+            (state, chi2) = at(between, &state)?;
+            if (chi2 / degrees - 1.0).abs() < 1e-6 {
+                break;
+            }
+            if chi2 > degrees { low = between } else { high = between }
+        }
+        Ok((state, between))
+    }
+}
+
+/// The gyroscope's bias terms per axis for the fit of its means: power, expected value and inverse variance (0 where nothing is known).
+pub(super) fn bias_terms(
+    quantities: &[ImuQuantity],
+    prior: Option<&(Vec<f64>, Vec<f64>)>,
+    axis: usize,
+) -> Vec<(ThermalTerm, f64, f64)> {
+    quantities
+        .iter()
+        .enumerate()
+        .filter(|(_, quantity)| quantity.triad() == Triad::Gyroscope && quantity.is_of_bias())
+        .filter_map(|(k, quantity)| match quantity {
+            ImuQuantity::Thermal(_, term) if term.axis.index() == axis => {
+                let (mean, weight) = prior.map_or((0.0, 0.0), |(mean, weight)| (mean[k], weight[k]));
+                Some((*term, mean, weight))
+            }
+            _ => None,
+        })
+        .collect()
+}
