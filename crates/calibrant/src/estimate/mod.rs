@@ -22,6 +22,7 @@ mod result;
 mod settings;
 pub(crate) mod statistics;
 mod tangents;
+mod uncalibrated;
 
 pub use comparison::{ComparedQuantity, Comparison, OverallDifference};
 pub use holds::{
@@ -34,6 +35,7 @@ pub use imu::{
 pub use problem::{CalibrationProblem, Stimulus};
 pub use result::*;
 pub use settings::CalibrationSettings;
+pub use uncalibrated::Uncalibrated;
 
 use crate::error::Result;
 
