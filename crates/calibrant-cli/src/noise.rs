@@ -93,7 +93,7 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
         if let Some(recording) = file.imu.triad(triad) {
             let found = examine(triad, recording, arguments.hold.as_deref()).map_err(in_file)?;
             noise.push(match &gain {
-                Some(gain) => found.with_gain(recording, gain),
+                Some(gain) => found.with_gain(recording, gain)?,
                 None => found,
             });
         }

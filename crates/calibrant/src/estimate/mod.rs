@@ -29,8 +29,8 @@ pub use holds::{
     Coverage, ExpectedCalibration, HoldsSetup, coverage, expected_calibration, find_holds, holds_between,
 };
 pub use imu::{
-    Gyroscope, ImuCalibration, ImuProblem, ImuSetup, KnownTerm, RotationResult, StillGyroscope, Turn,
-    TurnResult, calibrate_imu,
+    Gyroscope, ImuCalibration, ImuProblem, ImuSetup, KnownTerm, NoiseSource, RotationResult, StillGyroscope,
+    Turn, TurnResult, WhiteNoise, calibrate_imu,
 };
 pub use problem::{CalibrationProblem, Stimulus};
 pub use result::*;

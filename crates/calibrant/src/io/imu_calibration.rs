@@ -76,6 +76,7 @@ impl<'a> ImuCalibrationFile<'a> {
 struct StillFields<'a> {
     #[serde(flatten)]
     noise: InUnit<Vec<f64>>,
+    noise_source: String,
     #[serde(flatten)]
     between_holds_sd: InUnit<Vec<f64>>,
     rate_rms_radps: f64,
@@ -88,6 +89,7 @@ impl<'a> StillFields<'a> {
         let (still, unit) = (&calibration.still, calibration.gyroscope_unit);
         Self {
             noise: InUnit::new("noise_per_sample", unit, per_axis(&still.noise, 3)),
+            noise_source: still.noise_source.to_string(),
             between_holds_sd: InUnit::new("between_holds_sd", unit, per_axis(&still.between_holds_sd, 3)),
             rate_rms_radps: still.rate_rms_radps,
             rate_rms_before_radps: still.rate_rms_before_radps,

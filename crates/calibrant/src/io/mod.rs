@@ -64,7 +64,7 @@ pub use experiment::{
 pub use imu_calibration::{imu_calibration_json, write_imu_calibration};
 pub use inspection::{HoldsInspection, Inspection, SensorInspection, inspect, inspection_json};
 pub use motion::{parse_motion, read_motion, write_motion};
-pub use noise::{noise_json, write_noise};
+pub use noise::{NoiseLine, noise_json, noise_line, write_noise};
 pub use output::write_atomically;
 pub use preset::{PRESETS, preset};
 pub use recording::{

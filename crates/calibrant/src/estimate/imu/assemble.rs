@@ -6,7 +6,7 @@ use super::readings::usable;
 use super::solver::singular;
 use super::verdict;
 use super::weights::Weighed;
-use super::{ImuCalibration, ImuProblem, RotationResult, StillGyroscope, TurnResult};
+use super::{ImuCalibration, ImuProblem, NoiseSource, RotationResult, StillGyroscope, TurnResult};
 use crate::error::Result;
 use crate::estimate::{HoldCalibration, Uncalibrated};
 use crate::information;
@@ -23,6 +23,7 @@ pub(super) struct Finished<'a> {
     pub(super) weighed: &'a Weighed,
     pub(super) before: &'a ImuParameters,
     pub(super) between: Vector3<f64>,
+    pub(super) noise_source: NoiseSource,
     pub(super) spans: &'a [Range<usize>],
     pub(super) chosen: &'a [usize],
 }
@@ -98,6 +99,7 @@ impl Finished<'_> {
             holds,
             still: StillGyroscope {
                 noise: joint.gyroscope_noise,
+                noise_source: self.noise_source,
                 between_holds_sd: self.between,
                 rate_rms_radps: self.rate_rms(&imu.gyroscope, &imu.g_sensitivity).ok_or_else(singular)?,
                 rate_rms_before_radps: self

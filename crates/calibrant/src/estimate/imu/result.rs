@@ -1,5 +1,6 @@
 //! What the calibration of an IMU gives.
 
+use super::NoiseSource;
 use crate::estimate::{CalibrationStatus, HoldCalibration, Uncalibrated};
 use crate::sensor::{CalibratedImu, Gauge, ImuParameters, ImuQuantity, ReadingUnit, SensorModel, Triad};
 use nalgebra::{DMatrix, Vector3};
@@ -50,8 +51,10 @@ pub struct ImuCalibration {
 /// The gyroscope in the holds.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StillGyroscope {
-    /// Standard deviation of one sample within holds, in the unit of the readings.
+    /// Standard deviation of one sample's noise, in the unit of the readings.
     pub noise: Vector3<f64>,
+    /// Where it comes from.
+    pub noise_source: NoiseSource,
     /// Standard deviation between holds beyond this noise: a wandering bias, the Earth's rotation, g-sensitivity that is not estimated.
     pub between_holds_sd: Vector3<f64>,
     /// Root mean square over the holds of the mean rate that the calibrated gyroscope shows, all axes together, rad/s.

@@ -7,7 +7,7 @@ use super::readings::{felt_forces, rotation_spans, samples, turns, usable};
 use super::settle::{apply, reweigh, settle};
 use super::still::{Still, between_sd, pooled_noise, still, weigh};
 use super::verdict::{self, undetermined};
-use super::{ImuCalibration, ImuProblem, start};
+use super::{ImuCalibration, ImuProblem, NoiseSource, start};
 use crate::error::{Complaint, Error, Result};
 use crate::estimate::{CalibrationProblem, CalibrationSettings, Recovered, Stimulus, calibrate};
 use crate::information;
@@ -39,7 +39,7 @@ pub fn calibrate_imu(problem: &ImuProblem<'_>, settings: &CalibrationSettings) -
             "both need the same clock: are these files of one recording?",
         )));
     }
-    let noise = problem.gyroscope.noise.unwrap_or_else(|| pooled_noise(&stills));
+    let (noise, noise_source) = sample_noise(problem, &stills);
     let g_forces = problem.gyroscope.g_sensitivity.then_some(forces.as_slice());
     let between = between_sd(&stills, &noise, g_forces);
     let mut data = hold_data(&first, &chosen, setup.directions.is_some());
@@ -117,6 +117,7 @@ pub fn calibrate_imu(problem: &ImuProblem<'_>, settings: &CalibrationSettings) -
         weighed: &weighed,
         before: &before,
         between,
+        noise_source,
         spans: &spans,
         chosen: &chosen,
     };
@@ -128,6 +129,17 @@ pub(super) fn singular() -> Error {
         "the fit of the rotations breaks down: an estimated matrix becomes singular",
         "check the units of both sensors and that the files belong together",
     ))
+}
+
+/// Noise of a gyroscope's sample: that of the datasheet, else what a long hold shows, else the scatter within holds.
+fn sample_noise(problem: &ImuProblem<'_>, stills: &[Option<Still>]) -> (Vector3<f64>, NoiseSource) {
+    match (problem.gyroscope.noise, &problem.setup.white_noise) {
+        (Some(noise), _) => (noise, NoiseSource::Datasheet),
+        (None, Some(white)) => {
+            (white.sd, NoiseSource::AllanDeviation { hold: white.hold, duration_s: white.duration_s })
+        }
+        (None, None) => (pooled_noise(stills), NoiseSource::ScatterWithinHolds),
+    }
 }
 
 /// Both recordings, of three axes and the units that are expected.
