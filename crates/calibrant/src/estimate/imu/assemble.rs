@@ -80,7 +80,7 @@ impl Finished<'_> {
                 start_s: turn.start_s,
                 end_s: turn.end_s,
                 angle_rad: data.angle,
-                measured_rad: correction * (data.integral - imu.gyroscope.bias * data.duration_s),
+                measured_rad: data.angle + correction * joint.turn_residual(data, &imu),
             })
             .collect();
         let mut calibration = ImuCalibration {
