@@ -70,10 +70,10 @@ pub use preset::{PRESETS, preset};
 pub use recording::{
     ColumnMapping, ColumnMeaning, ColumnUnit, FileFormat, Finding, FindingKind, ImuColumn, ImuFile,
     ImuReadOptions, ImuUnit, ReadOptions, RecordingFile, TimeUnit, parse_imu_pair, parse_imu_recording,
-    parse_recording, read_imu_pair, read_imu_recording, read_recording, write_recording,
+    parse_recording, read_imu_pair, read_imu_recording, read_recording, write_imu_recording, write_recording,
 };
 pub use sections::{Section, SectionKind, parse_sections, read_sections};
 pub use study::{study_json, write_study};
 pub use summary::{SummaryRow, write_summary};
 pub use sweep::{sweep_json, write_sweep, write_sweep_csv};
-pub use truth::{truth_json, write_truth};
+pub use truth::{truth_json, write_imu_truth, write_truth};
