@@ -1,7 +1,7 @@
 //! A calibration in a format is refused in words, or its correction is finite and it can be written again.
 
 use calibrant::io::{
-    CalibratedImuFile, ImuFormat, ImuReadOptions, RawUnits, calibrated_imu_texts, parse_calibrated_imu,
+    CalibratedImuFile, ConventionOptions, ImuFormat, RawUnits, calibrated_imu_texts, parse_calibrated_imu,
 };
 use calibrant::sensor::{ImuCorrection, Triad};
 use nalgebra::Vector3;
@@ -9,13 +9,13 @@ use nalgebra::Vector3;
 /// The bytes as a calibration of this format.
 pub fn check(bytes: &[u8], format: ImuFormat) {
     let options =
-        ImuReadOptions { format: Some(format), units: Some(RawUnits::Counts), triad: Some(Triad::Accelerometer) };
+        ConventionOptions { format: Some(format), units: Some(RawUnits::Counts), triad: Some(Triad::Accelerometer) };
     match parse_calibrated_imu(bytes, &options) {
         Ok(file) => is_usable(&file, format),
         Err(error) => assert!(error.is_invalid_experiment() && !error.to_string().is_empty()),
     }
     // by content
-    if let Err(error) = parse_calibrated_imu(bytes, &ImuReadOptions::default()) {
+    if let Err(error) = parse_calibrated_imu(bytes, &ConventionOptions::default()) {
         assert!(error.is_invalid_experiment() && !error.to_string().is_empty());
     }
 }
@@ -28,7 +28,11 @@ fn is_usable(file: &CalibratedImuFile, format: ImuFormat) {
     if let Some(sd) = correction.force_sd(&force) {
         assert!(sd.iter().all(|sd| *sd >= 0.0));
     }
-    match calibrated_imu_texts(file, format) {
+    // what is in the texts may be any word, what is in the numbers not
+    let mut file = file.clone();
+    file.imu.frame.clear();
+    file.inputs.clear();
+    match calibrated_imu_texts(&file, format) {
         Ok(texts) => assert!(texts.iter().all(|(_, text)| !text.contains("NaN") && !text.contains("inf,"))),
         // what Kalibr's model cannot say it cannot write either
         Err(error) => assert!(!error.to_string().is_empty()),

@@ -1,6 +1,7 @@
 //! `calibrant calibrate`: from recordings to parameters with their covariance.
 
 mod imu;
+mod imu_noise;
 mod imu_output;
 
 use crate::reading::{RecordingOptions, in_file, name};

@@ -91,8 +91,11 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     let mut noise = Vec::new();
     for triad in Triad::ALL {
         if let Some(recording) = file.imu.triad(triad) {
-            let hold = arguments.hold.as_deref();
-            noise.push(examine(triad, recording, hold, gain.as_ref()).map_err(in_file)?);
+            let found = examine(triad, recording, arguments.hold.as_deref()).map_err(in_file)?;
+            noise.push(match &gain {
+                Some(gain) => found.with_gain(recording, gain)?,
+                None => found,
+            });
         }
     }
 
@@ -145,21 +148,12 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
 }
 
 /// The noise of one sensor, in the interval that was given or in its longest hold.
-fn examine(
-    triad: Triad,
-    recording: &Recording,
-    hold: Option<&[f64]>,
-    gain: Option<&Vector3<f64>>,
-) -> calibrant::Result<TriadNoise> {
+fn examine(triad: Triad, recording: &Recording, hold: Option<&[f64]>) -> calibrant::Result<TriadNoise> {
     let (start_s, end_s) = match hold {
         Some(&[start, end]) => (start, end),
         _ => longest_hold(recording)?,
     };
-    let stretch = Stretch::between(recording, start_s, end_s)?;
-    match gain {
-        Some(gain) => TriadNoise::of_counts(triad, recording, gain, stretch),
-        None => TriadNoise::of(triad, recording, stretch),
-    }
+    TriadNoise::of(triad, recording, Stretch::between(recording, start_s, end_s)?)
 }
 
 fn longest_hold(recording: &Recording) -> calibrant::Result<(f64, f64)> {

@@ -1,5 +1,7 @@
 //! `calibrant simulate`: a sensor out of the datasheet and its recording.
 
+mod imu;
+
 use crate::{Exit, console, place};
 use calibrant::Error;
 use calibrant::design::initial_motion;
@@ -19,6 +21,9 @@ use std::path::{Path, PathBuf};
 ///
 /// Writes recording.csv and truth.json; for a [motion] also motion.csv, the commanded motion that `calibrate --motion` wants, and with process
 /// noise true_motion.csv, the one that really happened.
+///
+/// An IMU (kind = "imu") is turned by hand between holds.poses orientations; with holds.directions it is put down on these faces and turned by gyroscope.turns, at
+/// the times that are given. Spreads that [sensor] does not give, and the gyroscope's, are those of common MEMS sensors.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
     /// The experiment file (see `calibrant init`).
@@ -38,14 +43,22 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     place::check_directory(&arguments.output)?;
     let experiment = Experiment::read(&arguments.experiment)?;
     let seed = arguments.seed.unwrap_or(experiment.study.seed);
-    check_simulable(&experiment.sensor, &arguments.experiment)?;
-    let samples = match &experiment.plan {
-        Plan::Motion(plan) => simulate_motion(arguments, &experiment, plan, seed)?,
-        Plan::Holds(plan) => {
+    let samples = match (&experiment.plan, &experiment.imu) {
+        (Plan::Motion(plan), _) => {
+            check_simulable(&experiment.sensor, &arguments.experiment)?;
+            simulate_motion(arguments, &experiment, plan, seed)?
+        }
+        (Plan::Holds(plan), imu) => {
             if arguments.motion.is_some() {
                 console::warn("--motion is not used: a [holds] experiment has no motion");
             }
-            simulate_poses(arguments, &experiment, plan, seed)?
+            match imu {
+                Some(imu) => imu::run(arguments, &experiment, plan, imu, seed)?,
+                None => {
+                    check_simulable(&experiment.sensor, &arguments.experiment)?;
+                    simulate_poses(arguments, &experiment, plan, seed)?
+                }
+            }
         }
     };
     console::print(&format!(

@@ -5,7 +5,7 @@ mod common;
 use calibrant::error::Error;
 use calibrant::estimate::{
     CalibrationSettings, CalibrationStatus, Gyroscope, HoldsSetup, ImuCalibration, ImuProblem, ImuSetup,
-    KnownTerm, Turn, calibrate_imu,
+    KnownTerm, NoiseSource, Turn, WhiteNoise, calibrate_imu,
 };
 use calibrant::io::{ImuReadOptions, ImuUnit, SectionKind, read_imu_pair, read_imu_recording, read_sections};
 use calibrant::motion::Gravity;
@@ -383,6 +383,27 @@ fn a_known_bias_is_kept_and_a_prior_shares() {
     let place =
         calibration.quantities.iter().position(|known| known.name() == "gyroscope.scale.y").expect("there");
     assert!(calibration.prior_share[place] > 0.99 && calibration.sd()[place] < 1e-6);
+}
+
+#[test]
+fn the_noise_of_a_sample_is_the_datasheets_then_that_of_a_long_hold_then_the_scatter() {
+    let (_, recording) = small();
+    let unit = ReadingUnit::MetrePerSecondSquared;
+    let white = WhiteNoise { sd: Vector3::repeat(1.9e-3), hold: 3, duration_s: 42.0 };
+    let examined = ImuSetup { white_noise: Some(white), ..ImuSetup::default() };
+    let given = Gyroscope { noise: Some(Vector3::repeat(2.1e-3)), ..Gyroscope::default() };
+    let still = |gyroscope: &Gyroscope, setup: &ImuSetup| {
+        run(&recording, gyroscope, setup, unit).expect("determined").still
+    };
+    let found = still(&given, &examined);
+    assert_eq!((found.noise, found.noise_source), (Vector3::repeat(2.1e-3), NoiseSource::Datasheet));
+    let found = still(&Gyroscope::default(), &examined);
+    assert_eq!(found.noise, Vector3::repeat(1.9e-3));
+    assert_eq!(found.noise_source.to_string(), "Allan deviation of hold 4 (42.0 s)");
+    let found = still(&Gyroscope::default(), &ImuSetup::default());
+    assert_eq!(found.noise_source, NoiseSource::ScatterWithinHolds);
+    // 24 holds of 250 samples are known to 1 %; the first moments of a turn, too slow to be told from rest, come on top
+    assert!(found.noise.iter().all(|sd| (0.96..1.3).contains(&(sd / 2e-3))), "{}", found.noise);
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! `calibrant calibrate` for a whole IMU.
 
 use super::Arguments;
+use super::imu_noise::HoldNoise;
 use crate::reading::{in_file, name};
 use crate::{Exit, console};
 use calibrant::Error;
@@ -38,7 +39,9 @@ pub(super) fn run(arguments: &Arguments, experiment: &Experiment, plan: &ImuPlan
     for finding in &file.findings {
         console::note(&format!("{}: {finding}", name(path)));
     }
-    let setup = setup(arguments, plan, holds, &file)?;
+    let mut setup = setup(arguments, plan, holds, &file)?;
+    let noise = HoldNoise::of(&setup.holds, &file.recording);
+    setup.white_noise = noise.gyroscope();
     let problem = ImuProblem {
         accelerometer: &experiment.sensor,
         gyroscope: &plan.gyroscope,
@@ -57,7 +60,7 @@ pub(super) fn run(arguments: &Arguments, experiment: &Experiment, plan: &ImuPlan
         samples: main.map_or(0, calibrant::sensor::Recording::len),
         rate_hz: main.map_or(0.0, calibrant::sensor::Recording::rate_hz),
     };
-    super::imu_output::write(arguments, &calibration, &file, &input, started)?;
+    super::imu_output::write(arguments, &calibration, &file, noise, &input, started)?;
     for warning in &calibration.warnings {
         console::warn(warning);
     }
@@ -92,6 +95,7 @@ fn setup(
         turns: plan.turns.clone(),
         known: plan.known.clone(),
         thermal: plan.thermal,
+        white_noise: None,
     };
     if let Some(path) = &arguments.sections {
         let times = file.recording.accelerometer.as_ref().map_or(&[][..], |recording| &recording.times_s);

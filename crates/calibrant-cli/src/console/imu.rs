@@ -17,6 +17,7 @@ pub(crate) fn imu_calibration(calibration: &ImuCalibration) -> String {
     }
     text.push('\n');
     imu_quality(calibration).split("; ").for_each(|part| text.push_str(&format!("  {part}\n")));
+    text.push_str(&format!("  {}\n", sample_noise(calibration)));
     text.push_str(&format!(
         "  {} after {}; χ² {} with {} degrees of freedom, weights from the data\n",
         calibration.status.name(),
@@ -25,6 +26,18 @@ pub(crate) fn imu_calibration(calibration: &ImuCalibration) -> String {
         number::count(calibration.degrees_of_freedom),
     ));
     text
+}
+
+/// Noise of a gyroscope's sample, and where it comes from.
+fn sample_noise(calibration: &ImuCalibration) -> String {
+    let still = &calibration.still;
+    let axes: Vec<String> = still.noise.iter().map(|&sd| number::significant(sd, 3)).collect();
+    format!(
+        "noise of a gyroscope sample {} {}, from: {}",
+        axes.join(", "),
+        calibration.gyroscope_unit.symbol(),
+        still.noise_source
+    )
 }
 
 /// Holds, rotations and turns, and which of them were left out.

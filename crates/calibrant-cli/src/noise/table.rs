@@ -1,6 +1,7 @@
 //! The noise of a sensor on stdout.
 
 use crate::console;
+use calibrant::io::noise_line;
 use calibrant::noise::{Coefficient, CoefficientUnit, PowerLaw, TriadNoise, coefficient_units};
 use calibrant::report::{coefficient_name, number};
 
@@ -67,10 +68,14 @@ pub(super) fn of(noise: &TriadNoise) -> String {
     };
     let rate = stretch.rate_hz();
     text.push_str(&format!(
-        "  one sample: white noise N √rate {} {unit}; standard deviation {} {unit}\n\n",
+        "  one sample: white noise N √rate {} {unit}; standard deviation {} {unit}\n",
         list(&|k| noise.axes[k].fit.model.white_noise_per_sample(rate)),
         list(&|k| Some(noise.axes[k].sample_sd)),
         unit = noise.unit.symbol()
     ));
+    text.push_str(&match noise_line(noise) {
+        Some(found) => format!("  for an experiment file, in [{}]: {}\n\n", found.section, found.line),
+        None => "  white noise is not determined on all axes: nothing for an experiment file\n\n".to_owned(),
+    });
     text
 }

@@ -93,6 +93,11 @@ fn design_a_motion() {
 }
 
 #[test]
+fn whole_imu() {
+    follow("06_whole_imu", 11);
+}
+
+#[test]
 fn every_example_is_followed() {
     let root: PathBuf = [env!("CARGO_MANIFEST_DIR"), "../../examples"].iter().collect();
     let mut names: Vec<_> = std::fs::read_dir(root)
@@ -104,6 +109,13 @@ fn every_example_is_followed() {
     names.sort();
     assert_eq!(
         names,
-        ["01_robot_motion", "02_unknown_motion", "03_static_poses", "04_many_sensors", "05_design_a_motion"]
+        [
+            "01_robot_motion",
+            "02_unknown_motion",
+            "03_static_poses",
+            "04_many_sensors",
+            "05_design_a_motion",
+            "06_whole_imu"
+        ]
     );
 }

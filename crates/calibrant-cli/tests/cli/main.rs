@@ -9,6 +9,7 @@ mod data;
 mod design;
 mod determinism;
 mod examples;
+mod imu;
 mod inspect;
 mod many;
 mod noise;

@@ -49,6 +49,14 @@ fn white_noise_is_found_and_what_is_not_seen_is_said() {
     );
     assert!(bench.read("result/report.html").contains("Allan deviation of the accelerometer"));
 
+    // the line is one that an experiment file takes
+    let line = json["sensors"][0]["experiment"]["line"].as_str().expect("determined");
+    assert!(outcome.stdout.contains(&format!("for an experiment file, in [sensor]: {line}")), "{line}");
+    bench.preset("static-poses", "poses.toml", &[]);
+    let poses = bench.read("poses.toml").replacen("[sensor]", &format!("[sensor]\n{line}"), 1);
+    bench.write("noisy.toml", without_key(&poses, line));
+    bench.run("simulate noisy.toml -o sim").done();
+
     let printed = bench.run("noise still.csv --json").done();
     assert_eq!(printed.stdout, bench.read("result/noise.json"));
     let part = bench.run("noise still.csv --hold 10 30 --json").done();
@@ -57,6 +65,13 @@ fn white_noise_is_found_and_what_is_not_seen_is_said() {
         (&part["sensors"][0]["first_sample"], &part["sensors"][0]["end_sample"]),
         (&1000.into(), &3001.into())
     );
+}
+
+/// The text without the lines that give the key again that `line` gives.
+fn without_key(text: &str, line: &str) -> String {
+    let key = line.split(' ').next().expect("a key");
+    let kept = text.lines().filter(|other| *other == line || !other.trim_start().starts_with(key));
+    kept.collect::<Vec<_>>().join("\n")
 }
 
 #[test]
@@ -71,6 +86,11 @@ fn counts_stay_counts_without_a_gain() {
         "{}",
         outcome.stdout
     );
+    // uniform numbers of 20 counts: 5.77 counts, which is what the experiment file of these counts wants with a gain, too
+    let line = outcome.stdout.lines().find_map(|line| line.split("in [gyroscope]: noise_counts = ").nth(1));
+    let values = line.expect("a line").trim_matches(['[', ']']).split(", ");
+    let values: Vec<f64> = values.map(|value| value.parse().expect("a number")).collect();
+    assert!(values.len() == 3 && values.iter().all(|value| (value / 5.77 - 1.0).abs() < 0.08), "{values:?}");
 }
 
 #[test]
@@ -125,12 +145,12 @@ fn what_was_measured_goes_into_an_imu_yaml() {
     assert!((density / expected - 1.0).abs() < 0.05, "{density} beside {expected}");
     assert!((value("update_rate").expect("known") - 100.0).abs() < 1e-3, "{yaml}");
     assert_eq!(value("accelerometer_random_walk"), None, "not determined: {yaml}");
-    bench.write("si.csv", recording("t_s,ax_mps2,ay_mps2,az_mps2", 6000, 0.1));
-    bench.run("noise si.csv -o si").done();
+    let si = calibration.replace("a.u.\", \"from_gyr_unit", "m/s^2\", \"from_gyr_unit");
+    bench.write("si.json", si.replace("a.u.", "deg/s"));
     bench.refuses(
-        "convert imu.json other.yaml --noise si/noise.json",
+        "convert si.json other.yaml --noise noise/noise.json",
         2,
-        &["the noise of the accelerometer is in m/s², the calibration in counts"],
+        &["the noise of the accelerometer is in counts, the calibration in m/s²"],
     );
     bench.write("none.json", "{}");
     bench.refuses("convert imu.json other.yaml --noise none.json", 2, &["none.json", "calibrant noise"]);

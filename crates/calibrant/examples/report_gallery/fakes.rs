@@ -3,7 +3,7 @@
 use super::{estimate, motion, sensor, study};
 use estimate::{
     Calibration, CalibrationStatus, FitStatistics, HoldCalibration, HoldResult, Recovered, RecoveredMotion,
-    Whiteness,
+    Uncalibrated, Whiteness,
 };
 use motion::{Gravity, Hold, JerkControlledMotion};
 use nalgebra::{DMatrix, Matrix3, Vector3};
@@ -180,6 +180,7 @@ pub(crate) fn hold_case(count: usize, samples_per_hold: usize) -> (Calibration, 
         });
         previous = force;
     }
+    let nothing_given = Sensor { gain: None, offset: None, ..datasheet.clone() };
     let list = Gauge::Upper.parameter_list(SensorModel::Full);
     let p = list.len();
     let sd = [0.25, 0.14, 0.15, 0.027, 0.014, 0.016, 0.055, 0.2, 0.05];
@@ -214,6 +215,7 @@ pub(crate) fn hold_case(count: usize, samples_per_hold: usize) -> (Calibration, 
             magnitude_residual_rms_mps2: 0.00096,
             condition_number: 17.4,
             detected: true,
+            before: Uncalibrated::accelerometer(&nothing_given, &truth),
         }),
         residuals: Vec::new(),
         first_sample: 0,

@@ -22,18 +22,20 @@ mod result;
 mod settings;
 pub(crate) mod statistics;
 mod tangents;
+mod uncalibrated;
 
 pub use comparison::{ComparedQuantity, Comparison, OverallDifference};
 pub use holds::{
     Coverage, ExpectedCalibration, HoldsSetup, coverage, expected_calibration, find_holds, holds_between,
 };
 pub use imu::{
-    Gyroscope, ImuCalibration, ImuProblem, ImuSetup, KnownTerm, RotationResult, StillGyroscope, ThermalModel,
-    Turn, TurnResult, calibrate_imu,
+    Gyroscope, ImuCalibration, ImuProblem, ImuSetup, KnownTerm, NoiseSource, RotationResult, StillGyroscope,
+    ThermalModel, Turn, TurnResult, WhiteNoise, calibrate_imu,
 };
 pub use problem::{CalibrationProblem, Stimulus};
 pub use result::*;
 pub use settings::CalibrationSettings;
+pub use uncalibrated::Uncalibrated;
 
 use crate::error::Result;
 

@@ -1,5 +1,6 @@
 //! What a calibration gives.
 
+use super::Uncalibrated;
 use crate::motion::{Gravity, Hold, JerkControlledMotion};
 use crate::sensor::{Gauge, Parameter, ReadingUnit, SensorParameters};
 use nalgebra::{DMatrix, Vector3};
@@ -155,6 +156,29 @@ pub struct HoldCalibration {
     pub condition_number: f64,
     /// Were the holds found in the recording (or given by the user)?
     pub detected: bool,
+    /// The accelerometer before its calibration.
+    pub before: Uncalibrated,
+}
+
+impl HoldCalibration {
+    /// Magnitude of a hold's mean reading before the calibration, less gravity, m/s²; `None` where it cannot be told.
+    #[must_use]
+    pub fn magnitude_residual_before_mps2(&self, hold: &Hold) -> Option<f64> {
+        let residual = self.before.stimulus(&hold.mean)?.norm() - self.gravity.magnitude_mps2;
+        residual.is_finite().then_some(residual)
+    }
+
+    /// Root mean square of the same over the used holds, m/s²; `None` where it cannot be told.
+    #[must_use]
+    pub fn magnitude_residual_rms_before_mps2(&self) -> Option<f64> {
+        let used: Vec<f64> = self
+            .holds
+            .iter()
+            .filter(|result| result.used)
+            .map(|result| self.magnitude_residual_before_mps2(&result.hold))
+            .collect::<Option<_>>()?;
+        (!used.is_empty()).then(|| (used.iter().map(|e| e * e).sum::<f64>() / used.len() as f64).sqrt())
+    }
 }
 
 /// One hold and its fit.

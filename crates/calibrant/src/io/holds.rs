@@ -15,6 +15,8 @@ pub(super) struct HoldsFields {
     between_holds_sd_mps2: f64,
     between_holds_dominates: bool,
     magnitude_residual_rms_mps2: f64,
+    magnitude_residual_rms_before_mps2: Option<f64>,
+    before: String,
     condition_number: f64,
     table: Vec<HoldFields>,
 }
@@ -32,6 +34,7 @@ struct HoldFields {
     sd: InUnit<Vec<f64>>,
     force_mps2: Vec<f64>,
     magnitude_residual_mps2: f64,
+    magnitude_residual_before_mps2: Option<f64>,
     studentised_residual: f64,
     used: bool,
 }
@@ -49,6 +52,7 @@ impl HoldsFields {
             sd: InUnit::new("sd", unit, per_axis(&result.hold.sd, 3)),
             force_mps2: per_axis(&result.force_mps2, 3),
             magnitude_residual_mps2: result.magnitude_residual_mps2,
+            magnitude_residual_before_mps2: holds.magnitude_residual_before_mps2(&result.hold),
             studentised_residual: result.studentised_residual,
             used: result.used,
         };
@@ -60,6 +64,8 @@ impl HoldsFields {
             between_holds_sd_mps2: holds.between_holds_sd_mps2,
             between_holds_dominates: holds.between_holds_dominates,
             magnitude_residual_rms_mps2: holds.magnitude_residual_rms_mps2,
+            magnitude_residual_rms_before_mps2: holds.magnitude_residual_rms_before_mps2(),
+            before: holds.before.source.clone(),
             condition_number: holds.condition_number,
             table: holds.holds.iter().map(fields).collect(),
         }

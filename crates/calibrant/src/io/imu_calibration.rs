@@ -6,8 +6,7 @@ use super::fields::{InUnit, matrix_rows, per_axis};
 use super::holds::HoldsFields;
 use super::json;
 use crate::error::Result;
-use crate::estimate::{ImuCalibration, RotationResult, StillGyroscope, TurnResult};
-use crate::sensor::ReadingUnit;
+use crate::estimate::{ImuCalibration, RotationResult, TurnResult};
 use serde::Serialize;
 use std::path::Path;
 
@@ -40,7 +39,7 @@ struct ImuCalibrationFile<'a> {
     correlation: Vec<Vec<f64>>,
     fit: FitFields,
     holds: HoldsFields,
-    still_gyroscope: StillFields,
+    still_gyroscope: StillFields<'a>,
     rotations: RotationsFields<'a>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     turns: Vec<TurnFields>,
@@ -64,7 +63,7 @@ impl<'a> ImuCalibrationFile<'a> {
             correlation: matrix_rows(&calibration.correlation()),
             fit: FitFields { chi2: calibration.chi2, degrees_of_freedom: calibration.degrees_of_freedom },
             holds: HoldsFields::of(&calibration.holds, calibration.accelerometer_unit),
-            still_gyroscope: StillFields::of(&calibration.still, calibration.gyroscope_unit),
+            still_gyroscope: StillFields::of(calibration),
             rotations: RotationsFields::of(calibration),
             turns: calibration.turns.iter().map(TurnFields::of).collect(),
             warnings: &calibration.warnings,
@@ -74,18 +73,27 @@ impl<'a> ImuCalibrationFile<'a> {
 
 /// The gyroscope in the holds.
 #[derive(Serialize)]
-struct StillFields {
+struct StillFields<'a> {
     #[serde(flatten)]
     noise: InUnit<Vec<f64>>,
+    noise_source: String,
     #[serde(flatten)]
     between_holds_sd: InUnit<Vec<f64>>,
+    rate_rms_radps: f64,
+    rate_rms_before_radps: f64,
+    before: &'a str,
 }
 
-impl StillFields {
-    fn of(still: &StillGyroscope, unit: ReadingUnit) -> Self {
+impl<'a> StillFields<'a> {
+    fn of(calibration: &'a ImuCalibration) -> Self {
+        let (still, unit) = (&calibration.still, calibration.gyroscope_unit);
         Self {
             noise: InUnit::new("noise_per_sample", unit, per_axis(&still.noise, 3)),
+            noise_source: still.noise_source.to_string(),
             between_holds_sd: InUnit::new("between_holds_sd", unit, per_axis(&still.between_holds_sd, 3)),
+            rate_rms_radps: still.rate_rms_radps,
+            rate_rms_before_radps: still.rate_rms_before_radps,
+            before: &calibration.gyroscope_before.source,
         }
     }
 }

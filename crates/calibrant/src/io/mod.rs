@@ -64,16 +64,17 @@ pub use experiment::{
 pub use imu_calibration::{imu_calibration_json, write_imu_calibration};
 pub use inspection::{HoldsInspection, Inspection, SensorInspection, inspect, inspection_json};
 pub use motion::{parse_motion, read_motion, write_motion};
-pub use noise::{noise_json, write_noise};
+pub use noise::{NoiseLine, noise_json, noise_line, write_noise};
 pub use output::write_atomically;
 pub use preset::{PRESETS, preset};
 pub use recording::{
     ColumnMapping, ColumnMeaning, ColumnUnit, FileFormat, Finding, FindingKind, ImuColumn, ImuFile,
     ImuReadOptions, ImuUnit, ReadOptions, RecordingFile, TimeUnit, parse_imu_pair, parse_imu_recording,
-    parse_recording, read_accelerometer, read_imu_pair, read_imu_recording, read_recording, write_recording,
+    parse_recording, read_accelerometer, read_imu_pair, read_imu_recording, read_recording,
+    write_imu_recording, write_recording,
 };
 pub use sections::{Section, SectionKind, parse_sections, read_sections};
 pub use study::{study_json, write_study};
 pub use summary::{SummaryRow, write_summary};
 pub use sweep::{sweep_json, write_sweep, write_sweep_csv};
-pub use truth::{truth_json, write_truth};
+pub use truth::{truth_json, write_imu_truth, write_truth};

@@ -25,6 +25,32 @@ pub fn noise_json(noise: &[TriadNoise], input: &Input) -> String {
     json::to_json(&NoiseFile::of(noise, input))
 }
 
+/// The line of an experiment file that states a sensor's white noise, and its section.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct NoiseLine {
+    /// `sensor` for an accelerometer, `gyroscope` for a gyroscope.
+    pub section: &'static str,
+    /// The line: `noise_counts = [26.3, 27.1, 25.8]`.
+    pub line: String,
+}
+
+/// The line to paste into an experiment file, in the unit of the readings; `None` where the white noise is not determined on an axis.
+#[must_use]
+pub fn noise_line(noise: &TriadNoise) -> Option<NoiseLine> {
+    let sigma = noise.white_noise_of_readings()?;
+    let counts = noise.unit == ReadingUnit::Counts || noise.gain.is_some();
+    let unit = if counts { ReadingUnit::Counts } else { noise.unit };
+    let section = match noise.triad {
+        Triad::Accelerometer => "sensor",
+        Triad::Gyroscope => "gyroscope",
+    };
+    // TOML reads a float by its point
+    let digits = |value: f64| format!("{value:.3e}").parse::<f64>().map(|rounded| format!("{rounded:?}"));
+    let values: Vec<String> =
+        noise.axes.iter().filter_map(|axis| digits(sigma[axis.axis.index()]).ok()).collect();
+    Some(NoiseLine { section, line: format!("noise_{} = [{}]", unit.suffix(), values.join(", ")) })
+}
+
 #[derive(Serialize)]
 struct NoiseFile<'a> {
     schema: u32,
@@ -55,6 +81,7 @@ struct TriadFields<'a> {
     interval_s: f64,
     interval_jitter: f64,
     axes: Vec<AxisFields<'a>>,
+    experiment: Option<NoiseLine>,
     warnings: &'a [String],
 }
 
@@ -71,6 +98,7 @@ impl<'a> TriadFields<'a> {
             interval_s: noise.stretch.interval_s,
             interval_jitter: noise.stretch.jitter,
             axes: noise.axes.iter().map(|axis| AxisFields::of(axis, noise.triad, noise.unit, rate)).collect(),
+            experiment: noise_line(noise),
             warnings: &noise.warnings,
         }
     }

@@ -2,7 +2,9 @@
 
 use super::json;
 use crate::error::Result;
-use crate::sensor::{ParameterList, Quantity, ReadingUnit, SensorParameters};
+use crate::sensor::{
+    ImuParameters, ImuQuantity, ParameterList, Quantity, ReadingUnit, SensorParameters, Triad,
+};
 use serde::Serialize;
 use std::path::Path;
 
@@ -34,6 +36,30 @@ pub fn write_truth(
 #[must_use]
 pub fn truth_json(seed: u64, list: &ParameterList, unit: ReadingUnit, truth: &SensorParameters) -> String {
     json::to_json(&TruthFile::of(seed, list, unit, truth))
+}
+
+/// Writes `truth.json` of an IMU: the seed, and the true value of each of these quantities; `units` are those of accelerometer and gyroscope.
+///
+/// # Errors
+/// [`Error::Output`](crate::Error::Output) where it cannot be written.
+pub fn write_imu_truth(
+    path: &Path,
+    seed: u64,
+    quantities: &[ImuQuantity],
+    units: [ReadingUnit; 2],
+    truth: &ImuParameters,
+) -> Result<()> {
+    let unit = |triad: Triad| units[usize::from(triad == Triad::Gyroscope)];
+    let parameters = quantities
+        .iter()
+        .map(|quantity| TrueParameter {
+            name: quantity.name(),
+            unit: quantity.unit(unit(quantity.triad())),
+            value: quantity.of(truth),
+        })
+        .collect();
+    let convention = "true to raw: y_a = S_a f + b_a, y_g = S_g w + b_g + G f";
+    json::write_json(path, &TruthFile { schema: 1, seed, convention, parameters })
 }
 
 #[derive(Serialize)]

@@ -53,6 +53,7 @@ mod lags;
 mod model;
 mod moments;
 mod power_law;
+mod scaled;
 mod stretch;
 mod triad;
 mod unit;

@@ -1,7 +1,7 @@
 //! The noise of a sensor of three axes.
 
 use super::{AllanDeviation, Moments, NoiseFit, Stretch};
-use crate::error::Result;
+use crate::error::{Complaint, Error, Result};
 use crate::sensor::{Axis, ImuRecording, ReadingUnit, Recording, Triad};
 use nalgebra::Vector3;
 use rayon::prelude::*;
@@ -18,6 +18,8 @@ pub struct TriadNoise {
     pub triad: Triad,
     /// Unit of the readings, and of all coefficients but for seconds and hertz.
     pub unit: ReadingUnit,
+    /// The gain that turned readings in counts into this unit, counts per unit; `None` where the unit is that of the readings.
+    pub gain: Option<Vector3<f64>>,
     /// The samples that were examined.
     pub stretch: Stretch,
     /// A result for each axis.
@@ -67,31 +69,12 @@ impl TriadNoise {
     /// ```
     pub fn of(triad: Triad, recording: &Recording, stretch: Stretch) -> Result<Self> {
         let moments = Moments::of(stretch.samples());
-        Self::with_moments(triad, recording, None, stretch, &moments)
+        Self::with_moments(triad, recording, stretch, &moments)
     }
 
-    /// The same in the stimulus' unit, for a sensor of these gains in counts per stimulus unit; as [`of`](Self::of) where readings are not in counts.
-    ///
-    /// # Errors
-    /// As [`of`](Self::of).
-    pub fn of_counts(
-        triad: Triad,
-        recording: &Recording,
-        gain: &Vector3<f64>,
-        stretch: Stretch,
-    ) -> Result<Self> {
-        let moments = Moments::of(stretch.samples());
-        Self::with_moments(triad, recording, Some(gain), stretch, &moments)
-    }
-
-    /// The noise of both sensors from `start_s` to `end_s`, in which they are at rest, in the stimulus' units; a sensor whose samples do not determine it is
-    /// left out. `gain` is in counts per stimulus unit.
+    /// The noise of both sensors from `start_s` to `end_s`, in which they are at rest; a sensor whose samples do not determine it is left out.
     #[must_use]
-    pub fn of_imu(
-        recording: &ImuRecording,
-        (start_s, end_s): (f64, f64),
-        gain: impl Fn(Triad) -> Vector3<f64> + Sync,
-    ) -> Vec<Self> {
+    pub fn of_imu(recording: &ImuRecording, start_s: f64, end_s: f64) -> Vec<Self> {
         let stretches: Vec<(Triad, &Recording, Stretch)> = Triad::ALL
             .iter()
             .filter_map(|&triad| {
@@ -107,7 +90,7 @@ impl TriadNoise {
             .into_par_iter()
             .filter_map(|(triad, recording, stretch)| {
                 let moments = moments.iter().find(|moments| moments.samples() == stretch.samples())?;
-                Self::with_moments(triad, recording, Some(&gain(triad)), stretch, moments).ok()
+                Self::with_moments(triad, recording, stretch, moments).ok()
             })
             .collect()
     }
@@ -115,16 +98,10 @@ impl TriadNoise {
     fn with_moments(
         triad: Triad,
         recording: &Recording,
-        gain: Option<&Vector3<f64>>,
         stretch: Stretch,
         moments: &Moments,
     ) -> Result<Self> {
-        let mut readings = recording.readings[stretch.first..stretch.end].to_vec();
-        let mut unit = recording.unit;
-        if let (ReadingUnit::Counts, Some(gain)) = (unit, gain) {
-            unit = triad.stimulus_unit();
-            readings.iter_mut().for_each(|reading| *reading = reading.component_div(gain));
-        }
+        let readings = &recording.readings[stretch.first..stretch.end];
         let axis = |&axis: &Axis| {
             let values: Vec<f64> = readings.iter().map(|reading| reading[axis.index()]).collect();
             let n = values.len() as f64;
@@ -139,8 +116,8 @@ impl TriadNoise {
             })
         };
         let axes: Vec<AxisNoise> = recording.active_axes().par_iter().map(axis).collect::<Result<_>>()?;
-        let mut noise = Self { triad, unit, stretch, axes, warnings: Vec::new() };
-        noise.warnings = noise.remarks(&readings);
+        let mut noise = Self { triad, unit: recording.unit, gain: None, stretch, axes, warnings: Vec::new() };
+        noise.warnings = noise.remarks(readings);
         Ok(noise)
     }
 
@@ -153,6 +130,51 @@ impl TriadNoise {
             sigma[axis.axis.index()] = axis.fit.model.white_noise_per_sample(self.stretch.rate_hz())?;
         }
         Some(sigma)
+    }
+
+    /// The same noise in the stimulus' unit, for a sensor of these gains in counts per stimulus unit. `recording` is the one that it was found in.
+    ///
+    /// Readings that are not in counts stay as they are.
+    ///
+    /// # Errors
+    /// [`Error::Experiment`](crate::Error::Experiment) for a gain that is not above zero.
+    pub fn with_gain(mut self, recording: &Recording, gain: &Vector3<f64>) -> Result<Self> {
+        if self.unit != ReadingUnit::Counts {
+            return Ok(self);
+        }
+        if !gain.iter().all(|gain| gain.is_finite() && *gain > 0.0) {
+            return Err(Error::experiment(Complaint::new(
+                format!(
+                    "the gains of the {} are {}, {} and {} counts/({})",
+                    self.triad,
+                    gain.x,
+                    gain.y,
+                    gain.z,
+                    self.triad.stimulus_unit().symbol()
+                ),
+                "a gain is above zero",
+            )));
+        }
+        let readings = &recording.readings[self.stretch.first..self.stretch.end];
+        let physical: Vec<_> = readings.iter().map(|reading| reading.component_div(gain)).collect();
+        self.axes.iter_mut().for_each(|axis| *axis = axis.scaled(1.0 / gain[axis.axis.index()]));
+        self.unit = self.triad.stimulus_unit();
+        self.gain = Some(*gain);
+        self.warnings = self.remarks(&physical);
+        Ok(self)
+    }
+
+    /// The white noise of one sample as the readings have it: in counts also where the noise itself is stated with a gain. `None` where it is not determined.
+    #[must_use]
+    pub fn white_noise_of_readings(&self) -> Option<Vector3<f64>> {
+        let sigma = self.white_noise_per_sample()?;
+        Some(self.gain.map_or(sigma, |gain| sigma.component_mul(&gain)))
+    }
+
+    /// Do the processes explain the Allan deviation of every axis?
+    #[must_use]
+    pub fn explains(&self) -> bool {
+        self.axes.iter().all(|axis| axis.fit.explains())
     }
 
     fn remarks(&self, readings: &[Vector3<f64>]) -> Vec<String> {
@@ -254,4 +276,72 @@ fn two_digits(value: f64) -> String {
 fn three_digits(value: f64) -> String {
     let rounded: f64 = format!("{value:.2e}").parse().unwrap_or(value);
     if (1e-3..1e6).contains(&rounded.abs()) { rounded.to_string() } else { format!("{rounded:e}") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::noise::{Coefficient, PowerLaw};
+    use crate::simulate::{Purpose, simulate_noise, stream};
+
+    /// Scaling the result is scaling the readings.
+    #[test]
+    fn a_gain_gives_what_the_scaled_readings_give() {
+        let mut rng = stream(5, Purpose::Sensor, 0);
+        let axis: Vec<Vec<f64>> = (0..3)
+            .map(|_| {
+                let white = simulate_noise(PowerLaw::White, 2.0, 0.01, 4000, &mut rng);
+                let walk = simulate_noise(PowerLaw::RandomWalk, 1.0, 0.01, 4000, &mut rng);
+                white.iter().zip(walk).map(|(w, k)| w + k).collect()
+            })
+            .collect();
+        let counts = Recording {
+            times_s: (0..4000).map(|k| f64::from(k) * 0.01).collect(),
+            readings: (0..4000).map(|k| Vector3::new(axis[0][k], axis[1][k], axis[2][k])).collect(),
+            axes: 3,
+            unit: ReadingUnit::Counts,
+        };
+        let gain = Vector3::new(4778.0, 4764.0, 4773.0);
+        let mut physical = counts.clone();
+        physical.unit = ReadingUnit::RadianPerSecond;
+        physical.readings.iter_mut().for_each(|reading| *reading = reading.component_div(&gain));
+        let of = |recording: &Recording| {
+            let stretch = Stretch::between(recording, 0.0, 40.0).expect("long enough");
+            TriadNoise::of(Triad::Gyroscope, recording, stretch).expect("noisy")
+        };
+        let found = of(&counts).with_gain(&counts, &gain).expect("positive gains");
+        let expected = of(&physical);
+        assert_eq!((found.unit, &found.warnings), (expected.unit, &expected.warnings));
+        let near = |one: f64, other: f64| assert!((one - other).abs() <= 1e-6 * other.abs(), "{one} {other}");
+        for (found, expected) in found.axes.iter().zip(&expected.axes) {
+            near(found.sample_sd, expected.sample_sd);
+            near(found.fit.drift.per_s, expected.fit.drift.per_s);
+            near(found.fit.drift.sd, expected.fit.drift.sd);
+            for (one, other) in found.allan.points.iter().zip(&expected.allan.points) {
+                near(one.deviation, other.deviation);
+                near(one.low, other.low);
+                near(one.high, other.high);
+                near(found.fit.model.deviation(one.tau_s), expected.fit.model.deviation(one.tau_s));
+            }
+            for process in PowerLaw::ALL {
+                let pair = [found, expected].map(|axis| axis.fit.model.coefficient(process).clone());
+                match pair {
+                    [Coefficient::Determined(one), Coefficient::Determined(other)] => {
+                        near(one.value, other.value);
+                        near(one.sd, other.sd);
+                        near(one.high, other.high);
+                    }
+                    [one, other] => match (one.limit(), other.limit()) {
+                        (Some(one), Some(other)) => near(one, other),
+                        (one, other) => assert_eq!(one, other),
+                    },
+                }
+            }
+        }
+        let back = found.white_noise_of_readings().expect("white noise is there");
+        let raw = of(&counts).white_noise_per_sample().expect("white noise is there");
+        assert!((back - raw).amax() < 1e-9 * raw.amax());
+        let error = of(&counts).with_gain(&counts, &Vector3::zeros()).expect_err("no gain").to_string();
+        assert!(error.contains("a gain is above zero"), "{error}");
+    }
 }

@@ -1,15 +1,16 @@
 //! The report on one calibration.
 
-use super::About;
 use super::figure::{
-    acceleration_figure, autocorrelations, correlation_map, histograms, hold_directions, hold_residuals,
-    motion_error_figure, recording_overview, residuals_over_time, state_and_jerk_figure,
+    acceleration_figure, autocorrelations, correlation_map, force_before_and_after, histograms,
+    hold_directions, hold_residuals, holds_before_and_after, motion_error_figure, recording_overview,
+    residuals_over_time, state_and_jerk_figure,
 };
 use super::fit::fit_table;
 use super::holds::{hold_summary, hold_table};
 use super::html::{Page, escape, facts};
 use super::parameters::{correction, parameter_table};
 use super::verdict::verdict;
+use super::{About, before_after};
 use crate::estimate::{Calibration, HoldCalibration, Recovered, RecoveredMotion};
 use crate::sensor::Recording;
 
@@ -88,6 +89,16 @@ fn motion_section(
 }
 
 fn hold_section(page: &mut Page, calibration: &Calibration, holds: &HoldCalibration, recording: &Recording) {
+    page.section(
+        "Before and after correction",
+        "What the correction makes of the readings that it was found from.",
+    );
+    page.push(before_after::of_holds(holds));
+    let figures =
+        [holds_before_and_after(holds), force_before_and_after(holds, &calibration.sensor, recording)];
+    for figure in figures {
+        page.push(figure.map_or_else(String::new, |figure| figure.html()));
+    }
     page.section("Holds", "The sensor was kept still in several orientations; in each, the corrected reading has the magnitude of gravity.");
     page.push(hold_summary(holds));
     page.push(hold_residuals(holds).html());

@@ -4,6 +4,7 @@
 //! their digits ([`number`]), and figures, which are data (`figure`) until the page is written.
 
 mod about;
+mod before_after;
 mod calibration;
 mod design;
 mod evaluation;

@@ -3,6 +3,8 @@
 //! Every item of work (a sensor, a motion) has a ChaCha stream of its own under the common seed, so that results do not depend on the
 //! number of threads or on the order in which items are made.
 
+mod draw_imu;
+mod faces;
 mod holds;
 mod imu;
 mod initial_motion;
@@ -11,6 +13,8 @@ mod population;
 mod recording;
 
 pub use crate::motion::sample_times;
+pub use draw_imu::{GyroscopeToDraw, draw_imu};
+pub use faces::{TableAction, TableStep, simulate_table};
 pub use holds::{HoldsSimulation, simulate_holds};
 pub use imu::{ImuSimulation, simulate_imu};
 pub use initial_motion::initial_motion;

@@ -55,6 +55,7 @@ fn it_says_everything_that_is_needed_to_judge_it() {
     assert!(number(&holds["table"][0]["mean_counts"][0]) > 3e4);
     let noise = number(&json["still_gyroscope"]["noise_per_sample_counts"][1]);
     assert!((noise / 20.0 - 1.0).abs() < 0.1, "{noise}");
+    assert_eq!(json["still_gyroscope"]["noise_source"], "scatter within holds");
     assert_eq!(json["still_gyroscope"]["between_holds_sd_counts"].as_array().expect("a list").len(), 3);
 
     let rotations = &json["rotations"];

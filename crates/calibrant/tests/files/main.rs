@@ -5,6 +5,7 @@ mod common;
 
 mod broken;
 mod conventions;
+mod corrected;
 mod earlier;
 mod experiments;
 mod good;

@@ -3,7 +3,7 @@
 use calibrant::Error;
 use calibrant::estimate::{
     Calibration, CalibrationStatus, FitStatistics, HoldCalibration, HoldResult, Recovered, RecoveredMotion,
-    Whiteness,
+    Uncalibrated, Whiteness,
 };
 use calibrant::io::{
     Input, ReadOptions, SummaryRow, calibration_json, read_motion, read_recording, truth_json,
@@ -213,6 +213,10 @@ pub(super) fn holds_in_counts() -> Calibration {
         magnitude_residual_rms_mps2: 0.001,
         condition_number: 50.0,
         detected: true,
+        before: Uncalibrated {
+            sensor: SensorParameters::identity(),
+            source: "the readings as they are".into(),
+        },
     };
     let parameters = SensorParameters {
         bias: Vector3::new(100.0, 200.0, 300.0),

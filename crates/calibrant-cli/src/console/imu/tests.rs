@@ -22,6 +22,8 @@ fn it_says_what_was_used_what_was_found_and_how_good_it_is() {
         "(°/s)/g",
         "after a rotation, gravity is met within 0.0",
         "known turns are met within",
+        "noise of a gyroscope sample ",
+        " counts, from: scatter within holds",
         "converged after",
     ] {
         assert!(text.contains(says), "{says}\n{text}");

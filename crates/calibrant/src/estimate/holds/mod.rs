@@ -29,7 +29,7 @@ mod verdict;
 
 use super::{
     Calibration, CalibrationProblem, CalibrationSettings, FitStatistics, HoldCalibration, HoldResult,
-    Recovered, statistics,
+    Recovered, Uncalibrated, statistics,
 };
 use crate::error::{Complaint, Error, Result};
 use crate::motion::{Gravity, Hold};
@@ -167,6 +167,7 @@ fn assemble(
             magnitude_residual_rms_mps2: magnitude.sqrt(),
             condition_number: robust.condition_number,
             detected: setup.intervals_s.is_none(),
+            before: Uncalibrated::accelerometer(problem.sensor, &sensor),
         }),
         residuals: Vec::new(),
         first_sample: 0,

@@ -7,12 +7,14 @@ use super::solver::singular;
 use super::thermal::Climate;
 use super::verdict;
 use super::weights::Weighed;
-use super::{ImuCalibration, ImuProblem, RotationResult, StillGyroscope, TurnResult};
+use super::{ImuCalibration, ImuProblem, NoiseSource, RotationResult, StillGyroscope, TurnResult};
 use crate::error::Result;
-use crate::estimate::HoldCalibration;
+use crate::estimate::{HoldCalibration, Uncalibrated};
 use crate::information;
-use crate::sensor::{ImuParameters, ImuQuantity, Quantity, Recording, Triad};
-use nalgebra::{DVector, Vector3};
+use crate::sensor::{
+    Correction, ImuParameters, ImuQuantity, Quantity, ReadingUnit, Recording, SensorParameters, Triad,
+};
+use nalgebra::{DVector, Matrix3, Vector3};
 use std::ops::Range;
 
 /// Everything that the result is put together from.
@@ -23,6 +25,7 @@ pub(super) struct Finished<'a> {
     pub(super) before: &'a ImuParameters,
     pub(super) between: Vector3<f64>,
     pub(super) integrable: &'a Integrable<'a>,
+    pub(super) noise_source: NoiseSource,
     pub(super) spans: &'a [Range<usize>],
     pub(super) chosen: &'a [usize],
     pub(super) climate: &'a Climate<'a>,
@@ -61,7 +64,8 @@ impl Finished<'_> {
             }),
         );
         covariance += &slope * slope.transpose() * (g.sd_mps2 * g.sd_mps2);
-        let rotations = self.rotations(gyroscope);
+        let before = self.gyroscope_before(problem);
+        let rotations = self.rotations(gyroscope, &before);
         let counted = rotations.iter().filter(|rotation| rotation.used).count();
         let stills = joint.holds.iter().filter(|hold| hold.gyroscope.is_some()).count();
         let equations = 3 * joint.holds.len() + 3 * stills + 2 * counted + 3 * joint.turns.len();
@@ -75,13 +79,13 @@ impl Finished<'_> {
             .iter()
             .zip(&problem.setup.turns)
             .map(|(data, turn)| {
-                let there = imu.at(data.temperature_c).gyroscope;
-                let correction = there.matrix.try_inverse().ok_or_else(singular)?;
+                let correction =
+                    imu.at(data.temperature_c).gyroscope.matrix.try_inverse().ok_or_else(singular)?;
                 Ok(TurnResult {
                     start_s: turn.start_s,
                     end_s: turn.end_s,
                     angle_rad: data.angle,
-                    measured_rad: correction * (data.integral - there.bias * data.duration_s),
+                    measured_rad: data.angle + correction * joint.turn_residual(data, &imu),
                 })
             })
             .collect::<Result<_>>()?;
@@ -102,7 +106,16 @@ impl Finished<'_> {
             chi2: fit.chi2,
             degrees_of_freedom: equations.saturating_sub(unknowns),
             holds,
-            still: StillGyroscope { noise: joint.gyroscope_noise, between_holds_sd: self.between },
+            still: StillGyroscope {
+                noise: joint.gyroscope_noise,
+                noise_source: self.noise_source,
+                between_holds_sd: self.between,
+                rate_rms_radps: self.rate_rms(&imu.gyroscope, &imu.g_sensitivity).ok_or_else(singular)?,
+                rate_rms_before_radps: self
+                    .rate_rms(&before.sensor, &Matrix3::zeros())
+                    .ok_or_else(singular)?,
+            },
+            gyroscope_before: before,
             rotations,
             rotation_excess_sd_rad: joint.excess_rad,
             turns,
@@ -114,9 +127,45 @@ impl Finished<'_> {
         Ok(calibration)
     }
 
-    fn rotations(&self, gyroscope: &Recording) -> Vec<RotationResult> {
+    /// The mean rate that a gyroscope shows in the holds, root mean square over them; `None` where its matrix is singular.
+    fn rate_rms(&self, gyroscope: &SensorParameters, g_sensitivity: &Matrix3<f64>) -> Option<f64> {
+        let correction = Correction::of(gyroscope)?;
+        let rates: Vec<f64> = self
+            .joint
+            .holds
+            .iter()
+            .zip(&self.fit.state.forces)
+            .filter_map(|(hold, force)| {
+                let (mean, _) = hold.gyroscope.as_ref()?;
+                Some(correction.apply(&(mean - g_sensitivity * force)).norm_squared())
+            })
+            .collect();
+        Some((rates.iter().sum::<f64>() / rates.len().max(1) as f64).sqrt())
+    }
+
+    /// The gyroscope before: the datasheet's gain and the mean reading at rest; where the gain had to be found, one for all axes.
+    fn gyroscope_before(&self, problem: &ImuProblem<'_>) -> Uncalibrated {
+        let mut sensor = self.before.gyroscope;
+        let nominal = problem.gyroscope.gain.map(|gain| Matrix3::from_diagonal(&gain));
+        let source = match problem.gyroscope.unit {
+            ReadingUnit::Counts if nominal == Some(sensor.matrix) => {
+                "the datasheet's gain, less the mean reading at rest"
+            }
+            ReadingUnit::Counts => {
+                let gain = |matrix: &Matrix3<f64>| matrix.row_iter().map(|row| row.norm()).sum::<f64>() / 3.0;
+                // the search for a start keeps the order of the axes, its gain is a rough one
+                sensor.matrix *= gain(&self.fit.state.imu.gyroscope.matrix) / gain(&sensor.matrix);
+                "one gain for all axes, the mean of those found, less the mean reading at rest"
+            }
+            _ => "the readings less their mean at rest",
+        };
+        Uncalibrated { sensor, source: source.to_owned() }
+    }
+
+    fn rotations(&self, gyroscope: &Recording, before: &Uncalibrated) -> Vec<RotationResult> {
         let joint = self.joint;
-        let with_before = State { imu: *self.before, forces: self.fit.state.forces.clone() };
+        let uncalibrated = ImuParameters { gyroscope: before.sensor, ..*self.before };
+        let with_before = State { imu: uncalibrated, forces: self.fit.state.forces.clone() };
         let angle = |miss: &Miss| miss.error.norm().min(1.0).asin();
         joint
             .rotations

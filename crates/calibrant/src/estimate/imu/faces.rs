@@ -5,7 +5,7 @@
 
 use super::ImuProblem;
 use crate::error::{Complaint, Error, NotIdentifiable, Result, UndeterminedGroup};
-use crate::estimate::{HoldCalibration, HoldResult, HoldsSetup, holds_between};
+use crate::estimate::{HoldCalibration, HoldResult, Uncalibrated, holds_between};
 use crate::information;
 use crate::motion::Hold;
 use crate::sensor::{ParameterList, Recording, SensorParameters, TriadThermal};
@@ -73,30 +73,21 @@ pub(super) fn fit(
     Ok(First {
         sensor,
         within: linear.within,
-        holds: summary(setup, results, between, rms, condition),
+        holds: HoldCalibration {
+            holds: results,
+            gravity: setup.gravity,
+            gauge: setup.gauge,
+            between_holds_sd_mps2: between,
+            between_holds_dominates: between > 0.0,
+            magnitude_residual_rms_mps2: rms,
+            condition_number: condition,
+            detected: false,
+            before: Uncalibrated::accelerometer(problem.accelerometer, &sensor),
+        },
         warnings: Vec::new(),
         thermal: TriadThermal::default(),
         adjusted: None,
     })
-}
-
-fn summary(
-    setup: &HoldsSetup,
-    holds: Vec<HoldResult>,
-    between: f64,
-    rms: f64,
-    condition: f64,
-) -> HoldCalibration {
-    HoldCalibration {
-        holds,
-        gravity: setup.gravity,
-        gauge: setup.gauge,
-        between_holds_sd_mps2: between,
-        between_holds_dominates: between > 0.0,
-        magnitude_residual_rms_mps2: rms,
-        condition_number: condition,
-        detected: false,
-    }
 }
 
 struct Linear<'a> {

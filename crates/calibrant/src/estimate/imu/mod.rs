@@ -30,7 +30,7 @@ mod thermal;
 mod verdict;
 mod weights;
 
-pub use problem::{Gyroscope, ImuProblem, ImuSetup, KnownTerm, Turn};
+pub use problem::{Gyroscope, ImuProblem, ImuSetup, KnownTerm, NoiseSource, Turn, WhiteNoise};
 pub use result::{ImuCalibration, RotationResult, StillGyroscope, TurnResult};
 pub use solver::calibrate_imu;
 pub use thermal::ThermalModel;

@@ -27,7 +27,7 @@ pub struct Gyroscope {
     pub model: SensorModel,
     /// Nominal gain in counts/(rad/s), where it is known; 1 for rad/s.
     pub gain: Option<Vector3<f64>>,
-    /// Standard deviation of one sample's noise, in the unit of the readings; from the holds where it is not known.
+    /// Standard deviation of one sample's noise, in the unit of the readings; from the recording where it is not known.
     pub noise: Option<Vector3<f64>>,
     /// Is the g-sensitivity estimated?
     pub g_sensitivity: bool,
@@ -58,6 +58,49 @@ pub struct ImuSetup {
     pub known: Vec<KnownTerm>,
     /// What is to follow temperature.
     pub thermal: ThermalModel,
+    /// White noise of the gyroscope as a long hold of this recording shows it: what counts where the datasheet gives no noise.
+    pub white_noise: Option<WhiteNoise>,
+}
+
+/// White noise of one sample, from the Allan deviation of a hold.
+///
+/// The scatter of samples about the mean of their hold contains the slow wander of the bias, too; the white part alone is what averages out.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WhiteNoise {
+    /// Standard deviation `N √f_s` per axis, in the unit of the readings.
+    pub sd: Vector3<f64>,
+    /// The hold, from 0.
+    pub hold: usize,
+    /// Duration of what was examined of it, s.
+    pub duration_s: f64,
+}
+
+/// Where the noise of a gyroscope's sample comes from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum NoiseSource {
+    /// The datasheet.
+    Datasheet,
+    /// The Allan deviation of a hold of this recording.
+    AllanDeviation {
+        /// The hold, from 0.
+        hold: usize,
+        /// Duration of what was examined of it, s.
+        duration_s: f64,
+    },
+    /// The scatter of the samples within the holds of this recording.
+    ScatterWithinHolds,
+}
+
+impl std::fmt::Display for NoiseSource {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Datasheet => f.write_str("datasheet"),
+            Self::AllanDeviation { hold, duration_s } => {
+                write!(f, "Allan deviation of hold {} ({duration_s:.1} s)", hold + 1)
+            }
+            Self::ScatterWithinHolds => f.write_str("scatter within holds"),
+        }
+    }
 }
 
 /// A turn of known angle about an axis that is fixed in the sensor: the Ferraris procedure, or a turntable.

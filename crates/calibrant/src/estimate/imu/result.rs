@@ -1,6 +1,7 @@
 //! What the calibration of an IMU gives.
 
-use crate::estimate::{CalibrationStatus, HoldCalibration};
+use super::NoiseSource;
+use crate::estimate::{CalibrationStatus, HoldCalibration, Uncalibrated};
 use crate::sensor::{CalibratedImu, Gauge, ImuParameters, ImuQuantity, ReadingUnit, SensorModel, Triad};
 use nalgebra::{DMatrix, Vector3};
 
@@ -35,6 +36,8 @@ pub struct ImuCalibration {
     pub holds: HoldCalibration,
     /// What the gyroscope showed in the holds.
     pub still: StillGyroscope,
+    /// The gyroscope before its calibration.
+    pub gyroscope_before: Uncalibrated,
     /// The rotations between holds, in order of time.
     pub rotations: Vec<RotationResult>,
     /// Error of a rotation beyond what the gyroscope's noise explains, per axis, rad.
@@ -50,10 +53,16 @@ pub struct ImuCalibration {
 /// The gyroscope in the holds.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StillGyroscope {
-    /// Standard deviation of one sample within holds, in the unit of the readings.
+    /// Standard deviation of one sample's noise, in the unit of the readings.
     pub noise: Vector3<f64>,
+    /// Where it comes from.
+    pub noise_source: NoiseSource,
     /// Standard deviation between holds beyond this noise: a wandering bias, the Earth's rotation, g-sensitivity that is not estimated.
     pub between_holds_sd: Vector3<f64>,
+    /// Root mean square over the holds of the mean rate that the calibrated gyroscope shows, all axes together, rad/s.
+    pub rate_rms_radps: f64,
+    /// The same before the calibration, rad/s.
+    pub rate_rms_before_radps: f64,
 }
 
 /// A rotation between two holds and its fit.

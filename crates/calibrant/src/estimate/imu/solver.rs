@@ -8,7 +8,7 @@ use super::settle::{apply, reweigh, settle};
 use super::still::{Explanation, Still, between_sd, pooled_noise, still, weigh};
 use super::thermal::{self, Climate};
 use super::verdict::{self, undetermined, vague};
-use super::{ImuCalibration, ImuProblem, start};
+use super::{ImuCalibration, ImuProblem, NoiseSource, start};
 use crate::error::{Complaint, Error, Result};
 use crate::estimate::{CalibrationProblem, CalibrationSettings, HoldsSetup, Recovered, Stimulus, calibrate};
 use crate::information;
@@ -50,7 +50,7 @@ pub fn calibrate_imu(problem: &ImuProblem<'_>, settings: &CalibrationSettings) -
             "both need the same clock: are these files of one recording?",
         )));
     }
-    let noise = problem.gyroscope.noise.unwrap_or_else(|| pooled_noise(&stills));
+    let (noise, noise_source) = sample_noise(problem, &stills);
     let quantities = quantities(problem);
     let prior = prior(problem, &quantities);
     let mut data = hold_data(&first, &chosen, setup.directions.is_some(), &climate);
@@ -143,6 +143,7 @@ pub fn calibrate_imu(problem: &ImuProblem<'_>, settings: &CalibrationSettings) -
         before: &before,
         between,
         integrable: &integrable,
+        noise_source,
         spans: &spans,
         chosen: &chosen,
         climate: &climate,
@@ -155,6 +156,17 @@ pub(super) fn singular() -> Error {
         "the fit of the rotations breaks down: an estimated matrix becomes singular",
         "check the units of both sensors and that the files belong together",
     ))
+}
+
+/// Noise of a gyroscope's sample: that of the datasheet, else what a long hold shows, else the scatter within holds.
+fn sample_noise(problem: &ImuProblem<'_>, stills: &[Option<Still>]) -> (Vector3<f64>, NoiseSource) {
+    match (problem.gyroscope.noise, &problem.setup.white_noise) {
+        (Some(noise), _) => (noise, NoiseSource::Datasheet),
+        (None, Some(white)) => {
+            (white.sd, NoiseSource::AllanDeviation { hold: white.hold, duration_s: white.duration_s })
+        }
+        (None, None) => (pooled_noise(stills), NoiseSource::ScatterWithinHolds),
+    }
 }
 
 /// Both recordings, of three axes and the units that are expected.

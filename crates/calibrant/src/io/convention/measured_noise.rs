@@ -4,7 +4,7 @@ use super::{ImuNoise, LARGEST, complaint};
 use crate::error::{Error, Result};
 use crate::io::json;
 use crate::io::text::{self, Checked};
-use crate::sensor::{CalibratedImu, ReadingUnit, Triad};
+use crate::sensor::{CalibratedImu, Triad};
 use serde::Deserialize;
 use std::path::Path;
 
@@ -40,7 +40,7 @@ struct Coefficient {
 /// A coefficient that is not determined on every axis is not given: Kalibr's users put a multiple of the datasheet's there.
 ///
 /// # Errors
-/// [`Error::Experiment`] with the file: not readable, no `noise.json`, a number that is not positive, a sensor that the calibration does not have in this unit.
+/// [`Error::Experiment`] with the file: not readable, no `noise.json`, a number that is not positive, counts of a sensor whose calibration is of SI readings.
 pub fn read_measured_noise(path: &Path, imu: &CalibratedImu) -> Result<ImuNoise> {
     let read = || -> Checked<ImuNoise> {
         let bytes = text::read_bytes(path, LARGEST, "noise.json")?;
@@ -60,19 +60,22 @@ fn take(noise: &mut ImuNoise, sensor: &Sensor, imu: &CalibratedImu) -> Checked<(
         return Err(complaint(format!("no sensor is called \"{}\"", sensor.sensor), HELP));
     };
     let Some(unit) = imu.unit(triad) else { return Ok(()) };
-    if unit.symbol() != sensor.reading_unit {
+    let is_physical = sensor.reading_unit == triad.stimulus_unit().symbol();
+    if !is_physical && unit.symbol() != sensor.reading_unit {
         let message = format!(
             "the noise of the {triad} is in {}, the calibration in {}",
             sensor.reading_unit,
             unit.symbol()
         );
-        return Err(complaint(message, "both must come from the same kind of readings"));
+        return Err(complaint(
+            message,
+            "run `calibrant noise` on the same readings, or give it their --gain",
+        ));
     }
     let matrix = &imu.parameters.triad(triad).matrix;
-    let gain = |name: &str| match (unit, ["x", "y", "z"].iter().position(|axis| *axis == name)) {
-        (ReadingUnit::Counts, Some(row)) => Some(matrix.row(row).norm()),
-        (_, Some(_)) => Some(1.0),
-        _ => None,
+    let gain = |name: &str| {
+        let row = ["x", "y", "z"].iter().position(|axis| *axis == name)?;
+        Some(if is_physical { 1.0 } else { matrix.row(row).norm() })
     };
     let largest = |of: fn(&Axis) -> &Coefficient| -> Option<f64> {
         let densities: Option<Vec<f64>> =

@@ -12,7 +12,6 @@
 //! the answer unnoticed is an error.
 
 mod columns;
-mod decimal;
 mod finding;
 mod imu;
 mod quality;
@@ -25,7 +24,7 @@ pub use imu::{
     ColumnMapping, ColumnMeaning, ColumnUnit, FileFormat, ImuColumn, ImuFile, ImuReadOptions, ImuUnit,
     TimeUnit, parse_imu_pair, parse_imu_recording, read_accelerometer, read_imu_pair, read_imu_recording,
 };
-pub use write::write_recording;
+pub use write::{write_imu_recording, write_recording};
 
 use super::delimited::Lines;
 use super::text::{self, Checked};

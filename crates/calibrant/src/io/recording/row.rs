@@ -1,6 +1,5 @@
 //! One row of a recording: its fields as numbers, each in its slot, or a complaint that points at the field.
 
-use super::decimal::decimal;
 use crate::error::Complaint;
 use crate::io::delimited::{Delimiter, Line};
 use crate::io::text::Checked;
@@ -180,7 +179,7 @@ impl<'l> RowReader<'l> {
 
 /// A field as a number; NaN where it is missing, `None` where it is something else.
 fn number(field: &str) -> Option<f64> {
-    if let Some(value) = decimal(field.as_bytes()).or_else(|| field.parse().ok()) {
+    if let Ok(value) = field.parse() {
         return Some(value);
     }
     let missing = field.is_empty()

@@ -1,8 +1,8 @@
 //! `recording.csv`.
 
-use crate::error::Result;
+use crate::error::{Complaint, Error, Result};
 use crate::io::output::write_atomically;
-use crate::sensor::Recording;
+use crate::sensor::{Axis, ImuRecording, Recording, Triad};
 use std::path::Path;
 
 /// Writes a recording as CSV with the header `t_s,ax_mps2,ay_mps2,az_mps2` (or `_counts`; only `ax` for one axis).
@@ -23,6 +23,43 @@ pub fn write_recording(path: &Path, recording: &Recording) -> Result<()> {
             for value in &reading.as_slice()[..recording.axes] {
                 write!(out, ",{value:?}")?;
             }
+            writeln!(out)?;
+        }
+        Ok(())
+    })
+}
+
+/// Writes a recording of an IMU as CSV with the header `t_s,ax_mps2,ay_mps2,az_mps2,gx_radps,gy_radps,gz_radps` (or `_counts`).
+///
+/// Numbers are written with the fewest digits that read back to the same bits.
+///
+/// # Errors
+/// [`Error::Recording`] where a sensor is missing or the sensors' times differ, which this file has no place for; [`Error::Output`] where it cannot be
+/// written.
+pub fn write_imu_recording(path: &Path, recording: &ImuRecording) -> Result<()> {
+    let (Some(accelerometer), Some(gyroscope)) = (&recording.accelerometer, &recording.gyroscope) else {
+        let complaint = Complaint::new("the recording has one sensor only", "write that sensor's recording");
+        return Err(Error::recording(complaint));
+    };
+    if accelerometer.times_s != gyroscope.times_s {
+        let complaint = Complaint::new(
+            "the sensors have different sample times",
+            "write each sensor's recording by itself",
+        );
+        return Err(Error::recording(complaint));
+    }
+    write_atomically(path, |out| {
+        write!(out, "t_s")?;
+        for (triad, readings) in [(Triad::Accelerometer, accelerometer), (Triad::Gyroscope, gyroscope)] {
+            for axis in Axis::ALL {
+                write!(out, ",{}{axis}_{}", &triad.name()[..1], readings.unit.suffix())?;
+            }
+        }
+        writeln!(out)?;
+        let readings = accelerometer.readings.iter().zip(&gyroscope.readings);
+        for (t, (a, g)) in accelerometer.times_s.iter().zip(readings) {
+            write!(out, "{t:?}")?;
+            a.iter().chain(g).try_for_each(|value| write!(out, ",{value:?}"))?;
             writeln!(out)?;
         }
         Ok(())

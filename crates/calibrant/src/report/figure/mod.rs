@@ -5,6 +5,7 @@
 //! series themselves. [`draw`] is the only place that knows the plotting library.
 
 mod allan;
+mod before_after;
 mod correlation;
 mod design_population;
 mod draw;
@@ -26,6 +27,7 @@ mod thin;
 mod unit;
 
 pub(super) use allan::allan_figure;
+pub(super) use before_after::{force_before_and_after, holds_before_and_after, imu_before_and_after};
 pub(super) use correlation::{correlation_map, correlation_map_of};
 pub(super) use design_population::{absolute_errors, optimal_motions, traces};
 pub(super) use ellipse::confidence_ellipses;

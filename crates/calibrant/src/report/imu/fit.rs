@@ -37,7 +37,7 @@ pub(super) fn fit_table(calibration: &ImuCalibration) -> String {
     row(
         "gyroscope's noise x, y, z",
         axes(&calibration.still.noise),
-        "Standard deviation of one sample within holds, or as given.",
+        &format!("Standard deviation of one sample, from: {}.", calibration.still.noise_source),
     );
     row(
         "between holds x, y, z",

@@ -13,14 +13,14 @@ pub use parameters::over_the_gain;
 pub use quality::imu_quality;
 pub use temperature::temperature_in_words;
 
-use super::About;
 use super::figure::{
-    bias_over_temperature, correlation_map_of, hold_directions, hold_residuals, recording_overview,
-    rotation_errors, still_gyroscope,
+    bias_over_temperature, correlation_map_of, hold_directions, hold_residuals, holds_before_and_after,
+    imu_before_and_after, recording_overview, rotation_errors, still_gyroscope,
 };
 use super::holds::{hold_summary, hold_table};
 use super::html::{Page, escape, facts};
 use super::noise::noise_section;
+use super::{About, before_after};
 use crate::estimate::ImuCalibration;
 use crate::noise::TriadNoise;
 use crate::sensor::{ImuRecording, Triad};
@@ -59,6 +59,15 @@ pub fn imu_calibration_report(
 
     page.section("Correction, raw → true", "");
     page.push(correction::correction(calibration));
+
+    page.section(
+        "Before and after correction",
+        "What the correction makes of the readings that it was found from.",
+    );
+    page.push(before_after::of_imu(calibration));
+    for figure in [holds_before_and_after(&calibration.holds), imu_before_and_after(calibration, recording)] {
+        page.push(figure.map_or_else(String::new, |figure| figure.html()));
+    }
 
     page.section("Holds", "The IMU was kept still in several orientations; in each, the corrected accelerometer has the magnitude of gravity and the corrected gyroscope is zero.");
     page.push(hold_summary(&calibration.holds));

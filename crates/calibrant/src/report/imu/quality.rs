@@ -3,7 +3,7 @@
 use crate::estimate::ImuCalibration;
 use crate::report::number;
 
-/// How well gravity is met after rotations, known turns and in holds: `after a rotation, gravity is met within 0.12° rms (4.3° before); …`.
+/// How well gravity is met after rotations, known turns and in holds: `after a rotation, gravity is met within 0.12° rms (3.4° before); …`.
 #[must_use]
 pub fn imu_quality(calibration: &ImuCalibration) -> String {
     let mut parts = Vec::new();

@@ -1,6 +1,6 @@
 //! Pages on a whole IMU.
 
-use super::super::{About, imu_calibration_report};
+use super::super::{About, imu_calibration_report, number};
 use super::{about, assert_sound, estimate, motion, sensor};
 use crate::estimate::CalibrationStatus;
 use crate::noise::{Stretch, TriadNoise};
@@ -33,6 +33,11 @@ fn a_page_shows_both_sensors_the_holds_the_rotations_and_the_turns() {
         "z of both sensors",
         "ω = C_g (y_g − b_g − Γ f)",
         "C_g = [[",
+        "Before and after correction",
+        "Gravity in each hold, before and after",
+        "Before: one gain and one offset for all axes: the means of those found.",
+        "gain, less the mean reading at rest.",
+        "what the correction changes",
         "Magnitude residual of each hold",
         "The gyroscope at rest",
         "Gravity after each rotation",
@@ -49,6 +54,31 @@ fn a_page_shows_both_sensors_the_holds_the_rotations_and_the_turns() {
     // what is to be copied is plain
     let copied = html.split("<pre>").nth(1).and_then(|rest| rest.split("</pre>").next()).expect("there");
     assert!(copied.is_ascii() && copied.contains("b_a = [3.31"), "{copied}");
+}
+
+/// One gain and one offset for all axes, by hand: `|mean − b̄|/K̄ − g` in each hold.
+#[test]
+fn the_magnitude_before_is_that_of_plain_readings() {
+    let case = imus::imu_case(14, 1);
+    let (holds, imu) = (&case.calibration.holds, &case.calibration.imu.accelerometer);
+    let readings = &case.recording.accelerometer.as_ref().expect("recorded").readings;
+    let bias = (imu.bias.x + imu.bias.y + imu.bias.z) / 3.0;
+    let gain = imu.matrix.row_iter().map(|row| row.norm()).sum::<f64>() / 3.0;
+    let mut squares = 0.0;
+    for result in &holds.holds {
+        let samples = &readings[result.hold.first..result.hold.end];
+        let mean = samples.iter().sum::<nalgebra::Vector3<f64>>() / samples.len() as f64;
+        let residual = mean.map(|y| (y - bias) / gain).norm() - 9.81;
+        let found = holds.magnitude_residual_before_mps2(&result.hold).expect("regular");
+        assert!((found - residual).abs() < 1e-9, "{found} beside {residual}");
+        squares += residual * residual;
+    }
+    let rms = (squares / holds.holds.len() as f64).sqrt();
+    let found = holds.magnitude_residual_rms_before_mps2().expect("regular");
+    assert!((found / rms - 1.0).abs() < 1e-9 && rms > 0.5, "{found} beside {rms}");
+    let html = imu_calibration_report(&case.calibration, &case.recording, &[], &about());
+    let [before, after] = [found, holds.magnitude_residual_rms_mps2].map(|v| number::significant(v, 3));
+    assert!(html.contains(&format!("{before} → {after} m/s², ")), "{before} → {after}");
 }
 
 #[test]

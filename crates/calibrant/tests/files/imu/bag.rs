@@ -241,3 +241,20 @@ fn bags_that_cannot_be_used_say_why() {
         assert_eq!(refused(&bytes, &options), expected);
     }
 }
+
+/// A text that says it has 2.5 GiB: the container's crate would reserve them.
+#[test]
+fn a_text_longer_than_its_record_is_refused_without_taking_its_word() {
+    // names and encodings of a schema and of a channel
+    for text in [IMU, "ros2msg", "/imu/data_raw", "cdr"] {
+        let bag = one();
+        let needle = [&(text.len() as u32).to_le_bytes()[..], text.as_bytes()].concat();
+        let places: Vec<usize> =
+            (0..bag.len() - needle.len()).filter(|&k| bag[k..].starts_with(&needle)).collect();
+        assert!(!places.is_empty(), "{text}");
+        let mut broken = bag;
+        broken[places[0]..places[0] + 4].copy_from_slice(&2_587_885_575_u32.to_le_bytes());
+        let error = parse_imu_recording(&broken, &ImuReadOptions::default()).expect_err(text).to_string();
+        assert!(error.contains("the MCAP container is damaged"), "{text}: {error}");
+    }
+}

@@ -114,6 +114,9 @@ impl Bag {
         if ![SCHEMA, CHANNEL, MESSAGE].contains(&opcode) {
             return Ok(());
         }
+        if !texts_end(opcode, data) {
+            return Err(damaged(&McapError::UnexpectedEof).into());
+        }
         match mcap::parse_record(opcode, data).map_err(|error| damaged(&error))? {
             Record::Schema { header, .. } => {
                 self.schemas.insert(header.id, header.name);
@@ -184,6 +187,31 @@ impl Bag {
             };
             Complaint::new(message, "record the topic of the IMU").into()
         })
+    }
+}
+
+/// Do the texts of a schema or a channel end within the record? `mcap::parse_record` reserves as many bytes as a text says it has, up to 4 GiB, before it
+/// looks whether they are there.
+fn texts_end(opcode: u8, data: &[u8]) -> bool {
+    /// What follows a block that begins with its length.
+    fn after(data: &[u8]) -> Option<(&[u8], &[u8])> {
+        let (length, rest) = data.split_first_chunk::<4>()?;
+        rest.split_at_checked(usize::try_from(u32::from_le_bytes(*length)).ok()?)
+    }
+    let two = |data: &[u8]| Some(after(after(data)?.1)?.1.len());
+    match opcode {
+        // id, name, encoding
+        SCHEMA => data.get(2..).and_then(two).is_some(),
+        // id, schema, topic, encoding, and pairs of texts
+        CHANNEL => data.get(4..).and_then(two).is_some_and(|left| {
+            after(&data[data.len() - left..]).is_some_and(|(mut pairs, _)| {
+                while let Some((_, rest)) = after(pairs) {
+                    pairs = rest;
+                }
+                pairs.is_empty()
+            })
+        }),
+        _ => true,
     }
 }
 

@@ -1,0 +1,158 @@
+//! `calibrant simulate` for a whole IMU: turned by hand, or on a table as the experiment lists it.
+
+use super::Arguments;
+use crate::console;
+use calibrant::Error;
+use calibrant::error::Complaint;
+use calibrant::io::{Experiment, HoldsPlan, ImuPlan, write_imu_recording, write_imu_truth};
+use calibrant::sensor::{
+    CalibratedImu, ImuParameters, ImuQuantity, ImuRecording, ParameterList, ReadingUnit, Triad,
+};
+use calibrant::simulate::{
+    GyroscopeToDraw, ImuSimulation, Purpose, TableAction, TableStep, draw_imu, simulate_imu, simulate_table,
+    stream,
+};
+use nalgebra::Vector3;
+
+/// Duration of a turn by hand, s.
+const TURN_S: f64 = 2.0;
+
+pub(super) fn run(
+    arguments: &Arguments,
+    experiment: &Experiment,
+    holds: &HoldsPlan,
+    plan: &ImuPlan,
+    seed: u64,
+) -> calibrant::Result<usize> {
+    let sensor = &experiment.sensor;
+    let needs = |key: &str| {
+        let complaint =
+            Complaint::new(format!("a simulation of counts needs `{key}`"), "add it to the experiment file");
+        Error::Experiment(Box::new(complaint.in_file(&arguments.experiment).about_key(key)))
+    };
+    let ones = Vector3::repeat(1.0);
+    let gain_a = sensor.gain.ok_or_else(|| needs("sensor.gain_counts_per_mps2"))?;
+    let gain_g = match plan.gyroscope.unit {
+        ReadingUnit::Counts => plan.gyroscope.gain.ok_or_else(|| needs("gyroscope.gain_counts_per_radps"))?,
+        _ => ones,
+    };
+    let mut rng = stream(seed, Purpose::Sensor, 0);
+    let gyroscope = GyroscopeToDraw {
+        model: plan.gyroscope.model,
+        gain: gain_g,
+        g_sensitivity: plan.gyroscope.g_sensitivity,
+    };
+    let drawn = draw_imu(sensor, &gyroscope, &mut rng);
+    let usual = ImuSimulation::default();
+    let noise_a = sensor.noise(&gain_a).unwrap_or_else(|| gain_a * usual.accelerometer_noise);
+    let noise_g = plan.gyroscope.noise.unwrap_or_else(|| gain_g * usual.gyroscope_noise);
+    let setup = ImuSimulation {
+        poses: holds.poses,
+        hold_s: holds.hold_s,
+        turn_s: TURN_S,
+        rate_hz: holds.rate_hz,
+        gravity_mps2: holds.gravity.magnitude_mps2,
+        accelerometer_noise: one_for_all(Triad::Accelerometer, &noise_a),
+        gyroscope_noise: one_for_all(Triad::Gyroscope, &noise_g),
+        accelerometer_unit: sensor.unit,
+        gyroscope_unit: plan.gyroscope.unit,
+        temperature_c: None,
+    };
+    if !plan.thermal.is_none() {
+        console::warn("[temperature] is not simulated: the recording has no temperature");
+    }
+    let units = [sensor.unit, plan.gyroscope.unit];
+    let on_table = table(holds, plan);
+    // on a table the faces are the true frame, by hand the accelerometer's gauge fixes it
+    let (truth, recording): (ImuParameters, ImuRecording) = match &on_table {
+        Some(steps) => {
+            check_order(steps)?;
+            (drawn, simulate_table(&drawn, steps, &setup, &mut rng))
+        }
+        None => {
+            let truth = in_gauge(&drawn, units, holds)?;
+            (truth, simulate_imu(&truth, &setup, &mut rng))
+        }
+    };
+    let of_accelerometer = match &on_table {
+        Some(_) => ParameterList::new(3, sensor.model),
+        None => holds.gauge.parameter_list(sensor.model),
+    };
+    let quantities = quantities(&of_accelerometer, plan);
+    write_imu_truth(&arguments.output.join("truth.json"), seed, &quantities, units, &truth)?;
+    write_imu_recording(&arguments.output.join("recording.csv"), &recording)?;
+    Ok(recording.accelerometer.map_or(0, |recording| recording.len()))
+}
+
+/// What a calibration of this experiment finds, in its order.
+fn quantities(accelerometer: &ParameterList, plan: &ImuPlan) -> Vec<ImuQuantity> {
+    let gyroscope = ParameterList::new(3, plan.gyroscope.model);
+    let mut quantities = Vec::new();
+    for (triad, list) in [(Triad::Accelerometer, accelerometer), (Triad::Gyroscope, &gyroscope)] {
+        quantities.extend(list.quantities().iter().map(|quantity| ImuQuantity::Of(triad, *quantity)));
+    }
+    if plan.gyroscope.g_sensitivity {
+        quantities.extend(ImuQuantity::full_list(false, false, true));
+    }
+    quantities
+}
+
+/// The simulation has one noise for all axes of a sensor: the largest.
+fn one_for_all(triad: Triad, noise: &Vector3<f64>) -> f64 {
+    if noise.max() > noise.min() {
+        console::note(&format!("the noise of the {triad} is simulated with that of its noisiest axis"));
+    }
+    noise.max()
+}
+
+fn in_gauge(
+    drawn: &ImuParameters,
+    [a, g]: [ReadingUnit; 2],
+    holds: &HoldsPlan,
+) -> calibrant::Result<ImuParameters> {
+    let imu = CalibratedImu {
+        parameters: *drawn,
+        accelerometer_unit: Some(a),
+        gyroscope_unit: Some(g),
+        quantities: Vec::new(),
+        covariance: None,
+        frame: String::new(),
+    };
+    Ok(imu.in_gauge_of(Triad::Accelerometer, holds.gauge)?.parameters)
+}
+
+/// What is done on the table, in order of time; `None` where the IMU is turned by hand.
+fn table(holds: &HoldsPlan, plan: &ImuPlan) -> Option<Vec<TableStep>> {
+    let (intervals, directions) = (holds.intervals_s.as_ref()?, holds.directions.as_ref()?);
+    let faces = intervals.iter().zip(directions).map(|(&(start_s, end_s), &direction)| TableStep {
+        start_s,
+        end_s,
+        action: TableAction::Hold(direction),
+    });
+    let turns = plan.turns.iter().map(|turn| TableStep {
+        start_s: turn.start_s,
+        end_s: turn.end_s,
+        action: TableAction::Turn {
+            axis: turn.axis,
+            angle_rad: turn.angle_rad,
+            angle_sd_rad: turn.angle_sd_rad,
+        },
+    });
+    let mut steps: Vec<TableStep> = faces.chain(turns).collect();
+    steps.sort_by(|one, other| one.start_s.total_cmp(&other.start_s));
+    Some(steps)
+}
+
+/// Holds and turns follow each other.
+fn check_order(steps: &[TableStep]) -> calibrant::Result<()> {
+    match steps.windows(2).find(|pair| pair[1].start_s < pair[0].end_s) {
+        None => Ok(()),
+        Some(pair) => Err(Error::Experiment(Box::new(Complaint::new(
+            format!(
+                "what begins at {} s begins before what is done until {} s is over",
+                pair[1].start_s, pair[0].end_s
+            ),
+            "holds.intervals_s and gyroscope.turns must not overlap",
+        )))),
+    }
+}

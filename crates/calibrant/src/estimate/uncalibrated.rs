@@ -1,0 +1,90 @@
+//! A sensor as it is read without its calibration: what the calibration is measured against.
+
+use crate::sensor::{Correction, ReadingUnit, Sensor, SensorParameters};
+use nalgebra::{Matrix3, Vector3};
+
+/// A sensor before its calibration: the datasheet's values, or the plainest ones that make sense of the readings where it gives none.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Uncalibrated {
+    /// One gain for each axis, nothing off the diagonal but an order of the axes, and a bias.
+    pub sensor: SensorParameters,
+    /// Where gain and bias come from, in words: `the datasheet's gain and offset`.
+    pub source: String,
+}
+
+impl Uncalibrated {
+    /// An accelerometer by its datasheet. Where that gives no gain (no offset), all axes have one: the mean of those found.
+    ///
+    /// # Examples
+    /// Readings in m/s² are what they say:
+    /// ```
+    /// use calibrant::estimate::Uncalibrated;
+    /// use calibrant::sensor::{Sensor, SensorModel, SensorParameters};
+    /// use nalgebra::Vector3;
+    ///
+    /// let found = SensorParameters { bias: Vector3::repeat(0.1), ..SensorParameters::identity() };
+    /// let before = Uncalibrated::accelerometer(&Sensor::triaxial(SensorModel::Full), &found);
+    /// assert_eq!(before.stimulus(&Vector3::new(0.0, 0.0, 9.9)), Some(Vector3::new(0.0, 0.0, 9.9)));
+    /// assert_eq!(before.source, "the readings as they are");
+    /// ```
+    #[must_use]
+    pub fn accelerometer(datasheet: &Sensor, found: &SensorParameters) -> Self {
+        let own = Vector3::from_fn(|axis, _| found.matrix.row(axis).norm());
+        let source = match (datasheet.unit, datasheet.gain, datasheet.offset) {
+            (ReadingUnit::Counts, Some(_), Some(_)) => "the datasheet's gain and offset",
+            (ReadingUnit::Counts, Some(_), None) => {
+                "the datasheet's gain, and one offset for all axes: the mean of those found"
+            }
+            (ReadingUnit::Counts, None, Some(_)) => {
+                "the datasheet's offset, and one gain for all axes: the mean of those found"
+            }
+            (ReadingUnit::Counts, None, None) => {
+                "one gain and one offset for all axes: the means of those found"
+            }
+            _ => "the readings as they are",
+        };
+        let gain = datasheet.gain.unwrap_or_else(|| Vector3::repeat(own.mean()));
+        let bias = datasheet.offset.unwrap_or_else(|| Vector3::repeat(found.bias.mean()));
+        Self {
+            sensor: SensorParameters { bias, matrix: Matrix3::from_diagonal(&gain) },
+            source: source.to_owned(),
+        }
+    }
+
+    /// The stimulus that a reading is taken for: `C (y − b)`; `None` where a gain is zero.
+    #[must_use]
+    pub fn stimulus(&self, reading: &Vector3<f64>) -> Option<Vector3<f64>> {
+        Correction::of(&self.sensor).map(|correction| correction.apply(reading))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sensor::SensorModel;
+
+    #[test]
+    fn what_the_datasheet_does_not_give_is_one_for_all_axes() {
+        let found = SensorParameters {
+            bias: Vector3::new(33000.0, 33300.0, 32400.0),
+            matrix: Matrix3::new(3.0, 0.0, 4.0, 0.0, 6.0, 0.0, 0.0, 0.0, 7.0),
+        };
+        let counts = Sensor {
+            unit: ReadingUnit::Counts,
+            gain: None,
+            offset: None,
+            ..Sensor::triaxial(SensorModel::Full)
+        };
+        let before = Uncalibrated::accelerometer(&counts, &found);
+        assert_eq!(before.sensor.bias, Vector3::repeat(32900.0));
+        assert!((before.sensor.matrix - Matrix3::identity() * 6.0).amax() < 1e-12);
+        assert!(before.source.contains("one gain and one offset"));
+        let given = Sensor { gain: Some(Vector3::repeat(5.0)), ..counts };
+        let before = Uncalibrated::accelerometer(&given, &found);
+        assert_eq!(
+            before.stimulus(&Vector3::new(32905.0, 32900.0, 32890.0)),
+            Some(Vector3::new(1.0, 0.0, -2.0))
+        );
+        assert!(before.source.starts_with("the datasheet's gain, and one offset"));
+    }
+}
