@@ -14,6 +14,7 @@
 //! Gaussian and as large as assumed; the fit's [`FitStatistics`] say whether the data agree.
 
 mod comparison;
+mod gravity;
 mod holds;
 mod imu;
 mod motion;
@@ -22,6 +23,7 @@ mod result;
 mod settings;
 pub(crate) mod statistics;
 mod tangents;
+mod validation;
 
 pub use comparison::{ComparedQuantity, Comparison, OverallDifference};
 pub use holds::{
@@ -34,6 +36,10 @@ pub use imu::{
 pub use problem::{CalibrationProblem, Stimulus};
 pub use result::*;
 pub use settings::CalibrationSettings;
+pub use validation::{
+    BiasShift, CovarianceVerdict, ErrorKind, FailedFold, ParameterPart, UnusedError, ValidatedErrors,
+    Validation, ValidationSource, cross_validate, cross_validate_imu, validate, validate_imu,
+};
 
 use crate::error::Result;
 

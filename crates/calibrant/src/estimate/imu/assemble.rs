@@ -9,9 +9,10 @@ use super::weights::Weighed;
 use super::{ImuCalibration, ImuProblem, RotationResult, StillGyroscope, TurnResult};
 use crate::error::Result;
 use crate::estimate::HoldCalibration;
+use crate::estimate::gravity::gravity_slope;
 use crate::information;
-use crate::sensor::{ImuParameters, ImuQuantity, Quantity, Recording, Triad};
-use nalgebra::{DMatrix, DVector, Vector3};
+use crate::sensor::{ImuParameters, Recording};
+use nalgebra::{DMatrix, Vector3};
 use std::ops::Range;
 
 /// Everything that the result is put together from.
@@ -48,15 +49,8 @@ impl Finished<'_> {
             .collect();
         let imu = fit.state.imu;
         let g = problem.setup.holds.gravity;
-        // what gravity's own uncertainty adds: it is a common factor of the accelerometer's matrix and of the g-sensitivity
-        let slope = DVector::from_iterator(
-            size,
-            joint.quantities.iter().map(|quantity| match quantity {
-                ImuQuantity::Of(Triad::Accelerometer, Quantity::Bias(_))
-                | ImuQuantity::Of(Triad::Gyroscope, _) => 0.0,
-                _ => -quantity.of(&imu) / g.magnitude_mps2,
-            }),
-        );
+        // what gravity's own uncertainty adds
+        let slope = gravity_slope(&joint.quantities, &imu, &g);
         covariance += &slope * slope.transpose() * (g.sd_mps2 * g.sd_mps2);
         let rotations = self.rotations(gyroscope);
         let counted = rotations.iter().filter(|rotation| rotation.used).count();
@@ -97,6 +91,7 @@ impl Finished<'_> {
             rotations,
             rotation_excess_sd_rad: joint.excess_rad,
             turns,
+            validations: Vec::new(),
             warnings: first.warnings.clone(),
         };
         calibration.warnings.extend(verdict::warnings(&calibration, axes.as_ref()));

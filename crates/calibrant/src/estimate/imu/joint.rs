@@ -15,7 +15,7 @@ use crate::arrowhead::{Arrowhead, Increment, Link};
 use crate::estimate::tangents::tangents;
 use crate::estimate::{CalibrationSettings, CalibrationStatus};
 use crate::sensor::{ImuParameters, ImuQuantity, Triad};
-use nalgebra::{Matrix2, Matrix3, SMatrix, SVector, Vector2, Vector3};
+use nalgebra::{Matrix2, Matrix2x3, Matrix3, SMatrix, SVector, Vector2, Vector3};
 
 /// Room for all parameters: 12 of each sensor, 9 of the g-sensitivity.
 pub(super) const P: usize = 33;
@@ -105,6 +105,19 @@ pub(super) struct Fit {
     pub(super) status: CalibrationStatus,
     pub(super) iterations: usize,
     pub(super) gradient_norm: f64,
+}
+
+impl Miss {
+    /// Derivative of the error with respect to the specific forces before and after the rotation, across which they may turn.
+    pub(super) fn by_forces(
+        &self,
+        from: &Vector3<f64>,
+        to: &Vector3<f64>,
+        gravity: f64,
+    ) -> (Matrix2x3<f64>, Matrix2x3<f64>) {
+        let across = |force: &Vector3<f64>| tangents(force).transpose() / gravity;
+        (self.by_from * across(from), self.by_to * across(to))
+    }
 }
 
 impl Joint<'_> {

@@ -14,6 +14,7 @@
 //! `tedaldi2014`, `ferraris1995`
 
 mod assemble;
+mod carried;
 mod faces;
 mod joint;
 mod problem;
@@ -27,6 +28,8 @@ mod still;
 mod verdict;
 mod weights;
 
+pub(super) use carried::{Carrying, HeldStill, held_still};
 pub use problem::{Gyroscope, ImuProblem, ImuSetup, KnownTerm, Turn};
 pub use result::{ImuCalibration, RotationResult, StillGyroscope, TurnResult};
 pub use solver::calibrate_imu;
+pub(super) use solver::recordings;

@@ -1,6 +1,6 @@
 //! What the calibration of an IMU gives.
 
-use crate::estimate::{CalibrationStatus, HoldCalibration};
+use crate::estimate::{CalibrationStatus, HoldCalibration, Validation};
 use crate::sensor::{CalibratedImu, Gauge, ImuParameters, ImuQuantity, ReadingUnit, SensorModel, Triad};
 use nalgebra::{DMatrix, Vector3};
 
@@ -41,6 +41,8 @@ pub struct ImuCalibration {
     pub rotation_excess_sd_rad: f64,
     /// The turns of known angle.
     pub turns: Vec<TurnResult>,
+    /// How it fares on data that were not used for it, where it was tried; the estimation leaves it empty.
+    pub validations: Vec<Validation>,
     /// Things a user should know, in words.
     pub warnings: Vec<String>,
 }
