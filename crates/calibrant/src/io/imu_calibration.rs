@@ -5,6 +5,7 @@ use super::convention::{Heading, ImuCore};
 use super::fields::{InUnit, matrix_rows, per_axis};
 use super::holds::HoldsFields;
 use super::json;
+use super::validation::{ValidationFields, validation_fields};
 use crate::error::Result;
 use crate::estimate::{ImuCalibration, RotationResult, StillGyroscope, TurnResult};
 use crate::sensor::ReadingUnit;
@@ -44,6 +45,8 @@ struct ImuCalibrationFile<'a> {
     rotations: RotationsFields<'a>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     turns: Vec<TurnFields>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    validation: Option<ValidationFields>,
     warnings: &'a [String],
 }
 
@@ -67,6 +70,7 @@ impl<'a> ImuCalibrationFile<'a> {
             still_gyroscope: StillFields::of(&calibration.still, calibration.gyroscope_unit),
             rotations: RotationsFields::of(calibration),
             turns: calibration.turns.iter().map(TurnFields::of).collect(),
+            validation: validation_fields(&calibration.validations),
             warnings: &calibration.warnings,
         }
     }

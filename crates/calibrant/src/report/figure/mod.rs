@@ -23,6 +23,7 @@ mod surface;
 mod sweep;
 mod thin;
 mod unit;
+mod validation;
 
 pub(super) use allan::allan_figure;
 pub(super) use correlation::{correlation_map, correlation_map_of};
@@ -40,6 +41,7 @@ pub(super) use still::still_gyroscope;
 pub(super) use surface::trace_map;
 pub(super) use sweep::sweep_curves;
 pub(super) use unit::DisplayUnit;
+pub(super) use validation::validation_errors;
 
 use super::html::escape;
 use panel::{Panel, Series};
