@@ -15,3 +15,4 @@ mod noise;
 mod real;
 mod repaired;
 mod undetermined;
+mod validation;
