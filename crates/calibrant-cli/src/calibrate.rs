@@ -3,6 +3,7 @@
 mod imu;
 mod imu_noise;
 mod imu_output;
+mod validation;
 
 use crate::reading::{RecordingOptions, in_file, name};
 use crate::{Exit, console, place};
@@ -17,7 +18,7 @@ use calibrant::io::{
 };
 use calibrant::motion::CommandedMotion;
 use calibrant::report::{About, calibration_report, number};
-use calibrant::sensor::ReadingUnit;
+use calibrant::sensor::{ReadingUnit, Recording};
 use rayon::prelude::*;
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
@@ -43,6 +44,15 @@ pub(crate) struct Arguments {
     /// List of the sections of a Ferraris session (JSON, as imucal writes it): faces and turns.
     #[arg(long, value_name = "JSON")]
     sections: Option<PathBuf>,
+    /// Another recording of the sensor, to see whether the covariance is to be believed: errors on its holds and rotations beside what was predicted of them.
+    #[arg(long, value_name = "FILE")]
+    validate: Option<PathBuf>,
+    /// The gyroscope's file of that recording, where it has one.
+    #[arg(long, value_name = "FILE", requires = "validate")]
+    validate_gyroscope: Option<PathBuf>,
+    /// The same without another recording: leave out each of K blocks of the holds in turn, and predict it from the others.
+    #[arg(long, value_name = "K")]
+    folds: Option<usize>,
     #[command(flatten)]
     reading: RecordingOptions,
     /// Unit of the readings where the file does not say.
@@ -88,9 +98,13 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
         return imu::run(arguments, &experiment, plan);
     }
     let job = Job::prepare(arguments, experiment)?;
-    let [recording] = arguments.recordings.as_slice() else { return run_many(&job, arguments) };
+    let [recording] = arguments.recordings.as_slice() else {
+        validation::only_one(arguments)?;
+        return run_many(&job, arguments);
+    };
     let started = Instant::now();
-    let outcome = job.run(recording).and_then(|done| {
+    let outcome = job.run(recording).and_then(|mut done| {
+        done.calibration.validations = validation::of_accelerometer(&job, arguments, &done)?;
         job.write(&done, recording, &arguments.output, started)?;
         Ok(done)
     });
@@ -170,14 +184,8 @@ impl Job {
 
     fn run(&self, path: &Path) -> calibrant::Result<Done> {
         let file = read_accelerometer(path, &self.read, &self.device)?;
-        let stimulus = match (&self.command, &self.holds) {
-            (Some(command), _) => Stimulus::Motion(command),
-            (None, Some(setup)) => Stimulus::Holds(setup),
-            (None, None) => unreachable!("an experiment has a motion or holds"),
-        };
-        let problem =
-            CalibrationProblem { sensor: &self.experiment.sensor, recording: &file.recording, stimulus };
-        let calibration = calibrate(&problem, &self.settings).map_err(|error| in_file(error, path))?;
+        let calibration = calibrate(&self.problem(&file.recording), &self.settings)
+            .map_err(|error| in_file(error, path))?;
         let input = Input {
             file: name(path),
             sha256: file.sha256.clone(),
@@ -185,6 +193,15 @@ impl Job {
             rate_hz: file.recording.rate_hz(),
         };
         Ok(Done { file, calibration, input })
+    }
+
+    fn problem<'a>(&'a self, recording: &'a Recording) -> CalibrationProblem<'a> {
+        let stimulus = match (&self.command, &self.holds) {
+            (Some(command), _) => Stimulus::Motion(command),
+            (None, Some(setup)) => Stimulus::Holds(setup),
+            (None, None) => unreachable!("an experiment has a motion or holds"),
+        };
+        CalibrationProblem { sensor: &self.experiment.sensor, recording, stimulus }
     }
 
     /// Writes calibration.json and report.html.
@@ -241,6 +258,7 @@ fn show(done: &Done, arguments: &Arguments) {
     }
     console::print(&console::parameters(&done.calibration));
     console::print(&console::fit(&done.calibration));
+    console::print(&console::validations(&done.calibration.validations));
     console::print(&format!("\n{}\n", arguments.output.join("report.html").display()));
 }
 

@@ -1,8 +1,10 @@
 //! What people see: tables on stdout, errors, notes and progress on stderr.
 
 mod imu;
+mod validation;
 
 pub(crate) use imu::imu_calibration;
+pub(crate) use validation::validations;
 
 use calibrant::Error;
 use calibrant::estimate::{Calibration, HoldCalibration, Recovered};

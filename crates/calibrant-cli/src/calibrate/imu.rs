@@ -9,7 +9,7 @@ use calibrant::error::Complaint;
 use calibrant::estimate::{CalibrationSettings, HoldsSetup, ImuProblem, ImuSetup, Turn, calibrate_imu};
 use calibrant::io::{
     Experiment, HoldsPlan, ImuFile, ImuPlan, ImuReadOptions, ImuUnit, Input, Plan, Section, SectionKind,
-    read_imu_pair, read_imu_recording, read_sections,
+    read_sections,
 };
 use calibrant::sensor::ReadingUnit;
 use std::time::Instant;
@@ -32,10 +32,7 @@ pub(super) fn run(arguments: &Arguments, experiment: &Experiment, plan: &ImuPlan
         console::warn("--unit is not used for an IMU: say --accelerometer-unit and --gyroscope-unit");
     }
     let options = options(arguments, experiment, plan);
-    let file = match &arguments.gyroscope {
-        Some(gyroscope) => read_imu_pair(path, gyroscope, &options)?,
-        None => read_imu_recording(path, &options)?,
-    };
+    let file = super::validation::read(path, arguments.gyroscope.as_deref(), &options)?;
     for finding in &file.findings {
         console::note(&format!("{}: {finding}", name(path)));
     }
@@ -48,8 +45,9 @@ pub(super) fn run(arguments: &Arguments, experiment: &Experiment, plan: &ImuPlan
         recording: &file.recording,
         setup: &setup,
     };
-    let calibration =
+    let mut calibration =
         calibrate_imu(&problem, &CalibrationSettings::default()).map_err(|error| in_file(error, path))?;
+    calibration.validations = super::validation::of_imu(arguments, &options, &calibration, &problem, &file)?;
     let main = file.recording.accelerometer.as_ref();
     let input = Input {
         file: arguments

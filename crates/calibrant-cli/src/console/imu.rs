@@ -25,6 +25,7 @@ pub(crate) fn imu_calibration(calibration: &ImuCalibration) -> String {
         number::significant(calibration.chi2, 4),
         number::count(calibration.degrees_of_freedom),
     ));
+    text.push_str(&super::validations(&calibration.validations));
     text
 }
 

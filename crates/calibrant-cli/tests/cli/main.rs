@@ -17,3 +17,4 @@ mod real;
 mod repaired;
 mod temperature;
 mod undetermined;
+mod validation;

@@ -14,6 +14,7 @@
 //! Gaussian and as large as assumed; the fit's [`FitStatistics`] say whether the data agree.
 
 mod comparison;
+mod gravity;
 mod holds;
 mod imu;
 mod motion;
@@ -23,6 +24,7 @@ mod settings;
 pub(crate) mod statistics;
 mod tangents;
 mod uncalibrated;
+mod validation;
 
 pub use comparison::{ComparedQuantity, Comparison, OverallDifference};
 pub use holds::{
@@ -36,6 +38,10 @@ pub use problem::{CalibrationProblem, Stimulus};
 pub use result::*;
 pub use settings::CalibrationSettings;
 pub use uncalibrated::Uncalibrated;
+pub use validation::{
+    BiasShift, CovarianceVerdict, ErrorKind, FailedFold, ParameterPart, UnusedError, ValidatedErrors,
+    Validation, ValidationSource, cross_validate, cross_validate_imu, validate, validate_imu,
+};
 
 use crate::error::Result;
 

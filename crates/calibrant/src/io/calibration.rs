@@ -3,6 +3,7 @@
 use super::fields::{EstimateFields, FitFields, InUnit, MotionFields, axes_of, block, matrix_rows, per_axis};
 use super::holds::HoldsFields;
 use super::json;
+use super::validation::{ValidationFields, validation_fields};
 use crate::error::Result;
 use crate::estimate::{Calibration, Recovered};
 use crate::sensor::{Correction, ReadingUnit};
@@ -54,6 +55,8 @@ struct CalibrationFile<'a> {
     motion: Option<RecoveredMotionFields>,
     #[serde(skip_serializing_if = "Option::is_none")]
     holds: Option<HoldsFields>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    validation: Option<ValidationFields>,
     convention: Convention,
     warnings: &'a [String],
     input: &'a Input,
@@ -83,6 +86,7 @@ impl<'a> CalibrationFile<'a> {
             motion,
             holds,
             convention: Convention::of(calibration, axes),
+            validation: validation_fields(&calibration.validations),
             warnings: &calibration.warnings,
             input,
         }

@@ -5,6 +5,7 @@ use super::convention::{Heading, ImuCore};
 use super::fields::{InUnit, matrix_rows, per_axis};
 use super::holds::HoldsFields;
 use super::json;
+use super::validation::{ValidationFields, validation_fields};
 use crate::error::Result;
 use crate::estimate::{ImuCalibration, RotationResult, TurnResult};
 use serde::Serialize;
@@ -43,6 +44,8 @@ struct ImuCalibrationFile<'a> {
     rotations: RotationsFields<'a>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     turns: Vec<TurnFields>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    validation: Option<ValidationFields>,
     warnings: &'a [String],
 }
 
@@ -66,6 +69,7 @@ impl<'a> ImuCalibrationFile<'a> {
             still_gyroscope: StillFields::of(calibration),
             rotations: RotationsFields::of(calibration),
             turns: calibration.turns.iter().map(TurnFields::of).collect(),
+            validation: validation_fields(&calibration.validations),
             warnings: &calibration.warnings,
         }
     }

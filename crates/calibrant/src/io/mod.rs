@@ -45,6 +45,7 @@ mod summary;
 mod sweep;
 mod text;
 mod truth;
+mod validation;
 
 pub use calibration::{Input, calibration_json, write_calibration};
 pub use comparison::comparison_json;

@@ -9,6 +9,7 @@ use super::fit::fit_table;
 use super::holds::{hold_summary, hold_table};
 use super::html::{Page, escape, facts};
 use super::parameters::{correction, parameter_table};
+use super::validation::validation_section;
 use super::verdict::verdict;
 use super::{About, before_after};
 use crate::estimate::{Calibration, HoldCalibration, Recovered, RecoveredMotion};
@@ -49,6 +50,7 @@ pub fn calibration_report(calibration: &Calibration, recording: &Recording, abou
         }
         Recovered::Holds(holds) => hold_section(&mut page, calibration, holds, recording),
     }
+    validation_section(&mut page, &calibration.validations);
     page.section("Correlations", "");
     page.push(correlation_map(&calibration.parameters, &calibration.covariance));
     page.finish(title, &about.footer())

@@ -19,6 +19,7 @@ mod parameters;
 mod study;
 mod sweep;
 mod table;
+mod validation;
 mod verdict;
 
 #[cfg(test)]
@@ -32,3 +33,4 @@ pub use imu::{imu_calibration_report, imu_quality, over_the_gain, temperature_in
 pub use noise::{coefficient_name, noise_report};
 pub use study::study_report;
 pub use sweep::sweep_report;
+pub use validation::{validation_heading, validation_rows, validation_sentences};

@@ -139,6 +139,7 @@ fn calibration(
         residuals: Vec::new(),
         first_sample: 0,
         datasheet_prior: true,
+        validations: Vec::new(),
         warnings: vec!["a \"word\"".into()],
     }
 }

@@ -27,13 +27,14 @@ mod fit;
 mod robust;
 mod verdict;
 
+use super::gravity::gravity_slope;
 use super::{
     Calibration, CalibrationProblem, CalibrationSettings, FitStatistics, HoldCalibration, HoldResult,
     Recovered, Uncalibrated, statistics,
 };
 use crate::error::{Complaint, Error, Result};
 use crate::motion::{Gravity, Hold};
-use crate::sensor::{Gauge, SensorModel, SensorParameters};
+use crate::sensor::{Gauge, ImuParameters, ImuQuantity, SensorModel, SensorParameters, Triad};
 use nalgebra::{Matrix3, Vector3};
 use robust::Robust;
 
@@ -102,13 +103,10 @@ fn assemble(
     let sensor = robust.sensor;
     let g = setup.gravity;
     let mut covariance = robust.covariance.clone();
-    let slope = nalgebra::DVector::from_iterator(
-        list.len(),
-        list.quantities().iter().map(|quantity| match quantity {
-            crate::sensor::Quantity::Bias(_) => 0.0,
-            _ => -quantity.of(&sensor) / g.magnitude_mps2,
-        }),
-    );
+    let quantities: Vec<ImuQuantity> =
+        list.quantities().iter().map(|of| ImuQuantity::Of(Triad::Accelerometer, *of)).collect();
+    let imu = ImuParameters { accelerometer: sensor, ..ImuParameters::identity() };
+    let slope = gravity_slope(&quantities, &imu, &g);
     covariance += &slope * slope.transpose() * (g.sd_mps2 * g.sd_mps2);
 
     let results: Vec<HoldResult> = holds
@@ -172,6 +170,7 @@ fn assemble(
         residuals: Vec::new(),
         first_sample: 0,
         datasheet_prior: false,
+        validations: Vec::new(),
         warnings: Vec::new(),
     };
     calibration.warnings = verdict::warnings(&calibration, &robust.weakest);

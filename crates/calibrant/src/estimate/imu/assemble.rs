@@ -9,12 +9,11 @@ use super::verdict;
 use super::weights::Weighed;
 use super::{ImuCalibration, ImuProblem, NoiseSource, RotationResult, StillGyroscope, TurnResult};
 use crate::error::Result;
+use crate::estimate::gravity::gravity_slope;
 use crate::estimate::{HoldCalibration, Uncalibrated};
 use crate::information;
-use crate::sensor::{
-    Correction, ImuParameters, ImuQuantity, Quantity, ReadingUnit, Recording, SensorParameters, Triad,
-};
-use nalgebra::{DVector, Matrix3, Vector3};
+use crate::sensor::{Correction, ImuParameters, ReadingUnit, Recording, SensorParameters};
+use nalgebra::{Matrix3, Vector3};
 use std::ops::Range;
 
 /// Everything that the result is put together from.
@@ -53,16 +52,8 @@ impl Finished<'_> {
             .collect();
         let imu = fit.state.imu;
         let g = problem.setup.holds.gravity;
-        // what gravity's own uncertainty adds: it is a common factor of the accelerometer's matrix and of the g-sensitivity
-        let slope = DVector::from_iterator(
-            size,
-            joint.quantities.iter().map(|quantity| match quantity {
-                ImuQuantity::Of(Triad::Accelerometer, Quantity::Bias(_))
-                | ImuQuantity::Of(Triad::Gyroscope, _)
-                | ImuQuantity::Thermal(..) => 0.0,
-                _ => -quantity.of(&imu) / g.magnitude_mps2,
-            }),
-        );
+        // what gravity's own uncertainty adds
+        let slope = gravity_slope(&joint.quantities, &imu, &g);
         covariance += &slope * slope.transpose() * (g.sd_mps2 * g.sd_mps2);
         let before = self.gyroscope_before(problem);
         let rotations = self.rotations(gyroscope, &before);
@@ -120,6 +111,7 @@ impl Finished<'_> {
             rotation_excess_sd_rad: joint.excess_rad,
             turns,
             hold_temperatures_c,
+            validations: Vec::new(),
             warnings: first.warnings.clone(),
         };
         calibration.warnings.extend(verdict::warnings(&calibration, axes.as_ref()));

@@ -17,7 +17,9 @@ use crate::arrowhead::{Arrowhead, Increment, Link};
 use crate::estimate::tangents::tangents;
 use crate::estimate::{CalibrationSettings, CalibrationStatus};
 use crate::sensor::{Condition, ImuParameters, ImuQuantity, Triad};
-use nalgebra::{DMatrix, DVector, Matrix2, Matrix2xX, Matrix3, SMatrix, SVector, Vector2, Vector3};
+use nalgebra::{
+    DMatrix, DVector, Matrix2, Matrix2x3, Matrix2xX, Matrix3, SMatrix, SVector, Vector2, Vector3,
+};
 
 /// Room for the parameters at one temperature: 12 of each sensor, 9 of the g-sensitivity.
 const AT_REFERENCE: usize = 33;
@@ -117,6 +119,19 @@ pub(super) struct Fit {
     pub(super) status: CalibrationStatus,
     pub(super) iterations: usize,
     pub(super) gradient_norm: f64,
+}
+
+impl Miss {
+    /// Derivative of the error with respect to the specific forces before and after the rotation, across which they may turn.
+    pub(super) fn by_forces(
+        &self,
+        from: &Vector3<f64>,
+        to: &Vector3<f64>,
+        gravity: f64,
+    ) -> (Matrix2x3<f64>, Matrix2x3<f64>) {
+        let across = |force: &Vector3<f64>| tangents(force).transpose() / gravity;
+        (self.by_from * across(from), self.by_to * across(to))
+    }
 }
 
 impl Joint<'_> {

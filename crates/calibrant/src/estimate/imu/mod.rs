@@ -16,6 +16,7 @@
 //! `tedaldi2014`, `ferraris1995`
 
 mod assemble;
+mod carried;
 mod faces;
 mod joint;
 mod problem;
@@ -30,7 +31,10 @@ mod thermal;
 mod verdict;
 mod weights;
 
+pub(super) use carried::{Carrying, HeldStill, held_still};
 pub use problem::{Gyroscope, ImuProblem, ImuSetup, KnownTerm, NoiseSource, Turn, WhiteNoise};
 pub use result::{ImuCalibration, RotationResult, StillGyroscope, TurnResult};
 pub use solver::calibrate_imu;
+pub(super) use solver::recordings;
 pub use thermal::ThermalModel;
+pub(super) use thermal::needed_temperatures;

@@ -5,7 +5,6 @@ use super::joint::TurnData;
 use super::rotation::{LocalBias, Samples};
 use super::thermal::Climate;
 use crate::error::{Complaint, Error, Result};
-use crate::estimate::HoldCalibration;
 use crate::motion::Hold;
 use crate::sensor::{ImuParameters, Recording, Saturation, SensorParameters};
 use nalgebra::Vector3;
@@ -43,16 +42,12 @@ pub(super) fn felt_forces(
     )
 }
 
-/// The gyroscope's samples from shortly before the end of each used hold to shortly after the start of the next.
-pub(super) fn rotation_spans(
-    gyroscope: &Recording,
-    holds: &HoldCalibration,
-    chosen: &[usize],
-) -> Vec<Range<usize>> {
-    chosen
+/// The gyroscope's samples from shortly before the end of each of these holds to shortly after the start of the next.
+pub(super) fn rotation_spans(gyroscope: &Recording, holds: &[&Hold]) -> Vec<Range<usize>> {
+    holds
         .windows(2)
         .map(|pair| {
-            let (from, to) = (&holds.holds[pair[0]].hold, &holds.holds[pair[1]].hold);
+            let (from, to) = (pair[0], pair[1]);
             let margin = |hold: &Hold| (0.25 * hold.duration_s()).min(MARGIN_S);
             let (start_s, end_s) = (from.end_s - margin(from), to.start_s + margin(to));
             let first = gyroscope.times_s.partition_point(|&t| t <= start_s).saturating_sub(1);

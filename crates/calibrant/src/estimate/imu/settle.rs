@@ -75,7 +75,7 @@ pub(super) fn apply(joint: &mut Joint<'_>, weighed: &Weighed) {
 
 /// The bias of a rotation is that of the holds before and after it, as far as these tell: a hold's deviation from the mean bias counts by the share of it that
 /// is not noise.
-fn follow_drift(joint: &mut Joint<'_>, state: &State, between: &Vector3<f64>) {
+pub(super) fn follow_drift(joint: &mut Joint<'_>, state: &State, between: &Vector3<f64>) {
     let biases: Vec<LocalBias> = joint
         .holds
         .iter()

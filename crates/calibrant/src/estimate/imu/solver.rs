@@ -43,7 +43,8 @@ pub fn calibrate_imu(problem: &ImuProblem<'_>, settings: &CalibrationSettings) -
     let holds = &first.holds;
     let chosen: Vec<usize> = (0..holds.holds.len()).filter(|&j| holds.holds[j].used).collect();
     let forces: Vec<Vector3<f64>> = chosen.iter().map(|&j| holds.holds[j].force_mps2).collect();
-    let stills: Vec<Option<Still>> = chosen.iter().map(|&j| still(gyroscope, &holds.holds[j].hold)).collect();
+    let used: Vec<&Hold> = chosen.iter().map(|&j| &holds.holds[j].hold).collect();
+    let stills: Vec<Option<Still>> = used.iter().map(|hold| still(gyroscope, hold)).collect();
     if stills.iter().flatten().count() == 0 {
         return Err(Error::recording(Complaint::new(
             "the gyroscope has no samples in the holds of the accelerometer",
@@ -74,7 +75,7 @@ pub fn calibrate_imu(problem: &ImuProblem<'_>, settings: &CalibrationSettings) -
     let spans = match setup.directions {
         // the sensor was put down anew on each face: what it went through in between says less than the turns
         Some(_) if !setup.turns.is_empty() => Vec::new(),
-        _ => rotation_spans(gyroscope, holds, &chosen),
+        _ => rotation_spans(gyroscope, &used),
     };
     let integrable = Integrable::of(gyroscope);
     let rotations: Vec<RotationData<'_>> = spans
@@ -170,7 +171,9 @@ fn sample_noise(problem: &ImuProblem<'_>, stills: &[Option<Still>]) -> (Vector3<
 }
 
 /// Both recordings, of three axes and the units that are expected.
-fn recordings<'a>(problem: &ImuProblem<'a>) -> Result<(&'a Recording, &'a Recording)> {
+pub(in crate::estimate) fn recordings<'a>(
+    problem: &ImuProblem<'a>,
+) -> Result<(&'a Recording, &'a Recording)> {
     let need = |triad: Triad| {
         problem.recording.triad(triad).filter(|recording| recording.len() > 1).ok_or_else(|| {
             Error::recording(Complaint::new(

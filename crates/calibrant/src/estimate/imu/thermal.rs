@@ -13,7 +13,8 @@ use crate::estimate::holds::critical;
 use crate::estimate::{CalibrationSettings, HoldCalibration};
 use crate::motion::Hold;
 use crate::sensor::{
-    ImuParameters, ImuQuantity, Recording, SensorParameters, Temperatures, Thermal, ThermalTerm, Triad,
+    ImuParameters, ImuQuantity, ImuRecording, Recording, SensorParameters, Temperatures, Thermal,
+    ThermalTerm, Triad,
 };
 use nalgebra::Vector3;
 
@@ -57,6 +58,16 @@ impl ThermalModel {
     }
 }
 
+/// The temperatures of a recording of which something follows them.
+pub(in crate::estimate) fn needed_temperatures(recording: &ImuRecording) -> Result<Temperatures<'_>> {
+    Temperatures::of(recording)?.ok_or_else(|| {
+        Error::recording(Complaint::new(
+            "the calibration is to follow temperature, and the recording has none",
+            "name its column with temperature = \"…\" in [columns], or take [temperature] out of the experiment",
+        ))
+    })
+}
+
 /// The temperatures of a problem in which something follows them.
 pub(super) struct Climate<'a> {
     temperatures: Option<Temperatures<'a>>,
@@ -72,12 +83,7 @@ impl<'a> Climate<'a> {
         if model.is_none() {
             return Ok(Self { temperatures: None, start });
         }
-        let Some(temperatures) = Temperatures::of(problem.recording)? else {
-            return Err(Error::recording(Complaint::new(
-                "the calibration is to follow temperature, and the recording has none",
-                "name its column with temperature = \"…\" in [columns], or take [temperature] out of the experiment",
-            )));
-        };
+        let temperatures = needed_temperatures(problem.recording)?;
         let of_holds: Vec<f64> =
             holds.iter().map(|hold| temperatures.mean(hold.start_s, hold.end_s)).collect();
         let mean = of_holds.iter().sum::<f64>() / of_holds.len().max(1) as f64;

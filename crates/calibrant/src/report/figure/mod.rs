@@ -25,6 +25,7 @@ mod sweep;
 mod temperature;
 mod thin;
 mod unit;
+mod validation;
 
 pub(super) use allan::allan_figure;
 pub(super) use before_after::{force_before_and_after, holds_before_and_after, imu_before_and_after};
@@ -44,6 +45,7 @@ pub(super) use surface::trace_map;
 pub(super) use sweep::sweep_curves;
 pub(super) use temperature::bias_over_temperature;
 pub(super) use unit::DisplayUnit;
+pub(super) use validation::validation_errors;
 
 use super::html::escape;
 use panel::{Panel, Series};

@@ -20,6 +20,7 @@ use super::figure::{
 use super::holds::{hold_summary, hold_table};
 use super::html::{Page, escape, facts};
 use super::noise::noise_section;
+use super::validation::validation_section;
 use super::{About, before_after};
 use crate::estimate::ImuCalibration;
 use crate::noise::TriadNoise;
@@ -107,6 +108,7 @@ pub fn imu_calibration_report(
     }
     noise.iter().for_each(|triad| noise_section(&mut page, triad));
 
+    validation_section(&mut page, &calibration.validations);
     page.section("Fit and correlations", "");
     page.push(fit::fit_table(calibration));
     let names: Vec<String> = calibration.quantities.iter().map(|quantity| quantity.name()).collect();

@@ -1,0 +1,113 @@
+//! Calibrations on data that were not used for them.
+
+use crate::bench::Bench;
+use crate::data::shared_data;
+
+/// An experiment with holds, and two recordings of one sensor.
+fn poses() -> Bench {
+    let bench = Bench::new();
+    bench.preset("static-poses", "poses.toml", &[]);
+    bench.run("simulate poses.toml -o one").done();
+    bench.write("recording.csv", bench.read("one/recording.csv"));
+    bench
+}
+
+#[test]
+fn an_accelerometer_is_validated_by_folds_and_on_another_recording() {
+    let bench = poses();
+    // the second half is another recording of the same sensor
+    let text = bench.read("recording.csv");
+    let lines: Vec<&str> = text.lines().collect();
+    let half = 1 + (lines.len() - 1) / 2;
+    bench.write("first.csv", lines[..half].join("\n") + "\n");
+    bench.write("second.csv", format!("{}\n{}\n", lines[0], lines[half..].join("\n")));
+    let outcome =
+        bench.run("calibrate poses.toml recording.csv --validate second.csv --folds 3 -o result").done();
+    for says in [
+        "Validation: On second.csv",
+        "Validation: 3 blocks of holds",
+        "|f| misses gravity by",
+        "factor (99 %)",
+    ] {
+        assert!(outcome.stdout.contains(says), "{says}: {}", outcome.stdout);
+    }
+    let json = bench.json("result/calibration.json");
+    for (source, place) in [("recording", "file"), ("folds", "folds")] {
+        let found = &json["validation"][source];
+        assert!(!found[place].is_null(), "{found}");
+        let errors = &found["magnitude"];
+        assert_eq!(errors["unit"], "m/s²");
+        let counted = errors["counted"].as_u64().expect("a number");
+        assert!(counted > 2 && errors["degrees_of_freedom"].as_u64() == Some(counted), "{errors}");
+        assert!(errors["rms"].as_f64().expect("a number") < 0.05, "{errors}");
+        assert!(
+            ["believed", "too_small", "larger_than_needed"]
+                .contains(&errors["verdict"].as_str().expect("a word"))
+        );
+        assert_eq!(errors["table"].as_array().map(Vec::len), errors["errors"].as_u64().map(|n| n as usize));
+    }
+    let report = bench.read("result/report.html");
+    for says in ["> Validation</h2>", "On second.csv", "Errors on data that were not used", "±2 sd predicted"]
+    {
+        assert!(report.contains(says), "{says}");
+    }
+    let same = bench.run("calibrate poses.toml recording.csv --validate recording.csv -o same").done();
+    same.says("recording.csv is the recording that was calibrated from");
+}
+
+#[test]
+fn what_cannot_be_validated_is_refused() {
+    let bench = poses();
+    let calibrate = "calibrate poses.toml recording.csv -o result";
+    bench.refuses(&format!("{calibrate} --folds 1"), 2, &["1 folds cannot be made of"]);
+    bench.refuses(&format!("{calibrate} --folds 1000"), 2, &["choose between 2 and"]);
+    bench.refuses(&format!("{calibrate} --validate-gyroscope g.csv"), 2, &["--validate <FILE>"]);
+    bench.refuses(&format!("{calibrate} --validate missing.csv"), 3, &["missing.csv: cannot read"]);
+    bench.write("other.csv", bench.read("recording.csv"));
+    bench.refuses(
+        &format!("{calibrate} other.csv --folds 3"),
+        2,
+        &["one calibration is validated at a time"],
+    );
+    let moving: String = (0..2000)
+        .map(|k| {
+            format!(
+                "{},{},{},{}\n",
+                f64::from(k) * 0.01,
+                (f64::from(k) * 0.7).sin() * (1.0 + f64::from(k)),
+                1,
+                2
+            )
+        })
+        .collect();
+    bench.write("moving.csv", format!("t_s,ax_mps2,ay_mps2,az_mps2\n{moving}"));
+    bench.refuses(
+        &format!("{calibrate} --validate moving.csv"),
+        3,
+        &["moving.csv: it has no holds of at least"],
+    );
+    bench.preset("report", "report.toml", &[]);
+    bench.run("simulate report.toml -o moved").done();
+    let moved = "calibrate report.toml moved/recording.csv --motion moved/motion.csv -o result";
+    bench.refuses(&format!("{moved} --folds 3"), 2, &["only a calibration from holds can be validated"]);
+}
+
+#[test]
+fn the_imu_of_imu_tk_is_validated_by_folds_and_its_file_is_still_read() {
+    let Some(accelerometer) = shared_data("xsens-mti-static/xsens_acc.mat") else { return };
+    let Some(gyroscope) = shared_data("xsens-mti-static/xsens_gyro.mat") else { return };
+    let bench = Bench::new();
+    std::fs::copy(accelerometer, bench.path("acc.mat")).expect("copied");
+    std::fs::copy(gyroscope, bench.path("gyro.mat")).expect("copied");
+    bench.preset("imu-counts", "imu.toml", &[]);
+    let command = "calibrate imu.toml acc.mat --gyroscope gyro.mat --folds 5 --validate acc.mat --validate-gyroscope gyro.mat -o result";
+    let outcome = bench.run(command).done();
+    outcome.says("acc.mat is the recording that was calibrated from");
+    assert!(outcome.stdout.contains("gravity after rotations"), "{}", outcome.stdout);
+    let json = bench.json("result/calibration.json");
+    for kind in ["magnitude", "rate", "rotation"] {
+        assert_eq!(json["validation"]["folds"][kind]["verdict"], "believed", "{kind}");
+    }
+    assert!(json["validation"]["recording"]["gyroscope_bias_shift"]["moved"] == false);
+    bench.run("convert result/calibration.json imu.h").done();
+}

@@ -1,0 +1,153 @@
+//! Rotations between holds that a calibration is tried on: what it needs of the recording, and gravity carried through them.
+
+use super::joint::{HoldData, Joint, Miss, RotationData, State};
+use super::readings::{Integrable, felt_forces, rotation_spans, samples};
+use super::settle::follow_drift;
+use super::still::{pooled_noise, still, weigh};
+use crate::motion::Hold;
+use crate::sensor::{ImuParameters, ImuQuantity, Recording};
+use nalgebra::{DMatrix, Matrix2, Matrix2x3, Vector2, Vector3};
+
+/// The gyroscope in a hold.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::estimate) struct HeldStill {
+    /// Mean reading.
+    pub(in crate::estimate) mean: Vector3<f64>,
+    /// Variance of the mean from the noise of its samples.
+    pub(in crate::estimate) variance: Vector3<f64>,
+}
+
+/// The gyroscope in each hold, `None` where it has no samples there, and the noise of one sample: as it is known, or as the holds show it.
+pub(in crate::estimate) fn held_still(
+    gyroscope: &Recording,
+    holds: &[&Hold],
+    known_noise: Option<Vector3<f64>>,
+) -> (Vec<Option<HeldStill>>, Vector3<f64>) {
+    let stills: Vec<_> = holds.iter().map(|hold| still(gyroscope, hold)).collect();
+    let noise = known_noise.unwrap_or_else(|| pooled_noise(&stills));
+    let of_mean = noise.component_mul(&noise);
+    let held = stills.iter().map(|still| {
+        still.map(|still| HeldStill { mean: still.mean, variance: of_mean / still.samples as f64 })
+    });
+    (held.collect(), noise)
+}
+
+/// Gravity carried from one hold to the next.
+#[derive(Debug, Clone)]
+pub(in crate::estimate) struct Carried {
+    /// Place of the hold that it begins with.
+    pub(in crate::estimate) from: usize,
+    /// Begin and end, s.
+    pub(in crate::estimate) start_s: f64,
+    pub(in crate::estimate) end_s: f64,
+    /// By what gravity is missed, across it, rad.
+    pub(in crate::estimate) error: Vector2<f64>,
+    /// Derivative with respect to the gyroscope's quantities, 2 × p; zero for those of the accelerometer.
+    pub(in crate::estimate) by_parameters: DMatrix<f64>,
+    /// Derivative with respect to the specific forces before and after.
+    pub(in crate::estimate) by_from: Matrix2x3<f64>,
+    pub(in crate::estimate) by_to: Matrix2x3<f64>,
+    /// Covariance of the error from the gyroscope's noise.
+    pub(in crate::estimate) noise: Matrix2<f64>,
+}
+
+/// What is given of the rotations.
+pub(in crate::estimate) struct Carrying<'a> {
+    pub(in crate::estimate) imu: &'a ImuParameters,
+    pub(in crate::estimate) quantities: &'a [ImuQuantity],
+    pub(in crate::estimate) gravity_mps2: f64,
+    /// Scatter of the gyroscope's bias between holds, in the unit of its readings.
+    pub(in crate::estimate) between: Vector3<f64>,
+    pub(in crate::estimate) accelerometer: &'a Recording,
+    pub(in crate::estimate) gyroscope: &'a Recording,
+    pub(in crate::estimate) known_noise: Option<Vector3<f64>>,
+}
+
+impl Carrying<'_> {
+    /// Carries gravity through every rotation between consecutive holds that can be integrated. `forces`: the corrected specific force in each hold,
+    /// `temperatures_c` their temperatures. `None` where a
+    /// matrix is singular.
+    pub(in crate::estimate) fn through(
+        &self,
+        holds: &[&Hold],
+        forces: &[Vector3<f64>],
+        temperatures_c: &[f64],
+    ) -> Option<Vec<Carried>> {
+        let g = self.gravity_mps2;
+        let stills: Vec<_> = holds.iter().map(|hold| still(self.gyroscope, hold)).collect();
+        let noise = self.known_noise.unwrap_or_else(|| pooled_noise(&stills));
+        let mut data: Vec<HoldData> = holds
+            .iter()
+            .zip(temperatures_c)
+            .map(|(hold, &temperature_c)| HoldData {
+                accelerometer: hold.mean,
+                accelerometer_weight: Vector3::zeros(),
+                gyroscope: None,
+                known: None,
+                temperature_c,
+            })
+            .collect();
+        weigh(&mut data, &stills, &noise, &self.between);
+        let with_forces =
+            self.quantities.iter().any(|quantity| matches!(quantity, ImuQuantity::GSensitivity(..)))
+                || self.imu.g_sensitivity.amax() > 0.0;
+        let mean_c = temperatures_c.iter().sum::<f64>() / temperatures_c.len().max(1) as f64;
+        let felt = with_forces
+            .then(|| felt_forces(self.accelerometer, self.gyroscope, &self.imu.at(mean_c).accelerometer))
+            .flatten();
+        let spans = rotation_spans(self.gyroscope, holds);
+        let integrable = Integrable::of(self.gyroscope);
+        let rotations: Vec<RotationData<'_>> = spans
+            .iter()
+            .enumerate()
+            .map(|(from, span)| RotationData {
+                from,
+                samples: samples(
+                    self.gyroscope,
+                    felt.as_deref(),
+                    span,
+                    [temperatures_c[from], temperatures_c[from + 1]],
+                ),
+                used: integrable.obstacle(span).is_none(),
+                counts: true,
+            })
+            .collect();
+        let mut joint = Joint {
+            quantities: self.quantities.to_vec(),
+            gravity: g,
+            holds: data,
+            rotations,
+            turns: Vec::new(),
+            gyroscope_noise: noise,
+            excess_rad: 0.0,
+            prior: None,
+        };
+        let forces =
+            forces.iter().map(|f| f.try_normalize(1e-300).map(|u| u * g)).collect::<Option<Vec<_>>>()?;
+        let state = State { imu: *self.imu, forces };
+        follow_drift(&mut joint, &state, &self.between);
+        let misses = joint.misses(&state)?;
+        let found = misses.into_iter().enumerate().filter_map(|(from, miss)| {
+            let span = &spans[from];
+            let times = &self.gyroscope.times_s;
+            let ends = (times[span.start], times[span.end - 1]);
+            miss.map(|miss| self.carried(from, ends, &state, &miss))
+        });
+        Some(found.collect())
+    }
+
+    fn carried(&self, from: usize, (start_s, end_s): (f64, f64), state: &State, miss: &Miss) -> Carried {
+        let (by_from, by_to) =
+            miss.by_forces(&state.forces[from], &state.forces[from + 1], self.gravity_mps2);
+        Carried {
+            from,
+            start_s,
+            end_s,
+            error: miss.error,
+            by_parameters: DMatrix::from_fn(2, self.quantities.len(), |row, k| miss.by_parameters[(row, k)]),
+            by_from,
+            by_to,
+            noise: miss.covariance,
+        }
+    }
+}

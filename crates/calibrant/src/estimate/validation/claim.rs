@@ -1,0 +1,134 @@
+//! What a calibration claims to know: the parameters, their covariance, and the scatter that it found.
+
+use crate::estimate::gravity::gravity_slope;
+use crate::estimate::{Calibration, HoldCalibration, ImuCalibration};
+use crate::motion::Gravity;
+use crate::sensor::{Axis, ImuParameters, ImuQuantity, ParameterList, Quantity, Triad};
+use nalgebra::{DMatrix, Matrix3, Vector3};
+
+/// The claim of a calibration.
+#[derive(Debug, Clone)]
+pub(super) struct Claim {
+    pub(super) imu: ImuParameters,
+    pub(super) quantities: Vec<ImuQuantity>,
+    /// Covariance of the quantities.
+    pub(super) covariance: DMatrix<f64>,
+    /// Gravity of the recording that is predicted, m/s².
+    pub(super) gravity_mps2: f64,
+    /// Scatter between holds, m/s², and the degrees of freedom behind it.
+    pub(super) between_holds_sd_mps2: f64,
+    pub(super) holds_degrees: f64,
+    /// The same of the gyroscope, in the unit of its readings.
+    pub(super) still_sd: Vector3<f64>,
+    pub(super) still_degrees: f64,
+    /// Error of a rotation beyond its noise, rad, and the degrees of freedom behind it.
+    pub(super) rotation_sd_rad: f64,
+    pub(super) rotation_degrees: f64,
+}
+
+impl Claim {
+    /// What a calibrated IMU claims of a recording made under this gravity.
+    ///
+    /// Where gravity is the one of the calibration, its uncertainty moves corrected and true magnitude alike and is left out; where it is another, both count.
+    pub(super) fn of_imu(calibration: &ImuCalibration, gravity: &Gravity) -> Self {
+        let holds = &calibration.holds;
+        let used = holds.holds.iter().filter(|hold| hold.used).count();
+        let rotations = calibration.rotations.iter().filter(|rotation| rotation.used).count();
+        let known = |quantity: &&ImuQuantity| quantity.triad() == Triad::Accelerometer;
+        let accelerometer = calibration.quantities.iter().filter(known).count();
+        let matrix = |quantity: &&ImuQuantity| matches!(quantity, ImuQuantity::Of(Triad::Gyroscope, of) if !matches!(of, Quantity::Bias(_)));
+        let of_rotations = calibration.quantities.iter().filter(matrix).count();
+        let force =
+            calibration.quantities.iter().any(|quantity| matches!(quantity, ImuQuantity::GSensitivity(..)));
+        Self {
+            imu: calibration.imu,
+            quantities: calibration.quantities.clone(),
+            covariance: without_gravity(calibration, gravity),
+            gravity_mps2: gravity.magnitude_mps2,
+            between_holds_sd_mps2: between(calibration),
+            holds_degrees: used.saturating_sub(accelerometer) as f64,
+            still_sd: calibration.still.between_holds_sd,
+            still_degrees: 3.0 * used.saturating_sub(if force { 4 } else { 1 }) as f64,
+            rotation_sd_rad: calibration.rotation_excess_sd_rad,
+            rotation_degrees: (2 * rotations).saturating_sub(of_rotations) as f64,
+        }
+    }
+
+    /// What a static calibration of an accelerometer claims.
+    pub(super) fn of_accelerometer(
+        calibration: &Calibration,
+        holds: &HoldCalibration,
+        list: &ParameterList,
+        gravity: &Gravity,
+    ) -> Self {
+        let imu = ImuParameters { accelerometer: calibration.sensor, ..ImuParameters::identity() };
+        let quantities: Vec<ImuQuantity> =
+            list.quantities().iter().map(|of| ImuQuantity::Of(Triad::Accelerometer, *of)).collect();
+        let covariance = recentred(&calibration.covariance, &quantities, &imu, &holds.gravity, gravity);
+        let used = holds.holds.iter().filter(|hold| hold.used).count();
+        Self {
+            imu,
+            covariance,
+            gravity_mps2: gravity.magnitude_mps2,
+            between_holds_sd_mps2: holds.between_holds_sd_mps2,
+            holds_degrees: used.saturating_sub(quantities.len()) as f64,
+            quantities,
+            still_sd: Vector3::zeros(),
+            still_degrees: 0.0,
+            rotation_sd_rad: 0.0,
+            rotation_degrees: 0.0,
+        }
+    }
+
+    /// The covariance as if the gyroscope's bias were known.
+    pub(super) fn covariance_without_bias(&self) -> DMatrix<f64> {
+        let known =
+            |k: usize| matches!(self.quantities[k], ImuQuantity::Of(Triad::Gyroscope, Quantity::Bias(_)));
+        let size = self.quantities.len();
+        DMatrix::from_fn(size, size, |i, j| if known(i) || known(j) { 0.0 } else { self.covariance[(i, j)] })
+    }
+
+    /// The claim with another bias of the gyroscope, found where it is used: it has moved by `shift` (rad/s) of this covariance.
+    pub(super) fn with_bias_moved_by(&self, shift: &Vector3<f64>, covariance: &Matrix3<f64>) -> Self {
+        let matrix = self.imu.gyroscope.matrix;
+        let of_bias = matrix * covariance * matrix.transpose();
+        let mut claim = Self { covariance: self.covariance_without_bias(), ..self.clone() };
+        claim.imu.gyroscope.bias += matrix * shift;
+        let place = |axis: Axis| {
+            let bias = ImuQuantity::Of(Triad::Gyroscope, Quantity::Bias(axis));
+            self.quantities.iter().position(|quantity| *quantity == bias)
+        };
+        for row in Axis::ALL {
+            for column in Axis::ALL {
+                if let (Some(i), Some(j)) = (place(row), place(column)) {
+                    claim.covariance[(i, j)] = of_bias[(row.index(), column.index())];
+                }
+            }
+        }
+        claim
+    }
+}
+
+/// How well the sensor was placed on known faces is no property of the sensor.
+fn between(calibration: &ImuCalibration) -> f64 {
+    if calibration.frame_is_known() { 0.0 } else { calibration.holds.between_holds_sd_mps2 }
+}
+
+fn without_gravity(calibration: &ImuCalibration, gravity: &Gravity) -> DMatrix<f64> {
+    let ImuCalibration { covariance, quantities, imu, holds, .. } = calibration;
+    recentred(covariance, quantities, imu, &holds.gravity, gravity)
+}
+
+/// The covariance without the uncertainty of the calibration's gravity where the new one is the same, with that of both where it is not: an error of the new
+/// gravity looks like one of the scale factors.
+fn recentred(
+    covariance: &DMatrix<f64>,
+    quantities: &[ImuQuantity],
+    imu: &ImuParameters,
+    calibrated: &Gravity,
+    now: &Gravity,
+) -> DMatrix<f64> {
+    let variance = if calibrated == now { -now.sd_mps2.powi(2) } else { now.sd_mps2.powi(2) };
+    let slope = gravity_slope(quantities, imu, calibrated);
+    covariance + &slope * slope.transpose() * variance
+}

@@ -1,0 +1,174 @@
+//! A calibration on data that were not used for it: is its covariance to be believed?
+//!
+//! Three kinds of errors are known without any reference: the corrected magnitude in a hold less gravity, the corrected rate in it, and gravity carried by the
+//! gyroscope to the next hold less gravity found there. For each, the calibration predicts a covariance
+//!
+//! ```text
+//! C = D + J Σ Jᵀ
+//! ```
+//!
+//! `Σ` that of the parameters (which all errors have in common), `D` of noise and of the scatter between holds or rotations that the calibration found.
+//! `eᵀ C⁻¹ e` over its degrees of freedom is then about 1 if all of that is right; its root is the factor by which the standard deviations are off.
+//!
+//! Gravity is taken to be the one of the calibration, so that its uncertainty moves corrected and true magnitude alike and counts for neither. The bias of a
+//! gyroscope may differ each time it is switched on: in another recording it is compared first, and where it has moved the rest is judged with the bias it has moved to.
+//!
+//! # Folds
+//! The errors of all blocks are pooled, each with the covariance of the calibration without it. These calibrations share data, so the errors of different blocks are
+//! correlated and the distribution of the pooled χ² is approximate (`bengio2004`); its mean is right.
+//!
+//! # References
+//! `viechtbauer2007`, `bengio2004`
+
+mod claim;
+mod cross;
+mod folds;
+mod held;
+mod item;
+mod predict;
+mod result;
+mod statistics;
+mod whitened;
+
+pub use cross::{cross_validate, cross_validate_imu};
+pub use result::*;
+
+use super::imu::{needed_temperatures, recordings};
+use super::{
+    Calibration, CalibrationProblem, HoldCalibration, HoldsSetup, ImuCalibration, ImuProblem, Recovered,
+    Stimulus, find_holds, holds_between,
+};
+use crate::error::{Complaint, Error, Result};
+use crate::motion::Hold;
+use crate::sensor::{Recording, Temperatures};
+use claim::Claim;
+use item::Group;
+use predict::{Errors, Unused};
+use statistics::{Behind, judge};
+
+/// A magnitude this far from gravity on half of the holds is not that of the sensor that was calibrated.
+const ANOTHER_SENSOR: f64 = 0.1;
+
+/// Tries the calibration of an IMU on another recording of it.
+///
+/// `problem` is that of the other recording: its holds are found (or given) as the setup says.
+///
+/// # Errors
+/// [`Error::Recording`](crate::Error::Recording) where the recording has no holds, lacks a sensor, is in other units, or is not one of this IMU.
+pub fn validate_imu(calibration: &ImuCalibration, problem: &ImuProblem<'_>) -> Result<Validation> {
+    let (accelerometer, gyroscope) = recordings(problem)?;
+    let setup = &problem.setup.holds;
+    let stimulus = Stimulus::Holds(setup);
+    CalibrationProblem { sensor: problem.accelerometer, recording: accelerometer, stimulus }.validate()?;
+    let holds = holds_of(accelerometer, setup)?;
+    let unused = Unused {
+        gyroscope: Some(gyroscope),
+        temperatures: temperatures(calibration, problem)?,
+        gyroscope_noise: problem.gyroscope.noise,
+        bias_may_move: true,
+        ..Unused::of_accelerometer(accelerometer, &holds)
+    };
+    let errors = on_another(&Claim::of_imu(calibration, &setup.gravity), &unused)?;
+    match errors.of_kind(ErrorKind::Rate) {
+        Some(_) => Ok(errors),
+        None => Err(Error::recording(Complaint::new(
+            "the gyroscope has no samples in the holds of the accelerometer",
+            "both need the same clock: are these files of one recording?",
+        ))),
+    }
+}
+
+/// Tries the calibration of an accelerometer from holds on another recording of it.
+///
+/// # Errors
+/// As [`validate_imu`]; [`Error::Experiment`](crate::Error::Experiment) for a calibration that is not from holds.
+pub fn validate(calibration: &Calibration, problem: &CalibrationProblem<'_>) -> Result<Validation> {
+    let (setup, found) = of_holds(calibration, problem)?;
+    problem.validate()?;
+    let holds = holds_of(problem.recording, setup)?;
+    let list = setup.gauge.parameter_list(problem.sensor.model);
+    let claim = Claim::of_accelerometer(calibration, found, &list, &setup.gravity);
+    on_another(&claim, &Unused::of_accelerometer(problem.recording, &holds))
+}
+
+/// The temperatures of a recording, where the calibration follows them.
+fn temperatures<'a>(
+    calibration: &ImuCalibration,
+    problem: &ImuProblem<'a>,
+) -> Result<Option<Temperatures<'a>>> {
+    calibration.hold_temperatures_c.as_ref().map(|_| needed_temperatures(problem.recording)).transpose()
+}
+
+fn on_another(claim: &Claim, unused: &Unused<'_>) -> Result<Validation> {
+    let errors = unused.errors(claim).ok_or_else(singular)?;
+    let mut sizes: Vec<f64> = errors.magnitudes.items.iter().map(|item| item.error[0].abs()).collect();
+    sizes.sort_by(f64::total_cmp);
+    let median = sizes[sizes.len() / 2];
+    if median > ANOTHER_SENSOR * claim.gravity_mps2 {
+        return Err(Error::recording(Complaint::new(
+            format!("with this calibration, its holds miss the magnitude of gravity by {median:.2} m/s²"),
+            "is it a recording of the same sensor, in the same units?",
+        )));
+    }
+    Ok(judged(ValidationSource::Recording { name: String::new() }, vec![errors], claim))
+}
+
+/// The holds of a recording: as they are given, or found.
+fn holds_of(recording: &Recording, setup: &HoldsSetup) -> Result<Vec<Hold>> {
+    let holds = match &setup.intervals_s {
+        Some(intervals) => holds_between(recording, intervals)?,
+        None => find_holds(recording, setup.minimum_hold_s)?,
+    };
+    if holds.is_empty() {
+        return Err(Error::recording(Complaint::new(
+            format!("it has no holds of at least {} s", setup.minimum_hold_s),
+            "a validation needs the sensor held still in several orientations",
+        )));
+    }
+    Ok(holds)
+}
+
+/// How holds are to be treated, and what a calibration found of them.
+fn of_holds<'a>(
+    calibration: &'a Calibration,
+    problem: &CalibrationProblem<'a>,
+) -> Result<(&'a HoldsSetup, &'a HoldCalibration)> {
+    match (&problem.stimulus, &calibration.recovered) {
+        (Stimulus::Holds(setup), Recovered::Holds(found)) => Ok((setup, found)),
+        _ => Err(Error::experiment(Complaint::new(
+            "only a calibration from holds can be validated: a commanded motion gives no errors of which anything is known",
+            "record the sensor held still in several orientations, and use [holds]",
+        ))),
+    }
+}
+
+fn singular() -> Error {
+    Error::recording(Complaint::new(
+        "the calibration has a singular matrix, so that it corrects nothing",
+        "calibrate again",
+    ))
+}
+
+/// The errors of one or more claims, those of the last of which tells how much is behind the scatter that was estimated.
+fn judged(source: ValidationSource, errors: Vec<Errors>, claim: &Claim) -> Validation {
+    let bias_shift = match errors.as_slice() {
+        [one] => one.shift,
+        _ => None,
+    };
+    let (mut magnitudes, mut rates, mut rotations): (Vec<Group>, Vec<Group>, Vec<Group>) = Default::default();
+    for errors in errors {
+        magnitudes.push(errors.magnitudes);
+        rates.push(errors.rates);
+        rotations.push(errors.rotations);
+    }
+    let folds = matches!(source, ValidationSource::Folds { .. });
+    let behind = |scatter_degrees: f64| Behind { scatter_degrees, folds, free_shift: false };
+    let of_rates =
+        Behind { free_shift: bias_shift.is_some_and(|shift| shift.moved), ..behind(claim.still_degrees) };
+    let kinds = [
+        judge(ErrorKind::Magnitude, &magnitudes, behind(claim.holds_degrees)),
+        judge(ErrorKind::Rate, &rates, of_rates),
+        judge(ErrorKind::Rotation, &rotations, behind(claim.rotation_degrees)),
+    ];
+    Validation { source, kinds: kinds.into_iter().flatten().collect(), bias_shift }
+}

@@ -1,0 +1,180 @@
+//! Errors of a claim on holds and rotations that it knows nothing of.
+
+use super::claim::Claim;
+use super::held::Held;
+use super::item::{Group, Item, Place};
+use super::result::BiasShift;
+use super::statistics::Ratio;
+use super::whitened::Whitened;
+use crate::estimate::imu::{Carrying, held_still};
+use crate::motion::Hold;
+use crate::sensor::{Recording, Temperatures};
+use nalgebra::{DMatrix, DVector, Matrix2, Vector3};
+
+/// Below this error of a rotation nothing is told apart, as in the fit, rad.
+const FLOOR_RAD: f64 = 1e-9;
+/// A bias has moved where one that far off would be seen in fewer than this share of recordings.
+const MOVED: f64 = 0.01;
+
+/// Holds that a claim is tried on, and what was recorded in and between them.
+#[derive(Clone)]
+pub(super) struct Unused<'a> {
+    /// The holds, with their numbers.
+    pub(super) holds: Vec<(usize, &'a Hold)>,
+    /// Standard deviation of an accelerometer sample within holds.
+    pub(super) within: Vector3<f64>,
+    pub(super) accelerometer: &'a Recording,
+    pub(super) gyroscope: Option<&'a Recording>,
+    /// Temperatures, where the calibration follows them.
+    pub(super) temperatures: Option<Temperatures<'a>>,
+    /// Noise of one gyroscope sample, where it is known.
+    pub(super) gyroscope_noise: Option<Vector3<f64>>,
+    /// May the gyroscope's bias be another one than the calibration's?
+    pub(super) bias_may_move: bool,
+    pub(super) fold: usize,
+}
+
+/// The errors of each kind.
+pub(super) struct Errors {
+    pub(super) magnitudes: Group,
+    pub(super) rates: Group,
+    pub(super) rotations: Group,
+    pub(super) shift: Option<BiasShift>,
+}
+
+impl<'a> Unused<'a> {
+    /// Holds of a recording of an accelerometer.
+    pub(super) fn of_accelerometer(recording: &'a Recording, holds: &'a [Hold]) -> Self {
+        Self {
+            holds: holds.iter().enumerate().collect(),
+            within: Hold::pooled_sd(holds),
+            accelerometer: recording,
+            gyroscope: None,
+            temperatures: None,
+            gyroscope_noise: None,
+            bias_may_move: false,
+            fold: 0,
+        }
+    }
+
+    /// The errors that a claim makes on them; `None` where a matrix of it is singular.
+    pub(super) fn errors(&self, claim: &Claim) -> Option<Errors> {
+        let holds: Vec<&Hold> = self.holds.iter().map(|(_, hold)| *hold).collect();
+        let stills = match self.gyroscope {
+            Some(gyroscope) => held_still(gyroscope, &holds, self.gyroscope_noise).0,
+            None => vec![None; holds.len()],
+        };
+        let temperature = |hold: &Hold| match self.temperatures {
+            Some(temperatures) => temperatures.mean(hold.start_s, hold.end_s),
+            None => claim.imu.thermal.reference_c,
+        };
+        let correct = |claim: &Claim| -> Option<Vec<Held>> {
+            let pairs = self.holds.iter().zip(&stills);
+            pairs
+                .map(|((number, hold), still)| {
+                    Held::of(claim, *number, hold, temperature(hold), &self.within, still.as_ref())
+                })
+                .collect()
+        };
+        let held = correct(claim)?;
+        let magnitudes = held.iter().map(|held| held.magnitude(claim)).collect();
+        let mut rates = self.group(held.iter().filter_map(Held::rate).collect(), &claim.covariance);
+        let mut of_rotations = claim.clone();
+        let mut shift = None;
+        if self.bias_may_move && !rates.items.is_empty() {
+            let without = Group { items: rates.items.clone(), covariance: claim.covariance_without_bias() };
+            let (found, value, covariance) = moved(&rates, &without, claim)?;
+            if found.moved {
+                of_rotations = claim.with_bias_moved_by(&value, &covariance);
+                let by = DVector::from_column_slice(value.as_slice());
+                rates = without;
+                rates.items.iter_mut().for_each(|item| item.error -= &by);
+            }
+            shift = Some(found);
+        }
+        let temperatures_c: Vec<f64> = holds.iter().map(|hold| temperature(hold)).collect();
+        let rotations = self.rotations(&of_rotations, &holds, &held, &temperatures_c)?;
+        Some(Errors {
+            magnitudes: self.group(magnitudes, &claim.covariance),
+            rates,
+            rotations: self.group(rotations, &of_rotations.covariance),
+            shift,
+        })
+    }
+
+    fn group(&self, mut items: Vec<Item>, covariance: &DMatrix<f64>) -> Group {
+        items.iter_mut().for_each(|item| item.place.fold = self.fold);
+        Group { items, covariance: covariance.clone() }
+    }
+
+    /// Gravity after each rotation. The directions before and after are those that the claim finds, with their errors. Neighbours share a hold; what their errors
+    /// have in common by it is left out of the covariance, which leaves the mean of χ² as it is.
+    fn rotations(
+        &self,
+        claim: &Claim,
+        holds: &[&Hold],
+        held: &[Held],
+        temperatures_c: &[f64],
+    ) -> Option<Vec<Item>> {
+        let Some(gyroscope) = self.gyroscope else { return Some(Vec::new()) };
+        let carrying = Carrying {
+            imu: &claim.imu,
+            quantities: &claim.quantities,
+            gravity_mps2: claim.gravity_mps2,
+            between: claim.still_sd,
+            accelerometer: self.accelerometer,
+            gyroscope,
+            known_noise: self.gyroscope_noise,
+        };
+        let forces: Vec<Vector3<f64>> = held.iter().map(|held| held.force).collect();
+        let carried = carrying.through(holds, &forces, temperatures_c)?;
+        let items = carried.into_iter().map(|carried| {
+            let (before, after) = (&held[carried.from], &held[carried.from + 1]);
+            let dense = |by: &nalgebra::Matrix2x3<f64>| DMatrix::from_column_slice(2, 3, by.as_slice());
+            let by_parameters = &carried.by_parameters
+                + dense(&carried.by_from) * &before.by_parameters
+                + dense(&carried.by_to) * &after.by_parameters;
+            let excess = Matrix2::identity() * claim.rotation_sd_rad.powi(2);
+            let own = carried.noise
+                + excess
+                + carried.by_from * before.own * carried.by_from.transpose()
+                + carried.by_to * after.own * carried.by_to.transpose()
+                + Matrix2::identity() * FLOOR_RAD.powi(2);
+            Item {
+                place: Place {
+                    hold: self.holds[carried.from + 1].0,
+                    from_hold: Some(self.holds[carried.from].0),
+                    start_s: carried.start_s,
+                    end_s: carried.end_s,
+                    fold: self.fold,
+                },
+                error: DVector::from_column_slice(carried.error.as_slice()),
+                by_parameters,
+                own: DMatrix::from_column_slice(2, 2, own.as_slice()),
+                scatter_share: (excess.trace() / own.trace()).clamp(0.0, 1.0),
+            }
+        });
+        Some(items.collect())
+    }
+}
+
+/// Has the bias moved? By how much, and how well that is known, in the errors alone.
+fn moved(
+    rates: &Group,
+    without_bias: &Group,
+    claim: &Claim,
+) -> Option<(BiasShift, Vector3<f64>, nalgebra::Matrix3<f64>)> {
+    let all = vec![true; rates.items.len()];
+    let expected = Whitened::of(rates, &all)?.shift()?;
+    let found = Whitened::of(without_bias, &all)?.shift()?;
+    let share = rates.items.iter().map(|item| item.scatter_share).sum::<f64>() / all.len() as f64;
+    let denominator = if share > 0.0 { claim.still_degrees.max(1.0) / share.powi(2) } else { f64::INFINITY };
+    let p_value = Ratio::new(3, denominator).above(expected.chi2 / 3.0);
+    let shift = BiasShift {
+        shift_radps: found.value,
+        sd_radps: expected.covariance.diagonal().map(f64::sqrt),
+        p_value,
+        moved: p_value < MOVED,
+    };
+    Some((shift, found.value, found.covariance))
+}

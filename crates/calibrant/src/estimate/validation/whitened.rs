@@ -1,0 +1,158 @@
+//! Errors in units of what is predicted of each alone, and what they have in common through the parameters.
+//!
+//! With `C = D + J Σ Jᵀ`, `D` block diagonal, `Σ = R Rᵀ` and `D = L Lᵀ`: `z = L⁻¹ e`, `K = L⁻¹ J R`, and
+//!
+//! ```text
+//! eᵀ C⁻¹ e = zᵀ z − (Kᵀ z)ᵀ (I + Kᵀ K)⁻¹ Kᵀ z
+//! ```
+//!
+//! (Woodbury), so that nothing has the size of all errors squared. The root of `Σ` is that of its eigenvalues: it may be singular.
+
+use super::item::{Group, Item};
+use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
+
+/// The errors of a group that count, whitened.
+pub(super) struct Whitened {
+    z: DVector<f64>,
+    k: DMatrix<f64>,
+    /// The identity of each item, whitened: what a shift that all have in common does.
+    ones: DMatrix<f64>,
+}
+
+/// A shift that all errors have in common.
+pub(super) struct Shift {
+    pub(super) value: Vector3<f64>,
+    pub(super) covariance: Matrix3<f64>,
+    pub(super) chi2: f64,
+}
+
+impl Whitened {
+    /// `None` where nothing is predicted of an error, or none counts.
+    pub(super) fn of(group: &Group, counts: &[bool]) -> Option<Self> {
+        let root = root(&group.covariance);
+        let chosen: Vec<&Item> =
+            group.items.iter().zip(counts).filter(|(_, counts)| **counts).map(|(item, _)| item).collect();
+        let width = chosen.first()?.error.len();
+        let rows = width * chosen.len();
+        let (mut z, mut k) = (DVector::zeros(rows), DMatrix::zeros(rows, root.ncols()));
+        let mut ones = DMatrix::zeros(rows, width);
+        for (i, item) in chosen.iter().enumerate() {
+            let l = item.own.clone().cholesky()?.l();
+            z.rows_mut(width * i, width).copy_from(&l.solve_lower_triangular(&item.error)?);
+            let common = l.solve_lower_triangular(&(&item.by_parameters * &root))?;
+            k.rows_mut(width * i, width).copy_from(&common);
+            let one = l.solve_lower_triangular(&DMatrix::identity(width, width))?;
+            ones.rows_mut(width * i, width).copy_from(&one);
+        }
+        Some(Self { z, k, ones })
+    }
+
+    pub(super) fn len(&self) -> usize {
+        self.z.len()
+    }
+
+    /// `C⁻¹ x`, whitened.
+    fn weighed(&self, x: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+        let size = self.k.ncols();
+        let inner = (DMatrix::identity(size, size) + self.k.tr_mul(&self.k)).cholesky()?;
+        Some(x - &self.k * inner.solve(&self.k.tr_mul(x)))
+    }
+
+    /// `eᵀ C⁻¹ e`.
+    pub(super) fn chi2(&self) -> Option<f64> {
+        let z = DMatrix::from_column_slice(self.len(), 1, self.z.as_slice());
+        Some(self.weighed(&z)?.tr_mul(&z)[(0, 0)].max(0.0))
+    }
+
+    /// The shift of three-component errors that explains them best (generalised least squares), and how much of χ² it takes.
+    pub(super) fn shift(&self) -> Option<Shift> {
+        let weighed = self.weighed(&self.ones)?;
+        let covariance = weighed.tr_mul(&self.ones).cholesky()?.inverse();
+        let h = weighed.tr_mul(&self.z);
+        let value = &covariance * &h;
+        Some(Shift {
+            value: Vector3::new(value[0], value[1], value[2]),
+            covariance: Matrix3::from_fn(|i, j| covariance[(i, j)]),
+            chi2: value.dot(&h).max(0.0),
+        })
+    }
+
+    /// The error along each direction in which the parameters move them, `a_k`, of variance `1 + λ_k` if `Σ` is right; `(a_k², λ_k)`.
+    pub(super) fn common_parts(&self) -> Vec<(f64, f64)> {
+        let eigen = self.k.tr_mul(&self.k).symmetric_eigen();
+        let along = self.k.tr_mul(&self.z);
+        let pairs = eigen.eigenvalues.iter().zip(eigen.eigenvectors.column_iter());
+        pairs
+            .filter(|(value, _)| **value > 0.0)
+            .map(|(value, vector)| (vector.dot(&along).powi(2) / value, *value))
+            .collect()
+    }
+}
+
+/// `R` with `R Rᵀ = Σ`, scaled to unit diagonal first so that units do not matter.
+fn root(covariance: &DMatrix<f64>) -> DMatrix<f64> {
+    let sd = covariance.diagonal().map(|variance| variance.max(0.0).sqrt());
+    let inverse = sd.map(|sd| if sd > 0.0 { 1.0 / sd } else { 0.0 });
+    let size = sd.len();
+    let scaled = DMatrix::from_fn(size, size, |i, j| covariance[(i, j)] * inverse[i] * inverse[j]);
+    let eigen = scaled.symmetric_eigen();
+    let roots = eigen.eigenvalues.map(|value| value.max(0.0).sqrt());
+    DMatrix::from_fn(size, size, |i, j| sd[i] * eigen.eigenvectors[(i, j)] * roots[j])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::estimate::validation::item::Place;
+
+    #[test]
+    fn chi2_and_shift_equal_those_of_the_dense_covariance() {
+        let number = |seed: usize| ((seed * 7919 + 13) % 101) as f64 / 50.0 - 1.0;
+        let p = 4;
+        let half = DMatrix::from_fn(p, p, |i, j| number(3 * i + 17 * j) + if i == j { 2.0 } else { 0.0 });
+        // a covariance without a share in one direction, in units far apart
+        let units = DVector::from_vec(vec![1.0, 1e4, 1e-5, 1e-2]);
+        let mut covariance = &half * half.transpose();
+        covariance.row_mut(3).fill(0.0);
+        covariance.column_mut(3).fill(0.0);
+        let covariance = DMatrix::from_fn(p, p, |i, j| covariance[(i, j)] * units[i] * units[j]);
+        let items: Vec<Item> = (0..5)
+            .map(|n| {
+                let own = DMatrix::from_fn(3, 3, |i, j| number(n + i * 5 + j * 11));
+                Item {
+                    place: Place { hold: n, from_hold: None, start_s: 0.0, end_s: 1.0, fold: 0 },
+                    error: DVector::from_fn(3, |i, _| 3.0 * number(n * 31 + i)),
+                    by_parameters: DMatrix::from_fn(3, p, |i, j| number(n * 13 + i * 7 + j) / units[j]),
+                    own: &own * own.transpose() + DMatrix::identity(3, 3),
+                    scatter_share: 0.0,
+                }
+            })
+            .collect();
+        let mut dense = DMatrix::zeros(15, 15);
+        let (mut e, mut ones) = (DVector::zeros(15), DMatrix::zeros(15, 3));
+        for (i, one) in items.iter().enumerate() {
+            e.rows_mut(3 * i, 3).copy_from(&one.error);
+            ones.view_mut((3 * i, 0), (3, 3)).fill_with_identity();
+            for (j, other) in items.iter().enumerate() {
+                let mut block = &one.by_parameters * &covariance * other.by_parameters.transpose();
+                if i == j {
+                    block += &one.own;
+                }
+                dense.view_mut((3 * i, 3 * j), (3, 3)).copy_from(&block);
+            }
+        }
+        let inverse = dense.try_inverse().expect("positive definite");
+        let whitened = Whitened::of(&Group { items, covariance }, &[true; 5]).expect("predicted");
+        let chi2 = (e.transpose() * &inverse * &e)[(0, 0)];
+        assert!((whitened.chi2().expect("regular") / chi2 - 1.0).abs() < 1e-10);
+        let of_shift = (ones.transpose() * &inverse * &ones).try_inverse().expect("regular");
+        let value = &of_shift * ones.transpose() * &inverse * &e;
+        let shift = whitened.shift().expect("regular");
+        assert!((DVector::from_column_slice(shift.value.as_slice()) - &value).norm() < 1e-10 * value.norm());
+        let left = &e - &ones * &value;
+        let rest = (left.transpose() * &inverse * &left)[(0, 0)];
+        assert!((chi2 - shift.chi2 - rest).abs() < 1e-10 * chi2);
+        assert!((shift.covariance[(0, 1)] - of_shift[(0, 1)]).abs() < 1e-12);
+        assert_eq!(whitened.common_parts().iter().filter(|part| part.1 > 1e-12).count(), 3);
+    }
+}

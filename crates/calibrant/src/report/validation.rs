@@ -1,0 +1,208 @@
+//! How a calibration fares on data that were not used for it.
+
+use super::figure::validation_errors;
+use super::html::{Page, list};
+use super::number;
+use super::table::{Cell, Table};
+use crate::estimate::{
+    BiasShift, CovarianceVerdict, ErrorKind, FailedFold, UnusedError, ValidatedErrors, Validation,
+    ValidationSource,
+};
+
+/// So many errors that stand out are named; of the rest the number is told.
+const NAMED: usize = 5;
+
+/// What a validation says, a sentence for each kind of error: is the covariance to be believed?
+#[must_use]
+pub fn validation_sentences(validation: &Validation) -> Vec<String> {
+    let mut sentences = Vec::new();
+    sentences.extend(validation.bias_shift.as_ref().map(bias));
+    for errors in &validation.kinds {
+        sentences.push(sentence(errors));
+        let outlying: Vec<&UnusedError> = errors.outlying().collect();
+        sentences.extend(outlying.iter().take(NAMED).map(|error| stands_out(errors.kind, error)));
+        if outlying.len() > NAMED {
+            sentences.push(format!("{} more do not count either.", outlying.len() - NAMED));
+        }
+    }
+    if let ValidationSource::Folds { failed, .. } = &validation.source {
+        sentences.extend(failed.iter().map(failure));
+    }
+    sentences
+}
+
+/// What it was tried on: `on other.csv`, `5 folds`.
+#[must_use]
+pub fn validation_heading(validation: &Validation) -> String {
+    match &validation.source {
+        ValidationSource::Recording { name } if name.is_empty() => "On another recording".into(),
+        ValidationSource::Recording { name } => format!("On {name}"),
+        ValidationSource::Folds { folds, .. } => {
+            format!("{folds} blocks of holds, each predicted from the others")
+        }
+    }
+}
+
+/// Header and rows of what a validation found: errors, number, rms, predicted, χ² of n, p-value, factor.
+#[must_use]
+pub fn validation_rows(validation: &Validation) -> ([&'static str; 7], Vec<[String; 7]>) {
+    let header = ["error of", "number", "rms", "predicted", "χ² of n", "p-value", "factor (99 %)"];
+    let mut rows = Vec::new();
+    for errors in &validation.kinds {
+        let chi2 = |chi2: f64, degrees: usize| format!("{} of {degrees}", number::significant(chi2, 3));
+        rows.push([
+            what(errors.kind).into(),
+            errors.counted().to_string(),
+            measured(errors.kind, errors.rms),
+            measured(errors.kind, errors.predicted_rms),
+            chi2(errors.chi2, errors.degrees_of_freedom),
+            number::probability(errors.p_value),
+            between(errors.factor, errors.factor_interval),
+        ]);
+        if let Some(part) = errors.parameters {
+            rows.push([
+                "– by the parameters".into(),
+                number::UNKNOWN.into(),
+                number::UNKNOWN.into(),
+                number::UNKNOWN.into(),
+                chi2(part.chi2, part.degrees_of_freedom),
+                number::probability(part.p_value),
+                between(part.factor, part.factor_interval),
+            ]);
+        }
+    }
+    (header, rows)
+}
+
+/// The section on all validations of a calibration; nothing where there is none.
+pub(super) fn validation_section(page: &mut Page, validations: &[Validation]) {
+    if validations.is_empty() {
+        return;
+    }
+    page.section(
+        "Validation",
+        "Errors on data that were not used, beside what the calibration predicts of them: its covariance, the noise, and the scatter between holds and \
+         rotations. The factor is that by which the standard deviations are off, 1 if they are right, with its 99 % confidence interval.",
+    );
+    for validation in validations {
+        page.subsection(&validation_heading(validation));
+        page.push(list(&validation_sentences(validation)));
+        let (header, rows) = validation_rows(validation);
+        let mut table = Table::new("", &header);
+        for row in rows {
+            let [name, numbers @ ..] = row;
+            let mut cells = vec![Cell::Name(name)];
+            cells.extend(numbers.map(Cell::Number));
+            table.row(cells);
+        }
+        page.push(table.html());
+        page.push(validation_errors(validation).html());
+    }
+}
+
+fn what(kind: ErrorKind) -> &'static str {
+    match kind {
+        ErrorKind::Magnitude => "|f| in holds",
+        ErrorKind::Rate => "rate in holds",
+        ErrorKind::Rotation => "gravity after rotations",
+    }
+}
+
+fn measured(kind: ErrorKind, value: f64) -> String {
+    let (value, unit) = match kind {
+        ErrorKind::Magnitude => (1e3 * value, " mm/s²"),
+        ErrorKind::Rate => (value.to_degrees(), " °/s"),
+        ErrorKind::Rotation => (value.to_degrees(), "°"),
+    };
+    format!("{}{unit}", number::significant(value, 2))
+}
+
+fn between(factor: f64, (low, high): (f64, f64)) -> String {
+    let two = |value: f64| number::significant(value, 2);
+    let high = if high < 1e3 { two(high) } else { "∞".into() };
+    format!("{} ({} to {high})", two(factor), two(low))
+}
+
+fn sentence(errors: &ValidatedErrors) -> String {
+    let (kind, count) = (errors.kind, errors.counted());
+    let (rms, predicted) = (measured(kind, errors.rms), measured(kind, errors.predicted_rms));
+    let misses = match kind {
+        ErrorKind::Magnitude => format!("On {} not used, |f| misses gravity by {rms} rms", of(count, "hold")),
+        ErrorKind::Rate => {
+            format!("In {} not used, the corrected rate is off by {rms} rms", of(count, "hold"))
+        }
+        ErrorKind::Rotation => {
+            format!("After {} not used, gravity is missed by {rms} rms", of(count, "rotation"))
+        }
+    };
+    let two = |value: f64| number::significant(value, 2);
+    let (low, high) = errors.factor_interval;
+    let doubt = match (errors.verdict, errors.parameters) {
+        (CovarianceVerdict::Believed, _) => {
+            format!("the covariance is to be believed (the factor is between {} and {})", two(low), two(high))
+        }
+        (CovarianceVerdict::LargerThanNeeded, _) => format!(
+            "{} times what was predicted: the standard deviations are larger than need be (the factor is between {} and {})",
+            two(errors.factor),
+            two(low),
+            two(high)
+        ),
+        (CovarianceVerdict::TooSmall, Some(part)) if low <= 1.0 => format!(
+            "but what the errors have in common through the parameters is {} times what was predicted: the parameters' covariance is too small; multiply their \
+             standard deviations by about that (factor {})",
+            two((part.chi2 / part.degrees_of_freedom as f64).sqrt()),
+            between(part.factor, part.factor_interval)
+        ),
+        (CovarianceVerdict::TooSmall, _) => format!(
+            "{} times what was predicted: the covariance is too small; multiply the standard deviations by about {} (between {} and {})",
+            two(errors.factor),
+            two(errors.factor),
+            two(low),
+            two(high)
+        ),
+    };
+    format!("{misses}, {predicted} predicted: {doubt}.")
+}
+
+fn of(count: usize, what: &str) -> String {
+    format!("{} that {}", number::counted(count, what), if count == 1 { "was" } else { "were" })
+}
+
+fn bias(shift: &BiasShift) -> String {
+    if !shift.moved {
+        return "The gyroscope's bias is that of the calibration, within its uncertainty.".into();
+    }
+    let degrees = |value: f64| number::significant(value.to_degrees(), 2);
+    let values: Vec<String> = shift.shift_radps.iter().map(|value| degrees(*value)).collect();
+    let most = shift.shift_radps.component_div(&shift.sd_radps).amax();
+    format!(
+        "The gyroscope's bias has moved by {} °/s since the calibration, up to {} standard deviations: determine it anew where it is used. Rates and rotations are judged \
+         with the bias it has moved to.",
+        values.join(", "),
+        number::significant(most, 2)
+    )
+}
+
+fn stands_out(kind: ErrorKind, error: &UnusedError) -> String {
+    let name = match error.from_hold {
+        Some(from) => format!("The rotation from hold {} to hold {}", from + 1, error.hold + 1),
+        None => format!("Hold {}", error.hold + 1),
+    };
+    let missed = match kind {
+        ErrorKind::Rate => "shows a rate of",
+        ErrorKind::Magnitude | ErrorKind::Rotation => "misses gravity by",
+    };
+    format!(
+        "{name} ({} to {} s) {missed} {}, {} times what was predicted, and does not count.",
+        number::fixed(error.start_s, 1),
+        number::fixed(error.end_s, 1),
+        measured(kind, error.error.norm()),
+        number::significant(error.in_sd, 2)
+    )
+}
+
+fn failure(fold: &FailedFold) -> String {
+    let (first, last) = (fold.holds.0 + 1, fold.holds.1 + 1);
+    let holds = if first == last { format!("Hold {first}") } else { format!("Holds {first} to {last}") };
+    format!("{holds} could not be predicted from the others: {}.", fold.reason)
+}
