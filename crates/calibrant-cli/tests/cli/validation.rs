@@ -69,7 +69,7 @@ fn what_cannot_be_validated_is_refused() {
         2,
         &["one calibration is validated at a time"],
     );
-    let moving: String = (0..2000)
+    let short: String = (0..60)
         .map(|k| {
             format!(
                 "{},{},{},{}\n",
@@ -80,11 +80,11 @@ fn what_cannot_be_validated_is_refused() {
             )
         })
         .collect();
-    bench.write("moving.csv", format!("t_s,ax_mps2,ay_mps2,az_mps2\n{moving}"));
+    bench.write("short.csv", format!("t_s,ax_mps2,ay_mps2,az_mps2\n{short}"));
     bench.refuses(
-        &format!("{calibrate} --validate moving.csv"),
+        &format!("{calibrate} --validate short.csv"),
         3,
-        &["moving.csv: it has no holds of at least"],
+        &["short.csv: it has no holds of at least"],
     );
     bench.preset("report", "report.toml", &[]);
     bench.run("simulate report.toml -o moved").done();
