@@ -34,6 +34,7 @@ mod naming;
 mod options;
 #[cfg(feature = "parquet")]
 mod parquet;
+mod parquet_pages;
 mod readings;
 mod samples;
 mod unit;
