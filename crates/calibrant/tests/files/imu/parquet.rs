@@ -181,3 +181,15 @@ fn a_table_that_is_damaged_is_refused_and_never_ends_the_program() {
     drop(std::panic::take_hook());
     assert!(refused > read, "{refused} {read}");
 }
+
+/// The crate that decodes pages would reserve room for every value that a dictionary promises, up to 2³¹ of them.
+#[test]
+fn a_dictionary_that_promises_more_values_than_it_has_bytes_is_refused() {
+    let mut bytes = write(SCHEMA, &[group(0)], Compression::UNCOMPRESSED);
+    // a page of type 2 with two sizes, and in its dictionary's header 3 values (compact Thrift, zigzag)
+    let is_header = |b: &[u8]| b[..3] == [0x15, 0x04, 0x15] && b[4] == 0x15 && b[6..] == [0x4c, 0x15, 0x06];
+    let at = bytes.windows(9).position(is_header).expect("a dictionary of three values");
+    bytes[at + 8] = 0x7e;
+    let said = parse_imu_recording(&bytes, &ImuReadOptions::default()).expect_err("refused").to_string();
+    assert!(said.contains("damaged") && said.contains("a dictionary of 63 values has 24 bytes"), "{said}");
+}

@@ -35,6 +35,7 @@ mod naming;
 mod options;
 #[cfg(feature = "parquet")]
 mod parquet;
+mod parquet_pages;
 mod readings;
 mod samples;
 mod unit;

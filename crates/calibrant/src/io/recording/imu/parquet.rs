@@ -4,13 +4,14 @@ use super::column::{ColumnMeaning, ImuColumn};
 use super::draft::Draft;
 use super::format::FileFormat;
 use super::naming;
+use super::parquet_pages::Pages;
 use super::samples::{SLOTS, Samples, TIME};
 use super::unit::{ColumnUnit, TimeUnit};
 use crate::error::Complaint;
 use crate::io::text::Checked;
 use bytes::Bytes;
 use parquet::basic::{Compression, LogicalType, TimeUnit as StampUnit};
-use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
+use parquet::column::reader::{ColumnReader, ColumnReaderImpl, get_column_reader};
 use parquet::data_type::DataType;
 use parquet::errors::ParquetError;
 use parquet::file::reader::{FileReader, SerializedFileReader};
@@ -19,12 +20,15 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// Values that are read at once.
 const BATCH: usize = 1 << 16;
+/// Rows for each byte of the file, at most: what changes from row to row takes more room, and a few bytes can claim billions of equal ones.
+const ROWS_PER_BYTE: usize = 1000;
 /// Whole numbers above this are not exact as `f64`.
 const EXACT: u64 = 1 << 53;
 
 /// An opened file and what its columns mean.
 pub(super) struct Opened {
     reader: SerializedFileReader<Bytes>,
+    bytes: usize,
     pub(super) draft: Draft,
 }
 
@@ -36,7 +40,7 @@ pub(super) fn open(bytes: &[u8]) -> Checked<Opened> {
         let columns =
             reader.metadata().file_metadata().schema_descr().columns().iter().map(|column| describe(column));
         let draft = Draft::new(FileFormat::Parquet, columns.collect());
-        Ok(Opened { reader, draft })
+        Ok(Opened { reader, bytes: bytes.len(), draft })
     })
 }
 
@@ -76,6 +80,7 @@ pub(super) fn samples(file: &Opened, slots: &[Option<usize>]) -> Checked<Samples
                 is_time: slot == TIME,
                 origin: None,
                 values: Vec::new(),
+                most: file.bytes.saturating_mul(ROWS_PER_BYTE),
             };
             for group in 0..file.reader.num_row_groups() {
                 let group = file.reader.get_row_group(group).map_err(|error| damaged(&error))?;
@@ -90,7 +95,9 @@ pub(super) fn samples(file: &Opened, slots: &[Option<usize>]) -> Checked<Samples
                         Complaint::new(message, "write it again with snappy, lz4 or no compression").into()
                     );
                 }
-                column.read(group.get_column_reader(at).map_err(|error| damaged(&error))?)?;
+                let descriptor = file.reader.metadata().file_metadata().schema_descr().column(at);
+                let pages = group.get_column_page_reader(at).map_err(|error| damaged(&error))?;
+                column.read(get_column_reader(descriptor, Box::new(Pages(pages))))?;
             }
             if slot == TIME {
                 origin = column.origin.unwrap_or(0);
@@ -108,6 +115,8 @@ struct Column<'n> {
     /// What is taken from times that are too large to be exact as `f64`.
     origin: Option<i64>,
     values: Vec<f64>,
+    /// The most rows that are believed.
+    most: usize,
 }
 
 impl Column<'_> {
@@ -150,6 +159,10 @@ impl Column<'_> {
                 .map_err(|error| damaged(&error))?;
             if rows == 0 {
                 return Ok(());
+            }
+            if self.values.len() + rows > self.most {
+                let message = format!("column `{}` claims more rows than the file can hold", self.name);
+                return Err(Complaint::new(message, "was it written to its end?").into());
             }
             // where every value is there, there are no levels
             let all = values == rows;
