@@ -484,8 +484,10 @@ fn what_cannot_be_validated_is_refused_with_the_reason() {
     let without = ImuRecording { gyroscope: None, ..recording.clone() };
     assert!(refused(&without).contains("the recording has no gyroscope"));
     let mut restless = recording.clone();
-    for (k, y) in restless.accelerometer.as_mut().expect("there").readings.iter_mut().enumerate() {
-        *y += Vector3::repeat(3.0 * (k as f64 * 0.9).sin() * (1.0 + k as f64 * 1e-3));
+    for sensor in [&mut restless.accelerometer, &mut restless.gyroscope] {
+        for (k, y) in sensor.as_mut().expect("there").readings.iter_mut().enumerate() {
+            *y += Vector3::repeat(3.0 * (k as f64 * 0.9).sin() * (1.0 + k as f64 * 1e-3));
+        }
     }
     let message = refused(&restless);
     assert!(message.contains("no holds") || message.contains("miss the magnitude"), "{message}");

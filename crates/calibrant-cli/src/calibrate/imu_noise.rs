@@ -1,6 +1,6 @@
 //! The noise of an IMU in the longest hold: what a sample's noise is taken for where the experiment does not say, and a section of the report.
 
-use calibrant::estimate::{HoldsSetup, ImuCalibration, WhiteNoise, find_holds, holds_between};
+use calibrant::estimate::{HoldsSetup, ImuCalibration, WhiteNoise, find_imu_holds, holds_between};
 use calibrant::io::ImuFile;
 use calibrant::noise::TriadNoise;
 use calibrant::sensor::{ImuRecording, Triad};
@@ -23,7 +23,7 @@ impl HoldNoise {
         let holds = recording.accelerometer.as_ref().and_then(|accelerometer| {
             match &setup.intervals_s {
                 Some(intervals) => holds_between(accelerometer, intervals),
-                None => find_holds(accelerometer, setup.minimum_hold_s),
+                None => find_imu_holds(recording, setup.minimum_hold_s),
             }
             .ok()
         });

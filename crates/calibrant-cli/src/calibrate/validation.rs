@@ -9,7 +9,7 @@ use calibrant::estimate::{
     CalibrationSettings, HoldsSetup, ImuCalibration, ImuProblem, ImuSetup, Stimulus, Validation,
     ValidationSource, cross_validate, cross_validate_imu, validate, validate_imu,
 };
-use calibrant::io::{ImuFile, ImuReadOptions, read_imu_pair, read_imu_recording, read_recording};
+use calibrant::io::{ImuFile, ImuReadOptions, read_accelerometer, read_imu_pair, read_imu_recording};
 use std::path::Path;
 
 /// Refuses `--validate` and `--folds` with several recordings.
@@ -69,7 +69,7 @@ pub(super) fn of_accelerometer(
     let problem = job.problem(&done.file.recording);
     let mut validations = Vec::new();
     if let Some(path) = &arguments.validate {
-        let other = read_recording(path, &job.read)?;
+        let other = read_accelerometer(path, &job.read, &job.device)?;
         other.findings.iter().for_each(|finding| console::note(&format!("{}: {finding}", name(path))));
         warn_of_the_same(&done.input.sha256, &other.sha256, path);
         let setup = job.holds.as_ref().map(found);

@@ -32,7 +32,7 @@ pub use holds::{
 };
 pub use imu::{
     Gyroscope, ImuCalibration, ImuProblem, ImuSetup, KnownTerm, NoiseSource, RotationResult, StillGyroscope,
-    ThermalModel, Turn, TurnResult, WhiteNoise, calibrate_imu,
+    ThermalModel, Turn, TurnResult, WhiteNoise, calibrate_imu, find_imu_holds,
 };
 pub use problem::{CalibrationProblem, Stimulus};
 pub use result::*;

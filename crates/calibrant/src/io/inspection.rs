@@ -3,9 +3,9 @@
 use super::json;
 use super::recording::{Finding, ImuColumn, ImuFile};
 use crate::error::Result;
-use crate::estimate::{Coverage, ExpectedCalibration, coverage, expected_calibration, find_holds};
+use crate::estimate::{Coverage, ExpectedCalibration, coverage, expected_calibration, find_imu_holds};
 use crate::motion::Hold;
-use crate::sensor::{Gauge, ReadingUnit, Recording, Triad};
+use crate::sensor::{Gauge, ImuRecording, ReadingUnit, Recording, Triad};
 use nalgebra::Vector3;
 use serde::Serialize;
 
@@ -86,7 +86,7 @@ pub fn inspect(file: &ImuFile) -> Inspection {
         .filter_map(|triad| Some(SensorInspection::of(triad, recording.triad(triad)?)))
         .collect();
     let holds = recording.accelerometer.as_ref().map(|accelerometer| {
-        HoldsInspection::of(accelerometer, recording.gyroscope.as_ref()).map_err(|error| error.to_string())
+        HoldsInspection::of(recording, accelerometer).map_err(|error| error.to_string())
     });
     Inspection { sensors, holds }
 }
@@ -128,8 +128,8 @@ impl SensorInspection {
 }
 
 impl HoldsInspection {
-    fn of(accelerometer: &Recording, gyroscope: Option<&Recording>) -> Result<Self> {
-        let holds = find_holds(accelerometer, MINIMUM_HOLD_S)?;
+    fn of(recording: &ImuRecording, accelerometer: &Recording) -> Result<Self> {
+        let holds = find_imu_holds(recording, MINIMUM_HOLD_S)?;
         let expected = expected_calibration(&holds, accelerometer.unit, GRAVITY_MPS2, Gauge::Upper)
             .map_err(|error| error.to_string());
         let offset = match &expected {
@@ -140,7 +140,7 @@ impl HoldsInspection {
         let directions = offset.map(|offset| holds.iter().map(|hold| hold.mean - offset).collect::<Vec<_>>());
         Ok(Self {
             coverage: directions.and_then(|directions| coverage(&directions)),
-            gyroscope_at_rest: gyroscope.and_then(|gyroscope| at_rest(gyroscope, &holds)),
+            gyroscope_at_rest: recording.gyroscope.as_ref().and_then(|gyroscope| at_rest(gyroscope, &holds)),
             expected,
             holds,
         })

@@ -65,6 +65,7 @@ impl Finished<'_> {
         for (&j, force) in self.chosen.iter().zip(&fit.state.forces) {
             holds.holds[j].force_mps2 = *force;
         }
+        holds.before = Uncalibrated::accelerometer(problem.accelerometer, &imu.accelerometer);
         let turns = joint
             .turns
             .iter()

@@ -16,6 +16,7 @@
 //! `tedaldi2014`, `ferraris1995`
 
 mod assemble;
+mod both_still;
 mod carried;
 mod faces;
 mod joint;
@@ -31,6 +32,7 @@ mod thermal;
 mod verdict;
 mod weights;
 
+pub use both_still::find_imu_holds;
 pub(super) use carried::{Carrying, HeldStill, held_still};
 pub use problem::{Gyroscope, ImuProblem, ImuSetup, KnownTerm, NoiseSource, Turn, WhiteNoise};
 pub use result::{ImuCalibration, RotationResult, StillGyroscope, TurnResult};

@@ -1,6 +1,7 @@
 //! From the recording to the joint problem, its weights, and its solution.
 
 use super::assemble::Finished;
+use super::both_still::find_imu_holds;
 use super::faces::{self, First};
 use super::joint::{HoldData, Joint, RotationData, State};
 use super::readings::{Integrable, felt_forces, rotation_spans, samples, turns};
@@ -223,13 +224,22 @@ fn from_holds(
     settings: &CalibrationSettings,
     intervals_s: Option<Vec<(f64, f64)>>,
 ) -> Result<First> {
-    let setup = HoldsSetup { intervals_s, ..problem.setup.holds.clone() };
+    let detected = intervals_s.is_none();
+    let intervals_s = match intervals_s {
+        Some(intervals) => intervals,
+        None => {
+            let found = find_imu_holds(problem.recording, problem.setup.holds.minimum_hold_s)?;
+            found.iter().map(|hold| (hold.start_s, hold.end_s)).collect()
+        }
+    };
+    let setup = HoldsSetup { intervals_s: Some(intervals_s), ..problem.setup.holds.clone() };
     let stimulus = Stimulus::Holds(&setup);
     let first =
         calibrate(&CalibrationProblem { sensor: problem.accelerometer, recording, stimulus }, settings)?;
-    let Recovered::Holds(holds) = first.recovered else {
+    let Recovered::Holds(mut holds) = first.recovered else {
         return Err(Error::experiment(Complaint::new("an IMU is calibrated from holds", "use [holds]")));
     };
+    holds.detected = detected;
     let within = first.fit.noise_estimate.unwrap_or_else(Vector3::zeros);
     let (thermal, adjusted) = (TriadThermal::default(), None);
     Ok(First { sensor: first.sensor, within, holds, warnings: first.warnings, thermal, adjusted })

@@ -36,11 +36,11 @@ pub use result::*;
 use super::imu::{needed_temperatures, recordings};
 use super::{
     Calibration, CalibrationProblem, HoldCalibration, HoldsSetup, ImuCalibration, ImuProblem, Recovered,
-    Stimulus, find_holds, holds_between,
+    Stimulus, find_holds, find_imu_holds, holds_between,
 };
 use crate::error::{Complaint, Error, Result};
 use crate::motion::Hold;
-use crate::sensor::{Recording, Temperatures};
+use crate::sensor::Temperatures;
 use claim::Claim;
 use item::Group;
 use predict::{Errors, Unused};
@@ -60,7 +60,11 @@ pub fn validate_imu(calibration: &ImuCalibration, problem: &ImuProblem<'_>) -> R
     let setup = &problem.setup.holds;
     let stimulus = Stimulus::Holds(setup);
     CalibrationProblem { sensor: problem.accelerometer, recording: accelerometer, stimulus }.validate()?;
-    let holds = holds_of(accelerometer, setup)?;
+    let holds = match &setup.intervals_s {
+        Some(intervals) => holds_between(accelerometer, intervals)?,
+        None => find_imu_holds(problem.recording, setup.minimum_hold_s)?,
+    };
+    let holds = at_least_one(holds, setup)?;
     let unused = Unused {
         gyroscope: Some(gyroscope),
         temperatures: temperatures(calibration, problem)?,
@@ -85,7 +89,11 @@ pub fn validate_imu(calibration: &ImuCalibration, problem: &ImuProblem<'_>) -> R
 pub fn validate(calibration: &Calibration, problem: &CalibrationProblem<'_>) -> Result<Validation> {
     let (setup, found) = of_holds(calibration, problem)?;
     problem.validate()?;
-    let holds = holds_of(problem.recording, setup)?;
+    let holds = match &setup.intervals_s {
+        Some(intervals) => holds_between(problem.recording, intervals)?,
+        None => find_holds(problem.recording, setup.minimum_hold_s)?,
+    };
+    let holds = at_least_one(holds, setup)?;
     let list = setup.gauge.parameter_list(problem.sensor.model);
     let claim = Claim::of_accelerometer(calibration, found, &list, &setup.gravity);
     on_another(&claim, &Unused::of_accelerometer(problem.recording, &holds))
@@ -113,12 +121,8 @@ fn on_another(claim: &Claim, unused: &Unused<'_>) -> Result<Validation> {
     Ok(judged(ValidationSource::Recording { name: String::new() }, vec![errors], claim))
 }
 
-/// The holds of a recording: as they are given, or found.
-fn holds_of(recording: &Recording, setup: &HoldsSetup) -> Result<Vec<Hold>> {
-    let holds = match &setup.intervals_s {
-        Some(intervals) => holds_between(recording, intervals)?,
-        None => find_holds(recording, setup.minimum_hold_s)?,
-    };
+/// The holds, of which there are some.
+fn at_least_one(holds: Vec<Hold>, setup: &HoldsSetup) -> Result<Vec<Hold>> {
     if holds.is_empty() {
         return Err(Error::recording(Complaint::new(
             format!("it has no holds of at least {} s", setup.minimum_hold_s),
