@@ -79,15 +79,16 @@ pub(in crate::report) fn imu_before_and_after(
     let imu = CalibratedImu { covariance: None, ..calibration.calibrated() };
     let corrected = ImuCorrection::of(&imu).ok()?.apply(&imu, recording).ok()?.gyroscope?;
     let before = Correction::of(&calibration.gyroscope_before.sensor)?;
-    let pairs = || {
-        let readings = gyroscope.readings.iter().map(|reading| before.apply(reading).map(f64::to_degrees));
-        readings.zip(corrected.values.iter().map(|rate| rate.map(f64::to_degrees)))
-    };
+    let degrees = |rate: &Vector3<f64>| rate.map(f64::to_degrees);
+    let after: Vec<Vector3<f64>> = corrected.values.iter().map(degrees).collect();
+    let readings = gyroscope.readings.iter().map(|reading| degrees(&before.apply(reading)));
+    let changes: Vec<Vector3<f64>> =
+        after.iter().zip(readings).map(|(after, before)| after - before).collect();
     let over_time = |values: &mut dyn Iterator<Item = f64>| -> Vec<(f64, f64)> {
         thinned(gyroscope.times_s.iter().copied().zip(values).collect())
     };
     let thin = Mark::Line { width: 0.9, dashes: "" };
-    let rate = over_time(&mut pairs().map(|(_, after)| after.norm()));
+    let rate = over_time(&mut after.iter().map(|rate| rate.norm()));
     panels.push(Panel::new("angular rate, after", "time (s)", "|ω| (°/s)").with(Series::new(
         AFTER,
         colour::BLUE,
@@ -96,7 +97,7 @@ pub(in crate::report) fn imu_before_and_after(
     )));
     let mut change = Panel::new("what the correction changes", "time (s)", "ω after − before (°/s)");
     for (axis, colour) in Axis::ALL.into_iter().zip([colour::VERMILLION, colour::GREEN, colour::SKY]) {
-        let difference = over_time(&mut pairs().map(|(before, after)| (after - before)[axis.index()]));
+        let difference = over_time(&mut changes.iter().map(|change| change[axis.index()]));
         change = change.with(Series::new(&format!("change of axis {axis}"), colour, thin, difference));
     }
     panels.push(change);
@@ -123,7 +124,10 @@ fn force_panels(
         thinned(readings.map(|(time, reading)| (time, correction.apply(reading).norm())).collect())
     };
     let all = || recording.times_s.iter().copied().zip(&recording.readings);
-    let still = |k: usize| holds.holds.iter().any(|result| (result.hold.first..result.hold.end).contains(&k));
+    let still = || {
+        let samples = holds.holds.iter().flat_map(|result| result.hold.first..result.hold.end);
+        samples.map(|k| (recording.times_s[k], &recording.readings[k]))
+    };
     let thin = Mark::Line { width: 0.9, dashes: "" };
     let line = |label: &str, colour, points| Series::new(label, colour, thin, points);
     let dots = |label: &str, colour, points| {
@@ -136,9 +140,7 @@ fn force_panels(
         Mark::Line { width: 1.2, dashes: "7 4" },
         vec![(first, gravity), (last, gravity)],
     );
-    let at_rest = |correction| {
-        magnitudes(correction, &mut all().enumerate().filter(|(k, _)| still(*k)).map(|(_, pair)| pair))
-    };
+    let at_rest = |correction| magnitudes(correction, &mut still());
     Some(vec![
         Panel::new("specific force", "time (s)", "|f| (m/s²)")
             .with(line(BEFORE, colour::ORANGE, magnitudes(before, &mut all())))
