@@ -46,27 +46,31 @@ impl CalibrationProblem<'_> {
                 "set `sensor.unit`, or give the recording's unit",
             );
         }
-        if recording.len() < 2 || recording.readings.len() != recording.len() {
-            return complain(format!("the recording has {} samples", recording.len()), "record at least two");
-        }
-        if let Some(k) = recording
-            .times_s
-            .windows(2)
-            .position(|pair| pair[1] <= pair[0] || !(pair[1] - pair[0]).is_finite())
-        {
-            return complain(
-                format!("time does not increase after sample {k}"),
-                "sort the samples, remove duplicates",
-            );
-        }
-        if let Some(k) =
-            recording.readings.iter().position(|y| y.iter().any(|y| !y.is_finite() || y.abs() > 1e12))
-        {
-            return complain(
-                format!("sample {k} is not a usable reading: {:?}", recording.readings[k].as_slice()),
-                "remove it",
-            );
-        }
-        Ok(())
+        sound(recording)
     }
+}
+
+/// Refuses a recording whose samples are none: too few, times that do not increase, readings that are no numbers.
+pub(super) fn sound(recording: &Recording) -> Result<()> {
+    let complain = |message: String, help: &str| Err(Error::recording(Complaint::new(message, help)));
+    if recording.len() < 2 || recording.readings.len() != recording.len() {
+        return complain(format!("the recording has {} samples", recording.len()), "record at least two");
+    }
+    if let Some(k) =
+        recording.times_s.windows(2).position(|pair| pair[1] <= pair[0] || !(pair[1] - pair[0]).is_finite())
+    {
+        return complain(
+            format!("time does not increase after sample {k}"),
+            "sort the samples, remove duplicates",
+        );
+    }
+    if let Some(k) =
+        recording.readings.iter().position(|y| y.iter().any(|y| !y.is_finite() || y.abs() > 1e12))
+    {
+        return complain(
+            format!("sample {k} is not a usable reading: {:?}", recording.readings[k].as_slice()),
+            "remove it",
+        );
+    }
+    Ok(())
 }

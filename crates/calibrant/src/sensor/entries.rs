@@ -10,10 +10,10 @@ use super::{
 use nalgebra::{DMatrix, Matrix3, SMatrix, SVector, Vector3};
 
 /// Number of entries.
-pub(super) const ENTRIES: usize = AT_REFERENCE + 2 * THERMAL_OF_TRIAD;
+pub(crate) const ENTRIES: usize = AT_REFERENCE + 2 * THERMAL_OF_TRIAD;
 
 /// Number of those that do not speak of temperature; they come first.
-pub(super) const AT_REFERENCE: usize = 33;
+pub(crate) const AT_REFERENCE: usize = 33;
 
 /// Number of temperature terms of one sensor.
 const THERMAL_OF_TRIAD: usize = 2 * 3 * HIGHEST_ORDER;

@@ -6,7 +6,7 @@
 
 mod axis;
 mod datasheet;
-mod entries;
+pub(crate) mod entries;
 mod gauge;
 mod gauge_change;
 mod imu;

@@ -39,6 +39,7 @@ use nalgebra::{Matrix3, Vector3};
 use robust::Robust;
 
 pub(super) use robust::critical;
+pub(super) use verdict::left_out;
 
 pub use coverage::{Coverage, coverage};
 pub use detect::{find_holds, holds_between};
@@ -92,6 +93,13 @@ pub(super) fn calibrate(
     Ok(Calibration { datasheet_prior: settings.datasheet_prior, ..calibration })
 }
 
+/// Root mean square of `|f| − g` over the holds that are used, m/s².
+pub(super) fn magnitude_rms(holds: &[HoldResult]) -> f64 {
+    let squares: Vec<f64> =
+        holds.iter().filter(|hold| hold.used).map(|hold| hold.magnitude_residual_mps2.powi(2)).collect();
+    (squares.iter().sum::<f64>() / squares.len().max(1) as f64).sqrt()
+}
+
 /// Puts the result together.
 fn assemble(
     problem: &CalibrationProblem<'_>,
@@ -127,7 +135,7 @@ fn assemble(
         let residual = result.hold.mean - sensor.reading(&result.force_mps2);
         residual_rms += residual.component_mul(&residual) / count as f64;
     }
-    let magnitude = used().map(|result| result.magnitude_residual_mps2.powi(2)).sum::<f64>() / count as f64;
+    let magnitude_rms = magnitude_rms(&results);
     let degrees_of_freedom = robust.degrees_of_freedom;
     let fit = FitStatistics {
         chi2: robust.chi2,
@@ -162,7 +170,7 @@ fn assemble(
             gauge: setup.gauge,
             between_holds_sd_mps2: robust.between_holds_sd,
             between_holds_dominates: robust.between_holds_sd > 0.0,
-            magnitude_residual_rms_mps2: magnitude.sqrt(),
+            magnitude_residual_rms_mps2: magnitude_rms,
             condition_number: robust.condition_number,
             detected: setup.intervals_s.is_none(),
             before: Uncalibrated::accelerometer(problem.sensor, &sensor),

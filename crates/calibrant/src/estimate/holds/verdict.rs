@@ -1,6 +1,6 @@
 //! What a user should know about a static calibration, in words.
 
-use super::{Calibration, HoldResult, Recovered};
+use super::{Calibration, HoldCalibration, HoldResult, Recovered};
 use crate::error::UndeterminedGroup;
 use crate::estimate::CalibrationStatus;
 use crate::estimate::statistics::implausible;
@@ -59,23 +59,7 @@ pub(super) fn warnings(calibration: &Calibration, weakest: &[String]) -> Vec<Str
             calibration.status.name()
         ));
     }
-    let bad: Vec<String> = holds
-        .holds
-        .iter()
-        .enumerate()
-        .filter(|(_, hold)| !hold.used)
-        .map(|(k, hold)| {
-            format!(
-                "hold {} ({:.1} to {:.1} s) was left out: its magnitude is off by {:.3} mm/s², {:.1} standard deviations",
-                k + 1,
-                hold.hold.start_s,
-                hold.hold.end_s,
-                1e3 * hold.magnitude_residual_mps2,
-                hold.studentised_residual.abs()
-            )
-        })
-        .collect();
-    warnings.extend(bad);
+    warnings.extend(left_out(holds));
     let used: Vec<&HoldResult> = holds.holds.iter().filter(|hold| hold.used).collect();
     if calibration.fit.degrees_of_freedom == 0 {
         warnings.push(format!(
@@ -128,6 +112,26 @@ pub(super) fn warnings(calibration: &Calibration, weakest: &[String]) -> Vec<Str
     }
     warnings.extend(implausible(calibration));
     warnings
+}
+
+/// The holds that were left out, and why.
+pub(in crate::estimate) fn left_out(holds: &HoldCalibration) -> Vec<String> {
+    holds
+        .holds
+        .iter()
+        .enumerate()
+        .filter(|(_, hold)| !hold.used)
+        .map(|(k, hold)| {
+            format!(
+                "hold {} ({:.1} to {:.1} s) was left out: its magnitude is off by {:.3} mm/s², {:.1} standard deviations",
+                k + 1,
+                hold.hold.start_s,
+                hold.hold.end_s,
+                1e3 * hold.magnitude_residual_mps2,
+                hold.studentised_residual.abs()
+            )
+        })
+        .collect()
 }
 
 /// Residuals that follow time: a drift of temperature, for one, which the model does not have.

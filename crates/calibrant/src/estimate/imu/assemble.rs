@@ -3,7 +3,9 @@
 use super::faces::First;
 use super::joint::{Fit, Joint, Miss, State};
 use super::readings::Integrable;
+use super::rotation::LocalBias;
 use super::solver::singular;
+use super::start;
 use super::thermal::Climate;
 use super::verdict;
 use super::weights::Weighed;
@@ -12,7 +14,7 @@ use crate::error::Result;
 use crate::estimate::gravity::gravity_slope;
 use crate::estimate::{HoldCalibration, Uncalibrated};
 use crate::information;
-use crate::sensor::{Correction, ImuParameters, ReadingUnit, Recording, SensorParameters};
+use crate::sensor::{Correction, ImuParameters, ReadingUnit, Recording, Thermal};
 use nalgebra::{Matrix3, Vector3};
 use std::ops::Range;
 
@@ -59,7 +61,8 @@ impl Finished<'_> {
         let rotations = self.rotations(gyroscope, &before);
         let counted = rotations.iter().filter(|rotation| rotation.used).count();
         let stills = joint.holds.iter().filter(|hold| hold.gyroscope.is_some()).count();
-        let equations = 3 * joint.holds.len() + 3 * stills + 2 * counted + 3 * joint.turns.len();
+        let equations =
+            3 * joint.holds.len() + 3 * stills + 2 * counted + 3 * joint.turns.len() + joint.priors();
         let unknowns = size + 2 * joint.holds.iter().filter(|hold| hold.known.is_none()).count();
         let mut holds = holds.clone();
         for (&j, force) in self.chosen.iter().zip(&fit.state.forces) {
@@ -102,10 +105,8 @@ impl Finished<'_> {
                 noise: joint.gyroscope_noise,
                 noise_source: self.noise_source,
                 between_holds_sd: self.between,
-                rate_rms_radps: self.rate_rms(&imu.gyroscope, &imu.g_sensitivity).ok_or_else(singular)?,
-                rate_rms_before_radps: self
-                    .rate_rms(&before.sensor, &Matrix3::zeros())
-                    .ok_or_else(singular)?,
+                rate_rms_radps: self.rate_rms(&imu).ok_or_else(singular)?,
+                rate_rms_before_radps: self.rate_rms(&self.plain(&before)).ok_or_else(singular)?,
             },
             gyroscope_before: before,
             rotations,
@@ -120,25 +121,32 @@ impl Finished<'_> {
         Ok(calibration)
     }
 
-    /// The mean rate that a gyroscope shows in the holds, root mean square over them; `None` where its matrix is singular.
-    fn rate_rms(&self, gyroscope: &SensorParameters, g_sensitivity: &Matrix3<f64>) -> Option<f64> {
-        let correction = Correction::of(gyroscope)?;
-        let rates: Vec<f64> = self
-            .joint
-            .holds
-            .iter()
-            .zip(&self.fit.state.forces)
-            .filter_map(|(hold, force)| {
-                let (mean, _) = hold.gyroscope.as_ref()?;
-                Some(correction.apply(&(mean - g_sensitivity * force)).norm_squared())
-            })
-            .collect();
-        Some((rates.iter().sum::<f64>() / rates.len().max(1) as f64).sqrt())
+    /// The mean rate that an IMU's gyroscope shows in the holds, root mean square over them; `None` where its matrix is singular.
+    fn rate_rms(&self, imu: &ImuParameters) -> Option<f64> {
+        let (mut sum, mut count) = (0.0, 0);
+        for (hold, force) in self.joint.holds.iter().zip(&self.fit.state.forces) {
+            let Some((mean, _)) = &hold.gyroscope else { continue };
+            let correction = Correction::of(&imu.at(hold.temperature_c).gyroscope)?;
+            sum += correction.apply(&(mean - imu.g_sensitivity * force)).norm_squared();
+            count += 1;
+        }
+        Some((sum / f64::from(count.max(1))).sqrt())
+    }
+
+    /// The IMU with this gyroscope, of which nothing else is known.
+    fn plain(&self, gyroscope: &Uncalibrated) -> ImuParameters {
+        ImuParameters {
+            gyroscope: gyroscope.sensor,
+            g_sensitivity: Matrix3::zeros(),
+            thermal: Thermal::none(),
+            ..*self.before
+        }
     }
 
     /// The gyroscope before: the datasheet's gain and the mean reading at rest; where the gain had to be found, one for all axes.
     fn gyroscope_before(&self, problem: &ImuProblem<'_>) -> Uncalibrated {
         let mut sensor = self.before.gyroscope;
+        sensor.bias = start::mean_bias(&self.joint.holds, &Thermal::none());
         let nominal = problem.gyroscope.gain.map(|gain| Matrix3::from_diagonal(&gain));
         let source = match problem.gyroscope.unit {
             ReadingUnit::Counts if nominal == Some(sensor.matrix) => {
@@ -157,8 +165,7 @@ impl Finished<'_> {
 
     fn rotations(&self, gyroscope: &Recording, before: &Uncalibrated) -> Vec<RotationResult> {
         let joint = self.joint;
-        let uncalibrated = ImuParameters { gyroscope: before.sensor, ..*self.before };
-        let with_before = State { imu: uncalibrated, forces: self.fit.state.forces.clone() };
+        let with_before = State { imu: self.plain(before), forces: self.fit.state.forces.clone() };
         let angle = |miss: &Miss| miss.error.norm().min(1.0).asin();
         joint
             .rotations
@@ -168,7 +175,10 @@ impl Finished<'_> {
             .map(|(i, (data, span))| {
                 let (from_hold, to_hold) = (self.chosen[i], self.chosen[i + 1]);
                 let after = self.fit.misses[i].as_ref();
-                let before = after.and_then(|_| joint.miss(data, &with_before));
+                // one bias throughout
+                let mut plain = data.clone();
+                plain.samples.drift = plain.samples.drift.map(|end| LocalBias::none(end.temperature_c));
+                let before = after.and_then(|_| joint.miss(&plain, &with_before));
                 let studentised = self.weighed.studentised.get(i).copied().unwrap_or(f64::INFINITY);
                 let reason = match self.integrable.obstacle(span) {
                     Some(obstacle) => Some(obstacle),

@@ -47,6 +47,12 @@ pub(super) fn fit(
             "each hold of holds.intervals_s needs one direction, in the same order",
         )));
     }
+    if intervals.windows(2).any(|pair| pair[1].0 < pair[0].0) {
+        return Err(Error::experiment(Complaint::new(
+            "the holds are not in order of time, and each has its direction",
+            "sort holds.intervals_s together with the directions",
+        )));
+    }
     let holds = holds_between(recording, intervals)?;
     let forces: Vec<Vector3<f64>> =
         directions.iter().map(|direction| direction.normalize() * setup.gravity.magnitude_mps2).collect();

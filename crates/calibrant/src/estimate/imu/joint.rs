@@ -16,15 +16,11 @@ use super::rotation::{Rotation, Samples};
 use crate::arrowhead::{Arrowhead, Increment, Link};
 use crate::estimate::tangents::tangents;
 use crate::estimate::{CalibrationSettings, CalibrationStatus};
+use crate::sensor::entries::{AT_REFERENCE, ENTRIES};
 use crate::sensor::{Condition, ImuParameters, ImuQuantity, Triad};
 use nalgebra::{
     DMatrix, DVector, Matrix2, Matrix2x3, Matrix2xX, Matrix3, SMatrix, SVector, Vector2, Vector3,
 };
-
-/// Room for the parameters at one temperature: 12 of each sensor, 9 of the g-sensitivity.
-const AT_REFERENCE: usize = 33;
-/// Room for all: 12 temperature terms of each sensor more.
-const ALL: usize = 57;
 
 /// A step this short, in standard deviations, needs no test: the derivatives of a rotation are exact to second order in the sample step only, so that the last steps
 /// may not lower χ².
@@ -135,6 +131,11 @@ impl Miss {
 }
 
 impl Joint<'_> {
+    /// Number of quantities of which something is known beforehand.
+    pub(super) fn priors(&self) -> usize {
+        self.prior.as_ref().map_or(0, |(_, weight)| weight.iter().filter(|weight| **weight > 0.0).count())
+    }
+
     /// Places of the gyroscope's quantities.
     pub(super) fn gyroscope_places(&self) -> Vec<usize> {
         (0..self.quantities.len()).filter(|&k| self.quantities[k].triad() == Triad::Gyroscope).collect()
@@ -338,7 +339,7 @@ impl Joint<'_> {
     pub(super) fn fit(&self, start: State, misses: Misses, settings: &CalibrationSettings) -> Option<Fit> {
         match self.quantities.len() {
             ..=AT_REFERENCE => self.iterate::<AT_REFERENCE>(start, misses, settings),
-            _ => self.iterate::<ALL>(start, misses, settings),
+            _ => self.iterate::<ENTRIES>(start, misses, settings),
         }
     }
 

@@ -11,6 +11,7 @@ use super::thermal::{self, Climate};
 use super::verdict::{self, undetermined, vague};
 use super::{ImuCalibration, ImuProblem, NoiseSource, start};
 use crate::error::{Complaint, Error, Result};
+use crate::estimate::problem::sound;
 use crate::estimate::{CalibrationProblem, CalibrationSettings, HoldsSetup, Recovered, Stimulus, calibrate};
 use crate::information;
 use crate::motion::Hold;
@@ -194,6 +195,9 @@ pub(in crate::estimate) fn recordings<'a>(
         }
     };
     let (accelerometer, gyroscope) = (moves(Triad::Accelerometer)?, moves(Triad::Gyroscope)?);
+    let stimulus = Stimulus::Holds(&problem.setup.holds);
+    CalibrationProblem { sensor: problem.accelerometer, recording: accelerometer, stimulus }.validate()?;
+    sound(gyroscope)?;
     if gyroscope.unit != problem.gyroscope.unit {
         return Err(Error::recording(Complaint::new(
             format!(
@@ -202,16 +206,6 @@ pub(in crate::estimate) fn recordings<'a>(
                 problem.gyroscope.unit.symbol()
             ),
             "set gyroscope.unit",
-        )));
-    }
-    if let Some(k) = gyroscope
-        .times_s
-        .windows(2)
-        .position(|pair| pair[1].partial_cmp(&pair[0]) != Some(std::cmp::Ordering::Greater))
-    {
-        return Err(Error::recording(Complaint::new(
-            format!("the gyroscope's time does not increase after sample {k}"),
-            "sort the samples, remove duplicates",
         )));
     }
     Ok((accelerometer, gyroscope))

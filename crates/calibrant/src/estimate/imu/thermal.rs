@@ -9,7 +9,7 @@ use super::joint::{HoldData, Joint, State};
 use super::solver::{self, singular};
 use super::{ImuProblem, KnownTerm};
 use crate::error::{Complaint, Error, NotIdentifiable, Result, UndeterminedGroup};
-use crate::estimate::holds::critical;
+use crate::estimate::holds::{critical, left_out, magnitude_rms};
 use crate::estimate::{CalibrationSettings, HoldCalibration};
 use crate::motion::Hold;
 use crate::sensor::{
@@ -213,7 +213,10 @@ pub(super) fn accelerometer(
         let adjusted =
             at_reference(recording, Triad::Accelerometer, &state.imu.accelerometer, &thermal, climate);
         let mut next = refit(&adjusted, intervals.clone())?;
+        let left_out_before = left_out(&next.holds);
         reconsider(&mut next.holds, alone.degrees(), alone.terms());
+        next.warnings.retain(|warning| !left_out_before.contains(warning));
+        next.warnings.splice(0..0, left_out(&next.holds));
         next.holds.between_holds_sd_mps2 = between;
         next.holds.between_holds_dominates = between > 0.0;
         next.holds.detected = detected;
@@ -240,6 +243,7 @@ fn reconsider(holds: &mut HoldCalibration, degrees: usize, terms: usize) {
         result.studentised_residual *= shrink;
         result.used |= result.studentised_residual.abs() <= limit;
     }
+    holds.magnitude_residual_rms_mps2 = magnitude_rms(&holds.holds);
 }
 
 /// The accelerometer alone, with what follows temperature.
@@ -307,12 +311,7 @@ impl<'a> Alone<'a> {
     /// Residuals and priors less unknowns.
     fn degrees(&self) -> usize {
         let of_hold = |hold: &HoldData| if hold.known.is_some() { 3 } else { 1 };
-        let priors = self
-            .joint
-            .prior
-            .as_ref()
-            .map_or(0, |(_, weight)| weight.iter().filter(|weight| **weight > 0.0).count());
-        let equations = self.joint.holds.iter().map(of_hold).sum::<usize>() + priors;
+        let equations = self.joint.holds.iter().map(of_hold).sum::<usize>() + self.joint.priors();
         equations.saturating_sub(self.joint.quantities.len())
     }
 

@@ -6,7 +6,7 @@ use super::start::{FirstLook, Start, WRONG};
 use crate::error::{Complaint, Error, NotIdentifiable, Result, UndeterminedGroup};
 use crate::estimate::{CalibrationStatus, HoldCalibration};
 use crate::information::Undetermined;
-use crate::sensor::{ImuQuantity, Quantity, ReadingUnit, Thermal};
+use crate::sensor::{ImuQuantity, Quantity, ReadingUnit, Thermal, Triad};
 use nalgebra::DMatrix;
 
 /// Holds that scatter by more than this share of gravity are none.
@@ -48,15 +48,23 @@ pub(super) fn undetermined(joint: &Joint<'_>, groups: &[Undetermined]) -> NotIde
     let thermal = |found: &Undetermined| {
         found.parameters.iter().any(|&k| matches!(joint.quantities[k], ImuQuantity::Thermal(..)))
     };
+    let of_accelerometer = |found: &Undetermined| {
+        found.parameters.iter().all(|&k| joint.quantities[k].triad() == Triad::Accelerometer)
+    };
     NotIdentifiable {
         groups: if groups.is_empty() {
             vec![group(names(&all), all.len().saturating_sub(3 + 2 * rotations).max(1))]
         } else {
             groups
                 .iter()
-                .map(|found| match thermal(found) {
-                    true => by_temperature(found),
-                    false => group(names(&found.parameters), found.free_combinations),
+                .map(|found| match (thermal(found), of_accelerometer(found)) {
+                    (true, _) => by_temperature(found),
+                    (false, true) => UndeterminedGroup {
+                        reason: format!("the {} holds do not spread enough", joint.holds.len()),
+                        remedy: "hold the sensor still in at least 12 well-spread orientations".into(),
+                        ..group(names(&found.parameters), found.free_combinations)
+                    },
+                    (false, false) => group(names(&found.parameters), found.free_combinations),
                 })
                 .collect()
         },

@@ -3,7 +3,7 @@
 use crate::estimate::gravity::gravity_slope;
 use crate::estimate::{Calibration, HoldCalibration, ImuCalibration};
 use crate::motion::Gravity;
-use crate::sensor::{Axis, ImuParameters, ImuQuantity, ParameterList, Quantity, Triad};
+use crate::sensor::{Axis, ImuParameters, ImuQuantity, ParameterList, Quantity, ThermalPart, Triad};
 use nalgebra::{DMatrix, Matrix3, Vector3};
 
 /// The claim of a calibration.
@@ -36,7 +36,14 @@ impl Claim {
         let rotations = calibration.rotations.iter().filter(|rotation| rotation.used).count();
         let known = |quantity: &&ImuQuantity| quantity.triad() == Triad::Accelerometer;
         let accelerometer = calibration.quantities.iter().filter(known).count();
-        let matrix = |quantity: &&ImuQuantity| matches!(quantity, ImuQuantity::Of(Triad::Gyroscope, of) if !matches!(of, Quantity::Bias(_)));
+        let matrix = |quantity: &&ImuQuantity| match quantity {
+            ImuQuantity::Of(Triad::Gyroscope, of) => !matches!(of, Quantity::Bias(_)),
+            ImuQuantity::Thermal(Triad::Gyroscope, term) => term.part == ThermalPart::Scale,
+            _ => false,
+        };
+        let drifts = |quantity: &&ImuQuantity| matches!(quantity, ImuQuantity::Thermal(Triad::Gyroscope, term) if term.part == ThermalPart::Bias);
+        // unknowns of all three axes: bias, its temperature terms, g-sensitivity
+        let of_stills = 3 + calibration.quantities.iter().filter(drifts).count();
         let of_rotations = calibration.quantities.iter().filter(matrix).count();
         let force =
             calibration.quantities.iter().any(|quantity| matches!(quantity, ImuQuantity::GSensitivity(..)));
@@ -48,7 +55,7 @@ impl Claim {
             between_holds_sd_mps2: between(calibration),
             holds_degrees: used.saturating_sub(accelerometer) as f64,
             still_sd: calibration.still.between_holds_sd,
-            still_degrees: 3.0 * used.saturating_sub(if force { 4 } else { 1 }) as f64,
+            still_degrees: (3 * used).saturating_sub(of_stills + if force { 9 } else { 0 }) as f64,
             rotation_sd_rad: calibration.rotation_excess_sd_rad,
             rotation_degrees: (2 * rotations).saturating_sub(of_rotations) as f64,
         }

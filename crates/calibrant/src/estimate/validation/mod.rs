@@ -33,7 +33,7 @@ mod whitened;
 pub use cross::{cross_validate, cross_validate_imu};
 pub use result::*;
 
-use super::imu::{needed_temperatures, recordings};
+use super::imu::{held_still, needed_temperatures, recordings};
 use super::{
     Calibration, CalibrationProblem, HoldCalibration, HoldsSetup, ImuCalibration, ImuProblem, Recovered,
     Stimulus, find_holds, find_imu_holds, holds_between,
@@ -58,8 +58,6 @@ const ANOTHER_SENSOR: f64 = 0.1;
 pub fn validate_imu(calibration: &ImuCalibration, problem: &ImuProblem<'_>) -> Result<Validation> {
     let (accelerometer, gyroscope) = recordings(problem)?;
     let setup = &problem.setup.holds;
-    let stimulus = Stimulus::Holds(setup);
-    CalibrationProblem { sensor: problem.accelerometer, recording: accelerometer, stimulus }.validate()?;
     let holds = match &setup.intervals_s {
         Some(intervals) => holds_between(accelerometer, intervals)?,
         None => find_imu_holds(problem.recording, setup.minimum_hold_s)?,
@@ -68,18 +66,18 @@ pub fn validate_imu(calibration: &ImuCalibration, problem: &ImuProblem<'_>) -> R
     let unused = Unused {
         gyroscope: Some(gyroscope),
         temperatures: temperatures(calibration, problem)?,
-        gyroscope_noise: problem.gyroscope.noise,
+        gyroscope_noise: Some(problem.gyroscope.noise.unwrap_or(calibration.still.noise)),
         bias_may_move: true,
         ..Unused::of_accelerometer(accelerometer, &holds)
     };
-    let errors = on_another(&Claim::of_imu(calibration, &setup.gravity), &unused)?;
-    match errors.of_kind(ErrorKind::Rate) {
-        Some(_) => Ok(errors),
-        None => Err(Error::recording(Complaint::new(
+    let all: Vec<&Hold> = holds.iter().collect();
+    if held_still(gyroscope, &all, None).0.iter().all(Option::is_none) {
+        return Err(Error::recording(Complaint::new(
             "the gyroscope has no samples in the holds of the accelerometer",
             "both need the same clock: are these files of one recording?",
-        ))),
+        )));
     }
+    on_another(&Claim::of_imu(calibration, &setup.gravity), &unused)
 }
 
 /// Tries the calibration of an accelerometer from holds on another recording of it.

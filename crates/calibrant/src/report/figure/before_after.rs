@@ -63,7 +63,10 @@ pub(in crate::report) fn force_before_and_after(
     sensor: &SensorParameters,
     recording: &Recording,
 ) -> Option<Figure> {
-    let panels = force_panels(holds, sensor, recording)?;
+    let after = Correction::of(sensor)?;
+    let corrected: Vec<Vector3<f64>> =
+        recording.readings.iter().map(|reading| after.apply(reading)).collect();
+    let panels = force_panels(holds, &corrected, recording)?;
     let caption = caption(recording, &format!("Before: {}.", holds.before.source), "");
     Some(Figure::new("The recording, before and after", panels, caption).with_columns(2))
 }
@@ -74,10 +77,11 @@ pub(in crate::report) fn imu_before_and_after(
     recording: &ImuRecording,
 ) -> Option<Figure> {
     let (accelerometer, gyroscope) = (recording.accelerometer.as_ref()?, recording.gyroscope.as_ref()?);
-    let mut panels = force_panels(&calibration.holds, &calibration.imu.accelerometer, accelerometer)?;
     // the values are asked for, not how well they are known
     let imu = CalibratedImu { covariance: None, ..calibration.calibrated() };
-    let corrected = ImuCorrection::of(&imu).ok()?.apply(&imu, recording).ok()?.gyroscope?;
+    let corrected = ImuCorrection::of(&imu).ok()?.apply(&imu, recording).ok()?;
+    let mut panels = force_panels(&calibration.holds, &corrected.accelerometer?.values, accelerometer)?;
+    let corrected = corrected.gyroscope?;
     let before = Correction::of(&calibration.gyroscope_before.sensor)?;
     let degrees = |rate: &Vector3<f64>| rate.map(f64::to_degrees);
     let after: Vec<Vector3<f64>> = corrected.values.iter().map(degrees).collect();
@@ -111,23 +115,21 @@ pub(in crate::report) fn imu_before_and_after(
     Some(Figure::new("The recording, before and after", panels, caption).with_columns(2))
 }
 
-/// The magnitude over time, in full and near gravity.
+/// The magnitude over time, in full and near gravity. `after` are the corrected readings.
 fn force_panels(
     holds: &HoldCalibration,
-    sensor: &SensorParameters,
+    after: &[Vector3<f64>],
     recording: &Recording,
 ) -> Option<Vec<Panel>> {
-    let after = Correction::of(sensor)?;
     let before = Correction::of(&holds.before.sensor)?;
     let gravity = holds.gravity.magnitude_mps2;
-    let magnitudes = |correction: Correction, readings: &mut dyn Iterator<Item = (f64, &Vector3<f64>)>| {
-        thinned(readings.map(|(time, reading)| (time, correction.apply(reading).norm())).collect())
+    let before: Vec<f64> = recording.readings.iter().map(|reading| before.apply(reading).norm()).collect();
+    let after: Vec<f64> = after.iter().map(|force| force.norm()).collect();
+    let magnitudes = |of: &[f64], samples: &mut dyn Iterator<Item = usize>| {
+        thinned(samples.map(|k| (recording.times_s[k], of[k])).collect())
     };
-    let all = || recording.times_s.iter().copied().zip(&recording.readings);
-    let still = || {
-        let samples = holds.holds.iter().flat_map(|result| result.hold.first..result.hold.end);
-        samples.map(|k| (recording.times_s[k], &recording.readings[k]))
-    };
+    let all = || 0..recording.len();
+    let still = || holds.holds.iter().flat_map(|result| result.hold.first..result.hold.end);
     let thin = Mark::Line { width: 0.9, dashes: "" };
     let line = |label: &str, colour, points| Series::new(label, colour, thin, points);
     let dots = |label: &str, colour, points| {
@@ -140,15 +142,14 @@ fn force_panels(
         Mark::Line { width: 1.2, dashes: "7 4" },
         vec![(first, gravity), (last, gravity)],
     );
-    let at_rest = |correction| magnitudes(correction, &mut still());
     Some(vec![
         Panel::new("specific force", "time (s)", "|f| (m/s²)")
-            .with(line(BEFORE, colour::ORANGE, magnitudes(before, &mut all())))
-            .with(line(AFTER, colour::BLUE, magnitudes(after, &mut all())))
+            .with(line(BEFORE, colour::ORANGE, magnitudes(&before, &mut all())))
+            .with(line(AFTER, colour::BLUE, magnitudes(&after, &mut all())))
             .with(at_gravity.clone()),
         Panel::new("specific force in holds", "time (s)", "|f| (m/s²)")
-            .with(dots("before, in holds", colour::ORANGE, at_rest(before)))
-            .with(dots("after, in holds", colour::BLUE, at_rest(after)))
+            .with(dots("before, in holds", colour::ORANGE, magnitudes(&before, &mut still())))
+            .with(dots("after, in holds", colour::BLUE, magnitudes(&after, &mut still())))
             .with(at_gravity),
     ])
 }
