@@ -2,7 +2,7 @@
 
 use crate::calibration_file::{Reading, Unit, in_words};
 use crate::reading::in_file;
-use crate::{Exit, console};
+use crate::{Exit, console, place};
 use calibrant::io::{
     FileFormat, ImuFile, ImuReadOptions, ImuUnit, ReadOptions, read_imu_pair, read_imu_recording,
     read_recording, write_corrected_recording,
@@ -39,6 +39,8 @@ pub(crate) struct Arguments {
 }
 
 pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
+    let second = arguments.gyroscope.as_deref().unwrap_or(&arguments.recording);
+    place::check_not_input(&arguments.output, &[&arguments.calibration, &arguments.recording, second])?;
     let imu = arguments.reading.read(&arguments.calibration)?.imu;
     let correction = ImuCorrection::of(&imu)?;
     let mut recording = read_for(&imu, arguments)?;

@@ -5,6 +5,7 @@ mod imu_noise;
 mod imu_output;
 mod validation;
 
+use crate::place::same_file;
 use crate::reading::{RecordingOptions, in_file, name};
 use crate::{Exit, console, place};
 use calibrant::Error;
@@ -27,7 +28,7 @@ use std::time::Instant;
 /// Calibrate sensors from their recordings.
 ///
 /// Writes calibration.json and report.html into DIR; with several recordings into a subfolder of DIR for each, named after its file, and
-/// DIR/summary.csv. One bad recording does not stop the others; the exit status is then the highest of all.
+/// DIR/summary.csv. One bad recording does not stop the others; the exit status is then the highest of all. An IMU is calibrated from one recording at a time.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
     /// The experiment file (see `calibrant init`).
@@ -237,10 +238,6 @@ impl Job {
         let html = calibration_report(&done.calibration, recording, &about);
         write_atomically(&directory.join("report.html"), |out| out.write_all(html.as_bytes()))
     }
-}
-
-fn same_file(one: &Path, other: &Path) -> bool {
-    matches!((one.canonicalize(), other.canonicalize()), (Ok(one), Ok(other)) if one == other)
 }
 
 fn show(done: &Done, arguments: &Arguments) {

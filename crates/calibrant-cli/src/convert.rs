@@ -1,7 +1,7 @@
 //! `calibrant convert`: a calibration in another convention.
 
 use crate::calibration_file::{Format, Reading, in_words};
-use crate::{Exit, console};
+use crate::{Exit, console, place};
 use calibrant::Error;
 use calibrant::error::Complaint;
 use calibrant::io::{ImuFormat, read_kalibr_noise, read_measured_noise, write_calibrated_imu};
@@ -70,6 +70,8 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
             Error::Experiment(Box::new(complaint.in_file(&arguments.output)))
         })?,
     };
+    let noise = arguments.noise.as_deref().unwrap_or(&arguments.input);
+    place::check_not_input(&arguments.output, &[&arguments.input, noise])?;
     let mut file = arguments.reading.read(&arguments.input)?;
     let read = format!("{} ({}): {}\n", arguments.input.display(), file.format.title(), in_words(&file.imu));
     if let Some(path) = &arguments.noise {

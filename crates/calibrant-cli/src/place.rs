@@ -1,5 +1,6 @@
 //! Where results go: looked at before the work is done.
 
+use calibrant::error::Complaint;
 use calibrant::{Error, Result};
 use std::io;
 use std::path::Path;
@@ -13,4 +14,21 @@ pub(crate) fn check_directory(directory: &Path) -> Result<()> {
     let reason = format!("{} is a file, not a directory", place.display());
     let source = io::Error::new(io::ErrorKind::NotADirectory, reason);
     Err(Error::Output { path: directory.to_path_buf(), source })
+}
+
+/// Refuses to write where one of these was read.
+pub(crate) fn check_not_input(output: &Path, inputs: &[&Path]) -> Result<()> {
+    if inputs.iter().any(|input| same_file(input, output)) {
+        let complaint = Complaint::new(
+            "this file is read, and would be replaced by the result",
+            "give another name for the result",
+        );
+        return Err(Error::Experiment(Box::new(complaint.in_file(output))));
+    }
+    Ok(())
+}
+
+/// Do both paths lead to one file?
+pub(crate) fn same_file(one: &Path, other: &Path) -> bool {
+    matches!((one.canonicalize(), other.canonicalize()), (Ok(one), Ok(other)) if one == other)
 }

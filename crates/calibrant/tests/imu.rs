@@ -383,6 +383,39 @@ fn a_known_bias_is_kept_and_a_prior_shares() {
     let place =
         calibration.quantities.iter().position(|known| known.name() == "gyroscope.scale.y").expect("there");
     assert!(calibration.prior_share[place] > 0.99 && calibration.sd()[place] < 1e-6);
+    assert!(calibration.warnings.is_empty(), "{:?}", calibration.warnings);
+
+    // what the data contradict is kept, and said
+    let fixed = KnownTerm { quantity: quantity("gyroscope.scale.x"), value: 0.9, sd: None };
+    let setup = ImuSetup { known: vec![fixed], ..ImuSetup::default() };
+    let calibration = run(&recording, &Gyroscope::default(), &setup, unit).expect("determined");
+    assert_eq!(calibration.imu.gyroscope.matrix.m11, 0.9);
+    let prior = KnownTerm { quantity: quantity("gyroscope.bias.x"), value: 5.0, sd: Some(1e-4) };
+    let setup = ImuSetup { known: vec![prior], ..ImuSetup::default() };
+    let calibration = run(&recording, &Gyroscope::default(), &setup, unit).expect("determined");
+    let said = calibration.warnings.join("; ");
+    assert!(said.contains("the data contradict what [known] says of gyroscope.bias.x"), "{said}");
+    assert!(said.contains("degrees of freedom: the data contradict"), "{said}");
+}
+
+#[test]
+fn a_turn_that_was_not_made_is_named() {
+    let (_, recording) = small();
+    let turn = Turn {
+        start_s: 10.0,
+        end_s: 14.0,
+        axis: Vector3::x(),
+        angle_rad: std::f64::consts::TAU,
+        angle_sd_rad: 0.01,
+    };
+    let setup = ImuSetup { turns: vec![turn], ..ImuSetup::default() };
+    let unit = ReadingUnit::MetrePerSecondSquared;
+    let calibration = run(&recording, &Gyroscope::default(), &setup, unit).expect("determined");
+    let said = calibration.warnings.join("; ");
+    assert!(
+        said.contains("turn 1 (10.0 to 14.0 s, 360.0°) does not fit") || said.contains("it should be near 1"),
+        "{said}"
+    );
 }
 
 #[test]

@@ -135,3 +135,16 @@ fn apply_writes_true_values_with_their_uncertainty() {
         &["counts.csv: the readings of the accelerometer are in counts"],
     );
 }
+
+/// What is read is not replaced by the result.
+#[test]
+fn a_result_does_not_replace_what_it_is_made_from() {
+    let bench = calibrated();
+    for command in [
+        "apply out/calibration.json sim/recording.csv -o sim/recording.csv",
+        "apply out/calibration.json sim/recording.csv -o out/calibration.json",
+        "convert out/calibration.json out/calibration.json",
+    ] {
+        bench.refuses(command, 2, &["this file is read, and would be replaced by the result"]);
+    }
+}

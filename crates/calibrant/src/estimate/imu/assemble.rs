@@ -1,5 +1,6 @@
 //! Puts the result together.
 
+use super::contradiction::contradictions;
 use super::faces::First;
 use super::joint::{Fit, Joint, Miss, State};
 use super::readings::Integrable;
@@ -27,6 +28,8 @@ pub(super) struct Finished<'a> {
     pub(super) between: Vector3<f64>,
     pub(super) integrable: &'a Integrable<'a>,
     pub(super) noise_source: NoiseSource,
+    /// Standard deviation of the gyroscope's samples within the holds.
+    pub(super) scatter: Vector3<f64>,
     pub(super) spans: &'a [Range<usize>],
     pub(super) chosen: &'a [usize],
     pub(super) climate: &'a Climate<'a>,
@@ -117,6 +120,13 @@ impl Finished<'_> {
             warnings: first.warnings.clone(),
         };
         calibration.warnings.extend(verdict::warnings(&calibration, axes.as_ref()));
+        calibration.warnings.extend(contradictions(
+            &calibration,
+            (joint, fit),
+            &problem.setup.turns,
+            &self.scatter,
+            axes.is_some(),
+        ));
         calibration.warnings.extend(verdict::extrapolation(&imu.thermal, self.climate.of_recording()));
         Ok(calibration)
     }

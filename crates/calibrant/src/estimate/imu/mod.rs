@@ -18,6 +18,7 @@
 mod assemble;
 mod both_still;
 mod carried;
+mod contradiction;
 mod faces;
 mod joint;
 mod problem;

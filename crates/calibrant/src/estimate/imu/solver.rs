@@ -119,6 +119,7 @@ pub fn calibrate_imu(problem: &ImuProblem<'_>, settings: &CalibrationSettings) -
             .ok_or_else(|| Error::NotIdentifiable(Box::new(undetermined(&joint, &[]))))?;
         verdict::plausible(&joint, &state, &found, problem.gyroscope.unit, holds)?;
         state.imu = found.imu;
+        thermal::set_fixed(&mut state.imu, &setup.known);
         axes = found.axes;
     }
     let before = state.imu;
@@ -147,6 +148,7 @@ pub fn calibrate_imu(problem: &ImuProblem<'_>, settings: &CalibrationSettings) -
         between,
         integrable: &integrable,
         noise_source,
+        scatter: pooled_noise(&stills),
         spans: &spans,
         chosen: &chosen,
         climate: &climate,

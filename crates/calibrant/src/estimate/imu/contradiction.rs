@@ -1,0 +1,107 @@
+//! What was given beforehand (turns, priors, noise, units), where the data contradict it.
+
+use super::joint::{Fit, Joint};
+use super::{ImuCalibration, NoiseSource, Turn};
+use crate::sensor::{Axis, ReadingUnit, Triad};
+use nalgebra::Vector3;
+
+/// Standard deviations by which the data may be off what was given before it is told.
+const CONTRADICTED: f64 = 4.5;
+/// Gains of readings in SI that are plausible.
+const GAINS: std::ops::RangeInclusive<f64> = 0.8..=1.25;
+/// Scatter within holds over the noise that was given that is not worth a word.
+const NOISE: std::ops::RangeInclusive<f64> = 0.5..=2.0;
+
+/// Warnings. `scatter`: of the gyroscope's samples within holds; `reordered`: was it said already that its axes are others?
+pub(super) fn contradictions(
+    calibration: &ImuCalibration,
+    (joint, fit): (&Joint<'_>, &Fit),
+    turns: &[Turn],
+    scatter: &Vector3<f64>,
+    reordered: bool,
+) -> Vec<String> {
+    let mut warnings = of_turns(joint, fit, turns);
+    if let Some((mean, weight)) = &joint.prior {
+        for (k, quantity) in joint.quantities.iter().enumerate() {
+            let off = (quantity.of(&fit.state.imu) - mean[k]).abs() * weight[k].sqrt();
+            if off > CONTRADICTED {
+                warnings.push(format!(
+                    "the data contradict what [known] says of {}: {off:.0} standard deviations from {}",
+                    quantity.name(),
+                    mean[k]
+                ));
+            }
+        }
+    }
+    let degrees = calibration.degrees_of_freedom as f64;
+    if degrees > 0.0 && fit.chi2 > degrees + 6.0 * (2.0 * degrees).sqrt() {
+        warnings.push(format!(
+            "χ² is {:.0} with {degrees:.0} degrees of freedom: the data contradict what was given (fixed terms and priors in [known], directions, turns, noise), and \
+             the standard deviations are too small",
+            fit.chi2
+        ));
+    }
+    let (after, before) = (calibration.rotation_rms_rad(), calibration.rotation_rms_before_rad());
+    if after > before {
+        warnings.push(format!(
+            "gravity after a rotation is missed by more than before the calibration, {:.2}° in place of {:.2}°: something that was given does not fit the rotations",
+            after.to_degrees(),
+            before.to_degrees()
+        ));
+    }
+    warnings.extend(of_gains(calibration, reordered));
+    if calibration.still.noise_source == NoiseSource::Datasheet {
+        for axis in Axis::ALL {
+            let ratio = scatter[axis.index()] / joint.gyroscope_noise[axis.index()];
+            if !NOISE.contains(&ratio) {
+                warnings.push(format!(
+                    "the scatter of the gyroscope's axis {axis} within the holds is {ratio:.2} times the noise that was given"
+                ));
+            }
+        }
+    }
+    warnings
+}
+
+fn of_turns(joint: &Joint<'_>, fit: &Fit, turns: &[Turn]) -> Vec<String> {
+    let mut warnings = Vec::new();
+    for (number, (data, turn)) in joint.turns.iter().zip(turns).enumerate() {
+        let residual = joint.turn_residual(data, &fit.state.imu);
+        let off = residual.component_mul(&residual).dot(&data.weight).sqrt();
+        if off > CONTRADICTED {
+            warnings.push(format!(
+                "turn {} ({:.1} to {:.1} s, {:.1}°) does not fit the other data, by {off:.0} standard deviations: are its times, axis and angle right?",
+                number + 1,
+                turn.start_s,
+                turn.end_s,
+                turn.angle_rad.to_degrees()
+            ));
+        }
+    }
+    warnings
+}
+
+/// Readings in SI have gains near one, each axis along its own.
+fn of_gains(calibration: &ImuCalibration, reordered: bool) -> Vec<String> {
+    let mut warnings = Vec::new();
+    for (triad, unit) in [
+        (Triad::Accelerometer, calibration.accelerometer_unit),
+        (Triad::Gyroscope, calibration.gyroscope_unit),
+    ] {
+        if unit == ReadingUnit::Counts || (triad == Triad::Gyroscope && reordered) {
+            continue;
+        }
+        let matrix = &calibration.imu.triad(triad).matrix;
+        for axis in Axis::ALL {
+            let along = matrix[(axis.index(), axis.index())];
+            if !GAINS.contains(&along) {
+                warnings.push(format!(
+                    "the {triad} shows {along:.3} of what there is along its axis {axis}, for readings in {} it should be near 1: are unit, sample rate, order and \
+                     direction of the axes right, and what was given of turns and faces?",
+                    unit.symbol()
+                ));
+            }
+        }
+    }
+    warnings
+}
