@@ -11,6 +11,7 @@ mod initial_motion;
 mod noise;
 mod population;
 mod recording;
+mod stimuli;
 
 pub use crate::motion::sample_times;
 pub use draw_imu::{GyroscopeToDraw, draw_imu};
