@@ -7,11 +7,11 @@ use crate::reading::in_file;
 use crate::{Exit, console, place};
 use calibrant::Error;
 use calibrant::error::Complaint;
-use calibrant::estimate::find_holds;
+use calibrant::estimate::{find_holds, find_imu_holds};
 use calibrant::io::{noise_json, write_atomically, write_noise};
 use calibrant::noise::{Stretch, TriadNoise};
 use calibrant::report::{About, noise_report, number};
-use calibrant::sensor::{ReadingUnit, Recording, Triad};
+use calibrant::sensor::{ImuRecording, ReadingUnit, Recording, Triad};
 use nalgebra::Vector3;
 use std::path::PathBuf;
 use std::time::Instant;
@@ -89,14 +89,17 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     let file = read::read(&arguments.recording, triad, unit, gain.is_some(), &arguments.reading.options())?;
     let in_file = |error| in_file(error, &arguments.recording);
     let mut noise = Vec::new();
-    for triad in Triad::ALL {
-        if let Some(recording) = file.imu.triad(triad) {
-            let found = examine(triad, recording, arguments.hold.as_deref()).map_err(in_file)?;
-            noise.push(match &gain {
-                Some(gain) => found.with_gain(recording, gain)?,
-                None => found,
-            });
-        }
+    if let Some(recording) = file.imu.triad(triad) {
+        let (start_s, end_s) = match arguments.hold.as_deref() {
+            Some(&[start, end]) => (start, end),
+            _ => longest_hold(&file.imu, recording).map_err(in_file)?,
+        };
+        let stretch = Stretch::between(recording, start_s, end_s).map_err(in_file)?;
+        let found = TriadNoise::of(triad, recording, stretch).map_err(in_file)?;
+        noise.push(match &gain {
+            Some(gain) => found.with_gain(recording, gain)?,
+            None => found,
+        });
     }
 
     for finding in &file.findings {
@@ -147,17 +150,12 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     Ok(Exit::DONE)
 }
 
-/// The noise of one sensor, in the interval that was given or in its longest hold.
-fn examine(triad: Triad, recording: &Recording, hold: Option<&[f64]>) -> calibrant::Result<TriadNoise> {
-    let (start_s, end_s) = match hold {
-        Some(&[start, end]) => (start, end),
-        _ => longest_hold(recording)?,
+/// The longest hold: where both sensors are still, or the one that was recorded. A gyroscope alone is as calm in a turn at a steady rate.
+fn longest_hold(imu: &ImuRecording, recording: &Recording) -> calibrant::Result<(f64, f64)> {
+    let holds = match (&imu.accelerometer, &imu.gyroscope) {
+        (Some(_), Some(_)) => find_imu_holds(imu, SHORTEST_HOLD_S)?,
+        _ => find_holds(recording, SHORTEST_HOLD_S)?,
     };
-    TriadNoise::of(triad, recording, Stretch::between(recording, start_s, end_s)?)
-}
-
-fn longest_hold(recording: &Recording) -> calibrant::Result<(f64, f64)> {
-    let holds = find_holds(recording, SHORTEST_HOLD_S)?;
     let longest = holds.iter().max_by(|a, b| a.duration_s().total_cmp(&b.duration_s()));
     longest.map(|hold| (hold.start_s, hold.end_s)).ok_or_else(|| {
         Error::Recording(Box::new(Complaint::new(

@@ -7,14 +7,14 @@ use calibrant::io::{ImuReadOptions, Input, ReadOptions, read_imu_recording, read
 use calibrant::sensor::{ImuRecording, ReadingUnit, Recording, Triad};
 use std::path::Path;
 
-/// A recording of one sensor or two.
+/// The recording of one sensor, and of the other too where the file has it.
 pub(super) struct File {
     pub(super) imu: ImuRecording,
     pub(super) findings: Vec<String>,
     pub(super) input: Input,
 }
 
-/// Reads the recording of one sensor, from a file of its own or from one of a whole IMU.
+/// Reads the recording of a sensor, from a file of its own or from one of a whole IMU.
 pub(super) fn read(
     path: &Path,
     triad: Triad,
@@ -24,7 +24,15 @@ pub(super) fn read(
 ) -> calibrant::Result<File> {
     // a gyroscope's columns come first by name: a file of one sensor calls any of them ax, ay, az
     match triad {
-        Triad::Accelerometer => alone(path, triad, unit, counts).or_else(|_| of_imu(path, triad, options)),
+        Triad::Accelerometer => match alone(path, triad, unit, counts) {
+            Ok(mut file) => {
+                // holds are those of both sensors
+                file.imu.gyroscope =
+                    read_imu_recording(path, options).ok().and_then(|whole| whole.recording.gyroscope);
+                Ok(file)
+            }
+            Err(_) => of_imu(path, triad, options),
+        },
         Triad::Gyroscope => {
             of_imu(path, triad, options).or_else(|error| alone(path, triad, unit, counts).map_err(|_| error))
         }
@@ -33,11 +41,7 @@ pub(super) fn read(
 
 fn of_imu(path: &Path, triad: Triad, options: &ImuReadOptions) -> calibrant::Result<File> {
     let file = read_imu_recording(path, options)?;
-    let mut imu = ImuRecording::default();
-    match triad {
-        Triad::Accelerometer => imu.accelerometer = file.recording.accelerometer,
-        Triad::Gyroscope => imu.gyroscope = file.recording.gyroscope,
-    }
+    let imu = file.recording;
     let Some(recording) = imu.triad(triad) else {
         let complaint = Complaint::new(format!("the file has no {triad}"), "choose the other with --sensor");
         return Err(Error::Recording(Box::new(complaint.in_file(path))));

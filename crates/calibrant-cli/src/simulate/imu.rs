@@ -5,12 +5,10 @@ use crate::console;
 use calibrant::Error;
 use calibrant::error::Complaint;
 use calibrant::io::{Experiment, HoldsPlan, ImuPlan, write_imu_recording, write_imu_truth};
-use calibrant::sensor::{
-    CalibratedImu, ImuParameters, ImuQuantity, ImuRecording, ParameterList, ReadingUnit, Triad,
-};
+use calibrant::sensor::{CalibratedImu, ImuParameters, ImuQuantity, ParameterList, ReadingUnit, Triad};
 use calibrant::simulate::{
-    GyroscopeToDraw, ImuSimulation, Purpose, TableAction, TableStep, draw_imu, simulate_imu, simulate_table,
-    stream,
+    GyroscopeToDraw, ImuSimulation, Purpose, Rng, TableAction, TableStep, draw_imu, draw_known, simulate_imu,
+    simulate_table, stream,
 };
 use nalgebra::Vector3;
 
@@ -64,27 +62,36 @@ pub(super) fn run(
     let units = [sensor.unit, plan.gyroscope.unit];
     let on_table = table(holds, plan);
     // on a table the faces are the true frame, by hand the accelerometer's gauge fixes it
-    let (truth, recording): (ImuParameters, ImuRecording) = match &on_table {
+    let (mut truth, of_accelerometer) = match &on_table {
         Some(steps) => {
             check_order(steps)?;
-            (drawn, simulate_table(&drawn, steps, &setup, &mut rng))
+            (drawn, ParameterList::new(3, sensor.model))
         }
-        None => {
-            let truth = in_gauge(&drawn, units, holds)?;
-            (truth, simulate_imu(&truth, &setup, &mut rng))
-        }
-    };
-    let of_accelerometer = match &on_table {
-        Some(_) => ParameterList::new(3, sensor.model),
-        None => holds.gauge.parameter_list(sensor.model),
+        None => (in_gauge(&drawn, units, holds)?, holds.gauge.parameter_list(sensor.model)),
     };
     let quantities = quantities(&of_accelerometer, plan);
+    set_known(&mut truth, &quantities, plan, &mut rng);
+    let recording = match &on_table {
+        Some(steps) => simulate_table(&truth, steps, &setup, &mut rng),
+        None => simulate_imu(&truth, &setup, &mut rng),
+    };
     write_imu_truth(&arguments.output.join("truth.json"), seed, &quantities, units, &truth)?;
     write_imu_recording(&arguments.output.join("recording.csv"), &recording)?;
     Ok(recording.accelerometer.map_or(0, |recording| recording.len()))
 }
 
-/// What a calibration of this experiment finds, in its order.
+/// Gives what is known beforehand its value, in the true frame of the calibration. As there, a prior of what is not estimated does nothing.
+fn set_known(truth: &mut ImuParameters, estimated: &[ImuQuantity], plan: &ImuPlan, rng: &mut Rng) {
+    for known in &plan.known {
+        // there is no temperature to follow
+        let thermal = matches!(known.quantity, ImuQuantity::Thermal(..));
+        if !thermal && (known.sd.is_none() || estimated.contains(&known.quantity)) {
+            draw_known(truth, known.quantity, known.value, known.sd, rng);
+        }
+    }
+}
+
+/// What a calibration of this experiment finds, in its order, and among it what is fixed.
 fn quantities(accelerometer: &ParameterList, plan: &ImuPlan) -> Vec<ImuQuantity> {
     let gyroscope = ParameterList::new(3, plan.gyroscope.model);
     let mut quantities = Vec::new();

@@ -1,6 +1,7 @@
 //! A whole IMU: simulated, calibrated, and held against its truth.
 
-use crate::bench::{Bench, assert_close_to_truth};
+use crate::bench::{Bench, assert_close_to_truth, names};
+use serde_json::Value;
 
 #[test]
 fn a_simulated_imu_is_found_again_and_its_noise_in_a_long_hold() {
@@ -56,4 +57,41 @@ fn counts_are_simulated_with_gains_alone_and_turns_do_not_overlap() {
         2,
         &["begins at 5 s begins before what is done until 6 s is over"],
     );
+}
+
+/// Far from what is drawn without: 0.1 m/s² around 0, 0.02 rad/s around 0, 1 % around 1.
+#[test]
+fn what_the_experiment_knows_is_true_of_the_simulated_imu() {
+    let bench = Bench::new();
+    let known = r#"[known]
+"gyroscope.bias.x" = 0.25
+"gyroscope.scale.y" = { value = 1.3, sd = 1e-3 }
+"accelerometer.bias.z" = { value = 3.0, sd = 0.01 }"#;
+    bench.preset("imu", "hand.toml", &[("[known] ", &format!("{known} "))]);
+    let table = include_str!("../../../../examples/06_whole_imu/table.toml");
+    bench.write("table.toml", format!("{table}\n{known}\n"));
+    for name in ["hand", "table"] {
+        bench.run(&format!("simulate {name}.toml --seed 5 -o {name}")).done();
+        bench.run(&format!("calibrate {name}.toml {name}/recording.csv -o {name}/out")).done();
+        let (truth, found) =
+            (bench.json(&format!("{name}/truth.json")), bench.json(&format!("{name}/out/calibration.json")));
+        let of = |file: &Value, parameter: &str, field: &str| -> Option<f64> {
+            let list = file["parameters"].as_array().expect("an array");
+            list.iter().find(|entry| entry["name"] == parameter)?[field].as_f64()
+        };
+        let truth_of = |parameter: &str| of(&truth, parameter, "value").expect("drawn");
+        assert!((truth_of("gyroscope.bias.x") - 0.25).abs() < 1e-15);
+        for (parameter, value, sd) in [("gyroscope.scale.y", 1.3, 1e-3), ("accelerometer.bias.z", 3.0, 0.01)]
+        {
+            let error = (truth_of(parameter) - value) / sd;
+            assert!(error != 0.0 && error.abs() < 4.0, "{name}: {parameter} {error}");
+        }
+        let all: Vec<&str> = names(&truth["parameters"]);
+        assert_eq!(names(&found["parameters"]).len() + 1, all.len(), "one is fixed");
+        for parameter in all.into_iter().filter(|parameter| *parameter != "gyroscope.bias.x") {
+            let (value, sd) = (of(&found, parameter, "value"), of(&found, parameter, "sd"));
+            let (value, sd) = (value.expect("estimated"), sd.expect("estimated"));
+            assert!((value - truth_of(parameter)).abs() < 5.0 * sd, "{name}: {parameter} {value} ± {sd}");
+        }
+    }
 }

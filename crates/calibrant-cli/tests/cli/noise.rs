@@ -67,6 +67,31 @@ fn white_noise_is_found_and_what_is_not_seen_is_said() {
     );
 }
 
+/// Fifteen seconds at rest, thirty of a turn about the vertical at a steady rate, five at rest: the accelerometer alone sees one hold, the gyroscope's longest
+/// calm is the turn.
+#[test]
+fn a_turn_at_a_steady_rate_is_no_hold_of_an_imu() {
+    let forces = recording("", 5000, 1.0);
+    let lines = || forces.lines().skip(1);
+    let mut text = "t_s,ax_mps2,ay_mps2,az_mps2,gx_radps,gy_radps,gz_radps\n".to_owned();
+    for (k, (line, other)) in lines().zip(lines().cycle().skip(100)).enumerate() {
+        let noise: Vec<f64> = other.split(',').map(|value| value.parse().expect("a number")).collect();
+        let turning = if (1500..4500).contains(&k) { 0.5 } else { 0.0 };
+        let [x, y, z] = [noise[1], noise[2], noise[3] - 9.8].map(|value| 0.005 * value);
+        writeln!(text, "{line},{x:.9},{y:.9},{:.9}", z + turning).expect("written");
+    }
+    let bench = Bench::new();
+    bench.write("imu.csv", text);
+    for sensor in ["accelerometer", "gyroscope"] {
+        let outcome = bench.run(&format!("noise imu.csv --sensor {sensor} --json")).done();
+        let json: Value = serde_json::from_str(&outcome.stdout).expect("JSON");
+        assert_eq!(json["sensors"].as_array().map(Vec::len), Some(1));
+        let place = |name: &str| json["sensors"][0][name].as_u64().expect("a number");
+        let (first, end) = (place("first_sample"), place("end_sample"));
+        assert!(first < 50 && (1450..1520).contains(&end), "{sensor}: {first} to {end}");
+    }
+}
+
 /// The text without the lines that give the key again that `line` gives.
 fn without_key(text: &str, line: &str) -> String {
     let key = line.split(' ').next().expect("a key");

@@ -4,9 +4,12 @@
 //! `k_1' = (k_1 + 2 k_2 d)/c`, `k_2' = k_2/c`. Readings stay the same at every temperature.
 
 use super::entries::{self, ENTRIES, EntryMatrix, EntryVector};
-use super::{Axis, CalibratedImu, ImuParameters, ImuQuantity, Quantity, Thermal, ThermalPart, Triad};
+use super::{Axis, CalibratedImu, Gauge, ImuParameters, ImuQuantity, Quantity, Thermal, ThermalPart, Triad};
 use crate::error::{Complaint, Error, Result};
 use nalgebra::{DMatrix, Matrix3, Vector3};
+
+/// A matrix is symmetric where no entry differs from its counterpart by more than this share of the largest.
+const SYMMETRIC: f64 = 1e-12;
 
 /// The parameters about another reference, and how they depend on those before.
 struct Referred {
@@ -124,7 +127,23 @@ impl CalibratedImu {
                 0.5 * (sigma[(place[i], place[j])] + sigma[(place[j], place[i])])
             })
         });
-        Ok(Self { parameters: referred.after, quantities, covariance, frame: self.frame.clone(), ..*self })
+        let frame = self.referred_frame(&referred.after);
+        Ok(Self { parameters: referred.after, quantities, covariance, frame, ..*self })
+    }
+
+    /// The true frame in words. One that a symmetric matrix fixes stays where it is, but gains that follow temperature leave the matrix symmetric only at the
+    /// reference at which it was: that is then said.
+    fn referred_frame(&self, after: &ImuParameters) -> String {
+        let symmetric = |imu: &ImuParameters| {
+            let matrix = imu.triad(self.reference()).matrix;
+            (matrix - matrix.transpose()).amax() <= SYMMETRIC * matrix.amax()
+        };
+        let at = format!(" at {} °C", self.parameters.thermal.reference_c);
+        let no_longer = symmetric(&self.parameters) && !symmetric(after);
+        if no_longer && self.frame.contains(Gauge::Symmetric.name()) && !self.frame.ends_with(&at) {
+            return self.frame.clone() + &at;
+        }
+        self.frame.clone()
     }
 
     /// The IMU as it is at one temperature, °C, nothing following temperature any more.
@@ -252,5 +271,24 @@ pub(super) mod tests {
         let names: Vec<String> = hot.quantities.iter().map(|quantity| quantity.name()).collect();
         assert_eq!(names, ["gyroscope.bias.x"]);
         assert!((hot.covariance.expect("kept")[(0, 0)] - 1e-4).abs() < 1e-15, "1e-3 per K over 10 K");
+    }
+
+    #[test]
+    fn a_symmetric_matrix_is_so_at_its_reference_only() {
+        let symmetric = warm().in_gauge(Gauge::Symmetric).expect("right-handed");
+        let at = |imu: &CalibratedImu, t: f64| imu.referred_to(t).expect("positive gains");
+        let matrix = at(&symmetric, 43.0).parameters.accelerometer.matrix;
+        assert!((matrix - matrix.transpose()).amax() > 1e-6 * matrix.amax(), "{matrix}");
+        let said = format!("{} at 25 °C", symmetric.frame);
+        let (warmer, back) = (at(&symmetric, 43.0), at(&at(&symmetric, 43.0), 25.0));
+        for imu in [&warmer, &at(&warmer, 50.0), &back, &at(&back, 43.0)] {
+            assert_eq!(imu.frame, said);
+        }
+        // a triangle stays one, and so does a symmetric matrix whose gains stay
+        let upper = warm().in_gauge(Gauge::Upper).expect("right-handed");
+        assert_eq!(at(&upper, 43.0).frame, upper.frame);
+        let mut steady = symmetric;
+        steady.parameters.thermal.accelerometer.scale = [Vector3::zeros(); 2];
+        assert_eq!(at(&steady, 43.0).frame, steady.frame);
     }
 }

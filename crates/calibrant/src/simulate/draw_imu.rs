@@ -1,7 +1,7 @@
 //! A whole IMU drawn from the datasheet.
 
 use super::{Rng, draw_sensor};
-use crate::sensor::{ImuParameters, Sensor, SensorModel, SensorParameters, Thermal};
+use crate::sensor::{ImuParameters, ImuQuantity, Sensor, SensorModel, SensorParameters, Thermal};
 use nalgebra::{Matrix3, Vector3};
 use rand_distr::{Distribution, StandardNormal};
 
@@ -50,5 +50,48 @@ pub fn draw_imu(accelerometer: &Sensor, gyroscope: &GyroscopeToDraw, rng: &mut R
         gyroscope: SensorParameters { bias, matrix: gain * (Matrix3::identity() + errors) },
         g_sensitivity: if gyroscope.g_sensitivity { gain * felt } else { Matrix3::zeros() },
         thermal: Thermal::none(),
+    }
+}
+
+/// Gives a quantity that is known beforehand the value it is fixed at, or draws it from the normal distribution of its mean and standard deviation.
+pub fn draw_known(
+    imu: &mut ImuParameters,
+    quantity: ImuQuantity,
+    value: f64,
+    sd: Option<f64>,
+    rng: &mut Rng,
+) {
+    let error = sd.map_or(0.0, |sd| {
+        let z: f64 = StandardNormal.sample(rng);
+        sd * z
+    });
+    let before = quantity.of(imu);
+    quantity.add_to(imu, value + error - before);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::simulate::{Purpose, stream};
+
+    #[test]
+    fn what_is_known_scatters_by_its_uncertainty() {
+        let mut rng = stream(1, Purpose::Sensor, 0);
+        let mut imu = ImuParameters::identity();
+        let quantity = ImuQuantity::full_list(true, true, true)[16];
+        draw_known(&mut imu, quantity, 0.25, None, &mut rng);
+        assert!((quantity.of(&imu) - 0.25).abs() < 1e-15);
+        let n = 10_000;
+        let draws: Vec<f64> = (0..n)
+            .map(|_| {
+                draw_known(&mut imu, quantity, 3.0, Some(0.1), &mut rng);
+                quantity.of(&imu)
+            })
+            .collect();
+        // four standard deviations of a mean and of a standard deviation
+        let mean = draws.iter().sum::<f64>() / f64::from(n);
+        assert!((mean - 3.0).abs() < 4.0 * 0.1 / 100.0, "{mean}");
+        let sd = (draws.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / f64::from(n)).sqrt();
+        assert!((sd / 0.1 - 1.0).abs() < 4.0 / 20_000.0_f64.sqrt(), "{sd}");
     }
 }

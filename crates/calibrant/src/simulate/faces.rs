@@ -1,7 +1,8 @@
 //! Recordings of an IMU on a table: put down on faces, turned by known angles.
 
+use super::stimuli::Stimuli;
 use super::{ImuSimulation, Rng};
-use crate::sensor::{ImuParameters, ImuRecording, Recording};
+use crate::sensor::{ImuParameters, ImuRecording};
 use nalgebra::{Rotation3, Unit, UnitQuaternion, Vector3};
 use rand_distr::{Distribution, StandardNormal};
 
@@ -36,7 +37,7 @@ pub enum TableAction {
 }
 
 /// The recording of an IMU that is put down and turned as listed, in order of time. In between it is turned over from each face to the next; `setup` gives rate,
-/// gravity, noise and units.
+/// gravity, noise, units and temperature.
 ///
 /// Attitudes between samples are exact, rates are the mean over a sample step: what the gyroscope sums up to is the angle that was made.
 pub fn simulate_table(
@@ -78,22 +79,13 @@ pub fn simulate_table(
             from * UnitQuaternion::from_scaled_axis(turn * share)
         })
     };
-    let empty = |unit| Recording { times_s: Vec::new(), readings: Vec::new(), axes: 3, unit };
-    let (mut accelerometer, mut gyroscope) = (empty(setup.accelerometer_unit), empty(setup.gyroscope_unit));
+    let mut stimuli = Stimuli::default();
     for k in 0..=samples {
         let t = from_s + k as f64 * step_s;
         let (before, here, after) = (attitude(t - 0.5 * step_s), attitude(t), attitude(t + 0.5 * step_s));
-        let rate = (before.inverse() * after).scaled_axis() / step_s;
-        let force = here.inverse() * up;
-        let mut noisy = |reading: Vector3<f64>, sd: f64| reading + Vector3::from_fn(|_, _| sd * normal());
-        accelerometer.times_s.push(t);
-        accelerometer.readings.push(noisy(imu.accelerometer.reading(&force), setup.accelerometer_noise));
-        gyroscope.times_s.push(t);
-        gyroscope
-            .readings
-            .push(noisy(imu.gyroscope.reading(&rate) + imu.g_sensitivity * force, setup.gyroscope_noise));
+        stimuli.push(t, here.inverse() * up, (before.inverse() * after).scaled_axis() / step_s);
     }
-    ImuRecording { accelerometer: Some(accelerometer), gyroscope: Some(gyroscope), temperature_c: None }
+    stimuli.record(imu, setup, rng)
 }
 
 /// The attitude on the first face, so that the recording begins there.

@@ -1,7 +1,8 @@
 //! Recordings of an IMU that is held still in several orientations and turned by hand in between.
 
 use super::Rng;
-use crate::sensor::{ImuParameters, ImuRecording, ReadingUnit, Recording};
+use super::stimuli::Stimuli;
+use crate::sensor::{ImuParameters, ImuRecording, ReadingUnit};
 use nalgebra::{UnitQuaternion, Vector3};
 use rand::RngExt;
 use rand_distr::{Distribution, StandardNormal};
@@ -56,14 +57,11 @@ pub fn simulate_imu(imu: &ImuParameters, setup: &ImuSimulation, rng: &mut Rng) -
     let samples = |duration: f64| (duration * setup.rate_hz).round().max(1.0) as usize;
     let step = 1.0 / setup.rate_hz;
     let up = Vector3::new(0.0, 0.0, setup.gravity_mps2);
-    let normal = |rng: &mut Rng| -> f64 { StandardNormal.sample(rng) };
-    let random = |rng: &mut Rng| Vector3::from_fn(|_, _| normal(rng));
+    let random = |rng: &mut Rng| -> Vector3<f64> { Vector3::from_fn(|_, _| StandardNormal.sample(rng)) };
     let mut world_from_sensor = UnitQuaternion::from_scaled_axis(random(rng));
-    let (mut times_s, mut forces, mut rates) = (Vec::new(), Vec::new(), Vec::new());
+    let mut stimuli = Stimuli::default();
     let mut emit = |attitude: &UnitQuaternion<f64>, rate: Vector3<f64>| {
-        times_s.push(times_s.len() as f64 * step);
-        forces.push(attitude.inverse() * up);
-        rates.push(rate);
+        stimuli.push(stimuli.len() as f64 * step, attitude.inverse() * up, rate);
     };
     for pose in 0..setup.poses {
         for _ in 0..samples(setup.hold_s) {
@@ -90,30 +88,5 @@ pub fn simulate_imu(imu: &ImuParameters, setup: &ImuSimulation, rng: &mut Rng) -
             }
         }
     }
-    let last = (times_s.len() - 1).max(1) as f64;
-    let temperature_c: Option<Vec<f64>> = setup
-        .temperature_c
-        .map(|[from, to]| (0..times_s.len()).map(|k| from + (to - from) * (k as f64 / last)).collect());
-    let at = |k: usize| temperature_c.as_ref().map_or(*imu, |temperature| imu.at(temperature[k]));
-    let noisy =
-        |reading: Vector3<f64>, sd: f64, rng: &mut Rng| reading + Vector3::from_fn(|_, _| sd * normal(rng));
-    let accelerometer: Vec<_> = forces
-        .iter()
-        .enumerate()
-        .map(|(k, force)| noisy(at(k).accelerometer.reading(force), setup.accelerometer_noise, rng))
-        .collect();
-    let gyroscope: Vec<_> = rates
-        .iter()
-        .zip(&forces)
-        .enumerate()
-        .map(|(k, (rate, force))| {
-            noisy(at(k).gyroscope.reading(rate) + imu.g_sensitivity * force, setup.gyroscope_noise, rng)
-        })
-        .collect();
-    let recording = |readings, unit| Recording { times_s: times_s.clone(), readings, axes: 3, unit };
-    ImuRecording {
-        accelerometer: Some(recording(accelerometer, setup.accelerometer_unit)),
-        gyroscope: Some(recording(gyroscope, setup.gyroscope_unit)),
-        temperature_c,
-    }
+    stimuli.record(imu, setup, rng)
 }

@@ -11,9 +11,10 @@ mod initial_motion;
 mod noise;
 mod population;
 mod recording;
+mod stimuli;
 
 pub use crate::motion::sample_times;
-pub use draw_imu::{GyroscopeToDraw, draw_imu};
+pub use draw_imu::{GyroscopeToDraw, draw_imu, draw_known};
 pub use faces::{TableAction, TableStep, simulate_table};
 pub use holds::{HoldsSimulation, simulate_holds};
 pub use imu::{ImuSimulation, simulate_imu};

@@ -10,8 +10,8 @@ impl PageReader for Pages {
     fn get_next_page(&mut self) -> Result<Option<Page>> {
         let page = self.0.get_next_page()?;
         match &page {
-            // a number takes four bytes at least
-            Some(Page::DictionaryPage { buf, num_values, .. }) if *num_values as usize > buf.len() => {
+            // only numbers are read, and one takes four bytes at least
+            Some(Page::DictionaryPage { buf, num_values, .. }) if *num_values as usize > buf.len() / 4 => {
                 let (values, bytes) = (num_values, buf.len());
                 Err(ParquetError::General(format!("a dictionary of {values} values has {bytes} bytes")))
             }
