@@ -9,13 +9,10 @@ use calibrant::estimate::{
 };
 use calibrant::io::{ImuReadOptions, ImuUnit, SectionKind, read_imu_pair, read_imu_recording, read_sections};
 use calibrant::motion::Gravity;
-use calibrant::sensor::{
-    Gauge, ImuParameters, ImuRecording, ReadingUnit, Recording, Sensor, SensorModel, SensorParameters,
-    Thermal,
-};
+use calibrant::sensor::{ImuParameters, ImuRecording, ReadingUnit, Recording, Sensor, SensorModel};
 use calibrant::simulate::{ImuSimulation, Purpose, Rng, simulate_imu, stream};
+use common::{draw_imu, normal};
 use nalgebra::{Matrix3, Rotation3, Vector3};
-use rand_distr::{Distribution, StandardNormal};
 use rayon::prelude::*;
 
 fn accelerometer(unit: ReadingUnit) -> Sensor {
@@ -155,20 +152,10 @@ fn a_ferraris_session_agrees_with_imucal() {
     assert!(sd("accelerometer.bias.x") > 5e-3, "the scatter of the faces is in the covariance");
 }
 
-fn normal(rng: &mut Rng) -> f64 {
-    StandardNormal.sample(rng)
-}
-
-/// An IMU of the size of MEMS errors, its accelerometer in the upper gauge.
+/// An IMU of the size of MEMS errors, with g-sensitivity.
 fn draw(rng: &mut Rng) -> ImuParameters {
-    let mut sensor = |bias: f64, spread: f64| SensorParameters {
-        bias: Vector3::from_fn(|_, _| bias * normal(rng)),
-        matrix: Matrix3::identity() + Matrix3::from_fn(|_, _| spread * normal(rng)),
-    };
-    let accelerometer = Gauge::Upper.apply(&sensor(0.1, 0.01));
-    let gyroscope = sensor(0.02, 0.01);
-    let g_sensitivity = Matrix3::from_fn(|_, _| 2e-4 * normal(rng));
-    ImuParameters { accelerometer, gyroscope, g_sensitivity, thermal: Thermal::none() }
+    let imu = draw_imu(rng);
+    ImuParameters { g_sensitivity: Matrix3::from_fn(|_, _| 2e-4 * normal(rng)), ..imu }
 }
 
 #[test]

@@ -11,30 +11,14 @@ use calibrant::io::{ImuReadOptions, ImuUnit, read_imu_pair};
 use calibrant::motion::Gravity;
 use calibrant::report::validation_sentences;
 use calibrant::sensor::{
-    Gauge, ImuParameters, ImuRecording, ReadingUnit, Recording, Sensor, SensorModel, SensorParameters,
-    Thermal,
+    ImuParameters, ImuRecording, ReadingUnit, Recording, Sensor, SensorModel, SensorParameters,
 };
 use calibrant::simulate::{
     HoldsSimulation, ImuSimulation, Purpose, Rng, simulate_holds, simulate_imu, stream,
 };
-use nalgebra::{Matrix3, Vector3};
-use rand_distr::{Distribution, StandardNormal};
+use common::{draw_imu, normal};
+use nalgebra::Vector3;
 use rayon::prelude::*;
-
-fn normal(rng: &mut Rng) -> f64 {
-    StandardNormal.sample(rng)
-}
-
-/// An IMU of the size of MEMS errors, its accelerometer in the upper gauge.
-fn draw(rng: &mut Rng) -> ImuParameters {
-    let mut sensor = |bias: f64, spread: f64| SensorParameters {
-        bias: Vector3::from_fn(|_, _| bias * normal(rng)),
-        matrix: Matrix3::identity() + Matrix3::from_fn(|_, _| spread * normal(rng)),
-    };
-    let accelerometer = Gauge::Upper.apply(&sensor(0.1, 0.01));
-    let gyroscope = sensor(0.02, 0.01);
-    ImuParameters { accelerometer, gyroscope, g_sensitivity: Matrix3::zeros(), thermal: Thermal::none() }
-}
 
 struct Bench {
     accelerometer: Sensor,
@@ -139,7 +123,7 @@ fn pairs(size: f64, count: u64, tamper: fn(&mut ImuCalibration)) -> Vec<(Validat
         .into_par_iter()
         .map(|number| {
             let mut rng = stream(21, Purpose::Sensor, number);
-            let truth = draw(&mut rng);
+            let truth = draw_imu(&mut rng);
             let recording = simulate(&truth, &simulation, size, &mut rng);
             let other = simulate(&truth, &simulation, size, &mut rng);
             let mut calibration = bench.calibrate(&recording);
@@ -210,7 +194,7 @@ fn parameters_that_are_less_certain_than_stated_are_found_in_what_the_errors_hav
         .into_par_iter()
         .map(|number| {
             let mut rng = stream(22, Purpose::Sensor, number);
-            let truth = draw(&mut rng);
+            let truth = draw_imu(&mut rng);
             let mut calibration = of_short.calibrate(&simulate_imu(&truth, &short, &mut rng));
             let other = simulate_imu(&truth, &long, &mut rng);
             let honest = of_long.validate(&calibration, &other);
@@ -243,7 +227,7 @@ fn a_bias_that_has_moved_is_said_and_not_blamed_on_the_rotations() {
     let simulation = ImuSimulation::default();
     let bench = bench(&simulation);
     let mut rng = stream(23, Purpose::Sensor, 0);
-    let truth = draw(&mut rng);
+    let truth = draw_imu(&mut rng);
     let calibration = bench.calibrate(&simulate_imu(&truth, &simulation, &mut rng));
     let moved_by = Vector3::new(2e-3, -1e-3, 5e-4);
     let mut moved = truth;
@@ -269,7 +253,7 @@ fn what_stands_out_is_named() {
     let simulation = ImuSimulation::default();
     let bench = bench(&simulation);
     let mut rng = stream(24, Purpose::Sensor, 0);
-    let truth = draw(&mut rng);
+    let truth = draw_imu(&mut rng);
     let calibration = bench.calibrate(&simulate_imu(&truth, &simulation, &mut rng));
     let mut other = simulate_imu(&truth, &simulation, &mut rng);
     let accelerometer = other.accelerometer.as_mut().expect("there");
@@ -306,7 +290,7 @@ fn errors_equal_those_of_plain_arithmetic() {
     let simulation = ImuSimulation { poses: 16, ..ImuSimulation::default() };
     let bench = bench(&simulation);
     let mut rng = stream(25, Purpose::Sensor, 0);
-    let truth = draw(&mut rng);
+    let truth = draw_imu(&mut rng);
     let mut calibration = bench.calibrate(&simulate_imu(&truth, &simulation, &mut rng));
     // one bias for all holds
     calibration.still.between_holds_sd = Vector3::zeros();
@@ -360,7 +344,7 @@ fn predicted_variances_equal_those_of_repetitions() {
     let quiet = ImuSimulation { accelerometer_noise: 0.0, gyroscope_noise: 0.0, ..ImuSimulation::default() };
     let bench = bench(&quiet);
     let mut rng = stream(26, Purpose::Sensor, 0);
-    let truth = draw(&mut rng);
+    let truth = draw_imu(&mut rng);
     let (one, other) = (simulate_imu(&truth, &quiet, &mut rng), simulate_imu(&truth, &quiet, &mut rng));
     let noisy = |recording: &ImuRecording, rng: &mut Rng| {
         let mut recording = recording.clone();
@@ -420,7 +404,7 @@ fn an_accelerometer_alone_is_tried_on_another_recording_and_by_folds() {
         .into_par_iter()
         .map(|number| {
             let mut rng = stream(28, Purpose::Sensor, number);
-            let truth = draw(&mut rng).accelerometer;
+            let truth = draw_imu(&mut rng).accelerometer;
             let noise = Vector3::repeat(0.01);
             let (recording, _) = simulate_holds(&truth, &noise, unit, &setup, &mut rng);
             let (other, _) = simulate_holds(&truth, &noise, unit, &setup, &mut rng);
@@ -449,7 +433,7 @@ fn what_cannot_be_validated_is_refused_with_the_reason() {
     let simulation = ImuSimulation { poses: 14, ..ImuSimulation::default() };
     let bench = bench(&simulation);
     let mut rng = stream(29, Purpose::Sensor, 0);
-    let truth = draw(&mut rng);
+    let truth = draw_imu(&mut rng);
     let recording = simulate_imu(&truth, &simulation, &mut rng);
     let calibration = bench.calibrate(&recording);
     let settings = CalibrationSettings::default();

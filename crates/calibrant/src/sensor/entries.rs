@@ -167,6 +167,17 @@ impl ImuQuantity {
     }
 }
 
+/// Derivative of the entries of an IMU after a change with respect to those before, of which `linear` is the effect of a small step.
+pub(super) fn jacobian(linear: impl Fn(&ImuParameters) -> ImuParameters) -> EntryMatrix {
+    let mut jacobian = EntryMatrix::zeros();
+    for entry in 0..ENTRIES {
+        let mut step = EntryVector::zeros();
+        step[entry] = 1.0;
+        jacobian.set_column(entry, &of(&linear(&to_imu(&step))));
+    }
+    jacobian
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

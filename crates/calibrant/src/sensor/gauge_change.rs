@@ -8,7 +8,7 @@
 //! reference sensor's matrix: the three entries (or differences of entries) that the gauge sets to zero stay zero, three linear equations for `δ`. This is the exact
 //! Jacobian, and the covariance follows to first order.
 
-use super::entries::{self, ENTRIES, EntryMatrix, EntryVector};
+use super::entries::{self, EntryMatrix};
 use super::{Axis, CalibratedImu, Gauge, ImuParameters, ImuQuantity, Quantity, SensorModel, Triad};
 use crate::error::{Complaint, Error, Result};
 use nalgebra::{DMatrix, Matrix3, Vector3};
@@ -137,13 +137,7 @@ impl Turned {
 
     /// Derivative of the turned entries with respect to the entries.
     fn jacobian(&self) -> EntryMatrix {
-        let mut jacobian = EntryMatrix::zeros();
-        for entry in 0..ENTRIES {
-            let mut step = EntryVector::zeros();
-            step[entry] = 1.0;
-            jacobian.set_column(entry, &entries::of(&self.step(&entries::to_imu(&step))));
-        }
-        jacobian
+        entries::jacobian(|step| self.step(step))
     }
 }
 
@@ -268,6 +262,7 @@ impl CalibratedImu {
 #[cfg(test)]
 pub(super) mod tests {
     use super::*;
+    use crate::sensor::entries::ENTRIES;
     use crate::sensor::{ReadingUnit, SensorParameters, Thermal};
 
     /// An IMU in counts with everything in it.

@@ -3,7 +3,7 @@
 //! With `d = T₀' − T₀`: `b' = b + b_1 d + b_2 d²`, `b_1' = b_1 + 2 b_2 d`, `b_2' = b_2`; and with `c = 1 + k_1 d + k_2 d²`: `S' = diag(c) S`,
 //! `k_1' = (k_1 + 2 k_2 d)/c`, `k_2' = k_2/c`. Readings stay the same at every temperature.
 
-use super::entries::{self, ENTRIES, EntryMatrix, EntryVector};
+use super::entries::{self, EntryMatrix};
 use super::{Axis, CalibratedImu, Gauge, ImuParameters, ImuQuantity, Quantity, Thermal, ThermalPart, Triad};
 use crate::error::{Complaint, Error, Result};
 use nalgebra::{DMatrix, Matrix3, Vector3};
@@ -70,13 +70,7 @@ impl Referred {
 
     /// Derivative of the entries after with respect to those before.
     fn jacobian(&self) -> EntryMatrix {
-        let mut jacobian = EntryMatrix::zeros();
-        for entry in 0..ENTRIES {
-            let mut step = EntryVector::zeros();
-            step[entry] = 1.0;
-            jacobian.set_column(entry, &entries::of(&self.step(&entries::to_imu(&step))));
-        }
-        jacobian
+        entries::jacobian(|step| self.step(step))
     }
 }
 
@@ -200,6 +194,7 @@ impl CalibratedImu {
 #[cfg(test)]
 pub(super) mod tests {
     use super::*;
+    use crate::sensor::entries::ENTRIES;
     use crate::sensor::gauge_change::tests::imu;
 
     /// The IMU of the gauge tests with terms of every kind.

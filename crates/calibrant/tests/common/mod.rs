@@ -3,5 +3,7 @@
 
 pub(crate) mod case;
 mod data;
+mod imu;
 
 pub(crate) use data::shared_data;
+pub(crate) use imu::{draw_imu, normal};

@@ -1,7 +1,7 @@
 //! Rotations between holds that a calibration is tried on: what it needs of the recording, and gravity carried through them.
 
-use super::joint::{HoldData, Joint, Miss, RotationData, State};
-use super::readings::{Integrable, felt_forces, rotation_spans, samples};
+use super::joint::{HoldData, Joint, Miss, State};
+use super::readings::{Integrable, felt_forces, rotation_spans};
 use super::settle::follow_drift;
 use super::still::{pooled_noise, still, weigh};
 use crate::motion::Hold;
@@ -97,21 +97,7 @@ impl Carrying<'_> {
             .flatten();
         let spans = rotation_spans(self.gyroscope, holds);
         let integrable = Integrable::of(self.gyroscope);
-        let rotations: Vec<RotationData<'_>> = spans
-            .iter()
-            .enumerate()
-            .map(|(from, span)| RotationData {
-                from,
-                samples: samples(
-                    self.gyroscope,
-                    felt.as_deref(),
-                    span,
-                    [temperatures_c[from], temperatures_c[from + 1]],
-                ),
-                used: integrable.obstacle(span).is_none(),
-                counts: true,
-            })
-            .collect();
+        let rotations = integrable.rotations(felt.as_deref(), &spans, &data);
         let mut joint = Joint {
             quantities: self.quantities.to_vec(),
             gravity: g,

@@ -1,7 +1,7 @@
 //! What the gyroscope recorded of each rotation and each turn.
 
 use super::ImuProblem;
-use super::joint::TurnData;
+use super::joint::{HoldData, RotationData, TurnData};
 use super::rotation::{LocalBias, Samples};
 use super::thermal::Climate;
 use crate::error::{Complaint, Error, Result};
@@ -58,20 +58,6 @@ pub(super) fn rotation_spans(gyroscope: &Recording, holds: &[&Hold]) -> Vec<Rang
         .collect()
 }
 
-pub(super) fn samples<'a>(
-    gyroscope: &'a Recording,
-    felt: Option<&'a [Vector3<f64>]>,
-    span: &Range<usize>,
-    temperatures_c: [f64; 2],
-) -> Samples<'a> {
-    Samples {
-        times_s: &gyroscope.times_s[span.clone()],
-        readings: &gyroscope.readings[span.clone()],
-        forces: felt.map(|felt| &felt[span.clone()]),
-        drift: temperatures_c.map(LocalBias::none),
-    }
-}
-
 /// Can rotations be integrated?
 pub(super) struct Integrable<'a> {
     gyroscope: &'a Recording,
@@ -82,6 +68,27 @@ pub(super) struct Integrable<'a> {
 impl<'a> Integrable<'a> {
     pub(super) fn of(gyroscope: &'a Recording) -> Self {
         Self { gyroscope, rate_hz: gyroscope.rate_hz(), saturations: gyroscope.saturations() }
+    }
+
+    /// The rotations in these spans, each from one of the holds to the next.
+    pub(super) fn rotations(
+        &self,
+        felt: Option<&'a [Vector3<f64>]>,
+        spans: &[Range<usize>],
+        holds: &[HoldData],
+    ) -> Vec<RotationData<'a>> {
+        let rotation = |(from, span): (usize, &Range<usize>)| RotationData {
+            from,
+            samples: Samples {
+                times_s: &self.gyroscope.times_s[span.clone()],
+                readings: &self.gyroscope.readings[span.clone()],
+                forces: felt.map(|felt| &felt[span.clone()]),
+                drift: [from, from + 1].map(|hold| LocalBias::none(holds[hold].temperature_c)),
+            },
+            used: self.obstacle(span).is_none(),
+            counts: true,
+        };
+        spans.iter().enumerate().map(rotation).collect()
     }
 
     /// Why a span cannot be integrated; nothing where it can.

@@ -3,8 +3,8 @@
 use super::assemble::Finished;
 use super::both_still::find_imu_holds;
 use super::faces::{self, First};
-use super::joint::{HoldData, Joint, RotationData, State};
-use super::readings::{Integrable, felt_forces, rotation_spans, samples, turns};
+use super::joint::{HoldData, Joint, State};
+use super::readings::{Integrable, felt_forces, rotation_spans, turns};
 use super::settle::{apply, reweigh, settle};
 use super::still::{Explanation, Still, between_sd, pooled_noise, still, weigh};
 use super::thermal::{self, Climate};
@@ -80,21 +80,7 @@ pub fn calibrate_imu(problem: &ImuProblem<'_>, settings: &CalibrationSettings) -
         _ => rotation_spans(gyroscope, &used),
     };
     let integrable = Integrable::of(gyroscope);
-    let rotations: Vec<RotationData<'_>> = spans
-        .iter()
-        .enumerate()
-        .map(|(from, span)| RotationData {
-            from,
-            samples: samples(
-                gyroscope,
-                felt.as_deref(),
-                span,
-                [data[from].temperature_c, data[from + 1].temperature_c],
-            ),
-            used: integrable.obstacle(span).is_none(),
-            counts: true,
-        })
-        .collect();
+    let rotations = integrable.rotations(felt.as_deref(), &spans, &data);
     let mut joint = Joint {
         gravity: setup.holds.gravity.magnitude_mps2,
         holds: data,
