@@ -74,6 +74,7 @@ pub mod io;
 pub mod motion;
 pub mod noise;
 pub mod report;
+mod root;
 pub mod sensor;
 pub mod simulate;
 pub mod study;

@@ -14,6 +14,7 @@
 //! Gaussian and as large as assumed; the fit's [`FitStatistics`] say whether the data agree.
 
 mod comparison;
+mod excess;
 mod gravity;
 mod holds;
 mod imu;

@@ -1,7 +1,9 @@
 //! Confidence bounds of a variance, by inverting a test.
 
 use super::CONFIDENCE;
+use crate::root::root;
 use statrs::distribution::{ContinuousCDF, Gamma};
+use std::convert::Infallible;
 
 /// The values of a variance `θ` under which an estimate at least as high, or at least as low, as `estimate` has half the probability that is left
 /// outside; `variance(θ)` is the variance of the estimate if `θ` is true.
@@ -21,19 +23,19 @@ pub(super) fn upper(estimate: f64, variance: &impl Fn(f64) -> f64, tail: f64) ->
 /// Where in `estimate · (from … to)` the probability of a lower estimate falls through `p`; the end where it does not.
 fn crossing(estimate: f64, variance: &impl Fn(f64) -> f64, p: f64, from: f64, to: f64) -> f64 {
     let excess = |theta: f64| lower_probability(estimate, theta, variance(theta)) - p;
-    let (mut low, mut high) = (estimate * from, estimate * to);
-    if excess(low) < 0.0 {
+    let (first, last) = (excess(estimate * from), excess(estimate * to));
+    if first < 0.0 {
         return 0.0;
     }
-    if excess(high) > 0.0 {
+    if last > 0.0 {
         return f64::INFINITY;
     }
-    // bisection on the logarithm: the range spans many decades
-    while high / low > 1.0 + 1e-7 {
-        let middle = (low * high).sqrt();
-        if excess(middle) > 0.0 { low = middle } else { high = middle }
-    }
-    (low * high).sqrt()
+    let (from, to) = (from.ln(), to.ln());
+    // on the logarithm: the range spans many decades
+    let Ok(logarithm) = root([(from, first), (to, last)], 0.0, 1e-9, |logarithm| {
+        Ok::<f64, Infallible>(excess(estimate * logarithm.exp()))
+    });
+    estimate * logarithm.exp()
 }
 
 /// Probability of an estimate below this one, the estimate following a gamma distribution of this mean and variance.

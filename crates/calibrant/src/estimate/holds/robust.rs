@@ -4,6 +4,7 @@ use super::HoldsSetup;
 use super::fit::{Directions, Fit};
 use super::verdict::explain;
 use crate::error::{Complaint, Error, NotIdentifiable, Result};
+use crate::estimate::excess::excess;
 use crate::estimate::{CalibrationProblem, CalibrationSettings, CalibrationStatus};
 use crate::information;
 use crate::motion::Hold;
@@ -13,6 +14,10 @@ use statrs::distribution::{ContinuousCDF, StudentsT};
 
 /// A hold is left out when a residual as large as its own would be seen in fewer than this share of recordings.
 const SIGNIFICANCE: f64 = 0.01;
+/// Most rounds of the robust fit.
+const ROUNDS: usize = 20;
+/// Its weights rest when none changes by more than this.
+const RESTS: f64 = 1e-3;
 /// Tukey's constant: 95 % efficiency at the normal distribution.
 const BIWEIGHT: f64 = 4.685;
 
@@ -250,9 +255,12 @@ impl<const P: usize> Problem<'_, P> {
             return vec![true; all.len()];
         }
         let mut scale = 0.0;
-        for _ in 0..20 {
+        for round in 0..ROUNDS {
             let directions = self.directions(&all, &|j| weights[j], 0.0, &sensor);
-            let Some(fit) = directions.fit(&sensor, self.settings) else { return vec![true; all.len()] };
+            // the weights move on: after the first round a step or two are enough
+            let max_iterations = if round == 0 { self.settings.max_iterations } else { 2 };
+            let settings = CalibrationSettings { max_iterations, ..self.settings.clone() };
+            let Some(fit) = directions.fit(&sensor, &settings) else { return vec![true; all.len()] };
             sensor = fit.sensor;
             let residuals = self.magnitude_residuals(&sensor);
             let mut sizes: Vec<f64> = residuals.iter().map(|e| e.abs()).collect();
@@ -260,9 +268,14 @@ impl<const P: usize> Problem<'_, P> {
             let mad = *sizes.select_nth_unstable_by(middle, f64::total_cmp).1;
             let correction = (all.len() as f64 / (all.len() - P) as f64).sqrt();
             scale = (1.4826 * mad * correction).max(1e-12 * self.gravity);
+            let mut change = 0.0_f64;
             for (weight, e) in weights.iter_mut().zip(&residuals) {
                 let x = e / (BIWEIGHT * scale);
-                *weight = (1.0 - x * x).max(0.0).powi(2).max(1e-9);
+                let before = std::mem::replace(weight, (1.0 - x * x).max(0.0).powi(2).max(1e-9));
+                change = change.max((*weight - before).abs());
+            }
+            if change < RESTS {
+                break;
             }
         }
         let good: Vec<bool> =
@@ -289,31 +302,18 @@ impl<const P: usize> Problem<'_, P> {
                 "check the unit of the recording and that the holds are what they should be",
             ))
         };
-        let mut fit = at(0.0, start, start).ok_or_else(singular)?;
-        let gains_of = fit.sensor;
-        let mut between = 0.0;
-        if degrees > 0.0 && fit.chi2 > degrees {
-            let residuals = self.magnitude_residuals(&fit.sensor);
-            let rms =
-                (chosen.iter().map(|&j| residuals[j].powi(2)).sum::<f64>() / chosen.len() as f64).sqrt();
-            let (mut low, mut high) = (0.0, rms.max(1e-12 * self.gravity));
-            for _ in 0..60 {
-                fit = at(high, &gains_of, &fit.sensor).ok_or_else(singular)?;
-                if fit.chi2 <= degrees {
-                    break;
-                }
-                low = high;
-                high *= 2.0;
-            }
-            for _ in 0..40 {
-                between = 0.5 * (low + high);
-                fit = at(between, &gains_of, &fit.sensor).ok_or_else(singular)?;
-                if (fit.chi2 / degrees - 1.0).abs() < 1e-10 {
-                    break;
-                }
-                if fit.chi2 > degrees { low = between } else { high = between }
-            }
-        }
+        let first = at(0.0, start, start).ok_or_else(singular)?;
+        let gains_of = first.sensor;
+        let residuals = self.magnitude_residuals(&gains_of);
+        let squares: f64 = chosen.iter().map(|&j| residuals[j].powi(2)).sum();
+        let rms = (squares / chosen.len() as f64).sqrt().max(1e-12 * self.gravity);
+        let mut from = gains_of;
+        let (between, fit) = excess(degrees, rms, |between| {
+            let fit = at(between, &gains_of, &from)?;
+            from = fit.sensor;
+            Some((fit.chi2, fit))
+        })
+        .ok_or_else(singular)?;
         let information = DMatrix::from_fn(P, P, |i, j| fit.information[(i, j)]);
         let covariance = information::covariance(&information).ok_or_else(singular)?;
         Ok(Weighted { fit, covariance, between, gains_of })

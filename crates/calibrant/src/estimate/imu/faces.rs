@@ -5,6 +5,7 @@
 
 use super::ImuProblem;
 use crate::error::{Complaint, Error, NotIdentifiable, Result, UndeterminedGroup};
+use crate::estimate::excess::excess;
 use crate::estimate::{HoldCalibration, HoldResult, Uncalibrated, holds_between};
 use crate::information;
 use crate::motion::Hold;
@@ -96,6 +97,9 @@ pub(super) fn fit(
     })
 }
 
+/// A scatter between faces of the usual size, m/s².
+const USUAL: f64 = 0.03;
+
 struct Linear<'a> {
     holds: &'a [Hold],
     forces: &'a [Vector3<f64>],
@@ -122,19 +126,14 @@ impl Linear<'_> {
                 "check the directions of the holds and the unit of the recording",
             ))
         };
-        let mut sensor = self.fit(0.0, &ones).ok_or_else(singular)?;
+        let sensor = self.fit(0.0, &ones).ok_or_else(singular)?;
         let gain = Vector3::from_fn(|axis, _| sensor.matrix.row(axis).norm());
         let degrees = (3 * self.holds.len()).saturating_sub(size) as f64;
-        if degrees == 0.0 || self.chi2(&sensor, 0.0, &gain) <= degrees {
-            return Ok((sensor, 0.0, condition));
-        }
-        let (mut low, mut high) = (0.0, self.forces[0].norm());
-        let mut between = high;
-        for _ in 0..60 {
-            between = 0.5 * (low + high);
-            sensor = self.fit(between, &gain).ok_or_else(singular)?;
-            if self.chi2(&sensor, between, &gain) > degrees { low = between } else { high = between }
-        }
+        let (between, sensor) = excess(degrees, USUAL, |between| {
+            let sensor = self.fit(between, &gain)?;
+            Some((self.chi2(&sensor, between, &gain), sensor))
+        })
+        .ok_or_else(singular)?;
         Ok((sensor, between, condition))
     }
 

@@ -1,6 +1,7 @@
 //! The gyroscope in the holds: its bias, its noise, and how far it wanders between them.
 
 use super::joint::HoldData;
+use crate::estimate::excess::excess;
 use crate::motion::Hold;
 use crate::sensor::{Recording, ThermalTerm, TriadThermal};
 use nalgebra::{DMatrix, DVector, Vector3};
@@ -52,8 +53,10 @@ pub(super) fn between_sd(
     let (mut between, mut thermal) = (Vector3::zeros(), by.fixed);
     for axis in 0..3 {
         let regression = Regression::new(stills, noise[axis], by, axis);
-        between[axis] = regression.between();
-        let solution = regression.solve(between[axis]).map(|(_, solution)| solution);
+        let solution = regression.fit().map(|(sd, solution)| {
+            between[axis] = sd;
+            solution
+        });
         let first = 1 + by.forces.map_or(0, |_| 3);
         for (k, (term, expected, _)) in by.terms[axis].iter().enumerate() {
             term.add_to(&mut thermal, expected + solution.as_ref().map_or(0.0, |found| found[first + k]));
@@ -119,25 +122,11 @@ impl Regression {
         Some((chi2 + solution.component_mul(&solution).dot(&self.prior), solution))
     }
 
-    fn between(&self) -> f64 {
-        if self.degrees == 0.0 {
-            return 0.0;
-        }
-        let chi2 = |between: f64| self.solve(between).map(|(chi2, _)| chi2);
-        let size = self
-            .rows
-            .iter()
-            .map(|(_, mean, _)| *mean)
-            .fold((f64::MAX, f64::MIN), |(low, high), mean| (low.min(mean), high.max(mean)));
-        let (mut low, mut high) = (0.0, (size.1 - size.0).max(f64::MIN_POSITIVE));
-        if chi2(0.0).is_none_or(|chi2| chi2 <= self.degrees) {
-            return 0.0;
-        }
-        for _ in 0..60 {
-            let middle = 0.5 * (low + high);
-            if chi2(middle).is_none_or(|chi2| chi2 > self.degrees) { low = middle } else { high = middle }
-        }
-        0.5 * (low + high)
+    /// The scatter between holds with the unknowns; `None` where these are not determined.
+    fn fit(&self) -> Option<(f64, DVector<f64>)> {
+        let means = || self.rows.iter().map(|(_, mean, _)| *mean);
+        let spread = means().fold(f64::MIN, f64::max) - means().fold(f64::MAX, f64::min);
+        excess(self.degrees, 0.25 * spread, |between| self.solve(between))
     }
 }
 

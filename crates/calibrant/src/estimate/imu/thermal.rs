@@ -9,6 +9,7 @@ use super::joint::{HoldData, Joint, State};
 use super::solver::{self, singular};
 use super::{ImuProblem, KnownTerm};
 use crate::error::{Complaint, Error, NotIdentifiable, Result, UndeterminedGroup};
+use crate::estimate::excess::excess;
 use crate::estimate::holds::{critical, left_out, magnitude_rms};
 use crate::estimate::{CalibrationSettings, HoldCalibration};
 use crate::motion::Hold;
@@ -327,35 +328,16 @@ impl<'a> Alone<'a> {
     /// The fit, and the scatter between holds that makes χ² equal its degrees of freedom, m/s².
     fn fit(&self, settings: &CalibrationSettings) -> Result<(State, f64)> {
         let degrees = self.degrees() as f64;
-        let at = |between: f64, from: &State| -> Result<(State, f64)> {
-            let weighed = self.weighed(between);
-            let misses = weighed.misses(from).ok_or_else(singular)?;
-            let fit = weighed.fit(from.clone(), misses, settings).ok_or_else(singular)?;
-            Ok((fit.state, fit.chi2))
-        };
         let rough = self.first.holds.between_holds_sd_mps2;
         solver::check(&self.weighed(rough), &self.start, settings)?;
-        let (mut state, mut chi2) = at(0.0, &self.start)?;
-        if degrees == 0.0 || chi2 <= degrees {
-            return Ok((state, 0.0));
-        }
-        let (mut low, mut high) = (0.0, rough.max(1e-9 * self.joint.gravity));
-        for _ in 0..60 {
-            (state, chi2) = at(high, &state)?;
-            if chi2 <= degrees {
-                break;
-            }
-            (low, high) = (high, 2.0 * high);
-        }
-        let mut between = high;
-        for _ in 0..40 {
-            between = 0.5 * (low + high);
-            (state, chi2) = at(between, &state)?;
-            if (chi2 / degrees - 1.0).abs() < 1e-6 {
-                break;
-            }
-            if chi2 > degrees { low = between } else { high = between }
-        }
+        let mut from = self.start.clone();
+        let (between, state) = excess(degrees, rough.max(1e-9 * self.joint.gravity), |between| {
+            let weighed = self.weighed(between);
+            let fit = weighed.fit(from.clone(), weighed.misses(&from)?, settings)?;
+            from = fit.state.clone();
+            Some((fit.chi2, fit.state))
+        })
+        .ok_or_else(singular)?;
         Ok((state, between))
     }
 }

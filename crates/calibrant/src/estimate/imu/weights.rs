@@ -5,12 +5,15 @@
 //! problem linearised at the present estimate, directions fixed (they are known ten times better than a rotation can tell).
 
 use super::joint::{Joint, Miss};
+use crate::estimate::excess::excess;
 use nalgebra::{DMatrix, DVector, Matrix2, Matrix2xX, Vector2};
 
 /// A rotation is left out when an error as large as its own would be seen in fewer than this share of recordings.
 const SIGNIFICANCE: f64 = 0.01;
 /// Rounds of leaving out one rotation, or taking one back.
 const ROUNDS: usize = 200;
+/// An excess of the size of a good sensor's, rad.
+const USUAL: f64 = 1e-3;
 
 /// The rotations, weighed.
 pub(super) struct Weighed {
@@ -152,28 +155,10 @@ impl Linear<'_> {
         // what the holds say of the bias are as many equations as it has unknowns
         let unknowns = self.size.saturating_sub((0..self.size).filter(|&k| self.rest[(k, k)] > 0.0).count());
         let degrees = (2 * count).saturating_sub(unknowns) as f64;
-        let mut solved = self.solve(used, 0.0)?;
-        if degrees == 0.0 || solved.chi2 <= degrees {
-            return Some((0.0, solved));
-        }
-        let (mut low, mut high) = (0.0, 1e-4);
-        while high < 1e2 {
-            solved = self.solve(used, high)?;
-            if solved.chi2 <= degrees {
-                break;
-            }
-            (low, high) = (high, 4.0 * high);
-        }
-        let mut excess = high;
-        for _ in 0..40 {
-            excess = 0.5 * (low + high);
-            solved = self.solve(used, excess)?;
-            if (solved.chi2 / degrees - 1.0).abs() < 1e-6 {
-                break;
-            }
-            if solved.chi2 > degrees { low = excess } else { high = excess }
-        }
-        Some((excess, solved))
+        excess(degrees, USUAL, |excess| {
+            let solved = self.solve(used, excess)?;
+            Some((solved.chi2, solved))
+        })
     }
 
     fn studentised(&self, used: &[bool], excess: f64, solved: &Solved) -> Vec<f64> {
