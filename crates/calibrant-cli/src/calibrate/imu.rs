@@ -1,17 +1,19 @@
 //! `calibrant calibrate` for a whole IMU.
 
 use super::Arguments;
-use super::imu_noise::HoldNoise;
+use super::imu_noise::{HoldNoise, LongestHold};
 use crate::reading::{in_file, name};
 use crate::{Exit, console};
 use calibrant::Error;
 use calibrant::error::Complaint;
-use calibrant::estimate::{CalibrationSettings, HoldsSetup, ImuProblem, ImuSetup, Turn, calibrate_imu};
+use calibrant::estimate::{
+    CalibrationSettings, HoldsSetup, ImuProblem, ImuSetup, Turn, calibrate_imu, find_imu_holds,
+};
 use calibrant::io::{
     Experiment, HoldsPlan, ImuFile, ImuPlan, ImuReadOptions, ImuUnit, Input, Plan, Section, SectionKind,
     read_sections,
 };
-use calibrant::sensor::ReadingUnit;
+use calibrant::sensor::{ReadingUnit, Triad};
 use std::time::Instant;
 
 pub(super) fn run(arguments: &Arguments, experiment: &Experiment, plan: &ImuPlan) -> calibrant::Result<Exit> {
@@ -37,16 +39,27 @@ pub(super) fn run(arguments: &Arguments, experiment: &Experiment, plan: &ImuPlan
         console::note(&format!("{}: {finding}", name(path)));
     }
     let mut setup = setup(arguments, plan, holds, &file)?;
-    let noise = HoldNoise::of(&setup.holds, &file.recording);
-    setup.white_noise = noise.gyroscope();
+    if setup.holds.intervals_s.is_none() {
+        // an error is the calibration's to tell
+        setup.found = find_imu_holds(&file.recording, setup.holds.minimum_hold_s).ok();
+    }
+    let longest = LongestHold::of(&setup, &file.recording);
+    let noise =
+        |triad: Triad, other: Option<&HoldNoise>| longest.as_ref()?.noise(triad, &file.recording, other);
+    let of_gyroscope = noise(Triad::Gyroscope, None);
+    setup.white_noise =
+        longest.as_ref().zip(of_gyroscope.as_ref()).and_then(|(hold, noise)| hold.white_noise(noise));
     let problem = ImuProblem {
         accelerometer: &experiment.sensor,
         gyroscope: &plan.gyroscope,
         recording: &file.recording,
         setup: &setup,
     };
-    let mut calibration =
-        calibrate_imu(&problem, &CalibrationSettings::default()).map_err(|error| in_file(error, path))?;
+    let (calibration, of_accelerometer) = rayon::join(
+        || calibrate_imu(&problem, &CalibrationSettings::default()).map_err(|error| in_file(error, path)),
+        || noise(Triad::Accelerometer, of_gyroscope.as_ref()),
+    );
+    let mut calibration = calibration?;
     calibration.validations = super::validation::of_imu(arguments, &options, &calibration, &problem, &file)?;
     let main = file.recording.accelerometer.as_ref();
     let input = Input {
@@ -58,6 +71,7 @@ pub(super) fn run(arguments: &Arguments, experiment: &Experiment, plan: &ImuPlan
         samples: main.map_or(0, calibrant::sensor::Recording::len),
         rate_hz: main.map_or(0.0, calibrant::sensor::Recording::rate_hz),
     };
+    let noise: Vec<HoldNoise> = of_accelerometer.into_iter().chain(of_gyroscope).collect();
     super::imu_output::write(arguments, &calibration, &file, noise, &input, started)?;
     for warning in &calibration.warnings {
         console::warn(warning);
@@ -93,7 +107,7 @@ fn setup(
         turns: plan.turns.clone(),
         known: plan.known.clone(),
         thermal: plan.thermal,
-        white_noise: None,
+        ..ImuSetup::default()
     };
     if let Some(path) = &arguments.sections {
         let times = file.recording.accelerometer.as_ref().map_or(&[][..], |recording| &recording.times_s);

@@ -1,65 +1,80 @@
 //! The noise of an IMU in the longest hold: what a sample's noise is taken for where the experiment does not say, and a section of the report.
 
-use calibrant::estimate::{HoldsSetup, ImuCalibration, WhiteNoise, find_imu_holds, holds_between};
-use calibrant::io::ImuFile;
-use calibrant::noise::TriadNoise;
+use calibrant::estimate::{ImuCalibration, ImuSetup, WhiteNoise, holds_between};
+use calibrant::motion::Hold;
+use calibrant::noise::{Moments, Stretch, TriadNoise};
 use calibrant::sensor::{ImuRecording, Triad};
 use nalgebra::Vector3;
 
 /// A hold shorter than this says too little of the noise, s.
 const LONG_HOLD_S: f64 = 20.0;
 
-/// What the longest hold shows, in the unit of the readings.
-#[derive(Default)]
+/// The longest hold, where it is long enough.
+pub(super) struct LongestHold {
+    /// Its number, from 0.
+    number: usize,
+    hold: Hold,
+}
+
+/// The noise of a sensor in it, in the unit of the readings.
 pub(super) struct HoldNoise {
-    /// The hold, from 0.
-    hold: usize,
-    triads: Vec<TriadNoise>,
+    noise: TriadNoise,
+    moments: Moments,
+}
+
+impl LongestHold {
+    /// Holds that are not there are the calibration's to complain about.
+    pub(super) fn of(setup: &ImuSetup, recording: &ImuRecording) -> Option<Self> {
+        let given = setup
+            .holds
+            .intervals_s
+            .as_ref()
+            .and_then(|intervals| holds_between(recording.accelerometer.as_ref()?, intervals).ok());
+        let holds = given.or_else(|| setup.found.clone())?;
+        holds
+            .into_iter()
+            .enumerate()
+            .max_by(|(_, one), (_, other)| one.duration_s().total_cmp(&other.duration_s()))
+            .filter(|(_, hold)| hold.duration_s() >= LONG_HOLD_S)
+            .map(|(number, hold)| Self { number, hold })
+    }
+
+    /// The noise of a sensor in it; `None` where its samples do not determine it. Most often `other` has as many samples.
+    pub(super) fn noise(
+        &self,
+        triad: Triad,
+        recording: &ImuRecording,
+        other: Option<&HoldNoise>,
+    ) -> Option<HoldNoise> {
+        let recording = recording.triad(triad)?;
+        let stretch = Stretch::between(recording, self.hold.start_s, self.hold.end_s).ok()?;
+        let same = other.filter(|other| other.moments.samples() == stretch.samples());
+        let moments = same.map_or_else(|| Moments::of(stretch.samples()), |other| other.moments.clone());
+        let noise = TriadNoise::with_moments(triad, recording, stretch, &moments).ok()?;
+        Some(HoldNoise { noise, moments })
+    }
+
+    /// A gyroscope's white noise, where it is determined on all axes and the noise is understood.
+    pub(super) fn white_noise(&self, gyroscope: &HoldNoise) -> Option<WhiteNoise> {
+        let noise = &gyroscope.noise;
+        let sd = noise.white_noise_per_sample().filter(|_| noise.explains())?;
+        Some(WhiteNoise { sd, hold: self.number, duration_s: noise.stretch.duration_s() })
+    }
 }
 
 impl HoldNoise {
-    /// Examines the longest hold where it is long enough. Holds that cannot be found are the calibration's to complain about.
-    pub(super) fn of(setup: &HoldsSetup, recording: &ImuRecording) -> Self {
-        let holds = recording.accelerometer.as_ref().and_then(|accelerometer| {
-            match &setup.intervals_s {
-                Some(intervals) => holds_between(accelerometer, intervals),
-                None => find_imu_holds(recording, setup.minimum_hold_s),
-            }
-            .ok()
-        });
-        let Some((number, hold)) = holds.as_ref().and_then(|holds| {
-            holds
-                .iter()
-                .enumerate()
-                .max_by(|(_, one), (_, other)| one.duration_s().total_cmp(&other.duration_s()))
-        }) else {
-            return Self::default();
-        };
-        if hold.duration_s() < LONG_HOLD_S {
-            return Self::default();
-        }
-        Self { hold: number, triads: TriadNoise::of_imu(recording, hold.start_s, hold.end_s) }
-    }
-
-    /// The gyroscope's white noise, where it is determined on all axes and the noise is understood.
-    pub(super) fn gyroscope(&self) -> Option<WhiteNoise> {
-        let noise = self.triads.iter().find(|noise| noise.triad == Triad::Gyroscope)?;
-        let sd = noise.white_noise_per_sample().filter(|_| noise.explains())?;
-        Some(WhiteNoise { sd, hold: self.hold, duration_s: noise.stretch.duration_s() })
-    }
-
-    /// The noise of both sensors in m/s² and rad/s.
+    /// The noise in m/s² or rad/s.
     pub(super) fn physical(
         self,
         calibration: &ImuCalibration,
-        file: &ImuFile,
-    ) -> calibrant::Result<Vec<TriadNoise>> {
-        let of = |noise: TriadNoise| {
-            let matrix = calibration.imu.triad(noise.triad).matrix;
-            let gain = Vector3::from_fn(|axis, _| matrix.row(axis).norm());
-            let recording = file.recording.triad(noise.triad)?;
-            Some(noise.with_gain(recording, &gain))
-        };
-        self.triads.into_iter().filter_map(of).collect()
+        recording: &ImuRecording,
+    ) -> calibrant::Result<TriadNoise> {
+        let triad = self.noise.triad;
+        let matrix = calibration.imu.triad(triad).matrix;
+        let gain = Vector3::from_fn(|axis, _| matrix.row(axis).norm());
+        match recording.triad(triad) {
+            Some(recording) => self.noise.with_gain(recording, &gain),
+            None => Ok(self.noise),
+        }
     }
 }

@@ -13,12 +13,10 @@ pub(super) fn write(
     arguments: &Arguments,
     calibration: &ImuCalibration,
     file: &ImuFile,
-    noise: HoldNoise,
+    noise: Vec<HoldNoise>,
     input: &Input,
     started: Instant,
 ) -> calibrant::Result<()> {
-    let json = arguments.output.join("calibration.json");
-    write_imu_calibration(&json, calibration, std::slice::from_ref(input))?;
     let about = About {
         title: format!("Calibration of an IMU from {}", input.file),
         facts: vec![
@@ -36,9 +34,16 @@ pub(super) fn write(
         program: format!("calibrant {}", env!("CARGO_PKG_VERSION")),
         ..About::default()
     };
-    let noise = noise.physical(calibration, file)?;
-    let html = imu_calibration_report(calibration, &file.recording, &noise, &about);
-    write_atomically(&arguments.output.join("report.html"), |out| out.write_all(html.as_bytes()))
+    let physical = |noise: HoldNoise| noise.physical(calibration, &file.recording);
+    let noise = noise.into_iter().map(physical).collect::<calibrant::Result<Vec<_>>>()?;
+    let report = || {
+        let html = imu_calibration_report(calibration, &file.recording, &noise, &about);
+        write_atomically(&arguments.output.join("report.html"), |out| out.write_all(html.as_bytes()))
+    };
+    let json = arguments.output.join("calibration.json");
+    let (json, report) =
+        rayon::join(|| write_imu_calibration(&json, calibration, std::slice::from_ref(input)), report);
+    json.and(report)
 }
 
 /// Prints the tables, or calibration.json.

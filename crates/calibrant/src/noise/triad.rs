@@ -2,7 +2,7 @@
 
 use super::{AllanDeviation, Moments, NoiseFit, Stretch};
 use crate::error::{Complaint, Error, Result};
-use crate::sensor::{Axis, ImuRecording, ReadingUnit, Recording, Triad};
+use crate::sensor::{Axis, ReadingUnit, Recording, Triad};
 use nalgebra::Vector3;
 use rayon::prelude::*;
 
@@ -72,30 +72,14 @@ impl TriadNoise {
         Self::with_moments(triad, recording, stretch, &moments)
     }
 
-    /// The noise of both sensors from `start_s` to `end_s`, in which they are at rest; a sensor whose samples do not determine it is left out.
-    #[must_use]
-    pub fn of_imu(recording: &ImuRecording, start_s: f64, end_s: f64) -> Vec<Self> {
-        let stretches: Vec<(Triad, &Recording, Stretch)> = Triad::ALL
-            .iter()
-            .filter_map(|&triad| {
-                let recording = recording.triad(triad)?;
-                Some((triad, recording, Stretch::between(recording, start_s, end_s).ok()?))
-            })
-            .collect();
-        // most often both have the same number of samples
-        let mut lengths: Vec<usize> = stretches.iter().map(|(_, _, stretch)| stretch.samples()).collect();
-        lengths.dedup();
-        let moments: Vec<Moments> = lengths.into_iter().map(Moments::of).collect();
-        stretches
-            .into_par_iter()
-            .filter_map(|(triad, recording, stretch)| {
-                let moments = moments.iter().find(|moments| moments.samples() == stretch.samples())?;
-                Self::with_moments(triad, recording, stretch, moments).ok()
-            })
-            .collect()
-    }
-
-    fn with_moments(
+    /// The same with [`Moments`] at hand: those of the number of samples, which several sensors may have in common.
+    ///
+    /// # Errors
+    /// As [`of`](Self::of).
+    ///
+    /// # Panics
+    /// If `moments` are those of another number of samples.
+    pub fn with_moments(
         triad: Triad,
         recording: &Recording,
         stretch: Stretch,

@@ -17,6 +17,7 @@ use crate::estimate::{HoldCalibration, Uncalibrated};
 use crate::information;
 use crate::sensor::{Correction, ImuParameters, ReadingUnit, Recording, Thermal};
 use nalgebra::{Matrix3, Vector3};
+use rayon::prelude::*;
 use std::ops::Range;
 
 /// Everything that the result is put together from.
@@ -179,7 +180,7 @@ impl Finished<'_> {
         let angle = |miss: &Miss| miss.error.norm().min(1.0).asin();
         joint
             .rotations
-            .iter()
+            .par_iter()
             .zip(self.spans)
             .enumerate()
             .map(|(i, (data, span))| {

@@ -2,6 +2,7 @@
 
 use super::ThermalModel;
 use crate::estimate::HoldsSetup;
+use crate::motion::Hold;
 use crate::sensor::{ImuQuantity, ImuRecording, ReadingUnit, Sensor, SensorModel};
 use nalgebra::Vector3;
 
@@ -50,6 +51,8 @@ impl Default for Gyroscope {
 pub struct ImuSetup {
     /// The holds.
     pub holds: HoldsSetup,
+    /// The holds that [`find_imu_holds`](crate::estimate::find_imu_holds) found in this recording, where none are given and that was done before; `None` to find them.
+    pub found: Option<Vec<Hold>>,
     /// Direction of the specific force in each of the given holds (up), unit vectors in the true frame; `None` where only its magnitude is known.
     pub directions: Option<Vec<Vector3<f64>>>,
     /// Turns of known angle.

@@ -100,12 +100,17 @@ pub(super) fn follow_drift(joint: &mut Joint<'_>, state: &State, between: &Vecto
 }
 
 /// Weights and the gyroscope's parameters in turn, directions fixed, until both rest.
-pub(super) fn settle(joint: &mut Joint<'_>, state: &mut State, between: &Vector3<f64>) -> Result<Weighed> {
+///
+/// `misses` are those of the state; those of the state that it leads to are given back.
+pub(super) fn settle(
+    joint: &mut Joint<'_>,
+    state: &mut State,
+    mut misses: Misses,
+    between: &Vector3<f64>,
+) -> Result<(Weighed, Misses)> {
     let places = joint.gyroscope_places();
     let mut last = Weighed::none(joint.rotations.len());
     for _ in 0..ROUNDS {
-        follow_drift(joint, state, between);
-        let misses = joint.misses(state).ok_or_else(singular)?;
         let Some(weighed) = reweigh(joint, state, &misses)? else { break };
         apply(joint, &weighed);
         let mut imu = state.imu;
@@ -115,9 +120,13 @@ pub(super) fn settle(joint: &mut Joint<'_>, state: &mut State, between: &Vector3
         let rests = weighed.length < SETTLED;
         last = weighed;
         state.imu = imu;
+        if !rests {
+            follow_drift(joint, state, between);
+        }
+        misses = joint.misses(state).ok_or_else(singular)?;
         if rests {
             break;
         }
     }
-    Ok(last)
+    Ok((last, misses))
 }

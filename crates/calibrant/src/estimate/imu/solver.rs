@@ -3,9 +3,9 @@
 use super::assemble::Finished;
 use super::both_still::find_imu_holds;
 use super::faces::{self, First};
-use super::joint::{HoldData, Joint, State};
+use super::joint::{HoldData, Joint, Misses, State};
 use super::readings::{Integrable, felt_forces, rotation_spans, turns};
-use super::settle::{apply, reweigh, settle};
+use super::settle::{apply, follow_drift, reweigh, settle};
 use super::still::{Explanation, Still, between_sd, pooled_noise, still, weigh};
 use super::thermal::{self, Climate};
 use super::verdict::{self, undetermined, vague};
@@ -20,6 +20,10 @@ use crate::sensor::{
     Triad, TriadThermal,
 };
 use nalgebra::{Matrix3, Vector3};
+use std::borrow::Cow;
+
+/// A fit that is followed by another, in standard deviations.
+const ROUGH: f64 = 1e-2;
 
 /// Calibrates an IMU.
 ///
@@ -109,23 +113,23 @@ pub fn calibrate_imu(problem: &ImuProblem<'_>, settings: &CalibrationSettings) -
         axes = found.axes;
     }
     let before = state.imu;
-    check(&joint, &state, settings)?;
-    let weighed = settle(&mut joint, &mut state, &between)?;
-    let misses = joint.misses(&state).ok_or_else(singular)?;
-    let mut fit = joint.fit(state, misses, settings).ok_or_else(singular)?;
-    // the weights once more, at the joint optimum
-    let weighed = match reweigh(&joint, &fit.state, &fit.misses)? {
-        Some(again)
-            if again.used != weighed.used
-                || (again.excess_rad - joint.excess_rad).abs() > 0.01 * joint.excess_rad =>
-        {
-            apply(&mut joint, &again);
-            fit = joint.fit(fit.state, fit.misses, settings).ok_or_else(singular)?;
+    follow_drift(&mut joint, &state, &between);
+    let misses = check(&joint, &state, settings)?;
+    let (weighed, misses) = settle(&mut joint, &mut state, misses, &between)?;
+    let rough = CalibrationSettings { tolerance: ROUGH, ..settings.clone() };
+    let close = joint.fit(state, misses, &rough).ok_or_else(singular)?;
+    // the weights once more, where directions and parameters go together
+    let weighed = match reweigh(&joint, &close.state, &close.misses)? {
+        Some(again) => {
+            let moved = (again.excess_rad - joint.excess_rad).abs() > 0.01 * joint.excess_rad;
+            if moved || again.used != weighed.used {
+                apply(&mut joint, &again);
+            }
             again
         }
-        Some(again) => again,
         None => weighed,
     };
+    let fit = joint.fit(close.state, close.misses, settings).ok_or_else(singular)?;
     let finished = Finished {
         joint: &joint,
         fit: &fit,
@@ -210,7 +214,10 @@ fn from_holds(
     let intervals_s = match intervals_s {
         Some(intervals) => intervals,
         None => {
-            let found = find_imu_holds(problem.recording, problem.setup.holds.minimum_hold_s)?;
+            let found = match &problem.setup.found {
+                Some(found) => Cow::Borrowed(found),
+                None => Cow::Owned(find_imu_holds(problem.recording, problem.setup.holds.minimum_hold_s)?),
+            };
             found.iter().map(|hold| (hold.start_s, hold.end_s)).collect()
         }
     };
@@ -304,8 +311,8 @@ fn start_values(
     imu
 }
 
-/// Are all parameters determined?
-pub(super) fn check(joint: &Joint<'_>, state: &State, settings: &CalibrationSettings) -> Result<()> {
+/// Are all parameters determined? Gives what the rotations say at this state.
+pub(super) fn check(joint: &Joint<'_>, state: &State, settings: &CalibrationSettings) -> Result<Misses> {
     let none = CalibrationSettings { max_iterations: 0, ..settings.clone() };
     let misses = joint.misses(state).ok_or_else(singular)?;
     let fit = joint.fit(state.clone(), misses, &none).ok_or_else(singular)?;
@@ -315,6 +322,6 @@ pub(super) fn check(joint: &Joint<'_>, state: &State, settings: &CalibrationSett
     }
     match information::covariance(&fit.information).and_then(|covariance| vague(joint, state, &covariance)) {
         Some(vague) => Err(Error::NotIdentifiable(Box::new(vague))),
-        None => Ok(()),
+        None => Ok(fit.misses),
     }
 }
