@@ -83,16 +83,9 @@ pub(in crate::report) fn imu_before_and_after(
     let mut panels = force_panels(&calibration.holds, &corrected.accelerometer?.values, accelerometer)?;
     let corrected = corrected.gyroscope?;
     let before = Correction::of(&calibration.gyroscope_before.sensor)?;
-    let degrees = |rate: &Vector3<f64>| rate.map(f64::to_degrees);
-    let after: Vec<Vector3<f64>> = corrected.values.iter().map(degrees).collect();
-    let readings = gyroscope.readings.iter().map(|reading| degrees(&before.apply(reading)));
-    let changes: Vec<Vector3<f64>> =
-        after.iter().zip(readings).map(|(after, before)| after - before).collect();
-    let over_time = |values: &mut dyn Iterator<Item = f64>| -> Vec<(f64, f64)> {
-        thinned(gyroscope.times_s.iter().copied().zip(values).collect())
-    };
+    let after = || gyroscope.times_s.iter().copied().zip(&corrected.values);
     let thin = Mark::Line { width: 0.9, dashes: "" };
-    let rate = over_time(&mut after.iter().map(|rate| rate.norm()));
+    let rate = thinned(after().map(|(t, rate)| (t, rate.norm().to_degrees())));
     panels.push(Panel::new("angular rate, after", "time (s)", "|ω| (°/s)").with(Series::new(
         AFTER,
         colour::BLUE,
@@ -101,7 +94,10 @@ pub(in crate::report) fn imu_before_and_after(
     )));
     let mut change = Panel::new("what the correction changes", "time (s)", "ω after − before (°/s)");
     for (axis, colour) in Axis::ALL.into_iter().zip([colour::VERMILLION, colour::GREEN, colour::SKY]) {
-        let difference = over_time(&mut changes.iter().map(|change| change[axis.index()]));
+        let difference =
+            thinned(after().zip(&gyroscope.readings).map(|((t, after), reading)| {
+                (t, (after - before.apply(reading))[axis.index()].to_degrees())
+            }));
         change = change.with(Series::new(&format!("change of axis {axis}"), colour, thin, difference));
     }
     panels.push(change);
@@ -123,13 +119,12 @@ fn force_panels(
 ) -> Option<Vec<Panel>> {
     let before = Correction::of(&holds.before.sensor)?;
     let gravity = holds.gravity.magnitude_mps2;
-    let before: Vec<f64> = recording.readings.iter().map(|reading| before.apply(reading).norm()).collect();
-    let after: Vec<f64> = after.iter().map(|force| force.norm()).collect();
-    let magnitudes = |of: &[f64], samples: &mut dyn Iterator<Item = usize>| {
-        thinned(samples.map(|k| (recording.times_s[k], of[k])).collect())
-    };
+    let before = |k: usize| (recording.times_s[k], before.apply(&recording.readings[k]).norm());
+    let after = |k: usize| (recording.times_s[k], after[k].norm());
     let all = || 0..recording.len();
-    let still = || holds.holds.iter().flat_map(|result| result.hold.first..result.hold.end);
+    let still: Vec<usize> =
+        holds.holds.iter().flat_map(|result| result.hold.first..result.hold.end).collect();
+    let still = || still.iter().copied();
     let thin = Mark::Line { width: 0.9, dashes: "" };
     let line = |label: &str, colour, points| Series::new(label, colour, thin, points);
     let dots = |label: &str, colour, points| {
@@ -144,12 +139,12 @@ fn force_panels(
     );
     Some(vec![
         Panel::new("specific force", "time (s)", "|f| (m/s²)")
-            .with(line(BEFORE, colour::ORANGE, magnitudes(&before, &mut all())))
-            .with(line(AFTER, colour::BLUE, magnitudes(&after, &mut all())))
+            .with(line(BEFORE, colour::ORANGE, thinned(all().map(before))))
+            .with(line(AFTER, colour::BLUE, thinned(all().map(after))))
             .with(at_gravity.clone()),
         Panel::new("specific force in holds", "time (s)", "|f| (m/s²)")
-            .with(dots("before, in holds", colour::ORANGE, magnitudes(&before, &mut still())))
-            .with(dots("after, in holds", colour::BLUE, magnitudes(&after, &mut still())))
+            .with(dots("before, in holds", colour::ORANGE, thinned(still().map(before))))
+            .with(dots("after, in holds", colour::BLUE, thinned(still().map(after))))
             .with(at_gravity),
     ])
 }

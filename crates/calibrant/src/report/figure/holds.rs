@@ -29,7 +29,7 @@ pub(in crate::report) fn recording_overview(holds: &HoldCalibration, recording: 
         .iter()
         .map(|&axis| {
             let values = recording.readings.iter().map(|reading| reading[axis.index()]);
-            let points = thinned(recording.times_s.iter().copied().zip(values).collect());
+            let points = thinned(recording.times_s.iter().copied().zip(values));
             let line = Series::new("reading", colour::BLUE, Mark::Line { width: 0.9, dashes: "" }, points);
             Panel {
                 shades: shades.clone(),

@@ -40,7 +40,7 @@ pub(in crate::report) fn acceleration_figure(
                 .collect()
         };
         let mark = Mark::Dots { shape: Shape::Circle, radius: 3.0 };
-        let dots = Series::new(readings_label, colour::SKY, mark, thinned(dots));
+        let dots = Series::new(readings_label, colour::SKY, mark, thinned(dots.into_iter()));
         let mut panel = panel.with(dots);
         if let Some(truth) = truth {
             let mark = Mark::Line { width: 2.6, dashes: "" };
@@ -100,12 +100,12 @@ pub(in crate::report) fn motion_error_figure(
         if truth.is_some() {
             let points: Vec<_> = times.iter().zip(&errors).map(|(&t, e)| (t, e[a] * unit.factor)).collect();
             let mark = Mark::Line { width: 0.8, dashes: "" };
-            panel = panel.with(Series::new("", colour::VERMILLION, mark, thinned(points.clone())));
+            panel = panel.with(Series::new("", colour::VERMILLION, mark, thinned(points.iter().copied())));
             panel = panel.with(Series::dots(
                 "estimated − true at the nodes",
                 colour::VERMILLION,
                 Shape::Circle,
-                thinned(points),
+                thinned(points.into_iter()),
             ));
         }
         panel
@@ -163,14 +163,14 @@ fn panels_by_axis(recording: &Recording, label: &str, fill: impl Fn(Axis, Panel)
 
 pub(super) fn nodes(motion: &JerkControlledMotion, axis: Axis) -> Vec<(f64, f64)> {
     let values = motion.acceleration_mps2().iter().map(|a| a[axis.index()]);
-    thinned(motion.times_s().iter().copied().zip(values).collect())
+    thinned(motion.times_s().iter().copied().zip(values))
 }
 
 pub(super) fn steps(motion: &JerkControlledMotion, values: &[Vector3<f64>], axis: Axis) -> Vec<(f64, f64)> {
     let ends = motion.times_s().windows(2);
-    thinned(
-        ends.zip(values)
-            .flat_map(|(ends, v)| [(ends[0], v[axis.index()]), (ends[1], v[axis.index()])])
-            .collect(),
-    )
+    let points: Vec<_> = ends
+        .zip(values)
+        .flat_map(|(ends, v)| [(ends[0], v[axis.index()]), (ends[1], v[axis.index()])])
+        .collect();
+    thinned(points.into_iter())
 }

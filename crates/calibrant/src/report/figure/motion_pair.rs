@@ -88,7 +88,7 @@ impl Profile {
                     Self::Velocity => states[i].velocity_mps[a],
                     _ => states[i].displacement_m[a],
                 };
-                thinned(times.iter().enumerate().map(|(i, &t)| (t, value(i))).collect())
+                thinned(times.iter().enumerate().map(|(i, &t)| (t, value(i))))
             }
         }
     }

@@ -18,7 +18,8 @@ pub(in crate::report) fn residuals_over_time(calibration: &Calibration, recordin
         let many = is_thinned(points.len());
         let dots = Series::dots("residual", colour::BLUE, Shape::Circle, Vec::new());
         let line = Series::new("residual", colour::BLUE, Mark::Line { width: 0.7, dashes: "" }, Vec::new());
-        let mut panel = panel.with(Series { points: thinned(points), ..if many { line } else { dots } });
+        let mut panel =
+            panel.with(Series { points: thinned(points.into_iter()), ..if many { line } else { dots } });
         if let (Some(sd), Some(span)) = (noise(calibration, axis, unit), span) {
             for level in [2.0 * sd, -2.0 * sd] {
                 let ends = span.map(|t| (t, level)).to_vec();

@@ -4,25 +4,50 @@
 const COLUMNS: usize = 400;
 
 /// The smallest and the largest value of each column of pixels, in order of x: looks the same as all points.
-pub(super) fn thinned(points: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
+pub(super) fn thinned(points: impl ExactSizeIterator<Item = (f64, f64)>) -> Vec<(f64, f64)> {
     if points.len() <= 3 * COLUMNS {
-        return points;
+        return points.collect();
     }
     let per_column = points.len().div_ceil(COLUMNS);
     let mut kept = Vec::with_capacity(2 * COLUMNS);
-    for column in points.chunks(per_column) {
-        let finite = || column.iter().enumerate().filter(|(_, p)| p.0.is_finite() && p.1.is_finite());
-        let low = finite().min_by(|(_, a), (_, b)| a.1.total_cmp(&b.1));
-        let high = finite().max_by(|(_, a), (_, b)| a.1.total_cmp(&b.1));
-        if let (Some((i, &low)), Some((j, &high))) = (low, high) {
-            match i.cmp(&j) {
-                std::cmp::Ordering::Less => kept.extend([low, high]),
-                std::cmp::Ordering::Equal => kept.push(low),
-                std::cmp::Ordering::Greater => kept.extend([high, low]),
-            }
+    let mut column = Column::default();
+    for (k, point) in points.enumerate() {
+        if k % per_column == 0 {
+            kept.extend(std::mem::take(&mut column).extremes());
+        }
+        if point.0.is_finite() && point.1.is_finite() {
+            column.add(point);
         }
     }
+    kept.extend(column.extremes());
     kept
+}
+
+/// The extremes of a column of pixels.
+#[derive(Default)]
+struct Column {
+    low: Option<(f64, f64)>,
+    high: Option<(f64, f64)>,
+}
+
+impl Column {
+    fn add(&mut self, point: (f64, f64)) {
+        if self.low.is_none_or(|low| point.1 < low.1) {
+            self.low = Some(point);
+        }
+        if self.high.is_none_or(|high| point.1 > high.1) {
+            self.high = Some(point);
+        }
+    }
+
+    /// In order of x; one where both are the same.
+    fn extremes(self) -> impl Iterator<Item = (f64, f64)> {
+        let (first, second) = match (self.low, self.high) {
+            (Some(low), Some(high)) if high.0 < low.0 => (Some(high), Some(low)),
+            (low, high) => (low, high.filter(|_| low != high)),
+        };
+        first.into_iter().chain(second)
+    }
 }
 
 /// Is a series of this length shown thinned?
@@ -47,7 +72,7 @@ mod tests {
         let mut points: Vec<_> = (0..100_000).map(|i| (f64::from(i), f64::from(i % 7))).collect();
         points[54_321].1 = 99.0;
         points[12_345].1 = f64::NAN;
-        let kept = thinned(points);
+        let kept = thinned(points.into_iter());
         assert!(kept.len() <= 2 * COLUMNS);
         assert!(kept.contains(&(54_321.0, 99.0)));
         assert!(kept.windows(2).all(|pair| pair[0].0 < pair[1].0));

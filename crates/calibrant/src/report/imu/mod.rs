@@ -14,8 +14,8 @@ pub use quality::imu_quality;
 pub use temperature::temperature_in_words;
 
 use super::figure::{
-    bias_over_temperature, correlation_map_of, hold_directions, hold_residuals, holds_before_and_after,
-    imu_before_and_after, recording_overview, rotation_errors, still_gyroscope,
+    bias_over_temperature, correlation_map_of, drawn, hold_directions, hold_residuals,
+    holds_before_and_after, imu_before_and_after, recording_overview, rotation_errors, still_gyroscope,
 };
 use super::holds::{hold_summary, hold_table};
 use super::html::{Page, escape, facts};
@@ -37,6 +37,17 @@ pub fn imu_calibration_report(
     noise: &[TriadNoise],
     about: &About,
 ) -> String {
+    let holds = &calibration.holds;
+    let (accelerometer, gyroscope) = (recording.accelerometer.as_ref(), recording.gyroscope.as_ref());
+    let [of_holds, of_recording, residuals, still, over_temperature, overview, rotations] = drawn([
+        &|| holds_before_and_after(holds),
+        &|| imu_before_and_after(calibration, recording),
+        &|| Some(hold_residuals(holds)),
+        &|| still_gyroscope(calibration, gyroscope?),
+        &|| bias_over_temperature(calibration, gyroscope?),
+        &|| Some(recording_overview(holds, accelerometer?)),
+        &|| rotation_errors(&calibration.rotations),
+    ]);
     let mut page = Page::default();
     let title = if about.title.is_empty() { "Calibration of an IMU" } else { &about.title };
     page.push(format!("<h1>{}</h1>", escape(title)));
@@ -66,36 +77,23 @@ pub fn imu_calibration_report(
         "What the correction makes of the readings that it was found from.",
     );
     page.push(before_after::of_imu(calibration));
-    for figure in [holds_before_and_after(&calibration.holds), imu_before_and_after(calibration, recording)] {
-        page.push(figure.map_or_else(String::new, |figure| figure.html()));
-    }
+    page.push(of_holds);
+    page.push(of_recording);
 
     page.section("Holds", "The IMU was kept still in several orientations; in each, the corrected accelerometer has the magnitude of gravity and the corrected gyroscope is zero.");
-    page.push(hold_summary(&calibration.holds));
-    page.push(hold_residuals(&calibration.holds).html());
-    if let Some(figure) =
-        recording.gyroscope.as_ref().and_then(|readings| still_gyroscope(calibration, readings))
-    {
-        page.push(figure.html());
-    }
-    if let Some(figure) =
-        recording.gyroscope.as_ref().and_then(|readings| bias_over_temperature(calibration, readings))
-    {
-        page.push(figure.html());
-    }
-    page.push(hold_directions(&calibration.holds));
-    if let Some(accelerometer) = &recording.accelerometer {
-        page.push(recording_overview(&calibration.holds, accelerometer).html());
-    }
+    page.push(hold_summary(holds));
+    page.push(residuals);
+    page.push(still);
+    page.push(over_temperature);
+    page.push(hold_directions(holds));
+    page.push(overview);
     page.subsection("Table of the holds");
-    page.push(hold_table(&calibration.holds, calibration.accelerometer_unit));
+    page.push(hold_table(holds, calibration.accelerometer_unit));
 
     if !calibration.rotations.is_empty() {
         page.section("Rotations", "Between the holds the IMU was turned by hand. The gyroscope must carry gravity from each hold to the next.");
         page.push(rotations::rotation_summary(calibration));
-        if let Some(figure) = rotation_errors(&calibration.rotations) {
-            page.push(figure.html());
-        }
+        page.push(rotations);
         page.subsection("Table of the rotations");
         page.push(rotations::rotation_table(&calibration.rotations));
     }
