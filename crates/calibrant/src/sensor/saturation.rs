@@ -1,6 +1,7 @@
 //! Readings that stopped at the end of the sensor's range.
 
 use super::{Axis, Recording};
+use nalgebra::Vector3;
 
 /// A plateau at the extreme value is noticed from this many samples on …
 const PLATEAU: usize = 8;
@@ -27,42 +28,41 @@ impl Recording {
     /// Ends of the range at which an axis stopped for several samples in a row, far longer than it does at any other value.
     #[must_use]
     pub fn saturations(&self) -> Vec<Saturation> {
-        self.active_axes().iter().flat_map(|&axis| self.saturations_of(axis)).collect()
+        let Some(&first) = self.readings.first() else { return Vec::new() };
+        let (least, most) =
+            self.readings.iter().fold((first, first), |(least, most), y| (least.inf(y), most.sup(y)));
+        self.active_axes()
+            .iter()
+            .map(|&axis| (axis, [least[axis.index()], most[axis.index()]]))
+            .filter(|(_, [least, most])| least < most)
+            .flat_map(|(axis, ends)| [false, true].map(|is_largest| self.saturation(axis, ends, is_largest)))
+            .flatten()
+            .collect()
     }
 
-    fn saturations_of(&self, axis: Axis) -> Vec<Saturation> {
-        let of = |reading: &nalgebra::Vector3<f64>| reading[axis.index()];
-        let (least, most) = self
-            .readings
-            .iter()
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, m), y| (l.min(of(y)), m.max(of(y))));
-        if least >= most {
-            return Vec::new();
-        }
-        // the longest runs: at the least value, at the largest (length and first sample), and anywhere else
-        let (mut at_least, mut at_most, mut elsewhere) = ((0, 0), (0, 0), 0);
-        let mut first = 0;
-        for run in self.readings.chunk_by(|one, next| of(one) == of(next)) {
-            let (value, length) = (of(&run[0]), run.len());
-            if value == least && length > at_least.0 {
-                at_least = (length, first);
-            } else if value == most && length > at_most.0 {
-                at_most = (length, first);
-            } else if value != least && value != most {
-                elsewhere = elsewhere.max(length);
+    /// The longest stop at the least or the largest value, where it is far longer than any in between.
+    fn saturation(&self, axis: Axis, ends: [f64; 2], is_largest: bool) -> Option<Saturation> {
+        let value = ends[usize::from(is_largest)];
+        let of = |reading: &Vector3<f64>| reading[axis.index()];
+        let (mut samples, mut end, mut run) = (0, 0, 0);
+        for (k, reading) in self.readings.iter().enumerate() {
+            run = if of(reading) == value { run + 1 } else { 0 };
+            if run > samples {
+                (samples, end) = (run, k + 1);
             }
-            first += length;
         }
-        [(least, at_least, false), (most, at_most, true)]
-            .into_iter()
-            .filter(|(_, (samples, _), _)| *samples >= PLATEAU && *samples > PLATEAU_RATIO * elsewhere)
-            .map(|(value, (samples, first), is_largest)| Saturation {
-                axis,
-                value,
-                is_largest,
-                first,
-                samples,
-            })
-            .collect()
+        if samples < PLATEAU {
+            return None;
+        }
+        let runs = self.readings.chunk_by(|one, next| of(one) == of(next));
+        let elsewhere = runs.filter(|run| !ends.contains(&of(&run[0]))).map(<[_]>::len).max().unwrap_or(0);
+        let first = end - samples;
+        (samples > PLATEAU_RATIO * elsewhere).then_some(Saturation {
+            axis,
+            value,
+            is_largest,
+            first,
+            samples,
+        })
     }
 }
