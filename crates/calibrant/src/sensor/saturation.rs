@@ -31,38 +31,44 @@ impl Recording {
         let Some(&first) = self.readings.first() else { return Vec::new() };
         let (least, most) =
             self.readings.iter().fold((first, first), |(least, most), y| (least.inf(y), most.sup(y)));
+        let stops = self.longest_stops(&[least, most]);
+        let ends = |axis: Axis| [least[axis.index()], most[axis.index()]];
         self.active_axes()
             .iter()
-            .map(|&axis| (axis, [least[axis.index()], most[axis.index()]]))
-            .filter(|(_, [least, most])| least < most)
-            .flat_map(|(axis, ends)| [false, true].map(|is_largest| self.saturation(axis, ends, is_largest)))
-            .flatten()
+            .flat_map(|&axis| [(axis, false), (axis, true)])
+            .filter_map(|(axis, is_largest)| {
+                let (ends, (samples, end)) = (ends(axis), stops[usize::from(is_largest)][axis.index()]);
+                if samples < PLATEAU || ends[0] >= ends[1] {
+                    return None;
+                }
+                let value = ends[usize::from(is_largest)];
+                let first = end - samples;
+                let stands_out = samples > PLATEAU_RATIO * self.longest_between(axis, ends);
+                stands_out.then_some(Saturation { axis, value, is_largest, first, samples })
+            })
             .collect()
     }
 
-    /// The longest stop at the least or the largest value, where it is far longer than any in between.
-    fn saturation(&self, axis: Axis, ends: [f64; 2], is_largest: bool) -> Option<Saturation> {
-        let value = ends[usize::from(is_largest)];
-        let of = |reading: &Vector3<f64>| reading[axis.index()];
-        let (mut samples, mut end, mut run) = (0, 0, 0);
+    /// Of each axis the longest run at each of these values: number of samples, and the end.
+    fn longest_stops(&self, values: &[Vector3<f64>; 2]) -> [[(usize, usize); 3]; 2] {
+        let (mut longest, mut runs) = ([[(0, 0); 3]; 2], [[0; 3]; 2]);
         for (k, reading) in self.readings.iter().enumerate() {
-            run = if of(reading) == value { run + 1 } else { 0 };
-            if run > samples {
-                (samples, end) = (run, k + 1);
+            for ((longest, runs), value) in longest.iter_mut().zip(&mut runs).zip(values) {
+                for axis in 0..3 {
+                    runs[axis] = if reading[axis] == value[axis] { runs[axis] + 1 } else { 0 };
+                    if runs[axis] > longest[axis].0 {
+                        longest[axis] = (runs[axis], k + 1);
+                    }
+                }
             }
         }
-        if samples < PLATEAU {
-            return None;
-        }
+        longest
+    }
+
+    /// The longest run of an axis at any value but these two.
+    fn longest_between(&self, axis: Axis, ends: [f64; 2]) -> usize {
+        let of = |reading: &Vector3<f64>| reading[axis.index()];
         let runs = self.readings.chunk_by(|one, next| of(one) == of(next));
-        let elsewhere = runs.filter(|run| !ends.contains(&of(&run[0]))).map(<[_]>::len).max().unwrap_or(0);
-        let first = end - samples;
-        (samples > PLATEAU_RATIO * elsewhere).then_some(Saturation {
-            axis,
-            value,
-            is_largest,
-            first,
-            samples,
-        })
+        runs.filter(|run| !ends.contains(&of(&run[0]))).map(<[_]>::len).max().unwrap_or(0)
     }
 }

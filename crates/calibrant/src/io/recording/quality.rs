@@ -76,8 +76,9 @@ pub(super) fn sampling(recording: &Recording, lines: &LineMap, findings: &mut Ve
         findings.push(Finding::new(FindingKind::Gap, lines.line(before + 1), message));
     }
     // rounding of large time stamps is no jitter
+    let ends = [recording.times_s.first(), recording.times_s.last()];
     let resolution =
-        4.0 * f64::EPSILON * recording.times_s.iter().fold(0.0_f64, |largest, t| largest.max(t.abs()));
+        4.0 * f64::EPSILON * ends.into_iter().flatten().fold(0.0_f64, |most, t| most.max(t.abs()));
     if most - median > JITTER * median + resolution || median - least > JITTER * median + resolution {
         let message = format!(
             "sampling is irregular: time steps from {} to {} ms, median {} ms ({} Hz)",

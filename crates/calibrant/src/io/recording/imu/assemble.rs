@@ -5,7 +5,7 @@ use super::column::ColumnMeaning;
 use super::draft::Draft;
 use super::options::ImuReadOptions;
 use super::readings::{check_gravity, question, stated_unit};
-use super::samples::{SLOTS, Samples, TEMPERATURE, slots_of};
+use super::samples::Samples;
 use super::unit::{ColumnUnit, ImuUnit};
 use crate::error::Complaint;
 use crate::io::recording::finding::{Finding, FindingKind, Tally, count};
@@ -22,7 +22,11 @@ pub(super) struct Assembled {
 }
 
 /// Puts the recording together; the draft learns which of its columns turned out to be of no use.
-pub(super) fn assemble(draft: &mut Draft, samples: &Samples, options: &ImuReadOptions) -> Checked<Assembled> {
+pub(super) fn assemble(
+    draft: &mut Draft,
+    samples: &mut Samples,
+    options: &ImuReadOptions,
+) -> Checked<Assembled> {
     let mut findings = Vec::new();
     if samples.rows == 0 {
         let complaint = Complaint::new("there is a header but no sample below it", TWO);
@@ -72,11 +76,11 @@ fn with_values(draft: &mut Draft, samples: &Samples) -> Checked<Vec<Triad>> {
     let mut triads = Vec::new();
     let mut empty = Vec::new();
     for triad in Triad::ALL {
-        let slots = slots_of(triad);
-        if samples.slot(slots[0]).is_empty() {
+        let readings = samples.triad(triad);
+        if readings.is_empty() {
             continue;
         }
-        if slots.iter().any(|&slot| samples.slot(slot).iter().all(|value| value.is_nan())) {
+        if (0..3).any(|axis| readings.iter().all(|reading| reading[axis].is_nan())) {
             empty.push(triad.name());
             for axis in crate::sensor::Axis::ALL {
                 draft.leave_aside(ColumnMeaning::Reading(triad, axis), "an axis has no values");
@@ -119,39 +123,52 @@ fn ask(
 
 /// The readings of a sensor as they are in the file.
 fn raw(triad: Triad, samples: &Samples) -> Recording {
-    let [x, y, z] = slots_of(triad).map(|slot| samples.slot(slot));
-    let readings: Vec<Vector3<f64>> = (0..samples.rows)
-        .map(|row| Vector3::new(x[row], y[row], z[row]))
-        .filter(|reading| reading.iter().all(|value| value.is_finite()))
-        .collect();
+    let is_whole = |reading: &&Vector3<f64>| reading.iter().all(|value| value.is_finite());
+    let readings: Vec<Vector3<f64>> = samples.triad(triad).iter().filter(is_whole).copied().collect();
     Recording { times_s: vec![0.0; readings.len()], readings, axes: 3, unit: ReadingUnit::Counts }
 }
 
+/// The rows of a file but for some.
+struct Kept {
+    rows: usize,
+    /// In order.
+    dropped: Vec<usize>,
+}
+
+impl Kept {
+    fn len(&self) -> usize {
+        self.rows - self.dropped.len()
+    }
+
+    fn rows(&self) -> impl Iterator<Item = usize> + '_ {
+        let mut dropped = self.dropped.iter().peekable();
+        (0..self.rows).filter(move |row| dropped.next_if_eq(&row).is_none())
+    }
+}
+
 /// The rows whose times increase. Those that repeat the time before are dropped; one that goes back is an error.
-fn increasing(times: &[f64], samples: &Samples, findings: &mut Vec<Finding>) -> Checked<Vec<usize>> {
-    let mut kept: Vec<usize> = Vec::with_capacity(times.len());
+fn increasing(times: &[f64], samples: &Samples, findings: &mut Vec<Finding>) -> Checked<Kept> {
+    let mut kept = Kept { rows: times.len(), dropped: Vec::new() };
+    let mut last: Option<usize> = None;
     let (mut untimed, mut same_rows, mut same_times) = (Tally::default(), Tally::default(), Tally::default());
     for (row, &t) in times.iter().enumerate() {
         if t.is_nan() {
             untimed.add(samples.lines.line(row));
+            kept.dropped.push(row);
             continue;
         }
-        if let Some(&before) = kept.last() {
+        if let Some(before) = last {
             if t == times[before] {
-                let same = (0..SLOTS).all(|slot| {
-                    let values = samples.slot(slot);
-                    values.is_empty()
-                        || values[row] == values[before]
-                        || (values[row].is_nan() && values[before].is_nan())
-                });
-                if same { &mut same_rows } else { &mut same_times }.add(samples.lines.line(row));
+                if samples.repeats(row, before) { &mut same_rows } else { &mut same_times }
+                    .add(samples.lines.line(row));
+                kept.dropped.push(row);
                 continue;
             }
             if t < times[before] {
                 return Err(at(backwards(times[before], t), samples, row).into());
             }
         }
-        kept.push(row);
+        last = Some(row);
     }
     untimed.report(FindingKind::Missing, findings, |n| format!("{} without a time dropped", count(n, "row")));
     report_duplicates(&same_rows, &same_times, findings);
@@ -163,32 +180,29 @@ fn readings(
     triad: Triad,
     unit: ImuUnit,
     times: &[f64],
-    kept: &[usize],
-    samples: &Samples,
+    kept: &Kept,
+    samples: &mut Samples,
     findings: &mut Vec<Finding>,
 ) -> Checked<(Recording, LineMap)> {
     let (unit, factor) = unit.reading();
-    let [x, y, z] = slots_of(triad).map(|slot| samples.slot(slot));
-    let mut recording = Recording {
-        times_s: Vec::with_capacity(kept.len()),
-        readings: Vec::with_capacity(kept.len()),
-        axes: 3,
-        unit,
-    };
+    let mut readings = samples.take_triad(triad);
+    let mut times_s = Vec::with_capacity(kept.len());
     let mut lines = LineMap::default();
     let mut missing = Tally::default();
-    for &row in kept {
-        let reading = Vector3::new(x[row], y[row], z[row]);
+    for row in kept.rows() {
+        let reading = readings[row];
         if reading.x.is_nan() || reading.y.is_nan() || reading.z.is_nan() {
             missing.add(samples.lines.line(row));
             continue;
         }
         if let Some(line) = samples.lines.line(row) {
-            lines.push(recording.times_s.len(), line);
+            lines.push(times_s.len(), line);
         }
-        recording.times_s.push(times[row]);
-        recording.readings.push(reading * factor);
+        readings[times_s.len()] = reading * factor;
+        times_s.push(times[row]);
     }
+    readings.truncate(times_s.len());
+    let recording = Recording { times_s, readings, axes: 3, unit };
     missing.report(FindingKind::Missing, findings, |n| {
         format!("{} of the {triad} with a missing or NaN value dropped", count(n, "sample"))
     });
@@ -211,17 +225,17 @@ fn readings(
 fn temperature(
     draft: &mut Draft,
     times: &[f64],
-    kept: &[usize],
+    kept: &Kept,
     samples: &Samples,
     recording: &ImuRecording,
     findings: &mut Vec<Finding>,
 ) -> Option<Vec<f64>> {
-    let values = samples.slot(TEMPERATURE);
+    let values = &samples.temperatures;
     if values.is_empty() {
         return None;
     }
     let known: Vec<(f64, f64)> =
-        kept.iter().filter(|&&row| values[row].is_finite()).map(|&row| (times[row], values[row])).collect();
+        kept.rows().filter(|&row| values[row].is_finite()).map(|row| (times[row], values[row])).collect();
     if known.is_empty() {
         draft.leave_aside(ColumnMeaning::Temperature, "it has no values");
         return None;

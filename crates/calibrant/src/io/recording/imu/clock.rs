@@ -3,7 +3,7 @@
 use super::column::ColumnMeaning;
 use super::draft::Draft;
 use super::options::ImuReadOptions;
-use super::samples::{COUNTER, Samples, TIME};
+use super::samples::Samples;
 use super::unit::TimeUnit;
 use crate::error::Complaint;
 use crate::io::recording::finding::{Finding, FindingKind, count, short};
@@ -19,14 +19,14 @@ const SAME_RATE: f64 = 1e-3;
 /// Sample times of the rows, s; NaN where a row has none.
 pub(super) fn times(
     draft: &mut Draft,
-    samples: &Samples,
+    samples: &mut Samples,
     options: &ImuReadOptions,
     findings: &mut Vec<Finding>,
 ) -> Checked<Vec<f64>> {
     let rate = rate(draft, options)?;
-    let times = samples.slot(TIME);
+    let times = &samples.times;
     let present = times.iter().filter(|t| t.is_finite()).count();
-    let has_counter = !samples.slot(COUNTER).is_empty();
+    let has_counter = !samples.counts.is_empty();
     // a clock that most rows lack is none, where there is a counter
     if present > 0 && (2 * present > samples.rows || !has_counter) {
         draft.leave_aside(ColumnMeaning::Counter, "there are sample times");
@@ -82,10 +82,10 @@ fn rate(draft: &Draft, options: &ImuReadOptions) -> Checked<Option<(f64, String)
     }
 }
 
-fn of_times(draft: &Draft, samples: &Samples, findings: &mut Vec<Finding>) -> Checked<Vec<f64>> {
-    let ticks = samples.slot(TIME);
+fn of_times(draft: &Draft, samples: &mut Samples, findings: &mut Vec<Finding>) -> Checked<Vec<f64>> {
+    let ticks = std::mem::take(&mut samples.times);
     let name = draft.column(ColumnMeaning::Time).map_or_else(String::new, |column| column.name.clone());
-    let Some(unit) = draft.time_unit() else { return Err(which_unit(&name, ticks).into()) };
+    let Some(unit) = draft.time_unit() else { return Err(which_unit(&name, &ticks).into()) };
     let per_second = unit.per_second().unwrap_or(1.0);
     let (mut ticks, wraps) = unwrap(ticks, draft.time_wraps_at);
     if wraps > 0 {
@@ -116,8 +116,8 @@ fn of_times(draft: &Draft, samples: &Samples, findings: &mut Vec<Finding>) -> Ch
     Ok(ticks)
 }
 
-fn of_counter(draft: &Draft, samples: &Samples, rate: f64) -> Checked<Vec<f64>> {
-    let counts = samples.slot(COUNTER);
+fn of_counter(draft: &Draft, samples: &mut Samples, rate: f64) -> Checked<Vec<f64>> {
+    let counts = std::mem::take(&mut samples.counts);
     // a counter that is once beyond its width is wider
     let wraps_at =
         draft.counter_wraps_at.map(|at| if counts.iter().any(|n| *n >= at) { 2.0_f64.powi(32) } else { at });
@@ -128,17 +128,17 @@ fn of_counter(draft: &Draft, samples: &Samples, rate: f64) -> Checked<Vec<f64>> 
 }
 
 /// Ticks that go on where the clock begins anew, and how often it does. A step back of more than half its width is taken for that.
-fn unwrap(ticks: &[f64], wraps_at: Option<f64>) -> (Vec<f64>, usize) {
-    let Some(width) = wraps_at else { return (ticks.to_vec(), 0) };
+fn unwrap(mut ticks: Vec<f64>, wraps_at: Option<f64>) -> (Vec<f64>, usize) {
+    let Some(width) = wraps_at else { return (ticks, 0) };
     let (mut before, mut wraps) = (f64::NAN, 0);
-    let go_on = |&tick: &f64| {
-        if before - tick > width / 2.0 {
+    for tick in &mut ticks {
+        if before - *tick > width / 2.0 {
             wraps += 1;
         }
-        before = if tick.is_nan() { before } else { tick };
-        tick + wraps as f64 * width
-    };
-    (ticks.iter().map(go_on).collect(), wraps)
+        before = if tick.is_nan() { before } else { *tick };
+        *tick += wraps as f64 * width;
+    }
+    (ticks, wraps)
 }
 
 /// The question about the unit of the time.

@@ -212,7 +212,7 @@ fn read_mcap(bytes: &[u8], options: &ImuReadOptions) -> Checked<ImuFile> {
     }
     let (mut draft, samples) = mcap::read(bytes, options)?;
     draft.slots()?;
-    finish(draft, &samples, options)
+    finish(draft, samples, options)
 }
 
 #[cfg(feature = "parquet")]
@@ -222,7 +222,7 @@ fn read_parquet(bytes: &[u8], options: &ImuReadOptions) -> Checked<ImuFile> {
     file.draft.set_time_unit(options)?;
     let slots = file.draft.slots()?;
     let samples = parquet::samples(&file, &slots)?;
-    finish(file.draft, &samples, options)
+    finish(file.draft, samples, options)
 }
 
 #[cfg(not(feature = "mcap"))]
@@ -285,12 +285,12 @@ fn rows(mut draft: Draft, head: Head<'_>, text: &str, options: &ImuReadOptions) 
     let capacity = estimated_rows(text, head.first_row.map_or("", |line| line.text));
     let mut samples = Samples::of_text(&layout, head.first_row.into_iter().chain(head.rest), capacity)?;
     samples.last_line = samples.last_line.or(Some(line));
-    finish(draft, &samples, options)
+    finish(draft, samples, options)
 }
 
 /// From the values of a file to its recording.
-fn finish(mut draft: Draft, samples: &Samples, options: &ImuReadOptions) -> Checked<ImuFile> {
-    let assembled = assemble(&mut draft, samples, options)?;
+fn finish(mut draft: Draft, mut samples: Samples, options: &ImuReadOptions) -> Checked<ImuFile> {
+    let assembled = assemble(&mut draft, &mut samples, options)?;
     Ok(ImuFile {
         recording: assembled.recording,
         format: draft.format,

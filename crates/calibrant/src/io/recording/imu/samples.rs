@@ -7,6 +7,7 @@ use crate::io::recording::row::{LARGEST, Layout, RowReader};
 use crate::io::recording::rows::LineMap;
 use crate::io::text::Checked;
 use crate::sensor::{Axis, Triad};
+use nalgebra::Vector3;
 
 /// Number of slots: time, three axes of each sensor, temperature, counter.
 pub(super) const SLOTS: usize = 9;
@@ -34,10 +35,14 @@ pub(super) fn slots_of(triad: Triad) -> [usize; 3] {
     Axis::ALL.map(|axis| first + axis.index())
 }
 
-/// The values of a file, one list for each slot that has a column; NaN where one is missing.
+/// The values of a file; lists are empty where there is no column, and values NaN where they are missing.
 #[derive(Default)]
 pub(super) struct Samples {
-    columns: [Vec<f64>; SLOTS],
+    /// In the ticks of the file's clock.
+    pub(super) times: Vec<f64>,
+    pub(super) counts: Vec<f64>,
+    pub(super) temperatures: Vec<f64>,
+    triads: [Vec<Vector3<f64>>; 2],
     /// Number of rows.
     pub(super) rows: usize,
     /// Lines of the rows; empty for a file that has none.
@@ -51,9 +56,24 @@ pub(super) struct Samples {
 }
 
 impl Samples {
-    /// The values of a slot; empty where it has no column.
-    pub(super) fn slot(&self, slot: usize) -> &[f64] {
-        &self.columns[slot]
+    /// The readings of a sensor.
+    pub(super) fn triad(&self, triad: Triad) -> &[Vector3<f64>] {
+        &self.triads[triad as usize]
+    }
+
+    /// The readings of a sensor, which are not there afterwards.
+    pub(super) fn take_triad(&mut self, triad: Triad) -> Vec<Vector3<f64>> {
+        std::mem::take(&mut self.triads[triad as usize])
+    }
+
+    /// Has a row the values of another, the time apart?
+    pub(super) fn repeats(&self, row: usize, other: usize) -> bool {
+        let same = |one: f64, other: f64| one == other || (one.is_nan() && other.is_nan());
+        let scalars = [&self.counts, &self.temperatures];
+        scalars.iter().all(|values| values.is_empty() || same(values[row], values[other]))
+            && self.triads.iter().filter(|triad| !triad.is_empty()).all(|readings| {
+                readings[row].iter().zip(&readings[other]).all(|(&one, &other)| same(one, other))
+            })
     }
 
     /// Values that were read elsewhere, a list for each slot: all of the same length, or empty.
@@ -74,7 +94,12 @@ impl Samples {
                 return Err(Complaint::new(message, "is the unit right? is the file damaged?").into());
             }
         }
-        Ok(Self { columns, rows, origin, ..Self::default() })
+        let triads = Triad::ALL.map(|triad| {
+            let [x, y, z] = slots_of(triad).map(|slot| columns[slot].as_slice());
+            x.iter().zip(y).zip(z).map(|((&x, &y), &z)| Vector3::new(x, y, z)).collect()
+        });
+        let [times, .., temperatures, counts] = columns;
+        Ok(Self { times, counts, temperatures, triads, rows, origin, ..Self::default() })
     }
 
     /// Reads the rows of a text.
@@ -84,18 +109,29 @@ impl Samples {
         capacity: usize,
     ) -> Checked<Self> {
         let mut samples = Self::default();
-        let used: Vec<usize> = layout.slots.iter().flatten().copied().collect();
-        for &slot in &used {
-            samples.columns[slot].reserve(capacity);
-        }
+        let has = |slot: usize| layout.slots.contains(&Some(slot));
+        let triads = Triad::ALL.map(|triad| slots_of(triad).map(has).contains(&true));
+        let room = |is_used: bool| if is_used { capacity } else { 0 };
+        samples.times.reserve(room(has(TIME)));
+        samples.triads.iter_mut().zip(triads).for_each(|(triad, is_used)| triad.reserve(room(is_used)));
         let mut reader = RowReader::new(layout);
         for line in lines {
             samples.last_line = Some(line.number);
             let Some(values) = reader.read::<SLOTS>(line)? else { continue };
             samples.lines.push(samples.rows, line.number);
             samples.rows += 1;
-            for &slot in &used {
-                samples.columns[slot].push(values[slot]);
+            if has(TIME) {
+                samples.times.push(values[TIME]);
+            }
+            for triad in Triad::ALL.into_iter().filter(|&triad| triads[triad as usize]) {
+                let [x, y, z] = slots_of(triad).map(|slot| values[slot]);
+                samples.triads[triad as usize].push(Vector3::new(x, y, z));
+            }
+            if has(TEMPERATURE) {
+                samples.temperatures.push(values[TEMPERATURE]);
+            }
+            if has(COUNTER) {
+                samples.counts.push(values[COUNTER]);
             }
         }
         samples.origin = reader.origin.unwrap_or(0);
