@@ -7,27 +7,29 @@ const RATIO: f64 = 1.12;
 
 /// Whole numbers from `first` to `last`: all those near the kinks, ever fewer away from them.
 pub(super) fn around(kinks: &[i64], first: i64, last: i64) -> Vec<i64> {
-    let mut lags = vec![first, last];
+    let offsets: Vec<i64> = (0..=NEAR).chain(far(last - first)).collect();
     let mut kinks = kinks.to_vec();
     kinks.sort_unstable();
     kinks.dedup();
+    let mut lags = vec![first];
     for kink in kinks {
-        let mut add = |offset: i64| {
-            lags.extend(
-                [kink - offset, kink + offset].into_iter().filter(|lag| (first..=last).contains(lag)),
-            );
-        };
-        (0..=NEAR).for_each(&mut add);
-        let mut offset = NEAR as f64 * RATIO;
-        let farthest = (kink - first).max(last - kink) as f64;
-        while offset < farthest {
-            add(offset as i64);
-            offset *= RATIO;
-        }
+        let inside = |lag: &i64| (first..=last).contains(lag);
+        lags.extend(offsets.iter().rev().map(|offset| kink - offset).filter(inside));
+        lags.extend(offsets.iter().map(|offset| kink + offset).filter(inside));
     }
-    lags.sort_unstable();
+    lags.push(last);
+    // a few runs that rise: what this sort is fast at
+    lags.sort();
     lags.dedup();
     lags
+}
+
+/// Offsets beyond those that are near, up to the largest.
+fn far(largest: i64) -> impl Iterator<Item = i64> {
+    let grow = |offset: &f64| Some(offset * RATIO);
+    std::iter::successors(Some(NEAR as f64 * RATIO), grow)
+        .map(|offset| offset as i64)
+        .take_while(move |offset| *offset <= largest)
 }
 
 /// Weights under which a sum over some of the lags is the sum over all, the summand being linear in between.

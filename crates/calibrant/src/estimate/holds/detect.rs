@@ -120,12 +120,9 @@ fn resolution(recording: &Recording) -> f64 {
     let range = recording.readings.iter().map(|y| (y - mean).norm_squared()).fold(0.0, f64::max);
     let mut steps = Vector3::repeat(f64::INFINITY);
     for pair in recording.readings.windows(2) {
-        for axis in 0..3 {
-            let step = (pair[1][axis] - pair[0][axis]).abs();
-            if step > 0.0 {
-                steps[axis] = steps[axis].min(step);
-            }
-        }
+        let step = (pair[1] - pair[0]).abs();
+        // no branch: that would be taken at random
+        steps = steps.inf(&step.map(|step| if step > 0.0 { step } else { f64::INFINITY }));
     }
     let quantisation: f64 = steps.iter().filter(|step| step.is_finite()).map(|step| step * step / 12.0).sum();
     // in a recording without noise the smallest step is a movement
@@ -134,17 +131,18 @@ fn resolution(recording: &Recording) -> f64 {
 
 /// The variance that separates still from moving; `None` where nothing is still. Variances below `floor` are all the same.
 fn threshold(variance: &[f64], floor: f64) -> Option<f64> {
-    let finite: Vec<f64> = variance.iter().copied().filter(|v| v.is_finite()).collect();
-    let largest = finite.iter().copied().fold(0.0, f64::max);
-    if finite.is_empty() {
+    let finite = || variance.iter().copied().filter(|v| v.is_finite());
+    let largest = finite().fold(0.0, f64::max);
+    let least = finite().fold(f64::INFINITY, f64::min);
+    if least > largest {
         return None;
     }
     let decade = |v: f64| v.max(floor).log10();
-    let lowest = decade(finite.iter().copied().fold(f64::INFINITY, f64::min));
+    let lowest = decade(least);
     let bins = ((decade(largest) - lowest) / BIN).ceil() as usize + 1;
     let mut histogram = vec![0.0; bins];
-    for v in &finite {
-        histogram[((decade(*v) - lowest) / BIN) as usize] += 1.0;
+    for v in finite() {
+        histogram[((decade(v) - lowest) / BIN) as usize] += 1.0;
     }
     let density = smooth(&histogram);
     let highest = density.iter().copied().fold(0.0, f64::max);
