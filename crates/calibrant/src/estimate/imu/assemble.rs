@@ -3,8 +3,8 @@
 use super::contradiction::contradictions;
 use super::faces::First;
 use super::joint::{Fit, Joint, Miss, State};
+use super::rates::{LocalBias, Path};
 use super::readings::Integrable;
-use super::rotation::LocalBias;
 use super::solver::singular;
 use super::start;
 use super::thermal::Climate;
@@ -199,13 +199,14 @@ impl Finished<'_> {
                     )),
                     None => None,
                 };
+                let path = after.map_or_else(Path::default, |_| data.samples.path(&self.fit.state.imu));
                 RotationResult {
                     from_hold,
                     to_hold,
                     start_s: gyroscope.times_s[span.start],
                     end_s: gyroscope.times_s[span.end - 1],
-                    path_rad: after.map_or(0.0, |miss| miss.rotation.path_rad),
-                    peak_radps: after.map_or(0.0, |miss| miss.rotation.peak_radps),
+                    path_rad: path.length_rad,
+                    peak_radps: path.peak_radps,
                     error_rad: after.map_or(0.0, &angle),
                     error_before_rad: before.as_ref().map_or(0.0, &angle),
                     studentised: if studentised.is_finite() { studentised } else { 0.0 },

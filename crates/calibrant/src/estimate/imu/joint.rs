@@ -12,7 +12,7 @@
 //!
 //! `S` and `b` are those at the temperature of the hold, the rotation or the turn.
 
-use super::rotation::{Rotation, Samples};
+use super::rates::Samples;
 use crate::arrowhead::{Arrowhead, Increment, Link};
 use crate::estimate::tangents::tangents;
 use crate::estimate::{CalibrationSettings, CalibrationStatus};
@@ -98,7 +98,6 @@ pub(super) struct Miss {
     pub(super) by_parameters: Matrix2xX<f64>,
     /// Covariance of the error from the gyroscope's noise.
     pub(super) covariance: Matrix2<f64>,
-    pub(super) rotation: Rotation,
 }
 
 /// What each rotation says at a state; `None` for those that cannot be integrated.
@@ -171,7 +170,6 @@ impl Joint<'_> {
             by_to: -Matrix2::identity() * (carried.dot(&to) / self.gravity.powi(2)),
             by_parameters,
             covariance: by_turn * rotation.covariance * by_turn.transpose(),
-            rotation,
         })
     }
 

@@ -22,6 +22,7 @@ mod contradiction;
 mod faces;
 mod joint;
 mod problem;
+mod rates;
 mod readings;
 mod result;
 mod rotation;

@@ -2,7 +2,7 @@
 
 use super::ImuProblem;
 use super::joint::{HoldData, RotationData, TurnData};
-use super::rotation::{LocalBias, Samples};
+use super::rates::{LocalBias, Samples};
 use super::thermal::Climate;
 use crate::error::{Complaint, Error, Result};
 use crate::motion::Hold;

@@ -12,53 +12,11 @@
 //! # References
 //! `iserles1999`, `tedaldi2014`
 
+use super::rates::{LocalBias, Rates, Samples, middle, times};
 use crate::sensor::{ImuParameters, ImuQuantity, Quantity, ThermalPart, Triad};
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 
-/// The readings of a rotation.
-#[derive(Clone, Copy)]
-pub(super) struct Samples<'a> {
-    pub(super) times_s: &'a [f64],
-    pub(super) readings: &'a [Vector3<f64>],
-    /// Specific force at these times, where the gyroscope feels it.
-    pub(super) forces: Option<&'a [Vector3<f64>]>,
-    /// What the holds before and after say of the bias; in between it is taken to drift evenly.
-    pub(super) drift: [LocalBias; 2],
-}
-
-/// The bias at one end of a rotation: `b + share ∘ (mean − b − Γ f)`.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct LocalBias {
-    /// Mean reading of the hold.
-    pub(super) mean: Vector3<f64>,
-    /// Specific force in it.
-    pub(super) force: Vector3<f64>,
-    /// How far it counts against the mean bias of all, 0 to 1: the share of its variance that is a true deviation.
-    pub(super) share: Vector3<f64>,
-    /// Variance of the mean from the noise of its samples.
-    pub(super) variance: Vector3<f64>,
-    /// Temperature of the hold, °C.
-    pub(super) temperature_c: f64,
-}
-
-impl LocalBias {
-    /// The bias is that of all holds.
-    pub(super) fn none(temperature_c: f64) -> Self {
-        Self {
-            temperature_c,
-            mean: Vector3::zeros(),
-            force: Vector3::zeros(),
-            share: Vector3::zeros(),
-            variance: Vector3::zeros(),
-        }
-    }
-
-    fn of(&self, imu: &ImuParameters) -> Vector3<f64> {
-        let bias = imu.at(self.temperature_c).gyroscope.bias;
-        let deviation = self.mean - bias - imu.g_sensitivity * self.force;
-        bias + self.share.component_mul(&deviation)
-    }
-}
+const TWELFTH: f64 = 1.0 / 12.0;
 
 /// An integrated rotation.
 #[derive(Debug, Clone)]
@@ -77,48 +35,26 @@ pub(super) struct Rotation {
     correction: Matrix3<f64>,
     /// Covariance of `δθ` from the noise of the samples.
     pub(super) covariance: Matrix3<f64>,
-    /// Path length `∫ |ω| dt`, rad.
-    pub(super) path_rad: f64,
-    /// Largest rate, rad/s.
-    pub(super) peak_radps: f64,
 }
 
 impl Samples<'_> {
-    /// Mean temperature of the holds before and after, °C.
-    pub(super) fn temperature_c(&self) -> f64 {
-        middle(&self.drift)
-    }
-
     /// Integrates them for an IMU; `None` where the gyroscope's matrix is singular. `noise` is the standard deviation of one sample.
     pub(super) fn integrate(&self, imu: &ImuParameters, noise: &Vector3<f64>) -> Option<Rotation> {
-        let correction = imu.at(self.temperature_c()).gyroscope.matrix.try_inverse()?;
+        let rates = Rates::of(self, imu)?;
+        let correction = rates.correction;
         let noise_root = correction * Matrix3::from_diagonal(noise);
-        let by_force = correction * imu.g_sensitivity;
-        let last = self.times_s.len() - 1;
-        let (from, duration) = (self.times_s[0], self.times_s[last] - self.times_s[0]);
-        let ends = self.drift.map(|end| end.of(imu));
-        let drifted = ends[1] - ends[0];
-        let force = |k: usize| self.forces.map_or_else(Vector3::zeros, |forces| forces[k]);
-        let part = |k: usize| (self.times_s[k] - from) / duration;
-        let rate = |k: usize, part: f64, force: &Vector3<f64>| {
-            times(&correction, &(self.readings[k] - ends[0] - drifted * part)) - times(&by_force, force)
-        };
         let mut attitude = UnitQuaternion::identity();
         let mut sums = Sums::default();
-        let (mut path_rad, mut peak_radps) = (0.0, 0.0_f64);
-        let (mut before, mut here_part, mut felt) = (0.0, 0.0, force(0));
-        let mut here = rate(0, 0.0, &felt);
-        for k in 0..=last {
-            let after = if k < last { self.times_s[k + 1] - self.times_s[k] } else { 0.0 };
+        let (mut before, mut part, mut felt) = (0.0, 0.0, rates.force(0));
+        let mut here = rates.at(0, 0.0, &felt);
+        for k in 0..self.times_s.len() {
+            let after = rates.step_after(k);
             let weight = 0.5 * (before + after);
-            sums.add(&matrix(&attitude), weight, &here, here_part, &felt, &noise_root);
-            let speed = here.norm();
-            peak_radps = peak_radps.max(speed);
-            path_rad += weight * speed;
-            if k < last {
-                (before, here_part, felt) = (after, part(k + 1), force(k + 1));
-                let next = rate(k + 1, here_part, &felt);
-                let turn = (here + next) * (0.5 * after) + here.cross(&next) * (after * after / 12.0);
+            sums.add(&matrix(&attitude), weight, &here, part, &felt, &noise_root);
+            if k + 1 < self.times_s.len() {
+                (before, part, felt) = (after, rates.part(k + 1), rates.force(k + 1));
+                let next = rates.at(k + 1, part, &felt);
+                let turn = (here + next) * (0.5 * after) + here.cross(&next) * (after * after * TWELFTH);
                 attitude *= exponential(&turn);
                 here = next;
             }
@@ -140,8 +76,6 @@ impl Samples<'_> {
             by_force: [5, 6, 7].map(|scalar| sums.of(scalar)),
             correction,
             covariance,
-            path_rad,
-            peak_radps,
         })
     }
 
@@ -201,14 +135,14 @@ impl Sums {
                 }
             }
         }
-        for [x, y, z] in noise_root.data.0 {
-            let n = times(r, &Vector3::new(x * weight, y * weight, z * weight));
-            self.squares[0] += n.x * n.x;
-            self.squares[1] += n.y * n.y;
-            self.squares[2] += n.z * n.z;
-            self.squares[3] += n.x * n.y;
-            self.squares[4] += n.x * n.z;
-            self.squares[5] += n.y * n.z;
+        // rows of w R N
+        let [x, y, z] = [0, 1, 2].map(|row| {
+            let r = [r[(row, 0)] * weight, r[(row, 1)] * weight, r[(row, 2)] * weight];
+            noise_root.data.0.map(|n| r[0] * n[0] + r[1] * n[1] + r[2] * n[2])
+        });
+        let pairs = [(&x, &x), (&y, &y), (&z, &z), (&x, &y), (&x, &z), (&y, &z)];
+        for (sum, (a, b)) in self.squares.iter_mut().zip(pairs) {
+            *sum += a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
         }
     }
 
@@ -221,16 +155,6 @@ impl Sums {
         let [xx, yy, zz, xy, xz, yz] = self.squares;
         Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz)
     }
-}
-
-/// `M v`, written out: general products of matrices cost several times as much here.
-#[inline]
-fn times(m: &Matrix3<f64>, v: &Vector3<f64>) -> Vector3<f64> {
-    Vector3::new(
-        m.m11 * v.x + m.m12 * v.y + m.m13 * v.z,
-        m.m21 * v.x + m.m22 * v.y + m.m23 * v.z,
-        m.m31 * v.x + m.m32 * v.y + m.m33 * v.z,
-    )
 }
 
 #[inline]
@@ -250,17 +174,11 @@ fn exponential(turn: &Vector3<f64>) -> UnitQuaternion<f64> {
     if h > SMALL {
         return UnitQuaternion::from_scaled_axis(*turn);
     }
-    // 1 − h/(1·2) (1 − h/(3·4) (1 − …)), and 1 − h/(2·3) (1 − h/(4·5) (1 − …)), from within
-    const COS: [f64; 4] = [1.0 / 56.0, 1.0 / 30.0, 1.0 / 12.0, 1.0 / 2.0];
-    const SINC: [f64; 4] = [1.0 / 72.0, 1.0 / 42.0, 1.0 / 20.0, 1.0 / 6.0];
-    let series =
-        |factors: [f64; 4]| factors.into_iter().fold(1.0, |inner, factor| 1.0 - (h * factor) * inner);
-    let (cos, sinc) = (series(COS), series(SINC));
+    let h2 = h * h;
+    // in pairs, so that one does not wait for the other
+    let cos = (1.0 - h / 2.0) + h2 * ((1.0 / 24.0 - h * (1.0 / 720.0)) + h2 * (1.0 / 40_320.0));
+    let sinc = (1.0 - h * (1.0 / 6.0)) + h2 * ((1.0 / 120.0 - h * (1.0 / 5040.0)) + h2 * (1.0 / 362_880.0));
     UnitQuaternion::new_unchecked(Quaternion::from_parts(cos, half * sinc))
-}
-
-fn middle(ends: &[LocalBias; 2]) -> f64 {
-    0.5 * (ends[0].temperature_c + ends[1].temperature_c)
 }
 
 impl Rotation {

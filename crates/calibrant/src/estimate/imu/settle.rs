@@ -1,7 +1,7 @@
 //! Weights and the gyroscope's parameters in turn, directions fixed, until both rest.
 
 use super::joint::{Joint, Misses, State};
-use super::rotation::LocalBias;
+use super::rates::LocalBias;
 use super::solver::singular;
 use super::weights::{self, Weighed};
 use crate::error::Result;
@@ -11,7 +11,7 @@ use nalgebra::{DMatrix, DVector, Vector3};
 /// Rounds in which weights and estimate follow each other.
 const ROUNDS: usize = 12;
 /// Steps below this many standard deviations end the rounds.
-const SETTLED: f64 = 0.02;
+const SETTLED: f64 = 0.1;
 
 /// What holds, turns and prior say of the gyroscope, directions fixed: the rest of the problem beside the rotations.
 fn rest(joint: &Joint<'_>, state: &State) -> (DMatrix<f64>, DVector<f64>) {
