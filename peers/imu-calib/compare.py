@@ -3,7 +3,7 @@
 usage: compare.py CALIBRANT IMU_CALIB_PEER [--runs N] [--other "COMMAND"]
 
 CALIBRANT is the program, IMU_CALIB_PEER the one that `cargo build --release` makes of this directory. calibrant reads both files, calibrates, and writes
-calibration.json and report.html with its Allan plots; imu-calib reads, calibrates and prints. COMMAND is any other program to be timed with them, such as imu_tk's
+calibration.json and report.html with its Allan plots, or (`--no-report`) calibration.json alone; imu-calib reads, calibrates and prints. COMMAND is any other program to be timed with them, such as imu_tk's
 `test_imu_calib` with its arguments. Times are those of whole processes: wall, and processor time of all threads, user and system.
 
 The recording is imu_tk's xsens_acc.mat and xsens_gyro.mat, in xsens-mti-static of the directory that CALIBRANT_DATA names, or of ../shared/data beside the repository.
@@ -57,6 +57,7 @@ def main():
         subprocess.run([calibrant, "init", "imu-counts", "-o", directory / "imu.toml"], check=True, stderr=subprocess.DEVNULL)
         commands = {
             "calibrant": [calibrant, "calibrate", "imu.toml", files[0], "--gyroscope", files[1], "-o", "out"],
+            "no report": [calibrant, "calibrate", "imu.toml", files[0], "--gyroscope", files[1], "-o", "bare", "--no-report"],
             "imu-calib": [arguments.peer.resolve(), *files],
         }
         if arguments.other:

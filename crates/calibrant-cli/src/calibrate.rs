@@ -59,12 +59,22 @@ pub(crate) struct Arguments {
     /// Unit of the readings where the file does not say.
     #[arg(long, value_enum)]
     unit: Option<Unit>,
+    /// Write no report.html: where there are many sensors, and time counts.
+    #[arg(long)]
+    no_report: bool,
     /// Print calibration.json on stdout in place of the tables (an array of them for several recordings).
     #[arg(long)]
     json: bool,
     /// Directory for the results.
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
+}
+
+impl Arguments {
+    /// The file to look at.
+    fn main_result(&self) -> PathBuf {
+        self.output.join(if self.no_report { "calibration.json" } else { "report.html" })
+    }
 }
 
 #[derive(Clone, Copy, clap::ValueEnum)]
@@ -84,6 +94,8 @@ struct Job {
     settings: CalibrationSettings,
     read: ReadOptions,
     device: ImuReadOptions,
+    /// Is a report to be written?
+    report: bool,
 }
 
 struct Done {
@@ -94,6 +106,12 @@ struct Done {
 
 pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     place::check_directory(&arguments.output)?;
+    if arguments.no_report && arguments.output.join("report.html").exists() {
+        console::warn(&format!(
+            "{} is that of an earlier calibration: --no-report writes none",
+            arguments.output.join("report.html").display()
+        ));
+    }
     let experiment = Experiment::read(&arguments.experiment)?;
     if let Some(plan) = &experiment.imu {
         return imu::run(arguments, &experiment, plan);
@@ -180,7 +198,8 @@ impl Job {
         };
         let device = arguments.reading.options().or(experiment.columns.clone());
         let experiment_file = arguments.experiment.clone();
-        Ok(Self { experiment, experiment_file, command, holds, settings, read, device })
+        let report = !arguments.no_report;
+        Ok(Self { experiment, experiment_file, command, holds, settings, read, device, report })
     }
 
     fn run(&self, path: &Path) -> calibrant::Result<Done> {
@@ -208,6 +227,9 @@ impl Job {
     /// Writes calibration.json and report.html.
     fn write(&self, done: &Done, path: &Path, directory: &Path, started: Instant) -> calibrant::Result<()> {
         write_calibration(&directory.join("calibration.json"), &done.calibration, &done.input)?;
+        if !self.report {
+            return Ok(());
+        }
         let recording = &done.file.recording;
         let about = About {
             title: format!("Calibration from {}", name(path)),
@@ -256,7 +278,7 @@ fn show(done: &Done, arguments: &Arguments) {
     console::print(&console::parameters(&done.calibration));
     console::print(&console::fit(&done.calibration));
     console::print(&console::validations(&done.calibration.validations));
-    console::print(&format!("\n{}\n", arguments.output.join("report.html").display()));
+    console::print(&format!("\n{}\n", arguments.main_result().display()));
 }
 
 /// Calibrates many recordings in parallel. None stops the others.

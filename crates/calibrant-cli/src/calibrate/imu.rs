@@ -57,7 +57,8 @@ pub(super) fn run(arguments: &Arguments, experiment: &Experiment, plan: &ImuPlan
     };
     let (calibration, of_accelerometer) = rayon::join(
         || calibrate_imu(&problem, &CalibrationSettings::default()).map_err(|error| in_file(error, path)),
-        || noise(Triad::Accelerometer, of_gyroscope.as_ref()),
+        // for the report alone
+        || if arguments.no_report { None } else { noise(Triad::Accelerometer, of_gyroscope.as_ref()) },
     );
     let mut calibration = calibration?;
     calibration.validations = super::validation::of_imu(arguments, &options, &calibration, &problem, &file)?;

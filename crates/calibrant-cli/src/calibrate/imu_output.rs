@@ -17,6 +17,11 @@ pub(super) fn write(
     input: &Input,
     started: Instant,
 ) -> calibrant::Result<()> {
+    let json = arguments.output.join("calibration.json");
+    let json = || write_imu_calibration(&json, calibration, std::slice::from_ref(input));
+    if arguments.no_report {
+        return json();
+    }
     let about = About {
         title: format!("Calibration of an IMU from {}", input.file),
         facts: vec![
@@ -40,9 +45,7 @@ pub(super) fn write(
         let html = imu_calibration_report(calibration, &file.recording, &noise, &about);
         write_atomically(&arguments.output.join("report.html"), |out| out.write_all(html.as_bytes()))
     };
-    let json = arguments.output.join("calibration.json");
-    let (json, report) =
-        rayon::join(|| write_imu_calibration(&json, calibration, std::slice::from_ref(input)), report);
+    let (json, report) = rayon::join(json, report);
     json.and(report)
 }
 
@@ -52,5 +55,5 @@ pub(super) fn show(arguments: &Arguments, calibration: &ImuCalibration, input: &
         return console::print(&imu_calibration_json(calibration, std::slice::from_ref(input)));
     }
     console::print(&console::imu_calibration(calibration));
-    console::print(&format!("\n{}\n", arguments.output.join("report.html").display()));
+    console::print(&format!("\n{}\n", arguments.main_result().display()));
 }

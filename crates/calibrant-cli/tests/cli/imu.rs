@@ -95,3 +95,27 @@ fn what_the_experiment_knows_is_true_of_the_simulated_imu() {
         }
     }
 }
+
+#[test]
+fn without_a_report_the_calibration_is_the_same() {
+    let bench = Bench::new();
+    for (preset, recording) in [("imu", "imu/recording.csv"), ("static-poses", "static-poses/recording.csv")]
+    {
+        let file = format!("{preset}.toml");
+        bench.preset(preset, &file, &[]);
+        bench.run(&format!("simulate {file} --seed 3 -o {preset}")).done();
+        bench.run(&format!("calibrate {file} {recording} -o {preset}/with")).done();
+        let outcome =
+            bench.run(&format!("calibrate {file} {recording} --no-report -o {preset}/without")).done();
+        assert!(outcome.stdout.trim_end().ends_with("calibration.json"), "{}", outcome.stdout);
+        assert!(!bench.path(&format!("{preset}/without/report.html")).exists());
+        let read = |of: &str| bench.read(&format!("{preset}/{of}/calibration.json"));
+        assert_eq!(read("with"), read("without"));
+        let outcome = bench.run(&format!("calibrate {file} {recording} --no-report -o {preset}/with")).done();
+        assert!(
+            outcome.stderr.contains("report.html is that of an earlier calibration"),
+            "{}",
+            outcome.stderr
+        );
+    }
+}
