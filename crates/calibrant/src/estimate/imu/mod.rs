@@ -21,6 +21,7 @@ mod carried;
 mod contradiction;
 mod faces;
 mod joint;
+mod mistaken;
 mod problem;
 mod readings;
 mod result;
