@@ -21,6 +21,7 @@ mod carried;
 mod contradiction;
 mod faces;
 mod joint;
+mod known;
 mod mistaken;
 mod problem;
 mod readings;
@@ -36,9 +37,9 @@ mod weights;
 
 pub use both_still::find_imu_holds;
 pub(super) use carried::{Carrying, HeldStill, held_still};
+pub use known::calibrate_imu;
 pub use problem::{Gyroscope, ImuProblem, ImuSetup, KnownTerm, NoiseSource, Turn, WhiteNoise};
 pub use result::{ImuCalibration, RotationResult, StillGyroscope, TurnResult};
-pub use solver::calibrate_imu;
 pub(super) use solver::recordings;
 pub use thermal::ThermalModel;
 pub(super) use thermal::needed_temperatures;
