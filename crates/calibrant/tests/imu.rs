@@ -377,6 +377,8 @@ fn a_known_bias_is_kept_and_a_prior_shares() {
     let setup = ImuSetup { known: vec![fixed], ..ImuSetup::default() };
     let calibration = run(&recording, &Gyroscope::default(), &setup, unit).expect("determined");
     assert_eq!(calibration.imu.gyroscope.matrix.m11, 0.9);
+    let said = calibration.warnings.join("; ");
+    assert!(said.contains("the recording contradicts what [known] says of gyroscope.scale.x: 0.9"), "{said}");
     let prior = KnownTerm { quantity: quantity("gyroscope.bias.x"), value: 5.0, sd: Some(1e-4) };
     let setup = ImuSetup { known: vec![prior], ..ImuSetup::default() };
     let calibration = run(&recording, &Gyroscope::default(), &setup, unit).expect("determined");

@@ -93,6 +93,7 @@ impl Stretch {
 fn check(recording: &Recording, start_s: f64, end_s: f64) -> Result<()> {
     let complain = |message: String, help: String| Err(Error::experiment(Complaint::new(message, help)));
     let said = |t: f64| if t.abs() < 1e12 { t.to_string() } else { format!("{t:e}") };
+    let rounded = |t: f64| said((1e3 * t).round() / 1e3);
     let interval = format!("from {} to {} s", said(start_s), said(end_s));
     if !(start_s.is_finite() && end_s.is_finite()) {
         let message = format!("an interval {interval} is none");
@@ -105,7 +106,7 @@ fn check(recording: &Recording, start_s: f64, end_s: f64) -> Result<()> {
     match (recording.times_s.first(), recording.times_s.last()) {
         (Some(&first), Some(&last)) if start_s > last || end_s < first => complain(
             format!("the interval {interval} lies outside the recording"),
-            format!("the recording goes from {first} to {last} s"),
+            format!("the recording goes from {} to {} s", rounded(first), rounded(last)),
         ),
         _ => Ok(()),
     }

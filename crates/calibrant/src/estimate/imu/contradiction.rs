@@ -108,7 +108,7 @@ fn other_turn(fit: &Fit, data: &TurnData, turn: &Turn, number: usize) -> Option<
     let about = (sign * shown).try_normalize(0.0).unwrap_or(turn.axis);
     ((shown - data.angle).norm() > OTHER_TURN * data.angle.norm()).then(|| {
         format!(
-            "turn {} ({:.1} to {:.1} s) is given as {:.1}° about {}, and the gyroscope shows {:.1}° about {}: correct its angle, its axis or its times",
+            "turn {} ({:.1} to {:.1} s) is given as {:.1}° about {}, and the gyroscope shows {:.0}° about {}: correct its angle, its axis or its times",
             number + 1,
             turn.start_s,
             turn.end_s,

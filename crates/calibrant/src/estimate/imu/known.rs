@@ -24,8 +24,9 @@ pub fn calibrate_imu(problem: &ImuProblem<'_>, settings: &CalibrationSettings) -
     known.iter().try_for_each(possible)?;
     match solver::calibrate_imu(problem, settings) {
         Ok(mut found) => {
-            // a second fit is worth it where something is wrong
-            if found.status != CalibrationStatus::Converged || !found.warnings.is_empty() {
+            // what is fixed leaves no residual of its own
+            let fixed = known.iter().any(|known| known.sd.is_none());
+            if fixed || found.status != CalibrationStatus::Converged || !found.warnings.is_empty() {
                 found.warnings.splice(0..0, contradictions(problem, settings));
             }
             Ok(found)

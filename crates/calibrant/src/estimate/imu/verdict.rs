@@ -85,11 +85,21 @@ fn axes_of(joint: &Joint<'_>, places: &[usize]) -> Option<String> {
         let scale = ImuQuantity::Of(Triad::Gyroscope, Quantity::Scale(*axis));
         places.iter().any(|&k| joint.quantities[k] == scale)
     };
-    let axes: Vec<String> = Axis::ALL.iter().filter(|axis| is_scale(axis)).map(ToString::to_string).collect();
-    match axes.as_slice() {
-        [one] => Some(format!("axis {one}")),
-        [one, two] => Some(format!("axes {one} and {two}")),
+    let axes: Vec<Axis> = Axis::ALL.into_iter().filter(is_scale).collect();
+    match axes.len() {
+        1 => Some(format!("axis {}", listed(&axes, ""))),
+        2 => Some(format!("axes {}", listed(&axes, ""))),
         _ => None,
+    }
+}
+
+/// `x_rot, y_rot and z_rot`: axes with an ending.
+fn listed(axes: &[Axis], ending: &str) -> String {
+    let names: Vec<String> = axes.iter().map(|axis| format!("{axis}{ending}")).collect();
+    match names.split_last() {
+        Some((last, [])) => last.clone(),
+        Some((last, others)) => format!("{} and {last}", others.join(", ")),
+        None => String::new(),
     }
 }
 
@@ -102,22 +112,18 @@ fn missing_turns(joint: &Joint<'_>) -> Option<(String, String)> {
     let about =
         |axis: &Axis| joint.turns.iter().any(|turn| turn.angle[axis.index()].abs() > 0.5 * turn.angle.norm());
     let (turned, missing): (Vec<Axis>, Vec<Axis>) = Axis::ALL.into_iter().partition(about);
-    let list = |axes: &[Axis], end: &str| {
-        let names: Vec<String> = axes.iter().map(|axis| format!("{axis}{end}")).collect();
-        names.join(" and ")
-    };
     let reason = match (turned.as_slice(), joint.turns.len()) {
         _ if missing.is_empty() => return None,
         ([], 0) => {
             "there is no turn of known angle, and no rotation between the faces that can be integrated".into()
         }
-        (_, 1) => format!("the one turn of known angle is about {}", list(&turned, "")),
-        (_, count) => format!("the {count} turns of known angle are about {} only", list(&turned, "")),
+        (_, 1) => format!("the one turn of known angle is about {}", listed(&turned, "")),
+        (_, count) => format!("the {count} turns of known angle are about {} only", listed(&turned, "")),
     };
     let remedy = format!(
         "add a turn about {}: in gyroscope.turns, or as {} in the list of sections",
-        list(&missing, ""),
-        list(&missing, "_rot")
+        listed(&missing, ""),
+        listed(&missing, "_rot")
     );
     Some((reason, remedy))
 }
@@ -142,14 +148,13 @@ fn unturned(joint: &Joint<'_>, state: &State) -> Option<Complaint> {
     if still.is_empty() || moved < WRONG {
         return None;
     }
-    let names: Vec<String> = still.iter().map(ToString::to_string).collect();
     let most = still.iter().map(turned).fold(0.0, f64::max);
     Some(Complaint::new(
         format!(
-            "the gyroscope hardly turns about its ax{} {}: by {:.1}° at most between two holds, while gravity turns by up to {:.0}°",
+            "the gyroscope hardly turns about its ax{} {}: by less than {:.0}° between two holds, while gravity turns by up to {:.0}°",
             if still.len() == 1 { "is" } else { "es" },
-            names.join(" and "),
-            most.to_degrees(),
+            listed(&still, ""),
+            most.to_degrees().floor() + 1.0,
             moved.to_degrees()
         ),
         "are its columns the right ones, in the right unit, and of this recording? is each axis connected?",

@@ -58,7 +58,7 @@ pub(super) const CASES: &[Case] = &[
     (
         r#"kind = "accelerometer""#,
         r#"kind = "acelerometer""#,
-        r#"line 4, column 8: `sensor.kind`: "acelerometer" is not known here (did you mean "accelerometer"? write "accelerometer")"#,
+        r#"line 4, column 8: `sensor.kind`: "acelerometer" is not known here (did you mean "accelerometer"? one of "accelerometer", "imu")"#,
     ),
     (
         "axes = 3",
