@@ -159,6 +159,17 @@ fn turns_that_are_missing_and_values_that_are_absurd_are_named() {
     outcome.says("turn 1 (7.0 to 11.0 s) is given as 360.0° about y, and the gyroscope shows 35");
     outcome.says("° about x: correct its angle");
 
+    // what is wrong of all turns is not each turn's fault
+    bench.write(
+        "double.toml",
+        table
+            .replace("angle_deg = 360.0", "angle_deg = 720.0")
+            .replace("angle_deg = -360.0", "angle_deg = -720.0"),
+    );
+    let outcome = bench.run("calibrate double.toml table/recording.csv -o out");
+    outcome.says("the gyroscope shows 0.50 of the angle of every turn");
+    assert!(!outcome.stderr.contains("turn 1"), "{}", outcome.stderr);
+
     let hand = include_str!("../../../../examples/06_whole_imu/hand.toml");
     bench.write("hand.toml", hand);
     bench.run("simulate hand.toml --seed 3 -o hand").done();
