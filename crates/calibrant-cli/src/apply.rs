@@ -31,7 +31,7 @@ pub(crate) struct Arguments {
     #[command(flatten)]
     reading: Reading,
     /// The temperature, °C, where the calibration follows it and the recording does not have it (or another).
-    #[arg(long, value_name = "CELSIUS", allow_negative_numbers = true)]
+    #[arg(long, value_name = "CELSIUS", allow_negative_numbers = true, value_parser = crate::reading::celsius)]
     temperature: Option<f64>,
     /// Where to write the corrected recording.
     #[arg(short, long, value_name = "FILE")]
@@ -115,7 +115,7 @@ fn read_for(imu: &CalibratedImu, arguments: &Arguments) -> calibrant::Result<Imu
         .or_else(|_| read(&assumed))
         .or_else(|error| one_sensor(imu, arguments).map_err(|_| error))?;
     for finding in &file.findings {
-        console::note(&format!("{}: {finding}", path.display()));
+        console::finding(&path.display().to_string(), finding);
     }
     Ok(file.recording)
 }

@@ -264,7 +264,7 @@ impl Job {
 
 fn show(done: &Done, arguments: &Arguments) {
     for finding in &done.file.findings {
-        console::note(&format!("{}: {finding}", done.input.file));
+        console::finding(&done.input.file, finding);
     }
     for warning in &done.calibration.warnings {
         console::warn(warning);
@@ -313,7 +313,7 @@ fn run_many(job: &Job, arguments: &Arguments) -> calibrant::Result<Exit> {
         match outcome {
             Ok(done) => {
                 for finding in &done.file.findings {
-                    console::note(&format!("{folder}: {finding}"));
+                    console::finding(folder, finding);
                 }
                 for warning in &done.calibration.warnings {
                     console::warn(&format!("{folder}: {warning}"));

@@ -8,6 +8,7 @@ pub(crate) use validation::validations;
 
 use calibrant::Error;
 use calibrant::estimate::{Calibration, HoldCalibration, Recovered};
+use calibrant::io::Finding;
 use calibrant::report::number;
 use calibrant::sensor::CalibratedImu;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -35,6 +36,12 @@ pub(crate) fn note(text: &str) {
 /// Prints a warning to stderr.
 pub(crate) fn warn(text: &str) {
     let _ = writeln!(std::io::stderr(), "warning: {text}");
+}
+
+/// Says what was noticed in a recording: a note, or a warning where results become doubtful.
+pub(crate) fn finding(file: &str, finding: &Finding) {
+    let say = if finding.is_warning() { warn } else { note };
+    say(&format!("{file}: {finding}"));
 }
 
 /// Warns where temperatures lie far beyond those at which a calibration was made.

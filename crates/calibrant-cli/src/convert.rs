@@ -35,7 +35,7 @@ pub(crate) struct Arguments {
     #[arg(long)]
     drop_g_sensitivity: bool,
     /// Take biases and gains as they are at this temperature, °C, and leave out what temperature does to them.
-    #[arg(long, value_name = "CELSIUS", allow_negative_numbers = true)]
+    #[arg(long, value_name = "CELSIUS", allow_negative_numbers = true, value_parser = crate::reading::celsius)]
     temperature: Option<f64>,
 }
 

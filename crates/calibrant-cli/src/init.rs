@@ -3,7 +3,7 @@
 use crate::{Exit, console};
 use calibrant::Error;
 use calibrant::error::Complaint;
-use calibrant::io::{PRESETS, preset, write_atomically};
+use calibrant::io::{Experiment, PRESETS, preset, write_atomically};
 use std::path::PathBuf;
 
 /// Write a commented experiment file to start from.
@@ -39,7 +39,17 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
         }
         Some(path) => {
             write_atomically(path, |out| out.write_all(text.as_bytes()))?;
-            console::note(&format!("wrote {}; edit it, then: calibrant simulate {0} -o DIR", path.display()));
+            let file = path.display();
+            // counts of an unknown gain can be calibrated, not simulated
+            let simulable =
+                Experiment::parse(text, None).is_ok_and(|experiment| experiment.sensor.gain.is_some());
+            console::note(&if simulable {
+                format!("wrote {file}; edit it, then: calibrant simulate {file} -o DIR")
+            } else {
+                format!(
+                    "wrote {file}; edit it, then: calibrant calibrate {file} RECORDING -o DIR (calibrant simulate {file} needs its gains)"
+                )
+            });
         }
     }
     Ok(Exit::DONE)

@@ -9,6 +9,7 @@ use calibrant::Error;
 use calibrant::error::Complaint;
 use calibrant::estimate::{find_holds, find_imu_holds};
 use calibrant::io::{noise_json, write_atomically, write_noise};
+use calibrant::motion::Hold;
 use calibrant::noise::{Stretch, TriadNoise};
 use calibrant::report::{About, noise_report, number};
 use calibrant::sensor::{ImuRecording, ReadingUnit, Recording, Triad};
@@ -18,6 +19,8 @@ use std::time::Instant;
 
 /// Shortest hold that is looked for, s.
 const SHORTEST_HOLD_S: f64 = 1.0;
+/// A sensor at rest is found so, but for this share of the time: a door, a step.
+const MOVING: f64 = 0.1;
 
 /// Find the noise of a sensor at rest: Allan deviation, random walks, bias instability.
 ///
@@ -96,10 +99,14 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
         };
         let stretch = Stretch::between(recording, start_s, end_s).map_err(in_file)?;
         let found = TriadNoise::of(triad, recording, stretch).map_err(in_file)?;
-        noise.push(match &gain {
+        let mut found = match &gain {
             Some(gain) => found.with_gain(recording, gain)?,
             None => found,
-        });
+        };
+        if arguments.hold.is_some() {
+            found.warnings.extend(moves(&file.imu, recording, &found.stretch));
+        }
+        noise.push(found);
     }
 
     for finding in &file.findings {
@@ -150,12 +157,31 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     Ok(Exit::DONE)
 }
 
-/// The longest hold: where both sensors are still, or the one that was recorded. A gyroscope alone is as calm in a turn at a steady rate.
+/// The holds: where both sensors are still, or the one that was recorded. A gyroscope alone is as calm in a turn at a steady rate.
+fn holds(imu: &ImuRecording, recording: &Recording) -> calibrant::Result<Vec<Hold>> {
+    match (&imu.accelerometer, &imu.gyroscope) {
+        (Some(_), Some(_)) => find_imu_holds(imu, SHORTEST_HOLD_S),
+        _ => find_holds(recording, SHORTEST_HOLD_S),
+    }
+}
+
+/// A warning where the sensor moves in an interval that was given as at rest: more than a tenth of it is no part of any hold that is found.
+fn moves(imu: &ImuRecording, recording: &Recording, given: &Stretch) -> Option<String> {
+    let holds = holds(imu, recording).ok().filter(|holds| !holds.is_empty())?;
+    let within = |hold: &Hold| (hold.end_s.min(given.end_s) - hold.start_s.max(given.start_s)).max(0.0);
+    let moving_s = given.duration_s() - holds.iter().map(within).sum::<f64>();
+    (moving_s > MOVING * given.duration_s()).then(|| {
+        format!(
+            "the sensor moves in {moving_s:.1} of the {:.1} s given with --hold: what follows is no noise of a sensor at rest (`calibrant inspect` shows how many holds \
+             there are; without --hold the longest is taken)",
+            given.duration_s()
+        )
+    })
+}
+
+/// The longest hold.
 fn longest_hold(imu: &ImuRecording, recording: &Recording) -> calibrant::Result<(f64, f64)> {
-    let holds = match (&imu.accelerometer, &imu.gyroscope) {
-        (Some(_), Some(_)) => find_imu_holds(imu, SHORTEST_HOLD_S)?,
-        _ => find_holds(recording, SHORTEST_HOLD_S)?,
-    };
+    let holds = holds(imu, recording)?;
     let longest = holds.iter().max_by(|a, b| a.duration_s().total_cmp(&b.duration_s()));
     longest.map(|hold| (hold.start_s, hold.end_s)).ok_or_else(|| {
         Error::Recording(Box::new(Complaint::new(

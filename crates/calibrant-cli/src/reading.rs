@@ -2,7 +2,7 @@
 
 use calibrant::Error;
 use calibrant::io::{FileFormat, ImuReadOptions, ImuUnit, TimeUnit};
-use calibrant::sensor::Triad;
+use calibrant::sensor::{Triad, WORKING_C};
 use std::path::Path;
 
 #[derive(clap::Args, Clone)]
@@ -62,6 +62,13 @@ fn gyroscope_unit(text: &str) -> Result<ImuUnit, String> {
 
 fn time_unit(text: &str) -> Result<TimeUnit, String> {
     TimeUnit::parse(text).ok_or_else(|| "times are in s, ms, us or ns, or samples".into())
+}
+
+/// A temperature that a sensor can have, °C.
+pub(crate) fn celsius(text: &str) -> Result<f64, String> {
+    let (low, high) = (WORKING_C.start(), WORKING_C.end());
+    let value = text.parse().ok().filter(|value| WORKING_C.contains(value));
+    value.ok_or_else(|| format!("a sensor's temperature in °C, from {low} to {high}"))
 }
 
 /// Names the recording in an error that does not.

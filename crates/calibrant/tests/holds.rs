@@ -214,6 +214,13 @@ fn holds_that_do_not_spread_are_named() {
     assert!(error.is_not_identifiable(), "{error}");
     let text = error.to_string();
     assert!(text.contains("do not spread enough") && text.contains("scale.z"), "{text}");
+    assert!(text.contains("on one circle, turned about the sensor's axis z only"), "{text}");
+    // always the same orientation, turned about the vertical
+    flat.readings
+        .iter_mut()
+        .for_each(|reading| *reading = Vector3::new(reading.z, reading.z, 9.81) + *reading * 1e-4);
+    let error = run(&sensor(SensorModel::ScaleBias), &flat, &HoldsSetup::default()).expect_err("one point");
+    assert!(error.to_string().contains("all are in the same orientation"), "{error}");
 }
 
 #[test]

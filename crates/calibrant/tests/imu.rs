@@ -377,6 +377,8 @@ fn a_known_bias_is_kept_and_a_prior_shares() {
     let setup = ImuSetup { known: vec![fixed], ..ImuSetup::default() };
     let calibration = run(&recording, &Gyroscope::default(), &setup, unit).expect("determined");
     assert_eq!(calibration.imu.gyroscope.matrix.m11, 0.9);
+    let said = calibration.warnings.join("; ");
+    assert!(said.contains("the recording contradicts what [known] says of gyroscope.scale.x: 0.9"), "{said}");
     let prior = KnownTerm { quantity: quantity("gyroscope.bias.x"), value: 5.0, sd: Some(1e-4) };
     let setup = ImuSetup { known: vec![prior], ..ImuSetup::default() };
     let calibration = run(&recording, &Gyroscope::default(), &setup, unit).expect("determined");
@@ -400,7 +402,7 @@ fn a_turn_that_was_not_made_is_named() {
     let calibration = run(&recording, &Gyroscope::default(), &setup, unit).expect("determined");
     let said = calibration.warnings.join("; ");
     assert!(
-        said.contains("turn 1 (10.0 to 14.0 s, 360.0°) does not fit") || said.contains("it should be near 1"),
+        said.contains("turn 1 (10.0 to 14.0 s) is given as 360.0° about x, and the gyroscope shows"),
         "{said}"
     );
 }

@@ -33,10 +33,13 @@ pub(super) fn run(arguments: &Arguments, experiment: &Experiment, plan: &ImuPlan
     if arguments.unit.is_some() {
         console::warn("--unit is not used for an IMU: say --accelerometer-unit and --gyroscope-unit");
     }
+    if arguments.motion.is_some() {
+        console::warn("--motion is not used: an IMU is calibrated from holds and what lies between them");
+    }
     let options = options(arguments, experiment, plan);
     let file = super::validation::read(path, arguments.gyroscope.as_deref(), &options)?;
     for finding in &file.findings {
-        console::note(&format!("{}: {finding}", name(path)));
+        console::finding(&name(path), finding);
     }
     let mut setup = setup(arguments, plan, holds, &file)?;
     if setup.holds.intervals_s.is_none() {

@@ -10,6 +10,7 @@ use calibrant::estimate::{
     ValidationSource, cross_validate, cross_validate_imu, validate, validate_imu,
 };
 use calibrant::io::{ImuFile, ImuReadOptions, read_accelerometer, read_imu_pair, read_imu_recording};
+use calibrant::sensor::Recording;
 use std::path::Path;
 
 /// Refuses `--validate` and `--folds` with several recordings.
@@ -46,8 +47,12 @@ pub(super) fn of_imu(
     let mut validations = Vec::new();
     if let Some(path) = &arguments.validate {
         let other = read(path, arguments.validate_gyroscope.as_deref(), options)?;
-        other.findings.iter().for_each(|finding| console::note(&format!("{}: {finding}", name(path))));
-        warn_of_the_same(&file.sha256, &other.sha256, path);
+        other.findings.iter().for_each(|finding| console::finding(&name(path), finding));
+        refuse_the_same(
+            (&file.sha256, file.recording.accelerometer.as_ref()),
+            (&other.sha256, other.recording.accelerometer.as_ref()),
+            path,
+        )?;
         let setup = ImuSetup { holds: found(&problem.setup.holds), ..ImuSetup::default() };
         let problem = ImuProblem { recording: &other.recording, setup: &setup, ..*problem };
         let validation = validate_imu(calibration, &problem).map_err(|error| in_file(error, path))?;
@@ -70,8 +75,12 @@ pub(super) fn of_accelerometer(
     let mut validations = Vec::new();
     if let Some(path) = &arguments.validate {
         let other = read_accelerometer(path, &job.read, &job.device)?;
-        other.findings.iter().for_each(|finding| console::note(&format!("{}: {finding}", name(path))));
-        warn_of_the_same(&done.input.sha256, &other.sha256, path);
+        other.findings.iter().for_each(|finding| console::finding(&name(path), finding));
+        refuse_the_same(
+            (&done.input.sha256, Some(&done.file.recording)),
+            (&other.sha256, Some(&other.recording)),
+            path,
+        )?;
         let setup = job.holds.as_ref().map(found);
         let mut problem = job.problem(&other.recording);
         if let Some(setup) = &setup {
@@ -95,11 +104,20 @@ fn on(path: &Path, validation: Validation) -> Validation {
     Validation { source: ValidationSource::Recording { name: name(path) }, ..validation }
 }
 
-fn warn_of_the_same(one: &str, other: &str, path: &Path) {
-    if one == other {
-        console::warn(&format!(
-            "{} is the recording that was calibrated from: its errors are smaller than those on other data, and validate nothing; use --folds, or another recording",
-            name(path)
-        ));
+/// Refuses the data that were calibrated from: the same file, or its readings in another file, whole or cut.
+fn refuse_the_same(
+    (one_hash, one): (&str, Option<&Recording>),
+    (other_hash, other): (&str, Option<&Recording>),
+    path: &Path,
+) -> calibrant::Result<()> {
+    let contained = one.zip(other).is_some_and(|(one, other)| {
+        let (long, short) = if one.len() < other.len() { (other, one) } else { (one, other) };
+        long.readings.windows(short.len().max(1)).any(|stretch| stretch == short.readings)
+    });
+    if one_hash != other_hash && !contained {
+        return Ok(());
     }
+    let message = "it has the data that were calibrated from: their errors are smaller than those on other data, and validate nothing";
+    let help = "give another recording of the sensor, or --folds 5 in place of --validate: blocks of holds, each predicted from the others";
+    Err(Error::Experiment(Box::new(Complaint::new(message, help).in_file(path))))
 }

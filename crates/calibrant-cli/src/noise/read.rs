@@ -3,7 +3,7 @@
 use crate::reading::name;
 use calibrant::Error;
 use calibrant::error::Complaint;
-use calibrant::io::{ImuReadOptions, Input, ReadOptions, read_imu_recording, read_recording};
+use calibrant::io::{FindingKind, ImuReadOptions, Input, ReadOptions, read_imu_recording, read_recording};
 use calibrant::sensor::{ImuRecording, ReadingUnit, Recording, Triad};
 use std::path::Path;
 
@@ -12,6 +12,8 @@ pub(super) struct File {
     pub(super) imu: ImuRecording,
     pub(super) findings: Vec<String>,
     pub(super) input: Input,
+    /// Has the file columns that were not read?
+    leaves_columns_aside: bool,
 }
 
 /// Reads the recording of a sensor, from a file of its own or from one of a whole IMU.
@@ -33,10 +35,17 @@ pub(super) fn read(
             }
             Err(_) => of_imu(path, triad, options),
         },
-        Triad::Gyroscope => {
-            of_imu(path, triad, options).or_else(|error| alone(path, triad, unit, counts).map_err(|_| error))
-        }
+        Triad::Gyroscope => of_imu(path, triad, options).or_else(|error| {
+            alone(path, triad, unit, counts).ok().filter(|file| may_be_alone(file, triad)).ok_or(error)
+        }),
     }
+}
+
+/// Is a file whose columns are called ax, ay, az one of another sensor alone? Not where these are accelerations, or there are other columns beside them.
+fn may_be_alone(file: &File, triad: Triad) -> bool {
+    let in_counts_or_its_own =
+        |recording: &Recording| [ReadingUnit::Counts, triad.stimulus_unit()].contains(&recording.unit);
+    !file.leaves_columns_aside && file.imu.triad(triad).is_some_and(in_counts_or_its_own)
 }
 
 fn of_imu(path: &Path, triad: Triad, options: &ImuReadOptions) -> calibrant::Result<File> {
@@ -47,7 +56,8 @@ fn of_imu(path: &Path, triad: Triad, options: &ImuReadOptions) -> calibrant::Res
         return Err(Error::Recording(Box::new(complaint.in_file(path))));
     };
     let input = input(path, file.sha256, recording);
-    Ok(File { input, findings: file.findings.iter().map(ToString::to_string).collect(), imu })
+    let findings = file.findings.iter().map(ToString::to_string).collect();
+    Ok(File { input, findings, imu, leaves_columns_aside: false })
 }
 
 fn input(path: &Path, sha256: String, recording: &Recording) -> Input {
@@ -64,5 +74,8 @@ fn alone(path: &Path, triad: Triad, unit: Option<ReadingUnit>, counts: bool) -> 
         Triad::Accelerometer => imu.accelerometer = Some(file.recording),
         Triad::Gyroscope => imu.gyroscope = Some(file.recording),
     }
-    Ok(File { imu, findings: file.findings.iter().map(ToString::to_string).collect(), input })
+    let leaves_columns_aside =
+        file.findings.iter().any(|finding| finding.kind == FindingKind::IgnoredColumns);
+    let findings = file.findings.iter().map(ToString::to_string).collect();
+    Ok(File { imu, findings, input, leaves_columns_aside })
 }

@@ -9,7 +9,7 @@ use calibrant::report::{coefficient_name, number};
 pub(super) fn of(noise: &TriadNoise) -> String {
     let stretch = &noise.stretch;
     let mut text = format!(
-        "  {}: {} samples at rest, {:.2} to {:.2} s, {} Hz\n\n",
+        "  {}: {} samples, {:.2} to {:.2} s, {} Hz\n\n",
         noise.triad,
         number::count(stretch.samples()),
         stretch.start_s,

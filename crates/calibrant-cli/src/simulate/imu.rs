@@ -14,6 +14,8 @@ use nalgebra::Vector3;
 
 /// Duration of a turn by hand, s.
 const TURN_S: f64 = 2.0;
+/// Most samples of a recording: 2 GB.
+const MOST_SAMPLES: f64 = 2e7;
 
 pub(super) fn run(
     arguments: &Arguments,
@@ -65,6 +67,7 @@ pub(super) fn run(
     let (mut truth, of_accelerometer) = match &on_table {
         Some(steps) => {
             check_order(steps)?;
+            check_length(steps, holds.rate_hz)?;
             (drawn, ParameterList::new(3, sensor.model))
         }
         None => (in_gauge(&drawn, units, holds)?, holds.gauge.parameter_list(sensor.model)),
@@ -148,6 +151,22 @@ fn table(holds: &HoldsPlan, plan: &ImuPlan) -> Option<Vec<TableStep>> {
     let mut steps: Vec<TableStep> = faces.chain(turns).collect();
     steps.sort_by(|one, other| one.start_s.total_cmp(&other.start_s));
     Some(steps)
+}
+
+/// All of it fits into memory.
+fn check_length(steps: &[TableStep], rate_hz: f64) -> calibrant::Result<()> {
+    let from_s = steps.iter().map(|step| step.start_s).fold(0.0, f64::min);
+    let duration_s = steps.iter().map(|step| step.end_s).fold(0.0, f64::max) - from_s;
+    let samples = duration_s * rate_hz;
+    if samples <= MOST_SAMPLES {
+        return Ok(());
+    }
+    Err(Error::Experiment(Box::new(Complaint::new(
+        format!(
+            "{duration_s} s at {rate_hz} Hz are {samples:.1e} samples, at most {MOST_SAMPLES:.0e} fit into memory"
+        ),
+        "a recording begins at 0 s: bring holds.intervals_s and gyroscope.turns closer together, or lower holds.rate_hz",
+    ))))
 }
 
 /// Holds and turns follow each other.

@@ -31,6 +31,10 @@ fn a_simulated_imu_is_found_again_and_its_noise_in_a_long_hold() {
 fn counts_are_simulated_with_gains_alone_and_turns_do_not_overlap() {
     let bench = Bench::new();
     bench.preset("imu-counts", "counts.toml", &[]);
+    let wrote = bench.run("init imu-counts -o written.toml").done();
+    wrote.says(
+        "calibrant calibrate written.toml RECORDING -o DIR (calibrant simulate written.toml needs its gains)",
+    );
     bench.refuses(
         "simulate counts.toml -o sim",
         2,
@@ -118,4 +122,143 @@ fn without_a_report_the_calibration_is_the_same() {
             outcome.stderr
         );
     }
+}
+
+#[test]
+fn faces_whose_directions_the_readings_contradict_are_named() {
+    let bench = Bench::new();
+    let table = include_str!("../../../../examples/06_whole_imu/table.toml");
+    bench.write("table.toml", table);
+    bench.run("simulate table.toml --seed 3 -o table").done();
+    let given = |directions: &str| {
+        bench.write("given.toml", table.replacen(r#""x", "-x", "y", "-y", "z", "-z""#, directions, 1));
+        "calibrate given.toml table/recording.csv -o out"
+    };
+    let second = "hold 2 (19.0 to 24.0 s) is given with x up, and the accelerometer shows -x up";
+    bench.refuses(given(r#""x", "x", "y", "-y", "z", "-z""#), 2, &[second, "correct the directions"]);
+    let first = "hold 1 (1.0 to 6.0 s) is given with -x up, and the accelerometer shows x up";
+    bench.refuses(given(r#""-x", "x", "y", "-y", "z", "-z""#), 2, &[first, second]);
+    let third = "hold 3 (27.0 to 32.0 s) is given with z up, and the accelerometer shows y up";
+    bench.refuses(given(r#""x", "-x", "z", "-y", "y", "-z""#), 2, &[third, "hold 5 (53.0 to 58.0 s)"]);
+    let opposite = "every direction is the opposite";
+    bench.refuses(given(r#""-x", "x", "-y", "y", "-z", "z""#), 2, &[opposite, "gravity in place of"]);
+    // a direction that is off by 20°: with two faces for each axis, either may be the one
+    let tilted = bench.run(given(r#"[0.94, 0.34, 0.0], "-x", "y", "-y", "z", "-z""#));
+    tilted.says("least of all fits hold 1 (1.0 to 6.0 s), or hold 2 (19.0 to 24.0 s)");
+    // all faces turned together: the sensor sits otherwise in its housing, and it is said
+    bench.run(given(r#""y", "-y", "z", "-z", "x", "-x""#)).done().says("of what there is along its axis x");
+}
+
+#[test]
+fn turns_that_are_missing_and_values_that_are_absurd_are_named() {
+    let bench = Bench::new();
+    let table = include_str!("../../../../examples/06_whole_imu/table.toml");
+    bench.write("table.toml", table);
+    bench.run("simulate table.toml --seed 3 -o table").done();
+    let about_x: Vec<&str> = table
+        .lines()
+        .filter(|line| !line.contains("axis = \"y\"") && !line.contains("axis = \"z\""))
+        .collect();
+    bench.write("x.toml", about_x.join("\n"));
+    bench.refuses(
+        "calibrate x.toml table/recording.csv -o out",
+        4,
+        &[
+            "the 2 turns of known angle are about x only",
+            "add a turn about y and z",
+            "y_rot and z_rot in the list of sections",
+        ],
+    );
+
+    // the gyroscope tells which turn was made
+    bench.write(
+        "sign.toml",
+        table.replacen("axis = \"x\", angle_deg = 360.0", "axis = \"x\", angle_deg = -360.0", 1),
+    );
+    let outcome = bench.run("calibrate sign.toml table/recording.csv -o out");
+    outcome.says("turn 1 (7.0 to 11.0 s) is given as -360.0° about x, and the gyroscope shows 360° about x");
+    assert!(!outcome.stderr.contains("turn 2"), "{}", outcome.stderr);
+    bench.write("axis.toml", table.replacen("end_s = 11.0, axis = \"x\"", "end_s = 11.0, axis = \"y\"", 1));
+    let outcome = bench.run("calibrate axis.toml table/recording.csv -o out");
+    outcome.says("turn 1 (7.0 to 11.0 s) is given as 360.0° about y, and the gyroscope shows 35");
+    outcome.says("° about x: correct its angle");
+
+    // what is wrong of all turns is not each turn's fault
+    bench.write(
+        "double.toml",
+        table
+            .replace("angle_deg = 360.0", "angle_deg = 720.0")
+            .replace("angle_deg = -360.0", "angle_deg = -720.0"),
+    );
+    let outcome = bench.run("calibrate double.toml table/recording.csv -o out");
+    outcome.says("the gyroscope shows 0.50 of the angle of every turn");
+    assert!(!outcome.stderr.contains("turn 1"), "{}", outcome.stderr);
+
+    let hand = include_str!("../../../../examples/06_whole_imu/hand.toml");
+    bench.write("hand.toml", hand);
+    bench.run("simulate hand.toml --seed 3 -o hand").done();
+    let known = |what: &str| {
+        bench.write("known.toml", format!("{hand}\n[known]\n{what}\n"));
+        "calibrate known.toml hand/recording.csv -o out"
+    };
+    // the recording is not to blame
+    for (what, value) in [
+        ("gyroscope.scale.x", "0.0"),
+        ("gyroscope.bias.x", "1000.0"),
+        ("gyroscope.matrix.xy", "100000000000.0"),
+    ] {
+        let says = format!("the recording contradicts what [known] says of {what}: {value}");
+        bench.refuses(
+            known(&format!("\"{what}\" = {value}")),
+            2,
+            &[&says, "where the recording alone gives", "correct the value in [known]"],
+        );
+    }
+    let prior = known("\"gyroscope.scale.x\" = { value = 1.0, sd = 1e-200 }");
+    bench.refuses(prior, 2, &["`known.term.sd`: 1e-200 is out of range", "from 1e-12"]);
+    let outcome = bench.run(known("\"accelerometer.bias.x\" = 100.0"));
+    outcome.says("warning: the recording contradicts what [known] says of accelerometer.bias.x");
+    assert_eq!(outcome.status, 4, "{outcome:?}");
+
+    // a gyroscope that shows no turn about two axes
+    let dead: Vec<String> = bench
+        .read("hand/recording.csv")
+        .lines()
+        .enumerate()
+        .map(|(k, line)| {
+            let words: Vec<&str> = line.split(',').collect();
+            let noise = |shift: usize| 1e-3 * ((k * 7919 + shift) % 13) as f64;
+            match k {
+                0 => line.to_owned(),
+                _ => format!("{},{},{},{}", words[..4].join(","), noise(0), noise(5), words[6]),
+            }
+        })
+        .collect();
+    bench.write("dead.csv", dead.join("\n"));
+    bench.refuses(
+        "calibrate hand.toml dead.csv -o out",
+        3,
+        &[
+            "the gyroscope hardly turns about its axes x and y: by less than 1° between two holds",
+            "while gravity turns by up to",
+            "is each axis connected?",
+        ],
+    );
+}
+
+#[test]
+fn a_simulation_fits_into_memory() {
+    let bench = Bench::new();
+    let hand = include_str!("../../../../examples/06_whole_imu/hand.toml");
+    bench.write("many.toml", hand.replacen("poses = 24", "poses = 1000000000", 1));
+    bench.refuses(
+        "simulate many.toml -o out",
+        2,
+        &["`holds.poses`: 1000000000 is out of range", "from 1 to 1000000"],
+    );
+    bench.write("large.toml", hand.replacen("poses = 24", "poses = 1000000", 1));
+    bench.refuses("simulate large.toml -o out", 2, &["is 5.0e8 samples, at most 2e7 fit into memory"]);
+    let table = include_str!("../../../../examples/06_whole_imu/table.toml");
+    bench.write("late.toml", table.replacen("[71.0, 76.0]", "[71.0, 7.6e6]", 1));
+    bench.refuses("simulate late.toml -o out", 2, &["7600000 s at 100 Hz are 7.6e8 samples, at most 2e7"]);
 }

@@ -117,3 +117,27 @@ fn the_pair_of_imu_tk_promises_what_a_calibration_then_finds() {
         assert!((0.9..30.0).contains(&ratio), "{k}: {ratio}");
     }
 }
+
+#[test]
+fn times_in_another_unit_and_a_format_that_it_is_not_are_asked_about() {
+    let bench = Bench::new();
+    bench.preset("imu", "imu.toml", &[]);
+    bench.run("simulate imu.toml --seed 1 -o sim").done();
+    let text = bench.read("sim/recording.csv");
+    let milliseconds = |line: &str| {
+        let (time, rest) = line.split_once(',').expect("columns");
+        let time = time.parse::<f64>().map_or_else(|_| time.to_owned(), |t| format!("{:.0}", 1e3 * t));
+        format!("{time},{rest}\n")
+    };
+    bench.write("ms.csv", text.lines().map(milliseconds).collect::<String>());
+    let says =
+        "the samples are 10 s apart: are the times in ms? at 100 Hz the name of their column ends in _ms";
+    let inspected = bench.run("inspect ms.csv").done().stdout;
+    assert!(inspected.contains(says), "{inspected}");
+    bench.refuses("calibrate imu.toml ms.csv -o out", 3, &[says, "is the time column in seconds?"]);
+    bench.refuses(
+        "inspect --format imucal sim/recording.csv",
+        3,
+        &["this file has no column acc_x or gyr_x", "leave --format away"],
+    );
+}

@@ -89,6 +89,18 @@ fn a_turn_at_a_steady_rate_is_no_hold_of_an_imu() {
         let place = |name: &str| json["sensors"][0][name].as_u64().expect("a number");
         let (first, end) = (place("first_sample"), place("end_sample"));
         assert!(first < 50 && (1450..1520).contains(&end), "{sensor}: {first} to {end}");
+        // what is given counts, and that it moves is said, in the results too
+        let outcome = bench.run(&format!("noise imu.csv --sensor {sensor} --hold 12 40 --json")).done();
+        outcome.says("warning: the sensor moves in 25.");
+        outcome.says("of the 28.0 s given with --hold");
+        assert!(outcome.stdout.contains("the sensor moves in 25."), "{}", outcome.stdout);
+        assert!(
+            !bench
+                .run(&format!("noise imu.csv --sensor {sensor} --hold 2 14"))
+                .done()
+                .stderr
+                .contains("moves")
+        );
     }
 }
 
@@ -122,12 +134,22 @@ fn counts_stay_counts_without_a_gain() {
 fn what_cannot_be_used_is_refused() {
     let bench = Bench::new();
     bench.write("still.csv", recording("t_s,ax,ay,az", 3000, 0.1));
-    bench.refuses(
-        "noise still.csv --hold 1 1.2 -o result",
-        3,
-        &["still.csv: 21 samples at rest from 1 to 1.2 s"],
-    );
+    bench.refuses("noise still.csv --hold 1 1.2 -o result", 3, &["still.csv: 21 samples from 1 to 1.2 s"]);
+    let hold = |interval: &str| format!("noise still.csv --hold {interval} -o result");
+    bench.refuses(&hold("nan 20"), 2, &["an interval from NaN to 20 s is none"]);
+    bench.refuses(&hold("20 10"), 2, &["the interval from 20 to 10 s ends before it starts"]);
+    bench.refuses(&hold("100 200"), 2, &["outside the recording", "the recording goes from 0 to 29.99 s"]);
     bench.refuses("noise still.csv --gain 1,2 -o result", 2, &["--gain is one number or three"]);
+    // readings of an accelerometer are no gyroscope's
+    bench.write("acc.csv", recording("t_s,ax_mps2,ay_mps2,az_mps2", 3000, 1.0));
+    bench.refuses("noise acc.csv --sensor gyroscope -o result", 3, &["acc.csv: the file has no gyroscope"]);
+    let imu = bench.read("acc.csv").replace('\n', ",0.1,0.2,0.3\n").replacen(
+        "az_mps2,0.1,0.2,0.3",
+        "az_mps2,gx,gy,gz",
+        1,
+    );
+    bench.write("imu.csv", imu);
+    bench.refuses("noise imu.csv --sensor gyroscope -o result", 3, &["the gyroscope's columns have no unit"]);
     bench.refuses("noise missing.csv -o result", 3, &["missing.csv"]);
 }
 
@@ -138,7 +160,7 @@ fn the_mti_at_rest() {
     std::fs::copy(&path, bench.path("xsens_acc.mat")).expect("copied");
     let outcome = bench.run("noise xsens_acc.mat --gain 415,413,415 -o result").done();
     assert!(
-        outcome.stdout.contains("accelerometer: 5199 samples at rest, 0.28 to 52.25 s, 100.01 Hz"),
+        outcome.stdout.contains("accelerometer: 5199 samples, 0.28 to 52.25 s, 100.01 Hz"),
         "{}",
         outcome.stdout
     );

@@ -116,3 +116,46 @@ fn without_a_column_the_experiment_says_what_to_do() {
         &["is to follow temperature, and the recording has none", "temperature = \"…\" in [columns]"],
     );
 }
+
+#[test]
+fn kelvin_are_asked_about_and_a_long_time_without_temperature_is_a_warning() {
+    let (bench, _) = bench();
+    let text = bench.read("recording.csv");
+    let rewrite = |name: &str, of: &dyn Fn(usize, f64) -> String| {
+        let row = |(k, line): (usize, &str)| {
+            let (readings, celsius) = line.rsplit_once(',').expect("a temperature");
+            match celsius.parse() {
+                Ok(celsius) => format!("{readings},{}\n", of(k, celsius)),
+                Err(_) => format!("{line}\n"),
+            }
+        };
+        bench.write(name, text.lines().enumerate().map(row).collect::<String>());
+    };
+    rewrite("kelvin.csv", &|_, celsius| (celsius + 273.15).to_string());
+    bench.refuses(
+        "calibrate imu.toml kelvin.csv -o out",
+        3,
+        &[
+            "kelvin.csv: the temperature is 293.15 °C at 0 s",
+            "is the column in kelvin? then subtract 273.15 from it",
+        ],
+    );
+    let half = text.lines().count() / 2;
+    rewrite("half.csv", &|k, celsius| if k <= half { celsius.to_string() } else { String::new() });
+    let outcome = bench.run("calibrate imu.toml half.csv -o out").done();
+    outcome.says("warning: half.csv: the temperature is missing in ");
+    outcome.says("kept constant before the first and after the last");
+    // a slow thermometer is none
+    rewrite("slow.csv", &|k, celsius| if k % 100 == 1 { celsius.to_string() } else { String::new() });
+    let outcome = bench.run("calibrate imu.toml slow.csv -o out").done();
+    outcome.says("note: slow.csv: the temperature is missing in ");
+    for impossible in ["-300", "nan", "400"] {
+        let says = &["a sensor's temperature in °C, from -100 to 250"];
+        bench.refuses(&format!("convert out/calibration.json imu.yaml --temperature {impossible}"), 2, says);
+        bench.refuses(
+            &format!("apply out/calibration.json recording.csv --temperature {impossible} -o x.csv"),
+            2,
+            says,
+        );
+    }
+}

@@ -48,8 +48,52 @@ fn an_accelerometer_is_validated_by_folds_and_on_another_recording() {
     {
         assert!(report.contains(says), "{says}");
     }
-    let same = bench.run("calibrate poses.toml first.csv --validate first.csv -o same").done();
-    same.says("first.csv is the recording that was calibrated from");
+    // the same data under another name, or a part of them, are no other recording
+    bench.write("copy.csv", format!("{}\n", bench.read("first.csv")));
+    bench.write("part.csv", lines[..half / 2].join("\n") + "\n");
+    for same in ["first.csv", "copy.csv", "part.csv"] {
+        let says = [
+            &format!("{same}: it has the data that were calibrated from"),
+            "--folds 5 in place of --validate",
+        ];
+        bench.refuses(&format!("calibrate poses.toml first.csv --validate {same} -o same"), 2, &says);
+    }
+}
+
+/// One hold tells hardly anything, and a factor of hundreds something else than the size of the covariance.
+#[test]
+fn one_hold_is_too_few_to_tell_and_another_sensor_is_asked_about() {
+    let bench = poses();
+    // calibrated from the second half, tried on the first
+    let text = bench.read("recording.csv");
+    let (header, rows) = text.split_once('\n').expect("a header");
+    let rows: Vec<[f64; 4]> = rows
+        .lines()
+        .map(|row| {
+            let numbers: Vec<f64> = row.split(',').map(|number| number.parse().expect("a number")).collect();
+            numbers.try_into().expect("four columns")
+        })
+        .collect();
+    let half = rows.len() / 2;
+    let write = |name: &str, rows: &[[f64; 4]], gain: f64| {
+        let row = |[t, x, y, z]: &[f64; 4]| format!("{t},{},{},{}\n", gain * x, gain * y, gain * z);
+        bench.write(name, format!("{header}\n{}", rows.iter().map(row).collect::<String>()));
+    };
+    write("half.csv", &rows[half..], 1.0);
+    write("one-hold.csv", &rows[..400], 1.0);
+    write("other-gain.csv", &rows[..half], 1.05);
+    let validate = |file: &str| {
+        let outcome = bench.run(&format!("calibrate poses.toml half.csv --validate {file} -o result")).done();
+        let json = bench.json("result/calibration.json");
+        (outcome.stdout, json["validation"]["recording"]["magnitude"]["verdict"].clone())
+    };
+    let (said, verdict) = validate("one-hold.csv");
+    assert!(said.contains("On 1 hold that was not used") && said.contains("too few to tell"), "{said}");
+    assert_eq!(verdict, "too_few");
+    let (said, verdict) = validate("other-gain.csv");
+    assert!(said.contains("which no covariance explains: is it the same sensor"), "{said}");
+    assert!(!said.contains("multiply"), "{said}");
+    assert_eq!(verdict, "too_small");
 }
 
 #[test]
@@ -97,9 +141,14 @@ fn the_imu_of_imu_tk_is_validated_by_folds_and_its_file_is_still_read() {
     std::fs::copy(accelerometer, bench.path("acc.mat")).expect("copied");
     std::fs::copy(gyroscope, bench.path("gyro.mat")).expect("copied");
     bench.preset("imu-counts", "imu.toml", &[]);
-    let command = "calibrate imu.toml acc.mat --gyroscope gyro.mat --folds 5 --validate acc.mat --validate-gyroscope gyro.mat -o result";
+    // every second sample: other data for the program, with the same errors
+    for name in ["acc.mat", "gyro.mat"] {
+        let text = bench.read(name);
+        let half: Vec<&str> = text.lines().step_by(2).collect();
+        bench.write(&format!("half-{name}"), half.join("\n") + "\n");
+    }
+    let command = "calibrate imu.toml acc.mat --gyroscope gyro.mat --folds 5 --validate half-acc.mat --validate-gyroscope half-gyro.mat -o result";
     let outcome = bench.run(command).done();
-    outcome.says("acc.mat is the recording that was calibrated from");
     assert!(outcome.stdout.contains("gravity after rotations"), "{}", outcome.stdout);
     let json = bench.json("result/calibration.json");
     for kind in ["magnitude", "rate", "rotation"] {

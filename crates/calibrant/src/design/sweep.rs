@@ -213,7 +213,7 @@ impl Changed {
         if !(1.0 - 1e-9..=1e9).contains(&samples) {
             return complain(
                 format!(
-                    "{} {asked} {} makes a recording of {samples:.1e} sample steps",
+                    "{} {asked:?} {} makes a recording of {samples:.1e} sample steps",
                     variable.name(),
                     variable.unit()
                 ),

@@ -26,13 +26,13 @@ pub fn write_dense_motion(
 ) -> Result<()> {
     let complain = |message: String, help: &str| Err(Error::experiment(Complaint::new(message, help)));
     if !(rate_hz.is_finite() && rate_hz > 0.0) {
-        return complain(format!("a sample rate of {rate_hz} Hz makes no sense"), "a number above 0");
+        return complain(format!("a sample rate of {rate_hz:?} Hz makes no sense"), "a number above 0");
     }
     let duration = motion.times_s()[motion.intervals()] - motion.times_s()[0];
     let rows = duration * rate_hz;
     if rows > MOST_ROWS {
         return complain(
-            format!("{rate_hz} Hz over {duration} s are {rows:.1e} rows"),
+            format!("{rate_hz:?} Hz over {duration} s are {rows:.1e} rows"),
             "at most 1e7: lower the sample rate",
         );
     }

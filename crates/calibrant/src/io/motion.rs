@@ -170,6 +170,6 @@ fn read_row(line: Line<'_>, delimiter: Delimiter, slots: &[Option<usize>]) -> Ch
         .into())
 }
 
-fn shorten(field: &str) -> String {
+pub(super) fn shorten(field: &str) -> String {
     field.chars().take(40).collect::<String>().escape_debug().to_string()
 }

@@ -1,14 +1,16 @@
 //! A list of the sections of a Ferraris session, as imucal writes it: `{"x_p": {"start": 540, "end": 1271}, …, "x_rot": …}`, by sample.
 
+use super::motion::shorten;
 use super::text::{self, Checked};
 use crate::error::{Complaint, Error, Result};
 use crate::sensor::Axis;
 use nalgebra::Vector3;
-use std::collections::BTreeMap;
+use serde_json::Value;
 use std::path::Path;
 
 /// Largest list, bytes.
 const LARGEST: u64 = 1 << 20;
+const EXAMPLE: &str = "write {\"x_p\": {\"start\": 540, \"end\": 1271}, …}, in samples";
 const NAMES: &str = "x_p, x_a, y_p, … (an axis up, or down) and x_rot, y_rot, z_rot";
 
 /// One section: from sample `start` up to, not including, sample `end`.
@@ -59,30 +61,30 @@ pub fn parse_sections(bytes: &[u8]) -> Result<Vec<Section>> {
     parse(bytes).map_err(|complaint| Error::experiment(*complaint))
 }
 
-#[derive(serde::Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Samples {
-    start: usize,
-    end: usize,
-}
-
 fn parse(bytes: &[u8]) -> Checked<Vec<Section>> {
     let text = text::as_text(bytes)?;
-    let list: BTreeMap<String, Samples> = serde_json::from_str(text).map_err(|error| {
-        let complaint = Complaint::new(
-            format!("no list of sections: {error}"),
-            "write {\"x_p\": {\"start\": 540, \"end\": 1271}, …}, in samples",
-        );
+    let value: Value = serde_json::from_str(text).map_err(|error| {
+        let complaint = Complaint::new("no list of sections: this is not JSON", EXAMPLE);
         if error.line() > 0 {
             complaint.at_line(error.line()).at_column(error.column().max(1))
         } else {
             complaint
         }
     })?;
+    let Value::Object(list) = value else {
+        return Err(Complaint::new("no list of sections: its names are missing", EXAMPLE).into());
+    };
     let mut sections = Vec::with_capacity(list.len());
-    for (name, Samples { start, end }) in list {
-        let kind = kind(&name)
+    for (name, samples) in &list {
+        let kind = kind(name)
             .ok_or_else(|| Complaint::new(format!("the section \"{name}\" is not known"), NAMES))?;
+        let (start, end) = (sample(name, samples, "start")?, sample(name, samples, "end")?);
+        if let Some(other) =
+            samples.as_object().and_then(|object| object.keys().find(|key| *key != "start" && *key != "end"))
+        {
+            let message = format!("the section \"{name}\" has a \"{}\", which is not known", shorten(other));
+            return Err(Complaint::new(message, EXAMPLE).into());
+        }
         if end < start + 2 {
             let message = format!("the section \"{name}\" from sample {start} to {end} has no samples");
             return Err(Complaint::new(message, "its end must be after its start").into());
@@ -96,6 +98,27 @@ fn parse(bytes: &[u8]) -> Checked<Vec<Section>> {
     Ok(sections)
 }
 
+/// The sample at which a section starts or ends.
+fn sample(name: &str, samples: &Value, key: &str) -> Checked<usize> {
+    let complain =
+        |what: String| Err(Complaint::new(format!("the section \"{name}\" {what}"), EXAMPLE).into());
+    match samples.get(key) {
+        None => complain(format!("has no \"{key}\"")),
+        Some(value) => match value.as_u64().and_then(|sample| usize::try_from(sample).ok()) {
+            Some(sample) => Ok(sample),
+            None => {
+                let shown = match value {
+                    Value::String(text) => format!("the text \"{}\"", shorten(text)),
+                    other => shorten(&other.to_string()),
+                };
+                complain(format!(
+                    "has {shown} for its \"{key}\", which is no number of a sample: 0 or a whole number above it"
+                ))
+            }
+        },
+    }
+}
+
 fn kind(name: &str) -> Option<SectionKind> {
     let (axis, what) = name.split_once('_')?;
     let axis = Axis::ALL.iter().position(|known| known.to_string() == axis)?;
@@ -105,5 +128,34 @@ fn kind(name: &str) -> Option<SectionKind> {
         "a" => Some(SectionKind::Face(-direction)),
         "rot" => Some(SectionKind::Turn(direction)),
         _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_no_list_of_sections_is_said_in_words() {
+        for (list, says) in [
+            ("{\"x_p\": {\"start\": 1", "this is not JSON"),
+            ("[1, 2]", "its names are missing"),
+            (r#"{"w_p": {"start": 1, "end": 9}}"#, "the section \"w_p\" is not known"),
+            (r#"{"x_p": {"end": 9}}"#, "the section \"x_p\" has no \"start\""),
+            (r#"{"x_p": 7}"#, "the section \"x_p\" has no \"start\""),
+            (
+                r#"{"x_p": {"start": -100, "end": 9}}"#,
+                "\"x_p\" has -100 for its \"start\", which is no number of a sample",
+            ),
+            (r#"{"x_p": {"start": 0, "end": 9.5}}"#, "\"x_p\" has 9.5 for its \"end\""),
+            (r#"{"x_p": {"start": 0, "end": "9"}}"#, "\"x_p\" has the text \"9\" for its \"end\""),
+            (r#"{"x_p": {"start": 0, "end": 9, "stop": 9}}"#, "\"x_p\" has a \"stop\", which is not known"),
+            (r#"{"x_p": {"start": 9, "end": 9}}"#, "from sample 9 to 9 has no samples"),
+            ("{}", "the list has no sections"),
+        ] {
+            let said = parse_sections(list.as_bytes()).expect_err(list).to_string();
+            assert!(said.contains(says), "{list}: {said}");
+            assert!(!said.contains("usize") && !said.contains("integer"), "{said}");
+        }
     }
 }

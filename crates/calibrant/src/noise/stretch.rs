@@ -34,8 +34,9 @@ impl Stretch {
     /// reported.
     ///
     /// # Errors
-    /// [`Error::Recording`] where it has fewer than 96 samples.
+    /// [`Error::Experiment`] for times that are none, in the wrong order, or of which the recording has nothing; [`Error::Recording`] where it has fewer than 96 samples.
     pub fn between(recording: &Recording, start_s: f64, end_s: f64) -> Result<Self> {
+        check(recording, start_s, end_s)?;
         let first = recording.times_s.partition_point(|&t| t < start_s);
         let end = recording.times_s.partition_point(|&t| t <= end_s).max(first);
         let times = &recording.times_s[first..end];
@@ -51,9 +52,7 @@ impl Stretch {
             let gaps =
                 if parts > 1 { format!(" without a gap (there are {})", parts - 1) } else { String::new() };
             return Err(Error::recording(Complaint::new(
-                format!(
-                    "{samples} samples at rest{gaps} from {start_s} to {end_s} s do not determine the noise"
-                ),
+                format!("{samples} samples{gaps} from {start_s} to {end_s} s do not determine the noise"),
                 format!("it takes {FEWEST} samples at least, and minutes at rest to be of use"),
             )));
         }
@@ -91,6 +90,28 @@ impl Stretch {
     }
 }
 
+fn check(recording: &Recording, start_s: f64, end_s: f64) -> Result<()> {
+    let complain = |message: String, help: String| Err(Error::experiment(Complaint::new(message, help)));
+    let said = |t: f64| if t.abs() < 1e12 { t.to_string() } else { format!("{t:e}") };
+    let rounded = |t: f64| said((1e3 * t).round() / 1e3);
+    let interval = format!("from {} to {} s", said(start_s), said(end_s));
+    if !(start_s.is_finite() && end_s.is_finite()) {
+        let message = format!("an interval {interval} is none");
+        return complain(message, "give its start and its end in seconds".into());
+    }
+    if end_s <= start_s {
+        let message = format!("the interval {interval} ends before it starts");
+        return complain(message, "give its start first, then its end, both in seconds".into());
+    }
+    match (recording.times_s.first(), recording.times_s.last()) {
+        (Some(&first), Some(&last)) if start_s > last || end_s < first => complain(
+            format!("the interval {interval} lies outside the recording"),
+            format!("the recording goes from {} to {} s", rounded(first), rounded(last)),
+        ),
+        _ => Ok(()),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -112,9 +133,21 @@ mod tests {
     }
 
     #[test]
+    fn an_interval_that_is_none_is_refused() {
+        let recording = recording((0..1000).map(|k| f64::from(k) * 0.01).collect());
+        let said = |start, end| Stretch::between(&recording, start, end).expect_err("refused").to_string();
+        assert!(said(f64::NAN, 5.0).contains("from NaN to 5 s is none"));
+        assert!(said(0.0, f64::INFINITY).contains("from 0 to inf s is none"));
+        assert!(said(5.0, 1.0).contains("from 5 to 1 s ends before it starts"));
+        assert!(said(20.0, 30.0).contains("from 20 to 30 s lies outside the recording"));
+        assert!(said(1e307, 1e308).contains("from 1e307 to 1e308 s lies outside"));
+        assert!(said(-3.0, -1.0).contains("the recording goes from 0 to 9.99 s"));
+    }
+
+    #[test]
     fn too_short_is_refused_with_the_reason() {
         let times = (0..300).filter(|k| k % 60 != 0).map(|k| f64::from(k) * 0.01).collect();
         let error = Stretch::between(&recording(times), 0.0, 3.0).expect_err("gaps everywhere");
-        assert!(error.to_string().contains("59 samples at rest without a gap (there are 4)"), "{error}");
+        assert!(error.to_string().contains("59 samples without a gap (there are 4)"), "{error}");
     }
 }

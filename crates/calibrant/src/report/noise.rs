@@ -34,7 +34,7 @@ pub(super) fn noise_section(page: &mut Page, noise: &TriadNoise) {
     page.section(
         &format!("Noise of the {}", noise.triad),
         &format!(
-            "From {} samples at rest, {} to {} s, at {} Hz.",
+            "From {} samples, {} to {} s, at {} Hz.",
             number::count(stretch.samples()),
             number::fixed(stretch.start_s, 2),
             number::fixed(stretch.end_s, 2),

@@ -11,6 +11,8 @@ use crate::estimate::{
 
 /// So many errors that stand out are named; of the rest the number is told.
 const NAMED: usize = 5;
+/// Beyond this factor, it is not the covariance that is wrong.
+const ANOTHER: f64 = 30.0;
 
 /// What a validation says, a sentence for each kind of error: is the covariance to be believed?
 #[must_use]
@@ -146,6 +148,14 @@ fn sentence(errors: &ValidatedErrors) -> String {
             two(errors.factor),
             two(low),
             two(high)
+        ),
+        (CovarianceVerdict::TooFew, _) => {
+            format!("too few to tell (the factor is anywhere between {} and {})", two(low), two(high))
+        }
+        (CovarianceVerdict::TooSmall, _) if errors.factor > ANOTHER => format!(
+            "{} times what was predicted, which no covariance explains: is it the same sensor, in the same units, its axes in the same order, and nothing changed or damaged \
+             since?",
+            two(errors.factor)
         ),
         (CovarianceVerdict::TooSmall, Some(part)) if low <= 1.0 => format!(
             "but what the errors have in common through the parameters is {} times what was predicted: the parameters' covariance is too small; multiply their \

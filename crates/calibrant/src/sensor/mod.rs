@@ -28,5 +28,5 @@ pub use invariant::{Invariant, InvariantValue};
 pub use parameters::{Parameter, ParameterList, Quantity, SensorModel, SensorParameters};
 pub use recording::Recording;
 pub use saturation::Saturation;
-pub use temperatures::Temperatures;
+pub use temperatures::{Temperatures, WORKING_C};
 pub use thermal::{HIGHEST_ORDER, Thermal, ThermalPart, ThermalTerm, TriadThermal};

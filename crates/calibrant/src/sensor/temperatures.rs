@@ -3,8 +3,10 @@
 use super::ImuRecording;
 use crate::error::{Complaint, Error, Result};
 
-/// Temperatures that a sensor can have, °C.
-const POSSIBLE_C: std::ops::RangeInclusive<f64> = -273.15..=1000.0;
+/// Temperatures at which an inertial sensor works, °C, with room to spare.
+pub const WORKING_C: std::ops::RangeInclusive<f64> = -100.0..=250.0;
+/// What is beyond them and in here is in kelvin.
+const KELVIN: std::ops::RangeInclusive<f64> = 250.0..=500.0;
 
 /// Temperature over time.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -19,7 +21,7 @@ impl<'a> Temperatures<'a> {
     /// Those of a recording; `None` where it has none.
     ///
     /// # Errors
-    /// [`Error::Recording`] where a temperature is not in -273.15 to 1000 °C, or there is not one for each sample.
+    /// [`Error::Recording`] where a temperature is none that a sensor has ([`WORKING_C`]), as in kelvin, or there is not one for each sample.
     pub fn of(recording: &'a ImuRecording) -> Result<Option<Self>> {
         let sensor = recording.accelerometer.as_ref().or(recording.gyroscope.as_ref());
         let (Some(values_c), Some(sensor)) = (&recording.temperature_c, sensor) else { return Ok(None) };
@@ -30,13 +32,24 @@ impl<'a> Temperatures<'a> {
                 "each sample needs its temperature",
             )));
         }
-        if let Some(k) = values_c.iter().position(|value| !POSSIBLE_C.contains(value)) {
+        if let Some(k) = values_c.iter().position(|value| !WORKING_C.contains(value)) {
             return Err(Error::recording(Complaint::new(
                 format!("the temperature is {} °C at {} s", values_c[k], times_s[k]),
-                "temperatures are in °C, from -273.15 to 1000: is this another column, or counts?",
+                Self::question(values_c[k]),
             )));
         }
         Ok(Some(Self { times_s, values_c }))
+    }
+
+    /// What to ask about a temperature that no sensor has.
+    pub(crate) fn question(value: f64) -> String {
+        let (low, high) = (WORKING_C.start(), WORKING_C.end());
+        let asked = if KELVIN.contains(&value) {
+            "is the column in kelvin? then subtract 273.15 from it"
+        } else {
+            "is this another column, or counts?"
+        };
+        format!("temperatures are in °C, a sensor's from {low} to {high}: {asked}")
     }
 
     /// The temperature at a time, linear between samples, the nearest one outside; 0 where there is no sample.
@@ -97,7 +110,8 @@ mod tests {
     fn what_is_no_temperature_is_refused() {
         let said = |values: &[f64]| Temperatures::of(&recording(values)).expect_err("refused").to_string();
         assert!(said(&[20.0, 2931.0, 20.0]).contains("2931 °C at 1 s"));
-        assert!(said(&[20.0, f64::NAN, 20.0]).contains("from -273.15 to 1000"));
+        assert!(said(&[20.0, f64::NAN, 20.0]).contains("from -100 to 250: is this another column"));
+        assert!(said(&[293.15, 293.2, 295.0]).contains("is the column in kelvin? then subtract 273.15"));
         assert!(said(&[20.0]).contains("1 temperatures for 3 samples"));
     }
 }

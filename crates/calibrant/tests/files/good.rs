@@ -206,7 +206,7 @@ fn files_are_read_with_byte_order_mark_and_refused_when_no_text() {
     );
     assert_eq!(
         said(text.replace("axes = 3", "axes = 5").as_bytes()),
-        "FILE:8:8: `sensor.axes`: 5 axes are not supported (1 or 3)"
+        "FILE:8:8: `sensor.axes`: 5 axes are not supported (axes = 3, or axes = 1 for a sensor of one axis)"
     );
     std::fs::remove_file(&path).expect("removed");
     let error = Experiment::read(&path).expect_err("absent").to_string();

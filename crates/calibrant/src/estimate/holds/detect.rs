@@ -44,8 +44,11 @@ pub fn find_holds(recording: &Recording, minimum_s: f64) -> Result<Vec<Hold>> {
     let window = (((minimum_s / 2.0).min(LONGEST_WINDOW_S) * rate).round() as usize).max(5);
     if minimum_s * rate < 8.0 {
         return Err(Error::recording(Complaint::new(
-            format!("at {rate:.3} Hz a hold of {minimum_s} s has only {:.1} samples", minimum_s * rate),
-            "give the holds yourself (holds.intervals_s), or raise holds.minimum_hold_s",
+            format!(
+                "the samples are {:.3} s apart: a hold of {minimum_s} s has fewer than 8 of them",
+                1.0 / rate
+            ),
+            "is the time column in seconds? if so, give the holds yourself (holds.intervals_s), or raise holds.minimum_hold_s",
         )));
     }
     if recording.len() < 2 * window {

@@ -38,7 +38,7 @@ use crate::sensor::{Gauge, ImuParameters, ImuQuantity, SensorModel, SensorParame
 use nalgebra::{Matrix3, Vector3};
 use robust::Robust;
 
-pub(super) use robust::critical;
+pub(super) use robust::{critical, sphere};
 pub(super) use verdict::left_out;
 
 pub use coverage::{Coverage, coverage};

@@ -114,7 +114,7 @@ fn too_few(holds: &[Hold], list: &ParameterList) -> NotIdentifiable {
 }
 
 /// Centre and radius of the sphere through the means, by linear least squares on `|y|² = 2 c·y + const`.
-fn sphere(holds: &[Hold], gravity: f64) -> Option<SensorParameters> {
+pub(in crate::estimate) fn sphere(holds: &[Hold], gravity: f64) -> Option<SensorParameters> {
     if holds.len() < 4 {
         return None;
     }

@@ -6,10 +6,14 @@ use crate::estimate::CalibrationStatus;
 use crate::estimate::statistics::implausible;
 use crate::motion::Hold;
 use crate::sensor::{Axis, ParameterList};
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
 /// A condition number above which the holds do not spread enough. Twenty-four even orientations give about 3, six faces with their edges about 10.
 const CONDITION: f64 = 100.0;
+/// Holds that extend by less than this share in one direction lie in a plane, or on a point.
+const FLAT: f64 = 0.02;
+/// Cosine of the angle up to which a direction is that of an axis: 15°.
+const ALONG: f64 = 0.966;
 
 /// Says why the holds do not determine these parameters.
 pub(super) fn explain(
@@ -27,9 +31,7 @@ pub(super) fn explain(
             "{count} holds give {count} equations (the magnitude of gravity in each) for {} parameters",
             list.len()
         ),
-        count => format!(
-            "the {count} holds do not spread enough: they lie in too few different orientations, on one circle, or all along the sensor's axes"
-        ),
+        count => format!("the {count} holds do not spread enough: {}", arrangement(holds)),
     };
     let cross_terms = parameters.iter().any(|&k| names[k].starts_with("matrix."));
     UndeterminedGroup {
@@ -47,6 +49,27 @@ pub(super) fn explain(
             }
         ),
     }
+}
+
+/// How the means of holds that do not spread enough lie.
+fn arrangement(holds: &[Hold]) -> String {
+    let center = holds.iter().map(|hold| hold.mean).sum::<Vector3<f64>>() / holds.len() as f64;
+    let scatter: Matrix3<f64> =
+        holds.iter().map(|hold| (hold.mean - center) * (hold.mean - center).transpose()).sum();
+    let eigen = (scatter / holds.len() as f64).symmetric_eigen();
+    let extent = |k: usize| eigen.eigenvalues[k].max(0.0).sqrt();
+    let (thin, long) = (eigen.eigenvalues.imin(), eigen.eigenvalues.imax());
+    if extent(long) < FLAT * center.norm() {
+        return "all are in the same orientation (a turn about the vertical does not change what an accelerometer shows)".into();
+    }
+    let normal = eigen.eigenvectors.column(thin);
+    if extent(thin) < FLAT * extent(long) {
+        return match Axis::ALL.into_iter().find(|axis| normal[axis.index()].abs() > ALONG) {
+            Some(axis) => format!("all lie on one circle, turned about the sensor's axis {axis} only"),
+            None => "all lie on one circle, turned about one axis of the sensor only".into(),
+        };
+    }
+    "they lie in too few different orientations, or all along the sensor's axes".into()
 }
 
 /// Warnings about a fit.

@@ -1,12 +1,15 @@
 //! What was given beforehand (turns, priors, noise, units), where the data contradict it.
 
-use super::joint::{Fit, Joint};
+use super::joint::{Fit, Joint, TurnData};
+use super::mistaken::words;
 use super::{ImuCalibration, NoiseSource, Turn};
 use crate::sensor::{Axis, ReadingUnit, Triad};
 use nalgebra::Vector3;
 
 /// Standard deviations by which the data may be off what was given before it is told.
 const CONTRADICTED: f64 = 4.5;
+/// Readings in SI that are off a turn by more than this share of it show another one.
+const OTHER_TURN: f64 = 0.25;
 /// Gains of readings in SI that are plausible.
 const GAINS: std::ops::RangeInclusive<f64> = 0.8..=1.25;
 /// Scatter within holds over the noise that was given that is not worth a word.
@@ -20,7 +23,7 @@ pub(super) fn contradictions(
     scatter: &Vector3<f64>,
     reordered: bool,
 ) -> Vec<String> {
-    let mut warnings = of_turns(joint, fit, turns);
+    let mut warnings = of_turns(joint, fit, turns, calibration.gyroscope_unit);
     if let Some((mean, weight)) = &joint.prior {
         for (k, quantity) in joint.quantities.iter().enumerate() {
             let off = (quantity.of(&fit.state.imu) - mean[k]).abs() * weight[k].sqrt();
@@ -63,8 +66,21 @@ pub(super) fn contradictions(
     warnings
 }
 
-fn of_turns(joint: &Joint<'_>, fit: &Fit, turns: &[Turn]) -> Vec<String> {
+fn of_turns(joint: &Joint<'_>, fit: &Fit, turns: &[Turn], unit: ReadingUnit) -> Vec<String> {
     let mut warnings = Vec::new();
+    if unit != ReadingUnit::Counts {
+        if let Some(share) = same_share(joint, fit) {
+            return vec![format!(
+                "the gyroscope shows {share:.2} of the angle of every turn: are the angle of the turns, the sample rate and the gyroscope's unit right?"
+            )];
+        }
+        let other = joint.turns.iter().zip(turns).enumerate();
+        warnings.extend(other.filter_map(|(k, (data, turn))| other_turn(fit, data, turn, k)));
+    }
+    if !warnings.is_empty() {
+        // the others fit badly since these do
+        return warnings;
+    }
     for (number, (data, turn)) in joint.turns.iter().zip(turns).enumerate() {
         let residual = joint.turn_residual(data, &fit.state.imu);
         let off = residual.component_mul(&residual).dot(&data.weight).sqrt();
@@ -79,6 +95,43 @@ fn of_turns(joint: &Joint<'_>, fit: &Fit, turns: &[Turn]) -> Vec<String> {
         }
     }
     warnings
+}
+
+/// What the gyroscope adds up to in a turn, in SI.
+fn shown(fit: &Fit, data: &TurnData) -> Vector3<f64> {
+    data.integral - fit.state.imu.at(data.temperature_c).gyroscope.bias * data.duration_s
+}
+
+/// The share of their angle that several turns show, where it is the same of all and far from one: no turn is wrong then, but what they have in common.
+fn same_share(joint: &Joint<'_>, fit: &Fit) -> Option<f64> {
+    let share = |data: &TurnData| shown(fit, data).dot(&data.angle) / data.angle.norm_squared();
+    let mean = joint.turns.iter().map(share).sum::<f64>() / joint.turns.len() as f64;
+    let follows = |data: &TurnData| {
+        (shown(fit, data) - mean * data.angle).norm() < 0.1 * mean.abs() * data.angle.norm()
+    };
+    (joint.turns.len() > 1 && (mean - 1.0).abs() > OTHER_TURN && joint.turns.iter().all(follows))
+        .then_some(mean)
+}
+
+/// A turn of which the readings, in SI, show quite another one.
+fn other_turn(fit: &Fit, data: &TurnData, turn: &Turn, number: usize) -> Option<String> {
+    let shown = shown(fit, data);
+    let degrees = |angle: f64| angle.to_degrees();
+    // about the axis as it was named
+    let sign = if shown.dot(&turn.axis) < -0.5 * shown.norm() { -1.0 } else { 1.0 };
+    let about = (sign * shown).try_normalize(0.0).unwrap_or(turn.axis);
+    ((shown - data.angle).norm() > OTHER_TURN * data.angle.norm()).then(|| {
+        format!(
+            "turn {} ({:.1} to {:.1} s) is given as {:.1}° about {}, and the gyroscope shows {:.0}° about {}: correct its angle, its axis or its times",
+            number + 1,
+            turn.start_s,
+            turn.end_s,
+            degrees(turn.angle_rad),
+            words(&turn.axis),
+            degrees(sign * shown.norm()),
+            words(&about)
+        )
+    })
 }
 
 /// Readings in SI have gains near one, each axis along its own.

@@ -12,6 +12,11 @@ use crate::motion::Hold;
 use crate::sensor::{ParameterList, Recording, SensorParameters, TriadThermal};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
+/// Faces that scatter by more than this share of gravity were not placed badly: a direction is wrong.
+const SCATTERED: f64 = 0.05;
+/// A scatter between faces of the usual size, m/s².
+const USUAL: f64 = 0.03;
+
 /// The accelerometer, before the joint problem.
 pub(super) struct First {
     pub(super) sensor: SensorParameters,
@@ -60,6 +65,10 @@ pub(super) fn fit(
     let list = ParameterList::new(3, problem.accelerometer.model);
     let linear = Linear { holds: &holds, forces: &forces, list: &list, within: Hold::pooled_sd(&holds) };
     let (sensor, between, condition) = linear.solve()?;
+    let mirrored = sensor.matrix.determinant() <= 0.0;
+    if mirrored || between > SCATTERED * setup.gravity.magnitude_mps2 {
+        super::mistaken::directions(problem, &holds, directions, mirrored)?;
+    }
     let correction = sensor.matrix.try_inverse().unwrap_or_else(Matrix3::identity);
     let results: Vec<HoldResult> = holds
         .iter()
@@ -75,6 +84,11 @@ pub(super) fn fit(
             }
         })
         .collect();
+    let warnings = if between > SCATTERED * setup.gravity.magnitude_mps2 {
+        scattered(&results, &sensor, &correction, between)
+    } else {
+        Vec::new()
+    };
     let squares: f64 = results.iter().map(|result| result.magnitude_residual_mps2.powi(2)).sum();
     let rms = (squares / results.len().max(1) as f64).sqrt();
     Ok(First {
@@ -91,14 +105,38 @@ pub(super) fn fit(
             detected: false,
             before: Uncalibrated::accelerometer(problem.accelerometer, &sensor),
         },
-        warnings: Vec::new(),
+        warnings,
         thermal: TriadThermal::default(),
         adjusted: None,
     })
 }
 
-/// A scatter between faces of the usual size, m/s².
-const USUAL: f64 = 0.03;
+/// The faces that fit least, of faces that scatter too much: both of an axis, where only these tell its direction.
+fn scattered(
+    results: &[HoldResult],
+    sensor: &SensorParameters,
+    correction: &Matrix3<f64>,
+    between: f64,
+) -> Vec<String> {
+    let off: Vec<f64> = results
+        .iter()
+        .map(|result| (correction * (result.hold.mean - sensor.bias)).angle(&result.force_mps2))
+        .collect();
+    let most = off.iter().copied().fold(0.0, f64::max);
+    let worst: Vec<String> = results
+        .iter()
+        .enumerate()
+        .filter(|(k, _)| off[*k] > 0.8 * most)
+        .map(|(k, result)| {
+            format!("hold {} ({:.1} to {:.1} s)", k + 1, result.hold.start_s, result.hold.end_s)
+        })
+        .collect();
+    vec![format!(
+        "the faces scatter by {between:.2} m/s² beyond their noise; by {:.1}° and least of all fits {}: are directions and times of the holds right?",
+        most.to_degrees(),
+        worst.join(", or ")
+    )]
+}
 
 struct Linear<'a> {
     holds: &'a [Hold],

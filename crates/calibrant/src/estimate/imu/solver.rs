@@ -25,13 +25,11 @@ use std::borrow::Cow;
 /// A fit that is followed by another, in standard deviations.
 const ROUGH: f64 = 1e-2;
 
-/// Calibrates an IMU.
-///
-/// # Errors
-/// [`Error::Recording`](crate::Error::Recording) where a sensor's recording is missing or is none, where gyroscope and accelerometer do not overlap, or where the
-/// gyroscope's readings cannot be angular rates in the unit given; [`Error::NotIdentifiable`](crate::Error::NotIdentifiable) names what the holds or the
-/// rotations do not determine, and what would.
-pub fn calibrate_imu(problem: &ImuProblem<'_>, settings: &CalibrationSettings) -> Result<ImuCalibration> {
+/// Calibrates an IMU, whatever is known beforehand.
+pub(super) fn calibrate_imu(
+    problem: &ImuProblem<'_>,
+    settings: &CalibrationSettings,
+) -> Result<ImuCalibration> {
     let (accelerometer, gyroscope) = recordings(problem)?;
     let setup = problem.setup;
     let from = |recording: &Recording, intervals: Option<Vec<(f64, f64)>>| match &setup.directions {

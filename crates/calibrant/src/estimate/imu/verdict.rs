@@ -1,12 +1,12 @@
 //! What a user should know about the calibration of an IMU, in words.
 
 use super::ImuCalibration;
-use super::joint::{Joint, State};
+use super::joint::{Joint, RotationData, State};
 use super::start::{FirstLook, Start, WRONG};
 use crate::error::{Complaint, Error, NotIdentifiable, Result, UndeterminedGroup};
 use crate::estimate::{CalibrationStatus, HoldCalibration};
 use crate::information::Undetermined;
-use crate::sensor::{ImuQuantity, Quantity, ReadingUnit, Thermal, Triad};
+use crate::sensor::{Axis, ImuQuantity, Quantity, ReadingUnit, Thermal, Triad};
 use nalgebra::DMatrix;
 
 /// Holds that scatter by more than this share of gravity are none.
@@ -14,17 +14,25 @@ const MOVING: f64 = 0.005;
 
 /// Entries of the gyroscope's matrix known to less than this share of its gain are not determined.
 const VAGUE: f64 = 0.1;
+/// An axis that shows less than this in all rotations does not turn, rad: noise and drift of the bias.
+const HARDLY: f64 = 0.05;
 const REMEDY: &str = "turn the sensor between the holds, by 90° and more, about each of its axes, away from the vertical; at least 8 rotations";
 
 /// Says what is not determined, and what would determine it.
 pub(super) fn undetermined(joint: &Joint<'_>, groups: &[Undetermined]) -> NotIdentifiable {
     let rotations = joint.rotations.iter().filter(|rotation| rotation.used).count();
-    let reason = match rotations {
+    let by_rotations = || {
+        match rotations {
         0 if joint.holds.len() < 2 => "there is no rotation between two holds".to_owned(),
         0 => "no rotation between the holds can be integrated: the gyroscope has too few samples in them, pauses, or saturates".to_owned(),
         1 => "one rotation between two holds gives two equations".to_owned(),
-        count => format!("the {count} rotations between the holds do not turn about all axes, or turn by too little"),
+        count => match axes_of(joint, &groups.iter().flat_map(|found| found.parameters.clone()).collect::<Vec<_>>()) {
+            Some(axes) => format!("the {count} rotations between the holds do not turn about {axes}, or by too little"),
+            None => format!("the {count} rotations between the holds do not turn about all axes, or turn by too little"),
+        },
+    }
     };
+    let (reason, remedy) = missing_turns(joint).unwrap_or_else(|| (by_rotations(), REMEDY.into()));
     let names =
         |places: &[usize]| -> Vec<String> { places.iter().map(|&k| joint.quantities[k].name()).collect() };
     let all = joint.gyroscope_places();
@@ -32,7 +40,7 @@ pub(super) fn undetermined(joint: &Joint<'_>, groups: &[Undetermined]) -> NotIde
         parameters,
         free_combinations,
         reason: reason.clone(),
-        remedy: REMEDY.into(),
+        remedy: remedy.clone(),
     };
     let by_temperature = |found: &Undetermined| {
         UndeterminedGroup {
@@ -71,6 +79,88 @@ pub(super) fn undetermined(joint: &Joint<'_>, groups: &[Undetermined]) -> NotIde
     }
 }
 
+/// The axes, in words, whose scale factor of the gyroscope is among these quantities, where not all three are.
+fn axes_of(joint: &Joint<'_>, places: &[usize]) -> Option<String> {
+    let is_scale = |axis: &Axis| {
+        let scale = ImuQuantity::Of(Triad::Gyroscope, Quantity::Scale(*axis));
+        places.iter().any(|&k| joint.quantities[k] == scale)
+    };
+    let axes: Vec<Axis> = Axis::ALL.into_iter().filter(is_scale).collect();
+    match axes.len() {
+        1 => Some(format!("axis {}", listed(&axes, ""))),
+        2 => Some(format!("axes {}", listed(&axes, ""))),
+        _ => None,
+    }
+}
+
+/// `x_rot, y_rot and z_rot`: axes with an ending.
+fn listed(axes: &[Axis], ending: &str) -> String {
+    let names: Vec<String> = axes.iter().map(|axis| format!("{axis}{ending}")).collect();
+    match names.split_last() {
+        Some((last, [])) => last.clone(),
+        Some((last, others)) => format!("{} and {last}", others.join(", ")),
+        None => String::new(),
+    }
+}
+
+/// What turns of known angle are missing on known faces, between which nothing is integrated, and what to add.
+fn missing_turns(joint: &Joint<'_>) -> Option<(String, String)> {
+    let on_faces = joint.holds.iter().all(|hold| hold.known.is_some());
+    if !on_faces || joint.rotations.iter().any(|rotation| rotation.used) {
+        return None;
+    }
+    let about =
+        |axis: &Axis| joint.turns.iter().any(|turn| turn.angle[axis.index()].abs() > 0.5 * turn.angle.norm());
+    let (turned, missing): (Vec<Axis>, Vec<Axis>) = Axis::ALL.into_iter().partition(about);
+    let reason = match (turned.as_slice(), joint.turns.len()) {
+        _ if missing.is_empty() => return None,
+        ([], 0) => {
+            "there is no turn of known angle, and no rotation between the faces that can be integrated".into()
+        }
+        (_, 1) => format!("the one turn of known angle is about {}", listed(&turned, "")),
+        (_, count) => format!("the {count} turns of known angle are about {} only", listed(&turned, "")),
+    };
+    let remedy = format!(
+        "add a turn about {}: in gyroscope.turns, or as {} in the list of sections",
+        listed(&missing, ""),
+        listed(&missing, "_rot")
+    );
+    Some((reason, remedy))
+}
+
+/// Axes of the gyroscope that show hardly a turn in any rotation, in a complaint; nothing where gravity does not move much either.
+fn unturned(joint: &Joint<'_>, state: &State) -> Option<Complaint> {
+    let used = || joint.rotations.iter().filter(|rotation| rotation.used);
+    let moved = used()
+        .map(|rotation| state.forces[rotation.from].angle(&state.forces[rotation.from + 1]))
+        .fold(0.0, f64::max);
+    let turned = |axis: &Axis| {
+        let angle = |rotation: &RotationData<'_>| {
+            let samples = &rotation.samples;
+            let bias = state.imu.at(samples.temperature_c()).gyroscope.bias[axis.index()];
+            let gain = state.imu.gyroscope.matrix.row(axis.index()).norm();
+            let steps = samples.times_s.windows(2).zip(samples.readings);
+            steps.map(|(t, y)| (t[1] - t[0]) * (y[axis.index()] - bias)).sum::<f64>().abs() / gain
+        };
+        used().map(angle).fold(0.0, f64::max)
+    };
+    let still: Vec<Axis> = Axis::ALL.into_iter().filter(|axis| turned(axis) < HARDLY).collect();
+    if still.is_empty() || moved < WRONG {
+        return None;
+    }
+    let most = still.iter().map(turned).fold(0.0, f64::max);
+    Some(Complaint::new(
+        format!(
+            "the gyroscope hardly turns about its ax{} {}: by less than {:.0}° between two holds, while gravity turns by up to {:.0}°",
+            if still.len() == 1 { "is" } else { "es" },
+            listed(&still, ""),
+            most.to_degrees().floor() + 1.0,
+            moved.to_degrees()
+        ),
+        "are its columns the right ones, in the right unit, and of this recording? is each axis connected?",
+    ))
+}
+
 /// Entries of the gyroscope's matrix that the data determine so little that the iteration has nothing to hold on to, although no combination is quite free:
 /// the noise of a gyroscope that does not turn looks like a small rotation.
 pub(super) fn vague(joint: &Joint<'_>, state: &State, covariance: &DMatrix<f64>) -> Option<NotIdentifiable> {
@@ -90,15 +180,21 @@ pub(super) fn vague(joint: &Joint<'_>, state: &State, covariance: &DMatrix<f64>)
         .collect();
     let most = entries.iter().map(|&k| sd(k)).fold(0.0, f64::max);
     let rotations = joint.rotations.iter().filter(|rotation| rotation.used).count();
+    let hardly = || {
+        let reason = format!(
+            "the {rotations} rotations between the holds hardly turn about {}: the gain would be known to {:.0} % at best",
+            axes_of(joint, &entries).unwrap_or_else(|| "some axis".into()),
+            100.0 * most
+        );
+        (reason, REMEDY.into())
+    };
+    let (reason, remedy) = missing_turns(joint).unwrap_or_else(hardly);
     (!entries.is_empty()).then(|| NotIdentifiable {
         groups: vec![UndeterminedGroup {
             parameters: entries.iter().map(|&k| joint.quantities[k].name()).collect(),
             free_combinations: entries.len(),
-            reason: format!(
-                "the {rotations} rotations between the holds hardly turn about some axis: the gain would be known to {:.0} % at best",
-                100.0 * most
-            ),
-            remedy: REMEDY.into(),
+            reason,
+            remedy,
         }],
     })
 }
@@ -129,6 +225,9 @@ pub(super) fn plausible(
                 "say that the gyroscope is in deg/s",
             )));
         }
+    }
+    if let Some(complaint) = unturned(joint, state) {
+        return Err(Error::recording(complaint));
     }
     let scatter = holds.between_holds_sd_mps2;
     if scatter > MOVING * joint.gravity {

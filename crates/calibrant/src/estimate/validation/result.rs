@@ -4,6 +4,8 @@ use nalgebra::{DVector, Vector3};
 
 /// A factor between prediction and error so close to one is no reason to doubt, however sure it is.
 pub(super) const CLOSE: f64 = 1.25;
+/// Where upper and lower end of the factor's interval are further apart than this, nothing is believed: three errors or fewer.
+const OPEN: f64 = 10.0;
 
 /// A calibration on data that were not used for it.
 #[derive(Debug, Clone)]
@@ -150,16 +152,19 @@ pub enum CovarianceVerdict {
     TooSmall,
     /// They are smaller.
     LargerThanNeeded,
+    /// They are too few to tell: neither contradicted nor confirmed within a factor of about three.
+    TooFew,
 }
 
 impl CovarianceVerdict {
-    /// As written in results: `believed`, `too_small`, `larger_than_needed`.
+    /// As written in results: `believed`, `too_small`, `larger_than_needed`, `too_few`.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Believed => "believed",
             Self::TooSmall => "too_small",
             Self::LargerThanNeeded => "larger_than_needed",
+            Self::TooFew => "too_few",
         }
     }
 
@@ -169,6 +174,8 @@ impl CovarianceVerdict {
             Self::TooSmall
         } else if interval.1 < 1.0 && factor < 1.0 / CLOSE {
             Self::LargerThanNeeded
+        } else if interval.1 > OPEN * interval.0 {
+            Self::TooFew
         } else {
             Self::Believed
         }

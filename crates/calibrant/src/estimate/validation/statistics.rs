@@ -148,7 +148,7 @@ pub(super) fn judge(kind: ErrorKind, groups: &[Group], behind: Behind) -> Option
     };
     let factor = (found / ratio.mean).sqrt();
     let mut verdict = CovarianceVerdict::of(factor, factor_interval);
-    if verdict == CovarianceVerdict::Believed
+    if matches!(verdict, CovarianceVerdict::Believed | CovarianceVerdict::TooFew)
         && let Some(part) = parameters
         && CovarianceVerdict::of(part.factor, part.factor_interval) == CovarianceVerdict::TooSmall
     {

@@ -15,6 +15,8 @@ const TIME: Bounds = Bounds::from(-1e12, 1e12, "s");
 const ANGLE: Bounds = Bounds::from(-1e6, 1e6, "degrees");
 const ANGLE_SD: Bounds = Bounds::from(0.0, 360.0, "degrees");
 const NUMBER: Bounds = Bounds::from(-1e12, 1e12, "");
+/// A smaller one leaves the other data no digits.
+const PRIOR_SD: Bounds = Bounds::from(1e-12, 1e12, "");
 const COMPONENT: Bounds = Bounds::from(-1e3, 1e3, "");
 
 /// The second sensor of an IMU and what both share, as `[gyroscope]`, `[known]` and `[temperature]` describe it.
@@ -168,7 +170,7 @@ fn read_known(section: &Section<'_>, thermal: &ThermalModel) -> Result<Vec<Known
             }
             let term = Section::item(&entry, "known.term")?;
             let value = term.need("value", HELP)?.number(&NUMBER)?;
-            let sd = term.get("sd").map(|entry| entry.number(&Bounds::above(0.0, 1e12, ""))).transpose()?;
+            let sd = term.get("sd").map(|entry| entry.number(&PRIOR_SD)).transpose()?;
             Ok(KnownTerm { quantity, value, sd })
         })
         .collect()

@@ -3,12 +3,16 @@
 use super::bounds::Bounds;
 use super::document::{Entry, Section};
 use super::gyroscope::direction;
-use super::motion::{MOST_SAMPLES, RATE_HZ};
+use super::motion::RATE_HZ;
 use crate::error::Result;
 use crate::motion::Gravity;
 use crate::sensor::Gauge;
 use nalgebra::Vector3;
 
+/// Most samples of a simulated recording: 2 GB.
+const MOST_SAMPLES: f64 = 2e7;
+/// What a simulation turns between two holds, s.
+const TURN_S: f64 = 2.0;
 const GRAVITY: Bounds = Bounds::from(0.1, 100.0, "m/s²");
 const GRAVITY_SD: Bounds = Bounds::from(0.0, 1.0, "m/s²");
 const LATITUDE: Bounds = Bounds::from(-90.0, 90.0, "degrees");
@@ -51,10 +55,11 @@ pub(super) fn read(section: &Section<'_>) -> Result<HoldsPlan> {
     let poses = section.get("poses").map_or(Ok(24), |entry| entry.size(1, 1_000_000))?;
     let hold_s = number("hold_s", &DURATION, 5.0)?;
     let rate_hz = number("rate_hz", &RATE_HZ, 100.0)?;
-    let samples = poses as f64 * hold_s * rate_hz;
+    let samples = poses as f64 * (hold_s + TURN_S) * rate_hz;
     if samples > MOST_SAMPLES {
-        let message =
-            format!("poses × hold_s × rate_hz is {samples:.3e} samples, at most {MOST_SAMPLES:.0e}");
+        let message = format!(
+            "poses × (hold_s + {TURN_S} s for a turn) × rate_hz is {samples:.1e} samples, at most {MOST_SAMPLES:.0e} fit into memory"
+        );
         return Err(section.complain(&message, "lower one of the three", ""));
     }
     if hold_s * rate_hz < 1.0 - 1e-9 {

@@ -6,7 +6,7 @@ use crate::error::Result;
 use crate::motion::{InputNoise, KnownEnds, Trust};
 
 /// Most samples that a simulated recording may have.
-pub(super) const MOST_SAMPLES: f64 = 1e9;
+const MOST_SAMPLES: f64 = 1e9;
 /// Sample rates that make sense.
 pub(super) const RATE_HZ: Bounds = Bounds::above(0.0, 1e6, "Hz");
 const INTERVAL_S: Bounds = Bounds::above(0.0, 1e6, "s");

@@ -19,20 +19,24 @@ const OFFSET: Bounds = Bounds::from(-1e12, 1e12, "counts");
 pub(super) fn read(section: &Section<'_>) -> Result<Sensor> {
     let kind = section.need("kind", "kind = \"accelerometer\"")?;
     match kind.text() {
-        Some("accelerometer") => (),
-        Some("imu") => (),
         Some("gyroscope" | "magnetometer") => {
             return Err(kind.complain(
-                "only accelerometers can be calibrated so far",
-                "kind = \"accelerometer\" is the one that is supported",
+                "an accelerometer can be calibrated, alone or with a gyroscope",
+                "kind = \"accelerometer\", or \"imu\" for both",
             ));
         }
-        _ => kind.word(&[("accelerometer", ())])?,
+        _ => kind.word(&[("accelerometer", ()), ("imu", ())])?,
     }
+    let is_imu = kind.text() == Some("imu");
     let entry = section.need("axes", "axes = 1 or axes = 3")?;
     let axes = entry.size(0, u64::MAX)?;
-    if axes != 1 && axes != 3 {
-        return Err(entry.complain(format!("{axes} axes are not supported"), "1 or 3"));
+    if axes != 3 && (axes != 1 || is_imu) {
+        let help = if is_imu {
+            "axes = 3: an IMU has three of each sensor"
+        } else {
+            "axes = 3, or axes = 1 for a sensor of one axis"
+        };
+        return Err(entry.complain(format!("{axes} axes are not supported"), help));
     }
     let entry = section.need("model", "model = \"scale-bias\" or \"full\"")?;
     let model = entry.word(&[("scale-bias", SensorModel::ScaleBias), ("full", SensorModel::Full)])?;

@@ -4,9 +4,9 @@ use super::bounds::Bounds;
 use super::document::Section;
 use crate::error::Result;
 use crate::estimate::ThermalModel;
-use crate::sensor::HIGHEST_ORDER;
+use crate::sensor::{HIGHEST_ORDER, WORKING_C};
 
-const CELSIUS: Bounds = Bounds::from(-273.15, 1000.0, "°C");
+const CELSIUS: Bounds = Bounds::from(*WORKING_C.start(), *WORKING_C.end(), "°C");
 
 /// Reads `[temperature]`; orders that are not there are 0.
 pub(super) fn read(section: &Section<'_>) -> Result<ThermalModel> {

@@ -27,8 +27,12 @@ pub enum FindingKind {
     Saturation,
     /// Where the sample times come from, where it is not simply a column of seconds.
     Clock,
-    /// Something about the temperature.
+    /// The sample times are hardly in the unit that is stated.
+    DoubtfulClock,
+    /// The temperature is missing in some rows, seldom for long.
     Temperature,
+    /// It is missing for so long, or is so far from any sensor's, that what follows it is in doubt.
+    DoubtfulTemperature,
 }
 
 /// Something noticed in a recording: what, where, and what was done about it.
@@ -43,6 +47,12 @@ pub struct Finding {
 }
 
 impl Finding {
+    /// Is it more than a note: does what follows from the recording become doubtful?
+    #[must_use]
+    pub fn is_warning(&self) -> bool {
+        matches!(self.kind, FindingKind::DoubtfulClock | FindingKind::DoubtfulTemperature)
+    }
+
     pub(super) fn new(kind: FindingKind, line: Option<usize>, message: String) -> Self {
         Self { kind, line, message }
     }

@@ -10,6 +10,10 @@ const GAP: f64 = 5.0;
 const GAPS_SHOWN: usize = 3;
 /// Relative deviation of time steps from their median that is not worth a word.
 const JITTER: f64 = 0.01;
+/// Inertial sensors are hardly read more seldom than this; where they seem to be, the unit of the time is in doubt.
+const SLOW_HZ: f64 = 2.5;
+/// Rates from here on are usual.
+const USUAL_HZ: f64 = 5.0;
 
 /// Looks at a recording of at least two samples.
 pub(super) fn examine(recording: &Recording, lines: &LineMap, findings: &mut Vec<Finding>) {
@@ -36,6 +40,23 @@ pub(super) fn readings(recording: &Recording, of: &str, lines: &LineMap, finding
             recording.unit.symbol()
         );
         findings.push(Finding::new(FindingKind::Saturation, lines.line(found.first), message));
+    }
+}
+
+/// Asks for the unit of the times where an IMU is read as seldom as none is.
+pub(super) fn clock(recording: &Recording, findings: &mut Vec<Finding>) {
+    let rate = recording.rate_hz();
+    if rate < SLOW_HZ
+        && let Some((unit, short_unit)) =
+            [(1e3, "ms"), (1e6, "µs"), (1e9, "ns")].into_iter().find(|(per_s, _)| per_s * rate >= USUAL_HZ)
+    {
+        let message = format!(
+            "the samples are {} s apart: are the times in {short_unit}? at {} Hz the name of their column ends in _{}",
+            short(1.0 / rate),
+            short(unit * rate),
+            short_unit.replace('µ', "u")
+        );
+        findings.push(Finding::new(FindingKind::DoubtfulClock, None, message));
     }
 }
 

@@ -53,15 +53,23 @@ pub(super) const CASES: &[Case] = &[
     (
         r#"kind = "accelerometer""#,
         r#"kind = "gyroscope""#,
-        r#"line 4, column 8: `sensor.kind`: only accelerometers can be calibrated so far (kind = "accelerometer" is the one that is supported)"#,
+        r#"line 4, column 8: `sensor.kind`: an accelerometer can be calibrated, alone or with a gyroscope (kind = "accelerometer", or "imu" for both)"#,
     ),
     (
         r#"kind = "accelerometer""#,
         r#"kind = "acelerometer""#,
-        r#"line 4, column 8: `sensor.kind`: "acelerometer" is not known here (did you mean "accelerometer"? write "accelerometer")"#,
+        r#"line 4, column 8: `sensor.kind`: "acelerometer" is not known here (did you mean "accelerometer"? one of "accelerometer", "imu")"#,
     ),
-    ("axes = 3", "axes = 2", "line 5, column 8: `sensor.axes`: 2 axes are not supported (1 or 3)"),
-    ("axes = 3", "axes = 7", "line 5, column 8: `sensor.axes`: 7 axes are not supported (1 or 3)"),
+    (
+        "axes = 3",
+        "axes = 2",
+        "line 5, column 8: `sensor.axes`: 2 axes are not supported (axes = 3, or axes = 1 for a sensor of one axis)",
+    ),
+    (
+        "axes = 3",
+        "axes = 7",
+        "line 5, column 8: `sensor.axes`: 7 axes are not supported (axes = 3, or axes = 1 for a sensor of one axis)",
+    ),
     (
         r#"axes = 3⏎model = "scale-bias""#,
         r#"axes = 1⏎model = "full""#,

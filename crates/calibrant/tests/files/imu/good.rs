@@ -85,7 +85,7 @@ fn sample_time_fine_is_in_tenths_of_a_millisecond_and_begins_anew() {
         findings(&file)[..2],
         [
             "`SampleTimeFine` begins anew 1 time: counted on",
-            "the temperature is there in 2 of 4 rows: between them it is interpolated"
+            "the temperature is missing in 2 of 4 rows, for up to 0.03 s: it is interpolated between those that have it, and kept constant before the first and after the last"
         ]
     );
     let counter = &file.columns[0];

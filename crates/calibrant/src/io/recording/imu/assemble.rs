@@ -8,11 +8,11 @@ use super::readings::{check_gravity, question, stated_unit};
 use super::samples::Samples;
 use super::unit::{ColumnUnit, ImuUnit};
 use crate::error::Complaint;
-use crate::io::recording::finding::{Finding, FindingKind, Tally, count};
+use crate::io::recording::finding::{Finding, FindingKind, Tally, count, short};
 use crate::io::recording::quality;
 use crate::io::recording::rows::{LineMap, backwards, report_duplicates, report_truncated};
 use crate::io::text::Checked;
-use crate::sensor::{ImuRecording, ReadingUnit, Recording, Triad};
+use crate::sensor::{ImuRecording, ReadingUnit, Recording, Temperatures, Triad, WORKING_C};
 use nalgebra::Vector3;
 
 /// A recording put together, and what was noticed.
@@ -69,6 +69,8 @@ pub(super) fn assemble(
     Ok(Assembled { recording, findings })
 }
 
+/// A sensor warms up within minutes: what happens to its temperature in a shorter time than this is little.
+const LONG_WITHOUT_TEMPERATURE_S: f64 = 30.0;
 const TWO: &str = "a recording needs two samples at least";
 
 /// The sensors that have columns with values in them.
@@ -241,13 +243,25 @@ fn temperature(
         return None;
     }
     let at = &recording.accelerometer.as_ref().or(recording.gyroscope.as_ref())?.times_s;
-    if known.len() < kept.len() {
+    let missing = kept.len() - known.len();
+    if missing > 0 {
+        let mut all = kept.rows().map(|row| times[row]);
+        let (first, last) = (all.next(), all.last());
+        let known_at = known.iter().map(|(t, _)| *t);
+        let with_ends: Vec<f64> = first.into_iter().chain(known_at).chain(last).collect();
+        let longest_s = with_ends.windows(2).map(|t| t[1] - t[0]).fold(0.0, f64::max);
         let message = format!(
-            "the temperature is there in {} of {}: between them it is interpolated",
-            known.len(),
-            count(kept.len(), "row")
+            "the temperature is missing in {missing} of {}, for up to {} s: it is interpolated between those that have it, and kept constant before the first and after the last",
+            count(kept.len(), "row"),
+            short(longest_s)
         );
-        findings.push(Finding::new(FindingKind::Temperature, None, message));
+        let doubtful = longest_s > LONG_WITHOUT_TEMPERATURE_S;
+        let kind = if doubtful { FindingKind::DoubtfulTemperature } else { FindingKind::Temperature };
+        findings.push(Finding::new(kind, None, message));
+    }
+    if let Some((_, value)) = known.iter().find(|(_, value)| !WORKING_C.contains(value)) {
+        let message = format!("the temperature is {}: {}", short(*value), Temperatures::question(*value));
+        findings.push(Finding::new(FindingKind::DoubtfulTemperature, None, message));
     }
     let mut next = 0;
     let interpolate = |&t: &f64| {
@@ -269,6 +283,9 @@ fn examine(recording: &ImuRecording, triads: &[Triad], lines: &[LineMap], findin
         triads.iter().filter_map(|&triad| Some((triad, recording.triad(triad)?))).zip(lines).collect();
     let shared = sensors.windows(2).all(|pair| pair[0].0.1.times_s == pair[1].0.1.times_s);
     for (k, ((triad, sensor), lines)) in sensors.iter().enumerate() {
+        if k == 0 {
+            quality::clock(sensor, findings);
+        }
         if k == 0 || !shared {
             let from = findings.len();
             quality::sampling(sensor, lines, findings);

@@ -4,7 +4,17 @@ use super::draft::Draft;
 use super::format::FileFormat;
 use super::head::Head;
 use super::naming;
+use crate::error::Complaint;
+use crate::io::text::Checked;
 
-pub(super) fn draft(head: &Head<'_>) -> Draft {
-    Draft::new(FileFormat::Imucal, head.names.iter().map(|name| naming::column(name)).collect())
+pub(super) fn draft(head: &Head<'_>) -> Checked<Draft> {
+    let names = head.lower_names();
+    if !names.iter().any(|name| name == "gyr_x" || name == "acc_x") {
+        return Err(Complaint::new(
+            "the format was given as imucal, but this file has no column acc_x or gyr_x",
+            super::LEAVE_AWAY,
+        )
+        .into());
+    }
+    Ok(Draft::new(FileFormat::Imucal, head.names.iter().map(|name| naming::column(name)).collect()))
 }

@@ -192,7 +192,7 @@ fn parse(bytes: &[u8], options: &ImuReadOptions) -> Checked<ImuFile> {
         FileFormat::MtManager => mt_manager::draft(&head),
         FileFormat::MovellaDot => movella_dot::draft(&head),
         FileFormat::Euroc => euroc::draft(&head),
-        FileFormat::Imucal => imucal::draft(&head),
+        FileFormat::Imucal => imucal::draft(&head)?,
         FileFormat::ImuTk => imu_tk::draft(&head, None)?,
         FileFormat::Csv => csv::draft(&head),
         FileFormat::Mcap | FileFormat::Parquet => return Err(not_binary(format).into()),
