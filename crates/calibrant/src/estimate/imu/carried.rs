@@ -3,9 +3,9 @@
 use super::joint::{HoldData, Joint, Miss, State};
 use super::readings::{Integrable, felt_forces, rotation_spans};
 use super::settle::follow_drift;
-use super::still::{pooled_noise, still, weigh};
+use super::still::{still, weigh};
 use crate::motion::Hold;
-use crate::sensor::{ImuParameters, ImuQuantity, Recording};
+use crate::sensor::{ImuParameters, ImuQuantity, MeanReading, Recording};
 use nalgebra::{DMatrix, Matrix2, Matrix2x3, Vector2, Vector3};
 
 /// The gyroscope in a hold.
@@ -24,7 +24,7 @@ pub(in crate::estimate) fn held_still(
     known_noise: Option<Vector3<f64>>,
 ) -> (Vec<Option<HeldStill>>, Vector3<f64>) {
     let stills: Vec<_> = holds.iter().map(|hold| still(gyroscope, hold)).collect();
-    let noise = known_noise.unwrap_or_else(|| pooled_noise(&stills));
+    let noise = known_noise.unwrap_or_else(|| MeanReading::pooled_sd(stills.iter().flatten()));
     let of_mean = noise.component_mul(&noise);
     let held = stills.iter().map(|still| {
         still.map(|still| HeldStill { mean: still.mean, variance: of_mean / still.samples as f64 })
@@ -75,7 +75,7 @@ impl Carrying<'_> {
     ) -> Option<Vec<Carried>> {
         let g = self.gravity_mps2;
         let stills: Vec<_> = holds.iter().map(|hold| still(self.gyroscope, hold)).collect();
-        let noise = self.known_noise.unwrap_or_else(|| pooled_noise(&stills));
+        let noise = self.known_noise.unwrap_or_else(|| MeanReading::pooled_sd(stills.iter().flatten()));
         let mut data: Vec<HoldData> = holds
             .iter()
             .zip(temperatures_c)

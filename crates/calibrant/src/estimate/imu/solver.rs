@@ -6,7 +6,7 @@ use super::faces::{self, First};
 use super::joint::{HoldData, Joint, State};
 use super::readings::{Integrable, felt_forces, rotation_spans, turns};
 use super::settle::{apply, reweigh, settle};
-use super::still::{Explanation, Still, between_sd, pooled_noise, still, weigh};
+use super::still::{Explanation, between_sd, still, weigh};
 use super::thermal::{self, Climate};
 use super::verdict::{self, undetermined, vague};
 use super::{ImuCalibration, ImuProblem, NoiseSource, start};
@@ -16,8 +16,8 @@ use crate::estimate::{CalibrationProblem, CalibrationSettings, HoldsSetup, Recov
 use crate::information;
 use crate::motion::Hold;
 use crate::sensor::{
-    Axis, ImuParameters, ImuQuantity, ParameterList, ReadingUnit, Recording, SensorParameters, Thermal,
-    Triad, TriadThermal,
+    Axis, ImuParameters, ImuQuantity, MeanReading, ParameterList, ReadingUnit, Recording, SensorParameters,
+    Thermal, Triad, TriadThermal,
 };
 use nalgebra::{Matrix3, Vector3};
 
@@ -46,7 +46,7 @@ pub fn calibrate_imu(problem: &ImuProblem<'_>, settings: &CalibrationSettings) -
     let chosen: Vec<usize> = (0..holds.holds.len()).filter(|&j| holds.holds[j].used).collect();
     let forces: Vec<Vector3<f64>> = chosen.iter().map(|&j| holds.holds[j].force_mps2).collect();
     let used: Vec<&Hold> = chosen.iter().map(|&j| &holds.holds[j].hold).collect();
-    let stills: Vec<Option<Still>> = used.iter().map(|hold| still(gyroscope, hold)).collect();
+    let stills: Vec<Option<MeanReading>> = used.iter().map(|hold| still(gyroscope, hold)).collect();
     if stills.iter().flatten().count() == 0 {
         return Err(Error::recording(Complaint::new(
             "the gyroscope has no samples in the holds of the accelerometer",
@@ -134,7 +134,7 @@ pub fn calibrate_imu(problem: &ImuProblem<'_>, settings: &CalibrationSettings) -
         between,
         integrable: &integrable,
         noise_source,
-        scatter: pooled_noise(&stills),
+        scatter: MeanReading::pooled_sd(stills.iter().flatten()),
         spans: &spans,
         chosen: &chosen,
         climate: &climate,
@@ -150,13 +150,13 @@ pub(super) fn singular() -> Error {
 }
 
 /// Noise of a gyroscope's sample: that of the datasheet, else what a long hold shows, else the scatter within holds.
-fn sample_noise(problem: &ImuProblem<'_>, stills: &[Option<Still>]) -> (Vector3<f64>, NoiseSource) {
+fn sample_noise(problem: &ImuProblem<'_>, stills: &[Option<MeanReading>]) -> (Vector3<f64>, NoiseSource) {
     match (problem.gyroscope.noise, &problem.setup.white_noise) {
         (Some(noise), _) => (noise, NoiseSource::Datasheet),
         (None, Some(white)) => {
             (white.sd, NoiseSource::AllanDeviation { hold: white.hold, duration_s: white.duration_s })
         }
-        (None, None) => (pooled_noise(stills), NoiseSource::ScatterWithinHolds),
+        (None, None) => (MeanReading::pooled_sd(stills.iter().flatten()), NoiseSource::ScatterWithinHolds),
     }
 }
 
