@@ -1,0 +1,10 @@
+//! Calibrations on data that were not used for them.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod bench;
+mod errors;
+mod levels;
+mod real;
+mod refused;
