@@ -17,19 +17,32 @@ pub(in crate::estimate) struct HeldStill {
     pub(in crate::estimate) variance: Vector3<f64>,
 }
 
-/// The gyroscope in each hold, `None` where it has no samples there, and the noise of one sample: as it is known, or as the holds show it.
-pub(in crate::estimate) fn held_still(
-    gyroscope: &Recording,
-    holds: &[&Hold],
-    known_noise: Option<Vector3<f64>>,
-) -> (Vec<Option<HeldStill>>, Vector3<f64>) {
-    let stills: Vec<_> = holds.iter().map(|hold| still(gyroscope, hold)).collect();
-    let noise = known_noise.unwrap_or_else(|| MeanReading::pooled_sd(stills.iter().flatten()));
-    let of_mean = noise.component_mul(&noise);
-    let held = stills.iter().map(|still| {
-        still.map(|still| HeldStill { mean: still.mean, variance: of_mean / still.samples as f64 })
-    });
-    (held.collect(), noise)
+/// The gyroscope in holds.
+pub(in crate::estimate) struct GyroscopeAtRest {
+    /// In each hold; `None` where it has no samples there.
+    stills: Vec<Option<MeanReading>>,
+    /// Noise of one sample: as it is known, or as the holds show it.
+    noise: Vector3<f64>,
+}
+
+impl GyroscopeAtRest {
+    pub(in crate::estimate) fn of(
+        gyroscope: &Recording,
+        holds: &[&Hold],
+        known_noise: Option<Vector3<f64>>,
+    ) -> Self {
+        let stills: Vec<_> = holds.iter().map(|hold| still(gyroscope, hold)).collect();
+        let noise = known_noise.unwrap_or_else(|| MeanReading::pooled_sd(stills.iter().flatten()));
+        Self { stills, noise }
+    }
+
+    /// The gyroscope in each hold, `None` where it has no samples there.
+    pub(in crate::estimate) fn holds(&self) -> impl Iterator<Item = Option<HeldStill>> {
+        let of_sample = self.noise.component_mul(&self.noise);
+        self.stills.iter().map(move |still| {
+            still.map(|still| HeldStill { mean: still.mean, variance: of_sample / still.samples as f64 })
+        })
+    }
 }
 
 /// Gravity carried from one hold to the next.
@@ -60,7 +73,7 @@ pub(in crate::estimate) struct Carrying<'a> {
     pub(in crate::estimate) between: Vector3<f64>,
     pub(in crate::estimate) accelerometer: &'a Recording,
     pub(in crate::estimate) gyroscope: &'a Recording,
-    pub(in crate::estimate) known_noise: Option<Vector3<f64>>,
+    pub(in crate::estimate) at_rest: &'a GyroscopeAtRest,
 }
 
 impl Carrying<'_> {
@@ -74,8 +87,7 @@ impl Carrying<'_> {
         temperatures_c: &[f64],
     ) -> Option<Vec<Carried>> {
         let g = self.gravity_mps2;
-        let stills: Vec<_> = holds.iter().map(|hold| still(self.gyroscope, hold)).collect();
-        let noise = self.known_noise.unwrap_or_else(|| MeanReading::pooled_sd(stills.iter().flatten()));
+        let GyroscopeAtRest { stills, noise } = self.at_rest;
         let mut data: Vec<HoldData> = holds
             .iter()
             .zip(temperatures_c)
@@ -87,7 +99,7 @@ impl Carrying<'_> {
                 temperature_c,
             })
             .collect();
-        weigh(&mut data, &stills, &noise, &self.between);
+        weigh(&mut data, stills, noise, &self.between);
         let with_forces =
             self.quantities.iter().any(|quantity| matches!(quantity, ImuQuantity::GSensitivity(..)))
                 || self.imu.g_sensitivity.amax() > 0.0;
@@ -104,7 +116,7 @@ impl Carrying<'_> {
             holds: data,
             rotations,
             turns: Vec::new(),
-            gyroscope_noise: noise,
+            gyroscope_noise: *noise,
             excess_rad: 0.0,
             prior: None,
         };

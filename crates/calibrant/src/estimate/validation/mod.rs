@@ -33,7 +33,7 @@ mod whitened;
 pub use cross::{cross_validate, cross_validate_imu};
 pub use result::*;
 
-use super::imu::{held_still, needed_temperatures, recordings};
+use super::imu::{GyroscopeAtRest, needed_temperatures, recordings};
 use super::{
     Calibration, CalibrationProblem, HoldCalibration, HoldsSetup, ImuCalibration, ImuProblem, Recovered,
     Stimulus, find_holds, find_imu_holds, holds_between,
@@ -71,7 +71,7 @@ pub fn validate_imu(calibration: &ImuCalibration, problem: &ImuProblem<'_>) -> R
         ..Unused::of_accelerometer(accelerometer, &holds)
     };
     let all: Vec<&Hold> = holds.iter().collect();
-    if held_still(gyroscope, &all, None).0.iter().all(Option::is_none) {
+    if GyroscopeAtRest::of(gyroscope, &all, None).holds().all(|still| still.is_none()) {
         return Err(Error::recording(Complaint::new(
             "the gyroscope has no samples in the holds of the accelerometer",
             "both need the same clock: are these files of one recording?",

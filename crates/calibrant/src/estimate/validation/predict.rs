@@ -6,7 +6,7 @@ use super::item::{Group, Item, Place};
 use super::result::BiasShift;
 use super::statistics::Ratio;
 use super::whitened::Whitened;
-use crate::estimate::imu::{Carrying, held_still};
+use crate::estimate::imu::{Carrying, GyroscopeAtRest, HeldStill};
 use crate::motion::Hold;
 use crate::sensor::{Recording, Temperatures};
 use nalgebra::{DMatrix, DVector, Matrix2, Vector3};
@@ -60,8 +60,11 @@ impl<'a> Unused<'a> {
     /// The errors that a claim makes on them; `None` where a matrix of it is singular.
     pub(super) fn errors(&self, claim: &Claim) -> Option<Errors> {
         let holds: Vec<&Hold> = self.holds.iter().map(|(_, hold)| *hold).collect();
-        let stills = match self.gyroscope {
-            Some(gyroscope) => held_still(gyroscope, &holds, self.gyroscope_noise).0,
+        let at_rest = self
+            .gyroscope
+            .map(|gyroscope| (gyroscope, GyroscopeAtRest::of(gyroscope, &holds, self.gyroscope_noise)));
+        let stills: Vec<Option<HeldStill>> = match &at_rest {
+            Some((_, at_rest)) => at_rest.holds().collect(),
             None => vec![None; holds.len()],
         };
         let temperature = |hold: &Hold| match self.temperatures {
@@ -93,7 +96,12 @@ impl<'a> Unused<'a> {
             shift = Some(found);
         }
         let temperatures_c: Vec<f64> = holds.iter().map(|hold| temperature(hold)).collect();
-        let rotations = self.rotations(&of_rotations, &holds, &held, &temperatures_c)?;
+        let rotations = match &at_rest {
+            Some((gyroscope, at_rest)) => {
+                self.rotations(&of_rotations, (gyroscope, at_rest), &holds, &held, &temperatures_c)?
+            }
+            None => Vec::new(),
+        };
         Some(Errors {
             magnitudes: self.group(magnitudes, &claim.covariance),
             rates,
@@ -112,11 +120,11 @@ impl<'a> Unused<'a> {
     fn rotations(
         &self,
         claim: &Claim,
+        (gyroscope, at_rest): (&Recording, &GyroscopeAtRest),
         holds: &[&Hold],
         held: &[Held],
         temperatures_c: &[f64],
     ) -> Option<Vec<Item>> {
-        let Some(gyroscope) = self.gyroscope else { return Some(Vec::new()) };
         let carrying = Carrying {
             imu: &claim.imu,
             quantities: &claim.quantities,
@@ -124,7 +132,7 @@ impl<'a> Unused<'a> {
             between: claim.still_sd,
             accelerometer: self.accelerometer,
             gyroscope,
-            known_noise: self.gyroscope_noise,
+            at_rest,
         };
         let forces: Vec<Vector3<f64>> = held.iter().map(|held| held.force).collect();
         let carried = carrying.through(holds, &forces, temperatures_c)?;
