@@ -62,6 +62,8 @@ pub(in crate::estimate) struct Carried {
     pub(in crate::estimate) by_to: Matrix2x3<f64>,
     /// Covariance of the error from the gyroscope's noise.
     pub(in crate::estimate) noise: Matrix2<f64>,
+    /// The same with the error of the rotation that ends with the hold that this one begins with; zero where there is none.
+    pub(in crate::estimate) noise_with_previous: Matrix2<f64>,
 }
 
 /// What is given of the rotations.
@@ -125,16 +127,24 @@ impl Carrying<'_> {
         let state = State { imu: *self.imu, forces };
         follow_drift(&mut joint, &state, &self.between);
         let misses = joint.misses(&state)?;
-        let found = misses.into_iter().enumerate().filter_map(|(from, miss)| {
+        let found = misses.iter().enumerate().filter_map(|(from, miss)| {
             let span = &spans[from];
             let times = &self.gyroscope.times_s;
             let ends = (times[span.start], times[span.end - 1]);
-            miss.map(|miss| self.carried(from, ends, &state, &miss))
+            let previous = from.checked_sub(1).and_then(|before| misses[before].as_ref());
+            miss.as_ref().map(|miss| self.carried(from, ends, &state, miss, previous))
         });
         Some(found.collect())
     }
 
-    fn carried(&self, from: usize, (start_s, end_s): (f64, f64), state: &State, miss: &Miss) -> Carried {
+    fn carried(
+        &self,
+        from: usize,
+        (start_s, end_s): (f64, f64),
+        state: &State,
+        miss: &Miss,
+        previous: Option<&Miss>,
+    ) -> Carried {
         let (by_from, by_to) =
             miss.by_forces(&state.forces[from], &state.forces[from + 1], self.gravity_mps2);
         Carried {
@@ -146,6 +156,9 @@ impl Carrying<'_> {
             by_from,
             by_to,
             noise: miss.covariance,
+            noise_with_previous: previous.map_or_else(Matrix2::zeros, |previous| {
+                miss.by_turn * miss.rotation.noise_with(&previous.rotation) * previous.by_turn.transpose()
+            }),
         }
     }
 }

@@ -95,6 +95,8 @@ pub(super) struct Miss {
     pub(super) error: Vector2<f64>,
     by_from: Matrix2<f64>,
     by_to: Matrix2<f64>,
+    /// Derivative with respect to a turn of the start's frame.
+    pub(super) by_turn: Matrix2x3<f64>,
     pub(super) by_parameters: Matrix2xX<f64>,
     /// Covariance of the error from the gyroscope's noise.
     pub(super) covariance: Matrix2<f64>,
@@ -169,6 +171,7 @@ impl Joint<'_> {
             error: across * carried,
             by_from: across * back * tangents(&from) * self.gravity,
             by_to: -Matrix2::identity() * (carried.dot(&to) / self.gravity.powi(2)),
+            by_turn,
             by_parameters,
             covariance: by_turn * rotation.covariance * by_turn.transpose(),
             rotation,

@@ -34,7 +34,7 @@ mod verdict;
 mod weights;
 
 pub use both_still::find_imu_holds;
-pub(super) use carried::{Carrying, GyroscopeAtRest, HeldStill};
+pub(super) use carried::{Carried, Carrying, GyroscopeAtRest, HeldStill};
 pub use problem::{Gyroscope, ImuProblem, ImuSetup, KnownTerm, NoiseSource, Turn, WhiteNoise};
 pub use result::{ImuCalibration, RotationResult, StillGyroscope, TurnResult};
 pub use solver::calibrate_imu;

@@ -26,6 +26,7 @@ mod folds;
 mod held;
 mod item;
 mod predict;
+mod ratio;
 mod result;
 mod statistics;
 mod whitened;
@@ -164,13 +165,15 @@ fn judged(source: ValidationSource, errors: Vec<Errors>, claim: &Claim) -> Valid
         rotations.push(errors.rotations);
     }
     let folds = matches!(source, ValidationSource::Folds { .. });
-    let behind = |scatter_degrees: f64| Behind { scatter_degrees, folds, free_shift: false };
-    let of_rates =
-        Behind { free_shift: bias_shift.is_some_and(|shift| shift.moved), ..behind(claim.still_degrees) };
+    let behind = |of: &[f64]| Behind { scatter_degrees: of.to_vec(), folds, free_shift: false };
+    let of_rates = Behind {
+        free_shift: bias_shift.is_some_and(|shift| shift.moved),
+        ..behind(claim.still_degrees.as_slice())
+    };
     let kinds = [
-        judge(ErrorKind::Magnitude, &magnitudes, behind(claim.holds_degrees)),
-        judge(ErrorKind::Rate, &rates, of_rates),
-        judge(ErrorKind::Rotation, &rotations, behind(claim.rotation_degrees)),
+        judge(ErrorKind::Magnitude, &magnitudes, &behind(&[claim.holds_degrees])),
+        judge(ErrorKind::Rate, &rates, &of_rates),
+        judge(ErrorKind::Rotation, &rotations, &behind(&[claim.rotation_degrees])),
     ];
     Validation { source, kinds: kinds.into_iter().flatten().collect(), bias_shift }
 }
