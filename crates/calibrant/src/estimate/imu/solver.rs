@@ -16,8 +16,8 @@ use crate::estimate::{CalibrationProblem, CalibrationSettings, HoldsSetup, Recov
 use crate::information;
 use crate::motion::Hold;
 use crate::sensor::{
-    Axis, ImuParameters, ImuQuantity, MeanReading, ParameterList, ReadingUnit, Recording, SensorParameters,
-    Thermal, Triad, TriadThermal,
+    Axis, ImuParameters, ImuQuantity, MeanReading, ReadingUnit, Recording, SensorParameters, Thermal, Triad,
+    TriadThermal,
 };
 use nalgebra::{Matrix3, Vector3};
 
@@ -245,23 +245,10 @@ fn hold_data(first: &First, chosen: &[usize], known: bool, climate: &Climate<'_>
         .collect()
 }
 
-/// The quantities that are estimated: the accelerometer's in its gauge, then the gyroscope's, then what temperature does to both.
+/// The quantities that are estimated: all but the fixed ones.
 pub(super) fn quantities(problem: &ImuProblem<'_>) -> Vec<ImuQuantity> {
     let setup = problem.setup;
-    let accelerometer = match setup.directions {
-        Some(_) => ParameterList::new(3, problem.accelerometer.model),
-        None => setup.holds.gauge.parameter_list(problem.accelerometer.model),
-    };
-    let gyroscope = ParameterList::new(3, problem.gyroscope.model);
-    let of = |triad: Triad, list: &ParameterList| -> Vec<ImuQuantity> {
-        list.quantities().iter().map(|quantity| ImuQuantity::Of(triad, *quantity)).collect()
-    };
-    let mut quantities = of(Triad::Accelerometer, &accelerometer);
-    quantities.extend(of(Triad::Gyroscope, &gyroscope));
-    if problem.gyroscope.g_sensitivity {
-        quantities.extend(ImuQuantity::full_list(false, false, true));
-    }
-    quantities.extend(setup.thermal.quantities());
+    let mut quantities = setup.quantities(problem.accelerometer.model, problem.gyroscope);
     let fixed = |quantity: &ImuQuantity| {
         setup.known.iter().any(|known| known.quantity == *quantity && known.sd.is_none())
     };
