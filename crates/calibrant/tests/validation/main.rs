@@ -5,6 +5,7 @@ mod common;
 
 mod bench;
 mod errors;
+mod ferraris;
 mod levels;
 mod real;
 mod refused;
