@@ -6,9 +6,7 @@ use crate::reading::{in_file, name};
 use crate::{Exit, console};
 use calibrant::Error;
 use calibrant::error::Complaint;
-use calibrant::estimate::{
-    CalibrationSettings, HoldsSetup, ImuProblem, ImuSetup, Turn, calibrate_imu, find_imu_holds,
-};
+use calibrant::estimate::{CalibrationSettings, ImuProblem, ImuSetup, Turn, calibrate_imu, find_imu_holds};
 use calibrant::io::{
     Experiment, HoldsPlan, ImuFile, ImuPlan, ImuReadOptions, ImuUnit, Input, Plan, Section, SectionKind,
     read_sections,
@@ -100,19 +98,7 @@ fn setup(
     holds: &HoldsPlan,
     file: &ImuFile,
 ) -> calibrant::Result<ImuSetup> {
-    let mut setup = ImuSetup {
-        holds: HoldsSetup {
-            gravity: holds.gravity,
-            gauge: holds.gauge,
-            intervals_s: holds.intervals_s.clone(),
-            minimum_hold_s: holds.minimum_hold_s,
-        },
-        directions: holds.directions.clone(),
-        turns: plan.turns.clone(),
-        known: plan.known.clone(),
-        thermal: plan.thermal,
-        ..ImuSetup::default()
-    };
+    let mut setup = plan.setup(holds);
     if let Some(path) = &arguments.sections {
         let times = file.recording.accelerometer.as_ref().map_or(&[][..], |recording| &recording.times_s);
         let sections = read_sections(path)?;

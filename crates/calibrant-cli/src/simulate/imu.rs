@@ -4,8 +4,9 @@ use super::Arguments;
 use crate::console;
 use calibrant::Error;
 use calibrant::error::Complaint;
+use calibrant::estimate::{ImuSetup, ThermalModel};
 use calibrant::io::{Experiment, HoldsPlan, ImuPlan, write_imu_recording, write_imu_truth};
-use calibrant::sensor::{CalibratedImu, ImuParameters, ImuQuantity, ParameterList, ReadingUnit, Triad};
+use calibrant::sensor::{CalibratedImu, ImuParameters, ImuQuantity, ReadingUnit, Triad};
 use calibrant::simulate::{
     GyroscopeToDraw, ImuSimulation, Purpose, Rng, TableAction, TableStep, draw_imu, draw_known, simulate_imu,
     simulate_table, stream,
@@ -64,15 +65,17 @@ pub(super) fn run(
     let units = [sensor.unit, plan.gyroscope.unit];
     let on_table = table(holds, plan);
     // on a table the faces are the true frame, by hand the accelerometer's gauge fixes it
-    let (mut truth, of_accelerometer) = match &on_table {
+    let mut truth = match &on_table {
         Some(steps) => {
             check_order(steps)?;
             check_length(steps, holds.rate_hz)?;
-            (drawn, ParameterList::new(3, sensor.model))
+            drawn
         }
-        None => (in_gauge(&drawn, units, holds)?, holds.gauge.parameter_list(sensor.model)),
+        None => in_gauge(&drawn, units, holds)?,
     };
-    let quantities = quantities(&of_accelerometer, plan);
+    // what a calibration of this experiment finds, and what is fixed in it; there is no temperature to follow
+    let recorded = ImuSetup { thermal: ThermalModel::default(), ..plan.setup(holds) };
+    let quantities = recorded.quantities(sensor.model, &plan.gyroscope);
     set_known(&mut truth, &quantities, plan, &mut rng);
     let recording = match &on_table {
         Some(steps) => simulate_table(&truth, steps, &setup, &mut rng),
@@ -92,19 +95,6 @@ fn set_known(truth: &mut ImuParameters, estimated: &[ImuQuantity], plan: &ImuPla
             draw_known(truth, known.quantity, known.value, known.sd, rng);
         }
     }
-}
-
-/// What a calibration of this experiment finds, in its order, and among it what is fixed.
-fn quantities(accelerometer: &ParameterList, plan: &ImuPlan) -> Vec<ImuQuantity> {
-    let gyroscope = ParameterList::new(3, plan.gyroscope.model);
-    let mut quantities = Vec::new();
-    for (triad, list) in [(Triad::Accelerometer, accelerometer), (Triad::Gyroscope, &gyroscope)] {
-        quantities.extend(list.quantities().iter().map(|quantity| ImuQuantity::Of(triad, *quantity)));
-    }
-    if plan.gyroscope.g_sensitivity {
-        quantities.extend(ImuQuantity::full_list(false, false, true));
-    }
-    quantities
 }
 
 /// The simulation has one noise for all axes of a sensor: the largest.

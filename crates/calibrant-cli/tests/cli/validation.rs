@@ -157,3 +157,35 @@ fn the_imu_of_imu_tk_is_validated_by_folds_and_its_file_is_still_read() {
     assert!(json["validation"]["recording"]["gyroscope_bias_shift"]["moved"] == false);
     bench.run("convert result/calibration.json imu.h").done();
 }
+
+/// Two sessions of one sensor on a turntable: the seed draws the sensor, the rate the noise.
+#[test]
+fn a_calibration_from_faces_and_turns_is_validated_on_another_session() {
+    let bench = Bench::new();
+    let table = include_str!("../../../../examples/06_whole_imu/table.toml");
+    bench.write("table.toml", table);
+    let other = table.replacen("rate_hz = 100.0", "rate_hz = 80.0", 1);
+    assert_ne!(other, table);
+    bench.write("other.toml", other);
+    bench.run("simulate table.toml --seed 6 -o one").done();
+    bench.run("simulate other.toml --seed 6 -o two").done();
+    assert_eq!(bench.read("one/truth.json"), bench.read("two/truth.json"));
+    let outcome =
+        bench.run("calibrate table.toml one/recording.csv --validate two/recording.csv -o result").done();
+    assert!(outcome.stdout.contains("Validation: On recording.csv"), "{}", outcome.stdout);
+    let json = bench.json("result/calibration.json");
+    let found = &json["validation"]["recording"];
+    for (kind, unit) in [("magnitude", "m/s²"), ("rate", "rad/s"), ("rotation", "rad")] {
+        let errors = &found[kind];
+        assert_eq!(errors["unit"], unit, "{found}");
+        assert_eq!(errors["verdict"], "believed", "{errors}");
+        assert!(errors["counted"].as_u64().is_some_and(|counted| counted > 3), "{errors}");
+    }
+    assert!(bench.read("result/report.html").contains("On recording.csv"));
+    // a face that is left out tells of the placing
+    bench.refuses(
+        "calibrate table.toml one/recording.csv --folds 3 -o folds",
+        2,
+        &["folds say nothing where the directions of the holds are known"],
+    );
+}

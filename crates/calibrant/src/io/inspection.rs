@@ -5,7 +5,7 @@ use super::recording::{Finding, ImuColumn, ImuFile};
 use crate::error::Result;
 use crate::estimate::{Coverage, ExpectedCalibration, coverage, expected_calibration, find_imu_holds};
 use crate::motion::Hold;
-use crate::sensor::{Gauge, ImuRecording, ReadingUnit, Recording, Triad};
+use crate::sensor::{Gauge, ImuRecording, MeanReading, ReadingUnit, Recording, Triad};
 use nalgebra::Vector3;
 use serde::Serialize;
 
@@ -149,21 +149,11 @@ impl HoldsInspection {
 
 /// Mean of a sensor over the holds, and the scatter of its samples within them.
 fn at_rest(recording: &Recording, holds: &[Hold]) -> Option<(Vector3<f64>, Vector3<f64>)> {
-    let (mut sum, mut squares, mut samples, mut degrees) = (Vector3::zeros(), Vector3::zeros(), 0, 0);
-    for hold in holds {
-        let first = recording.times_s.partition_point(|&t| t < hold.start_s);
-        let end = recording.times_s.partition_point(|&t| t <= hold.end_s);
-        let readings = &recording.readings[first..end];
-        if readings.len() < 2 {
-            continue;
-        }
-        let mean = readings.iter().sum::<Vector3<f64>>() / readings.len() as f64;
-        sum += mean * readings.len() as f64;
-        squares += readings.iter().map(|y| (y - mean).component_mul(&(y - mean))).sum::<Vector3<f64>>();
-        samples += readings.len();
-        degrees += readings.len() - 1;
-    }
-    (degrees > 0).then(|| (sum / samples as f64, (squares / degrees as f64).map(f64::sqrt)))
+    let of_holds = holds.iter().filter_map(|hold| recording.mean_between(hold.start_s, hold.end_s));
+    let stills: Vec<MeanReading> = of_holds.filter(|still| still.samples > 1).collect();
+    let sum: Vector3<f64> = stills.iter().map(|still| still.mean * still.samples as f64).sum();
+    let samples: usize = stills.iter().map(|still| still.samples).sum();
+    (samples > 0).then(|| (sum / samples as f64, MeanReading::pooled_sd(&stills)))
 }
 
 /// The text of `calibrant inspect --json`.

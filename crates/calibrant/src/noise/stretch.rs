@@ -2,6 +2,7 @@
 
 use crate::error::{Complaint, Error, Result};
 use crate::sensor::Recording;
+use std::ops::Range;
 
 /// A time step is a gap from this many median steps on.
 const GAP: f64 = 1.5;
@@ -37,8 +38,7 @@ impl Stretch {
     /// [`Error::Experiment`] for times that are none, in the wrong order, or of which the recording has nothing; [`Error::Recording`] where it has fewer than 96 samples.
     pub fn between(recording: &Recording, start_s: f64, end_s: f64) -> Result<Self> {
         check(recording, start_s, end_s)?;
-        let first = recording.times_s.partition_point(|&t| t < start_s);
-        let end = recording.times_s.partition_point(|&t| t <= end_s).max(first);
+        let Range { start: first, end } = recording.between(start_s, end_s);
         let times = &recording.times_s[first..end];
         let step = recording.rate_hz().recip();
         let mut edges = vec![0];

@@ -2,7 +2,7 @@
 
 use super::figure::DisplayUnit;
 use super::number;
-use super::table::{Cell, Table};
+use super::table::Table;
 use crate::estimate::{Calibration, Recovered};
 use crate::sensor::{Axis, Recording};
 use nalgebra::Vector3;
@@ -11,10 +11,8 @@ use nalgebra::Vector3;
 pub(super) fn fit_table(calibration: &Calibration, recording: &Recording) -> String {
     let fit = &calibration.fit;
     let axes = recording.active_axes();
-    let mut table = Table::new("", &["", "value", "what it means"]);
-    let mut row = |name: &str, value: String, meaning: &str| {
-        table.row(vec![Cell::Name(name.to_string()), Cell::Number(value), Cell::Words(meaning.to_string())]);
-    };
+    let mut table = Table::explained();
+    let mut row = |name: &str, value: String, meaning: &str| table.explain(name, value, meaning);
     let status = match calibration.status.name() {
         "iteration_limit" => "iteration limit",
         name => name,

@@ -11,10 +11,8 @@ const OUTLYING: f64 = 3.0;
 /// What holds for all holds together.
 pub(super) fn hold_summary(holds: &HoldCalibration) -> String {
     let used = holds.holds.iter().filter(|hold| hold.used).count();
-    let mut table = Table::new("", &["", "value", "what it means"]);
-    let mut row = |name: &str, value: String, meaning: &str| {
-        table.row(vec![Cell::Name(name.to_string()), Cell::Number(value), Cell::Words(meaning.to_string())]);
-    };
+    let mut table = Table::explained();
+    let mut row = |name: &str, value: String, meaning: &str| table.explain(name, value, meaning);
     let found =
         if holds.detected { "Found in the recording by its stillness." } else { "As given by the user." };
     row("holds used", format!("{used} of {}", holds.holds.len()), found);

@@ -69,7 +69,7 @@ fn coefficient_table(noise: &TriadNoise) -> String {
         for axis in &noise.axes {
             let name = format!("{} {}", coefficient_name(noise, process), axis.axis);
             let (value, words) = coefficient_in_words(noise, axis, process);
-            table.row(vec![Cell::Name(name), Cell::Number(value), Cell::Words(words)]);
+            table.explain(&name, value, &words);
         }
     }
     table.html()

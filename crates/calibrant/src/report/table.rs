@@ -32,6 +32,16 @@ impl Table {
         Self { caption: caption.to_string(), columns, rows: Vec::new() }
     }
 
+    /// A table of numbers, each with what it means.
+    pub(super) fn explained() -> Self {
+        Self::new("", &["", "value", "what it means"])
+    }
+
+    /// Appends a number with what it means.
+    pub(super) fn explain(&mut self, name: &str, value: String, meaning: &str) {
+        self.row(vec![Cell::Name(name.to_string()), Cell::Number(value), Cell::Words(meaning.to_string())]);
+    }
+
     /// Appends a row.
     pub(super) fn row(&mut self, cells: Vec<Cell>) {
         self.rows.push((false, cells));

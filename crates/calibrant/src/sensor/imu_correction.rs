@@ -7,7 +7,7 @@
 use super::entries::{self, ENTRIES, EntryMatrix};
 use super::{
     CalibratedImu, Correction, HIGHEST_ORDER, ImuParameters, ImuQuantity, ImuRecording, Recording,
-    Temperatures, ThermalPart, Triad,
+    Temperatures, ThermalPart, Triad, interpolated,
 };
 use crate::error::{Complaint, Error, Result};
 use nalgebra::{Matrix3, SMatrix, Vector3};
@@ -165,7 +165,7 @@ impl ImuCorrection {
             let errors = self.all_errors(Triad::Accelerometer, force);
             errors * covariance * errors.transpose()
         } else {
-            let errors = reading_errors(force);
+            let errors = own_errors(force, &Vector3::repeat(1.0));
             errors * covariance.fixed_view::<12, 12>(0, 0) * errors.transpose()
         };
         let variance = correction.matrix * of_reading * correction.matrix.transpose();
@@ -178,7 +178,7 @@ impl ImuCorrection {
         let (correction, covariance) = (self.gyroscope?, self.covariance.as_deref()?);
         let felt = self.g_sensitivity != Matrix3::zeros() || self.covers_g_sensitivity();
         let of_reading = if !felt && !self.follows_temperature() {
-            let own = reading_errors(rate);
+            let own = own_errors(rate, &Vector3::repeat(1.0));
             own * covariance.fixed_view::<12, 12>(12, 12) * own.transpose()
         } else {
             let mut errors = self.all_errors(Triad::Gyroscope, rate);
@@ -209,12 +209,9 @@ impl ImuCorrection {
         let tau_k = thermal.tau_k(self.temperature_c);
         let factor = thermal.triad(triad).gain_factor(tau_k);
         let response = self.imu.triad(triad).matrix * stimulus;
-        let mut errors = SMatrix::zeros();
+        let mut errors = SMatrix::<f64, 3, ENTRIES>::zeros();
+        errors.fixed_columns_mut::<12>(entries::bias(triad, 0)).copy_from(&own_errors(stimulus, &factor));
         for row in 0..3 {
-            errors[(row, entries::bias(triad, row))] = 1.0;
-            for column in 0..3 {
-                errors[(row, entries::matrix(triad, row, column))] = factor[row] * stimulus[column];
-            }
             let mut power = 1.0;
             for order in 1..=HIGHEST_ORDER {
                 power *= tau_k;
@@ -306,10 +303,8 @@ impl ImuCorrection {
     ) -> Result<CorrectedTriad> {
         let force_at = |k: usize| match forces {
             None => Vector3::zeros(),
-            Some(forces) => match forces.times_s.get(k) {
-                Some(&t) if t == readings.times_s[k] => forces.values[k],
-                _ => forces.at(readings.times_s[k]),
-            },
+            Some(forces) => interpolated(&forces.times_s, |k| forces.values[k], readings.times_s[k], k)
+                .unwrap_or_else(Vector3::zeros),
         };
         self.corrected(readings, temperatures, |here, k| {
             let force = force_at(k);
@@ -340,28 +335,15 @@ impl ImuCorrection {
     }
 }
 
-impl CorrectedTriad {
-    /// The value at a time, linear between samples, the nearest one outside; zero where there is no sample.
-    fn at(&self, time_s: f64) -> Vector3<f64> {
-        let after = self.times_s.partition_point(|&t| t < time_s);
-        match (after.checked_sub(1), self.times_s.get(after)) {
-            (_, None) => self.values.last().copied().unwrap_or_else(Vector3::zeros),
-            (None, _) => self.values[0],
-            (Some(before), Some(&t1)) => {
-                let t0 = self.times_s[before];
-                self.values[before].lerp(&self.values[after], (time_s - t0) / (t1 - t0))
-            }
-        }
-    }
-}
-
-/// Derivative of a reading with respect to bias and matrix of its sensor (12 entries) at a stimulus.
-fn reading_errors(stimulus: &Vector3<f64>) -> SMatrix<f64, 3, 12> {
+/// Derivative of a reading with respect to bias and matrix of its sensor (12 entries), at a stimulus and a factor on each gain.
+fn own_errors(stimulus: &Vector3<f64>, gain_factor: &Vector3<f64>) -> SMatrix<f64, 3, 12> {
+    // the places are those of either sensor, less its first
+    let own = Triad::Accelerometer;
     let mut errors = SMatrix::zeros();
     for row in 0..3 {
-        errors[(row, entries::bias(Triad::Accelerometer, row))] = 1.0;
+        errors[(row, entries::bias(own, row))] = 1.0;
         for column in 0..3 {
-            errors[(row, entries::matrix(Triad::Accelerometer, row, column))] = stimulus[column];
+            errors[(row, entries::matrix(own, row, column))] = gain_factor[row] * stimulus[column];
         }
     }
     errors

@@ -1,6 +1,6 @@
 //! The temperatures of a recording.
 
-use super::ImuRecording;
+use super::{ImuRecording, interpolated};
 use crate::error::{Complaint, Error, Result};
 
 /// Temperatures at which an inertial sensor works, °C, with room to spare.
@@ -55,16 +55,7 @@ impl<'a> Temperatures<'a> {
     /// The temperature at a time, linear between samples, the nearest one outside; 0 where there is no sample.
     #[must_use]
     pub fn at(&self, time_s: f64) -> f64 {
-        let after = self.times_s.partition_point(|&t| t < time_s);
-        match (after.checked_sub(1), self.times_s.get(after)) {
-            (_, None) => self.values_c.last().copied().unwrap_or(0.0),
-            (None, _) => self.values_c[0],
-            (Some(before), Some(&t1)) => {
-                let t0 = self.times_s[before];
-                let part = (time_s - t0) / (t1 - t0);
-                self.values_c[before] * (1.0 - part) + self.values_c[after] * part
-            }
-        }
+        interpolated(self.times_s, |k| self.values_c[k], time_s, 0).unwrap_or(0.0)
     }
 
     /// Mean between two times; that of the middle where no sample lies between them.

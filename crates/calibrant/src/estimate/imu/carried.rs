@@ -3,9 +3,9 @@
 use super::joint::{HoldData, Joint, Miss, State};
 use super::readings::{Integrable, felt_forces, rotation_spans};
 use super::settle::follow_drift;
-use super::still::{pooled_noise, still, weigh};
+use super::still::{still, weigh};
 use crate::motion::Hold;
-use crate::sensor::{ImuParameters, ImuQuantity, Recording};
+use crate::sensor::{ImuParameters, ImuQuantity, MeanReading, Recording};
 use nalgebra::{DMatrix, Matrix2, Matrix2x3, Vector2, Vector3};
 
 /// The gyroscope in a hold.
@@ -17,19 +17,32 @@ pub(in crate::estimate) struct HeldStill {
     pub(in crate::estimate) variance: Vector3<f64>,
 }
 
-/// The gyroscope in each hold, `None` where it has no samples there, and the noise of one sample: as it is known, or as the holds show it.
-pub(in crate::estimate) fn held_still(
-    gyroscope: &Recording,
-    holds: &[&Hold],
-    known_noise: Option<Vector3<f64>>,
-) -> (Vec<Option<HeldStill>>, Vector3<f64>) {
-    let stills: Vec<_> = holds.iter().map(|hold| still(gyroscope, hold)).collect();
-    let noise = known_noise.unwrap_or_else(|| pooled_noise(&stills));
-    let of_mean = noise.component_mul(&noise);
-    let held = stills.iter().map(|still| {
-        still.map(|still| HeldStill { mean: still.mean, variance: of_mean / still.samples as f64 })
-    });
-    (held.collect(), noise)
+/// The gyroscope in holds.
+pub(in crate::estimate) struct GyroscopeAtRest {
+    /// In each hold; `None` where it has no samples there.
+    stills: Vec<Option<MeanReading>>,
+    /// Noise of one sample: as it is known, or as the holds show it.
+    noise: Vector3<f64>,
+}
+
+impl GyroscopeAtRest {
+    pub(in crate::estimate) fn of(
+        gyroscope: &Recording,
+        holds: &[&Hold],
+        known_noise: Option<Vector3<f64>>,
+    ) -> Self {
+        let stills: Vec<_> = holds.iter().map(|hold| still(gyroscope, hold)).collect();
+        let noise = known_noise.unwrap_or_else(|| MeanReading::pooled_sd(stills.iter().flatten()));
+        Self { stills, noise }
+    }
+
+    /// The gyroscope in each hold, `None` where it has no samples there.
+    pub(in crate::estimate) fn holds(&self) -> impl Iterator<Item = Option<HeldStill>> {
+        let of_sample = self.noise.component_mul(&self.noise);
+        self.stills.iter().map(move |still| {
+            still.map(|still| HeldStill { mean: still.mean, variance: of_sample / still.samples as f64 })
+        })
+    }
 }
 
 /// Gravity carried from one hold to the next.
@@ -49,6 +62,8 @@ pub(in crate::estimate) struct Carried {
     pub(in crate::estimate) by_to: Matrix2x3<f64>,
     /// Covariance of the error from the gyroscope's noise.
     pub(in crate::estimate) noise: Matrix2<f64>,
+    /// The same with the error of the rotation that ends with the hold that this one begins with; zero where there is none.
+    pub(in crate::estimate) noise_with_previous: Matrix2<f64>,
 }
 
 /// What is given of the rotations.
@@ -60,7 +75,7 @@ pub(in crate::estimate) struct Carrying<'a> {
     pub(in crate::estimate) between: Vector3<f64>,
     pub(in crate::estimate) accelerometer: &'a Recording,
     pub(in crate::estimate) gyroscope: &'a Recording,
-    pub(in crate::estimate) known_noise: Option<Vector3<f64>>,
+    pub(in crate::estimate) at_rest: &'a GyroscopeAtRest,
 }
 
 impl Carrying<'_> {
@@ -74,8 +89,7 @@ impl Carrying<'_> {
         temperatures_c: &[f64],
     ) -> Option<Vec<Carried>> {
         let g = self.gravity_mps2;
-        let stills: Vec<_> = holds.iter().map(|hold| still(self.gyroscope, hold)).collect();
-        let noise = self.known_noise.unwrap_or_else(|| pooled_noise(&stills));
+        let GyroscopeAtRest { stills, noise } = self.at_rest;
         let mut data: Vec<HoldData> = holds
             .iter()
             .zip(temperatures_c)
@@ -87,7 +101,7 @@ impl Carrying<'_> {
                 temperature_c,
             })
             .collect();
-        weigh(&mut data, &stills, &noise, &self.between);
+        weigh(&mut data, stills, noise, &self.between);
         let with_forces =
             self.quantities.iter().any(|quantity| matches!(quantity, ImuQuantity::GSensitivity(..)))
                 || self.imu.g_sensitivity.amax() > 0.0;
@@ -104,7 +118,7 @@ impl Carrying<'_> {
             holds: data,
             rotations,
             turns: Vec::new(),
-            gyroscope_noise: noise,
+            gyroscope_noise: *noise,
             excess_rad: 0.0,
             prior: None,
         };
@@ -113,16 +127,24 @@ impl Carrying<'_> {
         let state = State { imu: *self.imu, forces };
         follow_drift(&mut joint, &state, &self.between);
         let misses = joint.misses(&state)?;
-        let found = misses.into_iter().enumerate().filter_map(|(from, miss)| {
+        let found = misses.iter().enumerate().filter_map(|(from, miss)| {
             let span = &spans[from];
             let times = &self.gyroscope.times_s;
             let ends = (times[span.start], times[span.end - 1]);
-            miss.map(|miss| self.carried(from, ends, &state, &miss))
+            let previous = from.checked_sub(1).and_then(|before| misses[before].as_ref());
+            miss.as_ref().map(|miss| self.carried(from, ends, &state, miss, previous))
         });
         Some(found.collect())
     }
 
-    fn carried(&self, from: usize, (start_s, end_s): (f64, f64), state: &State, miss: &Miss) -> Carried {
+    fn carried(
+        &self,
+        from: usize,
+        (start_s, end_s): (f64, f64),
+        state: &State,
+        miss: &Miss,
+        previous: Option<&Miss>,
+    ) -> Carried {
         let (by_from, by_to) =
             miss.by_forces(&state.forces[from], &state.forces[from + 1], self.gravity_mps2);
         Carried {
@@ -134,6 +156,9 @@ impl Carrying<'_> {
             by_from,
             by_to,
             noise: miss.covariance,
+            noise_with_previous: previous.map_or_else(Matrix2::zeros, |previous| {
+                miss.by_turn * miss.rotation.noise_with(&previous.rotation) * previous.by_turn.transpose()
+            }),
         }
     }
 }

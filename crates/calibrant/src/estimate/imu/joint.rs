@@ -13,6 +13,7 @@
 //! `S` and `b` are those at the temperature of the hold, the rotation or the turn.
 
 use super::rates::Samples;
+use super::rotation::Rotation;
 use crate::arrowhead::{Arrowhead, Increment, Link};
 use crate::estimate::tangents::tangents;
 use crate::estimate::{CalibrationSettings, CalibrationStatus};
@@ -95,9 +96,12 @@ pub(super) struct Miss {
     pub(super) error: Vector2<f64>,
     by_from: Matrix2<f64>,
     by_to: Matrix2<f64>,
+    /// Derivative with respect to a turn of the start's frame.
+    pub(super) by_turn: Matrix2x3<f64>,
     pub(super) by_parameters: Matrix2xX<f64>,
     /// Covariance of the error from the gyroscope's noise.
     pub(super) covariance: Matrix2<f64>,
+    pub(super) rotation: Rotation,
 }
 
 /// What each rotation says at a state; `None` for those that cannot be integrated.
@@ -168,8 +172,10 @@ impl Joint<'_> {
             error: across * carried,
             by_from: across * back * tangents(&from) * self.gravity,
             by_to: -Matrix2::identity() * (carried.dot(&to) / self.gravity.powi(2)),
+            by_turn,
             by_parameters,
             covariance: by_turn * rotation.covariance * by_turn.transpose(),
+            rotation,
         })
     }
 

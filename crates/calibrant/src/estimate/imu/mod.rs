@@ -37,7 +37,7 @@ mod verdict;
 mod weights;
 
 pub use both_still::find_imu_holds;
-pub(super) use carried::{Carrying, HeldStill, held_still};
+pub(super) use carried::{Carried, Carrying, GyroscopeAtRest, HeldStill};
 pub use known::calibrate_imu;
 pub use problem::{Gyroscope, ImuProblem, ImuSetup, KnownTerm, NoiseSource, Turn, WhiteNoise};
 pub use result::{ImuCalibration, RotationResult, StillGyroscope, TurnResult};

@@ -3,7 +3,7 @@
 use super::ThermalModel;
 use crate::estimate::HoldsSetup;
 use crate::motion::Hold;
-use crate::sensor::{ImuQuantity, ImuRecording, ReadingUnit, Sensor, SensorModel};
+use crate::sensor::{ImuQuantity, ImuRecording, ParameterList, ReadingUnit, Sensor, SensorModel, Triad};
 use nalgebra::Vector3;
 
 /// An IMU, a recording of it, and what is known beforehand.
@@ -63,6 +63,29 @@ pub struct ImuSetup {
     pub thermal: ThermalModel,
     /// White noise of the gyroscope as a long hold of this recording shows it: what counts where the datasheet gives no noise.
     pub white_noise: Option<WhiteNoise>,
+}
+
+impl ImuSetup {
+    /// What an IMU of these sensors consists of, in the order of a result: the accelerometer's quantities in its gauge, the gyroscope's, then what temperature does to both. What is
+    /// fixed beforehand is among them.
+    #[must_use]
+    pub fn quantities(&self, accelerometer: SensorModel, gyroscope: &Gyroscope) -> Vec<ImuQuantity> {
+        // known directions are the true frame, otherwise the gauge fixes it
+        let of_accelerometer = match self.directions {
+            Some(_) => ParameterList::new(3, accelerometer),
+            None => self.holds.gauge.parameter_list(accelerometer),
+        };
+        let of_gyroscope = ParameterList::new(3, gyroscope.model);
+        let mut quantities = Vec::new();
+        for (triad, list) in [(Triad::Accelerometer, of_accelerometer), (Triad::Gyroscope, of_gyroscope)] {
+            quantities.extend(list.quantities().iter().map(|quantity| ImuQuantity::Of(triad, *quantity)));
+        }
+        if gyroscope.g_sensitivity {
+            quantities.extend(ImuQuantity::full_list(false, false, true));
+        }
+        quantities.extend(self.thermal.quantities());
+        quantities
+    }
 }
 
 /// White noise of one sample, from the Allan deviation of a hold.

@@ -6,7 +6,7 @@ use super::rates::{LocalBias, Samples};
 use super::thermal::Climate;
 use crate::error::{Complaint, Error, Result};
 use crate::motion::Hold;
-use crate::sensor::{ImuParameters, Recording, Saturation, SensorParameters};
+use crate::sensor::{ImuParameters, Recording, Saturation, SensorParameters, interpolated};
 use nalgebra::Vector3;
 use std::ops::Range;
 
@@ -23,23 +23,8 @@ pub(super) fn felt_forces(
 ) -> Option<Vec<Vector3<f64>>> {
     let correction = sensor.matrix.try_inverse()?;
     let force = |k: usize| correction * (accelerometer.readings[k] - sensor.bias);
-    let last = accelerometer.len() - 1;
-    let mut after = 0;
-    Some(
-        gyroscope
-            .times_s
-            .iter()
-            .map(|&t| {
-                while after < last && accelerometer.times_s[after] < t {
-                    after += 1;
-                }
-                let before = after.saturating_sub(1);
-                let (from, to) = (accelerometer.times_s[before], accelerometer.times_s[after]);
-                let part = if to > from { ((t - from) / (to - from)).clamp(0.0, 1.0) } else { 0.0 };
-                force(before) * (1.0 - part) + force(after) * part
-            })
-            .collect(),
-    )
+    let times = gyroscope.times_s.iter().enumerate();
+    times.map(|(k, &t)| interpolated(&accelerometer.times_s, force, t, k)).collect()
 }
 
 /// The gyroscope's samples from shortly before the end of each of these holds to shortly after the start of the next.
@@ -125,8 +110,7 @@ pub(super) fn turns(
         .iter()
         .enumerate()
         .map(|(number, turn)| {
-            let first = gyroscope.times_s.partition_point(|&t| t < turn.start_s);
-            let end = gyroscope.times_s.partition_point(|&t| t <= turn.end_s);
+            let Range { start: first, end } = gyroscope.between(turn.start_s, turn.end_s);
             if end < first + 3 {
                 return Err(Error::recording(Complaint::new(
                     format!(
@@ -134,7 +118,7 @@ pub(super) fn turns(
                         number + 1,
                         turn.start_s,
                         turn.end_s,
-                        end.saturating_sub(first)
+                        end - first
                     ),
                     "correct the times of the turns",
                 )));

@@ -182,6 +182,14 @@ fn exponential(turn: &Vector3<f64>) -> UnitQuaternion<f64> {
 }
 
 impl Rotation {
+    /// Covariance of `δθ` with that of the rotation before, from the noise of the mean in the hold between them, by which both take the bias to be.
+    pub(super) fn noise_with(&self, before: &Self) -> Matrix3<f64> {
+        let common = &self.drift[0];
+        let noise = common.share.component_mul(&common.share).component_mul(&common.variance);
+        let (here, there) = (self.by_start * self.correction, before.by_end * before.correction);
+        here * Matrix3::from_diagonal(&noise) * there.transpose()
+    }
+
     /// Derivative of `δθ` with respect to a quantity of an IMU; zero for those of the accelerometer.
     pub(super) fn derivative(&self, quantity: ImuQuantity, imu: &ImuParameters) -> Vector3<f64> {
         let thermal = &imu.thermal;

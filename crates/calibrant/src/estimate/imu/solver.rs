@@ -6,7 +6,7 @@ use super::faces::{self, First};
 use super::joint::{HoldData, Joint, Misses, State};
 use super::readings::{Integrable, felt_forces, rotation_spans, turns};
 use super::settle::{apply, follow_drift, reweigh, settle};
-use super::still::{Explanation, Still, between_sd, pooled_noise, still, weigh};
+use super::still::{Explanation, between_sd, still, weigh};
 use super::thermal::{self, Climate};
 use super::verdict::{self, undetermined, vague};
 use super::{ImuCalibration, ImuProblem, NoiseSource, start};
@@ -16,8 +16,8 @@ use crate::estimate::{CalibrationProblem, CalibrationSettings, HoldsSetup, Recov
 use crate::information;
 use crate::motion::Hold;
 use crate::sensor::{
-    Axis, ImuParameters, ImuQuantity, ParameterList, ReadingUnit, Recording, SensorParameters, Thermal,
-    Triad, TriadThermal,
+    Axis, ImuParameters, ImuQuantity, MeanReading, ReadingUnit, Recording, SensorParameters, Thermal, Triad,
+    TriadThermal,
 };
 use nalgebra::{Matrix3, Vector3};
 use std::borrow::Cow;
@@ -48,7 +48,7 @@ pub(super) fn calibrate_imu(
     let chosen: Vec<usize> = (0..holds.holds.len()).filter(|&j| holds.holds[j].used).collect();
     let forces: Vec<Vector3<f64>> = chosen.iter().map(|&j| holds.holds[j].force_mps2).collect();
     let used: Vec<&Hold> = chosen.iter().map(|&j| &holds.holds[j].hold).collect();
-    let stills: Vec<Option<Still>> = used.iter().map(|hold| still(gyroscope, hold)).collect();
+    let stills: Vec<Option<MeanReading>> = used.iter().map(|hold| still(gyroscope, hold)).collect();
     if stills.iter().flatten().count() == 0 {
         return Err(Error::recording(Complaint::new(
             "the gyroscope has no samples in the holds of the accelerometer",
@@ -136,7 +136,7 @@ pub(super) fn calibrate_imu(
         between,
         integrable: &integrable,
         noise_source,
-        scatter: pooled_noise(&stills),
+        scatter: MeanReading::pooled_sd(stills.iter().flatten()),
         spans: &spans,
         chosen: &chosen,
         climate: &climate,
@@ -152,13 +152,13 @@ pub(super) fn singular() -> Error {
 }
 
 /// Noise of a gyroscope's sample: that of the datasheet, else what a long hold shows, else the scatter within holds.
-fn sample_noise(problem: &ImuProblem<'_>, stills: &[Option<Still>]) -> (Vector3<f64>, NoiseSource) {
+fn sample_noise(problem: &ImuProblem<'_>, stills: &[Option<MeanReading>]) -> (Vector3<f64>, NoiseSource) {
     match (problem.gyroscope.noise, &problem.setup.white_noise) {
         (Some(noise), _) => (noise, NoiseSource::Datasheet),
         (None, Some(white)) => {
             (white.sd, NoiseSource::AllanDeviation { hold: white.hold, duration_s: white.duration_s })
         }
-        (None, None) => (pooled_noise(stills), NoiseSource::ScatterWithinHolds),
+        (None, None) => (MeanReading::pooled_sd(stills.iter().flatten()), NoiseSource::ScatterWithinHolds),
     }
 }
 
@@ -250,23 +250,10 @@ fn hold_data(first: &First, chosen: &[usize], known: bool, climate: &Climate<'_>
         .collect()
 }
 
-/// The quantities that are estimated: the accelerometer's in its gauge, then the gyroscope's, then what temperature does to both.
+/// The quantities that are estimated: all but the fixed ones.
 pub(super) fn quantities(problem: &ImuProblem<'_>) -> Vec<ImuQuantity> {
     let setup = problem.setup;
-    let accelerometer = match setup.directions {
-        Some(_) => ParameterList::new(3, problem.accelerometer.model),
-        None => setup.holds.gauge.parameter_list(problem.accelerometer.model),
-    };
-    let gyroscope = ParameterList::new(3, problem.gyroscope.model);
-    let of = |triad: Triad, list: &ParameterList| -> Vec<ImuQuantity> {
-        list.quantities().iter().map(|quantity| ImuQuantity::Of(triad, *quantity)).collect()
-    };
-    let mut quantities = of(Triad::Accelerometer, &accelerometer);
-    quantities.extend(of(Triad::Gyroscope, &gyroscope));
-    if problem.gyroscope.g_sensitivity {
-        quantities.extend(ImuQuantity::full_list(false, false, true));
-    }
-    quantities.extend(setup.thermal.quantities());
+    let mut quantities = setup.quantities(problem.accelerometer.model, problem.gyroscope);
     let fixed = |quantity: &ImuQuantity| {
         setup.known.iter().any(|known| known.quantity == *quantity && known.sd.is_none())
     };

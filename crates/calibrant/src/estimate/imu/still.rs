@@ -3,32 +3,12 @@
 use super::joint::HoldData;
 use crate::estimate::excess::excess;
 use crate::motion::Hold;
-use crate::sensor::{Recording, ThermalTerm, TriadThermal};
+use crate::sensor::{MeanReading, Recording, ThermalTerm, TriadThermal};
 use nalgebra::{DMatrix, DVector, Vector3};
 
-/// Mean, number of samples and scatter of the gyroscope within a hold.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Still {
-    pub(super) mean: Vector3<f64>,
-    pub(super) samples: usize,
-    squares: Vector3<f64>,
-}
-
 /// The gyroscope between the times of a hold; `None` with fewer than two samples.
-pub(super) fn still(recording: &Recording, hold: &Hold) -> Option<Still> {
-    let first = recording.times_s.partition_point(|&t| t < hold.start_s);
-    let end = recording.times_s.partition_point(|&t| t <= hold.end_s);
-    let readings = recording.readings.get(first..end).filter(|readings| readings.len() > 1)?;
-    let mean = readings.iter().sum::<Vector3<f64>>() / readings.len() as f64;
-    let squares = readings.iter().map(|y| (y - mean).component_mul(&(y - mean))).sum();
-    Some(Still { mean, samples: readings.len(), squares })
-}
-
-/// Standard deviation of one sample, pooled over the holds.
-pub(super) fn pooled_noise(stills: &[Option<Still>]) -> Vector3<f64> {
-    let degrees: f64 = stills.iter().flatten().map(|still| (still.samples - 1) as f64).sum();
-    let squares: Vector3<f64> = stills.iter().flatten().map(|still| still.squares).sum();
-    (squares / degrees.max(1.0)).map(f64::sqrt)
+pub(super) fn still(recording: &Recording, hold: &Hold) -> Option<MeanReading> {
+    recording.mean_between(hold.start_s, hold.end_s).filter(|still| still.samples > 1)
 }
 
 /// What the means in the holds are explained by, beside a constant.
@@ -46,7 +26,7 @@ pub(super) struct Explanation<'a> {
 /// The scatter between holds that makes χ² equal its degrees of freedom (Paule and Mandel), per axis; each mean is explained by a constant, by the
 /// specific force where asked for, and by powers of the temperature, which are returned as well.
 pub(super) fn between_sd(
-    stills: &[Option<Still>],
+    stills: &[Option<MeanReading>],
     noise: &Vector3<f64>,
     by: &Explanation<'_>,
 ) -> (Vector3<f64>, TriadThermal) {
@@ -75,7 +55,7 @@ struct Regression {
 }
 
 impl Regression {
-    fn new(stills: &[Option<Still>], noise: f64, by: &Explanation<'_>, axis: usize) -> Self {
+    fn new(stills: &[Option<MeanReading>], noise: f64, by: &Explanation<'_>, axis: usize) -> Self {
         let terms = &by.terms[axis];
         let rows: Vec<(DVector<f64>, f64, usize)> = stills
             .iter()
@@ -133,7 +113,7 @@ impl Regression {
 /// Gives the holds their gyroscope means with inverse variances.
 pub(super) fn weigh(
     holds: &mut [HoldData],
-    stills: &[Option<Still>],
+    stills: &[Option<MeanReading>],
     noise: &Vector3<f64>,
     between: &Vector3<f64>,
 ) {

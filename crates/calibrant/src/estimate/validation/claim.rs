@@ -18,9 +18,11 @@ pub(super) struct Claim {
     /// Scatter between holds, m/s², and the degrees of freedom behind it.
     pub(super) between_holds_sd_mps2: f64,
     pub(super) holds_degrees: f64,
-    /// The same of the gyroscope, in the unit of its readings.
+    /// The same of each axis of the gyroscope, in the unit of its readings.
     pub(super) still_sd: Vector3<f64>,
-    pub(super) still_degrees: f64,
+    pub(super) still_degrees: Vector3<f64>,
+    /// Mean of the inverse durations of the holds that were used, 1/s: the variance of a mean's noise goes with it.
+    pub(super) inverse_hold_s: f64,
     /// Error of a rotation beyond its noise, rad, and the degrees of freedom behind it.
     pub(super) rotation_sd_rad: f64,
     pub(super) rotation_degrees: f64,
@@ -41,12 +43,18 @@ impl Claim {
             ImuQuantity::Thermal(Triad::Gyroscope, term) => term.part == ThermalPart::Scale,
             _ => false,
         };
-        let drifts = |quantity: &&ImuQuantity| matches!(quantity, ImuQuantity::Thermal(Triad::Gyroscope, term) if term.part == ThermalPart::Bias);
-        // unknowns of all three axes: bias, its temperature terms, g-sensitivity
-        let of_stills = 3 + calibration.quantities.iter().filter(drifts).count();
         let of_rotations = calibration.quantities.iter().filter(matrix).count();
-        let force =
-            calibration.quantities.iter().any(|quantity| matches!(quantity, ImuQuantity::GSensitivity(..)));
+        // of an axis at rest: bias, its temperature terms, g-sensitivity
+        let of_still = |axis: usize| {
+            let of_axis = |quantity: &&ImuQuantity| match quantity {
+                ImuQuantity::Thermal(Triad::Gyroscope, term) => {
+                    term.part == ThermalPart::Bias && term.axis.index() == axis
+                }
+                ImuQuantity::GSensitivity(row, _) => row.index() == axis,
+                _ => false,
+            };
+            1 + calibration.quantities.iter().filter(of_axis).count()
+        };
         Self {
             imu: calibration.imu,
             quantities: calibration.quantities.clone(),
@@ -55,7 +63,8 @@ impl Claim {
             between_holds_sd_mps2: between(calibration),
             holds_degrees: used.saturating_sub(accelerometer) as f64,
             still_sd: calibration.still.between_holds_sd,
-            still_degrees: (3 * used).saturating_sub(of_stills + if force { 9 } else { 0 }) as f64,
+            still_degrees: Vector3::from_fn(|axis, _| used.saturating_sub(of_still(axis)) as f64),
+            inverse_hold_s: inverse_hold_s(holds),
             rotation_sd_rad: calibration.rotation_excess_sd_rad,
             rotation_degrees: (2 * rotations).saturating_sub(of_rotations) as f64,
         }
@@ -81,7 +90,8 @@ impl Claim {
             holds_degrees: used.saturating_sub(quantities.len()) as f64,
             quantities,
             still_sd: Vector3::zeros(),
-            still_degrees: 0.0,
+            still_degrees: Vector3::zeros(),
+            inverse_hold_s: inverse_hold_s(holds),
             rotation_sd_rad: 0.0,
             rotation_degrees: 0.0,
         }
@@ -114,6 +124,14 @@ impl Claim {
         }
         claim
     }
+}
+
+fn inverse_hold_s(holds: &HoldCalibration) -> f64 {
+    let used = holds.holds.iter().filter(|hold| hold.used);
+    let (sum, count) = used.fold((0.0, 0_u32), |(sum, count), used| {
+        (sum + used.hold.duration_s().max(f64::MIN_POSITIVE).recip(), count + 1)
+    });
+    sum / f64::from(count.max(1))
 }
 
 /// How well the sensor was placed on known faces is no property of the sensor.

@@ -4,7 +4,7 @@
 //! `dω̂ = −C_g (Σ_k ∂y_g/∂p_k dp_k + Γ df̂)`.
 
 use super::claim::Claim;
-use super::item::{Item, Place};
+use super::item::{Item, Place, estimated_share};
 use crate::estimate::imu::HeldStill;
 use crate::motion::Hold;
 use crate::sensor::{Condition, Triad};
@@ -24,14 +24,17 @@ pub(super) struct Held {
     pub(super) own: Matrix3<f64>,
     /// What takes raw readings to rates, with the rates' noise and own covariance; where the gyroscope was recorded.
     rate: Option<Rate>,
+    /// How many times the noise of a mean in the calibration's holds was that in this one.
+    more_noise: f64,
     place: Place,
 }
 
 struct Rate {
     value: Vector3<f64>,
     by_parameters: DMatrix<f64>,
-    noise: Matrix3<f64>,
     own: Matrix3<f64>,
+    /// Variances of the mean reading from noise, and with the scatter between holds.
+    of_mean: (Vector3<f64>, Vector3<f64>),
 }
 
 impl Held {
@@ -83,14 +86,20 @@ impl Held {
                     }
                 }
                 let through_force = by_force * own * by_force.transpose();
-                let noise = spread(still.variance, &correction) + through_force;
-                let between = claim.still_sd.component_mul(&claim.still_sd);
-                Some(Rate { value, by_parameters, noise, own: noise + spread(between, &correction) })
+                let of_mean =
+                    (still.variance, still.variance + claim.still_sd.component_mul(&claim.still_sd));
+                Some(Rate {
+                    value,
+                    by_parameters,
+                    own: spread(of_mean.1, &correction) + through_force,
+                    of_mean,
+                })
             }
         };
         let place =
             Place { hold: number, from_hold: None, start_s: hold.start_s, end_s: hold.end_s, fold: 0 };
-        Some(Self { force, by_parameters, noise, own, rate, place })
+        let more_noise = hold.duration_s() * claim.inverse_hold_s;
+        Some(Self { force, by_parameters, noise, own, rate, more_noise, place })
     }
 
     /// `|f̂| − g` and what is predicted of it.
@@ -98,13 +107,14 @@ impl Held {
         let along = self.force.normalize();
         let row = DMatrix::from_row_slice(1, 3, along.as_slice());
         let variance = |of: &Matrix3<f64>| (of * along).dot(&along);
-        let own = variance(&self.own) + FLOOR_MPS2.powi(2);
+        let [noise, own] = [&self.noise, &self.own].map(|of| variance(of) + FLOOR_MPS2.powi(2));
         Item {
             place: self.place.clone(),
             error: DVector::from_element(1, self.force.norm() - claim.gravity_mps2),
             by_parameters: row * &self.by_parameters,
             own: DMatrix::from_element(1, 1, own),
-            scatter_share: (1.0 - variance(&self.noise) / own).clamp(0.0, 1.0),
+            with_previous: None,
+            estimated_shares: vec![estimated_share(noise, own, self.more_noise)],
         }
     }
 
@@ -117,7 +127,10 @@ impl Held {
             error: DVector::from_column_slice(rate.value.as_slice()),
             by_parameters: rate.by_parameters.clone(),
             own: DMatrix::from_column_slice(3, 3, own.as_slice()),
-            scatter_share: (1.0 - rate.noise.trace() / own.trace()).clamp(0.0, 1.0),
+            with_previous: None,
+            estimated_shares: (0..3)
+                .map(|axis| estimated_share(rate.of_mean.0[axis], rate.of_mean.1[axis], self.more_noise))
+                .collect(),
         })
     }
 }

@@ -21,8 +21,15 @@ pub(super) struct Item {
     pub(super) by_parameters: DMatrix<f64>,
     /// What the error owes to itself: noise, and the scatter from hold to hold or from rotation to rotation.
     pub(super) own: DMatrix<f64>,
-    /// How much of `own` is that scatter, 0 to 1.
-    pub(super) scatter_share: f64,
+    /// Covariance of `own` errors with those of the item before; `None` where they have nothing in common.
+    pub(super) with_previous: Option<DMatrix<f64>>,
+    /// For each scatter of the calibration: what its data told of the variance, noise included, over `own`; 0 where they showed no scatter.
+    pub(super) estimated_shares: Vec<f64>,
+}
+
+/// The share of a variance that was estimated: what is not noise, and noise as it was in the calibration, which is so many times what it is here.
+pub(super) fn estimated_share(noise: f64, own: f64, more_noise: f64) -> f64 {
+    if own > noise { (own - noise + more_noise * noise) / own } else { 0.0 }
 }
 
 /// Errors that were predicted by one calibration.

@@ -26,6 +26,7 @@ mod folds;
 mod held;
 mod item;
 mod predict;
+mod ratio;
 mod result;
 mod statistics;
 mod whitened;
@@ -33,7 +34,7 @@ mod whitened;
 pub use cross::{cross_validate, cross_validate_imu};
 pub use result::*;
 
-use super::imu::{held_still, needed_temperatures, recordings};
+use super::imu::{GyroscopeAtRest, needed_temperatures, recordings};
 use super::{
     Calibration, CalibrationProblem, HoldCalibration, HoldsSetup, ImuCalibration, ImuProblem, Recovered,
     Stimulus, find_holds, find_imu_holds, holds_between,
@@ -71,7 +72,7 @@ pub fn validate_imu(calibration: &ImuCalibration, problem: &ImuProblem<'_>) -> R
         ..Unused::of_accelerometer(accelerometer, &holds)
     };
     let all: Vec<&Hold> = holds.iter().collect();
-    if held_still(gyroscope, &all, None).0.iter().all(Option::is_none) {
+    if GyroscopeAtRest::of(gyroscope, &all, None).holds().all(|still| still.is_none()) {
         return Err(Error::recording(Complaint::new(
             "the gyroscope has no samples in the holds of the accelerometer",
             "both need the same clock: are these files of one recording?",
@@ -164,13 +165,15 @@ fn judged(source: ValidationSource, errors: Vec<Errors>, claim: &Claim) -> Valid
         rotations.push(errors.rotations);
     }
     let folds = matches!(source, ValidationSource::Folds { .. });
-    let behind = |scatter_degrees: f64| Behind { scatter_degrees, folds, free_shift: false };
-    let of_rates =
-        Behind { free_shift: bias_shift.is_some_and(|shift| shift.moved), ..behind(claim.still_degrees) };
+    let behind = |of: &[f64]| Behind { scatter_degrees: of.to_vec(), folds, free_shift: false };
+    let of_rates = Behind {
+        free_shift: bias_shift.is_some_and(|shift| shift.moved),
+        ..behind(claim.still_degrees.as_slice())
+    };
     let kinds = [
-        judge(ErrorKind::Magnitude, &magnitudes, behind(claim.holds_degrees)),
-        judge(ErrorKind::Rate, &rates, of_rates),
-        judge(ErrorKind::Rotation, &rotations, behind(claim.rotation_degrees)),
+        judge(ErrorKind::Magnitude, &magnitudes, &behind(&[claim.holds_degrees])),
+        judge(ErrorKind::Rate, &rates, &of_rates),
+        judge(ErrorKind::Rotation, &rotations, &behind(&[claim.rotation_degrees])),
     ];
     Validation { source, kinds: kinds.into_iter().flatten().collect(), bias_shift }
 }

@@ -3,10 +3,11 @@
 use super::claim::Claim;
 use super::held::Held;
 use super::item::{Group, Item, Place};
+use super::ratio::Ratio;
 use super::result::BiasShift;
-use super::statistics::Ratio;
+use super::statistics::degrees_behind;
 use super::whitened::Whitened;
-use crate::estimate::imu::{Carrying, held_still};
+use crate::estimate::imu::{Carried, Carrying, GyroscopeAtRest, HeldStill};
 use crate::motion::Hold;
 use crate::sensor::{Recording, Temperatures};
 use nalgebra::{DMatrix, DVector, Matrix2, Vector3};
@@ -60,8 +61,11 @@ impl<'a> Unused<'a> {
     /// The errors that a claim makes on them; `None` where a matrix of it is singular.
     pub(super) fn errors(&self, claim: &Claim) -> Option<Errors> {
         let holds: Vec<&Hold> = self.holds.iter().map(|(_, hold)| *hold).collect();
-        let stills = match self.gyroscope {
-            Some(gyroscope) => held_still(gyroscope, &holds, self.gyroscope_noise).0,
+        let at_rest = self
+            .gyroscope
+            .map(|gyroscope| (gyroscope, GyroscopeAtRest::of(gyroscope, &holds, self.gyroscope_noise)));
+        let stills: Vec<Option<HeldStill>> = match &at_rest {
+            Some((_, at_rest)) => at_rest.holds().collect(),
             None => vec![None; holds.len()],
         };
         let temperature = |hold: &Hold| match self.temperatures {
@@ -93,7 +97,12 @@ impl<'a> Unused<'a> {
             shift = Some(found);
         }
         let temperatures_c: Vec<f64> = holds.iter().map(|hold| temperature(hold)).collect();
-        let rotations = self.rotations(&of_rotations, &holds, &held, &temperatures_c)?;
+        let rotations = match &at_rest {
+            Some((gyroscope, at_rest)) => {
+                self.rotations(&of_rotations, (gyroscope, at_rest), &holds, &held, &temperatures_c)?
+            }
+            None => Vec::new(),
+        };
         Some(Errors {
             magnitudes: self.group(magnitudes, &claim.covariance),
             rates,
@@ -107,16 +116,16 @@ impl<'a> Unused<'a> {
         Group { items, covariance: covariance.clone() }
     }
 
-    /// Gravity after each rotation. The directions before and after are those that the claim finds, with their errors. Neighbours share a hold; what their errors
-    /// have in common by it is left out of the covariance, which leaves the mean of χ² as it is.
+    /// Gravity after each rotation. The directions before and after are those that the claim finds, with their errors. Neighbours share a hold, and with it the errors of its
+    /// direction and of the bias in it.
     fn rotations(
         &self,
         claim: &Claim,
+        (gyroscope, at_rest): (&Recording, &GyroscopeAtRest),
         holds: &[&Hold],
         held: &[Held],
         temperatures_c: &[f64],
     ) -> Option<Vec<Item>> {
-        let Some(gyroscope) = self.gyroscope else { return Some(Vec::new()) };
         let carrying = Carrying {
             imu: &claim.imu,
             quantities: &claim.quantities,
@@ -124,12 +133,17 @@ impl<'a> Unused<'a> {
             between: claim.still_sd,
             accelerometer: self.accelerometer,
             gyroscope,
-            known_noise: self.gyroscope_noise,
+            at_rest,
         };
         let forces: Vec<Vector3<f64>> = held.iter().map(|held| held.force).collect();
-        let carried = carrying.through(holds, &forces, temperatures_c)?;
-        let items = carried.into_iter().map(|carried| {
+        let all = carrying.through(holds, &forces, temperatures_c)?;
+        let mut previous: Option<&Carried> = None;
+        let items = all.iter().map(|carried| {
             let (before, after) = (&held[carried.from], &held[carried.from + 1]);
+            let neighbour = previous.replace(carried).filter(|previous| previous.from + 1 == carried.from);
+            let shared = neighbour.map(|previous| {
+                carried.noise_with_previous + carried.by_from * before.own * previous.by_to.transpose()
+            });
             let dense = |by: &nalgebra::Matrix2x3<f64>| DMatrix::from_column_slice(2, 3, by.as_slice());
             let by_parameters = &carried.by_parameters
                 + dense(&carried.by_from) * &before.by_parameters
@@ -151,7 +165,13 @@ impl<'a> Unused<'a> {
                 error: DVector::from_column_slice(carried.error.as_slice()),
                 by_parameters,
                 own: DMatrix::from_column_slice(2, 2, own.as_slice()),
-                scatter_share: (excess.trace() / own.trace()).clamp(0.0, 1.0),
+                with_previous: shared.map(|shared| DMatrix::from_column_slice(2, 2, shared.as_slice())),
+                // rotations are taken to be as long as in the calibration
+                estimated_shares: vec![if excess.trace() > 0.0 {
+                    (carried.noise + excess).trace() / own.trace()
+                } else {
+                    0.0
+                }],
             }
         });
         Some(items.collect())
@@ -167,9 +187,8 @@ fn moved(
     let all = vec![true; rates.items.len()];
     let expected = Whitened::of(rates, &all)?.shift()?;
     let found = Whitened::of(without_bias, &all)?.shift()?;
-    let share = rates.items.iter().map(|item| item.scatter_share).sum::<f64>() / all.len() as f64;
-    let denominator = if share > 0.0 { claim.still_degrees.max(1.0) / share.powi(2) } else { f64::INFINITY };
-    let p_value = Ratio::new(3, denominator).above(expected.chi2 / 3.0);
+    let behind = degrees_behind(rates.items.iter(), claim.still_degrees.as_slice());
+    let p_value = Ratio::new(3, &behind).above(expected.chi2 / 3.0);
     let shift = BiasShift {
         shift_radps: found.value,
         sd_radps: expected.covariance.diagonal().map(f64::sqrt),

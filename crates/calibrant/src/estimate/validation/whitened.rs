@@ -1,12 +1,13 @@
 //! Errors in units of what is predicted of each alone, and what they have in common through the parameters.
 //!
-//! With `C = D + J Σ Jᵀ`, `D` block diagonal, `Σ = R Rᵀ` and `D = L Lᵀ`: `z = L⁻¹ e`, `K = L⁻¹ J R`, and
+//! With `C = D + J Σ Jᵀ`, `Σ = R Rᵀ` and `D = L Lᵀ`: `z = L⁻¹ e`, `K = L⁻¹ J R`, and
 //!
 //! ```text
 //! eᵀ C⁻¹ e = zᵀ z − (Kᵀ z)ᵀ (I + Kᵀ K)⁻¹ Kᵀ z
 //! ```
 //!
-//! (Woodbury), so that nothing has the size of all errors squared. The root of `Σ` is that of its eigenvalues: it may be singular.
+//! (Woodbury), so that nothing has the size of all errors squared. `D` is block diagonal but for what neighbours share: with `B_i` the covariance of the errors of item i with
+//! those of the one before, the blocks of `L` are `G_i = B_i L_{i−1}⁻ᵀ` and the root `L_i` of `D_i − G_i G_iᵀ`. The root of `Σ` is that of its eigenvalues: it may be singular.
 
 use super::item::{Group, Item};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
@@ -30,19 +31,33 @@ impl Whitened {
     /// `None` where nothing is predicted of an error, or none counts.
     pub(super) fn of(group: &Group, counts: &[bool]) -> Option<Self> {
         let root = root(&group.covariance);
-        let chosen: Vec<&Item> =
-            group.items.iter().zip(counts).filter(|(_, counts)| **counts).map(|(item, _)| item).collect();
-        let width = chosen.first()?.error.len();
+        let chosen: Vec<(usize, &Item)> =
+            group.items.iter().enumerate().filter(|(number, _)| counts[*number]).collect();
+        let width = chosen.first()?.1.error.len();
         let rows = width * chosen.len();
         let (mut z, mut k) = (DVector::zeros(rows), DMatrix::zeros(rows, root.ncols()));
         let mut ones = DMatrix::zeros(rows, width);
-        for (i, item) in chosen.iter().enumerate() {
-            let l = item.own.clone().cholesky()?.l();
-            z.rows_mut(width * i, width).copy_from(&l.solve_lower_triangular(&item.error)?);
-            let common = l.solve_lower_triangular(&(&item.by_parameters * &root))?;
-            k.rows_mut(width * i, width).copy_from(&common);
-            let one = l.solve_lower_triangular(&DMatrix::identity(width, width))?;
-            ones.rows_mut(width * i, width).copy_from(&one);
+        let mut before: Option<(usize, DMatrix<f64>)> = None;
+        for (i, (number, item)) in chosen.into_iter().enumerate() {
+            let from = width * i;
+            let (mut own, mut e) = (item.own.clone(), item.error.clone());
+            let mut j = &item.by_parameters * &root;
+            let mut one = DMatrix::identity(width, width);
+            if let (Some((previous, l)), Some(b)) = (&before, &item.with_previous)
+                && previous + 1 == number
+            {
+                let g = l.solve_lower_triangular(&b.transpose())?.transpose();
+                let last = from - width;
+                own -= &g * g.transpose();
+                e -= &g * z.rows(last, width);
+                j -= &g * k.rows(last, width);
+                one -= &g * ones.rows(last, width);
+            }
+            let l = own.cholesky()?.l();
+            z.rows_mut(from, width).copy_from(&l.solve_lower_triangular(&e)?);
+            k.rows_mut(from, width).copy_from(&l.solve_lower_triangular(&j)?);
+            ones.rows_mut(from, width).copy_from(&l.solve_lower_triangular(&one)?);
+            before = Some((number, l));
         }
         Some(Self { z, k, ones })
     }
@@ -124,25 +139,47 @@ mod tests {
                     error: DVector::from_fn(3, |i, _| 3.0 * number(n * 31 + i)),
                     by_parameters: DMatrix::from_fn(3, p, |i, j| number(n * 13 + i * 7 + j) / units[j]),
                     own: &own * own.transpose() + DMatrix::identity(3, 3),
-                    scatter_share: 0.0,
+                    // the third and the fourth have nothing in common
+                    with_previous: (n > 0 && n != 3)
+                        .then(|| DMatrix::from_fn(3, 3, |i, j| 0.4 * number(n * 17 + i * 3 + j * 7))),
+                    estimated_shares: vec![0.0],
                 }
             })
             .collect();
-        let mut dense = DMatrix::zeros(15, 15);
-        let (mut e, mut ones) = (DVector::zeros(15), DMatrix::zeros(15, 3));
-        for (i, one) in items.iter().enumerate() {
+        let group = Group { items, covariance };
+        for aside in [None, Some(1), Some(4)] {
+            equal_those_of_the_dense_covariance(&group, aside);
+        }
+    }
+
+    fn equal_those_of_the_dense_covariance(group: &Group, aside: Option<usize>) {
+        let counts: Vec<bool> = (0..group.items.len()).map(|n| Some(n) != aside).collect();
+        let kept: Vec<usize> = (0..group.items.len()).filter(|&n| counts[n]).collect();
+        let size = 3 * kept.len();
+        let mut dense = DMatrix::zeros(size, size);
+        let (mut e, mut ones) = (DVector::zeros(size), DMatrix::zeros(size, 3));
+        let zeros = || DMatrix::zeros(3, 3);
+        for (i, &n) in kept.iter().enumerate() {
+            let one = &group.items[n];
             e.rows_mut(3 * i, 3).copy_from(&one.error);
             ones.view_mut((3 * i, 0), (3, 3)).fill_with_identity();
-            for (j, other) in items.iter().enumerate() {
-                let mut block = &one.by_parameters * &covariance * other.by_parameters.transpose();
-                if i == j {
-                    block += &one.own;
-                }
-                dense.view_mut((3 * i, 3 * j), (3, 3)).copy_from(&block);
+            for (j, &m) in kept.iter().enumerate() {
+                let other = &group.items[m];
+                let by_parameters = &one.by_parameters * &group.covariance * other.by_parameters.transpose();
+                let own = if n == m {
+                    one.own.clone()
+                } else if n == m + 1 {
+                    one.with_previous.clone().unwrap_or_else(zeros)
+                } else if m == n + 1 {
+                    other.with_previous.as_ref().map_or_else(zeros, DMatrix::transpose)
+                } else {
+                    zeros()
+                };
+                dense.view_mut((3 * i, 3 * j), (3, 3)).copy_from(&(by_parameters + own));
             }
         }
         let inverse = dense.try_inverse().expect("positive definite");
-        let whitened = Whitened::of(&Group { items, covariance }, &[true; 5]).expect("predicted");
+        let whitened = Whitened::of(group, &counts).expect("predicted");
         let chi2 = (e.transpose() * &inverse * &e)[(0, 0)];
         assert!((whitened.chi2().expect("regular") / chi2 - 1.0).abs() < 1e-10);
         let of_shift = (ones.transpose() * &inverse * &ones).try_inverse().expect("regular");

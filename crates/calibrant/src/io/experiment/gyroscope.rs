@@ -1,9 +1,10 @@
 //! `[gyroscope]` and `[known]`: the second sensor of an IMU, its turns, and what is known beforehand.
 
+use super::HoldsPlan;
 use super::bounds::Bounds;
 use super::document::{Entry, Section};
 use crate::error::Result;
-use crate::estimate::{Gyroscope, KnownTerm, ThermalModel, Turn};
+use crate::estimate::{Gyroscope, HoldsSetup, ImuSetup, KnownTerm, ThermalModel, Turn};
 use crate::io::ImuUnit;
 use crate::sensor::{Axis, ImuQuantity, ReadingUnit, SensorModel};
 use nalgebra::Vector3;
@@ -36,6 +37,26 @@ pub struct ImuPlan {
     pub known: Vec<KnownTerm>,
     /// What is to follow temperature.
     pub thermal: ThermalModel,
+}
+
+impl ImuPlan {
+    /// How such an IMU is recorded: the holds, the turns, and what is known and follows temperature.
+    #[must_use]
+    pub fn setup(&self, holds: &HoldsPlan) -> ImuSetup {
+        ImuSetup {
+            holds: HoldsSetup {
+                gravity: holds.gravity,
+                gauge: holds.gauge,
+                intervals_s: holds.intervals_s.clone(),
+                minimum_hold_s: holds.minimum_hold_s,
+            },
+            directions: holds.directions.clone(),
+            turns: self.turns.clone(),
+            known: self.known.clone(),
+            thermal: self.thermal,
+            ..ImuSetup::default()
+        }
+    }
 }
 
 /// Reads `[gyroscope]`, `[known]` and `[temperature]`.

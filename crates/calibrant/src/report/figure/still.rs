@@ -21,15 +21,15 @@ pub(in crate::report) fn still_gyroscope(
         .iter()
         .enumerate()
         .filter_map(|(j, hold)| {
-            let (mean, samples) = mean_between(gyroscope, hold.hold.start_s, hold.hold.end_s)?;
+            let still = gyroscope.mean_between(hold.hold.start_s, hold.hold.end_s)?;
             let temperature_c = calibration.hold_temperatures_c.as_ref().map(|temperatures| temperatures[j]);
             let imu = temperature_c.map_or(calibration.imu, |temperature| calibration.imu.at(temperature));
             let correction = Correction::of(&imu.gyroscope)?;
             let felt = calibration.imu.g_sensitivity * hold.force_mps2;
             Some(Mean {
                 time_s: 0.5 * (hold.hold.start_s + hold.hold.end_s),
-                rate_degps: correction.apply(&(mean - felt)).map(f64::to_degrees),
-                samples,
+                rate_degps: correction.apply(&(still.mean - felt)).map(f64::to_degrees),
+                samples: still.samples,
                 used: hold.used,
             })
         })
@@ -88,12 +88,4 @@ struct Mean {
     rate_degps: Vector3<f64>,
     samples: usize,
     used: bool,
-}
-
-/// Mean reading between two times, and the number of samples; `None` without any.
-pub(super) fn mean_between(recording: &Recording, start_s: f64, end_s: f64) -> Option<(Vector3<f64>, usize)> {
-    let first = recording.times_s.partition_point(|&t| t < start_s);
-    let end = recording.times_s.partition_point(|&t| t <= end_s);
-    let readings = recording.readings.get(first..end).filter(|readings| !readings.is_empty())?;
-    Some((readings.iter().sum::<Vector3<f64>>() / readings.len() as f64, readings.len()))
 }

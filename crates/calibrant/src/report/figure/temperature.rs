@@ -1,7 +1,6 @@
 //! How the gyroscope's bias follows temperature.
 
 use super::panel::{Mark, Panel, Series, Shape};
-use super::still::mean_between;
 use super::{Figure, colour};
 use crate::estimate::ImuCalibration;
 use crate::sensor::{Axis, Recording};
@@ -25,8 +24,8 @@ pub(in crate::report) fn bias_over_temperature(
         .iter()
         .zip(temperatures)
         .filter_map(|(hold, &temperature)| {
-            let (mean, samples) = mean_between(gyroscope, hold.hold.start_s, hold.hold.end_s)?;
-            Some((temperature, mean - imu.g_sensitivity * hold.force_mps2, samples, hold.used))
+            let still = gyroscope.mean_between(hold.hold.start_s, hold.hold.end_s)?;
+            Some((temperature, still.mean - imu.g_sensitivity * hold.force_mps2, still.samples, hold.used))
         })
         .collect();
     let gain = Vector3::from_fn(|axis, _| imu.gyroscope.matrix.row(axis).norm());

@@ -2,15 +2,13 @@
 
 use crate::estimate::ImuCalibration;
 use crate::report::number;
-use crate::report::table::{Cell, Table};
+use crate::report::table::Table;
 use nalgebra::Vector3;
 
 /// The statistics of the fit with one line of explanation each.
 pub(super) fn fit_table(calibration: &ImuCalibration) -> String {
-    let mut table = Table::new("", &["", "value", "what it means"]);
-    let mut row = |name: &str, value: String, meaning: &str| {
-        table.row(vec![Cell::Name(name.to_string()), Cell::Number(value), Cell::Words(meaning.to_string())]);
-    };
+    let mut table = Table::explained();
+    let mut row = |name: &str, value: String, meaning: &str| table.explain(name, value, meaning);
     let status = calibration.status.name().replace('_', " ");
     row("status", status, "How the iteration ended; only “converged” is an optimum.");
     row("iterations", calibration.iterations.to_string(), "Steps of the joint problem; a handful is usual.");

@@ -9,10 +9,8 @@ use crate::report::table::{Cell, Table};
 pub(super) fn rotation_summary(calibration: &ImuCalibration) -> String {
     let rotations = &calibration.rotations;
     let used = rotations.iter().filter(|rotation| rotation.used).count();
-    let mut table = Table::new("", &["", "value", "what it means"]);
-    let mut row = |name: &str, value: String, meaning: &str| {
-        table.row(vec![Cell::Name(name.to_string()), Cell::Number(value), Cell::Words(meaning.to_string())]);
-    };
+    let mut table = Table::explained();
+    let mut row = |name: &str, value: String, meaning: &str| table.explain(name, value, meaning);
     row(
         "rotations used",
         format!("{used} of {}", rotations.len()),

@@ -1,0 +1,115 @@
+//! A simulated IMU, calibrated from one recording and tried on another.
+
+use crate::common::normal;
+use calibrant::estimate::{
+    CalibrationSettings, CovarianceVerdict, ErrorKind, Gyroscope, ImuCalibration, ImuProblem, ImuSetup,
+    ValidatedErrors, Validation, calibrate_imu, cross_validate_imu, validate_imu,
+};
+use calibrant::sensor::{ImuParameters, ImuRecording, Sensor, SensorModel};
+use calibrant::simulate::{ImuSimulation, Rng, simulate_imu};
+use nalgebra::Vector3;
+
+pub(crate) struct Bench {
+    pub(crate) accelerometer: Sensor,
+    pub(crate) gyroscope: Gyroscope,
+    pub(crate) setup: ImuSetup,
+}
+
+impl Bench {
+    pub(crate) fn new() -> Self {
+        Self {
+            accelerometer: Sensor::triaxial(SensorModel::Full),
+            gyroscope: Gyroscope::default(),
+            setup: ImuSetup::default(),
+        }
+    }
+
+    pub(crate) fn problem<'a>(&'a self, recording: &'a ImuRecording) -> ImuProblem<'a> {
+        ImuProblem {
+            accelerometer: &self.accelerometer,
+            gyroscope: &self.gyroscope,
+            recording,
+            setup: &self.setup,
+        }
+    }
+
+    pub(crate) fn calibrate(&self, recording: &ImuRecording) -> ImuCalibration {
+        calibrate_imu(&self.problem(recording), &CalibrationSettings::default()).expect("determined")
+    }
+
+    pub(crate) fn validate(&self, calibration: &ImuCalibration, recording: &ImuRecording) -> Validation {
+        validate_imu(calibration, &self.problem(recording)).expect("holds")
+    }
+
+    pub(crate) fn fold(
+        &self,
+        calibration: &ImuCalibration,
+        recording: &ImuRecording,
+        folds: usize,
+    ) -> Validation {
+        cross_validate_imu(calibration, &self.problem(recording), &CalibrationSettings::default(), folds)
+            .expect("determined")
+    }
+}
+
+/// Holds known to the sample, so that no gentle beginning of a turn falls into one.
+pub(crate) fn intervals(simulation: &ImuSimulation) -> Vec<(f64, f64)> {
+    let period = simulation.hold_s + simulation.turn_s;
+    (0..simulation.poses)
+        .map(|j| j as f64 * period)
+        .map(|start| (start + 0.02, start + simulation.hold_s - 0.02))
+        .collect()
+}
+
+/// Scatter that no sample's noise explains: a disturbance of each hold, a bias that wanders from hold to hold, and one that comes and goes with each turn.
+fn scatter(recording: &mut ImuRecording, simulation: &ImuSimulation, size: f64, rng: &mut Rng) {
+    let period = simulation.hold_s + simulation.turn_s;
+    let mut vectors = |sd: f64| -> Vec<Vector3<f64>> {
+        (0..=simulation.poses).map(|_| Vector3::from_fn(|_, _| sd * normal(rng))).collect()
+    };
+    let (pushes, biases, swings) = (vectors(2e-3 * size), vectors(5e-4 * size), vectors(2e-3 * size));
+    let accelerometer = recording.accelerometer.as_mut().expect("there");
+    for (t, y) in accelerometer.times_s.iter().zip(&mut accelerometer.readings) {
+        *y += pushes[(t / period) as usize];
+    }
+    let gyroscope = recording.gyroscope.as_mut().expect("there");
+    for (t, y) in gyroscope.times_s.iter().zip(&mut gyroscope.readings) {
+        let j = (t / period) as usize;
+        let into = t - j as f64 * period - simulation.hold_s;
+        if into > 0.0 {
+            let x = into / simulation.turn_s;
+            *y += swings[j] + biases[j] * (1.0 - x) + biases[j + 1] * x;
+        } else {
+            *y += biases[j];
+        }
+    }
+}
+
+pub(crate) fn simulate(
+    truth: &ImuParameters,
+    simulation: &ImuSimulation,
+    size: f64,
+    rng: &mut Rng,
+) -> ImuRecording {
+    let mut recording = simulate_imu(truth, simulation, rng);
+    scatter(&mut recording, simulation, size, rng);
+    recording
+}
+
+pub(crate) fn bench(simulation: &ImuSimulation) -> Bench {
+    let mut bench = Bench::new();
+    bench.setup.holds.intervals_s = Some(intervals(simulation));
+    bench
+}
+
+pub(crate) const KINDS: [ErrorKind; 3] = [ErrorKind::Magnitude, ErrorKind::Rate, ErrorKind::Rotation];
+
+pub(crate) fn mean(values: impl Iterator<Item = f64>) -> f64 {
+    let values: Vec<f64> = values.collect();
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
+/// Share of the validations with this verdict.
+pub(crate) fn share(of: &[&ValidatedErrors], verdict: CovarianceVerdict) -> f64 {
+    mean(of.iter().map(|errors| f64::from(u8::from(errors.verdict == verdict))))
+}

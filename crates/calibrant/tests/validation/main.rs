@@ -1,0 +1,11 @@
+//! Calibrations on data that were not used for them.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod bench;
+mod errors;
+mod ferraris;
+mod levels;
+mod real;
+mod refused;
