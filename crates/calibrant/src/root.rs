@@ -65,7 +65,8 @@ mod tests {
 
     #[test]
     fn roots_are_those_of_closed_forms() {
-        let cases: [(f64, f64, fn(f64) -> f64, f64); 5] = [
+        type Case = (f64, f64, fn(f64) -> f64, f64);
+        let cases: [Case; 5] = [
             (0.0, 10.0, |x| 3.0 * x - 1.0, 1.0 / 3.0),
             (0.0, 2.0, |x| x * x - 2.0, std::f64::consts::SQRT_2),
             (-20.0, 1.0, |x| x.exp() - 1e-3, 1e-3_f64.ln()),

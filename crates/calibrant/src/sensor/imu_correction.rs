@@ -320,7 +320,8 @@ impl ImuCorrection {
         temperatures: Option<&Temperatures<'_>>,
         correct: impl Fn(&Self, usize) -> Option<(Vector3<f64>, Option<Vector3<f64>>)>,
     ) -> Result<CorrectedTriad> {
-        let (mut values, mut sd) = (Vec::with_capacity(readings.len()), Vec::with_capacity(readings.len()));
+        let mut values = Vec::with_capacity(readings.len());
+        let mut sd = Some(Vec::new());
         for k in 0..readings.readings.len() {
             let found = match temperatures {
                 None => correct(self, k),
@@ -328,10 +329,13 @@ impl ImuCorrection {
             };
             if let Some((value, uncertainty)) = found {
                 values.push(value);
-                sd.push(uncertainty);
+                sd = sd.zip(uncertainty).map(|(mut sd, uncertainty)| {
+                    sd.push(uncertainty);
+                    sd
+                });
             }
         }
-        Ok(CorrectedTriad { times_s: readings.times_s.clone(), values, sd: sd.into_iter().collect() })
+        Ok(CorrectedTriad { times_s: readings.times_s.clone(), values, sd })
     }
 }
 

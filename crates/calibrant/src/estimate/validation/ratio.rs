@@ -16,7 +16,9 @@
 //! Where the scatter is no larger than the noise, a few calibrations see none and predict too little: with ν = 15, n = 24 and half of the variance from the scatter, 3.1 % are beyond the upper
 //! 0.5 % point. Calling only that scatter uncertain, w² of the variance, made it 7.6 %.
 
+use crate::root::root;
 use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
+use std::convert::Infallible;
 
 /// Two-sided probability that an honest covariance is doubted.
 const SIGNIFICANCE: f64 = 0.01;
@@ -100,18 +102,19 @@ fn variance_of_f(n: f64, v: f64) -> f64 {
 
 /// Where a falling function of a positive number reaches a value; 0 where it is below from the start.
 pub(super) fn falls_to(value: f64, of: impl Fn(f64) -> f64) -> f64 {
-    if of(0.0) <= value {
+    let excess = |x: f64| (x, of(x) - value);
+    let (mut low, mut high) = (excess(0.0), excess(1.0));
+    if low.1 <= 0.0 {
         return 0.0;
     }
-    let (mut low, mut high) = (0.0, 1.0);
-    while of(high) > value && high < 1e12 {
-        (low, high) = (high, 4.0 * high);
+    while high.1 > 0.0 && high.0 < 1e12 {
+        (low, high) = (high, excess(4.0 * high.0));
     }
-    for _ in 0..80 {
-        let middle = 0.5 * (low + high);
-        if of(middle) > value { low = middle } else { high = middle }
+    if high.1 > 0.0 {
+        return high.0;
     }
-    0.5 * (low + high)
+    let Ok(found) = root([low, high], 0.0, 0.0, |x| Ok::<f64, Infallible>(excess(x).1));
+    found
 }
 
 #[cfg(test)]
