@@ -5,6 +5,7 @@ use super::{Coefficient, Drift, Estimate, Moments, NoiseModel, PowerLaw, allan, 
 use crate::error::{Complaint, Error, Result};
 use nalgebra::{DMatrix, DVector};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
+use std::cell::OnceCell;
 
 /// Fewest samples: six cluster times.
 const FEWEST: usize = 96;
@@ -127,6 +128,8 @@ struct Regression<'a> {
     /// `θ̂ = G ν`, a row for each active process.
     gain: DMatrix<f64>,
     chi2: f64,
+    /// What [`rival`](Self::rival) found: it is asked for again and again.
+    rivals: [OnceCell<Option<usize>>; PROCESSES],
 }
 
 impl<'a> Regression<'a> {
@@ -193,7 +196,8 @@ impl<'a> Regression<'a> {
         let residual =
             values - &design * DVector::from_iterator(active.len(), active.iter().map(|&a| theta[a]));
         let chi2 = residual.dot(&(&weight * &residual));
-        Self { moments, observed, first, active: active.to_vec(), theta, gain, chi2 }
+        let rivals = Default::default();
+        Self { moments, observed, first, active: active.to_vec(), theta, gain, chi2, rivals }
     }
 
     /// Variance of the estimate of active process `i`, as a function of what its `θ` would be.
@@ -285,6 +289,10 @@ impl<'a> Regression<'a> {
 
     /// The other of bias instability and rate random walk, where it explains as much in place of the one.
     fn rival(&self, process: usize) -> Option<usize> {
+        *self.rivals[process].get_or_init(|| self.find_rival(process))
+    }
+
+    fn find_rival(&self, process: usize) -> Option<usize> {
         const FLICKER: usize = PowerLaw::Flicker as usize;
         const WALK: usize = PowerLaw::RandomWalk as usize;
         let other = match process {

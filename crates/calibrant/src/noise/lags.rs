@@ -2,34 +2,28 @@
 
 /// Every lag within this of a kink is summed.
 const NEAR: i64 = 16;
-/// Beyond, the distance to the kink grows by this factor from lag to lag.
-const RATIO: f64 = 1.12;
+/// Beyond, the step from lag to lag is this share of the distance to the nearest kink.
+const STEP: f64 = 0.08;
 
 /// Whole numbers from `first` to `last`: all those near the kinks, ever fewer away from them.
 pub(super) fn around(kinks: &[i64], first: i64, last: i64) -> Vec<i64> {
-    let offsets: Vec<i64> = (0..=NEAR).chain(far(last - first)).collect();
     let mut kinks = kinks.to_vec();
     kinks.sort_unstable();
-    kinks.dedup();
     let mut lags = vec![first];
-    for kink in kinks {
-        let inside = |lag: &i64| (first..=last).contains(lag);
-        lags.extend(offsets.iter().rev().map(|offset| kink - offset).filter(inside));
-        lags.extend(offsets.iter().map(|offset| kink + offset).filter(inside));
+    let (mut lag, mut next) = (first, 0);
+    while lag < last {
+        while kinks.get(next).is_some_and(|kink| *kink <= lag) {
+            next += 1;
+        }
+        let after = next.checked_sub(1).map_or(last - first, |before| lag - kinks[before]);
+        let ahead = kinks.get(next).map_or(last - first, |kink| kink - lag);
+        let step = ((after.min(ahead) as f64 * STEP) as i64).max(1);
+        let is_near = after < NEAR || ahead <= NEAR;
+        // no further than to where the next kink is near
+        lag = if is_near { lag + 1 } else { (lag + step.min(ahead - NEAR)).min(last) };
+        lags.push(lag);
     }
-    lags.push(last);
-    // a few runs that rise: what this sort is fast at
-    lags.sort();
-    lags.dedup();
     lags
-}
-
-/// Offsets beyond those that are near, up to the largest.
-fn far(largest: i64) -> impl Iterator<Item = i64> {
-    let grow = |offset: &f64| Some(offset * RATIO);
-    std::iter::successors(Some(NEAR as f64 * RATIO), grow)
-        .map(|offset| offset as i64)
-        .take_while(move |offset| *offset <= largest)
 }
 
 /// Weights under which a sum over some of the lags is the sum over all, the summand being linear in between.

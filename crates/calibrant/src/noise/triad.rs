@@ -91,13 +91,11 @@ impl TriadNoise {
             let n = values.len() as f64;
             let mean = values.iter().sum::<f64>() / n;
             let squares: f64 = values.iter().map(|y| (y - mean).powi(2)).sum();
-            Ok(AxisNoise {
-                axis,
-                allan: AllanDeviation::of(&values, stretch.interval_s)?,
-                fit: NoiseFit::of(&values, stretch.interval_s, moments)
-                    .map_err(|error| about(error, axis))?,
-                sample_sd: (squares / (n - 1.0)).sqrt(),
-            })
+            let (allan, fit) = rayon::join(
+                || AllanDeviation::of(&values, stretch.interval_s),
+                || NoiseFit::of(&values, stretch.interval_s, moments).map_err(|error| about(error, axis)),
+            );
+            Ok(AxisNoise { axis, allan: allan?, fit: fit?, sample_sd: (squares / (n - 1.0)).sqrt() })
         };
         let axes: Vec<AxisNoise> = recording.active_axes().par_iter().map(axis).collect::<Result<_>>()?;
         let mut noise = Self { triad, unit: recording.unit, gain: None, stretch, axes, warnings: Vec::new() };

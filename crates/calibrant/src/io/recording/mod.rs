@@ -159,7 +159,9 @@ fn hex_sha256(bytes: &[u8]) -> String {
 
 /// SHA-256 of several pieces, one after the other.
 fn hex_sha256_of(pieces: &[&[u8]]) -> String {
-    let mut hash = Sha256::new();
-    pieces.iter().for_each(|piece| hash.update(piece));
+    hex(pieces.iter().fold(Sha256::new(), |hash, piece| hash.chain_update(piece)))
+}
+
+fn hex(hash: Sha256) -> String {
     hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
 }

@@ -80,27 +80,12 @@ pub(in crate::report) fn imu_before_and_after(
     // the values are asked for, not how well they are known
     let imu = CalibratedImu { covariance: None, ..calibration.calibrated() };
     let corrected = ImuCorrection::of(&imu).ok()?.apply(&imu, recording).ok()?;
-    let mut panels = force_panels(&calibration.holds, &corrected.accelerometer?.values, accelerometer)?;
-    let corrected = corrected.gyroscope?;
-    let before = Correction::of(&calibration.gyroscope_before.sensor)?;
-    let after = || gyroscope.times_s.iter().copied().zip(&corrected.values);
-    let thin = Mark::Line { width: 0.9, dashes: "" };
-    let rate = thinned(after().map(|(t, rate)| (t, rate.norm().to_degrees())));
-    panels.push(Panel::new("angular rate, after", "time (s)", "|ω| (°/s)").with(Series::new(
-        AFTER,
-        colour::BLUE,
-        thin,
-        rate,
-    )));
-    let mut change = Panel::new("what the correction changes", "time (s)", "ω after − before (°/s)");
-    for (axis, colour) in Axis::ALL.into_iter().zip([colour::VERMILLION, colour::GREEN, colour::SKY]) {
-        let difference =
-            thinned(after().zip(&gyroscope.readings).map(|((t, after), reading)| {
-                (t, (after - before.apply(reading))[axis.index()].to_degrees())
-            }));
-        change = change.with(Series::new(&format!("change of axis {axis}"), colour, thin, difference));
-    }
-    panels.push(change);
+    let forces = corrected.accelerometer?;
+    let (forces, rates) = rayon::join(
+        || force_panels(&calibration.holds, &forces.values, accelerometer),
+        || rate_panels(calibration, &corrected.gyroscope?.values, gyroscope),
+    );
+    let panels = forces?.into_iter().chain(rates?).collect();
     let before = format!(
         "Before, accelerometer: {}; gyroscope: {}.",
         calibration.holds.before.source, calibration.gyroscope_before.source
@@ -147,6 +132,33 @@ fn force_panels(
             .with(dots("after, in holds", colour::BLUE, thinned(still().map(after))))
             .with(at_gravity),
     ])
+}
+
+/// The rate after the correction, and what that changes of it. `after` are the corrected readings.
+fn rate_panels(
+    calibration: &ImuCalibration,
+    after: &[Vector3<f64>],
+    recording: &Recording,
+) -> Option<Vec<Panel>> {
+    let before = Correction::of(&calibration.gyroscope_before.sensor)?;
+    let after = || recording.times_s.iter().copied().zip(after);
+    let thin = Mark::Line { width: 0.9, dashes: "" };
+    let magnitude = thinned(after().map(|(t, rate)| (t, rate.norm().to_degrees())));
+    let rate = Panel::new("angular rate, after", "time (s)", "|ω| (°/s)").with(Series::new(
+        AFTER,
+        colour::BLUE,
+        thin,
+        magnitude,
+    ));
+    let mut change = Panel::new("what the correction changes", "time (s)", "ω after − before (°/s)");
+    for (axis, colour) in Axis::ALL.into_iter().zip([colour::VERMILLION, colour::GREEN, colour::SKY]) {
+        let difference =
+            thinned(after().zip(&recording.readings).map(|((t, after), reading)| {
+                (t, (after - before.apply(reading))[axis.index()].to_degrees())
+            }));
+        change = change.with(Series::new(&format!("change of axis {axis}"), colour, thin, difference));
+    }
+    Some(vec![rate, change])
 }
 
 fn caption(recording: &Recording, before: &str, more: &str) -> String {

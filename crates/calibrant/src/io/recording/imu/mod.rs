@@ -51,7 +51,7 @@ pub use unit::{ColumnUnit, ImuUnit, TimeUnit};
 
 use super::finding::Finding;
 use super::row::Layout;
-use super::{LARGEST, estimated_rows, hex_sha256, hex_sha256_of};
+use super::{LARGEST, estimated_rows, hex, hex_sha256, hex_sha256_of};
 use crate::error::{Complaint, Error, Result};
 use crate::io::text::{self, Checked};
 use crate::sensor::{ImuRecording, Triad};
@@ -59,7 +59,9 @@ use assemble::assemble;
 use draft::Draft;
 use head::Head;
 use samples::Samples;
+use sha2::{Digest, Sha256};
 use std::path::Path;
+use std::sync::OnceLock;
 
 /// A recording of an IMU as it was read.
 #[derive(Debug, Clone, PartialEq)]
@@ -126,15 +128,18 @@ pub fn read_imu_pair(accelerometer: &Path, gyroscope: &Path, options: &ImuReadOp
     let one = |path: &Path, bytes: &[u8], triad: Triad| {
         parse_one(bytes, options, triad).map_err(|complaint| in_file(path, complaint))
     };
-    // one beside the other: this is what a calibration waits for
-    let ((accelerometer, gyroscope), sha256) = rayon::join(
+    // one beside the other, each with its half of the hash: this is what a calibration waits for
+    let of_first = OnceLock::new();
+    let of_first = || of_first.get_or_init(|| Sha256::new().chain_update(&first));
+    let (accelerometer, (gyroscope, sha256)) = rayon::join(
         || {
-            rayon::join(
-                || one(accelerometer, &first, Triad::Accelerometer),
-                || one(gyroscope, &second, Triad::Gyroscope),
-            )
+            of_first();
+            one(accelerometer, &first, Triad::Accelerometer)
         },
-        || hex_sha256_of(&[&first, &second]),
+        || {
+            let gyroscope = one(gyroscope, &second, Triad::Gyroscope);
+            (gyroscope, hex(of_first().clone().chain_update(&second)))
+        },
     );
     Ok(joined(accelerometer?, gyroscope?, sha256))
 }
