@@ -35,7 +35,9 @@ pub(super) fn read_bytes_unless(
         complain(format!("cannot read {what}: {error}"), help)
     };
     let mut file = std::fs::File::open(path).map_err(unreadable)?;
-    let mut bytes = Vec::new();
+    // what a file says of its length is not to be trusted far
+    let expected = file.metadata().map_or(0, |metadata| metadata.len()).min(64 * PIECE);
+    let mut bytes = Vec::with_capacity(expected as usize + 1);
     loop {
         let before = bytes.len();
         file.by_ref().take(PIECE).read_to_end(&mut bytes).map_err(unreadable)?;

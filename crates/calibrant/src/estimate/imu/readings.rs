@@ -8,10 +8,13 @@ use crate::error::{Complaint, Error, Result};
 use crate::motion::Hold;
 use crate::sensor::{ImuParameters, Recording, Saturation, SensorParameters, interpolated};
 use nalgebra::Vector3;
+use rayon::prelude::*;
 use std::ops::Range;
 
 /// A rotation begins this long before the end of a hold, s: a hand begins to turn so gently that the first milliradians look still.
 const MARGIN_S: f64 = 0.3;
+/// Samples that one thread takes at a time.
+const PIECE: usize = 4096;
 /// A pause between samples longer than so many steps makes a rotation useless.
 const GAP: f64 = 5.0;
 
@@ -23,8 +26,10 @@ pub(super) fn felt_forces(
 ) -> Option<Vec<Vector3<f64>>> {
     let correction = sensor.matrix.try_inverse()?;
     let force = |k: usize| correction * (accelerometer.readings[k] - sensor.bias);
-    let times = gyroscope.times_s.iter().enumerate();
-    times.map(|(k, &t)| interpolated(&accelerometer.times_s, force, t, k)).collect()
+    let at = |k: usize| interpolated(&accelerometer.times_s, force, gyroscope.times_s[k], k);
+    // zero only where the accelerometer has no sample at all
+    let felt = |k: usize| at(k).unwrap_or_else(Vector3::zeros);
+    Some((0..gyroscope.len()).into_par_iter().with_min_len(PIECE).map(felt).collect())
 }
 
 /// The gyroscope's samples from shortly before the end of each of these holds to shortly after the start of the next.

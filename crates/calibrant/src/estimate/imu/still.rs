@@ -5,6 +5,7 @@ use crate::estimate::excess::excess;
 use crate::motion::Hold;
 use crate::sensor::{MeanReading, Recording, ThermalTerm, TriadThermal};
 use nalgebra::{DMatrix, DVector, Vector3};
+use rayon::prelude::*;
 
 /// The gyroscope between the times of a hold; `None` with fewer than two samples.
 pub(super) fn still(recording: &Recording, hold: &Hold) -> Option<MeanReading> {
@@ -31,9 +32,10 @@ pub(super) fn between_sd(
     by: &Explanation<'_>,
 ) -> (Vector3<f64>, TriadThermal) {
     let (mut between, mut thermal) = (Vector3::zeros(), by.fixed);
-    for axis in 0..3 {
-        let regression = Regression::new(stills, noise[axis], by, axis);
-        let solution = regression.fit().map(|(sd, solution)| {
+    let fit = |axis: usize| Regression::new(stills, noise[axis], by, axis).fit();
+    let fits: Vec<Option<(f64, DVector<f64>)>> = (0..3).into_par_iter().map(fit).collect();
+    for (axis, fit) in fits.into_iter().enumerate() {
+        let solution = fit.map(|(sd, solution)| {
             between[axis] = sd;
             solution
         });
