@@ -19,8 +19,8 @@ use std::time::Instant;
 
 /// Shortest hold that is looked for, s.
 const SHORTEST_HOLD_S: f64 = 1.0;
-/// A sensor at rest is found so, but for this share of the time: a door, a step.
-const MOVING: f64 = 0.1;
+/// The finder of holds may cut off this much of a hold at each end, s.
+const TRIMMED_S: f64 = 0.5;
 
 /// Find the noise of a sensor at rest: Allan deviation, random walks, bias instability.
 ///
@@ -165,18 +165,26 @@ fn holds(imu: &ImuRecording, recording: &Recording) -> calibrant::Result<Vec<Hol
     }
 }
 
-/// A warning where the sensor moves in an interval that was given as at rest: more than a tenth of it is no part of any hold that is found.
+/// A warning where the sensor moves in an interval that was given as at rest: where that holds more than one hold, or more than a hold.
 fn moves(imu: &ImuRecording, recording: &Recording, given: &Stretch) -> Option<String> {
     let holds = holds(imu, recording).ok().filter(|holds| !holds.is_empty())?;
-    let within = |hold: &Hold| (hold.end_s.min(given.end_s) - hold.start_s.max(given.start_s)).max(0.0);
-    let moving_s = given.duration_s() - holds.iter().map(within).sum::<f64>();
-    (moving_s > MOVING * given.duration_s()).then(|| {
-        format!(
-            "the sensor moves in {moving_s:.1} of the {:.1} s given with --hold: what follows is no noise of a sensor at rest (`calibrant inspect` shows how many holds \
-             there are; without --hold the longest is taken)",
-            given.duration_s()
-        )
-    })
+    let within: Vec<&Hold> =
+        holds.iter().filter(|hold| hold.end_s > given.start_s && hold.start_s < given.end_s).collect();
+    let Some((first, last)) = within.first().zip(within.last()) else {
+        return Some(moving(given.duration_s(), given));
+    };
+    let ends = [first.start_s - given.start_s, given.end_s - last.end_s];
+    let between: f64 = within.windows(2).map(|pair| pair[1].start_s - pair[0].end_s).sum();
+    let moving_s = between + ends.into_iter().filter(|end_s| *end_s > TRIMMED_S).sum::<f64>();
+    (moving_s > 0.0).then(|| moving(moving_s, given))
+}
+
+fn moving(moving_s: f64, given: &Stretch) -> String {
+    format!(
+        "the sensor moves in {moving_s:.1} of the {:.1} s given with --hold, or is shaken: what follows is no noise of a sensor at rest (`calibrant inspect` shows how many \
+         holds there are; without --hold the longest is taken)",
+        given.duration_s()
+    )
 }
 
 /// The longest hold.

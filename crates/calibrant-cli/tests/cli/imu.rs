@@ -262,3 +262,39 @@ fn a_simulation_fits_into_memory() {
     bench.write("late.toml", table.replacen("[71.0, 76.0]", "[71.0, 7.6e6]", 1));
     bench.refuses("simulate late.toml -o out", 2, &["7600000 s at 100 Hz are 7.6e8 samples, at most 2e7"]);
 }
+
+#[test]
+fn turns_give_the_gain_of_a_gyroscope_in_counts() {
+    const GAIN: f64 = 940.0;
+    let bench = Bench::new();
+    let table = include_str!("../../../../examples/06_whole_imu/table.toml");
+    bench.write("table.toml", table);
+    bench.run("simulate table.toml --seed 3 -o sim").done();
+    let row = |line: &str| {
+        let fields: Vec<&str> = line.split(',').collect();
+        let counts = |field: &str| (GAIN * field.parse::<f64>().expect("a number")).round().to_string();
+        [fields[..4].join(","), fields[4..].iter().map(|field| counts(field)).collect::<Vec<_>>().join(",")]
+            .join(",")
+    };
+    let recording = bench.read("sim/recording.csv");
+    let rows: Vec<String> = recording.lines().skip(1).map(row).collect();
+    bench.write(
+        "counts.csv",
+        format!("t_s,ax_mps2,ay_mps2,az_mps2,gx_counts,gy_counts,gz_counts\n{}\n", rows.join("\n")),
+    );
+    let counts = table.replacen("unit = \"radps\"", "unit = \"counts\"", 1);
+    bench.write("counts.toml", counts);
+    bench.run("calibrate counts.toml counts.csv -o out").done();
+    let (found, truth) = (bench.json("out/calibration.json"), bench.json("sim/truth.json"));
+    let value = |json: &Value, name: &str| {
+        let parameters = json["parameters"].as_array().expect("parameters");
+        let of = parameters.iter().find(|of| of["name"] == name).unwrap_or_else(|| panic!("{name}"));
+        ["estimate", "value"].iter().find_map(|key| of[key].as_f64()).unwrap_or_else(|| panic!("{of}"))
+    };
+    for axis in ["x", "y", "z"] {
+        let name = format!("gyroscope.scale.{axis}");
+        let ratio = value(&found, &name) / (GAIN * value(&truth, &name));
+        // the angles are met within 0.1° of 360°
+        assert!((ratio - 1.0).abs() < 1e-3, "{name}: {ratio}");
+    }
+}

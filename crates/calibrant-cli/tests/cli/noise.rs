@@ -104,6 +104,28 @@ fn a_turn_at_a_steady_rate_is_no_hold_of_an_imu() {
     }
 }
 
+#[test]
+fn an_interval_that_is_given_holds_still_or_is_said_to_move() {
+    let still = recording("t_s,ax_mps2,ay_mps2,az_mps2", 6000, 1.0);
+    // turned by 90° within a second
+    let turn = |line: &str| {
+        let fields: Vec<f64> = line.split(',').map(|field| field.parse().expect("a number")).collect();
+        let angle = (fields[0] - 30.0).clamp(0.0, 1.0) * 1.57;
+        let (x, z) = (fields[1] + 9.8 * angle.sin(), fields[3] + 9.8 * (angle.cos() - 1.0));
+        format!("{},{x:.9},{},{z:.9}", fields[0], fields[2])
+    };
+    let mut turned: Vec<String> = still.lines().skip(1).map(turn).collect();
+    turned.insert(0, "t_s,ax_mps2,ay_mps2,az_mps2".into());
+    let bench = Bench::new();
+    bench.write("still.csv", still);
+    bench.write("turned.csv", turned.join("\n"));
+    for interval in ["0 2", "0 60", "10 13"] {
+        let outcome = bench.run(&format!("noise still.csv --hold {interval}")).done();
+        assert!(!outcome.stderr.contains("moves"), "{interval}: {}", outcome.stderr);
+    }
+    bench.run("noise turned.csv --hold 0 60").done().says("warning: the sensor moves in 1.");
+}
+
 /// The text without the lines that give the key again that `line` gives.
 fn without_key(text: &str, line: &str) -> String {
     let key = line.split(' ').next().expect("a key");

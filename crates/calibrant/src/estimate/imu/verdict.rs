@@ -1,12 +1,12 @@
 //! What a user should know about the calibration of an IMU, in words.
 
 use super::ImuCalibration;
-use super::joint::{Joint, RotationData, State};
+use super::joint::{Joint, RotationData, State, TurnData};
 use super::start::{FirstLook, Start, WRONG};
 use crate::error::{Complaint, Error, NotIdentifiable, Result, UndeterminedGroup};
 use crate::estimate::{CalibrationStatus, HoldCalibration};
 use crate::information::Undetermined;
-use crate::sensor::{Axis, ImuQuantity, Quantity, ReadingUnit, Thermal, Triad};
+use crate::sensor::{Axis, ImuParameters, ImuQuantity, Quantity, ReadingUnit, Thermal, Triad};
 use nalgebra::DMatrix;
 
 /// Holds that scatter by more than this share of gravity are none.
@@ -164,8 +164,12 @@ fn unturned(joint: &Joint<'_>, state: &State) -> Option<Complaint> {
 /// Entries of the gyroscope's matrix that the data determine so little that the iteration has nothing to hold on to, although no combination is quite free:
 /// the noise of a gyroscope that does not turn looks like a small rotation.
 pub(super) fn vague(joint: &Joint<'_>, state: &State, covariance: &DMatrix<f64>) -> Option<NotIdentifiable> {
-    let matrix = &state.imu.gyroscope.matrix;
-    let gain = (matrix.norm_squared() / 3.0).sqrt();
+    let rotations = joint.rotations.iter().filter(|rotation| rotation.used).count();
+    let gain = match turned_gain(joint, &state.imu).filter(|_| rotations == 0) {
+        // no start was looked for: the matrix is still any
+        Some(gain) => gain,
+        None => (state.imu.gyroscope.matrix.norm_squared() / 3.0).sqrt(),
+    };
     let is_known = |k: usize| joint.prior.as_ref().is_some_and(|(_, weight)| weight[k] > 0.0);
     let sd = |k: usize| covariance[(k, k)].max(0.0).sqrt() / gain;
     let entries: Vec<usize> = joint
@@ -179,7 +183,6 @@ pub(super) fn vague(joint: &Joint<'_>, state: &State, covariance: &DMatrix<f64>)
         })
         .collect();
     let most = entries.iter().map(|&k| sd(k)).fold(0.0, f64::max);
-    let rotations = joint.rotations.iter().filter(|rotation| rotation.used).count();
     let hardly = || {
         let reason = format!(
             "the {rotations} rotations between the holds hardly turn about {}: the gain would be known to {:.0} % at best",
@@ -197,6 +200,15 @@ pub(super) fn vague(joint: &Joint<'_>, state: &State, covariance: &DMatrix<f64>)
             remedy,
         }],
     })
+}
+
+/// The largest gain that the turns of known angle show.
+fn turned_gain(joint: &Joint<'_>, imu: &ImuParameters) -> Option<f64> {
+    let gain = |turn: &TurnData| {
+        let bias = imu.at(turn.temperature_c).gyroscope.bias;
+        (turn.integral - bias * turn.duration_s).norm() / turn.angle.norm()
+    };
+    joint.turns.iter().map(gain).reduce(f64::max)
 }
 
 /// Refuses readings that cannot be angular rates in the unit given.
