@@ -70,6 +70,17 @@ pub(crate) struct Arguments {
     output: PathBuf,
 }
 
+/// A report that is not written anew is not that of the calibration beside it.
+fn warn_of_earlier_report(directory: &Path) {
+    let report = directory.join("report.html");
+    if report.exists() {
+        console::warn(&format!(
+            "{} is that of an earlier calibration: --no-report writes none",
+            report.display()
+        ));
+    }
+}
+
 impl Arguments {
     /// The file to look at.
     fn main_result(&self) -> PathBuf {
@@ -106,12 +117,6 @@ struct Done {
 
 pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     place::check_directory(&arguments.output)?;
-    if arguments.no_report && arguments.output.join("report.html").exists() {
-        console::warn(&format!(
-            "{} is that of an earlier calibration: --no-report writes none",
-            arguments.output.join("report.html").display()
-        ));
-    }
     let experiment = Experiment::read(&arguments.experiment)?;
     if let Some(plan) = &experiment.imu {
         return imu::run(arguments, &experiment, plan);
@@ -228,6 +233,7 @@ impl Job {
     fn write(&self, done: &Done, path: &Path, directory: &Path, started: Instant) -> calibrant::Result<()> {
         write_calibration(&directory.join("calibration.json"), &done.calibration, &done.input)?;
         if !self.report {
+            warn_of_earlier_report(directory);
             return Ok(());
         }
         let recording = &done.file.recording;

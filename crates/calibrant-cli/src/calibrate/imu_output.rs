@@ -20,6 +20,7 @@ pub(super) fn write(
     let json = arguments.output.join("calibration.json");
     let json = || write_imu_calibration(&json, calibration, std::slice::from_ref(input));
     if arguments.no_report {
+        super::warn_of_earlier_report(&arguments.output);
         return json();
     }
     let about = About {
