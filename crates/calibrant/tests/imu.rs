@@ -7,8 +7,7 @@ use calibrant::estimate::{
     CalibrationSettings, CalibrationStatus, Gyroscope, HoldsSetup, ImuCalibration, ImuProblem, ImuSetup,
     KnownTerm, NoiseSource, Turn, WhiteNoise, calibrate_imu,
 };
-use calibrant::io::{ImuReadOptions, ImuUnit, SectionKind, read_imu_pair, read_imu_recording, read_sections};
-use calibrant::motion::Gravity;
+use calibrant::io::{ImuReadOptions, ImuUnit, SectionKind, read_imu_recording, read_sections};
 use calibrant::sensor::{ImuParameters, ImuRecording, ReadingUnit, Recording, Sensor, SensorModel};
 use calibrant::simulate::{ImuSimulation, Purpose, Rng, simulate_imu, stream};
 use common::{draw_imu, normal};
@@ -35,16 +34,8 @@ fn run(
 }
 
 fn xsens(g_sensitivity: bool) -> Option<ImuCalibration> {
-    let accelerometer = common::shared_data("xsens-mti-static/xsens_acc.mat")?;
-    let gyroscope = common::shared_data("xsens-mti-static/xsens_gyro.mat")?;
-    let options = ImuReadOptions {
-        accelerometer_unit: Some(ImuUnit::Counts),
-        gyroscope_unit: Some(ImuUnit::Counts),
-        ..ImuReadOptions::default()
-    };
-    let recording = read_imu_pair(&accelerometer, &gyroscope, &options).expect("readable").recording;
+    let (recording, gravity) = common::xsens()?;
     let unit = ReadingUnit::Counts;
-    let gravity = Gravity { magnitude_mps2: 9.81744, sd_mps2: 0.0 };
     let setup = ImuSetup { holds: HoldsSetup { gravity, ..HoldsSetup::default() }, ..ImuSetup::default() };
     let gyroscope = Gyroscope { unit, g_sensitivity, ..Gyroscope::default() };
     Some(run(&recording, &gyroscope, &setup, unit).expect("determined"))

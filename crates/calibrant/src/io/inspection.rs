@@ -108,8 +108,8 @@ impl SensorInspection {
         let mean_step = steps.iter().sum::<f64>() / count;
         let variance = steps.iter().map(|step| (step - mean_step).powi(2)).sum::<f64>() / count;
         let bounds = |start: f64, better: fn(f64, f64) -> f64| steps.iter().copied().fold(start, better);
-        let infinite = Vector3::repeat(f64::INFINITY);
         let readings = &recording.readings;
+        let [least, most] = recording.extremes();
         Self {
             triad,
             unit: recording.unit,
@@ -120,9 +120,9 @@ impl SensorInspection {
             jitter_s: variance.sqrt(),
             gaps,
             lost_s,
-            least: readings.iter().fold(infinite, |least, y| least.inf(y)),
+            least,
             mean: readings.iter().sum::<Vector3<f64>>() / readings.len() as f64,
-            most: readings.iter().fold(-infinite, |most, y| most.sup(y)),
+            most,
         }
     }
 }

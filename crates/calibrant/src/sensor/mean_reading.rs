@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use std::ops::Range;
 
 /// Mean of samples, and their scatter about it.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct MeanReading {
     pub(crate) mean: Vector3<f64>,
     pub(crate) samples: usize,
@@ -29,7 +29,7 @@ impl MeanReading {
         let (mut squares, mut degrees) = (Vector3::zeros(), 0);
         for stretch in stretches {
             squares += stretch.squares;
-            degrees += stretch.samples - 1;
+            degrees += stretch.samples.saturating_sub(1);
         }
         (squares / degrees.max(1) as f64).map(f64::sqrt)
     }

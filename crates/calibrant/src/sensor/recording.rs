@@ -36,6 +36,13 @@ impl Recording {
         self.readings.iter().all(|reading| reading[axis.index()] == value).then_some(value)
     }
 
+    /// Least and largest reading of each axis; ∞ and −∞ where there is no sample.
+    #[must_use]
+    pub(crate) fn extremes(&self) -> [Vector3<f64>; 2] {
+        let infinite = Vector3::repeat(f64::INFINITY);
+        self.readings.iter().fold([infinite, -infinite], |[least, most], y| [least.inf(y), most.sup(y)])
+    }
+
     /// The axes that were recorded.
     #[must_use]
     pub fn active_axes(&self) -> &'static [Axis] {

@@ -28,11 +28,9 @@ impl Recording {
     /// Ends of the range at which an axis stopped for several samples in a row, far longer than it does at any other value.
     #[must_use]
     pub fn saturations(&self) -> Vec<Saturation> {
-        let Some(&first) = self.readings.first() else { return Vec::new() };
-        let (least, most) =
-            self.readings.iter().fold((first, first), |(least, most), y| (least.inf(y), most.sup(y)));
-        let stops = self.longest_stops(&[least, most]);
-        let ends = |axis: Axis| [least[axis.index()], most[axis.index()]];
+        let extremes = self.extremes();
+        let stops = self.longest_stops(&extremes);
+        let ends = |axis: Axis| extremes.map(|extreme| extreme[axis.index()]);
         self.active_axes()
             .iter()
             .flat_map(|&axis| [(axis, false), (axis, true)])

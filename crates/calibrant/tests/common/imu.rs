@@ -1,9 +1,24 @@
-//! Simulated IMUs.
+//! IMUs, simulated and recorded.
 
-use calibrant::sensor::{Gauge, ImuParameters, SensorParameters, Thermal};
+use calibrant::io::{ImuReadOptions, ImuUnit, read_imu_pair};
+use calibrant::motion::Gravity;
+use calibrant::sensor::{Gauge, ImuParameters, ImuRecording, SensorParameters, Thermal};
 use calibrant::simulate::Rng;
 use nalgebra::{Matrix3, Vector3};
 use rand_distr::{Distribution, StandardNormal};
+
+/// The recording of imu_tk in counts, with gravity where it was made; `None` where it is not at hand.
+pub(crate) fn xsens() -> Option<(ImuRecording, Gravity)> {
+    let accelerometer = super::shared_data("xsens-mti-static/xsens_acc.mat")?;
+    let gyroscope = super::shared_data("xsens-mti-static/xsens_gyro.mat")?;
+    let options = ImuReadOptions {
+        accelerometer_unit: Some(ImuUnit::Counts),
+        gyroscope_unit: Some(ImuUnit::Counts),
+        ..ImuReadOptions::default()
+    };
+    let recording = read_imu_pair(&accelerometer, &gyroscope, &options).expect("readable").recording;
+    Some((recording, Gravity { magnitude_mps2: 9.81744, sd_mps2: 0.0 }))
+}
 
 pub(crate) fn normal(rng: &mut Rng) -> f64 {
     StandardNormal.sample(rng)

@@ -3,23 +3,13 @@
 use crate::bench::{Bench, KINDS};
 use crate::common;
 use calibrant::estimate::{CovarianceVerdict, Gyroscope, HoldsSetup, ImuSetup};
-use calibrant::io::{ImuReadOptions, ImuUnit, read_imu_pair};
-use calibrant::motion::Gravity;
 use calibrant::sensor::{ImuRecording, ReadingUnit, Recording, Sensor, SensorModel};
 
 /// The recording of imu_tk: half of it calibrates, the other half validates; and by folds.
 #[test]
 fn the_standard_deviations_on_the_xsens_recording_are_to_be_believed() {
-    let Some(accelerometer) = common::shared_data("xsens-mti-static/xsens_acc.mat") else { return };
-    let Some(gyroscope) = common::shared_data("xsens-mti-static/xsens_gyro.mat") else { return };
-    let options = ImuReadOptions {
-        accelerometer_unit: Some(ImuUnit::Counts),
-        gyroscope_unit: Some(ImuUnit::Counts),
-        ..ImuReadOptions::default()
-    };
-    let recording = read_imu_pair(&accelerometer, &gyroscope, &options).expect("readable").recording;
+    let Some((recording, gravity)) = common::xsens() else { return };
     let unit = ReadingUnit::Counts;
-    let gravity = Gravity { magnitude_mps2: 9.81744, sd_mps2: 0.0 };
     let bench = Bench {
         accelerometer: Sensor { unit, gain: None, offset: None, ..Sensor::triaxial(SensorModel::Full) },
         gyroscope: Gyroscope { unit, g_sensitivity: true, ..Gyroscope::default() },

@@ -6,7 +6,7 @@
 
 use crate::error::{Complaint, Error, Result};
 use crate::motion::Hold;
-use crate::sensor::Recording;
+use crate::sensor::{MeanReading, Recording};
 use nalgebra::Vector3;
 
 /// The window is half the shortest hold, but no longer than this, s: turns between holds must show.
@@ -195,17 +195,14 @@ fn median(mut values: Vec<f64>) -> f64 {
 
 /// Mean and standard deviation of the samples `first..end`.
 fn summarise(recording: &Recording, first: usize, end: usize) -> Hold {
-    let readings = &recording.readings[first..end];
-    let n = readings.len() as f64;
-    let mean = readings.iter().sum::<Vector3<f64>>() / n;
-    let squares: Vector3<f64> = readings.iter().map(|y| (y - mean).component_mul(&(y - mean))).sum();
+    let stretch = MeanReading::of(&recording.readings[first..end]).unwrap_or_default();
     Hold {
         first,
         end,
         start_s: recording.times_s[first],
         end_s: recording.times_s[end - 1],
-        mean,
-        sd: (squares / (n - 1.0).max(1.0)).map(f64::sqrt),
+        mean: stretch.mean,
+        sd: MeanReading::pooled_sd([&stretch]),
     }
 }
 

@@ -49,9 +49,7 @@ pub fn find_imu_holds(recording: &ImuRecording, minimum_s: f64) -> Result<Vec<Ho
 
 /// Which of its calm stretches does the gyroscope turn in?
 fn turning(gyroscope: &Recording, calm: &[Hold]) -> Vec<bool> {
-    let infinite = Vector3::repeat(f64::INFINITY);
-    let (low, high) =
-        gyroscope.readings.iter().fold((infinite, -infinite), |(low, high), y| (low.inf(y), high.sup(y)));
+    let [low, high] = gyroscope.extremes();
     let middle = Vector3::from_fn(|axis, _| {
         let mut means: Vec<f64> = calm.iter().map(|stretch| stretch.mean[axis]).collect();
         means.sort_by(f64::total_cmp);

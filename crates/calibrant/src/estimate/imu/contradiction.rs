@@ -97,25 +97,20 @@ fn of_turns(joint: &Joint<'_>, fit: &Fit, turns: &[Turn], unit: ReadingUnit) -> 
     warnings
 }
 
-/// What the gyroscope adds up to in a turn, in SI.
-fn shown(fit: &Fit, data: &TurnData) -> Vector3<f64> {
-    data.integral - fit.state.imu.at(data.temperature_c).gyroscope.bias * data.duration_s
-}
-
 /// The share of their angle that several turns show, where it is the same of all and far from one: no turn is wrong then, but what they have in common.
 fn same_share(joint: &Joint<'_>, fit: &Fit) -> Option<f64> {
-    let share = |data: &TurnData| shown(fit, data).dot(&data.angle) / data.angle.norm_squared();
+    let shown = |data: &TurnData| data.beyond_bias(&fit.state.imu);
+    let share = |data: &TurnData| shown(data).dot(&data.angle) / data.angle.norm_squared();
     let mean = joint.turns.iter().map(share).sum::<f64>() / joint.turns.len() as f64;
-    let follows = |data: &TurnData| {
-        (shown(fit, data) - mean * data.angle).norm() < 0.1 * mean.abs() * data.angle.norm()
-    };
+    let follows =
+        |data: &TurnData| (shown(data) - mean * data.angle).norm() < 0.1 * mean.abs() * data.angle.norm();
     (joint.turns.len() > 1 && (mean - 1.0).abs() > OTHER_TURN && joint.turns.iter().all(follows))
         .then_some(mean)
 }
 
 /// A turn of which the readings, in SI, show quite another one.
 fn other_turn(fit: &Fit, data: &TurnData, turn: &Turn, number: usize) -> Option<String> {
-    let shown = shown(fit, data);
+    let shown = data.beyond_bias(&fit.state.imu);
     let degrees = |angle: f64| angle.to_degrees();
     // about the axis as it was named
     let sign = if shown.dot(&turn.axis) < -0.5 * shown.norm() { -1.0 } else { 1.0 };

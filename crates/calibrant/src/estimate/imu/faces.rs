@@ -6,6 +6,7 @@
 use super::ImuProblem;
 use crate::error::{Complaint, Error, NotIdentifiable, Result, UndeterminedGroup};
 use crate::estimate::excess::excess;
+use crate::estimate::holds::magnitude_rms;
 use crate::estimate::{HoldCalibration, HoldResult, Uncalibrated, holds_between};
 use crate::information;
 use crate::motion::Hold;
@@ -89,18 +90,16 @@ pub(super) fn fit(
     } else {
         Vec::new()
     };
-    let squares: f64 = results.iter().map(|result| result.magnitude_residual_mps2.powi(2)).sum();
-    let rms = (squares / results.len().max(1) as f64).sqrt();
     Ok(First {
         sensor,
         within: linear.within,
         holds: HoldCalibration {
+            magnitude_residual_rms_mps2: magnitude_rms(&results),
             holds: results,
             gravity: setup.gravity,
             gauge: setup.gauge,
             between_holds_sd_mps2: between,
             between_holds_dominates: between > 0.0,
-            magnitude_residual_rms_mps2: rms,
             condition_number: condition,
             detected: false,
             before: Uncalibrated::accelerometer(problem.accelerometer, &sensor),

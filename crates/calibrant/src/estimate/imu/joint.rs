@@ -67,6 +67,13 @@ pub(super) struct TurnData {
     pub(super) temperature_c: f64,
 }
 
+impl TurnData {
+    /// What the gyroscope of an IMU adds up to beyond its bias, in the unit of its readings times s.
+    pub(super) fn beyond_bias(&self, imu: &ImuParameters) -> Vector3<f64> {
+        self.integral - imu.at(self.temperature_c).gyroscope.bias * self.duration_s
+    }
+}
+
 /// The problem for given weights.
 #[derive(Clone)]
 pub(super) struct Joint<'a> {

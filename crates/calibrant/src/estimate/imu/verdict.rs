@@ -204,10 +204,7 @@ pub(super) fn vague(joint: &Joint<'_>, state: &State, covariance: &DMatrix<f64>)
 
 /// The largest gain that the turns of known angle show.
 fn turned_gain(joint: &Joint<'_>, imu: &ImuParameters) -> Option<f64> {
-    let gain = |turn: &TurnData| {
-        let bias = imu.at(turn.temperature_c).gyroscope.bias;
-        (turn.integral - bias * turn.duration_s).norm() / turn.angle.norm()
-    };
+    let gain = |turn: &TurnData| turn.beyond_bias(imu).norm() / turn.angle.norm();
     joint.turns.iter().map(gain).reduce(f64::max)
 }
 
