@@ -1,6 +1,7 @@
 //! The coefficients that explain an Allan deviation.
 
 use super::moments::PROCESSES;
+use super::whitening::Whitening;
 use super::{Coefficient, Drift, Estimate, Moments, NoiseModel, PowerLaw, allan, interval};
 use crate::error::{Complaint, Error, Result};
 use nalgebra::{DMatrix, DVector};
@@ -168,25 +169,24 @@ impl<'a> Regression<'a> {
         let values = observed.rows(first, size);
         let design = moments.mean().view((first, 0), (size, PROCESSES)).select_columns(active);
         // to begin with, each variance is as uncertain as white noise makes it, for itself
-        let mut weight = DMatrix::zeros(size, size);
         let unit = moments.covariance(&[0.0, 1.0, 0.0, 0.0], first);
-        for j in 0..size {
+        let mut white = Whitening::of_independent((0..size).map(|j| {
             let relative = unit[(j, j)] / moments.mean()[(first + j, 1)].powi(2);
-            weight[(j, j)] = 1.0 / (relative * values[j] * values[j]);
-        }
+            relative * values[j] * values[j]
+        }));
         let mut theta = [0.0; PROCESSES];
         let mut gain = DMatrix::zeros(active.len(), size);
         for _ in 0..ITERATIONS {
-            let normal = design.transpose() * &weight;
-            let Some(next) = scaled_inverse(&(&normal * &design)).map(|inverse| inverse * normal) else {
-                break;
-            };
-            gain = next;
+            let whitened = white.of(design.clone());
+            let Some(inverse) = scaled_inverse(&whitened.tr_mul(&whitened)) else { break };
+            gain = inverse * white.transposed(whitened).transpose();
             let found = &gain * values;
             let before = theta;
             active.iter().zip(found.iter()).for_each(|(&a, &value)| theta[a] = value);
-            let Some(inverse) = scaled_inverse(&moments.covariance(&positive(theta), first)) else { break };
-            weight = inverse;
+            let Some(next) = Whitening::of_covariance(&moments.covariance(&positive(theta), first)) else {
+                break;
+            };
+            white = next;
             let change =
                 |a: usize| (theta[a] - before[a]).abs() <= 1e-9 * theta[a].abs().max(before[a].abs());
             if (0..PROCESSES).all(change) {
@@ -195,7 +195,7 @@ impl<'a> Regression<'a> {
         }
         let residual =
             values - &design * DVector::from_iterator(active.len(), active.iter().map(|&a| theta[a]));
-        let chi2 = residual.dot(&(&weight * &residual));
+        let chi2 = white.of(residual).norm_squared();
         let rivals = Default::default();
         Self { moments, observed, first, active: active.to_vec(), theta, gain, chi2, rivals }
     }
@@ -366,12 +366,7 @@ fn positive(theta: [f64; PROCESSES]) -> [f64; PROCESSES] {
 
 /// Inverse of a symmetric positive definite matrix whose entries span many decades.
 fn scaled_inverse(matrix: &DMatrix<f64>) -> Option<DMatrix<f64>> {
-    let scale = matrix.diagonal().map(|d| 1.0 / d.sqrt());
-    if scale.iter().any(|s| !s.is_finite()) {
-        return None;
-    }
-    let scaled =
-        DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |i, j| matrix[(i, j)] * scale[i] * scale[j]);
-    let inverse = scaled.cholesky()?.inverse();
-    Some(DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |i, j| inverse[(i, j)] * scale[i] * scale[j]))
+    let white = Whitening::of_covariance(matrix)?;
+    let factor = white.of(DMatrix::identity(matrix.nrows(), matrix.ncols()));
+    Some(factor.tr_mul(&factor))
 }

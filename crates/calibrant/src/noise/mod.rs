@@ -57,6 +57,7 @@ mod scaled;
 mod stretch;
 mod triad;
 mod unit;
+mod whitening;
 
 pub use allan::{AllanDeviation, AllanPoint};
 pub use coefficient::{Coefficient, Estimate};

@@ -1,7 +1,7 @@
 //! The stretch of a recording whose noise is examined: at rest, at equal intervals.
 
 use crate::error::{Complaint, Error, Result};
-use crate::sensor::Recording;
+use crate::sensor::{Recording, rate_hz};
 use std::ops::Range;
 
 /// A time step is a gap from this many median steps on.
@@ -40,7 +40,7 @@ impl Stretch {
         check(recording, start_s, end_s)?;
         let Range { start: first, end } = recording.between(start_s, end_s);
         let times = &recording.times_s[first..end];
-        let step = recording.rate_hz().recip();
+        let step = rate_hz(times).recip();
         let mut edges = vec![0];
         edges.extend((1..times.len()).filter(|&k| times[k] - times[k - 1] > GAP * step));
         edges.push(times.len());

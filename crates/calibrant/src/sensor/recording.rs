@@ -52,12 +52,17 @@ impl Recording {
     /// Sample rate in Hz: the inverse of the median time between samples, so that gaps do not matter; 0 for fewer than two samples.
     #[must_use]
     pub fn rate_hz(&self) -> f64 {
-        let mut steps: Vec<f64> = self.times_s.windows(2).map(|pair| pair[1] - pair[0]).collect();
-        if steps.is_empty() {
-            return 0.0;
-        }
-        let middle = steps.len() / 2;
-        let (_, median, _) = steps.select_nth_unstable_by(middle, f64::total_cmp);
-        1.0 / *median
+        rate_hz(&self.times_s)
     }
+}
+
+/// The inverse of the median step between times in s, Hz; 0 for fewer than two.
+pub(crate) fn rate_hz(times_s: &[f64]) -> f64 {
+    let mut steps: Vec<f64> = times_s.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    if steps.is_empty() {
+        return 0.0;
+    }
+    let middle = steps.len() / 2;
+    let (_, median, _) = steps.select_nth_unstable_by(middle, f64::total_cmp);
+    1.0 / *median
 }
