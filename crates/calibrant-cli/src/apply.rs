@@ -139,12 +139,12 @@ fn one_sensor(imu: &CalibratedImu, arguments: &Arguments) -> calibrant::Result<I
         columns: Vec::new(),
         findings: file.findings,
         rows: file.lines,
-        sha256: file.sha256,
+        sha256: vec![file.sha256],
     })
 }
 
 /// Samples, size and uncertainty of one sensor in a line or two.
-fn summary(triad: Triad, corrected: &CorrectedTriad) -> String {
+fn summary(triad: Triad, corrected: &CorrectedTriad<'_>) -> String {
     let unit = triad.stimulus_unit().symbol();
     let samples = corrected.values.len();
     let mean = corrected.values.iter().map(|value| value.norm()).sum::<f64>() / samples.max(1) as f64;

@@ -14,7 +14,7 @@ use std::path::Path;
 ///
 /// # Errors
 /// [`Error::Output`](crate::Error::Output) where it cannot be written.
-pub fn write_corrected_recording(path: &Path, recording: &CorrectedRecording) -> Result<()> {
+pub fn write_corrected_recording(path: &Path, recording: &CorrectedRecording<'_>) -> Result<()> {
     let triads: Vec<_> =
         [(Triad::Accelerometer, &recording.accelerometer), (Triad::Gyroscope, &recording.gyroscope)]
             .into_iter()
@@ -42,7 +42,7 @@ pub fn write_corrected_recording(path: &Path, recording: &CorrectedRecording) ->
     })
 }
 
-fn header(out: &mut dyn Write, triad: Triad, corrected: &CorrectedTriad) -> io::Result<()> {
+fn header(out: &mut dyn Write, triad: Triad, corrected: &CorrectedTriad<'_>) -> io::Result<()> {
     let (letter, unit) = (&triad.name()[..1], triad.stimulus_unit().suffix());
     for axis in Axis::ALL {
         write!(out, ",{letter}{axis}_{unit}")?;
@@ -55,7 +55,7 @@ fn header(out: &mut dyn Write, triad: Triad, corrected: &CorrectedTriad) -> io::
     Ok(())
 }
 
-fn row(out: &mut dyn Write, corrected: &CorrectedTriad, sample: Option<usize>) -> io::Result<()> {
+fn row(out: &mut dyn Write, corrected: &CorrectedTriad<'_>, sample: Option<usize>) -> io::Result<()> {
     for vectors in [Some(&corrected.values), corrected.sd.as_ref()].into_iter().flatten() {
         match sample.and_then(|k| vectors.get(k)) {
             Some(values) => values.iter().try_for_each(|value| write!(out, ",{value:?}"))?,

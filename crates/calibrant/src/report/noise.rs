@@ -6,6 +6,7 @@ use super::html::{Page, escape, facts, verdict_box};
 use super::number;
 use super::table::{Cell, Table};
 use crate::noise::{AxisNoise, Coefficient, PowerLaw, TriadNoise, coefficient_units};
+use rayon::prelude::*;
 
 /// Samples that scatter more than white noise by this factor are disturbed.
 const DISTURBED: f64 = 1.05;
@@ -22,14 +23,19 @@ pub fn noise_report(noise: &[TriadNoise], about: &About) -> String {
     page.push(format!("<h1>{}</h1>", escape(title)));
     page.push(facts(about.facts.iter().map(|(label, value)| (label.as_str(), value.as_str()))));
     page.push(verdict(noise, about));
-    for triad in noise {
-        noise_section(&mut page, triad);
+    for (triad, figure) in noise.iter().zip(allan_figures(noise)) {
+        noise_section(&mut page, triad, figure);
     }
     page.finish(title, &about.footer())
 }
 
-/// The section on one sensor: plot, coefficients, samples.
-pub(super) fn noise_section(page: &mut Page, noise: &TriadNoise) {
+/// The Allan deviation of each sensor, as HTML.
+pub(super) fn allan_figures(noise: &[TriadNoise]) -> Vec<String> {
+    noise.par_iter().map(|triad| allan_figure(triad).html()).collect()
+}
+
+/// The section on one sensor: its figure, coefficients, samples.
+pub(super) fn noise_section(page: &mut Page, noise: &TriadNoise, figure: String) {
     let stretch = &noise.stretch;
     page.section(
         &format!("Noise of the {}", noise.triad),
@@ -41,7 +47,7 @@ pub(super) fn noise_section(page: &mut Page, noise: &TriadNoise) {
             number::significant(stretch.rate_hz(), 5)
         ),
     );
-    page.push(allan_figure(noise).html());
+    page.push(figure);
     page.subsection("Coefficients");
     page.push(coefficient_table(noise));
     page.subsection("White noise of one sample");

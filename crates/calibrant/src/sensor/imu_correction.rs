@@ -50,18 +50,18 @@ pub struct ImuCorrection {
 
 /// A corrected recording of an IMU.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct CorrectedRecording {
+pub struct CorrectedRecording<'a> {
     /// Specific force, m/s².
-    pub accelerometer: Option<CorrectedTriad>,
+    pub accelerometer: Option<CorrectedTriad<'a>>,
     /// Angular rate, rad/s.
-    pub gyroscope: Option<CorrectedTriad>,
+    pub gyroscope: Option<CorrectedTriad<'a>>,
 }
 
 /// Corrected readings of one sensor over time.
 #[derive(Debug, Clone, PartialEq)]
-pub struct CorrectedTriad {
-    /// Sample times, s.
-    pub times_s: Vec<f64>,
+pub struct CorrectedTriad<'a> {
+    /// Sample times, s: those of the recording.
+    pub times_s: &'a [f64],
     /// Corrected readings, in the sensor's SI unit.
     pub values: Vec<Vector3<f64>>,
     /// Standard uncertainty of the correction at each; `None` where the calibration has no covariance of this sensor.
@@ -239,7 +239,11 @@ impl ImuCorrection {
     /// # Errors
     /// [`Error::Recording`] where the readings are in another unit than the calibration's, where there is a g-sensitivity to correct and the
     /// recording has no accelerometer, or where the calibration follows temperature and the recording has none.
-    pub fn apply(&self, imu: &CalibratedImu, recording: &ImuRecording) -> Result<CorrectedRecording> {
+    pub fn apply<'a>(
+        &self,
+        imu: &CalibratedImu,
+        recording: &'a ImuRecording,
+    ) -> Result<CorrectedRecording<'a>> {
         for triad in Triad::ALL {
             if let (Some(unit), Some(readings)) = (imu.unit(triad), recording.triad(triad))
                 && unit != readings.unit
@@ -284,26 +288,26 @@ impl ImuCorrection {
         Ok(CorrectedRecording { accelerometer, gyroscope })
     }
 
-    fn correct_forces(
+    fn correct_forces<'a>(
         &self,
-        readings: &Recording,
+        readings: &'a Recording,
         temperatures: Option<&Temperatures<'_>>,
-    ) -> Result<CorrectedTriad> {
+    ) -> Result<CorrectedTriad<'a>> {
         self.corrected(readings, temperatures, |here, k| {
             let force = here.force(&readings.readings[k])?;
             Some((force, here.force_sd(&force)))
         })
     }
 
-    fn correct_rates(
+    fn correct_rates<'a>(
         &self,
-        readings: &Recording,
-        forces: Option<&CorrectedTriad>,
+        readings: &'a Recording,
+        forces: Option<&CorrectedTriad<'_>>,
         temperatures: Option<&Temperatures<'_>>,
-    ) -> Result<CorrectedTriad> {
+    ) -> Result<CorrectedTriad<'a>> {
         let force_at = |k: usize| match forces {
             None => Vector3::zeros(),
-            Some(forces) => interpolated(&forces.times_s, |k| forces.values[k], readings.times_s[k], k)
+            Some(forces) => interpolated(forces.times_s, |k| forces.values[k], readings.times_s[k], k)
                 .unwrap_or_else(Vector3::zeros),
         };
         self.corrected(readings, temperatures, |here, k| {
@@ -314,12 +318,12 @@ impl ImuCorrection {
     }
 
     /// Each sample with the correction at its temperature.
-    fn corrected(
+    fn corrected<'a>(
         &self,
-        readings: &Recording,
+        readings: &'a Recording,
         temperatures: Option<&Temperatures<'_>>,
         correct: impl Fn(&Self, usize) -> Option<(Vector3<f64>, Option<Vector3<f64>>)>,
-    ) -> Result<CorrectedTriad> {
+    ) -> Result<CorrectedTriad<'a>> {
         let mut values = Vec::with_capacity(readings.len());
         let mut sd = Some(Vec::new());
         for k in 0..readings.readings.len() {
@@ -335,7 +339,7 @@ impl ImuCorrection {
                 });
             }
         }
-        Ok(CorrectedTriad { times_s: readings.times_s.clone(), values, sd })
+        Ok(CorrectedTriad { times_s: &readings.times_s, values, sd })
     }
 }
 

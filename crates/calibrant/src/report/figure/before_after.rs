@@ -1,7 +1,7 @@
 //! The readings before and after the correction.
 
 use super::panel::{Mark, Panel, Series, Shape};
-use super::thin::{is_thinned, thinned};
+use super::thin::{is_thinned, thinned, thinned_dots};
 use super::unit::DisplayUnit;
 use super::{Figure, colour};
 use crate::estimate::{HoldCalibration, ImuCalibration};
@@ -128,8 +128,8 @@ fn force_panels(
             .with(line(AFTER, colour::BLUE, thinned(all().map(after))))
             .with(at_gravity.clone()),
         Panel::new("specific force in holds", "time (s)", "|f| (m/s²)")
-            .with(dots("before, in holds", colour::ORANGE, thinned(still().map(before))))
-            .with(dots("after, in holds", colour::BLUE, thinned(still().map(after))))
+            .with(dots("before, in holds", colour::ORANGE, thinned_dots(still().map(before))))
+            .with(dots("after, in holds", colour::BLUE, thinned_dots(still().map(after))))
             .with(at_gravity),
     ])
 }

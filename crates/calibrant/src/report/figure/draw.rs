@@ -170,20 +170,21 @@ fn responsive(svg: &str, height: f64, name: &str) -> String {
 /// Decimals beyond the third dropped within tags: the plotting library writes some coordinates as 123.45000000000002.
 fn shortened(svg: &str) -> String {
     let mut short = String::with_capacity(svg.len());
-    let (mut decimals, mut after_point, mut in_tag) = (0, false, false);
-    for c in svg.chars() {
-        if c.is_ascii_digit() {
+    let (mut decimals, mut after_point, mut in_tag, mut kept) = (0, false, false, 0);
+    for (at, byte) in svg.bytes().enumerate() {
+        if byte.is_ascii_digit() {
             decimals += usize::from(after_point);
             if in_tag && decimals > 3 {
-                continue;
+                short.push_str(&svg[kept..at]);
+                kept = at + 1;
             }
         } else {
-            in_tag = c == '<' || (in_tag && c != '>');
-            after_point = c == '.';
+            in_tag = byte == b'<' || (in_tag && byte != b'>');
+            after_point = byte == b'.';
             decimals = 0;
         }
-        short.push(c);
     }
+    short.push_str(&svg[kept..]);
     short
 }
 

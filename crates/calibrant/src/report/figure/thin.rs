@@ -5,21 +5,26 @@ const COLUMNS: usize = 400;
 
 /// The smallest and the largest value of each column of pixels, in order of x: looks the same as all points.
 pub(super) fn thinned(points: impl ExactSizeIterator<Item = (f64, f64)>) -> Vec<(f64, f64)> {
-    if points.len() <= 3 * COLUMNS {
+    thinned_to(COLUMNS, points)
+}
+
+/// The same for dots, each of which is as wide as two columns.
+pub(super) fn thinned_dots(points: impl ExactSizeIterator<Item = (f64, f64)>) -> Vec<(f64, f64)> {
+    thinned_to(COLUMNS / 2, points)
+}
+
+fn thinned_to(columns: usize, mut points: impl ExactSizeIterator<Item = (f64, f64)>) -> Vec<(f64, f64)> {
+    if points.len() <= 3 * columns {
         return points.collect();
     }
-    let per_column = points.len().div_ceil(COLUMNS);
-    let mut kept = Vec::with_capacity(2 * COLUMNS);
-    let mut column = Column::default();
-    for (k, point) in points.enumerate() {
-        if k % per_column == 0 {
-            kept.extend(std::mem::take(&mut column).extremes());
-        }
-        if point.0.is_finite() && point.1.is_finite() {
-            column.add(point);
-        }
+    let per_column = points.len().div_ceil(columns);
+    let mut kept = Vec::with_capacity(2 * columns);
+    while points.len() > 0 {
+        let mut column = Column::default();
+        let finite = |point: &(f64, f64)| point.0.is_finite() && point.1.is_finite();
+        points.by_ref().take(per_column).filter(finite).for_each(|point| column.add(point));
+        kept.extend(column.extremes());
     }
-    kept.extend(column.extremes());
     kept
 }
 

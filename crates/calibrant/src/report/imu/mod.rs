@@ -19,7 +19,7 @@ use super::figure::{
 };
 use super::holds::{hold_summary, hold_table};
 use super::html::{Page, escape, facts};
-use super::noise::noise_section;
+use super::noise::{allan_figures, noise_section};
 use super::validation::validation_section;
 use super::{About, before_after};
 use crate::estimate::ImuCalibration;
@@ -39,15 +39,19 @@ pub fn imu_calibration_report(
 ) -> String {
     let holds = &calibration.holds;
     let (accelerometer, gyroscope) = (recording.accelerometer.as_ref(), recording.gyroscope.as_ref());
-    let [of_holds, of_recording, residuals, still, over_temperature, overview, rotations] = drawn([
-        &|| holds_before_and_after(holds),
-        &|| imu_before_and_after(calibration, recording),
-        &|| Some(hold_residuals(holds)),
-        &|| still_gyroscope(calibration, gyroscope?),
-        &|| bias_over_temperature(calibration, gyroscope?),
-        &|| Some(recording_overview(holds, accelerometer?)),
-        &|| rotation_errors(&calibration.rotations),
-    ]);
+    let figures = || {
+        drawn([
+            &|| imu_before_and_after(calibration, recording),
+            &|| holds_before_and_after(holds),
+            &|| Some(hold_residuals(holds)),
+            &|| still_gyroscope(calibration, gyroscope?),
+            &|| bias_over_temperature(calibration, gyroscope?),
+            &|| Some(recording_overview(holds, accelerometer?)),
+            &|| rotation_errors(&calibration.rotations),
+        ])
+    };
+    let (figures, allan) = rayon::join(figures, || allan_figures(noise));
+    let [of_recording, of_holds, residuals, still, over_temperature, overview, rotations] = figures;
     let mut page = Page::default();
     let title = if about.title.is_empty() { "Calibration of an IMU" } else { &about.title };
     page.push(format!("<h1>{}</h1>", escape(title)));
@@ -104,7 +108,7 @@ pub fn imu_calibration_report(
         );
         page.push(rotations::turn_table(&calibration.turns));
     }
-    noise.iter().for_each(|triad| noise_section(&mut page, triad));
+    noise.iter().zip(allan).for_each(|(triad, figure)| noise_section(&mut page, triad, figure));
 
     validation_section(&mut page, &calibration.validations);
     page.section("Fit and correlations", "");
