@@ -1,17 +1,20 @@
 //! `calibrant calibrate` for a whole IMU.
 
 use super::Arguments;
-use super::imu_noise::{HoldNoise, LongestHold};
+use super::imu_noise::LongestHold;
 use crate::reading::{in_file, name};
 use crate::{Exit, console};
 use calibrant::Error;
 use calibrant::error::Complaint;
-use calibrant::estimate::{CalibrationSettings, ImuProblem, ImuSetup, Turn, calibrate_imu, find_imu_holds};
+use calibrant::estimate::{
+    CalibrationSettings, ImuProblem, ImuSetup, Turn, calibrate_imu_while, find_imu_holds,
+};
 use calibrant::io::{
     Experiment, HoldsPlan, ImuFile, ImuPlan, ImuReadOptions, ImuUnit, Input, Plan, Section, SectionKind,
     read_sections,
 };
-use calibrant::sensor::{ReadingUnit, Triad};
+use calibrant::noise::TriadNoise;
+use calibrant::sensor::{ReadingUnit, Recording, Triad};
 use std::time::Instant;
 
 pub(super) fn run(arguments: &Arguments, experiment: &Experiment, plan: &ImuPlan) -> calibrant::Result<Exit> {
@@ -44,41 +47,46 @@ pub(super) fn run(arguments: &Arguments, experiment: &Experiment, plan: &ImuPlan
         // an error is the calibration's to tell
         setup.found = find_imu_holds(&file.recording, setup.holds.minimum_hold_s).ok();
     }
+    let (accelerometer, gyroscope, recording) = (&experiment.sensor, &plan.gyroscope, &file.recording);
+    let problem = ImuProblem { accelerometer, gyroscope, recording, setup: &setup };
     let longest = LongestHold::of(&setup, &file.recording);
-    let noise =
-        |triad: Triad, other: Option<&HoldNoise>| longest.as_ref()?.noise(triad, &file.recording, other);
-    let of_gyroscope = noise(Triad::Gyroscope, None);
-    setup.white_noise =
-        longest.as_ref().zip(of_gyroscope.as_ref()).and_then(|(hold, noise)| hold.white_noise(noise));
-    let problem = ImuProblem {
-        accelerometer: &experiment.sensor,
-        gyroscope: &plan.gyroscope,
-        recording: &file.recording,
-        setup: &setup,
+    let noise = |triad: Triad| longest.as_ref()?.noise(triad, recording);
+    let (mut of_gyroscope, mut white_noise) = (None, None);
+    let find_white_noise = || {
+        of_gyroscope = noise(Triad::Gyroscope);
+        white_noise = longest.as_ref()?.white_noise(of_gyroscope.as_ref()?);
+        white_noise
     };
     let (calibration, of_accelerometer) = rayon::join(
-        || calibrate_imu(&problem, &CalibrationSettings::default()).map_err(|error| in_file(error, path)),
+        || calibrate_imu_while(&problem, &CalibrationSettings::default(), find_white_noise),
         // for the report alone
-        || if arguments.no_report { None } else { noise(Triad::Accelerometer, of_gyroscope.as_ref()) },
+        || if arguments.no_report { None } else { noise(Triad::Accelerometer) },
     );
-    let mut calibration = calibration?;
+    let mut calibration = calibration.map_err(|error| in_file(error, path))?;
+    setup.white_noise = white_noise;
+    let problem = ImuProblem { accelerometer, gyroscope, recording, setup: &setup };
     calibration.validations = super::validation::of_imu(arguments, &options, &calibration, &problem, &file)?;
-    let main = file.recording.accelerometer.as_ref();
-    let input = Input {
-        file: arguments
-            .gyroscope
-            .as_ref()
-            .map_or_else(|| name(path), |second| format!("{} and {}", name(path), name(second))),
-        sha256: file.sha256.clone(),
-        samples: main.map_or(0, calibrant::sensor::Recording::len),
-        rate_hz: main.map_or(0.0, calibrant::sensor::Recording::rate_hz),
-    };
-    let noise: Vec<HoldNoise> = of_accelerometer.into_iter().chain(of_gyroscope).collect();
-    super::imu_output::write(arguments, &calibration, &file, noise, &input, started)?;
+    let inputs: Vec<Input> = [Some(path), arguments.gyroscope.as_ref()]
+        .into_iter()
+        .flatten()
+        .zip(Triad::ALL)
+        .zip(&file.sha256)
+        .map(|((path, triad), sha256)| {
+            let readings = recording.triad(triad);
+            Input {
+                file: name(path),
+                sha256: sha256.clone(),
+                samples: readings.map_or(0, Recording::len),
+                rate_hz: readings.map_or(0.0, Recording::rate_hz),
+            }
+        })
+        .collect();
+    let noise: Vec<TriadNoise> = of_accelerometer.into_iter().chain(of_gyroscope).collect();
+    super::imu_output::write(arguments, &calibration, &file, noise, &inputs, started)?;
     for warning in &calibration.warnings {
         console::warn(warning);
     }
-    super::imu_output::show(arguments, &calibration, &input);
+    super::imu_output::show(arguments, &calibration, &inputs);
     Ok(Exit::of_status(calibration.status))
 }
 

@@ -14,11 +14,7 @@ pub(super) struct LongestHold {
     /// Its number, from 0.
     number: usize,
     hold: Hold,
-}
-
-/// The noise of a sensor in it, in the unit of the readings.
-pub(super) struct HoldNoise {
-    noise: TriadNoise,
+    /// For the samples of a sensor in it: most often the other has as many.
     moments: Moments,
 }
 
@@ -31,50 +27,44 @@ impl LongestHold {
             .as_ref()
             .and_then(|intervals| holds_between(recording.accelerometer.as_ref()?, intervals).ok());
         let holds = given.or_else(|| setup.found.clone())?;
-        holds
+        let (number, hold) = holds
             .into_iter()
             .enumerate()
             .max_by(|(_, one), (_, other)| one.duration_s().total_cmp(&other.duration_s()))
-            .filter(|(_, hold)| hold.duration_s() >= LONG_HOLD_S)
-            .map(|(number, hold)| Self { number, hold })
+            .filter(|(_, hold)| hold.duration_s() >= LONG_HOLD_S)?;
+        let stretch = |triad| Stretch::between(recording.triad(triad)?, hold.start_s, hold.end_s).ok();
+        let stretch = stretch(Triad::Gyroscope).or_else(|| stretch(Triad::Accelerometer))?;
+        Some(Self { number, moments: Moments::of(stretch.samples()), hold })
     }
 
-    /// The noise of a sensor in it; `None` where its samples do not determine it. Most often `other` has as many samples.
-    pub(super) fn noise(
-        &self,
-        triad: Triad,
-        recording: &ImuRecording,
-        other: Option<&HoldNoise>,
-    ) -> Option<HoldNoise> {
+    /// The noise of a sensor in it; `None` where its samples do not determine it.
+    pub(super) fn noise(&self, triad: Triad, recording: &ImuRecording) -> Option<TriadNoise> {
         let recording = recording.triad(triad)?;
         let stretch = Stretch::between(recording, self.hold.start_s, self.hold.end_s).ok()?;
-        let same = other.filter(|other| other.moments.samples() == stretch.samples());
-        let moments = same.map_or_else(|| Moments::of(stretch.samples()), |other| other.moments.clone());
-        let noise = TriadNoise::with_moments(triad, recording, stretch, &moments).ok()?;
-        Some(HoldNoise { noise, moments })
+        if stretch.samples() == self.moments.samples() {
+            TriadNoise::with_moments(triad, recording, stretch, &self.moments).ok()
+        } else {
+            TriadNoise::of(triad, recording, stretch).ok()
+        }
     }
 
     /// A gyroscope's white noise, where it is determined on all axes and the noise is understood.
-    pub(super) fn white_noise(&self, gyroscope: &HoldNoise) -> Option<WhiteNoise> {
-        let noise = &gyroscope.noise;
-        let sd = noise.white_noise_per_sample().filter(|_| noise.explains())?;
-        Some(WhiteNoise { sd, hold: self.number, duration_s: noise.stretch.duration_s() })
+    pub(super) fn white_noise(&self, gyroscope: &TriadNoise) -> Option<WhiteNoise> {
+        let sd = gyroscope.white_noise_per_sample().filter(|_| gyroscope.explains())?;
+        Some(WhiteNoise { sd, hold: self.number, duration_s: gyroscope.stretch.duration_s() })
     }
 }
 
-impl HoldNoise {
-    /// The noise in m/s² or rad/s.
-    pub(super) fn physical(
-        self,
-        calibration: &ImuCalibration,
-        recording: &ImuRecording,
-    ) -> calibrant::Result<TriadNoise> {
-        let triad = self.noise.triad;
-        let matrix = calibration.imu.triad(triad).matrix;
-        let gain = Vector3::from_fn(|axis, _| matrix.row(axis).norm());
-        match recording.triad(triad) {
-            Some(recording) => self.noise.with_gain(recording, &gain),
-            None => Ok(self.noise),
-        }
+/// The noise of a sensor in m/s² or rad/s.
+pub(super) fn physical(
+    noise: TriadNoise,
+    calibration: &ImuCalibration,
+    recording: &ImuRecording,
+) -> calibrant::Result<TriadNoise> {
+    let matrix = calibration.imu.triad(noise.triad).matrix;
+    let gain = Vector3::from_fn(|axis, _| matrix.row(axis).norm());
+    match recording.triad(noise.triad) {
+        Some(recording) => noise.with_gain(recording, &gain),
+        None => Ok(noise),
     }
 }

@@ -1,10 +1,11 @@
 //! What a calibrated IMU is written to, and shown as.
 
 use super::Arguments;
-use super::imu_noise::HoldNoise;
+use super::imu_noise::physical;
 use crate::console;
 use calibrant::estimate::ImuCalibration;
 use calibrant::io::{ImuFile, Input, imu_calibration_json, write_atomically, write_imu_calibration};
+use calibrant::noise::TriadNoise;
 use calibrant::report::{About, imu_calibration_report, number};
 use std::time::Instant;
 
@@ -13,26 +14,28 @@ pub(super) fn write(
     arguments: &Arguments,
     calibration: &ImuCalibration,
     file: &ImuFile,
-    noise: Vec<HoldNoise>,
-    input: &Input,
+    noise: Vec<TriadNoise>,
+    inputs: &[Input],
     started: Instant,
 ) -> calibrant::Result<()> {
     let json = arguments.output.join("calibration.json");
-    let json = || write_imu_calibration(&json, calibration, std::slice::from_ref(input));
+    let json = || write_imu_calibration(&json, calibration, inputs);
     if arguments.no_report {
         super::warn_of_earlier_report(&arguments.output);
         return json();
     }
+    let of_inputs = |of: &dyn Fn(&Input) -> String| inputs.iter().map(of).collect::<Vec<_>>().join(" and ");
+    let files = of_inputs(&|input| input.file.clone());
+    let samples = |input: &Input| {
+        format!("{} at {} Hz", number::count(input.samples), number::significant(input.rate_hz, 5))
+    };
     let about = About {
-        title: format!("Calibration of an IMU from {}", input.file),
+        title: format!("Calibration of an IMU from {files}"),
         facts: vec![
-            ("Recording".into(), input.file.clone()),
+            ("Recording".into(), files),
             ("Format".into(), file.format.name().into()),
-            ("SHA-256".into(), input.sha256.clone()),
-            (
-                "Samples".into(),
-                format!("{} at {} Hz", number::count(input.samples), number::significant(input.rate_hz, 5)),
-            ),
+            ("SHA-256".into(), of_inputs(&|input| input.sha256.clone())),
+            ("Samples".into(), of_inputs(&samples)),
             ("Experiment".into(), arguments.experiment.display().to_string()),
         ],
         findings: file.findings.iter().map(ToString::to_string).collect(),
@@ -40,7 +43,7 @@ pub(super) fn write(
         program: format!("calibrant {}", env!("CARGO_PKG_VERSION")),
         ..About::default()
     };
-    let physical = |noise: HoldNoise| noise.physical(calibration, &file.recording);
+    let physical = |noise: TriadNoise| physical(noise, calibration, &file.recording);
     let noise = noise.into_iter().map(physical).collect::<calibrant::Result<Vec<_>>>()?;
     let report = || {
         let html = imu_calibration_report(calibration, &file.recording, &noise, &about);
@@ -51,9 +54,9 @@ pub(super) fn write(
 }
 
 /// Prints the tables, or calibration.json.
-pub(super) fn show(arguments: &Arguments, calibration: &ImuCalibration, input: &Input) {
+pub(super) fn show(arguments: &Arguments, calibration: &ImuCalibration, inputs: &[Input]) {
     if arguments.json {
-        return console::print(&imu_calibration_json(calibration, std::slice::from_ref(input)));
+        return console::print(&imu_calibration_json(calibration, inputs));
     }
     console::print(&console::imu_calibration(calibration));
     console::print(&format!("\n{}\n", arguments.main_result().display()));

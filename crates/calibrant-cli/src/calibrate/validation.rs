@@ -49,8 +49,8 @@ pub(super) fn of_imu(
         let other = read(path, arguments.validate_gyroscope.as_deref(), options)?;
         other.findings.iter().for_each(|finding| console::finding(&name(path), finding));
         refuse_the_same(
-            (&file.sha256, file.recording.accelerometer.as_ref()),
-            (&other.sha256, other.recording.accelerometer.as_ref()),
+            (&file.sha256.concat(), file.recording.accelerometer.as_ref()),
+            (&other.sha256.concat(), other.recording.accelerometer.as_ref()),
             path,
         )?;
         let setup = ImuSetup { holds: found(&problem.setup.holds), ..ImuSetup::default() };

@@ -55,7 +55,7 @@ fn of_imu(path: &Path, triad: Triad, options: &ImuReadOptions) -> calibrant::Res
         let complaint = Complaint::new(format!("the file has no {triad}"), "choose the other with --sensor");
         return Err(Error::Recording(Box::new(complaint.in_file(path))));
     };
-    let input = input(path, file.sha256, recording);
+    let input = input(path, file.sha256.concat(), recording);
     let findings = file.findings.iter().map(ToString::to_string).collect();
     Ok(File { input, findings, imu, leaves_columns_aside: false })
 }

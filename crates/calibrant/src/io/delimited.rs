@@ -39,6 +39,11 @@ impl<'t> Lines<'t> {
     pub(super) fn of(text: &'t str) -> Self {
         Self { rest: text, end: if text.contains('\n') { b'\n' } else { b'\r' }, number: 0 }
     }
+
+    /// Lines that end with LF and come after so many others.
+    pub(super) fn after(number: usize, text: &'t str) -> Self {
+        Self { rest: text, end: b'\n', number }
+    }
 }
 
 impl<'t> Iterator for Lines<'t> {

@@ -166,7 +166,8 @@ pub fn inspection_json(file: &ImuFile, inspection: &Inspection) -> String {
 struct InspectionFile<'a> {
     schema: u32,
     format: &'static str,
-    sha256: &'a str,
+    /// Of each file, with spaces between.
+    sha256: String,
     rows: usize,
     columns: Vec<ColumnFields<'a>>,
     findings: Vec<String>,
@@ -258,7 +259,7 @@ impl<'a> InspectionFile<'a> {
         Self {
             schema: 1,
             format: file.format.name(),
-            sha256: &file.sha256,
+            sha256: file.sha256.join(" "),
             rows: file.rows,
             columns: file.columns.iter().map(ColumnFields::of).collect(),
             findings: file.findings.iter().map(Finding::to_string).collect(),

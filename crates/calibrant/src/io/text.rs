@@ -1,6 +1,7 @@
 //! Bytes of a file to text: size, encoding and binary content, each with a complaint that says what the file really is.
 
 use crate::error::Complaint;
+use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
@@ -11,49 +12,55 @@ pub(super) type Checked<T> = std::result::Result<T, Box<Complaint>>;
 ///
 /// Reads in pieces and looks for NUL bytes on the way, so that a device or a disk image does not fill the memory.
 pub(super) fn read_bytes(path: &Path, limit: u64, what: &str) -> Checked<Vec<u8>> {
-    read_bytes_unless(path, limit, what, |_| false)
-}
-
-/// The same, except that files which begin as `is_known` says may be binary.
-pub(super) fn read_bytes_unless(
-    path: &Path,
-    limit: u64,
-    what: &str,
-    is_known: impl Fn(&[u8]) -> bool,
-) -> Checked<Vec<u8>> {
     const PIECE: u64 = 1 << 20;
-    let complain = |message: String, help: &str| Box::new(Complaint::new(message, help).in_file(path));
-    if path.is_dir() {
-        return Err(complain(format!("this is a directory, not {what}"), "name a file in it"));
-    }
-    let unreadable = |error: std::io::Error| {
-        let help = match error.kind() {
-            std::io::ErrorKind::NotFound => "check the name and the working directory",
-            std::io::ErrorKind::PermissionDenied => "check who may read it",
-            _ => "check the file and its disk",
-        };
-        complain(format!("cannot read {what}: {error}"), help)
-    };
-    let mut file = std::fs::File::open(path).map_err(unreadable)?;
+    let in_file = |complaint: Complaint| Box::new(complaint.in_file(path));
+    let mut file = open(path, what)?;
     // what a file says of its length is not to be trusted far
     let expected = file.metadata().map_or(0, |metadata| metadata.len()).min(64 * PIECE);
     let mut bytes = Vec::with_capacity(expected as usize + 1);
     loop {
         let before = bytes.len();
-        file.by_ref().take(PIECE).read_to_end(&mut bytes).map_err(unreadable)?;
+        let read = file.by_ref().take(PIECE).read_to_end(&mut bytes);
+        read.map_err(|error| in_file(unreadable(what, &error)))?;
         if bytes.len() == before {
             return Ok(bytes);
         }
         if bytes.len() as u64 > limit {
-            return Err(complain(
-                format!("{what} is larger than {} MiB", limit >> 20),
-                "this is hardly the file that you mean",
-            ));
+            return Err(in_file(too_large(what, limit)));
         }
-        if bytes[before..].contains(&0) && !is_known(&bytes) {
+        if bytes[before..].contains(&0) {
             as_text(&bytes).map_err(|complaint| complaint.in_file(path))?;
         }
     }
+}
+
+/// Opens a file to be read.
+pub(super) fn open(path: &Path, what: &str) -> Checked<File> {
+    let complaint = if path.is_dir() {
+        Complaint::new(format!("this is a directory, not {what}"), "name a file in it")
+    } else {
+        match File::open(path) {
+            Ok(file) => return Ok(file),
+            Err(error) => unreadable(what, &error),
+        }
+    };
+    Err(complaint.in_file(path).into())
+}
+
+pub(super) fn unreadable(what: &str, error: &std::io::Error) -> Complaint {
+    let help = match error.kind() {
+        std::io::ErrorKind::NotFound => "check the name and the working directory",
+        std::io::ErrorKind::PermissionDenied => "check who may read it",
+        _ => "check the file and its disk",
+    };
+    Complaint::new(format!("cannot read {what}: {error}"), help)
+}
+
+pub(super) fn too_large(what: &str, limit: u64) -> Complaint {
+    Complaint::new(
+        format!("{what} is larger than {} MiB", limit >> 20),
+        "this is hardly the file that you mean",
+    )
 }
 
 /// The bytes as text, without the byte order mark.
@@ -63,23 +70,29 @@ pub(super) fn as_text(bytes: &[u8]) -> Checked<&str> {
             Complaint::new("the text is encoded in UTF-16", "save it as UTF-8 (or plain ASCII)").into()
         );
     }
+    let text = bytes.strip_prefix(&[0xef, 0xbb, 0xbf]).unwrap_or(bytes);
+    as_text_at(text, (bytes.len() - text.len()) as u64, 0)
+}
+
+/// Bytes from within a text as text; they begin after so many bytes and lines.
+pub(super) fn as_text_at(bytes: &[u8], before: u64, lines: usize) -> Checked<&str> {
     // the search for one byte is much faster than the search for its place
     if bytes.contains(&0) {
-        let offset = bytes.iter().take_while(|&&byte| byte != 0).count();
+        let offset = before + bytes.iter().take_while(|&&byte| byte != 0).count() as u64;
         return Err(Complaint::new(
             format!("this is binary data, not text: NUL byte at offset {offset}"),
             "export the data as text",
         )
         .into());
     }
-    let bytes = bytes.strip_prefix(&[0xef, 0xbb, 0xbf]).unwrap_or(bytes);
     std::str::from_utf8(bytes).map_err(|error| {
-        let offset = error.valid_up_to();
-        let line = 1 + bytes[..offset].iter().filter(|&&byte| byte == b'\n').count();
+        let at = error.valid_up_to();
+        let line = lines + 1 + bytes[..at].iter().filter(|&&byte| byte == b'\n').count();
         Complaint::new(
             format!(
-                "not UTF-8 text: byte 0x{:02x} at offset {offset}",
-                bytes.get(offset).copied().unwrap_or(0)
+                "not UTF-8 text: byte 0x{:02x} at offset {}",
+                bytes.get(at).copied().unwrap_or(0),
+                before + at as u64
             ),
             "save it as UTF-8 (or plain ASCII)",
         )

@@ -1,7 +1,7 @@
 //! What is known beforehand, where the recording contradicts it so much that nothing comes of the fit: the fit without it tells which term it is.
 
 use super::solver;
-use super::{ImuCalibration, ImuProblem, ImuSetup, KnownTerm};
+use super::{ImuCalibration, ImuProblem, ImuSetup, KnownTerm, WhiteNoise};
 use crate::error::{Complaint, Error, Result};
 use crate::estimate::{CalibrationSettings, CalibrationStatus};
 
@@ -17,21 +17,41 @@ const LEAST_SD: f64 = 1e-12;
 /// gyroscope's readings cannot be angular rates in the unit given; [`Error::Experiment`](crate::Error::Experiment) where the readings contradict the directions of
 /// the holds or what is known beforehand; [`Error::NotIdentifiable`](crate::Error::NotIdentifiable) names what the holds or the rotations do not determine, and what would.
 pub fn calibrate_imu(problem: &ImuProblem<'_>, settings: &CalibrationSettings) -> Result<ImuCalibration> {
+    calibrate_imu_while(problem, settings, || problem.setup.white_noise)
+}
+
+/// The same where the gyroscope's white noise is still to be found: `white_noise` finds it while the accelerometer is fitted, which does not wait for it.
+///
+/// What it gives counts in place of [`ImuSetup::white_noise`].
+///
+/// # Errors
+/// As [`calibrate_imu`].
+pub fn calibrate_imu_while(
+    problem: &ImuProblem<'_>,
+    settings: &CalibrationSettings,
+    white_noise: impl FnOnce() -> Option<WhiteNoise> + Send,
+) -> Result<ImuCalibration> {
     let known = &problem.setup.known;
     if known.is_empty() {
-        return solver::calibrate_imu(problem, settings);
+        return solver::calibrate_imu(problem, settings, white_noise);
     }
     known.iter().try_for_each(possible)?;
-    match solver::calibrate_imu(problem, settings) {
+    let mut found_noise = None;
+    let found = solver::calibrate_imu(problem, settings, || {
+        found_noise = white_noise();
+        found_noise
+    });
+    let contradictions = || contradictions(problem, settings, found_noise);
+    match found {
         Ok(mut found) => {
             // what is fixed leaves no residual of its own
             let fixed = known.iter().any(|known| known.sd.is_none());
             if fixed || found.status != CalibrationStatus::Converged || !found.warnings.is_empty() {
-                found.warnings.splice(0..0, contradictions(problem, settings));
+                found.warnings.splice(0..0, contradictions());
             }
             Ok(found)
         }
-        Err(error) => Err(match contradictions(problem, settings).as_slice() {
+        Err(error) => Err(match contradictions().as_slice() {
             [] => error,
             found => Error::experiment(Complaint::new(
                 found.join("; "),
@@ -54,9 +74,14 @@ fn possible(known: &KnownTerm) -> Result<()> {
 }
 
 /// The terms that the recording contradicts by far, by the fit that knows of none.
-fn contradictions(problem: &ImuProblem<'_>, settings: &CalibrationSettings) -> Vec<String> {
+fn contradictions(
+    problem: &ImuProblem<'_>,
+    settings: &CalibrationSettings,
+    white_noise: Option<WhiteNoise>,
+) -> Vec<String> {
     let setup = ImuSetup { known: Vec::new(), ..problem.setup.clone() };
-    let Ok(without) = solver::calibrate_imu(&ImuProblem { setup: &setup, ..*problem }, settings) else {
+    let without = ImuProblem { setup: &setup, ..*problem };
+    let Ok(without) = solver::calibrate_imu(&without, settings, || white_noise) else {
         return Vec::new();
     };
     if without.status != CalibrationStatus::Converged {

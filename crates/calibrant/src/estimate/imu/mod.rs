@@ -38,7 +38,7 @@ mod weights;
 
 pub use both_still::find_imu_holds;
 pub(super) use carried::{Carried, Carrying, GyroscopeAtRest, HeldStill};
-pub use known::calibrate_imu;
+pub use known::{calibrate_imu, calibrate_imu_while};
 pub use problem::{Gyroscope, ImuProblem, ImuSetup, KnownTerm, NoiseSource, Turn, WhiteNoise};
 pub use result::{ImuCalibration, RotationResult, StillGyroscope, TurnResult};
 pub(super) use solver::recordings;

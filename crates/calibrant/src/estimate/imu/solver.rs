@@ -9,7 +9,7 @@ use super::settle::{apply, follow_drift, reweigh, settle};
 use super::still::{Explanation, between_sd, still, weigh};
 use super::thermal::{self, Climate};
 use super::verdict::{self, undetermined, vague};
-use super::{ImuCalibration, ImuProblem, NoiseSource, start};
+use super::{Gyroscope, ImuCalibration, ImuProblem, NoiseSource, WhiteNoise, start};
 use crate::error::{Complaint, Error, Result};
 use crate::estimate::problem::sound;
 use crate::estimate::{CalibrationProblem, CalibrationSettings, HoldsSetup, Recovered, Stimulus, calibrate};
@@ -29,20 +29,12 @@ const ROUGH: f64 = 1e-2;
 pub(super) fn calibrate_imu(
     problem: &ImuProblem<'_>,
     settings: &CalibrationSettings,
+    white_noise: impl FnOnce() -> Option<WhiteNoise> + Send,
 ) -> Result<ImuCalibration> {
     let (accelerometer, gyroscope) = recordings(problem)?;
     let setup = problem.setup;
-    let from = |recording: &Recording, intervals: Option<Vec<(f64, f64)>>| match &setup.directions {
-        Some(directions) => faces::fit(problem, recording, directions),
-        None => from_holds(problem, recording, settings, intervals),
-    };
-    let first = from(accelerometer, setup.holds.intervals_s.clone())?;
-    let found: Vec<Hold> = first.holds.holds.iter().map(|result| result.hold.clone()).collect();
-    let climate = Climate::of(problem, &found)?;
-    let first =
-        thermal::accelerometer(problem, accelerometer, first, &climate, settings, |recording, intervals| {
-            from(recording, Some(intervals))
-        })?;
+    let (first, white_noise) = rayon::join(|| first_look(problem, accelerometer, settings), white_noise);
+    let (first, climate) = first?;
     let accelerometer = first.adjusted.as_ref().unwrap_or(accelerometer);
     let holds = &first.holds;
     let chosen: Vec<usize> = (0..holds.holds.len()).filter(|&j| holds.holds[j].used).collect();
@@ -55,7 +47,7 @@ pub(super) fn calibrate_imu(
             "both need the same clock: are these files of one recording?",
         )));
     }
-    let (noise, noise_source) = sample_noise(problem, &stills);
+    let (noise, noise_source) = sample_noise(problem.gyroscope, white_noise, &stills);
     let quantities = quantities(problem);
     let prior = prior(problem, &quantities);
     let mut data = hold_data(&first, &chosen, setup.directions.is_some(), &climate);
@@ -152,8 +144,12 @@ pub(super) fn singular() -> Error {
 }
 
 /// Noise of a gyroscope's sample: that of the datasheet, else what a long hold shows, else the scatter within holds.
-fn sample_noise(problem: &ImuProblem<'_>, stills: &[Option<MeanReading>]) -> (Vector3<f64>, NoiseSource) {
-    match (problem.gyroscope.noise, &problem.setup.white_noise) {
+fn sample_noise(
+    gyroscope: &Gyroscope,
+    white_noise: Option<WhiteNoise>,
+    stills: &[Option<MeanReading>],
+) -> (Vector3<f64>, NoiseSource) {
+    match (gyroscope.noise, white_noise) {
         (Some(noise), _) => (noise, NoiseSource::Datasheet),
         (None, Some(white)) => {
             (white.sd, NoiseSource::AllanDeviation { hold: white.hold, duration_s: white.duration_s })
@@ -199,6 +195,27 @@ pub(in crate::estimate) fn recordings<'a>(
         )));
     }
     Ok((accelerometer, gyroscope))
+}
+
+/// The accelerometer by itself, and the temperatures of its holds: what needs nothing of the gyroscope.
+fn first_look<'a>(
+    problem: &ImuProblem<'a>,
+    accelerometer: &Recording,
+    settings: &CalibrationSettings,
+) -> Result<(First, Climate<'a>)> {
+    let setup = problem.setup;
+    let from = |recording: &Recording, intervals: Option<Vec<(f64, f64)>>| match &setup.directions {
+        Some(directions) => faces::fit(problem, recording, directions),
+        None => from_holds(problem, recording, settings, intervals),
+    };
+    let first = from(accelerometer, setup.holds.intervals_s.clone())?;
+    let found: Vec<Hold> = first.holds.holds.iter().map(|result| result.hold.clone()).collect();
+    let climate = Climate::of(problem, &found)?;
+    let first =
+        thermal::accelerometer(problem, accelerometer, first, &climate, settings, |recording, intervals| {
+            from(recording, Some(intervals))
+        })?;
+    Ok((first, climate))
 }
 
 /// The accelerometer by its static calibration.

@@ -14,6 +14,7 @@
 mod columns;
 mod finding;
 mod imu;
+mod pieces;
 mod quality;
 mod row;
 mod rows;
@@ -113,7 +114,7 @@ fn parse(bytes: &[u8], options: &ReadOptions) -> Checked<RecordingFile> {
         .into());
     };
     let columns = Columns::find(first, options, &mut findings)?;
-    let capacity = estimated_rows(text, first.text);
+    let capacity = estimated_rows(text, first.text, text.len());
     let mut rows = Rows::new(&columns, capacity);
     let mut last = first.number;
     if !columns.layout.has_header {
@@ -143,23 +144,18 @@ fn too_short(rows: &Rows<'_>, last: usize, findings: &[Finding]) -> Complaint {
     Complaint::new(message, help.join("; ")).at_line(last)
 }
 
-/// About how many rows a text has, from the length of the lines in its middle.
-fn estimated_rows(text: &str, first: &str) -> usize {
+/// About how many rows a text of this length has, from the lines in the middle of this part of it.
+fn estimated_rows(text: &str, first: &str, length: usize) -> usize {
     const PROBE: usize = 4096;
     let middle = text.len() / 2;
     let probe = &text.as_bytes()[middle..text.len().min(middle + PROBE)];
     let ends = probe.iter().filter(|&&byte| byte == b'\n').count();
     let row = if ends > 1 { probe.len() / ends } else { first.len() };
-    text.len() / row.max(LEAST_ROW_BYTES) + 16
+    length / row.max(LEAST_ROW_BYTES) + 16
 }
 
 fn hex_sha256(bytes: &[u8]) -> String {
-    hex_sha256_of(&[bytes])
-}
-
-/// SHA-256 of several pieces, one after the other.
-fn hex_sha256_of(pieces: &[&[u8]]) -> String {
-    hex(pieces.iter().fold(Sha256::new(), |hash, piece| hash.chain_update(piece)))
+    hex(Sha256::new_with_prefix(bytes))
 }
 
 fn hex(hash: Sha256) -> String {

@@ -17,7 +17,7 @@ const USUAL_HZ: f64 = 5.0;
 
 /// Looks at a recording of at least two samples.
 pub(super) fn examine(recording: &Recording, lines: &LineMap, findings: &mut Vec<Finding>) {
-    sampling(recording, lines, findings);
+    sampling(recording, recording.rate_hz(), lines, findings);
     readings(recording, "", lines, findings);
 }
 
@@ -44,8 +44,7 @@ pub(super) fn readings(recording: &Recording, of: &str, lines: &LineMap, finding
 }
 
 /// Asks for the unit of the times where an IMU is read as seldom as none is.
-pub(super) fn clock(recording: &Recording, findings: &mut Vec<Finding>) {
-    let rate = recording.rate_hz();
+pub(super) fn clock(rate: f64, findings: &mut Vec<Finding>) {
     if rate < SLOW_HZ
         && let Some((unit, short_unit)) =
             [(1e3, "ms"), (1e6, "µs"), (1e9, "ns")].into_iter().find(|(per_s, _)| per_s * rate >= USUAL_HZ)
@@ -60,9 +59,8 @@ pub(super) fn clock(recording: &Recording, findings: &mut Vec<Finding>) {
     }
 }
 
-/// Looks for gaps and irregular sampling.
-pub(super) fn sampling(recording: &Recording, lines: &LineMap, findings: &mut Vec<Finding>) {
-    let rate = recording.rate_hz();
+/// Looks for gaps and irregular sampling, the rate being that of most samples, Hz.
+pub(super) fn sampling(recording: &Recording, rate: f64, lines: &LineMap, findings: &mut Vec<Finding>) {
     let median = 1.0 / rate;
     let (mut gaps, mut longest, mut least, mut most) = (0_usize, (0.0, 0), f64::INFINITY, 0.0_f64);
     for (before, pair) in recording.times_s.windows(2).enumerate() {

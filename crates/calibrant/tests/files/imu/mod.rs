@@ -5,6 +5,7 @@ mod bag;
 mod broken;
 mod good;
 mod parquet;
+mod pieces;
 mod real;
 
 use calibrant::io::{ImuFile, ImuReadOptions, ImuUnit, parse_imu_recording};

@@ -1,7 +1,8 @@
 //! The accelerometer alone, out of a recording in any format.
 
 use super::head::Head;
-use super::{FileFormat, ImuReadOptions, ImuUnit, parse, read};
+use super::source::whole;
+use super::{FileFormat, ImuReadOptions, ImuUnit, parse};
 use crate::error::{Complaint, Error, Result};
 use crate::io::recording::columns::is_axis;
 use crate::io::recording::{ReadOptions, RecordingFile, parse as parse_plain};
@@ -20,7 +21,7 @@ pub fn read_accelerometer(
     device: &ImuReadOptions,
 ) -> Result<RecordingFile> {
     let in_file = |complaint: Box<Complaint>| Error::recording(complaint.in_file(path));
-    let bytes = read(path).map_err(in_file)?;
+    let bytes = whole(path).map_err(in_file)?;
     if *device == ImuReadOptions::default() && is_plain(&bytes) {
         return parse_plain(&bytes, options).map_err(in_file);
     }
@@ -45,7 +46,7 @@ pub fn read_accelerometer(
     for axis in &Axis::ALL[options.axes..] {
         recording.readings.iter_mut().for_each(|reading| reading[axis.index()] = 0.0);
     }
-    Ok(RecordingFile { recording, findings: file.findings, sha256: file.sha256, lines: file.rows })
+    Ok(RecordingFile { recording, findings: file.findings, sha256: file.sha256.concat(), lines: file.rows })
 }
 
 /// Is this the text of one accelerometer, `t_s,ax,ay,az` or `t x y z`?

@@ -283,12 +283,13 @@ fn examine(recording: &ImuRecording, triads: &[Triad], lines: &[LineMap], findin
         triads.iter().filter_map(|&triad| Some((triad, recording.triad(triad)?))).zip(lines).collect();
     let shared = sensors.windows(2).all(|pair| pair[0].0.1.times_s == pair[1].0.1.times_s);
     for (k, ((triad, sensor), lines)) in sensors.iter().enumerate() {
-        if k == 0 {
-            quality::clock(sensor, findings);
-        }
         if k == 0 || !shared {
+            let rate = sensor.rate_hz();
+            if k == 0 {
+                quality::clock(rate, findings);
+            }
             let from = findings.len();
-            quality::sampling(sensor, lines, findings);
+            quality::sampling(sensor, rate, lines, findings);
             if !shared {
                 findings[from..]
                     .iter_mut()

@@ -38,6 +38,7 @@ mod parquet;
 mod parquet_pages;
 mod readings;
 mod samples;
+mod source;
 mod unit;
 mod xsens;
 #[cfg(feature = "mcap")]
@@ -50,18 +51,17 @@ pub use options::{ColumnMapping, ImuReadOptions};
 pub use unit::{ColumnUnit, ImuUnit, TimeUnit};
 
 use super::finding::Finding;
+use super::hex_sha256;
 use super::row::Layout;
-use super::{LARGEST, estimated_rows, hex, hex_sha256, hex_sha256_of};
 use crate::error::{Complaint, Error, Result};
-use crate::io::text::{self, Checked};
+use crate::io::text::Checked;
 use crate::sensor::{ImuRecording, Triad};
 use assemble::assemble;
 use draft::Draft;
 use head::Head;
 use samples::Samples;
-use sha2::{Digest, Sha256};
+use source::Source;
 use std::path::Path;
-use std::sync::OnceLock;
 
 /// A recording of an IMU as it was read.
 #[derive(Debug, Clone, PartialEq)]
@@ -76,8 +76,8 @@ pub struct ImuFile {
     pub findings: Vec<Finding>,
     /// Number of rows, dropped ones included; of the longer file for a pair.
     pub rows: usize,
-    /// SHA-256 of the file's bytes, hexadecimal; of the bytes of both, one after the other, for a pair.
-    pub sha256: String,
+    /// SHA-256 of the bytes of each file, hexadecimal.
+    pub sha256: Vec<String>,
 }
 
 /// Reads a recording of an IMU in any known format.
@@ -89,8 +89,11 @@ pub struct ImuFile {
 /// that goes backwards; fewer than two samples.
 pub fn read_imu_recording(path: &Path, options: &ImuReadOptions) -> Result<ImuFile> {
     let in_file = |complaint: Box<Complaint>| Error::recording(complaint.in_file(path));
-    let bytes = read(path).map_err(in_file)?;
-    parse(&bytes, options).map_err(in_file)
+    let beginning = source::beginning(path).map_err(in_file)?;
+    if FileFormat::of_magic(&beginning.bytes).is_some() {
+        return parse(&beginning.bytes, options).map_err(in_file);
+    }
+    source::of_file(beginning, |source| parse_text(source, options)).map_err(in_file)
 }
 
 /// Reads the bytes of a recording of an IMU.
@@ -121,27 +124,15 @@ pub fn parse_imu_recording(bytes: &[u8], options: &ImuReadOptions) -> Result<Imu
 /// # Errors
 /// As [`read_imu_recording`], for each file.
 pub fn read_imu_pair(accelerometer: &Path, gyroscope: &Path, options: &ImuReadOptions) -> Result<ImuFile> {
-    let in_file = |path: &Path, complaint: Box<Complaint>| Error::recording(complaint.in_file(path));
-    let bytes = |path: &Path| read(path).map_err(|complaint| in_file(path, complaint));
-    let (first, second) = rayon::join(|| bytes(accelerometer), || bytes(gyroscope));
-    let (first, second) = (first?, second?);
-    let one = |path: &Path, bytes: &[u8], triad: Triad| {
-        parse_one(bytes, options, triad).map_err(|complaint| in_file(path, complaint))
+    let one = |path: &Path, triad: Triad| {
+        let in_file = |complaint: Box<Complaint>| Error::recording(complaint.in_file(path));
+        let beginning = source::beginning(path).map_err(in_file)?;
+        source::of_file(beginning, |source| parse_one(source, options, triad)).map_err(in_file)
     };
-    // one beside the other, each with its half of the hash: this is what a calibration waits for
-    let of_first = OnceLock::new();
-    let of_first = || of_first.get_or_init(|| Sha256::new().chain_update(&first));
-    let (accelerometer, (gyroscope, sha256)) = rayon::join(
-        || {
-            of_first();
-            one(accelerometer, &first, Triad::Accelerometer)
-        },
-        || {
-            let gyroscope = one(gyroscope, &second, Triad::Gyroscope);
-            (gyroscope, hex(of_first().clone().chain_update(&second)))
-        },
-    );
-    Ok(joined(accelerometer?, gyroscope?, sha256))
+    // one beside the other: this is what a calibration waits for
+    let (accelerometer, gyroscope) =
+        rayon::join(|| one(accelerometer, Triad::Accelerometer), || one(gyroscope, Triad::Gyroscope));
+    Ok(joined(accelerometer?, gyroscope?))
 }
 
 /// Reads the bytes of a pair of files, accelerometer and gyroscope.
@@ -163,18 +154,12 @@ pub fn read_imu_pair(accelerometer: &Path, gyroscope: &Path, options: &ImuReadOp
 /// ```
 pub fn parse_imu_pair(accelerometer: &[u8], gyroscope: &[u8], options: &ImuReadOptions) -> Result<ImuFile> {
     let one = |bytes: &[u8], triad: Triad| {
-        parse_one(bytes, options, triad).map_err(|complaint| {
+        source::of_bytes(bytes, |source| parse_one(source, options, triad)).map_err(|complaint| {
             let message = format!("{triad}: {}", complaint.message);
             Error::recording(Complaint { message, ..*complaint })
         })
     };
-    let (first, second) = (one(accelerometer, Triad::Accelerometer)?, one(gyroscope, Triad::Gyroscope)?);
-    Ok(joined(first, second, hex_sha256_of(&[accelerometer, gyroscope])))
-}
-
-fn read(path: &Path) -> Checked<Vec<u8>> {
-    let is_known = |bytes: &[u8]| FileFormat::of_magic(bytes).is_some();
-    text::read_bytes_unless(path, LARGEST, "the recording", is_known)
+    Ok(joined(one(accelerometer, Triad::Accelerometer)?, one(gyroscope, Triad::Gyroscope)?))
 }
 
 fn parse(bytes: &[u8], options: &ImuReadOptions) -> Checked<ImuFile> {
@@ -185,10 +170,13 @@ fn parse(bytes: &[u8], options: &ImuReadOptions) -> Checked<ImuFile> {
             return Err(Complaint::new(message, LEAVE_AWAY).into());
         }
         let (file, sha256) = rayon::join(|| binary(format, bytes, options), || hex_sha256(bytes));
-        return Ok(ImuFile { sha256, ..file? });
+        return Ok(ImuFile { sha256: vec![sha256], ..file? });
     }
-    let text = text::as_text(bytes)?;
-    let head = Head::find(text)?;
+    source::of_bytes(bytes, |source| parse_text(source, options))
+}
+
+fn parse_text(source: Source<'_>, options: &ImuReadOptions) -> Checked<ImuFile> {
+    let head = Head::find(source.text)?;
     let format = match options.format {
         Some(format) => format,
         None => sniffed(&head, options)?,
@@ -202,8 +190,7 @@ fn parse(bytes: &[u8], options: &ImuReadOptions) -> Checked<ImuFile> {
         FileFormat::Csv => csv::draft(&head),
         FileFormat::Mcap | FileFormat::Parquet => return Err(not_binary(format).into()),
     };
-    let (recording, sha256) = rayon::join(|| rows(draft, head, text, options), || hex_sha256(bytes));
-    Ok(ImuFile { sha256, ..recording? })
+    rows(draft, head, source, options)
 }
 
 #[cfg(feature = "mcap")]
@@ -259,9 +246,8 @@ fn sniffed(head: &Head<'_>, options: &ImuReadOptions) -> Checked<FileFormat> {
 }
 
 /// One file of a pair.
-fn parse_one(bytes: &[u8], options: &ImuReadOptions, triad: Triad) -> Checked<ImuFile> {
-    let text = text::as_text(bytes)?;
-    let head = Head::find(text)?;
+fn parse_one(source: Source<'_>, options: &ImuReadOptions, triad: Triad) -> Checked<ImuFile> {
+    let head = Head::find(source.text)?;
     let mut draft = if head.names.is_empty() {
         imu_tk::draft(&head, Some(triad))?
     } else {
@@ -270,11 +256,11 @@ fn parse_one(bytes: &[u8], options: &ImuReadOptions, triad: Triad) -> Checked<Im
     draft.keep_only(triad);
     // the other sensor's unit, or the columns of one file that holds both, are not meant
     let options = ImuReadOptions { columns: ColumnMapping::default(), ..options.clone() };
-    rows(draft, head, text, &options)
+    rows(draft, head, source, &options)
 }
 
 /// Reads the rows of a text whose columns are known.
-fn rows(mut draft: Draft, head: Head<'_>, text: &str, options: &ImuReadOptions) -> Checked<ImuFile> {
+fn rows(mut draft: Draft, head: Head<'_>, source: Source<'_>, options: &ImuReadOptions) -> Checked<ImuFile> {
     let line = head.line();
     let at_header = |complaint: Box<Complaint>| Box::new(complaint.at_line(line));
     draft.map(options).map_err(at_header)?;
@@ -287,8 +273,7 @@ fn rows(mut draft: Draft, head: Head<'_>, text: &str, options: &ImuReadOptions) 
         has_header: !head.names.is_empty(),
         ticks: draft.time_unit() != Some(TimeUnit::Second),
     };
-    let capacity = estimated_rows(text, head.first_row.map_or("", |line| line.text));
-    let mut samples = Samples::of_text(&layout, head.first_row.into_iter().chain(head.rest), capacity)?;
+    let mut samples = source.samples(&layout, head)?;
     samples.last_line = samples.last_line.or(Some(line));
     finish(draft, samples, options)
 }
@@ -302,12 +287,12 @@ fn finish(mut draft: Draft, mut samples: Samples, options: &ImuReadOptions) -> C
         columns: draft.columns,
         findings: assembled.findings,
         rows: samples.rows,
-        sha256: String::new(),
+        sha256: Vec::new(),
     })
 }
 
 /// Two files as one recording.
-fn joined(first: ImuFile, second: ImuFile, sha256: String) -> ImuFile {
+fn joined(first: ImuFile, second: ImuFile) -> ImuFile {
     let named = |triad: Triad, findings: Vec<Finding>| {
         findings.into_iter().map(move |mut finding| {
             if !finding.message.starts_with(triad.name()) {
@@ -328,7 +313,7 @@ fn joined(first: ImuFile, second: ImuFile, sha256: String) -> ImuFile {
             .chain(named(Triad::Gyroscope, second.findings))
             .collect(),
         rows: first.rows.max(second.rows),
-        sha256,
+        sha256: [first.sha256, second.sha256].concat(),
     }
 }
 

@@ -101,41 +101,62 @@ impl Samples {
         let [times, .., temperatures, counts] = columns;
         Ok(Self { times, counts, temperatures, triads, rows, origin, ..Self::default() })
     }
+}
 
-    /// Reads the rows of a text.
-    pub(super) fn of_text<'t>(
-        layout: &Layout,
-        lines: impl Iterator<Item = Line<'t>>,
-        capacity: usize,
-    ) -> Checked<Self> {
-        let mut samples = Self::default();
-        let has = |slot: usize| layout.slots.contains(&Some(slot));
-        let triads = Triad::ALL.map(|triad| slots_of(triad).map(has).contains(&true));
+/// Reads the rows of a text.
+pub(super) struct SampleReader<'l> {
+    reader: RowReader<'l>,
+    samples: Samples,
+    /// Has the layout a column for this slot?
+    has: [bool; SLOTS],
+    triads: [bool; 2],
+}
+
+impl<'l> SampleReader<'l> {
+    /// No rows yet; `capacity` is a guess of how many there will be.
+    pub(super) fn new(layout: &'l Layout, capacity: usize) -> Self {
+        let has = std::array::from_fn(|slot| layout.slots.contains(&Some(slot)));
+        let triads = Triad::ALL.map(|triad| slots_of(triad).iter().any(|&slot| has[slot]));
+        let mut samples = Samples::default();
         let room = |is_used: bool| if is_used { capacity } else { 0 };
-        samples.times.reserve(room(has(TIME)));
+        samples.times.reserve(room(has[TIME]));
         samples.triads.iter_mut().zip(triads).for_each(|(triad, is_used)| triad.reserve(room(is_used)));
-        let mut reader = RowReader::new(layout);
+        Self { reader: RowReader::new(layout), samples, has, triads }
+    }
+
+    /// Takes some more lines.
+    pub(super) fn take<'t>(&mut self, lines: impl Iterator<Item = Line<'t>>) -> Checked<()> {
+        let samples = &mut self.samples;
         for line in lines {
             samples.last_line = Some(line.number);
-            let Some(values) = reader.read::<SLOTS>(line)? else { continue };
+            let Some(values) = self.reader.read::<SLOTS>(line)? else { continue };
             samples.lines.push(samples.rows, line.number);
             samples.rows += 1;
-            if has(TIME) {
+            if self.has[TIME] {
                 samples.times.push(values[TIME]);
             }
-            for triad in Triad::ALL.into_iter().filter(|&triad| triads[triad as usize]) {
+            for triad in Triad::ALL.into_iter().filter(|&triad| self.triads[triad as usize]) {
                 let [x, y, z] = slots_of(triad).map(|slot| values[slot]);
                 samples.triads[triad as usize].push(Vector3::new(x, y, z));
             }
-            if has(TEMPERATURE) {
+            if self.has[TEMPERATURE] {
                 samples.temperatures.push(values[TEMPERATURE]);
             }
-            if has(COUNTER) {
+            if self.has[COUNTER] {
                 samples.counts.push(values[COUNTER]);
             }
         }
-        samples.origin = reader.origin.unwrap_or(0);
-        samples.truncated = reader.truncated;
-        Ok(samples)
+        Ok(())
+    }
+
+    /// Number of the last line so far.
+    pub(super) fn last_line(&self) -> Option<usize> {
+        self.samples.last_line
+    }
+
+    pub(super) fn finish(mut self) -> Samples {
+        self.samples.origin = self.reader.origin.unwrap_or(0);
+        self.samples.truncated = self.reader.truncated;
+        self.samples
     }
 }
