@@ -7,6 +7,7 @@ use calibrant::estimate::ImuCalibration;
 use calibrant::io::{ImuFile, Input, imu_calibration_json, write_atomically, write_imu_calibration};
 use calibrant::noise::TriadNoise;
 use calibrant::report::{About, imu_calibration_report, number};
+use rayon::prelude::*;
 use std::time::Instant;
 
 /// Writes calibration.json and report.html.
@@ -44,7 +45,7 @@ pub(super) fn write(
         ..About::default()
     };
     let physical = |noise: TriadNoise| physical(noise, calibration, &file.recording);
-    let noise = noise.into_iter().map(physical).collect::<calibrant::Result<Vec<_>>>()?;
+    let noise = noise.into_par_iter().map(physical).collect::<calibrant::Result<Vec<_>>>()?;
     let report = || {
         let html = imu_calibration_report(calibration, &file.recording, &noise, &about);
         write_atomically(&arguments.output.join("report.html"), |out| out.write_all(html.as_bytes()))

@@ -1,5 +1,7 @@
 //! The page: escaped text, sections, and one file that needs nothing else.
 
+use rayon::prelude::*;
+
 /// Text made safe for HTML, also within attributes.
 pub(super) fn escape(text: &str) -> String {
     let mut safe = String::with_capacity(text.len());
@@ -20,21 +22,31 @@ pub(super) fn escape(text: &str) -> String {
 /// A page under construction: its pieces in order.
 #[derive(Debug, Default)]
 pub(super) struct Page {
-    body: String,
-    sections: usize,
+    pieces: Vec<Piece>,
+}
+
+#[derive(Debug)]
+enum Piece {
+    Html(String),
+    /// A heading of a section, to be numbered.
+    Heading(String),
 }
 
 impl Page {
+    /// Several parts, made side by side, one below the other.
+    pub(super) fn of_parts<const N: usize>(parts: [&(dyn Fn() -> Self + Sync); N]) -> Self {
+        let pages: Vec<Self> = parts.par_iter().map(|part| part()).collect();
+        Self { pieces: pages.into_iter().flat_map(|page| page.pieces).collect() }
+    }
+
     /// Appends HTML that is already safe.
-    pub(super) fn push(&mut self, html: impl AsRef<str>) {
-        self.body.push_str(html.as_ref());
-        self.body.push('\n');
+    pub(super) fn push(&mut self, html: impl Into<String>) {
+        self.pieces.push(Piece::Html(html.into()));
     }
 
     /// Starts a section: a numbered heading and one sentence on what it is for.
     pub(super) fn section(&mut self, heading: &str, lead: &str) {
-        self.sections += 1;
-        self.push(format!("<h2><span class=\"number\">{}</span> {}</h2>", self.sections, escape(heading)));
+        self.pieces.push(Piece::Heading(escape(heading)));
         if !lead.is_empty() {
             self.paragraph(lead);
         }
@@ -53,14 +65,25 @@ impl Page {
     /// The whole file.
     pub(super) fn finish(self, title: &str, footer: &[String]) -> String {
         let footer: String = footer.iter().map(|line| format!("<p>{}</p>", escape(line))).collect();
-        format!(
+        let head = format!(
             "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
              <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-             <title>{}</title>\n<style>\n{}</style>\n</head>\n<body>\n<main>\n{}</main>\n<footer>{footer}</footer>\n</body>\n</html>\n",
+             <title>{}</title>\n<style>\n{}</style>\n</head>\n<body>\n<main>\n",
             escape(title),
             include_str!("style.css"),
-            self.body
-        )
+        );
+        let end = format!("</main>\n<footer>{footer}</footer>\n</body>\n</html>\n");
+        let mut sections = 0;
+        let mut lines = vec![head];
+        lines.extend(self.pieces.into_iter().map(|piece| match piece {
+            Piece::Html(html) => html + "\n",
+            Piece::Heading(heading) => {
+                sections += 1;
+                format!("<h2><span class=\"number\">{sections}</span> {heading}</h2>\n")
+            }
+        }));
+        lines.push(end);
+        lines.concat()
     }
 }
 

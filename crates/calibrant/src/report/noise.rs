@@ -18,24 +18,26 @@ const FILTERED: f64 = 0.95;
 /// Self-contained as [`calibration_report`](super::calibration_report) is.
 #[must_use]
 pub fn noise_report(noise: &[TriadNoise], about: &About) -> String {
-    let mut page = Page::default();
     let title = if about.title.is_empty() { "Noise" } else { &about.title };
-    page.push(format!("<h1>{}</h1>", escape(title)));
-    page.push(facts(about.facts.iter().map(|(label, value)| (label.as_str(), value.as_str()))));
-    page.push(verdict(noise, about));
-    for (triad, figure) in noise.iter().zip(allan_figures(noise)) {
-        noise_section(&mut page, triad, figure);
-    }
-    page.finish(title, &about.footer())
+    let opening = || {
+        let mut page = Page::default();
+        page.push(format!("<h1>{}</h1>", escape(title)));
+        page.push(facts(about.facts.iter().map(|(label, value)| (label.as_str(), value.as_str()))));
+        page.push(verdict(noise, about));
+        page
+    };
+    Page::of_parts([&opening, &|| noise_sections(noise)]).finish(title, &about.footer())
 }
 
-/// The Allan deviation of each sensor, as HTML.
-pub(super) fn allan_figures(noise: &[TriadNoise]) -> Vec<String> {
-    noise.par_iter().map(|triad| allan_figure(triad).html()).collect()
+/// A section on each sensor: its figure, coefficients, samples.
+pub(super) fn noise_sections(noise: &[TriadNoise]) -> Page {
+    let figures: Vec<String> = noise.par_iter().map(|triad| allan_figure(triad).html()).collect();
+    let mut page = Page::default();
+    noise.iter().zip(figures).for_each(|(triad, figure)| noise_section(&mut page, triad, figure));
+    page
 }
 
-/// The section on one sensor: its figure, coefficients, samples.
-pub(super) fn noise_section(page: &mut Page, noise: &TriadNoise, figure: String) {
+fn noise_section(page: &mut Page, noise: &TriadNoise, figure: String) {
     let stretch = &noise.stretch;
     page.section(
         &format!("Noise of the {}", noise.triad),

@@ -23,6 +23,7 @@ mod thermal;
 
 pub use axis::Axis;
 pub use datasheet::{ReadingUnit, Sensor};
+pub(crate) use gauge::times;
 pub use gauge::{Correction, Gauge};
 pub use imu::{CalibratedImu, Condition, ImuParameters, ImuQuantity, ImuRecording, Triad};
 pub use imu_correction::{CorrectedRecording, CorrectedTriad, ImuCorrection};

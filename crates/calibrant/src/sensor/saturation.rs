@@ -49,13 +49,17 @@ impl Recording {
 
     /// Of each axis the longest run at each of these values: number of samples, and the end.
     fn longest_stops(&self, values: &[Vector3<f64>; 2]) -> [[(usize, usize); 3]; 2] {
-        let (mut longest, mut runs) = ([[(0, 0); 3]; 2], [[0; 3]; 2]);
+        // number of samples and end of the last run
+        let (mut longest, mut last) = ([[(0, 0); 3]; 2], [[(0, 0); 3]; 2]);
         for (k, reading) in self.readings.iter().enumerate() {
-            for ((longest, runs), value) in longest.iter_mut().zip(&mut runs).zip(values) {
+            for ((longest, last), value) in longest.iter_mut().zip(&mut last).zip(values) {
                 for axis in 0..3 {
-                    runs[axis] = if reading[axis] == value[axis] { runs[axis] + 1 } else { 0 };
-                    if runs[axis] > longest[axis].0 {
-                        longest[axis] = (runs[axis], k + 1);
+                    // seldom, so that most samples cost a comparison
+                    if reading[axis] == value[axis] {
+                        let (samples, end) = last[axis];
+                        last[axis] = (if end == k { samples + 1 } else { 1 }, k + 1);
+                        longest[axis] =
+                            if last[axis].0 > longest[axis].0 { last[axis] } else { longest[axis] };
                     }
                 }
             }

@@ -2,7 +2,7 @@
 //!
 //! The gain is that at the mean temperature of the holds before and after; the bias goes from that at the one's to that at the other's.
 
-use crate::sensor::ImuParameters;
+use crate::sensor::{ImuParameters, times};
 use nalgebra::{Matrix3, Vector3};
 
 /// The readings of a rotation.
@@ -132,16 +132,6 @@ impl<'a> Rates<'a> {
         let times = &self.samples.times_s;
         times.get(k + 1).map_or(0.0, |next| next - times[k])
     }
-}
-
-/// `M v`, written out: general products of matrices cost several times as much here.
-#[inline]
-pub(super) fn times(m: &Matrix3<f64>, v: &Vector3<f64>) -> Vector3<f64> {
-    Vector3::new(
-        m.m11 * v.x + m.m12 * v.y + m.m13 * v.z,
-        m.m21 * v.x + m.m22 * v.y + m.m23 * v.z,
-        m.m31 * v.x + m.m32 * v.y + m.m33 * v.z,
-    )
 }
 
 pub(super) fn middle(ends: &[LocalBias; 2]) -> f64 {

@@ -12,8 +12,8 @@
 //! # References
 //! `iserles1999`, `tedaldi2014`
 
-use super::rates::{LocalBias, Rates, Samples, middle, times};
-use crate::sensor::{ImuParameters, ImuQuantity, Quantity, ThermalPart, Triad};
+use super::rates::{LocalBias, Rates, Samples, middle};
+use crate::sensor::{ImuParameters, ImuQuantity, Quantity, ThermalPart, Triad, times};
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 
 const TWELFTH: f64 = 1.0 / 12.0;

@@ -19,7 +19,7 @@ use super::figure::{
 };
 use super::holds::{hold_summary, hold_table};
 use super::html::{Page, escape, facts};
-use super::noise::{allan_figures, noise_section};
+use super::noise::noise_sections;
 use super::validation::validation_section;
 use super::{About, before_after};
 use crate::estimate::ImuCalibration;
@@ -37,27 +37,35 @@ pub fn imu_calibration_report(
     noise: &[TriadNoise],
     about: &About,
 ) -> String {
-    let holds = &calibration.holds;
-    let (accelerometer, gyroscope) = (recording.accelerometer.as_ref(), recording.gyroscope.as_ref());
-    let figures = || {
-        drawn([
-            &|| imu_before_and_after(calibration, recording),
-            &|| holds_before_and_after(holds),
-            &|| Some(hold_residuals(holds)),
-            &|| still_gyroscope(calibration, gyroscope?),
-            &|| bias_over_temperature(calibration, gyroscope?),
-            &|| Some(recording_overview(holds, accelerometer?)),
-            &|| rotation_errors(&calibration.rotations),
-        ])
-    };
-    let (figures, allan) = rayon::join(figures, || allan_figures(noise));
-    let [of_recording, of_holds, residuals, still, over_temperature, overview, rotations] = figures;
-    let mut page = Page::default();
     let title = if about.title.is_empty() { "Calibration of an IMU" } else { &about.title };
+    let page = Page::of_parts([
+        &|| opening(calibration, title, about),
+        &|| parameters(calibration),
+        &|| correction(calibration, recording),
+        &|| holds(calibration, recording),
+        &|| rotations(calibration),
+        &|| noise_sections(noise),
+        &|| fit(calibration),
+    ]);
+    page.finish(
+        title,
+        &[
+            about.made(),
+            "Directions are true → raw where nothing else is said; sd is the standard deviation.".to_string(),
+        ],
+    )
+}
+
+fn opening(calibration: &ImuCalibration, title: &str, about: &About) -> Page {
+    let mut page = Page::default();
     page.push(format!("<h1>{}</h1>", escape(title)));
     page.push(facts(about.facts.iter().map(|(label, value)| (label.as_str(), value.as_str()))));
     page.push(verdict::verdict(calibration, about));
+    page
+}
 
+fn parameters(calibration: &ImuCalibration) -> Page {
+    let mut page = Page::default();
     page.section(
         "Parameters",
         "Readings are y = S f + b of the accelerometer and y = S ω + b + Γ f of the gyroscope, with f the specific force and ω the angular rate: biases are \
@@ -72,7 +80,14 @@ pub fn imu_calibration_report(
     }
     page.subsection("Axes");
     page.push(axes::axis_table(calibration));
+    page
+}
 
+fn correction(calibration: &ImuCalibration, recording: &ImuRecording) -> Page {
+    let [of_holds, of_recording] = drawn([&|| holds_before_and_after(&calibration.holds), &|| {
+        imu_before_and_after(calibration, recording)
+    }]);
+    let mut page = Page::default();
     page.section("Correction, raw → true", "");
     page.push(correction::correction(calibration));
 
@@ -83,7 +98,19 @@ pub fn imu_calibration_report(
     page.push(before_after::of_imu(calibration));
     page.push(of_holds);
     page.push(of_recording);
+    page
+}
 
+fn holds(calibration: &ImuCalibration, recording: &ImuRecording) -> Page {
+    let holds = &calibration.holds;
+    let (accelerometer, gyroscope) = (recording.accelerometer.as_ref(), recording.gyroscope.as_ref());
+    let [residuals, still, over_temperature, overview] = drawn([
+        &|| Some(hold_residuals(holds)),
+        &|| still_gyroscope(calibration, gyroscope?),
+        &|| bias_over_temperature(calibration, gyroscope?),
+        &|| Some(recording_overview(holds, accelerometer?)),
+    ]);
+    let mut page = Page::default();
     page.section("Holds", "The IMU was kept still in several orientations; in each, the corrected accelerometer has the magnitude of gravity and the corrected gyroscope is zero.");
     page.push(hold_summary(holds));
     page.push(residuals);
@@ -93,11 +120,16 @@ pub fn imu_calibration_report(
     page.push(overview);
     page.subsection("Table of the holds");
     page.push(hold_table(holds, calibration.accelerometer_unit));
+    page
+}
 
+fn rotations(calibration: &ImuCalibration) -> Page {
+    let mut page = Page::default();
     if !calibration.rotations.is_empty() {
+        let [figure] = drawn([&|| rotation_errors(&calibration.rotations)]);
         page.section("Rotations", "Between the holds the IMU was turned by hand. The gyroscope must carry gravity from each hold to the next.");
         page.push(rotations::rotation_summary(calibration));
-        page.push(rotations);
+        page.push(figure);
         page.subsection("Table of the rotations");
         page.push(rotations::rotation_table(&calibration.rotations));
     }
@@ -108,21 +140,18 @@ pub fn imu_calibration_report(
         );
         page.push(rotations::turn_table(&calibration.turns));
     }
-    noise.iter().zip(allan).for_each(|(triad, figure)| noise_section(&mut page, triad, figure));
+    page
+}
 
+fn fit(calibration: &ImuCalibration) -> Page {
+    let mut page = Page::default();
     validation_section(&mut page, &calibration.validations);
     page.section("Fit and correlations", "");
     page.push(fit::fit_table(calibration));
     let names: Vec<String> = calibration.quantities.iter().map(|quantity| quantity.name()).collect();
     let names: Vec<&str> = names.iter().map(String::as_str).collect();
     page.push(correlation_map_of(&names, &calibration.covariance));
-    page.finish(
-        title,
-        &[
-            about.made(),
-            "Directions are true → raw where nothing else is said; sd is the standard deviation.".to_string(),
-        ],
-    )
+    page
 }
 
 fn capitalised(triad: Triad) -> &'static str {
