@@ -1,6 +1,6 @@
 //! `calibrant inspect`: what a recording holds, and what a calibration from it may be expected to determine.
 
-use crate::reading::RecordingOptions;
+use crate::reading::{RecordingOptions, name};
 use crate::{Exit, console};
 use calibrant::Error;
 use calibrant::error::Complaint;
@@ -38,6 +38,9 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
         Some(second) => read_imu_pair(&arguments.file, second, &options)?,
         None => read_imu_recording(&arguments.file, &options)?,
     };
+    for finding in file.findings.iter().filter(|finding| finding.is_warning()) {
+        console::finding(&name(&arguments.file), finding);
+    }
     let inspection = inspect(&file);
     if arguments.json {
         console::print(&inspection_json(&file, &inspection));

@@ -110,7 +110,7 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     }
 
     for finding in &file.findings {
-        console::note(&format!("{}: {finding}", file.input.file));
+        console::finding(&file.input.file, finding);
     }
     noise.iter().flat_map(|triad| &triad.warnings).for_each(|warning| console::warn(warning));
     if arguments.json {
@@ -142,7 +142,7 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
                     },
                 ),
             ],
-            findings: file.findings.clone(),
+            findings: file.findings.iter().map(ToString::to_string).collect(),
             elapsed: Some(format!("{:.3} s", started.elapsed().as_secs_f64())),
             program: format!("calibrant {}", env!("CARGO_PKG_VERSION")),
             ..About::default()

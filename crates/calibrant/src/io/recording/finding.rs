@@ -17,6 +17,8 @@ pub enum FindingKind {
     DuplicateTime,
     /// The last line was cut off and was dropped.
     TruncatedLastLine,
+    /// The file ends before its container does: what was recorded afterwards is not there.
+    Unfinished,
     /// Samples are missing: the time makes a jump.
     Gap,
     /// The time steps vary.
@@ -50,7 +52,8 @@ impl Finding {
     /// Is it more than a note: does what follows from the recording become doubtful?
     #[must_use]
     pub fn is_warning(&self) -> bool {
-        matches!(self.kind, FindingKind::DoubtfulClock | FindingKind::DoubtfulTemperature)
+        use FindingKind::{DoubtfulClock, DoubtfulTemperature, Unfinished};
+        matches!(self.kind, DoubtfulClock | DoubtfulTemperature | Unfinished)
     }
 
     pub(super) fn new(kind: FindingKind, line: Option<usize>, message: String) -> Self {
