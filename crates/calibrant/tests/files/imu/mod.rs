@@ -6,6 +6,7 @@ mod broken;
 mod good;
 mod parquet;
 mod real;
+mod separate_rows;
 
 use calibrant::io::{ImuFile, ImuReadOptions, ImuUnit, parse_imu_recording};
 
