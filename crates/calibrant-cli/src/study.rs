@@ -77,7 +77,9 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     let outcome = run_studies(&problem, &plan::settings(&experiment, &choice), &|done| bar.inc(done));
     bar.finish_and_clear();
     let studies = outcome?;
-    let simulated = started.elapsed().as_secs_f64();
+    let simulated_s = started.elapsed().as_secs_f64();
+    let per_s = problem.steps() as f64 / simulated_s;
+    console::note(&format!("simulated in {simulated_s:.3} s, {per_s:.0} sensors per second"));
     studies.remarks.iter().for_each(|remark| console::note(remark));
     write_study(&arguments.output.join("study.json"), &studies)?;
     let report = arguments.output.join("report.html");
@@ -86,10 +88,6 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
             Some(path) => format!("Study of {}", path.display()),
             None => "Calibration and optimal experimental design: the report's chapters 3 and 4".into(),
         },
-        elapsed: Some(format!(
-            "{simulated:.3} s, {:.0} sensors per second",
-            problem.steps() as f64 / simulated
-        )),
         program: format!("calibrant {}", env!("CARGO_PKG_VERSION")),
         ..About::default()
     };

@@ -15,10 +15,8 @@ use calibrant::io::{
 };
 use calibrant::noise::TriadNoise;
 use calibrant::sensor::{ReadingUnit, Recording, Triad};
-use std::time::Instant;
 
 pub(super) fn run(arguments: &Arguments, experiment: &Experiment, plan: &ImuPlan) -> calibrant::Result<Exit> {
-    let started = Instant::now();
     let Plan::Holds(holds) = &experiment.plan else {
         return Err(Error::Experiment(Box::new(Complaint::new(
             "an IMU needs [holds]",
@@ -82,7 +80,7 @@ pub(super) fn run(arguments: &Arguments, experiment: &Experiment, plan: &ImuPlan
         })
         .collect();
     let noise: Vec<TriadNoise> = of_accelerometer.into_iter().chain(of_gyroscope).collect();
-    super::imu_output::write(arguments, &calibration, &file, noise, &inputs, started)?;
+    super::imu_output::write(arguments, &calibration, &file, noise, &inputs)?;
     for warning in &calibration.warnings {
         console::warn(warning);
     }

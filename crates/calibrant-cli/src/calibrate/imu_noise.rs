@@ -26,12 +26,12 @@ impl LongestHold {
             .intervals_s
             .as_ref()
             .and_then(|intervals| holds_between(recording.accelerometer.as_ref()?, intervals).ok());
-        let holds = given.or_else(|| setup.found.clone())?;
-        let (number, hold) = holds
-            .into_iter()
-            .enumerate()
-            .max_by(|(_, one), (_, other)| one.duration_s().total_cmp(&other.duration_s()))
-            .filter(|(_, hold)| hold.duration_s() >= LONG_HOLD_S)?;
+        let mut holds = given.or_else(|| setup.found.clone())?;
+        let number = Hold::longest(&holds)?;
+        let hold = holds.swap_remove(number);
+        if hold.duration_s() < LONG_HOLD_S {
+            return None;
+        }
         let stretch = |triad| Stretch::between(recording.triad(triad)?, hold.start_s, hold.end_s).ok();
         let stretch = stretch(Triad::Gyroscope).or_else(|| stretch(Triad::Accelerometer))?;
         Some(Self { number, moments: Moments::of(stretch.samples()), hold })

@@ -8,7 +8,6 @@ use calibrant::io::{ImuFile, Input, imu_calibration_json, write_atomically, writ
 use calibrant::noise::TriadNoise;
 use calibrant::report::{About, imu_calibration_report, number};
 use rayon::prelude::*;
-use std::time::Instant;
 
 /// Writes calibration.json and report.html.
 pub(super) fn write(
@@ -17,7 +16,6 @@ pub(super) fn write(
     file: &ImuFile,
     noise: Vec<TriadNoise>,
     inputs: &[Input],
-    started: Instant,
 ) -> calibrant::Result<()> {
     let json = arguments.output.join("calibration.json");
     let json = || write_imu_calibration(&json, calibration, inputs);
@@ -40,7 +38,6 @@ pub(super) fn write(
             ("Experiment".into(), arguments.experiment.display().to_string()),
         ],
         findings: file.findings.iter().map(ToString::to_string).collect(),
-        elapsed: Some(format!("{:.3} s", started.elapsed().as_secs_f64())),
         program: format!("calibrant {}", env!("CARGO_PKG_VERSION")),
         ..About::default()
     };

@@ -3,14 +3,16 @@
 use crate::reading::name;
 use calibrant::Error;
 use calibrant::error::Complaint;
-use calibrant::io::{FindingKind, ImuReadOptions, Input, ReadOptions, read_imu_recording, read_recording};
+use calibrant::io::{
+    Finding, FindingKind, ImuReadOptions, Input, ReadOptions, read_imu_recording, read_recording,
+};
 use calibrant::sensor::{ImuRecording, ReadingUnit, Recording, Triad};
 use std::path::Path;
 
 /// The recording of one sensor, and of the other too where the file has it.
 pub(super) struct File {
     pub(super) imu: ImuRecording,
-    pub(super) findings: Vec<String>,
+    pub(super) findings: Vec<Finding>,
     pub(super) input: Input,
     /// Has the file columns that were not read?
     leaves_columns_aside: bool,
@@ -56,8 +58,7 @@ fn of_imu(path: &Path, triad: Triad, options: &ImuReadOptions) -> calibrant::Res
         return Err(Error::Recording(Box::new(complaint.in_file(path))));
     };
     let input = input(path, file.sha256.concat(), recording);
-    let findings = file.findings.iter().map(ToString::to_string).collect();
-    Ok(File { input, findings, imu, leaves_columns_aside: false })
+    Ok(File { input, findings: file.findings, imu, leaves_columns_aside: false })
 }
 
 fn input(path: &Path, sha256: String, recording: &Recording) -> Input {
@@ -76,6 +77,5 @@ fn alone(path: &Path, triad: Triad, unit: Option<ReadingUnit>, counts: bool) -> 
     }
     let leaves_columns_aside =
         file.findings.iter().any(|finding| finding.kind == FindingKind::IgnoredColumns);
-    let findings = file.findings.iter().map(ToString::to_string).collect();
-    Ok(File { imu, findings, input, leaves_columns_aside })
+    Ok(File { imu, findings: file.findings, input, leaves_columns_aside })
 }

@@ -1,5 +1,6 @@
 //! The page: escaped text, sections, and one file that needs nothing else.
 
+use super::figure::renumbered;
 use rayon::prelude::*;
 
 /// Text made safe for HTML, also within attributes.
@@ -83,7 +84,7 @@ impl Page {
             }
         }));
         lines.push(end);
-        lines.concat()
+        renumbered(&lines.concat())
     }
 }
 

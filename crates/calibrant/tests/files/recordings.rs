@@ -121,6 +121,10 @@ fn a_last_line_that_was_cut_off_is_dropped_with_a_word() {
         let (kind, message, _) = finding(text);
         assert_eq!((kind, message), expected(line));
     }
+    // the last number has fewer digits than any before
+    let rows: String = (0..10).map(|k| format!("0.{k},{k},{},9.80{k}\n", k * k)).collect();
+    let (kind, message, samples) = finding(&format!("t_s,ax,ay,az\n{rows}1.0,3,2,9.8"));
+    assert_eq!(((kind, message), samples), (expected(12), 10));
     // a last line that only lacks its end is whole
     assert_eq!(parse(b"t_s,ax,ay,az\n0,1,2,3\n1,2,3,4\n2,3,4,5").recording.len(), 3);
 }
@@ -155,6 +159,11 @@ fn gaps_are_told_with_place_and_length_and_not_too_many() {
     let messages: Vec<String> = parse(many.as_bytes()).findings.iter().map(ToString::to_string).collect();
     assert_eq!(messages.len(), 4);
     assert!(messages[3].contains("and 16 more gaps; the longest is 1.01 s after t = "), "{}", messages[3]);
+    let four =
+        rows(|k| format!("{:.2},{},{},{}", 1.7e9 + 0.01 * k as f64 + (k / 40) as f64, k % 7, k % 5, k % 3));
+    let messages: Vec<String> = parse(four.as_bytes()).findings.iter().map(ToString::to_string).collect();
+    assert_eq!(messages[0], "line 42: gap of 1.01 s after t = 1700000000.39 s, about 100 samples");
+    assert!(messages[3].contains("and 1 more gap; the longest is "), "{}", messages[3]);
 }
 
 #[test]

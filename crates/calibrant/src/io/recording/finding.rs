@@ -17,6 +17,8 @@ pub enum FindingKind {
     DuplicateTime,
     /// The last line was cut off and was dropped.
     TruncatedLastLine,
+    /// The file ends before its container does: what was recorded afterwards is not there.
+    Unfinished,
     /// Samples are missing: the time makes a jump.
     Gap,
     /// The time steps vary.
@@ -50,7 +52,8 @@ impl Finding {
     /// Is it more than a note: does what follows from the recording become doubtful?
     #[must_use]
     pub fn is_warning(&self) -> bool {
-        matches!(self.kind, FindingKind::DoubtfulClock | FindingKind::DoubtfulTemperature)
+        use FindingKind::{DoubtfulClock, DoubtfulTemperature, Unfinished};
+        matches!(self.kind, DoubtfulClock | DoubtfulTemperature | Unfinished)
     }
 
     pub(super) fn new(kind: FindingKind, line: Option<usize>, message: String) -> Self {
@@ -98,6 +101,11 @@ impl Tally {
 /// `1 sample`, `2 samples`.
 pub(super) fn count(number: usize, noun: &str) -> String {
     format!("{number} {noun}{}", if number == 1 { "" } else { "s" })
+}
+
+/// A time as it stands in the file where six digits do not tell it from its neighbours, as in seconds since 1970.
+pub(super) fn moment(time_s: f64) -> String {
+    if time_s.abs() < 1e5 { short(time_s) } else { time_s.to_string() }
 }
 
 /// A number in six significant digits, without trailing zeros.

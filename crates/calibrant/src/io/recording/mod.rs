@@ -116,6 +116,7 @@ fn parse(bytes: &[u8], options: &ReadOptions) -> Checked<RecordingFile> {
     let columns = Columns::find(first, options, &mut findings)?;
     let capacity = estimated_rows(text, first.text, text.len());
     let mut rows = Rows::new(&columns, capacity);
+    rows.look_at_the_end(text);
     let mut last = first.number;
     if !columns.layout.has_header {
         rows.take(first)?;

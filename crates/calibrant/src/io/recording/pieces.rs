@@ -1,7 +1,6 @@
 //! A text file in pieces of whole lines: however long a recording is, its text is never in memory at once.
 
 use super::{LARGEST, hex};
-use crate::io::delimited::Lines;
 use crate::io::text::{self, Checked};
 use sha2::{Digest, Sha256};
 use std::fs::File;
@@ -11,6 +10,8 @@ use std::path::Path;
 /// Bytes that are read at a time: few enough to be still at hand when they are taken apart.
 const PIECE: usize = 128 << 10;
 
+/// Bytes that are left for the next piece: a last line that was cut off is told by those above it.
+const HELD_BACK: usize = 16 << 10;
 /// What a file says of its length is not to be trusted further, bytes.
 const TRUSTED: u64 = 64 << 20;
 
@@ -71,7 +72,7 @@ pub(super) struct Pieces {
     /// Bytes so far.
     read: u64,
     ended: bool,
-    /// The beginning of the next piece: a line that was cut in two.
+    /// The beginning of the next piece.
     cut: Vec<u8>,
 }
 
@@ -117,9 +118,11 @@ impl Pieces {
         Ok(())
     }
 
-    /// Takes off what follows the last line end; is there one?
+    /// Takes off some lines for the next piece, the last of them cut in two; are there lines?
     fn cut_off(&mut self, bytes: &mut Vec<u8>) -> bool {
-        let Some(last) = memchr::memrchr(b'\n', bytes) else { return false };
+        let Some(last) = memchr::memrchr(b'\n', &bytes[..bytes.len().saturating_sub(HELD_BACK)]) else {
+            return false;
+        };
         self.cut.extend_from_slice(&bytes[last + 1..]);
         bytes.truncate(last + 1);
         true
@@ -127,8 +130,8 @@ impl Pieces {
 }
 
 impl Piece {
-    /// Its lines, of which the first comes after so many others.
-    pub(super) fn lines(&self, before: usize) -> Checked<Lines<'_>> {
-        Ok(Lines::after(before, text::as_text_at(&self.bytes, self.offset, before)?))
+    /// Its text, which comes after so many lines.
+    pub(super) fn text(&self, before: usize) -> Checked<&str> {
+        text::as_text_at(&self.bytes, self.offset, before)
     }
 }

@@ -1,7 +1,7 @@
 //! One row of a recording: its fields as numbers, each in its slot, or a complaint that points at the field.
 
 use crate::error::Complaint;
-use crate::io::delimited::{Delimiter, Line};
+use crate::io::delimited::{Delimiter, Line, last_number_is_cut};
 use crate::io::text::Checked;
 
 /// Largest time and reading that make sense, in any unit.
@@ -38,6 +38,8 @@ pub(super) struct RowReader<'l> {
     width: Width,
     /// Line that was cut off, where the last one was.
     pub(super) truncated: Option<usize>,
+    /// Is the last line known to be cut off?
+    last_is_cut: bool,
     /// What was taken from ticks that are too large to be exact as `f64`.
     pub(super) origin: Option<i64>,
 }
@@ -59,7 +61,12 @@ enum Width {
 
 impl<'l> RowReader<'l> {
     pub(super) fn new(layout: &'l Layout) -> Self {
-        Self { layout, rows: 0, width: Width::Unknown, truncated: None, origin: None }
+        Self { layout, rows: 0, width: Width::Unknown, truncated: None, last_is_cut: false, origin: None }
+    }
+
+    /// Looks at the end of the text that the next lines are from.
+    pub(super) fn look_at_the_end(&mut self, text: &str) {
+        self.last_is_cut = last_number_is_cut(text, self.layout.delimiter);
     }
 
     /// Number of rows, dropped ones included.
@@ -93,10 +100,11 @@ impl<'l> RowReader<'l> {
         Ok(Some(values))
     }
 
-    /// Is this line shorter than all rows before, which have the same length (numbers in columns)?
+    /// Is this line, the last one, known to be cut off, or shorter than all rows before, which have the same length (numbers in columns)?
     fn is_cut(&self, line: Line<'_>) -> bool {
-        self.layout.delimiter == Delimiter::Whitespace
-            && matches!(self.width, Width::Fixed(width) if self.rows > 3 && line.text.len() < width)
+        self.last_is_cut
+            || (self.layout.delimiter == Delimiter::Whitespace
+                && matches!(self.width, Width::Fixed(width) if self.rows > 3 && line.text.len() < width))
     }
 
     fn values<const N: usize>(&mut self, line: Line<'_>) -> Result<[f64; N], RowError> {

@@ -35,6 +35,11 @@ impl<'c> Rows<'c> {
         }
     }
 
+    /// Looks at the end of the text that the lines are from.
+    pub(super) fn look_at_the_end(&mut self, text: &str) {
+        self.reader.look_at_the_end(text);
+    }
+
     /// Number of rows, dropped ones included.
     pub(super) fn rows(&self) -> usize {
         self.reader.rows()

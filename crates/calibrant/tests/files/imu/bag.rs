@@ -2,7 +2,7 @@
 
 use super::findings;
 use calibrant::io::{
-    ColumnMapping, FileFormat, ImuFile, ImuReadOptions, parse_imu_recording, read_imu_recording,
+    ColumnMapping, FileFormat, FindingKind, ImuFile, ImuReadOptions, parse_imu_recording, read_imu_recording,
 };
 use mcap::records::MessageHeader;
 use std::collections::BTreeMap;
@@ -34,7 +34,10 @@ fn message(k: u64) -> Vec<u8> {
 
 /// A bag with these topics: name, type, encoding, messages.
 fn bag(topics: &[(&str, &str, &str, Vec<Vec<u8>>)]) -> Vec<u8> {
-    let options = mcap::WriteOptions::new().compression(None).profile("ros2");
+    bag_with(mcap::WriteOptions::new().compression(None).profile("ros2"), topics)
+}
+
+fn bag_with(options: mcap::WriteOptions, topics: &[(&str, &str, &str, Vec<Vec<u8>>)]) -> Vec<u8> {
     let mut writer = mcap::Writer::with_options(Cursor::new(Vec::new()), options).expect("a writer");
     for (topic, schema, encoding, messages) in topics {
         let schema = writer.add_schema(schema, "ros2msg", b"std_msgs/Header header").expect("a schema");
@@ -134,23 +137,121 @@ fn a_bag_compressed_with_zstd_reads_the_same() {
     );
 }
 
+/// The warning about the end of a bag.
+fn unfinished(file: &ImuFile) -> Option<&str> {
+    let found = file.findings.iter().find(|finding| finding.kind == FindingKind::Unfinished)?;
+    assert!(found.is_warning());
+    Some(&found.message)
+}
+
+/// Of a bag cut off anywhere as many messages are read as end before the cut, and it is said where that is.
 #[test]
-fn a_bag_that_was_cut_off_is_read_as_far_as_it_goes_or_refused() {
-    let whole = one();
-    let (mut read, mut refused) = (0, 0);
-    for length in 8..whole.len() {
-        match parse_imu_recording(&whole[..length], &ImuReadOptions::default()) {
-            Ok(file) => {
-                assert!(file.rows >= 2);
-                read += 1;
-            }
-            Err(error) => {
-                assert!(error.is_invalid_recording());
-                refused += 1;
+fn a_bag_that_was_cut_off_is_read_as_far_as_it_goes_with_a_warning() {
+    let messages: Vec<Vec<u8>> = (0..5).map(message).collect();
+    for chunks in [true, false] {
+        let options = mcap::WriteOptions::new().compression(None).use_chunks(chunks);
+        let whole = bag_with(options, &[("/imu/data_raw", IMU, "cdr", messages.clone())]);
+        let end = |message: &Vec<u8>| {
+            let start = whole.windows(message.len()).position(|piece| piece == message);
+            start.expect("in the bag") + message.len()
+        };
+        let ends: Vec<usize> = messages.iter().map(end).collect();
+        assert_eq!(unfinished(&read(&whole)), None);
+        for length in 8..whole.len() {
+            let there = ends.iter().filter(|end| **end <= length).count();
+            match parse_imu_recording(&whole[..length], &ImuReadOptions::default()) {
+                Ok(file) => {
+                    assert!(there >= 2 && file.rows == there, "{length}: {} of {there}", file.rows);
+                    let said = unfinished(&file).unwrap_or_else(|| panic!("{length}: nothing is said"));
+                    let last = ["0.005", "0.01", "0.015", "0.02"][there - 2];
+                    let read =
+                        format!(": {there} messages were read, the last one {last} s after the first; ");
+                    assert!(said.contains(&format!("at byte {length}")) && said.contains(&read), "{said}");
+                }
+                Err(error) => {
+                    assert!(there < 2, "{length}: {error}");
+                    let place = format!("the bag was cut off at byte {length}, within the ");
+                    let between = format!("the bag was cut off: it ends at byte {length}, ");
+                    let error = error.to_string();
+                    assert!(error.contains(&place) || error.contains(&between), "{length}: {error}");
+                }
             }
         }
     }
-    assert!(read > 0 && refused > 0, "{read} {refused}");
+}
+
+#[test]
+fn what_a_bag_lacks_is_said() {
+    let whole = one();
+    let at = |opcode: u8, content: usize| {
+        let head = [&[opcode][..], &(content as u64).to_le_bytes()].concat();
+        whole.windows(9).position(|piece| piece == head).expect("in the bag")
+    };
+    let (data_end, footer) = (at(15, 4), at(2, 20));
+    let chunk = whole.iter().skip(8 + 9).position(|byte| *byte == 6).expect("there") + 8 + 9;
+    let said = |length: usize| unfinished(&read(&whole[..length])).expect("said").to_owned();
+    let all = "5 messages were read, the last one 0.02 s after the first";
+    let recover = "`mcap recover` makes a whole file of it";
+    assert!(
+        said(chunk + 2000).starts_with(&format!(
+            "the bag was cut off at byte {}, within the chunk of messages that begins at byte {chunk}: ",
+            chunk + 2000
+        )),
+        "{}",
+        said(chunk + 2000)
+    );
+    assert_eq!(
+        said(data_end),
+        format!(
+            "the bag was cut off: it ends at byte {data_end}, without an end of its container: {all}; what was recorded after them is not in the file; {recover}"
+        )
+    );
+    assert_eq!(
+        said(footer + 3),
+        format!(
+            "the bag was cut off: it ends at byte {}, without an end of its container: {all}; no message is missing, only the index is; {recover}",
+            footer + 3
+        )
+    );
+    assert_eq!(
+        refused(&whole[..chunk + 100], &ImuReadOptions::default()),
+        format!(
+            "the bag was cut off at byte {}, within the chunk of messages that begins at byte {chunk}, before any message of an IMU (is it a whole copy? was the recorder stopped before it had written anything?)",
+            chunk + 100
+        )
+    );
+    // a file that was made as long as it should have become
+    let padded = [&whole[..data_end], &[0; 4096]].concat();
+    assert!(unfinished(&read(&padded)).is_some());
+}
+
+#[test]
+fn a_compressed_bag_that_was_cut_off_is_read_block_by_block() {
+    let plain = bag(&[("/imu", IMU, "cdr", (0..2000).map(message).collect())]);
+    let packed = compressed(&plain, "zstd", |data| {
+        ruzstd::encoding::compress_to_vec(data, ruzstd::encoding::CompressionLevel::Fastest)
+    });
+    let whole = read(&packed);
+    assert_eq!((whole.rows, unfinished(&whole)), (2000, None));
+    let mut rows = Vec::new();
+    for twentieth in 1..20 {
+        let length = packed.len() * twentieth / 20;
+        match parse_imu_recording(&packed[..length], &ImuReadOptions::default()) {
+            Ok(file) => {
+                let said = unfinished(&file).expect("a warning");
+                assert!(said.starts_with(&format!("the bag was cut off at byte {length}, ")), "{said}");
+                let (part, all) =
+                    (file.recording.gyroscope.expect("there"), whole.recording.gyroscope.as_ref());
+                assert_eq!(part.readings, all.expect("there").readings[..file.rows]);
+                rows.push(file.rows);
+            }
+            Err(error) => {
+                let said = error.to_string();
+                assert!(said.starts_with(&format!("the bag was cut off at byte {length}, ")), "{said}");
+            }
+        }
+    }
+    assert!(rows.is_sorted() && rows.last().is_some_and(|last| (1000..2000).contains(last)), "{rows:?}");
 }
 
 #[test]

@@ -243,10 +243,7 @@ fn sensors_of_different_rates_may_share_a_file() {
     let file = read(text, &PLAIN);
     assert_eq!(file.recording.accelerometer.as_ref().expect("there").times_s, [0.0, 0.01, 0.02]);
     assert_eq!(file.recording.gyroscope.as_ref().expect("there").len(), 5);
-    assert_eq!(
-        findings(&file),
-        ["line 3: 2 samples of the accelerometer with a missing or NaN value dropped (first here)"]
-    );
+    assert_eq!(findings(&file), ["line 3: 2 rows without a reading of the accelerometer (first here)"]);
 }
 
 #[test]

@@ -7,6 +7,7 @@ mod good;
 mod parquet;
 mod pieces;
 mod real;
+mod separate_rows;
 
 use calibrant::io::{ImuFile, ImuReadOptions, ImuUnit, parse_imu_recording};
 

@@ -12,8 +12,9 @@ use crate::io::recording::finding::{Finding, FindingKind, Tally, count, short};
 use crate::io::recording::quality;
 use crate::io::recording::rows::{LineMap, backwards, report_duplicates, report_truncated};
 use crate::io::text::Checked;
-use crate::sensor::{ImuRecording, ReadingUnit, Recording, Temperatures, Triad, WORKING_C};
+use crate::sensor::{ImuRecording, ReadingUnit, Recording, Temperatures, Triad, WORKING_C, interpolated};
 use nalgebra::Vector3;
+use std::iter::once;
 
 /// A recording put together, and what was noticed.
 pub(super) struct Assembled {
@@ -47,7 +48,7 @@ pub(super) fn assemble(
     if units.contains(&None) {
         return Err(ask(None, samples, &triads, &units).into());
     }
-    let kept = increasing(&times, samples, &mut findings)?;
+    let kept = increasing(&times, &triads, samples, &mut findings)?;
     let mut recording = ImuRecording::default();
     let mut maps: Vec<LineMap> = Vec::new();
     for (&triad, unit) in triads.iter().zip(units.iter().flatten()) {
@@ -148,10 +149,21 @@ impl Kept {
     }
 }
 
-/// The rows whose times increase. Those that repeat the time before are dropped; one that goes back is an error.
-fn increasing(times: &[f64], samples: &Samples, findings: &mut Vec<Finding>) -> Checked<Kept> {
+/// Does a row have a value of this sensor?
+fn holds(samples: &Samples, triad: Triad, row: usize) -> bool {
+    samples.triad(triad).get(row).is_some_and(|reading| reading.iter().any(|value| !value.is_nan()))
+}
+
+/// The rows in which the times of a sensor increase; where sensors have rows of their own, each has its times. Rows that repeat the time before are dropped; one
+/// that goes back is an error.
+fn increasing(
+    times: &[f64],
+    triads: &[Triad],
+    samples: &Samples,
+    findings: &mut Vec<Finding>,
+) -> Checked<Kept> {
     let mut kept = Kept { rows: times.len(), dropped: Vec::new() };
-    let mut last: Option<usize> = None;
+    let mut last: [Option<usize>; 2] = [None; 2];
     let (mut untimed, mut same_rows, mut same_times) = (Tally::default(), Tally::default(), Tally::default());
     for (row, &t) in times.iter().enumerate() {
         if t.is_nan() {
@@ -159,18 +171,26 @@ fn increasing(times: &[f64], samples: &Samples, findings: &mut Vec<Finding>) -> 
             kept.dropped.push(row);
             continue;
         }
-        if let Some(before) = last {
-            if t == times[before] {
-                if samples.repeats(row, before) { &mut same_rows } else { &mut same_times }
-                    .add(samples.lines.line(row));
-                kept.dropped.push(row);
-                continue;
-            }
-            if t < times[before] {
-                return Err(at(backwards(times[before], t), samples, row).into());
+        let held = [0, 1].map(|k| triads.get(k).is_some_and(|&triad| holds(samples, triad, row)));
+        let is_empty = !held.contains(&true);
+        if is_empty && samples.temperatures.get(row).is_some_and(|value| value.is_finite()) {
+            continue; // a row of the thermometer
+        }
+        let (mut is_new, mut repeated) = (false, None);
+        for (before, _) in last.iter_mut().zip(held).filter(|(_, held)| *held || is_empty) {
+            match *before {
+                Some(other) if t < times[other] => {
+                    return Err(at(backwards(times[other], t), samples, row).into());
+                }
+                Some(other) if t == times[other] => repeated = Some(other),
+                _ => (*before, is_new) = (Some(row), true),
             }
         }
-        last = Some(row);
+        if let Some(other) = repeated.filter(|_| !is_new) {
+            if samples.repeats(row, other) { &mut same_rows } else { &mut same_times }
+                .add(samples.lines.line(row));
+            kept.dropped.push(row);
+        }
     }
     untimed.report(FindingKind::Missing, findings, |n| format!("{} without a time dropped", count(n, "row")));
     report_duplicates(&same_rows, &same_times, findings);
@@ -190,11 +210,16 @@ fn readings(
     let mut readings = samples.take_triad(triad);
     let mut times_s = Vec::with_capacity(kept.len());
     let mut lines = LineMap::default();
-    let mut missing = Tally::default();
+    let (mut absent, mut missing, mut same_times) = (Tally::default(), Tally::default(), Tally::default());
     for row in kept.rows() {
         let reading = readings[row];
         if reading.x.is_nan() || reading.y.is_nan() || reading.z.is_nan() {
-            missing.add(samples.lines.line(row));
+            let is_absent = reading.iter().all(|value| value.is_nan());
+            if is_absent { &mut absent } else { &mut missing }.add(samples.lines.line(row));
+            continue;
+        }
+        if times_s.last() == Some(&times[row]) {
+            same_times.add(samples.lines.line(row)); // the row is kept for the other sensor
             continue;
         }
         if let Some(line) = samples.lines.line(row) {
@@ -205,8 +230,14 @@ fn readings(
     }
     readings.truncate(times_s.len());
     let recording = Recording { times_s, readings, axes: 3, unit };
+    absent.report(FindingKind::Missing, findings, |n| {
+        format!("{} without a reading of the {triad}", count(n, "row"))
+    });
     missing.report(FindingKind::Missing, findings, |n| {
         format!("{} of the {triad} with a missing or NaN value dropped", count(n, "sample"))
+    });
+    same_times.report(FindingKind::DuplicateTime, findings, |n| {
+        format!("{} of the {triad} with the time of the one before dropped", count(n, "sample"))
     });
     if recording.len() < 2 {
         let message = format!(
@@ -236,8 +267,10 @@ fn temperature(
     if values.is_empty() {
         return None;
     }
-    let known: Vec<(f64, f64)> =
+    let mut known: Vec<(f64, f64)> =
         kept.rows().filter(|&row| values[row].is_finite()).map(|row| (times[row], values[row])).collect();
+    // sensors with rows of their own have times of their own
+    known.sort_by(|one, other| one.0.total_cmp(&other.0));
     if known.is_empty() {
         draft.leave_aside(ColumnMeaning::Temperature, "it has no values");
         return None;
@@ -245,10 +278,10 @@ fn temperature(
     let at = &recording.accelerometer.as_ref().or(recording.gyroscope.as_ref())?.times_s;
     let missing = kept.len() - known.len();
     if missing > 0 {
-        let mut all = kept.rows().map(|row| times[row]);
-        let (first, last) = (all.next(), all.last());
+        let all = || kept.rows().map(|row| times[row]);
+        let ends = (all().fold(f64::INFINITY, f64::min), all().fold(f64::NEG_INFINITY, f64::max));
         let known_at = known.iter().map(|(t, _)| *t);
-        let with_ends: Vec<f64> = first.into_iter().chain(known_at).chain(last).collect();
+        let with_ends: Vec<f64> = once(ends.0).chain(known_at).chain(once(ends.1)).collect();
         let longest_s = with_ends.windows(2).map(|t| t[1] - t[0]).fold(0.0, f64::max);
         let message = format!(
             "the temperature is missing in {missing} of {}, for up to {} s: it is interpolated between those that have it, and kept constant before the first and after the last",
@@ -263,18 +296,8 @@ fn temperature(
         let message = format!("the temperature is {}: {}", short(*value), Temperatures::question(*value));
         findings.push(Finding::new(FindingKind::DoubtfulTemperature, None, message));
     }
-    let mut next = 0;
-    let interpolate = |&t: &f64| {
-        while next < known.len() && known[next].0 < t {
-            next += 1;
-        }
-        match (next.checked_sub(1).map(|before| known[before]), known.get(next)) {
-            (Some((t0, c0)), Some(&(t1, c1))) => c0 + (c1 - c0) * ((t - t0) / (t1 - t0)),
-            (Some((_, c)), None) | (None, Some(&(_, c))) => c,
-            (None, None) => 0.0, // `known` is not empty
-        }
-    };
-    Some(at.iter().map(interpolate).collect())
+    let (times_s, values_c): (Vec<f64>, Vec<f64>) = known.into_iter().unzip();
+    at.iter().enumerate().map(|(k, &t)| interpolated(&times_s, |known| values_c[known], t, k)).collect()
 }
 
 /// Looks for gaps, irregular sampling, axes that are not connected, clipped readings.

@@ -8,13 +8,14 @@ use super::cdr::{self, ImuMessage};
 use super::column::{ColumnMeaning, ImuColumn};
 use super::draft::Draft;
 use super::format::FileFormat;
+use super::mcap_end::Cut;
 use super::options::ImuReadOptions;
 use super::samples::{SLOTS, Samples, TIME, slots_of};
 use super::unit::{ColumnUnit, ImuUnit, TimeUnit};
 use super::zstd::Zstd;
 use crate::error::Complaint;
 use crate::io::recording::columns::list;
-use crate::io::recording::finding::count;
+use crate::io::recording::finding::{Finding, count};
 use crate::io::text::Checked;
 use crate::sensor::{Axis, Triad};
 use mcap::McapError;
@@ -45,9 +46,13 @@ struct Channel {
     messages: Vec<ImuMessage>,
 }
 
-/// Columns and values of the bag's IMU.
-pub(super) fn read(bytes: &[u8], options: &ImuReadOptions) -> Checked<(Draft, Samples)> {
-    let bag = Bag::read(bytes)?;
+/// Columns and values of the bag's IMU, and a warning where the bag has no end.
+pub(super) fn read(bytes: &[u8], options: &ImuReadOptions) -> Checked<(Draft, Samples, Option<Finding>)> {
+    let cut = Cut::of(bytes);
+    let bag = Bag::read(bytes, cut.is_some())?;
+    if let Some(cut) = cut.as_ref().filter(|_| !bag.has_messages()) {
+        return Err(cut.complaint().into());
+    }
     let messages = bag.messages(options.topic.as_deref())?;
     let origin = messages.first().map_or(0, |message| message.stamp_ns);
     let mut columns: [Vec<f64>; SLOTS] = Default::default();
@@ -76,11 +81,13 @@ pub(super) fn read(bytes: &[u8], options: &ImuReadOptions) -> Checked<(Draft, Sa
         }
     }
     described.push(ImuColumn::new("orientation", ColumnMeaning::Orientation, None));
-    Ok((Draft::new(FileFormat::Mcap, described), Samples::from_columns(columns, origin)?))
+    let last_s = messages.last().map_or(0.0, |message| (message.stamp_ns - origin) as f64 / 1e9);
+    let cut = cut.map(|cut| cut.finding(messages.len(), last_s));
+    Ok((Draft::new(FileFormat::Mcap, described), Samples::from_columns(columns, origin)?, cut))
 }
 
 impl Bag {
-    fn read(bytes: &[u8]) -> Checked<Self> {
+    fn read(bytes: &[u8], is_cut: bool) -> Checked<Self> {
         let mut bag = Self::default();
         let mut rest = bytes;
         let options = LinearReaderOptions::default()
@@ -99,15 +106,16 @@ impl Bag {
                     rest = &rest[length..];
                 }
                 Ok(LinearReadEvent::Record { data, opcode }) => bag.take(opcode, data)?,
-                Err(McapError::UnexpectedEof)
-                    if bag.channels.values().any(|channel| !channel.messages.is_empty()) =>
-                {
-                    break;
-                }
+                // a record that claims more than the file has is the one that was cut off
+                Err(McapError::UnexpectedEof | McapError::RecordTooLarge { .. }) if is_cut => break,
                 Err(error) => return Err(damaged(&error).into()),
             }
         }
         Ok(bag)
+    }
+
+    fn has_messages(&self) -> bool {
+        self.channels.values().any(|channel| !channel.messages.is_empty())
     }
 
     fn take(&mut self, opcode: u8, data: &[u8]) -> Checked<()> {

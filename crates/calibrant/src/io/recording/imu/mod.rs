@@ -29,6 +29,8 @@ mod imu_tk;
 mod imucal;
 #[cfg(feature = "mcap")]
 mod mcap;
+#[cfg(feature = "mcap")]
+mod mcap_end;
 mod movella_dot;
 mod mt_manager;
 mod naming;
@@ -202,9 +204,16 @@ fn read_mcap(bytes: &[u8], options: &ImuReadOptions) -> Checked<ImuFile> {
         )
         .into());
     }
-    let (mut draft, samples) = mcap::read(bytes, options)?;
+    let (mut draft, samples, cut) = mcap::read(bytes, options)?;
     draft.slots()?;
-    finish(draft, samples, options)
+    let mut file = finish(draft, samples, options).map_err(|mut complaint| {
+        if let Some(cut) = &cut {
+            complaint.help = format!("{}; {cut}", complaint.help);
+        }
+        complaint
+    })?;
+    file.findings.extend(cut);
+    Ok(file)
 }
 
 #[cfg(feature = "parquet")]

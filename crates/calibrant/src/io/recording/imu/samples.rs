@@ -124,8 +124,9 @@ impl<'l> SampleReader<'l> {
         Self { reader: RowReader::new(layout), samples, has, triads }
     }
 
-    /// Takes some more lines.
-    pub(super) fn take<'t>(&mut self, lines: impl Iterator<Item = Line<'t>>) -> Checked<()> {
+    /// Takes some more lines, which are those of this text or the last of them.
+    pub(super) fn take<'t>(&mut self, lines: impl Iterator<Item = Line<'t>>, text: &str) -> Checked<()> {
+        self.reader.look_at_the_end(text);
         let samples = &mut self.samples;
         for line in lines {
             samples.last_line = Some(line.number);

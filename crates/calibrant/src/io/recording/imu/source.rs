@@ -3,7 +3,7 @@
 use super::head::Head;
 use super::samples::{SampleReader, Samples};
 use super::{FileFormat, ImuFile};
-use crate::io::delimited::Line;
+use crate::io::delimited::{Line, Lines};
 use crate::io::recording::pieces::{Beginning, Pieces};
 use crate::io::recording::row::Layout;
 use crate::io::recording::{estimated_rows, hex_sha256};
@@ -66,8 +66,8 @@ impl Source<'_> {
         let mut reader = SampleReader::new(layout, estimated_rows(self.text, first, self.length));
         let lines = head.first_row.into_iter().chain(head.rest);
         match self.rest {
-            None => reader.take(lines)?,
-            Some(rest) => in_pieces(&mut reader, lines, rest)?,
+            None => reader.take(lines, self.text)?,
+            Some(rest) => in_pieces(&mut reader, lines, self.text, rest)?,
         }
         Ok(reader.finish())
     }
@@ -77,14 +77,19 @@ impl Source<'_> {
 fn in_pieces<'t>(
     reader: &mut SampleReader<'_>,
     first: impl Iterator<Item = Line<'t>> + Send,
+    text: &str,
     rest: &mut Pieces,
 ) -> Checked<()> {
-    let (taken, mut next) = rayon::join(|| reader.take(first), || rest.next(None));
+    let (taken, mut next) = rayon::join(|| reader.take(first, text), || rest.next(None));
     taken?;
     let mut spare = None;
     while let Some(piece) = next? {
         let (before, used) = (reader.last_line().unwrap_or(0), spare.take());
-        let (taken, following) = rayon::join(|| reader.take(piece.lines(before)?), || rest.next(used));
+        let take = || {
+            let text = piece.text(before)?;
+            reader.take(Lines::after(before, text), text)
+        };
+        let (taken, following) = rayon::join(take, || rest.next(used));
         taken?;
         (next, spare) = (following, Some(piece));
     }
