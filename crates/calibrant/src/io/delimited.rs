@@ -73,6 +73,14 @@ pub(super) enum Delimiter {
 }
 
 impl Delimiter {
+    /// Does this byte separate fields?
+    fn is(self, byte: u8) -> bool {
+        match self {
+            Self::Character(delimiter) => byte == delimiter,
+            Self::Whitespace => is_space(byte),
+        }
+    }
+
     /// What separates the fields of this line: the first that occurs of `;`, tab and `,`; otherwise white space.
     pub(super) fn of(line: &str) -> Self {
         if line.contains(';') {
@@ -127,30 +135,47 @@ impl<'t> Iterator for Fields<'t> {
 }
 
 impl<'t> Fields<'t> {
+    /// The next field, and the number that it is where nothing else stands in it: its end is then that of the number, and need not be looked for.
+    pub(super) fn next_number(&mut self) -> Option<(usize, &'t str, Option<f64>)> {
+        let bytes = self.line.as_bytes();
+        let start = self.start();
+        let number = if self.done { None } else { fast_float2::parse_partial(&bytes[start..]).ok() };
+        if let Some((value, length)) = number {
+            let end = start + length;
+            let next = bytes.get(end).copied();
+            if next.is_none_or(|byte| self.delimiter.is(byte)) {
+                self.at = (end + 1).min(bytes.len());
+                self.done = next.is_none();
+                return Some((start, &self.line[start..end], Some(value)));
+            }
+        }
+        self.next().map(|(start, field)| (start, field, None))
+    }
+
+    /// Where the next field begins, blanks apart.
+    fn start(&self) -> usize {
+        let bytes = &self.line.as_bytes()[self.at..];
+        let is_blank = |byte: u8| match self.delimiter {
+            Delimiter::Whitespace => is_space(byte),
+            Delimiter::Character(delimiter) => matches!(byte, b' ' | b'\t') && byte != delimiter,
+        };
+        self.at + bytes.iter().take_while(|&&byte| is_blank(byte)).count()
+    }
+
     fn next_word(&mut self) -> Option<(usize, &'t str)> {
         let bytes = self.line.as_bytes();
-        // most bytes are told by the first comparison
-        let is_space = |at: usize| bytes[at] <= b' ' && bytes[at].is_ascii_whitespace();
-        let mut start = self.at;
-        while start < bytes.len() && is_space(start) {
-            start += 1;
-        }
+        let start = self.start();
         if start == bytes.len() {
             return None;
         }
-        self.at = start + 1;
-        while self.at < bytes.len() && !is_space(self.at) {
-            self.at += 1;
-        }
+        let length = bytes[start..].iter().take_while(|&&byte| !is_space(byte)).count();
+        self.at = start + length;
         Some((start, unquote(&self.line[start..self.at])))
     }
 
     fn next_field(&mut self, delimiter: u8) -> (usize, &'t str) {
         let bytes = self.line.as_bytes();
-        let mut start = self.at;
-        while start < bytes.len() && matches!(bytes[start], b' ' | b'\t') && bytes[start] != delimiter {
-            start += 1;
-        }
+        let start = self.start();
         // a quoted field may hold the delimiter; its closing quote is the first one, as numbers and names hold none
         let closing = match bytes.get(start) {
             Some(b'"') => {
@@ -167,6 +192,11 @@ impl<'t> Fields<'t> {
         }
         (start, unquote(field.trim_ascii_end()))
     }
+}
+
+/// White space within a line; most bytes are told by the first comparison.
+fn is_space(byte: u8) -> bool {
+    byte <= b' ' && byte.is_ascii_whitespace()
 }
 
 fn unquote(field: &str) -> &str {
@@ -217,6 +247,83 @@ mod tests {
         assert!(!last_number_is_cut(&(varying.clone() + "1,9.0"), comma));
         assert!(last_number_is_cut(&(varying + "1,9"), comma));
         assert!(!last_number_is_cut("1,9.80\n1,9.81\n1,9", comma), "too few to tell");
+    }
+
+    #[test]
+    fn numbers_are_those_of_their_fields() {
+        let words = [
+            "1",
+            "-2.5",
+            "+3",
+            "3.3108000e+04",
+            "1e",
+            ".5",
+            "5.",
+            "",
+            "NaN",
+            "inf",
+            "-nan(ind)",
+            "9,8",
+            "\"7.5\"",
+            "0x1",
+            "1_0",
+            "--1",
+            "1e400",
+            "1e-400",
+            "4503599627370497.5",
+            "9007199254740993",
+            "12:30",
+            "1 ",
+            " 2",
+            "é",
+        ];
+        for delimiter in [
+            Delimiter::Whitespace,
+            Delimiter::Character(b','),
+            Delimiter::Character(b';'),
+            Delimiter::Character(b'\t'),
+        ] {
+            let between = match delimiter {
+                Delimiter::Whitespace => "  ".to_owned(),
+                Delimiter::Character(byte) => char::from(byte).to_string(),
+            };
+            for (first, second) in words.iter().flat_map(|first| words.map(|second| (first, second))) {
+                let text = &format!(" {first}{between}{second}{between}8");
+                let line = Line { number: 1, text, terminated: true };
+                let plain: Vec<_> = line.fields(delimiter).collect();
+                let mut fields = line.fields(delimiter);
+                let numbers: Vec<_> = std::iter::from_fn(|| fields.next_number()).collect();
+                assert_eq!(
+                    numbers.iter().map(|&(start, field, _)| (start, field)).collect::<Vec<_>>(),
+                    plain,
+                    "{text:?}"
+                );
+                for (_, field, number) in numbers {
+                    if let Some(number) = number {
+                        assert_eq!(field.parse().map(f64::to_bits), Ok(number.to_bits()), "{text:?}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn numbers_have_the_bits_of_the_standard_library() {
+        let mut state = 1_u64;
+        for _ in 0..200_000 {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            let value = f64::from_bits(state);
+            let decimals = (state >> 60) as usize;
+            for text in [
+                format!("{value:e}"),
+                format!("{:.decimals$}", value.abs().min(1e9)),
+                format!("{value:.decimals$e}"),
+            ] {
+                let line = Line { number: 1, text: &text, terminated: true };
+                let (_, field, number) = line.fields(Delimiter::Whitespace).next_number().expect("a field");
+                assert_eq!(number.map(f64::to_bits), field.parse().ok().map(f64::to_bits), "{text}");
+            }
+        }
     }
 
     #[test]

@@ -3,6 +3,7 @@
 use super::{CONFIDENCE, PowerLaw, lags};
 use crate::error::{Complaint, Error, Result};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
+use std::sync::OnceLock;
 
 /// Cluster times in a decade.
 const PER_DECADE: f64 = 12.0;
@@ -60,6 +61,15 @@ impl AllanDeviation {
     /// # Errors
     /// [`Error::Recording`] for fewer than nine samples, or where a reading is not finite.
     pub fn of(readings: &[f64], interval_s: f64) -> Result<Self> {
+        Self::with_confidence(readings, interval_s, &Confidence::of(readings.len()))
+    }
+
+    /// The same with the [`Confidence`] of their number at hand.
+    pub(super) fn with_confidence(
+        readings: &[f64],
+        interval_s: f64,
+        confidence: &Confidence,
+    ) -> Result<Self> {
         let n = readings.len();
         if n < FEWEST {
             return Err(Error::recording(Complaint::new(
@@ -76,11 +86,12 @@ impl AllanDeviation {
         }
         let phase = phase(readings);
         let mut process = PowerLaw::ALL[0];
-        let points = cluster_sizes(n)
-            .into_iter()
-            .map(|m| {
-                process = process.max(identify(&phase, m).unwrap_or(PowerLaw::White));
-                AllanPoint::of(&phase, m, interval_s, process)
+        let points = confidence
+            .clusters
+            .iter()
+            .map(|cluster| {
+                process = process.max(identify(&phase, cluster.size).unwrap_or(PowerLaw::White));
+                AllanPoint::of(&phase, interval_s, cluster.size, process, cluster.spread(n, process))
             })
             .collect();
         Ok(Self { interval_s, samples: n, points })
@@ -94,14 +105,55 @@ impl AllanDeviation {
 }
 
 impl AllanPoint {
-    fn of(phase: &[f64], m: usize, interval_s: f64, process: PowerLaw) -> Self {
-        let n = phase.len() - 1;
-        let count = n - 2 * m + 1;
+    fn of(phase: &[f64], interval_s: f64, m: usize, process: PowerLaw, spread: Spread) -> Self {
+        let count = phase.len() - 2 * m;
         let squares: f64 = differences(phase, m).map(|d| d * d).sum();
         let deviation = (squares / (2.0 * count as f64)).sqrt();
-        let degrees_of_freedom = degrees_of_freedom(process, n, m);
-        let (low, high) = bounds(deviation, degrees_of_freedom);
+        let (low, high) = (deviation * spread.low, deviation * spread.high);
+        let degrees_of_freedom = spread.degrees_of_freedom;
         Self { cluster: m, tau_s: m as f64 * interval_s, deviation, process, degrees_of_freedom, low, high }
+    }
+}
+
+/// How uncertain the Allan deviation of so many samples is at each cluster time, under each process: worked out once for all axes, where it is asked for.
+#[derive(Debug, Clone)]
+pub(super) struct Confidence {
+    clusters: Vec<Cluster>,
+}
+
+#[derive(Debug, Clone)]
+struct Cluster {
+    size: usize,
+    spreads: [OnceLock<Spread>; PowerLaw::ALL.len()],
+}
+
+/// Degrees of freedom of a variance, and the confidence bounds of its root over that.
+#[derive(Debug, Clone, Copy)]
+struct Spread {
+    degrees_of_freedom: f64,
+    low: f64,
+    high: f64,
+}
+
+impl Confidence {
+    /// For `n` samples.
+    pub(super) fn of(n: usize) -> Self {
+        let cluster = |size| Cluster { size, spreads: Default::default() };
+        Self { clusters: cluster_sizes(n).into_iter().map(cluster).collect() }
+    }
+}
+
+impl Cluster {
+    fn spread(&self, n: usize, process: PowerLaw) -> Spread {
+        *self.spreads[process as usize].get_or_init(|| {
+            let degrees_of_freedom = degrees_of_freedom(process, n, self.size);
+            let tail = 0.5 * (1.0 - CONFIDENCE);
+            let (low, high) = ChiSquared::new(degrees_of_freedom).map_or((0.0, f64::INFINITY), |chi2| {
+                let bound = |p: f64| (degrees_of_freedom / chi2.inverse_cdf(p)).sqrt();
+                (bound(1.0 - tail), bound(tail))
+            });
+            Spread { degrees_of_freedom, low, high }
+        })
     }
 }
 
@@ -162,15 +214,6 @@ fn degrees_of_freedom(process: PowerLaw, n: usize, m: usize) -> f64 {
         .sum::<f64>()
         - count as f64 * at(0).powi(2);
     ((count as f64 * at(0)).powi(2) / sum).max(1.0)
-}
-
-/// Confidence bounds of a deviation whose square has so many degrees of freedom.
-fn bounds(deviation: f64, degrees_of_freedom: f64) -> (f64, f64) {
-    let tail = 0.5 * (1.0 - CONFIDENCE);
-    ChiSquared::new(degrees_of_freedom).map_or((0.0, f64::INFINITY), |chi2| {
-        let bound = |p: f64| deviation * (degrees_of_freedom / chi2.inverse_cdf(p)).sqrt();
-        (bound(1.0 - tail), bound(tail))
-    })
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! Mean and covariance of the drift-free Allan variances of each process.
 
+use super::allan::Confidence;
 use super::power_law::FlickerTable;
 use super::{PowerLaw, lags};
 use nalgebra::{DMatrix, DVector};
@@ -29,6 +30,7 @@ pub struct Moments {
     mean: DMatrix<f64>,
     /// For each pair `a ≤ b`, in the order of [`pair`].
     covariance: Vec<DMatrix<f64>>,
+    confidence: Confidence,
 }
 
 /// Position of the pair of processes `a`, `b`.
@@ -75,13 +77,18 @@ impl Moments {
                 }
             }
         }
-        Self { samples: n, scales, mean, covariance }
+        Self { samples: n, scales, mean, covariance, confidence: Confidence::of(n) }
     }
 
     /// Number of samples.
     #[must_use]
     pub fn samples(&self) -> usize {
         self.samples
+    }
+
+    /// How uncertain an Allan deviation of so many samples is.
+    pub(super) fn confidence(&self) -> &Confidence {
+        &self.confidence
     }
 
     /// The cluster sizes m.

@@ -92,7 +92,7 @@ impl TriadNoise {
             let mean = values.iter().sum::<f64>() / n;
             let squares: f64 = values.iter().map(|y| (y - mean).powi(2)).sum();
             let (allan, fit) = rayon::join(
-                || AllanDeviation::of(&values, stretch.interval_s),
+                || AllanDeviation::with_confidence(&values, stretch.interval_s, moments.confidence()),
                 || NoiseFit::of(&values, stretch.interval_s, moments).map_err(|error| about(error, axis)),
             );
             Ok(AxisNoise { axis, allan: allan?, fit: fit?, sample_sd: (squares / (n - 1.0)).sqrt() })

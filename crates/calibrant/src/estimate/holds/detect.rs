@@ -8,6 +8,7 @@ use crate::error::{Complaint, Error, Result};
 use crate::motion::Hold;
 use crate::sensor::{MeanReading, Recording};
 use nalgebra::Vector3;
+use std::f64::consts::LOG10_2;
 
 /// The window is half the shortest hold, but no longer than this, s: turns between holds must show.
 const LONGEST_WINDOW_S: f64 = 0.5;
@@ -140,7 +141,8 @@ fn threshold(variance: &[f64], floor: f64) -> Option<f64> {
     if least > largest {
         return None;
     }
-    let decade = |v: f64| v.max(floor).log10();
+    // the logarithm to base 2 is the faster one
+    let decade = |v: f64| v.max(floor).log2() * LOG10_2;
     let lowest = decade(least);
     let bins = ((decade(largest) - lowest) / BIN).ceil() as usize + 1;
     let mut histogram = vec![0.0; bins];

@@ -112,10 +112,11 @@ impl<'l> RowReader<'l> {
         let mut values = [f64::NAN; N];
         let mut fields = 0;
         let mut last_is_empty = false;
-        for (offset, field) in line.fields(layout.delimiter) {
+        let mut row = line.fields(layout.delimiter);
+        while let Some((offset, field, plain)) = row.next_number() {
             if let Some(Some(slot)) = layout.slots.get(fields).copied() {
                 let is_tick = slot == 0 && layout.ticks;
-                match if is_tick { self.tick(field) } else { number(field) } {
+                match if is_tick { self.tick(field) } else { plain.or_else(|| number(field)) } {
                     Some(value) if value.is_nan() => (),
                     Some(value) if value.abs() <= LARGEST || (is_tick && value.is_finite()) => {
                         values[slot] = value;
