@@ -7,7 +7,7 @@
 use super::entries::{self, ENTRIES, EntryMatrix};
 use super::{
     CalibratedImu, Correction, HIGHEST_ORDER, ImuParameters, ImuQuantity, ImuRecording, Recording,
-    Temperatures, ThermalPart, Triad, interpolated,
+    Temperatures, ThermalPart, Triad, interpolated, times,
 };
 use crate::error::{Complaint, Error, Result};
 use nalgebra::{Matrix3, SMatrix, Vector3};
@@ -154,7 +154,7 @@ impl ImuCorrection {
     /// Corrected angular rate, rad/s, at this (corrected) specific force; `None` without a gyroscope.
     #[must_use]
     pub fn rate(&self, reading: &Vector3<f64>, force: &Vector3<f64>) -> Option<Vector3<f64>> {
-        self.gyroscope.map(|correction| correction.apply(&(reading - self.g_sensitivity * force)))
+        self.gyroscope.map(|correction| correction.apply(&(reading - times(&self.g_sensitivity, force))))
     }
 
     /// Standard uncertainty of the corrected force, m/s² per axis; `None` where it is not known.

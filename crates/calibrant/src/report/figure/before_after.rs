@@ -104,8 +104,10 @@ fn force_panels(
 ) -> Option<Vec<Panel>> {
     let before = Correction::of(&holds.before.sensor)?;
     let gravity = holds.gravity.magnitude_mps2;
-    let before = |k: usize| (recording.times_s[k], before.apply(&recording.readings[k]).norm());
-    let after = |k: usize| (recording.times_s[k], after[k].norm());
+    let before: Vec<f64> = recording.readings.iter().map(|reading| before.apply(reading).norm()).collect();
+    let after: Vec<f64> = after.iter().map(Vector3::norm).collect();
+    let before = |k: usize| (recording.times_s[k], before[k]);
+    let after = |k: usize| (recording.times_s[k], after[k]);
     let all = || 0..recording.len();
     let still: Vec<usize> =
         holds.holds.iter().flat_map(|result| result.hold.first..result.hold.end).collect();
@@ -152,10 +154,10 @@ fn rate_panels(
     ));
     let mut change = Panel::new("what the correction changes", "time (s)", "ω after − before (°/s)");
     for (axis, colour) in Axis::ALL.into_iter().zip([colour::VERMILLION, colour::GREEN, colour::SKY]) {
-        let difference =
-            thinned(after().zip(&recording.readings).map(|((t, after), reading)| {
-                (t, (after - before.apply(reading))[axis.index()].to_degrees())
-            }));
+        let row = before.matrix.row(axis.index()).transpose();
+        let difference = thinned(after().zip(&recording.readings).map(|((t, after), reading)| {
+            (t, (after[axis.index()] - row.dot(&(reading - before.bias))).to_degrees())
+        }));
         change = change.with(Series::new(&format!("change of axis {axis}"), colour, thin, difference));
     }
     Some(vec![rate, change])
