@@ -191,8 +191,29 @@ fn turns_that_are_missing_and_values_that_are_absurd_are_named() {
             .replace("angle_deg = -360.0", "angle_deg = -720.0"),
     );
     let outcome = bench.run("calibrate double.toml table/recording.csv -o out");
-    outcome.says("the gyroscope shows 0.50 of the angle of every turn");
+    outcome.says("the gyroscope shows 0.500 of the angle of every turn: are the angle of the turns");
     assert!(!outcome.stderr.contains("turn 1"), "{}", outcome.stderr);
+    // radians in place of degrees, in all turns and in one
+    let radians = |count: usize| {
+        let of = |table: String, degrees: &str, radians: &str| table.replacen(degrees, radians, count);
+        let table = of(table.to_owned(), "angle_deg = 360.0", "angle_deg = 6.283");
+        of(table, "angle_deg = -360.0", if count > 1 { "angle_deg = -6.283" } else { "angle_deg = -360.0" })
+    };
+    for (name, count, says) in [
+        (
+            "radians.toml",
+            99,
+            "of the angle of every turn: 180/π times. Is the angle in radians, where degrees are meant",
+        ),
+        (
+            "one.toml",
+            1,
+            "turn 1 (7.0 to 11.0 s) is given as 6.3° about x, and the gyroscope shows 360° about x, 180/π times. Is the angle in radians",
+        ),
+    ] {
+        bench.write(name, radians(count));
+        bench.run(&format!("calibrate {name} table/recording.csv -o out")).says(says);
+    }
 
     let hand = include_str!("../../../../examples/06_whole_imu/hand.toml");
     bench.write("hand.toml", hand);
