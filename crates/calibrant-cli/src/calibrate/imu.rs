@@ -62,6 +62,7 @@ pub(super) fn run(arguments: &Arguments, experiment: &Experiment, plan: &ImuPlan
         || if arguments.no_report { None } else { noise(Triad::Accelerometer, of_gyroscope.as_ref()) },
     );
     let mut calibration = calibration?;
+    calibration.warnings.extend(of_gyroscope.iter().flat_map(HoldNoise::of_outliers));
     calibration.validations = super::validation::of_imu(arguments, &options, &calibration, &problem, &file)?;
     let main = file.recording.accelerometer.as_ref();
     let input = Input {

@@ -63,6 +63,11 @@ impl LongestHold {
 }
 
 impl HoldNoise {
+    /// Warnings of outliers, which are left out of the noise, but not of the means of holds.
+    pub(super) fn of_outliers(&self) -> Vec<String> {
+        self.noise.of_outliers()
+    }
+
     /// The noise in m/s² or rad/s.
     pub(super) fn physical(
         self,

@@ -149,6 +149,44 @@ fn faces_whose_directions_the_readings_contradict_are_named() {
     bench.run(given(r#""y", "-y", "z", "-z", "x", "-x""#)).done().says("of what there is along its axis x");
 }
 
+/// A spark in the hold whose Allan deviation gives the noise of the gyroscope's samples.
+#[test]
+fn an_outlier_of_the_gyroscope_is_not_taken_for_its_noise() {
+    let bench = Bench::new();
+    let hand =
+        include_str!("../../../../examples/06_whole_imu/hand.toml").replace("hold_s = 3.0", "hold_s = 25.0");
+    bench.write("hand.toml", &hand);
+    bench.run("simulate hand.toml --seed 3 -o hand").done();
+    let noise = |file: &str| {
+        let outcome = bench.run(&format!("calibrate hand.toml {file} --no-report -o out")).done();
+        let said = outcome.stdout.lines().find(|line| line.contains("noise of a gyroscope sample"));
+        let said = said.unwrap_or_default().trim().to_owned();
+        let text = said.trim_start_matches("noise of a gyroscope sample ");
+        let first: f64 = text.split(',').next().and_then(|n| n.parse().ok()).unwrap_or(f64::NAN);
+        (first, said, outcome.stderr)
+    };
+    let (clean, said, _) = noise("hand/recording.csv");
+    assert!(said.contains("Allan deviation of hold"), "{said}");
+    let number = said.split("hold ").nth(1).and_then(|n| n.split(' ').next()).expect("a number");
+    let number: f64 = number.parse().expect("a number");
+    // turns between holds are shorter than half a hold: the middle of this one
+    let text = bench.read("hand/recording.csv");
+    let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
+    let period = lines.len() as f64 / 24.0;
+    let at = 1 + ((number - 0.5) * period) as usize;
+    let mut fields: Vec<String> = lines[at].split(',').map(str::to_owned).collect();
+    // fifteen standard deviations: one that is larger ends the hold
+    fields[4] = (fields[4].parse::<f64>().expect("a number") + 0.03).to_string();
+    lines[at] = fields.join(",");
+    bench.write("spark.csv", lines.join("\n") + "\n");
+    let (sparked, said, stderr) = noise("spark.csv");
+    assert!((sparked / clean - 1.0).abs() < 0.01, "{sparked} {clean}: {said}");
+    assert!(
+        stderr.contains("gyroscope x: 1 of") && stderr.contains("was left out; with it N would be"),
+        "{stderr}"
+    );
+}
+
 #[test]
 fn turns_that_are_missing_and_values_that_are_absurd_are_named() {
     let bench = Bench::new();
