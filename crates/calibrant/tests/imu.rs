@@ -370,12 +370,46 @@ fn a_known_bias_is_kept_and_a_prior_shares() {
     assert_eq!(calibration.imu.gyroscope.matrix.m11, 0.9);
     let said = calibration.warnings.join("; ");
     assert!(said.contains("the recording contradicts what [known] says of gyroscope.scale.x: 0.9"), "{said}");
-    let prior = KnownTerm { quantity: quantity("gyroscope.bias.x"), value: 5.0, sd: Some(1e-4) };
+    let prior = KnownTerm { quantity: quantity("gyroscope.bias.x"), value: 0.1, sd: Some(1e-4) };
     let setup = ImuSetup { known: vec![prior], ..ImuSetup::default() };
     let calibration = run(&recording, &Gyroscope::default(), &setup, unit).expect("determined");
     let said = calibration.warnings.join("; ");
     assert!(said.contains("the data contradict what [known] says of gyroscope.bias.x"), "{said}");
     assert!(said.contains("degrees of freedom: the data contradict"), "{said}");
+
+    // far off, it is refused whatever the fit with it would come to; with a third of that it converges, and is said
+    for (name, absurd) in [
+        ("accelerometer.bias.x", 4.0),
+        ("accelerometer.scale.x", -0.4),
+        ("accelerometer.matrix.xy", 0.4),
+        ("gyroscope.bias.x", 0.2),
+        ("gyroscope.scale.x", -0.4),
+        ("gyroscope.matrix.xy", 0.4),
+    ] {
+        for share in [1.0 / 3.0, 1.0, 2.5, 10.0, 1e4, 1e9] {
+            for sd in [None, Some(1e-9)] {
+                let fixed = quantity(name);
+                let known = KnownTerm { quantity: fixed, value: fixed.of(&truth) + share * absurd, sd };
+                let setup = ImuSetup { known: vec![known], ..ImuSetup::default() };
+                let found = run(&recording, &Gyroscope::default(), &setup, unit);
+                let says =
+                    format!("the recording contradicts what [known] says of {name}: {:?}", known.value);
+                let said = match &found {
+                    Ok(calibration) => calibration.warnings.join("; "),
+                    Err(error) => error.to_string(),
+                };
+                assert!(said.contains(&says), "{said}");
+                match found {
+                    Ok(calibration) => assert!(
+                        share < 1.0 && calibration.status == CalibrationStatus::Converged,
+                        "{name} {share} {sd:?}: {:?}",
+                        calibration.status
+                    ),
+                    Err(error) => assert!(share >= 1.0 && error.is_invalid_experiment(), "{error}"),
+                }
+            }
+        }
+    }
 }
 
 #[test]

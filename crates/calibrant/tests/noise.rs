@@ -5,9 +5,10 @@ mod common;
 use calibrant::estimate::find_holds;
 use calibrant::io::{ReadOptions, read_recording};
 use calibrant::noise::{Coefficient, Moments, NoiseFit, PowerLaw, Stretch, TriadNoise};
-use calibrant::sensor::{ReadingUnit, Triad};
+use calibrant::sensor::{ReadingUnit, Recording, Triad};
 use calibrant::simulate::{Purpose, simulate_noise, stream};
 use common::shared_data;
+use nalgebra::Vector3;
 use rayon::prelude::*;
 
 const INTERVAL_S: f64 = 0.01;
@@ -168,6 +169,78 @@ fn a_linear_drift_is_no_random_walk() {
     );
     assert!(fit.model.rate_random_walk.estimate().is_none(), "{:?}", fit.model);
     assert!((fit.model.random_walk.value().expect("determined") / 0.02 - 1.0).abs() < 0.04);
+}
+
+/// The slope of a random walk is one of its realisations, seen in the Allan deviation or not.
+#[test]
+fn a_random_walk_is_no_linear_drift() {
+    let (n, duration_s) = (6000, 60.0_f64);
+    let white = (PowerLaw::White, 0.02);
+    // the standard deviation of the slope from white noise, and that of a random walk of K from the K at which both are equal
+    let slope_sd = (12.0 * 0.02_f64.powi(2) / duration_s.powi(3)).sqrt();
+    let equal = (12.0 * 0.02_f64.powi(2) / duration_s.powi(3) / (1.2 / duration_s)).sqrt();
+    for walk in [0.0, 1.0, 2.0, 4.0, 8.0, 30.0] {
+        let fits = fits(&[white, (PowerLaw::RandomWalk, walk * equal)], n, 400);
+        let count = |of: &dyn Fn(&NoiseFit) -> bool| fits.iter().filter(|fit| of(fit)).count();
+        let seen = count(&|fit| fit.drift.is_significant());
+        println!("K = {walk}: {seen} of 400");
+        assert!(seen <= 20, "K = {walk}: {seen} of 400");
+    }
+    // one of as many standard deviations of its slope
+    for drift in [5.0, 10.0, 15.0, 20.0, 30.0] {
+        let moments = Moments::of(n);
+        let seen = (0..200_u64)
+            .into_par_iter()
+            .filter(|seed| {
+                let mut readings = simulate(&[white], n, 1000 + seed);
+                readings
+                    .iter_mut()
+                    .enumerate()
+                    .for_each(|(k, y)| *y += drift * slope_sd * INTERVAL_S * k as f64);
+                NoiseFit::of(&readings, INTERVAL_S, &moments).expect("long enough").drift.is_significant()
+            })
+            .count();
+        println!("a drift of {drift} standard deviations is seen in {seen} of 200");
+        // 191 were seen: less 4 standard deviations of a share of 200
+        assert!(drift < 30.0 || seen > 178, "{drift}: {seen} of 200");
+    }
+}
+
+/// One spark of 20 m/s² made N four times too large.
+#[test]
+fn an_outlier_is_left_out_and_named() {
+    let record = |spark: f64| {
+        let axis: Vec<Vec<f64>> =
+            (0..3).map(|k| simulate(&[(PowerLaw::White, 5e-4)], 60_000, 40 + k)).collect();
+        let mut recording = Recording {
+            times_s: (0..60_000).map(|k| f64::from(k) * INTERVAL_S).collect(),
+            readings: (0..60_000).map(|k| Vector3::new(axis[0][k], axis[1][k], 9.8 + axis[2][k])).collect(),
+            axes: 3,
+            unit: ReadingUnit::MetrePerSecondSquared,
+        };
+        recording.readings[31_234].x += spark;
+        let stretch = Stretch::between(&recording, 0.0, 600.0).expect("long enough");
+        TriadNoise::of(Triad::Accelerometer, &recording, stretch).expect("noisy")
+    };
+    let (clean, sparked) = (record(0.0), record(20.0));
+    assert!(clean.axes.iter().all(|axis| axis.outliers.is_none()));
+    let [clean_n, n] = [&clean, &sparked].map(|noise| noise.white_noise_per_sample().expect("determined").x);
+    assert!((n / clean_n - 1.0).abs() < 1e-3, "{n} {clean_n}");
+    let outliers = sparked.axes[0].outliers.as_ref().expect("found");
+    assert_eq!(outliers.samples, [31_234]);
+    // 20 m/s² in one of n samples: their variance is more by 400/n
+    let expected = (400.0 / 60_000.0 + clean_n.powi(2)).sqrt();
+    let with_them = outliers.white_with_them.expect("determined");
+    assert!((with_them / expected - 1.0).abs() < 0.2, "{with_them} {expected}");
+    let said: Vec<&String> = sparked.warnings.iter().filter(|said| !clean.warnings.contains(said)).collect();
+    assert_eq!(said.len(), 1, "{said:?}");
+    for text in [
+        "accelerometer x: 1 of 60000 samples is an outlier (the farthest 20",
+        "m/s² at 312.340 s",
+        "with it N would be",
+    ] {
+        assert!(said[0].contains(text), "{text}: {}", said[0]);
+    }
 }
 
 #[test]

@@ -61,6 +61,7 @@ pub(super) fn run(arguments: &Arguments, experiment: &Experiment, plan: &ImuPlan
         || if arguments.no_report { None } else { noise(Triad::Accelerometer) },
     );
     let mut calibration = calibration.map_err(|error| in_file(error, path))?;
+    calibration.warnings.extend(of_gyroscope.iter().flat_map(TriadNoise::of_outliers));
     setup.white_noise = white_noise;
     let problem = ImuProblem { accelerometer, gyroscope, recording, setup: &setup };
     calibration.validations = super::validation::of_imu(arguments, &options, &calibration, &problem, &file)?;

@@ -6,10 +6,12 @@ use crate::reading::{in_file, name};
 use calibrant::Error;
 use calibrant::error::Complaint;
 use calibrant::estimate::{
-    CalibrationSettings, HoldsSetup, ImuCalibration, ImuProblem, ImuSetup, Stimulus, Validation,
-    ValidationSource, cross_validate, cross_validate_imu, validate, validate_imu,
+    CalibrationSettings, HoldCalibration, HoldsSetup, ImuCalibration, ImuProblem, ImuSetup, Recovered,
+    Stimulus, Validation, ValidationSource, cross_validate, cross_validate_imu, noise_in_common, validate,
+    validate_imu,
 };
 use calibrant::io::{ImuFile, ImuReadOptions, read_accelerometer, read_imu_pair, read_imu_recording};
+use calibrant::motion::Hold;
 use calibrant::sensor::Recording;
 use std::path::Path;
 
@@ -50,6 +52,7 @@ pub(super) fn of_imu(
         other.findings.iter().for_each(|finding| console::finding(&name(path), finding));
         refuse_the_same(
             (&file.sha256.concat(), file.recording.accelerometer.as_ref()),
+            &calibration.holds,
             (&other.sha256.concat(), other.recording.accelerometer.as_ref()),
             path,
         )?;
@@ -76,11 +79,14 @@ pub(super) fn of_accelerometer(
     if let Some(path) = &arguments.validate {
         let other = read_accelerometer(path, &job.read, &job.device)?;
         other.findings.iter().for_each(|finding| console::finding(&name(path), finding));
-        refuse_the_same(
-            (&done.input.sha256, Some(&done.file.recording)),
-            (&other.sha256, Some(&other.recording)),
-            path,
-        )?;
+        if let Recovered::Holds(holds) = &done.calibration.recovered {
+            refuse_the_same(
+                (&done.input.sha256, Some(&done.file.recording)),
+                holds,
+                (&other.sha256, Some(&other.recording)),
+                path,
+            )?;
+        }
         let setup = job.holds.as_ref().map(found);
         let mut problem = job.problem(&other.recording);
         if let Some(setup) = &setup {
@@ -104,20 +110,32 @@ fn on(path: &Path, validation: Validation) -> Validation {
     Validation { source: ValidationSource::Recording { name: name(path) }, ..validation }
 }
 
-/// Refuses the data that were calibrated from: the same file, or its readings in another file, whole or cut.
+/// Refuses the data that were calibrated from: the same file, its readings in another file, whole or cut, or the recording in disguise.
 fn refuse_the_same(
     (one_hash, one): (&str, Option<&Recording>),
+    holds: &HoldCalibration,
     (other_hash, other): (&str, Option<&Recording>),
     path: &Path,
 ) -> calibrant::Result<()> {
-    let contained = one.zip(other).is_some_and(|(one, other)| {
-        let (long, short) = if one.len() < other.len() { (other, one) } else { (one, other) };
-        long.readings.windows(short.len().max(1)).any(|stretch| stretch == short.readings)
-    });
-    if one_hash != other_hash && !contained {
-        return Ok(());
+    let refused = |what: &str| {
+        let message = format!("{what}; errors on them are smaller than on other data, and validate nothing");
+        let help = "give another recording of the sensor, or --folds 5 in place of --validate: blocks of holds, each predicted from the others";
+        Err(Error::Experiment(Box::new(Complaint::new(message, help).in_file(path))))
+    };
+    let same = "it has the data that were calibrated from";
+    if one_hash == other_hash {
+        return refused(same);
     }
-    let message = "it has the data that were calibrated from: their errors are smaller than those on other data, and validate nothing";
-    let help = "give another recording of the sensor, or --folds 5 in place of --validate: blocks of holds, each predicted from the others";
-    Err(Error::Experiment(Box::new(Complaint::new(message, help).in_file(path))))
+    let Some((one, other)) = one.zip(other) else { return Ok(()) };
+    let (long, short) = if one.len() < other.len() { (other, one) } else { (one, other) };
+    if long.readings.windows(short.len().max(1)).any(|stretch| stretch == short.readings) {
+        return refused(same);
+    }
+    let holds: Vec<Hold> = holds.holds.iter().map(|result| result.hold.clone()).collect();
+    match noise_in_common(one, &holds, other) {
+        Some(correlation) => refused(&format!(
+            "{same}, in another form (rounded, thinned out, in other units?): the noise of its samples is theirs (correlation {correlation:.2}, where another recording has none)"
+        )),
+        None => Ok(()),
+    }
 }

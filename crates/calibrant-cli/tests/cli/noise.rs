@@ -67,6 +67,28 @@ fn white_noise_is_found_and_what_is_not_seen_is_said() {
     );
 }
 
+/// A spark among six thousand samples.
+#[test]
+fn an_outlier_is_named_and_left_out() {
+    let bench = Bench::new();
+    let clean = recording("t_s,ax_mps2,ay_mps2,az_mps2", 6000, 0.1);
+    bench.write("still.csv", &clean);
+    let mut lines: Vec<&str> = clean.lines().collect();
+    lines[3001] = "30.00,20.0,0.0,0.98";
+    bench.write("spark.csv", lines.join("\n") + "\n");
+    let n = |file: &str| {
+        let outcome = bench.run(&format!("noise {file} --hold 0 60 --json")).done();
+        let json: Value = serde_json::from_str(&outcome.stdout).expect("JSON");
+        (json["sensors"][0]["axes"][0]["random_walk"]["value"].as_f64().expect("determined"), outcome)
+    };
+    let ((expected, clean), (found, outcome)) = (n("still.csv"), n("spark.csv"));
+    assert!((found / expected - 1.0).abs() < 0.01, "{found} {expected}");
+    assert!(!clean.stderr.contains("outlier"), "{}", clean.stderr);
+    outcome
+        .says("warning: accelerometer x: 1 of 6000 samples is an outlier (the farthest 20 m/s² at 30.000 s");
+    outcome.says("was left out; with it N would be");
+}
+
 /// Fifteen seconds at rest, thirty of a turn about the vertical at a steady rate, five at rest: the accelerometer alone sees one hold, the gyroscope's longest
 /// calm is the turn.
 #[test]

@@ -58,6 +58,30 @@ fn an_accelerometer_is_validated_by_folds_and_on_another_recording() {
         ];
         bench.refuses(&format!("calibrate poses.toml first.csv --validate {same} -o same"), 2, &says);
     }
+    // nor are they if they are rounded, in g, or every second sample of a cut file with its own clock
+    let rows = |gain: f64, digits: usize, every: usize, from: usize| -> String {
+        let row = |line: &&str| {
+            let mut fields = line.split(',').map(|field| field.parse::<f64>().expect("a number"));
+            let time = fields.next().expect("a time") - 0.01 * from as f64;
+            fields.fold(format!("{time:.2}"), |row, field| format!("{row},{:.digits$}", field * gain)) + "\n"
+        };
+        lines[1 + from..half].iter().step_by(every).map(row).collect()
+    };
+    let mps2 = lines[0];
+    let g = &mps2.replace("mps2", "g");
+    for (name, header, rows) in [
+        ("rounded.csv", mps2, rows(1.0, 2, 1, 0)),
+        ("in-g.csv", g, rows(1.0 / 9.806_65, 6, 1, 0)),
+        ("thin.csv", mps2, rows(1.0, 3, 2, 500)),
+    ] {
+        bench.write(name, format!("{header}\n{rows}"));
+        let says = [
+            &format!("{name}: it has the data that were calibrated from, in another form"),
+            "the noise of its samples is theirs",
+            "--folds 5",
+        ];
+        bench.refuses(&format!("calibrate poses.toml first.csv --validate {name} -o same"), 2, &says);
+    }
 }
 
 /// One hold tells hardly anything, and a factor of hundreds something else than the size of the covariance.
@@ -141,20 +165,41 @@ fn the_imu_of_imu_tk_is_validated_by_folds_and_its_file_is_still_read() {
     std::fs::copy(accelerometer, bench.path("acc.mat")).expect("copied");
     std::fs::copy(gyroscope, bench.path("gyro.mat")).expect("copied");
     bench.preset("imu-counts", "imu.toml", &[]);
-    // every second sample: other data for the program, with the same errors
+    // the first half calibrates, the second validates; its every second sample is no other recording
     for name in ["acc.mat", "gyro.mat"] {
         let text = bench.read(name);
-        let half: Vec<&str> = text.lines().step_by(2).collect();
-        bench.write(&format!("half-{name}"), half.join("\n") + "\n");
+        let lines: Vec<&str> = text.lines().collect();
+        let (first, second) = lines.split_at(lines.len() / 2);
+        bench.write(&format!("half-{name}"), first.join("\n") + "\n");
+        bench.write(&format!("other-{name}"), second.join("\n") + "\n");
+        let thin: Vec<&str> = first.iter().copied().step_by(2).collect();
+        bench.write(&format!("thin-{name}"), thin.join("\n") + "\n");
     }
-    let command = "calibrate imu.toml acc.mat --gyroscope gyro.mat --folds 5 --validate half-acc.mat --validate-gyroscope half-gyro.mat -o result";
+    let calibrate = "calibrate imu.toml half-acc.mat --gyroscope half-gyro.mat";
+    bench.refuses(
+        &format!("{calibrate} --validate thin-acc.mat --validate-gyroscope thin-gyro.mat -o result"),
+        2,
+        &["thin-acc.mat: it has the data that were calibrated from, in another form", "(correlation 1.00,"],
+    );
+    let command = format!(
+        "{calibrate} --folds 5 --validate other-acc.mat --validate-gyroscope other-gyro.mat -o result"
+    );
+    let command = command.as_str();
     let outcome = bench.run(command).done();
     assert!(outcome.stdout.contains("gravity after rotations"), "{}", outcome.stdout);
     let json = bench.json("result/calibration.json");
     for kind in ["magnitude", "rate", "rotation"] {
-        assert_eq!(json["validation"]["folds"][kind]["verdict"], "believed", "{kind}");
+        for source in ["folds", "recording"] {
+            assert_eq!(json["validation"][source][kind]["verdict"], "believed", "{source} {kind}");
+        }
     }
-    assert!(json["validation"]["recording"]["gyroscope_bias_shift"]["moved"] == false);
+    let shift = &json["validation"]["recording"]["gyroscope_bias_shift"]["shift_radps"];
+    assert!(
+        shift
+            .as_array()
+            .is_some_and(|shift| shift.iter().all(|of| of.as_f64().is_some_and(|of| of.abs() < 3e-4))),
+        "{shift}"
+    );
     bench.run("convert result/calibration.json imu.h").done();
 }
 

@@ -12,15 +12,16 @@ const LARGEST: f64 = 1e30;
 
 /// The excess σ with what was fitted with it; zero where the noise explains the scatter, or where there are no degrees of freedom.
 ///
-/// `fit(σ)` gives χ² and what it fitted; `None` where that fails, which ends the search. `guess` is a σ of the right size.
+/// `fit(σ)` gives χ² and what it fitted; `None` where that fails, which ends the search. It is asked for σ = 0 first, of which `guess` makes a σ of the right size.
 pub(super) fn excess<T>(
     degrees_of_freedom: f64,
-    guess: f64,
+    guess: impl Fn(&T) -> f64,
     fit: impl FnMut(f64) -> Option<(f64, T)>,
 ) -> Option<(f64, T)> {
     let mut search = Search { degrees_of_freedom, fit, best: None };
     let zero = (0.0, search.at(0.0)?);
     if degrees_of_freedom > 0.0 && zero.1 < 0.0 {
+        let guess = search.best.as_ref().map_or(0.0, |(_, _, fitted)| guess(fitted));
         let (mut low, mut variance) = (zero, (guess * guess).max(f64::MIN_POSITIVE));
         let largest = variance * LARGEST;
         let high = loop {
@@ -80,7 +81,7 @@ mod tests {
                         count += 1;
                         Some((chi2(sd), sd))
                     };
-                    let (sd, fitted) = excess(degrees, guess, fit).expect("found");
+                    let (sd, fitted) = excess(degrees, |_| guess, fit).expect("found");
                     assert_eq!(sd, fitted, "what was fitted with it");
                     assert!((chi2(sd) / degrees - 1.0).abs() < 1e-9, "{residuals:?} {degrees} {guess}: {sd}");
                     assert!(count < 40, "{residuals:?} {degrees} {guess}: {count} fits");
@@ -88,16 +89,16 @@ mod tests {
             }
         }
         // all variances equal: Σ r²/(1 + σ²) = 3
-        let sd = excess(3.0, 1.0, |sd| Some((30.0 / (1.0 + sd * sd), ()))).expect("found").0;
+        let sd = excess(3.0, |_| 1.0, |sd| Some((30.0 / (1.0 + sd * sd), ()))).expect("found").0;
         assert!((sd - 3.0).abs() < 1e-9, "{sd}");
     }
 
     #[test]
     fn there_is_none_where_the_noise_explains_the_scatter() {
         let of =
-            |degrees: f64| excess(degrees, 1.0, |sd| Some((2.0 / (1.0 + sd * sd), ()))).expect("found").0;
+            |degrees: f64| excess(degrees, |_| 1.0, |sd| Some((2.0 / (1.0 + sd * sd), ()))).expect("found").0;
         assert_eq!(of(2.5), 0.0);
         assert_eq!(of(0.0), 0.0);
-        assert_eq!(excess(1.0, 1.0, |_| None::<(f64, ())>), None, "a fit that fails ends the search");
+        assert_eq!(excess(1.0, |_| 1.0, |_| None::<(f64, ())>), None, "a fit that fails ends the search");
     }
 }

@@ -41,7 +41,8 @@ pub use settings::CalibrationSettings;
 pub use uncalibrated::Uncalibrated;
 pub use validation::{
     BiasShift, CovarianceVerdict, ErrorKind, FailedFold, ParameterPart, UnusedError, ValidatedErrors,
-    Validation, ValidationSource, cross_validate, cross_validate_imu, validate, validate_imu,
+    Validation, ValidationSource, cross_validate, cross_validate_imu, noise_in_common, validate,
+    validate_imu,
 };
 
 use crate::error::Result;

@@ -36,6 +36,9 @@
 //! the limit that the recording sets. Cluster times
 //! so short that no sum of these processes explains them (filtered or sampled noise) are left out and named.
 //!
+//! # What is taken out first
+//! A few samples that are far from those beside them ([`Outliers`]), which no process above explains; they are named.
+//!
 //! # Confidence
 //! An estimate of a variance is skewed. The bounds of `θ_i` are those values under which an estimate as high, or as low, as this one has a
 //! probability of 2.5 %, the estimate following a gamma distribution with the mean and the variance that the model gives it *there*.
@@ -52,6 +55,7 @@ mod interval;
 mod lags;
 mod model;
 mod moments;
+mod outliers;
 mod power_law;
 mod scaled;
 mod stretch;
@@ -65,6 +69,7 @@ pub use drift::Drift;
 pub use fit::NoiseFit;
 pub use model::NoiseModel;
 pub use moments::Moments;
+pub use outliers::Outliers;
 pub use power_law::PowerLaw;
 pub use stretch::Stretch;
 pub use triad::{AxisNoise, TriadNoise};

@@ -1,6 +1,6 @@
 //! The same noise in another unit: everything but times and statistics is proportional to the readings.
 
-use super::{AllanDeviation, AxisNoise, Coefficient, Drift, NoiseFit, NoiseModel};
+use super::{AllanDeviation, AxisNoise, Coefficient, Drift, NoiseFit, NoiseModel, Outliers};
 
 impl AxisNoise {
     /// The noise of the readings times a positive factor.
@@ -10,6 +10,17 @@ impl AxisNoise {
             allan: self.allan.scaled(factor),
             fit: self.fit.scaled(factor),
             sample_sd: factor * self.sample_sd,
+            outliers: self.outliers.as_ref().map(|outliers| outliers.scaled(factor)),
+        }
+    }
+}
+
+impl Outliers {
+    fn scaled(&self, factor: f64) -> Self {
+        Self {
+            largest: factor * self.largest,
+            white_with_them: self.white_with_them.map(|white| factor * white),
+            ..self.clone()
         }
     }
 }
@@ -28,7 +39,8 @@ impl AllanDeviation {
 
 impl NoiseFit {
     fn scaled(&self, factor: f64) -> Self {
-        let drift = Drift { per_s: factor * self.drift.per_s, sd: factor * self.drift.sd };
+        let of = &self.drift;
+        let drift = Drift { per_s: factor * of.per_s, sd: factor * of.sd, most_sd: factor * of.most_sd };
         Self { model: self.model.scaled(factor), drift, ..self.clone() }
     }
 }

@@ -1,5 +1,6 @@
 //! The noise of a sensor of three axes.
 
+use super::outliers::{self, Outliers};
 use super::{AllanDeviation, Moments, NoiseFit, Stretch};
 use crate::error::{Complaint, Error, Result};
 use crate::sensor::{Axis, ReadingUnit, Recording, Triad};
@@ -39,6 +40,8 @@ pub struct AxisNoise {
     pub fit: NoiseFit,
     /// Standard deviation of the samples about their mean, in the unit of the readings.
     pub sample_sd: f64,
+    /// Samples that were left out of all this; `None` without any.
+    pub outliers: Option<Outliers>,
 }
 
 impl TriadNoise {
@@ -87,15 +90,36 @@ impl TriadNoise {
     ) -> Result<Self> {
         let readings = &recording.readings[stretch.first..stretch.end];
         let axis = |&axis: &Axis| {
-            let values: Vec<f64> = readings.iter().map(|reading| reading[axis.index()]).collect();
+            let recorded: Vec<f64> = readings.iter().map(|reading| reading[axis.index()]).collect();
+            let fit = |values: &[f64]| NoiseFit::of(values, stretch.interval_s, moments);
+            let (values, outliers) = match outliers::find(&recorded) {
+                None => (recorded, None),
+                Some(found) => {
+                    let white = |fit: NoiseFit| fit.model.white_noise_per_sample(stretch.rate_hz());
+                    let outliers = Outliers {
+                        samples: found.samples,
+                        time_s: recording.times_s[stretch.first + found.farthest],
+                        largest: recorded[found.farthest],
+                        deviations: found.deviations,
+                        white_with_them: fit(&recorded).ok().and_then(white),
+                    };
+                    (found.without, Some(outliers))
+                }
+            };
             let n = values.len() as f64;
             let mean = values.iter().sum::<f64>() / n;
             let squares: f64 = values.iter().map(|y| (y - mean).powi(2)).sum();
             let (allan, fit) = rayon::join(
                 || AllanDeviation::with_confidence(&values, stretch.interval_s, moments.confidence()),
-                || NoiseFit::of(&values, stretch.interval_s, moments).map_err(|error| about(error, axis)),
+                || fit(&values).map_err(|error| about(error, axis)),
             );
-            Ok(AxisNoise { axis, allan: allan?, fit: fit?, sample_sd: (squares / (n - 1.0)).sqrt() })
+            Ok(AxisNoise {
+                axis,
+                allan: allan?,
+                fit: fit?,
+                sample_sd: (squares / (n - 1.0)).sqrt(),
+                outliers,
+            })
         };
         let axes: Vec<AxisNoise> = recording.active_axes().par_iter().map(axis).collect::<Result<_>>()?;
         let mut noise = Self { triad, unit: recording.unit, gain: None, stretch, axes, warnings: Vec::new() };
@@ -159,9 +183,39 @@ impl TriadNoise {
         self.axes.iter().all(|axis| axis.fit.explains())
     }
 
+    /// A warning for each axis with outliers; they are among the [`warnings`](Self::warnings), too.
+    #[must_use]
+    pub fn of_outliers(&self) -> Vec<String> {
+        self.axes.iter().filter_map(|axis| Some(self.of_outliers_on(axis, axis.outliers.as_ref()?))).collect()
+    }
+
+    fn of_outliers_on(&self, axis: &AxisNoise, outliers: &Outliers) -> String {
+        let (unit, count) = (self.unit.symbol(), outliers.samples.len());
+        let white = axis.fit.model.white_noise_per_sample(self.stretch.rate_hz());
+        let with_them = match white.zip(outliers.white_with_them) {
+            Some((without, with)) => format!(
+                "with {} N would be {:.2} times as large",
+                if count == 1 { "it" } else { "them" },
+                with / without
+            ),
+            None => "the noise is that of the others".to_owned(),
+        };
+        format!(
+            "{} {}: {count} of {} samples {} (the farthest {} {unit} at {:.3} s, {:.0} times the usual difference of two samples off those beside it): a spark, a lost bit or a \
+             knock is no noise that averages out, and was left out; {with_them}",
+            self.triad,
+            axis.axis,
+            self.stretch.samples(),
+            if count == 1 { "is an outlier" } else { "are outliers" },
+            three_digits(outliers.largest),
+            outliers.time_s,
+            outliers.deviations
+        )
+    }
+
     fn remarks(&self, readings: &[Vector3<f64>]) -> Vec<String> {
         let unit = self.unit.symbol();
-        let mut remarks = Vec::new();
+        let mut remarks = self.of_outliers();
         if self.stretch.jitter > JITTER {
             remarks.push(format!(
                 "the sample times vary by up to {:.0} % of the interval: short cluster times are less certain than stated",
@@ -179,11 +233,11 @@ impl TriadNoise {
             let (name, fit) = (axis.axis, &axis.fit);
             if fit.drift.is_significant() {
                 remarks.push(format!(
-                    "{} {name} drifts by {} {unit} per hour ({:.0} standard deviations of what its noise explains): warming up? The drift was \
+                    "{} {name} drifts by {} {unit} per hour ({:.1} standard deviations of the most that its noise explains): warming up? The drift was \
                      subtracted; it is no random walk",
                     self.triad,
                     three_digits(3600.0 * fit.drift.per_s),
-                    fit.drift.per_s.abs() / fit.drift.sd
+                    fit.drift.per_s.abs() / fit.drift.most_sd
                 ));
             }
             if !fit.explains() {

@@ -9,3 +9,4 @@ mod ferraris;
 mod levels;
 mod real;
 mod refused;
+mod same;

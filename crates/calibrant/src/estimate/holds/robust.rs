@@ -302,18 +302,21 @@ impl<const P: usize> Problem<'_, P> {
                 "check the unit of the recording and that the holds are what they should be",
             ))
         };
-        let first = at(0.0, start, start).ok_or_else(singular)?;
-        let gains_of = first.sensor;
-        let residuals = self.magnitude_residuals(&gains_of);
-        let squares: f64 = chosen.iter().map(|&j| residuals[j].powi(2)).sum();
-        let rms = (squares / chosen.len() as f64).sqrt().max(1e-12 * self.gravity);
-        let mut from = gains_of;
+        let rms = |fit: &Fit<P>| {
+            let residuals = self.magnitude_residuals(&fit.sensor);
+            let squares: f64 = chosen.iter().map(|&j| residuals[j].powi(2)).sum();
+            (squares / chosen.len() as f64).sqrt().max(1e-12 * self.gravity)
+        };
+        // the gains are those of the fit without a scatter between holds, in which they are of no account
+        let (mut gains_of, mut from) = (None, *start);
         let (between, fit) = excess(degrees, rms, |between| {
-            let fit = at(between, &gains_of, &from)?;
+            let fit = at(between, gains_of.as_ref().unwrap_or(start), &from)?;
+            gains_of.get_or_insert(fit.sensor);
             from = fit.sensor;
             Some((fit.chi2, fit))
         })
         .ok_or_else(singular)?;
+        let gains_of = gains_of.unwrap_or(*start);
         let information = DMatrix::from_fn(P, P, |i, j| fit.information[(i, j)]);
         let covariance = information::covariance(&information).ok_or_else(singular)?;
         Ok(Weighted { fit, covariance, between, gains_of })

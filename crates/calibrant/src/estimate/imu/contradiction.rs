@@ -10,6 +10,8 @@ use nalgebra::Vector3;
 const CONTRADICTED: f64 = 4.5;
 /// Readings in SI that are off a turn by more than this share of it show another one.
 const OTHER_TURN: f64 = 0.25;
+/// A factor this close to 180/π is taken for it.
+const DEGREES_OR_RADIANS: f64 = 0.1;
 /// Gains of readings in SI that are plausible.
 const GAINS: std::ops::RangeInclusive<f64> = 0.8..=1.25;
 /// Scatter within holds over the noise that was given that is not worth a word.
@@ -70,9 +72,9 @@ fn of_turns(joint: &Joint<'_>, fit: &Fit, turns: &[Turn], unit: ReadingUnit) -> 
     let mut warnings = Vec::new();
     if unit != ReadingUnit::Counts {
         if let Some(share) = same_share(joint, fit) {
-            return vec![format!(
-                "the gyroscope shows {share:.2} of the angle of every turn: are the angle of the turns, the sample rate and the gyroscope's unit right?"
-            )];
+            let why = factor(share)
+                .unwrap_or("are the angle of the turns, the sample rate and the gyroscope's unit right?");
+            return vec![format!("the gyroscope shows {share:.3} of the angle of every turn: {why}")];
         }
         let other = joint.turns.iter().zip(turns).enumerate();
         warnings.extend(other.filter_map(|(k, (data, turn))| other_turn(fit, data, turn, k)));
@@ -108,6 +110,18 @@ fn same_share(joint: &Joint<'_>, fit: &Fit) -> Option<f64> {
         .then_some(mean)
 }
 
+/// What a factor between the angle that the gyroscope shows and the one that was given tells, if it is that between degrees and radians.
+fn factor(share: f64) -> Option<&'static str> {
+    const DEGREES: f64 = 180.0 / std::f64::consts::PI;
+    let near = |factor: f64| (share / factor - 1.0).abs() < DEGREES_OR_RADIANS;
+    if near(DEGREES) {
+        return Some(
+            "180/π times. Is the angle in radians, where degrees are meant (angle_deg = 360.0 for a whole turn), or are the gyroscope's readings in deg/s and read as rad/s?",
+        );
+    }
+    near(1.0 / DEGREES).then_some("π/180 of it. Are the gyroscope's readings in rad/s and read as deg/s?")
+}
+
 /// A turn of which the readings, in SI, show quite another one.
 fn other_turn(fit: &Fit, data: &TurnData, turn: &Turn, number: usize) -> Option<String> {
     let shown = data.beyond_bias(&fit.state.imu);
@@ -115,9 +129,12 @@ fn other_turn(fit: &Fit, data: &TurnData, turn: &Turn, number: usize) -> Option<
     // about the axis as it was named
     let sign = if shown.dot(&turn.axis) < -0.5 * shown.norm() { -1.0 } else { 1.0 };
     let about = (sign * shown).try_normalize(0.0).unwrap_or(turn.axis);
+    let share = shown.dot(&data.angle) / data.angle.norm_squared();
+    let why = factor(share)
+        .map_or_else(|| ": correct its angle, its axis or its times".to_owned(), |why| format!(", {why}"));
     ((shown - data.angle).norm() > OTHER_TURN * data.angle.norm()).then(|| {
         format!(
-            "turn {} ({:.1} to {:.1} s) is given as {:.1}° about {}, and the gyroscope shows {:.0}° about {}: correct its angle, its axis or its times",
+            "turn {} ({:.1} to {:.1} s) is given as {:.1}° about {}, and the gyroscope shows {:.0}° about {}{why}",
             number + 1,
             turn.start_s,
             turn.end_s,

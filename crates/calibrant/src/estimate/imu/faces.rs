@@ -164,10 +164,14 @@ impl Linear<'_> {
         let sensor = self.fit(0.0, &ones).ok_or_else(singular)?;
         let gain = Vector3::from_fn(|axis, _| sensor.matrix.row(axis).norm());
         let degrees = (3 * self.holds.len()).saturating_sub(size) as f64;
-        let (between, sensor) = excess(degrees, USUAL, |between| {
-            let sensor = self.fit(between, &gain)?;
-            Some((self.chi2(&sensor, between, &gain), sensor))
-        })
+        let (between, sensor) = excess(
+            degrees,
+            |_| USUAL,
+            |between| {
+                let sensor = self.fit(between, &gain)?;
+                Some((self.chi2(&sensor, between, &gain), sensor))
+            },
+        )
         .ok_or_else(singular)?;
         Ok((sensor, between, condition))
     }

@@ -108,7 +108,7 @@ impl Regression {
     fn fit(&self) -> Option<(f64, DVector<f64>)> {
         let means = || self.rows.iter().map(|(_, mean, _)| *mean);
         let spread = means().fold(f64::MIN, f64::max) - means().fold(f64::MAX, f64::min);
-        excess(self.degrees, 0.25 * spread, |between| self.solve(between))
+        excess(self.degrees, |_| 0.25 * spread, |between| self.solve(between))
     }
 }
 

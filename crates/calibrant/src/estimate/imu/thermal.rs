@@ -331,12 +331,16 @@ impl<'a> Alone<'a> {
         let rough = self.first.holds.between_holds_sd_mps2;
         solver::check(&self.weighed(rough), &self.start, settings)?;
         let mut from = self.start.clone();
-        let (between, state) = excess(degrees, rough.max(1e-9 * self.joint.gravity), |between| {
-            let weighed = self.weighed(between);
-            let fit = weighed.fit(from.clone(), weighed.misses(&from)?, settings)?;
-            from = fit.state.clone();
-            Some((fit.chi2, fit.state))
-        })
+        let (between, state) = excess(
+            degrees,
+            |_| rough.max(1e-9 * self.joint.gravity),
+            |between| {
+                let weighed = self.weighed(between);
+                let fit = weighed.fit(from.clone(), weighed.misses(&from)?, settings)?;
+                from = fit.state.clone();
+                Some((fit.chi2, fit.state))
+            },
+        )
         .ok_or_else(singular)?;
         Ok((state, between))
     }

@@ -155,10 +155,14 @@ impl Linear<'_> {
         // what the holds say of the bias are as many equations as it has unknowns
         let unknowns = self.size.saturating_sub((0..self.size).filter(|&k| self.rest[(k, k)] > 0.0).count());
         let degrees = (2 * count).saturating_sub(unknowns) as f64;
-        excess(degrees, USUAL, |excess| {
-            let solved = self.solve(used, excess)?;
-            Some((solved.chi2, solved))
-        })
+        excess(
+            degrees,
+            |_| USUAL,
+            |excess| {
+                let solved = self.solve(used, excess)?;
+                Some((solved.chi2, solved))
+            },
+        )
     }
 
     fn studentised(&self, used: &[bool], excess: f64, solved: &Solved) -> Vec<f64> {

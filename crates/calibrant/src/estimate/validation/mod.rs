@@ -28,11 +28,13 @@ mod item;
 mod predict;
 mod ratio;
 mod result;
+mod same;
 mod statistics;
 mod whitened;
 
 pub use cross::{cross_validate, cross_validate_imu};
 pub use result::*;
+pub use same::noise_in_common;
 
 use super::imu::{GyroscopeAtRest, needed_temperatures, recordings};
 use super::{

@@ -1,0 +1,163 @@
+//! The same recording in disguise, and honest repetitions that look alike.
+
+use crate::common::{normal, xsens};
+use calibrant::estimate::{find_holds, noise_in_common};
+use calibrant::motion::Hold;
+use calibrant::sensor::{ReadingUnit, Recording, SensorParameters};
+use calibrant::simulate::{HoldsSimulation, Purpose, Rng, simulate_holds, stream};
+use nalgebra::Vector3;
+use rayon::prelude::*;
+
+const SD: f64 = 0.01;
+
+/// A recording without noise: 20 poses of 2 s at 100 Hz, of a machine that repeats itself.
+fn quiet() -> Recording {
+    let setup = HoldsSimulation {
+        poses: 20,
+        hold_s: 2.0,
+        turn_s: 1.0,
+        rate_hz: 100.0,
+        gravity_mps2: 9.81,
+        between_holds_sd_mps2: 0.0,
+    };
+    let unit = ReadingUnit::MetrePerSecondSquared;
+    let mut rng = stream(71, Purpose::Sensor, 0);
+    simulate_holds(&SensorParameters::identity(), &Vector3::zeros(), unit, &setup, &mut rng).0
+}
+
+/// One of its recordings. `filter`: share of the noise before that stays.
+fn noisy(quiet: &Recording, filter: f64, rng: &mut Rng) -> Recording {
+    let mut recording = quiet.clone();
+    let mut noise = Vector3::zeros();
+    for y in &mut recording.readings {
+        noise = filter * noise + (1.0 - filter * filter).sqrt() * Vector3::from_fn(|_, _| SD * normal(rng));
+        *y += noise;
+    }
+    recording
+}
+
+fn holds(recording: &Recording) -> Vec<Hold> {
+    find_holds(recording, 1.0).expect("found")
+}
+
+fn rounded(mut recording: Recording, step: f64) -> Recording {
+    recording.readings.iter_mut().for_each(|y| *y = y.map(|y| (y / step).round() * step));
+    recording
+}
+
+fn chosen(recording: &Recording, every: &[usize]) -> Recording {
+    Recording {
+        times_s: every.iter().map(|&k| recording.times_s[k]).collect(),
+        readings: every.iter().map(|&k| recording.readings[k]).collect(),
+        ..recording.clone()
+    }
+}
+
+#[test]
+fn honest_repetitions_have_no_noise_in_common() {
+    // a machine that makes the same movements at the same times, with the same hum, the same ringing after each and the same warming up
+    let still = quiet();
+    let mut machine = still.clone();
+    for (t, y) in machine.times_s.iter().zip(&mut machine.readings) {
+        let into = t % 3.0;
+        *y += Vector3::new(3.0, -2.0, 1.0) * SD * (41.0 * t).sin();
+        *y += Vector3::new(1.0, 2.0, 0.0) * SD * (-8.0 * into).exp() * (150.0 * into).cos();
+        *y += Vector3::repeat(1e-3 * t);
+    }
+    let pairs: Vec<(u64, &Recording, f64, f64)> = (0..200)
+        .map(|number| {
+            let base = if number % 2 == 0 { &still } else { &machine };
+            // white noise and filtered noise, fine and coarse steps
+            (number, base, [0.0, 0.8][number as usize / 2 % 2], [1e-6, 2.0][number as usize / 4 % 2])
+        })
+        .collect();
+    let alarms: Vec<_> = pairs
+        .into_par_iter()
+        .filter_map(|(number, base, filter, step)| {
+            let mut rng = stream(72, Purpose::Sensor, number);
+            let mut record = || rounded(noisy(base, filter, &mut rng), step * SD);
+            let (one, other) = (record(), record());
+            let found = noise_in_common(&one, &holds(&one), &other);
+            // intervals that take in the movements, too
+            let whole =
+                calibrant::estimate::holds_between(&one, &[(0.0, 30.0), (30.1, 60.0)]).expect("samples");
+            found.or(noise_in_common(&one, &whole, &other)).map(|r| (number, r))
+        })
+        .collect();
+    assert!(alarms.is_empty(), "{alarms:?}");
+}
+
+#[test]
+fn the_same_recording_is_known_in_every_disguise() {
+    let mut rng = stream(73, Purpose::Sensor, 0);
+    for filter in [0.0, 0.8] {
+        let one = noisy(&quiet(), filter, &mut rng);
+        let n = one.len();
+        let mut other_unit = one.clone();
+        other_unit.readings.iter_mut().for_each(|y| *y /= 9.806_65);
+        let mut later = rounded(one.clone(), 0.1 * SD);
+        later.times_s.iter_mut().for_each(|t| *t += 1.7e9);
+        let mut from_zero = rounded(chosen(&one, &(n / 3..n).collect::<Vec<_>>()), 0.1 * SD);
+        let start = from_zero.times_s[0];
+        from_zero.times_s.iter_mut().for_each(|t| *t -= start);
+        let mut thin_from_zero = chosen(&one, &(n / 3..n).step_by(4).collect::<Vec<_>>());
+        let start = thin_from_zero.times_s[0];
+        thin_from_zero.times_s.iter_mut().for_each(|t| *t -= start);
+        let mut slower = one.clone();
+        slower.times_s = (0..4 * n / 5).map(|k| k as f64 / 80.0).collect();
+        slower.readings = slower
+            .times_s
+            .iter()
+            .map(|t| {
+                let k = ((t * 100.0) as usize).min(n - 2);
+                let part = t * 100.0 - k as f64;
+                one.readings[k] * (1.0 - part) + one.readings[k + 1] * part
+            })
+            .collect();
+        let mut pairs = chosen(&one, &(0..n / 2).map(|k| 2 * k).collect::<Vec<_>>());
+        pairs.readings = one.readings.chunks_exact(2).map(|two| 0.5 * (two[0] + two[1])).collect();
+        // differences of samples `apart` have the variance 2 (1 − filter^apart) σ²; rounding adds q²/6; less what 60 blocks leave to chance
+        let left = |step: f64, apart: i32| {
+            let variance = 2.0 * (1.0 - filter.powi(apart));
+            (variance / (variance + step * step / 6.0)).sqrt() - 0.05
+        };
+        let disguises = [
+            ("itself", one.clone(), 0.999),
+            ("rounded to a standard deviation", rounded(one.clone(), SD), left(1.0, 1)),
+            ("rounded to three", rounded(one.clone(), 3.0 * SD), 0.36),
+            ("in g", other_unit, 0.999),
+            ("every second sample", chosen(&one, &(0..n).step_by(2).collect::<Vec<_>>()), 0.999),
+            (
+                "every fifth, rounded",
+                rounded(chosen(&one, &(3..n).step_by(5).collect::<Vec<_>>()), SD),
+                left(1.0, 5),
+            ),
+            ("with the clock of the day", later, 0.99),
+            ("its end, from zero", from_zero, 0.99),
+            ("every fourth of its end, from zero", thin_from_zero, 0.99),
+            ("at another rate", slower, 0.95),
+            ("means of two", pairs, 0.6),
+        ];
+        for (disguise, other, at_least) in disguises {
+            for (one, other) in [(&one, &other), (&other, &one)] {
+                let found = noise_in_common(one, &holds(&one.clone()), other);
+                assert!(found.is_some_and(|r| r > at_least), "{disguise}: {found:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_halves_of_the_xsens_recording_are_two_and_its_every_second_sample_is_one() {
+    let Some((recording, _)) = xsens() else { return };
+    let one = recording.accelerometer.expect("there");
+    let middle = one.len() / 2;
+    let [first, second] = [0..middle, middle..one.len()].map(|part| chosen(&one, &part.collect::<Vec<_>>()));
+    assert_eq!(noise_in_common(&first, &holds(&first), &second), None);
+    assert_eq!(noise_in_common(&second, &holds(&second), &first), None);
+    let every_second = chosen(&one, &(1..one.len()).step_by(2).collect::<Vec<_>>());
+    for other in [every_second, rounded(one.clone(), 5.0)] {
+        let found = noise_in_common(&one, &holds(&one), &other);
+        assert!(found.is_some_and(|r| r > 0.8), "{found:?}");
+    }
+}
