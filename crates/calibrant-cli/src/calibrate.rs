@@ -23,7 +23,6 @@ use calibrant::sensor::{ReadingUnit, Recording};
 use rayon::prelude::*;
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
-use std::time::Instant;
 
 /// Calibrate sensors from their recordings.
 ///
@@ -126,10 +125,9 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
         validation::only_one(arguments)?;
         return run_many(&job, arguments);
     };
-    let started = Instant::now();
     let outcome = job.run(recording).and_then(|mut done| {
         done.calibration.validations = validation::of_accelerometer(&job, arguments, &done)?;
-        job.write(&done, recording, &arguments.output, started)?;
+        job.write(&done, recording, &arguments.output)?;
         Ok(done)
     });
     match outcome {
@@ -230,7 +228,7 @@ impl Job {
     }
 
     /// Writes calibration.json and report.html.
-    fn write(&self, done: &Done, path: &Path, directory: &Path, started: Instant) -> calibrant::Result<()> {
+    fn write(&self, done: &Done, path: &Path, directory: &Path) -> calibrant::Result<()> {
         write_calibration(&directory.join("calibration.json"), &done.calibration, &done.input)?;
         if !self.report {
             warn_of_earlier_report(directory);
@@ -259,7 +257,6 @@ impl Job {
                 ),
             ],
             findings: done.file.findings.iter().map(ToString::to_string).collect(),
-            elapsed: Some(format!("{:.3} s", started.elapsed().as_secs_f64())),
             program: format!("calibrant {}", env!("CARGO_PKG_VERSION")),
             ..About::default()
         };
@@ -296,9 +293,8 @@ fn run_many(job: &Job, arguments: &Arguments) -> calibrant::Result<Exit> {
         .par_iter()
         .zip(&folders)
         .map(|(path, folder)| {
-            let started = Instant::now();
             let done = job.run(path).and_then(|mut done| {
-                job.write(&done, path, &arguments.output.join(folder), started)?;
+                job.write(&done, path, &arguments.output.join(folder))?;
                 // thousands of recordings need not stay in memory
                 done.file.recording.times_s = Vec::new();
                 done.file.recording.readings = Vec::new();

@@ -14,7 +14,6 @@ use calibrant::io::{
 };
 use calibrant::report::{About, design_report, number};
 use std::path::{Path, PathBuf};
-use std::time::Instant;
 
 /// Find the motion whose recording will determine the parameters best, and prove how close to the best possible it is.
 ///
@@ -73,7 +72,6 @@ struct Job {
     experiment: Experiment,
     earlier: Vec<EarlierCalibration>,
     settings: DesignSettings,
-    started: Instant,
 }
 
 pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
@@ -89,7 +87,6 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
 
 impl Job {
     fn prepare(arguments: &Arguments) -> calibrant::Result<Self> {
-        let started = Instant::now();
         let mut experiment = Experiment::read(&arguments.experiment)?;
         if let Some(letter) = arguments.criterion {
             experiment.design.criterion = letter;
@@ -104,7 +101,7 @@ impl Job {
             certificate: otherwise.certificate && !arguments.no_certificate,
             ..otherwise
         };
-        Ok(Self { experiment, earlier, settings, started })
+        Ok(Self { experiment, earlier, settings })
     }
 
     fn problem(&self, file: &Path) -> calibrant::Result<DesignProblem<'_>> {
@@ -137,7 +134,6 @@ impl Job {
         About {
             title,
             facts,
-            elapsed: Some(format!("{:.1} s", self.started.elapsed().as_secs_f64())),
             program: format!("calibrant {}", env!("CARGO_PKG_VERSION")),
             ..About::default()
         }

@@ -15,7 +15,6 @@ use calibrant::report::{About, noise_report, number};
 use calibrant::sensor::{ImuRecording, ReadingUnit, Recording, Triad};
 use nalgebra::Vector3;
 use std::path::PathBuf;
-use std::time::Instant;
 
 /// Shortest hold that is looked for, s.
 const SHORTEST_HOLD_S: f64 = 1.0;
@@ -82,7 +81,6 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     if let Some(directory) = &arguments.output {
         place::check_directory(directory)?;
     }
-    let started = Instant::now();
     let gain = gain(&arguments.gain)?;
     let triad = match arguments.sensor {
         SensorKind::Accelerometer => Triad::Accelerometer,
@@ -143,7 +141,6 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
                 ),
             ],
             findings: file.findings.iter().map(ToString::to_string).collect(),
-            elapsed: Some(format!("{:.3} s", started.elapsed().as_secs_f64())),
             program: format!("calibrant {}", env!("CARGO_PKG_VERSION")),
             ..About::default()
         };
@@ -190,7 +187,7 @@ fn moving(moving_s: f64, given: &Stretch) -> String {
 /// The longest hold.
 fn longest_hold(imu: &ImuRecording, recording: &Recording) -> calibrant::Result<(f64, f64)> {
     let holds = holds(imu, recording)?;
-    let longest = holds.iter().max_by(|a, b| a.duration_s().total_cmp(&b.duration_s()));
+    let longest = Hold::longest(&holds).map(|number| &holds[number]);
     longest.map(|hold| (hold.start_s, hold.end_s)).ok_or_else(|| {
         Error::Recording(Box::new(Complaint::new(
             format!("no hold of {SHORTEST_HOLD_S} s or more is found"),

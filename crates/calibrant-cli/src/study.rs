@@ -11,7 +11,6 @@ use calibrant::report::{About, study_report};
 use calibrant::study::run_studies;
 use plan::{Choice, Material};
 use std::path::PathBuf;
-use std::time::Instant;
 
 /// The experiment without a file: the report's chapters 3 and 4.
 const DEFAULT: &str = "report";
@@ -46,7 +45,6 @@ pub(crate) struct Arguments {
 }
 
 pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
-    let started = Instant::now();
     place::check_directory(&arguments.output)?;
     let experiment = match &arguments.experiment {
         Some(path) => Experiment::read(path)?,
@@ -77,7 +75,6 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     let outcome = run_studies(&problem, &plan::settings(&experiment, &choice), &|done| bar.inc(done));
     bar.finish_and_clear();
     let studies = outcome?;
-    let simulated = started.elapsed().as_secs_f64();
     studies.remarks.iter().for_each(|remark| console::note(remark));
     write_study(&arguments.output.join("study.json"), &studies)?;
     let report = arguments.output.join("report.html");
@@ -86,10 +83,6 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
             Some(path) => format!("Study of {}", path.display()),
             None => "Calibration and optimal experimental design: the report's chapters 3 and 4".into(),
         },
-        elapsed: Some(format!(
-            "{simulated:.3} s, {:.0} sensors per second",
-            problem.steps() as f64 / simulated
-        )),
         program: format!("calibrant {}", env!("CARGO_PKG_VERSION")),
         ..About::default()
     };

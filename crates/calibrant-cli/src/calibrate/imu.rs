@@ -12,10 +12,8 @@ use calibrant::io::{
     read_sections,
 };
 use calibrant::sensor::{ReadingUnit, Triad};
-use std::time::Instant;
 
 pub(super) fn run(arguments: &Arguments, experiment: &Experiment, plan: &ImuPlan) -> calibrant::Result<Exit> {
-    let started = Instant::now();
     let Plan::Holds(holds) = &experiment.plan else {
         return Err(Error::Experiment(Box::new(Complaint::new(
             "an IMU needs [holds]",
@@ -74,7 +72,7 @@ pub(super) fn run(arguments: &Arguments, experiment: &Experiment, plan: &ImuPlan
         rate_hz: main.map_or(0.0, calibrant::sensor::Recording::rate_hz),
     };
     let noise: Vec<HoldNoise> = of_accelerometer.into_iter().chain(of_gyroscope).collect();
-    super::imu_output::write(arguments, &calibration, &file, noise, &input, started)?;
+    super::imu_output::write(arguments, &calibration, &file, noise, &input)?;
     for warning in &calibration.warnings {
         console::warn(warning);
     }

@@ -30,13 +30,10 @@ impl LongestHold {
             .intervals_s
             .as_ref()
             .and_then(|intervals| holds_between(recording.accelerometer.as_ref()?, intervals).ok());
-        let holds = given.or_else(|| setup.found.clone())?;
-        holds
-            .into_iter()
-            .enumerate()
-            .max_by(|(_, one), (_, other)| one.duration_s().total_cmp(&other.duration_s()))
-            .filter(|(_, hold)| hold.duration_s() >= LONG_HOLD_S)
-            .map(|(number, hold)| Self { number, hold })
+        let mut holds = given.or_else(|| setup.found.clone())?;
+        let number = Hold::longest(&holds)?;
+        let hold = holds.swap_remove(number);
+        (hold.duration_s() >= LONG_HOLD_S).then_some(Self { number, hold })
     }
 
     /// The noise of a sensor in it; `None` where its samples do not determine it. Most often `other` has as many samples.

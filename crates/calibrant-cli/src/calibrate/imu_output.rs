@@ -6,7 +6,6 @@ use crate::console;
 use calibrant::estimate::ImuCalibration;
 use calibrant::io::{ImuFile, Input, imu_calibration_json, write_atomically, write_imu_calibration};
 use calibrant::report::{About, imu_calibration_report, number};
-use std::time::Instant;
 
 /// Writes calibration.json and report.html.
 pub(super) fn write(
@@ -15,7 +14,6 @@ pub(super) fn write(
     file: &ImuFile,
     noise: Vec<HoldNoise>,
     input: &Input,
-    started: Instant,
 ) -> calibrant::Result<()> {
     let json = arguments.output.join("calibration.json");
     let json = || write_imu_calibration(&json, calibration, std::slice::from_ref(input));
@@ -36,7 +34,6 @@ pub(super) fn write(
             ("Experiment".into(), arguments.experiment.display().to_string()),
         ],
         findings: file.findings.iter().map(ToString::to_string).collect(),
-        elapsed: Some(format!("{:.3} s", started.elapsed().as_secs_f64())),
         program: format!("calibrant {}", env!("CARGO_PKG_VERSION")),
         ..About::default()
     };

@@ -1,6 +1,7 @@
 //! The same input and seed give the same bytes, whatever the number of threads and the place of the files.
 
 use crate::bench::Bench;
+use std::collections::BTreeSet;
 
 #[test]
 fn a_calibration_does_not_depend_on_threads_or_folders() {
@@ -24,6 +25,39 @@ fn a_calibration_does_not_depend_on_threads_or_folders() {
             assert!(one == bench.read(&format!("{other}/calibration.json")), "{preset}: {other}");
         }
         assert_eq!(bench.read("both/summary.csv"), bench.read("again/summary.csv"));
+        calibrate("--threads 2 a/recording.csv -o one-again");
+        let page = bench.read("one/report.html");
+        assert!(page == bench.read("one-again/report.html"), "{preset}");
+        assert_ids_differ(&page);
+    }
+}
+
+/// No id is twice in a page, and what refers to one finds it.
+fn assert_ids_differ(page: &str) {
+    let after = |begin: &str, end: char| -> Vec<String> {
+        let pieces = page.split(begin).skip(1);
+        pieces.map(|piece| piece.split(end).next().unwrap_or_default().to_owned()).collect()
+    };
+    let ids = after(" id=\"", '"');
+    let different: BTreeSet<&String> = ids.iter().collect();
+    assert_eq!(different.len(), ids.len());
+    let referred = after("url(#", ')');
+    assert!(!referred.is_empty() && referred.iter().all(|id| different.contains(id)));
+}
+
+#[test]
+fn the_pages_of_an_imu_are_the_same_to_the_byte() {
+    let bench = Bench::new();
+    bench.preset("imu", "imu.toml", &[]);
+    bench.run("simulate imu.toml -o a").done();
+    bench.run("calibrate imu.toml a/recording.csv --threads 1 -o one").done();
+    bench.run("calibrate imu.toml a/recording.csv --threads 2 -o two").done();
+    bench.run("noise a/recording.csv --sensor gyroscope --threads 2 -o noise-two").done();
+    bench.run("noise a/recording.csv --sensor gyroscope --threads 1 -o noise-one").done();
+    for (one, two) in [("one", "two"), ("noise-one", "noise-two")] {
+        let page = bench.read(&format!("{one}/report.html"));
+        assert!(page == bench.read(&format!("{two}/report.html")), "{one}");
+        assert_ids_differ(&page);
     }
 }
 
@@ -33,6 +67,7 @@ fn a_study_does_not_depend_on_threads() {
     bench.run("study --sensors 3 --starts 2 --threads 1 -o one").done();
     bench.run("study --sensors 3 --starts 2 --threads 2 -o two").done();
     assert!(bench.read("one/study.json") == bench.read("two/study.json"));
+    assert!(bench.read("one/report.html") == bench.read("two/report.html"));
     bench.run("study --sensors 3 --starts 2 --seed 2 -o other").done();
     assert!(bench.read("one/study.json") != bench.read("other/study.json"));
 }

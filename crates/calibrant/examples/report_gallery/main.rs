@@ -30,7 +30,6 @@ fn main() -> std::io::Result<()> {
         ]
         .map(|(label, value)| (label.to_string(), value))
         .to_vec(),
-        elapsed: Some("0.12 s".to_string()),
         program: format!("calibrant {}", env!("CARGO_PKG_VERSION")),
         ..About::default()
     };

@@ -34,9 +34,42 @@ impl Hold {
         (squares / degrees.max(1.0)).map(f64::sqrt)
     }
 
+    /// What it is called in a sentence, by its number from 0 and its times: `hold 3 (12.0 to 15.5 s)`.
+    pub(crate) fn named(&self, number: usize) -> String {
+        format!("hold {} ({:.1} to {:.1} s)", number + 1, self.start_s, self.end_s)
+    }
+
+    /// Number (from 0) of the hold that lasts longest; `None` where there is none.
+    ///
+    /// # Examples
+    /// ```
+    /// use calibrant::motion::Hold;
+    /// use nalgebra::Vector3;
+    /// let hold = |start_s: f64, end_s: f64| Hold { first: 0, end: 2, start_s, end_s, mean: Vector3::z(), sd: Vector3::zeros() };
+    /// assert_eq!(Hold::longest(&[hold(0.0, 2.0), hold(3.0, 9.0), hold(10.0, 11.0)]), Some(1));
+    /// ```
+    #[must_use]
+    pub fn longest(holds: &[Self]) -> Option<usize> {
+        let duration = |k: &usize| holds[*k].duration_s();
+        (0..holds.len()).max_by(|one, other| duration(one).total_cmp(&duration(other)))
+    }
+
     /// Duration, s.
     #[must_use]
     pub fn duration_s(&self) -> f64 {
         self.end_s - self.start_s
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_hold_is_named_by_number_and_times() {
+        let (mean, sd) = (Vector3::z(), Vector3::zeros());
+        let hold = Hold { first: 0, end: 9, start_s: 12.04, end_s: 15.46, mean, sd };
+        assert_eq!(hold.named(2), "hold 3 (12.0 to 15.5 s)");
+        assert_eq!(Hold::longest(&[]), None);
     }
 }

@@ -30,20 +30,14 @@ pub struct About {
     pub truth: Option<SensorParameters>,
     /// The motion that really happened, where the recording was simulated.
     pub true_motion: Option<JerkControlledMotion>,
-    /// Wall time in words, for the footer: `0.3 s`.
-    pub elapsed: Option<String>,
     /// Program and version, for the footer: `calibrant 0.1.0`.
     pub program: String,
 }
 
 impl About {
-    /// Program and time.
+    /// The program. How long it took is not said: equal inputs give equal pages.
     pub(super) fn made(&self) -> String {
-        let program = if self.program.is_empty() { "calibrant" } else { &self.program };
-        match &self.elapsed {
-            Some(elapsed) => format!("{program}, {elapsed}."),
-            None => format!("{program}."),
-        }
+        format!("{}.", if self.program.is_empty() { "calibrant" } else { &self.program })
     }
 
     pub(super) fn footer(&self) -> Vec<String> {

@@ -1,5 +1,7 @@
 //! The page: escaped text, sections, and one file that needs nothing else.
 
+use super::figure::renumbered;
+
 /// Text made safe for HTML, also within attributes.
 pub(super) fn escape(text: &str) -> String {
     let mut safe = String::with_capacity(text.len());
@@ -59,7 +61,7 @@ impl Page {
              <title>{}</title>\n<style>\n{}</style>\n</head>\n<body>\n<main>\n{}</main>\n<footer>{footer}</footer>\n</body>\n</html>\n",
             escape(title),
             include_str!("style.css"),
-            self.body
+            renumbered(&self.body)
         )
     }
 }

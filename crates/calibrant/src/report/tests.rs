@@ -101,7 +101,6 @@ fn text_of_the_user_is_escaped() {
         title: hostile.to_string(),
         facts: vec![(hostile.to_string(), hostile.to_string())],
         findings: vec![hostile.to_string()],
-        elapsed: Some(hostile.to_string()),
         program: hostile.to_string(),
         ..About::default()
     };

@@ -5,6 +5,7 @@ use crate::report::html::escape;
 use crate::report::number;
 use kuva::prelude::{Layout, LinePlot, LineStyle, MarkerShape, Plot, ScatterPlot, Theme};
 use kuva::{TickFormat, plot::BandPlot, render::annotations::ShadedRegion};
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// Width of a panel in SVG units; a column of a wide page, or a phone, is about as many pixels wide.
@@ -30,7 +31,7 @@ pub(super) fn svg(panel: &Panel) -> String {
         .with_label_size(13)
         .with_tick_size(12)
         .with_ticks(5)
-        .with_tick_format(TickFormat::Custom(Arc::new(number::tick)))
+        .with_tick_format(TickFormat::Custom(Arc::new(move |value| tick(value, x))))
         .with_x_axis_min(x.0)
         .with_x_axis_max(x.1)
         .with_y_axis_min(y.0)
@@ -54,6 +55,16 @@ pub(super) fn svg(panel: &Panel) -> String {
         );
     }
     responsive(&kuva::render_to_svg(plots, layout), height, &panel.title)
+}
+
+/// A tick's label. Where the x axis is far from zero, as in seconds since 1970, six digits do not tell its ticks apart.
+fn tick(value: f64, x: (f64, f64)) -> String {
+    let (span, most) = (x.1 - x.0, x.0.abs().max(x.1.abs()));
+    if span > 1e-3 * most || !(x.0..=x.1).contains(&value) {
+        return number::tick(value);
+    }
+    let decimals = (1.0 - span.log10()).ceil().clamp(0.0, 9.0) as usize;
+    number::fixed(value, decimals)
 }
 
 fn theme() -> Theme {
@@ -167,6 +178,27 @@ fn responsive(svg: &str, height: f64, name: &str) -> String {
     )
 }
 
+/// What the plotting library's names of clipping paths begin with; a number follows.
+const CLIP: &str = "kuva-clip-";
+
+/// A page whose clipping paths are numbered in their order on it. The library counts those of the whole process, figures of other threads among them.
+pub(in crate::report) fn renumbered(page: &str) -> String {
+    let mut numbers: BTreeMap<&str, usize> = BTreeMap::new();
+    let mut text = String::with_capacity(page.len());
+    let mut copied = 0;
+    for start in memchr::memmem::find_iter(page.as_bytes(), CLIP) {
+        let at = start + CLIP.len();
+        let end = page[at..].find(|c: char| !c.is_ascii_digit()).map_or(page.len(), |length| at + length);
+        let (before, count) = (&page[..start], numbers.len() + 1);
+        if end > at && (before.ends_with("id=\"") || before.ends_with("url(#")) {
+            text.push_str(&page[copied..at]);
+            text.push_str(&numbers.entry(&page[at..end]).or_insert(count).to_string());
+            copied = end;
+        }
+    }
+    text + &page[copied..]
+}
+
 /// Decimals beyond the third dropped within tags: the plotting library writes some coordinates as 123.45000000000002.
 fn shortened(svg: &str) -> String {
     let mut short = String::with_capacity(svg.len());
@@ -199,4 +231,27 @@ fn nothing(panel: &Panel, height: f64) -> String {
         height / 2.0,
         escape(&panel.when_empty)
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ticks_far_from_zero_are_told_apart() {
+        let epoch = (1_700_000_000.0, 1_700_000_166.0);
+        assert_eq!(tick(1_700_000_040.0, epoch), "1700000040");
+        assert_eq!(tick(0.5, epoch), "0.5", "of the other axis");
+        assert_eq!(tick(1e-12 + 9.80, (9.8, 9.802)), "9.8000");
+        assert_eq!(tick(40.0, (0.0, 166.0)), "40");
+    }
+
+    #[test]
+    fn clipping_paths_are_numbered_in_their_order_and_text_is_left_alone() {
+        let page = "<clipPath id=\"kuva-clip-17\"/><g clip-path=\"url(#kuva-clip-17)\"/>kuva-clip-17 \
+                    <clipPath id=\"kuva-clip-2\"/><g clip-path=\"url(#kuva-clip-2)\"/><g clip-path=\"url(#kuva-clip-17)\"/>kuva-clip-";
+        let expected = "<clipPath id=\"kuva-clip-1\"/><g clip-path=\"url(#kuva-clip-1)\"/>kuva-clip-17 \
+                        <clipPath id=\"kuva-clip-2\"/><g clip-path=\"url(#kuva-clip-2)\"/><g clip-path=\"url(#kuva-clip-1)\"/>kuva-clip-";
+        assert_eq!(renumbered(page), expected);
+    }
 }

@@ -31,6 +31,7 @@ pub(super) use allan::allan_figure;
 pub(super) use before_after::{force_before_and_after, holds_before_and_after, imu_before_and_after};
 pub(super) use correlation::{correlation_map, correlation_map_of};
 pub(super) use design_population::{absolute_errors, optimal_motions, traces};
+pub(super) use draw::renumbered;
 pub(super) use ellipse::confidence_ellipses;
 pub(super) use holds::{hold_residuals, recording_overview};
 pub(super) use motion::{acceleration_figure, motion_error_figure, state_and_jerk_figure};
