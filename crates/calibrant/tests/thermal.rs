@@ -7,10 +7,10 @@ use calibrant::estimate::{
 use calibrant::io::{ConventionOptions, imu_calibration_json, parse_calibrated_imu};
 use calibrant::sensor::{
     CalibratedImu, Gauge, ImuCorrection, ImuParameters, ImuQuantity, ImuRecording, Sensor, SensorModel,
-    SensorParameters, Thermal, ThermalPart, Triad,
+    SensorParameters, Thermal, Triad,
 };
 use calibrant::simulate::{
-    ImuSimulation, Purpose, Rng, TableAction, TableStep, simulate_imu, simulate_table, stream,
+    ImuSimulation, Purpose, Rng, TableAction, TableStep, draw_thermal, simulate_imu, simulate_table, stream,
 };
 use nalgebra::{Matrix3, Vector3};
 use rand_distr::{Distribution, StandardNormal};
@@ -39,15 +39,7 @@ fn draw(model: &ThermalModel, rng: &mut Rng) -> ImuParameters {
     let g_sensitivity = Matrix3::zeros();
     let mut imu = ImuParameters { accelerometer, gyroscope, g_sensitivity, thermal: Thermal::none() };
     imu.thermal.reference_c = 32.0;
-    for quantity in model.quantities() {
-        let ImuQuantity::Thermal(triad, term) = quantity else { continue };
-        let first = match (term.part, triad) {
-            (ThermalPart::Bias, Triad::Accelerometer) => 1e-3,
-            (ThermalPart::Bias, Triad::Gyroscope) => 1e-4,
-            (ThermalPart::Scale, _) => 5e-5,
-        };
-        quantity.add_to(&mut imu, first * normal(rng) / if term.order == 2 { 20.0 } else { 1.0 });
-    }
+    draw_thermal(&mut imu, &model.quantities(), [Vector3::repeat(1.0); 2], rng);
     imu
 }
 

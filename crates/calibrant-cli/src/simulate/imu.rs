@@ -4,19 +4,18 @@ use super::Arguments;
 use crate::console;
 use calibrant::Error;
 use calibrant::error::Complaint;
-use calibrant::estimate::{ImuSetup, ThermalModel};
 use calibrant::io::{Experiment, HoldsPlan, ImuPlan, write_imu_recording, write_imu_truth};
-use calibrant::sensor::{CalibratedImu, ImuParameters, ImuQuantity, ReadingUnit, Triad};
+use calibrant::sensor::{CalibratedImu, ImuParameters, ImuQuantity, ReadingUnit, Triad, WORKING_C};
 use calibrant::simulate::{
-    GyroscopeToDraw, ImuSimulation, Purpose, Rng, TableAction, TableStep, draw_imu, draw_known, simulate_imu,
-    simulate_table, stream,
+    GyroscopeToDraw, ImuSimulation, MOST_SAMPLES, Purpose, Rng, TURN_S, TableAction, TableStep, draw_imu,
+    draw_known, draw_thermal, simulate_imu, simulate_table, stream,
 };
 use nalgebra::Vector3;
 
-/// Duration of a turn by hand, s.
-const TURN_S: f64 = 2.0;
-/// Most samples of a recording: 2 GB.
-const MOST_SAMPLES: f64 = 2e7;
+/// An IMU that follows temperature warms by this much over its recording, K.
+const WARMING_K: f64 = 24.0;
+/// Its temperature in the middle where no reference is given, °C: a calibration takes the mean over the holds, to the degree.
+const MIDDLE_C: f64 = 32.0;
 
 pub(super) fn run(
     arguments: &Arguments,
@@ -57,11 +56,8 @@ pub(super) fn run(
         gyroscope_noise: one_for_all(Triad::Gyroscope, &noise_g),
         accelerometer_unit: sensor.unit,
         gyroscope_unit: plan.gyroscope.unit,
-        temperature_c: None,
+        temperature_c: warming(plan),
     };
-    if !plan.thermal.is_none() {
-        console::warn("[temperature] is not simulated: the recording has no temperature");
-    }
     let units = [sensor.unit, plan.gyroscope.unit];
     let on_table = table(holds, plan);
     // on a table the faces are the true frame, by hand the accelerometer's gauge fixes it
@@ -73,9 +69,12 @@ pub(super) fn run(
         }
         None => in_gauge(&drawn, units, holds)?,
     };
-    // what a calibration of this experiment finds, and what is fixed in it; there is no temperature to follow
-    let recorded = ImuSetup { thermal: ThermalModel::default(), ..plan.setup(holds) };
-    let quantities = recorded.quantities(sensor.model, &plan.gyroscope);
+    // what a calibration of this experiment finds, and what is fixed in it
+    let quantities = plan.setup(holds).quantities(sensor.model, &plan.gyroscope);
+    if let Some([from, to]) = setup.temperature_c {
+        truth.thermal.reference_c = plan.thermal.reference_c.unwrap_or(0.5 * (from + to));
+        draw_thermal(&mut truth, &plan.thermal.quantities(), [gain_a, gain_g], &mut rng);
+    }
     set_known(&mut truth, &quantities, plan, &mut rng);
     let recording = match &on_table {
         Some(steps) => simulate_table(&truth, steps, &setup, &mut rng),
@@ -89,12 +88,19 @@ pub(super) fn run(
 /// Gives what is known beforehand its value, in the true frame of the calibration. As there, a prior of what is not estimated does nothing.
 fn set_known(truth: &mut ImuParameters, estimated: &[ImuQuantity], plan: &ImuPlan, rng: &mut Rng) {
     for known in &plan.known {
-        // there is no temperature to follow
-        let thermal = matches!(known.quantity, ImuQuantity::Thermal(..));
-        if !thermal && (known.sd.is_none() || estimated.contains(&known.quantity)) {
+        // a term of temperature does nothing where nothing is to follow it
+        let does_nothing = matches!(known.quantity, ImuQuantity::Thermal(..)) && plan.thermal.is_none();
+        if !does_nothing && (known.sd.is_none() || estimated.contains(&known.quantity)) {
             draw_known(truth, known.quantity, known.value, known.sd, rng);
         }
     }
+}
+
+/// Temperature at the beginning and at the end of the recording, °C, about the reference, where something is to follow it: the IMU warms up.
+fn warming(plan: &ImuPlan) -> Option<[f64; 2]> {
+    let middle = plan.thermal.reference_c.unwrap_or(MIDDLE_C);
+    let within = |celsius: f64| celsius.clamp(*WORKING_C.start(), *WORKING_C.end());
+    (!plan.thermal.is_none()).then(|| [-0.5, 0.5].map(|share| within(middle + share * WARMING_K)))
 }
 
 /// The simulation has one noise for all axes of a sensor: the largest.

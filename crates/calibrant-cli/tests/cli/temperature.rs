@@ -3,6 +3,7 @@
 use crate::bench::Bench;
 use calibrant::sensor::{ImuParameters, ImuRecording};
 use calibrant::simulate::{ImuSimulation, Purpose, simulate_imu, stream};
+use serde_json::Value;
 use std::fmt::Write;
 
 /// A bench with `recording.csv`, whose gyroscope's bias moves by 0.2 mrad/s/K from 20 to 45 °C, and `imu.toml`.
@@ -105,6 +106,60 @@ fn header_place(bench: &Bench, name: &str, column: &str) -> usize {
     let text = bench.read(name);
     let header = text.lines().next().expect("a header");
     header.split(',').position(|word| word == column).expect(column)
+}
+
+/// What a simulation of the experiment was made with is what a calibration of it finds.
+#[test]
+fn what_is_simulated_over_temperature_is_found_again() {
+    let orders = [
+        ("# accelerometer_bias = 1", "accelerometer_bias = 1"),
+        ("# accelerometer_scale = 1", "accelerometer_scale = 1"),
+        ("# gyroscope_bias = 1", "gyroscope_bias = 2"),
+        ("# gyroscope_scale = 1", "gyroscope_scale = 1"),
+    ];
+    for (reference, from_c) in [(None, 20.0), (Some("reference_c = 10.0 "), -2.0)] {
+        let bench = Bench::new();
+        let mut edits = orders.to_vec();
+        edits.extend(reference.map(|line| ("# reference_c = 25.0 ", line)));
+        bench.preset("imu", "imu.toml", &edits);
+        for seed in 1..=3 {
+            bench.run(&format!("simulate imu.toml --seed {seed} -o simulated")).done();
+            let table = rows(&bench, "simulated/recording.csv");
+            let column = header_place(&bench, "simulated/recording.csv", "temp_c");
+            let (first, last) = (table[0][column], table[table.len() - 1][column]);
+            assert!(
+                (first - from_c).abs() < 1e-9 && (last - from_c - 24.0).abs() < 1e-9,
+                "{first} to {last} °C"
+            );
+            bench.run("calibrate imu.toml simulated/recording.csv -o out").done();
+            let (found, truth) = (bench.json("out/calibration.json"), bench.json("simulated/truth.json"));
+            assert_eq!(truth["reference_c"], from_c + 12.0);
+            assert_eq!(found["temperature"]["reference_c"], truth["reference_c"]);
+            let parameters = |value: &Value| value["parameters"].as_array().expect("a list").clone();
+            let (found, truth) = (parameters(&found), parameters(&truth));
+            assert_eq!(names_of(&found), names_of(&truth));
+            let thermal = found
+                .iter()
+                .zip(&truth)
+                .filter(|(one, _)| one["name"].as_str().is_some_and(|name| name.contains("_per_k")));
+            assert_eq!(thermal.clone().count(), 15, "three axes of five polynomials' terms");
+            for (found, truth) in found.iter().zip(&truth) {
+                let number = |value: &Value, field: &str| value[field].as_f64().expect("a number");
+                let off = (number(found, "value") - number(truth, "value")) / number(found, "sd");
+                assert!(off.abs() < 4.0, "seed {seed}: {off:.1} sd, {found} beside {truth}");
+                assert_eq!(found["unit"], truth["unit"]);
+            }
+            // the terms that were drawn show
+            let largest = thermal.map(|(found, _)| {
+                found["value"].as_f64().expect("a number") / found["sd"].as_f64().expect("a number")
+            });
+            assert!(largest.fold(0.0, |most: f64, ratio| most.max(ratio.abs())) > 20.0);
+        }
+    }
+}
+
+fn names_of(parameters: &[Value]) -> Vec<&str> {
+    parameters.iter().filter_map(|parameter| parameter["name"].as_str()).collect()
 }
 
 #[test]

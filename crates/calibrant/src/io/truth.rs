@@ -38,7 +38,7 @@ pub fn truth_json(seed: u64, list: &ParameterList, unit: ReadingUnit, truth: &Se
     json::to_json(&TruthFile::of(seed, list, unit, truth))
 }
 
-/// Writes `truth.json` of an IMU: the seed, and the true value of each of these quantities; `units` are those of accelerometer and gyroscope.
+/// Writes `truth.json` of an IMU: the seed, the reference temperature where one is followed, and the true value of each of these quantities; `units` are those of accelerometer and gyroscope.
 ///
 /// # Errors
 /// [`Error::Output`](crate::Error::Output) where it cannot be written.
@@ -58,8 +58,15 @@ pub fn write_imu_truth(
             value: quantity.of(truth),
         })
         .collect();
-    let convention = "true to raw: y_a = S_a f + b_a, y_g = S_g w + b_g + G f";
-    json::write_json(path, &TruthFile { schema: 1, seed, convention, parameters })
+    let thermal = quantities.iter().any(|quantity| matches!(quantity, ImuQuantity::Thermal(..)));
+    let (convention, reference_c) = match thermal {
+        false => ("true to raw: y_a = S_a f + b_a, y_g = S_g w + b_g + G f", None),
+        true => (
+            "true to raw: y_a = S_a(T) f + b_a(T), y_g = S_g(T) w + b_g(T) + G f; b(T) = b + b_1 t + b_2 t^2, S(T) = diag(1 + k_1 t + k_2 t^2) S, t = T - reference_c",
+            Some(truth.thermal.reference_c),
+        ),
+    };
+    json::write_json(path, &TruthFile { schema: 1, seed, convention, reference_c, parameters })
 }
 
 #[derive(Serialize)]
@@ -67,6 +74,9 @@ struct TruthFile {
     schema: u32,
     seed: u64,
     convention: &'static str,
+    /// °C; of an IMU that follows temperature.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reference_c: Option<f64>,
     parameters: Vec<TrueParameter>,
 }
 
@@ -88,6 +98,7 @@ impl TruthFile {
             schema: 1,
             seed,
             convention: "true to raw: y = S s + b",
+            reference_c: None,
             parameters: list.quantities().iter().map(parameter).collect(),
         }
     }

@@ -1,7 +1,9 @@
 //! A whole IMU drawn from the datasheet.
 
 use super::{Rng, draw_sensor};
-use crate::sensor::{ImuParameters, ImuQuantity, Sensor, SensorModel, SensorParameters, Thermal};
+use crate::sensor::{
+    ImuParameters, ImuQuantity, Sensor, SensorModel, SensorParameters, Thermal, ThermalPart, Triad,
+};
 use nalgebra::{Matrix3, Vector3};
 use rand_distr::{Distribution, StandardNormal};
 
@@ -11,6 +13,10 @@ const BIAS_SD: [f64; 2] = [0.1, 0.02];
 const MATRIX_SD: f64 = 0.01;
 /// Spread of the g-sensitivity, (rad/s)/(m/s²).
 const G_SENSITIVITY_SD: f64 = 2e-4;
+/// Spread of what temperature does to a bias, m/s²/K and rad/s/K, and to a gain, 1/K.
+const ACCELEROMETER_BIAS_PER_K: f64 = 1e-3;
+const GYROSCOPE_BIAS_PER_K: f64 = 1e-4;
+const SCALE_PER_K: f64 = 5e-5;
 
 /// The gyroscope that is drawn.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -50,6 +56,28 @@ pub fn draw_imu(accelerometer: &Sensor, gyroscope: &GyroscopeToDraw, rng: &mut R
         gyroscope: SensorParameters { bias, matrix: gain * (Matrix3::identity() + errors) },
         g_sensitivity: if gyroscope.g_sensitivity { gain * felt } else { Matrix3::zeros() },
         thermal: Thermal::none(),
+    }
+}
+
+/// Draws the thermal terms among these quantities; `gains` are the nominal ones of accelerometer and gyroscope, in the unit of the readings. Over 25 K a bias moves by some
+/// 25 mm/s² or 0.15 °/s and a gain by 0.1 %, as in a MEMS IMU of the middle class; what is of second order is a twentieth per K².
+pub fn draw_thermal(
+    imu: &mut ImuParameters,
+    quantities: &[ImuQuantity],
+    gains: [Vector3<f64>; 2],
+    rng: &mut Rng,
+) {
+    for quantity in quantities {
+        let ImuQuantity::Thermal(triad, term) = *quantity else { continue };
+        let first = match (term.part, triad) {
+            (ThermalPart::Bias, Triad::Accelerometer) => {
+                ACCELEROMETER_BIAS_PER_K * gains[0][term.axis.index()]
+            }
+            (ThermalPart::Bias, Triad::Gyroscope) => GYROSCOPE_BIAS_PER_K * gains[1][term.axis.index()],
+            (ThermalPart::Scale, _) => SCALE_PER_K,
+        };
+        let z: f64 = StandardNormal.sample(rng);
+        quantity.add_to(imu, first * z / if term.order == 2 { 20.0 } else { 1.0 });
     }
 }
 

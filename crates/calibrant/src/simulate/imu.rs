@@ -7,6 +7,11 @@ use nalgebra::{UnitQuaternion, Vector3};
 use rand::RngExt;
 use rand_distr::{Distribution, StandardNormal};
 
+/// Duration of a turn by hand from one hold to the next, s.
+pub const TURN_S: f64 = 2.0;
+/// Most samples of a simulated recording of an IMU: 2 GB.
+pub const MOST_SAMPLES: f64 = 2e7;
+
 /// What is simulated.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ImuSimulation {
@@ -37,7 +42,7 @@ impl Default for ImuSimulation {
         Self {
             poses: 24,
             hold_s: 2.5,
-            turn_s: 2.0,
+            turn_s: TURN_S,
             rate_hz: 100.0,
             gravity_mps2: 9.806_65,
             accelerometer_noise: 0.01,

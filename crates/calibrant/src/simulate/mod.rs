@@ -14,10 +14,10 @@ mod recording;
 mod stimuli;
 
 pub use crate::motion::sample_times;
-pub use draw_imu::{GyroscopeToDraw, draw_imu, draw_known};
+pub use draw_imu::{GyroscopeToDraw, draw_imu, draw_known, draw_thermal};
 pub use faces::{TableAction, TableStep, simulate_table};
 pub use holds::{HoldsSimulation, simulate_holds};
-pub use imu::{ImuSimulation, simulate_imu};
+pub use imu::{ImuSimulation, MOST_SAMPLES, TURN_S, simulate_imu};
 pub use initial_motion::initial_motion;
 pub use noise::simulate_noise;
 pub use population::draw_sensor;

@@ -7,12 +7,9 @@ use super::motion::RATE_HZ;
 use crate::error::Result;
 use crate::motion::Gravity;
 use crate::sensor::Gauge;
+use crate::simulate::{MOST_SAMPLES, TURN_S};
 use nalgebra::Vector3;
 
-/// Most samples of a simulated recording: 2 GB.
-const MOST_SAMPLES: f64 = 2e7;
-/// What a simulation turns between two holds, s.
-const TURN_S: f64 = 2.0;
 const GRAVITY: Bounds = Bounds::from(0.1, 100.0, "m/s²");
 const GRAVITY_SD: Bounds = Bounds::from(0.0, 1.0, "m/s²");
 const LATITUDE: Bounds = Bounds::from(-90.0, 90.0, "degrees");

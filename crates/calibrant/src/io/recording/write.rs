@@ -29,7 +29,8 @@ pub fn write_recording(path: &Path, recording: &Recording) -> Result<()> {
     })
 }
 
-/// Writes a recording of an IMU as CSV with the header `t_s,ax_mps2,ay_mps2,az_mps2,gx_radps,gy_radps,gz_radps` (or `_counts`).
+/// Writes a recording of an IMU as CSV with the header `t_s,ax_mps2,ay_mps2,az_mps2,gx_radps,gy_radps,gz_radps` (or `_counts`), and
+/// `temp_c` where its temperature is known.
 ///
 /// Numbers are written with the fewest digits that read back to the same bits.
 ///
@@ -55,11 +56,13 @@ pub fn write_imu_recording(path: &Path, recording: &ImuRecording) -> Result<()> 
                 write!(out, ",{}{axis}_{}", &triad.name()[..1], readings.unit.suffix())?;
             }
         }
-        writeln!(out)?;
+        let temperature = recording.temperature_c.as_deref();
+        writeln!(out, "{}", if temperature.is_some() { ",temp_c" } else { "" })?;
         let readings = accelerometer.readings.iter().zip(&gyroscope.readings);
-        for (t, (a, g)) in accelerometer.times_s.iter().zip(readings) {
+        for (k, (t, (a, g))) in accelerometer.times_s.iter().zip(readings).enumerate() {
             write!(out, "{t:?}")?;
-            a.iter().chain(g).try_for_each(|value| write!(out, ",{value:?}"))?;
+            let celsius = temperature.and_then(|values| values.get(k));
+            a.iter().chain(g).chain(celsius).try_for_each(|value| write!(out, ",{value:?}"))?;
             writeln!(out)?;
         }
         Ok(())
