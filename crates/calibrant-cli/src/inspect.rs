@@ -8,6 +8,7 @@ use calibrant::io::{
     Experiment, HoldsInspection, ImuFile, ImuReadOptions, Inspection, SensorInspection, inspect,
     inspection_json, read_imu_pair, read_imu_recording,
 };
+use calibrant::motion::Hold;
 use calibrant::report::number::{count, short, significant};
 use calibrant::sensor::{Axis, ReadingUnit, Triad};
 use std::path::PathBuf;
@@ -108,23 +109,26 @@ fn columns(file: &ImuFile) -> String {
 
 fn sampling(sensor: &SensorInspection) -> String {
     let (start, end) = sensor.span_s;
+    // seconds since 1970 have too many digits to tell how long a recording is
+    let span = match end.abs() < 1e5 {
+        true => format!("from {} to {} s", short(start), short(end)),
+        false => format!("from {start} s on, over {} s", short(end - start)),
+    };
     let gaps = match sensor.gaps {
         0 => "no gaps".to_owned(),
         1 => format!("1 gap of {} s", short(sensor.lost_s)),
         many => format!("{many} gaps, {} s lost", short(sensor.lost_s)),
     };
-    // a nanosecond and less is rounding
-    let jitter = if sensor.jitter_s < 1e-9 {
+    // a nanosecond and less is rounding, as are the last digits of a time long after the clock began
+    let jitter = if sensor.jitter_s < 1e-9_f64.max(f64::EPSILON * end.abs()) {
         "none".into()
     } else {
         format!("{} ms (sd)", significant(1e3 * sensor.jitter_s, 2))
     };
     format!(
-        "  {}: {} samples from {} to {} s, {} Hz; steps {} to {} ms, jitter {jitter}; {gaps}\n",
+        "  {}: {} samples {span}, {} Hz; steps {} to {} ms, jitter {jitter}; {gaps}\n",
         sensor.triad,
         count(sensor.samples),
-        short(start),
-        short(end),
         significant(sensor.rate_hz, 5),
         significant(1e3 * sensor.steps_s.0, 4),
         significant(1e3 * sensor.steps_s.1, 4)
@@ -148,8 +152,8 @@ fn ranges(sensors: &[SensorInspection]) -> String {
 }
 
 fn holds(found: &HoldsInspection, inspection: &Inspection) -> String {
-    let total: f64 = found.holds.iter().map(calibrant::motion::Hold::duration_s).sum();
-    let longest = found.holds.iter().map(calibrant::motion::Hold::duration_s).fold(0.0, f64::max);
+    let total: f64 = found.holds.iter().map(Hold::duration_s).sum();
+    let longest = Hold::longest(&found.holds).map_or(0.0, |number| found.holds[number].duration_s());
     let mut text = match found.holds.len() {
         0 => "\nNo holds found: the sensor is nowhere still for a second.\n".to_owned(),
         n => format!(

@@ -61,6 +61,27 @@ fn a_recording_is_described_before_it_is_calibrated() {
 }
 
 #[test]
+fn seconds_since_1970_are_told_as_they_stand_and_durations_beside_them() {
+    let bench = Bench::new();
+    let text = poses("t_s,ax_g,ay_g,az_g,gx_radps,gy_radps,gz_radps", 1.0);
+    let later = |row: &str| match row.split_once(',') {
+        Some((t, rest)) if t != "t_s" => {
+            let ms: u64 = t.parse().expect("ms");
+            // a second is missing
+            let ms = 1_700_000_000_250 + ms + if ms > 20_000 { 1000 } else { 0 };
+            format!("{}.{:03},{rest}\n", ms / 1000, ms % 1000)
+        }
+        _ => format!("{row}\n"),
+    };
+    bench.write("imu.csv", text.lines().map(later).collect::<String>());
+    let said = bench.run("inspect imu.csv").done().stdout;
+    // 2100 rows at 50 Hz and the second: 41.98 s + 1 s
+    let sampling = "2100 samples from 1700000000.25 s on, over 42.98 s, 50.000 Hz; steps 20.00 to 20.00 ms, jitter none; 1 gap of 1 s";
+    assert!(said.contains(sampling), "{said}");
+    assert!(said.contains("gap of 1.02 s after t = 1700000020.25 s, about 50 samples"), "{said}");
+}
+
+#[test]
 fn questions_are_answered_by_options_or_by_an_experiment() {
     let bench = Bench::new();
     bench.write("imu.csv", poses("time,ax,ay,az,gx,gy,gz", 9.81));

@@ -17,4 +17,5 @@ mod real;
 mod repaired;
 mod temperature;
 mod undetermined;
+mod unfinished;
 mod validation;

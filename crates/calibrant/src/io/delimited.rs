@@ -82,6 +82,25 @@ impl Delimiter {
     }
 }
 
+/// Was the last line of a text cut off within its last number? It has no line end then, and fewer digits than that number has in any of the lines before: `9.8` below `9.80665`.
+pub(super) fn last_number_is_cut(text: &str, delimiter: Delimiter) -> bool {
+    /// Lines that are looked at, and how many of them must have a number.
+    const LOOKED_AT: usize = 64;
+    const NEEDED: usize = 8;
+    if text.ends_with(['\n', '\r']) {
+        return false;
+    }
+    let digits = |text: &str| {
+        let field = Line { number: 0, text, terminated: true }.fields(delimiter).last()?.1;
+        field.parse::<f64>().ok()?;
+        Some(field.split_once('.').map_or_else(|| (0, field.len()), |(_, decimals)| (decimals.len(), 0)))
+    };
+    let mut lines = text.rsplit('\n').map(|line| line.strip_suffix('\r').unwrap_or(line));
+    let Some(last) = lines.next().and_then(digits) else { return false };
+    let others: Vec<_> = lines.take(LOOKED_AT).filter_map(digits).collect();
+    others.len() >= NEEDED && others.iter().all(|other| last < *other)
+}
+
 /// The fields of a line: where each begins (byte), and its text without surrounding blanks and quotes.
 pub(super) struct Fields<'t> {
     line: &'t str,
@@ -169,6 +188,30 @@ mod tests {
         assert_eq!(fields("  1\t 2  ", Delimiter::Whitespace), ["1", "2"]);
         assert_eq!(fields("1\t\t2", Delimiter::Character(b'\t')), ["1", "", "2"]);
         assert_eq!(fields("", Delimiter::Whitespace), [""; 0]);
+    }
+
+    #[test]
+    fn a_number_that_lacks_digits_was_cut_off() {
+        let comma = Delimiter::Character(b',');
+        let is_cut = |other: &str, last: &str| {
+            last_number_is_cut(&(format!("1,{other}\n").repeat(9) + "1," + last), comma)
+        };
+        for (other, last) in [
+            ("9.80665", "9.8066"),
+            ("9.80665", "9"),
+            ("1.25e-03", "1.25e-0"),
+            ("32768", "327"),
+            ("-0.5", "-0"),
+        ] {
+            assert!(is_cut(other, last), "{last} below {other}");
+            assert!(!is_cut(other, &format!("{last}\n")), "its line is whole");
+            assert!(!is_cut(other, other));
+        }
+        assert!(!is_cut("9.8", "9.80665") && !is_cut("3", "-12") && !is_cut("12", "12"));
+        let varying = "1,9.25\n1,9.5\n".repeat(9);
+        assert!(!last_number_is_cut(&(varying.clone() + "1,9.0"), comma));
+        assert!(last_number_is_cut(&(varying + "1,9"), comma));
+        assert!(!last_number_is_cut("1,9.80\n1,9.81\n1,9", comma), "too few to tell");
     }
 
     #[test]

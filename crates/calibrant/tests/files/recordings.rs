@@ -121,6 +121,10 @@ fn a_last_line_that_was_cut_off_is_dropped_with_a_word() {
         let (kind, message, _) = finding(text);
         assert_eq!((kind, message), expected(line));
     }
+    // the last number has fewer digits than any before
+    let rows: String = (0..10).map(|k| format!("0.{k},{k},{},9.80{k}\n", k * k)).collect();
+    let (kind, message, samples) = finding(&format!("t_s,ax,ay,az\n{rows}1.0,3,2,9.8"));
+    assert_eq!(((kind, message), samples), (expected(12), 10));
     // a last line that only lacks its end is whole
     assert_eq!(parse(b"t_s,ax,ay,az\n0,1,2,3\n1,2,3,4\n2,3,4,5").recording.len(), 3);
 }

@@ -69,7 +69,14 @@ impl Columns {
         }
         let slots = (0..columns).map(|column| (column < needed).then_some(column)).collect();
         Ok(Self {
-            layout: Layout { delimiter, slots, names: Vec::new(), has_header: false, ticks: false },
+            layout: Layout {
+                delimiter,
+                slots,
+                names: Vec::new(),
+                has_header: false,
+                ticks: false,
+                last_is_cut: false,
+            },
             axes: options.axes,
             unit: options.unit.unwrap_or(options.expected_unit),
             factor: 1.0,
@@ -143,7 +150,7 @@ impl Columns {
             findings.push(Finding::new(FindingKind::IgnoredColumns, Some(line.number), message));
         }
         let (unit, factor) = resolve_unit(suffix.unwrap_or(Suffix::None), line, options, findings)?;
-        let layout = Layout { delimiter, slots, names, has_header: true, ticks: false };
+        let layout = Layout { delimiter, slots, names, has_header: true, ticks: false, last_is_cut: false };
         Ok(Self { layout, axes: options.axes, unit, factor })
     }
 }

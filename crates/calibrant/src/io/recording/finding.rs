@@ -103,6 +103,11 @@ pub(super) fn count(number: usize, noun: &str) -> String {
     format!("{number} {noun}{}", if number == 1 { "" } else { "s" })
 }
 
+/// A time as it stands in the file where six digits do not tell it from its neighbours, as in seconds since 1970.
+pub(super) fn moment(time_s: f64) -> String {
+    if time_s.abs() < 1e5 { short(time_s) } else { time_s.to_string() }
+}
+
 /// A number in six significant digits, without trailing zeros.
 pub(super) fn short(number: f64) -> String {
     let rounded = format!("{number:.5e}").parse().unwrap_or(number);

@@ -26,7 +26,7 @@ pub use imu::{
 };
 pub use write::{write_imu_recording, write_recording};
 
-use super::delimited::Lines;
+use super::delimited::{Lines, last_number_is_cut};
 use super::text::{self, Checked};
 use crate::error::{Complaint, Error, Result};
 use crate::sensor::{ReadingUnit, Recording};
@@ -112,7 +112,8 @@ fn parse(bytes: &[u8], options: &ReadOptions) -> Checked<RecordingFile> {
         )
         .into());
     };
-    let columns = Columns::find(first, options, &mut findings)?;
+    let mut columns = Columns::find(first, options, &mut findings)?;
+    columns.layout.last_is_cut = last_number_is_cut(text, columns.layout.delimiter);
     let capacity = estimated_rows(text, first.text);
     let mut rows = Rows::new(&columns, capacity);
     let mut last = first.number;

@@ -1,6 +1,6 @@
 //! Quality of a recording as a whole: gaps, irregular sampling, axes that are not connected, clipped readings.
 
-use super::finding::{Finding, FindingKind, short};
+use super::finding::{Finding, FindingKind, count, moment, short};
 use super::rows::LineMap;
 use crate::sensor::Recording;
 
@@ -76,7 +76,7 @@ pub(super) fn sampling(recording: &Recording, lines: &LineMap, findings: &mut Ve
                 let message = format!(
                     "gap of {} s after t = {} s, about {:.0} samples",
                     short(step),
-                    short(pair[0]),
+                    moment(pair[0]),
                     (step / median).round() - 1.0
                 );
                 findings.push(Finding::new(FindingKind::Gap, lines.line(before + 1), message));
@@ -89,10 +89,10 @@ pub(super) fn sampling(recording: &Recording, lines: &LineMap, findings: &mut Ve
     if gaps > GAPS_SHOWN {
         let (step, before) = longest;
         let message = format!(
-            "and {} more gaps; the longest is {} s after t = {} s",
-            gaps - GAPS_SHOWN,
+            "and {}; the longest is {} s after t = {} s",
+            count(gaps - GAPS_SHOWN, "more gap"),
             short(step),
-            short(recording.times_s[before])
+            moment(recording.times_s[before])
         );
         findings.push(Finding::new(FindingKind::Gap, lines.line(before + 1), message));
     }

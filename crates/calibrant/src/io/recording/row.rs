@@ -20,6 +20,8 @@ pub(super) struct Layout {
     pub(super) has_header: bool,
     /// Are times whole ticks of a clock? They may then be larger than seconds can be.
     pub(super) ticks: bool,
+    /// Is the last line known to be cut off?
+    pub(super) last_is_cut: bool,
 }
 
 impl Layout {
@@ -93,10 +95,11 @@ impl<'l> RowReader<'l> {
         Ok(Some(values))
     }
 
-    /// Is this line shorter than all rows before, which have the same length (numbers in columns)?
+    /// Is this line, the last one, known to be cut off, or shorter than all rows before, which have the same length (numbers in columns)?
     fn is_cut(&self, line: Line<'_>) -> bool {
-        self.layout.delimiter == Delimiter::Whitespace
-            && matches!(self.width, Width::Fixed(width) if self.rows > 3 && line.text.len() < width)
+        self.layout.last_is_cut
+            || (self.layout.delimiter == Delimiter::Whitespace
+                && matches!(self.width, Width::Fixed(width) if self.rows > 3 && line.text.len() < width))
     }
 
     fn values<const N: usize>(&mut self, line: Line<'_>) -> Result<[f64; N], RowError> {

@@ -55,6 +55,7 @@ use super::finding::Finding;
 use super::row::Layout;
 use super::{LARGEST, estimated_rows, hex, hex_sha256, hex_sha256_of};
 use crate::error::{Complaint, Error, Result};
+use crate::io::delimited::last_number_is_cut;
 use crate::io::text::{self, Checked};
 use crate::sensor::{ImuRecording, Triad};
 use assemble::assemble;
@@ -290,6 +291,7 @@ fn rows(mut draft: Draft, head: Head<'_>, text: &str, options: &ImuReadOptions) 
         names: head.names.iter().map(|name| (*name).to_owned()).collect(),
         has_header: !head.names.is_empty(),
         ticks: draft.time_unit() != Some(TimeUnit::Second),
+        last_is_cut: last_number_is_cut(text, head.delimiter),
     };
     let capacity = estimated_rows(text, head.first_row.map_or("", |line| line.text));
     let mut samples = Samples::of_text(&layout, head.first_row.into_iter().chain(head.rest), capacity)?;
