@@ -108,6 +108,14 @@ pub(super) fn percent(fraction: f64) -> String {
     format!("{} %", fixed(value, digits))
 }
 
+/// An angle by which something misses, in degrees to two digits; beyond half a revolution a larger one says nothing more.
+pub(super) fn miss(angle_rad: f64) -> String {
+    if angle_rad > std::f64::consts::PI {
+        return "more than 180°".into();
+    }
+    format!("{}°", significant(angle_rad.to_degrees(), 2))
+}
+
 /// A whole number with thin spaces between thousands.
 pub fn count(n: usize) -> String {
     let digits = n.to_string();

@@ -24,7 +24,10 @@ pub fn validation_sentences(validation: &Validation) -> Vec<String> {
         let outlying: Vec<&UnusedError> = errors.outlying().collect();
         sentences.extend(outlying.iter().take(NAMED).map(|error| stands_out(errors.kind, error)));
         if outlying.len() > NAMED {
-            sentences.push(format!("{} more do not count either.", outlying.len() - NAMED));
+            sentences.push(match outlying.len() - NAMED {
+                1 => "One more does not count either.".into(),
+                more => format!("{more} more do not count either."),
+            });
         }
     }
     if let ValidationSource::Folds { failed, .. } = &validation.source {
@@ -111,12 +114,11 @@ fn what(kind: ErrorKind) -> &'static str {
 }
 
 fn measured(kind: ErrorKind, value: f64) -> String {
-    let (value, unit) = match kind {
-        ErrorKind::Magnitude => (1e3 * value, " mm/s²"),
-        ErrorKind::Rate => (value.to_degrees(), " °/s"),
-        ErrorKind::Rotation => (value.to_degrees(), "°"),
-    };
-    format!("{}{unit}", number::significant(value, 2))
+    match kind {
+        ErrorKind::Magnitude => format!("{} mm/s²", number::significant(1e3 * value, 2)),
+        ErrorKind::Rate => format!("{} °/s", number::significant(value.to_degrees(), 2)),
+        ErrorKind::Rotation => number::miss(value),
+    }
 }
 
 fn between(factor: f64, (low, high): (f64, f64)) -> String {
@@ -171,7 +173,8 @@ fn sentence(errors: &ValidatedErrors) -> String {
             two(high)
         ),
     };
-    format!("{misses}, {predicted} predicted: {doubt}.")
+    let end = if doubt.ends_with('?') { "" } else { "." };
+    format!("{misses}, {predicted} predicted: {doubt}{end}")
 }
 
 fn of(count: usize, what: &str) -> String {
@@ -215,4 +218,35 @@ fn failure(fold: &FailedFold) -> String {
     let (first, last) = (fold.holds.0 + 1, fold.holds.1 + 1);
     let holds = if first == last { format!("Hold {first}") } else { format!("Holds {first} to {last}") };
     format!("{holds} could not be predicted from the others: {}.", fold.reason)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn errors(factor: f64, rms: f64) -> ValidatedErrors {
+        ValidatedErrors {
+            kind: ErrorKind::Rotation,
+            errors: Vec::new(),
+            rms,
+            predicted_rms: 1727.3,
+            chi2: 1.0,
+            degrees_of_freedom: 1,
+            p_value: 0.0,
+            factor,
+            factor_interval: (0.9 * factor, 1.1 * factor),
+            parameters: None,
+            verdict: CovarianceVerdict::TooSmall,
+        }
+    }
+
+    #[test]
+    fn a_question_has_no_full_stop_and_an_angle_ends_at_half_a_revolution() {
+        let said = sentence(&errors(100.0, 1.0));
+        assert!(said.ends_with("or damaged since?"), "{said}");
+        assert!(said.contains("gravity is missed by 57° rms, more than 180° predicted: "), "{said}");
+        let said = sentence(&errors(3.0, 98_966_f64.to_radians()));
+        assert!(said.ends_with("(between 2.7 and 3.3)."), "{said}");
+        assert!(said.contains("gravity is missed by more than 180° rms"), "{said}");
+    }
 }

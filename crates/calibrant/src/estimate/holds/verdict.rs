@@ -93,8 +93,11 @@ pub(super) fn warnings(calibration: &Calibration, weakest: &[String]) -> Vec<Str
         ));
     } else if calibration.fit.degrees_of_freedom < 5 {
         warnings.push(format!(
-            "only {} more holds than parameters: the standard deviations themselves are known to about {:.0} %",
-            calibration.fit.degrees_of_freedom,
+            "only {} than parameters: the standard deviations themselves are known to about {:.0} %",
+            match calibration.fit.degrees_of_freedom {
+                1 => "one hold more".to_owned(),
+                more => format!("{more} holds more"),
+            },
             100.0 / (2.0 * calibration.fit.degrees_of_freedom as f64).sqrt()
         ));
     }
@@ -146,10 +149,8 @@ pub(in crate::estimate) fn left_out(holds: &HoldCalibration) -> Vec<String> {
         .filter(|(_, hold)| !hold.used)
         .map(|(k, hold)| {
             format!(
-                "hold {} ({:.1} to {:.1} s) was left out: its magnitude is off by {:.3} mm/s², {:.1} standard deviations",
-                k + 1,
-                hold.hold.start_s,
-                hold.hold.end_s,
+                "{} was left out: its magnitude is off by {:.3} mm/s², {:.1} standard deviations",
+                hold.hold.named(k),
                 1e3 * hold.magnitude_residual_mps2,
                 hold.studentised_residual.abs()
             )

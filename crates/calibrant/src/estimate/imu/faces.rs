@@ -126,9 +126,7 @@ fn scattered(
         .iter()
         .enumerate()
         .filter(|(k, _)| off[*k] > 0.8 * most)
-        .map(|(k, result)| {
-            format!("hold {} ({:.1} to {:.1} s)", k + 1, result.hold.start_s, result.hold.end_s)
-        })
+        .map(|(k, result)| result.hold.named(k))
         .collect();
     vec![format!(
         "the faces scatter by {between:.2} m/s² beyond their noise; by {:.1}° and least of all fits {}: are directions and times of the holds right?",

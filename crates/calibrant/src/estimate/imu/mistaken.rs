@@ -52,10 +52,8 @@ fn complaint(problem: &ImuProblem<'_>, holds: &[Hold], given: &[Vector3<f64>]) -
     let shown = |j: usize| mounting.transpose() * measured[j];
     let one = |&j: &usize| {
         format!(
-            "hold {} ({:.1} to {:.1} s) is given with {} up, and the accelerometer shows {} up",
-            j + 1,
-            holds[j].start_s,
-            holds[j].end_s,
+            "{} is given with {} up, and the accelerometer shows {} up",
+            holds[j].named(j),
             words(&given[j]),
             words(&shown(j))
         )

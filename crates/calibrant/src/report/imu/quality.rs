@@ -9,16 +9,16 @@ pub fn imu_quality(calibration: &ImuCalibration) -> String {
     let mut parts = Vec::new();
     if calibration.rotations.iter().any(|rotation| rotation.used) {
         parts.push(format!(
-            "after a rotation, gravity is met within {} rms ({} before)",
-            degrees(calibration.rotation_rms_rad()),
-            degrees(calibration.rotation_rms_before_rad())
+            "after a rotation, gravity is {} ({} before)",
+            met(calibration.rotation_rms_rad()),
+            number::miss(calibration.rotation_rms_before_rad())
         ));
     }
     if !calibration.turns.is_empty() {
         let squares =
             calibration.turns.iter().map(|turn| (turn.measured_rad - turn.angle_rad).norm_squared());
         let rms = (squares.sum::<f64>() / calibration.turns.len() as f64).sqrt();
-        parts.push(format!("known turns are met within {} rms", degrees(rms)));
+        parts.push(format!("known turns are {}", met(rms)));
     }
     parts.push(format!(
         "held still, the corrected magnitude is that of gravity within {} mm/s² rms",
@@ -27,7 +27,19 @@ pub fn imu_quality(calibration: &ImuCalibration) -> String {
     parts.join("; ")
 }
 
-/// An angle in degrees to two digits.
-pub(super) fn degrees(angle_rad: f64) -> String {
-    format!("{}°", number::significant(angle_rad.to_degrees(), 2))
+/// `met within 0.12° rms`, or that it is not met at all.
+fn met(rms_rad: f64) -> String {
+    let how = if rms_rad > std::f64::consts::PI { "missed by" } else { "met within" };
+    format!("{how} {} rms", number::miss(rms_rad))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::met;
+
+    #[test]
+    fn what_is_not_met_is_not_called_met() {
+        assert_eq!(met(0.12_f64.to_radians()), "met within 0.12° rms");
+        assert_eq!(met(98_966_f64.to_radians()), "missed by more than 180° rms");
+    }
 }

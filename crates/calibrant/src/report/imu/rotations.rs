@@ -1,6 +1,5 @@
 //! Rotations between holds and turns of known angle, in numbers.
 
-use super::quality::degrees;
 use crate::estimate::{ImuCalibration, RotationResult, TurnResult};
 use crate::report::number;
 use crate::report::table::{Cell, Table};
@@ -19,19 +18,19 @@ pub(super) fn rotation_summary(calibration: &ImuCalibration) -> String {
     if used > 0 {
         row(
             "gravity missed by, rms",
-            degrees(calibration.rotation_rms_rad()),
+            number::miss(calibration.rotation_rms_rad()),
             "Angle between gravity carried through a rotation and gravity found after it, over the rotations that were used.",
         );
         row(
             "the same before",
-            degrees(calibration.rotation_rms_before_rad()),
+            number::miss(calibration.rotation_rms_before_rad()),
             "With one bias and one gain for all axes, or the datasheet's.",
         );
     }
     let excess = calibration.rotation_excess_sd_rad;
     row(
         "beyond the noise, sd per axis",
-        degrees(excess),
+        number::miss(excess),
         if excess > 0.0 {
             "What the gyroscope's noise does not explain of these errors: a bias that wanders, timing, vibration. It is part of the stated standard deviations."
         } else {
