@@ -24,6 +24,7 @@ use std::path::{Path, PathBuf};
 ///
 /// An IMU (kind = "imu") is turned by hand between holds.poses orientations; with holds.directions it is put down on these faces and turned by gyroscope.turns, at
 /// the times that are given. Spreads that [sensor] does not give, and the gyroscope's, are those of common MEMS sensors.
+/// With [temperature] it warms by 24 K about the reference from the beginning to the end, and the recording has a column temp_c.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
     /// The experiment file (see `calibrant init`).

@@ -244,6 +244,16 @@ fn poor_spread_is_a_warning_with_the_missing_side_named() {
 }
 
 #[test]
+fn one_hold_more_than_parameters_is_said_so() {
+    let (_, recording) = simulate(10, 3);
+    let setup = HoldsSetup::default();
+    let calibration = run(&sensor(SensorModel::Full), &recording, &setup).expect("determined");
+    let words = calibration.warnings.join("\n");
+    assert_eq!(calibration.fit.degrees_of_freedom, 1);
+    assert!(words.contains("only one hold more than parameters: "), "{words}");
+}
+
+#[test]
 fn given_holds_are_used_as_given_and_checked() {
     let (_, recording) = simulate(24, 7);
     let found = find_holds(&recording, 1.0).expect("fine");

@@ -159,6 +159,11 @@ fn gaps_are_told_with_place_and_length_and_not_too_many() {
     let messages: Vec<String> = parse(many.as_bytes()).findings.iter().map(ToString::to_string).collect();
     assert_eq!(messages.len(), 4);
     assert!(messages[3].contains("and 16 more gaps; the longest is 1.01 s after t = "), "{}", messages[3]);
+    let four =
+        rows(|k| format!("{:.2},{},{},{}", 1.7e9 + 0.01 * k as f64 + (k / 40) as f64, k % 7, k % 5, k % 3));
+    let messages: Vec<String> = parse(four.as_bytes()).findings.iter().map(ToString::to_string).collect();
+    assert_eq!(messages[0], "line 42: gap of 1.01 s after t = 1700000000.39 s, about 100 samples");
+    assert!(messages[3].contains("and 1 more gap; the longest is "), "{}", messages[3]);
 }
 
 #[test]

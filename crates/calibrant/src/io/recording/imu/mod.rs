@@ -220,7 +220,12 @@ fn read_mcap(bytes: &[u8], options: &ImuReadOptions) -> Checked<ImuFile> {
     }
     let (mut draft, samples, cut) = mcap::read(bytes, options)?;
     draft.slots()?;
-    let mut file = finish(draft, samples, options)?;
+    let mut file = finish(draft, samples, options).map_err(|mut complaint| {
+        if let Some(cut) = &cut {
+            complaint.help = format!("{}; {cut}", complaint.help);
+        }
+        complaint
+    })?;
     file.findings.extend(cut);
     Ok(file)
 }
