@@ -15,6 +15,7 @@ use calibrant::io::{
 };
 use calibrant::noise::TriadNoise;
 use calibrant::sensor::{ReadingUnit, Recording, Triad};
+use std::path::Path;
 
 pub(super) fn run(arguments: &Arguments, experiment: &Experiment, plan: &ImuPlan) -> calibrant::Result<Exit> {
     let Plan::Holds(holds) = &experiment.plan else {
@@ -55,31 +56,18 @@ pub(super) fn run(arguments: &Arguments, experiment: &Experiment, plan: &ImuPlan
         white_noise = longest.as_ref()?.white_noise(of_gyroscope.as_ref()?);
         white_noise
     };
-    let (calibration, of_accelerometer) = rayon::join(
+    let (calibration, (inputs, of_accelerometer)) = rayon::join(
         || calibrate_imu_while(&problem, &CalibrationSettings::default(), find_white_noise),
-        // for the report alone
-        || if arguments.no_report { None } else { noise(Triad::Accelerometer) },
+        || {
+            let for_report = !arguments.no_report;
+            (inputs(arguments, path, &file), for_report.then(|| noise(Triad::Accelerometer)).flatten())
+        },
     );
     let mut calibration = calibration.map_err(|error| in_file(error, path))?;
     calibration.warnings.extend(of_gyroscope.iter().flat_map(TriadNoise::of_outliers));
     setup.white_noise = white_noise;
     let problem = ImuProblem { accelerometer, gyroscope, recording, setup: &setup };
     calibration.validations = super::validation::of_imu(arguments, &options, &calibration, &problem, &file)?;
-    let inputs: Vec<Input> = [Some(path), arguments.gyroscope.as_ref()]
-        .into_iter()
-        .flatten()
-        .zip(Triad::ALL)
-        .zip(&file.sha256)
-        .map(|((path, triad), sha256)| {
-            let readings = recording.triad(triad);
-            Input {
-                file: name(path),
-                sha256: sha256.clone(),
-                samples: readings.map_or(0, Recording::len),
-                rate_hz: readings.map_or(0.0, Recording::rate_hz),
-            }
-        })
-        .collect();
     let noise: Vec<TriadNoise> = of_accelerometer.into_iter().chain(of_gyroscope).collect();
     super::imu_output::write(arguments, &calibration, &file, noise, &inputs)?;
     for warning in &calibration.warnings {
@@ -87,6 +75,24 @@ pub(super) fn run(arguments: &Arguments, experiment: &Experiment, plan: &ImuPlan
     }
     super::imu_output::show(arguments, &calibration, &inputs);
     Ok(Exit::of_status(calibration.status))
+}
+
+/// The files, for calibration.json.
+fn inputs(arguments: &Arguments, path: &Path, file: &ImuFile) -> Vec<Input> {
+    let paths = std::iter::once(path).chain(arguments.gyroscope.as_deref());
+    paths
+        .zip(Triad::ALL)
+        .zip(&file.sha256)
+        .map(|((path, triad), sha256)| {
+            let readings = file.recording.triad(triad);
+            Input {
+                file: name(path),
+                sha256: sha256.clone(),
+                samples: readings.map_or(0, Recording::len),
+                rate_hz: readings.map_or(0.0, Recording::rate_hz),
+            }
+        })
+        .collect()
 }
 
 /// What the user says of the file: the command line first, then `[columns]`, then the units of the sensors.
