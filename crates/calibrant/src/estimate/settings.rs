@@ -13,6 +13,6 @@ pub struct CalibrationSettings {
 
 impl Default for CalibrationSettings {
     fn default() -> Self {
-        Self { max_iterations: 50, tolerance: 1e-8, datasheet_prior: false }
+        Self { max_iterations: 50, tolerance: 1e-7, datasheet_prior: false }
     }
 }

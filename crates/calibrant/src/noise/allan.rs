@@ -106,9 +106,7 @@ impl AllanDeviation {
 
 impl AllanPoint {
     fn of(phase: &[f64], interval_s: f64, m: usize, process: PowerLaw, spread: Spread) -> Self {
-        let count = phase.len() - 2 * m;
-        let squares: f64 = differences(phase, m).map(|d| d * d).sum();
-        let deviation = (squares / (2.0 * count as f64)).sqrt();
+        let deviation = (0.5 * Differences::of(phase, m).mean_square()).sqrt();
         let (low, high) = (deviation * spread.low, deviation * spread.high);
         let degrees_of_freedom = spread.degrees_of_freedom;
         Self { cluster: m, tau_s: m as f64 * interval_s, deviation, process, degrees_of_freedom, low, high }
@@ -171,13 +169,40 @@ pub(super) fn phase(readings: &[f64]) -> Vec<f64> {
 }
 
 /// Differences of the means of adjacent clusters of `m` samples, at every start.
-pub(super) fn differences(phase: &[f64], m: usize) -> impl Iterator<Item = f64> + '_ {
-    let size = m as f64;
-    phase
-        .iter()
-        .zip(&phase[m..])
-        .zip(&phase[2 * m..])
-        .map(move |((before, at), after)| (after - 2.0 * at + before) / size)
+pub(super) struct Differences {
+    count: f64,
+    sum: f64,
+    squares: f64,
+}
+
+impl Differences {
+    pub(super) fn of(phase: &[f64], m: usize) -> Self {
+        // side by side, as a sum is long in coming
+        const LANES: usize = 4;
+        let count = phase.len() - 2 * m;
+        let (before, at, after) = (&phase[..count], &phase[m..m + count], &phase[2 * m..]);
+        let (mut sums, mut squares) = ([0.0; LANES], [0.0; LANES]);
+        let chunks = before.chunks(LANES).zip(at.chunks(LANES)).zip(after.chunks(LANES));
+        for ((before, at), after) in chunks {
+            for (lane, ((before, at), after)) in before.iter().zip(at).zip(after).enumerate() {
+                let d = after - 2.0 * at + before;
+                sums[lane] += d;
+                squares[lane] += d * d;
+            }
+        }
+        let size = m as f64;
+        let (sum, squares) = (sums.iter().sum::<f64>() / size, squares.iter().sum::<f64>() / (size * size));
+        Self { count: count as f64, sum, squares }
+    }
+
+    pub(super) fn mean_square(&self) -> f64 {
+        self.squares / self.count
+    }
+
+    /// About their mean, which a linear drift shifts.
+    pub(super) fn variance(&self) -> f64 {
+        self.mean_square() - (self.sum / self.count).powi(2)
+    }
 }
 
 fn cluster_sizes(n: usize) -> Vec<usize> {

@@ -1,6 +1,6 @@
 //! Mean and covariance of the drift-free Allan variances of each process.
 
-use super::allan::Confidence;
+use super::allan::{Confidence, Differences};
 use super::power_law::FlickerTable;
 use super::{PowerLaw, lags};
 use nalgebra::{DMatrix, DVector};
@@ -138,13 +138,7 @@ impl Moments {
     pub(super) fn observe(&self, phase: &[f64]) -> DVector<f64> {
         DVector::from_iterator(
             self.scales.len(),
-            self.scales.iter().map(|&m| {
-                let (count, sum, squares) = super::allan::differences(phase, m)
-                    .fold((0.0, 0.0, 0.0), |(count, sum, squares), d| {
-                        (count + 1.0, sum + d, squares + d * d)
-                    });
-                0.5 * (squares / count - (sum / count).powi(2))
-            }),
+            self.scales.iter().map(|&m| 0.5 * Differences::of(phase, m).variance()),
         )
     }
 }
