@@ -9,7 +9,7 @@ use calibrant::io::{
     inspection_json, read_imu_pair, read_imu_recording,
 };
 use calibrant::report::number::{count, short, significant};
-use calibrant::sensor::{Axis, ReadingUnit, Triad};
+use calibrant::sensor::{Axis, ReadingUnit, Saturation, Triad};
 use std::path::PathBuf;
 
 /// Say what a recording of an IMU holds, before anything is calibrated.
@@ -156,6 +156,21 @@ fn holds(found: &HoldsInspection, inspection: &Inspection) -> String {
             short((longest * 10.0).round() / 10.0)
         ),
     };
+    for axis in Axis::ALL {
+        let cut = |end: &Option<Saturation>| end.is_some_and(|end| end.axis == axis);
+        let numbers: Vec<String> = (1..)
+            .zip(&found.clipped)
+            .filter(|(_, end)| cut(end))
+            .map(|(number, _)| number.to_string())
+            .collect();
+        if !numbers.is_empty() {
+            text.push_str(&format!(
+                "  the accelerometer's axis {axis} saturates in hold{} {}: not counted here, and left out of a calibration\n",
+                if numbers.len() == 1 { "" } else { "s" },
+                numbers.join(", ")
+            ));
+        }
+    }
     if let Some(coverage) = &found.coverage {
         let missing: Vec<String> = Axis::ALL
             .into_iter()

@@ -29,7 +29,8 @@ mod validation;
 
 pub use comparison::{ComparedQuantity, Comparison, OverallDifference};
 pub use holds::{
-    Coverage, ExpectedCalibration, HoldsSetup, coverage, expected_calibration, find_holds, holds_between,
+    Coverage, ExpectedCalibration, HoldsSetup, clipped_holds, coverage, expected_calibration, find_holds,
+    holds_between,
 };
 pub use imu::{
     Gyroscope, ImuCalibration, ImuProblem, ImuSetup, KnownTerm, NoiseSource, RotationResult, StillGyroscope,
@@ -86,6 +87,6 @@ pub fn calibrate(problem: &CalibrationProblem<'_>, settings: &CalibrationSetting
     problem.validate()?;
     match problem.stimulus {
         Stimulus::Motion(command) => motion::calibrate(problem, command, settings),
-        Stimulus::Holds(setup) => holds::calibrate(problem, setup, settings),
+        Stimulus::Holds(setup) => holds::calibrate(problem, setup, settings, problem.recording),
     }
 }

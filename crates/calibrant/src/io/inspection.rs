@@ -3,9 +3,11 @@
 use super::json;
 use super::recording::{Finding, ImuColumn, ImuFile};
 use crate::error::Result;
-use crate::estimate::{Coverage, ExpectedCalibration, coverage, expected_calibration, find_imu_holds};
+use crate::estimate::{
+    Coverage, ExpectedCalibration, clipped_holds, coverage, expected_calibration, find_imu_holds,
+};
 use crate::motion::Hold;
-use crate::sensor::{Gauge, ImuRecording, MeanReading, ReadingUnit, Recording, Triad};
+use crate::sensor::{Gauge, ImuRecording, MeanReading, ReadingUnit, Recording, Saturation, Triad};
 use nalgebra::Vector3;
 use serde::Serialize;
 
@@ -59,6 +61,8 @@ pub struct SensorInspection {
 pub struct HoldsInspection {
     /// The holds, in order of time.
     pub holds: Vec<Hold>,
+    /// The end of its range at which the accelerometer stops in each of them, where it does: such a hold counts for nothing.
+    pub clipped: Vec<Option<Saturation>>,
     /// How their directions cover the sphere; `None` where there is none, or none is known without the sensor's offset.
     pub coverage: Option<Coverage>,
     /// What they will determine of the accelerometer; the reason where that is not all of it.
@@ -130,18 +134,26 @@ impl SensorInspection {
 impl HoldsInspection {
     fn of(recording: &ImuRecording, accelerometer: &Recording) -> Result<Self> {
         let holds = find_imu_holds(recording, MINIMUM_HOLD_S)?;
-        let expected = expected_calibration(&holds, accelerometer.unit, GRAVITY_MPS2, Gauge::Upper)
+        let clipped = clipped_holds(accelerometer, &holds);
+        let sound: Vec<Hold> = holds
+            .iter()
+            .zip(&clipped)
+            .filter(|(_, end)| end.is_none())
+            .map(|(hold, _)| hold.clone())
+            .collect();
+        let expected = expected_calibration(&sound, accelerometer.unit, GRAVITY_MPS2, Gauge::Upper)
             .map_err(|error| error.to_string());
         let offset = match &expected {
             Ok(expected) => Some(expected.like.bias),
             // readings in counts have an offset that is not known without the calibration
             Err(_) => (accelerometer.unit != ReadingUnit::Counts).then(Vector3::zeros),
         };
-        let directions = offset.map(|offset| holds.iter().map(|hold| hold.mean - offset).collect::<Vec<_>>());
+        let directions = offset.map(|offset| sound.iter().map(|hold| hold.mean - offset).collect::<Vec<_>>());
         Ok(Self {
             coverage: directions.and_then(|directions| coverage(&directions)),
             gyroscope_at_rest: recording.gyroscope.as_ref().and_then(|gyroscope| at_rest(gyroscope, &holds)),
             expected,
+            clipped,
             holds,
         })
     }
@@ -223,6 +235,7 @@ struct HoldFields {
     samples: usize,
     mean: Vec<f64>,
     sd: Vec<f64>,
+    saturated_axis: Option<String>,
 }
 
 #[derive(Serialize)]
@@ -305,17 +318,18 @@ impl SensorFields {
 
 impl<'a> HoldsFields<'a> {
     fn of(holds: &'a HoldsInspection) -> Self {
-        let hold = |hold: &Hold| HoldFields {
+        let hold = |(hold, clipped): (&Hold, &Option<Saturation>)| HoldFields {
             start_s: hold.start_s,
             end_s: hold.end_s,
             samples: hold.samples(),
             mean: list(&hold.mean),
             sd: list(&hold.sd),
+            saturated_axis: clipped.map(|end| end.axis.to_string()),
         };
         Self {
             count: holds.holds.len(),
             minimum_hold_s: MINIMUM_HOLD_S,
-            table: holds.holds.iter().map(hold).collect(),
+            table: holds.holds.iter().zip(&holds.clipped).map(hold).collect(),
             largest_gap_deg: holds.coverage.map(|coverage| coverage.gap_rad.to_degrees()),
             emptiest_direction: holds.coverage.map(|coverage| list(&coverage.emptiest)),
             gyroscope_mean: holds.gyroscope_at_rest.as_ref().map(|(mean, _)| list(mean)),

@@ -145,13 +145,19 @@ pub(in crate::estimate) fn left_out(holds: &HoldCalibration) -> Vec<String> {
         .enumerate()
         .filter(|(_, hold)| !hold.used)
         .map(|(k, hold)| {
+            let by_residual = || {
+                format!(
+                    "its magnitude is off by {:.3} mm/s², {:.1} standard deviations",
+                    1e3 * hold.magnitude_residual_mps2,
+                    hold.studentised_residual.abs()
+                )
+            };
             format!(
-                "hold {} ({:.1} to {:.1} s) was left out: its magnitude is off by {:.3} mm/s², {:.1} standard deviations",
+                "hold {} ({:.1} to {:.1} s) was left out: {}",
                 k + 1,
                 hold.hold.start_s,
                 hold.hold.end_s,
-                1e3 * hold.magnitude_residual_mps2,
-                hold.studentised_residual.abs()
+                hold.reason.clone().unwrap_or_else(by_residual)
             )
         })
         .collect()

@@ -110,7 +110,7 @@ impl Carrying<'_> {
             .then(|| felt_forces(self.accelerometer, self.gyroscope, &self.imu.at(mean_c).accelerometer))
             .flatten();
         let spans = rotation_spans(self.gyroscope, holds);
-        let integrable = Integrable::of(self.gyroscope);
+        let integrable = Integrable::of(self.gyroscope, with_forces.then_some(self.accelerometer));
         let rotations = integrable.rotations(felt.as_deref(), &spans, &data);
         let mut joint = Joint {
             quantities: self.quantities.to_vec(),

@@ -6,8 +6,8 @@
 use super::ImuProblem;
 use crate::error::{Complaint, Error, NotIdentifiable, Result, UndeterminedGroup};
 use crate::estimate::excess::excess;
-use crate::estimate::holds::magnitude_rms;
-use crate::estimate::{HoldCalibration, HoldResult, Uncalibrated, holds_between};
+use crate::estimate::holds::{clipped_reason, left_out, magnitude_rms, with_clipped};
+use crate::estimate::{HoldCalibration, HoldResult, Uncalibrated, clipped_holds, holds_between};
 use crate::information;
 use crate::motion::Hold;
 use crate::sensor::{ParameterList, Recording, SensorParameters, TriadThermal};
@@ -64,8 +64,14 @@ pub(super) fn fit(
     let forces: Vec<Vector3<f64>> =
         directions.iter().map(|direction| direction.normalize() * setup.gravity.magnitude_mps2).collect();
     let list = ParameterList::new(3, problem.accelerometer.model);
-    let linear = Linear { holds: &holds, forces: &forces, list: &list, within: Hold::pooled_sd(&holds) };
-    let (sensor, between, condition) = linear.solve()?;
+    let as_read = problem.recording.accelerometer.as_ref().unwrap_or(recording);
+    let clipped = clipped_holds(as_read, &holds);
+    let sound = (0..holds.len()).filter(|&j| clipped[j].is_none());
+    let (usable, along): (Vec<Hold>, Vec<Vector3<f64>>) =
+        sound.map(|j| (holds[j].clone(), forces[j])).unzip();
+    let linear = Linear { holds: &usable, forces: &along, list: &list, within: Hold::pooled_sd(&usable) };
+    let (sensor, between, condition) =
+        linear.solve().map_err(|error| with_clipped(error, &clipped, as_read))?;
     let mirrored = sensor.matrix.determinant() <= 0.0;
     if mirrored || between > SCATTERED * setup.gravity.magnitude_mps2 {
         super::mistaken::directions(problem, &holds, directions, mirrored)?;
@@ -74,37 +80,37 @@ pub(super) fn fit(
     let results: Vec<HoldResult> = holds
         .iter()
         .zip(&forces)
-        .map(|(hold, force)| {
+        .zip(&clipped)
+        .map(|((hold, force), clipped)| {
             let corrected = correction * (hold.mean - sensor.bias);
             HoldResult {
                 hold: hold.clone(),
                 force_mps2: *force,
                 magnitude_residual_mps2: corrected.norm() - setup.gravity.magnitude_mps2,
                 studentised_residual: if between > 0.0 { (corrected - force).norm() / between } else { 0.0 },
-                used: true,
+                used: clipped.is_none(),
+                reason: clipped.map(|end| clipped_reason(&end, as_read)),
             }
         })
         .collect();
-    let warnings = if between > SCATTERED * setup.gravity.magnitude_mps2 {
-        scattered(&results, &sensor, &correction, between)
-    } else {
-        Vec::new()
+    let scattered = (between > SCATTERED * setup.gravity.magnitude_mps2)
+        .then(|| scattered(&results, &sensor, &correction, between));
+    let holds = HoldCalibration {
+        magnitude_residual_rms_mps2: magnitude_rms(&results),
+        holds: results,
+        gravity: setup.gravity,
+        gauge: setup.gauge,
+        between_holds_sd_mps2: between,
+        between_holds_dominates: between > 0.0,
+        condition_number: condition,
+        detected: false,
+        before: Uncalibrated::accelerometer(problem.accelerometer, &sensor),
     };
     Ok(First {
         sensor,
         within: linear.within,
-        holds: HoldCalibration {
-            magnitude_residual_rms_mps2: magnitude_rms(&results),
-            holds: results,
-            gravity: setup.gravity,
-            gauge: setup.gauge,
-            between_holds_sd_mps2: between,
-            between_holds_dominates: between > 0.0,
-            condition_number: condition,
-            detected: false,
-            before: Uncalibrated::accelerometer(problem.accelerometer, &sensor),
-        },
-        warnings,
+        warnings: left_out(&holds).into_iter().chain(scattered).collect(),
+        holds,
         thermal: TriadThermal::default(),
         adjusted: None,
     })
@@ -116,25 +122,24 @@ fn scattered(
     sensor: &SensorParameters,
     correction: &Matrix3<f64>,
     between: f64,
-) -> Vec<String> {
+) -> String {
+    let used = || results.iter().enumerate().filter(|(_, result)| result.used);
     let off: Vec<f64> = results
         .iter()
         .map(|result| (correction * (result.hold.mean - sensor.bias)).angle(&result.force_mps2))
         .collect();
-    let most = off.iter().copied().fold(0.0, f64::max);
-    let worst: Vec<String> = results
-        .iter()
-        .enumerate()
+    let most = used().map(|(k, _)| off[k]).fold(0.0, f64::max);
+    let worst: Vec<String> = used()
         .filter(|(k, _)| off[*k] > 0.8 * most)
         .map(|(k, result)| {
             format!("hold {} ({:.1} to {:.1} s)", k + 1, result.hold.start_s, result.hold.end_s)
         })
         .collect();
-    vec![format!(
+    format!(
         "the faces scatter by {between:.2} m/s² beyond their noise; by {:.1}° and least of all fits {}: are directions and times of the holds right?",
         most.to_degrees(),
         worst.join(", or ")
-    )]
+    )
 }
 
 struct Linear<'a> {

@@ -12,7 +12,7 @@ use super::verdict::{self, undetermined, vague};
 use super::{ImuCalibration, ImuProblem, NoiseSource, start};
 use crate::error::{Complaint, Error, Result};
 use crate::estimate::problem::sound;
-use crate::estimate::{CalibrationProblem, CalibrationSettings, HoldsSetup, Recovered, Stimulus, calibrate};
+use crate::estimate::{CalibrationProblem, CalibrationSettings, HoldsSetup, Recovered, Stimulus, holds};
 use crate::information;
 use crate::motion::Hold;
 use crate::sensor::{
@@ -71,31 +71,30 @@ pub(super) fn calibrate_imu(
     weigh(&mut data, &stills, &noise, &between);
     let start = start_values(problem, &first, &data, thermal);
 
-    let felt = problem
-        .gyroscope
-        .g_sensitivity
-        .then(|| felt_forces(accelerometer, gyroscope, &first.sensor))
-        .flatten();
+    let feels = problem.gyroscope.g_sensitivity;
+    let felt = feels.then(|| felt_forces(accelerometer, gyroscope, &first.sensor)).flatten();
     let spans = match setup.directions {
         // the sensor was put down anew on each face: what it went through in between says less than the turns
         Some(_) if !setup.turns.is_empty() => Vec::new(),
         _ => rotation_spans(gyroscope, &used),
     };
-    let integrable = Integrable::of(gyroscope);
+    let integrable = Integrable::of(gyroscope, problem.recording.accelerometer.as_ref().filter(|_| feels));
     let rotations = integrable.rotations(felt.as_deref(), &spans, &data);
     let mut joint = Joint {
         gravity: setup.holds.gravity.magnitude_mps2,
         holds: data,
         rotations,
-        turns: turns(problem, gyroscope, &noise, felt.as_deref(), (&start, &climate))?,
+        turns: turns(problem, &integrable, &noise, felt.as_deref(), (&start, &climate))?,
         gyroscope_noise: noise,
         excess_rad: 0.0,
         prior,
         quantities,
     };
     let mut state = State { imu: start, forces };
+    let obstacles: Vec<String> = spans.iter().filter_map(|span| integrable.obstacle(span)).collect();
+    let explained = |error: Error| verdict::with_obstacles(error, &obstacles);
     if joint.rotations.iter().all(|rotation| !rotation.used) && joint.turns.is_empty() {
-        return Err(Error::NotIdentifiable(Box::new(undetermined(&joint, &[]))));
+        return Err(explained(Error::NotIdentifiable(Box::new(undetermined(&joint, &[])))));
     }
     let mut axes = None;
     if joint.rotations.iter().any(|rotation| rotation.used) {
@@ -104,7 +103,7 @@ pub(super) fn calibrate_imu(
             _ => Some(Matrix3::identity()),
         };
         let found = start::find(&joint, &state, problem.gyroscope.unit, nominal)
-            .ok_or_else(|| Error::NotIdentifiable(Box::new(undetermined(&joint, &[]))))?;
+            .ok_or_else(|| explained(Error::NotIdentifiable(Box::new(undetermined(&joint, &[])))))?;
         verdict::plausible(&joint, &state, &found, problem.gyroscope.unit, holds)?;
         state.imu = found.imu;
         thermal::set_fixed(&mut state.imu, &setup.known);
@@ -112,7 +111,7 @@ pub(super) fn calibrate_imu(
     }
     let before = state.imu;
     follow_drift(&mut joint, &state, &between);
-    let misses = check(&joint, &state, settings)?;
+    let misses = check(&joint, &state, settings).map_err(explained)?;
     let (weighed, misses) = settle(&mut joint, &mut state, misses, &between)?;
     let rough = CalibrationSettings { tolerance: ROUGH, ..settings.clone() };
     let close = joint.fit(state, misses, &rough).ok_or_else(singular)?;
@@ -221,8 +220,9 @@ fn from_holds(
     };
     let setup = HoldsSetup { intervals_s: Some(intervals_s), ..problem.setup.holds.clone() };
     let stimulus = Stimulus::Holds(&setup);
-    let first =
-        calibrate(&CalibrationProblem { sensor: problem.accelerometer, recording, stimulus }, settings)?;
+    let as_read = problem.recording.accelerometer.as_ref().unwrap_or(recording);
+    let alone = CalibrationProblem { sensor: problem.accelerometer, recording, stimulus };
+    let first = holds::calibrate(&alone, &setup, settings, as_read)?;
     let Recovered::Holds(mut holds) = first.recovered else {
         return Err(Error::experiment(Complaint::new("an IMU is calibrated from holds", "use [holds]")));
     };

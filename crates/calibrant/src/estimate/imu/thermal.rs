@@ -206,7 +206,7 @@ pub(super) fn accelerometer(
     let intervals: Vec<(f64, f64)> = raw.iter().map(|hold| (hold.start_s, hold.end_s)).collect();
     let detected = first.holds.detected;
     let mut first = first;
-    let mut used = vec![true; raw.len()];
+    let mut used: Vec<bool> = first.holds.holds.iter().map(|result| result.reason.is_none()).collect();
     for _ in 0..ROUNDS {
         let alone = Alone::new(problem, &first, &raw, &used, climate);
         let (state, between) = alone.fit(settings)?;
@@ -242,7 +242,7 @@ fn reconsider(holds: &mut HoldCalibration, degrees: usize, terms: usize) {
     let limit = critical(holds.holds.len(), degrees);
     for result in &mut holds.holds {
         result.studentised_residual *= shrink;
-        result.used |= result.studentised_residual.abs() <= limit;
+        result.used |= result.reason.is_none() && result.studentised_residual.abs() <= limit;
     }
     holds.magnitude_residual_rms_mps2 = magnitude_rms(&holds.holds);
 }
