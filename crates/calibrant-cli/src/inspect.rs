@@ -171,6 +171,11 @@ fn holds(found: &HoldsInspection, inspection: &Inspection) -> String {
             ));
         }
     }
+    for (triad, coarse) in &found.coarse {
+        let unit =
+            inspection.sensors.iter().find(|sensor| sensor.triad == *triad).map_or("", |of| of.unit.symbol());
+        text.push_str(&format!("  {}\n", coarse.words(triad.name(), unit)));
+    }
     if let Some(coverage) = &found.coverage {
         let missing: Vec<String> = Axis::ALL
             .into_iter()

@@ -20,6 +20,7 @@ mod holds;
 mod imu;
 mod motion;
 mod problem;
+mod quantisation;
 mod result;
 mod settings;
 pub(crate) mod statistics;
@@ -37,6 +38,7 @@ pub use imu::{
     ThermalModel, Turn, TurnResult, WhiteNoise, calibrate_imu, find_imu_holds,
 };
 pub use problem::{CalibrationProblem, Stimulus};
+pub use quantisation::{CoarseAxis, coarse_axes};
 pub use result::*;
 pub use settings::CalibrationSettings;
 pub use uncalibrated::Uncalibrated;

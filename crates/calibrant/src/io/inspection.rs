@@ -4,7 +4,8 @@ use super::json;
 use super::recording::{Finding, ImuColumn, ImuFile};
 use crate::error::Result;
 use crate::estimate::{
-    Coverage, ExpectedCalibration, clipped_holds, coverage, expected_calibration, find_imu_holds,
+    CoarseAxis, Coverage, ExpectedCalibration, clipped_holds, coarse_axes, coverage, expected_calibration,
+    find_imu_holds,
 };
 use crate::motion::Hold;
 use crate::sensor::{Gauge, ImuRecording, MeanReading, ReadingUnit, Recording, Saturation, Triad};
@@ -67,6 +68,8 @@ pub struct HoldsInspection {
     pub coverage: Option<Coverage>,
     /// What they will determine of the accelerometer; the reason where that is not all of it.
     pub expected: std::result::Result<ExpectedCalibration, String>,
+    /// Axes whose readings come in steps coarser than their noise.
+    pub coarse: Vec<(Triad, CoarseAxis)>,
     /// Mean of the gyroscope over the holds and scatter of its samples within them, unit of its readings.
     pub gyroscope_at_rest: Option<(Vector3<f64>, Vector3<f64>)>,
 }
@@ -152,11 +155,19 @@ impl HoldsInspection {
         Ok(Self {
             coverage: directions.and_then(|directions| coverage(&directions)),
             gyroscope_at_rest: recording.gyroscope.as_ref().and_then(|gyroscope| at_rest(gyroscope, &holds)),
+            coarse: Triad::ALL.into_iter().flat_map(|triad| coarse(recording, triad, &sound)).collect(),
             expected,
             clipped,
             holds,
         })
     }
+}
+
+/// The coarse axes of a sensor, by its samples in holds.
+fn coarse(recording: &ImuRecording, triad: Triad, holds: &[Hold]) -> Vec<(Triad, CoarseAxis)> {
+    let Some(recording) = recording.triad(triad) else { return Vec::new() };
+    let spans: Vec<_> = holds.iter().map(|hold| recording.between(hold.start_s, hold.end_s)).collect();
+    coarse_axes(recording, &spans).into_iter().map(|found| (triad, found)).collect()
 }
 
 /// Mean of a sensor over the holds, and the scatter of its samples within them.
@@ -224,8 +235,19 @@ struct HoldsFields<'a> {
     emptiest_direction: Option<Vec<f64>>,
     gyroscope_mean: Option<Vec<f64>>,
     gyroscope_noise: Option<Vec<f64>>,
+    coarse_axes: Vec<CoarseFields>,
     expected: Option<ExpectedFields>,
     not_determined_because: Option<&'a str>,
+}
+
+/// An axis whose steps are coarser than its noise, in the unit of the readings.
+#[derive(Serialize)]
+struct CoarseFields {
+    sensor: &'static str,
+    axis: String,
+    step: f64,
+    noise: f64,
+    mean_sd: f64,
 }
 
 #[derive(Serialize)]
@@ -326,6 +348,13 @@ impl<'a> HoldsFields<'a> {
             sd: list(&hold.sd),
             saturated_axis: clipped.map(|end| end.axis.to_string()),
         };
+        let coarse = |(triad, found): &(Triad, CoarseAxis)| CoarseFields {
+            sensor: triad.name(),
+            axis: found.axis.to_string(),
+            step: found.step,
+            noise: found.noise,
+            mean_sd: found.mean_sd,
+        };
         Self {
             count: holds.holds.len(),
             minimum_hold_s: MINIMUM_HOLD_S,
@@ -334,6 +363,7 @@ impl<'a> HoldsFields<'a> {
             emptiest_direction: holds.coverage.map(|coverage| list(&coverage.emptiest)),
             gyroscope_mean: holds.gyroscope_at_rest.as_ref().map(|(mean, _)| list(mean)),
             gyroscope_noise: holds.gyroscope_at_rest.as_ref().map(|(_, noise)| list(noise)),
+            coarse_axes: holds.coarse.iter().map(coarse).collect(),
             expected: holds.expected.as_ref().ok().map(ExpectedFields::of),
             not_determined_because: holds.expected.as_ref().err().map(String::as_str),
         }

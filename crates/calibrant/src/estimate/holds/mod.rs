@@ -30,9 +30,10 @@ mod robust;
 mod verdict;
 
 use super::gravity::gravity_slope;
+use super::quantisation::of_means;
 use super::{
-    Calibration, CalibrationProblem, CalibrationSettings, FitStatistics, HoldCalibration, HoldResult,
-    Recovered, Uncalibrated, statistics,
+    Calibration, CalibrationProblem, CalibrationSettings, CoarseAxis, FitStatistics, HoldCalibration,
+    HoldResult, Recovered, Uncalibrated, coarse_axes, statistics,
 };
 use crate::error::{Complaint, Error, Result};
 use crate::motion::{Gravity, Hold};
@@ -46,6 +47,7 @@ pub(super) use verdict::left_out;
 
 pub use clipped::clipped_holds;
 pub use coverage::{Coverage, coverage};
+pub(super) use detect::beyond;
 pub use detect::{find_holds, holds_between};
 pub use expected::{ExpectedCalibration, expected_calibration};
 
@@ -92,14 +94,26 @@ pub(super) fn calibrate(
     };
     let clipped = clipped_holds(as_read, &holds);
     let sound: Vec<usize> = (0..holds.len()).filter(|&j| clipped[j].is_none()).collect();
+    let coarse =
+        coarse_axes(as_read, &sound.iter().map(|&j| holds[j].first..holds[j].end).collect::<Vec<_>>());
+    let of_mean = of_means(&coarse);
     let robust = match problem.sensor.model {
-        SensorModel::ScaleBias => robust::fit::<6>(problem, setup, settings, &holds, sound),
-        SensorModel::Full => robust::fit::<9>(problem, setup, settings, &holds, sound),
+        SensorModel::ScaleBias => robust::fit::<6>(problem, setup, settings, &holds, sound, of_mean),
+        SensorModel::Full => robust::fit::<9>(problem, setup, settings, &holds, sound, of_mean),
     }
     .map_err(|error| with_clipped(error, &clipped, as_read))?;
     let reasons = clipped.iter().map(|end| end.map(|end| clipped_reason(&end, as_read))).collect();
-    let calibration = assemble(problem, setup, holds, reasons, robust);
+    let mut calibration = assemble(problem, setup, holds, reasons, robust);
+    calibration.warnings.extend(coarse_words(&coarse, as_read));
+    calibration.warnings.extend(beyond(as_read, setup.intervals_s.as_deref().unwrap_or_default()));
     Ok(Calibration { datasheet_prior: settings.datasheet_prior, ..calibration })
+}
+
+/// Says which axes of an accelerometer come in coarse steps.
+pub(super) fn coarse_words(coarse: &[CoarseAxis], recording: &Recording) -> Vec<String> {
+    let help = "choose a smaller range, or more digits in the file";
+    let words = |found: &CoarseAxis| found.words("accelerometer", recording.unit.symbol());
+    coarse.iter().map(|found| format!("{}; {help}", words(found))).collect()
 }
 
 /// Root mean square of `|f| − g` over the holds that are used, m/s².

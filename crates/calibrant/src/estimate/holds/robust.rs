@@ -60,17 +60,20 @@ struct Problem<'a, const P: usize> {
     list: ParameterList,
     gravity: f64,
     within: Vector3<f64>,
+    /// Variance of a mean that more samples do not lower: that of coarse steps.
+    of_mean: Vector3<f64>,
     prior: Option<(SVector<f64, P>, SVector<f64, P>)>,
     settings: &'a CalibrationSettings,
 }
 
-/// Fits, finds the scatter between holds, leaves bad holds out. `sound`: places of the holds that may be used.
+/// Fits, finds the scatter between holds, leaves bad holds out. `sound`: places of the holds that may be used; `of_mean`: variance of a mean that more samples do not lower.
 pub(super) fn fit<const P: usize>(
     problem: &CalibrationProblem<'_>,
     setup: &HoldsSetup,
     settings: &CalibrationSettings,
     holds: &[Hold],
     sound: Vec<usize>,
+    of_mean: Vector3<f64>,
 ) -> Result<Robust> {
     let list = setup.gauge.parameter_list(problem.sensor.model);
     let usable: Vec<Hold> = sound.iter().map(|&j| holds[j].clone()).collect();
@@ -81,8 +84,16 @@ pub(super) fn fit<const P: usize>(
     };
     let within = pooled_sd(&usable, &start, setup.gravity.magnitude_mps2);
     let prior = settings.datasheet_prior.then(|| prior(problem, &list)).flatten();
-    let problem =
-        Problem::<P> { holds, sound, list, gravity: setup.gravity.magnitude_mps2, within, prior, settings };
+    let problem = Problem::<P> {
+        holds,
+        sound,
+        list,
+        gravity: setup.gravity.magnitude_mps2,
+        within,
+        of_mean,
+        prior,
+        settings,
+    };
     problem.information(&start)?;
     problem.run(&start)
 }
@@ -97,8 +108,9 @@ pub(super) fn expect<const P: usize>(
     let start =
         sphere(holds, gravity).ok_or_else(|| Error::NotIdentifiable(Box::new(too_few(holds, &list))))?;
     let within = pooled_sd(holds, &start, gravity);
-    let sound = (0..holds.len()).collect();
-    let problem = Problem::<P> { holds, sound, list, gravity, within, prior: None, settings: &settings };
+    let (sound, of_mean) = ((0..holds.len()).collect(), Vector3::zeros());
+    let problem =
+        Problem::<P> { holds, sound, list, gravity, within, of_mean, prior: None, settings: &settings };
     let information = problem.information(&start)?;
     Ok((start, within, information))
 }
@@ -156,6 +168,7 @@ impl<const P: usize> Problem<'_, P> {
         Vector3::from_fn(|axis, _| {
             // the gain of a reading is the norm of its row of S, whatever the gauge
             self.within[axis].powi(2) / hold.samples() as f64
+                + self.of_mean[axis]
                 + between.powi(2) * sensor.matrix.row(axis).norm_squared()
         })
     }

@@ -6,8 +6,9 @@
 use super::ImuProblem;
 use crate::error::{Complaint, Error, NotIdentifiable, Result, UndeterminedGroup};
 use crate::estimate::excess::excess;
-use crate::estimate::holds::{clipped_reason, left_out, magnitude_rms, with_clipped};
-use crate::estimate::{HoldCalibration, HoldResult, Uncalibrated, clipped_holds, holds_between};
+use crate::estimate::holds::{clipped_reason, coarse_words, left_out, magnitude_rms, with_clipped};
+use crate::estimate::quantisation::of_means;
+use crate::estimate::{HoldCalibration, HoldResult, Uncalibrated, clipped_holds, coarse_axes, holds_between};
 use crate::information;
 use crate::motion::Hold;
 use crate::sensor::{ParameterList, Recording, SensorParameters, TriadThermal};
@@ -23,6 +24,8 @@ pub(super) struct First {
     pub(super) sensor: SensorParameters,
     /// Standard deviation of a sample within holds.
     pub(super) within: Vector3<f64>,
+    /// Variance of a hold's mean that more samples do not lower.
+    pub(super) of_mean: Vector3<f64>,
     pub(super) holds: HoldCalibration,
     pub(super) warnings: Vec<String>,
     /// Its temperature terms, and the recording as it would be at the reference temperature, where they were fitted.
@@ -34,8 +37,9 @@ impl First {
     /// Inverse variances of a hold's mean, for a scatter between holds in m/s².
     pub(super) fn weight(&self, hold: &Hold, between: f64) -> Vector3<f64> {
         let gain = Vector3::from_fn(|axis, _| self.sensor.matrix.row(axis).norm_squared());
-        let variance =
-            self.within.component_mul(&self.within) / hold.samples() as f64 + gain * between.powi(2);
+        let variance = self.within.component_mul(&self.within) / hold.samples() as f64
+            + self.of_mean
+            + gain * between.powi(2);
         variance.map(|variance| 1.0 / variance.max(f64::MIN_POSITIVE))
     }
 }
@@ -69,13 +73,16 @@ pub(super) fn fit(
     let sound = (0..holds.len()).filter(|&j| clipped[j].is_none());
     let (usable, along): (Vec<Hold>, Vec<Vector3<f64>>) =
         sound.map(|j| (holds[j].clone(), forces[j])).unzip();
-    let linear = Linear { holds: &usable, forces: &along, list: &list, within: Hold::pooled_sd(&usable) };
+    let coarse = coarse_axes(as_read, &usable.iter().map(|hold| hold.first..hold.end).collect::<Vec<_>>());
+    let (within, of_mean) = (Hold::pooled_sd(&usable), of_means(&coarse));
+    let linear = Linear { holds: &usable, forces: &along, list: &list, within, of_mean };
     let (sensor, between, condition) =
         linear.solve().map_err(|error| with_clipped(error, &clipped, as_read))?;
     let mirrored = sensor.matrix.determinant() <= 0.0;
     if mirrored || between > SCATTERED * setup.gravity.magnitude_mps2 {
         super::mistaken::directions(problem, &holds, directions, mirrored)?;
     }
+    let turned = super::mistaken::turned_alike(problem, &holds, &forces, &sensor.matrix);
     let correction = sensor.matrix.try_inverse().unwrap_or_else(Matrix3::identity);
     let results: Vec<HoldResult> = holds
         .iter()
@@ -108,8 +115,14 @@ pub(super) fn fit(
     };
     Ok(First {
         sensor,
-        within: linear.within,
-        warnings: left_out(&holds).into_iter().chain(scattered).collect(),
+        within,
+        of_mean,
+        warnings: turned
+            .into_iter()
+            .chain(left_out(&holds))
+            .chain(scattered)
+            .chain(coarse_words(&coarse, as_read))
+            .collect(),
         holds,
         thermal: TriadThermal::default(),
         adjusted: None,
@@ -147,6 +160,7 @@ struct Linear<'a> {
     forces: &'a [Vector3<f64>],
     list: &'a ParameterList,
     within: Vector3<f64>,
+    of_mean: Vector3<f64>,
 }
 
 impl Linear<'_> {
@@ -181,6 +195,7 @@ impl Linear<'_> {
 
     fn weight(&self, hold: &Hold, between: f64, gain: &Vector3<f64>) -> Vector3<f64> {
         let variance = self.within.component_mul(&self.within) / hold.samples() as f64
+            + self.of_mean
             + gain.component_mul(gain) * (between * between);
         variance.map(|variance| 1.0 / variance.max(f64::MIN_POSITIVE))
     }

@@ -3,6 +3,7 @@
 use super::ImuProblem;
 use super::joint::{HoldData, RotationData, TurnData};
 use super::rates::{LocalBias, Samples};
+use super::still::StillNoise;
 use super::thermal::Climate;
 use crate::error::{Complaint, Error, Result};
 use crate::motion::Hold;
@@ -128,7 +129,7 @@ impl<'a> Integrable<'a> {
 pub(super) fn turns(
     problem: &ImuProblem<'_>,
     integrable: &Integrable<'_>,
-    noise: &Vector3<f64>,
+    noise: &StillNoise,
     felt: Option<&[Vector3<f64>]>,
     still: (&ImuParameters, &Climate<'_>),
 ) -> Result<Vec<TurnData>> {
@@ -139,6 +140,19 @@ pub(super) fn turns(
         .enumerate()
         .map(|(number, turn)| {
             let gyroscope = integrable.gyroscope;
+            if let Some(before) = problem.setup.turns[..number].iter().position(|before| turn.repeats(before))
+            {
+                return Err(Error::experiment(Complaint::new(
+                    format!(
+                        "turns {} and {} are the same, from {} to {} s: it would count twice",
+                        before + 1,
+                        number + 1,
+                        turn.start_s,
+                        turn.end_s
+                    ),
+                    "give each turn once, in gyroscope.turns or in the list of sections",
+                )));
+            }
             let Range { start: first, end } = gyroscope.between(turn.start_s, turn.end_s);
             if end < first + 3 {
                 return Err(Error::recording(Complaint::new(
@@ -172,9 +186,11 @@ pub(super) fn turns(
                 let weight = 0.5 * (before + after);
                 integral += readings[k] * weight;
                 force += felt.map_or_else(Vector3::zeros, |felt| felt[first + k]) * weight;
-                variance += noise.component_mul(noise) * (weight * weight);
+                variance += noise.of_sample.component_mul(&noise.of_sample) * (weight * weight);
             }
             let duration_s = times[times.len() - 1] - times[0];
+            // an axis that hardly turns reads as in a hold
+            variance += noise.of_mean * (duration_s * duration_s);
             // the gain, roughly: what the readings add up to beyond their bias, over the angle
             let temperature_c = still.1.mean(turn.start_s, turn.end_s);
             let bias = still.0.at(temperature_c).gyroscope.bias * duration_s;

@@ -6,13 +6,17 @@ use super::faces::{self, First};
 use super::joint::{HoldData, Joint, Misses, State};
 use super::readings::{Integrable, felt_forces, rotation_spans, turns};
 use super::settle::{apply, follow_drift, reweigh, settle};
-use super::still::{Explanation, between_sd, still, weigh};
+use super::still::{Explanation, StillNoise, between_sd, coarse_at_rest, still, weigh};
 use super::thermal::{self, Climate};
 use super::verdict::{self, undetermined, vague};
-use super::{ImuCalibration, ImuProblem, NoiseSource, start};
+use super::{ImuCalibration, ImuProblem, NoiseSource, start, turned};
 use crate::error::{Complaint, Error, Result};
+use crate::estimate::holds::beyond;
 use crate::estimate::problem::sound;
-use crate::estimate::{CalibrationProblem, CalibrationSettings, HoldsSetup, Recovered, Stimulus, holds};
+use crate::estimate::quantisation::of_means;
+use crate::estimate::{
+    CalibrationProblem, CalibrationSettings, HoldsSetup, Recovered, Stimulus, coarse_axes, holds,
+};
 use crate::information;
 use crate::motion::Hold;
 use crate::sensor::{
@@ -48,14 +52,21 @@ pub(super) fn calibrate_imu(
     let chosen: Vec<usize> = (0..holds.holds.len()).filter(|&j| holds.holds[j].used).collect();
     let forces: Vec<Vector3<f64>> = chosen.iter().map(|&j| holds.holds[j].force_mps2).collect();
     let used: Vec<&Hold> = chosen.iter().map(|&j| &holds.holds[j].hold).collect();
-    let stills: Vec<Option<MeanReading>> = used.iter().map(|hold| still(gyroscope, hold)).collect();
+    let mut stills: Vec<Option<MeanReading>> = used.iter().map(|hold| still(gyroscope, hold)).collect();
     if stills.iter().flatten().count() == 0 {
         return Err(Error::recording(Complaint::new(
             "the gyroscope has no samples in the holds of the accelerometer",
             "both need the same clock: are these files of one recording?",
         )));
     }
+    let mut said =
+        turned::take_out(&mut stills, (&used, &chosen), gyroscope, setup.thermal.gyroscope_bias > 0);
+    let given = setup.holds.intervals_s.as_deref().unwrap_or_default();
+    said.extend(beyond(accelerometer, given).into_iter().filter(|other| !first.warnings.contains(other)));
     let (noise, noise_source) = sample_noise(problem, &stills);
+    let at_rest = used.iter().zip(&stills).filter(|(_, still)| still.is_some());
+    let coarse = coarse_at_rest(gyroscope, at_rest.map(|(hold, _)| *hold));
+    let noise = StillNoise::of(noise, &coarse);
     let quantities = quantities(problem);
     let prior = prior(problem, &quantities);
     let mut data = hold_data(&first, &chosen, setup.directions.is_some(), &climate);
@@ -135,6 +146,8 @@ pub(super) fn calibrate_imu(
         between,
         integrable: &integrable,
         noise_source,
+        said: &said,
+        coarse: &coarse,
         scatter: MeanReading::pooled_sd(stills.iter().flatten()),
         spans: &spans,
         chosen: &chosen,
@@ -228,8 +241,11 @@ fn from_holds(
     };
     holds.detected = detected;
     let within = first.fit.noise_estimate.unwrap_or_else(Vector3::zeros);
+    let sound = holds.holds.iter().filter(|result| result.reason.is_none());
+    let spans: Vec<_> = sound.map(|result| result.hold.first..result.hold.end).collect();
+    let of_mean = of_means(&coarse_axes(as_read, &spans));
     let (thermal, adjusted) = (TriadThermal::default(), None);
-    Ok(First { sensor: first.sensor, within, holds, warnings: first.warnings, thermal, adjusted })
+    Ok(First { sensor: first.sensor, within, of_mean, holds, warnings: first.warnings, thermal, adjusted })
 }
 
 /// The used holds with the accelerometer's weights.

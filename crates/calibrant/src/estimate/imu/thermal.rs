@@ -7,6 +7,7 @@
 use super::faces::First;
 use super::joint::{HoldData, Joint, State};
 use super::solver::{self, singular};
+use super::still::StillNoise;
 use super::{ImuProblem, KnownTerm};
 use crate::error::{Complaint, Error, NotIdentifiable, Result, UndeterminedGroup};
 use crate::estimate::excess::excess;
@@ -295,7 +296,7 @@ impl<'a> Alone<'a> {
                 holds,
                 rotations: Vec::new(),
                 turns: Vec::new(),
-                gyroscope_noise: Vector3::zeros(),
+                gyroscope_noise: StillNoise::none(),
                 excess_rad: 0.0,
                 prior: solver::prior(problem, &quantities),
                 quantities,
