@@ -150,11 +150,16 @@ mod tests {
             let found = coarse_axes(&recording, &holds);
             let [found] = found.as_slice() else { panic!("{ratio}: {found:?}") };
             let off = (squares / count as f64).sqrt();
-            // 400 squares know their root to 2–4 %; the mean's own noise adds a thousandth of a step
-            assert!((found.mean_sd / off - 1.0).abs() < 0.15, "{ratio}: {found:?} beside {off:e}");
             assert!((found.step - step).abs() < 1e-12);
-            // noise of a twentieth of a step shows in too few holds at once
-            assert!(ratio < 0.1 || (found.noise / (ratio * step) - 1.0).abs() < 0.1, "{ratio}: {found:?}");
+            if ratio > 0.15 {
+                // 400 squares know their root to 2–4 %; the mean's own noise adds a thousandth of a step
+                assert!((found.mean_sd / off - 1.0).abs() < 0.15, "{ratio}: {found:?} beside {off:e}");
+                assert!((found.noise / (ratio * step) - 1.0).abs() < 0.1, "{ratio}: {found:?}");
+            } else {
+                // no hold has three values: it counts as without noise, which is on the safe side
+                assert_eq!(found.noise, 0.0);
+                assert!((0.95..1.7).contains(&(found.mean_sd / off)), "{ratio}: {found:?} beside {off:e}");
+            }
         }
         assert!((variance(0.0, 1.0) * 12.0 - 1.0).abs() < 1e-4);
     }
