@@ -10,7 +10,7 @@ use calibrant::io::{
 };
 use calibrant::motion::Hold;
 use calibrant::report::number::{count, short, significant};
-use calibrant::sensor::{Axis, ReadingUnit, Triad};
+use calibrant::sensor::{Axis, ReadingUnit, Saturation, Triad};
 use std::path::PathBuf;
 
 /// Say what a recording of an IMU holds, before anything is calibrated.
@@ -163,6 +163,26 @@ fn holds(found: &HoldsInspection, inspection: &Inspection) -> String {
             short((longest * 10.0).round() / 10.0)
         ),
     };
+    for axis in Axis::ALL {
+        let cut = |end: &Option<Saturation>| end.is_some_and(|end| end.axis == axis);
+        let numbers: Vec<String> = (1..)
+            .zip(&found.clipped)
+            .filter(|(_, end)| cut(end))
+            .map(|(number, _)| number.to_string())
+            .collect();
+        if !numbers.is_empty() {
+            text.push_str(&format!(
+                "  the accelerometer's axis {axis} saturates in hold{} {}: not counted here, and left out of a calibration\n",
+                if numbers.len() == 1 { "" } else { "s" },
+                numbers.join(", ")
+            ));
+        }
+    }
+    for (triad, coarse) in &found.coarse {
+        let unit =
+            inspection.sensors.iter().find(|sensor| sensor.triad == *triad).map_or("", |of| of.unit.symbol());
+        text.push_str(&format!("  {}\n", coarse.words(triad.name(), unit)));
+    }
     if let Some(coverage) = &found.coverage {
         let missing: Vec<String> = Axis::ALL
             .into_iter()

@@ -208,6 +208,17 @@ fn turns_that_are_missing_and_values_that_are_absurd_are_named() {
         ],
     );
 
+    // a turn that is given twice would count twice
+    bench.write(
+        "twice.toml",
+        table.replacen("start_s = 12.0, end_s = 16.0", "start_s = 7.0, end_s = 11.0", 1),
+    );
+    bench.refuses(
+        "calibrate twice.toml table/recording.csv -o out",
+        2,
+        &["turn 2 (7 to 11 s) is turn 1 (7 to 11 s) once more", "give each turn once"],
+    );
+
     // the gyroscope tells which turn was made
     bench.write(
         "sign.toml",

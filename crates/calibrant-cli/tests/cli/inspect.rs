@@ -82,6 +82,27 @@ fn seconds_since_1970_are_told_as_they_stand_and_durations_beside_them() {
 }
 
 #[test]
+fn holds_in_which_the_accelerometer_saturates_are_named() {
+    let bench = Bench::new();
+    let cut = |line: &str| {
+        let mut cells: Vec<String> = line.split(',').map(str::to_owned).collect();
+        if let Ok(x) = cells[1].parse::<f64>() {
+            cells[1] = format!("{:.6}", x.min(0.3));
+        }
+        cells.join(",") + "\n"
+    };
+    let text = poses("t_ms,ax_g,ay_g,az_g,gx_radps,gy_radps,gz_radps", 1.0);
+    bench.write("imu.csv", text.lines().map(cut).collect::<String>());
+    let stdout = bench.run("inspect imu.csv").done().stdout;
+    // sin(0.7 k) cos(1.9 k) is above 0.3 for k = 3, 5, 8 and 10
+    let said = "the accelerometer's axis x saturates in holds 4, 6, 9, 11: not counted here, and left out of a calibration";
+    assert!(stdout.contains(said), "{stdout}");
+    bench.write("inspection.json", bench.run("inspect imu.csv --json").done().stdout);
+    let table = &bench.json("inspection.json")["holds"]["table"];
+    assert_eq!((table[3]["saturated_axis"].as_str(), table[4]["saturated_axis"].as_str()), (Some("x"), None));
+}
+
+#[test]
 fn questions_are_answered_by_options_or_by_an_experiment() {
     let bench = Bench::new();
     bench.write("imu.csv", poses("time,ax,ay,az,gx,gy,gz", 9.81));

@@ -178,6 +178,7 @@ pub(crate) fn hold_case(count: usize, samples_per_hold: usize) -> (Calibration, 
             magnitude_residual_mps2: residual,
             studentised_residual: residual / 0.001,
             used: number != 17,
+            reason: None,
         });
         previous = force;
     }

@@ -20,6 +20,7 @@ mod holds;
 mod imu;
 mod motion;
 mod problem;
+mod quantisation;
 mod result;
 mod settings;
 pub(crate) mod statistics;
@@ -29,13 +30,15 @@ mod validation;
 
 pub use comparison::{ComparedQuantity, Comparison, OverallDifference};
 pub use holds::{
-    Coverage, ExpectedCalibration, HoldsSetup, coverage, expected_calibration, find_holds, holds_between,
+    Coverage, ExpectedCalibration, HoldsSetup, clipped_holds, coverage, expected_calibration, find_holds,
+    holds_between,
 };
 pub use imu::{
     Gyroscope, ImuCalibration, ImuProblem, ImuSetup, KnownTerm, NoiseSource, RotationResult, StillGyroscope,
     ThermalModel, Turn, TurnResult, WhiteNoise, calibrate_imu, calibrate_imu_while, find_imu_holds,
 };
 pub use problem::{CalibrationProblem, Stimulus};
+pub use quantisation::{CoarseAxis, coarse_axes};
 pub use result::*;
 pub use settings::CalibrationSettings;
 pub use uncalibrated::Uncalibrated;
@@ -87,6 +90,6 @@ pub fn calibrate(problem: &CalibrationProblem<'_>, settings: &CalibrationSetting
     problem.validate()?;
     match problem.stimulus {
         Stimulus::Motion(command) => motion::calibrate(problem, command, settings),
-        Stimulus::Holds(setup) => holds::calibrate(problem, setup, settings),
+        Stimulus::Holds(setup) => holds::calibrate(problem, setup, settings, problem.recording),
     }
 }

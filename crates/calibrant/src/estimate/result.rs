@@ -196,4 +196,6 @@ pub struct HoldResult {
     pub studentised_residual: f64,
     /// Was it used? A bad hold is found, reported and left out.
     pub used: bool,
+    /// Why it was not used, in words, where that was known before its residual: the sensor saturates in it.
+    pub reason: Option<String>,
 }

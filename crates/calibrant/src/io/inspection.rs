@@ -3,9 +3,12 @@
 use super::json;
 use super::recording::{Finding, ImuColumn, ImuFile};
 use crate::error::Result;
-use crate::estimate::{Coverage, ExpectedCalibration, coverage, expected_calibration, find_imu_holds};
+use crate::estimate::{
+    CoarseAxis, Coverage, ExpectedCalibration, clipped_holds, coarse_axes, coverage, expected_calibration,
+    find_imu_holds,
+};
 use crate::motion::Hold;
-use crate::sensor::{Gauge, ImuRecording, MeanReading, ReadingUnit, Recording, Triad};
+use crate::sensor::{Gauge, ImuRecording, MeanReading, ReadingUnit, Recording, Saturation, Triad};
 use nalgebra::Vector3;
 use serde::Serialize;
 
@@ -59,10 +62,14 @@ pub struct SensorInspection {
 pub struct HoldsInspection {
     /// The holds, in order of time.
     pub holds: Vec<Hold>,
+    /// The end of its range at which the accelerometer stops in each of them, where it does: such a hold counts for nothing.
+    pub clipped: Vec<Option<Saturation>>,
     /// How their directions cover the sphere; `None` where there is none, or none is known without the sensor's offset.
     pub coverage: Option<Coverage>,
     /// What they will determine of the accelerometer; the reason where that is not all of it.
     pub expected: std::result::Result<ExpectedCalibration, String>,
+    /// Axes whose readings come in steps coarser than their noise.
+    pub coarse: Vec<(Triad, CoarseAxis)>,
     /// Mean of the gyroscope over the holds and scatter of its samples within them, unit of its readings.
     pub gyroscope_at_rest: Option<(Vector3<f64>, Vector3<f64>)>,
 }
@@ -130,21 +137,37 @@ impl SensorInspection {
 impl HoldsInspection {
     fn of(recording: &ImuRecording, accelerometer: &Recording) -> Result<Self> {
         let holds = find_imu_holds(recording, MINIMUM_HOLD_S)?;
-        let expected = expected_calibration(&holds, accelerometer.unit, GRAVITY_MPS2, Gauge::Upper)
+        let clipped = clipped_holds(accelerometer, &holds);
+        let sound: Vec<Hold> = holds
+            .iter()
+            .zip(&clipped)
+            .filter(|(_, end)| end.is_none())
+            .map(|(hold, _)| hold.clone())
+            .collect();
+        let expected = expected_calibration(&sound, accelerometer.unit, GRAVITY_MPS2, Gauge::Upper)
             .map_err(|error| error.to_string());
         let offset = match &expected {
             Ok(expected) => Some(expected.like.bias),
             // readings in counts have an offset that is not known without the calibration
             Err(_) => (accelerometer.unit != ReadingUnit::Counts).then(Vector3::zeros),
         };
-        let directions = offset.map(|offset| holds.iter().map(|hold| hold.mean - offset).collect::<Vec<_>>());
+        let directions = offset.map(|offset| sound.iter().map(|hold| hold.mean - offset).collect::<Vec<_>>());
         Ok(Self {
             coverage: directions.and_then(|directions| coverage(&directions)),
             gyroscope_at_rest: recording.gyroscope.as_ref().and_then(|gyroscope| at_rest(gyroscope, &holds)),
+            coarse: Triad::ALL.into_iter().flat_map(|triad| coarse(recording, triad, &sound)).collect(),
             expected,
+            clipped,
             holds,
         })
     }
+}
+
+/// The coarse axes of a sensor, by its samples in holds.
+fn coarse(recording: &ImuRecording, triad: Triad, holds: &[Hold]) -> Vec<(Triad, CoarseAxis)> {
+    let Some(recording) = recording.triad(triad) else { return Vec::new() };
+    let spans: Vec<_> = holds.iter().map(|hold| recording.between(hold.start_s, hold.end_s)).collect();
+    coarse_axes(recording, &spans).into_iter().map(|found| (triad, found)).collect()
 }
 
 /// Mean of a sensor over the holds, and the scatter of its samples within them.
@@ -213,8 +236,19 @@ struct HoldsFields<'a> {
     emptiest_direction: Option<Vec<f64>>,
     gyroscope_mean: Option<Vec<f64>>,
     gyroscope_noise: Option<Vec<f64>>,
+    coarse_axes: Vec<CoarseFields>,
     expected: Option<ExpectedFields>,
     not_determined_because: Option<&'a str>,
+}
+
+/// An axis whose steps are coarser than its noise, in the unit of the readings.
+#[derive(Serialize)]
+struct CoarseFields {
+    sensor: &'static str,
+    axis: String,
+    step: f64,
+    noise: f64,
+    mean_sd: f64,
 }
 
 #[derive(Serialize)]
@@ -224,6 +258,7 @@ struct HoldFields {
     samples: usize,
     mean: Vec<f64>,
     sd: Vec<f64>,
+    saturated_axis: Option<String>,
 }
 
 #[derive(Serialize)]
@@ -306,21 +341,30 @@ impl SensorFields {
 
 impl<'a> HoldsFields<'a> {
     fn of(holds: &'a HoldsInspection) -> Self {
-        let hold = |hold: &Hold| HoldFields {
+        let hold = |(hold, clipped): (&Hold, &Option<Saturation>)| HoldFields {
             start_s: hold.start_s,
             end_s: hold.end_s,
             samples: hold.samples(),
             mean: list(&hold.mean),
             sd: list(&hold.sd),
+            saturated_axis: clipped.map(|end| end.axis.to_string()),
+        };
+        let coarse = |(triad, found): &(Triad, CoarseAxis)| CoarseFields {
+            sensor: triad.name(),
+            axis: found.axis.to_string(),
+            step: found.step,
+            noise: found.noise,
+            mean_sd: found.mean_sd,
         };
         Self {
             count: holds.holds.len(),
             minimum_hold_s: MINIMUM_HOLD_S,
-            table: holds.holds.iter().map(hold).collect(),
+            table: holds.holds.iter().zip(&holds.clipped).map(hold).collect(),
             largest_gap_deg: holds.coverage.map(|coverage| coverage.gap_rad.to_degrees()),
             emptiest_direction: holds.coverage.map(|coverage| list(&coverage.emptiest)),
             gyroscope_mean: holds.gyroscope_at_rest.as_ref().map(|(mean, _)| list(mean)),
             gyroscope_noise: holds.gyroscope_at_rest.as_ref().map(|(_, noise)| list(noise)),
+            coarse_axes: holds.coarse.iter().map(coarse).collect(),
             expected: holds.expected.as_ref().ok().map(ExpectedFields::of),
             not_determined_because: holds.expected.as_ref().err().map(String::as_str),
         }

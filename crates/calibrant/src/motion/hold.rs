@@ -27,10 +27,13 @@ impl Hold {
     }
 
     /// Standard deviation of single readings within holds, pooled over them.
-    pub(crate) fn pooled_sd(holds: &[Self]) -> Vector3<f64> {
-        let degrees: f64 = holds.iter().map(|hold| (hold.samples() - 1) as f64).sum();
-        let squares: Vector3<f64> =
-            holds.iter().map(|hold| hold.sd.component_mul(&hold.sd) * (hold.samples() - 1) as f64).sum();
+    pub(crate) fn pooled_sd<'a>(holds: impl IntoIterator<Item = &'a Self>) -> Vector3<f64> {
+        let (mut squares, mut degrees) = (Vector3::zeros(), 0.0_f64);
+        for hold in holds {
+            let own = (hold.samples() - 1) as f64;
+            squares += hold.sd.component_mul(&hold.sd) * own;
+            degrees += own;
+        }
         (squares / degrees.max(1.0)).map(f64::sqrt)
     }
 

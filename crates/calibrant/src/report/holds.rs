@@ -77,7 +77,9 @@ pub(super) fn hold_table(holds: &HoldCalibration, unit: ReadingUnit) -> String {
 }
 
 fn why_not(result: &HoldResult) -> String {
-    if result.studentised_residual.abs() > OUTLYING {
+    if result.reason.is_some() {
+        "no: saturated".to_string()
+    } else if result.studentised_residual.abs() > OUTLYING {
         "no: outlier".to_string()
     } else {
         "no: see the warnings".to_string()

@@ -17,6 +17,7 @@ mod mean_reading;
 mod parameters;
 mod recording;
 mod referred;
+mod resolution;
 mod saturation;
 mod temperatures;
 mod thermal;

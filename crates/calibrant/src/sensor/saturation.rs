@@ -8,6 +8,11 @@ const PLATEAU: usize = 8;
 /// … if it is this many times longer than any plateau at another value. (The readings of a sensor that lies still repeat
 /// everywhere, or nowhere.)
 const PLATEAU_RATIO: usize = 4;
+/// … and none at another value is longer than this: then the noise is so much finer than the steps of the readings that a hold repeats its value throughout, or
+/// not, by where between two steps it lies. Noise of half a step hardly repeats one 25 times in a recording.
+const LONGEST_REPEAT: usize = 25;
+/// A stretch touches the end of the range if so many of its samples are there: one may be a tail that just reaches it.
+const TOUCHES: usize = 2;
 
 /// The end of its range at which an axis stopped.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -22,6 +27,18 @@ pub struct Saturation {
     pub first: usize,
     /// Number of samples of the longest stop.
     pub samples: usize,
+}
+
+impl Saturation {
+    /// Do readings of the same recording touch this end of the range?
+    pub(crate) fn is_reached(&self, readings: &[Vector3<f64>]) -> bool {
+        self.touches(readings) >= TOUCHES
+    }
+
+    /// How many readings of the same recording are at this end of the range.
+    pub(crate) fn touches(&self, readings: &[Vector3<f64>]) -> usize {
+        readings.iter().filter(|y| y[self.axis.index()] == self.value).count()
+    }
 }
 
 impl Recording {
@@ -41,7 +58,8 @@ impl Recording {
                 }
                 let value = ends[usize::from(is_largest)];
                 let first = end - samples;
-                let stands_out = samples > PLATEAU_RATIO * self.longest_between(axis, ends);
+                let elsewhere = self.longest_between(axis, ends);
+                let stands_out = samples > PLATEAU_RATIO * elsewhere && elsewhere <= LONGEST_REPEAT;
                 stands_out.then_some(Saturation { axis, value, is_largest, first, samples })
             })
             .collect()

@@ -204,6 +204,7 @@ pub(super) fn holds_in_counts() -> Calibration {
         magnitude_residual_mps2: 0.001,
         studentised_residual: f64::INFINITY,
         used: false,
+        reason: None,
     };
     let holds = HoldCalibration {
         holds: vec![result],

@@ -18,6 +18,8 @@ const BIN: f64 = 0.05;
 const VALLEY: (f64, f64) = (0.4, 1.2);
 /// A peak this high relative to the highest counts as stillness if it is the lowest.
 const PEAK: f64 = 0.2;
+/// A given hold may reach beyond the recording by this share of it, as times that were rounded do.
+const BEYOND: f64 = 0.02;
 /// The mean of a stretch may wander this many standard deviations of a sample within a hold.
 const WANDER: f64 = 2.0;
 
@@ -206,6 +208,26 @@ fn summarise(recording: &Recording, first: usize, end: usize) -> Hold {
         mean: stretch.mean,
         sd: MeanReading::pooled_sd([&stretch]),
     }
+}
+
+/// Says which of the holds that are given reach beyond the recording, whose samples are all that counts of them.
+pub(in crate::estimate) fn beyond(recording: &Recording, intervals_s: &[(f64, f64)]) -> Vec<String> {
+    let (Some(&first), Some(&last)) = (recording.times_s.first(), recording.times_s.last()) else {
+        return Vec::new();
+    };
+    let step = 1.0 / recording.rate_hz();
+    let outside = |(_, (start, end)): &(usize, &(f64, f64))| {
+        let missing = (first - start).max(0.0) + (end - last).max(0.0);
+        missing > (BEYOND * (end - start)).max(2.0 * step)
+    };
+    let words = |(k, (start, end)): (usize, &(f64, f64))| {
+        format!(
+            "hold {} is given from {start} to {end} s, and the recording goes from {first} to {last} s: only {:.1} s of it count; correct holds.intervals_s",
+            k + 1,
+            end.min(last) - start.max(first)
+        )
+    };
+    intervals_s.iter().enumerate().filter(outside).map(words).collect()
 }
 
 /// The holds between these (start, end) times in s.

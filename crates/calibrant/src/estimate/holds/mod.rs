@@ -18,8 +18,10 @@
 //!
 //! # Bad holds
 //! A robust fit (Tukey's biweight) finds candidates; a hold is left out when its studentised deletion residual is beyond the 1 %
-//! point of Student's t, Bonferroni-corrected for the number of holds. Holds left out are listed with their residual.
+//! point of Student's t, Bonferroni-corrected for the number of holds. Holds left out are listed with their residual. A hold in which the sensor stops at the end of
+//! its range is left out before that (`clipped`).
 
+mod clipped;
 mod coverage;
 mod detect;
 mod expected;
@@ -28,20 +30,24 @@ mod robust;
 mod verdict;
 
 use super::gravity::gravity_slope;
+use super::quantisation::of_means;
 use super::{
-    Calibration, CalibrationProblem, CalibrationSettings, FitStatistics, HoldCalibration, HoldResult,
-    Recovered, Uncalibrated, statistics,
+    Calibration, CalibrationProblem, CalibrationSettings, CoarseAxis, FitStatistics, HoldCalibration,
+    HoldResult, Recovered, Uncalibrated, coarse_axes, statistics,
 };
 use crate::error::{Complaint, Error, Result};
 use crate::motion::{Gravity, Hold};
-use crate::sensor::{Gauge, ImuParameters, ImuQuantity, SensorModel, SensorParameters, Triad};
+use crate::sensor::{Gauge, ImuParameters, ImuQuantity, Recording, SensorModel, SensorParameters, Triad};
 use nalgebra::{Matrix3, Vector3};
 use robust::Robust;
 
+pub(super) use clipped::{reason as clipped_reason, with_clipped};
 pub(super) use robust::{critical, sphere};
 pub(super) use verdict::left_out;
 
+pub use clipped::clipped_holds;
 pub use coverage::{Coverage, coverage};
+pub(super) use detect::beyond;
 pub use detect::{find_holds, holds_between};
 pub use expected::{ExpectedCalibration, expected_calibration};
 
@@ -69,11 +75,12 @@ impl Default for HoldsSetup {
     }
 }
 
-/// Calibrates from holds.
+/// Calibrates from holds. `as_read` is the recording before anything was corrected in it, of the same samples: it tells which holds are clipped.
 pub(super) fn calibrate(
     problem: &CalibrationProblem<'_>,
     setup: &HoldsSetup,
     settings: &CalibrationSettings,
+    as_read: &Recording,
 ) -> Result<Calibration> {
     if problem.sensor.axes != 3 {
         return Err(Error::experiment(Complaint::new(
@@ -85,12 +92,28 @@ pub(super) fn calibrate(
         Some(intervals) => holds_between(problem.recording, intervals)?,
         None => find_holds(problem.recording, setup.minimum_hold_s)?,
     };
+    let clipped = clipped_holds(as_read, &holds);
+    let sound: Vec<usize> = (0..holds.len()).filter(|&j| clipped[j].is_none()).collect();
+    let coarse =
+        coarse_axes(as_read, &sound.iter().map(|&j| holds[j].first..holds[j].end).collect::<Vec<_>>());
+    let of_mean = of_means(&coarse);
     let robust = match problem.sensor.model {
-        SensorModel::ScaleBias => robust::fit::<6>(problem, setup, settings, &holds)?,
-        SensorModel::Full => robust::fit::<9>(problem, setup, settings, &holds)?,
-    };
-    let calibration = assemble(problem, setup, holds, robust);
+        SensorModel::ScaleBias => robust::fit::<6>(problem, setup, settings, &holds, sound, of_mean),
+        SensorModel::Full => robust::fit::<9>(problem, setup, settings, &holds, sound, of_mean),
+    }
+    .map_err(|error| with_clipped(error, &clipped, as_read))?;
+    let reasons = clipped.iter().map(|end| end.map(|end| clipped_reason(&end, as_read))).collect();
+    let mut calibration = assemble(problem, setup, holds, reasons, robust);
+    calibration.warnings.extend(coarse_words(&coarse, as_read));
+    calibration.warnings.extend(beyond(as_read, setup.intervals_s.as_deref().unwrap_or_default()));
     Ok(Calibration { datasheet_prior: settings.datasheet_prior, ..calibration })
+}
+
+/// Says which axes of an accelerometer come in coarse steps.
+pub(super) fn coarse_words(coarse: &[CoarseAxis], recording: &Recording) -> Vec<String> {
+    let help = "choose a smaller range, or more digits in the file";
+    let words = |found: &CoarseAxis| found.words("accelerometer", recording.unit.symbol());
+    coarse.iter().map(|found| format!("{}; {help}", words(found))).collect()
 }
 
 /// Root mean square of `|f| − g` over the holds that are used, m/s².
@@ -105,6 +128,7 @@ fn assemble(
     problem: &CalibrationProblem<'_>,
     setup: &HoldsSetup,
     holds: Vec<Hold>,
+    reasons: Vec<Option<String>>,
     robust: Robust,
 ) -> Calibration {
     let list = setup.gauge.parameter_list(problem.sensor.model);
@@ -119,12 +143,14 @@ fn assemble(
 
     let results: Vec<HoldResult> = holds
         .into_iter()
+        .zip(reasons)
         .enumerate()
-        .map(|(j, hold)| HoldResult {
+        .map(|(j, (hold, reason))| HoldResult {
             force_mps2: robust.forces[j],
             magnitude_residual_mps2: robust.magnitude_residuals[j],
             studentised_residual: robust.studentised[j],
             used: robust.used[j],
+            reason,
             hold,
         })
         .collect();

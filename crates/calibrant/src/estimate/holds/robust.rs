@@ -55,30 +55,45 @@ struct Weighted<const P: usize> {
 /// The holds with what weighs them.
 struct Problem<'a, const P: usize> {
     holds: &'a [Hold],
+    /// Places of those that may be used.
+    sound: Vec<usize>,
     list: ParameterList,
     gravity: f64,
     within: Vector3<f64>,
+    /// Variance of a mean that more samples do not lower: that of coarse steps.
+    of_mean: Vector3<f64>,
     prior: Option<(SVector<f64, P>, SVector<f64, P>)>,
     settings: &'a CalibrationSettings,
 }
 
-/// Fits, finds the scatter between holds, leaves bad holds out.
+/// Fits, finds the scatter between holds, leaves bad holds out. `sound`: places of the holds that may be used; `of_mean`: variance of a mean that more samples do not lower.
 pub(super) fn fit<const P: usize>(
     problem: &CalibrationProblem<'_>,
     setup: &HoldsSetup,
     settings: &CalibrationSettings,
     holds: &[Hold],
+    sound: Vec<usize>,
+    of_mean: Vector3<f64>,
 ) -> Result<Robust> {
     let list = setup.gauge.parameter_list(problem.sensor.model);
+    let usable: Vec<Hold> = sound.iter().map(|&j| holds[j].clone()).collect();
     let start = match problem.sensor.nominal() {
-        Some(nominal) if holds.len() >= 2 => nominal,
-        _ => sphere(holds, setup.gravity.magnitude_mps2)
-            .ok_or_else(|| Error::NotIdentifiable(Box::new(too_few(holds, &list))))?,
+        Some(nominal) if usable.len() >= 2 => nominal,
+        _ => sphere(&usable, setup.gravity.magnitude_mps2)
+            .ok_or_else(|| Error::NotIdentifiable(Box::new(too_few(&usable, &list))))?,
     };
-    let within = pooled_sd(holds, &start, setup.gravity.magnitude_mps2);
+    let within = pooled_sd(&usable, &start, setup.gravity.magnitude_mps2);
     let prior = settings.datasheet_prior.then(|| prior(problem, &list)).flatten();
-    let problem =
-        Problem::<P> { holds, list, gravity: setup.gravity.magnitude_mps2, within, prior, settings };
+    let problem = Problem::<P> {
+        holds,
+        sound,
+        list,
+        gravity: setup.gravity.magnitude_mps2,
+        within,
+        of_mean,
+        prior,
+        settings,
+    };
     problem.information(&start)?;
     problem.run(&start)
 }
@@ -93,7 +108,9 @@ pub(super) fn expect<const P: usize>(
     let start =
         sphere(holds, gravity).ok_or_else(|| Error::NotIdentifiable(Box::new(too_few(holds, &list))))?;
     let within = pooled_sd(holds, &start, gravity);
-    let problem = Problem::<P> { holds, list, gravity, within, prior: None, settings: &settings };
+    let (sound, of_mean) = ((0..holds.len()).collect(), Vector3::zeros());
+    let problem =
+        Problem::<P> { holds, sound, list, gravity, within, of_mean, prior: None, settings: &settings };
     let information = problem.information(&start)?;
     Ok((start, within, information))
 }
@@ -151,6 +168,7 @@ impl<const P: usize> Problem<'_, P> {
         Vector3::from_fn(|axis, _| {
             // the gain of a reading is the norm of its row of S, whatever the gauge
             self.within[axis].powi(2) / hold.samples() as f64
+                + self.of_mean[axis]
                 + between.powi(2) * sensor.matrix.row(axis).norm_squared()
         })
     }
@@ -176,26 +194,26 @@ impl<const P: usize> Problem<'_, P> {
 
     /// The information that the holds give on a sensor's parameters; an error where it does not determine them all.
     fn information(&self, start: &SensorParameters) -> Result<DMatrix<f64>> {
-        let all: Vec<usize> = (0..self.holds.len()).collect();
+        let holds: Vec<Hold> = self.sound.iter().map(|&j| self.holds[j].clone()).collect();
         let none = CalibrationSettings { max_iterations: 0, ..self.settings.clone() };
         let fit = self
-            .directions(&all, &|_| 1.0, 0.0, start)
+            .directions(&self.sound, &|_| 1.0, 0.0, start)
             .fit(start, &none)
-            .ok_or_else(|| Error::NotIdentifiable(Box::new(too_few(self.holds, &self.list))))?;
+            .ok_or_else(|| Error::NotIdentifiable(Box::new(too_few(&holds, &self.list))))?;
         let information = DMatrix::from_fn(P, P, |i, j| fit.information[(i, j)]);
         let groups = information::undetermined(&information, &DVector::from_fn(P, |i, _| fit.unreduced[i]));
         if groups.is_empty() {
             return match hardly_determined(&information) {
                 tangled if tangled.is_empty() => Ok(information),
                 tangled => {
-                    let group = explain(self.holds, &self.list, &tangled, 1);
+                    let group = explain(&holds, &self.list, &tangled, 1);
                     Err(Error::NotIdentifiable(Box::new(NotIdentifiable { groups: vec![group] })))
                 }
             };
         }
         let groups = groups
             .iter()
-            .map(|group| explain(self.holds, &self.list, &group.parameters, group.free_combinations))
+            .map(|group| explain(&holds, &self.list, &group.parameters, group.free_combinations))
             .collect();
         Err(Error::NotIdentifiable(Box::new(NotIdentifiable { groups })))
     }
@@ -204,14 +222,14 @@ impl<const P: usize> Problem<'_, P> {
         let mut used = self.first_guess(start);
         let mut weighted = self.weigh(&used, start)?;
         // one change at a time: leave out the worst hold that is too bad, take back the best that is not
-        for _ in 0..3 * self.holds.len() {
+        for _ in 0..3 * self.sound.len() {
             let studentised = self.studentise(&used, &weighted);
             let count = used.iter().filter(|used| **used).count();
-            let limit = critical(self.holds.len(), count.saturating_sub(P));
+            let limit = critical(self.sound.len(), count.saturating_sub(P));
             let worst = (0..used.len())
                 .filter(|&j| used[j] && studentised[j].abs() > limit)
                 .max_by(|&a, &b| studentised[a].abs().total_cmp(&studentised[b].abs()));
-            let best = (0..used.len())
+            let best = (self.sound.iter().copied())
                 .filter(|&j| !used[j] && studentised[j].abs() <= limit)
                 .min_by(|&a, &b| studentised[a].abs().total_cmp(&studentised[b].abs()));
             match (worst, best) {
@@ -231,15 +249,14 @@ impl<const P: usize> Problem<'_, P> {
         let count = used.iter().filter(|used| **used).count();
         let squares: f64 = residuals.iter().zip(used).filter(|(_, used)| **used).map(|(e, _)| e * e).sum();
         let rms = (squares / count as f64).sqrt();
-        let shares = 3 * count >= 2 * used.len();
+        let all = self.sound.len();
+        let shares = 3 * count >= 2 * all;
         if shares && rms < 0.02 * self.gravity && rms.is_finite() {
             return Ok(());
         }
         Err(Error::recording(Complaint::new(
             format!(
-                "the holds do not look like gravity: {} of {} fit, with magnitudes that scatter by {:.0} mm/s²",
-                count,
-                used.len(),
+                "the holds do not look like gravity: {count} of {all} fit, with magnitudes that scatter by {:.0} mm/s²",
                 1e3 * rms
             ),
             "is this an accelerometer, still in each hold, in the unit that was given? Give the holds yourself with holds.intervals_s otherwise",
@@ -248,22 +265,26 @@ impl<const P: usize> Problem<'_, P> {
 
     /// Holds that a robust fit does not find far off.
     fn first_guess(&self, start: &SensorParameters) -> Vec<bool> {
-        let all: Vec<usize> = (0..self.holds.len()).collect();
-        let mut weights = vec![1.0; all.len()];
+        let all = &self.sound;
+        let mut weights = vec![1.0; self.holds.len()];
         let mut sensor = *start;
+        let chosen = |of: &dyn Fn(usize) -> bool| -> Vec<bool> {
+            (0..self.holds.len()).map(|j| all.contains(&j) && of(j)).collect()
+        };
+        let every = || chosen(&|_| true);
         if all.len() < P + 3 {
-            return vec![true; all.len()];
+            return every();
         }
         let mut scale = 0.0;
         for round in 0..ROUNDS {
-            let directions = self.directions(&all, &|j| weights[j], 0.0, &sensor);
+            let directions = self.directions(all, &|j| weights[j], 0.0, &sensor);
             // the weights move on: after the first round a step or two are enough
             let max_iterations = if round == 0 { self.settings.max_iterations } else { 2 };
             let settings = CalibrationSettings { max_iterations, ..self.settings.clone() };
-            let Some(fit) = directions.fit(&sensor, &settings) else { return vec![true; all.len()] };
+            let Some(fit) = directions.fit(&sensor, &settings) else { return every() };
             sensor = fit.sensor;
             let residuals = self.magnitude_residuals(&sensor);
-            let mut sizes: Vec<f64> = residuals.iter().map(|e| e.abs()).collect();
+            let mut sizes: Vec<f64> = all.iter().map(|&j| residuals[j].abs()).collect();
             let middle = sizes.len() / 2;
             let mad = *sizes.select_nth_unstable_by(middle, f64::total_cmp).1;
             let correction = (all.len() as f64 / (all.len() - P) as f64).sqrt();
@@ -278,9 +299,9 @@ impl<const P: usize> Problem<'_, P> {
                 break;
             }
         }
-        let good: Vec<bool> =
-            self.magnitude_residuals(&sensor).iter().map(|e| e.abs() <= 6.0 * scale).collect();
-        if good.iter().filter(|good| **good).count() >= P + 2 { good } else { vec![true; all.len()] }
+        let residuals = self.magnitude_residuals(&sensor);
+        let good = chosen(&|j| residuals[j].abs() <= 6.0 * scale);
+        if good.iter().filter(|good| **good).count() >= P + 2 { good } else { every() }
     }
 
     /// `|C (ȳ − b)| − g` of every hold.

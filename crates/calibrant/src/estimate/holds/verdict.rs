@@ -148,11 +148,17 @@ pub(in crate::estimate) fn left_out(holds: &HoldCalibration) -> Vec<String> {
         .enumerate()
         .filter(|(_, hold)| !hold.used)
         .map(|(k, hold)| {
+            let by_residual = || {
+                format!(
+                    "its magnitude is off by {:.3} mm/s², {:.1} standard deviations",
+                    1e3 * hold.magnitude_residual_mps2,
+                    hold.studentised_residual.abs()
+                )
+            };
             format!(
-                "{} was left out: its magnitude is off by {:.3} mm/s², {:.1} standard deviations",
+                "{} was left out: {}",
                 hold.hold.named(k),
-                1e3 * hold.magnitude_residual_mps2,
-                hold.studentised_residual.abs()
+                hold.reason.clone().unwrap_or_else(by_residual)
             )
         })
         .collect()

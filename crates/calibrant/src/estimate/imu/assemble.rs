@@ -13,10 +13,10 @@ use super::weights::Weighed;
 use super::{ImuCalibration, ImuProblem, NoiseSource, RotationResult, StillGyroscope, TurnResult};
 use crate::error::Result;
 use crate::estimate::gravity::gravity_slope;
-use crate::estimate::{HoldCalibration, Uncalibrated};
+use crate::estimate::{CoarseAxis, HoldCalibration, Uncalibrated};
 use crate::information;
-use crate::sensor::{Correction, ImuParameters, ReadingUnit, Recording, Thermal};
-use nalgebra::{Matrix3, Vector3};
+use crate::sensor::{Condition, Correction, ImuParameters, ReadingUnit, Recording, Thermal};
+use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -29,6 +29,10 @@ pub(super) struct Finished<'a> {
     pub(super) between: Vector3<f64>,
     pub(super) integrable: &'a Integrable<'a>,
     pub(super) noise_source: NoiseSource,
+    /// What is to be said of holds that were given, in words.
+    pub(super) said: &'a [String],
+    /// Axes of the gyroscope whose steps are coarse.
+    pub(super) coarse: &'a [CoarseAxis],
     /// Standard deviation of the gyroscope's samples within the holds.
     pub(super) scatter: Vector3<f64>,
     pub(super) spans: &'a [Range<usize>],
@@ -61,6 +65,11 @@ impl Finished<'_> {
         // what gravity's own uncertainty adds
         let slope = gravity_slope(&joint.quantities, &imu, &g);
         covariance += &slope * slope.transpose() * (g.sd_mps2 * g.sd_mps2);
+        // what coarse steps add: holds that show nearly the same are off alike
+        let of_noise = covariance.clone();
+        for (slope, sd) in self.common_slopes(&of_noise) {
+            covariance += &slope * slope.transpose() * (sd * sd);
+        }
         let before = self.gyroscope_before(problem);
         let rotations = self.rotations(gyroscope, &before);
         let counted = rotations.iter().filter(|rotation| rotation.used).count();
@@ -106,7 +115,7 @@ impl Finished<'_> {
             degrees_of_freedom: equations.saturating_sub(unknowns),
             holds,
             still: StillGyroscope {
-                noise: joint.gyroscope_noise,
+                noise: joint.gyroscope_noise.of_sample,
                 noise_source: self.noise_source,
                 between_holds_sd: self.between,
                 rate_rms_radps: self.rate_rms(&imu).ok_or_else(singular)?,
@@ -118,7 +127,7 @@ impl Finished<'_> {
             turns,
             hold_temperatures_c,
             validations: Vec::new(),
-            warnings: first.warnings.clone(),
+            warnings: first.warnings.iter().chain(self.said).cloned().collect(),
         };
         calibration.warnings.extend(verdict::warnings(&calibration, axes.as_ref()));
         calibration.warnings.extend(contradictions(
@@ -128,8 +137,54 @@ impl Finished<'_> {
             &self.scatter,
             axes.is_some(),
         ));
+        let unit = problem.gyroscope.unit.symbol();
+        calibration.warnings.extend(self.coarse.iter().map(|found| {
+            format!(
+                "{}; the standard deviations know of it; choose a smaller range, or more digits in the file",
+                found.words("gyroscope", unit)
+            )
+        }));
         calibration.warnings.extend(verdict::extrapolation(&imu.thermal, self.climate.of_recording()));
         Ok(calibration)
+    }
+
+    /// For each coarse axis of the gyroscope: how the estimates follow errors that its means in the holds, or its readings in the rotations, have in common, and their size. Holds that read nearly the
+    /// same are rounded alike; what the force changes of the reading is then stretched or shrunk, so that a part of the error follows the force.
+    fn common_slopes(&self, covariance: &DMatrix<f64>) -> Vec<(DVector<f64>, f64)> {
+        let (joint, imu) = (self.joint, &self.fit.state.imu);
+        let of = |found: &CoarseAxis| {
+            let axis = found.axis.index();
+            // the same in all, and along each component of the force
+            let mut of_holds: [DVector<f64>; 4] =
+                std::array::from_fn(|_| DVector::zeros(joint.quantities.len()));
+            let mut of_rotations = of_holds[0].clone();
+            for (miss, data) in self.fit.misses.iter().zip(&joint.rotations) {
+                let Some(miss) = miss.as_ref().filter(|_| data.counts) else { continue };
+                let by_reading = miss.by_turn * miss.rotation.by_reading().column(axis);
+                let weighted = joint.weight(miss) * by_reading;
+                for (k, by_parameter) in miss.by_parameters.column_iter().enumerate() {
+                    of_rotations[k] -= by_parameter.dot(&weighted);
+                }
+            }
+            for (hold, force) in joint.holds.iter().zip(&self.fit.state.forces) {
+                let Some((_, weight)) = &hold.gyroscope else { continue };
+                let (stimulus, temperature_c) = (Vector3::zeros(), hold.temperature_c);
+                let at = Condition { imu, stimulus, force: *force, temperature_c };
+                let shapes = force.push(joint.gravity) / joint.gravity;
+                for k in joint.gyroscope_places() {
+                    let weighted = joint.quantities[k].derivative(&at)[axis] * weight[axis];
+                    of_holds
+                        .iter_mut()
+                        .zip(shapes.iter())
+                        .for_each(|(gradient, shape)| gradient[k] += weighted * shape);
+                }
+            }
+            // an axis that hardly turns in the rotations is off by the same in these as in the holds
+            of_holds[0] += &of_rotations;
+            let all = of_holds.into_iter().chain([of_rotations]);
+            all.map(|gradient| (covariance * gradient, found.mean_sd)).collect::<Vec<_>>()
+        };
+        self.coarse.iter().flat_map(of).collect()
     }
 
     /// The mean rate that an IMU's gyroscope shows in the holds, root mean square over them; `None` where its matrix is singular.

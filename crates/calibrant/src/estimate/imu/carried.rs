@@ -3,7 +3,7 @@
 use super::joint::{HoldData, Joint, Miss, State};
 use super::readings::{Integrable, felt_forces, rotation_spans};
 use super::settle::follow_drift;
-use super::still::{still, weigh};
+use super::still::{StillNoise, coarse_at_rest, still, weigh};
 use crate::motion::Hold;
 use crate::sensor::{ImuParameters, ImuQuantity, MeanReading, Recording};
 use nalgebra::{DMatrix, Matrix2, Matrix2x3, Vector2, Vector3};
@@ -21,8 +21,8 @@ pub(in crate::estimate) struct HeldStill {
 pub(in crate::estimate) struct GyroscopeAtRest {
     /// In each hold; `None` where it has no samples there.
     stills: Vec<Option<MeanReading>>,
-    /// Noise of one sample: as it is known, or as the holds show it.
-    noise: Vector3<f64>,
+    /// Noise of one sample, as it is known or as the holds show it, and of coarse steps.
+    noise: StillNoise,
 }
 
 impl GyroscopeAtRest {
@@ -32,15 +32,15 @@ impl GyroscopeAtRest {
         known_noise: Option<Vector3<f64>>,
     ) -> Self {
         let stills: Vec<_> = holds.iter().map(|hold| still(gyroscope, hold)).collect();
-        let noise = known_noise.unwrap_or_else(|| MeanReading::pooled_sd(stills.iter().flatten()));
+        let of_sample = known_noise.unwrap_or_else(|| MeanReading::pooled_sd(stills.iter().flatten()));
+        let noise = StillNoise::of(of_sample, &coarse_at_rest(gyroscope, holds.iter().copied()));
         Self { stills, noise }
     }
 
     /// The gyroscope in each hold, `None` where it has no samples there.
     pub(in crate::estimate) fn holds(&self) -> impl Iterator<Item = Option<HeldStill>> {
-        let of_sample = self.noise.component_mul(&self.noise);
-        self.stills.iter().map(move |still| {
-            still.map(|still| HeldStill { mean: still.mean, variance: of_sample / still.samples as f64 })
+        self.stills.iter().map(|still| {
+            still.map(|still| HeldStill { mean: still.mean, variance: self.noise.variance(still.samples) })
         })
     }
 }
@@ -110,7 +110,7 @@ impl Carrying<'_> {
             .then(|| felt_forces(self.accelerometer, self.gyroscope, &self.imu.at(mean_c).accelerometer))
             .flatten();
         let spans = rotation_spans(self.gyroscope, holds);
-        let integrable = Integrable::of(self.gyroscope);
+        let integrable = Integrable::of(self.gyroscope, with_forces.then_some(self.accelerometer));
         let rotations = integrable.rotations(felt.as_deref(), &spans, &data);
         let mut joint = Joint {
             quantities: self.quantities.to_vec(),

@@ -1,7 +1,7 @@
 //! What was given beforehand (turns, priors, noise, units), where the data contradict it.
 
 use super::joint::{Fit, Joint, TurnData};
-use super::mistaken::words;
+use super::mistaken::{turned_frame, words};
 use super::{ImuCalibration, NoiseSource, Turn};
 use crate::sensor::{Axis, ReadingUnit, Triad};
 use nalgebra::Vector3;
@@ -57,7 +57,7 @@ pub(super) fn contradictions(
     warnings.extend(of_gains(calibration, reordered));
     if calibration.still.noise_source == NoiseSource::Datasheet {
         for axis in Axis::ALL {
-            let ratio = scatter[axis.index()] / joint.gyroscope_noise[axis.index()];
+            let ratio = scatter[axis.index()] / joint.gyroscope_noise.of_sample[axis.index()];
             if !NOISE.contains(&ratio) {
                 warnings.push(format!(
                     "the scatter of the gyroscope's axis {axis} within the holds is {ratio:.2} times the noise that was given"
@@ -157,6 +157,10 @@ fn of_gains(calibration: &ImuCalibration, reordered: bool) -> Vec<String> {
             continue;
         }
         let matrix = &calibration.imu.triad(triad).matrix;
+        if triad == Triad::Accelerometer && calibration.frame_is_known() && turned_frame(matrix) {
+            // the faces say it better
+            continue;
+        }
         for axis in Axis::ALL {
             let along = matrix[(axis.index(), axis.index())];
             if !GAINS.contains(&along) {

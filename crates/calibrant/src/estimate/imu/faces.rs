@@ -6,8 +6,9 @@
 use super::ImuProblem;
 use crate::error::{Complaint, Error, NotIdentifiable, Result, UndeterminedGroup};
 use crate::estimate::excess::excess;
-use crate::estimate::holds::magnitude_rms;
-use crate::estimate::{HoldCalibration, HoldResult, Uncalibrated, holds_between};
+use crate::estimate::holds::{clipped_reason, coarse_words, left_out, magnitude_rms, with_clipped};
+use crate::estimate::quantisation::of_means;
+use crate::estimate::{HoldCalibration, HoldResult, Uncalibrated, clipped_holds, coarse_axes, holds_between};
 use crate::information;
 use crate::motion::Hold;
 use crate::sensor::{ParameterList, Recording, SensorParameters, TriadThermal};
@@ -23,6 +24,8 @@ pub(super) struct First {
     pub(super) sensor: SensorParameters,
     /// Standard deviation of a sample within holds.
     pub(super) within: Vector3<f64>,
+    /// Variance of a hold's mean that more samples do not lower.
+    pub(super) of_mean: Vector3<f64>,
     pub(super) holds: HoldCalibration,
     pub(super) warnings: Vec<String>,
     /// Its temperature terms, and the recording as it would be at the reference temperature, where they were fitted.
@@ -34,8 +37,9 @@ impl First {
     /// Inverse variances of a hold's mean, for a scatter between holds in m/s².
     pub(super) fn weight(&self, hold: &Hold, between: f64) -> Vector3<f64> {
         let gain = Vector3::from_fn(|axis, _| self.sensor.matrix.row(axis).norm_squared());
-        let variance =
-            self.within.component_mul(&self.within) / hold.samples() as f64 + gain * between.powi(2);
+        let variance = self.within.component_mul(&self.within) / hold.samples() as f64
+            + self.of_mean
+            + gain * between.powi(2);
         variance.map(|variance| 1.0 / variance.max(f64::MIN_POSITIVE))
     }
 }
@@ -64,47 +68,62 @@ pub(super) fn fit(
     let forces: Vec<Vector3<f64>> =
         directions.iter().map(|direction| direction.normalize() * setup.gravity.magnitude_mps2).collect();
     let list = ParameterList::new(3, problem.accelerometer.model);
-    let linear = Linear { holds: &holds, forces: &forces, list: &list, within: Hold::pooled_sd(&holds) };
-    let (sensor, between, condition) = linear.solve()?;
+    let as_read = problem.recording.accelerometer.as_ref().unwrap_or(recording);
+    let clipped = clipped_holds(as_read, &holds);
+    let sound = (0..holds.len()).filter(|&j| clipped[j].is_none());
+    let (usable, along): (Vec<Hold>, Vec<Vector3<f64>>) =
+        sound.map(|j| (holds[j].clone(), forces[j])).unzip();
+    let coarse = coarse_axes(as_read, &usable.iter().map(|hold| hold.first..hold.end).collect::<Vec<_>>());
+    let (within, of_mean) = (Hold::pooled_sd(&usable), of_means(&coarse));
+    let linear = Linear { holds: &usable, forces: &along, list: &list, within, of_mean };
+    let (sensor, between, condition) =
+        linear.solve().map_err(|error| with_clipped(error, &clipped, as_read))?;
     let mirrored = sensor.matrix.determinant() <= 0.0;
     if mirrored || between > SCATTERED * setup.gravity.magnitude_mps2 {
         super::mistaken::directions(problem, &holds, directions, mirrored)?;
     }
+    let turned = super::mistaken::turned_alike(problem, &holds, &forces, &sensor.matrix);
     let correction = sensor.matrix.try_inverse().unwrap_or_else(Matrix3::identity);
     let results: Vec<HoldResult> = holds
         .iter()
         .zip(&forces)
-        .map(|(hold, force)| {
+        .zip(&clipped)
+        .map(|((hold, force), clipped)| {
             let corrected = correction * (hold.mean - sensor.bias);
             HoldResult {
                 hold: hold.clone(),
                 force_mps2: *force,
                 magnitude_residual_mps2: corrected.norm() - setup.gravity.magnitude_mps2,
                 studentised_residual: if between > 0.0 { (corrected - force).norm() / between } else { 0.0 },
-                used: true,
+                used: clipped.is_none(),
+                reason: clipped.map(|end| clipped_reason(&end, as_read)),
             }
         })
         .collect();
-    let warnings = if between > SCATTERED * setup.gravity.magnitude_mps2 {
-        scattered(&results, &sensor, &correction, between)
-    } else {
-        Vec::new()
+    let scattered = (between > SCATTERED * setup.gravity.magnitude_mps2)
+        .then(|| scattered(&results, &sensor, &correction, between));
+    let holds = HoldCalibration {
+        magnitude_residual_rms_mps2: magnitude_rms(&results),
+        holds: results,
+        gravity: setup.gravity,
+        gauge: setup.gauge,
+        between_holds_sd_mps2: between,
+        between_holds_dominates: between > 0.0,
+        condition_number: condition,
+        detected: false,
+        before: Uncalibrated::accelerometer(problem.accelerometer, &sensor),
     };
     Ok(First {
         sensor,
-        within: linear.within,
-        holds: HoldCalibration {
-            magnitude_residual_rms_mps2: magnitude_rms(&results),
-            holds: results,
-            gravity: setup.gravity,
-            gauge: setup.gauge,
-            between_holds_sd_mps2: between,
-            between_holds_dominates: between > 0.0,
-            condition_number: condition,
-            detected: false,
-            before: Uncalibrated::accelerometer(problem.accelerometer, &sensor),
-        },
-        warnings,
+        within,
+        of_mean,
+        warnings: turned
+            .into_iter()
+            .chain(left_out(&holds))
+            .chain(scattered)
+            .chain(coarse_words(&coarse, as_read))
+            .collect(),
+        holds,
         thermal: TriadThermal::default(),
         adjusted: None,
     })
@@ -116,23 +135,20 @@ fn scattered(
     sensor: &SensorParameters,
     correction: &Matrix3<f64>,
     between: f64,
-) -> Vec<String> {
+) -> String {
+    let used = || results.iter().enumerate().filter(|(_, result)| result.used);
     let off: Vec<f64> = results
         .iter()
         .map(|result| (correction * (result.hold.mean - sensor.bias)).angle(&result.force_mps2))
         .collect();
-    let most = off.iter().copied().fold(0.0, f64::max);
-    let worst: Vec<String> = results
-        .iter()
-        .enumerate()
-        .filter(|(k, _)| off[*k] > 0.8 * most)
-        .map(|(k, result)| result.hold.named(k))
-        .collect();
-    vec![format!(
+    let most = used().map(|(k, _)| off[k]).fold(0.0, f64::max);
+    let worst: Vec<String> =
+        used().filter(|(k, _)| off[*k] > 0.8 * most).map(|(k, result)| result.hold.named(k)).collect();
+    format!(
         "the faces scatter by {between:.2} m/s² beyond their noise; by {:.1}° and least of all fits {}: are directions and times of the holds right?",
         most.to_degrees(),
         worst.join(", or ")
-    )]
+    )
 }
 
 struct Linear<'a> {
@@ -140,6 +156,7 @@ struct Linear<'a> {
     forces: &'a [Vector3<f64>],
     list: &'a ParameterList,
     within: Vector3<f64>,
+    of_mean: Vector3<f64>,
 }
 
 impl Linear<'_> {
@@ -178,6 +195,7 @@ impl Linear<'_> {
 
     fn weight(&self, hold: &Hold, between: f64, gain: &Vector3<f64>) -> Vector3<f64> {
         let variance = self.within.component_mul(&self.within) / hold.samples() as f64
+            + self.of_mean
             + gain.component_mul(gain) * (between * between);
         variance.map(|variance| 1.0 / variance.max(f64::MIN_POSITIVE))
     }

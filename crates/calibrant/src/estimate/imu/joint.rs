@@ -14,6 +14,7 @@
 
 use super::rates::Samples;
 use super::rotation::Rotation;
+use super::still::StillNoise;
 use crate::arrowhead::{Arrowhead, Increment, Link};
 use crate::estimate::tangents::tangents;
 use crate::estimate::{CalibrationSettings, CalibrationStatus};
@@ -82,8 +83,8 @@ pub(super) struct Joint<'a> {
     pub(super) holds: Vec<HoldData>,
     pub(super) rotations: Vec<RotationData<'a>>,
     pub(super) turns: Vec<TurnData>,
-    /// Noise of one gyroscope sample.
-    pub(super) gyroscope_noise: Vector3<f64>,
+    /// Noise of the gyroscope's samples, and of its coarse steps.
+    pub(super) gyroscope_noise: StillNoise,
     /// Standard deviation of a rotation's error beyond this noise, rad per axis.
     pub(super) excess_rad: f64,
     /// Mean and inverse variance of each quantity; 0 where nothing is known beforehand.
@@ -163,7 +164,7 @@ impl Joint<'_> {
 
     /// What a rotation says at a state; `None` where the gyroscope's matrix is singular.
     pub(super) fn miss(&self, data: &RotationData<'_>, state: &State) -> Option<Miss> {
-        let rotation = data.samples.integrate(&state.imu, &self.gyroscope_noise)?;
+        let rotation = data.samples.integrate(&state.imu, &self.gyroscope_noise.of_sample)?;
         let (from, to) = (state.forces[data.from], state.forces[data.from + 1]);
         let back = rotation.start_from_end.transpose();
         let carried = back * from;
@@ -175,19 +176,23 @@ impl Joint<'_> {
                 by_parameters.set_column(k, &(by_turn * rotation.derivative(*quantity, &state.imu)));
             }
         }
+        // an axis that hardly turns reads as in a hold
+        let by_reading = rotation.by_reading();
+        let of_steps =
+            by_reading * Matrix3::from_diagonal(&self.gyroscope_noise.of_mean) * by_reading.transpose();
         Some(Miss {
             error: across * carried,
             by_from: across * back * tangents(&from) * self.gravity,
             by_to: -Matrix2::identity() * (carried.dot(&to) / self.gravity.powi(2)),
             by_turn,
             by_parameters,
-            covariance: by_turn * rotation.covariance * by_turn.transpose(),
+            covariance: by_turn * (rotation.covariance + of_steps) * by_turn.transpose(),
             rotation,
         })
     }
 
     /// Weight of a rotation.
-    fn weight(&self, miss: &Miss) -> Matrix2<f64> {
+    pub(super) fn weight(&self, miss: &Miss) -> Matrix2<f64> {
         let variance = miss.covariance + Matrix2::identity() * (self.excess_rad.powi(2) + 1e-18);
         variance.try_inverse().unwrap_or_else(Matrix2::zeros)
     }

@@ -32,6 +32,54 @@ pub(super) fn directions(
     }
 }
 
+/// Is this matrix of an accelerometer that of another order of its axes?
+pub(super) fn turned_frame(matrix: &Matrix3<f64>) -> bool {
+    Axis::ALL.into_iter().any(|axis| {
+        let row = matrix.row(axis.index());
+        row[axis.index()] < 0.5 * row.norm()
+    })
+}
+
+/// Warns of directions that are all turned alike against what the readings in SI show: a mounting, or axes in another order.
+pub(super) fn turned_alike(
+    problem: &ImuProblem<'_>,
+    holds: &[Hold],
+    given: &[Vector3<f64>],
+    matrix: &Matrix3<f64>,
+) -> Option<String> {
+    if problem.accelerometer.unit == ReadingUnit::Counts || !turned_frame(matrix) {
+        return None;
+    }
+    let guess = problem.accelerometer.nominal()?;
+    let correction = guess.matrix.try_inverse()?;
+    let shown = |hold: &Hold| (correction * (hold.mean - guess.bias)).try_normalize(0.0);
+    let wrong: Vec<String> = holds
+        .iter()
+        .zip(given)
+        .enumerate()
+        .filter_map(|(j, (hold, given))| {
+            let shown = shown(hold).filter(|shown| shown.angle(given) >= AGREES_RAD)?;
+            Some(difference(j, hold, given, &shown))
+        })
+        .collect();
+    (!wrong.is_empty()).then(|| {
+        format!(
+            "{}: all directions are turned alike; correct them, unless the sensor is mounted so that its axes are not those of the directions, whose frame all results are in",
+            wrong.join("; ")
+        )
+    })
+}
+
+/// What was given of a hold, and what is measured.
+fn difference(j: usize, hold: &Hold, given: &Vector3<f64>, shown: &Vector3<f64>) -> String {
+    format!(
+        "{} is given with {} up, and the accelerometer shows {} up",
+        hold.named(j),
+        words(given),
+        words(shown)
+    )
+}
+
 fn complaint(problem: &ImuProblem<'_>, holds: &[Hold], given: &[Vector3<f64>]) -> Option<Complaint> {
     let gravity = problem.setup.holds.gravity.magnitude_mps2;
     // the offset of counts is often not the datasheet's
@@ -50,14 +98,7 @@ fn complaint(problem: &ImuProblem<'_>, holds: &[Hold], given: &[Vector3<f64>]) -
         return None;
     }
     let shown = |j: usize| mounting.transpose() * measured[j];
-    let one = |&j: &usize| {
-        format!(
-            "{} is given with {} up, and the accelerometer shows {} up",
-            holds[j].named(j),
-            words(&given[j]),
-            words(&shown(j))
-        )
-    };
+    let one = |&j: &usize| difference(j, &holds[j], &given[j], &shown(j));
     let all: Vec<String> = wrong.iter().map(one).collect();
     let opposite = |j: usize| (-shown(j)).angle(&given[j]) < AGREES_RAD;
     let help = if wrong.len() == given.len() && wrong.iter().all(|&j| opposite(j)) {

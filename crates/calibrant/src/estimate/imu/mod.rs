@@ -33,6 +33,7 @@ mod solver;
 mod start;
 mod still;
 mod thermal;
+mod turned;
 mod verdict;
 mod weights;
 

@@ -144,6 +144,15 @@ pub struct Turn {
     pub angle_sd_rad: f64,
 }
 
+impl Turn {
+    /// Is it the same turn once more? Two that share more than half of the shorter one's time are.
+    #[must_use]
+    pub fn repeats(&self, other: &Self) -> bool {
+        let shared = self.end_s.min(other.end_s) - self.start_s.max(other.start_s);
+        shared > 0.5 * (self.end_s - self.start_s).min(other.end_s - other.start_s)
+    }
+}
+
 /// A quantity that is known beforehand.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct KnownTerm {

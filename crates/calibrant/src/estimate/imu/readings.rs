@@ -3,10 +3,11 @@
 use super::ImuProblem;
 use super::joint::{HoldData, RotationData, TurnData};
 use super::rates::{LocalBias, Samples};
+use super::still::StillNoise;
 use super::thermal::Climate;
 use crate::error::{Complaint, Error, Result};
 use crate::motion::Hold;
-use crate::sensor::{ImuParameters, Recording, Saturation, SensorParameters, interpolated};
+use crate::sensor::{ImuParameters, Recording, Saturation, SensorParameters, interpolated, times};
 use nalgebra::Vector3;
 use rayon::prelude::*;
 use std::ops::Range;
@@ -15,6 +16,9 @@ use std::ops::Range;
 const MARGIN_S: f64 = 0.3;
 /// Samples that one thread takes at a time.
 const PIECE: usize = 4096;
+/// What a saturated accelerometer lacks for less than this in a rotation does not matter, s: with 1 g cut off and the g-sensitivity of common sensors, 2e-4
+/// (rad/s)/(m/s²), the gyroscope adds up to 0.1 mrad in it.
+const BRIEF_S: f64 = 0.05;
 /// A pause between samples longer than so many steps makes a rotation useless.
 const GAP: f64 = 5.0;
 
@@ -25,7 +29,7 @@ pub(super) fn felt_forces(
     sensor: &SensorParameters,
 ) -> Option<Vec<Vector3<f64>>> {
     let correction = sensor.matrix.try_inverse()?;
-    let force = |k: usize| correction * (accelerometer.readings[k] - sensor.bias);
+    let force = |k: usize| times(&correction, &(accelerometer.readings[k] - sensor.bias));
     let at = |k: usize| interpolated(&accelerometer.times_s, force, gyroscope.times_s[k], k);
     // zero only where the accelerometer has no sample at all
     let felt = |k: usize| at(k).unwrap_or_else(Vector3::zeros);
@@ -53,11 +57,19 @@ pub(super) struct Integrable<'a> {
     gyroscope: &'a Recording,
     rate_hz: f64,
     saturations: Vec<Saturation>,
+    /// The accelerometer as it was read, where the gyroscope feels the specific force, with the ends of its range that it touches.
+    felt: Option<(&'a Recording, Vec<Saturation>)>,
 }
 
 impl<'a> Integrable<'a> {
-    pub(super) fn of(gyroscope: &'a Recording) -> Self {
-        Self { gyroscope, rate_hz: gyroscope.rate_hz(), saturations: gyroscope.saturations() }
+    /// `felt`: the accelerometer as it was read, where the gyroscope feels the specific force.
+    pub(super) fn of(gyroscope: &'a Recording, felt: Option<&'a Recording>) -> Self {
+        Self {
+            gyroscope,
+            rate_hz: gyroscope.rate_hz(),
+            saturations: gyroscope.saturations(),
+            felt: felt.map(|accelerometer| (accelerometer, accelerometer.saturations())),
+        }
     }
 
     /// The rotations in these spans, each from one of the holds to the next.
@@ -91,21 +103,33 @@ impl<'a> Integrable<'a> {
         if longest * self.rate_hz > GAP {
             return Some(format!("the gyroscope pauses for {longest:.3} s in it"));
         }
+        self.saturation(span)
+    }
+
+    /// Which sensor stops at the end of its range in these samples so that they cannot be integrated, in words.
+    fn saturation(&self, span: &Range<usize>) -> Option<String> {
         let readings = &self.gyroscope.readings[span.clone()];
-        let stops = |found: &&Saturation| {
-            let at_the_end = |y: &Vector3<f64>| y[found.axis.index()] == found.value;
-            readings.windows(2).any(|pair| pair.iter().all(at_the_end))
-        };
-        let found = self.saturations.iter().find(stops)?;
-        Some(format!("axis {} of the gyroscope saturates in it", found.axis))
+        if let Some(end) = self.saturations.iter().find(|end| end.is_reached(readings)) {
+            return Some(format!("axis {} of the gyroscope saturates in it", end.axis));
+        }
+        let (accelerometer, ends) = self.felt.as_ref()?;
+        let times = &self.gyroscope.times_s;
+        let during = accelerometer.between(times[span.start], times[span.end - 1]);
+        let readings = &accelerometer.readings[during];
+        let lasts = |end: &&Saturation| end.touches(readings) as f64 > BRIEF_S * accelerometer.rate_hz();
+        let end = ends.iter().find(lasts)?;
+        Some(format!(
+            "axis {} of the accelerometer saturates in it, so that the force that the gyroscope feels is not known",
+            end.axis
+        ))
     }
 }
 
 /// The turns of known angle, with the integrals of the readings.
 pub(super) fn turns(
     problem: &ImuProblem<'_>,
-    gyroscope: &Recording,
-    noise: &Vector3<f64>,
+    integrable: &Integrable<'_>,
+    noise: &StillNoise,
     felt: Option<&[Vector3<f64>]>,
     still: (&ImuParameters, &Climate<'_>),
 ) -> Result<Vec<TurnData>> {
@@ -115,6 +139,20 @@ pub(super) fn turns(
         .iter()
         .enumerate()
         .map(|(number, turn)| {
+            let gyroscope = integrable.gyroscope;
+            if let Some(before) = problem.setup.turns[..number].iter().position(|before| turn.repeats(before))
+            {
+                return Err(Error::experiment(Complaint::new(
+                    format!(
+                        "turns {} and {} are the same, from {} to {} s: it would count twice",
+                        before + 1,
+                        number + 1,
+                        turn.start_s,
+                        turn.end_s
+                    ),
+                    "give each turn once, in gyroscope.turns or in the list of sections",
+                )));
+            }
             let Range { start: first, end } = gyroscope.between(turn.start_s, turn.end_s);
             if end < first + 3 {
                 return Err(Error::recording(Complaint::new(
@@ -128,6 +166,17 @@ pub(super) fn turns(
                     "correct the times of the turns",
                 )));
             }
+            if let Some(saturation) = integrable.saturation(&(first..end)) {
+                return Err(Error::recording(Complaint::new(
+                    format!(
+                        "turn {} from {} to {} s cannot be integrated: {saturation}",
+                        number + 1,
+                        turn.start_s,
+                        turn.end_s
+                    ),
+                    "turn more slowly, record with a larger range, or take this turn out",
+                )));
+            }
             let (times, readings) = (&gyroscope.times_s[first..end], &gyroscope.readings[first..end]);
             let (mut integral, mut variance, mut force) =
                 (Vector3::zeros(), Vector3::zeros(), Vector3::zeros());
@@ -137,9 +186,11 @@ pub(super) fn turns(
                 let weight = 0.5 * (before + after);
                 integral += readings[k] * weight;
                 force += felt.map_or_else(Vector3::zeros, |felt| felt[first + k]) * weight;
-                variance += noise.component_mul(noise) * (weight * weight);
+                variance += noise.of_sample.component_mul(&noise.of_sample) * (weight * weight);
             }
             let duration_s = times[times.len() - 1] - times[0];
+            // an axis that hardly turns reads as in a hold
+            variance += noise.of_mean * (duration_s * duration_s);
             // the gain, roughly: what the readings add up to beyond their bias, over the angle
             let temperature_c = still.1.mean(turn.start_s, turn.end_s);
             let bias = still.0.at(temperature_c).gyroscope.bias * duration_s;

@@ -182,6 +182,11 @@ fn exponential(turn: &Vector3<f64>) -> UnitQuaternion<f64> {
 }
 
 impl Rotation {
+    /// How `δθ` follows an error of all its readings, the same throughout.
+    pub(super) fn by_reading(&self) -> Matrix3<f64> {
+        (self.by_start + self.by_end) * self.correction
+    }
+
     /// Covariance of `δθ` with that of the rotation before, from the noise of the mean in the hold between them, by which both take the bias to be.
     pub(super) fn noise_with(&self, before: &Self) -> Matrix3<f64> {
         let common = &self.drift[0];

@@ -6,13 +6,17 @@ use super::faces::{self, First};
 use super::joint::{HoldData, Joint, Misses, State};
 use super::readings::{Integrable, felt_forces, rotation_spans, turns};
 use super::settle::{apply, follow_drift, reweigh, settle};
-use super::still::{Explanation, between_sd, still, weigh};
+use super::still::{Explanation, StillNoise, between_sd, coarse_at_rest, still, weigh};
 use super::thermal::{self, Climate};
 use super::verdict::{self, undetermined, vague};
-use super::{Gyroscope, ImuCalibration, ImuProblem, NoiseSource, WhiteNoise, start};
+use super::{Gyroscope, ImuCalibration, ImuProblem, NoiseSource, WhiteNoise, start, turned};
 use crate::error::{Complaint, Error, Result};
+use crate::estimate::holds::beyond;
 use crate::estimate::problem::sound;
-use crate::estimate::{CalibrationProblem, CalibrationSettings, HoldsSetup, Recovered, Stimulus, calibrate};
+use crate::estimate::quantisation::of_means;
+use crate::estimate::{
+    CalibrationProblem, CalibrationSettings, HoldsSetup, Recovered, Stimulus, coarse_axes, holds,
+};
 use crate::information;
 use crate::motion::Hold;
 use crate::sensor::{
@@ -40,14 +44,21 @@ pub(super) fn calibrate_imu(
     let chosen: Vec<usize> = (0..holds.holds.len()).filter(|&j| holds.holds[j].used).collect();
     let forces: Vec<Vector3<f64>> = chosen.iter().map(|&j| holds.holds[j].force_mps2).collect();
     let used: Vec<&Hold> = chosen.iter().map(|&j| &holds.holds[j].hold).collect();
-    let stills: Vec<Option<MeanReading>> = used.iter().map(|hold| still(gyroscope, hold)).collect();
+    let mut stills: Vec<Option<MeanReading>> = used.iter().map(|hold| still(gyroscope, hold)).collect();
     if stills.iter().flatten().count() == 0 {
         return Err(Error::recording(Complaint::new(
             "the gyroscope has no samples in the holds of the accelerometer",
             "both need the same clock: are these files of one recording?",
         )));
     }
+    let mut said =
+        turned::take_out(&mut stills, (&used, &chosen), gyroscope, setup.thermal.gyroscope_bias > 0);
+    let given = setup.holds.intervals_s.as_deref().unwrap_or_default();
+    said.extend(beyond(accelerometer, given).into_iter().filter(|other| !first.warnings.contains(other)));
     let (noise, noise_source) = sample_noise(problem.gyroscope, white_noise, &stills);
+    let at_rest = used.iter().zip(&stills).filter(|(_, still)| still.is_some());
+    let coarse = coarse_at_rest(gyroscope, at_rest.map(|(hold, _)| *hold));
+    let noise = StillNoise::of(noise, &coarse);
     let quantities = quantities(problem);
     let prior = prior(problem, &quantities);
     let mut data = hold_data(&first, &chosen, setup.directions.is_some(), &climate);
@@ -63,31 +74,30 @@ pub(super) fn calibrate_imu(
     weigh(&mut data, &stills, &noise, &between);
     let start = start_values(problem, &first, &data, thermal);
 
-    let felt = problem
-        .gyroscope
-        .g_sensitivity
-        .then(|| felt_forces(accelerometer, gyroscope, &first.sensor))
-        .flatten();
+    let feels = problem.gyroscope.g_sensitivity;
+    let felt = feels.then(|| felt_forces(accelerometer, gyroscope, &first.sensor)).flatten();
     let spans = match setup.directions {
         // the sensor was put down anew on each face: what it went through in between says less than the turns
         Some(_) if !setup.turns.is_empty() => Vec::new(),
         _ => rotation_spans(gyroscope, &used),
     };
-    let integrable = Integrable::of(gyroscope);
+    let integrable = Integrable::of(gyroscope, problem.recording.accelerometer.as_ref().filter(|_| feels));
     let rotations = integrable.rotations(felt.as_deref(), &spans, &data);
     let mut joint = Joint {
         gravity: setup.holds.gravity.magnitude_mps2,
         holds: data,
         rotations,
-        turns: turns(problem, gyroscope, &noise, felt.as_deref(), (&start, &climate))?,
+        turns: turns(problem, &integrable, &noise, felt.as_deref(), (&start, &climate))?,
         gyroscope_noise: noise,
         excess_rad: 0.0,
         prior,
         quantities,
     };
     let mut state = State { imu: start, forces };
+    let obstacles: Vec<String> = spans.iter().filter_map(|span| integrable.obstacle(span)).collect();
+    let explained = |error: Error| verdict::with_obstacles(error, &obstacles);
     if joint.rotations.iter().all(|rotation| !rotation.used) && joint.turns.is_empty() {
-        return Err(Error::NotIdentifiable(Box::new(undetermined(&joint, &[]))));
+        return Err(explained(Error::NotIdentifiable(Box::new(undetermined(&joint, &[])))));
     }
     let mut axes = None;
     if joint.rotations.iter().any(|rotation| rotation.used) {
@@ -96,7 +106,7 @@ pub(super) fn calibrate_imu(
             _ => Some(Matrix3::identity()),
         };
         let found = start::find(&joint, &state, problem.gyroscope.unit, nominal)
-            .ok_or_else(|| Error::NotIdentifiable(Box::new(undetermined(&joint, &[]))))?;
+            .ok_or_else(|| explained(Error::NotIdentifiable(Box::new(undetermined(&joint, &[])))))?;
         verdict::plausible(&joint, &state, &found, problem.gyroscope.unit, holds)?;
         state.imu = found.imu;
         thermal::set_fixed(&mut state.imu, &setup.known);
@@ -104,7 +114,7 @@ pub(super) fn calibrate_imu(
     }
     let before = state.imu;
     follow_drift(&mut joint, &state, &between);
-    let misses = check(&joint, &state, settings)?;
+    let misses = check(&joint, &state, settings).map_err(explained)?;
     let (weighed, misses) = settle(&mut joint, &mut state, misses, &between)?;
     let rough = CalibrationSettings { tolerance: ROUGH, ..settings.clone() };
     let close = joint.fit(state, misses, &rough).ok_or_else(singular)?;
@@ -128,6 +138,8 @@ pub(super) fn calibrate_imu(
         between,
         integrable: &integrable,
         noise_source,
+        said: &said,
+        coarse: &coarse,
         scatter: MeanReading::pooled_sd(stills.iter().flatten()),
         spans: &spans,
         chosen: &chosen,
@@ -238,15 +250,19 @@ fn from_holds(
     };
     let setup = HoldsSetup { intervals_s: Some(intervals_s), ..problem.setup.holds.clone() };
     let stimulus = Stimulus::Holds(&setup);
-    let first =
-        calibrate(&CalibrationProblem { sensor: problem.accelerometer, recording, stimulus }, settings)?;
+    let as_read = problem.recording.accelerometer.as_ref().unwrap_or(recording);
+    let alone = CalibrationProblem { sensor: problem.accelerometer, recording, stimulus };
+    let first = holds::calibrate(&alone, &setup, settings, as_read)?;
     let Recovered::Holds(mut holds) = first.recovered else {
         return Err(Error::experiment(Complaint::new("an IMU is calibrated from holds", "use [holds]")));
     };
     holds.detected = detected;
     let within = first.fit.noise_estimate.unwrap_or_else(Vector3::zeros);
+    let sound = holds.holds.iter().filter(|result| result.reason.is_none());
+    let spans: Vec<_> = sound.map(|result| result.hold.first..result.hold.end).collect();
+    let of_mean = of_means(&coarse_axes(as_read, &spans));
     let (thermal, adjusted) = (TriadThermal::default(), None);
-    Ok(First { sensor: first.sensor, within, holds, warnings: first.warnings, thermal, adjusted })
+    Ok(First { sensor: first.sensor, within, of_mean, holds, warnings: first.warnings, thermal, adjusted })
 }
 
 /// The used holds with the accelerometer's weights.

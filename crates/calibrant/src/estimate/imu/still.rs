@@ -2,6 +2,8 @@
 
 use super::joint::HoldData;
 use crate::estimate::excess::excess;
+use crate::estimate::quantisation::of_means;
+use crate::estimate::{CoarseAxis, coarse_axes};
 use crate::motion::Hold;
 use crate::sensor::{MeanReading, Recording, ThermalTerm, TriadThermal};
 use nalgebra::{DMatrix, DVector, Vector3};
@@ -10,6 +12,46 @@ use rayon::prelude::*;
 /// The gyroscope between the times of a hold; `None` with fewer than two samples.
 pub(super) fn still(recording: &Recording, hold: &Hold) -> Option<MeanReading> {
     recording.mean_between(hold.start_s, hold.end_s).filter(|still| still.samples > 1)
+}
+
+/// The noise of the gyroscope at rest.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct StillNoise {
+    /// Standard deviation of one sample.
+    pub(super) of_sample: Vector3<f64>,
+    /// Variance of a hold's mean that does not become less with its samples: that of coarse steps.
+    pub(super) of_mean: Vector3<f64>,
+}
+
+impl StillNoise {
+    /// None.
+    pub(super) fn none() -> Self {
+        Self { of_sample: Vector3::zeros(), of_mean: Vector3::zeros() }
+    }
+
+    /// Noise of a sample, in these holds of a recording. Steps make it no less than their own scatter where they are coarse.
+    pub(super) fn of(of_sample: Vector3<f64>, coarse: &[CoarseAxis]) -> Self {
+        let mut of_sample = of_sample;
+        for found in coarse {
+            let sample = &mut of_sample[found.axis.index()];
+            *sample = sample.max(found.step / 12.0_f64.sqrt());
+        }
+        Self { of_sample, of_mean: of_means(coarse) }
+    }
+
+    /// Variance of the mean of so many samples.
+    pub(super) fn variance(&self, samples: usize) -> Vector3<f64> {
+        self.of_sample.component_mul(&self.of_sample) / samples as f64 + self.of_mean
+    }
+}
+
+/// The axes of a gyroscope whose steps are coarse, by its samples in these holds.
+pub(super) fn coarse_at_rest<'a>(
+    gyroscope: &Recording,
+    holds: impl IntoIterator<Item = &'a Hold>,
+) -> Vec<CoarseAxis> {
+    let spans: Vec<_> = holds.into_iter().map(|hold| gyroscope.between(hold.start_s, hold.end_s)).collect();
+    coarse_axes(gyroscope, &spans)
 }
 
 /// What the means in the holds are explained by, beside a constant.
@@ -28,11 +70,11 @@ pub(super) struct Explanation<'a> {
 /// specific force where asked for, and by powers of the temperature, which are returned as well.
 pub(super) fn between_sd(
     stills: &[Option<MeanReading>],
-    noise: &Vector3<f64>,
+    noise: &StillNoise,
     by: &Explanation<'_>,
 ) -> (Vector3<f64>, TriadThermal) {
     let (mut between, mut thermal) = (Vector3::zeros(), by.fixed);
-    let fit = |axis: usize| Regression::new(stills, noise[axis], by, axis).fit();
+    let fit = |axis: usize| Regression::new(stills, noise, by, axis).fit();
     let fits: Vec<Option<(f64, DVector<f64>)>> = (0..3).into_par_iter().map(fit).collect();
     for (axis, fit) in fits.into_iter().enumerate() {
         let solution = fit.map(|(sd, solution)| {
@@ -47,19 +89,18 @@ pub(super) fn between_sd(
     (between, thermal)
 }
 
-/// The means of one axis as a linear problem.
+/// The means of one axis as a linear problem: what explains each, its value and its variance.
 struct Regression {
-    rows: Vec<(DVector<f64>, f64, usize)>,
+    rows: Vec<(DVector<f64>, f64, f64)>,
     /// Inverse variance of each unknown beforehand.
     prior: DVector<f64>,
-    noise: f64,
     degrees: f64,
 }
 
 impl Regression {
-    fn new(stills: &[Option<MeanReading>], noise: f64, by: &Explanation<'_>, axis: usize) -> Self {
+    fn new(stills: &[Option<MeanReading>], noise: &StillNoise, by: &Explanation<'_>, axis: usize) -> Self {
         let terms = &by.terms[axis];
-        let rows: Vec<(DVector<f64>, f64, usize)> = stills
+        let rows: Vec<(DVector<f64>, f64, f64)> = stills
             .iter()
             .enumerate()
             .filter_map(|(j, still)| {
@@ -72,7 +113,7 @@ impl Regression {
                 row.extend(terms.iter().map(|(term, ..)| term.power(tau_k)));
                 let expected: f64 = terms.iter().map(|(term, mean, _)| mean * term.power(tau_k)).sum();
                 let mean = still.mean[axis] - by.fixed.bias_change(tau_k)[axis] - expected;
-                Some((DVector::from_vec(row), mean, still.samples))
+                Some((DVector::from_vec(row), mean, noise.variance(still.samples)[axis]))
             })
             .collect();
         let unknowns = rows.first().map_or(1, |(row, ..)| row.len());
@@ -82,24 +123,22 @@ impl Regression {
         }
         let known = prior.iter().filter(|weight| **weight > 0.0).count();
         let degrees = (rows.len() + known).saturating_sub(unknowns) as f64;
-        Self { rows, prior, noise, degrees }
+        Self { rows, prior, degrees }
     }
 
     /// χ² and the unknowns.
     fn solve(&self, between: f64) -> Option<(f64, DVector<f64>)> {
-        let weight = |samples: usize| {
-            1.0 / (self.noise.powi(2) / samples as f64 + between * between).max(f64::MIN_POSITIVE)
-        };
+        let weight = |variance: f64| 1.0 / (variance + between * between).max(f64::MIN_POSITIVE);
         let (mut f, mut g) = (DMatrix::from_diagonal(&self.prior), DVector::zeros(self.prior.len()));
-        for (row, mean, samples) in &self.rows {
-            f += row * row.transpose() * weight(*samples);
-            g += row * (weight(*samples) * mean);
+        for (row, mean, variance) in &self.rows {
+            f += row * row.transpose() * weight(*variance);
+            g += row * (weight(*variance) * mean);
         }
         let solution = f.cholesky()?.solve(&g);
         let chi2 = self
             .rows
             .iter()
-            .map(|(row, mean, samples)| weight(*samples) * (mean - row.dot(&solution)).powi(2))
+            .map(|(row, mean, variance)| weight(*variance) * (mean - row.dot(&solution)).powi(2))
             .sum::<f64>();
         Some((chi2 + solution.component_mul(&solution).dot(&self.prior), solution))
     }
@@ -116,12 +155,12 @@ impl Regression {
 pub(super) fn weigh(
     holds: &mut [HoldData],
     stills: &[Option<MeanReading>],
-    noise: &Vector3<f64>,
+    noise: &StillNoise,
     between: &Vector3<f64>,
 ) {
     for (hold, still) in holds.iter_mut().zip(stills) {
         hold.gyroscope = still.map(|still| {
-            let variance = noise.component_mul(noise) / still.samples as f64 + between.component_mul(between);
+            let variance = noise.variance(still.samples) + between.component_mul(between);
             (still.mean, variance.map(|variance| 1.0 / variance.max(f64::MIN_POSITIVE)))
         });
     }

@@ -7,6 +7,7 @@
 use super::faces::First;
 use super::joint::{HoldData, Joint, State};
 use super::solver::{self, singular};
+use super::still::StillNoise;
 use super::{ImuProblem, KnownTerm};
 use crate::error::{Complaint, Error, NotIdentifiable, Result, UndeterminedGroup};
 use crate::estimate::excess::excess;
@@ -206,7 +207,7 @@ pub(super) fn accelerometer(
     let intervals: Vec<(f64, f64)> = raw.iter().map(|hold| (hold.start_s, hold.end_s)).collect();
     let detected = first.holds.detected;
     let mut first = first;
-    let mut used = vec![true; raw.len()];
+    let mut used: Vec<bool> = first.holds.holds.iter().map(|result| result.reason.is_none()).collect();
     for _ in 0..ROUNDS {
         let alone = Alone::new(problem, &first, &raw, &used, climate);
         let (state, between) = alone.fit(settings)?;
@@ -242,7 +243,7 @@ fn reconsider(holds: &mut HoldCalibration, degrees: usize, terms: usize) {
     let limit = critical(holds.holds.len(), degrees);
     for result in &mut holds.holds {
         result.studentised_residual *= shrink;
-        result.used |= result.studentised_residual.abs() <= limit;
+        result.used |= result.reason.is_none() && result.studentised_residual.abs() <= limit;
     }
     holds.magnitude_residual_rms_mps2 = magnitude_rms(&holds.holds);
 }
@@ -295,7 +296,7 @@ impl<'a> Alone<'a> {
                 holds,
                 rotations: Vec::new(),
                 turns: Vec::new(),
-                gyroscope_noise: Vector3::zeros(),
+                gyroscope_noise: StillNoise::none(),
                 excess_rad: 0.0,
                 prior: solver::prior(problem, &quantities),
                 quantities,

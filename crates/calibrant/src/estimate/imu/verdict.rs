@@ -79,6 +79,23 @@ pub(super) fn undetermined(joint: &Joint<'_>, groups: &[Undetermined]) -> NotIde
     }
 }
 
+/// The same error, where rotations were left out before it: it says how many, and why one of them.
+pub(super) fn with_obstacles(error: Error, obstacles: &[String]) -> Error {
+    let (Error::NotIdentifiable(undetermined), Some(first)) = (&error, obstacles.first()) else {
+        return error;
+    };
+    let mut groups = undetermined.groups.clone();
+    for group in &mut groups {
+        group.reason = format!(
+            "{}; {} rotation{} could not be integrated: {first}",
+            group.reason,
+            obstacles.len(),
+            if obstacles.len() == 1 { "" } else { "s" }
+        );
+    }
+    Error::NotIdentifiable(Box::new(NotIdentifiable { groups }))
+}
+
 /// The axes, in words, whose scale factor of the gyroscope is among these quantities, where not all three are.
 fn axes_of(joint: &Joint<'_>, places: &[usize]) -> Option<String> {
     let is_scale = |axis: &Axis| {

@@ -109,6 +109,12 @@ fn temperatures<'a>(
 }
 
 fn on_another(claim: &Claim, unused: &Unused<'_>) -> Result<Validation> {
+    if unused.holds.is_empty() {
+        return Err(Error::recording(Complaint::new(
+            "the accelerometer saturates in each of its holds",
+            "record with a larger range",
+        )));
+    }
     let errors = unused.errors(claim).ok_or_else(singular)?;
     let mut sizes: Vec<f64> = errors.magnitudes.items.iter().map(|item| item.error[0].abs()).collect();
     sizes.sort_by(f64::total_cmp);

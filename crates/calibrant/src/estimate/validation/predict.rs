@@ -7,6 +7,7 @@ use super::ratio::Ratio;
 use super::result::BiasShift;
 use super::statistics::degrees_behind;
 use super::whitened::Whitened;
+use crate::estimate::clipped_holds;
 use crate::estimate::imu::{Carried, Carrying, GyroscopeAtRest, HeldStill};
 use crate::motion::Hold;
 use crate::sensor::{Recording, Temperatures};
@@ -44,11 +45,14 @@ pub(super) struct Errors {
 }
 
 impl<'a> Unused<'a> {
-    /// Holds of a recording of an accelerometer.
+    /// Holds of a recording of an accelerometer, but those in which it saturates.
     pub(super) fn of_accelerometer(recording: &'a Recording, holds: &'a [Hold]) -> Self {
+        let clipped = clipped_holds(recording, holds);
+        let sound = |(number, _): &(usize, &Hold)| clipped[*number].is_none();
+        let holds: Vec<(usize, &Hold)> = holds.iter().enumerate().filter(sound).collect();
         Self {
-            holds: holds.iter().enumerate().collect(),
-            within: Hold::pooled_sd(holds),
+            within: Hold::pooled_sd(holds.iter().map(|(_, hold)| *hold)),
+            holds,
             accelerometer: recording,
             gyroscope: None,
             temperatures: None,

@@ -120,29 +120,35 @@ pub(super) fn read(
 
 fn turns(entry: &Entry<'_>) -> Result<Vec<Turn>> {
     const HELP: &str = "turns = [{ start_s = 10.0, end_s = 14.0, axis = \"x\", angle_deg = 360.0 }]";
-    entry
-        .items(HELP)?
-        .iter()
-        .map(|item| {
-            let turn = Section::item(item, "gyroscope.turns")?;
-            let number = |key: &str, bounds: &Bounds| turn.need(key, HELP)?.number(bounds);
-            let (start_s, end_s) = (number("start_s", &TIME)?, number("end_s", &TIME)?);
-            if end_s <= start_s {
-                let message = format!("the turn ends at {end_s} s, not after its start at {start_s} s");
-                return Err(item.complain(message, HELP));
-            }
-            let angle = turn.need("angle_deg", HELP)?;
-            let angle_rad = angle.number(&ANGLE)?.to_radians();
-            if angle_rad == 0.0 {
-                return Err(
-                    angle.complain("a turn by nothing", "its angle in degrees, right-handed about its axis")
-                );
-            }
-            let sd = turn.get("angle_sd_deg").map_or(Ok(0.5), |entry| entry.number(&ANGLE_SD))?;
-            let axis = direction(&turn.need("axis", HELP)?)?;
-            Ok(Turn { start_s, end_s, axis, angle_rad, angle_sd_rad: sd.to_radians() })
-        })
-        .collect()
+    let mut turns: Vec<Turn> = Vec::new();
+    for item in &entry.items(HELP)? {
+        let turn = Section::item(item, "gyroscope.turns")?;
+        let number = |key: &str, bounds: &Bounds| turn.need(key, HELP)?.number(bounds);
+        let (start_s, end_s) = (number("start_s", &TIME)?, number("end_s", &TIME)?);
+        if end_s <= start_s {
+            let message = format!("the turn ends at {end_s} s, not after its start at {start_s} s");
+            return Err(item.complain(message, HELP));
+        }
+        let angle = turn.need("angle_deg", HELP)?;
+        let angle_rad = angle.number(&ANGLE)?.to_radians();
+        if angle_rad == 0.0 {
+            return Err(
+                angle.complain("a turn by nothing", "its angle in degrees, right-handed about its axis")
+            );
+        }
+        let sd = turn.get("angle_sd_deg").map_or(Ok(0.5), |entry| entry.number(&ANGLE_SD))?;
+        let axis = direction(&turn.need("axis", HELP)?)?;
+        let turn = Turn { start_s, end_s, axis, angle_rad, angle_sd_rad: sd.to_radians() };
+        if let Some(before) = turns.iter().position(|before| turn.repeats(before)) {
+            let [one, other] =
+                [&turns[before], &turn].map(|turn| format!("{} to {} s", turn.start_s, turn.end_s));
+            let message =
+                format!("turn {} ({other}) is turn {} ({one}) once more", turns.len() + 1, before + 1);
+            return Err(item.complain(message, "give each turn once: it would count twice"));
+        }
+        turns.push(turn);
+    }
+    Ok(turns)
 }
 
 /// A direction: `"x"`, `"-z"`, or three numbers.

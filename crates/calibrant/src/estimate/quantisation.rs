@@ -1,0 +1,166 @@
+//! Readings whose steps are coarser than the noise: what the mean over a hold does not tell, however long it is.
+//!
+//! With steps `q` and Gaussian noise `σ`, the mean of rounded readings is off by an error that depends on where between two steps the true value lies. Over all places,
+//!
+//! ```text
+//! V = q²/(2π²) Σ_k exp(−4π² k² σ²/q²)/k²
+//! ```
+//!
+//! is its mean square (`widrow2008`): `q²/12` without noise, a hundredth of a step for `σ = 0.4 q`, nothing that matters from `σ = q/2` on. It does not become less with more samples.
+
+use crate::sensor::{Axis, Recording};
+use nalgebra::Vector3;
+use statrs::distribution::{ContinuousCDF, Normal};
+use std::f64::consts::PI;
+use std::ops::Range;
+
+/// Terms of the series.
+const TERMS: i32 = 100;
+
+/// An axis whose readings come in steps so coarse that the means of holds are off by more than their noise lets expect.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CoarseAxis {
+    /// The axis.
+    pub axis: Axis,
+    /// The step of the readings, in their unit.
+    pub step: f64,
+    /// Standard deviation of the noise before it was rounded; 0 where it is too small to be seen.
+    pub noise: f64,
+    /// Root mean square `√V` of what the mean of a hold is off, in the unit of the readings.
+    pub mean_sd: f64,
+}
+
+impl CoarseAxis {
+    /// In words, for this sensor: `axis x of the gyroscope comes in steps of …`.
+    #[must_use]
+    pub fn words(&self, sensor: &str, unit: &str) -> String {
+        let noise = if self.noise > 0.0 {
+            format!("its noise of about {:.1e} {unit}", self.noise)
+        } else {
+            "its noise, which hardly shows".to_owned()
+        };
+        format!(
+            "the readings of axis {} of the {sensor} come in steps of {:.3e} {unit}, coarser than twice {noise}: the mean of a hold is off by about {:.1e} {unit} however \
+             long it is",
+            self.axis, self.step, self.mean_sd
+        )
+    }
+}
+
+/// The coarse axes of a recording, by its samples in holds: where what their means are off exceeds a quarter of their noise.
+#[must_use]
+pub fn coarse_axes(recording: &Recording, holds: &[Range<usize>]) -> Vec<CoarseAxis> {
+    let resolution = recording.resolution();
+    let of = |&axis: &Axis| coarse(recording, holds, axis, resolution[axis.index()]);
+    recording.active_axes().iter().filter_map(of).collect()
+}
+
+/// `V` of each axis, in the square of the unit of the readings.
+pub(super) fn of_means(coarse: &[CoarseAxis]) -> Vector3<f64> {
+    let mut variance = Vector3::zeros();
+    for found in coarse {
+        variance[found.axis.index()] = found.mean_sd * found.mean_sd;
+    }
+    variance
+}
+
+fn coarse(recording: &Recording, holds: &[Range<usize>], axis: Axis, step: f64) -> Option<CoarseAxis> {
+    if step <= 0.0 {
+        return None;
+    }
+    let (mut noises, mut samples, mut squares) = (Vec::new(), 0, 0.0);
+    for hold in holds.iter().filter(|hold| hold.len() > 1) {
+        let values: Vec<f64> = recording.readings[hold.clone()].iter().map(|y| y[axis.index()]).collect();
+        let mean = values.iter().sum::<f64>() / values.len() as f64;
+        squares += values.iter().map(|y| (y - mean).powi(2)).sum::<f64>();
+        samples += values.len() - 1;
+        // the ends of a hold may move already
+        let end = values.len() / 5;
+        noises.extend(noise(&values[end..values.len() - end], step));
+    }
+    let scatter = (squares / samples.max(1) as f64).sqrt();
+    // noise of a whole step leaves no error
+    if samples == 0 || scatter > step {
+        return None;
+    }
+    noises.sort_by(f64::total_cmp);
+    let noise = noises.get(noises.len() / 2).copied().unwrap_or(0.0);
+    let mean_sd = variance(noise, step).sqrt();
+    let of_mean = scatter * (holds.len() as f64 / samples as f64).sqrt();
+    (mean_sd > 0.25 * of_mean).then_some(CoarseAxis { axis, step, noise, mean_sd })
+}
+
+/// `V`.
+fn variance(noise: f64, step: f64) -> f64 {
+    let term = |k: i32| (-(2.0 * PI * f64::from(k) * noise / step).powi(2)).exp() / f64::from(k * k);
+    // the rest of Σ 1/k², where there is no noise
+    let rest = if noise > 0.0 { 0.0 } else { 1.0 / (f64::from(TERMS) + 0.5) };
+    (step / PI).powi(2) / 2.0 * ((1..=TERMS).map(term).sum::<f64>() + rest)
+}
+
+/// The noise before rounding, by the shares of the least and of the largest value: between the edges of these two lie so many standard deviations. `None` with fewer than three
+/// values, which tell only that it is small.
+fn noise(values: &[f64], step: f64) -> Option<f64> {
+    let least = values.iter().copied().fold(f64::INFINITY, f64::min);
+    let most = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let between = most - least - step;
+    if between < 0.5 * step {
+        return None;
+    }
+    let share = |end: f64| values.iter().filter(|y| **y == end).count() as f64 / values.len() as f64;
+    let normal = Normal::standard();
+    let deviations = -normal.inverse_cdf(share(least)) - normal.inverse_cdf(share(most));
+    (deviations > 0.0).then(|| between / deviations)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sensor::ReadingUnit;
+    use crate::simulate::{Purpose, stream};
+    use rand::RngExt;
+    use rand_distr::{Distribution, StandardNormal};
+
+    /// Means of 400 holds at random places, rounded: what they are off, and the noise, by the rounded readings alone.
+    #[test]
+    fn what_means_are_off_is_that_of_simulated_holds() {
+        let mut rng = stream(1, Purpose::Sensor, 0);
+        let (step, count, length) = (0.01, 400, 1000);
+        for ratio in [0.05, 0.1, 0.2, 0.3] {
+            let (mut readings, mut squares) = (Vec::new(), 0.0);
+            for _ in 0..count {
+                let truth = rng.random_range(-0.1..0.1);
+                let mut sum = 0.0;
+                for _ in 0..length {
+                    let z: f64 = StandardNormal.sample(&mut rng);
+                    let y = ((truth + ratio * step * z) / step).round();
+                    sum += y * step - truth;
+                    readings.push(Vector3::new(y * step, 0.0, 0.0));
+                }
+                squares += (sum / f64::from(length)).powi(2);
+            }
+            let recording = Recording {
+                times_s: (0..readings.len()).map(|k| k as f64).collect(),
+                readings,
+                axes: 1,
+                unit: ReadingUnit::RadianPerSecond,
+            };
+            let holds: Vec<Range<usize>> =
+                (0..count).map(|k| k * length as usize..(k + 1) * length as usize).collect();
+            let found = coarse_axes(&recording, &holds);
+            let [found] = found.as_slice() else { panic!("{ratio}: {found:?}") };
+            let off = (squares / count as f64).sqrt();
+            assert!((found.step - step).abs() < 1e-12);
+            if ratio > 0.15 {
+                // 400 squares know their root to 2–4 %; the mean's own noise adds a thousandth of a step
+                assert!((found.mean_sd / off - 1.0).abs() < 0.15, "{ratio}: {found:?} beside {off:e}");
+                assert!((found.noise / (ratio * step) - 1.0).abs() < 0.1, "{ratio}: {found:?}");
+            } else {
+                // no hold has three values: it counts as without noise, which is on the safe side
+                assert_eq!(found.noise, 0.0);
+                assert!((0.95..1.7).contains(&(found.mean_sd / off)), "{ratio}: {found:?} beside {off:e}");
+            }
+        }
+        assert!((variance(0.0, 1.0) * 12.0 - 1.0).abs() < 1e-4);
+    }
+}

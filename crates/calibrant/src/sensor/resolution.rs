@@ -1,0 +1,66 @@
+//! The step in which a sensor's readings come.
+
+use super::Recording;
+use nalgebra::Vector3;
+
+/// Steps up to so many times the smallest one are looked at: larger ones say little.
+const NEAR: f64 = 8.0;
+/// They are multiples of it if this share of them is within a fifth of one; where readings are not rounded, two in five are by chance.
+const MULTIPLES: f64 = 0.95;
+const OFF: f64 = 0.2;
+/// Fewer steps tell nothing.
+const FEWEST: usize = 8;
+
+impl Recording {
+    /// The step of which the readings of each axis are multiples, in their unit; 0 where there is none.
+    ///
+    /// It is the smallest change from one sample to the next, if the other small changes are multiples of it.
+    #[must_use]
+    pub fn resolution(&self) -> Vector3<f64> {
+        let changes = || {
+            let pairs = self.readings.windows(2);
+            // no branch: that would be taken at random
+            pairs.map(|pair| {
+                (pair[1] - pair[0]).abs().map(|step| if step > 0.0 { step } else { f64::INFINITY })
+            })
+        };
+        let smallest = changes().fold(Vector3::repeat(f64::INFINITY), |least, step| least.inf(&step));
+        let (mut near, mut multiples) = ([0_usize; 3], [0_usize; 3]);
+        for step in changes() {
+            for axis in 0..3 {
+                let ratio = step[axis] / smallest[axis];
+                if ratio < NEAR {
+                    near[axis] += 1;
+                    multiples[axis] += usize::from((ratio - ratio.round()).abs() < OFF);
+                }
+            }
+        }
+        Vector3::from_fn(|axis, _| {
+            let enough = near[axis] >= FEWEST && multiples[axis] as f64 >= MULTIPLES * near[axis] as f64;
+            if enough { smallest[axis] } else { 0.0 }
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sensor::ReadingUnit;
+
+    #[test]
+    fn readings_that_are_rounded_have_a_step_and_others_have_none() {
+        let wave =
+            |k: usize, axis: f64| (0.37 * (k as f64).powf(1.1) + axis).sin() + 0.2 * (1.7 * k as f64).cos();
+        let rounded = |y: f64, step: f64| (y / step).round() * step;
+        let readings =
+            |k| Vector3::new(rounded(wave(k, 0.0), 0.01), wave(k, 1.0), rounded(wave(k, 2.0), 1.0 / 16.4));
+        let recording = Recording {
+            times_s: (0..2000).map(f64::from).collect(),
+            readings: (0..2000).map(readings).collect(),
+            axes: 3,
+            unit: ReadingUnit::RadianPerSecond,
+        };
+        let found = recording.resolution();
+        assert!((found - Vector3::new(0.01, 0.0, 1.0 / 16.4)).amax() < 1e-12, "{found}");
+    }
+}
