@@ -8,7 +8,7 @@
 //!
 //! is its mean square (`widrow2008`): `q²/12` without noise, a hundredth of a step for `σ = 0.4 q`, nothing that matters from `σ = q/2` on. It does not become less with more samples.
 
-use crate::sensor::{Axis, Recording};
+use crate::sensor::{Axis, MeanReading, Recording};
 use nalgebra::Vector3;
 use statrs::distribution::{ContinuousCDF, Normal};
 use std::f64::consts::PI;
@@ -16,6 +16,9 @@ use std::ops::Range;
 
 /// Terms of the series.
 const TERMS: i32 = 100;
+/// Readings that scatter by so many steps in the middle of holds, so many samples each, are fine.
+const FINE: f64 = 3.0;
+const MIDDLE: usize = 64;
 
 /// An axis whose readings come in steps so coarse that the means of holds are off by more than their noise lets expect.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -68,8 +71,18 @@ fn coarse(recording: &Recording, holds: &[Range<usize>], axis: Axis, step: f64) 
     if step <= 0.0 {
         return None;
     }
+    let longer = |hold: &&Range<usize>| hold.len() > 1;
+    let middle = |hold: &Range<usize>| {
+        let first = hold.start + hold.len().saturating_sub(MIDDLE) / 2;
+        MeanReading::of(&recording.readings[first..hold.end.min(first + MIDDLE)])
+    };
+    let middles: Vec<MeanReading> = holds.iter().filter(longer).filter_map(middle).collect();
+    // most readings are finer by far, and need not be looked at any further
+    if MeanReading::pooled_sd(&middles)[axis.index()] > FINE * step {
+        return None;
+    }
     let (mut noises, mut samples, mut squares) = (Vec::new(), 0, 0.0);
-    for hold in holds.iter().filter(|hold| hold.len() > 1) {
+    for hold in holds.iter().filter(longer) {
         let values: Vec<f64> = recording.readings[hold.clone()].iter().map(|y| y[axis.index()]).collect();
         let mean = values.iter().sum::<f64>() / values.len() as f64;
         squares += values.iter().map(|y| (y - mean).powi(2)).sum::<f64>();

@@ -10,15 +10,18 @@ const MULTIPLES: f64 = 0.95;
 const OFF: f64 = 0.2;
 /// Fewer steps tell nothing.
 const FEWEST: usize = 8;
+/// More changes than this tell no more: steps that matter are seen in every few of them.
+const ENOUGH: usize = 8192;
 
 impl Recording {
     /// The step of which the readings of each axis are multiples, in their unit; 0 where there is none.
     ///
-    /// It is the smallest change from one sample to the next, if the other small changes are multiples of it.
+    /// It is the smallest change from one sample to the next, if the other small changes are multiples of it; of a long recording, some thousands spread evenly over it are looked at.
     #[must_use]
     pub fn resolution(&self) -> Vector3<f64> {
+        let every = (self.len() / ENOUGH).max(1);
         let changes = || {
-            let pairs = self.readings.windows(2);
+            let pairs = self.readings.windows(2).step_by(every);
             // no branch: that would be taken at random
             pairs.map(|pair| {
                 (pair[1] - pair[0]).abs().map(|step| if step > 0.0 { step } else { f64::INFINITY })

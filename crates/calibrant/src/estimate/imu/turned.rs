@@ -55,11 +55,9 @@ pub(super) fn take_out(
         let Some(rate) = rate else { continue };
         stills[j] = None;
         said.push(format!(
-            "the gyroscope turns in hold {} ({:.1} to {:.1} s), by {rate:.2e} {} rms: what it shows there is not taken for its bias; an accelerometer does not see a turn \
+            "the gyroscope turns in {}, by {rate:.2e} {} rms: what it shows there is not taken for its bias; an accelerometer does not see a turn \
              about the vertical: correct holds.intervals_s, or leave them away so that holds are looked for",
-            numbers[j] + 1,
-            holds[j].start_s,
-            holds[j].end_s,
+            holds[j].named(numbers[j]),
             gyroscope.unit.symbol()
         ));
     }
