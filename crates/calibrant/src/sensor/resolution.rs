@@ -34,7 +34,7 @@ impl Recording {
                 let ratio = step[axis] / smallest[axis];
                 if ratio < NEAR {
                     near[axis] += 1;
-                    multiples[axis] += usize::from((ratio - ratio.round()).abs() < OFF);
+                    multiples[axis] += usize::from((ratio - f64::from((ratio + 0.5) as i32)).abs() < OFF);
                 }
             }
         }

@@ -113,20 +113,16 @@ pub(super) fn settle(
     for _ in 0..ROUNDS {
         let Some(weighed) = reweigh(joint, state, &misses)? else { break };
         apply(joint, &weighed);
-        let mut imu = state.imu;
-        for (&k, step) in places.iter().zip(weighed.step.iter()) {
-            joint.quantities[k].add_to(&mut imu, *step);
-        }
-        let rests = weighed.length < SETTLED;
         last = weighed;
-        state.imu = imu;
-        if !rests {
-            follow_drift(joint, state, between);
-        }
-        misses = joint.misses(state).ok_or_else(singular)?;
-        if rests {
+        // the fit that follows takes a step this short by itself
+        if last.length < SETTLED {
             break;
         }
+        for (&k, step) in places.iter().zip(last.step.iter()) {
+            joint.quantities[k].add_to(&mut state.imu, *step);
+        }
+        follow_drift(joint, state, between);
+        misses = joint.misses(state).ok_or_else(singular)?;
     }
     Ok((last, misses))
 }

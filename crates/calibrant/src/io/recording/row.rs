@@ -74,30 +74,30 @@ impl<'l> RowReader<'l> {
         self.rows
     }
 
-    /// The values of a line, each in its slot: NaN where one is missing or has no column. `None` where the line is void or was cut off.
-    pub(super) fn read<const N: usize>(&mut self, line: Line<'_>) -> Checked<Option<[f64; N]>> {
+    /// Reads the values of a line, each into its slot: NaN where one is missing or has no column. Not where the line is void or was cut off: `false`.
+    pub(super) fn read<const N: usize>(&mut self, line: Line<'_>, values: &mut [f64; N]) -> Checked<bool> {
         if line.is_void() {
-            return Ok(None);
+            return Ok(false);
         }
         self.rows += 1;
-        let values = match self.values(line) {
+        match self.values(line, values) {
             // the last line may end anywhere when a logger was switched off
             _ if !line.terminated && self.rows > 1 && self.is_cut(line) => {
                 self.truncated = Some(line.number);
-                return Ok(None);
+                return Ok(false);
             }
             Err(error) if !line.terminated && self.rows > 1 && error.cut => {
                 self.truncated = Some(line.number);
-                return Ok(None);
+                return Ok(false);
             }
-            values => values.map_err(|error| error.complaint)?,
-        };
+            done => done.map_err(|error| error.complaint)?,
+        }
         self.width = match self.width {
             Width::Unknown => Width::Fixed(line.text.len()),
             Width::Fixed(width) if width != line.text.len() => Width::Varies,
             width => width,
         };
-        Ok(Some(values))
+        Ok(true)
     }
 
     /// Is this line, the last one, known to be cut off, or shorter than all rows before, which have the same length (numbers in columns)?
@@ -107,9 +107,9 @@ impl<'l> RowReader<'l> {
                 && matches!(self.width, Width::Fixed(width) if self.rows > 3 && line.text.len() < width))
     }
 
-    fn values<const N: usize>(&mut self, line: Line<'_>) -> Result<[f64; N], RowError> {
+    fn values<const N: usize>(&mut self, line: Line<'_>, values: &mut [f64; N]) -> Result<(), RowError> {
         let layout = self.layout;
-        let mut values = [f64::NAN; N];
+        values.fill(f64::NAN);
         let mut fields = 0;
         let mut last_is_empty = false;
         let mut row = line.fields(layout.delimiter);
@@ -131,7 +131,7 @@ impl<'l> RowReader<'l> {
         let columns = layout.slots.len();
         // a delimiter at the end of the line is no column
         if fields == columns || (fields == columns + 1 && last_is_empty) {
-            return Ok(values);
+            return Ok(());
         }
         let help = if fields < columns {
             "was the line cut off, or written while the file was read?"

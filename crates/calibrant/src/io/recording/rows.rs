@@ -47,7 +47,10 @@ impl<'c> Rows<'c> {
 
     /// Takes one line.
     pub(super) fn take(&mut self, line: Line<'_>) -> Checked<()> {
-        let Some(values) = self.reader.read::<4>(line)? else { return Ok(()) };
+        let mut values = [f64::NAN; 4];
+        if !self.reader.read(line, &mut values)? {
+            return Ok(());
+        }
         let axes = self.columns.axes;
         if values[..=axes].iter().any(|value| value.is_nan()) {
             self.missing.add(Some(line.number));

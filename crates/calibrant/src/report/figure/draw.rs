@@ -199,14 +199,14 @@ pub(in crate::report) fn renumbered(page: &str) -> String {
     text + &page[copied..]
 }
 
-/// Decimals beyond the third dropped within tags: the plotting library writes some coordinates as 123.45000000000002.
+/// Decimals beyond the second dropped within tags: the plotting library writes some coordinates as 123.45000000000002.
 fn shortened(svg: &str) -> String {
     let mut short = String::with_capacity(svg.len());
     let (mut decimals, mut after_point, mut in_tag, mut kept) = (0, false, false, 0);
     for (at, byte) in svg.bytes().enumerate() {
         if byte.is_ascii_digit() {
             decimals += usize::from(after_point);
-            if in_tag && decimals > 3 {
+            if in_tag && decimals > 2 {
                 short.push_str(&svg[kept..at]);
                 kept = at + 1;
             }

@@ -128,9 +128,12 @@ impl<'l> SampleReader<'l> {
     pub(super) fn take<'t>(&mut self, lines: impl Iterator<Item = Line<'t>>, text: &str) -> Checked<()> {
         self.reader.look_at_the_end(text);
         let samples = &mut self.samples;
+        let mut values = [f64::NAN; SLOTS];
         for line in lines {
             samples.last_line = Some(line.number);
-            let Some(values) = self.reader.read::<SLOTS>(line)? else { continue };
+            if !self.reader.read(line, &mut values)? {
+                continue;
+            }
             samples.lines.push(samples.rows, line.number);
             samples.rows += 1;
             if self.has[TIME] {
