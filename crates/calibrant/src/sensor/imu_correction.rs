@@ -148,13 +148,15 @@ impl ImuCorrection {
     /// Corrected specific force, m/s²; `None` without an accelerometer.
     #[must_use]
     pub fn force(&self, reading: &Vector3<f64>) -> Option<Vector3<f64>> {
-        self.accelerometer.map(|correction| correction.apply(reading))
+        self.accelerometer.as_ref().map(|correction| correction.apply(reading))
     }
 
     /// Corrected angular rate, rad/s, at this (corrected) specific force; `None` without a gyroscope.
     #[must_use]
     pub fn rate(&self, reading: &Vector3<f64>, force: &Vector3<f64>) -> Option<Vector3<f64>> {
-        self.gyroscope.map(|correction| correction.apply(&(reading - times(&self.g_sensitivity, force))))
+        self.gyroscope
+            .as_ref()
+            .map(|correction| correction.apply(&(reading - times(&self.g_sensitivity, force))))
     }
 
     /// Standard uncertainty of the corrected force, m/s² per axis; `None` where it is not known.

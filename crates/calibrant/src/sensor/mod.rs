@@ -33,7 +33,7 @@ pub use invariant::{Invariant, InvariantValue};
 pub(crate) use mean_reading::MeanReading;
 pub use parameters::{Parameter, ParameterList, Quantity, SensorModel, SensorParameters};
 pub use recording::Recording;
-pub(crate) use recording::rate_hz;
+pub(crate) use recording::{greater, lesser, rate_hz};
 pub use saturation::Saturation;
 pub use temperatures::{Temperatures, WORKING_C};
 pub use thermal::{HIGHEST_ORDER, Thermal, ThermalPart, ThermalTerm, TriadThermal};

@@ -1,6 +1,6 @@
 //! The step in which a sensor's readings come.
 
-use super::Recording;
+use super::{Recording, lesser};
 use nalgebra::Vector3;
 
 /// Steps up to so many times the smallest one are looked at: larger ones say little.
@@ -27,7 +27,8 @@ impl Recording {
                 (pair[1] - pair[0]).abs().map(|step| if step > 0.0 { step } else { f64::INFINITY })
             })
         };
-        let smallest = changes().fold(Vector3::repeat(f64::INFINITY), |least, step| least.inf(&step));
+        let smallest =
+            changes().fold(Vector3::repeat(f64::INFINITY), |least, step| least.zip_map(&step, lesser));
         let (mut near, mut multiples) = ([0_usize; 3], [0_usize; 3]);
         for step in changes() {
             for axis in 0..3 {

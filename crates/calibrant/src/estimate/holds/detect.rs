@@ -6,7 +6,7 @@
 
 use crate::error::{Complaint, Error, Result};
 use crate::motion::Hold;
-use crate::sensor::{MeanReading, Recording};
+use crate::sensor::{MeanReading, Recording, greater, lesser};
 use nalgebra::Vector3;
 use std::f64::consts::LOG10_2;
 
@@ -123,12 +123,13 @@ fn window_variance(recording: &Recording, window: usize, step: f64) -> Vec<f64> 
 /// and a millionth of its range, below which the running sums round.
 fn resolution(recording: &Recording) -> f64 {
     let mean = recording.readings.iter().sum::<Vector3<f64>>() / recording.len() as f64;
-    let range = recording.readings.iter().map(|y| (y - mean).norm_squared()).fold(0.0, f64::max);
+    let range = recording.readings.iter().map(|y| (y - mean).norm_squared()).fold(0.0, greater);
     let mut steps = Vector3::repeat(f64::INFINITY);
     for pair in recording.readings.windows(2) {
         let step = (pair[1] - pair[0]).abs();
         // no branch: that would be taken at random
-        steps = steps.inf(&step.map(|step| if step > 0.0 { step } else { f64::INFINITY }));
+        steps =
+            steps.zip_map(&step, |least, step| lesser(least, if step > 0.0 { step } else { f64::INFINITY }));
     }
     let quantisation: f64 = steps.iter().filter(|step| step.is_finite()).map(|step| step * step / 12.0).sum();
     // in a recording without noise the smallest step is a movement
@@ -138,8 +139,7 @@ fn resolution(recording: &Recording) -> f64 {
 /// The variance that separates still from moving; `None` where nothing is still. Variances below `floor` are all the same.
 fn threshold(variance: &[f64], floor: f64) -> Option<f64> {
     let finite = || variance.iter().copied().filter(|v| v.is_finite());
-    let largest = finite().fold(0.0, f64::max);
-    let least = finite().fold(f64::INFINITY, f64::min);
+    let (least, largest) = finite().fold((f64::INFINITY, 0.0), |(a, b), v| (lesser(a, v), greater(b, v)));
     if least > largest {
         return None;
     }

@@ -2,7 +2,7 @@
 
 use super::finding::{Finding, FindingKind, count, moment, short};
 use super::rows::LineMap;
-use crate::sensor::Recording;
+use crate::sensor::{Recording, greater, lesser};
 
 /// A step of the time is a gap from this many median steps on.
 const GAP: f64 = 5.0;
@@ -80,8 +80,8 @@ pub(super) fn sampling(recording: &Recording, rate: f64, lines: &LineMap, findin
                 findings.push(Finding::new(FindingKind::Gap, lines.line(before + 1), message));
             }
         } else {
-            least = least.min(step);
-            most = most.max(step);
+            least = lesser(least, step);
+            most = greater(most, step);
         }
     }
     if gaps > GAPS_SHOWN {
