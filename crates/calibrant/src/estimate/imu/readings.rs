@@ -64,12 +64,12 @@ pub(super) struct Integrable<'a> {
 impl<'a> Integrable<'a> {
     /// `felt`: the accelerometer as it was read, where the gyroscope feels the specific force.
     pub(super) fn of(gyroscope: &'a Recording, felt: Option<&'a Recording>) -> Self {
-        Self {
-            gyroscope,
-            rate_hz: gyroscope.rate_hz(),
-            saturations: gyroscope.saturations(),
-            felt: felt.map(|accelerometer| (accelerometer, accelerometer.saturations())),
-        }
+        let (of_gyroscope, felt) = rayon::join(
+            || (gyroscope.rate_hz(), gyroscope.saturations()),
+            || felt.map(|accelerometer| (accelerometer, accelerometer.saturations())),
+        );
+        let (rate_hz, saturations) = of_gyroscope;
+        Self { gyroscope, rate_hz, saturations, felt }
     }
 
     /// The rotations in these spans, each from one of the holds to the next.

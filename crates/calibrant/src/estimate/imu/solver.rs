@@ -24,6 +24,7 @@ use crate::sensor::{
     TriadThermal,
 };
 use nalgebra::{Matrix3, Vector3};
+use rayon::prelude::*;
 use std::borrow::Cow;
 
 /// A fit that is followed by another, in standard deviations.
@@ -44,7 +45,7 @@ pub(super) fn calibrate_imu(
     let chosen: Vec<usize> = (0..holds.holds.len()).filter(|&j| holds.holds[j].used).collect();
     let forces: Vec<Vector3<f64>> = chosen.iter().map(|&j| holds.holds[j].force_mps2).collect();
     let used: Vec<&Hold> = chosen.iter().map(|&j| &holds.holds[j].hold).collect();
-    let mut stills: Vec<Option<MeanReading>> = used.iter().map(|hold| still(gyroscope, hold)).collect();
+    let mut stills: Vec<Option<MeanReading>> = used.par_iter().map(|hold| still(gyroscope, hold)).collect();
     if stills.iter().flatten().count() == 0 {
         return Err(Error::recording(Complaint::new(
             "the gyroscope has no samples in the holds of the accelerometer",
@@ -194,8 +195,9 @@ pub(in crate::estimate) fn recordings<'a>(
     };
     let (accelerometer, gyroscope) = (moves(Triad::Accelerometer)?, moves(Triad::Gyroscope)?);
     let stimulus = Stimulus::Holds(&problem.setup.holds);
-    CalibrationProblem { sensor: problem.accelerometer, recording: accelerometer, stimulus }.validate()?;
-    sound(gyroscope)?;
+    let alone = CalibrationProblem { sensor: problem.accelerometer, recording: accelerometer, stimulus };
+    let (one, other) = rayon::join(|| alone.validate(), || sound(gyroscope));
+    one.and(other)?;
     if gyroscope.unit != problem.gyroscope.unit {
         return Err(Error::recording(Complaint::new(
             format!(
