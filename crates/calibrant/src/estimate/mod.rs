@@ -38,7 +38,7 @@ pub use imu::{
     ThermalModel, Turn, TurnResult, WhiteNoise, calibrate_imu, calibrate_imu_while, find_imu_holds,
 };
 pub use problem::{CalibrationProblem, Stimulus};
-pub use quantisation::{CoarseAxis, coarse_axes};
+pub use quantisation::{CoarseAxis, coarse_axes, coarse_axes_in};
 pub use result::*;
 pub use settings::CalibrationSettings;
 pub use uncalibrated::Uncalibrated;

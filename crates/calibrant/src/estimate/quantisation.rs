@@ -8,6 +8,7 @@
 //!
 //! is its mean square (`widrow2008`): `q²/12` without noise, a hundredth of a step for `σ = 0.4 q`, nothing that matters from `σ = q/2` on. It does not become less with more samples.
 
+use crate::motion::Hold;
 use crate::sensor::{Axis, MeanReading, Recording};
 use nalgebra::Vector3;
 use statrs::distribution::{ContinuousCDF, Normal};
@@ -56,6 +57,16 @@ pub fn coarse_axes(recording: &Recording, holds: &[Range<usize>]) -> Vec<CoarseA
     let resolution = recording.resolution();
     let of = |&axis: &Axis| coarse(recording, holds, axis, resolution[axis.index()]);
     recording.active_axes().iter().filter_map(of).collect()
+}
+
+/// The same between the times of holds, which may be those of another sensor.
+#[must_use]
+pub fn coarse_axes_in<'a>(
+    recording: &Recording,
+    holds: impl IntoIterator<Item = &'a Hold>,
+) -> Vec<CoarseAxis> {
+    let spans: Vec<_> = holds.into_iter().map(|hold| recording.between(hold.start_s, hold.end_s)).collect();
+    coarse_axes(recording, &spans)
 }
 
 /// `V` of each axis, in the square of the unit of the readings.

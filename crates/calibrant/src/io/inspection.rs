@@ -4,7 +4,7 @@ use super::json;
 use super::recording::{Finding, ImuColumn, ImuFile};
 use crate::error::Result;
 use crate::estimate::{
-    CoarseAxis, Coverage, ExpectedCalibration, clipped_holds, coarse_axes, coverage, expected_calibration,
+    CoarseAxis, Coverage, ExpectedCalibration, clipped_holds, coarse_axes_in, coverage, expected_calibration,
     find_imu_holds,
 };
 use crate::motion::Hold;
@@ -166,8 +166,7 @@ impl HoldsInspection {
 /// The coarse axes of a sensor, by its samples in holds.
 fn coarse(recording: &ImuRecording, triad: Triad, holds: &[Hold]) -> Vec<(Triad, CoarseAxis)> {
     let Some(recording) = recording.triad(triad) else { return Vec::new() };
-    let spans: Vec<_> = holds.iter().map(|hold| recording.between(hold.start_s, hold.end_s)).collect();
-    coarse_axes(recording, &spans).into_iter().map(|found| (triad, found)).collect()
+    coarse_axes_in(recording, holds).into_iter().map(|found| (triad, found)).collect()
 }
 
 /// Mean of a sensor over the holds, and the scatter of its samples within them.

@@ -192,7 +192,8 @@ fn steady(recording: &Recording, first: usize, end: usize, window: usize) -> Opt
     (to > from + window / 2).then(|| summarise(recording, from, to))
 }
 
-fn median(mut values: Vec<f64>) -> f64 {
+/// The median of at least one value: of an even number, the larger of the middle two.
+pub(in crate::estimate) fn median(mut values: Vec<f64>) -> f64 {
     let middle = values.len() / 2;
     *values.select_nth_unstable_by(middle, f64::total_cmp).1
 }

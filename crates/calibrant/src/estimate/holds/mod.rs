@@ -33,7 +33,7 @@ use super::gravity::gravity_slope;
 use super::quantisation::of_means;
 use super::{
     Calibration, CalibrationProblem, CalibrationSettings, CoarseAxis, FitStatistics, HoldCalibration,
-    HoldResult, Recovered, Uncalibrated, coarse_axes, statistics,
+    HoldResult, Recovered, Uncalibrated, coarse_axes_in, statistics,
 };
 use crate::error::{Complaint, Error, Result};
 use crate::motion::{Gravity, Hold};
@@ -47,7 +47,7 @@ pub(super) use verdict::left_out;
 
 pub use clipped::clipped_holds;
 pub use coverage::{Coverage, coverage};
-pub(super) use detect::beyond;
+pub(super) use detect::{beyond, median};
 pub use detect::{find_holds, holds_between};
 pub use expected::{ExpectedCalibration, expected_calibration};
 
@@ -94,8 +94,7 @@ pub(super) fn calibrate(
     };
     let clipped = clipped_holds(as_read, &holds);
     let sound: Vec<usize> = (0..holds.len()).filter(|&j| clipped[j].is_none()).collect();
-    let coarse =
-        coarse_axes(as_read, &sound.iter().map(|&j| holds[j].first..holds[j].end).collect::<Vec<_>>());
+    let coarse = coarse_axes_in(as_read, sound.iter().map(|&j| &holds[j]));
     let of_mean = of_means(&coarse);
     let robust = match problem.sensor.model {
         SensorModel::ScaleBias => robust::fit::<6>(problem, setup, settings, &holds, sound, of_mean),

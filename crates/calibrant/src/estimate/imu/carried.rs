@@ -3,7 +3,8 @@
 use super::joint::{HoldData, Joint, Miss, State};
 use super::readings::{Integrable, felt_forces, rotation_spans};
 use super::settle::follow_drift;
-use super::still::{StillNoise, coarse_at_rest, still, weigh};
+use super::still::{StillNoise, still, weigh};
+use crate::estimate::coarse_axes_in;
 use crate::motion::Hold;
 use crate::sensor::{ImuParameters, ImuQuantity, MeanReading, Recording};
 use nalgebra::{DMatrix, Matrix2, Matrix2x3, Vector2, Vector3};
@@ -33,7 +34,7 @@ impl GyroscopeAtRest {
     ) -> Self {
         let stills: Vec<_> = holds.iter().map(|hold| still(gyroscope, hold)).collect();
         let of_sample = known_noise.unwrap_or_else(|| MeanReading::pooled_sd(stills.iter().flatten()));
-        let noise = StillNoise::of(of_sample, &coarse_at_rest(gyroscope, holds.iter().copied()));
+        let noise = StillNoise::of(of_sample, &coarse_axes_in(gyroscope, holds.iter().copied()));
         Self { stills, noise }
     }
 

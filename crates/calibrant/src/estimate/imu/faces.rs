@@ -8,7 +8,9 @@ use crate::error::{Complaint, Error, NotIdentifiable, Result, UndeterminedGroup}
 use crate::estimate::excess::excess;
 use crate::estimate::holds::{clipped_reason, coarse_words, left_out, magnitude_rms, with_clipped};
 use crate::estimate::quantisation::of_means;
-use crate::estimate::{HoldCalibration, HoldResult, Uncalibrated, clipped_holds, coarse_axes, holds_between};
+use crate::estimate::{
+    HoldCalibration, HoldResult, Uncalibrated, clipped_holds, coarse_axes_in, holds_between,
+};
 use crate::information;
 use crate::motion::Hold;
 use crate::sensor::{ParameterList, Recording, SensorParameters, TriadThermal};
@@ -73,7 +75,7 @@ pub(super) fn fit(
     let sound = (0..holds.len()).filter(|&j| clipped[j].is_none());
     let (usable, along): (Vec<Hold>, Vec<Vector3<f64>>) =
         sound.map(|j| (holds[j].clone(), forces[j])).unzip();
-    let coarse = coarse_axes(as_read, &usable.iter().map(|hold| hold.first..hold.end).collect::<Vec<_>>());
+    let coarse = coarse_axes_in(as_read, &usable);
     let (within, of_mean) = (Hold::pooled_sd(&usable), of_means(&coarse));
     let linear = Linear { holds: &usable, forces: &along, list: &list, within, of_mean };
     let (sensor, between, condition) =

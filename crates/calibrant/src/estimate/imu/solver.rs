@@ -6,7 +6,7 @@ use super::faces::{self, First};
 use super::joint::{HoldData, Joint, Misses, State};
 use super::readings::{Integrable, felt_forces, rotation_spans, turns};
 use super::settle::{apply, follow_drift, reweigh, settle};
-use super::still::{Explanation, StillNoise, between_sd, coarse_at_rest, still, weigh};
+use super::still::{Explanation, StillNoise, between_sd, still, weigh};
 use super::thermal::{self, Climate};
 use super::verdict::{self, undetermined, vague};
 use super::{Gyroscope, ImuCalibration, ImuProblem, NoiseSource, WhiteNoise, start, turned};
@@ -15,7 +15,7 @@ use crate::estimate::holds::beyond;
 use crate::estimate::problem::sound;
 use crate::estimate::quantisation::of_means;
 use crate::estimate::{
-    CalibrationProblem, CalibrationSettings, HoldsSetup, Recovered, Stimulus, coarse_axes, holds,
+    CalibrationProblem, CalibrationSettings, HoldsSetup, Recovered, Stimulus, coarse_axes_in, holds,
 };
 use crate::information;
 use crate::motion::Hold;
@@ -58,7 +58,7 @@ pub(super) fn calibrate_imu(
     said.extend(beyond(accelerometer, given).into_iter().filter(|other| !first.warnings.contains(other)));
     let (noise, noise_source) = sample_noise(problem.gyroscope, white_noise, &stills);
     let at_rest = used.iter().zip(&stills).filter(|(_, still)| still.is_some());
-    let coarse = coarse_at_rest(gyroscope, at_rest.map(|(hold, _)| *hold));
+    let coarse = coarse_axes_in(gyroscope, at_rest.map(|(hold, _)| *hold));
     let noise = StillNoise::of(noise, &coarse);
     let quantities = quantities(problem);
     let prior = prior(problem, &quantities);
@@ -261,8 +261,7 @@ fn from_holds(
     holds.detected = detected;
     let within = first.fit.noise_estimate.unwrap_or_else(Vector3::zeros);
     let sound = holds.holds.iter().filter(|result| result.reason.is_none());
-    let spans: Vec<_> = sound.map(|result| result.hold.first..result.hold.end).collect();
-    let of_mean = of_means(&coarse_axes(as_read, &spans));
+    let of_mean = of_means(&coarse_axes_in(as_read, sound.map(|result| &result.hold)));
     let (thermal, adjusted) = (TriadThermal::default(), None);
     Ok(First { sensor: first.sensor, within, of_mean, holds, warnings: first.warnings, thermal, adjusted })
 }

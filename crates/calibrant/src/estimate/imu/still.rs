@@ -1,9 +1,9 @@
 //! The gyroscope in the holds: its bias, its noise, and how far it wanders between them.
 
 use super::joint::HoldData;
+use crate::estimate::CoarseAxis;
 use crate::estimate::excess::excess;
 use crate::estimate::quantisation::of_means;
-use crate::estimate::{CoarseAxis, coarse_axes};
 use crate::motion::Hold;
 use crate::sensor::{MeanReading, Recording, ThermalTerm, TriadThermal};
 use nalgebra::{DMatrix, DVector, Vector3};
@@ -43,15 +43,6 @@ impl StillNoise {
     pub(super) fn variance(&self, samples: usize) -> Vector3<f64> {
         self.of_sample.component_mul(&self.of_sample) / samples as f64 + self.of_mean
     }
-}
-
-/// The axes of a gyroscope whose steps are coarse, by its samples in these holds.
-pub(super) fn coarse_at_rest<'a>(
-    gyroscope: &Recording,
-    holds: impl IntoIterator<Item = &'a Hold>,
-) -> Vec<CoarseAxis> {
-    let spans: Vec<_> = holds.into_iter().map(|hold| gyroscope.between(hold.start_s, hold.end_s)).collect();
-    coarse_axes(gyroscope, &spans)
 }
 
 /// What the means in the holds are explained by, beside a constant.

@@ -2,6 +2,7 @@
 //!
 //! Holds that are found are still for both sensors, those that are given may not be. What the gyroscope shows in such a hold is no bias; the accelerometer's mean may be right.
 
+use crate::estimate::holds::median;
 use crate::motion::Hold;
 use crate::sensor::{Axis, MeanReading, Recording};
 use nalgebra::Vector3;
@@ -33,9 +34,10 @@ pub(super) fn take_out(
     let least = if drifts { f64::INFINITY } else { TURNING * (high - low).amax() };
     for axis in Axis::ALL {
         let axis = axis.index();
-        let middle = median(stills.iter().flatten().map(|still| still.mean[axis]));
-        let deviation = median(stills.iter().flatten().map(|still| (still.mean[axis] - middle).abs()));
-        let usual = median(scatter.iter().flatten().map(|sd| sd[axis])).max(step[axis]);
+        let middle = median(stills.iter().flatten().map(|still| still.mean[axis]).collect());
+        let deviation =
+            median(stills.iter().flatten().map(|still| (still.mean[axis] - middle).abs()).collect());
+        let usual = median(scatter.iter().flatten().map(|sd| sd[axis]).collect()).max(step[axis]);
         for (j, (still, sd)) in stills.iter().zip(&scatter).enumerate() {
             let (Some(still), Some(sd)) = (still, sd) else { continue };
             let off = still.mean[axis] - middle;
@@ -62,10 +64,4 @@ pub(super) fn take_out(
         ));
     }
     said
-}
-
-fn median(values: impl Iterator<Item = f64>) -> f64 {
-    let mut values: Vec<f64> = values.collect();
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied().unwrap_or(0.0)
 }
