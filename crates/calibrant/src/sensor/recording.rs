@@ -16,6 +16,9 @@ pub struct Recording {
     pub unit: ReadingUnit,
 }
 
+/// So many steps tell about where the median of all is.
+const SOME: usize = 512;
+
 impl Recording {
     /// Number of samples.
     #[must_use]
@@ -72,16 +75,27 @@ pub(crate) fn greater(one: f64, other: f64) -> f64 {
 
 /// The inverse of the median step between times in s, Hz; 0 for fewer than two.
 pub(crate) fn rate_hz(times_s: &[f64]) -> f64 {
-    // whole numbers in the order of the steps, as `f64::total_cmp` has it: they are sorted faster
-    let ordered = |bits: i64| bits ^ ((bits >> 63) as u64 >> 1) as i64;
-    let mut steps: Vec<i64> =
-        times_s.windows(2).map(|pair| ordered((pair[1] - pair[0]).to_bits() as i64)).collect();
-    if steps.is_empty() {
+    let steps = || times_s.windows(2).map(|pair| pair[1] - pair[0]);
+    let count = steps().len();
+    if count == 0 {
         return 0.0;
     }
-    let middle = steps.len() / 2;
-    let (_, median, _) = steps.select_nth_unstable(middle);
-    1.0 / f64::from_bits(ordered(*median) as u64)
+    let middle = count / 2;
+    // some of the steps tell about where the median is: the others need only be compared with that
+    let mut some: Vec<f64> = steps().step_by(count.div_ceil(SOME)).collect();
+    some.sort_unstable_by(f64::total_cmp);
+    let (low, high) = (some[some.len() * 2 / 5], some[some.len() * 3 / 5]);
+    let lower = steps().filter(|step| *step < low).count();
+    let not_higher = steps().filter(|step| *step <= high).count();
+    let is_between = (lower..not_higher).contains(&middle);
+    if is_between && low == high {
+        return 1.0 / low;
+    }
+    let (mut left, lower) = match is_between {
+        true => (steps().filter(|step| (low..=high).contains(step)).collect(), lower),
+        false => (steps().collect::<Vec<f64>>(), 0),
+    };
+    1.0 / *left.select_nth_unstable_by(middle - lower, f64::total_cmp).1
 }
 
 #[cfg(test)]
@@ -93,10 +107,20 @@ mod tests {
         assert_eq!((rate_hz(&[]), rate_hz(&[1.0])), (0.0, 0.0));
         // steps of -1, 0, 0.25, 0.5 and 8
         assert_eq!(rate_hz(&[0.0, 0.5, 8.5, 7.5, 7.5, 7.75]), 4.0);
-        let mut times = vec![0.0];
-        (1..1000).for_each(|k| times.push(times[k - 1] + 0.01 + 1e-3 * (k as f64).sin()));
-        let mut steps: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
-        steps.sort_by(f64::total_cmp);
-        assert_eq!(rate_hz(&times), 1.0 / steps[steps.len() / 2]);
+        // each step its own; all the same; some that stand for all the others badly
+        let irregular = |k: usize| 0.01 + 1e-3 * (k as f64).sin();
+        let every_64th = |k: usize| if k.is_multiple_of(64) { 0.5 } else { 0.01 + 1e-9 * k as f64 };
+        for (count, step) in [
+            (1000, &irregular as &dyn Fn(usize) -> f64),
+            (50_001, &irregular),
+            (50_000, &|_| 0.25),
+            (512 * 64, &every_64th),
+        ] {
+            let mut times = vec![0.0];
+            (0..count).for_each(|k| times.push(times[k] + step(k)));
+            let mut steps: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
+            steps.sort_by(f64::total_cmp);
+            assert_eq!(rate_hz(&times), 1.0 / steps[steps.len() / 2]);
+        }
     }
 }

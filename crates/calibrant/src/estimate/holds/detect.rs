@@ -57,8 +57,9 @@ pub fn find_holds(recording: &Recording, minimum_s: f64) -> Result<Vec<Hold>> {
     if recording.len() < 2 * window {
         return Ok(Vec::new());
     }
-    let variance = window_variance(recording, window, 1.0 / rate);
-    let Some(threshold) = threshold(&variance, resolution(recording)) else { return Ok(Vec::new()) };
+    let mean = recording.readings.iter().sum::<Vector3<f64>>() / recording.len() as f64;
+    let variance = window_variance(recording, &mean, window, 1.0 / rate);
+    let Some(threshold) = threshold(&variance, resolution(recording, &mean)) else { return Ok(Vec::new()) };
     let mut holds = Vec::new();
     let mut k = 0;
     while k < variance.len() {
@@ -81,10 +82,9 @@ pub fn find_holds(recording: &Recording, minimum_s: f64) -> Result<Vec<Hold>> {
     Ok(holds)
 }
 
-/// Sum over the axes of the variance within each window of so many samples; infinite for windows that span a gap.
-fn window_variance(recording: &Recording, window: usize, step: f64) -> Vec<f64> {
+/// Sum over the axes of the variance within each window of so many samples, whose mean is about this one; infinite for windows that span a gap.
+fn window_variance(recording: &Recording, mean: &Vector3<f64>, window: usize, step: f64) -> Vec<f64> {
     let n = recording.len();
-    let mean = recording.readings.iter().sum::<Vector3<f64>>() / n as f64;
     let (mut sum, mut squares) = (Vector3::zeros(), 0.0);
     let mut gaps = 0_usize;
     let gap = |k: usize| usize::from(recording.times_s[k + 1] - recording.times_s[k] > 5.0 * step);
@@ -121,8 +121,7 @@ fn window_variance(recording: &Recording, window: usize, step: f64) -> Vec<f64> 
 
 /// The variance below which a recording cannot tell: that of its quantisation, `q²/12` per axis with the smallest step `q` between samples,
 /// and a millionth of its range, below which the running sums round.
-fn resolution(recording: &Recording) -> f64 {
-    let mean = recording.readings.iter().sum::<Vector3<f64>>() / recording.len() as f64;
+fn resolution(recording: &Recording, mean: &Vector3<f64>) -> f64 {
     let range = recording.readings.iter().map(|y| (y - mean).norm_squared()).fold(0.0, greater);
     let mut steps = Vector3::repeat(f64::INFINITY);
     for pair in recording.readings.windows(2) {
