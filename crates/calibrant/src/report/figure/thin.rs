@@ -13,45 +13,57 @@ pub(super) fn thinned_dots(points: impl ExactSizeIterator<Item = (f64, f64)>) ->
     thinned_to(COLUMNS / 2, points)
 }
 
-fn thinned_to(columns: usize, mut points: impl ExactSizeIterator<Item = (f64, f64)>) -> Vec<(f64, f64)> {
+fn thinned_to(columns: usize, points: impl ExactSizeIterator<Item = (f64, f64)>) -> Vec<(f64, f64)> {
     if points.len() <= 3 * columns {
         return points.collect();
     }
     let per_column = points.len().div_ceil(columns);
     let mut kept = Vec::with_capacity(2 * columns);
-    while points.len() > 0 {
-        let mut column = Column::default();
-        let finite = |point: &(f64, f64)| point.0.is_finite() && point.1.is_finite();
-        points.by_ref().take(per_column).filter(finite).for_each(|point| column.add(point));
-        kept.extend(column.extremes());
-    }
+    let (mut column, mut room) = (Column::default(), per_column);
+    points.for_each(|point| {
+        if room == 0 {
+            kept.extend(std::mem::take(&mut column).extremes());
+            room = per_column;
+        }
+        room -= 1;
+        column.add(point);
+    });
+    kept.extend(column.extremes());
     kept
 }
 
 /// The extremes of a column of pixels.
-#[derive(Default)]
 struct Column {
-    low: Option<(f64, f64)>,
-    high: Option<(f64, f64)>,
+    low: (f64, f64),
+    high: (f64, f64),
+}
+
+impl Default for Column {
+    fn default() -> Self {
+        Self { low: (f64::NAN, f64::INFINITY), high: (f64::NAN, f64::NEG_INFINITY) }
+    }
 }
 
 impl Column {
+    /// Takes another point, if it is finite.
     fn add(&mut self, point: (f64, f64)) {
-        if self.low.is_none_or(|low| point.1 < low.1) {
-            self.low = Some(point);
+        if !(point.0.is_finite() && point.1.is_finite()) {
+            return;
         }
-        if self.high.is_none_or(|high| point.1 > high.1) {
-            self.high = Some(point);
+        if point.1 < self.low.1 {
+            self.low = point;
+        }
+        if point.1 > self.high.1 {
+            self.high = point;
         }
     }
 
     /// In order of x; one where both are the same.
     fn extremes(self) -> impl Iterator<Item = (f64, f64)> {
-        let (first, second) = match (self.low, self.high) {
-            (Some(low), Some(high)) if high.0 < low.0 => (Some(high), Some(low)),
-            (low, high) => (low, high.filter(|_| low != high)),
-        };
-        first.into_iter().chain(second)
+        let Self { low, high } = self;
+        let (first, second) = if high.0 < low.0 { (high, low) } else { (low, high) };
+        let is_there = first.0.is_finite();
+        is_there.then_some(first).into_iter().chain((is_there && first != second).then_some(second))
     }
 }
 
@@ -82,6 +94,10 @@ mod tests {
         assert!(kept.contains(&(54_321.0, 99.0)));
         assert!(kept.windows(2).all(|pair| pair[0].0 < pair[1].0));
         assert!(kept.iter().all(|point| point.1.is_finite()));
+        // constant, and not known in parts
+        let flat = (0..100_000).map(|i| (f64::from(i), if i < 50_000 { f64::NAN } else { 2.0 }));
+        let kept = thinned(flat);
+        assert_eq!((kept.len(), kept[0]), (COLUMNS / 2, (50_000.0, 2.0)));
     }
 
     #[test]
