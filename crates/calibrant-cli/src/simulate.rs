@@ -33,6 +33,8 @@ use std::path::{Path, PathBuf};
 /// calibrant simulate imu.toml -o one; calibrant simulate imu.toml --recording 2 -o two
 ///
 /// calibrant calibrate imu.toml one/recording.csv --validate two/recording.csv -o result
+///
+/// calibrant compare one/truth.json result/calibration.json then tells how far the result is from the truth, in its standard deviations.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
     /// The experiment file (see `calibrant init`).

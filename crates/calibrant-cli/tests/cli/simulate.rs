@@ -149,3 +149,103 @@ fn a_validation_is_rehearsed_with_the_second_recording_of_the_sensor() {
         }
     }
 }
+
+/// Numbers of the first samples, which are of a hold, from one of the columns on: the mean of each.
+fn means(bench: &Bench, file: &str) -> Vec<(String, f64)> {
+    let text = bench.read(file);
+    let header = text.lines().next().expect("a header").split(',');
+    let rows: Vec<Vec<f64>> = text
+        .lines()
+        .skip(101)
+        .take(350)
+        .map(|row| row.split(',').map(|number| number.parse().expect("a number")).collect())
+        .collect();
+    let mean = |column: usize| rows.iter().map(|row| row[column]).sum::<f64>() / rows.len() as f64;
+    header.enumerate().map(|(column, name)| (name.to_owned(), mean(column))).collect()
+}
+
+#[test]
+fn a_result_is_compared_with_the_truth_which_is_a_calibration_as_any_other() {
+    let bench = Bench::new();
+    experiments(&bench);
+    let symmetric = |preset: &str, file: &str, gauge: &str| {
+        bench.preset(preset, file, &[(&format!("gauge = \"{gauge}\""), "gauge = \"symmetric\"")]);
+    };
+    symmetric("static-poses", "symmetric-poses.toml", "upper");
+    symmetric("imu", "symmetric-hand.toml", "lower");
+    let table = bench.read("table.toml");
+    bench.write("fixed.toml", format!("{table}\n[known]\n\"gyroscope.bias.z\" = {{ value = 0.01 }}\n"));
+    for experiment in
+        ["poses", "symmetric-poses", "hand", "symmetric-hand", "warm", "table", "known-bias", "fixed"]
+    {
+        bench.run(&format!("simulate {experiment}.toml --seed 7 -o one")).done();
+        bench.run(&format!("calibrate {experiment}.toml one/recording.csv -o result")).done();
+        let compare = |a: &str, b: &str| -> serde_json::Value {
+            let outcome = bench.run(&format!("compare {a} {b} --json")).done();
+            serde_json::from_str(&outcome.stdout).expect("JSON")
+        };
+        let found = compare("one/truth.json", "result/calibration.json");
+        let p_value = found["overall"]["p_value"].as_f64().expect("a number");
+        assert!(p_value > 1e-3, "{experiment}: {found}");
+        let (truth, result) = (bench.json("one/truth.json"), bench.json("result/calibration.json"));
+        let mut biases = 0;
+        for row in found["quantities"].as_array().expect("a table") {
+            // biases are the same in any frame; one accelerometer's have no sensor in their names
+            let name = row["name"].as_str().expect("a name");
+            let of = |file: &serde_json::Value| {
+                let list = file["parameters"].as_array().expect("a list").clone();
+                let is_it = |listed: &str| name == listed || name == format!("accelerometer.{listed}");
+                list.into_iter().find(|parameter| is_it(parameter["name"].as_str().expect("a name")))
+            };
+            if let (true, Some(truth), Some(found)) = (name.contains(".bias."), of(&truth), of(&result)) {
+                let number = |value: &serde_json::Value| value.as_f64().expect("a number");
+                let difference = number(&found["value"]) - number(&truth["value"]);
+                let in_sd = difference / number(&found["sd"]);
+                assert!((number(&row["difference"]) - difference).abs() < 1e-12, "{experiment}: {row}");
+                assert!((number(&row["difference_in_sd"]) - in_sd).abs() < 1e-6, "{experiment}: {row}");
+                biases += 1;
+            }
+        }
+        let expected = [("poses", 3), ("symmetric-poses", 3), ("fixed", 5)];
+        let expected = expected.iter().find(|(of, _)| *of == experiment).map_or(6, |(_, biases)| *biases);
+        assert_eq!(biases, expected, "{experiment}: {found}");
+        // nothing of it is lost in another file, and it corrects the recording
+        bench.run("convert one/truth.json other.json").done();
+        let same = compare("one/truth.json", "other.json");
+        for row in same["quantities"].as_array().expect("a table") {
+            assert_eq!(row["difference"].as_f64(), Some(0.0), "{experiment}: {row}");
+        }
+        bench.run("apply one/truth.json one/recording.csv -o corrected.csv").done();
+        let means = means(&bench, "corrected.csv");
+        let of = |name: &str| means.iter().find(|(column, _)| column == name).map(|(_, mean)| *mean);
+        let force = ["ax_mps2", "ay_mps2", "az_mps2"].map(|name| of(name).expect("a column"));
+        let gravity = result["holds"]["gravity_mps2"].as_f64().expect("a number");
+        // noise of 0.01 m/s² and 2e-3 rad/s, 350 samples: five standard deviations of a mean
+        let magnitude = force.iter().map(|f| f * f).sum::<f64>().sqrt();
+        assert!((magnitude - gravity).abs() < 5.0 * 0.01 / 350.0_f64.sqrt(), "{experiment}: {force:?}");
+        for rate in ["gx_radps", "gy_radps", "gz_radps"].into_iter().filter_map(of) {
+            assert!(rate.abs() < 5.0 * 2e-3 / 350.0_f64.sqrt(), "{experiment}: {rate}");
+        }
+    }
+    let outcome = bench.run("compare one/truth.json result/calibration.json").done();
+    outcome.says("one/truth.json: the truth of a simulation, seed 7: its values are exact");
+    outcome.says("A has no covariance: its values count as exact");
+    // what a truth is not
+    bench.preset("report", "line.toml", &[("axes = 3", "axes = 1")]);
+    bench.run("simulate line.toml -o line").done();
+    bench.refuses(
+        "compare line/truth.json one/truth.json",
+        2,
+        &["fewer than three scale factors of the accel"],
+    );
+    bench.run("simulate known.toml -o known").done();
+    bench.refuses(
+        "design known.toml --from known/truth.json -o next",
+        2,
+        &["known/truth.json: this is the truth of a simulation, not a calibration: it has no covariance"],
+    );
+    bench.write("part.json", bench.read("one/truth.json").replace("parameters", "parametres"));
+    bench.refuses("compare part.json one/truth.json", 2, &["the field `parameters` is missing"]);
+    bench.write("part.json", bench.read("one/truth.json").replace("scale.x\"", "scale.u\""));
+    bench.refuses("compare part.json one/truth.json", 2, &["\"accelerometer.scale.u\" is no parameter"]);
+}
