@@ -10,8 +10,8 @@ use std::path::PathBuf;
 
 /// Compare two calibrations by what does not depend on the true frame: gains, angles between axes, biases, g-sensitivity.
 ///
-/// Any two formats that `calibrant convert` reads. The difference is also given in joint standard deviations where there is a covariance, and as one χ² of all
-/// parameters.
+/// Any two formats that `calibrant convert` reads, and the truth.json of a simulation: its values are exact. The difference is also given in joint standard
+/// deviations where there is a covariance, and as one χ² of all parameters.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
     /// The first calibration.

@@ -12,7 +12,8 @@ use calibrant::io::{
 use calibrant::motion::{JerkControlledMotion, KnownEnds, Limits, Trust};
 use calibrant::sensor::{ReadingUnit, Sensor};
 use calibrant::simulate::{
-    HoldsSimulation, Purpose, draw_sensor, perturb, sample_times, simulate_holds, simulate_recording, stream,
+    HoldsSimulation, Purpose, Rng, draw_sensor, perturb, sample_times, simulate_holds, simulate_recording,
+    stream,
 };
 use nalgebra::Vector3;
 use std::path::{Path, PathBuf};
@@ -25,6 +26,15 @@ use std::path::{Path, PathBuf};
 /// An IMU (kind = "imu") is turned by hand between holds.poses orientations; with holds.directions it is put down on these faces and turned by gyroscope.turns, at
 /// the times that are given. Spreads that [sensor] does not give, and the gyroscope's, are those of common MEMS sensors.
 /// With [temperature] it warms by 24 K about the reference from the beginning to the end, and the recording has a column temp_c.
+///
+/// The seed draws the sensor, --recording N what happens in its Nth recording: the same truth.json, independent noise, other random poses or motion. Number all
+/// recordings that are to be independent, those of different experiments too. A validation is rehearsed with two:
+///
+/// calibrant simulate imu.toml -o one; calibrant simulate imu.toml --recording 2 -o two
+///
+/// calibrant calibrate imu.toml one/recording.csv --validate two/recording.csv -o result
+///
+/// calibrant compare one/truth.json result/calibration.json then tells how far the result is from the truth, in its standard deviations.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
     /// The experiment file (see `calibrant init`).
@@ -35,6 +45,9 @@ pub(crate) struct Arguments {
     /// Seed of everything random (default: the one in [study], 1).
     #[arg(long)]
     seed: Option<u64>,
+    /// Which recording of the sensor that the seed draws: each has its own noise and its own random poses or motion.
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
+    recording: u32,
     /// Directory for the results.
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
@@ -44,29 +57,54 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     place::check_directory(&arguments.output)?;
     let experiment = Experiment::read(&arguments.experiment)?;
     let seed = arguments.seed.unwrap_or(experiment.study.seed);
+    let random = Random { seed, recording: arguments.recording.into() };
     let samples = match (&experiment.plan, &experiment.imu) {
         (Plan::Motion(plan), _) => {
             check_simulable(&experiment.sensor, &arguments.experiment)?;
-            simulate_motion(arguments, &experiment, plan, seed)?
+            simulate_motion(arguments, &experiment, plan, random)?
         }
         (Plan::Holds(plan), imu) => {
             if arguments.motion.is_some() {
                 console::warn("--motion is not used: a [holds] experiment has no motion");
             }
             match imu {
-                Some(imu) => imu::run(arguments, &experiment, plan, imu, seed)?,
+                Some(imu) => imu::run(arguments, &experiment, plan, imu, random)?,
                 None => {
                     check_simulable(&experiment.sensor, &arguments.experiment)?;
-                    simulate_poses(arguments, &experiment, plan, seed)?
+                    simulate_poses(arguments, &experiment, plan, random)?
                 }
             }
         }
     };
+    let which =
+        if arguments.recording == 1 { String::new() } else { format!(", recording {}", arguments.recording) };
     console::print(&format!(
-        "{samples} samples, seed {seed}: {}\n",
+        "{samples} samples, seed {seed}{which}: {}\n",
         arguments.output.join("recording.csv").display()
     ));
     Ok(Exit::DONE)
+}
+
+/// Where everything random comes from.
+#[derive(Clone, Copy)]
+struct Random {
+    seed: u64,
+    /// From 1.
+    recording: u64,
+}
+
+impl Random {
+    fn sensor(self) -> Rng {
+        stream(self.seed, Purpose::Sensor, 0)
+    }
+
+    /// Of what happens in the recording, all of the sensor being drawn: the first goes on in the sensor's stream, so that a seed means what it always did.
+    fn happening(self, after_sensor: Rng) -> Rng {
+        match self.recording {
+            1 => after_sensor,
+            another => stream(self.seed, Purpose::Recording, another),
+        }
+    }
 }
 
 /// A simulation needs numbers where a calibration can do without.
@@ -86,26 +124,29 @@ fn check_simulable(sensor: &Sensor, file: &Path) -> calibrant::Result<()> {
     }
 }
 
-/// The commanded motion: the given one, or the random initial one of the experiment.
+/// Draws of an initial motion, at most.
+const DRAWS: u64 = 100;
+
+/// The commanded motion: the given one, or the random initial one of the experiment for this recording, from 1.
 pub(crate) fn commanded_motion(
     motion: Option<&Path>,
     plan: &MotionPlan,
     axes: usize,
     limits: &Limits,
     seed: u64,
+    recording: u64,
 ) -> calibrant::Result<JerkControlledMotion> {
     if let Some(path) = motion {
         return read_motion(path, axes);
     }
     // with both ends known and nothing in between, the ends must differ: draw again until they do by a tenth of the peak
-    for draw in 0..100 {
-        let motion = initial_motion(
-            plan.intervals,
-            plan.interval_s,
-            axes,
-            limits,
-            &mut stream(seed, Purpose::Motion, draw),
-        )?;
+    let first = DRAWS * (recording - 1);
+    let drawn = |draw| {
+        let mut rng = stream(seed, Purpose::Motion, draw);
+        initial_motion(plan.intervals, plan.interval_s, axes, limits, &mut rng)
+    };
+    for draw in first..first + DRAWS {
+        let motion = drawn(draw)?;
         let a = motion.acceleration_mps2();
         let apart = (0..axes).all(|k| {
             let peak = a.iter().fold(0.0_f64, |peak, a| peak.max(a[k].abs()));
@@ -115,20 +156,22 @@ pub(crate) fn commanded_motion(
             return Ok(motion);
         }
     }
-    initial_motion(plan.intervals, plan.interval_s, axes, limits, &mut stream(seed, Purpose::Motion, 0))
+    drawn(first)
 }
 
 fn simulate_motion(
     arguments: &Arguments,
     experiment: &Experiment,
     plan: &MotionPlan,
-    seed: u64,
+    random: Random,
 ) -> calibrant::Result<usize> {
     let sensor = &experiment.sensor;
     let limits = experiment.limits.within_range(sensor.range_mps2);
-    let motion = commanded_motion(arguments.motion.as_deref(), plan, sensor.axes, &limits, seed)?;
-    let mut rng = stream(seed, Purpose::Sensor, 0);
+    let given = arguments.motion.as_deref();
+    let motion = commanded_motion(given, plan, sensor.axes, &limits, random.seed, random.recording)?;
+    let mut rng = random.sensor();
     let truth = draw_sensor(sensor, &mut rng);
+    let mut rng = random.happening(rng);
     let happened = match plan.trust {
         Trust::Noisy(noise) => Some(perturb(&motion, &noise, sensor.axes, plan.known_ends, &mut rng)?),
         Trust::Known | Trust::Unknown => None,
@@ -142,7 +185,7 @@ fn simulate_motion(
     if let Some(happened) = &happened {
         write_motion(&output.join("true_motion.csv"), happened, sensor.axes)?;
     }
-    write_truth(&output.join("truth.json"), seed, &sensor.parameter_list(), sensor.unit, &truth)?;
+    write_truth(&output.join("truth.json"), random.seed, &sensor.parameter_list(), sensor.unit, &truth)?;
     write_recording(&output.join("recording.csv"), &recording)?;
     Ok(recording.len())
 }
@@ -151,11 +194,12 @@ fn simulate_poses(
     arguments: &Arguments,
     experiment: &Experiment,
     plan: &HoldsPlan,
-    seed: u64,
+    random: Random,
 ) -> calibrant::Result<usize> {
     let sensor = &experiment.sensor;
-    let mut rng = stream(seed, Purpose::Sensor, 0);
+    let mut rng = random.sensor();
     let truth = plan.gauge.apply(&draw_sensor(sensor, &mut rng));
+    let mut rng = random.happening(rng);
     let noise = sensor.noise(&truth.matrix.diagonal()).unwrap_or_else(Vector3::zeros);
     let setup = HoldsSimulation {
         poses: plan.poses,
@@ -169,7 +213,7 @@ fn simulate_poses(
     let output = &arguments.output;
     write_truth(
         &output.join("truth.json"),
-        seed,
+        random.seed,
         &plan.gauge.parameter_list(sensor.model),
         sensor.unit,
         &truth,

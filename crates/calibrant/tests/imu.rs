@@ -336,6 +336,41 @@ fn a_gyroscope_that_ends_early_leaves_named_parameters_undetermined() {
     assert!(error.to_string().contains("gyroscope.scale"), "{error}");
 }
 
+/// Holds of 2.5 s and turns of 2 s: those beside the time at which the gyroscope ends or begins are left out by their own times.
+#[test]
+fn rotations_that_the_gyroscope_does_not_cover_are_named_by_their_times() {
+    let (_, whole) = small();
+    let unit = ReadingUnit::MetrePerSecondSquared;
+    for (covered, says) in [
+        (0..6001, "the gyroscope's recording ends at 60.0 s"),
+        (6000..10_600, "the gyroscope's recording begins only at 60.0 s"),
+    ] {
+        let mut recording = whole.clone();
+        let gyroscope = recording.gyroscope.as_mut().expect("there");
+        gyroscope.times_s = gyroscope.times_s[covered.clone()].to_vec();
+        gyroscope.readings = gyroscope.readings[covered.clone()].to_vec();
+        let calibration = run(&recording, &Gyroscope::default(), &ImuSetup::default(), unit).expect("found");
+        let holds = &calibration.holds.holds;
+        let (from_s, to_s) = (covered.start as f64 / 100.0, covered.end as f64 / 100.0);
+        let mut left_out = 0;
+        for rotation in &calibration.rotations {
+            let (from, to) = (&holds[rotation.from_hold].hold, &holds[rotation.to_hold].hold);
+            let ends = (from.end_s, to.start_s);
+            // it reaches 0.3 s into the holds, a quarter of a hold that was cut short
+            let margin = |duration_s: f64| (0.25 * duration_s).min(0.3);
+            let beside = (
+                rotation.start_s - ends.0 + margin(from.duration_s()),
+                rotation.end_s - ends.1 - margin(to.duration_s()),
+            );
+            assert!(beside.0.abs() < 0.02 && beside.1.abs() < 0.02, "{rotation:?} of {ends:?}");
+            let is_covered = ends.0 > from_s && ends.1 < to_s;
+            assert_eq!(rotation.reason.as_deref(), (!is_covered).then_some(says), "{rotation:?}");
+            left_out += usize::from(!is_covered);
+        }
+        assert!((8..14).contains(&left_out), "{left_out}");
+    }
+}
+
 #[test]
 fn a_known_bias_is_kept_and_a_prior_shares() {
     let (truth, recording) = small();

@@ -6,6 +6,7 @@ use calibrant::estimate::{
     CalibrationProblem, CalibrationSettings, CalibrationStatus, Gyroscope, HoldsSetup, ImuCalibration,
     ImuProblem, ImuSetup, Recovered, Stimulus, Turn, calibrate, calibrate_imu,
 };
+use calibrant::io::{Input, calibration_json};
 use calibrant::sensor::{Axis, ImuParameters, ImuRecording, ReadingUnit, Recording, Sensor, SensorModel};
 use calibrant::simulate::{
     ImuSimulation, Purpose, Rng, TableAction, TableStep, simulate_imu, simulate_table, stream,
@@ -248,6 +249,15 @@ fn the_accelerometer_alone_leaves_them_out_as_well() {
     assert!(
         cut.len() > 2 && cut.iter().all(|reason| reason.contains("axis x of the accelerometer saturates"))
     );
+    // and so says the file
+    let input = Input { file: "x.csv".into(), sha256: String::new(), samples: 0, rate_hz: 100.0 };
+    let json: serde_json::Value =
+        serde_json::from_str(&calibration_json(&calibration, &input)).expect("JSON");
+    let table = json["holds"]["table"].as_array().expect("a table");
+    for (row, hold) in table.iter().zip(&holds.holds) {
+        assert_eq!(row["reason"].as_str(), hold.reason.as_deref());
+        assert_eq!(row.get("reason").is_none(), row["used"] == true);
+    }
     for (value, (sd, quantity)) in calibration
         .values
         .iter()

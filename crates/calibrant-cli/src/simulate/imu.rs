@@ -1,14 +1,14 @@
 //! `calibrant simulate` for a whole IMU: turned by hand, or on a table as the experiment lists it.
 
-use super::Arguments;
+use super::{Arguments, Random};
 use crate::console;
 use calibrant::Error;
 use calibrant::error::Complaint;
 use calibrant::io::{Experiment, HoldsPlan, ImuPlan, write_imu_recording, write_imu_truth};
 use calibrant::sensor::{CalibratedImu, ImuParameters, ImuQuantity, ReadingUnit, Triad, WORKING_C};
 use calibrant::simulate::{
-    GyroscopeToDraw, ImuSimulation, MOST_SAMPLES, Purpose, Rng, TURN_S, TableAction, TableStep, draw_imu,
-    draw_known, draw_thermal, simulate_imu, simulate_table, stream,
+    GyroscopeToDraw, ImuSimulation, MOST_SAMPLES, Rng, TURN_S, TableAction, TableStep, draw_imu, draw_known,
+    draw_thermal, simulate_imu, simulate_table,
 };
 use nalgebra::Vector3;
 
@@ -22,7 +22,7 @@ pub(super) fn run(
     experiment: &Experiment,
     holds: &HoldsPlan,
     plan: &ImuPlan,
-    seed: u64,
+    random: Random,
 ) -> calibrant::Result<usize> {
     let sensor = &experiment.sensor;
     let needs = |key: &str| {
@@ -36,7 +36,7 @@ pub(super) fn run(
         ReadingUnit::Counts => plan.gyroscope.gain.ok_or_else(|| needs("gyroscope.gain_counts_per_radps"))?,
         _ => ones,
     };
-    let mut rng = stream(seed, Purpose::Sensor, 0);
+    let mut rng = random.sensor();
     let gyroscope = GyroscopeToDraw {
         model: plan.gyroscope.model,
         gain: gain_g,
@@ -76,11 +76,12 @@ pub(super) fn run(
         draw_thermal(&mut truth, &plan.thermal.quantities(), [gain_a, gain_g], &mut rng);
     }
     set_known(&mut truth, &quantities, plan, &mut rng);
+    let mut rng = random.happening(rng);
     let recording = match &on_table {
         Some(steps) => simulate_table(&truth, steps, &setup, &mut rng),
         None => simulate_imu(&truth, &setup, &mut rng),
     };
-    write_imu_truth(&arguments.output.join("truth.json"), seed, &quantities, units, &truth)?;
+    write_imu_truth(&arguments.output.join("truth.json"), random.seed, &quantities, units, &truth)?;
     write_imu_recording(&arguments.output.join("recording.csv"), &recording)?;
     Ok(recording.accelerometer.map_or(0, |recording| recording.len()))
 }

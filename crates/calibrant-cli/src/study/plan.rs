@@ -56,10 +56,10 @@ impl<'a> Material<'a> {
         let obstacle = design.obstacle();
         if let Some(unknown) = &study.unknown {
             let limits = unknown.limits.as_ref().unwrap_or(&experiment.limits);
-            let motion = commanded_motion(None, &unknown.plan, axes, limits, choice.seed)?;
+            let motion = commanded_motion(None, &unknown.plan, axes, limits, choice.seed, 1)?;
             material.calibration = Some(calibration(&unknown.plan, motion, unknown.sensors));
         } else if obstacle.is_some() {
-            let motion = commanded_motion(choice.motion, plan, axes, &experiment.limits, choice.seed)?;
+            let motion = commanded_motion(choice.motion, plan, axes, &experiment.limits, choice.seed, 1)?;
             material.calibration = Some(calibration(plan, motion, study.sensors));
         }
         match obstacle {

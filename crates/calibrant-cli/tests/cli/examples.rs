@@ -94,7 +94,7 @@ fn design_a_motion() {
 
 #[test]
 fn whole_imu() {
-    follow("06_whole_imu", 11);
+    follow("06_whole_imu", 14);
 }
 
 #[test]

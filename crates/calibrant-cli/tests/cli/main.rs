@@ -15,6 +15,7 @@ mod many;
 mod noise;
 mod real;
 mod repaired;
+mod simulate;
 mod temperature;
 mod undetermined;
 mod unfinished;

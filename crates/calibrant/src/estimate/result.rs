@@ -199,3 +199,17 @@ pub struct HoldResult {
     /// Why it was not used, in words, where that was known before its residual: the sensor saturates in it.
     pub reason: Option<String>,
 }
+
+impl HoldResult {
+    /// Why it was left out, in words; `None` where it was used.
+    pub(crate) fn why_left_out(&self) -> Option<String> {
+        let by_residual = || {
+            format!(
+                "its magnitude is off by {:.3} mm/s², {:.1} standard deviations",
+                1e3 * self.magnitude_residual_mps2,
+                self.studentised_residual.abs()
+            )
+        };
+        (!self.used).then(|| self.reason.clone().unwrap_or_else(by_residual))
+    }
+}

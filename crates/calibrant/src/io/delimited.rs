@@ -1,5 +1,8 @@
 //! Lines and fields of delimited text: what separates them, quotes, comments, line ends of every system.
 
+use super::text::Checked;
+use crate::error::Complaint;
+
 /// One line of a text.
 #[derive(Clone, Copy)]
 pub(super) struct Line<'t> {
@@ -17,6 +20,20 @@ impl<'t> Line<'t> {
         matches!(self.text.trim_ascii_start().as_bytes(), [] | [b'#' | b'%', ..] | [b'/', b'/', ..])
     }
 
+    /// Are there line ends of another kind in it (CR of an old Mac)? Then it is many lines.
+    ///
+    /// # Errors
+    /// How many, and what to do.
+    pub(super) fn check_ends(&self) -> Checked<()> {
+        let ends = memchr::memchr_iter(b'\r', self.text.trim_ascii_end().as_bytes()).count();
+        if ends == 0 {
+            return Ok(());
+        }
+        let message = format!("{ends} line ends are a lone CR, as on an old Mac, others are LF");
+        let complaint = Complaint::new(message, "end all lines alike: tr '\\r' '\\n' < FILE > OTHER");
+        Err(complaint.at_line(self.number).into())
+    }
+
     /// Column of a byte of the line, in characters from 1.
     pub(super) fn column(&self, byte: usize) -> usize {
         1 + self.text.get(..byte).map_or(byte, |before| before.chars().count())
@@ -28,21 +45,27 @@ impl<'t> Line<'t> {
     }
 }
 
-/// The lines of a text. Line ends: LF, CR LF, or CR where there is no LF at all.
+/// The lines of a text. Line ends: LF, CR LF, or CR where there is no LF before the end of the text.
 pub(super) struct Lines<'t> {
     rest: &'t str,
     end: u8,
     number: usize,
+    /// Does the text end the last of them otherwise?
+    ends: bool,
 }
 
 impl<'t> Lines<'t> {
     pub(super) fn of(text: &'t str) -> Self {
-        Self { rest: text, end: if text.contains('\n') { b'\n' } else { b'\r' }, number: 0 }
+        // an editor may have put a last LF below lines of an old Mac
+        let lines = text.trim_end_matches(['\r', '\n']);
+        let old = !lines.contains('\n') && (lines.contains('\r') || !text.contains('\n'));
+        let (rest, end) = if old { (text.trim_end_matches('\n'), b'\r') } else { (text, b'\n') };
+        Self { rest, end, number: 0, ends: rest.len() < text.len() }
     }
 
     /// Lines that end with LF and come after so many others.
     pub(super) fn after(number: usize, text: &'t str) -> Self {
-        Self { rest: text, end: b'\n', number }
+        Self { rest: text, end: b'\n', number, ends: false }
     }
 }
 
@@ -56,7 +79,7 @@ impl<'t> Iterator for Lines<'t> {
         self.number += 1;
         let (text, rest, terminated) = match memchr::memchr(self.end, self.rest.as_bytes()) {
             Some(at) => (&self.rest[..at], &self.rest[at + 1..], true),
-            None => (self.rest, "", false),
+            None => (self.rest, "", self.ends),
         };
         self.rest = rest;
         Some(Line { number: self.number, text: text.strip_suffix('\r').unwrap_or(text), terminated })
@@ -333,6 +356,14 @@ mod tests {
         assert_eq!(of("a\r\nb"), [(1, "a", true), (2, "b", false)]);
         assert_eq!(of("a\rb\r"), [(1, "a", true), (2, "b", true)]);
         assert_eq!(of("\n\n"), [(1, "", true), (2, "", true)]);
+        assert_eq!(of("a\r\n"), [(1, "a", true)]);
+        for text in ["a\rb\n", "a\rb\r\n", "a\rb\r\n\n"] {
+            assert_eq!(of(text), [(1, "a", true), (2, "b", true)], "{text:?}");
+        }
+        assert_eq!(of("a\rb\nc").len(), 2, "mixed ends are told by the line");
+        let ends = |text| Lines::of(text).map(|line| line.check_ends().is_ok()).collect::<Vec<_>>();
+        assert_eq!(ends("a\rb\nc"), [false, true]);
+        assert_eq!(ends("a\r\r\nc\r\n"), [true, true]);
         assert!(of("").is_empty());
     }
 

@@ -137,6 +137,7 @@ impl EarlierCalibration {
 struct File {
     schema: Option<serde_json::Value>,
     status: Option<String>,
+    seed: Option<serde_json::Value>,
     parameters: Option<Vec<ParameterFields>>,
     covariance: Option<Vec<Vec<Option<f64>>>>,
     prior: Option<String>,
@@ -163,6 +164,9 @@ pub(super) fn parse(bytes: &[u8]) -> Checked<EarlierCalibration> {
         None => return complain("this is no calibration: the field `schema` is missing".into()),
     }
     let missing = |field: &str| Complaint::new(format!("the field `{field}` is missing"), AGAIN);
+    if file.status.is_none() && file.seed.is_some() {
+        return complain("this is the truth of a simulation, not a calibration: it has no covariance".into());
+    }
     let status = file.status.ok_or_else(|| missing("status"))?;
     let parameters = file.parameters.ok_or_else(|| missing("parameters"))?;
     let covariance_rows = file.covariance.ok_or_else(|| missing("covariance"))?;

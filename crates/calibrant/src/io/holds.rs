@@ -37,6 +37,9 @@ struct HoldFields {
     magnitude_residual_before_mps2: Option<f64>,
     studentised_residual: f64,
     used: bool,
+    /// Why it was left out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reason: Option<String>,
 }
 
 impl HoldsFields {
@@ -55,6 +58,7 @@ impl HoldsFields {
             magnitude_residual_before_mps2: holds.magnitude_residual_before_mps2(&result.hold),
             studentised_residual: result.studentised_residual,
             used: result.used,
+            reason: result.why_left_out(),
         };
         Self {
             gravity_mps2: holds.gravity.magnitude_mps2,

@@ -13,7 +13,8 @@
 //! | `design.json`, `motion_dense.csv` | | [`write_design`], [`write_dense_motion`] |
 //! | `evaluation.json`, `sweep.json`, `sweep.csv` | | [`write_evaluation`], [`write_sweep`], [`write_sweep_csv`] |
 //! | `noise.json` | | [`write_noise`] |
-//! | `truth.json`, `study.json`, `summary.csv` | | [`write_truth`], [`write_study`], [`write_summary`] |
+//! | `truth.json` of a simulation | [`read_calibrated_imu`], as a calibration without a covariance | [`write_truth`], [`write_imu_truth`] |
+//! | `study.json`, `summary.csv` | | [`write_study`], [`write_summary`] |
 //!
 //! Everything is SI inside; conversions happen here. No input makes the readers panic, and no NaN or infinity passes them. Every
 //! complaint names file, line and column and says what to do; what a reader repairs or merely notices is a [`Finding`], never

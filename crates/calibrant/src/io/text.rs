@@ -70,8 +70,28 @@ pub(super) fn as_text(bytes: &[u8]) -> Checked<&str> {
             Complaint::new("the text is encoded in UTF-16", "save it as UTF-8 (or plain ASCII)").into()
         );
     }
+    if let Some((program, unpack)) = packed_by(bytes) {
+        let message = format!("this file is compressed with {program}");
+        return Err(Complaint::new(message, format!("unpack it first: {unpack}")).into());
+    }
     let text = bytes.strip_prefix(&[0xef, 0xbb, 0xbf]).unwrap_or(bytes);
     as_text_at(text, (bytes.len() - text.len()) as u64, 0)
+}
+
+/// What compressed these bytes, by how they begin, and how they are unpacked.
+fn packed_by(bytes: &[u8]) -> Option<(&'static str, &'static str)> {
+    let begins: [(&[u8], _, _); 5] = [
+        (b"\x1f\x8b", "gzip", "gunzip FILE"),
+        (b"\x28\xb5\x2f\xfd", "zstd", "unzstd FILE"),
+        (b"\xfd7zXZ\0", "xz", "unxz FILE"),
+        (b"PK\x03\x04", "zip", "unzip FILE; a workbook of a spreadsheet program is to be saved as CSV"),
+        (b"BZh", "bzip2", "bunzip2 FILE"),
+    ];
+    let (begin, program, unpack) = begins.into_iter().find(|(begin, ..)| bytes.starts_with(begin))?;
+    // the letters of bzip2 could begin a text: a digit and the first block follow
+    let block = [&b"\x31\x41\x59\x26\x53\x59"[..], b"\x17\x72\x45\x38\x50\x90"];
+    let is_text = begin == b"BZh" && !block.iter().any(|block| bytes.get(4..10) == Some(*block));
+    (!is_text).then_some((program, unpack))
 }
 
 /// Bytes from within a text as text; they begin after so many bytes and lines.

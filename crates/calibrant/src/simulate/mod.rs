@@ -31,8 +31,10 @@ pub use rand_chacha::ChaCha8Rng as Rng;
 pub enum Purpose {
     /// The initial motion.
     Motion,
-    /// Parameters, process noise and measurement noise of a sensor.
+    /// Parameters of a sensor, and process noise, poses and measurement noise of its first recording.
     Sensor,
+    /// Process noise, poses and measurement noise of another recording of that sensor.
+    Recording,
     /// A start of the search for the best motion.
     Start,
 }
@@ -44,6 +46,7 @@ pub fn stream(seed: u64, purpose: Purpose, index: u64) -> Rng {
     rng.set_stream(match purpose {
         Purpose::Motion => 2 * index,
         Purpose::Sensor => 2 * index + 1,
+        Purpose::Recording => (1 << 63) + index,
         Purpose::Start => u64::MAX - index,
     });
     rng

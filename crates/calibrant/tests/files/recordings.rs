@@ -31,6 +31,8 @@ fn all_dialects_read_the_same() {
     let dialects: &[&[u8]] = &[
         b"\xef\xbb\xbf\"t_s\";\"ax\";\"ay\";\"az\";\r\n0;1;2;3;\r\n1;2;3;4;\r\n\r\n\r\n",
         b"t_s,ax,ay,az\r0,1,2,3\r1,2,3,4\r",
+        b"t_s,ax,ay,az\r0,1,2,3\r1,2,3,4\n",
+        b"t_s,ax,ay,az\r0,1,2,3\r1,2,3,4\r\n",
         b"% comment\n0\t1\t2\t3\n// another\n1\t2\t3\t4\n",
         b" 0.0, 1, 2, 3\n 1.0, 2, 3, 4",
         b"   0.0e+00   1.0e+00   2.0e+00   3.0e+00\n   1.0e+00   2.0e+00   3.0e+00   4.0e+00\n",

@@ -18,6 +18,7 @@ const CASES: &[(&str, &[&str])] = &[
     ("simulate experiment.toml", &["--output <DIR>"]),
     ("simulate experiment.toml --seed -1 -o result", &["unexpected argument '-1'"]),
     ("simulate experiment.toml --seed one -o result", &["invalid value 'one' for '--seed <SEED>'"]),
+    ("simulate experiment.toml --recording 0 -o result", &["0 is not in 1..="]),
     ("calibrate experiment.toml --motion motion.csv -o result", &["<RECORDINGS>..."]),
     ("calibrate experiment.toml recording.csv --motion motion.csv", &["--output <DIR>"]),
     (

@@ -146,20 +146,9 @@ pub(in crate::estimate) fn left_out(holds: &HoldCalibration) -> Vec<String> {
         .holds
         .iter()
         .enumerate()
-        .filter(|(_, hold)| !hold.used)
-        .map(|(k, hold)| {
-            let by_residual = || {
-                format!(
-                    "its magnitude is off by {:.3} mm/s², {:.1} standard deviations",
-                    1e3 * hold.magnitude_residual_mps2,
-                    hold.studentised_residual.abs()
-                )
-            };
-            format!(
-                "{} was left out: {}",
-                hold.hold.named(k),
-                hold.reason.clone().unwrap_or_else(by_residual)
-            )
+        .filter_map(|(k, hold)| {
+            let why = hold.why_left_out()?;
+            Some(format!("{} was left out: {why}", hold.hold.named(k)))
         })
         .collect()
 }

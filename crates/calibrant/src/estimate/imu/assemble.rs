@@ -4,7 +4,7 @@ use super::contradiction::contradictions;
 use super::faces::First;
 use super::joint::{Fit, Joint, Miss, State};
 use super::rates::{LocalBias, Path};
-use super::readings::Integrable;
+use super::readings::{Integrable, Span};
 use super::solver::singular;
 use super::start;
 use super::thermal::Climate;
@@ -15,10 +15,9 @@ use crate::error::Result;
 use crate::estimate::gravity::gravity_slope;
 use crate::estimate::{CoarseAxis, HoldCalibration, Uncalibrated};
 use crate::information;
-use crate::sensor::{Condition, Correction, ImuParameters, ReadingUnit, Recording, Thermal};
+use crate::sensor::{Condition, Correction, ImuParameters, ReadingUnit, Thermal};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use rayon::prelude::*;
-use std::ops::Range;
 
 /// Everything that the result is put together from.
 pub(super) struct Finished<'a> {
@@ -35,7 +34,7 @@ pub(super) struct Finished<'a> {
     pub(super) coarse: &'a [CoarseAxis],
     /// Standard deviation of the gyroscope's samples within the holds.
     pub(super) scatter: Vector3<f64>,
-    pub(super) spans: &'a [Range<usize>],
+    pub(super) spans: &'a [Span],
     pub(super) chosen: &'a [usize],
     pub(super) climate: &'a Climate<'a>,
 }
@@ -45,7 +44,6 @@ impl Finished<'_> {
         &self,
         problem: &ImuProblem<'_>,
         holds: &HoldCalibration,
-        gyroscope: &Recording,
         axes: Option<[String; 3]>,
         first: &First,
     ) -> Result<ImuCalibration> {
@@ -71,7 +69,7 @@ impl Finished<'_> {
             covariance += &slope * slope.transpose() * (sd * sd);
         }
         let before = self.gyroscope_before(problem);
-        let rotations = self.rotations(gyroscope, &before);
+        let rotations = self.rotations(&before);
         let counted = rotations.iter().filter(|rotation| rotation.used).count();
         let stills = joint.holds.iter().filter(|hold| hold.gyroscope.is_some()).count();
         let equations =
@@ -229,7 +227,7 @@ impl Finished<'_> {
         Uncalibrated { sensor, source: source.to_owned() }
     }
 
-    fn rotations(&self, gyroscope: &Recording, before: &Uncalibrated) -> Vec<RotationResult> {
+    fn rotations(&self, before: &Uncalibrated) -> Vec<RotationResult> {
         let joint = self.joint;
         let with_before = State { imu: self.plain(before), forces: self.fit.state.forces.clone() };
         let angle = |miss: &Miss| miss.error.norm().min(1.0).asin();
@@ -258,8 +256,8 @@ impl Finished<'_> {
                 RotationResult {
                     from_hold,
                     to_hold,
-                    start_s: gyroscope.times_s[span.start],
-                    end_s: gyroscope.times_s[span.end - 1],
+                    start_s: span.start_s,
+                    end_s: span.end_s,
                     path_rad: path.length_rad,
                     peak_radps: path.peak_radps,
                     error_rad: after.map_or(0.0, &angle),

@@ -130,8 +130,7 @@ impl Carrying<'_> {
         let misses = joint.misses(&state)?;
         let found = misses.iter().enumerate().filter_map(|(from, miss)| {
             let span = &spans[from];
-            let times = &self.gyroscope.times_s;
-            let ends = (times[span.start], times[span.end - 1]);
+            let ends = (span.start_s, span.end_s);
             let previous = from.checked_sub(1).and_then(|before| misses[before].as_ref());
             miss.as_ref().map(|miss| self.carried(from, ends, &state, miss, previous))
         });

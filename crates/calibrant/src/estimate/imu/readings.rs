@@ -36,18 +36,35 @@ pub(super) fn felt_forces(
     Some((0..gyroscope.len()).into_par_iter().with_min_len(PIECE).map(felt).collect())
 }
 
-/// The gyroscope's samples from shortly before the end of each of these holds to shortly after the start of the next.
-pub(super) fn rotation_spans(gyroscope: &Recording, holds: &[&Hold]) -> Vec<Range<usize>> {
+/// The time from shortly before the end of a hold to shortly after the start of the next.
+pub(super) struct Span {
+    /// Begin, s: of the first sample, where the gyroscope covers it.
+    pub(super) start_s: f64,
+    /// End, s: of the last sample, where the gyroscope covers it.
+    pub(super) end_s: f64,
+    /// The gyroscope's samples in it and one beside it on each side.
+    samples: Range<usize>,
+    /// Does the gyroscope's recording begin before and end after it?
+    covered: bool,
+}
+
+/// The times between these holds, with the gyroscope's samples.
+pub(super) fn rotation_spans(gyroscope: &Recording, holds: &[&Hold]) -> Vec<Span> {
     holds
         .windows(2)
         .map(|pair| {
             let (from, to) = (pair[0], pair[1]);
             let margin = |hold: &Hold| (0.25 * hold.duration_s()).min(MARGIN_S);
             let (start_s, end_s) = (from.end_s - margin(from), to.start_s + margin(to));
-            let first = gyroscope.times_s.partition_point(|&t| t <= start_s).saturating_sub(1);
-            let end = (gyroscope.times_s.partition_point(|&t| t < end_s) + 1).min(gyroscope.len());
-            let covers = gyroscope.times_s[first] <= from.end_s && gyroscope.times_s[end - 1] >= to.start_s;
-            first..if covers { end } else { first + 1 }
+            let times = &gyroscope.times_s;
+            let first = times.partition_point(|&t| t <= start_s).saturating_sub(1);
+            let end = (times.partition_point(|&t| t < end_s) + 1).min(gyroscope.len());
+            let covered = times[first] <= from.end_s && times[end - 1] >= to.start_s;
+            if covered {
+                Span { start_s: times[first], end_s: times[end - 1], samples: first..end, covered }
+            } else {
+                Span { start_s, end_s, samples: first..first + 1, covered }
+            }
         })
         .collect()
 }
@@ -76,15 +93,15 @@ impl<'a> Integrable<'a> {
     pub(super) fn rotations(
         &self,
         felt: Option<&'a [Vector3<f64>]>,
-        spans: &[Range<usize>],
+        spans: &[Span],
         holds: &[HoldData],
     ) -> Vec<RotationData<'a>> {
-        let rotation = |(from, span): (usize, &Range<usize>)| RotationData {
+        let rotation = |(from, span): (usize, &Span)| RotationData {
             from,
             samples: Samples {
-                times_s: &self.gyroscope.times_s[span.clone()],
-                readings: &self.gyroscope.readings[span.clone()],
-                forces: felt.map(|felt| &felt[span.clone()]),
+                times_s: &self.gyroscope.times_s[span.samples.clone()],
+                readings: &self.gyroscope.readings[span.samples.clone()],
+                forces: felt.map(|felt| &felt[span.samples.clone()]),
                 drift: [from, from + 1].map(|hold| LocalBias::none(holds[hold].temperature_c)),
             },
             used: self.obstacle(span).is_none(),
@@ -94,16 +111,25 @@ impl<'a> Integrable<'a> {
     }
 
     /// Why a span cannot be integrated; nothing where it can.
-    pub(super) fn obstacle(&self, span: &Range<usize>) -> Option<String> {
-        if span.len() < 3 {
-            return Some("the gyroscope's recording does not cover it".into());
+    pub(super) fn obstacle(&self, span: &Span) -> Option<String> {
+        let times = &self.gyroscope.times_s;
+        if !span.covered {
+            return Some(match (times.first(), times.last()) {
+                (Some(begin), _) if *begin > span.start_s + MARGIN_S => {
+                    format!("the gyroscope's recording begins only at {begin:.1} s")
+                }
+                (_, Some(end)) => format!("the gyroscope's recording ends at {end:.1} s"),
+                _ => "the gyroscope's recording does not cover it".into(),
+            });
         }
-        let longest =
-            self.gyroscope.times_s[span.clone()].windows(2).map(|t| t[1] - t[0]).fold(0.0, f64::max);
+        let longest = times[span.samples.clone()].windows(2).map(|t| t[1] - t[0]).fold(0.0, f64::max);
         if longest * self.rate_hz > GAP {
             return Some(format!("the gyroscope pauses for {longest:.3} s in it"));
         }
-        self.saturation(span)
+        if span.samples.len() < 3 {
+            return Some("the gyroscope has too few samples in it".into());
+        }
+        self.saturation(&span.samples)
     }
 
     /// Which sensor stops at the end of its range in these samples so that they cannot be integrated, in words.

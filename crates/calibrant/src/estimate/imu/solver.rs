@@ -146,7 +146,7 @@ pub(super) fn calibrate_imu(
         chosen: &chosen,
         climate: &climate,
     };
-    finished.assemble(problem, holds, gyroscope, axes, &first)
+    finished.assemble(problem, holds, axes, &first)
 }
 
 pub(super) fn singular() -> Error {

@@ -2,11 +2,11 @@
 //!
 //! Direction true → raw; frame in words, and by `gauge` where the matrix of the reference sensor (the accelerometer where there is one) has such a form;
 //! units in the names of the fields. Carries everything: covariance, g-sensitivity, counts, noise densities, the hashes of the recordings. Numbers have the
-//! fewest digits that read back to the same bits. Schema 1, `calibration.json` of one accelerometer, is read as well.
+//! fewest digits that read back to the same bits. Schema 1, `calibration.json` of one accelerometer, is read as well, and `truth.json` of a simulation.
 
 use super::core::{ImuCore, missing};
 use super::kalibr::ImuNoise;
-use super::{CalibratedImuFile, ImuFormat, complaint, schema_one};
+use super::{CalibratedImuFile, ImuFormat, complaint, schema_one, truth};
 use crate::io::json;
 use crate::io::text::Checked;
 use serde::{Deserialize, Serialize};
@@ -43,6 +43,8 @@ struct File {
 struct Header {
     schema: Option<serde_json::Value>,
     status: Option<String>,
+    /// A simulation has one.
+    seed: Option<serde_json::Value>,
     noise: Option<NoiseFields>,
 }
 
@@ -72,6 +74,7 @@ pub(super) fn read(text: &str) -> Checked<CalibratedImuFile> {
     let broken = |error: &serde_json::Error| json::broken(error, "a calibration of calibrant", HELP);
     let header: Header = serde_json::from_str(text).map_err(|error| broken(&error))?;
     match header.schema {
+        Some(schema) if schema == 1 && header.seed.is_some() => return truth::read(text),
         Some(schema) if schema == 1 => return schema_one::read(text),
         Some(schema) if schema == 2 => (),
         Some(schema) => {

@@ -7,7 +7,7 @@ use std::path::Path;
 /// A format of calibrations.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ImuFormat {
-    /// Our own, with everything: schema 2 for an IMU; schema 1, `calibration.json` of one accelerometer, is read as well.
+    /// Our own, with everything: schema 2 for an IMU; schema 1, `calibration.json` of one accelerometer, is read as well, and `truth.json` of a simulation.
     CalibrantJson,
     /// Kalibr's `imu.yaml` with the scale-misalignment model.
     Kalibr,

@@ -23,6 +23,7 @@ mod kalibr;
 mod measured_noise;
 mod schema_one;
 mod temperature;
+mod truth;
 
 pub(in crate::io) use calibrant_json::Heading;
 pub(in crate::io) use core::ImuCore;

@@ -113,6 +113,7 @@ fn parse(bytes: &[u8], options: &ReadOptions) -> Checked<RecordingFile> {
         )
         .into());
     };
+    first.check_ends()?;
     let columns = Columns::find(first, options, &mut findings)?;
     let capacity = estimated_rows(text, first.text, text.len());
     let mut rows = Rows::new(&columns, capacity);

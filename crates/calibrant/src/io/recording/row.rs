@@ -80,7 +80,11 @@ impl<'l> RowReader<'l> {
             return Ok(false);
         }
         self.rows += 1;
-        match self.values(line, values) {
+        let read = self.values(line, values);
+        if read.is_err() {
+            line.check_ends()?;
+        }
+        match read {
             // the last line may end anywhere when a logger was switched off
             _ if !line.terminated && self.rows > 1 && self.is_cut(line) => {
                 self.truncated = Some(line.number);

@@ -51,6 +51,8 @@ fn a_file_in_pieces_is_its_bytes() {
         plain.clone(),
         format!("{HEADER}\r\n{}", rows("\r\n")),
         format!("{HEADER}\r{}", rows("\r")),
+        format!("{HEADER}\r{}\n", rows("\r")),
+        format!("{HEADER}\r{}\n", rows("\r").trim_end()),
         plain.trim_end().to_owned(),
         plain[..plain.len() - 9].to_owned(),
         format!("\u{feff}{plain}"),

@@ -38,6 +38,7 @@ impl<'t> Head<'t> {
                 preamble.push(line);
                 continue;
             }
+            line.check_ends()?;
             let delimiter = delimiter_of(line.text);
             let names = fields(line, delimiter);
             if is_dot && !is_xsens(&names) && (names.len() < 4 || delimiter == Delimiter::Whitespace) {
