@@ -3,16 +3,16 @@
 mod read;
 mod table;
 
-use crate::reading::in_file;
+use crate::reading::{in_file, name};
 use crate::{Exit, console, place};
 use calibrant::Error;
 use calibrant::error::Complaint;
 use calibrant::estimate::{find_holds, find_imu_holds};
-use calibrant::io::{noise_json, write_atomically, write_noise};
+use calibrant::io::{ImuUnit, Input, noise_json, write_atomically, write_noise};
 use calibrant::motion::Hold;
 use calibrant::noise::{Stretch, TriadNoise};
 use calibrant::report::{About, noise_report, number};
-use calibrant::sensor::{ImuRecording, ReadingUnit, Recording, Triad};
+use calibrant::sensor::{ImuRecording, Recording, Triad};
 use nalgebra::Vector3;
 use std::path::PathBuf;
 
@@ -32,11 +32,14 @@ pub(crate) struct Arguments {
     /// What the columns are readings of.
     #[arg(long, value_enum, default_value = "accelerometer")]
     sensor: SensorKind,
-    /// Unit of the readings where the file does not say.
-    #[arg(long, value_enum)]
-    unit: Option<Unit>,
+    /// Unit of this sensor's readings where the file does not say: m/s2, g, rad/s, deg/s or counts.
+    #[arg(long, value_parser = crate::reading::any_unit)]
+    unit: Option<ImuUnit>,
     #[command(flatten)]
     reading: crate::reading::RecordingOptions,
+    /// Experiment file whose [columns] say what is what.
+    #[arg(long, value_name = "EXPERIMENT")]
+    columns: Option<PathBuf>,
     /// Nominal gain in counts per m/s² or rad/s (one number or x,y,z): states the noise of readings in counts in SI and customary units.
     #[arg(long, value_name = "GAIN", value_delimiter = ',', num_args = 1..=3)]
     gain: Vec<f64>,
@@ -57,26 +60,6 @@ enum SensorKind {
     Gyroscope,
 }
 
-#[derive(Clone, Copy, clap::ValueEnum)]
-enum Unit {
-    /// Metres per second squared.
-    Mps2,
-    /// Radians per second.
-    Radps,
-    /// Raw counts.
-    Counts,
-}
-
-impl Unit {
-    fn reading_unit(self) -> ReadingUnit {
-        match self {
-            Self::Mps2 => ReadingUnit::MetrePerSecondSquared,
-            Self::Radps => ReadingUnit::RadianPerSecond,
-            Self::Counts => ReadingUnit::Counts,
-        }
-    }
-}
-
 pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     if let Some(directory) = &arguments.output {
         place::check_directory(directory)?;
@@ -86,49 +69,53 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
         SensorKind::Accelerometer => Triad::Accelerometer,
         SensorKind::Gyroscope => Triad::Gyroscope,
     };
-    let unit = arguments.unit.map(Unit::reading_unit);
-    let file = read::read(&arguments.recording, triad, unit, gain.is_some(), &arguments.reading.options())?;
+    let file = read::read(arguments, triad)?;
+    let imu = &file.recording;
     let in_file = |error| in_file(error, &arguments.recording);
-    let mut noise = Vec::new();
-    if let Some(recording) = file.imu.triad(triad) {
-        let (start_s, end_s) = match arguments.hold.as_deref() {
-            Some(&[start, end]) => (start, end),
-            _ => longest_hold(&file.imu, recording).map_err(in_file)?,
-        };
-        let stretch = Stretch::between(recording, start_s, end_s).map_err(in_file)?;
-        let found = TriadNoise::of(triad, recording, stretch).map_err(in_file)?;
-        let mut found = match &gain {
-            Some(gain) => found.with_gain(recording, gain)?,
-            None => found,
-        };
-        if arguments.hold.is_some() {
-            found.warnings.extend(moves(&file.imu, recording, &found.stretch));
-        }
-        noise.push(found);
+    let recording = imu.triad(triad).ok_or_else(|| in_file(no_sensor(triad)))?;
+    let (start_s, end_s) = match arguments.hold.as_deref() {
+        Some(&[start, end]) => (start, end),
+        _ => longest_hold(imu, recording).map_err(in_file)?,
+    };
+    let stretch = Stretch::between(recording, start_s, end_s).map_err(in_file)?;
+    let found = TriadNoise::of(triad, recording, stretch).map_err(in_file)?;
+    let mut found = match &gain {
+        Some(gain) => found.with_gain(recording, gain)?,
+        None => found,
+    };
+    if arguments.hold.is_some() {
+        found.warnings.extend(moves(imu, recording, &found.stretch));
     }
+    let input = Input {
+        file: name(&arguments.recording),
+        sha256: file.sha256.concat(),
+        samples: recording.len(),
+        rate_hz: recording.rate_hz(),
+    };
 
     for finding in &file.findings {
-        console::finding(&file.input.file, finding);
+        console::finding(&input.file, finding);
     }
-    noise.iter().flat_map(|triad| &triad.warnings).for_each(|warning| console::warn(warning));
+    found.warnings.iter().for_each(|warning| console::warn(warning));
+    let noise = [found];
     if arguments.json {
-        console::print(&noise_json(&noise, &file.input));
+        console::print(&noise_json(&noise, &input));
     } else {
-        noise.iter().for_each(|triad| console::print(&table::of(triad)));
+        console::print(&table::of(&noise[0]));
     }
     if let Some(directory) = &arguments.output {
-        write_noise(&directory.join("noise.json"), &noise, &file.input)?;
+        write_noise(&directory.join("noise.json"), &noise, &input)?;
         let about = About {
-            title: format!("Noise from {}", file.input.file),
+            title: format!("Noise from {}", input.file),
             facts: vec![
                 ("Recording".into(), arguments.recording.display().to_string()),
-                ("SHA-256".into(), file.input.sha256.clone()),
+                ("SHA-256".into(), input.sha256.clone()),
                 (
                     "Samples".into(),
                     format!(
                         "{} at {} Hz",
-                        number::count(file.input.samples),
-                        number::significant(file.input.rate_hz, 5)
+                        number::count(input.samples),
+                        number::significant(input.rate_hz, 5)
                     ),
                 ),
                 (
@@ -152,6 +139,11 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
         }
     }
     Ok(Exit::DONE)
+}
+
+fn no_sensor(triad: Triad) -> Error {
+    let complaint = Complaint::new(format!("the file has no {triad}"), "choose the other with --sensor");
+    Error::Recording(Box::new(complaint))
 }
 
 /// The holds: where both sensors are still, or the one that was recorded. A gyroscope alone is as calm in a turn at a steady rate.

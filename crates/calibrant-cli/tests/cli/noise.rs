@@ -5,7 +5,7 @@ use crate::data::shared_data;
 use serde_json::Value;
 use std::fmt::Write;
 
-/// A recording of `n` samples at 100 Hz whose readings pass every test of whiteness that matters here.
+/// A recording of `n` samples at 100 Hz, z up, whose readings pass every test of whiteness that matters here.
 fn recording(header: &str, n: u32, size: f64) -> String {
     let mut state = 1_u64;
     let mut uniform = || {
@@ -14,8 +14,8 @@ fn recording(header: &str, n: u32, size: f64) -> String {
     };
     let mut text = format!("{header}\n");
     for k in 0..n {
-        let [x, y, z] = [uniform(), uniform(), 9.8 + uniform()].map(|value| size * value);
-        writeln!(text, "{:.2},{x:.9},{y:.9},{z:.9}", f64::from(k) / 100.0).expect("written");
+        let [x, y, z] = [uniform(), uniform(), uniform()].map(|value| size * value);
+        writeln!(text, "{:.2},{x:.9},{y:.9},{:.9}", f64::from(k) / 100.0, 9.8 + z).expect("written");
     }
     text
 }
@@ -74,7 +74,7 @@ fn an_outlier_is_named_and_left_out() {
     let clean = recording("t_s,ax_mps2,ay_mps2,az_mps2", 6000, 0.1);
     bench.write("still.csv", &clean);
     let mut lines: Vec<&str> = clean.lines().collect();
-    lines[3001] = "30.00,20.0,0.0,0.98";
+    lines[3001] = "30.00,20.0,0.0,9.8";
     bench.write("spark.csv", lines.join("\n") + "\n");
     let n = |file: &str| {
         let outcome = bench.run(&format!("noise {file} --hold 0 60 --json")).done();
@@ -177,7 +177,7 @@ fn counts_stay_counts_without_a_gain() {
 #[test]
 fn what_cannot_be_used_is_refused() {
     let bench = Bench::new();
-    bench.write("still.csv", recording("t_s,ax,ay,az", 3000, 0.1));
+    bench.write("still.csv", recording("t_s,ax_mps2,ay_mps2,az_mps2", 3000, 0.1));
     bench.refuses("noise still.csv --hold 1 1.2 -o result", 3, &["still.csv: 21 samples from 1 to 1.2 s"]);
     let hold = |interval: &str| format!("noise still.csv --hold {interval} -o result");
     bench.refuses(&hold("nan 20"), 2, &["an interval from NaN to 20 s is none"]);
@@ -195,6 +195,117 @@ fn what_cannot_be_used_is_refused() {
     bench.write("imu.csv", imu);
     bench.refuses("noise imu.csv --sensor gyroscope -o result", 3, &["the gyroscope's columns have no unit"]);
     bench.refuses("noise missing.csv -o result", 3, &["missing.csv"]);
+}
+
+#[test]
+fn a_unit_that_the_file_does_not_say_is_asked_for() {
+    let bench = Bench::new();
+    let si = recording("t_s,ax,ay,az", 3000, 0.1);
+    let scaled = |factor: f64, header: &str| {
+        let line = |line: &str| {
+            let values: Vec<f64> = line.split(',').map(|value| value.parse().expect("a number")).collect();
+            let [x, y, z] = [1, 2, 3].map(|k| factor * values[k]);
+            format!("{},{x:.12},{y:.12},{z:.12}", values[0])
+        };
+        let lines: Vec<String> = si.lines().skip(1).map(line).collect();
+        format!("{header}{}\n", lines.join("\n"))
+    };
+    bench.write("si.csv", &si);
+    bench.write("g.csv", scaled(1.0 / 9.80665, "t_s,ax,ay,az\n"));
+    bench.write("said-si.csv", scaled(1.0 / 9.80665, "t_s,ax_mps2,ay_mps2,az_mps2\n"));
+    bench.write("said-g.csv", scaled(1.0 / 9.80665, "t_s,ax_g,ay_g,az_g\n"));
+    bench.write("bare.mat", scaled(1.0 / 9.80665, "").replace(',', " "));
+    bench.write("gyro.csv", scaled(0.01, "t_s,x,y,z\n"));
+    let units = "[columns]\naccelerometer_unit = \"g\"\ngyroscope_unit = \"deg/s\"\n";
+    bench.preset("static-poses", "poses.toml", &[]);
+    bench.write("columns.toml", bench.read("poses.toml") + "\n" + units);
+
+    for (arguments, hint, option) in [
+        ("si.csv", "magnitudes around 9.8 suggest m/s²", "--accelerometer-unit m/s², g or counts"),
+        ("g.csv", "magnitudes around 0.999 suggest g", "--accelerometer-unit m/s², g or counts"),
+        ("bare.mat", "magnitudes around 0.999 suggest g", "--accelerometer-unit m/s², g or counts"),
+        (
+            "gyro.csv --sensor gyroscope",
+            "may be rad/s, or deg/s of slow turns",
+            "--gyroscope-unit rad/s, deg/s or counts",
+        ),
+        (
+            "bare.mat --sensor gyroscope",
+            "may be rad/s, or deg/s of slow turns",
+            "--gyroscope-unit rad/s, deg/s or counts",
+        ),
+        (
+            "si.csv --sensor gyroscope",
+            "may be rad/s, or deg/s of slow turns",
+            "--gyroscope-unit rad/s, deg/s or counts",
+        ),
+    ] {
+        bench.refuses(&format!("noise {arguments} -o result"), 3, &["columns have no unit", hint, option]);
+    }
+    // whatever answers, the answer is the same
+    let n = |arguments: &str| {
+        let outcome = bench.run(&format!("noise {arguments} --json")).done();
+        let json: Value = serde_json::from_str(&outcome.stdout).expect("JSON");
+        let sensor = &json["sensors"][0];
+        let unit = sensor["reading_unit"].as_str().expect("a unit").to_owned();
+        (sensor["axes"][1]["random_walk"]["value"].as_f64().expect("determined"), unit)
+    };
+    let expected = 0.1 / 12.0_f64.sqrt() * 0.1;
+    for (arguments, factor, unit) in [
+        ("si.csv --unit mps2", 1.0, "m/s²"),
+        ("si.csv --accelerometer-unit m/s2", 1.0, "m/s²"),
+        ("si.csv --unit counts", 1.0, "counts"),
+        ("si.csv --gain 10", 0.1, "m/s²"),
+        ("si.csv --unit counts --gain 10", 0.1, "m/s²"),
+        ("g.csv --unit g", 1.0, "m/s²"),
+        ("g.csv --columns columns.toml", 1.0, "m/s²"),
+        ("bare.mat --unit g", 1.0, "m/s²"),
+        ("said-g.csv", 1.0, "m/s²"),
+        ("gyro.csv --sensor gyroscope --unit rad/s", 0.01, "rad/s"),
+        ("gyro.csv --sensor gyroscope --gyroscope-unit dps", 0.01_f64.to_radians(), "rad/s"),
+        ("gyro.csv --sensor gyroscope --columns columns.toml", 0.01_f64.to_radians(), "rad/s"),
+        ("gyro.csv --sensor gyroscope --unit counts", 0.01, "counts"),
+    ] {
+        let (found, its) = n(arguments);
+        // 3000 samples: 1.3 % is one standard deviation
+        assert!((found / (factor * expected) - 1.0).abs() < 0.05, "{arguments}: {found}");
+        assert_eq!(its, unit, "{arguments}");
+    }
+    // an answer that gravity contradicts, that is none, or that contradicts another
+    let refused = [
+        ("said-si.csv", 3, "said to be in m/s², but its magnitude is 0.999 most of the time: is it in g?"),
+        ("g.csv --unit mps2", 3, "is it in g?"),
+        ("said-g.csv --unit counts", 3, "columns are in g, but the unit was given as counts"),
+        ("said-g.csv --gain 10", 2, "--gain is one of counts, but the file gives the accelerometer in m/s²"),
+        ("si.csv --unit rad/s", 2, "--unit rad/s is no unit of the accelerometer"),
+        (
+            "si.csv --unit g --accelerometer-unit counts",
+            2,
+            "--unit is g, but the accelerometer's unit is given as",
+        ),
+        ("si.csv --unit furlongs", 2, "the accelerometer is in m/s², g or counts, the gyroscope in rad/s"),
+        ("si.csv --columns poses.toml", 2, "there is no [columns] section"),
+    ];
+    refused.iter().for_each(|(arguments, status, says)| {
+        bench.refuses(&format!("noise {arguments} -o result"), *status, &[says]);
+    });
+}
+
+/// No unit is in imu_tk's files, and these are counts: N was given as 0.37 m/s²/√Hz.
+#[test]
+fn the_units_of_the_mti_are_asked_for() {
+    for (sensor, name) in [("accelerometer", "xsens_acc.mat"), ("gyroscope", "xsens_gyro.mat")] {
+        let Some(path) = shared_data(&format!("xsens-mti-static/{name}")) else { return };
+        let bench = Bench::new();
+        std::fs::copy(&path, bench.path(name)).expect("copied");
+        bench.refuses(
+            &format!("noise {name} --sensor {sensor} -o result"),
+            3,
+            &[&format!("the {sensor}'s columns have no unit"), "suggest counts", &format!("--{sensor}-unit")],
+        );
+        let outcome = bench.run(&format!("noise {name} --sensor {sensor} --{sensor}-unit counts")).done();
+        assert!(outcome.stdout.contains("counts/√Hz"), "{}", outcome.stdout);
+    }
 }
 
 #[test]
