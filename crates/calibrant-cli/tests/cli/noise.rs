@@ -89,6 +89,97 @@ fn an_outlier_is_named_and_left_out() {
     outcome.says("was left out; with it N would be");
 }
 
+/// A recording of so many samples with something added to x in some samples.
+fn disturbed(n: u32, by: impl Fn(usize) -> f64) -> String {
+    let still = recording("t_s,ax_mps2,ay_mps2,az_mps2", n, 0.1);
+    let line = |(k, line): (usize, &str)| match by(k) {
+        0.0 => line.to_owned(),
+        by => {
+            let fields: Vec<&str> = line.split(',').collect();
+            let x: f64 = fields[1].parse().expect("a number");
+            format!("{},{:.9},{},{}", fields[0], x + by, fields[2], fields[3])
+        }
+    };
+    let lines: Vec<String> = still.lines().skip(1).enumerate().map(line).collect();
+    format!("t_s,ax_mps2,ay_mps2,az_mps2\n{}\n", lines.join("\n"))
+}
+
+/// A spark divided the hold, and 5.5 of 600 s were used; with --hold N was 82 times too large.
+#[test]
+fn sparks_neither_divide_a_hold_nor_change_its_noise() {
+    let bench = Bench::new();
+    let expected = 0.1 / 12.0_f64.sqrt() * 0.1;
+    for one_in in [600, 100] {
+        bench.write("sparks.csv", disturbed(12_000, |k| if k % one_in == 50 { 20.0 } else { 0.0 }));
+        for hold in ["", "--hold 0 120"] {
+            let outcome = bench.run(&format!("noise sparks.csv {hold} -o result")).done();
+            let sensor = &bench.json("result/noise.json")["sensors"][0];
+            let n = sensor["axes"][0]["random_walk"]["value"].as_f64().expect("determined");
+            // 12 000 samples: 0.7 % is one standard deviation
+            assert!((n / expected - 1.0).abs() < 0.03, "one in {one_in} {hold}: {n}");
+            let samples = sensor["end_sample"].as_u64().zip(sensor["first_sample"].as_u64());
+            assert!(samples.is_some_and(|(end, first)| end - first > 11_800), "{samples:?}");
+            assert!(
+                !outcome.stderr.contains("moves") && outcome.stdout.contains("noise_mps2 ="),
+                "{outcome:?}"
+            );
+            assert!(!outcome.stdout.contains("s recorded"), "{}", outcome.stdout);
+            outcome.says("samples are outliers");
+        }
+    }
+    // more than one in fifty are said to be what they are, and N is not for use
+    bench.write("many.csv", disturbed(12_000, |k| if k % 40 == 7 { 20.0 } else { 0.0 }));
+    let outcome = bench.run("noise many.csv --hold 0 120 -o result").done();
+    outcome.says("accelerometer x: 300 of 12000 samples are sparks");
+    outcome.says("too many to be left out");
+    assert!(!outcome.stderr.contains("filtered") && !outcome.stderr.contains("moves"), "{}", outcome.stderr);
+    assert!(
+        outcome.stdout.contains("nothing for an experiment file: there are too many sparks"),
+        "{}",
+        outcome.stdout
+    );
+    assert!(bench.json("result/noise.json")["sensors"][0]["experiment"].is_null());
+    assert!(bench.read("result/report.html").contains("This is not the noise of a sensor at rest"));
+}
+
+#[test]
+fn noise_of_a_sensor_that_moves_is_not_for_use() {
+    let bench = Bench::new();
+    let burst = |k: usize| if (6000..6030).contains(&k) { 5.0 * (2.1 * k as f64).sin() } else { 0.0 };
+    let step = |k: usize| if k >= 5000 { 0.5 } else { 0.0 };
+    let calibration = r#"{"acc_unit": "m/s^2", "gyr_unit": "deg/s", "from_acc_unit": "m/s^2", "from_gyr_unit": "deg/s", "comment": null,
+        "K_a": [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], "R_a": [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+        "b_a": [0.0, 0.0, 0.0], "K_g": [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], "R_g": [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+        "K_ga": [[0.0, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]], "b_g": [0.0, 0.0, 0.0], "cal_type": "Ferraris", "_format_version": "2.0.0"}"#;
+    bench.write("imu.json", calibration);
+    bench.write("burst.csv", disturbed(12_000, burst));
+    bench.write("step.csv", disturbed(12_000, step));
+    for name in ["burst", "step"] {
+        let outcome = bench.run(&format!("noise {name}.csv --hold 0 120 -o {name}")).done();
+        outcome.says("warning: the sensor moves in");
+        assert!(!outcome.stdout.contains("noise_mps2"), "{}", outcome.stdout);
+        let why = "nothing for an experiment file: the sensor moves in the interval that was given";
+        assert!(outcome.stdout.contains(why), "{}", outcome.stdout);
+        assert!(
+            bench.read(&format!("{name}/report.html")).contains("This is not the noise of a sensor at rest")
+        );
+        bench.refuses(
+            &format!("convert imu.json imu.yaml --noise {name}/noise.json"),
+            2,
+            &["the noise of the accelerometer is not that of a sensor at rest: the sensor moves"],
+        );
+        // without --hold the part that is used is said
+        let outcome = bench.run(&format!("noise {name}.csv -o {name}")).done();
+        assert!(
+            outcome.stdout.contains("of the 120.0 s recorded, the longest of 2 holds"),
+            "{}",
+            outcome.stdout
+        );
+        assert!(outcome.stdout.contains("noise_mps2 ="), "{}", outcome.stdout);
+        assert!(bench.read(&format!("{name}/report.html")).contains("of the 120.0 s recorded"));
+    }
+}
+
 /// Fifteen seconds at rest, thirty of a turn about the vertical at a steady rate, five at rest: the accelerometer alone sees one hold, the gyroscope's longest
 /// calm is the turn.
 #[test]
@@ -315,7 +406,7 @@ fn the_mti_at_rest() {
     std::fs::copy(&path, bench.path("xsens_acc.mat")).expect("copied");
     let outcome = bench.run("noise xsens_acc.mat --gain 415,413,415 -o result").done();
     assert!(
-        outcome.stdout.contains("accelerometer: 5199 samples, 0.28 to 52.25 s, 100.01 Hz"),
+        outcome.stdout.contains("accelerometer: 5206 samples, 0.28 to 52.32 s, 100.01 Hz\n  52.0 of the 511.7 s recorded, the longest of 38 holds"),
         "{}",
         outcome.stdout
     );
