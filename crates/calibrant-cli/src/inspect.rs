@@ -2,11 +2,9 @@
 
 use crate::reading::{RecordingOptions, name};
 use crate::{Exit, console};
-use calibrant::Error;
-use calibrant::error::Complaint;
 use calibrant::io::{
-    Experiment, HoldsInspection, ImuFile, ImuReadOptions, Inspection, SensorInspection, inspect,
-    inspection_json, read_imu_pair, read_imu_recording,
+    HoldsInspection, ImuFile, Inspection, SensorInspection, inspect, inspection_json, read_imu_pair,
+    read_imu_recording,
 };
 use calibrant::motion::Hold;
 use calibrant::report::number::{count, short, significant};
@@ -34,7 +32,7 @@ pub(crate) struct Arguments {
 }
 
 pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
-    let options = options(arguments)?;
+    let options = arguments.reading.with_columns(arguments.columns.as_deref())?;
     let file = match &arguments.second {
         Some(second) => read_imu_pair(&arguments.file, second, &options)?,
         None => read_imu_recording(&arguments.file, &options)?,
@@ -49,19 +47,6 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
         console::print(&text(&file, &inspection, arguments));
     }
     Ok(Exit::DONE)
-}
-
-fn options(arguments: &Arguments) -> calibrant::Result<ImuReadOptions> {
-    let given = arguments.reading.options();
-    let Some(experiment) = &arguments.columns else { return Ok(given) };
-    let columns = Experiment::read(experiment)?.columns;
-    if columns == ImuReadOptions::default() {
-        return Err(Error::Experiment(Box::new(
-            Complaint::new("there is no [columns] section", "add one, or leave --columns away")
-                .in_file(experiment),
-        )));
-    }
-    Ok(given.or(columns))
 }
 
 fn text(file: &ImuFile, inspection: &Inspection, arguments: &Arguments) -> String {

@@ -1,25 +1,19 @@
 //! `calibrant noise`: Allan deviation and noise of a sensor at rest.
 
+mod holds;
 mod read;
 mod table;
 
-use crate::reading::in_file;
+use crate::reading::{in_file, name};
 use crate::{Exit, console, place};
 use calibrant::Error;
 use calibrant::error::Complaint;
-use calibrant::estimate::{find_holds, find_imu_holds};
-use calibrant::io::{noise_json, write_atomically, write_noise};
-use calibrant::motion::Hold;
+use calibrant::io::{ImuUnit, Input, noise_json, write_atomically, write_noise};
 use calibrant::noise::{Stretch, TriadNoise};
 use calibrant::report::{About, noise_report, number};
-use calibrant::sensor::{ImuRecording, ReadingUnit, Recording, Triad};
+use calibrant::sensor::Triad;
 use nalgebra::Vector3;
 use std::path::PathBuf;
-
-/// Shortest hold that is looked for, s.
-const SHORTEST_HOLD_S: f64 = 1.0;
-/// The finder of holds may cut off this much of a hold at each end, s.
-const TRIMMED_S: f64 = 0.5;
 
 /// Find the noise of a sensor at rest: Allan deviation, random walks, bias instability.
 ///
@@ -32,11 +26,14 @@ pub(crate) struct Arguments {
     /// What the columns are readings of.
     #[arg(long, value_enum, default_value = "accelerometer")]
     sensor: SensorKind,
-    /// Unit of the readings where the file does not say.
-    #[arg(long, value_enum)]
-    unit: Option<Unit>,
+    /// Unit of this sensor's readings where the file does not say: m/s2, g, rad/s, deg/s or counts.
+    #[arg(long, value_parser = crate::reading::any_unit)]
+    unit: Option<ImuUnit>,
     #[command(flatten)]
     reading: crate::reading::RecordingOptions,
+    /// Experiment file whose [columns] say what is what.
+    #[arg(long, value_name = "EXPERIMENT")]
+    columns: Option<PathBuf>,
     /// Nominal gain in counts per m/s² or rad/s (one number or x,y,z): states the noise of readings in counts in SI and customary units.
     #[arg(long, value_name = "GAIN", value_delimiter = ',', num_args = 1..=3)]
     gain: Vec<f64>,
@@ -57,26 +54,6 @@ enum SensorKind {
     Gyroscope,
 }
 
-#[derive(Clone, Copy, clap::ValueEnum)]
-enum Unit {
-    /// Metres per second squared.
-    Mps2,
-    /// Radians per second.
-    Radps,
-    /// Raw counts.
-    Counts,
-}
-
-impl Unit {
-    fn reading_unit(self) -> ReadingUnit {
-        match self {
-            Self::Mps2 => ReadingUnit::MetrePerSecondSquared,
-            Self::Radps => ReadingUnit::RadianPerSecond,
-            Self::Counts => ReadingUnit::Counts,
-        }
-    }
-}
-
 pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     if let Some(directory) = &arguments.output {
         place::check_directory(directory)?;
@@ -86,57 +63,71 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
         SensorKind::Accelerometer => Triad::Accelerometer,
         SensorKind::Gyroscope => Triad::Gyroscope,
     };
-    let unit = arguments.unit.map(Unit::reading_unit);
-    let file = read::read(&arguments.recording, triad, unit, gain.is_some(), &arguments.reading.options())?;
+    let file = read::read(arguments, triad)?;
+    let imu = &file.recording;
     let in_file = |error| in_file(error, &arguments.recording);
-    let mut noise = Vec::new();
-    if let Some(recording) = file.imu.triad(triad) {
-        let (start_s, end_s) = match arguments.hold.as_deref() {
-            Some(&[start, end]) => (start, end),
-            _ => longest_hold(&file.imu, recording).map_err(in_file)?,
-        };
-        let stretch = Stretch::between(recording, start_s, end_s).map_err(in_file)?;
-        let found = TriadNoise::of(triad, recording, stretch).map_err(in_file)?;
-        let mut found = match &gain {
-            Some(gain) => found.with_gain(recording, gain)?,
-            None => found,
-        };
-        if arguments.hold.is_some() {
-            found.warnings.extend(moves(&file.imu, recording, &found.stretch));
+    let recording = imu.triad(triad).ok_or_else(|| in_file(no_sensor(triad)))?;
+    let holds = holds::holds(imu, triad);
+    let (start_s, end_s) = match (arguments.hold.as_deref(), &holds) {
+        (Some(&[start, end]), _) => (start, end),
+        (_, Ok(holds)) => holds::longest(holds).map(|hold| (hold.start_s, hold.end_s)).map_err(in_file)?,
+        (_, Err(_)) => return holds.map(|_| Exit::DONE).map_err(in_file),
+    };
+    let holds = holds.unwrap_or_default();
+    let stretch = Stretch::between(recording, start_s, end_s).map_err(in_file)?;
+    let found = TriadNoise::of(triad, recording, stretch).map_err(in_file)?;
+    let mut found = match &gain {
+        Some(gain) => found.with_gain(recording, gain)?,
+        None => found,
+    };
+    let examined = match arguments.hold {
+        Some(_) => {
+            if let Some(moving) = holds::moves(&holds, &found.stretch) {
+                found.doubt = Some("the sensor moves in the interval that was given".into());
+                found.warnings.push(moving);
+            }
+            None
         }
-        noise.push(found);
-    }
+        None => holds::examined(&holds, &found.stretch, recording),
+    };
+    let input = Input {
+        file: name(&arguments.recording),
+        sha256: file.sha256.concat(),
+        samples: recording.len(),
+        rate_hz: recording.rate_hz(),
+    };
 
     for finding in &file.findings {
-        console::finding(&file.input.file, finding);
+        console::finding(&input.file, finding);
     }
-    noise.iter().flat_map(|triad| &triad.warnings).for_each(|warning| console::warn(warning));
+    found.warnings.iter().for_each(|warning| console::warn(warning));
+    let noise = [found];
     if arguments.json {
-        console::print(&noise_json(&noise, &file.input));
+        console::print(&noise_json(&noise, &input));
     } else {
-        noise.iter().for_each(|triad| console::print(&table::of(triad)));
+        console::print(&table::of(&noise[0], examined.as_deref()));
     }
     if let Some(directory) = &arguments.output {
-        write_noise(&directory.join("noise.json"), &noise, &file.input)?;
+        write_noise(&directory.join("noise.json"), &noise, &input)?;
         let about = About {
-            title: format!("Noise from {}", file.input.file),
+            title: format!("Noise from {}", input.file),
             facts: vec![
                 ("Recording".into(), arguments.recording.display().to_string()),
-                ("SHA-256".into(), file.input.sha256.clone()),
+                ("SHA-256".into(), input.sha256.clone()),
                 (
                     "Samples".into(),
                     format!(
                         "{} at {} Hz",
-                        number::count(file.input.samples),
-                        number::significant(file.input.rate_hz, 5)
+                        number::count(input.samples),
+                        number::significant(input.rate_hz, 5)
                     ),
                 ),
                 (
                     "Hold".into(),
-                    if arguments.hold.is_some() {
-                        "as given".into()
-                    } else {
-                        "the longest that was found".into()
+                    match (&arguments.hold, examined) {
+                        (Some(_), _) => "as given".into(),
+                        (None, Some(examined)) => examined,
+                        (None, None) => "the longest that was found".into(),
                     },
                 ),
             ],
@@ -154,46 +145,9 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     Ok(Exit::DONE)
 }
 
-/// The holds: where both sensors are still, or the one that was recorded. A gyroscope alone is as calm in a turn at a steady rate.
-fn holds(imu: &ImuRecording, recording: &Recording) -> calibrant::Result<Vec<Hold>> {
-    match (&imu.accelerometer, &imu.gyroscope) {
-        (Some(_), Some(_)) => find_imu_holds(imu, SHORTEST_HOLD_S),
-        _ => find_holds(recording, SHORTEST_HOLD_S),
-    }
-}
-
-/// A warning where the sensor moves in an interval that was given as at rest: where that holds more than one hold, or more than a hold.
-fn moves(imu: &ImuRecording, recording: &Recording, given: &Stretch) -> Option<String> {
-    let holds = holds(imu, recording).ok().filter(|holds| !holds.is_empty())?;
-    let within: Vec<&Hold> =
-        holds.iter().filter(|hold| hold.end_s > given.start_s && hold.start_s < given.end_s).collect();
-    let Some((first, last)) = within.first().zip(within.last()) else {
-        return Some(moving(given.duration_s(), given));
-    };
-    let ends = [first.start_s - given.start_s, given.end_s - last.end_s];
-    let between: f64 = within.windows(2).map(|pair| pair[1].start_s - pair[0].end_s).sum();
-    let moving_s = between + ends.into_iter().filter(|end_s| *end_s > TRIMMED_S).sum::<f64>();
-    (moving_s > 0.0).then(|| moving(moving_s, given))
-}
-
-fn moving(moving_s: f64, given: &Stretch) -> String {
-    format!(
-        "the sensor moves in {moving_s:.1} of the {:.1} s given with --hold, or is shaken: what follows is no noise of a sensor at rest (`calibrant inspect` shows how many \
-         holds there are; without --hold the longest is taken)",
-        given.duration_s()
-    )
-}
-
-/// The longest hold.
-fn longest_hold(imu: &ImuRecording, recording: &Recording) -> calibrant::Result<(f64, f64)> {
-    let holds = holds(imu, recording)?;
-    let longest = Hold::longest(&holds).map(|number| &holds[number]);
-    longest.map(|hold| (hold.start_s, hold.end_s)).ok_or_else(|| {
-        Error::Recording(Box::new(Complaint::new(
-            format!("no hold of {SHORTEST_HOLD_S} s or more is found"),
-            "noise needs the sensor at rest; if it was, give the interval with --hold START END",
-        )))
-    })
+fn no_sensor(triad: Triad) -> Error {
+    let complaint = Complaint::new(format!("the file has no {triad}"), "choose the other with --sensor");
+    Error::Recording(Box::new(complaint))
 }
 
 fn gain(given: &[f64]) -> calibrant::Result<Option<Vector3<f64>>> {

@@ -1,7 +1,8 @@
 //! What every command that reads a recording needs: the options that say what its file does not say itself, and its name in errors.
 
 use calibrant::Error;
-use calibrant::io::{FileFormat, ImuReadOptions, ImuUnit, TimeUnit};
+use calibrant::error::Complaint;
+use calibrant::io::{Experiment, FileFormat, ImuReadOptions, ImuUnit, TimeUnit};
 use calibrant::sensor::{Triad, WORKING_C};
 use std::path::Path;
 
@@ -40,6 +41,19 @@ impl RecordingOptions {
             ..ImuReadOptions::default()
         }
     }
+
+    /// The same, and what `[columns]` of an experiment file says where these say nothing.
+    pub(crate) fn with_columns(&self, experiment: Option<&Path>) -> calibrant::Result<ImuReadOptions> {
+        let given = self.options();
+        let Some(experiment) = experiment else { return Ok(given) };
+        let columns = Experiment::read(experiment)?.columns;
+        if columns == ImuReadOptions::default() {
+            let complaint =
+                Complaint::new("there is no [columns] section", "add one, or leave --columns away");
+            return Err(Error::Experiment(Box::new(complaint.in_file(experiment))));
+        }
+        Ok(given.or(columns))
+    }
 }
 
 fn format(text: &str) -> Result<FileFormat, String> {
@@ -58,6 +72,14 @@ fn accelerometer_unit(text: &str) -> Result<ImuUnit, String> {
 
 fn gyroscope_unit(text: &str) -> Result<ImuUnit, String> {
     unit(text, Triad::Gyroscope)
+}
+
+/// A unit of readings, whichever sensor's.
+pub(crate) fn any_unit(text: &str) -> Result<ImuUnit, String> {
+    ImuUnit::parse(text).ok_or_else(|| {
+        let [accelerometer, gyroscope] = Triad::ALL.map(ImuUnit::choices);
+        format!("the accelerometer is in {accelerometer}, the gyroscope in {gyroscope}")
+    })
 }
 
 fn time_unit(text: &str) -> Result<TimeUnit, String> {

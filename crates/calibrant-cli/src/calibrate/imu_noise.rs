@@ -50,7 +50,9 @@ impl LongestHold {
 
     /// A gyroscope's white noise, where it is determined on all axes and the noise is understood.
     pub(super) fn white_noise(&self, gyroscope: &TriadNoise) -> Option<WhiteNoise> {
-        let sd = gyroscope.white_noise_per_sample().filter(|_| gyroscope.explains())?;
+        let sd = gyroscope
+            .white_noise_per_sample()
+            .filter(|_| gyroscope.explains() && gyroscope.doubt.is_none())?;
         Some(WhiteNoise { sd, hold: self.number, duration_s: gyroscope.stretch.duration_s() })
     }
 }

@@ -5,17 +5,21 @@ use calibrant::io::noise_line;
 use calibrant::noise::{Coefficient, CoefficientUnit, PowerLaw, TriadNoise, coefficient_units};
 use calibrant::report::{coefficient_name, number};
 
-/// Coefficients, samples, and why something is not determined.
-pub(super) fn of(noise: &TriadNoise) -> String {
+/// Coefficients, samples, and why something is not determined; `examined` says what part of the recording was.
+pub(super) fn of(noise: &TriadNoise, examined: Option<&str>) -> String {
     let stretch = &noise.stretch;
     let mut text = format!(
-        "  {}: {} samples, {:.2} to {:.2} s, {} Hz\n\n",
+        "  {}: {} samples, {:.2} to {:.2} s, {} Hz\n",
         noise.triad,
         number::count(stretch.samples()),
         stretch.start_s,
         stretch.end_s,
         number::significant(stretch.rate_hz(), 5)
     );
+    if let Some(examined) = examined {
+        text.push_str(&format!("  {examined}\n"));
+    }
+    text.push('\n');
     let mut rows = Vec::new();
     let mut reasons: Vec<(String, String)> = Vec::new();
     for process in [PowerLaw::White, PowerLaw::Flicker, PowerLaw::RandomWalk, PowerLaw::Quantisation] {
@@ -73,9 +77,19 @@ pub(super) fn of(noise: &TriadNoise) -> String {
         list(&|k| Some(noise.axes[k].sample_sd)),
         unit = noise.unit.symbol()
     ));
-    text.push_str(&match noise_line(noise) {
-        Some(found) => format!("  for an experiment file, in [{}]: {}\n\n", found.section, found.line),
-        None => "  white noise is not determined on all axes: nothing for an experiment file\n\n".to_owned(),
+    text.push_str(&match (noise_line(noise), &noise.doubt) {
+        (_, Some(doubt)) => format!("  nothing for an experiment file: {doubt}\n\n"),
+        (None, None) => {
+            "  nothing for an experiment file: white noise is not determined on all axes\n\n".to_owned()
+        }
+        (Some(found), None) => {
+            let but = if noise.explains() {
+                ""
+            } else {
+                "\n  (but the noise is not explained: see the warnings before you use it)"
+            };
+            format!("  for an experiment file, in [{}]: {}{but}\n\n", found.section, found.line)
+        }
     });
     text
 }

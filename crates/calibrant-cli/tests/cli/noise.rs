@@ -5,7 +5,7 @@ use crate::data::shared_data;
 use serde_json::Value;
 use std::fmt::Write;
 
-/// A recording of `n` samples at 100 Hz whose readings pass every test of whiteness that matters here.
+/// A recording of `n` samples at 100 Hz, z up, whose readings pass every test of whiteness that matters here.
 fn recording(header: &str, n: u32, size: f64) -> String {
     let mut state = 1_u64;
     let mut uniform = || {
@@ -14,8 +14,8 @@ fn recording(header: &str, n: u32, size: f64) -> String {
     };
     let mut text = format!("{header}\n");
     for k in 0..n {
-        let [x, y, z] = [uniform(), uniform(), 9.8 + uniform()].map(|value| size * value);
-        writeln!(text, "{:.2},{x:.9},{y:.9},{z:.9}", f64::from(k) / 100.0).expect("written");
+        let [x, y, z] = [uniform(), uniform(), uniform()].map(|value| size * value);
+        writeln!(text, "{:.2},{x:.9},{y:.9},{:.9}", f64::from(k) / 100.0, 9.8 + z).expect("written");
     }
     text
 }
@@ -74,7 +74,7 @@ fn an_outlier_is_named_and_left_out() {
     let clean = recording("t_s,ax_mps2,ay_mps2,az_mps2", 6000, 0.1);
     bench.write("still.csv", &clean);
     let mut lines: Vec<&str> = clean.lines().collect();
-    lines[3001] = "30.00,20.0,0.0,0.98";
+    lines[3001] = "30.00,20.0,0.0,9.8";
     bench.write("spark.csv", lines.join("\n") + "\n");
     let n = |file: &str| {
         let outcome = bench.run(&format!("noise {file} --hold 0 60 --json")).done();
@@ -87,6 +87,97 @@ fn an_outlier_is_named_and_left_out() {
     outcome
         .says("warning: accelerometer x: 1 of 6000 samples is an outlier (the farthest 20 m/s² at 30.000 s");
     outcome.says("was left out; with it N would be");
+}
+
+/// A recording of so many samples with something added to x in some samples.
+fn disturbed(n: u32, by: impl Fn(usize) -> f64) -> String {
+    let still = recording("t_s,ax_mps2,ay_mps2,az_mps2", n, 0.1);
+    let line = |(k, line): (usize, &str)| match by(k) {
+        0.0 => line.to_owned(),
+        by => {
+            let fields: Vec<&str> = line.split(',').collect();
+            let x: f64 = fields[1].parse().expect("a number");
+            format!("{},{:.9},{},{}", fields[0], x + by, fields[2], fields[3])
+        }
+    };
+    let lines: Vec<String> = still.lines().skip(1).enumerate().map(line).collect();
+    format!("t_s,ax_mps2,ay_mps2,az_mps2\n{}\n", lines.join("\n"))
+}
+
+/// A spark divided the hold, and 5.5 of 600 s were used; with --hold N was 82 times too large.
+#[test]
+fn sparks_neither_divide_a_hold_nor_change_its_noise() {
+    let bench = Bench::new();
+    let expected = 0.1 / 12.0_f64.sqrt() * 0.1;
+    for one_in in [600, 100] {
+        bench.write("sparks.csv", disturbed(12_000, |k| if k % one_in == 50 { 20.0 } else { 0.0 }));
+        for hold in ["", "--hold 0 120"] {
+            let outcome = bench.run(&format!("noise sparks.csv {hold} -o result")).done();
+            let sensor = &bench.json("result/noise.json")["sensors"][0];
+            let n = sensor["axes"][0]["random_walk"]["value"].as_f64().expect("determined");
+            // 12 000 samples: 0.7 % is one standard deviation
+            assert!((n / expected - 1.0).abs() < 0.03, "one in {one_in} {hold}: {n}");
+            let samples = sensor["end_sample"].as_u64().zip(sensor["first_sample"].as_u64());
+            assert!(samples.is_some_and(|(end, first)| end - first > 11_800), "{samples:?}");
+            assert!(
+                !outcome.stderr.contains("moves") && outcome.stdout.contains("noise_mps2 ="),
+                "{outcome:?}"
+            );
+            assert!(!outcome.stdout.contains("s recorded"), "{}", outcome.stdout);
+            outcome.says("samples are outliers");
+        }
+    }
+    // more than one in fifty are said to be what they are, and N is not for use
+    bench.write("many.csv", disturbed(12_000, |k| if k % 40 == 7 { 20.0 } else { 0.0 }));
+    let outcome = bench.run("noise many.csv --hold 0 120 -o result").done();
+    outcome.says("accelerometer x: 300 of 12000 samples are sparks");
+    outcome.says("too many to be left out");
+    assert!(!outcome.stderr.contains("filtered") && !outcome.stderr.contains("moves"), "{}", outcome.stderr);
+    assert!(
+        outcome.stdout.contains("nothing for an experiment file: there are too many sparks"),
+        "{}",
+        outcome.stdout
+    );
+    assert!(bench.json("result/noise.json")["sensors"][0]["experiment"].is_null());
+    assert!(bench.read("result/report.html").contains("This is not the noise of a sensor at rest"));
+}
+
+#[test]
+fn noise_of_a_sensor_that_moves_is_not_for_use() {
+    let bench = Bench::new();
+    let burst = |k: usize| if (6000..6030).contains(&k) { 5.0 * (2.1 * k as f64).sin() } else { 0.0 };
+    let step = |k: usize| if k >= 5000 { 0.5 } else { 0.0 };
+    let calibration = r#"{"acc_unit": "m/s^2", "gyr_unit": "deg/s", "from_acc_unit": "m/s^2", "from_gyr_unit": "deg/s", "comment": null,
+        "K_a": [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], "R_a": [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+        "b_a": [0.0, 0.0, 0.0], "K_g": [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], "R_g": [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+        "K_ga": [[0.0, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]], "b_g": [0.0, 0.0, 0.0], "cal_type": "Ferraris", "_format_version": "2.0.0"}"#;
+    bench.write("imu.json", calibration);
+    bench.write("burst.csv", disturbed(12_000, burst));
+    bench.write("step.csv", disturbed(12_000, step));
+    for name in ["burst", "step"] {
+        let outcome = bench.run(&format!("noise {name}.csv --hold 0 120 -o {name}")).done();
+        outcome.says("warning: the sensor moves in");
+        assert!(!outcome.stdout.contains("noise_mps2"), "{}", outcome.stdout);
+        let why = "nothing for an experiment file: the sensor moves in the interval that was given";
+        assert!(outcome.stdout.contains(why), "{}", outcome.stdout);
+        assert!(
+            bench.read(&format!("{name}/report.html")).contains("This is not the noise of a sensor at rest")
+        );
+        bench.refuses(
+            &format!("convert imu.json imu.yaml --noise {name}/noise.json"),
+            2,
+            &["the noise of the accelerometer is not that of a sensor at rest: the sensor moves"],
+        );
+        // without --hold the part that is used is said
+        let outcome = bench.run(&format!("noise {name}.csv -o {name}")).done();
+        assert!(
+            outcome.stdout.contains("of the 120.0 s recorded, the longest of 2 holds"),
+            "{}",
+            outcome.stdout
+        );
+        assert!(outcome.stdout.contains("noise_mps2 ="), "{}", outcome.stdout);
+        assert!(bench.read(&format!("{name}/report.html")).contains("of the 120.0 s recorded"));
+    }
 }
 
 /// Fifteen seconds at rest, thirty of a turn about the vertical at a steady rate, five at rest: the accelerometer alone sees one hold, the gyroscope's longest
@@ -177,7 +268,7 @@ fn counts_stay_counts_without_a_gain() {
 #[test]
 fn what_cannot_be_used_is_refused() {
     let bench = Bench::new();
-    bench.write("still.csv", recording("t_s,ax,ay,az", 3000, 0.1));
+    bench.write("still.csv", recording("t_s,ax_mps2,ay_mps2,az_mps2", 3000, 0.1));
     bench.refuses("noise still.csv --hold 1 1.2 -o result", 3, &["still.csv: 21 samples from 1 to 1.2 s"]);
     let hold = |interval: &str| format!("noise still.csv --hold {interval} -o result");
     bench.refuses(&hold("nan 20"), 2, &["an interval from NaN to 20 s is none"]);
@@ -198,13 +289,124 @@ fn what_cannot_be_used_is_refused() {
 }
 
 #[test]
+fn a_unit_that_the_file_does_not_say_is_asked_for() {
+    let bench = Bench::new();
+    let si = recording("t_s,ax,ay,az", 3000, 0.1);
+    let scaled = |factor: f64, header: &str| {
+        let line = |line: &str| {
+            let values: Vec<f64> = line.split(',').map(|value| value.parse().expect("a number")).collect();
+            let [x, y, z] = [1, 2, 3].map(|k| factor * values[k]);
+            format!("{},{x:.12},{y:.12},{z:.12}", values[0])
+        };
+        let lines: Vec<String> = si.lines().skip(1).map(line).collect();
+        format!("{header}{}\n", lines.join("\n"))
+    };
+    bench.write("si.csv", &si);
+    bench.write("g.csv", scaled(1.0 / 9.80665, "t_s,ax,ay,az\n"));
+    bench.write("said-si.csv", scaled(1.0 / 9.80665, "t_s,ax_mps2,ay_mps2,az_mps2\n"));
+    bench.write("said-g.csv", scaled(1.0 / 9.80665, "t_s,ax_g,ay_g,az_g\n"));
+    bench.write("bare.mat", scaled(1.0 / 9.80665, "").replace(',', " "));
+    bench.write("gyro.csv", scaled(0.01, "t_s,x,y,z\n"));
+    let units = "[columns]\naccelerometer_unit = \"g\"\ngyroscope_unit = \"deg/s\"\n";
+    bench.preset("static-poses", "poses.toml", &[]);
+    bench.write("columns.toml", bench.read("poses.toml") + "\n" + units);
+
+    for (arguments, hint, option) in [
+        ("si.csv", "magnitudes around 9.8 suggest m/s²", "--accelerometer-unit m/s², g or counts"),
+        ("g.csv", "magnitudes around 0.999 suggest g", "--accelerometer-unit m/s², g or counts"),
+        ("bare.mat", "magnitudes around 0.999 suggest g", "--accelerometer-unit m/s², g or counts"),
+        (
+            "gyro.csv --sensor gyroscope",
+            "may be rad/s, or deg/s of slow turns",
+            "--gyroscope-unit rad/s, deg/s or counts",
+        ),
+        (
+            "bare.mat --sensor gyroscope",
+            "may be rad/s, or deg/s of slow turns",
+            "--gyroscope-unit rad/s, deg/s or counts",
+        ),
+        (
+            "si.csv --sensor gyroscope",
+            "may be rad/s, or deg/s of slow turns",
+            "--gyroscope-unit rad/s, deg/s or counts",
+        ),
+    ] {
+        bench.refuses(&format!("noise {arguments} -o result"), 3, &["columns have no unit", hint, option]);
+    }
+    // whatever answers, the answer is the same
+    let n = |arguments: &str| {
+        let outcome = bench.run(&format!("noise {arguments} --json")).done();
+        let json: Value = serde_json::from_str(&outcome.stdout).expect("JSON");
+        let sensor = &json["sensors"][0];
+        let unit = sensor["reading_unit"].as_str().expect("a unit").to_owned();
+        (sensor["axes"][1]["random_walk"]["value"].as_f64().expect("determined"), unit)
+    };
+    let expected = 0.1 / 12.0_f64.sqrt() * 0.1;
+    for (arguments, factor, unit) in [
+        ("si.csv --unit mps2", 1.0, "m/s²"),
+        ("si.csv --accelerometer-unit m/s2", 1.0, "m/s²"),
+        ("si.csv --unit counts", 1.0, "counts"),
+        ("si.csv --gain 10", 0.1, "m/s²"),
+        ("si.csv --unit counts --gain 10", 0.1, "m/s²"),
+        ("g.csv --unit g", 1.0, "m/s²"),
+        ("g.csv --columns columns.toml", 1.0, "m/s²"),
+        ("bare.mat --unit g", 1.0, "m/s²"),
+        ("said-g.csv", 1.0, "m/s²"),
+        ("gyro.csv --sensor gyroscope --unit rad/s", 0.01, "rad/s"),
+        ("gyro.csv --sensor gyroscope --gyroscope-unit dps", 0.01_f64.to_radians(), "rad/s"),
+        ("gyro.csv --sensor gyroscope --columns columns.toml", 0.01_f64.to_radians(), "rad/s"),
+        ("gyro.csv --sensor gyroscope --unit counts", 0.01, "counts"),
+    ] {
+        let (found, its) = n(arguments);
+        // 3000 samples: 1.3 % is one standard deviation
+        assert!((found / (factor * expected) - 1.0).abs() < 0.05, "{arguments}: {found}");
+        assert_eq!(its, unit, "{arguments}");
+    }
+    // an answer that gravity contradicts, that is none, or that contradicts another
+    let refused = [
+        ("said-si.csv", 3, "said to be in m/s², but its magnitude is 0.999 most of the time: is it in g?"),
+        ("g.csv --unit mps2", 3, "is it in g?"),
+        ("said-g.csv --unit counts", 3, "columns are in g, but the unit was given as counts"),
+        ("said-g.csv --gain 10", 2, "--gain is one of counts, but the file gives the accelerometer in m/s²"),
+        ("si.csv --unit rad/s", 2, "--unit rad/s is no unit of the accelerometer"),
+        (
+            "si.csv --unit g --accelerometer-unit counts",
+            2,
+            "--unit is g, but the accelerometer's unit is given as",
+        ),
+        ("si.csv --unit furlongs", 2, "the accelerometer is in m/s², g or counts, the gyroscope in rad/s"),
+        ("si.csv --columns poses.toml", 2, "there is no [columns] section"),
+    ];
+    refused.iter().for_each(|(arguments, status, says)| {
+        bench.refuses(&format!("noise {arguments} -o result"), *status, &[says]);
+    });
+}
+
+/// No unit is in imu_tk's files, and these are counts: N was given as 0.37 m/s²/√Hz.
+#[test]
+fn the_units_of_the_mti_are_asked_for() {
+    for (sensor, name) in [("accelerometer", "xsens_acc.mat"), ("gyroscope", "xsens_gyro.mat")] {
+        let Some(path) = shared_data(&format!("xsens-mti-static/{name}")) else { return };
+        let bench = Bench::new();
+        std::fs::copy(&path, bench.path(name)).expect("copied");
+        bench.refuses(
+            &format!("noise {name} --sensor {sensor} -o result"),
+            3,
+            &[&format!("the {sensor}'s columns have no unit"), "suggest counts", &format!("--{sensor}-unit")],
+        );
+        let outcome = bench.run(&format!("noise {name} --sensor {sensor} --{sensor}-unit counts")).done();
+        assert!(outcome.stdout.contains("counts/√Hz"), "{}", outcome.stdout);
+    }
+}
+
+#[test]
 fn the_mti_at_rest() {
     let Some(path) = shared_data("xsens-mti-static/xsens_acc.mat") else { return };
     let bench = Bench::new();
     std::fs::copy(&path, bench.path("xsens_acc.mat")).expect("copied");
     let outcome = bench.run("noise xsens_acc.mat --gain 415,413,415 -o result").done();
     assert!(
-        outcome.stdout.contains("accelerometer: 5199 samples, 0.28 to 52.25 s, 100.01 Hz"),
+        outcome.stdout.contains("accelerometer: 5206 samples, 0.28 to 52.32 s, 100.01 Hz\n  52.0 of the 511.7 s recorded, the longest of 38 holds"),
         "{}",
         outcome.stdout
     );

@@ -34,9 +34,12 @@ pub struct NoiseLine {
     pub line: String,
 }
 
-/// The line to paste into an experiment file, in the unit of the readings; `None` where the white noise is not determined on an axis.
+/// The line to paste into an experiment file, in the unit of the readings; `None` where the white noise is not determined on an axis, or not that of a sensor at rest.
 #[must_use]
 pub fn noise_line(noise: &TriadNoise) -> Option<NoiseLine> {
+    if noise.doubt.is_some() {
+        return None;
+    }
     let sigma = noise.white_noise_of_readings()?;
     let counts = noise.unit == ReadingUnit::Counts || noise.gain.is_some();
     let unit = if counts { ReadingUnit::Counts } else { noise.unit };
@@ -82,6 +85,7 @@ struct TriadFields<'a> {
     interval_jitter: f64,
     axes: Vec<AxisFields<'a>>,
     experiment: Option<NoiseLine>,
+    doubt: Option<&'a str>,
     warnings: &'a [String],
 }
 
@@ -99,6 +103,7 @@ impl<'a> TriadFields<'a> {
             interval_jitter: noise.stretch.jitter,
             axes: noise.axes.iter().map(|axis| AxisFields::of(axis, noise.triad, noise.unit, rate)).collect(),
             experiment: noise_line(noise),
+            doubt: noise.doubt.as_deref(),
             warnings: &noise.warnings,
         }
     }

@@ -37,7 +37,7 @@
 //! so short that no sum of these processes explains them (filtered or sampled noise) are left out and named.
 //!
 //! # What is taken out first
-//! A few samples that are far from those beside them ([`Outliers`]), which no process above explains; they are named.
+//! Up to one in fifty samples that are far from those beside them ([`Outliers`]), which no process above explains; they are named.
 //!
 //! # Confidence
 //! An estimate of a variance is skewed. The bounds of `θ_i` are those values under which an estimate as high, or as low, as this one has a
@@ -69,7 +69,7 @@ pub use drift::Drift;
 pub use fit::NoiseFit;
 pub use model::NoiseModel;
 pub use moments::Moments;
-pub use outliers::Outliers;
+pub use outliers::{Outliers, without_outliers};
 pub use power_law::PowerLaw;
 pub use stretch::Stretch;
 pub use triad::{AxisNoise, TriadNoise};

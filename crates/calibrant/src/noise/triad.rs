@@ -25,6 +25,8 @@ pub struct TriadNoise {
     pub stretch: Stretch,
     /// A result for each axis.
     pub axes: Vec<AxisNoise>,
+    /// Why the white noise is not that of a sensor at rest, where it is not: there are too many outliers, or whoever knows better says that the sensor moves.
+    pub doubt: Option<String>,
     /// What the user should know.
     pub warnings: Vec<String>,
 }
@@ -40,7 +42,7 @@ pub struct AxisNoise {
     pub fit: NoiseFit,
     /// Standard deviation of the samples about their mean, in the unit of the readings.
     pub sample_sd: f64,
-    /// Samples that were left out of all this; `None` without any.
+    /// Samples that were left out of all this, or are too many to be; `None` without any.
     pub outliers: Option<Outliers>,
 }
 
@@ -97,13 +99,14 @@ impl TriadNoise {
                 Some(found) => {
                     let white = |fit: NoiseFit| fit.model.white_noise_per_sample(stretch.rate_hz());
                     let outliers = Outliers {
+                        left_out: found.without.is_some(),
                         samples: found.samples,
                         time_s: recording.times_s[stretch.first + found.farthest],
                         largest: recorded[found.farthest],
                         deviations: found.deviations,
                         white_with_them: fit(&recorded).ok().and_then(white),
                     };
-                    (found.without, Some(outliers))
+                    (found.without.unwrap_or(recorded), Some(outliers))
                 }
             };
             let n = values.len() as f64;
@@ -122,7 +125,11 @@ impl TriadNoise {
             })
         };
         let axes: Vec<AxisNoise> = recording.active_axes().par_iter().map(axis).collect::<Result<_>>()?;
-        let mut noise = Self { triad, unit: recording.unit, gain: None, stretch, axes, warnings: Vec::new() };
+        let sparks =
+            axes.iter().any(|axis| axis.outliers.as_ref().is_some_and(|outliers| !outliers.left_out));
+        let doubt = sparks.then(|| "there are too many sparks".to_owned());
+        let unit = recording.unit;
+        let mut noise = Self { triad, unit, gain: None, stretch, axes, doubt, warnings: Vec::new() };
         noise.warnings = noise.remarks(readings);
         Ok(noise)
     }
@@ -192,6 +199,19 @@ impl TriadNoise {
     fn of_outliers_on(&self, axis: &AxisNoise, outliers: &Outliers) -> String {
         let (unit, count) = (self.unit.symbol(), outliers.samples.len());
         let white = axis.fit.model.white_noise_per_sample(self.stretch.rate_hz());
+        let farthest = format!(
+            "the farthest {} {unit} at {:.3} s, {:.0} times the usual difference of two samples off those beside it",
+            three_digits(outliers.largest),
+            outliers.time_s,
+            outliers.deviations
+        );
+        let what = format!("{} {}: {count} of {} samples", self.triad, axis.axis, self.stretch.samples());
+        if !outliers.left_out {
+            return format!(
+                "{what} are sparks ({farthest}): single samples far off, too many to be left out, which one in fifty would be; what is stated is their noise, not that of the \
+                 others. Look for their cause: a loose contact, bits lost on the way?"
+            );
+        }
         let with_them = match white.zip(outliers.white_with_them) {
             Some((without, with)) => format!(
                 "with {} N would be {:.2} times as large",
@@ -201,15 +221,8 @@ impl TriadNoise {
             None => "the noise is that of the others".to_owned(),
         };
         format!(
-            "{} {}: {count} of {} samples {} (the farthest {} {unit} at {:.3} s, {:.0} times the usual difference of two samples off those beside it): a spark, a lost bit or a \
-             knock is no noise that averages out, and was left out; {with_them}",
-            self.triad,
-            axis.axis,
-            self.stretch.samples(),
-            if count == 1 { "is an outlier" } else { "are outliers" },
-            three_digits(outliers.largest),
-            outliers.time_s,
-            outliers.deviations
+            "{what} {} ({farthest}): a spark, a lost bit or a knock is no noise that averages out, and was left out; {with_them}",
+            if count == 1 { "is an outlier" } else { "are outliers" }
         )
     }
 
@@ -229,7 +242,9 @@ impl TriadNoise {
                 short_time(self.stretch.duration_s())
             ));
         }
-        for axis in &self.axes {
+        // of sparks the noise is what it is
+        let explicable = |axis: &&AxisNoise| axis.outliers.as_ref().is_none_or(|outliers| outliers.left_out);
+        for axis in self.axes.iter().filter(explicable) {
             let (name, fit) = (axis.axis, &axis.fit);
             if fit.drift.is_significant() {
                 remarks.push(format!(

@@ -164,7 +164,9 @@ fn verdict(noise: &[TriadNoise], about: &About) -> String {
         n => format!("{name}: on {n} of {total} axes"),
     };
     let slow = determined(PowerLaw::Flicker) + determined(PowerLaw::RandomWalk);
+    let doubtful = noise.iter().any(|triad| triad.doubt.is_some());
     let (class, word) = match () {
+        () if doubtful => ("bad", "✗ This is not the noise of a sensor at rest."),
         () if !explained => ("bad", "✗ The noise is not explained."),
         () if drifts || determined(PowerLaw::White) < total => ("caution", "! Look closer."),
         () if slow == 0 => {

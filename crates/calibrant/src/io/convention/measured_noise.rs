@@ -21,6 +21,7 @@ struct Sensor {
     reading_unit: String,
     interval_s: f64,
     axes: Vec<Axis>,
+    doubt: Option<String>,
 }
 
 #[derive(Deserialize)]
@@ -40,7 +41,7 @@ struct Coefficient {
 /// A coefficient that is not determined on every axis is not given: Kalibr's users put a multiple of the datasheet's there.
 ///
 /// # Errors
-/// [`Error::Experiment`] with the file: not readable, no `noise.json`, a number that is not positive, counts of a sensor whose calibration is of SI readings.
+/// [`Error::Experiment`] with the file: not readable, no `noise.json`, noise that is not that of a sensor at rest, a number that is not positive, counts of a sensor whose calibration is of SI readings.
 pub fn read_measured_noise(path: &Path, imu: &CalibratedImu) -> Result<ImuNoise> {
     let read = || -> Checked<ImuNoise> {
         let bytes = text::read_bytes(path, LARGEST, "noise.json")?;
@@ -60,6 +61,10 @@ fn take(noise: &mut ImuNoise, sensor: &Sensor, imu: &CalibratedImu) -> Checked<(
         return Err(complaint(format!("no sensor is called \"{}\"", sensor.sensor), HELP));
     };
     let Some(unit) = imu.unit(triad) else { return Ok(()) };
+    if let Some(doubt) = &sensor.doubt {
+        let message = format!("the noise of the {triad} is not that of a sensor at rest: {doubt}");
+        return Err(complaint(message, "run `calibrant noise` on a recording at rest"));
+    }
     let is_physical = sensor.reading_unit == triad.stimulus_unit().symbol();
     if !is_physical && unit.symbol() != sensor.reading_unit {
         let message = format!(

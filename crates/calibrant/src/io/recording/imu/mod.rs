@@ -90,12 +90,25 @@ pub struct ImuFile {
 /// what the values suggest) or that contradicts the options; a row with the wrong number of columns, or something that is not a number; a time
 /// that goes backwards; fewer than two samples.
 pub fn read_imu_recording(path: &Path, options: &ImuReadOptions) -> Result<ImuFile> {
+    read(path, options, None)
+}
+
+/// Reads a recording that holds this sensor: as [`read_imu_recording`] does, with the other sensor where the file has it, or a text of this sensor alone whose columns do
+/// not say which it is: `t x y z` of imu_tk, `t_s,x,y,z`, or `t_s,ax,ay,az` of a gyroscope.
+///
+/// # Errors
+/// As [`read_imu_recording`]. That the file has the other sensor only is none.
+pub fn read_imu_sensor(path: &Path, triad: Triad, options: &ImuReadOptions) -> Result<ImuFile> {
+    read(path, options, Some(triad))
+}
+
+fn read(path: &Path, options: &ImuReadOptions, asked: Option<Triad>) -> Result<ImuFile> {
     let in_file = |complaint: Box<Complaint>| Error::recording(complaint.in_file(path));
     let beginning = source::beginning(path).map_err(in_file)?;
     if FileFormat::of_magic(&beginning.bytes).is_some() {
         return parse(&beginning.bytes, options).map_err(in_file);
     }
-    source::of_file(beginning, |source| parse_text(source, options)).map_err(in_file)
+    source::of_file(beginning, |source| parse_text(source, options, asked)).map_err(in_file)
 }
 
 /// Reads the bytes of a recording of an IMU.
@@ -174,10 +187,11 @@ fn parse(bytes: &[u8], options: &ImuReadOptions) -> Checked<ImuFile> {
         let (file, sha256) = rayon::join(|| binary(format, bytes, options), || hex_sha256(bytes));
         return Ok(ImuFile { sha256: vec![sha256], ..file? });
     }
-    source::of_bytes(bytes, |source| parse_text(source, options))
+    source::of_bytes(bytes, |source| parse_text(source, options, None))
 }
 
-fn parse_text(source: Source<'_>, options: &ImuReadOptions) -> Checked<ImuFile> {
+/// Reads a text; `asked` is the sensor that the user says is in it.
+fn parse_text(source: Source<'_>, options: &ImuReadOptions, asked: Option<Triad>) -> Checked<ImuFile> {
     let head = Head::find(source.text)?;
     let format = match options.format {
         Some(format) => format,
@@ -188,8 +202,8 @@ fn parse_text(source: Source<'_>, options: &ImuReadOptions) -> Checked<ImuFile> 
         FileFormat::MovellaDot => movella_dot::draft(&head),
         FileFormat::Euroc => euroc::draft(&head),
         FileFormat::Imucal => imucal::draft(&head)?,
-        FileFormat::ImuTk => imu_tk::draft(&head, None)?,
-        FileFormat::Csv => csv::draft(&head),
+        FileFormat::ImuTk => imu_tk::draft(&head, asked)?,
+        FileFormat::Csv => csv::draft(&head, asked),
         FileFormat::Mcap | FileFormat::Parquet => return Err(not_binary(format).into()),
     };
     rows(draft, head, source, options)

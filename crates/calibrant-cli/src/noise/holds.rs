@@ -1,0 +1,94 @@
+//! Where the sensor is at rest: the longest hold, and whether it moves in an interval that was given.
+
+use calibrant::Error;
+use calibrant::error::Complaint;
+use calibrant::estimate::{find_holds, find_imu_holds};
+use calibrant::motion::Hold;
+use calibrant::noise::{Stretch, without_outliers};
+use calibrant::sensor::{ImuRecording, Recording, Triad};
+
+/// Shortest hold that is looked for, s.
+const SHORTEST_HOLD_S: f64 = 1.0;
+/// The finder of holds may cut off this much of a hold at each end, s.
+const TRIMMED_S: f64 = 0.5;
+/// Where less than this share of a recording is examined, the table says so.
+const MOST: f64 = 0.9;
+
+/// The holds: where both sensors are still, or the one that was recorded. A gyroscope alone is as calm in a turn at a steady rate.
+///
+/// A spark does not divide a hold: it is no movement.
+pub(super) fn holds(imu: &ImuRecording, triad: Triad) -> calibrant::Result<Vec<Hold>> {
+    let still = |triad| imu.triad(triad).map(without_outliers);
+    match (still(triad), still(other(triad))) {
+        (Some(one), Some(other)) => {
+            let (accelerometer, gyroscope) = match triad {
+                Triad::Accelerometer => (one, other),
+                Triad::Gyroscope => (other, one),
+            };
+            let both = ImuRecording {
+                accelerometer: Some(accelerometer),
+                gyroscope: Some(gyroscope),
+                temperature_c: None,
+            };
+            find_imu_holds(&both, SHORTEST_HOLD_S)
+        }
+        (Some(alone), None) => find_holds(&alone, SHORTEST_HOLD_S),
+        (None, _) => Ok(Vec::new()),
+    }
+}
+
+fn other(triad: Triad) -> Triad {
+    match triad {
+        Triad::Accelerometer => Triad::Gyroscope,
+        Triad::Gyroscope => Triad::Accelerometer,
+    }
+}
+
+/// The longest hold.
+pub(super) fn longest(holds: &[Hold]) -> calibrant::Result<&Hold> {
+    Hold::longest(holds).map(|number| &holds[number]).ok_or_else(|| {
+        Error::Recording(Box::new(Complaint::new(
+            format!("no hold of {SHORTEST_HOLD_S} s or more is found"),
+            "noise needs the sensor at rest; if it was, give the interval with --hold START END",
+        )))
+    })
+}
+
+/// What part of the recording was examined, in words; nothing where that is nearly all of it.
+pub(super) fn examined(holds: &[Hold], stretch: &Stretch, recording: &Recording) -> Option<String> {
+    let (first, last) = recording.times_s.first().zip(recording.times_s.last())?;
+    let (used_s, recorded_s) = (stretch.duration_s(), last - first);
+    (used_s < MOST * recorded_s).then(|| {
+        let hold = match holds.len() {
+            1 => "the only hold".to_owned(),
+            n => format!("the longest of {n} holds"),
+        };
+        format!(
+            "{used_s:.1} of the {recorded_s:.1} s recorded, {hold}: outside a hold the sensor moves, or is shaken (--hold START END takes another interval)"
+        )
+    })
+}
+
+/// A warning where the sensor moves in an interval that was given as at rest: where that holds more than one hold, or more than a hold.
+pub(super) fn moves(holds: &[Hold], given: &Stretch) -> Option<String> {
+    if holds.is_empty() {
+        return None;
+    }
+    let within: Vec<&Hold> =
+        holds.iter().filter(|hold| hold.end_s > given.start_s && hold.start_s < given.end_s).collect();
+    let Some((first, last)) = within.first().zip(within.last()) else {
+        return Some(moving(given.duration_s(), given));
+    };
+    let ends = [first.start_s - given.start_s, given.end_s - last.end_s];
+    let between: f64 = within.windows(2).map(|pair| pair[1].start_s - pair[0].end_s).sum();
+    let moving_s = between + ends.into_iter().filter(|end_s| *end_s > TRIMMED_S).sum::<f64>();
+    (moving_s > 0.0).then(|| moving(moving_s, given))
+}
+
+fn moving(moving_s: f64, given: &Stretch) -> String {
+    format!(
+        "the sensor moves in {moving_s:.1} of the {:.1} s given with --hold, or is shaken: what follows is no noise of a sensor at rest (`calibrant inspect` shows how many \
+         holds there are; without --hold the longest is taken)",
+        given.duration_s()
+    )
+}
