@@ -45,7 +45,7 @@ pub use uncalibrated::Uncalibrated;
 pub use validation::{
     BiasShift, CovarianceVerdict, ErrorKind, FailedFold, NoiseRatio, ParameterPart, UnusedError,
     ValidatedErrors, Validation, ValidationSource, cross_validate, cross_validate_imu, noise_in_common,
-    validate, validate_imu,
+    readings_in_common, validate, validate_imu,
 };
 
 use crate::error::Result;

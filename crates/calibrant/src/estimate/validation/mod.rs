@@ -28,6 +28,7 @@ mod item;
 mod noise;
 mod predict;
 mod ratio;
+mod reordered;
 mod result;
 mod same;
 mod scatter;
@@ -36,6 +37,7 @@ mod whitened;
 
 pub use cross::{cross_validate, cross_validate_imu};
 pub use noise::NoiseRatio;
+pub use reordered::readings_in_common;
 pub use result::*;
 pub use same::noise_in_common;
 
