@@ -7,12 +7,12 @@ use calibrant::Error;
 use calibrant::error::Complaint;
 use calibrant::estimate::{
     CalibrationSettings, HoldCalibration, HoldsSetup, ImuCalibration, ImuProblem, ImuSetup, Recovered,
-    Stimulus, Validation, ValidationSource, cross_validate, cross_validate_imu, noise_in_common, validate,
-    validate_imu,
+    Stimulus, Validation, ValidationSource, cross_validate, cross_validate_imu, noise_in_common,
+    readings_in_common, validate, validate_imu,
 };
 use calibrant::io::{ImuFile, ImuReadOptions, read_accelerometer, read_imu_pair, read_imu_recording};
 use calibrant::motion::Hold;
-use calibrant::sensor::Recording;
+use calibrant::sensor::{Recording, Triad};
 use std::path::Path;
 
 /// Refuses `--validate` and `--folds` with several recordings.
@@ -50,12 +50,12 @@ pub(super) fn of_imu(
     if let Some(path) = &arguments.validate {
         let other = read(path, arguments.validate_gyroscope.as_deref(), options)?;
         other.findings.iter().for_each(|finding| console::finding(&name(path), finding));
-        refuse_the_same(
-            (&file.sha256.concat(), file.recording.accelerometer.as_ref()),
-            &calibration.holds,
-            (&other.sha256.concat(), other.recording.accelerometer.as_ref()),
-            path,
-        )?;
+        let gyroscope_path = arguments.validate_gyroscope.as_deref().unwrap_or(path);
+        for (triad, path) in [(Triad::Accelerometer, path.as_path()), (Triad::Gyroscope, gyroscope_path)] {
+            let known = (&*file.sha256.concat(), file.recording.triad(triad));
+            let others = (&*other.sha256.concat(), other.recording.triad(triad));
+            refuse_the_same(triad, known, &calibration.holds, others, path)?;
+        }
         let setup = ImuSetup { holds: found(&problem.setup.holds), ..ImuSetup::default() };
         let problem = ImuProblem { recording: &other.recording, setup: &setup, ..*problem };
         let validation = validate_imu(calibration, &problem).map_err(|error| in_file(error, path))?;
@@ -81,6 +81,7 @@ pub(super) fn of_accelerometer(
         other.findings.iter().for_each(|finding| console::finding(&name(path), finding));
         if let Recovered::Holds(holds) = &done.calibration.recovered {
             refuse_the_same(
+                Triad::Accelerometer,
                 (&done.input.sha256, Some(&done.file.recording)),
                 holds,
                 (&other.sha256, Some(&other.recording)),
@@ -110,8 +111,9 @@ fn on(path: &Path, validation: Validation) -> Validation {
     Validation { source: ValidationSource::Recording { name: name(path) }, ..validation }
 }
 
-/// Refuses the data that were calibrated from: the same file, its readings in another file, whole or cut, or the recording in disguise.
+/// Refuses the data of a sensor that were calibrated from: the same file, its readings in another file, whole or cut, in another order, or the recording in disguise.
 fn refuse_the_same(
+    triad: Triad,
     (one_hash, one): (&str, Option<&Recording>),
     holds: &HoldCalibration,
     (other_hash, other): (&str, Option<&Recording>),
@@ -122,7 +124,10 @@ fn refuse_the_same(
         let help = "give another recording of the sensor, or --folds 5 in place of --validate: blocks of holds, each predicted from the others";
         Err(Error::Experiment(Box::new(Complaint::new(message, help).in_file(path))))
     };
-    let same = "it has the data that were calibrated from";
+    let same = match triad {
+        Triad::Accelerometer => "it has the data that were calibrated from",
+        Triad::Gyroscope => "its gyroscope has the data that were calibrated from",
+    };
     if one_hash == other_hash {
         return refused(same);
     }
@@ -132,7 +137,15 @@ fn refuse_the_same(
         return refused(same);
     }
     let holds: Vec<Hold> = holds.holds.iter().map(|result| result.hold.clone()).collect();
-    match noise_in_common(one, &holds, other) {
+    let (in_common, correlation) =
+        rayon::join(|| readings_in_common(one, &holds, other), || noise_in_common(one, &holds, other));
+    if let Some(share) = in_common {
+        let percent = (100.0 * share).floor();
+        return refused(&format!(
+            "{same}, in another order (reversed, its parts exchanged?): {percent} % of the readings in holds are in it to the last digit"
+        ));
+    }
+    match correlation {
         Some(correlation) => refused(&format!(
             "{same}, in another form (rounded, thinned out, in other units?): the noise of its samples is theirs (correlation {correlation:.2}, where another recording has none)"
         )),

@@ -234,3 +234,90 @@ fn a_calibration_from_faces_and_turns_is_validated_on_another_session() {
         &["folds say nothing where the directions of the holds are known"],
     );
 }
+
+/// Files of an IMU with a gyroscope's noise that is white beside its own: another range.
+#[test]
+fn another_recordings_noise_is_said_and_its_gyroscope_is_no_copy() {
+    let bench = Bench::new();
+    bench.preset("imu", "imu.toml", &[]);
+    bench.run("simulate imu.toml --seed 5 -o one").done();
+    bench.run("simulate imu.toml --seed 6 -o two").done();
+    let (one, two) = (bench.read("one/recording.csv"), bench.read("two/recording.csv"));
+    let (header, rows) = one.split_once('\n').expect("a header");
+    let names: Vec<&str> = header.split(',').collect();
+    let place = |name: &str| {
+        names.iter().position(|column| column.starts_with(name)).unwrap_or_else(|| panic!("{name}: {header}"))
+    };
+    let rows: Vec<Vec<&str>> = rows.lines().map(|row| row.split(',').collect()).collect();
+    let others: Vec<Vec<&str>> = two.lines().skip(1).map(|row| row.split(',').collect()).collect();
+    let write = |name: &str, rows: &[Vec<String>]| {
+        let text: String = rows.iter().map(|row| row.join(",") + "\n").collect();
+        bench.write(name, format!("{header}\n{text}"));
+    };
+    let (first, last) = (place("gx"), place("gz"));
+    let times = place("t");
+    let owned = |row: &[&str]| -> Vec<String> { row.iter().map(|field| (*field).to_owned()).collect() };
+    // its own gyroscope beside another accelerometer
+    let beside = |(row, other): (&Vec<&str>, &Vec<&str>)| {
+        let mut row = owned(row);
+        for k in (0..row.len()).filter(|k| *k != times && !(first..=last).contains(k)) {
+            row[k] = other[k].to_owned();
+        }
+        row
+    };
+    write("beside.csv", &rows.iter().zip(&others).map(beside).collect::<Vec<_>>());
+    let at_other_times = |order: &dyn Fn(usize) -> usize| -> Vec<Vec<String>> {
+        (0..rows.len())
+            .map(|k| {
+                let mut row = owned(&rows[order(k)]);
+                row[times] = rows[k][times].to_owned();
+                row
+            })
+            .collect()
+    };
+    let n = rows.len();
+    write("reversed.csv", &at_other_times(&|k| n - 1 - k));
+    write("exchanged.csv", &at_other_times(&|k| (k + n / 2) % n));
+    let calibrate = "calibrate imu.toml one/recording.csv -o result";
+    for (name, says) in [
+        ("beside.csv", "beside.csv: its gyroscope has the data that were calibrated from"),
+        ("reversed.csv", "reversed.csv: it has the data that were calibrated from, in another order"),
+        ("exchanged.csv", "exchanged.csv: it has the data that were calibrated from, in another order"),
+    ] {
+        bench.refuses(&format!("{calibrate} --validate {name}"), 2, &[says, "--folds 5"]);
+    }
+    // the same sensor, its gyroscope five times as noisy: the seed draws the sensor, the rate the noise
+    let changes =
+        [("# noise_radps = 2e-3 ", "noise_radps = 1e-2 "), ("gauge = ", "rate_hz = 80.0\ngauge = ")];
+    bench.preset("imu", "noisy.toml", &changes);
+    bench.run("simulate noisy.toml --seed 5 -o noisy").done();
+    assert_eq!(bench.read("one/truth.json"), bench.read("noisy/truth.json"));
+    let said = bench.run(&format!("{calibrate} --validate noisy/recording.csv")).done().stdout;
+    assert!(
+        said.contains("The gyroscope's noise is 5.0 times that of the calibration's recording"),
+        "{said}"
+    );
+    let found = &bench.json("result/calibration.json")["validation"]["recording"];
+    for kind in ["magnitude", "rate", "rotation"] {
+        assert_eq!(found[kind]["verdict"], "believed", "{found}");
+    }
+    let ratio = &found["noise_ratio"]["gyroscope"][0];
+    assert!(ratio.as_f64().is_some_and(|ratio| (ratio - 5.0).abs() < 0.3), "{found}");
+}
+
+#[test]
+fn the_gyroscopes_columns_that_a_file_of_their_own_replaces_are_said() {
+    let bench = Bench::new();
+    bench.preset("imu", "imu.toml", &[]);
+    bench.run("simulate imu.toml -o one").done();
+    let command = "calibrate imu.toml one/recording.csv --gyroscope one/recording.csv -o result";
+    let outcome = bench.run(command).done();
+    for says in [
+        "accelerometer: its own columns of the gyroscope, gx_radps, gy_radps, gz_radps, are left aside: the gyroscope is that of the other file",
+        "gyroscope: its own columns of the accelerometer, ax_mps2, ay_mps2, az_mps2, are left aside",
+    ] {
+        assert!(outcome.stderr.contains(says), "{}", outcome.stderr);
+    }
+    let inspected = bench.run("inspect one/recording.csv one/recording.csv").done().stdout;
+    assert!(inspected.contains("its own columns of the gyroscope"), "{inspected}");
+}

@@ -17,6 +17,8 @@ pub(super) struct SourceFields {
     folds: Option<usize>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     failed_folds: Vec<FailedFields>,
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    noise_ratio: BTreeMap<String, Vec<f64>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     gyroscope_bias_shift: Option<ShiftFields>,
     #[serde(flatten)]
@@ -89,8 +91,15 @@ pub(super) fn validation_fields(validations: &[Validation]) -> Option<Validation
 fn named(validation: &Validation) -> (&'static str, SourceFields) {
     let kinds = validation.kinds.iter().map(|errors| (errors.kind.name(), KindFields::of(errors))).collect();
     let gyroscope_bias_shift = validation.bias_shift.as_ref().map(ShiftFields::of);
-    let none =
-        SourceFields { file: None, folds: None, failed_folds: Vec::new(), gyroscope_bias_shift, kinds };
+    let ratios = validation.noise.iter();
+    let none = SourceFields {
+        file: None,
+        folds: None,
+        failed_folds: Vec::new(),
+        noise_ratio: ratios.map(|noise| (noise.triad.to_string(), per_axis(&noise.axes, 3))).collect(),
+        gyroscope_bias_shift,
+        kinds,
+    };
     match &validation.source {
         ValidationSource::Recording { name } => {
             ("recording", SourceFields { file: Some(name.clone()), ..none })

@@ -5,8 +5,8 @@ use super::html::{Page, list};
 use super::number;
 use super::table::{Cell, Table};
 use crate::estimate::{
-    BiasShift, CovarianceVerdict, ErrorKind, FailedFold, UnusedError, ValidatedErrors, Validation,
-    ValidationSource,
+    BiasShift, CovarianceVerdict, ErrorKind, FailedFold, NoiseRatio, UnusedError, ValidatedErrors,
+    Validation, ValidationSource,
 };
 
 /// So many errors that stand out are named; of the rest the number is told.
@@ -17,7 +17,8 @@ const ANOTHER: f64 = 30.0;
 /// What a validation says, a sentence for each kind of error: is the covariance to be believed?
 #[must_use]
 pub fn validation_sentences(validation: &Validation) -> Vec<String> {
-    let mut sentences = Vec::new();
+    let mut sentences: Vec<String> =
+        validation.noise.iter().filter(|noise| noise.differs()).map(other_noise).collect();
     sentences.extend(validation.bias_shift.as_ref().map(bias));
     for errors in &validation.kinds {
         sentences.push(sentence(errors));
@@ -179,6 +180,15 @@ fn sentence(errors: &ValidatedErrors) -> String {
 
 fn of(count: usize, what: &str) -> String {
     format!("{} that {}", number::counted(count, what), if count == 1 { "was" } else { "were" })
+}
+
+fn other_noise(noise: &NoiseRatio) -> String {
+    format!(
+        "The {}'s noise is {} times that of the calibration's recording (another range, bandwidth or filter?): what is predicted goes with the noise found here, which is no reason to \
+         distrust the calibration.",
+        noise.triad,
+        number::significant(noise.overall(), 2)
+    )
 }
 
 fn bias(shift: &BiasShift) -> String {

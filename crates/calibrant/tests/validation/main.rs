@@ -7,6 +7,7 @@ mod bench;
 mod errors;
 mod ferraris;
 mod levels;
+mod noise;
 mod real;
 mod refused;
 mod same;

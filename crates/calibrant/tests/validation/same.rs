@@ -1,7 +1,7 @@
 //! The same recording in disguise, and honest repetitions that look alike.
 
 use crate::common::{normal, xsens};
-use calibrant::estimate::{find_holds, noise_in_common};
+use calibrant::estimate::{find_holds, noise_in_common, readings_in_common};
 use calibrant::motion::Hold;
 use calibrant::sensor::{ReadingUnit, Recording, SensorParameters};
 use calibrant::simulate::{HoldsSimulation, Purpose, Rng, simulate_holds, stream};
@@ -159,5 +159,66 @@ fn the_halves_of_the_xsens_recording_are_two_and_its_every_second_sample_is_one(
     for other in [every_second, rounded(one.clone(), 5.0)] {
         let found = noise_in_common(&one, &holds(&one), &other);
         assert!(found.is_some_and(|r| r > 0.8), "{found:?}");
+    }
+}
+
+#[test]
+fn honest_repetitions_have_no_readings_in_common() {
+    let still = quiet();
+    let shares: Vec<(u64, f64, Option<f64>)> = (0..200_u64)
+        .into_par_iter()
+        .map(|number| {
+            let mut rng = stream(74, Purpose::Sensor, number);
+            // from fine steps to noise of a fifth of one, and none to be seen
+            let step = [1e-6, 2.0, 5.0, 1e3][number as usize % 4];
+            let filter = [0.0, 0.8][number as usize / 4 % 2];
+            let mut record = || rounded(noisy(&still, filter, &mut rng), step * SD);
+            let (one, other) = (record(), record());
+            let intervals: Vec<(f64, f64)> =
+                (0..20).map(|j| 3.0 * f64::from(j)).map(|t| (t + 0.05, t + 1.95)).collect();
+            let holds = calibrant::estimate::holds_between(&one, &intervals).expect("samples");
+            (number, step, readings_in_common(&one, &holds, &other))
+        })
+        .collect();
+    let alarms: Vec<_> = shares.iter().filter(|(_, _, found)| found.is_some()).collect();
+    assert!(alarms.is_empty(), "{alarms:?}");
+    // a sensor that shows one value
+    let mut constant = still.clone();
+    constant.readings.iter_mut().for_each(|y| *y = Vector3::new(1.0, 2.0, 3.0));
+    let intervals =
+        calibrant::estimate::holds_between(&constant, &[(0.0, 30.0), (30.1, 60.0)]).expect("samples");
+    assert_eq!(readings_in_common(&constant, &intervals, &constant), None);
+}
+
+#[test]
+fn the_same_readings_are_known_in_any_order_and_at_any_time() {
+    let mut rng = stream(75, Purpose::Sensor, 0);
+    for step in [1e-6, 2.0, 5.0] {
+        let one = rounded(noisy(&quiet(), 0.0, &mut rng), step * SD);
+        let n = one.len();
+        let mut reversed = one.clone();
+        reversed.readings.reverse();
+        let mut exchanged = one.clone();
+        exchanged.readings.rotate_left(n / 2 + 3);
+        let mut slower = one.clone();
+        slower.times_s.iter_mut().for_each(|t| *t *= 1.1);
+        let mut part_reversed = chosen(&one, &(n / 3..2 * n / 3).collect::<Vec<_>>());
+        part_reversed.readings.reverse();
+        for (disguise, other) in [
+            ("reversed", reversed),
+            ("halves exchanged", exchanged),
+            ("another clock", slower),
+            ("a part, reversed", part_reversed),
+        ] {
+            // a third of the few blocks that very coarse readings have once is too few to tell
+            if step > 2.0 && other.len() < n {
+                continue;
+            }
+            let share = if other.len() < n { 0.28 } else { 0.98 };
+            for (one, other, share) in [(&one, &other, share), (&other, &one, 0.98)] {
+                let found = readings_in_common(one, &holds(one), other);
+                assert!(found.is_some_and(|found| found > share), "{disguise} {step}: {found:?}");
+            }
+        }
     }
 }

@@ -7,6 +7,7 @@ use super::rates::{LocalBias, Path};
 use super::readings::{Integrable, Span};
 use super::solver::singular;
 use super::start;
+use super::still::StillNoise;
 use super::thermal::Climate;
 use super::verdict;
 use super::weights::Weighed;
@@ -115,6 +116,7 @@ impl Finished<'_> {
             still: StillGyroscope {
                 noise: joint.gyroscope_noise.of_sample,
                 noise_source: self.noise_source,
+                within_holds_sd: StillNoise::of(self.scatter, self.coarse).of_sample,
                 between_holds_sd: self.between,
                 rate_rms_radps: self.rate_rms(&imu).ok_or_else(singular)?,
                 rate_rms_before_radps: self.rate_rms(&self.plain(&before)).ok_or_else(singular)?,

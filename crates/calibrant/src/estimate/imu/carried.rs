@@ -3,7 +3,7 @@
 use super::joint::{HoldData, Joint, Miss, State};
 use super::readings::{Integrable, felt_forces, rotation_spans};
 use super::settle::follow_drift;
-use super::still::{StillNoise, still, weigh};
+use super::still::{StillNoise, still, usual_scatter, weigh};
 use crate::estimate::coarse_axes_in;
 use crate::motion::Hold;
 use crate::sensor::{ImuParameters, ImuQuantity, MeanReading, Recording};
@@ -22,19 +22,21 @@ pub(in crate::estimate) struct HeldStill {
 pub(in crate::estimate) struct GyroscopeAtRest {
     /// In each hold; `None` where it has no samples there.
     stills: Vec<Option<MeanReading>>,
-    /// Noise of one sample, as it is known or as the holds show it, and of coarse steps.
+    /// Noise of one sample, and of coarse steps.
     noise: StillNoise,
 }
 
 impl GyroscopeAtRest {
+    /// `noise_of`: the noise of a sample, by how its samples scatter in these holds.
     pub(in crate::estimate) fn of(
         gyroscope: &Recording,
         holds: &[&Hold],
-        known_noise: Option<Vector3<f64>>,
+        noise_of: impl FnOnce(&Vector3<f64>) -> Vector3<f64>,
     ) -> Self {
         let stills: Vec<_> = holds.iter().map(|hold| still(gyroscope, hold)).collect();
-        let of_sample = known_noise.unwrap_or_else(|| MeanReading::pooled_sd(stills.iter().flatten()));
-        let noise = StillNoise::of(of_sample, &coarse_axes_in(gyroscope, holds.iter().copied()));
+        let coarse = coarse_axes_in(gyroscope, holds.iter().copied());
+        let scatter = StillNoise::of(usual_scatter(&stills, gyroscope), &coarse).of_sample;
+        let noise = StillNoise::of(noise_of(&scatter), &coarse);
         Self { stills, noise }
     }
 
@@ -90,7 +92,7 @@ impl Carrying<'_> {
         temperatures_c: &[f64],
     ) -> Option<Vec<Carried>> {
         let g = self.gravity_mps2;
-        let GyroscopeAtRest { stills, noise } = self.at_rest;
+        let GyroscopeAtRest { stills, noise, .. } = self.at_rest;
         let mut data: Vec<HoldData> = holds
             .iter()
             .zip(temperatures_c)

@@ -59,6 +59,8 @@ pub struct StillGyroscope {
     pub noise: Vector3<f64>,
     /// Where it comes from.
     pub noise_source: NoiseSource,
+    /// Standard deviation of one sample about the mean of its hold, whatever the noise was taken for; coarse steps make it no less than their own scatter.
+    pub within_holds_sd: Vector3<f64>,
     /// Standard deviation between holds beyond this noise: a wandering bias, the Earth's rotation, g-sensitivity that is not estimated.
     pub between_holds_sd: Vector3<f64>,
     /// Root mean square over the holds of the mean rate that the calibrated gyroscope shows, all axes together, rad/s.

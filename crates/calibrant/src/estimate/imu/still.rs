@@ -1,8 +1,10 @@
 //! The gyroscope in the holds: its bias, its noise, and how far it wanders between them.
 
 use super::joint::HoldData;
+use super::turned::RESTLESS;
 use crate::estimate::CoarseAxis;
 use crate::estimate::excess::excess;
+use crate::estimate::holds::median;
 use crate::estimate::quantisation::of_means;
 use crate::motion::Hold;
 use crate::sensor::{MeanReading, Recording, ThermalTerm, TriadThermal};
@@ -12,6 +14,21 @@ use rayon::prelude::*;
 /// The gyroscope between the times of a hold; `None` with fewer than two samples.
 pub(super) fn still(recording: &Recording, hold: &Hold) -> Option<MeanReading> {
     recording.mean_between(hold.start_s, hold.end_s).filter(|still| still.samples > 1)
+}
+
+/// Standard deviation of a sample about the mean of its hold, but for holds that scatter so much more than half of them that the gyroscope turns there.
+pub(super) fn usual_scatter(stills: &[Option<MeanReading>], gyroscope: &Recording) -> Vector3<f64> {
+    let sds: Vec<Vector3<f64>> =
+        stills.iter().flatten().map(|still| MeanReading::pooled_sd([still])).collect();
+    if sds.is_empty() {
+        return Vector3::zeros();
+    }
+    let step = gyroscope.resolution();
+    let most = Vector3::from_fn(|axis, _| {
+        RESTLESS * median(sds.iter().map(|sd| sd[axis]).collect()).max(step[axis])
+    });
+    let calm = stills.iter().flatten().zip(&sds).filter(|(_, sd)| (0..3).all(|axis| sd[axis] <= most[axis]));
+    MeanReading::pooled_sd(calm.map(|(still, _)| still))
 }
 
 /// The noise of the gyroscope at rest.

@@ -12,7 +12,7 @@ const DEVIATIONS: f64 = 12.0;
 /// … and by this share of the recording's range: a bias that drifts is not.
 const TURNING: f64 = 0.005;
 /// It turns, too, in a hold in which it scatters so many times as much as in half of the holds.
-const RESTLESS: f64 = 4.0;
+pub(super) const RESTLESS: f64 = 4.0;
 /// Fewer holds do not tell which of them is the exception.
 const FEWEST: usize = 4;
 

@@ -1,8 +1,9 @@
 //! What a calibration claims to know: the parameters, their covariance, and the scatter that it found.
 
+use super::statistics::Degrees;
 use crate::estimate::gravity::gravity_slope;
 use crate::estimate::{Calibration, HoldCalibration, ImuCalibration};
-use crate::motion::Gravity;
+use crate::motion::{Gravity, Hold};
 use crate::sensor::{Axis, ImuParameters, ImuQuantity, ParameterList, Quantity, ThermalPart, Triad};
 use nalgebra::{DMatrix, Matrix3, Vector3};
 
@@ -17,15 +18,20 @@ pub(super) struct Claim {
     pub(super) gravity_mps2: f64,
     /// Scatter between holds, m/s², and the degrees of freedom behind it.
     pub(super) between_holds_sd_mps2: f64,
-    pub(super) holds_degrees: f64,
-    /// The same of each axis of the gyroscope, in the unit of its readings.
+    pub(super) holds_degrees: Degrees,
+    /// Standard deviation of an accelerometer sample within holds.
+    pub(super) within: Vector3<f64>,
+    /// Noise of a gyroscope sample, and how its samples scatter within holds.
+    pub(super) still_noise: Vector3<f64>,
+    pub(super) still_within: Vector3<f64>,
+    /// Scatter between holds of each axis of the gyroscope, in the unit of its readings, and the degrees of freedom behind it.
     pub(super) still_sd: Vector3<f64>,
-    pub(super) still_degrees: Vector3<f64>,
+    pub(super) still_degrees: [Degrees; 3],
     /// Mean of the inverse durations of the holds that were used, 1/s: the variance of a mean's noise goes with it.
     pub(super) inverse_hold_s: f64,
     /// Error of a rotation beyond its noise, rad, and the degrees of freedom behind it.
     pub(super) rotation_sd_rad: f64,
-    pub(super) rotation_degrees: f64,
+    pub(super) rotation_degrees: Degrees,
 }
 
 impl Claim {
@@ -61,12 +67,15 @@ impl Claim {
             covariance: without_gravity(calibration, gravity),
             gravity_mps2: gravity.magnitude_mps2,
             between_holds_sd_mps2: between(calibration),
-            holds_degrees: used.saturating_sub(accelerometer) as f64,
+            holds_degrees: Degrees::of_scatter(used, accelerometer),
+            within: within(holds),
+            still_noise: calibration.still.noise,
+            still_within: calibration.still.within_holds_sd,
             still_sd: calibration.still.between_holds_sd,
-            still_degrees: Vector3::from_fn(|axis, _| used.saturating_sub(of_still(axis)) as f64),
+            still_degrees: std::array::from_fn(|axis| Degrees::of_scatter(used, of_still(axis))),
             inverse_hold_s: inverse_hold_s(holds),
             rotation_sd_rad: calibration.rotation_excess_sd_rad,
-            rotation_degrees: (2 * rotations).saturating_sub(of_rotations) as f64,
+            rotation_degrees: Degrees::of_scatter(2 * rotations, of_rotations),
         }
     }
 
@@ -87,13 +96,16 @@ impl Claim {
             covariance,
             gravity_mps2: gravity.magnitude_mps2,
             between_holds_sd_mps2: holds.between_holds_sd_mps2,
-            holds_degrees: used.saturating_sub(quantities.len()) as f64,
+            holds_degrees: Degrees::of_scatter(used, quantities.len()),
             quantities,
+            within: within(holds),
+            still_noise: Vector3::zeros(),
+            still_within: Vector3::zeros(),
             still_sd: Vector3::zeros(),
-            still_degrees: Vector3::zeros(),
+            still_degrees: [Degrees::of_scatter(0, 0); 3],
             inverse_hold_s: inverse_hold_s(holds),
             rotation_sd_rad: 0.0,
-            rotation_degrees: 0.0,
+            rotation_degrees: Degrees::of_scatter(0, 0),
         }
     }
 
@@ -124,6 +136,10 @@ impl Claim {
         }
         claim
     }
+}
+
+fn within(holds: &HoldCalibration) -> Vector3<f64> {
+    Hold::pooled_sd(holds.holds.iter().filter(|hold| hold.used).map(|hold| &hold.hold))
 }
 
 fn inverse_hold_s(holds: &HoldCalibration) -> f64 {

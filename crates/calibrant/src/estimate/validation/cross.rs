@@ -50,13 +50,14 @@ fn cross_validated_imu(
         let mut trained = calibrate_imu(&problem, settings)?;
         converged(trained.status)?;
         tamper(&mut trained);
-        Ok(Claim::of_imu(&trained, &setup.holds.gravity))
+        // noise is that of all holds
+        let still_noise = calibration.still.noise;
+        Ok(Claim { still_noise, ..Claim::of_imu(&trained, &setup.holds.gravity) })
     };
     let all: Vec<Hold> = calibration.holds.holds.iter().map(|result| result.hold.clone()).collect();
     let data = Unused {
         gyroscope: Some(gyroscope),
         temperatures: temperatures(calibration, problem)?,
-        gyroscope_noise: Some(calibration.still.noise),
         ..Unused::of_accelerometer(accelerometer, &all)
     };
     crossed(&calibration.holds, folds, &data, &train)

@@ -4,7 +4,8 @@
 //! `dω̂ = −C_g (Σ_k ∂y_g/∂p_k dp_k + Γ df̂)`.
 
 use super::claim::Claim;
-use super::item::{Item, Place, estimated_share};
+use super::item::{Item, Place, Scattered};
+use super::noise::NoiseRatio;
 use crate::estimate::imu::HeldStill;
 use crate::motion::Hold;
 use crate::sensor::{Condition, Triad};
@@ -24,7 +25,7 @@ pub(super) struct Held {
     pub(super) own: Matrix3<f64>,
     /// What takes raw readings to rates, with the rates' noise and own covariance; where the gyroscope was recorded.
     rate: Option<Rate>,
-    /// How many times the noise of a mean in the calibration's holds was that in this one.
+    /// How many times the variance of a mean by noise was in the calibration's holds what it is in this one.
     more_noise: f64,
     place: Place,
 }
@@ -35,16 +36,17 @@ struct Rate {
     own: Matrix3<f64>,
     /// Variances of the mean reading from noise, and with the scatter between holds.
     of_mean: (Vector3<f64>, Vector3<f64>),
+    more_noise: Vector3<f64>,
 }
 
 impl Held {
-    /// Corrects a hold. `within`: standard deviation of an accelerometer sample. `None` where a matrix is singular.
+    /// Corrects a hold. `within`: standard deviation of an accelerometer sample; `noise`: of the sensors, beside the calibration's. `None` where a matrix is singular.
     pub(super) fn of(
         claim: &Claim,
         number: usize,
         hold: &Hold,
         temperature_c: f64,
-        within: &Vector3<f64>,
+        (within, noise): (&Vector3<f64>, &[NoiseRatio]),
         still: Option<&HeldStill>,
     ) -> Option<Self> {
         let imu = &claim.imu.at(temperature_c);
@@ -69,11 +71,12 @@ impl Held {
         let of_noise = within.component_mul(within) / hold.samples() as f64;
         // the gain of a reading is the norm of its row of S, as in the fit
         let gain = Vector3::from_fn(|axis, _| imu.accelerometer.matrix.row(axis).norm_squared());
-        let noise = spread(of_noise, &correction);
-        let own = noise + spread(gain * claim.between_holds_sd_mps2.powi(2), &correction);
-        let rate = match still {
-            None => None,
-            Some(still) => {
+        let by_noise = spread(of_noise, &correction);
+        let own = by_noise + spread(gain * claim.between_holds_sd_mps2.powi(2), &correction);
+        // the variance of a mean goes with the duration of the hold
+        let shorter = hold.duration_s() * claim.inverse_hold_s;
+        let rate = match (still, noise.get(1)) {
+            (Some(still), Some(ratio)) => {
                 let correction = imu.gyroscope.matrix.try_inverse()?;
                 let value = correction * (still.mean - imu.gyroscope.bias - imu.g_sensitivity * force);
                 let by_force = -(correction * imu.g_sensitivity);
@@ -93,13 +96,15 @@ impl Held {
                     by_parameters,
                     own: spread(of_mean.1, &correction) + through_force,
                     of_mean,
+                    more_noise: ratio.axes.map(|ratio| shorter / (ratio * ratio)),
                 })
             }
+            _ => None,
         };
         let place =
             Place { hold: number, from_hold: None, start_s: hold.start_s, end_s: hold.end_s, fold: 0 };
-        let more_noise = hold.duration_s() * claim.inverse_hold_s;
-        Some(Self { force, by_parameters, noise, own, rate, more_noise, place })
+        let more_noise = shorter / noise.first().map_or(1.0, |noise| noise.overall().powi(2));
+        Some(Self { force, by_parameters, noise: by_noise, own, rate, more_noise, place })
     }
 
     /// `|f̂| − g` and what is predicted of it.
@@ -114,7 +119,7 @@ impl Held {
             by_parameters: row * &self.by_parameters,
             own: DMatrix::from_element(1, 1, own),
             with_previous: None,
-            estimated_shares: vec![estimated_share(noise, own, self.more_noise)],
+            scatters: vec![scattered(noise, own, self.more_noise)],
         }
     }
 
@@ -128,9 +133,14 @@ impl Held {
             by_parameters: rate.by_parameters.clone(),
             own: DMatrix::from_column_slice(3, 3, own.as_slice()),
             with_previous: None,
-            estimated_shares: (0..3)
-                .map(|axis| estimated_share(rate.of_mean.0[axis], rate.of_mean.1[axis], self.more_noise))
+            scatters: (0..3)
+                .map(|axis| scattered(rate.of_mean.0[axis], rate.of_mean.1[axis], rate.more_noise[axis]))
                 .collect(),
         })
     }
+}
+
+/// `more_noise`: how many times the noise of the calibration's holds was this one.
+fn scattered(noise: f64, own: f64, more_noise: f64) -> Scattered {
+    Scattered { scatter: own - noise, calibrated_noise: more_noise * noise, own }
 }

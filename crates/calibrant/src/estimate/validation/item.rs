@@ -23,13 +23,26 @@ pub(super) struct Item {
     pub(super) own: DMatrix<f64>,
     /// Covariance of `own` errors with those of the item before; `None` where they have nothing in common.
     pub(super) with_previous: Option<DMatrix<f64>>,
-    /// For each scatter of the calibration: what its data told of the variance, noise included, over `own`; 0 where they showed no scatter.
-    pub(super) estimated_shares: Vec<f64>,
+    /// For each scatter of the calibration, what of a component's variance it tells.
+    pub(super) scatters: Vec<Scattered>,
 }
 
-/// The share of a variance that was estimated: what is not noise, and noise as it was in the calibration, which is so many times what it is here.
-pub(super) fn estimated_share(noise: f64, own: f64, more_noise: f64) -> f64 {
-    if own > noise { (own - noise + more_noise * noise) / own } else { 0.0 }
+/// Parts of a variance.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Scattered {
+    /// The scatter that the calibration found.
+    pub(super) scatter: f64,
+    /// What the noise would be in the calibration, which told the scatter from it.
+    pub(super) calibrated_noise: f64,
+    /// All of it.
+    pub(super) own: f64,
+}
+
+impl Scattered {
+    /// What the calibration's data told of the variance, noise included, over all of it; 0 where they showed no scatter.
+    pub(super) fn estimated_share(&self) -> f64 {
+        if self.scatter > 0.0 { (self.scatter + self.calibrated_noise) / self.own } else { 0.0 }
+    }
 }
 
 /// Errors that were predicted by one calibration.

@@ -25,18 +25,23 @@ mod cross;
 mod folds;
 mod held;
 mod item;
+mod noise;
 mod predict;
 mod ratio;
+mod reordered;
 mod result;
 mod same;
+mod scatter;
 mod statistics;
 mod whitened;
 
 pub use cross::{cross_validate, cross_validate_imu};
+pub use noise::NoiseRatio;
+pub use reordered::readings_in_common;
 pub use result::*;
 pub use same::noise_in_common;
 
-use super::imu::{GyroscopeAtRest, needed_temperatures, recordings};
+use super::imu::{needed_temperatures, recordings};
 use super::{
     Calibration, CalibrationProblem, HoldCalibration, HoldsSetup, ImuCalibration, ImuProblem, Recovered,
     Stimulus, find_holds, find_imu_holds, holds_between,
@@ -47,7 +52,7 @@ use crate::sensor::Temperatures;
 use claim::Claim;
 use item::Group;
 use predict::{Errors, Unused};
-use statistics::{Behind, judge};
+use statistics::{Behind, Degrees, judge};
 
 /// A magnitude this far from gravity on half of the holds is not that of the sensor that was calibrated.
 const ANOTHER_SENSOR: f64 = 0.1;
@@ -69,18 +74,15 @@ pub fn validate_imu(calibration: &ImuCalibration, problem: &ImuProblem<'_>) -> R
     let unused = Unused {
         gyroscope: Some(gyroscope),
         temperatures: temperatures(calibration, problem)?,
-        gyroscope_noise: Some(problem.gyroscope.noise.unwrap_or(calibration.still.noise)),
-        bias_may_move: true,
         ..Unused::of_accelerometer(accelerometer, &holds)
     };
-    let all: Vec<&Hold> = holds.iter().collect();
-    if GyroscopeAtRest::of(gyroscope, &all, None).holds().all(|still| still.is_none()) {
+    if holds.iter().all(|hold| gyroscope.between(hold.start_s, hold.end_s).len() < 2) {
         return Err(Error::recording(Complaint::new(
             "the gyroscope has no samples in the holds of the accelerometer",
             "both need the same clock: are these files of one recording?",
         )));
     }
-    on_another(&Claim::of_imu(calibration, &setup.gravity), &unused)
+    on_another(&Claim::of_imu(calibration, &setup.gravity), unused)
 }
 
 /// Tries the calibration of an accelerometer from holds on another recording of it.
@@ -97,7 +99,7 @@ pub fn validate(calibration: &Calibration, problem: &CalibrationProblem<'_>) -> 
     let holds = at_least_one(holds, setup)?;
     let list = setup.gauge.parameter_list(problem.sensor.model);
     let claim = Claim::of_accelerometer(calibration, found, &list, &setup.gravity);
-    on_another(&claim, &Unused::of_accelerometer(problem.recording, &holds))
+    on_another(&claim, Unused::of_accelerometer(problem.recording, &holds))
 }
 
 /// The temperatures of a recording, where the calibration follows them.
@@ -108,14 +110,20 @@ fn temperatures<'a>(
     calibration.hold_temperatures_c.as_ref().map(|_| needed_temperatures(problem.recording)).transpose()
 }
 
-fn on_another(claim: &Claim, unused: &Unused<'_>) -> Result<Validation> {
+fn on_another(claim: &Claim, unused: Unused<'_>) -> Result<Validation> {
+    let unused = Unused { another: true, ..unused };
     if unused.holds.is_empty() {
         return Err(Error::recording(Complaint::new(
             "the accelerometer saturates in each of its holds",
             "record with a larger range",
         )));
     }
-    let errors = unused.errors(claim).ok_or_else(singular)?;
+    let mut errors = unused.errors(claim).ok_or_else(singular)?;
+    let open = scatter::as_shown(claim, &errors);
+    let claim = open.as_ref().unwrap_or(claim);
+    if open.is_some() {
+        errors = unused.errors(claim).ok_or_else(singular)?;
+    }
     let mut sizes: Vec<f64> = errors.magnitudes.items.iter().map(|item| item.error[0].abs()).collect();
     sizes.sort_by(f64::total_cmp);
     let median = sizes[sizes.len() / 2];
@@ -162,9 +170,9 @@ fn singular() -> Error {
 
 /// The errors of one or more claims, those of the last of which tells how much is behind the scatter that was estimated.
 fn judged(source: ValidationSource, errors: Vec<Errors>, claim: &Claim) -> Validation {
-    let bias_shift = match errors.as_slice() {
-        [one] => one.shift,
-        _ => None,
+    let (bias_shift, noise) = match errors.as_slice() {
+        [one] => (one.shift, one.noise.clone()),
+        _ => (None, Vec::new()),
     };
     let (mut magnitudes, mut rates, mut rotations): (Vec<Group>, Vec<Group>, Vec<Group>) = Default::default();
     for errors in errors {
@@ -173,15 +181,13 @@ fn judged(source: ValidationSource, errors: Vec<Errors>, claim: &Claim) -> Valid
         rotations.push(errors.rotations);
     }
     let folds = matches!(source, ValidationSource::Folds { .. });
-    let behind = |of: &[f64]| Behind { scatter_degrees: of.to_vec(), folds, free_shift: false };
-    let of_rates = Behind {
-        free_shift: bias_shift.is_some_and(|shift| shift.moved),
-        ..behind(claim.still_degrees.as_slice())
-    };
+    let behind = |of: &[Degrees]| Behind { scatter_degrees: of.to_vec(), folds, free_shift: false };
+    let of_rates =
+        Behind { free_shift: bias_shift.is_some_and(|shift| shift.moved), ..behind(&claim.still_degrees) };
     let kinds = [
         judge(ErrorKind::Magnitude, &magnitudes, &behind(&[claim.holds_degrees])),
         judge(ErrorKind::Rate, &rates, &of_rates),
         judge(ErrorKind::Rotation, &rotations, &behind(&[claim.rotation_degrees])),
     ];
-    Validation { source, kinds: kinds.into_iter().flatten().collect(), bias_shift }
+    Validation { source, kinds: kinds.into_iter().flatten().collect(), bias_shift, noise }
 }

@@ -2,7 +2,8 @@
 
 use super::claim::Claim;
 use super::held::Held;
-use super::item::{Group, Item, Place};
+use super::item::{Group, Item, Place, Scattered};
+use super::noise::NoiseRatio;
 use super::ratio::Ratio;
 use super::result::BiasShift;
 use super::statistics::degrees_behind;
@@ -10,7 +11,7 @@ use super::whitened::Whitened;
 use crate::estimate::clipped_holds;
 use crate::estimate::imu::{Carried, Carrying, GyroscopeAtRest, HeldStill};
 use crate::motion::Hold;
-use crate::sensor::{Recording, Temperatures};
+use crate::sensor::{Recording, Temperatures, Triad};
 use nalgebra::{DMatrix, DVector, Matrix2, Vector3};
 
 /// Below this error of a rotation nothing is told apart, as in the fit, rad.
@@ -29,10 +30,8 @@ pub(super) struct Unused<'a> {
     pub(super) gyroscope: Option<&'a Recording>,
     /// Temperatures, where the calibration follows them.
     pub(super) temperatures: Option<Temperatures<'a>>,
-    /// Noise of one gyroscope sample, where it is known.
-    pub(super) gyroscope_noise: Option<Vector3<f64>>,
-    /// May the gyroscope's bias be another one than the calibration's?
-    pub(super) bias_may_move: bool,
+    /// Is it another recording than the claim's? Then its noise and the gyroscope's bias may be others.
+    pub(super) another: bool,
     pub(super) fold: usize,
 }
 
@@ -42,6 +41,8 @@ pub(super) struct Errors {
     pub(super) rates: Group,
     pub(super) rotations: Group,
     pub(super) shift: Option<BiasShift>,
+    /// Of each sensor of another recording.
+    pub(super) noise: Vec<NoiseRatio>,
 }
 
 impl<'a> Unused<'a> {
@@ -56,8 +57,7 @@ impl<'a> Unused<'a> {
             accelerometer: recording,
             gyroscope: None,
             temperatures: None,
-            gyroscope_noise: None,
-            bias_may_move: false,
+            another: false,
             fold: 0,
         }
     }
@@ -65,9 +65,18 @@ impl<'a> Unused<'a> {
     /// The errors that a claim makes on them; `None` where a matrix of it is singular.
     pub(super) fn errors(&self, claim: &Claim) -> Option<Errors> {
         let holds: Vec<&Hold> = self.holds.iter().map(|(_, hold)| *hold).collect();
-        let at_rest = self
-            .gyroscope
-            .map(|gyroscope| (gyroscope, GyroscopeAtRest::of(gyroscope, &holds, self.gyroscope_noise)));
+        let beside = |triad: Triad, sd: &Vector3<f64>, calibrated_sd: &Vector3<f64>| {
+            if self.another { NoiseRatio::of(triad, sd, calibrated_sd) } else { NoiseRatio::one(triad) }
+        };
+        let mut noise = vec![beside(Triad::Accelerometer, &self.within, &claim.within)];
+        let at_rest = self.gyroscope.map(|gyroscope| {
+            let noise_of = |scatter: &Vector3<f64>| {
+                let ratio = beside(Triad::Gyroscope, scatter, &claim.still_within);
+                noise.push(ratio);
+                claim.still_noise.component_mul(&ratio.axes)
+            };
+            (gyroscope, GyroscopeAtRest::of(gyroscope, &holds, noise_of))
+        });
         let stills: Vec<Option<HeldStill>> = match &at_rest {
             Some((_, at_rest)) => at_rest.holds().collect(),
             None => vec![None; holds.len()],
@@ -80,7 +89,7 @@ impl<'a> Unused<'a> {
             let pairs = self.holds.iter().zip(&stills);
             pairs
                 .map(|((number, hold), still)| {
-                    Held::of(claim, *number, hold, temperature(hold), &self.within, still.as_ref())
+                    Held::of(claim, *number, hold, temperature(hold), (&self.within, &noise), still.as_ref())
                 })
                 .collect()
         };
@@ -89,7 +98,7 @@ impl<'a> Unused<'a> {
         let mut rates = self.group(held.iter().filter_map(Held::rate).collect(), &claim.covariance);
         let mut of_rotations = claim.clone();
         let mut shift = None;
-        if self.bias_may_move && !rates.items.is_empty() {
+        if self.another && !rates.items.is_empty() {
             let without = Group { items: rates.items.clone(), covariance: claim.covariance_without_bias() };
             let (found, value, covariance) = moved(&rates, &without, claim)?;
             if found.moved {
@@ -103,7 +112,9 @@ impl<'a> Unused<'a> {
         let temperatures_c: Vec<f64> = holds.iter().map(|hold| temperature(hold)).collect();
         let rotations = match &at_rest {
             Some((gyroscope, at_rest)) => {
-                self.rotations(&of_rotations, (gyroscope, at_rest), &holds, &held, &temperatures_c)?
+                let noise_here = noise.last().map_or(1.0, |noise| noise.overall().powi(2));
+                let at_rest = (*gyroscope, at_rest);
+                self.rotations(&of_rotations, at_rest, &holds, &held, &temperatures_c, noise_here)?
             }
             None => Vec::new(),
         };
@@ -112,6 +123,7 @@ impl<'a> Unused<'a> {
             rates,
             rotations: self.group(rotations, &of_rotations.covariance),
             shift,
+            noise: if self.another { noise } else { Vec::new() },
         })
     }
 
@@ -121,7 +133,7 @@ impl<'a> Unused<'a> {
     }
 
     /// Gravity after each rotation. The directions before and after are those that the claim finds, with their errors. Neighbours share a hold, and with it the errors of its
-    /// direction and of the bias in it.
+    /// direction and of the bias in it. `noise_here`: how many times the variance of the gyroscope's noise is that in the calibration.
     fn rotations(
         &self,
         claim: &Claim,
@@ -129,6 +141,7 @@ impl<'a> Unused<'a> {
         holds: &[&Hold],
         held: &[Held],
         temperatures_c: &[f64],
+        noise_here: f64,
     ) -> Option<Vec<Item>> {
         let carrying = Carrying {
             imu: &claim.imu,
@@ -171,10 +184,10 @@ impl<'a> Unused<'a> {
                 own: DMatrix::from_column_slice(2, 2, own.as_slice()),
                 with_previous: shared.map(|shared| DMatrix::from_column_slice(2, 2, shared.as_slice())),
                 // rotations are taken to be as long as in the calibration
-                estimated_shares: vec![if excess.trace() > 0.0 {
-                    (carried.noise + excess).trace() / own.trace()
-                } else {
-                    0.0
+                scatters: vec![Scattered {
+                    scatter: 0.5 * excess.trace(),
+                    calibrated_noise: 0.5 * carried.noise.trace() / noise_here,
+                    own: 0.5 * own.trace(),
                 }],
             }
         });
@@ -191,7 +204,7 @@ fn moved(
     let all = vec![true; rates.items.len()];
     let expected = Whitened::of(rates, &all)?.shift()?;
     let found = Whitened::of(without_bias, &all)?.shift()?;
-    let behind = degrees_behind(rates.items.iter(), claim.still_degrees.as_slice());
+    let behind = degrees_behind(rates.items.iter(), &claim.still_degrees);
     let p_value = Ratio::new(3, &behind).above(expected.chi2 / 3.0);
     let shift = BiasShift {
         shift_radps: found.value,

@@ -1,5 +1,6 @@
 //! What a validation gives.
 
+use super::noise::NoiseRatio;
 use nalgebra::{DVector, Vector3};
 
 /// A factor between prediction and error so close to one is no reason to doubt, however sure it is.
@@ -16,6 +17,8 @@ pub struct Validation {
     pub kinds: Vec<ValidatedErrors>,
     /// How far the gyroscope's bias is from the calibration's; `None` without a gyroscope, and for folds of one recording.
     pub bias_shift: Option<BiasShift>,
+    /// The noise of each sensor beside that of the calibration's recording; empty for folds. What is predicted goes with the noise that is found.
+    pub noise: Vec<NoiseRatio>,
 }
 
 /// Data that were not used.

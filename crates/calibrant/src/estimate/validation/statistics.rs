@@ -13,25 +13,43 @@ const SEEN: f64 = 0.1;
 
 /// What is known of the errors of a kind beside themselves.
 pub(super) struct Behind {
-    /// Degrees of freedom behind each scatter that is part of their prediction.
-    pub(super) scatter_degrees: Vec<f64>,
+    /// Behind each scatter that is part of their prediction.
+    pub(super) scatter_degrees: Vec<Degrees>,
     /// Are they of folds?
     pub(super) folds: bool,
     /// Is a shift that all have in common free?
     pub(super) free_shift: bool,
 }
 
-/// Degrees of freedom behind what is predicted of these errors, for each scatter; infinite where the calibration found none.
+/// Degrees of freedom behind a scatter that is part of a prediction.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Degrees {
+    pub(super) of_scatter: f64,
+    /// The share of the predicted variance that these are behind, where it is known; that of each error otherwise.
+    pub(super) share: Option<f64>,
+}
+
+impl Degrees {
+    /// Of a scatter that so many numbers show beside so many unknowns.
+    pub(super) fn of_scatter(numbers: usize, unknowns: usize) -> Self {
+        Self { of_scatter: numbers.saturating_sub(unknowns) as f64, share: None }
+    }
+
+    /// Behind a prediction; infinite where the calibration found no scatter.
+    fn behind(&self, share: impl FnOnce() -> f64) -> f64 {
+        let share = self.share.unwrap_or_else(share);
+        if share > 0.0 { self.of_scatter.max(1.0) / share.powi(2) } else { f64::INFINITY }
+    }
+}
+
+/// Degrees of freedom behind what is predicted of these errors, for each scatter.
 pub(super) fn degrees_behind<'a>(
     items: impl Iterator<Item = &'a Item> + Clone,
-    scatter_degrees: &[f64],
+    scatter_degrees: &[Degrees],
 ) -> Vec<f64> {
     let count = items.clone().count() as f64;
-    let behind = |(k, degrees): (usize, &f64)| {
-        let share = items.clone().map(|item| item.estimated_shares[k]).sum::<f64>() / count;
-        if share > 0.0 { degrees.max(1.0) / share.powi(2) } else { f64::INFINITY }
-    };
-    scatter_degrees.iter().enumerate().map(behind).collect()
+    let share = |k: usize| items.clone().map(|item| item.scatters[k].estimated_share()).sum::<f64>() / count;
+    scatter_degrees.iter().enumerate().map(|(k, degrees)| degrees.behind(|| share(k))).collect()
 }
 
 /// Judges the errors of one kind. Errors that stand out are put aside, one at a time, a fifth of them at most. `None` where there is no error.
@@ -82,7 +100,12 @@ pub(super) fn judge(kind: ErrorKind, groups: &[Group], behind: &Behind) -> Optio
     let (low, high) = ratio.usual();
     let factor_interval = ((found / high).sqrt(), (found / low).sqrt());
     let parameters = match groups {
-        [group] if !behind.folds => parameter_part(group, &counts[0], &scatters),
+        [group] if !behind.folds => {
+            // the parameters' covariance is as uncertain as the scatter, however small its share is
+            let of = |(degrees, all): (&Degrees, &f64)| degrees.share.map_or(*all, |_| degrees.of_scatter);
+            let degrees: Vec<f64> = behind.scatter_degrees.iter().zip(&scatters).map(of).collect();
+            parameter_part(group, &counts[0], &degrees)
+        }
         _ => None,
     };
     let factor = (found / if behind.folds { ratio.scale() } else { 1.0 }).sqrt();

@@ -52,7 +52,7 @@ pub use format::FileFormat;
 pub use options::{ColumnMapping, ImuReadOptions};
 pub use unit::{ColumnUnit, ImuUnit, TimeUnit};
 
-use super::finding::Finding;
+use super::finding::{Finding, FindingKind};
 use super::hex_sha256;
 use super::row::Layout;
 use crate::error::{Complaint, Error, Result};
@@ -314,16 +314,36 @@ fn finish(mut draft: Draft, mut samples: Samples, options: &ImuReadOptions) -> C
     })
 }
 
+/// The other sensor's columns of a file that was given for one sensor.
+fn left_aside(file: &ImuFile, triad: Triad) -> Option<Finding> {
+    let is_other =
+        |column: &&ImuColumn| matches!(column.meaning, ColumnMeaning::Reading(of, _) if of != triad);
+    let names: Vec<&str> = file.columns.iter().filter(is_other).map(|column| column.name.as_str()).collect();
+    let other = match triad {
+        Triad::Accelerometer => Triad::Gyroscope,
+        Triad::Gyroscope => Triad::Accelerometer,
+    };
+    (!names.is_empty()).then(|| {
+        let message = format!(
+            "its own columns of the {other}, {}, are left aside: the {other} is that of the other file",
+            names.join(", ")
+        );
+        Finding::new(FindingKind::IgnoredColumns, None, message)
+    })
+}
+
 /// Two files as one recording.
 fn joined(first: ImuFile, second: ImuFile) -> ImuFile {
-    let named = |triad: Triad, findings: Vec<Finding>| {
-        findings.into_iter().map(move |mut finding| {
+    let named = |triad: Triad, file: &ImuFile| -> Vec<Finding> {
+        let named = |mut finding: Finding| {
             if !finding.message.starts_with(triad.name()) {
                 finding.message = format!("{triad}: {}", finding.message);
             }
             finding
-        })
+        };
+        file.findings.iter().cloned().chain(left_aside(file, triad)).map(named).collect()
     };
+    let findings = [named(Triad::Accelerometer, &first), named(Triad::Gyroscope, &second)].concat();
     ImuFile {
         recording: ImuRecording {
             accelerometer: first.recording.accelerometer,
@@ -332,9 +352,7 @@ fn joined(first: ImuFile, second: ImuFile) -> ImuFile {
         },
         format: first.format,
         columns: first.columns.into_iter().chain(second.columns).collect(),
-        findings: named(Triad::Accelerometer, first.findings)
-            .chain(named(Triad::Gyroscope, second.findings))
-            .collect(),
+        findings,
         rows: first.rows.max(second.rows),
         sha256: [first.sha256, second.sha256].concat(),
     }

@@ -1,0 +1,42 @@
+//! The noise of another recording beside that of the calibration's: another range, bandwidth or filter makes it another, and the parameters no worse.
+//!
+//! What the calibration took for the noise of a sample, from a datasheet or an Allan deviation, goes with the scatter of the samples about the mean of their hold, `s' / s` of both recordings.
+
+use super::result::CLOSE;
+use crate::sensor::Triad;
+use nalgebra::Vector3;
+
+/// How the samples of a sensor scatter within the holds of another recording, over how they do in the calibration's.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NoiseRatio {
+    /// The sensor.
+    pub triad: Triad,
+    /// The ratio of each axis; 1 where a recording shows no noise.
+    pub axes: Vector3<f64>,
+}
+
+impl NoiseRatio {
+    /// `sd`: standard deviation of a sample within holds.
+    pub(super) fn of(triad: Triad, sd: &Vector3<f64>, calibrated_sd: &Vector3<f64>) -> Self {
+        let shows = |axis: usize| sd[axis] > 0.0 && calibrated_sd[axis] > 0.0;
+        let ratio = |axis: usize| if shows(axis) { sd[axis] / calibrated_sd[axis] } else { 1.0 };
+        Self { triad, axes: Vector3::from_fn(|axis, _| ratio(axis)) }
+    }
+
+    /// That of a recording with the calibration's own noise.
+    pub(super) fn one(triad: Triad) -> Self {
+        Self { triad, axes: Vector3::repeat(1.0) }
+    }
+
+    /// Of all axes: the geometric mean.
+    #[must_use]
+    pub fn overall(&self) -> f64 {
+        self.axes.product().cbrt()
+    }
+
+    /// Is it another noise, by a quarter or more?
+    #[must_use]
+    pub fn differs(&self) -> bool {
+        !(1.0 / CLOSE..=CLOSE).contains(&self.overall())
+    }
+}
