@@ -232,7 +232,7 @@ impl Finished<'_> {
     fn rotations(&self, before: &Uncalibrated) -> Vec<RotationResult> {
         let joint = self.joint;
         let with_before = State { imu: self.plain(before), forces: self.fit.state.forces.clone() };
-        let angle = |miss: &Miss| miss.error.norm().min(1.0).asin();
+        let angle = |miss: &Miss| miss.error.norm();
         joint
             .rotations
             .par_iter()

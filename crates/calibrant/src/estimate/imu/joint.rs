@@ -7,11 +7,12 @@
 //! |---|---|---|
 //! | a hold, accelerometer | `ȳ_a − S_a f_j − b_a` | `f_j`, accelerometer |
 //! | a hold, gyroscope | `ȳ_g − b_g − Γ f_j` | `f_j`, gyroscope |
-//! | a rotation | the part of `Rᵀ f_i` across `f_k`, over g: 2 numbers | `f_i`, `f_k`, gyroscope |
+//! | a rotation | the arc from `f_k` to `Rᵀ f_i`: 2 numbers | `f_i`, `f_k`, gyroscope |
 //! | a turn of known angle | `∫ (y_g − b_g − Γ f) dt − S_g φ e` | gyroscope |
 //!
 //! `S` and `b` are those at the temperature of the hold, the rotation or the turn.
 
+use super::arc::Arc;
 use super::rates::Samples;
 use super::rotation::Rotation;
 use super::still::StillNoise;
@@ -100,7 +101,7 @@ pub(super) struct State {
 
 /// A rotation at a state: what is left of gravity across the direction found, and how it depends on everything.
 pub(super) struct Miss {
-    /// Where gravity would be by the gyroscope, across `f_k`, rad.
+    /// The arc from `f_k` to where gravity would be by the gyroscope, rad.
     pub(super) error: Vector2<f64>,
     by_from: Matrix2<f64>,
     by_to: Matrix2<f64>,
@@ -167,9 +168,8 @@ impl Joint<'_> {
         let rotation = data.samples.integrate(&state.imu, &self.gyroscope_noise.of_sample)?;
         let (from, to) = (state.forces[data.from], state.forces[data.from + 1]);
         let back = rotation.start_from_end.transpose();
-        let carried = back * from;
-        let across = tangents(&to).transpose() / self.gravity;
-        let by_turn = across * back * from.cross_matrix();
+        let arc = Arc::of(&(back * from / self.gravity), &(to / self.gravity));
+        let by_turn = arc.by_missing * back * (from / self.gravity).cross_matrix();
         let mut by_parameters = Matrix2xX::zeros(self.quantities.len());
         for (k, quantity) in self.quantities.iter().enumerate() {
             if quantity.triad() == Triad::Gyroscope {
@@ -181,9 +181,9 @@ impl Joint<'_> {
         let of_steps =
             by_reading * Matrix3::from_diagonal(&self.gyroscope_noise.of_mean) * by_reading.transpose();
         Some(Miss {
-            error: across * carried,
-            by_from: across * back * tangents(&from) * self.gravity,
-            by_to: -Matrix2::identity() * (carried.dot(&to) / self.gravity.powi(2)),
+            error: arc.error,
+            by_from: arc.by_missing * back * tangents(&from),
+            by_to: arc.by_missed,
             by_turn,
             by_parameters,
             covariance: by_turn * (rotation.covariance + of_steps) * by_turn.transpose(),

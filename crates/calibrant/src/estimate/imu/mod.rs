@@ -15,6 +15,7 @@
 //! # References
 //! `tedaldi2014`, `ferraris1995`
 
+mod arc;
 mod assemble;
 mod both_still;
 mod carried;

@@ -8,11 +8,14 @@ use super::rotation::carried_back;
 use crate::sensor::{Axis, ImuParameters, ReadingUnit, Thermal};
 use nalgebra::{Matrix3, Vector3};
 use rayon::prelude::*;
+use std::f64::consts::FRAC_PI_2;
 
 /// Median error of a rotation beyond which something is wrong with units or axes, rad.
 pub(super) const WRONG: f64 = 0.2;
 /// Rotations that no wrong order of the axes fits by chance: three of four within [`WRONG`] for one of 48 orders happens once in 5000 times.
 const ENOUGH: usize = 4;
+/// So many rotations that end upside down are no single faults.
+const SEVERAL: usize = 2;
 /// Gains that are tried: so many, each smaller by this factor.
 const GAINS: usize = 16;
 const FACTOR: f64 = 0.92;
@@ -46,6 +49,21 @@ pub(super) fn find(
             .filter_map(|matrix| Some((look.median(matrix)?, *matrix)))
             .min_by(|one, other| one.0.total_cmp(&other.0))
     };
+    // the axis about which the fewer rotations turned may be the one that points the other way
+    let fewer_upside_down = |matrix: &Matrix3<f64>| {
+        let before = look.upside_down(matrix).filter(|before| *before >= SEVERAL)?;
+        orders()
+            .par_iter()
+            .filter_map(|order| Some((look.upside_down(&(order * matrix))?, order * matrix)))
+            .filter_map(|(number, matrix)| Some((number, look.median(&matrix)?, matrix)))
+            .filter(|(number, median, _)| SEVERAL * number <= before && *median <= WRONG)
+            .min_by(|one, other| (one.0.cmp(&other.0)).then(one.1.total_cmp(&other.1)))
+            .map(|(_, median_rad, matrix)| Start {
+                imu: with(matrix),
+                median_rad,
+                axes: Some(names(&matrix)),
+            })
+    };
     if let Some(matrix) = nominal {
         let imu = with(matrix);
         let median_rad = look.median(&matrix)?;
@@ -53,7 +71,7 @@ pub(super) fn find(
         // few rotations fit some order by chance
         let few = joint.rotations.iter().filter(|data| data.used).count() < ENOUGH;
         if median_rad <= WRONG || (unit != ReadingUnit::Counts && few) {
-            return Some(as_it_is);
+            return Some(fewer_upside_down(&matrix).filter(|_| !few).unwrap_or(as_it_is));
         }
         if unit != ReadingUnit::Counts {
             let (other, found) = best(&orders().map(|order| order * matrix))?;
@@ -77,7 +95,8 @@ pub(super) fn find(
             axes = Some(names(&matrix));
         }
     }
-    Some(Start { imu: with(matrix), median_rad, axes })
+    let found = Start { imu: with(matrix), median_rad, axes };
+    Some(if median_rad <= WRONG { fewer_upside_down(&matrix).unwrap_or(found) } else { found })
 }
 
 /// The rotations cut down.
@@ -110,17 +129,22 @@ impl FirstLook {
 
     /// Median over the rotations of the angle by which gravity misses, for this matrix of the gyroscope.
     pub(super) fn median(&self, matrix: &Matrix3<f64>) -> Option<f64> {
-        let correction = matrix.try_inverse()?;
-        let mut errors: Vec<f64> = self
-            .rotations
-            .iter()
-            .map(|rotation| carried_back(&rotation.turns, &correction, &rotation.from).angle(&rotation.to))
-            .collect();
-        if errors.is_empty() {
-            return None;
-        }
+        let mut errors = self.errors(matrix).filter(|errors| !errors.is_empty())?;
         let middle = errors.len() / 2;
         Some(*errors.select_nth_unstable_by(middle, f64::total_cmp).1)
+    }
+
+    /// How many rotations gravity misses by more than a right angle.
+    fn upside_down(&self, matrix: &Matrix3<f64>) -> Option<usize> {
+        Some(self.errors(matrix)?.into_iter().filter(|error| *error > FRAC_PI_2).count())
+    }
+
+    fn errors(&self, matrix: &Matrix3<f64>) -> Option<Vec<f64>> {
+        let correction = matrix.try_inverse()?;
+        let error = |rotation: &CutDown| {
+            carried_back(&rotation.turns, &correction, &rotation.from).angle(&rotation.to)
+        };
+        Some(self.rotations.iter().map(error).collect())
     }
 }
 

@@ -7,10 +7,11 @@
 use super::joint::{Joint, Miss};
 use crate::estimate::excess::excess;
 use nalgebra::{DMatrix, DVector, Matrix2, Matrix2xX, Vector2};
+use std::f64::consts::FRAC_PI_2;
 
 /// A rotation is left out when an error as large as its own would be seen in fewer than this share of recordings.
 const SIGNIFICANCE: f64 = 0.01;
-/// Rounds of leaving out one rotation, or taking one back.
+/// Rounds of leaving out one rotation, or taking one back; twice their number where there are more.
 const ROUNDS: usize = 200;
 /// An excess of the size of a good sensor's, rad.
 const USUAL: f64 = 1e-3;
@@ -67,15 +68,18 @@ pub(super) fn weigh(
         rest: rest.clone(),
         rest_rhs: rest_rhs.clone(),
     };
-    let mut used: Vec<bool> = misses.iter().map(Option::is_some).collect();
-    let all = used.iter().filter(|used| **used).count();
+    let is_there: Vec<bool> = misses.iter().map(Option::is_some).collect();
+    let all = count(&is_there);
+    // those that end upside down are far from where the problem is linear, and a few of them would hide each other
+    let upright: Vec<bool> =
+        misses.iter().map(|miss| miss.as_ref().is_some_and(|miss| miss.error.norm() < FRAC_PI_2)).collect();
+    let mut used = if 2 * count(&upright) > linear.size + 4 { upright } else { is_there };
     let mut excess;
     let mut solved;
-    let mut rounds = 0;
+    let (mut rounds, most) = (0, ROUNDS.max(2 * misses.len()));
     loop {
         (excess, solved) = linear.excess(&used)?;
         let studentised = linear.studentised(&used, excess, &solved);
-        let count = used.iter().filter(|used| **used).count();
         let limit = critical(all);
         let worst = (0..used.len())
             .filter(|&i| used[i] && studentised[i] > limit)
@@ -85,8 +89,8 @@ pub(super) fn weigh(
             .min_by(|&a, &b| studentised[a].total_cmp(&studentised[b]));
         rounds += 1;
         match (worst, best) {
-            (Some(i), _) if 2 * count > linear.size + 4 && rounds < ROUNDS => used[i] = false,
-            (_, Some(i)) if rounds < ROUNDS => used[i] = true,
+            (Some(i), _) if 2 * count(&used) > linear.size + 4 && rounds < most => used[i] = false,
+            (_, Some(i)) if rounds < most => used[i] = true,
             _ => {
                 return Some(Weighed {
                     excess_rad: excess,
@@ -98,6 +102,10 @@ pub(super) fn weigh(
             }
         }
     }
+}
+
+fn count(used: &[bool]) -> usize {
+    used.iter().filter(|used| **used).count()
 }
 
 struct Solved {
