@@ -6,7 +6,7 @@ use crate::{Exit, console, place};
 use calibrant::Error;
 use calibrant::error::Complaint;
 use calibrant::io::{
-    ColumnMeaning, ImuFile, ImuReadOptions, ImuUnit, read_imu_pair, read_imu_recording, read_imu_sensor,
+    ColumnMeaning, ImuFile, ImuReadOptions, read_imu_pair, read_imu_recording, read_imu_sensor,
     write_corrected_recording,
 };
 use calibrant::report::number;
@@ -108,26 +108,18 @@ fn read_for(imu: &CalibratedImu, arguments: &Arguments) -> calibrant::Result<Imu
 
 /// Reads the file. A unit that it does not state is asked for, but of a calibration in counts: what that corrects is counts.
 fn read(imu: &CalibratedImu, arguments: &Arguments) -> calibrant::Result<ImuFile> {
-    let given = arguments.file.with_columns(arguments.columns.as_deref())?;
-    let path = &arguments.recording;
-    let read = |options: &ImuReadOptions| match (&arguments.gyroscope, alone(imu)) {
-        (Some(gyroscope), _) => read_imu_pair(path, gyroscope, options),
-        (None, Some(triad)) => read_imu_sensor(path, triad, options),
-        (None, None) => read_imu_recording(path, options),
+    let options = ImuReadOptions {
+        // a sensor that the calibration does not have is left out, whatever its unit
+        counts_unless_stated: Triad::ALL
+            .map(|triad| imu.unit(triad).is_none_or(|unit| unit == ReadingUnit::Counts)),
+        ..arguments.file.with_columns(arguments.columns.as_deref())?
     };
-    // a sensor that the calibration does not have is left out, whatever its unit
-    let counts = |triad| imu.unit(triad).is_none_or(|unit| unit == ReadingUnit::Counts);
-    let [accelerometer, gyroscope] = Triad::ALL.map(|triad| counts(triad).then_some(ImuUnit::Counts));
-    let taken = [(accelerometer, None), (None, gyroscope), (accelerometer, gyroscope)];
-    read(&given).or_else(|error| {
-        // each alone too: the file may state the unit of the other
-        let again = |&(accelerometer_unit, gyroscope_unit): &(Option<ImuUnit>, Option<ImuUnit>)| {
-            let taken = ImuReadOptions { accelerometer_unit, gyroscope_unit, ..ImuReadOptions::default() };
-            let options = given.clone().or(taken);
-            if options == given { None } else { read(&options).ok() }
-        };
-        taken.iter().find_map(again).ok_or(error)
-    })
+    let path = &arguments.recording;
+    match (&arguments.gyroscope, alone(imu)) {
+        (Some(gyroscope), _) => read_imu_pair(path, gyroscope, &options),
+        (None, Some(triad)) => read_imu_sensor(path, triad, &options),
+        (None, None) => read_imu_recording(path, &options),
+    }
 }
 
 /// The sensor of a calibration of one sensor alone.

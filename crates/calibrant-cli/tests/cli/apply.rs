@@ -113,6 +113,12 @@ fn a_calibration_in_counts_corrects_counts() {
         bench.run(&format!("apply shimmer.json {file}.csv -o {file}.out")).done();
         assert_eq!(bench.read(&format!("{file}.out")), bench.read("plain.out"), "{file}");
     }
+    // what is wrong with the file is said, not that a unit were missing
+    let bad = bench.read("plain.csv").replace(",-6,", ",oops,");
+    bench.write("bad.csv", bad);
+    bench.refuses("apply shimmer.json bad.csv -o x.csv", 3, &["bad.csv", "oops"]);
+    bench.write("four.mat", "0 112 -128 2179\n0.1 112 -128 2179\n");
+    bench.refuses("apply shimmer.json four.mat --gyroscope none.mat -o x.csv", 3, &["none.mat"]);
     bench.write("si.csv", rows(NAMES, 1.0));
     bench.refuses("apply shimmer.json si.csv -o x.csv", 3, &["si.csv: the readings of the accelerometer"]);
 }
