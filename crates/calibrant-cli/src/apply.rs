@@ -1,11 +1,13 @@
 //! `calibrant apply`: a recording corrected, with the correction's standard uncertainty.
 
-use crate::calibration_file::{Reading, Unit, in_words};
+use crate::calibration_file::{Reading, in_words};
 use crate::reading::in_file;
 use crate::{Exit, console, place};
+use calibrant::Error;
+use calibrant::error::Complaint;
 use calibrant::io::{
-    FileFormat, ImuFile, ImuReadOptions, ImuUnit, ReadOptions, read_imu_pair, read_imu_recording,
-    read_recording, write_corrected_recording,
+    ColumnMeaning, ImuFile, ImuReadOptions, read_imu_pair, read_imu_recording, read_imu_sensor,
+    write_corrected_recording,
 };
 use calibrant::report::number;
 use calibrant::sensor::{
@@ -28,6 +30,9 @@ pub(crate) struct Arguments {
     gyroscope: Option<PathBuf>,
     #[command(flatten)]
     file: crate::reading::RecordingOptions,
+    /// Experiment file whose [columns] say what is what in the recording.
+    #[arg(long, value_name = "EXPERIMENT")]
+    columns: Option<PathBuf>,
     #[command(flatten)]
     reading: Reading,
     /// The temperature, °C, where the calibration follows it and the recording does not have it (or another).
@@ -88,59 +93,56 @@ fn range(values: &[f64]) -> Option<[f64; 2]> {
     values.iter().map(|&t| [t, t]).reduce(|[low, high], [t, _]| [low.min(t), high.max(t)])
 }
 
-/// The recording that a calibration is applied to: what its file does not say of units is taken to be as the calibration has it.
+/// The recording that a calibration is applied to.
 fn read_for(imu: &CalibratedImu, arguments: &Arguments) -> calibrant::Result<ImuRecording> {
     let path = &arguments.recording;
-    let read = |options: &ImuReadOptions| match &arguments.gyroscope {
-        Some(gyroscope) => read_imu_pair(path, gyroscope, options),
-        None => read_imu_recording(path, options),
-    };
-    let given = arguments.file.options();
-    let si = |triad: Triad, unit: ReadingUnit| match (unit, triad) {
-        (ReadingUnit::Counts, _) => ImuUnit::Counts,
-        (_, Triad::Accelerometer) => ImuUnit::MetrePerSecondSquared,
-        (_, Triad::Gyroscope) => ImuUnit::RadianPerSecond,
-    };
-    let chosen = arguments.reading.unit.map(|unit| match unit {
-        Unit::Si => ReadingUnit::MetrePerSecondSquared,
-        Unit::Counts => ReadingUnit::Counts,
-    });
-    let unit = |triad: Triad| chosen.or(imu.unit(triad)).map(|unit| si(triad, unit));
-    let assumed = given.clone().or(ImuReadOptions {
-        accelerometer_unit: unit(Triad::Accelerometer),
-        gyroscope_unit: unit(Triad::Gyroscope),
-        ..ImuReadOptions::default()
-    });
-    let file = read(&given)
-        .or_else(|_| read(&assumed))
-        .or_else(|error| one_sensor(imu, arguments).map_err(|_| error))?;
+    let file = read(imu, arguments)?;
     for finding in &file.findings {
         console::finding(&path.display().to_string(), finding);
+    }
+    for triad in Triad::ALL.into_iter().filter(|&triad| imu.unit(triad).is_some()) {
+        check_usable(&file, triad).map_err(|error| in_file(error, path))?;
     }
     Ok(file.recording)
 }
 
-/// A file of one sensor alone, `t x y z`, for a calibration of one.
-fn one_sensor(imu: &CalibratedImu, arguments: &Arguments) -> calibrant::Result<ImuFile> {
-    let (triad, expected_unit) = match (imu.accelerometer_unit, imu.gyroscope_unit) {
-        (Some(unit), _) => (Triad::Accelerometer, unit),
-        (None, Some(unit)) => (Triad::Gyroscope, unit),
-        (None, None) => (Triad::Accelerometer, ReadingUnit::MetrePerSecondSquared),
+/// Reads the file. A unit that it does not state is asked for, but of a calibration in counts: what that corrects is counts.
+fn read(imu: &CalibratedImu, arguments: &Arguments) -> calibrant::Result<ImuFile> {
+    let options = ImuReadOptions {
+        // a sensor that the calibration does not have is left out, whatever its unit
+        counts_unless_stated: Triad::ALL
+            .map(|triad| imu.unit(triad).is_none_or(|unit| unit == ReadingUnit::Counts)),
+        ..arguments.file.with_columns(arguments.columns.as_deref())?
     };
-    let file = read_recording(&arguments.recording, &ReadOptions { unit: None, expected_unit, axes: 3 })?;
-    let mut recording = ImuRecording::default();
-    match triad {
-        Triad::Accelerometer => recording.accelerometer = Some(file.recording),
-        Triad::Gyroscope => recording.gyroscope = Some(file.recording),
+    let path = &arguments.recording;
+    match (&arguments.gyroscope, alone(imu)) {
+        (Some(gyroscope), _) => read_imu_pair(path, gyroscope, &options),
+        (None, Some(triad)) => read_imu_sensor(path, triad, &options),
+        (None, None) => read_imu_recording(path, &options),
     }
-    Ok(ImuFile {
-        recording,
-        format: FileFormat::ImuTk,
-        columns: Vec::new(),
-        findings: file.findings,
-        rows: file.lines,
-        sha256: vec![file.sha256],
-    })
+}
+
+/// The sensor of a calibration of one sensor alone.
+fn alone(imu: &CalibratedImu) -> Option<Triad> {
+    match (imu.accelerometer_unit, imu.gyroscope_unit) {
+        (Some(_), None) => Some(Triad::Accelerometer),
+        (None, Some(_)) => Some(Triad::Gyroscope),
+        _ => None,
+    }
+}
+
+/// Complains of a sensor that has columns, but none that could be used: it would go missing from the result.
+fn check_usable(file: &ImuFile, triad: Triad) -> calibrant::Result<()> {
+    let is_of = |meaning| matches!(meaning, ColumnMeaning::Reading(of, _) if of == triad);
+    let unused = file.columns.iter().filter(|column| is_of(column.meaning));
+    let why = unused.filter_map(|column| column.unused.as_deref()).next();
+    match why.filter(|_| file.recording.triad(triad).is_none()) {
+        Some(why) => Err(Error::Recording(Box::new(Complaint::new(
+            format!("the {triad} has columns, but they cannot be used: {why}"),
+            format!("export it again, or take the {triad}'s columns out of the file"),
+        )))),
+        None => Ok(()),
+    }
 }
 
 /// Samples, size and uncertainty of one sensor in a line or two.

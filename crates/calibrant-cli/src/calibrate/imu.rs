@@ -37,7 +37,10 @@ pub(super) fn run(arguments: &Arguments, experiment: &Experiment, plan: &ImuPlan
         console::warn("--motion is not used: an IMU is calibrated from holds and what lies between them");
     }
     let options = options(arguments, experiment, plan);
-    let file = super::validation::read(path, arguments.gyroscope.as_deref(), &options)?;
+    let read =
+        |options: &ImuReadOptions| super::validation::read(path, arguments.gyroscope.as_deref(), options);
+    let file = read(&options)
+        .map_err(|error| contradicted_key(arguments, experiment, &options, read).unwrap_or(error))?;
     for finding in &file.findings {
         console::finding(&name(path), finding);
     }
@@ -103,6 +106,36 @@ fn options(arguments: &Arguments, experiment: &Experiment, plan: &ImuPlan) -> Im
         ..ImuReadOptions::default()
     };
     arguments.reading.options().or(experiment.columns.clone()).or(sensors)
+}
+
+/// The complaint of a unit that the experiment file says and the recording contradicts, where that is why the recording cannot be read.
+fn contradicted_key(
+    arguments: &Arguments,
+    experiment: &Experiment,
+    options: &ImuReadOptions,
+    read: impl Fn(&ImuReadOptions) -> calibrant::Result<ImuFile>,
+) -> Option<Error> {
+    let by_option = arguments.reading.options();
+    let of_experiment = |triad: &Triad| by_option.unit(*triad).is_none() && options.unit(*triad).is_some();
+    Triad::ALL.into_iter().filter(of_experiment).find_map(|triad| {
+        let without = match triad {
+            Triad::Accelerometer => ImuReadOptions { accelerometer_unit: None, ..options.clone() },
+            Triad::Gyroscope => ImuReadOptions { gyroscope_unit: None, ..options.clone() },
+        };
+        // it can be read without that unit only if it states another
+        read(&without).ok()?;
+        let key = match (experiment.columns.unit(triad), triad) {
+            (Some(_), _) => format!("columns.{triad}_unit"),
+            (None, Triad::Accelerometer) => "sensor.unit".into(),
+            (None, Triad::Gyroscope) => "gyroscope.unit".into(),
+        };
+        let message = format!(
+            "`{key}` is {}, but the recording states another unit of the {triad}",
+            options.unit(triad)?.symbol()
+        );
+        let help = "correct it, or name the columns in [columns] to overrule the file; `calibrant inspect` says what it states";
+        Some(Error::Experiment(Box::new(Complaint::new(message, help).in_file(&arguments.experiment))))
+    })
 }
 
 fn setup(

@@ -4,7 +4,7 @@ use crate::bench::Bench;
 use serde_json::Value;
 
 /// A whole IMU as imucal writes it.
-const IMUCAL: &str = r#"{"acc_unit": "m/s^2", "gyr_unit": "deg/s", "from_acc_unit": "a.u.", "from_gyr_unit": "a.u.", "comment": null,
+pub(crate) const IMUCAL: &str = r#"{"acc_unit": "m/s^2", "gyr_unit": "deg/s", "from_acc_unit": "a.u.", "from_gyr_unit": "a.u.", "comment": null,
     "K_a": [[208.1, 0.0, 0.0], [0.0, 209.3, 0.0], [0.0, 0.0, 213.7]],
     "R_a": [[0.99986, -0.0148, -0.0075], [0.0086, 0.99996, 0.0018], [0.0133, 0.0020, 0.99991]],
     "b_a": [112.1, -128.6, 83.3],

@@ -369,3 +369,27 @@ fn turns_give_the_gain_of_a_gyroscope_in_counts() {
         assert!((ratio - 1.0).abs() < 1e-3, "{name}: {ratio}");
     }
 }
+
+/// The key of the experiment file that the recording contradicts is named, not an option that was not given.
+#[test]
+fn a_unit_that_the_recording_contradicts_is_named_by_its_key() {
+    let bench = Bench::new();
+    bench.preset("imu", "imu.toml", &[]);
+    bench.run("simulate imu.toml -o sim").done();
+    let preset = bench.read("imu.toml");
+    let gyroscope = preset.replacen("# unit = \"degps\"", "unit = \"degps\"", 1);
+    bench.write("gyroscope.toml", &gyroscope);
+    bench.write("columns.toml", preset.replacen("# gyroscope_unit = ", "gyroscope_unit = ", 1));
+    for (experiment, key) in [("gyroscope", "gyroscope.unit"), ("columns", "columns.gyroscope_unit")] {
+        let command = format!("calibrate {experiment}.toml sim/recording.csv -o out");
+        let says = format!("{experiment}.toml: `{key}` is deg/s, but the recording states another unit");
+        bench.refuses(&command, 2, &[&says]);
+    }
+    // an option is named as one; and what is wrong otherwise is said
+    bench.refuses(
+        "calibrate gyroscope.toml sim/recording.csv --gyroscope-unit deg/s -o out",
+        3,
+        &["leave --gyroscope-unit away"],
+    );
+    bench.refuses("calibrate gyroscope.toml none.csv -o out", 3, &["none.csv"]);
+}

@@ -1,5 +1,6 @@
 //! The program as its users meet it: commands, files, messages, exit status.
 
+mod apply;
 mod bench;
 mod broken;
 mod commands;

@@ -37,6 +37,7 @@ pub(super) fn read(section: &Section<'_>) -> Result<ImuReadOptions> {
         rate_hz: section.get("rate_hz").map(|entry| entry.number(&RATE)).transpose()?,
         topic: name("topic")?,
         columns,
+        ..ImuReadOptions::default()
     })
 }
 

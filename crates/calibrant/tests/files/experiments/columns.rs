@@ -98,6 +98,7 @@ topic = "/imu"
         gyroscope_unit: Some(ImuUnit::DegreePerSecond),
         rate_hz: Some(102.4),
         topic: Some("/imu".into()),
+        counts_unless_stated: [false; 2],
     };
     assert_eq!(Experiment::parse(&text, None).expect("good").columns, expected);
 }

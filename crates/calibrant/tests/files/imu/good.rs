@@ -12,6 +12,7 @@ const PLAIN: ImuReadOptions = ImuReadOptions {
     time_unit: None,
     accelerometer_unit: None,
     gyroscope_unit: None,
+    counts_unless_stated: [false; 2],
     rate_hz: None,
     topic: None,
 };

@@ -37,6 +37,8 @@ pub struct ImuReadOptions {
     pub accelerometer_unit: Option<ImuUnit>,
     /// Unit of the gyroscope's columns, where the file does not say.
     pub gyroscope_unit: Option<ImuUnit>,
+    /// Accelerometer, gyroscope: counts where neither the file nor the user says a unit, as where a calibration in counts is applied. Not asked then.
+    pub counts_unless_stated: [bool; 2],
     /// Sample rate in Hz, for files without sample times.
     pub rate_hz: Option<f64>,
     /// Topic of a bag that has more than one of `sensor_msgs/msg/Imu`.
@@ -62,6 +64,8 @@ impl ImuReadOptions {
             time_unit: self.time_unit.or(other.time_unit),
             accelerometer_unit: self.accelerometer_unit.or(other.accelerometer_unit),
             gyroscope_unit: self.gyroscope_unit.or(other.gyroscope_unit),
+            counts_unless_stated: [0, 1]
+                .map(|k| self.counts_unless_stated[k] || other.counts_unless_stated[k]),
             rate_hz: self.rate_hz.or(other.rate_hz),
             topic: self.topic.or(other.topic),
         }

@@ -18,7 +18,7 @@ const NO_GRAVITY_MPS2: f64 = 3.0;
 /// Magnitudes that are 1 within this share are in g.
 const ONE: f64 = 0.15;
 
-/// The unit of a sensor's columns: what the file says; else what the user says; else `None`.
+/// The unit of a sensor's columns: what the file says; else what the user says; else counts, if that is agreed; else `None`.
 pub(super) fn stated_unit(draft: &Draft, options: &ImuReadOptions, triad: Triad) -> Checked<Option<ImuUnit>> {
     let columns: Vec<_> =
         Axis::ALL.iter().filter_map(|&axis| draft.column(ColumnMeaning::Reading(triad, axis))).collect();
@@ -55,7 +55,10 @@ pub(super) fn stated_unit(draft: &Draft, options: &ImuReadOptions, triad: Triad)
             );
             Err(Complaint::new(message, help).into())
         }
-        (stated, given) => Ok(stated.or(given)),
+        (stated, given) => {
+            let agreed = options.counts_unless_stated[triad as usize].then_some(ImuUnit::Counts);
+            Ok(stated.or(given).or(agreed))
+        }
     }
 }
 
