@@ -4,7 +4,7 @@ use crate::bench::{KINDS, bench, mean, share, simulate};
 use crate::common::{draw_imu, normal};
 use calibrant::estimate::{CovarianceVerdict, ErrorKind, ImuCalibration, Validation};
 use calibrant::report::validation_sentences;
-use calibrant::sensor::{ImuParameters, Triad};
+use calibrant::sensor::{ImuParameters, ImuRecording, Triad};
 use calibrant::simulate::{ImuSimulation, Purpose, simulate_imu, stream};
 use nalgebra::Vector3;
 use rayon::prelude::*;
@@ -181,4 +181,35 @@ fn other_noise_is_said() {
     );
     let found = tried(times(1.0, 1.1), 0.0, 1, |_, _| ());
     assert!(!validation_sentences(&found[0])[0].contains("noise"));
+}
+
+/// The accelerometer's readings in steps of so many standard deviations of their noise.
+fn rounded(mut recording: ImuRecording, setup: &ImuSimulation, deviations: f64) -> ImuRecording {
+    let step = deviations * setup.accelerometer_noise;
+    let readings = &mut recording.accelerometer.as_mut().expect("there").readings;
+    readings.iter_mut().for_each(|y| *y = y.map(|y| (y / step).round() * step));
+    recording
+}
+
+/// What rounding makes of a hold's mean is part of the prediction: a coarser range of the accelerometer is no reason to call a covariance too small.
+#[test]
+fn an_accelerometer_with_coarser_steps_does_not_make_a_covariance_too_small() {
+    let setup = ImuSimulation::default();
+    let bench = bench(&setup);
+    for (calibrated, tried) in [(0.1, 4.0), (0.1, 5.0), (4.0, 4.0), (6.0, 6.0)] {
+        let found: Vec<Validation> = (0..40)
+            .into_par_iter()
+            .map(|number| {
+                let mut rng = stream(43, Purpose::Sensor, number);
+                let truth = draw_imu(&mut rng);
+                let mut record = |steps| rounded(simulate(&truth, &setup, 0.0, &mut rng), &setup, steps);
+                let calibration = bench.calibrate(&record(calibrated));
+                bench.validate(&calibration, &record(tried))
+            })
+            .collect();
+        let of: Vec<_> = found.iter().filter_map(|found| found.of_kind(ErrorKind::Magnitude)).collect();
+        let too_small = share(&of, CovarianceVerdict::TooSmall);
+        println!("steps of {calibrated} and {tried}: {too_small}");
+        assert!(too_small <= 0.1, "steps of {calibrated} and {tried}: {too_small}");
+    }
 }

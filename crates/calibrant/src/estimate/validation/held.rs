@@ -40,13 +40,14 @@ struct Rate {
 }
 
 impl Held {
-    /// Corrects a hold. `within`: standard deviation of an accelerometer sample; `noise`: of the sensors, beside the calibration's. `None` where a matrix is singular.
+    /// Corrects a hold. `within`: standard deviation of an accelerometer sample; `of_mean`: variance of a mean that coarse steps leave, however many samples there are; `noise`: of the
+    /// sensors, beside the calibration's. `None` where a matrix is singular.
     pub(super) fn of(
         claim: &Claim,
         number: usize,
         hold: &Hold,
         temperature_c: f64,
-        (within, noise): (&Vector3<f64>, &[NoiseRatio]),
+        (within, of_mean, noise): (&Vector3<f64>, &Vector3<f64>, &[NoiseRatio]),
         still: Option<&HeldStill>,
     ) -> Option<Self> {
         let imu = &claim.imu.at(temperature_c);
@@ -68,7 +69,7 @@ impl Held {
         let spread = |variance: Vector3<f64>, by: &Matrix3<f64>| {
             by * Matrix3::from_diagonal(&variance) * by.transpose()
         };
-        let of_noise = within.component_mul(within) / hold.samples() as f64;
+        let of_noise = within.component_mul(within) / hold.samples() as f64 + of_mean;
         // the gain of a reading is the norm of its row of S, as in the fit
         let gain = Vector3::from_fn(|axis, _| imu.accelerometer.matrix.row(axis).norm_squared());
         let by_noise = spread(of_noise, &correction);

@@ -8,8 +8,9 @@ use super::ratio::Ratio;
 use super::result::BiasShift;
 use super::statistics::degrees_behind;
 use super::whitened::Whitened;
-use crate::estimate::clipped_holds;
 use crate::estimate::imu::{Carried, Carrying, GyroscopeAtRest, HeldStill};
+use crate::estimate::quantisation::of_means;
+use crate::estimate::{clipped_holds, coarse_axes_in};
 use crate::motion::Hold;
 use crate::sensor::{Recording, Temperatures, Triad};
 use nalgebra::{DMatrix, DVector, Matrix2, Vector3};
@@ -85,11 +86,13 @@ impl<'a> Unused<'a> {
             Some(temperatures) => temperatures.mean(hold.start_s, hold.end_s),
             None => claim.imu.thermal.reference_c,
         };
+        let of_mean = of_means(&coarse_axes_in(self.accelerometer, holds.iter().copied()));
         let correct = |claim: &Claim| -> Option<Vec<Held>> {
             let pairs = self.holds.iter().zip(&stills);
             pairs
                 .map(|((number, hold), still)| {
-                    Held::of(claim, *number, hold, temperature(hold), (&self.within, &noise), still.as_ref())
+                    let noise = (&self.within, &of_mean, noise.as_slice());
+                    Held::of(claim, *number, hold, temperature(hold), noise, still.as_ref())
                 })
                 .collect()
         };
