@@ -67,13 +67,15 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     let imu = &file.recording;
     let in_file = |error| in_file(error, &arguments.recording);
     let recording = imu.triad(triad).ok_or_else(|| in_file(no_sensor(triad)))?;
-    let holds = holds::holds(imu, triad);
-    let (start_s, end_s) = match (arguments.hold.as_deref(), &holds) {
-        (Some(&[start, end]), _) => (start, end),
-        (_, Ok(holds)) => holds::longest(holds).map(|hold| (hold.start_s, hold.end_s)).map_err(in_file)?,
-        (_, Err(_)) => return holds.map(|_| Exit::DONE).map_err(in_file),
+    let found = holds::holds(imu);
+    let (holds, (start_s, end_s)) = match arguments.hold.as_deref() {
+        Some(&[start, end]) => (found.unwrap_or_default(), (start, end)),
+        _ => {
+            let holds = found.map_err(in_file)?;
+            let interval = holds::longest(&holds).map(|hold| (hold.start_s, hold.end_s)).map_err(in_file)?;
+            (holds, interval)
+        }
     };
-    let holds = holds.unwrap_or_default();
     let stretch = Stretch::between(recording, start_s, end_s).map_err(in_file)?;
     let found = TriadNoise::of(triad, recording, stretch).map_err(in_file)?;
     let mut found = match &gain {

@@ -288,6 +288,18 @@ fn the_first_hold_of_the_mti_determines_white_noise_and_not_bias_instability() {
     }
 }
 
+/// The noise of an accelerometer of one axis by all of these samples.
+fn examine(values: &[f64], moments: &Moments) -> TriadNoise {
+    let recording = Recording {
+        times_s: (0..values.len()).map(|k| k as f64 * INTERVAL_S).collect(),
+        readings: values.iter().map(|&y| Vector3::new(y, 0.0, 0.0)).collect(),
+        axes: 1,
+        unit: ReadingUnit::MetrePerSecondSquared,
+    };
+    let stretch = Stretch::between(&recording, 0.0, 1e9).expect("long enough");
+    TriadNoise::with_moments(Triad::Accelerometer, &recording, stretch, moments).expect("noisy")
+}
+
 /// Sparks of up to 20 m/s² in one of so many samples: N was 82 times too large at one in 600.
 #[test]
 fn without_sparks_the_interval_of_white_noise_covers() {
@@ -302,15 +314,7 @@ fn without_sparks_the_interval_of_white_noise_covers() {
         for &k in &sparks {
             values[k] += rng.random_range(1.0..20.0) * if rng.random_range(0..2) == 0 { 1.0 } else { -1.0 };
         }
-        let recording = Recording {
-            times_s: (0..n).map(|k| k as f64 * INTERVAL_S).collect(),
-            readings: values.iter().map(|&y| Vector3::new(y, 0.0, 0.0)).collect(),
-            axes: 1,
-            unit: ReadingUnit::MetrePerSecondSquared,
-        };
-        let stretch = Stretch::between(&recording, 0.0, 1e9).expect("long enough");
-        let mut noise =
-            TriadNoise::with_moments(Triad::Accelerometer, &recording, stretch, &moments).expect("noisy");
+        let mut noise = examine(&values, &moments);
         let axis = noise.axes.remove(0);
         assert_eq!(axis.outliers.map_or(Vec::new(), |outliers| outliers.samples), sparks, "one in {one_in}");
         assert_eq!(noise.doubt, None);
@@ -331,16 +335,7 @@ fn without_sparks_the_interval_of_white_noise_covers() {
 fn too_many_sparks_are_called_so_and_heavy_tails_are_not() {
     let n = 20_000;
     let moments = Moments::of(n);
-    let examine = |values: &[f64]| {
-        let recording = Recording {
-            times_s: (0..n).map(|k| k as f64 * INTERVAL_S).collect(),
-            readings: values.iter().map(|&y| Vector3::new(y, 0.0, 0.0)).collect(),
-            axes: 1,
-            unit: ReadingUnit::MetrePerSecondSquared,
-        };
-        let stretch = Stretch::between(&recording, 0.0, 1e9).expect("long enough");
-        TriadNoise::with_moments(Triad::Accelerometer, &recording, stretch, &moments).expect("noisy")
-    };
+    let examine = |values: &[f64]| examine(values, &moments);
     let white = simulate(&[(PowerLaw::White, 2e-3)], n, 9);
     for one_in in [40, 20, 10] {
         let mut values = white.clone();

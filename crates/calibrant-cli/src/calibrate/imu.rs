@@ -118,12 +118,8 @@ fn contradicted_key(
     let by_option = arguments.reading.options();
     let of_experiment = |triad: &Triad| by_option.unit(*triad).is_none() && options.unit(*triad).is_some();
     Triad::ALL.into_iter().filter(of_experiment).find_map(|triad| {
-        let without = match triad {
-            Triad::Accelerometer => ImuReadOptions { accelerometer_unit: None, ..options.clone() },
-            Triad::Gyroscope => ImuReadOptions { gyroscope_unit: None, ..options.clone() },
-        };
         // it can be read without that unit only if it states another
-        read(&without).ok()?;
+        read(&options.clone().with_unit(triad, None)).ok()?;
         let key = match (experiment.columns.unit(triad), triad) {
             (Some(_), _) => format!("columns.{triad}_unit"),
             (None, Triad::Accelerometer) => "sensor.unit".into(),

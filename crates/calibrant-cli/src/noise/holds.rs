@@ -17,30 +17,13 @@ const MOST: f64 = 0.9;
 /// The holds: where both sensors are still, or the one that was recorded. A gyroscope alone is as calm in a turn at a steady rate.
 ///
 /// A spark does not divide a hold: it is no movement.
-pub(super) fn holds(imu: &ImuRecording, triad: Triad) -> calibrant::Result<Vec<Hold>> {
-    let still = |triad| imu.triad(triad).map(without_outliers);
-    match (still(triad), still(other(triad))) {
-        (Some(one), Some(other)) => {
-            let (accelerometer, gyroscope) = match triad {
-                Triad::Accelerometer => (one, other),
-                Triad::Gyroscope => (other, one),
-            };
-            let both = ImuRecording {
-                accelerometer: Some(accelerometer),
-                gyroscope: Some(gyroscope),
-                temperature_c: None,
-            };
-            find_imu_holds(&both, SHORTEST_HOLD_S)
+pub(super) fn holds(imu: &ImuRecording) -> calibrant::Result<Vec<Hold>> {
+    let [accelerometer, gyroscope] = Triad::ALL.map(|triad| imu.triad(triad).map(without_outliers));
+    match (accelerometer, gyroscope) {
+        (None, Some(gyroscope)) => find_holds(&gyroscope, SHORTEST_HOLD_S),
+        (accelerometer, gyroscope) => {
+            find_imu_holds(&ImuRecording { accelerometer, gyroscope, temperature_c: None }, SHORTEST_HOLD_S)
         }
-        (Some(alone), None) => find_holds(&alone, SHORTEST_HOLD_S),
-        (None, _) => Ok(Vec::new()),
-    }
-}
-
-fn other(triad: Triad) -> Triad {
-    match triad {
-        Triad::Accelerometer => Triad::Gyroscope,
-        Triad::Gyroscope => Triad::Accelerometer,
     }
 }
 

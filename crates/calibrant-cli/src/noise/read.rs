@@ -14,7 +14,7 @@ pub(super) fn read(arguments: &Arguments, triad: Triad) -> calibrant::Result<Imu
         return read_imu_sensor(path, triad, &options);
     }
     // a gain is one of counts: it answers for the unit where the file does not
-    let in_counts = with_unit(options.clone(), triad, ImuUnit::Counts);
+    let in_counts = options.clone().with_unit(triad, Some(ImuUnit::Counts));
     read_imu_sensor(path, triad, &in_counts).map_err(|error| {
         let stated = read_imu_sensor(path, triad, &options).ok();
         let unit = stated.as_ref().and_then(|file| Some(file.recording.triad(triad)?.unit));
@@ -41,14 +41,7 @@ fn options(arguments: &Arguments, triad: Triad) -> calibrant::Result<ImuReadOpti
             &format!("--unit is {}, but the {triad}'s unit is given as {}", unit.symbol(), other.symbol()),
             "leave one of them away",
         )),
-        None => Ok(with_unit(options, triad, unit)),
-    }
-}
-
-fn with_unit(options: ImuReadOptions, triad: Triad, unit: ImuUnit) -> ImuReadOptions {
-    match triad {
-        Triad::Accelerometer => ImuReadOptions { accelerometer_unit: Some(unit), ..options },
-        Triad::Gyroscope => ImuReadOptions { gyroscope_unit: Some(unit), ..options },
+        None => Ok(options.with_unit(triad, Some(unit))),
     }
 }
 

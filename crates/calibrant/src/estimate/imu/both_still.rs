@@ -4,7 +4,7 @@
 //! in them is no bias. Where the gyroscope is calm is found in its own readings, in the same way; a calm stretch far from the others is a turn at a steady rate.
 
 use crate::error::{Complaint, Error, Result};
-use crate::estimate::holds::{find_holds, holds_between};
+use crate::estimate::holds::{find_holds, holds_between, median};
 use crate::motion::Hold;
 use crate::sensor::{ImuRecording, Recording, Triad};
 use nalgebra::Vector3;
@@ -50,11 +50,10 @@ pub fn find_imu_holds(recording: &ImuRecording, minimum_s: f64) -> Result<Vec<Ho
 /// Which of its calm stretches does the gyroscope turn in?
 fn turning(gyroscope: &Recording, calm: &[Hold]) -> Vec<bool> {
     let [low, high] = gyroscope.extremes();
-    let middle = Vector3::from_fn(|axis, _| {
-        let mut means: Vec<f64> = calm.iter().map(|stretch| stretch.mean[axis]).collect();
-        means.sort_by(f64::total_cmp);
-        means.get(means.len() / 2).copied().unwrap_or(0.0)
-    });
+    if calm.is_empty() {
+        return Vec::new();
+    }
+    let middle = Vector3::from_fn(|axis, _| median(calm.iter().map(|stretch| stretch.mean[axis]).collect()));
     let far = TURNING * (high - low).amax();
     calm.iter().map(|stretch| (stretch.mean - middle).amax() > far).collect()
 }

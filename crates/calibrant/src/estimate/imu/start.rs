@@ -5,6 +5,7 @@
 
 use super::joint::{HoldData, Joint, RotationData, State};
 use super::rotation::carried_back;
+use crate::estimate::holds::median;
 use crate::sensor::{Axis, ImuParameters, ReadingUnit, Thermal};
 use nalgebra::{Matrix3, Vector3};
 use rayon::prelude::*;
@@ -43,40 +44,44 @@ pub(super) fn find(
         imu
     };
     let look = FirstLook::of(joint, state);
+    let judged = |matrix: Matrix3<f64>| Some((look.judge(&matrix)?, matrix));
     let best = |tries: &[Matrix3<f64>]| {
         tries
             .par_iter()
-            .filter_map(|matrix| Some((look.median(matrix)?, *matrix)))
-            .min_by(|one, other| one.0.total_cmp(&other.0))
+            .filter_map(|matrix| judged(*matrix))
+            .min_by(|(one, _), (other, _)| one.median_rad.total_cmp(&other.median_rad))
     };
     // the axis about which the fewer rotations turned may be the one that points the other way
-    let fewer_upside_down = |matrix: &Matrix3<f64>| {
-        let before = look.upside_down(matrix).filter(|before| *before >= SEVERAL)?;
+    let fewer_upside_down = |matrix: &Matrix3<f64>, before: usize| {
+        if before < SEVERAL {
+            return None;
+        }
         orders()
             .par_iter()
-            .filter_map(|order| Some((look.upside_down(&(order * matrix))?, order * matrix)))
-            .filter_map(|(number, matrix)| Some((number, look.median(&matrix)?, matrix)))
-            .filter(|(number, median, _)| SEVERAL * number <= before && *median <= WRONG)
-            .min_by(|one, other| (one.0.cmp(&other.0)).then(one.1.total_cmp(&other.1)))
-            .map(|(_, median_rad, matrix)| Start {
+            .filter_map(|order| judged(order * matrix))
+            .filter(|(look, _)| SEVERAL * look.upside_down <= before && look.median_rad <= WRONG)
+            .min_by(|(one, _), (other, _)| {
+                one.upside_down.cmp(&other.upside_down).then(one.median_rad.total_cmp(&other.median_rad))
+            })
+            .map(|(look, matrix)| Start {
                 imu: with(matrix),
-                median_rad,
+                median_rad: look.median_rad,
                 axes: Some(names(&matrix)),
             })
     };
     if let Some(matrix) = nominal {
         let imu = with(matrix);
-        let median_rad = look.median(&matrix)?;
+        let Judged { median_rad, upside_down } = look.judge(&matrix)?;
         let as_it_is = Start { imu, median_rad, axes: None };
         // few rotations fit some order by chance
         let few = joint.rotations.iter().filter(|data| data.used).count() < ENOUGH;
         if median_rad <= WRONG || (unit != ReadingUnit::Counts && few) {
-            return Some(fewer_upside_down(&matrix).filter(|_| !few).unwrap_or(as_it_is));
+            return Some(fewer_upside_down(&matrix, upside_down).filter(|_| !few).unwrap_or(as_it_is));
         }
         if unit != ReadingUnit::Counts {
-            let (other, found) = best(&orders().map(|order| order * matrix))?;
-            return Some(match other <= WRONG {
-                true => Start { imu: with(found), median_rad: other, axes: Some(names(&found)) },
+            let (Judged { median_rad, .. }, found) = best(&orders().map(|order| order * matrix))?;
+            return Some(match median_rad <= WRONG {
+                true => Start { imu: with(found), median_rad, axes: Some(names(&found)) },
                 false => as_it_is,
             });
         }
@@ -86,17 +91,26 @@ pub(super) fn find(
     let scaled = |orders: &[Matrix3<f64>]| -> Vec<Matrix3<f64>> {
         orders.iter().flat_map(|order| gains.iter().map(move |gain| order * *gain)).collect()
     };
-    let (mut median_rad, mut matrix) = best(&scaled(&[Matrix3::identity()]))?;
+    let (mut found, mut matrix) = best(&scaled(&[Matrix3::identity()]))?;
     let mut axes = None;
-    if median_rad > WRONG {
-        let orders = orders();
-        if let Some((other, found)) = best(&scaled(&orders)).filter(|(other, _)| *other < 0.5 * median_rad) {
-            (median_rad, matrix) = (other, found);
+    if found.median_rad > WRONG {
+        let better = best(&scaled(&orders())).filter(|(other, _)| other.median_rad < 0.5 * found.median_rad);
+        if let Some(other) = better {
+            (found, matrix) = other;
             axes = Some(names(&matrix));
         }
     }
-    let found = Start { imu: with(matrix), median_rad, axes };
-    Some(if median_rad <= WRONG { fewer_upside_down(&matrix).unwrap_or(found) } else { found })
+    let Judged { median_rad, upside_down } = found;
+    let upright = if median_rad <= WRONG { fewer_upside_down(&matrix, upside_down) } else { None };
+    Some(upright.unwrap_or_else(|| Start { imu: with(matrix), median_rad, axes }))
+}
+
+/// How far gravity misses after the rotations, for one matrix of the gyroscope.
+pub(super) struct Judged {
+    /// Median of the angles, rad.
+    pub(super) median_rad: f64,
+    /// How many are beyond a right angle.
+    upside_down: usize,
 }
 
 /// The rotations cut down.
@@ -127,24 +141,15 @@ impl FirstLook {
         Self { rotations: used.map(cut_down).collect() }
     }
 
-    /// Median over the rotations of the angle by which gravity misses, for this matrix of the gyroscope.
-    pub(super) fn median(&self, matrix: &Matrix3<f64>) -> Option<f64> {
-        let mut errors = self.errors(matrix).filter(|errors| !errors.is_empty())?;
-        let middle = errors.len() / 2;
-        Some(*errors.select_nth_unstable_by(middle, f64::total_cmp).1)
-    }
-
-    /// How many rotations gravity misses by more than a right angle.
-    fn upside_down(&self, matrix: &Matrix3<f64>) -> Option<usize> {
-        Some(self.errors(matrix)?.into_iter().filter(|error| *error > FRAC_PI_2).count())
-    }
-
-    fn errors(&self, matrix: &Matrix3<f64>) -> Option<Vec<f64>> {
+    /// Looks at a matrix of the gyroscope; `None` where it is singular, or there are no rotations.
+    pub(super) fn judge(&self, matrix: &Matrix3<f64>) -> Option<Judged> {
         let correction = matrix.try_inverse()?;
         let error = |rotation: &CutDown| {
             carried_back(&rotation.turns, &correction, &rotation.from).angle(&rotation.to)
         };
-        Some(self.rotations.iter().map(error).collect())
+        let errors: Vec<f64> = self.rotations.iter().map(error).collect();
+        let upside_down = errors.iter().filter(|error| **error > FRAC_PI_2).count();
+        (!errors.is_empty()).then(|| Judged { median_rad: median(errors), upside_down })
     }
 }
 

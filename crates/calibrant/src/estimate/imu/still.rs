@@ -1,10 +1,9 @@
 //! The gyroscope in the holds: its bias, its noise, and how far it wanders between them.
 
 use super::joint::HoldData;
-use super::turned::RESTLESS;
+use super::turned::restless_from;
 use crate::estimate::CoarseAxis;
 use crate::estimate::excess::excess;
-use crate::estimate::holds::median;
 use crate::estimate::quantisation::of_means;
 use crate::motion::Hold;
 use crate::sensor::{MeanReading, Recording, ThermalTerm, TriadThermal};
@@ -23,11 +22,9 @@ pub(super) fn usual_scatter(stills: &[Option<MeanReading>], gyroscope: &Recordin
     if sds.is_empty() {
         return Vector3::zeros();
     }
-    let step = gyroscope.resolution();
-    let most = Vector3::from_fn(|axis, _| {
-        RESTLESS * median(sds.iter().map(|sd| sd[axis]).collect()).max(step[axis])
-    });
-    let calm = stills.iter().flatten().zip(&sds).filter(|(_, sd)| (0..3).all(|axis| sd[axis] <= most[axis]));
+    let restless = restless_from(&sds, gyroscope);
+    let calm =
+        stills.iter().flatten().zip(&sds).filter(|(_, sd)| (0..3).all(|axis| sd[axis] <= restless[axis]));
     MeanReading::pooled_sd(calm.map(|(still, _)| still))
 }
 

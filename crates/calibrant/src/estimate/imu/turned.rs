@@ -12,9 +12,15 @@ const DEVIATIONS: f64 = 12.0;
 /// … and by this share of the recording's range: a bias that drifts is not.
 const TURNING: f64 = 0.005;
 /// It turns, too, in a hold in which it scatters so many times as much as in half of the holds.
-pub(super) const RESTLESS: f64 = 4.0;
+const RESTLESS: f64 = 4.0;
 /// Fewer holds do not tell which of them is the exception.
 const FEWEST: usize = 4;
+
+/// From which standard deviation of its samples on the gyroscope turns in a hold, by those in all of them, at least one; coarse steps scatter by themselves.
+pub(super) fn restless_from(sds: &[Vector3<f64>], gyroscope: &Recording) -> Vector3<f64> {
+    let step = gyroscope.resolution();
+    Vector3::from_fn(|axis, _| RESTLESS * median(sds.iter().map(|sd| sd[axis]).collect()).max(step[axis]))
+}
 
 /// Takes out what the gyroscope shows in the holds in which it turns, and says so for each. `numbers`: those of the holds, from 0; `drifts`: does its bias follow temperature?
 pub(super) fn take_out(
@@ -29,7 +35,8 @@ pub(super) fn take_out(
     let scatter: Vec<Option<Vector3<f64>>> =
         stills.iter().map(|still| still.as_ref().map(|still| MeanReading::pooled_sd([still]))).collect();
     let mut turning = vec![None; stills.len()];
-    let step = gyroscope.resolution();
+    let sds: Vec<Vector3<f64>> = scatter.iter().flatten().copied().collect();
+    let restless = restless_from(&sds, gyroscope);
     let [low, high] = gyroscope.extremes();
     let least = if drifts { f64::INFINITY } else { TURNING * (high - low).amax() };
     for axis in Axis::ALL {
@@ -37,11 +44,10 @@ pub(super) fn take_out(
         let middle = median(stills.iter().flatten().map(|still| still.mean[axis]).collect());
         let deviation =
             median(stills.iter().flatten().map(|still| (still.mean[axis] - middle).abs()).collect());
-        let usual = median(scatter.iter().flatten().map(|sd| sd[axis]).collect()).max(step[axis]);
         for (j, (still, sd)) in stills.iter().zip(&scatter).enumerate() {
             let (Some(still), Some(sd)) = (still, sd) else { continue };
             let off = still.mean[axis] - middle;
-            if off.abs() > (DEVIATIONS * deviation).max(least) || sd[axis] > RESTLESS * usual {
+            if off.abs() > (DEVIATIONS * deviation).max(least) || sd[axis] > restless[axis] {
                 let rate = off.hypot(sd[axis]);
                 let most = turning[j].map_or(rate, |most: f64| most.max(rate));
                 turning[j] = Some(most);

@@ -242,8 +242,8 @@ pub(super) fn plausible(
     );
     if unit == ReadingUnit::RadianPerSecond {
         let per_degree = state.imu.gyroscope.matrix * (180.0 / std::f64::consts::PI);
-        let median = FirstLook::of(joint, state).median(&per_degree);
-        if median.is_some_and(|median| median < 0.5 * start.median_rad) {
+        let so_read = FirstLook::of(joint, state).judge(&per_degree);
+        if so_read.is_some_and(|look| look.median_rad < 0.5 * start.median_rad) {
             return Err(Error::recording(Complaint::new(
                 format!(
                     "the gyroscope's readings are in deg/s, not rad/s: so read, the rotations miss gravity by {degrees:.0}°"

@@ -73,7 +73,8 @@ pub(super) fn weigh(
     // those that end upside down are far from where the problem is linear, and a few of them would hide each other
     let upright: Vec<bool> =
         misses.iter().map(|miss| miss.as_ref().is_some_and(|miss| miss.error.norm() < FRAC_PI_2)).collect();
-    let mut used = if 2 * count(&upright) > linear.size + 4 { upright } else { is_there };
+    let are_enough = |used: &[bool]| 2 * count(used) > linear.size + 4;
+    let mut used = if are_enough(&upright) { upright } else { is_there };
     let mut excess;
     let mut solved;
     let (mut rounds, most) = (0, ROUNDS.max(2 * misses.len()));
@@ -89,7 +90,7 @@ pub(super) fn weigh(
             .min_by(|&a, &b| studentised[a].total_cmp(&studentised[b]));
         rounds += 1;
         match (worst, best) {
-            (Some(i), _) if 2 * count(&used) > linear.size + 4 && rounds < most => used[i] = false,
+            (Some(i), _) if are_enough(&used) && rounds < most => used[i] = false,
             (_, Some(i)) if rounds < most => used[i] = true,
             _ => {
                 return Some(Weighed {

@@ -41,6 +41,7 @@ pub use reordered::readings_in_common;
 pub use result::*;
 pub use same::noise_in_common;
 
+use super::holds::median;
 use super::imu::{needed_temperatures, recordings};
 use super::{
     Calibration, CalibrationProblem, HoldCalibration, HoldsSetup, ImuCalibration, ImuProblem, Recovered,
@@ -124,9 +125,7 @@ fn on_another(claim: &Claim, unused: Unused<'_>) -> Result<Validation> {
     if open.is_some() {
         errors = unused.errors(claim).ok_or_else(singular)?;
     }
-    let mut sizes: Vec<f64> = errors.magnitudes.items.iter().map(|item| item.error[0].abs()).collect();
-    sizes.sort_by(f64::total_cmp);
-    let median = sizes[sizes.len() / 2];
+    let median = median(errors.magnitudes.items.iter().map(|item| item.error[0].abs()).collect());
     if median > ANOTHER_SENSOR * claim.gravity_mps2 {
         return Err(Error::recording(Complaint::new(
             format!("with this calibration, its holds miss the magnitude of gravity by {median:.2} m/s²"),

@@ -10,6 +10,7 @@
 //! Noise of its own makes `r(0)` about zero, the same noise nearly 1: what is left after rounding. A hum that both hear is as much in step at other shifts `l`, so that
 //! `r(0)` must stand out among them. The median does not mind if a machine settles in the same way in the beginning of each hold.
 
+use crate::estimate::holds::median;
 use crate::motion::Hold;
 use crate::sensor::{Recording, interpolated};
 use nalgebra::Vector3;
@@ -112,7 +113,7 @@ impl Differences {
     /// `r(l)`; `None` where too few blocks have noise in both.
     fn correlation(&self, shift: usize) -> Option<f64> {
         let blocks = self.one.chunks_exact(BLOCK).zip(self.other.get(shift..)?.chunks_exact(BLOCK));
-        let mut found: Vec<f64> = blocks
+        let found: Vec<f64> = blocks
             .filter_map(|(one, other)| {
                 let power = |of: &[Vector3<f64>]| of.iter().map(Vector3::norm_squared).sum::<f64>();
                 let product: f64 = one.iter().zip(other).map(|(u, v)| u.dot(v)).sum();
@@ -123,7 +124,6 @@ impl Differences {
         if found.len() < LEAST_BLOCKS {
             return None;
         }
-        let middle = found.len() / 2;
-        Some(*found.select_nth_unstable_by(middle, f64::total_cmp).1)
+        Some(median(found))
     }
 }

@@ -55,6 +55,15 @@ impl ImuReadOptions {
         }
     }
 
+    /// These options with this unit of a sensor.
+    #[must_use]
+    pub fn with_unit(self, triad: Triad, unit: Option<ImuUnit>) -> Self {
+        match triad {
+            Triad::Accelerometer => Self { accelerometer_unit: unit, ..self },
+            Triad::Gyroscope => Self { gyroscope_unit: unit, ..self },
+        }
+    }
+
     /// These options, and those of `other` where these say nothing.
     #[must_use]
     pub fn or(self, other: Self) -> Self {
