@@ -3,6 +3,7 @@
 mod imu;
 mod imu_noise;
 mod imu_output;
+mod many;
 mod validation;
 
 use crate::place::same_file;
@@ -14,20 +15,18 @@ use calibrant::estimate::{
     Calibration, CalibrationProblem, CalibrationSettings, HoldsSetup, Recovered, Stimulus, calibrate,
 };
 use calibrant::io::{
-    Experiment, ImuReadOptions, Input, Plan, Prior, ReadOptions, RecordingFile, SummaryRow, calibration_json,
-    read_accelerometer, read_motion, write_atomically, write_calibration, write_summary,
+    Experiment, ImuReadOptions, Input, Plan, Prior, ReadOptions, RecordingFile, Summary, calibration_json,
+    read_accelerometer, read_motion, write_atomically, write_calibration,
 };
 use calibrant::motion::CommandedMotion;
 use calibrant::report::{About, calibration_report, number};
 use calibrant::sensor::{ReadingUnit, Recording};
-use rayon::prelude::*;
-use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 /// Calibrate sensors from their recordings.
 ///
 /// Writes calibration.json and report.html into DIR; with several recordings into a subfolder of DIR for each, named after its file, and
-/// DIR/summary.csv. One bad recording does not stop the others; the exit status is then the highest of all. An IMU is calibrated from one recording at a time.
+/// DIR/summary.csv. One bad recording does not stop the others; the exit status is then the highest of all.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
     /// The experiment file (see `calibrant init`).
@@ -38,9 +37,9 @@ pub(crate) struct Arguments {
     /// The commanded motion (nodes: t_s,ax_mps2,ay_mps2,az_mps2); a [holds] experiment needs none.
     #[arg(long, value_name = "CSV")]
     motion: Option<PathBuf>,
-    /// The gyroscope's file, where an IMU's sensors have a file each (imu_tk).
+    /// The gyroscope's file, where an IMU's sensors have a file each (imu_tk); with several recordings once for each, in their order.
     #[arg(long, value_name = "FILE")]
-    gyroscope: Option<PathBuf>,
+    gyroscope: Vec<PathBuf>,
     /// List of the sections of a Ferraris session (JSON, as imucal writes it): faces and turns.
     #[arg(long, value_name = "JSON")]
     sections: Option<PathBuf>,
@@ -123,7 +122,9 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     let job = Job::prepare(arguments, experiment)?;
     let [recording] = arguments.recordings.as_slice() else {
         validation::only_one(arguments)?;
-        return run_many(&job, arguments);
+        return many::run(arguments, &["p-value"], |number, directory| {
+            job.one_of_many(&arguments.recordings[number], directory, arguments)
+        });
     };
     let outcome = job.run(recording).and_then(|mut done| {
         done.calibration.validations = validation::of_accelerometer(&job, arguments, &done)?;
@@ -144,7 +145,7 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
 
 impl Job {
     fn prepare(arguments: &Arguments, experiment: Experiment) -> calibrant::Result<Self> {
-        if arguments.gyroscope.is_some() || arguments.sections.is_some() {
+        if !arguments.gyroscope.is_empty() || arguments.sections.is_some() {
             console::warn("--gyroscope and --sections are not used: they are for kind = \"imu\"");
         }
         let (mut command, mut holds) = (None, None);
@@ -227,6 +228,24 @@ impl Job {
         CalibrationProblem { sensor: &self.experiment.sensor, recording, stimulus }
     }
 
+    /// Calibrates one of several recordings.
+    fn one_of_many(&self, path: &Path, directory: &Path, arguments: &Arguments) -> many::Outcome {
+        let done = self.run(path).and_then(|done| self.write(&done, path, directory).map(|()| done));
+        match done {
+            Err(error) => many::Outcome { findings: Vec::new(), calibrated: Err(error) },
+            Ok(Done { file, calibration, input }) => many::Outcome {
+                findings: file.findings,
+                calibrated: Ok(many::Calibrated {
+                    status: calibration.status,
+                    cells: vec![calibration.fit.p_value.map_or_else(|| "–".into(), number::probability)],
+                    summary: Summary::of(&calibration),
+                    json: arguments.json.then(|| calibration_json(&calibration, &input)),
+                    warnings: calibration.warnings,
+                }),
+            },
+        }
+    }
+
     /// Writes calibration.json and report.html.
     fn write(&self, done: &Done, path: &Path, directory: &Path) -> calibrant::Result<()> {
         write_calibration(&directory.join("calibration.json"), &done.calibration, &done.input)?;
@@ -282,106 +301,4 @@ fn show(done: &Done, arguments: &Arguments) {
     console::print(&console::fit(&done.calibration));
     console::print(&console::validations(&done.calibration.validations));
     console::print(&format!("\n{}\n", arguments.main_result().display()));
-}
-
-/// Calibrates many recordings in parallel. None stops the others.
-fn run_many(job: &Job, arguments: &Arguments) -> calibrant::Result<Exit> {
-    let folders = folders(&arguments.recordings);
-    let bar = console::progress(arguments.recordings.len() as u64, "calibrating");
-    let outcomes: Vec<calibrant::Result<Done>> = arguments
-        .recordings
-        .par_iter()
-        .zip(&folders)
-        .map(|(path, folder)| {
-            let done = job.run(path).and_then(|mut done| {
-                job.write(&done, path, &arguments.output.join(folder))?;
-                // thousands of recordings need not stay in memory
-                done.file.recording.times_s = Vec::new();
-                done.file.recording.readings = Vec::new();
-                if !arguments.json {
-                    done.calibration.residuals = Vec::new();
-                }
-                Ok(done)
-            });
-            bar.inc(1);
-            done
-        })
-        .collect();
-    bar.finish_and_clear();
-
-    let mut exit = Exit::DONE;
-    let mut rows = Vec::new();
-    for ((path, folder), outcome) in arguments.recordings.iter().zip(&folders).zip(&outcomes) {
-        match outcome {
-            Ok(done) => {
-                for finding in &done.file.findings {
-                    console::finding(folder, finding);
-                }
-                for warning in &done.calibration.warnings {
-                    console::warn(&format!("{folder}: {warning}"));
-                }
-                exit = exit.max(Exit::of_status(done.calibration.status));
-                let p = done.calibration.fit.p_value.map_or_else(|| "–".into(), number::probability);
-                rows.push(vec![
-                    folder.clone(),
-                    done.calibration.status.name().into(),
-                    p,
-                    done.calibration.warnings.len().to_string(),
-                ]);
-            }
-            Err(error) => {
-                console::error_in(error, path);
-                exit = exit.max(Exit::of(error));
-                rows.push(vec![folder.clone(), "ERROR".into(), "–".into(), "–".into()]);
-            }
-        }
-    }
-    let summary: Vec<_> = folders
-        .iter()
-        .zip(&outcomes)
-        .map(|(folder, outcome)| SummaryRow {
-            file: folder.clone(),
-            outcome: outcome.as_ref().map(|done| &done.calibration).map_err(ToString::to_string),
-        })
-        .collect();
-    let path = arguments.output.join("summary.csv");
-    write_summary(&path, &summary)?;
-    if arguments.json {
-        let texts: Vec<_> =
-            outcomes.iter().flatten().map(|done| calibration_json(&done.calibration, &done.input)).collect();
-        console::print(&format!("[\n{}]\n", texts.join(",\n")));
-    } else {
-        console::print(&console::table(&["recording", "status", "p-value", "warnings"], &rows));
-        let failed = outcomes.iter().filter(|outcome| outcome.is_err()).count();
-        console::print(&format!(
-            "\n{} calibrated, {failed} failed: {}\n",
-            outcomes.len() - failed,
-            path.display()
-        ));
-    }
-    Ok(exit)
-}
-
-/// A subfolder for each recording: its name without ending, with a number where names repeat (capitals or not: not every file system
-/// tells them apart), or where another file of DIR has that name.
-fn folders(recordings: &[PathBuf]) -> Vec<String> {
-    let stem = |path: &PathBuf| {
-        let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
-        // `...csv` is a name without its ending, too: `..`
-        stem.filter(|stem| stem != "." && stem != "..").unwrap_or_else(|| "recording".into())
-    };
-    let mut seen = HashSet::from(["summary.csv".to_owned()]);
-    let mut taken: HashSet<String> = recordings.iter().map(|path| stem(path).to_lowercase()).collect();
-    recordings
-        .iter()
-        .map(|path| {
-            let stem = stem(path);
-            if seen.insert(stem.to_lowercase()) {
-                return stem;
-            }
-            let numbered = |k: usize| format!("{stem}-{k}");
-            let free = (2..).map(numbered).find(|name| taken.insert(name.to_lowercase()));
-            free.unwrap_or(stem)
-        })
-        .collect()
 }

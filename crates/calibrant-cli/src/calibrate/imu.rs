@@ -2,33 +2,49 @@
 
 use super::Arguments;
 use super::imu_noise::LongestHold;
+use super::many::{Calibrated, Outcome};
 use crate::reading::{in_file, name};
 use crate::{Exit, console};
 use calibrant::Error;
 use calibrant::error::Complaint;
 use calibrant::estimate::{
-    CalibrationSettings, ImuProblem, ImuSetup, Turn, calibrate_imu_while, find_imu_holds,
+    CalibrationSettings, ImuCalibration, ImuProblem, ImuSetup, Turn, calibrate_imu_while, find_imu_holds,
 };
 use calibrant::io::{
     Experiment, HoldsPlan, ImuFile, ImuPlan, ImuReadOptions, ImuUnit, Input, Plan, Section, SectionKind,
-    read_sections,
+    Summary, imu_calibration_json, read_sections,
 };
 use calibrant::noise::TriadNoise;
+use calibrant::report::number;
 use calibrant::sensor::{ReadingUnit, Recording, Triad};
-use std::path::Path;
+use std::path::{Path, PathBuf};
+
+/// An IMU that is calibrated.
+pub(super) struct Done {
+    pub(super) calibration: ImuCalibration,
+    pub(super) file: ImuFile,
+    pub(super) inputs: Vec<Input>,
+}
+
+/// What all recordings of a call share.
+struct Job<'a> {
+    arguments: &'a Arguments,
+    experiment: &'a Experiment,
+    plan: &'a ImuPlan,
+    holds: &'a HoldsPlan,
+    options: ImuReadOptions,
+}
+
+/// A recording: one file for both sensors, or one for each.
+#[derive(Clone, Copy)]
+struct Files<'a> {
+    path: &'a Path,
+    gyroscope: Option<&'a Path>,
+}
 
 pub(super) fn run(arguments: &Arguments, experiment: &Experiment, plan: &ImuPlan) -> calibrant::Result<Exit> {
     let Plan::Holds(holds) = &experiment.plan else {
-        return Err(Error::Experiment(Box::new(Complaint::new(
-            "an IMU needs [holds]",
-            "see `calibrant init imu`",
-        ))));
-    };
-    let [path] = arguments.recordings.as_slice() else {
-        return Err(Error::Experiment(Box::new(Complaint::new(
-            "an IMU is calibrated from one recording at a time",
-            "where the gyroscope has a file of its own, give it with --gyroscope FILE",
-        ))));
+        return refuse("an IMU needs [holds]", "see `calibrant init imu`");
     };
     if arguments.unit.is_some() {
         console::warn("--unit is not used for an IMU: say --accelerometer-unit and --gyroscope-unit");
@@ -36,57 +52,131 @@ pub(super) fn run(arguments: &Arguments, experiment: &Experiment, plan: &ImuPlan
     if arguments.motion.is_some() {
         console::warn("--motion is not used: an IMU is calibrated from holds and what lies between them");
     }
-    let options = options(arguments, experiment, plan);
-    let read =
-        |options: &ImuReadOptions| super::validation::read(path, arguments.gyroscope.as_deref(), options);
-    let file = read(&options)
-        .map_err(|error| contradicted_key(arguments, experiment, &options, read).unwrap_or(error))?;
-    for finding in &file.findings {
-        console::finding(&name(path), finding);
+    let job = Job { arguments, experiment, plan, holds, options: options(arguments, experiment, plan) };
+    let recordings = recordings(arguments)?;
+    if let [files] = recordings.as_slice() {
+        let file = job.read(*files)?;
+        for finding in &file.findings {
+            console::finding(&name(files.path), finding);
+        }
+        let done = job.calibrate(*files, file, &arguments.output)?;
+        for warning in &done.calibration.warnings {
+            console::warn(warning);
+        }
+        super::imu_output::show(arguments, &done);
+        return Ok(Exit::of_status(done.calibration.status));
     }
-    let mut setup = setup(arguments, plan, holds, &file)?;
-    if setup.holds.intervals_s.is_none() {
-        // an error is the calibration's to tell
-        setup.found = find_imu_holds(&file.recording, setup.holds.minimum_hold_s).ok();
+    super::validation::only_one(arguments)?;
+    if arguments.sections.is_some() {
+        return refuse(
+            "--sections is the list of one recording, and several are given",
+            "calibrate one recording at a time with its list",
+        );
     }
-    let (accelerometer, gyroscope, recording) = (&experiment.sensor, &plan.gyroscope, &file.recording);
-    let problem = ImuProblem { accelerometer, gyroscope, recording, setup: &setup };
-    let longest = LongestHold::of(&setup, &file.recording);
-    let noise = |triad: Triad| longest.as_ref()?.noise(triad, recording);
-    let (mut of_gyroscope, mut white_noise) = (None, None);
-    let find_white_noise = || {
-        of_gyroscope = noise(Triad::Gyroscope);
-        white_noise = longest.as_ref()?.white_noise(of_gyroscope.as_ref()?);
-        white_noise
-    };
-    let (calibration, (inputs, of_accelerometer)) = rayon::join(
-        || calibrate_imu_while(&problem, &CalibrationSettings::default(), find_white_noise),
-        || {
-            let for_report = !arguments.no_report;
-            (inputs(arguments, path, &file), for_report.then(|| noise(Triad::Accelerometer)).flatten())
-        },
-    );
-    let mut calibration = calibration.map_err(|error| in_file(error, path))?;
-    calibration.warnings.extend(of_gyroscope.iter().flat_map(TriadNoise::of_outliers));
-    setup.white_noise = white_noise;
-    let problem = ImuProblem { accelerometer, gyroscope, recording, setup: &setup };
-    calibration.validations = super::validation::of_imu(arguments, &options, &calibration, &problem, &file)?;
-    let noise: Vec<TriadNoise> = of_accelerometer.into_iter().chain(of_gyroscope).collect();
-    super::imu_output::write(arguments, &calibration, &file, noise, &inputs)?;
-    for warning in &calibration.warnings {
-        console::warn(warning);
-    }
-    super::imu_output::show(arguments, &calibration, &inputs);
-    Ok(Exit::of_status(calibration.status))
+    let columns = ["holds used", "rotations used", "|f|−g mm/s²", "gravity error °"];
+    super::many::run(arguments, &columns, |number, directory| job.one_of_many(recordings[number], directory))
 }
 
-/// The files, for calibration.json.
-fn inputs(arguments: &Arguments, path: &Path, file: &ImuFile) -> Vec<Input> {
-    let paths = std::iter::once(path).chain(arguments.gyroscope.as_deref());
-    paths
-        .zip(Triad::ALL)
-        .zip(&file.sha256)
-        .map(|((path, triad), sha256)| {
+fn refuse<T>(what: &str, help: &str) -> calibrant::Result<T> {
+    Err(Error::Experiment(Box::new(Complaint::new(what, help))))
+}
+
+/// The recordings with their gyroscopes' files.
+fn recordings(arguments: &Arguments) -> calibrant::Result<Vec<Files<'_>>> {
+    let (recordings, gyroscopes) = (&arguments.recordings, &arguments.gyroscope);
+    if !gyroscopes.is_empty() && gyroscopes.len() != recordings.len() {
+        return refuse(
+            &format!(
+                "{} of gyroscopes for {}",
+                number::counted(gyroscopes.len(), "file"),
+                number::counted(recordings.len(), "recording")
+            ),
+            "give --gyroscope FILE once for each recording, in their order, or not at all where the recordings have both sensors",
+        );
+    }
+    let gyroscope = |number: usize| gyroscopes.get(number).map(PathBuf::as_path);
+    Ok(recordings.iter().enumerate().map(|(k, path)| Files { path, gyroscope: gyroscope(k) }).collect())
+}
+
+impl Job<'_> {
+    fn read(&self, files: Files<'_>) -> calibrant::Result<ImuFile> {
+        let read = |options: &ImuReadOptions| super::validation::read(files.path, files.gyroscope, options);
+        read(&self.options).map_err(|error| {
+            contradicted_key(self.arguments, self.experiment, &self.options, read).unwrap_or(error)
+        })
+    }
+
+    /// Calibrates the IMU and writes what came of it.
+    fn calibrate(&self, files: Files<'_>, file: ImuFile, directory: &Path) -> calibrant::Result<Done> {
+        let Self { arguments, experiment, plan, holds, options } = self;
+        let mut setup = setup(arguments, plan, holds, &file)?;
+        if setup.holds.intervals_s.is_none() {
+            // an error is the calibration's to tell
+            setup.found = find_imu_holds(&file.recording, setup.holds.minimum_hold_s).ok();
+        }
+        let (accelerometer, gyroscope, recording) = (&experiment.sensor, &plan.gyroscope, &file.recording);
+        let problem = ImuProblem { accelerometer, gyroscope, recording, setup: &setup };
+        let longest = LongestHold::of(&setup, &file.recording);
+        let noise = |triad: Triad| longest.as_ref()?.noise(triad, recording);
+        let (mut of_gyroscope, mut white_noise) = (None, None);
+        let find_white_noise = || {
+            of_gyroscope = noise(Triad::Gyroscope);
+            white_noise = longest.as_ref()?.white_noise(of_gyroscope.as_ref()?);
+            white_noise
+        };
+        let (calibration, (inputs, of_accelerometer)) = rayon::join(
+            || calibrate_imu_while(&problem, &CalibrationSettings::default(), find_white_noise),
+            || {
+                let for_report = !arguments.no_report;
+                (files.inputs(&file), for_report.then(|| noise(Triad::Accelerometer)).flatten())
+            },
+        );
+        let mut calibration = calibration.map_err(|error| in_file(error, files.path))?;
+        calibration.warnings.extend(of_gyroscope.iter().flat_map(TriadNoise::of_outliers));
+        setup.white_noise = white_noise;
+        let problem = ImuProblem { accelerometer, gyroscope, recording, setup: &setup };
+        calibration.validations =
+            super::validation::of_imu(arguments, options, &calibration, &problem, &file)?;
+        let noise: Vec<TriadNoise> = of_accelerometer.into_iter().chain(of_gyroscope).collect();
+        let done = Done { calibration, file, inputs };
+        super::imu_output::write(arguments, directory, &done, noise)?;
+        Ok(done)
+    }
+
+    fn one_of_many(&self, files: Files<'_>, directory: &Path) -> Outcome {
+        let file = match self.read(files) {
+            Ok(file) => file,
+            Err(error) => return Outcome { findings: Vec::new(), calibrated: Err(error) },
+        };
+        let findings = file.findings.clone();
+        Outcome { findings, calibrated: self.calibrate(files, file, directory).map(|done| self.told(done)) }
+    }
+
+    fn told(&self, Done { calibration, inputs, .. }: Done) -> Calibrated {
+        let json = self.arguments.json.then(|| imu_calibration_json(&calibration, &inputs));
+        let magnitude = calibration.holds.magnitude_residual_rms_mps2;
+        let cells = vec![
+            share(calibration.holds.holds.iter().map(|hold| hold.used)),
+            share(calibration.rotations.iter().map(|rotation| rotation.used)),
+            number::significant(1e3 * magnitude, 3),
+            number::significant(calibration.rotation_rms_rad().to_degrees(), 2),
+        ];
+        let (status, summary) = (calibration.status, Summary::of_imu(&calibration));
+        Calibrated { status, warnings: calibration.warnings, cells, summary, json }
+    }
+}
+
+/// How many of them are used, in words.
+fn share(used: impl ExactSizeIterator<Item = bool>) -> String {
+    let all = used.len();
+    format!("{} of {all}", used.filter(|used| *used).count())
+}
+
+impl Files<'_> {
+    /// What calibration.json says of them.
+    fn inputs(self, file: &ImuFile) -> Vec<Input> {
+        let paths = std::iter::once(self.path).chain(self.gyroscope);
+        let input = |((path, triad), sha256): ((&Path, Triad), &String)| {
             let readings = file.recording.triad(triad);
             Input {
                 file: name(path),
@@ -94,8 +184,9 @@ fn inputs(arguments: &Arguments, path: &Path, file: &ImuFile) -> Vec<Input> {
                 samples: readings.map_or(0, Recording::len),
                 rate_hz: readings.map_or(0.0, Recording::rate_hz),
             }
-        })
-        .collect()
+        };
+        paths.zip(Triad::ALL).zip(&file.sha256).map(input).collect()
+    }
 }
 
 /// What the user says of the file: the command line first, then `[columns]`, then the units of the sensors.

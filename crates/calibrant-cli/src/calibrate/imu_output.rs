@@ -1,26 +1,26 @@
 //! What a calibrated IMU is written to, and shown as.
 
 use super::Arguments;
+use super::imu::Done;
 use super::imu_noise::physical;
 use crate::console;
-use calibrant::estimate::ImuCalibration;
-use calibrant::io::{ImuFile, Input, imu_calibration_json, write_atomically, write_imu_calibration};
+use calibrant::io::{Input, imu_calibration_json, write_atomically, write_imu_calibration};
 use calibrant::noise::TriadNoise;
 use calibrant::report::{About, imu_calibration_report, number};
 use rayon::prelude::*;
+use std::path::Path;
 
 /// Writes calibration.json and report.html.
 pub(super) fn write(
     arguments: &Arguments,
-    calibration: &ImuCalibration,
-    file: &ImuFile,
+    directory: &Path,
+    Done { calibration, file, inputs }: &Done,
     noise: Vec<TriadNoise>,
-    inputs: &[Input],
 ) -> calibrant::Result<()> {
-    let json = arguments.output.join("calibration.json");
+    let json = directory.join("calibration.json");
     let json = || write_imu_calibration(&json, calibration, inputs);
     if arguments.no_report {
-        super::warn_of_earlier_report(&arguments.output);
+        super::warn_of_earlier_report(directory);
         return json();
     }
     let of_inputs = |of: &dyn Fn(&Input) -> String| inputs.iter().map(of).collect::<Vec<_>>().join(" and ");
@@ -45,14 +45,14 @@ pub(super) fn write(
     let noise = noise.into_par_iter().map(physical).collect::<calibrant::Result<Vec<_>>>()?;
     let report = || {
         let html = imu_calibration_report(calibration, &file.recording, &noise, &about);
-        write_atomically(&arguments.output.join("report.html"), |out| out.write_all(html.as_bytes()))
+        write_atomically(&directory.join("report.html"), |out| out.write_all(html.as_bytes()))
     };
     let (json, report) = rayon::join(json, report);
     json.and(report)
 }
 
 /// Prints the tables, or calibration.json.
-pub(super) fn show(arguments: &Arguments, calibration: &ImuCalibration, inputs: &[Input]) {
+pub(super) fn show(arguments: &Arguments, Done { calibration, inputs, .. }: &Done) {
     if arguments.json {
         return console::print(&imu_calibration_json(calibration, inputs));
     }

@@ -119,3 +119,86 @@ fn the_motion_is_no_recording() {
         &["simulated/motion.csv is both the motion and a recording", "leave it out of the recordings"],
     );
 }
+
+/// Three IMUs of one kind, and a broken file.
+fn imus() -> Bench {
+    let bench = Bench::new();
+    bench.preset("imu", "imu.toml", &[]);
+    for seed in 1..=3 {
+        bench.run(&format!("simulate imu.toml --seed {seed} -o made{seed}")).done();
+        bench.write(&format!("imu{seed}.csv"), bench.read(&format!("made{seed}/recording.csv")));
+    }
+    bench
+}
+
+#[test]
+fn every_imu_is_calibrated_as_if_it_were_alone() {
+    let bench = imus();
+    bench.write("broken.csv", "t_s,ax_mps2,ay_mps2,az_mps2,gx_radps,gy_radps,gz_radps\n0,1,2,oops,4,5,6\n");
+    let outcome = bench.run("calibrate imu.toml imu1.csv broken.csv imu2.csv imu3.csv -o all");
+    assert_eq!(outcome.status, 3, "{outcome:?}");
+    outcome.says("broken.csv:2:");
+    assert!(outcome.stdout.contains("3 calibrated, 1 failed: all/summary.csv"), "{outcome:?}");
+    let summary = bench.read("all/summary.csv");
+    let rows: Vec<Vec<&str>> = summary.lines().map(|row| row.split(',').collect()).collect();
+    assert_eq!(rows[0][..5], ["file", "status", "error", "holds", "holds_used"], "{summary}");
+    assert_eq!((rows[2][0], rows[2][1]), ("broken", "error"), "{summary}");
+    let column = |name: &str| rows[0].iter().position(|column| *column == name).expect(name);
+    for (row, seed) in [(1, 1), (3, 2), (4, 3)] {
+        bench.run(&format!("calibrate imu.toml imu{seed}.csv -o alone{seed}")).done();
+        let file = |directory: &str| bench.read(&format!("{directory}/calibration.json"));
+        assert_eq!(file(&format!("all/imu{seed}")), file(&format!("alone{seed}")));
+        let calibration = bench.json(&format!("all/imu{seed}/calibration.json"));
+        for parameter in calibration["parameters"].as_array().expect("parameters") {
+            let ending = match parameter["unit"].as_str().expect("a unit") {
+                "m/s²" => "_mps2",
+                "rad/s" => "_radps",
+                "(rad/s)/(m/s²)" => "_radps_per_mps2",
+                "1" => "",
+                unit => panic!("{unit}"),
+            };
+            let name = parameter["name"].as_str().expect("a name");
+            let field =
+                |column_name: String| rows[row][column(&column_name)].parse::<f64>().expect("a number");
+            assert_eq!(Some(field(format!("{name}{ending}"))), parameter["value"].as_f64());
+            assert_eq!(Some(field(format!("{name}_sd{ending}"))), parameter["sd"].as_f64());
+        }
+    }
+    let printed = bench.run("calibrate imu.toml imu1.csv imu2.csv --json -o json").done();
+    let printed: serde_json::Value = serde_json::from_str(&printed.stdout).expect("an array");
+    assert_eq!(printed[1], bench.json("json/imu2/calibration.json"));
+}
+
+#[test]
+fn gyroscopes_with_files_of_their_own_go_with_their_accelerometers() {
+    let bench = imus();
+    for seed in 1..=2 {
+        let text = bench.read(&format!("imu{seed}.csv"));
+        for (name, columns) in [("acc", 1..4), ("gyro", 4..7)] {
+            let row = |line: &str| {
+                let fields: Vec<&str> = line.split(',').collect();
+                format!("{},{}\n", fields[0], fields[columns.clone()].join(","))
+            };
+            bench.write(&format!("{name}{seed}.csv"), text.lines().map(row).collect::<String>());
+        }
+    }
+    let command = "calibrate imu.toml acc1.csv acc2.csv --gyroscope gyro1.csv";
+    bench.run(&format!("{command} --gyroscope gyro2.csv -o out")).done();
+    for seed in 1..=2 {
+        bench.run(&format!("calibrate imu.toml imu{seed}.csv -o whole{seed}")).done();
+        let of = |directory: String| bench.json(&format!("{directory}/calibration.json"));
+        let (split, whole) = (of(format!("out/acc{seed}")), of(format!("whole{seed}")));
+        assert_eq!(split["inputs"][1]["file"], format!("gyro{seed}.csv"));
+        assert_eq!(split["parameters"], whole["parameters"]);
+    }
+    bench.refuses(
+        &format!("{command} -o out"),
+        2,
+        &["1 file of gyroscopes for 2 recordings", "give --gyroscope FILE once for each recording"],
+    );
+    bench.refuses(
+        "calibrate imu.toml imu1.csv imu2.csv --folds 3 -o out",
+        2,
+        &["one calibration is validated at a time"],
+    );
+}

@@ -2,49 +2,118 @@
 
 use super::output::write_atomically;
 use crate::error::Result;
-use crate::estimate::Calibration;
+use crate::estimate::{Calibration, CalibrationStatus, ImuCalibration};
+use crate::sensor::Parameter;
 use std::io;
 use std::path::Path;
 
 /// A recording and what came of it.
 #[derive(Debug, Clone)]
-pub struct SummaryRow<'a> {
+pub struct SummaryRow {
     /// Name of the recording's file.
     pub file: String,
     /// Its calibration, or why there is none.
-    pub outcome: std::result::Result<&'a Calibration, String>,
+    pub outcome: std::result::Result<Summary, String>,
 }
 
-/// Writes `summary.csv`: file, status, error, χ², degrees of freedom, p-value, then value and standard deviation of each parameter.
+/// What is kept of a calibration where there are thousands.
+#[derive(Debug, Clone)]
+pub struct Summary {
+    status: CalibrationStatus,
+    /// How good it is: name, with the unit at its end, and number.
+    quality: Vec<(&'static str, String)>,
+    parameters: Vec<Estimate>,
+}
+
+#[derive(Debug, Clone)]
+struct Estimate {
+    name: String,
+    /// Its unit, as it ends a column's name.
+    ending: &'static str,
+    value: f64,
+    sd: f64,
+}
+
+impl Summary {
+    /// Of an accelerometer: χ², degrees of freedom, p-value, and the parameters.
+    #[must_use]
+    pub fn of(calibration: &Calibration) -> Self {
+        let fit = &calibration.fit;
+        let estimates = calibration.values.iter().zip(calibration.sd());
+        let estimate = |(parameter, (value, sd)): (&Parameter, (&f64, f64))| Estimate {
+            name: parameter.name.clone(),
+            ending: ending(parameter.unit),
+            value: *value,
+            sd,
+        };
+        Self {
+            status: calibration.status,
+            quality: vec![
+                ("chi2", number(Some(fit.chi2))),
+                ("degrees_of_freedom", fit.degrees_of_freedom.to_string()),
+                ("p_value", number(fit.p_value)),
+            ],
+            parameters: calibration.parameters.iter().zip(estimates).map(estimate).collect(),
+        }
+    }
+
+    /// Of an IMU: holds and rotations, how many were used of them, root mean square of `|f| − g` in the holds and of the angles by which gravity misses after
+    /// the rotations, and the parameters.
+    #[must_use]
+    pub fn of_imu(calibration: &ImuCalibration) -> Self {
+        let (holds, rotations) = (&calibration.holds.holds, &calibration.rotations);
+        let good_holds = holds.iter().filter(|hold| hold.used).count();
+        let good_rotations = rotations.iter().filter(|rotation| rotation.used).count();
+        let angle = (good_rotations > 0).then(|| calibration.rotation_rms_rad());
+        let estimates = calibration.values.iter().zip(calibration.sd());
+        let parameters =
+            calibration.quantities.iter().zip(estimates).map(|(quantity, (value, sd))| Estimate {
+                name: quantity.name(),
+                ending: ending(calibration.unit_of(*quantity)),
+                value: *value,
+                sd,
+            });
+        Self {
+            status: calibration.status,
+            quality: vec![
+                ("holds", holds.len().to_string()),
+                ("holds_used", good_holds.to_string()),
+                ("rotations", rotations.len().to_string()),
+                ("rotations_used", good_rotations.to_string()),
+                ("magnitude_rms_mps2", number(Some(calibration.holds.magnitude_residual_rms_mps2))),
+                ("rotation_rms_rad", number(angle)),
+            ],
+            parameters: parameters.collect(),
+        }
+    }
+}
+
+/// Writes `summary.csv`: file, status, error, what tells how good the calibration is ([`Summary`]), then value and standard deviation of each parameter.
 ///
 /// Units are in the header (`bias.x_mps2`, `bias.x_sd_mps2`; nothing for pure numbers). A recording without a calibration has status
 /// `error`, the reason, and empty fields.
 ///
 /// # Errors
 /// [`Error::Output`](crate::Error::Output) where it cannot be written.
-pub fn write_summary(path: &Path, rows: &[SummaryRow<'_>]) -> Result<()> {
+pub fn write_summary(path: &Path, rows: &[SummaryRow]) -> Result<()> {
     // recordings of one experiment have the same parameters; the first calibration names them
     let named = rows.iter().find_map(|row| row.outcome.as_ref().ok());
-    let columns: Vec<(&str, &str)> = named.map_or_else(Vec::new, |calibration| {
-        calibration
-            .parameters
-            .iter()
-            .map(|parameter| (parameter.name.as_str(), ending(parameter.unit)))
-            .collect()
-    });
     write_atomically(path, |out| {
         let mut out = csv::Writer::from_writer(out);
-        let mut header: Vec<String> =
-            ["file", "status", "error", "chi2", "degrees_of_freedom", "p_value"].map(String::from).to_vec();
-        for (name, ending) in &columns {
-            header.extend([format!("{name}{ending}"), format!("{name}_sd{ending}")]);
+        let mut header = ["file", "status", "error"].map(String::from).to_vec();
+        if let Some(named) = named {
+            header.extend(named.quality.iter().map(|(name, _)| (*name).to_owned()));
+            for Estimate { name, ending, .. } in &named.parameters {
+                header.extend([format!("{name}{ending}"), format!("{name}_sd{ending}")]);
+            }
         }
         out.write_record(&header).map_err(io::Error::other)?;
         for row in rows {
             let mut fields = vec![row.file.clone()];
-            match &row.outcome {
-                Ok(calibration) => fields.extend(calibration_fields(calibration, &columns)),
-                Err(reason) => fields.extend(["error".into(), reason.clone()]),
+            match (&row.outcome, named) {
+                (Ok(summary), Some(named)) => fields.extend(summary.fields(named)),
+                (Ok(_), None) => {}
+                (Err(reason), _) => fields.extend(["error".into(), reason.clone()]),
             }
             fields.resize(header.len(), String::new());
             out.write_record(&fields).map_err(io::Error::other)?;
@@ -53,22 +122,18 @@ pub fn write_summary(path: &Path, rows: &[SummaryRow<'_>]) -> Result<()> {
     })
 }
 
-fn calibration_fields(calibration: &Calibration, columns: &[(&str, &str)]) -> Vec<String> {
-    let fit = &calibration.fit;
-    let mut fields = vec![
-        calibration.status.name().to_owned(),
-        String::new(),
-        number(Some(fit.chi2)),
-        fit.degrees_of_freedom.to_string(),
-        number(fit.p_value),
-    ];
-    let sd = calibration.sd();
-    for (name, _) in columns {
-        let at = calibration.parameters.iter().position(|parameter| parameter.name == *name);
-        fields.push(number(at.and_then(|at| calibration.values.get(at).copied())));
-        fields.push(number(at.and_then(|at| sd.get(at).copied())));
+impl Summary {
+    /// Its fields after the file's name, the parameters in the order of another's.
+    fn fields(&self, named: &Self) -> Vec<String> {
+        let mut fields = vec![self.status.name().to_owned(), String::new()];
+        fields.extend(self.quality.iter().map(|(_, text)| text.clone()));
+        for column in &named.parameters {
+            let found = self.parameters.iter().find(|estimate| estimate.name == column.name);
+            fields.push(number(found.map(|estimate| estimate.value)));
+            fields.push(number(found.map(|estimate| estimate.sd)));
+        }
+        fields
     }
-    fields
 }
 
 fn number(value: Option<f64>) -> String {
@@ -81,6 +146,17 @@ pub(super) fn ending(unit: &str) -> &'static str {
         "m/s²" => "_mps2",
         "counts" => "_counts",
         "counts/(m/s²)" => "_counts_per_mps2",
+        "rad/s" => "_radps",
+        "counts/(rad/s)" => "_counts_per_radps",
+        "(rad/s)/(m/s²)" => "_radps_per_mps2",
+        "m/s²/K" => "_mps2_per_k",
+        "m/s²/K²" => "_mps2_per_k2",
+        "rad/s/K" => "_radps_per_k",
+        "rad/s/K²" => "_radps_per_k2",
+        "counts/K" => "_counts_per_k",
+        "counts/K²" => "_counts_per_k2",
+        "1/K" => "_per_k",
+        "1/K²" => "_per_k2",
         _ => "",
     }
 }

@@ -6,7 +6,7 @@ use calibrant::estimate::{
     Uncalibrated, Whiteness,
 };
 use calibrant::io::{
-    Input, ReadOptions, SummaryRow, calibration_json, read_motion, read_recording, truth_json,
+    Input, ReadOptions, Summary, SummaryRow, calibration_json, read_motion, read_recording, truth_json,
     write_atomically, write_calibration, write_motion, write_recording, write_summary,
 };
 use calibrant::motion::{Gravity, Hold, JerkControlledMotion};
@@ -260,7 +260,7 @@ fn truth_and_summary() {
     let good = uniaxial();
     let rows = [
         SummaryRow { file: "bad,name.csv".into(), outcome: Err("no \"rows\"".into()) },
-        SummaryRow { file: "good.csv".into(), outcome: Ok(&good) },
+        SummaryRow { file: "good.csv".into(), outcome: Ok(Summary::of(&good)) },
     ];
     write_summary(&path, &rows).expect("written");
     let expected = "file,status,error,chi2,degrees_of_freedom,p_value,bias.x_mps2,bias.x_sd_mps2,scale.x,scale.x_sd\n\

@@ -1,0 +1,130 @@
+//! Several recordings in one call, each calibrated by itself: none stops the others.
+
+use super::Arguments;
+use crate::{Exit, console};
+use calibrant::estimate::CalibrationStatus;
+use calibrant::io::{Finding, Summary, SummaryRow, write_summary};
+use std::collections::HashSet;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// What came of a recording.
+pub(super) struct Outcome {
+    /// What was noticed when it was read.
+    pub(super) findings: Vec<Finding>,
+    pub(super) calibrated: calibrant::Result<Calibrated>,
+}
+
+/// What is told of a calibration.
+pub(super) struct Calibrated {
+    pub(super) status: CalibrationStatus,
+    pub(super) warnings: Vec<String>,
+    /// Cells of the table between the status and the number of warnings.
+    pub(super) cells: Vec<String>,
+    pub(super) summary: Summary,
+    /// calibration.json, where it is to be printed.
+    pub(super) json: Option<String>,
+}
+
+/// Calibrates all recordings: `calibrate` gets the number of one and its directory, writes into that and leaves the telling to this. `columns` are those of the table between the
+/// status and the number of warnings.
+pub(super) fn run(
+    arguments: &Arguments,
+    columns: &[&str],
+    calibrate: impl Fn(usize, &Path) -> Outcome + Sync,
+) -> calibrant::Result<Exit> {
+    let folders = folders(&arguments.recordings);
+    let bar = console::progress(folders.len() as u64, "calibrating");
+    let outcomes = in_parallel(folders.len(), |number| {
+        let outcome = calibrate(number, &arguments.output.join(&folders[number]));
+        bar.inc(1);
+        outcome
+    });
+    bar.finish_and_clear();
+
+    let (mut exit, mut rows, mut texts, mut summary) = (Exit::DONE, Vec::new(), Vec::new(), Vec::new());
+    for ((path, folder), outcome) in arguments.recordings.iter().zip(&folders).zip(outcomes) {
+        outcome.findings.iter().for_each(|finding| console::finding(folder, finding));
+        let mut row = vec![folder.clone()];
+        let outcome = match outcome.calibrated {
+            Ok(calibrated) => {
+                calibrated.warnings.iter().for_each(|warning| console::warn(&format!("{folder}: {warning}")));
+                exit = exit.max(Exit::of_status(calibrated.status));
+                row.push(calibrated.status.name().into());
+                row.extend(calibrated.cells);
+                row.push(calibrated.warnings.len().to_string());
+                texts.extend(calibrated.json);
+                Ok(calibrated.summary)
+            }
+            Err(error) => {
+                console::error_in(&error, path);
+                exit = exit.max(Exit::of(&error));
+                row.push("ERROR".into());
+                row.resize(columns.len() + 3, "–".into());
+                Err(error.to_string())
+            }
+        };
+        rows.push(row);
+        summary.push(SummaryRow { file: folder.clone(), outcome });
+    }
+    let path = arguments.output.join("summary.csv");
+    write_summary(&path, &summary)?;
+    if arguments.json {
+        console::print(&format!("[\n{}]\n", texts.join(",\n")));
+    } else {
+        let header = [&["recording", "status"], columns, &["warnings"]].concat();
+        console::print(&console::table(&header, &rows));
+        let failed = summary.iter().filter(|row| row.outcome.is_err()).count();
+        console::print(&format!(
+            "\n{} calibrated, {failed} failed: {}\n",
+            summary.len() - failed,
+            path.display()
+        ));
+    }
+    Ok(exit)
+}
+
+/// All results in order, from a thread for each processor. These are not rayon's: where a calibration waits for its parts there, a thread of rayon's takes up what else it
+/// finds, which must not be whole recordings, one upon the other in its memory.
+fn in_parallel<T: Send>(count: usize, of: impl Fn(usize) -> T + Sync) -> Vec<T> {
+    let next = AtomicUsize::new(0);
+    let work = || {
+        let take = || Some(next.fetch_add(1, Ordering::Relaxed)).filter(|number| *number < count);
+        std::iter::from_fn(take).map(|number| (number, of(number))).collect::<Vec<_>>()
+    };
+    let mut results: Vec<(usize, T)> = std::thread::scope(|scope| {
+        let threads: Vec<_> =
+            (0..rayon::current_num_threads().min(count)).map(|_| scope.spawn(work)).collect();
+        let results = threads.into_iter().flat_map(|thread| match thread.join() {
+            Ok(results) => results,
+            Err(panic) => std::panic::resume_unwind(panic),
+        });
+        results.collect()
+    });
+    results.sort_by_key(|(number, _)| *number);
+    results.into_iter().map(|(_, result)| result).collect()
+}
+
+/// A subfolder for each recording: its name without ending, with a number where names repeat (capitals or not: not every file system
+/// tells them apart), or where another file of DIR has that name.
+fn folders(recordings: &[PathBuf]) -> Vec<String> {
+    let stem = |path: &PathBuf| {
+        let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
+        // `...csv` is a name without its ending, too: `..`
+        stem.filter(|stem| stem != "." && stem != "..").unwrap_or_else(|| "recording".into())
+    };
+    let mut seen = HashSet::from(["summary.csv".to_owned()]);
+    let mut taken: HashSet<String> = recordings.iter().map(|path| stem(path).to_lowercase()).collect();
+    recordings
+        .iter()
+        .map(|path| {
+            let stem = stem(path);
+            if seen.insert(stem.to_lowercase()) {
+                return stem;
+            }
+            let numbered = |k: usize| format!("{stem}-{k}");
+            let free = (2..).map(numbered).find(|name| taken.insert(name.to_lowercase()));
+            free.unwrap_or(stem)
+        })
+        .collect()
+}
