@@ -241,7 +241,7 @@ const CASES: &[Case] = &[
     (
         "0 1 2 3\n1 2 3 4\n",
         plain,
-        "line 1: imu_tk keeps each sensor in a file of its own, t x y z: this one does not say which it is (give the accelerometer's file and the gyroscope's together, or name the columns in [columns]: time = \"1\", accelerometer = [\"2\", \"3\", \"4\"])",
+        "line 1: imu_tk keeps each sensor in a file of its own, t x y z: this one does not say which it is (give the accelerometer's file as the recording and the gyroscope's with --gyroscope, or name the columns in [columns]: time = \"1\", accelerometer = [\"2\", \"3\", \"4\"])",
     ),
     (
         "PacketCounter,SampleTimeFine,Acc_X,Acc_Y,Acc_Z\n1,1,1,2,3\n",
@@ -308,7 +308,7 @@ const CASES: &[Case] = &[
     (
         "t_s,gx_radps,gy_radps,gz_radps\n0,0,0,1\n1,0,1,0\n",
         || format(FileFormat::ImuTk),
-        "line 1: imu_tk keeps each sensor in a file of its own, t x y z: this one does not say which it is (give the accelerometer's file and the gyroscope's together, or name the columns in [columns]: time = \"1\", accelerometer = [\"2\", \"3\", \"4\"])",
+        "line 1: imu_tk keeps each sensor in a file of its own, t x y z: this one does not say which it is (give the accelerometer's file as the recording and the gyroscope's with --gyroscope, or name the columns in [columns]: time = \"1\", accelerometer = [\"2\", \"3\", \"4\"])",
     ),
     (
         "0 1 2\n1 2 3\n",

@@ -20,7 +20,7 @@ pub(super) fn draft(head: &Head<'_>, triad: Option<Triad>) -> Checked<Draft> {
     let Some(triad) = triad else {
         return Err(Complaint::new(
             "imu_tk keeps each sensor in a file of its own, t x y z: this one does not say which it is",
-            "give the accelerometer's file and the gyroscope's together, or name the columns in [columns]: time = \"1\", \
+            "give the accelerometer's file as the recording and the gyroscope's with --gyroscope, or name the columns in [columns]: time = \"1\", \
              accelerometer = [\"2\", \"3\", \"4\"]",
         )
         .at_line(head.line())
