@@ -359,3 +359,19 @@ fn a_text_longer_than_its_record_is_refused_without_taking_its_word() {
         assert!(error.contains("the MCAP container is damaged"), "{text}: {error}");
     }
 }
+
+/// A record that reaches beyond its chunk: the container's crate would take its length off the chunk's, and panic or wrap around.
+#[test]
+fn a_record_longer_than_its_chunk_is_refused() {
+    let plain = compressed(&one(), "", <[u8]>::to_vec);
+    assert_eq!(read(&plain).recording, read(&one()).recording, "a chunk without compression");
+    // the length of the chunk's records: behind its head, two times, size, checksum and the name of the compression
+    let at = mcap::MAGIC.len() + 9 + 28 + 4;
+    let length = u64::from_le_bytes(plain[at..at + 8].try_into().expect("eight bytes"));
+    for less in [1, 5, 9, 20, 100] {
+        let mut broken = plain.clone();
+        broken[at..at + 8].copy_from_slice(&(length - less).to_le_bytes());
+        let error = refused(&broken, &ImuReadOptions::default());
+        assert!(error.starts_with("the MCAP container is damaged: "), "{less}: {error}");
+    }
+}

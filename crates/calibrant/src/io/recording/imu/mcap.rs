@@ -9,6 +9,7 @@ use super::column::{ColumnMeaning, ImuColumn};
 use super::draft::Draft;
 use super::format::FileFormat;
 use super::mcap_end::Cut;
+use super::mcap_records::chunks_end;
 use super::options::ImuReadOptions;
 use super::samples::{SLOTS, Samples, TIME, slots_of};
 use super::unit::{ColumnUnit, ImuUnit, TimeUnit};
@@ -18,9 +19,9 @@ use crate::io::recording::columns::list;
 use crate::io::recording::finding::{Finding, count};
 use crate::io::text::Checked;
 use crate::sensor::{Axis, Triad};
-use mcap::McapError;
 use mcap::records::Record;
 use mcap::sans_io::{LinearReadEvent, LinearReader, LinearReaderOptions};
+use mcap::{MAGIC, McapError};
 use std::collections::BTreeMap;
 
 /// Names of the message's type.
@@ -88,6 +89,9 @@ pub(super) fn read(bytes: &[u8], options: &ImuReadOptions) -> Checked<(Draft, Sa
 
 impl Bag {
     fn read(bytes: &[u8], is_cut: bool) -> Checked<Self> {
+        if !chunks_end(bytes.get(MAGIC.len()..).unwrap_or_default()) {
+            return Err(damaged(&McapError::UnexpectedEoc).into());
+        }
         let mut bag = Self::default();
         let mut rest = bytes;
         let options = LinearReaderOptions::default()

@@ -2,13 +2,11 @@
 //!
 //! A whole container ends with a record `DataEnd` below the messages, an index, a record `Footer` and the magic bytes once more.
 
+use super::mcap_records::{HEAD, raw_records};
 use crate::error::Complaint;
 use crate::io::recording::finding::{Finding, FindingKind, count, short};
 use mcap::MAGIC;
 use mcap::records::op;
-
-/// Bytes of a record before its content: opcode and length.
-const HEAD: usize = 1 + 8;
 
 /// A container without its end.
 pub(super) struct Cut {
@@ -24,18 +22,15 @@ impl Cut {
     /// What a container lacks; `None` of one that is whole.
     pub(super) fn of(bytes: &[u8]) -> Option<Self> {
         let (mut at, mut is_after_data) = (MAGIC.len(), false);
-        while let Some((&[opcode, ref length @ ..], rest)) =
-            bytes.get(at..).and_then(<[u8]>::split_first_chunk::<HEAD>)
-        {
-            let length = usize::try_from(u64::from_le_bytes(*length)).unwrap_or(usize::MAX);
-            let Some(after) = rest.get(length..) else {
-                return Some(Self { length: bytes.len(), within: Some((opcode, at)), is_after_data });
-            };
-            is_after_data |= opcode == op::DATA_END;
-            if opcode == op::FOOTER && after.starts_with(MAGIC) {
+        for record in raw_records(bytes.get(at..)?) {
+            if !record.is_whole() {
+                return Some(Self { length: bytes.len(), within: Some((record.opcode, at)), is_after_data });
+            }
+            at += HEAD + record.content.len();
+            is_after_data |= record.opcode == op::DATA_END;
+            if record.opcode == op::FOOTER && bytes[at..].starts_with(MAGIC) {
                 return None;
             }
-            at += HEAD + length;
         }
         Some(Self { length: bytes.len(), within: None, is_after_data })
     }

@@ -31,6 +31,7 @@ mod imucal;
 mod mcap;
 #[cfg(feature = "mcap")]
 mod mcap_end;
+mod mcap_records;
 mod movella_dot;
 mod mt_manager;
 mod naming;
