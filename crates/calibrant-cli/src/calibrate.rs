@@ -7,7 +7,7 @@ mod many;
 mod validation;
 
 use crate::place::same_file;
-use crate::reading::{RecordingOptions, in_file, name};
+use crate::reading::{RecordingOptions, in_file, name, sparks_taken_out};
 use crate::{Exit, console, place};
 use calibrant::Error;
 use calibrant::error::Complaint;
@@ -207,9 +207,12 @@ impl Job {
     }
 
     fn run(&self, path: &Path) -> calibrant::Result<Done> {
-        let file = read_accelerometer(path, &self.read, &self.device)?;
-        let calibration = calibrate(&self.problem(&file.recording), &self.settings)
+        let mut file = read_accelerometer(path, &self.read, &self.device)?;
+        // once for all that follows: holds, validation, report
+        let sparks = self.holds.as_ref().and_then(|_| sparks_taken_out(&mut file.recording));
+        let mut calibration = calibrate(&self.problem(&file.recording), &self.settings)
             .map_err(|error| in_file(error, path))?;
+        calibration.warnings.splice(0..0, sparks);
         let input = Input {
             file: name(path),
             sha256: file.sha256.clone(),

@@ -213,12 +213,18 @@ pub(crate) fn holds(holds: &HoldCalibration) -> String {
         "used",
     ];
     let mut text = table(&header, &rows);
+    let magnitudes = match holds.degrees_of_freedom {
+        0 => "|f| is g exactly: nothing left to check".into(),
+        _ => {
+            let rms = number::significant(1e3 * holds.magnitude_residual_rms_mps2, 3);
+            format!("rms of |f| − g {rms} mm/s²")
+        }
+    };
     text.push_str(&format!(
-        "  {} holds {}, gravity {} m/s²; rms of |f| − g {} mm/s²; condition number {}\n",
+        "  {} holds {}, gravity {} m/s²; {magnitudes}; condition number {}\n",
         holds.holds.len(),
         if holds.detected { "found" } else { "given" },
         number::with_sd_or_exact(holds.gravity.magnitude_mps2, holds.gravity.sd_mps2),
-        number::significant(1e3 * holds.magnitude_residual_rms_mps2, 3),
         number::significant(holds.condition_number, 3),
     ));
     text.push_str(&if holds.between_holds_dominates {

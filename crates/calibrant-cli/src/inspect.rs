@@ -64,9 +64,12 @@ fn text(file: &ImuFile, inspection: &Inspection, arguments: &Arguments) -> Strin
         let most = temperature.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         text.push_str(&format!("  temperature from {} to {} °C\n", short(least), short(most)));
     }
-    if !file.findings.is_empty() {
+    let unit = |triad: Triad| file.recording.triad(triad).map_or("", |recording| recording.unit.symbol());
+    let sparks = inspection.sparks.iter().map(|(triad, sparks)| sparks.words(*triad, unit(*triad)));
+    let noticed: Vec<String> = file.findings.iter().map(ToString::to_string).chain(sparks).collect();
+    if !noticed.is_empty() {
         text.push_str("\nNoticed\n");
-        file.findings.iter().for_each(|finding| text.push_str(&format!("  {finding}\n")));
+        noticed.iter().for_each(|finding| text.push_str(&format!("  {finding}\n")));
     }
     match &inspection.holds {
         Some(Ok(found)) => text.push_str(&holds(found, inspection)),

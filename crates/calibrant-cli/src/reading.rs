@@ -3,7 +3,8 @@
 use calibrant::Error;
 use calibrant::error::Complaint;
 use calibrant::io::{Experiment, FileFormat, ImuReadOptions, ImuUnit, TimeUnit};
-use calibrant::sensor::{Triad, WORKING_C};
+use calibrant::sensor::{ImuRecording, Recording, Triad, WORKING_C};
+use std::borrow::Cow;
 use std::path::Path;
 
 #[derive(clap::Args, Clone)]
@@ -91,6 +92,27 @@ pub(crate) fn celsius(text: &str) -> Result<f64, String> {
     let (low, high) = (WORKING_C.start(), WORKING_C.end());
     let value = text.parse().ok().filter(|value| WORKING_C.contains(value));
     value.ok_or_else(|| format!("a sensor's temperature in °C, from {low} to {high}"))
+}
+
+/// Takes sparks and wild readings out of a recording; a warning for each sensor that has some.
+pub(crate) fn take_out_sparks(recording: &mut ImuRecording) -> Vec<String> {
+    let (clean, sparks) = recording.without_sparks();
+    let unit = |triad: Triad| recording.triad(triad).map_or("", |of| of.unit.symbol());
+    let said = sparks.iter().map(|(triad, sparks)| sparks.words(*triad, unit(*triad))).collect();
+    if let Cow::Owned(clean) = clean {
+        *recording = clean;
+    }
+    said
+}
+
+/// The same of an accelerometer alone.
+pub(crate) fn sparks_taken_out(recording: &mut Recording) -> Option<String> {
+    let (clean, sparks) = recording.without_sparks(Triad::Accelerometer);
+    let words = sparks.map(|sparks| sparks.words(Triad::Accelerometer, recording.unit.symbol()));
+    if let Cow::Owned(clean) = clean {
+        *recording = clean;
+    }
+    words
 }
 
 /// Names the recording in an error that does not.

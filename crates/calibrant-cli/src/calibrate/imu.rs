@@ -3,7 +3,7 @@
 use super::Arguments;
 use super::imu_noise::LongestHold;
 use super::many::{Calibrated, Outcome};
-use crate::reading::{in_file, name};
+use crate::reading::{in_file, name, take_out_sparks};
 use crate::{Exit, console};
 use calibrant::Error;
 use calibrant::error::Complaint;
@@ -107,9 +107,11 @@ impl Job<'_> {
     }
 
     /// Calibrates the IMU and writes what came of it.
-    fn calibrate(&self, files: Files<'_>, file: ImuFile, directory: &Path) -> calibrant::Result<Done> {
+    fn calibrate(&self, files: Files<'_>, mut file: ImuFile, directory: &Path) -> calibrant::Result<Done> {
         let Self { arguments, experiment, plan, holds, options } = self;
         let mut setup = setup(arguments, plan, holds, &file)?;
+        // once for all that follows: holds, noise, validation, report
+        let sparks = take_out_sparks(&mut file.recording);
         if setup.holds.intervals_s.is_none() {
             // an error is the calibration's to tell
             setup.found = find_imu_holds(&file.recording, setup.holds.minimum_hold_s).ok();
@@ -132,6 +134,7 @@ impl Job<'_> {
             },
         );
         let mut calibration = calibration.map_err(|error| in_file(error, files.path))?;
+        calibration.warnings.splice(0..0, sparks);
         calibration.warnings.extend(of_gyroscope.iter().flat_map(TriadNoise::of_outliers));
         setup.white_noise = white_noise;
         let problem = ImuProblem { accelerometer, gyroscope, recording, setup: &setup };

@@ -2,7 +2,7 @@
 
 use super::{Arguments, Done, Job};
 use crate::console;
-use crate::reading::{in_file, name};
+use crate::reading::{in_file, name, sparks_taken_out, take_out_sparks};
 use calibrant::Error;
 use calibrant::error::Complaint;
 use calibrant::estimate::{
@@ -48,8 +48,10 @@ pub(super) fn of_imu(
 ) -> calibrant::Result<Vec<Validation>> {
     let mut validations = Vec::new();
     if let Some(path) = &arguments.validate {
-        let other = read(path, arguments.validate_gyroscope.as_deref(), options)?;
+        let mut other = read(path, arguments.validate_gyroscope.as_deref(), options)?;
         other.findings.iter().for_each(|finding| console::finding(&name(path), finding));
+        let sparks = take_out_sparks(&mut other.recording);
+        sparks.iter().for_each(|words| console::warn(&format!("{}: {words}", name(path))));
         let gyroscope_path = arguments.validate_gyroscope.as_deref().unwrap_or(path);
         for (triad, path) in [(Triad::Accelerometer, path.as_path()), (Triad::Gyroscope, gyroscope_path)] {
             let known = (&*file.sha256.concat(), file.recording.triad(triad));
@@ -77,8 +79,10 @@ pub(super) fn of_accelerometer(
     let problem = job.problem(&done.file.recording);
     let mut validations = Vec::new();
     if let Some(path) = &arguments.validate {
-        let other = read_accelerometer(path, &job.read, &job.device)?;
+        let mut other = read_accelerometer(path, &job.read, &job.device)?;
         other.findings.iter().for_each(|finding| console::finding(&name(path), finding));
+        let sparks = job.holds.as_ref().and_then(|_| sparks_taken_out(&mut other.recording));
+        sparks.iter().for_each(|words| console::warn(&format!("{}: {words}", name(path))));
         if let Recovered::Holds(holds) = &done.calibration.recovered {
             refuse_the_same(
                 Triad::Accelerometer,

@@ -49,8 +49,11 @@ pub use validation::{
 };
 
 use crate::error::Result;
+use crate::sensor::Triad;
 
 /// Calibrates a sensor.
+///
+/// From holds, sparks and wild readings are taken out first ([`Recording::without_sparks`](crate::sensor::Recording::without_sparks)), and a warning says so.
 ///
 /// # Errors
 /// [`Error::Recording`](crate::Error::Recording) for a recording that is none, or that does not overlap the motion;
@@ -87,9 +90,20 @@ use crate::error::Result;
 /// # Ok::<(), calibrant::Error>(())
 /// ```
 pub fn calibrate(problem: &CalibrationProblem<'_>, settings: &CalibrationSettings) -> Result<Calibration> {
-    problem.validate()?;
     match problem.stimulus {
-        Stimulus::Motion(command) => motion::calibrate(problem, command, settings),
-        Stimulus::Holds(setup) => holds::calibrate(problem, setup, settings, problem.recording),
+        Stimulus::Motion(command) => {
+            problem.validate()?;
+            motion::calibrate(problem, command, settings)
+        }
+        Stimulus::Holds(setup) => {
+            let (recording, sparks) = problem.recording.without_sparks(Triad::Accelerometer);
+            let problem = CalibrationProblem { recording: &recording, ..*problem };
+            problem.validate()?;
+            let mut calibration = holds::calibrate(&problem, setup, settings, &recording)?;
+            let unit = recording.unit.symbol();
+            let said = sparks.map(|sparks| sparks.words(Triad::Accelerometer, unit));
+            calibration.warnings.splice(0..0, said);
+            Ok(calibration)
+        }
     }
 }

@@ -154,6 +154,8 @@ pub struct HoldCalibration {
     pub between_holds_dominates: bool,
     /// Root mean square over the used holds of the corrected magnitude less gravity, m/s².
     pub magnitude_residual_rms_mps2: f64,
+    /// Equations of the used holds, and what was known beforehand, less the accelerometer's parameters: with none left, the holds are met exactly and check nothing.
+    pub degrees_of_freedom: usize,
     /// Condition number of the information on the parameters, each scaled by its own standard deviation when the others are known.
     pub condition_number: f64,
     /// Were the holds found in the recording (or given by the user)?
@@ -190,7 +192,7 @@ pub struct HoldResult {
     pub hold: Hold,
     /// Estimated specific force, m/s².
     pub force_mps2: Vector3<f64>,
-    /// Magnitude of the corrected mean reading less gravity, m/s².
+    /// Magnitude of the mean reading less gravity, corrected with the parameters of the result, m/s².
     pub magnitude_residual_mps2: f64,
     /// The same in standard deviations expected of it, the hold's own influence removed.
     pub studentised_residual: f64,

@@ -14,6 +14,8 @@ pub(super) struct HoldsFields {
     detected: bool,
     between_holds_sd_mps2: f64,
     between_holds_dominates: bool,
+    /// With 0, the magnitudes are met exactly and check nothing.
+    degrees_of_freedom: usize,
     magnitude_residual_rms_mps2: f64,
     magnitude_residual_rms_before_mps2: Option<f64>,
     before: String,
@@ -67,6 +69,7 @@ impl HoldsFields {
             detected: holds.detected,
             between_holds_sd_mps2: holds.between_holds_sd_mps2,
             between_holds_dominates: holds.between_holds_dominates,
+            degrees_of_freedom: holds.degrees_of_freedom,
             magnitude_residual_rms_mps2: holds.magnitude_residual_rms_mps2,
             magnitude_residual_rms_before_mps2: holds.magnitude_residual_rms_before_mps2(),
             before: holds.before.source.clone(),

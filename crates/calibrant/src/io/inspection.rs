@@ -8,7 +8,7 @@ use crate::estimate::{
     find_imu_holds,
 };
 use crate::motion::Hold;
-use crate::sensor::{Gauge, ImuRecording, MeanReading, ReadingUnit, Recording, Saturation, Triad};
+use crate::sensor::{Gauge, ImuRecording, MeanReading, ReadingUnit, Recording, Saturation, Sparks, Triad};
 use nalgebra::Vector3;
 use serde::Serialize;
 
@@ -24,6 +24,8 @@ const MINIMUM_HOLD_S: f64 = 1.0;
 pub struct Inspection {
     /// Each sensor that is there.
     pub sensors: Vec<SensorInspection>,
+    /// Samples of a sensor that are none, which holds are looked for without.
+    pub sparks: Vec<(Triad, Sparks)>,
     /// The holds of the accelerometer; `None` without one, and the reason where they could not be looked for.
     pub holds: Option<std::result::Result<HoldsInspection, String>>,
 }
@@ -92,10 +94,12 @@ pub fn inspect(file: &ImuFile) -> Inspection {
         .into_iter()
         .filter_map(|triad| Some(SensorInspection::of(triad, recording.triad(triad)?)))
         .collect();
-    let holds = recording.accelerometer.as_ref().map(|accelerometer| {
-        HoldsInspection::of(recording, accelerometer).map_err(|error| error.to_string())
-    });
-    Inspection { sensors, holds }
+    let (clean, sparks) = recording.without_sparks();
+    let holds = clean
+        .accelerometer
+        .as_ref()
+        .map(|accelerometer| HoldsInspection::of(&clean, accelerometer).map_err(|error| error.to_string()));
+    Inspection { sensors, sparks, holds }
 }
 
 impl SensorInspection {
@@ -194,6 +198,8 @@ struct InspectionFile<'a> {
     columns: Vec<ColumnFields<'a>>,
     findings: Vec<String>,
     sensors: Vec<SensorFields>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    sparks: Vec<SparksFields>,
     temperature_c: Option<[f64; 2]>,
     holds: Option<HoldsFields<'a>>,
     no_holds_because: Option<&'a str>,
@@ -224,6 +230,17 @@ struct SensorFields {
     least: Vec<f64>,
     mean: Vec<f64>,
     most: Vec<f64>,
+}
+
+/// Samples that were left out; of the one that is farthest off, what it is.
+#[derive(Serialize)]
+struct SparksFields {
+    sensor: &'static str,
+    samples: usize,
+    cut_samples: usize,
+    axis: String,
+    time_s: f64,
+    reading: f64,
 }
 
 #[derive(Serialize)]
@@ -298,6 +315,7 @@ impl<'a> InspectionFile<'a> {
             columns: file.columns.iter().map(ColumnFields::of).collect(),
             findings: file.findings.iter().map(Finding::to_string).collect(),
             sensors: inspection.sensors.iter().map(SensorFields::of).collect(),
+            sparks: inspection.sparks.iter().map(SparksFields::of).collect(),
             temperature_c: file.recording.temperature_c.as_ref().map(range),
             holds: found.and_then(|holds| holds.as_ref().ok()).map(HoldsFields::of),
             no_holds_because: found.and_then(|holds| holds.as_ref().err()).map(String::as_str),
@@ -313,6 +331,19 @@ impl<'a> ColumnFields<'a> {
             unit: column.unit.map(super::ColumnUnit::symbol),
             used: column.is_used(),
             not_used_because: column.unused.as_deref(),
+        }
+    }
+}
+
+impl SparksFields {
+    fn of((triad, sparks): &(Triad, Sparks)) -> Self {
+        Self {
+            sensor: triad.name(),
+            samples: sparks.samples.len(),
+            cut_samples: sparks.cut.len(),
+            axis: sparks.axis.to_string(),
+            time_s: sparks.time_s,
+            reading: sparks.reading,
         }
     }
 }

@@ -40,7 +40,9 @@ pub(super) fn of_imu(calibration: &ImuCalibration) -> String {
     table(&rows)
 }
 
+/// Nothing where the holds are met exactly, as no more of them than parameters are.
 fn magnitude(holds: &HoldCalibration) -> Option<Improved> {
+    (holds.degrees_of_freedom > 0).then_some(())?;
     Some(Improved {
         name: "|f| − g in holds, rms",
         before: holds.magnitude_residual_rms_before_mps2()?,

@@ -103,7 +103,9 @@ fn hold_section(page: &mut Page, calibration: &Calibration, holds: &HoldCalibrat
     }
     page.section("Holds", "The sensor was kept still in several orientations; in each, the corrected reading has the magnitude of gravity.");
     page.push(hold_summary(holds));
-    page.push(hold_residuals(holds).html());
+    if holds.degrees_of_freedom > 0 {
+        page.push(hold_residuals(holds).html());
+    }
     page.push(hold_directions(holds));
     page.push(recording_overview(holds, recording).html());
     page.subsection("Table of the holds");

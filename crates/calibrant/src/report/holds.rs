@@ -24,11 +24,18 @@ pub(super) fn hold_summary(holds: &HoldCalibration) -> String {
         },
         "Assumed. An error of g is an error of the same share in all scale factors; its sd is part of theirs.",
     );
-    row(
-        "magnitude residual, rms",
-        format!("{} mm/s²", number::significant(1e3 * holds.magnitude_residual_rms_mps2, 3)),
-        "Corrected magnitude less g over the holds that were used.",
-    );
+    match holds.degrees_of_freedom {
+        0 => row(
+            "magnitude residual",
+            "met exactly".into(),
+            "No more holds than parameters: gravity in them determines the parameters, and nothing is left to check these with. Add holds.",
+        ),
+        _ => row(
+            "magnitude residual, rms",
+            format!("{} mm/s²", number::significant(1e3 * holds.magnitude_residual_rms_mps2, 3)),
+            "Corrected magnitude less g over the holds that were used.",
+        ),
+    }
     row(
         "scatter between holds, sd",
         format!("{} mm/s²", number::significant(1e3 * holds.between_holds_sd_mps2, 3)),

@@ -3,8 +3,10 @@
 //! `y_a = S_a f + b_a + ν_a`, `y_g = S_g ω + b_g + Γ f + ν_g`, true → raw: `f` the specific force in m/s², `ω` the angular rate in rad/s, both in the
 //! true frame. `Γ` is the g-sensitivity, what the gyroscope shows of specific force. `S` and `b` may follow temperature ([`Thermal`]).
 
+use super::sparks::{Sparks, without};
 use super::{Axis, Quantity, ReadingUnit, Recording, SensorParameters, Thermal, ThermalPart, ThermalTerm};
 use nalgebra::{DMatrix, Matrix3, Vector3};
+use std::borrow::Cow;
 use std::fmt;
 
 /// One of the two sensors of an IMU.
@@ -64,6 +66,34 @@ impl ImuRecording {
             Triad::Accelerometer => self.accelerometer.as_ref(),
             Triad::Gyroscope => self.gyroscope.as_ref(),
         }
+    }
+
+    /// The recording without sparks and wild readings of either sensor ([`Recording::without_sparks`]), and what they were.
+    #[must_use]
+    pub fn without_sparks(&self) -> (Cow<'_, Self>, Vec<(Triad, Sparks)>) {
+        let clean = |triad: Triad| {
+            let (clean, sparks) = self.triad(triad)?.without_sparks(triad);
+            sparks.map(|sparks| (clean.into_owned(), sparks))
+        };
+        let (accelerometer, gyroscope) =
+            rayon::join(|| clean(Triad::Accelerometer), || clean(Triad::Gyroscope));
+        let mut recording = Cow::Borrowed(self);
+        let mut found = Vec::new();
+        for (triad, clean) in Triad::ALL.into_iter().zip([accelerometer, gyroscope]) {
+            let Some((clean, sparks)) = clean else { continue };
+            let recording = recording.to_mut();
+            // there is one temperature for each sample of the accelerometer
+            let of_temperature = triad == Triad::Accelerometer || recording.accelerometer.is_none();
+            if let Some(temperatures) = recording.temperature_c.as_mut().filter(|_| of_temperature) {
+                without(temperatures, &sparks.cut);
+            }
+            match triad {
+                Triad::Accelerometer => recording.accelerometer = Some(clean),
+                Triad::Gyroscope => recording.gyroscope = Some(clean),
+            }
+            found.push((triad, sparks));
+        }
+        (recording, found)
     }
 }
 

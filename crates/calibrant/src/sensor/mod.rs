@@ -19,6 +19,7 @@ mod recording;
 mod referred;
 mod resolution;
 mod saturation;
+mod sparks;
 mod temperatures;
 mod thermal;
 
@@ -35,5 +36,6 @@ pub use parameters::{Parameter, ParameterList, Quantity, SensorModel, SensorPara
 pub use recording::Recording;
 pub(crate) use recording::{greater, lesser, rate_hz};
 pub use saturation::Saturation;
+pub use sparks::Sparks;
 pub use temperatures::{Temperatures, WORKING_C};
 pub use thermal::{HIGHEST_ORDER, Thermal, ThermalPart, ThermalTerm, TriadThermal};

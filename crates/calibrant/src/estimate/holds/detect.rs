@@ -6,7 +6,7 @@
 
 use crate::error::{Complaint, Error, Result};
 use crate::motion::Hold;
-use crate::sensor::{MeanReading, Recording, greater, lesser};
+use crate::sensor::{MeanReading, Recording, Sparks, Triad, greater, lesser};
 use nalgebra::Vector3;
 use std::f64::consts::LOG10_2;
 
@@ -24,6 +24,8 @@ const BEYOND: f64 = 0.02;
 const WANDER: f64 = 2.0;
 
 /// The holds of a recording, at least `minimum_s` long, in order of time.
+///
+/// Sparks neither divide a hold nor count in its mean; wild readings in a row end it as a gap does ([`Recording::without_sparks`]).
 ///
 /// # Errors
 /// [`Error::Recording`] where the sample rate is too low for the shortest hold.
@@ -43,6 +45,22 @@ const WANDER: f64 = 2.0;
 /// # Ok::<(), calibrant::Error>(())
 /// ```
 pub fn find_holds(recording: &Recording, minimum_s: f64) -> Result<Vec<Hold>> {
+    let (clean, sparks) = recording.without_sparks(Triad::Accelerometer);
+    Ok(as_recorded(find_holds_in(&clean, minimum_s)?, sparks.as_ref()))
+}
+
+/// The same holds in the recording as it was before anything was cut out of it.
+pub(in crate::estimate) fn as_recorded(mut holds: Vec<Hold>, sparks: Option<&Sparks>) -> Vec<Hold> {
+    if let Some(sparks) = sparks {
+        for hold in &mut holds {
+            (hold.first, hold.end) = (sparks.place(hold.first), sparks.place(hold.end - 1) + 1);
+        }
+    }
+    holds
+}
+
+/// [`find_holds`] in a recording without sparks.
+pub(in crate::estimate) fn find_holds_in(recording: &Recording, minimum_s: f64) -> Result<Vec<Hold>> {
     let rate = recording.rate_hz();
     let window = (((minimum_s / 2.0).min(LONGEST_WINDOW_S) * rate).round() as usize).max(5);
     if minimum_s * rate < 8.0 {

@@ -47,7 +47,7 @@ pub(super) use verdict::left_out;
 
 pub use clipped::clipped_holds;
 pub use coverage::{Coverage, coverage};
-pub(super) use detect::{beyond, median};
+pub(super) use detect::{as_recorded, beyond, find_holds_in, median};
 pub use detect::{find_holds, holds_between};
 pub use expected::{ExpectedCalibration, expected_calibration};
 
@@ -75,7 +75,7 @@ impl Default for HoldsSetup {
     }
 }
 
-/// Calibrates from holds. `as_read` is the recording before anything was corrected in it, of the same samples: it tells which holds are clipped.
+/// Calibrates from holds, sparks taken out. `as_read` is the recording before anything was corrected in it, of the same samples: it tells which holds are clipped.
 pub(super) fn calibrate(
     problem: &CalibrationProblem<'_>,
     setup: &HoldsSetup,
@@ -90,7 +90,7 @@ pub(super) fn calibrate(
     }
     let holds = match &setup.intervals_s {
         Some(intervals) => holds_between(problem.recording, intervals)?,
-        None => find_holds(problem.recording, setup.minimum_hold_s)?,
+        None => find_holds_in(problem.recording, setup.minimum_hold_s)?,
     };
     let clipped = clipped_holds(as_read, &holds);
     let sound: Vec<usize> = (0..holds.len()).filter(|&j| clipped[j].is_none()).collect();
@@ -196,6 +196,7 @@ fn assemble(
             between_holds_sd_mps2: robust.between_holds_sd,
             between_holds_dominates: robust.between_holds_sd > 0.0,
             magnitude_residual_rms_mps2: magnitude_rms,
+            degrees_of_freedom,
             condition_number: robust.condition_number,
             detected: setup.intervals_s.is_none(),
             before: Uncalibrated::accelerometer(problem.sensor, &sensor),

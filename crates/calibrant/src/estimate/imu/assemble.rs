@@ -3,6 +3,7 @@
 use super::contradiction::contradictions;
 use super::faces::First;
 use super::joint::{Fit, Joint, Miss, State};
+use super::magnitudes;
 use super::rates::{LocalBias, Path};
 use super::readings::{Integrable, Span};
 use super::solver::singular;
@@ -14,9 +15,10 @@ use super::weights::Weighed;
 use super::{ImuCalibration, ImuProblem, NoiseSource, RotationResult, StillGyroscope, TurnResult};
 use crate::error::Result;
 use crate::estimate::gravity::gravity_slope;
+use crate::estimate::holds::left_out;
 use crate::estimate::{CoarseAxis, HoldCalibration, Uncalibrated};
 use crate::information;
-use crate::sensor::{Condition, Correction, ImuParameters, ReadingUnit, Thermal};
+use crate::sensor::{Condition, Correction, ImuParameters, ReadingUnit, Thermal, Triad};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use rayon::prelude::*;
 
@@ -80,6 +82,14 @@ impl Finished<'_> {
         for (&j, force) in self.chosen.iter().zip(&fit.state.forces) {
             holds.holds[j].force_mps2 = *force;
         }
+        let said_before = left_out(&holds);
+        magnitudes::correct(&mut holds, &imu, self.climate)?;
+        let known_directions = joint.holds.iter().any(|hold| hold.known.is_some());
+        let of_accelerometer = |k: &usize| joint.quantities[*k].triad() == Triad::Accelerometer;
+        let known = |k: &usize| joint.prior.as_ref().is_some_and(|(_, weight)| weight[*k] > 0.0);
+        let unknown = (0..size).filter(of_accelerometer).filter(|k| !known(k)).count();
+        let of_holds = if known_directions { 3 } else { 1 } * joint.holds.len();
+        holds.degrees_of_freedom = of_holds.saturating_sub(unknown);
         holds.before = Uncalibrated::accelerometer(problem.accelerometer, &imu.accelerometer);
         let turns = joint
             .turns
@@ -99,6 +109,9 @@ impl Finished<'_> {
         let follows = !problem.setup.thermal.is_none();
         let hold_temperatures_c =
             follows.then(|| holds.holds.iter().map(|hold| self.climate.of_hold(&hold.hold)).collect());
+        let of_accelerometer = first.warnings.iter().filter(|said| !said_before.contains(said));
+        let warnings =
+            left_out(&holds).into_iter().chain(of_accelerometer.chain(self.said).cloned()).collect();
         let mut calibration = ImuCalibration {
             status: fit.status,
             iterations: fit.iterations,
@@ -127,7 +140,7 @@ impl Finished<'_> {
             turns,
             hold_temperatures_c,
             validations: Vec::new(),
-            warnings: first.warnings.iter().chain(self.said).cloned().collect(),
+            warnings,
         };
         calibration.warnings.extend(verdict::warnings(&calibration, axes.as_ref()));
         calibration.warnings.extend(contradictions(

@@ -4,7 +4,7 @@
 //! in them is no bias. Where the gyroscope is calm is found in its own readings, in the same way; a calm stretch far from the others is a turn at a steady rate.
 
 use crate::error::{Complaint, Error, Result};
-use crate::estimate::holds::{find_holds, holds_between, median};
+use crate::estimate::holds::{as_recorded, find_holds_in, holds_between, median};
 use crate::motion::Hold;
 use crate::sensor::{ImuRecording, Recording, Triad};
 use nalgebra::Vector3;
@@ -14,7 +14,7 @@ const TURNING: f64 = 0.02;
 
 /// Finds the holds of at least `minimum_s` in the recording of an IMU: those of its accelerometer, cut down to what is still for its gyroscope too.
 ///
-/// A hold in which the gyroscope is nowhere calm for long enough, or was not recorded, stays as the accelerometer has it.
+/// Sparks neither divide a hold nor count in its mean. A hold in which the gyroscope is nowhere calm for long enough, or was not recorded, stays as the accelerometer has it.
 ///
 /// # Errors
 /// [`Error::Recording`] where there is no accelerometer, or its rate is too low for holds this short.
@@ -25,11 +25,17 @@ pub fn find_imu_holds(recording: &ImuRecording, minimum_s: f64) -> Result<Vec<Ho
             "holds are found with it",
         )));
     };
-    let Some(gyroscope) = &recording.gyroscope else { return find_holds(accelerometer, minimum_s) };
+    let ((accelerometer, sparks), of_gyroscope) = rayon::join(
+        || accelerometer.without_sparks(Triad::Accelerometer),
+        || recording.gyroscope.as_ref().map(|of| of.without_sparks(Triad::Gyroscope)),
+    );
+    let Some((gyroscope, _)) = of_gyroscope else {
+        return Ok(as_recorded(find_holds_in(&accelerometer, minimum_s)?, sparks.as_ref()));
+    };
     let (holds, calm) =
-        rayon::join(|| find_holds(accelerometer, minimum_s), || find_holds(gyroscope, minimum_s));
+        rayon::join(|| find_holds_in(&accelerometer, minimum_s), || find_holds_in(&gyroscope, minimum_s));
     let (holds, calm) = (holds?, calm.unwrap_or_default());
-    let turning = turning(gyroscope, &calm);
+    let turning = turning(&gyroscope, &calm);
     let mut intervals = Vec::with_capacity(holds.len());
     for hold in &holds {
         let mut is_calm = false;
@@ -44,7 +50,7 @@ pub fn find_imu_holds(recording: &ImuRecording, minimum_s: f64) -> Result<Vec<Ho
             intervals.push((hold.start_s, hold.end_s));
         }
     }
-    holds_between(accelerometer, &intervals)
+    Ok(as_recorded(holds_between(&accelerometer, &intervals)?, sparks.as_ref()))
 }
 
 /// Which of its calm stretches does the gyroscope turn in?

@@ -106,6 +106,7 @@ pub(super) fn fit(
         .then(|| scattered(&results, &sensor, &correction, between));
     let holds = HoldCalibration {
         magnitude_residual_rms_mps2: magnitude_rms(&results),
+        degrees_of_freedom: (3 * usable.len()).saturating_sub(list.len()),
         holds: results,
         gravity: setup.gravity,
         gauge: setup.gauge,

@@ -31,11 +31,26 @@ pub fn calibrate_imu(problem: &ImuProblem<'_>, settings: &CalibrationSettings) -
 
 /// The same where the gyroscope's white noise is still to be found: `white_noise` finds it while the accelerometer is fitted, which does not wait for it.
 ///
-/// What it gives counts in place of [`ImuSetup::white_noise`].
+/// What it gives counts in place of [`ImuSetup::white_noise`]. Sparks and wild readings are taken out first ([`ImuRecording::without_sparks`](crate::sensor::ImuRecording::without_sparks)), and
+/// warnings say so.
 ///
 /// # Errors
 /// As [`calibrate_imu`].
 pub fn calibrate_imu_while(
+    problem: &ImuProblem<'_>,
+    settings: &CalibrationSettings,
+    white_noise: impl FnOnce() -> Option<WhiteNoise> + Send,
+) -> Result<ImuCalibration> {
+    let (recording, sparks) = problem.recording.without_sparks();
+    let mut calibration = of_clean(&ImuProblem { recording: &recording, ..*problem }, settings, white_noise)?;
+    let unit = |triad: Triad| problem.recording.triad(triad).map_or("", |of| of.unit.symbol());
+    let said = sparks.iter().map(|(triad, sparks)| sparks.words(*triad, unit(*triad)));
+    calibration.warnings.splice(0..0, said);
+    Ok(calibration)
+}
+
+/// The same of a recording without sparks.
+fn of_clean(
     problem: &ImuProblem<'_>,
     settings: &CalibrationSettings,
     white_noise: impl FnOnce() -> Option<WhiteNoise> + Send,

@@ -23,6 +23,7 @@ mod contradiction;
 mod faces;
 mod joint;
 mod known;
+mod magnitudes;
 mod mistaken;
 mod problem;
 mod rates;

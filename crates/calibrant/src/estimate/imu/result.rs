@@ -168,6 +168,18 @@ impl ImuCalibration {
         self.rms_of_used(|rotation| rotation.error_before_rad)
     }
 
+    /// Do the known turns check the gyroscope's matrix? Where they are all there is, and no more equations than it has entries, they determine it and are met exactly.
+    #[must_use]
+    pub fn turns_check_the_gains(&self) -> bool {
+        let of_matrix = |place: &usize| {
+            let quantity = self.quantities[*place];
+            matches!(quantity, ImuQuantity::Of(Triad::Gyroscope, _)) && !quantity.is_of_bias()
+        };
+        let known = |place: &usize| self.prior_share.get(*place).is_some_and(|share| *share > 0.0);
+        let entries = (0..self.quantities.len()).filter(of_matrix).filter(|place| !known(place)).count();
+        self.rotations.iter().any(|rotation| rotation.used) || 3 * self.turns.len() > entries
+    }
+
     fn rms_of_used(&self, error: fn(&RotationResult) -> f64) -> f64 {
         let squares: Vec<f64> =
             self.rotations.iter().filter(|rotation| rotation.used).map(|r| error(r).powi(2)).collect();

@@ -105,7 +105,7 @@ fn holds(calibration: &ImuCalibration, recording: &ImuRecording) -> Page {
     let holds = &calibration.holds;
     let (accelerometer, gyroscope) = (recording.accelerometer.as_ref(), recording.gyroscope.as_ref());
     let [residuals, still, over_temperature, overview] = drawn([
-        &|| Some(hold_residuals(holds)),
+        &|| (holds.degrees_of_freedom > 0).then(|| hold_residuals(holds)),
         &|| still_gyroscope(calibration, gyroscope?),
         &|| bias_over_temperature(calibration, gyroscope?),
         &|| Some(recording_overview(holds, accelerometer?)),
@@ -138,7 +138,7 @@ fn rotations(calibration: &ImuCalibration) -> Page {
             "Turns of known angle",
             "What the calibrated gyroscope shows of each turn, beside what was made.",
         );
-        page.push(rotations::turn_table(&calibration.turns));
+        page.push(rotations::turn_table(calibration));
     }
     page
 }

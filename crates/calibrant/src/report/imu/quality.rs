@@ -14,16 +14,21 @@ pub fn imu_quality(calibration: &ImuCalibration) -> String {
             number::miss(calibration.rotation_rms_before_rad())
         ));
     }
-    if !calibration.turns.is_empty() {
+    if !calibration.turns.is_empty() && !calibration.turns_check_the_gains() {
+        parts.push("the known turns determine the gains: nothing is left to check these with".into());
+    } else if !calibration.turns.is_empty() {
         let squares =
             calibration.turns.iter().map(|turn| (turn.measured_rad - turn.angle_rad).norm_squared());
         let rms = (squares.sum::<f64>() / calibration.turns.len() as f64).sqrt();
         parts.push(format!("known turns are {}", met(rms)));
     }
-    parts.push(format!(
-        "held still, the corrected magnitude is that of gravity within {} mm/s² rms",
-        number::significant(1e3 * calibration.holds.magnitude_residual_rms_mps2, 2)
-    ));
+    parts.push(match calibration.holds.degrees_of_freedom {
+        0 => "gravity in the holds determines the accelerometer: nothing is left to check it with".into(),
+        _ => format!(
+            "held still, the corrected magnitude is that of gravity within {} mm/s² rms",
+            number::significant(1e3 * calibration.holds.magnitude_residual_rms_mps2, 2)
+        ),
+    });
     parts.join("; ")
 }
 

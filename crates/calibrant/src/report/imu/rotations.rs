@@ -1,6 +1,6 @@
 //! Rotations between holds and turns of known angle, in numbers.
 
-use crate::estimate::{ImuCalibration, RotationResult, TurnResult};
+use crate::estimate::{ImuCalibration, RotationResult};
 use crate::report::number;
 use crate::report::table::{Cell, Table};
 
@@ -82,7 +82,7 @@ pub(super) fn rotation_table(rotations: &[RotationResult]) -> String {
 }
 
 /// One row for each turn of known angle.
-pub(super) fn turn_table(turns: &[TurnResult]) -> String {
+pub(super) fn turn_table(calibration: &ImuCalibration) -> String {
     let columns = [
         "turn",
         "start (s)",
@@ -93,7 +93,8 @@ pub(super) fn turn_table(turns: &[TurnResult]) -> String {
         "of the angle",
     ];
     let mut table = Table::new("", &columns);
-    for (number, turn) in turns.iter().enumerate() {
+    let checked = calibration.turns_check_the_gains();
+    for (number, turn) in calibration.turns.iter().enumerate() {
         let axes = |angle: &nalgebra::Vector3<f64>| {
             angle.iter().map(|a| number::fixed(a.to_degrees(), 2)).collect::<Vec<_>>().join(", ")
         };
@@ -104,8 +105,12 @@ pub(super) fn turn_table(turns: &[TurnResult]) -> String {
             Cell::Number(number::fixed(turn.end_s, 2)),
             Cell::Number(axes(&turn.angle_rad)),
             Cell::Number(axes(&turn.measured_rad)),
-            Cell::Number(number::fixed(missed.to_degrees(), 3)),
-            Cell::Number(number::percent(missed / turn.angle_rad.norm())),
+            Cell::Number(if checked { number::fixed(missed.to_degrees(), 3) } else { "exact".into() }),
+            Cell::Number(if checked {
+                number::percent(missed / turn.angle_rad.norm())
+            } else {
+                "–".into()
+            }),
         ]);
     }
     table.html()

@@ -1,0 +1,411 @@
+//! Sparks: single samples far off those beside them, and readings that no sensor gives. A lost bit, a loose contact; no movement.
+//!
+//! One spark of 1000 standard deviations makes a still sensor look moved for as long as a window is, divides a hold, shifts its mean, and turns a gyroscope that does not turn. So sparks are
+//! taken out before holds are looked for, each replaced by the line between the samples beside it.
+//!
+//! # What is one
+//! In a hold: a sample off the median of the nine about it by more than [`FAR`] robust standard deviations of the difference of two successive samples, with stillness for [`STILL_S`] on both
+//! sides. A knock while the sensor is put down is as far off, but a movement is near.
+//!
+//! In a movement, of a gyroscope (an accelerometer's movements count for nothing): a sample whose second difference is large, stands out among those of its neighbours, and has half of itself
+//! with the opposite sign on each side, as one sample alone has: neither the kink where a turn begins, nor a step, nor a short turn has.
+//!
+//! A noise of finite variance has at most a quarter beyond any distance of what it has beyond half of it. Where what is far off is not that much fewer than what is half as far off, it is noise,
+//! and only what is farther off is a spark.
+//!
+//! # Wild readings
+//! What is left and a thousand times as far from the median as everything else, with nothing in between, is no reading: a movement passes through what lies between. These samples are cut
+//! out, so that a gap is where they were.
+
+use super::{Axis, Recording, Triad, greater, lesser};
+use rayon::prelude::*;
+use std::borrow::Cow;
+
+/// Robust standard deviations of the difference of two successive samples, in a hold: 10 of white noise.
+const FAR: f64 = 7.0;
+/// The same in a movement, which is rough by itself.
+const FAR_MOVING: f64 = 12.0;
+/// Samples about one, itself included, with which it is compared.
+const ABOUT: usize = 9;
+/// Samples near their median are off it by fewer deviations than this.
+const NEAR: f64 = 4.0;
+/// A knock is several samples: one beside it that is not near either makes it none, unless it is so many times as far off as it must be; two do always.
+const BEYOND_A_KNOCK: f64 = 3.0;
+/// So long on both sides samples are near the same median, s,
+const STILL_S: f64 = 0.8;
+/// but for two, and other sparks: one in so many.
+const OTHERS: usize = 25;
+/// Neighbours on each side whose second differences tell how rough a movement is; the two next to a spark have half of its own.
+const BESIDE: std::ops::RangeInclusive<usize> = 2..=10;
+const BESIDES: usize = 18;
+/// The second difference of a spark is larger by this factor than all but three of those beside it: another spark has three.
+const STANDS_OUT: f64 = 4.0;
+/// The second differences next to it are this share of its own, less this many deviations of noise; half without noise, a third in a turn of three samples.
+const OPPOSITE: (f64, f64) = (0.4, 1.5);
+/// Of a noise of finite variance, as many times as many are between half a distance and the distance as beyond it.
+const HEAVY_TAIL: usize = 3;
+/// Where more than one sample in so many is off, the sensor is not one that is still and turned.
+const MOST: usize = 50;
+/// Median of the absolute deviations of normal noise, times this, is its standard deviation.
+const MAD: f64 = 1.4826;
+/// So many samples tell about how large steps and deviations usually are.
+const SOME: usize = 2048;
+/// Binary orders of magnitude between readings and what is none.
+const BETWEEN: usize = 10;
+
+/// What was taken out of a recording.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sparks {
+    /// Which samples were replaced, from 0, in order.
+    pub samples: Vec<usize>,
+    /// Which were cut out, in order: wild readings, more than two in a row.
+    pub cut: Vec<usize>,
+    /// Axis of the one that is farthest off.
+    pub axis: Axis,
+    /// Its time, s.
+    pub time_s: f64,
+    /// Its reading, in the unit of the readings.
+    pub reading: f64,
+    /// How far it is off, in standard deviations of a sample's noise; infinite where there is none.
+    pub deviations: f64,
+}
+
+impl Sparks {
+    /// Place in the recording as it was read of a sample of the one without.
+    pub(crate) fn place(&self, sample: usize) -> usize {
+        self.cut.iter().fold(sample, |place, cut| place + usize::from(*cut <= place))
+    }
+
+    /// In words, for the user.
+    #[must_use]
+    pub fn words(&self, triad: Triad, unit: &str) -> String {
+        let counted = |count: usize| if count == 1 { "1 sample".into() } else { format!("{count} samples") };
+        let what = match (self.samples.len(), self.cut.len()) {
+            (0, cut) => format!("{} cannot be readings and were cut out", counted(cut)),
+            (sparks, 0) => replaced(sparks, &counted(sparks)),
+            (sparks, cut) => {
+                format!(
+                    "{}; {} more cannot be readings and were cut out",
+                    replaced(sparks, &counted(sparks)),
+                    counted(cut)
+                )
+            }
+        };
+        let off = if self.deviations.is_finite() {
+            format!(", {:.3e} standard deviations of the noise off", self.deviations)
+        } else {
+            String::new()
+        };
+        format!(
+            "{triad}: {what}; farthest off is {:?} {unit} at {:.3} s on axis {}{off}: a loose contact, or a byte lost on the way?",
+            self.reading, self.time_s, self.axis
+        )
+    }
+}
+
+fn replaced(count: usize, counted: &str) -> String {
+    match count {
+        1 => format!("{counted} far off those beside it was left out, the line between them in its place"),
+        _ => format!(
+            "{counted} far off those beside them were left out, the line between these in the place of each"
+        ),
+    }
+}
+
+impl Recording {
+    /// The recording without sparks and wild readings, and what they were; the recording itself where there are none.
+    ///
+    /// # Examples
+    /// ```
+    /// use calibrant::sensor::{ReadingUnit, Recording, Triad};
+    /// use nalgebra::Vector3;
+    /// let times_s: Vec<f64> = (0..500).map(|k| f64::from(k) * 0.01).collect();
+    /// let mut readings: Vec<Vector3<f64>> = times_s.iter().map(|t| Vector3::new((700.0 * t).sin(), (900.0 * t).cos(), 9.8)).collect();
+    /// readings[123].y = -2_147_483_648.0;
+    /// let recording = Recording { times_s, readings, axes: 3, unit: ReadingUnit::Counts };
+    /// let (clean, sparks) = recording.without_sparks(Triad::Accelerometer);
+    /// let sparks = sparks.expect("one");
+    /// assert_eq!((sparks.samples.as_slice(), sparks.reading), (&[123][..], -2_147_483_648.0));
+    /// assert!(clean.readings[123].y.abs() < 1.0 && clean.readings[123].x == recording.readings[123].x);
+    /// ```
+    #[must_use]
+    pub fn without_sparks(&self, triad: Triad) -> (Cow<'_, Self>, Option<Sparks>) {
+        let axes = self.active_axes();
+        // as a hold is: where the sensor pauses, samples are as many
+        let still = (STILL_S * self.rate_hz()).round() as usize;
+        let found: Vec<Found> =
+            axes.par_iter().map(|axis| OfAxis::new(self, *axis, triad, still).found()).collect();
+        let every = found.iter().zip(axes);
+        let every = every.flat_map(|(found, axis)| found.all().map(move |spark| (*axis, spark)));
+        let Some((axis, farthest)) = every.max_by(|(_, one), (_, other)| one.off.total_cmp(&other.off))
+        else {
+            return (Cow::Borrowed(self), None);
+        };
+        let places = |of: &dyn Fn(&Found) -> &[Spark]| {
+            let mut places: Vec<usize> =
+                found.iter().flat_map(|found| of(found).iter().map(|spark| spark.sample)).collect();
+            places.sort_unstable();
+            places.dedup();
+            places
+        };
+        let sparks = Sparks {
+            samples: places(&|found| &found.sparks),
+            cut: places(&|found| &found.wild),
+            axis,
+            time_s: self.times_s[farthest.sample],
+            reading: self.readings[farthest.sample][axis.index()],
+            deviations: farthest.off * std::f64::consts::SQRT_2,
+        };
+        let mut clean = self.clone();
+        for (axis, found) in axes.iter().zip(&found) {
+            for spark in &found.sparks {
+                clean.readings[spark.sample][axis.index()] = spark.instead;
+            }
+        }
+        without(&mut clean.times_s, &sparks.cut);
+        without(&mut clean.readings, &sparks.cut);
+        (Cow::Owned(clean), Some(sparks))
+    }
+}
+
+/// Takes these places, in order, out of a list.
+pub(super) fn without<T>(list: &mut Vec<T>, places: &[usize]) {
+    let (mut k, mut next) = (0, places.iter().peekable());
+    list.retain(|_| {
+        let is_one = next.next_if(|place| **place == k).is_some();
+        k += 1;
+        !is_one
+    });
+}
+
+/// A sample that is off.
+#[derive(Clone, Copy)]
+struct Spark {
+    sample: usize,
+    /// By how many robust standard deviations of the difference of two samples.
+    off: f64,
+    /// What takes its place.
+    instead: f64,
+}
+
+/// What was found on an axis, in order.
+struct Found {
+    sparks: Vec<Spark>,
+    wild: Vec<Spark>,
+}
+
+impl Found {
+    fn all(&self) -> impl Iterator<Item = &Spark> {
+        self.sparks.iter().chain(&self.wild)
+    }
+}
+
+/// The readings of one axis.
+struct OfAxis<'a> {
+    times_s: &'a [f64],
+    values: Vec<f64>,
+    /// Robust standard deviation of the difference of two successive ones, no less than the finest step.
+    scale: f64,
+    /// Samples on each side of a spark in which the sensor is still.
+    still: usize,
+    moves: bool,
+}
+
+impl<'a> OfAxis<'a> {
+    fn new(recording: &'a Recording, axis: Axis, triad: Triad, still: usize) -> Self {
+        let values: Vec<f64> = recording.readings.iter().map(|reading| reading[axis.index()]).collect();
+        let steps = || values.windows(2).map(|pair| (pair[1] - pair[0]).abs());
+        let finest = |least: f64, step: f64| if step > 0.0 { lesser(least, step) } else { least };
+        let mut some: Vec<f64> = steps().step_by(values.len().div_ceil(SOME).max(1)).collect();
+        let mut least = some.iter().copied().fold(f64::INFINITY, finest);
+        let typical = middle(&mut some);
+        // of readings coarser than their noise, most are like those beside them
+        if typical == 0.0 {
+            least = steps().fold(f64::INFINITY, finest);
+        }
+        let scale = (MAD * typical).max(if least.is_finite() { least } else { 0.0 });
+        let (times_s, moves) = (recording.times_s.as_slice(), triad == Triad::Gyroscope);
+        Self { times_s, values, scale, still: still.max(ABOUT / 2), moves }
+    }
+
+    fn found(mut self) -> Found {
+        let mut sparks = self.sparks();
+        self.bridge(&mut sparks);
+        Found { wild: self.wild(), sparks }
+    }
+
+    /// The sparks, in order.
+    fn sparks(&self) -> Vec<Spark> {
+        let n = self.values.len();
+        if n < 2 * ABOUT || self.scale <= 0.0 {
+            return Vec::new();
+        }
+        let mut found = self.far_off(FAR, |k, least| self.off_the_still(k, least));
+        if self.moves {
+            found.extend(self.far_off(FAR_MOVING, |k, least| self.off_the_moving(k, least)));
+            found.sort_unstable_by_key(|spark| spark.sample);
+            found.dedup_by_key(|spark| spark.sample);
+        }
+        if found.len() > (n / MOST).max(1) { Vec::new() } else { found }
+    }
+
+    /// The samples that are off by so much and more; by more where these are not much fewer than those that are off by half.
+    fn far_off(&self, far: f64, off: impl Fn(usize, f64) -> Option<f64>) -> Vec<Spark> {
+        let beyond = |least: f64| -> Vec<Spark> {
+            let n = self.values.len();
+            let candidates = (1..n - 1).filter(|&k| self.stands_out(k, 0.7 * least * self.scale));
+            let candidates = std::iter::once(0).chain(candidates).chain([n - 1]);
+            let spark = |sample| {
+                let off = off(sample, least * self.scale)? / self.scale;
+                Some(Spark { sample, off, instead: 0.0 })
+            };
+            candidates.filter_map(spark).collect()
+        };
+        let mut found = beyond(far);
+        if found.is_empty() {
+            return found;
+        }
+        let half = beyond(far / 2.0);
+        let mut least = far;
+        loop {
+            let beyond = |least: f64| half.iter().filter(|spark| spark.off > least).count();
+            let (farther, half_as_far) = (beyond(least), beyond(least / 2.0) - beyond(least));
+            if farther == 0 || half_as_far < HEAVY_TAIL * farther {
+                break;
+            }
+            least *= 2.0;
+        }
+        found.retain(|spark| spark.off > least);
+        found
+    }
+
+    /// Is a sample above both of its neighbours, or below both, by so much; or it and the one before or after it, above or below those beside the two? This is asked of every sample.
+    #[inline]
+    fn stands_out(&self, k: usize, least: f64) -> bool {
+        let here = self.values[k];
+        let by = |other: usize| here - self.values[other];
+        let (before, after) = (by(k - 1), by(k + 1));
+        let alike = |a: f64, b: f64| (a > least && b > least) || (a < -least && b < -least);
+        // most are not off on either side
+        if before.abs() <= least && after.abs() <= least {
+            return false;
+        }
+        alike(before, after)
+            || (k + 2 < self.values.len() && alike(before, by(k + 2)))
+            || (k > 1 && alike(by(k - 2), after))
+    }
+
+    /// By how much a sample in a hold is off the median of those about it, if by more than this.
+    fn off_the_still(&self, k: usize, least: f64) -> Option<f64> {
+        let first = k.saturating_sub(ABOUT / 2).min(self.values.len() - ABOUT);
+        let about = &self.values[first..first + ABOUT];
+        let mut sorted = [0.0; ABOUT];
+        sorted.copy_from_slice(about);
+        let median = middle(&mut sorted);
+        let not_near = |values: &[f64]| {
+            values.iter().filter(|value| (*value - median).abs() > NEAR * self.scale).count()
+        };
+        let own = (self.values[k] - median).abs();
+        let others = if own > BEYOND_A_KNOCK * FAR * self.scale { 1 } else { 0 };
+        if own <= least || not_near(about) > 1 + others {
+            return None;
+        }
+        let sides = [
+            &self.values[k.saturating_sub(self.still)..k],
+            &self.values[k + 1..][..self.still.min(self.values.len() - k - 1)],
+        ];
+        let is_still = |side: &&[f64]| not_near(side) <= 2 + side.len() / OTHERS;
+        sides.iter().all(is_still).then_some(own)
+    }
+
+    /// By how much a sample in a movement is off the line between its neighbours, if by more than this.
+    fn off_the_moving(&self, k: usize, least: f64) -> Option<f64> {
+        let reach = BESIDE.end() + 1;
+        if k < reach || k + reach >= self.values.len() {
+            return None;
+        }
+        let bend = |k: usize| self.values[k] - 0.5 * (self.values[k - 1] + self.values[k + 1]);
+        let own = bend(k);
+        let size = own.abs();
+        let half = OPPOSITE.0 * size - OPPOSITE.1 * self.scale;
+        if size <= least || [k - 1, k + 1].iter().any(|&beside| -bend(beside) * own.signum() < half) {
+            return None;
+        }
+        let mut others = [0.0; BESIDES];
+        let beside = BESIDE.flat_map(|apart| [k - apart, k + apart]);
+        others.iter_mut().zip(beside).for_each(|(other, k)| *other = bend(k).abs());
+        let rough = *others.select_nth_unstable_by(BESIDES - 4, f64::total_cmp).1;
+        (size > STANDS_OUT * rough).then_some(size)
+    }
+
+    /// Puts the line between the nearest others in the place of each spark.
+    fn bridge(&mut self, sparks: &mut [Spark]) {
+        let places: Vec<usize> = sparks.iter().map(|spark| spark.sample).collect();
+        let is_good = |k: &usize| places.binary_search(k).is_err();
+        for spark in sparks {
+            let k = spark.sample;
+            let before = (0..k).rev().find(is_good);
+            let after = (k + 1..self.values.len()).find(is_good);
+            spark.instead = match (before, after) {
+                (Some(i), Some(j)) => {
+                    let part = (self.times_s[k] - self.times_s[i]) / (self.times_s[j] - self.times_s[i]);
+                    self.values[i] + part * (self.values[j] - self.values[i])
+                }
+                (Some(other), None) | (None, Some(other)) => self.values[other],
+                (None, None) => self.values[k],
+            };
+            self.values[k] = spark.instead;
+        }
+    }
+
+    /// What no sensor gives.
+    fn wild(&self) -> Vec<Spark> {
+        let mut some: Vec<f64> =
+            self.values.iter().step_by(self.values.len().div_ceil(SOME).max(1)).copied().collect();
+        if some.is_empty() {
+            return Vec::new();
+        }
+        let median = middle(&mut some);
+        some.iter_mut().for_each(|value| *value = (*value - median).abs());
+        let nearly_most = some.len() * 19 / 20;
+        let usual = *some.select_nth_unstable_by(nearly_most, f64::total_cmp).1;
+        let usual = if usual.is_finite() { usual } else { 0.0 };
+        let size = |value: &f64| (value - median).abs();
+        let most = self
+            .values
+            .iter()
+            .map(size)
+            .fold(0.0, |most, size| if size.is_nan() { f64::INFINITY } else { greater(most, size) });
+        // a movement is larger, too: whether something lies between is asked only where it may be worth it
+        if usual <= 0.0 || most <= (1 << BETWEEN) as f64 * usual {
+            return Vec::new();
+        }
+        let order = |size: f64| (size.to_bits() >> 52) as usize;
+        let mut counts = [0_usize; 2048];
+        self.values.iter().for_each(|value| counts[order(size(value))] += 1);
+        let (mut last, mut least) = (order(usual), None);
+        for k in last..counts.len() {
+            if counts[k] > 0 {
+                if k - last > BETWEEN {
+                    least = Some(k);
+                    break;
+                }
+                last = k;
+            }
+        }
+        let Some(least) = least else { return Vec::new() };
+        let is_wild = |value: &f64| order(size(value)) >= least;
+        if self.values.iter().filter(|value| is_wild(value)).count() > self.values.len() / MOST {
+            return Vec::new();
+        }
+        let off = |value: &f64| if size(value).is_nan() { f64::INFINITY } else { size(value) / self.scale };
+        let all = self.values.iter().enumerate().filter(|(_, value)| is_wild(value));
+        all.map(|(sample, value)| Spark { sample, off: off(value), instead: 0.0 }).collect()
+    }
+}
+
+/// The larger of the middle two of some values; 0 of none.
+fn middle(values: &mut [f64]) -> f64 {
+    let half = values.len() / 2;
+    if values.is_empty() { 0.0 } else { *values.select_nth_unstable_by(half, f64::total_cmp).1 }
+}
