@@ -137,7 +137,8 @@ impl Recording {
             axes.par_iter().map(|axis| OfAxis::new(self, *axis, triad, still).found()).collect();
         let every = found.iter().zip(axes);
         let every = every.flat_map(|(found, axis)| found.all().map(move |spark| (*axis, spark)));
-        let Some((axis, farthest)) = every.max_by(|(_, one), (_, other)| one.off.total_cmp(&other.off))
+        let Some((axis, farthest)) =
+            every.reduce(|one, other| if other.1.off > one.1.off { other } else { one })
         else {
             return (Cow::Borrowed(self), None);
         };
@@ -240,17 +241,19 @@ impl<'a> OfAxis<'a> {
         if n < 2 * ABOUT || self.scale <= 0.0 {
             return Vec::new();
         }
-        let mut found = self.far_off(FAR, |k, least| self.off_the_still(k, least));
+        let (mut found, least) = self.far_off(FAR, |k, least| self.off_the_still(k, least));
         if self.moves {
-            found.extend(self.far_off(FAR_MOVING, |k, least| self.off_the_moving(k, least)));
+            let (moving, _) = self.far_off(FAR_MOVING, |k, least| self.off_the_moving(k, least));
+            // noise of a heavy tail has it in a movement, too
+            found.extend(moving.into_iter().filter(|spark| spark.off > least));
             found.sort_unstable_by_key(|spark| spark.sample);
             found.dedup_by_key(|spark| spark.sample);
         }
         if found.len() > (n / MOST).max(1) { Vec::new() } else { found }
     }
 
-    /// The samples that are off by so much and more; by more where these are not much fewer than those that are off by half.
-    fn far_off(&self, far: f64, off: impl Fn(usize, f64) -> Option<f64>) -> Vec<Spark> {
+    /// The samples that are off by so much and more; by more where these are not much fewer than those that are off by half. And by how much that is.
+    fn far_off(&self, far: f64, off: impl Fn(usize, f64) -> Option<f64>) -> (Vec<Spark>, f64) {
         let beyond = |least: f64| -> Vec<Spark> {
             let n = self.values.len();
             let candidates = (1..n - 1).filter(|&k| self.stands_out(k, 0.7 * least * self.scale));
@@ -263,7 +266,7 @@ impl<'a> OfAxis<'a> {
         };
         let mut found = beyond(far);
         if found.is_empty() {
-            return found;
+            return (found, far);
         }
         let half = beyond(far / 2.0);
         let mut least = far;
@@ -276,7 +279,7 @@ impl<'a> OfAxis<'a> {
             least *= 2.0;
         }
         found.retain(|spark| spark.off > least);
-        found
+        (found, least)
     }
 
     /// Is a sample above both of its neighbours, or below both, by so much; or it and the one before or after it, above or below those beside the two? This is asked of every sample.
