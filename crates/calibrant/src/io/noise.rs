@@ -145,6 +145,7 @@ impl<'a> AxisFields<'a> {
                 significant: axis.fit.drift.is_significant(),
             },
             fit: FitFields {
+                filtered: axis.fit.filtered,
                 shortest_tau_s: axis.fit.shortest_tau_s,
                 longest_tau_s: axis.fit.longest_tau_s,
                 chi2: axis.fit.chi2,
@@ -218,6 +219,7 @@ struct DriftFields {
 
 #[derive(Serialize)]
 struct FitFields {
+    filtered: bool,
     shortest_tau_s: f64,
     longest_tau_s: f64,
     chi2: f64,

@@ -33,8 +33,10 @@
 //! correlation between cluster times included. `θ` is the generalised least-squares estimate with the covariance of its own model, iterated
 //! (the generalised method of wavelet moments of `guerrier2013`, with the Allan variance as its wavelet variance). Coefficients that are
 //! negligible are left out, the least significant first; those that are not three standard deviations above zero are **not determined**, and have
-//! the limit that the recording sets. Cluster times
-//! so short that no sum of these processes explains them (filtered or sampled noise) are left out and named.
+//! the limit that the recording sets.
+//!
+//! A low-pass filter, which nearly every sensor has, correlates near samples. Once clusters are longer than it, it is a share `−3 D τ₀²/τ²` of the Allan variance, fitted in the place of
+//! quantisation; shorter cluster times are left out and named (`choice`). N is then the noise before the filter: that of means of many samples.
 //!
 //! # What is taken out first
 //! Up to one in fifty samples that are far from those beside them ([`Outliers`]), which no process above explains; they are named.
@@ -48,6 +50,7 @@
 //! `ieee952`, `ieee1293`, `riley2008`, `greenhall2003`, `riley2004`, `guerrier2013`, `kasdin1995`
 
 mod allan;
+mod choice;
 mod coefficient;
 mod drift;
 mod fit;
@@ -57,6 +60,7 @@ mod model;
 mod moments;
 mod outliers;
 mod power_law;
+mod regression;
 mod scaled;
 mod stretch;
 mod triad;

@@ -13,7 +13,7 @@ pub struct NoiseModel {
     pub bias_instability: Coefficient,
     /// Rate random walk K, u/√s.
     pub rate_random_walk: Coefficient,
-    /// Squares of all coefficients as they were fitted, also of those that are seen but not determined.
+    /// Squares of all coefficients as they were fitted, also of those that are seen but not determined; that of quantisation is below zero where it is a filter's share.
     pub(super) squares: [f64; 4],
 }
 
@@ -32,13 +32,14 @@ impl NoiseModel {
     /// The Allan deviation that one process contributes to the fit at cluster time `τ`, determined or not.
     #[must_use]
     pub fn share(&self, process: PowerLaw, tau_s: f64) -> f64 {
-        (self.squares[process as usize] * process.allan_variance(tau_s)).sqrt()
+        (self.squares[process as usize].max(0.0) * process.allan_variance(tau_s)).sqrt()
     }
 
-    /// The fitted Allan deviation: that of all processes together.
+    /// The fitted Allan deviation: that of all processes together, and of a filter where the fit has one.
     #[must_use]
     pub fn deviation(&self, tau_s: f64) -> f64 {
-        PowerLaw::ALL.iter().map(|&process| self.share(process, tau_s).powi(2)).sum::<f64>().sqrt()
+        let variance = |process: &PowerLaw| self.squares[*process as usize] * process.allan_variance(tau_s);
+        PowerLaw::ALL.iter().map(variance).sum::<f64>().max(0.0).sqrt()
     }
 
     /// Standard deviation of the white noise of one sample, `σ_ν = N √f_s`; `None` where N is not determined.

@@ -263,9 +263,16 @@ impl TriadNoise {
                     three_digits(fit.chi2),
                     fit.degrees_of_freedom
                 ));
+            } else if fit.filtered {
+                remarks.push(format!(
+                    "{} {name}: samples less than {} apart are correlated (filtered in the sensor?); what is stated is the noise before the filter, which means of many \
+                     samples have",
+                    self.triad,
+                    short_time(fit.shortest_tau_s.max(2.0 * self.stretch.interval_s))
+                ));
             } else if fit.shortest_tau_s > 1.5 * self.stretch.interval_s {
                 remarks.push(format!(
-                    "{} {name}: samples less than {} apart are correlated (filtered in the sensor?); shorter cluster times were not fitted",
+                    "{} {name}: no sum of the processes explains cluster times below {}: they were not fitted",
                     self.triad,
                     short_time(fit.shortest_tau_s)
                 ));
