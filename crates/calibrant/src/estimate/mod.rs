@@ -22,6 +22,7 @@ mod motion;
 mod problem;
 mod quantisation;
 mod result;
+mod rounded;
 mod settings;
 pub(crate) mod statistics;
 mod tangents;

@@ -8,10 +8,10 @@
 //!
 //! is its mean square (`widrow2008`): `q²/12` without noise, a hundredth of a step for `σ = 0.4 q`, nothing that matters from `σ = q/2` on. It does not become less with more samples.
 
+use super::rounded::{Counts, noise_in_steps};
 use crate::motion::Hold;
 use crate::sensor::{Axis, MeanReading, Recording};
 use nalgebra::Vector3;
-use statrs::distribution::{ContinuousCDF, Normal};
 use std::f64::consts::PI;
 use std::ops::Range;
 
@@ -92,7 +92,7 @@ fn coarse(recording: &Recording, holds: &[Range<usize>], axis: Axis, step: f64) 
     if MeanReading::pooled_sd(&middles)[axis.index()] > FINE * step {
         return None;
     }
-    let (mut noises, mut samples, mut squares) = (Vec::new(), 0, 0.0);
+    let (mut counts, mut samples, mut squares) = (Vec::new(), 0, 0.0);
     for hold in holds.iter().filter(longer) {
         let values: Vec<f64> = recording.readings[hold.clone()].iter().map(|y| y[axis.index()]).collect();
         let mean = values.iter().sum::<f64>() / values.len() as f64;
@@ -100,15 +100,14 @@ fn coarse(recording: &Recording, holds: &[Range<usize>], axis: Axis, step: f64) 
         samples += values.len() - 1;
         // the ends of a hold may move already
         let end = values.len() / 5;
-        noises.extend(noise(&values[end..values.len() - end], step));
+        counts.push(Counts::of(&values[end..values.len() - end], step));
     }
     let scatter = (squares / samples.max(1) as f64).sqrt();
     // noise of a whole step leaves no error
     if samples == 0 || scatter > step {
         return None;
     }
-    noises.sort_by(f64::total_cmp);
-    let noise = noises.get(noises.len() / 2).copied().unwrap_or(0.0);
+    let noise = step * noise_in_steps(&counts);
     let mean_sd = variance(noise, step).sqrt();
     let of_mean = scatter * (holds.len() as f64 / samples as f64).sqrt();
     (mean_sd > 0.25 * of_mean).then_some(CoarseAxis { axis, step, noise, mean_sd })
@@ -120,21 +119,6 @@ fn variance(noise: f64, step: f64) -> f64 {
     // the rest of Σ 1/k², where there is no noise
     let rest = if noise > 0.0 { 0.0 } else { 1.0 / (f64::from(TERMS) + 0.5) };
     (step / PI).powi(2) / 2.0 * ((1..=TERMS).map(term).sum::<f64>() + rest)
-}
-
-/// The noise before rounding, by the shares of the least and of the largest value: between the edges of these two lie so many standard deviations. `None` with fewer than three
-/// values, which tell only that it is small.
-fn noise(values: &[f64], step: f64) -> Option<f64> {
-    let least = values.iter().copied().fold(f64::INFINITY, f64::min);
-    let most = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let between = most - least - step;
-    if between < 0.5 * step {
-        return None;
-    }
-    let share = |end: f64| values.iter().filter(|y| **y == end).count() as f64 / values.len() as f64;
-    let normal = Normal::standard();
-    let deviations = -normal.inverse_cdf(share(least)) - normal.inverse_cdf(share(most));
-    (deviations > 0.0).then(|| between / deviations)
 }
 
 #[cfg(test)]

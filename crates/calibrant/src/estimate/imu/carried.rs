@@ -22,8 +22,10 @@ pub(in crate::estimate) struct HeldStill {
 pub(in crate::estimate) struct GyroscopeAtRest {
     /// In each hold; `None` where it has no samples there.
     stills: Vec<Option<MeanReading>>,
-    /// Noise of one sample, and of coarse steps.
+    /// Noise of one sample, and what of coarse steps is another in each hold.
     noise: StillNoise,
+    /// Variance of what coarse steps leave in all means alike.
+    of_steps: Vector3<f64>,
 }
 
 impl GyroscopeAtRest {
@@ -37,7 +39,31 @@ impl GyroscopeAtRest {
         let coarse = coarse_axes_in(gyroscope, holds.iter().copied());
         let scatter = StillNoise::of(usual_scatter(&stills, gyroscope), &coarse).of_sample;
         let noise = StillNoise::of(noise_of(&scatter), &coarse);
-        Self { stills, noise }
+        Self { stills, noise, of_steps: Vector3::zeros() }
+    }
+
+    /// With the rounding errors of another recording than the calibration's: those of a true rate that stays are the same in all holds. Apart are they as far as the means differ by more than
+    /// their noise and the scatter that the calibration found.
+    pub(in crate::estimate) fn with_steps_in_common(self, between_sd: &Vector3<f64>) -> Self {
+        let means: Vec<MeanReading> = self.stills.iter().copied().flatten().collect();
+        let of_steps = self.noise.of_mean;
+        let noise = StillNoise { of_mean: Vector3::zeros(), ..self.noise };
+        let apart = Vector3::from_fn(|axis, _| {
+            let of: Vec<f64> = means.iter().map(|mean| mean.mean[axis]).collect();
+            let middle = of.iter().sum::<f64>() / of.len().max(1) as f64;
+            let squares = of.iter().map(|y| (y - middle).powi(2)).sum::<f64>();
+            let by_noise = means.iter().map(|mean| noise.variance(mean.samples)[axis]).sum::<f64>();
+            let beyond = squares / of.len().saturating_sub(1).max(1) as f64
+                - by_noise / of.len().max(1) as f64
+                - between_sd[axis].powi(2);
+            beyond.clamp(0.0, of_steps[axis])
+        });
+        Self { noise: StillNoise { of_mean: apart, ..noise }, of_steps, ..self }
+    }
+
+    /// Variance of what coarse steps leave in all means alike.
+    pub(in crate::estimate) fn of_steps(&self) -> &Vector3<f64> {
+        &self.of_steps
     }
 
     /// The gyroscope in each hold, `None` where it has no samples there.

@@ -32,6 +32,8 @@ pub(super) struct Claim {
     /// Error of a rotation beyond its noise, rad, and the degrees of freedom behind it.
     pub(super) rotation_sd_rad: f64,
     pub(super) rotation_degrees: Degrees,
+    /// Variance of what coarse steps of the gyroscope leave in its means in another recording: its bias is not known better there, however many holds there are.
+    pub(super) of_steps: Vector3<f64>,
 }
 
 impl Claim {
@@ -76,6 +78,7 @@ impl Claim {
             inverse_hold_s: inverse_hold_s(holds),
             rotation_sd_rad: calibration.rotation_excess_sd_rad,
             rotation_degrees: Degrees::of_scatter(2 * rotations, of_rotations),
+            of_steps: Vector3::zeros(),
         }
     }
 
@@ -106,15 +109,38 @@ impl Claim {
             inverse_hold_s: inverse_hold_s(holds),
             rotation_sd_rad: 0.0,
             rotation_degrees: Degrees::of_scatter(0, 0),
+            of_steps: Vector3::zeros(),
         }
     }
 
-    /// The covariance as if the gyroscope's bias were known.
+    /// The claim for a recording whose gyroscope has coarse steps, which leave this variance in its means: at rest all holds have that error in common.
+    pub(super) fn with_steps(&self, of_steps: &Vector3<f64>) -> Self {
+        let mut claim = Self { of_steps: *of_steps, ..self.clone() };
+        for axis in Axis::ALL {
+            if let Some(k) = self.place_of_bias(axis) {
+                claim.covariance[(k, k)] += of_steps[axis.index()] - self.of_steps[axis.index()];
+            }
+        }
+        claim
+    }
+
+    /// The covariance as if the gyroscope's bias were known, but for what coarse steps leave.
     pub(super) fn covariance_without_bias(&self) -> DMatrix<f64> {
-        let known =
-            |k: usize| matches!(self.quantities[k], ImuQuantity::Of(Triad::Gyroscope, Quantity::Bias(_)));
+        let axis_of = |k: usize| match self.quantities[k] {
+            ImuQuantity::Of(Triad::Gyroscope, Quantity::Bias(axis)) => Some(axis.index()),
+            _ => None,
+        };
         let size = self.quantities.len();
-        DMatrix::from_fn(size, size, |i, j| if known(i) || known(j) { 0.0 } else { self.covariance[(i, j)] })
+        DMatrix::from_fn(size, size, |i, j| match (axis_of(i), axis_of(j)) {
+            (None, None) => self.covariance[(i, j)],
+            (Some(axis), _) if i == j => self.of_steps[axis],
+            _ => 0.0,
+        })
+    }
+
+    fn place_of_bias(&self, axis: Axis) -> Option<usize> {
+        let bias = ImuQuantity::Of(Triad::Gyroscope, Quantity::Bias(axis));
+        self.quantities.iter().position(|quantity| *quantity == bias)
     }
 
     /// The claim with another bias of the gyroscope, found where it is used: it has moved by `shift` (rad/s) of this covariance.
@@ -123,13 +149,9 @@ impl Claim {
         let of_bias = matrix * covariance * matrix.transpose();
         let mut claim = Self { covariance: self.covariance_without_bias(), ..self.clone() };
         claim.imu.gyroscope.bias += matrix * shift;
-        let place = |axis: Axis| {
-            let bias = ImuQuantity::Of(Triad::Gyroscope, Quantity::Bias(axis));
-            self.quantities.iter().position(|quantity| *quantity == bias)
-        };
         for row in Axis::ALL {
             for column in Axis::ALL {
-                if let (Some(i), Some(j)) = (place(row), place(column)) {
+                if let (Some(i), Some(j)) = (self.place_of_bias(row), self.place_of_bias(column)) {
                     claim.covariance[(i, j)] = of_bias[(row.index(), column.index())];
                 }
             }

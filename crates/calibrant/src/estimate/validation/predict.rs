@@ -7,13 +7,13 @@ use super::noise::NoiseRatio;
 use super::ratio::Ratio;
 use super::result::BiasShift;
 use super::statistics::degrees_behind;
-use super::whitened::Whitened;
+use super::whitened::{Shift, Whitened};
 use crate::estimate::imu::{Carried, Carrying, GyroscopeAtRest, HeldStill};
 use crate::estimate::quantisation::of_means;
 use crate::estimate::{clipped_holds, coarse_axes_in};
 use crate::motion::Hold;
 use crate::sensor::{Recording, Temperatures, Triad};
-use nalgebra::{DMatrix, DVector, Matrix2, Vector3};
+use nalgebra::{DMatrix, DVector, Matrix2, Matrix3, Vector3};
 
 /// Below this error of a rotation nothing is told apart, as in the fit, rad.
 const FLOOR_RAD: f64 = 1e-9;
@@ -76,8 +76,15 @@ impl<'a> Unused<'a> {
                 noise.push(ratio);
                 claim.still_noise.component_mul(&ratio.axes)
             };
-            (gyroscope, GyroscopeAtRest::of(gyroscope, &holds, noise_of))
+            let at_rest = GyroscopeAtRest::of(gyroscope, &holds, noise_of);
+            let at_rest = if self.another { at_rest.with_steps_in_common(&claim.still_sd) } else { at_rest };
+            (gyroscope, at_rest)
         });
+        let with_steps = match &at_rest {
+            Some((_, at_rest)) => claim.with_steps(at_rest.of_steps()),
+            None => claim.clone(),
+        };
+        let claim = &with_steps;
         let stills: Vec<Option<HeldStill>> = match &at_rest {
             Some((_, at_rest)) => at_rest.holds().collect(),
             None => vec![None; holds.len()],
@@ -203,12 +210,13 @@ fn moved(
     rates: &Group,
     without_bias: &Group,
     claim: &Claim,
-) -> Option<(BiasShift, Vector3<f64>, nalgebra::Matrix3<f64>)> {
+) -> Option<(BiasShift, Vector3<f64>, Matrix3<f64>)> {
     let all = vec![true; rates.items.len()];
     let expected = Whitened::of(rates, &all)?.shift()?;
     let found = Whitened::of(without_bias, &all)?.shift()?;
     let behind = degrees_behind(rates.items.iter(), &claim.still_degrees);
-    let p_value = Ratio::new(3, &behind).above(expected.chi2 / 3.0);
+    let chi2 = beyond_steps(&expected, claim).unwrap_or(expected.chi2);
+    let p_value = Ratio::new(3, &behind).above(chi2 / 3.0);
     let shift = BiasShift {
         shift_radps: found.value,
         sd_radps: expected.covariance.diagonal().map(f64::sqrt),
@@ -216,4 +224,16 @@ fn moved(
         moved: p_value < MOVED,
     };
     Some((shift, found.value, found.covariance))
+}
+
+/// χ² of a shift less what coarse steps may have made of it, where there are some: no more than √3 of their standard deviation, which is half a step where noise is small.
+fn beyond_steps(shift: &Shift, claim: &Claim) -> Option<f64> {
+    let correction = claim.imu.gyroscope.matrix.try_inverse().filter(|_| claim.of_steps.amax() > 0.0)?;
+    let of_steps = correction * Matrix3::from_diagonal(&claim.of_steps) * correction.transpose();
+    let beyond = Vector3::from_fn(|axis, _| {
+        let most = (3.0 * of_steps[(axis, axis)]).sqrt();
+        shift.value[axis] - shift.value[axis].clamp(-most, most)
+    });
+    let covariance = (shift.covariance - of_steps).cholesky()?;
+    Some(beyond.dot(&covariance.solve(&beyond)))
 }
