@@ -8,7 +8,7 @@ use calibrant::error::Complaint;
 use calibrant::estimate::{
     CalibrationSettings, HoldCalibration, HoldsSetup, ImuCalibration, ImuProblem, ImuSetup, Recovered,
     Stimulus, Validation, ValidationSource, cross_validate, cross_validate_imu, noise_in_common,
-    readings_in_common, validate, validate_imu,
+    other_temperature, readings_in_common, validate, validate_imu,
 };
 use calibrant::io::{ImuFile, ImuReadOptions, read_accelerometer, read_imu_pair, read_imu_recording};
 use calibrant::motion::Hold;
@@ -59,8 +59,10 @@ pub(super) fn of_imu(
             refuse_the_same(triad, known, &calibration.holds, others, path)?;
         }
         let setup = ImuSetup { holds: found(&problem.setup.holds), ..ImuSetup::default() };
-        let problem = ImuProblem { recording: &other.recording, setup: &setup, ..*problem };
-        let validation = validate_imu(calibration, &problem).map_err(|error| in_file(error, path))?;
+        let on_other = ImuProblem { recording: &other.recording, setup: &setup, ..*problem };
+        let mut validation = validate_imu(calibration, &on_other).map_err(|error| in_file(error, path))?;
+        let temperature = other_temperature(calibration, &validation, problem.recording, &other.recording);
+        validation.reasons.extend(temperature);
         validations.push(on(path, validation));
     }
     if let Some(folds) = arguments.folds {

@@ -44,9 +44,9 @@ pub use result::*;
 pub use settings::CalibrationSettings;
 pub use uncalibrated::Uncalibrated;
 pub use validation::{
-    BiasShift, CovarianceVerdict, ErrorKind, FailedFold, NoiseRatio, ParameterPart, UnusedError,
-    ValidatedErrors, Validation, ValidationSource, cross_validate, cross_validate_imu, noise_in_common,
-    readings_in_common, validate, validate_imu,
+    BiasShift, CovarianceVerdict, ErrorKind, FailedFold, LikelyReason, NoiseRatio, ParameterPart,
+    UnusedError, ValidatedErrors, Validation, ValidationSource, cross_validate, cross_validate_imu,
+    noise_in_common, other_temperature, readings_in_common, validate, validate_imu,
 };
 
 use crate::error::Result;

@@ -1,7 +1,9 @@
 //! How a calibration fares on data that were not used for it, in its JSON file.
 
 use super::fields::per_axis;
-use crate::estimate::{BiasShift, ParameterPart, UnusedError, ValidatedErrors, Validation, ValidationSource};
+use crate::estimate::{
+    BiasShift, LikelyReason, ParameterPart, UnusedError, ValidatedErrors, Validation, ValidationSource,
+};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -21,8 +23,18 @@ pub(super) struct SourceFields {
     noise_ratio: BTreeMap<String, Vec<f64>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     gyroscope_bias_shift: Option<ShiftFields>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    likely_reasons: Vec<ReasonFields>,
     #[serde(flatten)]
     kinds: BTreeMap<&'static str, KindFields>,
+}
+
+/// A likely reason, and its numbers by their names.
+#[derive(Serialize)]
+struct ReasonFields {
+    reason: &'static str,
+    #[serde(flatten)]
+    numbers: BTreeMap<&'static str, Vec<f64>>,
 }
 
 #[derive(Serialize)]
@@ -98,6 +110,7 @@ fn named(validation: &Validation) -> (&'static str, SourceFields) {
         failed_folds: Vec::new(),
         noise_ratio: ratios.map(|noise| (noise.triad.to_string(), per_axis(&noise.axes, 3))).collect(),
         gyroscope_bias_shift,
+        likely_reasons: validation.reasons.iter().map(ReasonFields::of).collect(),
         kinds,
     };
     match &validation.source {
@@ -112,6 +125,24 @@ fn named(validation: &Validation) -> (&'static str, SourceFields) {
             });
             ("folds", SourceFields { folds: Some(*folds), failed_folds: failed.collect(), ..none })
         }
+    }
+}
+
+impl ReasonFields {
+    fn of(reason: &LikelyReason) -> Self {
+        let numbers = match reason {
+            LikelyReason::Temperature { calibrated_c, here_c } => {
+                vec![("calibrated_mean_c", vec![*calibrated_c]), ("mean_c", vec![*here_c])]
+            }
+            LikelyReason::AccelerometerBias { shift_mps2, sd_mps2 } => {
+                vec![("shift_mps2", per_axis(shift_mps2, 3)), ("shift_sd_mps2", per_axis(sd_mps2, 3))]
+            }
+            LikelyReason::AccelerometerGain { change, sd } => {
+                vec![("change", per_axis(change, 3)), ("change_sd", per_axis(sd, 3))]
+            }
+            LikelyReason::AngularUnit { factor } => vec![("factor", vec![*factor])],
+        };
+        Self { reason: reason.name(), numbers: numbers.into_iter().collect() }
     }
 }
 

@@ -5,9 +5,10 @@ use super::html::{Page, list};
 use super::number;
 use super::table::{Cell, Table};
 use crate::estimate::{
-    BiasShift, CovarianceVerdict, ErrorKind, FailedFold, NoiseRatio, UnusedError, ValidatedErrors,
-    Validation, ValidationSource,
+    BiasShift, CovarianceVerdict, ErrorKind, FailedFold, LikelyReason, NoiseRatio, UnusedError,
+    ValidatedErrors, Validation, ValidationSource,
 };
+use crate::sensor::Triad;
 
 /// So many errors that stand out are named; of the rest the number is told.
 const NAMED: usize = 5;
@@ -17,11 +18,16 @@ const ANOTHER: f64 = 30.0;
 /// What a validation says, a sentence for each kind of error: is the covariance to be believed?
 #[must_use]
 pub fn validation_sentences(validation: &Validation) -> Vec<String> {
+    // in another unit, noise and bias are those of the unit
+    let in_unit = validation.reasons.iter().all(|of| !matches!(of, LikelyReason::AngularUnit { .. }));
+    let other = validation.noise.iter().filter(|noise| noise.differs());
     let mut sentences: Vec<String> =
-        validation.noise.iter().filter(|noise| noise.differs()).map(other_noise).collect();
-    sentences.extend(validation.bias_shift.as_ref().map(bias));
+        other.filter(|noise| in_unit || noise.triad == Triad::Accelerometer).map(other_noise).collect();
+    sentences.extend(validation.reasons.iter().map(likely_reason));
+    sentences.extend(validation.bias_shift.as_ref().filter(|_| in_unit).map(bias));
     for errors in &validation.kinds {
-        sentences.push(sentence(errors));
+        let explained = validation.reasons.iter().any(|reason| reason.explains(errors.kind));
+        sentences.push(sentence(errors, explained));
         let outlying: Vec<&UnusedError> = errors.outlying().collect();
         sentences.extend(outlying.iter().take(NAMED).map(|error| stands_out(errors.kind, error)));
         if outlying.len() > NAMED {
@@ -128,7 +134,8 @@ fn between(factor: f64, (low, high): (f64, f64)) -> String {
     format!("{} ({} to {high})", two(factor), two(low))
 }
 
-fn sentence(errors: &ValidatedErrors) -> String {
+/// `explained`: has a likely reason of larger errors been told?
+fn sentence(errors: &ValidatedErrors, explained: bool) -> String {
     let (kind, count) = (errors.kind, errors.counted());
     let (rms, predicted) = (measured(kind, errors.rms), measured(kind, errors.predicted_rms));
     let misses = match kind {
@@ -155,6 +162,10 @@ fn sentence(errors: &ValidatedErrors) -> String {
         (CovarianceVerdict::TooFew, _) => {
             format!("too few to tell (the factor is anywhere between {} and {})", two(low), two(high))
         }
+        (CovarianceVerdict::TooSmall, _) if explained => format!(
+            "{} times what was predicted; the reason that is told above is a likelier one than the covariance",
+            two(errors.factor)
+        ),
         (CovarianceVerdict::TooSmall, _) if errors.factor > ANOTHER => format!(
             "{} times what was predicted, which no covariance explains: is it the same sensor, in the same units, its axes in the same order, and nothing changed or damaged \
              since?",
@@ -189,6 +200,40 @@ fn other_noise(noise: &NoiseRatio) -> String {
         noise.triad,
         number::significant(noise.overall(), 2)
     )
+}
+
+fn likely_reason(reason: &LikelyReason) -> String {
+    let list = |values: &nalgebra::Vector3<f64>, scale: f64| {
+        values.iter().map(|value| number::significant(scale * value, 2)).collect::<Vec<_>>().join(", ")
+    };
+    let most = |values: &nalgebra::Vector3<f64>, sd: &nalgebra::Vector3<f64>| {
+        number::significant(values.component_div(sd).amax(), 2)
+    };
+    match reason {
+        LikelyReason::Temperature { calibrated_c, here_c } => format!(
+            "This recording was made at {} °C in the mean, the calibration at {} °C and without temperature terms: what differs has its likely reason in that. Calibrate over the temperatures of \
+             use, with [temperature].",
+            number::fixed(*here_c, 1),
+            number::fixed(*calibrated_c, 1)
+        ),
+        LikelyReason::AccelerometerBias { shift_mps2, sd_mps2 } => format!(
+            "The accelerometer's bias has moved by {} mm/s² since the calibration, up to {} standard deviations; that explains how |f| misses gravity. Calibrate it again.",
+            list(shift_mps2, 1e3),
+            most(shift_mps2, sd_mps2)
+        ),
+        LikelyReason::AccelerometerGain { change, sd } => format!(
+            "The accelerometer's gains have changed by {} % since the calibration, up to {} standard deviations; that explains how |f| misses gravity. Calibrate it again.",
+            list(change, 100.0),
+            most(change, sd)
+        ),
+        LikelyReason::AngularUnit { factor } => {
+            let (really, stated) = if *factor < 1.0 { ("deg/s", "rad/s") } else { ("rad/s", "deg/s") };
+            format!(
+                "The gyroscope's readings are 57.3 times too {}: they are likely in {really}, and stated to be in {stated}. In {really} gravity is carried rightly.",
+                if *factor < 1.0 { "large" } else { "small" }
+            )
+        }
+    }
 }
 
 fn bias(shift: &BiasShift) -> String {
@@ -252,10 +297,10 @@ mod tests {
 
     #[test]
     fn a_question_has_no_full_stop_and_an_angle_ends_at_half_a_revolution() {
-        let said = sentence(&errors(100.0, 1.0));
+        let said = sentence(&errors(100.0, 1.0), false);
         assert!(said.ends_with("or damaged since?"), "{said}");
         assert!(said.contains("gravity is missed by 57° rms, more than 180° predicted: "), "{said}");
-        let said = sentence(&errors(3.0, 98_966_f64.to_radians()));
+        let said = sentence(&errors(3.0, 98_966_f64.to_radians()), false);
         assert!(said.ends_with("(between 2.7 and 3.3)."), "{said}");
         assert!(said.contains("gravity is missed by more than 180° rms"), "{said}");
     }

@@ -9,5 +9,6 @@ mod ferraris;
 mod levels;
 mod noise;
 mod real;
+mod reasons;
 mod refused;
 mod same;

@@ -108,9 +108,14 @@ impl Held {
         Some(Self { force, by_parameters, noise: by_noise, own, rate, more_noise, place })
     }
 
+    /// Direction of the specific force.
+    pub(super) fn along(&self) -> Vector3<f64> {
+        self.force.normalize()
+    }
+
     /// `|f̂| − g` and what is predicted of it.
     pub(super) fn magnitude(&self, claim: &Claim) -> Item {
-        let along = self.force.normalize();
+        let along = self.along();
         let row = DMatrix::from_row_slice(1, 3, along.as_slice());
         let variance = |of: &Matrix3<f64>| (of * along).dot(&along);
         let [noise, own] = [&self.noise, &self.own].map(|of| variance(of) + FLOOR_MPS2.powi(2));

@@ -28,6 +28,7 @@ mod item;
 mod noise;
 mod predict;
 mod ratio;
+mod reason;
 mod reordered;
 mod result;
 mod same;
@@ -37,6 +38,7 @@ mod whitened;
 
 pub use cross::{cross_validate, cross_validate_imu};
 pub use noise::NoiseRatio;
+pub use reason::{LikelyReason, other_temperature};
 pub use reordered::readings_in_common;
 pub use result::*;
 pub use same::noise_in_common;
@@ -57,6 +59,8 @@ use statistics::{Behind, Degrees, judge};
 
 /// A magnitude this far from gravity on half of the holds is not that of the sensor that was calibrated.
 const ANOTHER_SENSOR: f64 = 0.1;
+/// A magnitude is off by g, or by 1/g, within this share: a bias changes it where the readings are a tenth of what they should be.
+const OTHER_UNIT: f64 = 0.25;
 
 /// Tries the calibration of an IMU on another recording of it.
 ///
@@ -129,10 +133,27 @@ fn on_another(claim: &Claim, unused: Unused<'_>) -> Result<Validation> {
     if median > ANOTHER_SENSOR * claim.gravity_mps2 {
         return Err(Error::recording(Complaint::new(
             format!("with this calibration, its holds miss the magnitude of gravity by {median:.2} m/s²"),
-            "is it a recording of the same sensor, in the same units?",
+            other_unit(&errors, claim).unwrap_or("is it a recording of the same sensor, in the same units?"),
         )));
     }
-    Ok(judged(ValidationSource::Recording { name: String::new() }, vec![errors], claim))
+    let source = ValidationSource::Recording { name: String::new() };
+    let mut validation = judged(source, vec![errors], claim);
+    validation.reasons = reason::reasons(&validation, claim, &unused);
+    Ok(validation)
+}
+
+/// What to ask where magnitudes are off by g or by 1/g: readings in g taken for m/s², or the other way round.
+fn other_unit(errors: &Errors, claim: &Claim) -> Option<&'static str> {
+    let magnitudes = errors.magnitudes.items.iter().map(|item| item.error[0] + claim.gravity_mps2);
+    let ratio = median(magnitudes.collect()) / claim.gravity_mps2;
+    let near = |expected: f64| (ratio / expected).ln().abs() < OTHER_UNIT;
+    if near(1.0 / claim.gravity_mps2) {
+        Some("they are 9.8 times too small: are the readings in g, and stated to be in m/s²?")
+    } else if near(claim.gravity_mps2) {
+        Some("they are 9.8 times too large: are the readings in m/s², and stated to be in g?")
+    } else {
+        None
+    }
 }
 
 /// The holds, of which there are some.
@@ -188,5 +209,11 @@ fn judged(source: ValidationSource, errors: Vec<Errors>, claim: &Claim) -> Valid
         judge(ErrorKind::Rate, &rates, &of_rates),
         judge(ErrorKind::Rotation, &rotations, &behind(&[claim.rotation_degrees])),
     ];
-    Validation { source, kinds: kinds.into_iter().flatten().collect(), bias_shift, noise }
+    Validation {
+        source,
+        kinds: kinds.into_iter().flatten().collect(),
+        bias_shift,
+        noise,
+        reasons: Vec::new(),
+    }
 }

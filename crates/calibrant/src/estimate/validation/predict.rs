@@ -39,6 +39,8 @@ pub(super) struct Unused<'a> {
 /// The errors of each kind.
 pub(super) struct Errors {
     pub(super) magnitudes: Group,
+    /// Direction of the specific force of each magnitude.
+    pub(super) along: Vec<Vector3<f64>>,
     pub(super) rates: Group,
     pub(super) rotations: Group,
     pub(super) shift: Option<BiasShift>,
@@ -130,6 +132,7 @@ impl<'a> Unused<'a> {
         };
         Some(Errors {
             magnitudes: self.group(magnitudes, &claim.covariance),
+            along: held.iter().map(Held::along).collect(),
             rates,
             rotations: self.group(rotations, &of_rotations.covariance),
             shift,

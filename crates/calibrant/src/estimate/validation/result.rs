@@ -1,6 +1,7 @@
 //! What a validation gives.
 
 use super::noise::NoiseRatio;
+use super::reason::LikelyReason;
 use nalgebra::{DVector, Vector3};
 
 /// A factor between prediction and error so close to one is no reason to doubt, however sure it is.
@@ -19,6 +20,8 @@ pub struct Validation {
     pub bias_shift: Option<BiasShift>,
     /// The noise of each sensor beside that of the calibration's recording; empty for folds. What is predicted goes with the noise that is found.
     pub noise: Vec<NoiseRatio>,
+    /// What may be the reason of errors that are larger than predicted, other than the covariance; empty for folds.
+    pub reasons: Vec<LikelyReason>,
 }
 
 /// Data that were not used.

@@ -16,7 +16,7 @@ use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 pub(super) struct Whitened {
     z: DVector<f64>,
     k: DMatrix<f64>,
-    /// The identity of each item, whitened: what a shift that all have in common does.
+    /// What a shift that all have in common does to each item, whitened.
     ones: DMatrix<f64>,
 }
 
@@ -30,19 +30,27 @@ pub(super) struct Shift {
 impl Whitened {
     /// `None` where nothing is predicted of an error, or none counts.
     pub(super) fn of(group: &Group, counts: &[bool]) -> Option<Self> {
+        Self::about(group, counts, &|number| {
+            let width = group.items[number].error.len();
+            DMatrix::identity(width, width)
+        })
+    }
+
+    /// The same about a shift of something else than the errors themselves; `by`: the derivative of the errors of each item with respect to it.
+    pub(super) fn about(group: &Group, counts: &[bool], by: &dyn Fn(usize) -> DMatrix<f64>) -> Option<Self> {
         let root = root(&group.covariance);
         let chosen: Vec<(usize, &Item)> =
             group.items.iter().enumerate().filter(|(number, _)| counts[*number]).collect();
         let width = chosen.first()?.1.error.len();
         let rows = width * chosen.len();
         let (mut z, mut k) = (DVector::zeros(rows), DMatrix::zeros(rows, root.ncols()));
-        let mut ones = DMatrix::zeros(rows, width);
+        let mut ones = DMatrix::zeros(rows, by(chosen.first()?.0).ncols());
         let mut before: Option<(usize, DMatrix<f64>)> = None;
         for (i, (number, item)) in chosen.into_iter().enumerate() {
             let from = width * i;
             let (mut own, mut e) = (item.own.clone(), item.error.clone());
             let mut j = &item.by_parameters * &root;
-            let mut one = DMatrix::identity(width, width);
+            let mut one = by(number);
             if let (Some((previous, l)), Some(b)) = (&before, &item.with_previous)
                 && previous + 1 == number
             {
@@ -79,7 +87,7 @@ impl Whitened {
         Some(self.weighed(&z)?.tr_mul(&z)[(0, 0)].max(0.0))
     }
 
-    /// The shift of three-component errors that explains them best (generalised least squares), and how much of χ² it takes.
+    /// The shift of three components that explains the errors best (generalised least squares), and how much of χ² it takes.
     pub(super) fn shift(&self) -> Option<Shift> {
         let weighed = self.weighed(&self.ones)?;
         let covariance = weighed.tr_mul(&self.ones).cholesky()?.inverse();

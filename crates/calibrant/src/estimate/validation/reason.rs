@@ -1,0 +1,160 @@
+//! Why errors may be larger than predicted although the covariance is right: something is another than at the calibration.
+//!
+//! An accelerometer whose bias has moved by `δ` (as a specific force) misses gravity in a hold with the direction `u` by `u·δ`, one whose gains have changed by the shares `γ` by `g Σ_i u_i² γ_i`.
+//! Where either, fitted by generalised least squares, leaves errors as they were predicted, it is a likely reason, and the better one of both is told. Angular rates in another unit
+//! than the stated one carry gravity rightly once they are converted.
+
+use super::claim::Claim;
+use super::predict::{Errors, Unused};
+use super::ratio::Ratio;
+use super::result::{CovarianceVerdict, ErrorKind, Validation};
+use super::statistics::degrees_behind;
+use super::whitened::Whitened;
+use crate::estimate::ImuCalibration;
+use crate::estimate::holds::median;
+use crate::sensor::{ImuRecording, ReadingUnit, Recording};
+use nalgebra::{DMatrix, Vector3};
+
+/// So many more errors than numbers that are fitted to them.
+const ENOUGH: usize = 3;
+/// In the right unit errors of rotations are smaller by this factor at least.
+const FAR_SMALLER: f64 = 0.1;
+/// Mean temperatures that are closer explain little, K.
+const SAME_K: f64 = 3.0;
+
+/// A likely reason of errors that are larger than predicted, other than a covariance that is too small.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum LikelyReason {
+    /// The calibration has no temperature terms, and the recording is warmer or colder.
+    Temperature {
+        /// Mean temperature of the recording that was calibrated from, °C.
+        calibrated_c: f64,
+        /// That of the other one, °C.
+        here_c: f64,
+    },
+    /// The accelerometer's bias has moved, which explains the magnitudes.
+    AccelerometerBias {
+        /// By so much, as a specific force, m/s².
+        shift_mps2: Vector3<f64>,
+        /// Its predicted standard deviation, m/s².
+        sd_mps2: Vector3<f64>,
+    },
+    /// The accelerometer's gains have changed, which explains the magnitudes.
+    AccelerometerGain {
+        /// By these shares of themselves.
+        change: Vector3<f64>,
+        /// Their predicted standard deviation.
+        sd: Vector3<f64>,
+    },
+    /// The gyroscope's readings are in another unit than the stated one.
+    AngularUnit {
+        /// Readings times this are in the stated unit: π/180 where they are in deg/s, 180/π where they were taken for deg/s and are in rad/s.
+        factor: f64,
+    },
+}
+
+impl LikelyReason {
+    /// As written in results: `temperature`, `accelerometer_bias`, `accelerometer_gain`, `angular_unit`.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Temperature { .. } => "temperature",
+            Self::AccelerometerBias { .. } => "accelerometer_bias",
+            Self::AccelerometerGain { .. } => "accelerometer_gain",
+            Self::AngularUnit { .. } => "angular_unit",
+        }
+    }
+
+    /// May it make errors of this kind larger?
+    #[must_use]
+    pub fn explains(&self, kind: ErrorKind) -> bool {
+        match self {
+            Self::Temperature { .. } => true,
+            Self::AccelerometerBias { .. } | Self::AccelerometerGain { .. } => {
+                matches!(kind, ErrorKind::Magnitude | ErrorKind::Rotation)
+            }
+            Self::AngularUnit { .. } => matches!(kind, ErrorKind::Rate | ErrorKind::Rotation),
+        }
+    }
+}
+
+/// A difference of temperature, where a calibration without temperature terms was tried on another recording: both have temperatures, and something is not as predicted.
+#[must_use]
+pub fn other_temperature(
+    calibration: &ImuCalibration,
+    validation: &Validation,
+    calibrated: &ImuRecording,
+    here: &ImuRecording,
+) -> Option<LikelyReason> {
+    let wrong = validation.kinds.iter().any(|errors| errors.verdict == CovarianceVerdict::TooSmall)
+        || validation.bias_shift.is_some_and(|shift| shift.moved);
+    if calibration.hold_temperatures_c.is_some() || !wrong {
+        return None;
+    }
+    let mean = |recording: &ImuRecording| {
+        let values = recording.temperature_c.as_deref().filter(|values| !values.is_empty())?;
+        Some(values.iter().sum::<f64>() / values.len() as f64)
+    };
+    let (calibrated_c, here_c) = (mean(calibrated)?, mean(here)?);
+    ((here_c - calibrated_c).abs() >= SAME_K).then_some(LikelyReason::Temperature { calibrated_c, here_c })
+}
+
+/// What explains the errors of a recording that are larger than predicted.
+pub(super) fn reasons(validation: &Validation, claim: &Claim, unused: &Unused<'_>) -> Vec<LikelyReason> {
+    let small = |kind: ErrorKind| {
+        validation.of_kind(kind).is_some_and(|errors| errors.verdict == CovarianceVerdict::TooSmall)
+    };
+    let (magnitude, rotation) = (small(ErrorKind::Magnitude), small(ErrorKind::Rotation));
+    if !magnitude && !rotation {
+        return Vec::new();
+    }
+    let Some(errors) = unused.errors(claim) else { return Vec::new() };
+    let of_accelerometer = magnitude.then(|| accelerometer_moved(&errors, claim)).flatten();
+    let of_unit = rotation.then(|| angular_unit(&errors, claim, unused)).flatten();
+    of_accelerometer.into_iter().chain(of_unit).collect()
+}
+
+fn accelerometer_moved(errors: &Errors, claim: &Claim) -> Option<LikelyReason> {
+    let group = &errors.magnitudes;
+    let left = group.items.len().checked_sub(3).filter(|left| *left >= ENOUGH)?;
+    let all = vec![true; group.items.len()];
+    let ratio = Ratio::new(left, &degrees_behind(group.items.iter(), &[claim.holds_degrees]));
+    let (low, high) = ratio.usual();
+    let about = |row: &dyn Fn(&Vector3<f64>) -> Vector3<f64>| {
+        let by = |k: usize| DMatrix::from_row_slice(1, 3, row(&errors.along[k]).as_slice());
+        let whitened = Whitened::about(group, &all, &by)?;
+        let shift = whitened.shift()?;
+        let rest = (whitened.chi2()? - shift.chi2).max(0.0) / left as f64;
+        let verdict = CovarianceVerdict::of(rest.sqrt(), ((rest / high).sqrt(), (rest / low).sqrt()));
+        (verdict != CovarianceVerdict::TooSmall).then_some((rest, shift))
+    };
+    let bias = about(&|along| *along);
+    let gain = about(&|along| along.component_mul(along) * claim.gravity_mps2);
+    let is_bias = match (&bias, &gain) {
+        (Some((of_bias, _)), Some((of_gain, _))) => of_bias <= of_gain,
+        (bias, _) => bias.is_some(),
+    };
+    let (_, shift) = if is_bias { bias? } else { gain? };
+    let sd = shift.covariance.diagonal().map(f64::sqrt);
+    Some(match is_bias {
+        true => LikelyReason::AccelerometerBias { shift_mps2: shift.value, sd_mps2: sd },
+        false => LikelyReason::AccelerometerGain { change: shift.value, sd },
+    })
+}
+
+fn angular_unit(errors: &Errors, claim: &Claim, unused: &Unused<'_>) -> Option<LikelyReason> {
+    let gyroscope = unused.gyroscope.filter(|gyroscope| gyroscope.unit == ReadingUnit::RadianPerSecond)?;
+    let missed = |errors: &Errors| {
+        let items = &errors.rotations.items;
+        (!items.is_empty()).then(|| median(items.iter().map(|item| item.error.norm()).collect()))
+    };
+    let now = missed(errors)?;
+    let degree = 1.0_f64.to_radians();
+    [degree, degree.recip()].into_iter().find_map(|factor| {
+        let readings = gyroscope.readings.iter().map(|y| y * factor).collect();
+        let converted = Recording { readings, ..gyroscope.clone() };
+        let unused = Unused { gyroscope: Some(&converted), ..unused.clone() };
+        let missed = missed(&unused.errors(claim)?)?;
+        (missed < FAR_SMALLER * now).then_some(LikelyReason::AngularUnit { factor })
+    })
+}
