@@ -40,10 +40,12 @@ fn a_rotation_that_ends_upside_down_is_left_out_with_its_angle() {
         let mut recording = clean.clone();
         let hold = calibration.holds.holds[7].hold.clone();
         let gyroscope = recording.gyroscope.as_mut().expect("there");
-        // just before the hold that was found; across gravity
+        // just before the hold that was found; across gravity; for a tenth of a second, as one sample is a spark
         let at = hold.first - 3;
         let across = hold.mean.cross(&Vector3::x()).normalize();
-        gyroscope.readings[at] += across * (angle * setup.rate_hz);
+        for reading in &mut gyroscope.readings[at - 9..=at] {
+            *reading += across * (0.1 * angle * setup.rate_hz);
+        }
         let found = calibrate(&recording, SensorModel::Full);
         let rotation = found
             .rotations

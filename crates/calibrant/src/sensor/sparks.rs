@@ -386,17 +386,10 @@ impl<'a> OfAxis<'a> {
         let order = |size: f64| (size.to_bits() >> 52) as usize;
         let mut counts = [0_usize; 2048];
         self.values.iter().for_each(|value| counts[order(size(value))] += 1);
-        let (mut last, mut least) = (order(usual), None);
-        for k in last..counts.len() {
-            if counts[k] > 0 {
-                if k - last > BETWEEN {
-                    least = Some(k);
-                    break;
-                }
-                last = k;
-            }
-        }
-        let Some(least) = least else { return Vec::new() };
+        let mut occupied = (order(usual)..counts.len()).filter(|&k| counts[k] > 0);
+        let mut last = order(usual);
+        let far = |k: &usize| *k - std::mem::replace(&mut last, *k) > BETWEEN;
+        let Some(least) = occupied.find(far) else { return Vec::new() };
         let is_wild = |value: &f64| order(size(value)) >= least;
         if self.values.iter().filter(|value| is_wild(value)).count() > self.values.len() / MOST {
             return Vec::new();
