@@ -27,8 +27,8 @@ pub(super) fn hold_summary(holds: &HoldCalibration) -> String {
     match holds.degrees_of_freedom {
         0 => row(
             "magnitude residual",
-            "met exactly".into(),
-            "No more holds than parameters: gravity in them determines the parameters, and nothing is left to check these with. Add holds.",
+            "nothing left to check".into(),
+            "No more holds than parameters: gravity in them determines the parameters, and is met by that. Add holds.",
         ),
         _ => row(
             "magnitude residual, rms",
