@@ -80,7 +80,7 @@ fn row(quantity: &ComparedQuantity) -> Vec<String> {
         value(&quantity.a),
         value(&quantity.b),
         difference.map_or_else(dash, |difference| number::significant(scale * difference, 3)),
-        in_sd.map_or_else(dash, |in_sd| format!("{in_sd:+.1}")),
+        in_sd.map_or_else(dash, |in_sd| number::signed(in_sd, 1)),
         unit,
     ]
 }

@@ -44,6 +44,14 @@ pub(crate) fn finding(file: &str, finding: &Finding) {
     say(&format!("{file}: {finding}"));
 }
 
+/// Findings of a recording, each with the name of the file that it is about: that of the gyroscope, where it has one.
+pub(crate) fn findings(findings: &[Finding], file: &str, gyroscope: Option<&str>) {
+    for found in findings {
+        let name = if found.in_second_file { gyroscope.unwrap_or(file) } else { file };
+        finding(name, found);
+    }
+}
+
 /// Warns where temperatures lie far beyond those at which a calibration was made.
 pub(crate) fn warn_beyond(imu: &CalibratedImu, [coldest, hottest]: [f64; 2]) {
     let thermal = &imu.parameters.thermal;

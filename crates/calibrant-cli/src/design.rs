@@ -43,7 +43,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     starts: Option<u32>,
     /// Seed of the random starts (default: the one in [design]).
-    #[arg(long)]
+    #[arg(long, allow_negative_numbers = true)]
     seed: Option<u64>,
     /// Do without the bound that no admissible motion can beat; it takes most of the time.
     #[arg(long)]

@@ -9,7 +9,7 @@ use calibrant::io::{
 use calibrant::motion::Hold;
 use calibrant::report::number::{count, short, significant};
 use calibrant::sensor::{Axis, ReadingUnit, Saturation, Triad};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Say what a recording of an IMU holds, before anything is calibrated.
 ///
@@ -21,6 +21,9 @@ pub(crate) struct Arguments {
     file: PathBuf,
     /// The gyroscope's file of a pair (imu_tk).
     second: Option<PathBuf>,
+    /// The same, as `calibrate` and `apply` take it.
+    #[arg(long, value_name = "FILE", conflicts_with = "second")]
+    gyroscope: Option<PathBuf>,
     #[command(flatten)]
     reading: RecordingOptions,
     /// Experiment file whose [columns] say what is what.
@@ -31,15 +34,21 @@ pub(crate) struct Arguments {
     json: bool,
 }
 
+impl Arguments {
+    /// The gyroscope's file of a pair.
+    fn second(&self) -> Option<&Path> {
+        self.second.as_deref().or(self.gyroscope.as_deref())
+    }
+}
+
 pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     let options = arguments.reading.with_columns(arguments.columns.as_deref())?;
-    let file = match &arguments.second {
+    let file = match arguments.second() {
         Some(second) => read_imu_pair(&arguments.file, second, &options)?,
         None => read_imu_recording(&arguments.file, &options)?,
     };
-    for finding in file.findings.iter().filter(|finding| finding.is_warning()) {
-        console::finding(&name(&arguments.file), finding);
-    }
+    let warnings: Vec<_> = file.findings.iter().filter(|finding| finding.is_warning()).cloned().collect();
+    console::findings(&warnings, &name(&arguments.file), arguments.second().map(name).as_deref());
     let inspection = inspect(&file);
     if arguments.json {
         console::print(&inspection_json(&file, &inspection));
@@ -50,7 +59,7 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
 }
 
 fn text(file: &ImuFile, inspection: &Inspection, arguments: &Arguments) -> String {
-    let names = [Some(&arguments.file), arguments.second.as_ref()];
+    let names = [Some(arguments.file.as_path()), arguments.second()];
     let names: Vec<String> = names.iter().flatten().map(|path| path.display().to_string()).collect();
     let mut text =
         format!("{}: {}, {} rows\n\n", names.join(", "), file.format.description(), count(file.rows));

@@ -35,7 +35,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "EXPERIMENT")]
     columns: Option<PathBuf>,
     /// Nominal gain in counts per m/s² or rad/s (one number or x,y,z): states the noise of readings in counts in SI and customary units.
-    #[arg(long, value_name = "GAIN", value_delimiter = ',', num_args = 1..=3)]
+    #[arg(long, value_name = "GAIN", value_delimiter = ',', num_args = 1..=3, allow_negative_numbers = true)]
     gain: Vec<f64>,
     /// Start and end of the interval at rest, s (default: the longest hold that is found).
     #[arg(long, num_args = 2, value_names = ["START", "END"], allow_negative_numbers = true)]

@@ -1,8 +1,7 @@
 //! What every command that reads a recording needs: the options that say what its file does not say itself, and its name in errors.
 
 use calibrant::Error;
-use calibrant::error::Complaint;
-use calibrant::io::{Experiment, FileFormat, ImuReadOptions, ImuUnit, TimeUnit};
+use calibrant::io::{FileFormat, ImuReadOptions, ImuUnit, TimeUnit, read_columns};
 use calibrant::sensor::{ImuRecording, Recording, Triad, WORKING_C};
 use std::borrow::Cow;
 use std::path::Path;
@@ -47,13 +46,7 @@ impl RecordingOptions {
     pub(crate) fn with_columns(&self, experiment: Option<&Path>) -> calibrant::Result<ImuReadOptions> {
         let given = self.options();
         let Some(experiment) = experiment else { return Ok(given) };
-        let columns = Experiment::read(experiment)?.columns;
-        if columns == ImuReadOptions::default() {
-            let complaint =
-                Complaint::new("there is no [columns] section", "add one, or leave --columns away");
-            return Err(Error::Experiment(Box::new(complaint.in_file(experiment))));
-        }
-        Ok(given.or(columns))
+        Ok(given.or(read_columns(experiment)?))
     }
 }
 

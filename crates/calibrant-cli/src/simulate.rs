@@ -43,10 +43,10 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "CSV")]
     motion: Option<PathBuf>,
     /// Seed of everything random (default: the one in [study], 1).
-    #[arg(long)]
+    #[arg(long, allow_negative_numbers = true)]
     seed: Option<u64>,
     /// Which recording of the sensor that the seed draws: each has its own noise and its own random poses or motion.
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", default_value_t = 1, allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(1..))]
     recording: u32,
     /// Directory for the results.
     #[arg(short, long, value_name = "DIR")]

@@ -34,7 +34,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     starts: Option<u32>,
     /// Seed of everything random (default: the one in [study]).
-    #[arg(long)]
+    #[arg(long, allow_negative_numbers = true)]
     seed: Option<u64>,
     /// Print study.json on stdout in place of the tables.
     #[arg(long)]

@@ -56,9 +56,7 @@ pub(super) fn run(arguments: &Arguments, experiment: &Experiment, plan: &ImuPlan
     let recordings = recordings(arguments)?;
     if let [files] = recordings.as_slice() {
         let file = job.read(*files)?;
-        for finding in &file.findings {
-            console::finding(&name(files.path), finding);
-        }
+        console::findings(&file.findings, &name(files.path), files.gyroscope.map(name).as_deref());
         let done = job.calibrate(*files, file, &arguments.output)?;
         for warning in &done.calibration.warnings {
             console::warn(warning);

@@ -49,7 +49,8 @@ pub(super) fn of_imu(
     let mut validations = Vec::new();
     if let Some(path) = &arguments.validate {
         let mut other = read(path, arguments.validate_gyroscope.as_deref(), options)?;
-        other.findings.iter().for_each(|finding| console::finding(&name(path), finding));
+        let second = arguments.validate_gyroscope.as_deref().map(name);
+        console::findings(&other.findings, &name(path), second.as_deref());
         let sparks = take_out_sparks(&mut other.recording);
         sparks.iter().for_each(|words| console::warn(&format!("{}: {words}", name(path))));
         let gyroscope_path = arguments.validate_gyroscope.as_deref().unwrap_or(path);

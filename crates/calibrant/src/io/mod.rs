@@ -61,7 +61,7 @@ pub use earlier::{EarlierCalibration, parse_calibration, read_calibration};
 pub use evaluation::{evaluation_json, write_evaluation};
 pub use experiment::{
     CalibrateOptions, CriterionLetter, DesignOptions, Experiment, HoldsPlan, ImuPlan, MotionPlan,
-    NoisyVariant, Plan, Prior, ScaleBy, StudyOptions, UnknownVariant,
+    NoisyVariant, Plan, Prior, ScaleBy, StudyOptions, UnknownVariant, read_columns,
 };
 pub use imu_calibration::{imu_calibration_json, write_imu_calibration};
 pub use inspection::{HoldsInspection, Inspection, SensorInspection, inspect, inspection_json};

@@ -70,6 +70,13 @@ pub(super) fn as_text(bytes: &[u8]) -> Checked<&str> {
             Complaint::new("the text is encoded in UTF-16", "save it as UTF-8 (or plain ASCII)").into()
         );
     }
+    if bytes.starts_with(b"#ROSBAG V") {
+        return Err(Complaint::new(
+            "this is a bag of ROS 1, which is not read",
+            "convert it to MCAP: `rosbags-convert --src FILE.bag --dst DIR --dst-storage mcap`, and give the .mcap file in DIR",
+        )
+        .into());
+    }
     if let Some((program, unpack)) = packed_by(bytes) {
         let message = format!("this file is compressed with {program}");
         return Err(Complaint::new(message, format!("unpack it first: {unpack}")).into());

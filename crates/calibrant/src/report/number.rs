@@ -83,6 +83,16 @@ pub(super) fn tick(value: f64) -> String {
     without_trailing_zeros(&significant(value, 6))
 }
 
+/// A number with its sign, + or −, and so many decimals; what they round to zero has none.
+pub fn signed(value: f64, decimals: usize) -> String {
+    let text = format!("{value:+.decimals$}");
+    if text.chars().any(|digit| ('1'..='9').contains(&digit)) {
+        text.replace('-', &MINUS.to_string())
+    } else {
+        text[1..].to_owned()
+    }
+}
+
 /// A probability: two digits, never `0`.
 pub fn probability(p: f64) -> String {
     if !p.is_finite() {
@@ -182,6 +192,14 @@ pub(super) fn superscript(exponent: i32) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_signed_number_has_a_typeset_minus() {
+        assert_eq!(
+            [1.23, -1.25, -0.04, 0.0, -10.0].map(|x| signed(x, 1)),
+            ["+1.2", "−1.2", "0.0", "0.0", "−10.0"]
+        );
+    }
 
     #[test]
     fn a_value_has_the_digits_its_sd_leaves_it() {

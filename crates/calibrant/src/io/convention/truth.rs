@@ -41,6 +41,10 @@ pub(super) fn read(text: &str) -> Checked<CalibratedImuFile> {
     let file: File = serde_json::from_str(text).map_err(|error| json::broken(&error, KIND, HELP))?;
     let missing = |field: &str| complaint(format!("in {KIND} the field `{field}` is missing"), HELP);
     let listed = file.parameters.ok_or_else(|| missing("parameters"))?;
+    let known = |gauge: &String| Gauge::ALL.iter().any(|of| of.name() == gauge.as_str());
+    if let Some(gauge) = file.gauge.as_ref().filter(|gauge| !known(gauge)) {
+        return Err(complaint(format!("the gauge \"{gauge}\" is none that is known"), HELP));
+    }
     let names: Vec<String> = listed.iter().map(Value::full_name).collect();
     let of = |triad: Triad| listed.iter().zip(&names).filter(move |(_, name)| name.starts_with(triad.name()));
     let unit = |triad: Triad| {
@@ -75,9 +79,12 @@ pub(super) fn read(text: &str) -> Checked<CalibratedImuFile> {
         let quantity = quantity_of(&name, &imu, symmetric)
             .ok_or_else(|| complaint(format!("\"{}\" is no parameter of a sensor", value.name), HELP))?;
         let wanted = quantity.unit(imu.unit(quantity.triad()).unwrap_or(quantity.triad().stimulus_unit()));
-        if value.unit != wanted || imu.quantities.contains(&quantity) {
-            let message = format!("{name} is in {} or stands twice; {wanted} is expected once", value.unit);
+        if value.unit != wanted {
+            let message = format!("{name} is in \"{}\", and {wanted} is expected", value.unit);
             return Err(complaint(message, HELP));
+        }
+        if imu.quantities.contains(&quantity) {
+            return Err(complaint(format!("{name} stands twice"), HELP));
         }
         quantity.add_to(&mut imu.parameters, value.value);
         if i < estimated {

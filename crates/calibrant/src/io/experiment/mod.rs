@@ -26,7 +26,7 @@ pub use motion::MotionPlan;
 pub use study::{NoisyVariant, StudyOptions, UnknownVariant};
 
 use super::{ImuReadOptions, text};
-use crate::error::{Error, Result};
+use crate::error::{Complaint, Error, Result};
 use crate::motion::Limits;
 use crate::sensor::{ReadingUnit, Sensor, SensorModel};
 use document::{Document, Section};
@@ -66,16 +66,43 @@ pub enum Plan {
     Holds(HoldsPlan),
 }
 
+/// Reads `[columns]` of a file that needs to have nothing else: an experiment file, or one with this table alone (and `schema = 1`, where it likes).
+///
+/// # Errors
+/// As [`Experiment::read`], whatever section is wrong; [`Error::Experiment`] without a `[columns]` section that says anything.
+pub fn read_columns(path: &Path) -> Result<ImuReadOptions> {
+    let text = read_text(path)?;
+    let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
+    let document = Document { text, file: Some(path) };
+    let table = DeTable::parse(text).map_err(|error| document.syntax(&error))?;
+    let root = Section::root(&document, table.get_ref())?;
+    let others = table.get_ref().keys().any(|key| !["schema", "columns"].contains(&key.get_ref().as_ref()));
+    let columns = match root.section("columns")? {
+        _ if others => Experiment::parse(text, Some(path))?.columns,
+        Some(section) => columns::read(&section)?,
+        None => ImuReadOptions::default(),
+    };
+    if columns == ImuReadOptions::default() {
+        let complaint = Complaint::new("there is no [columns] section", "add one, or leave --columns away");
+        return Err(Error::experiment(complaint.in_file(path)));
+    }
+    Ok(columns)
+}
+
+fn read_text(path: &Path) -> Result<String> {
+    let bytes = text::read_bytes(path, LARGEST, "the experiment file")
+        .map_err(|complaint| Error::experiment(*complaint))?;
+    let text = text::as_text(&bytes).map_err(|complaint| Error::experiment(complaint.in_file(path)))?;
+    Ok(text.to_owned())
+}
+
 impl Experiment {
     /// Reads an experiment file.
     ///
     /// # Errors
     /// [`Error::Experiment`] where the file cannot be read, is larger than 1 MiB, is not text, or as [`parse`](Self::parse).
     pub fn read(path: &Path) -> Result<Self> {
-        let bytes = text::read_bytes(path, LARGEST, "the experiment file")
-            .map_err(|complaint| Error::experiment(*complaint))?;
-        let text = text::as_text(&bytes).map_err(|complaint| Error::experiment(complaint.in_file(path)))?;
-        Self::parse(text, Some(path))
+        Self::parse(&read_text(path)?, Some(path))
     }
 
     /// Reads the text of an experiment file; `file` is only named in complaints.

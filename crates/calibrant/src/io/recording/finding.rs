@@ -29,6 +29,8 @@ pub enum FindingKind {
     Saturation,
     /// Where the sample times come from, where it is not simply a column of seconds.
     Clock,
+    /// A sensor of a pair of files was recorded for a part of the other's time only.
+    ShorterThanOther,
     /// The sample times are hardly in the unit that is stated.
     DoubtfulClock,
     /// The temperature is missing in some rows, seldom for long.
@@ -46,6 +48,8 @@ pub struct Finding {
     pub line: Option<usize>,
     /// What, in words.
     pub message: String,
+    /// Is it about the gyroscope's file of a pair, not the accelerometer's?
+    pub in_second_file: bool,
 }
 
 impl Finding {
@@ -57,7 +61,7 @@ impl Finding {
     }
 
     pub(super) fn new(kind: FindingKind, line: Option<usize>, message: String) -> Self {
-        Self { kind, line, message }
+        Self { kind, line, message, in_second_file: false }
     }
 }
 

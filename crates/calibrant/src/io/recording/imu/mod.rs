@@ -53,12 +53,12 @@ pub use format::FileFormat;
 pub use options::{ColumnMapping, ImuReadOptions};
 pub use unit::{ColumnUnit, ImuUnit, TimeUnit};
 
-use super::finding::{Finding, FindingKind};
+use super::finding::{Finding, FindingKind, moment, short};
 use super::hex_sha256;
 use super::row::Layout;
 use crate::error::{Complaint, Error, Result};
 use crate::io::text::Checked;
-use crate::sensor::{ImuRecording, Triad};
+use crate::sensor::{ImuRecording, Recording, Triad};
 use assemble::assemble;
 use draft::Draft;
 use head::Head;
@@ -333,6 +333,36 @@ fn left_aside(file: &ImuFile, triad: Triad) -> Option<Finding> {
     })
 }
 
+/// Says where one of a pair of files covers much less of the time than the other.
+fn shorter_than_other(first: &ImuRecording, second: &ImuRecording) -> Option<Finding> {
+    let span = |recording: &Recording| Some((*recording.times_s.first()?, *recording.times_s.last()?));
+    let (accelerometer, gyroscope) =
+        (span(first.accelerometer.as_ref()?)?, span(second.gyroscope.as_ref()?)?);
+    let common = accelerometer.1.min(gyroscope.1) - accelerometer.0.max(gyroscope.0);
+    let lengths = [accelerometer, gyroscope].map(|(start, end)| end - start);
+    let is_gyroscope = lengths[1] < lengths[0];
+    let (shorter, longer) = if is_gyroscope {
+        (Triad::Gyroscope, Triad::Accelerometer)
+    } else {
+        (Triad::Accelerometer, Triad::Gyroscope)
+    };
+    let of = |triad: Triad| if triad == Triad::Gyroscope { gyroscope } else { accelerometer };
+    if common >= COVERED * lengths[0].max(lengths[1]) {
+        return None;
+    }
+    let words = |(start, end): (f64, f64)| format!("from {} to {} s", moment(start), moment(end));
+    let message = format!(
+        "{shorter}: it was recorded {}, the {longer} {}: {} s of both",
+        words(of(shorter)),
+        words(of(longer)),
+        short(common.max(0.0))
+    );
+    Some(Finding {
+        in_second_file: is_gyroscope,
+        ..Finding::new(FindingKind::ShorterThanOther, None, message)
+    })
+}
+
 /// Two files as one recording.
 fn joined(first: ImuFile, second: ImuFile) -> ImuFile {
     let named = |triad: Triad, file: &ImuFile| -> Vec<Finding> {
@@ -344,7 +374,10 @@ fn joined(first: ImuFile, second: ImuFile) -> ImuFile {
         };
         file.findings.iter().cloned().chain(left_aside(file, triad)).map(named).collect()
     };
-    let findings = [named(Triad::Accelerometer, &first), named(Triad::Gyroscope, &second)].concat();
+    let of_second = named(Triad::Gyroscope, &second).into_iter();
+    let mut findings = named(Triad::Accelerometer, &first);
+    findings.extend(of_second.map(|finding| Finding { in_second_file: true, ..finding }));
+    findings.extend(shorter_than_other(&first.recording, &second.recording));
     ImuFile {
         recording: ImuRecording {
             accelerometer: first.recording.accelerometer,
@@ -358,6 +391,9 @@ fn joined(first: ImuFile, second: ImuFile) -> ImuFile {
         sha256: [first.sha256, second.sha256].concat(),
     }
 }
+
+/// What both files of a pair have in common of the longer one's time, where nothing is to be said of it.
+const COVERED: f64 = 0.9;
 
 const LEAVE_AWAY: &str = "leave --format away: the format is recognised by the content";
 
