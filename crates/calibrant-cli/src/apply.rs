@@ -11,7 +11,7 @@ use calibrant::io::{
 };
 use calibrant::report::number;
 use calibrant::sensor::{
-    CalibratedImu, CorrectedTriad, ImuCorrection, ImuRecording, ReadingUnit, Recording, Triad,
+    CalibratedImu, CorrectedTriad, ImuCorrection, ImuRecording, ReadingUnit, Recording, Triad, WithoutForce,
 };
 use std::path::PathBuf;
 
@@ -75,6 +75,9 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     {
         console::warn_beyond(&imu, range);
     }
+    if let Some(unknown) = &corrected.without_force {
+        console::warn(&without_force(unknown));
+    }
     write_corrected_recording(&arguments.output, &corrected)?;
     console::print(&format!("{}: {}\n", arguments.calibration.display(), in_words(&imu)));
     for (triad, found) in
@@ -88,6 +91,19 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     Ok(Exit::DONE)
 }
 
+/// What the gyroscope's g-sensitivity was corrected with where the accelerometer has no data.
+fn without_force(unknown: &WithoutForce) -> String {
+    let (start, end) = unknown.span_s;
+    format!(
+        "the accelerometer has no data at {} of the gyroscope, from {} to {} s: their g-sensitivity is corrected with the nearest specific force that is known, and may be off by up to {} rad/s; \
+         their standard uncertainty has that in it",
+        number::counted(unknown.samples, "sample"),
+        number::short(start),
+        number::short(end),
+        number::significant(unknown.most_radps, 2)
+    )
+}
+
 /// Least and greatest of some values.
 fn range(values: &[f64]) -> Option<[f64; 2]> {
     values.iter().map(|&t| [t, t]).reduce(|[low, high], [t, _]| [low.min(t), high.max(t)])
@@ -97,9 +113,8 @@ fn range(values: &[f64]) -> Option<[f64; 2]> {
 fn read_for(imu: &CalibratedImu, arguments: &Arguments) -> calibrant::Result<ImuRecording> {
     let path = &arguments.recording;
     let file = read(imu, arguments)?;
-    for finding in &file.findings {
-        console::finding(&path.display().to_string(), finding);
-    }
+    let second = arguments.gyroscope.as_ref().map(|path| path.display().to_string());
+    console::findings(&file.findings, &path.display().to_string(), second.as_deref());
     for triad in Triad::ALL.into_iter().filter(|&triad| imu.unit(triad).is_some()) {
         check_usable(&file, triad).map_err(|error| in_file(error, path))?;
     }

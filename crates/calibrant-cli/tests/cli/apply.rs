@@ -139,3 +139,131 @@ fn a_calibration_of_one_sensor_reads_one_sensor() {
     done.says("the calibration has no gyroscope: its readings are left out");
     assert!(bench.read("x.csv").starts_with("t_s,ax_mps2,ay_mps2,az_mps2\n"));
 }
+
+/// A file with `[columns]` alone serves as well as an experiment file.
+#[test]
+fn columns_need_no_experiment() {
+    let bench = imu();
+    bench.write("plain.csv", rows("t_s,ax,ay,az,gx,gy,gz", 1.0));
+    let units = "accelerometer_unit = \"m/s2\"\ngyroscope_unit = \"rad/s\"\n";
+    bench.write("columns.toml", format!("[columns]\n{units}"));
+    bench.write("schema.toml", format!("schema = 1\n[columns]\n{units}"));
+    let options = "--accelerometer-unit m/s2 --gyroscope-unit rad/s";
+    bench.run(&format!("apply truth.json plain.csv {options} -o options.csv")).done();
+    for file in ["columns", "schema"] {
+        bench.run(&format!("apply truth.json plain.csv --columns {file}.toml -o {file}.csv")).done();
+        assert_eq!(bench.read(&format!("{file}.csv")), bench.read("options.csv"), "{file}");
+    }
+    bench.run("inspect plain.csv --columns columns.toml").done();
+    for (text, says) in [
+        ("[columns]\ngyroscope_units = \"rad/s\"\n", "did you mean `gyroscope_unit`?"),
+        ("", "there is no [columns] section"),
+        (
+            "[columns]\ngyroscope_unit = \"rad/s\"\n[holds]\n",
+            "the first line of an experiment file is schema = 1",
+        ),
+    ] {
+        bench.write("bad.toml", text);
+        bench.refuses("apply truth.json plain.csv --columns bad.toml -o x.csv", 2, &["bad.toml", says]);
+    }
+}
+
+/// Files of a sensor each: `(time, x, y, z)` every 10 ms.
+fn sensor(names: &str, count: u32, shift_s: f64, value: [f64; 3]) -> String {
+    let row = |k: u32| {
+        let [x, y, z] = value;
+        format!("{:.9},{x},{y},{z}\n", f64::from(k) / 100.0 + shift_s)
+    };
+    format!("{names}\n{}", (0..count).map(row).collect::<String>())
+}
+
+#[test]
+fn times_that_differ_in_the_last_digit_share_a_row() {
+    let bench = imu();
+    bench.write("acc.csv", sensor("t_s,ax_mps2,ay_mps2,az_mps2", 50, 0.0, [0.0, 0.1, 9.8]));
+    for (shift_s, rows) in [(0.0, 50), (2e-9, 50), (-5e-6, 50), (1e-3, 100)] {
+        bench.write("gyr.csv", sensor("t_s,gx_radps,gy_radps,gz_radps", 50, shift_s, [0.1, 0.2, 0.3]));
+        bench.run("apply truth.json acc.csv --gyroscope gyr.csv -o x.csv").done();
+        let written = bench.read("x.csv");
+        assert_eq!(written.lines().count(), 1 + rows, "{shift_s}");
+        assert_eq!(written.contains(",,"), rows == 100, "{shift_s}");
+    }
+}
+
+/// Where the accelerometer ends before the gyroscope, the force that the gyroscope feels is not known.
+#[test]
+fn a_force_that_is_not_known_is_said() {
+    let bench = imu();
+    bench.write("acc.csv", sensor("t_s,ax_mps2,ay_mps2,az_mps2", 50, 0.0, [0.0, 0.1, 9.8]));
+    bench.write("gyr.csv", sensor("t_s,gx_radps,gy_radps,gz_radps", 200, 0.0, [0.1, 0.2, 0.3]));
+    let done = bench.run("apply truth.json acc.csv --gyroscope gyr.csv -o x.csv").done();
+    // the last sample of the accelerometer is at 0.49 s, and serves to 0.51 s
+    done.says("the accelerometer has no data at 148 samples of the gyroscope, from 0.52 to 1.99 s: their g-sensitivity");
+    done.says("acc.csv: accelerometer: it was recorded from 0 to 0.49 s, the gyroscope from 0 to 1.99 s: 0.49 s of both");
+    bench.write("gyr.csv", sensor("t_s,gx_radps,gy_radps,gz_radps", 50, 0.0, [0.1, 0.2, 0.3]));
+    let done = bench.run("apply truth.json acc.csv --gyroscope gyr.csv -o x.csv").done();
+    assert!(!done.stderr.contains("no data at") && !done.stderr.contains("recorded from"), "{}", done.stderr);
+    // one file's gap is not the other's
+    let gyroscope = sensor("t_s,gx_radps,gy_radps,gz_radps", 50, 0.0, [0.1, 0.2, 0.3]);
+    let gap: Vec<&str> = gyroscope.lines().filter(|line| !line.starts_with("0.2")).collect();
+    bench.write("gyr.csv", gap.join("\n"));
+    let done = bench.run("apply truth.json acc.csv --gyroscope gyr.csv -o x.csv").done();
+    done.says("gyr.csv: line 22: gyroscope: gap of 0.11 s");
+    assert!(!done.stderr.contains("acc.csv: gyroscope"), "{}", done.stderr);
+    let inspected = bench.run("inspect acc.csv --gyroscope gyr.csv").done().stdout;
+    assert_eq!(inspected, bench.run("inspect acc.csv gyr.csv").done().stdout);
+}
+
+#[test]
+fn a_bag_of_ros_1_is_called_so() {
+    let bench = imu();
+    bench.write("imu.bag", b"#ROSBAG V2.0\nE\0\0\0\x0c\0\0\0chunk_count");
+    bench.refuses(
+        "apply truth.json imu.bag -o x.csv",
+        3,
+        &["imu.bag: this is a bag of ROS 1", "rosbags-convert"],
+    );
+    bench.refuses("inspect imu.bag", 3, &["imu.bag: this is a bag of ROS 1", "rosbags-convert"]);
+}
+
+/// A truth.json that is not as `simulate` writes it.
+#[test]
+fn what_is_wrong_with_a_truth_is_named() {
+    let bench = imu();
+    let truth = bench.json("truth.json");
+    let edited = |edit: &dyn Fn(&mut serde_json::Value)| {
+        let mut edited = truth.clone();
+        edit(&mut edited);
+        edited.to_string()
+    };
+    let first = |value: serde_json::Value, key: &'static str| {
+        move |truth: &mut serde_json::Value| truth["parameters"][0][key] = value.clone()
+    };
+    for (text, says) in [
+        (edited(&first(serde_json::json!([1, 2]), "value")), "invalid type: sequence, expected f64"),
+        (edited(&first("K".into(), "unit")), "accelerometer.bias.x is in \"K\", and m/s² is expected"),
+        (edited(&first("accelerometer.bias.y".into(), "name")), "accelerometer.bias.y stands twice"),
+        (edited(&first("speed".into(), "name")), "\"speed\" is no parameter of a sensor"),
+        (edited(&|truth| truth["gauge"] = "skew".into()), "the gauge \"skew\" is none that is known"),
+        (
+            edited(&|truth| truth["parameters"] = serde_json::json!([])),
+            "neither an accelerometer nor a gyroscope",
+        ),
+    ] {
+        bench.write("odd.json", text);
+        let outcome = bench.run("compare odd.json truth.json");
+        assert_ne!(outcome.status, 0, "{outcome:?}");
+        outcome.says("odd.json");
+        outcome.says(says);
+    }
+}
+
+#[test]
+fn a_negative_seed_is_refused_as_a_number() {
+    let bench = imu();
+    for option in ["--seed -5", "--seed=-5", "--recording -1"] {
+        let outcome = bench.run(&format!("simulate imu.toml {option} -o x"));
+        assert_eq!(outcome.status, 2, "{outcome:?}");
+        outcome.says("invalid value '-");
+    }
+}

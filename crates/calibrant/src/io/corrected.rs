@@ -9,8 +9,8 @@ use std::path::Path;
 /// Writes a corrected recording as CSV: `t_s,ax_mps2,ay_mps2,az_mps2,ax_sd_mps2,…,gx_radps,…,gx_sd_radps,…`.
 ///
 /// A sensor that is not there has no columns, nor has an uncertainty that is not known. `sd` is the standard uncertainty of the correction, which is the same
-/// error in every sample: it does not average out; the noise of the sample is not in it. Where the sensors' times differ, every time has a row, and
-/// a sensor without a sample there empty fields. Numbers have the fewest digits that read back to the same bits.
+/// error in every sample: it does not average out; the noise of the sample is not in it. Where the sensors' times differ by more than a thousandth of the sample interval, every
+/// time has a row, and a sensor without a sample there empty fields. Numbers have the fewest digits that read back to the same bits.
 ///
 /// # Errors
 /// [`Error::Output`](crate::Error::Output) where it cannot be written.
@@ -20,6 +20,7 @@ pub fn write_corrected_recording(path: &Path, recording: &CorrectedRecording<'_>
             .into_iter()
             .filter_map(|(triad, corrected)| Some((triad, corrected.as_ref()?)))
             .collect();
+    let same_s = SAME * triads.iter().map(|(_, of)| step(of.times_s)).fold(f64::INFINITY, f64::min);
     write_atomically(path, |out| {
         write!(out, "t_s")?;
         for (triad, corrected) in &triads {
@@ -33,13 +34,24 @@ pub fn write_corrected_recording(path: &Path, recording: &CorrectedRecording<'_>
             let Some(time) = times.reduce(f64::min) else { return Ok(()) };
             write!(out, "{time:?}")?;
             for ((_, corrected), k) in triads.iter().zip(&mut next) {
-                let here = corrected.times_s.get(*k) == Some(&time);
+                let here = corrected.times_s.get(*k).is_some_and(|t| t - time <= same_s);
                 row(out, corrected, here.then_some(*k))?;
                 *k += usize::from(here);
             }
             writeln!(out)?;
         }
     })
+}
+
+/// Times closer than this share of the sample interval are one time: those of two files may differ in the last digit.
+const SAME: f64 = 1e-3;
+
+/// The mean step of sample times; 0 for fewer than two.
+fn step(times_s: &[f64]) -> f64 {
+    match times_s {
+        [first, .., last] => (last - first) / (times_s.len() - 1) as f64,
+        _ => 0.0,
+    }
 }
 
 fn header(out: &mut dyn Write, triad: Triad, corrected: &CorrectedTriad<'_>) -> io::Result<()> {

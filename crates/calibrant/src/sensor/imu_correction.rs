@@ -5,6 +5,7 @@
 //! noise of the reading is not in it. Where biases and gains follow temperature, all of this is at the temperature of each sample.
 
 use super::entries::{self, ENTRIES, EntryMatrix};
+use super::unforced::{Unforced, WithoutForce, unknown_force_variance};
 use super::{
     CalibratedImu, Correction, HIGHEST_ORDER, ImuParameters, ImuQuantity, ImuRecording, Recording,
     Temperatures, ThermalPart, Triad, interpolated, times,
@@ -55,6 +56,8 @@ pub struct CorrectedRecording<'a> {
     pub accelerometer: Option<CorrectedTriad<'a>>,
     /// Angular rate, rad/s.
     pub gyroscope: Option<CorrectedTriad<'a>>,
+    /// Where the accelerometer has no data to correct the g-sensitivity with; `None` where it has some at every sample of the gyroscope, or they are not needed.
+    pub without_force: Option<WithoutForce>,
 }
 
 /// Corrected readings of one sensor over time.
@@ -236,7 +239,8 @@ impl ImuCorrection {
 
     /// A corrected recording: every sensor that the calibration and the recording both have.
     ///
-    /// The specific force at a sample of the gyroscope is interpolated where the sensors' times differ.
+    /// The specific force at a sample of the gyroscope is interpolated where the sensors' times differ. Where the accelerometer has none within two of its sample intervals, the nearest is taken
+    /// (between both ends of a gap, what lies on the line), and the uncertainty has in it that gravity may point anywhere else.
     ///
     /// # Errors
     /// [`Error::Recording`] where the readings are in another unit than the calibration's, where there is a g-sensitivity to correct and the
@@ -274,6 +278,7 @@ impl ImuCorrection {
         let accelerometer = recording.accelerometer.as_ref().filter(|_| self.accelerometer.is_some());
         let accelerometer =
             accelerometer.map(|readings| self.correct_forces(readings, temperatures)).transpose()?;
+        let mut without_force = None;
         let gyroscope = match recording.gyroscope.as_ref().filter(|_| self.gyroscope.is_some()) {
             None => None,
             Some(readings) => {
@@ -284,10 +289,12 @@ impl ImuCorrection {
                         "give the recording of both sensors",
                     )));
                 }
-                Some(self.correct_rates(readings, accelerometer.as_ref(), temperatures)?)
+                let found = Unforced::of(readings, recording.accelerometer.as_ref().filter(|_| needed));
+                without_force = found.summary(readings, &self.by_unknown_force());
+                Some(self.correct_rates(readings, accelerometer.as_ref(), temperatures, &found)?)
             }
         };
-        Ok(CorrectedRecording { accelerometer, gyroscope })
+        Ok(CorrectedRecording { accelerometer, gyroscope, without_force })
     }
 
     fn correct_forces<'a>(
@@ -306,6 +313,7 @@ impl ImuCorrection {
         readings: &'a Recording,
         forces: Option<&CorrectedTriad<'_>>,
         temperatures: Option<&Temperatures<'_>>,
+        unforced: &Unforced,
     ) -> Result<CorrectedTriad<'a>> {
         let force_at = |k: usize| match forces {
             None => Vector3::zeros(),
@@ -315,8 +323,21 @@ impl ImuCorrection {
         self.corrected(readings, temperatures, |here, k| {
             let force = force_at(k);
             let rate = here.rate(&readings.readings[k], &force)?;
-            Some((rate, here.rate_sd(&rate, &force)))
+            let sd = here.rate_sd(&rate, &force);
+            let sd = match unforced.has(k) {
+                true => sd.map(|sd| {
+                    let unknown = unknown_force_variance(&here.by_unknown_force(), &force);
+                    (sd.component_mul(&sd) + unknown).map(sqrt)
+                }),
+                false => sd,
+            };
+            Some((rate, sd))
         })
+    }
+
+    /// What takes an error of the specific force to one of the corrected rate, by the g-sensitivity.
+    fn by_unknown_force(&self) -> Matrix3<f64> {
+        self.gyroscope.map_or_else(Matrix3::zeros, |correction| correction.matrix * self.g_sensitivity)
     }
 
     /// Each sample with the correction at its temperature.

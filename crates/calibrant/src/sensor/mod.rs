@@ -22,6 +22,7 @@ mod saturation;
 mod sparks;
 mod temperatures;
 mod thermal;
+mod unforced;
 
 pub use axis::Axis;
 pub use datasheet::{ReadingUnit, Sensor};
@@ -39,3 +40,4 @@ pub use saturation::Saturation;
 pub use sparks::Sparks;
 pub use temperatures::{Temperatures, WORKING_C};
 pub use thermal::{HIGHEST_ORDER, Thermal, ThermalPart, ThermalTerm, TriadThermal};
+pub use unforced::WithoutForce;
