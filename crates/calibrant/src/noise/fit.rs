@@ -2,6 +2,7 @@
 
 use super::choice::choose;
 use super::regression::MISFIT;
+use super::tails::Tails;
 use super::{Drift, Moments, NoiseModel, PowerLaw, allan};
 use crate::error::{Complaint, Error, Result};
 
@@ -70,7 +71,8 @@ impl NoiseFit {
             )));
         }
         let regression = choose(moments, &observed);
-        let model = regression.model(interval_s);
+        let mut model = regression.model(interval_s);
+        model.random_walk = Tails::of(readings).widen(model.random_walk);
         let drift = Drift::of(readings, interval_s, &model);
         let scales = &moments.scales()[regression.first..];
         let tau = |m: Option<&usize>| m.map_or(0.0, |&m| m as f64 * interval_s);

@@ -44,7 +44,7 @@
 //! # Confidence
 //! An estimate of a variance is skewed. The bounds of `θ_i` are those values under which an estimate as high, or as low, as this one has a
 //! probability of 2.5 %, the estimate following a gamma distribution with the mean and the variance that the model gives it *there*.
-//! With few degrees of freedom this is the familiar χ² interval. A Monte Carlo test checks the coverage.
+//! With few degrees of freedom this is the familiar χ² interval. Heavy tails widen that of N (`tails`). A Monte Carlo test checks the coverage.
 //!
 //! # References
 //! `ieee952`, `ieee1293`, `riley2008`, `greenhall2003`, `riley2004`, `guerrier2013`, `kasdin1995`
@@ -63,8 +63,10 @@ mod power_law;
 mod regression;
 mod scaled;
 mod stretch;
+mod tails;
 mod triad;
 mod unit;
+mod vibration;
 mod whitening;
 
 pub use allan::{AllanDeviation, AllanPoint};

@@ -256,7 +256,8 @@ impl<'a> Regression<'a> {
         let scales = self.moments.scales();
         let tau = |m: usize| crate::noise::triad::short_time(m as f64 * interval_s);
         let longest = tau(scales[scales.len() - 1]);
-        let name = |a: usize| ["quantisation", "white noise", "bias instability", "rate random walk"][a];
+        let short = if self.filtered { "a filter" } else { "quantisation" };
+        let name = |a: usize| [short, "white noise", "bias instability", "rate random walk"][a];
         let here = process as usize;
         let apart = format!(
             "bias instability and rate random walk cannot be told apart with cluster times up to {longest}: record for longer"

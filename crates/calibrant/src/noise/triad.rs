@@ -1,6 +1,8 @@
 //! The noise of a sensor of three axes.
 
 use super::outliers::{self, Outliers};
+use super::tails::Tails;
+use super::vibration;
 use super::{AllanDeviation, Moments, NoiseFit, Stretch};
 use crate::error::{Complaint, Error, Result};
 use crate::sensor::{Axis, ReadingUnit, Recording, Triad};
@@ -9,6 +11,8 @@ use rayon::prelude::*;
 
 /// A sample's standard deviation that exceeds the white noise by this factor is worth a word: not all of it averages out.
 const BEYOND_WHITE: f64 = 1.15;
+/// Below this probability of its misfit, Allan deviations of noise, whose χ² has a heavier tail than that of the distribution, are out of the question.
+const HOPELESS: f64 = 1e-9;
 /// Jitter of the sample times that is worth a word.
 const JITTER: f64 = 0.2;
 
@@ -25,7 +29,7 @@ pub struct TriadNoise {
     pub stretch: Stretch,
     /// A result for each axis.
     pub axes: Vec<AxisNoise>,
-    /// Why the white noise is not that of a sensor at rest, where it is not: there are too many outliers, or whoever knows better says that the sensor moves.
+    /// Why the white noise is not that of a sensor at rest, where it is not: there are too many outliers, no process explains it, or whoever knows better says that the sensor moves.
     pub doubt: Option<String>,
     /// What the user should know.
     pub warnings: Vec<String>,
@@ -116,18 +120,20 @@ impl TriadNoise {
                 || AllanDeviation::with_confidence(&values, stretch.interval_s, moments.confidence()),
                 || fit(&values).map_err(|error| about(error, axis)),
             );
-            Ok(AxisNoise {
+            let noise = AxisNoise {
                 axis,
                 allan: allan?,
                 fit: fit?,
                 sample_sd: (squares / (n - 1.0)).sqrt(),
                 outliers,
-            })
+            };
+            let doubt = noise.doubt(&values, stretch.rate_hz());
+            Ok((noise, doubt))
         };
-        let axes: Vec<AxisNoise> = recording.active_axes().par_iter().map(axis).collect::<Result<_>>()?;
-        let sparks =
-            axes.iter().any(|axis| axis.outliers.as_ref().is_some_and(|outliers| !outliers.left_out));
-        let doubt = sparks.then(|| "there are too many sparks".to_owned());
+        let axes: Vec<(AxisNoise, Option<String>)> =
+            recording.active_axes().par_iter().map(axis).collect::<Result<_>>()?;
+        let doubt = axes.iter().find_map(|(_, doubt)| doubt.clone());
+        let axes: Vec<AxisNoise> = axes.into_iter().map(|(axis, _)| axis).collect();
         let unit = recording.unit;
         let mut noise = Self { triad, unit, gain: None, stretch, axes, doubt, warnings: Vec::new() };
         noise.warnings = noise.remarks(readings);
@@ -304,6 +310,36 @@ impl TriadNoise {
             }
         }
         remarks
+    }
+}
+
+impl AxisNoise {
+    /// Why its white noise is not that of a sensor at rest, where it is not.
+    fn doubt(&self, values: &[f64], rate_hz: f64) -> Option<String> {
+        let sparks = self.outliers.as_ref().is_some_and(|outliers| !outliers.left_out);
+        if sparks {
+            return Some("there are too many sparks".into());
+        }
+        if Tails::of(values).reach_far() {
+            return Some(format!(
+                "a few samples far off the others make most of that of axis {}: sparks?",
+                self.axis
+            ));
+        }
+        if let Some(frequency) = vibration::find(values) {
+            let hertz = three_digits(frequency * rate_hz);
+            return Some(format!(
+                "axis {} has a line at {hertz} Hz: a vibration, or the hum of the mains?",
+                self.axis
+            ));
+        }
+        let unexplained = self.fit.p_value.is_some_and(|p| p < HOPELESS);
+        unexplained.then(|| {
+            format!(
+                "no sum of the processes explains the Allan deviation of axis {}: a vibration?",
+                self.axis
+            )
+        })
     }
 }
 
