@@ -65,6 +65,14 @@ enum Sensor {
 }
 
 impl Reading {
+    /// The sensor that is meant, where one is.
+    pub(crate) fn triad(&self) -> Option<Triad> {
+        self.sensor.map(|sensor| match sensor {
+            Sensor::Accelerometer => Triad::Accelerometer,
+            Sensor::Gyroscope => Triad::Gyroscope,
+        })
+    }
+
     /// Reads a calibration; what its reader found is told.
     pub(crate) fn read(&self, path: &Path) -> Result<CalibratedImuFile> {
         let options = ConventionOptions {
@@ -73,10 +81,7 @@ impl Reading {
                 Unit::Si => RawUnits::Si,
                 Unit::Counts => RawUnits::Counts,
             }),
-            triad: self.sensor.map(|sensor| match sensor {
-                Sensor::Accelerometer => Triad::Accelerometer,
-                Sensor::Gyroscope => Triad::Gyroscope,
-            }),
+            triad: self.triad(),
         };
         let file = read_calibrated_imu(path, &options)?;
         for finding in &file.findings {

@@ -4,14 +4,14 @@ use crate::calibration_file::{Format, Reading, in_words};
 use crate::{Exit, console, place};
 use calibrant::Error;
 use calibrant::error::Complaint;
-use calibrant::io::{ImuFormat, read_kalibr_noise, read_measured_noise, write_calibrated_imu};
-use calibrant::sensor::Gauge;
-use std::path::PathBuf;
+use calibrant::io::{ImuFormat, ImuNoise, read_kalibr_noise, read_measured_noise, write_calibrated_imu};
+use calibrant::sensor::{CalibratedImu, Gauge, Triad};
+use std::path::{Path, PathBuf};
 
 /// Convert a calibration between conventions: calibrant JSON, Kalibr, imu_tk, imucal, C header.
 ///
 /// The correction stays the same to the last digits; what a format cannot carry is said, and refused where the correction would be another. imu_tk has one file
-/// for each sensor: NAME.calib stands for NAME_acc.calib and NAME_gyro.calib.
+/// for each sensor: NAME.calib stands for NAME_acc.calib and NAME_gyro.calib. With --sensor, one sensor of a whole IMU is written alone.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
     /// The calibration.
@@ -28,9 +28,9 @@ pub(crate) struct Arguments {
     /// Turn the true frame of both sensors into this gauge of the accelerometer.
     #[arg(long, value_enum)]
     gauge: Option<GaugeName>,
-    /// Noise densities to put into OUT: noise.json as `calibrant noise` writes it, or a Kalibr imu.yaml.
+    /// Noise densities to put into OUT: noise.json as `calibrant noise` writes it, or a Kalibr imu.yaml. Given again, a file adds what those before it have not.
     #[arg(long, value_name = "FILE")]
-    noise: Option<PathBuf>,
+    noise: Vec<PathBuf>,
     /// Leave the gyroscope's g-sensitivity out: the correction changes.
     #[arg(long)]
     drop_g_sensitivity: bool,
@@ -70,14 +70,13 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
             Error::Experiment(Box::new(complaint.in_file(&arguments.output)))
         })?,
     };
-    let noise = arguments.noise.as_deref().unwrap_or(&arguments.input);
-    place::check_not_input(&arguments.output, &[&arguments.input, noise])?;
+    let inputs: Vec<&Path> =
+        std::iter::once(&arguments.input).chain(&arguments.noise).map(PathBuf::as_path).collect();
+    place::check_not_input(&arguments.output, &inputs)?;
     let mut file = arguments.reading.read(&arguments.input)?;
     let read = format!("{} ({}): {}\n", arguments.input.display(), file.format.title(), in_words(&file.imu));
-    if let Some(path) = &arguments.noise {
-        let is_ours = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("json"));
-        file.noise =
-            Some(if is_ours { read_measured_noise(path, &file.imu)? } else { read_kalibr_noise(path)? });
+    if let Some(noise) = densities(&arguments.noise, &file.imu)? {
+        file.noise = Some(noise);
     }
     if arguments.drop_g_sensitivity {
         let largest = file.imu.parameters.g_sensitivity.row_iter().map(|row| row.norm()).fold(0.0, f64::max);
@@ -89,6 +88,9 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
             ));
         }
         file.imu = file.imu.without_g_sensitivity();
+    }
+    if let Some(triad) = arguments.reading.triad() {
+        file.imu = only(&file.imu, triad, &arguments.input)?;
     }
     if let Some(temperature_c) = arguments.temperature {
         if file.imu.follows_temperature() {
@@ -117,4 +119,38 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
         file.imu.frame
     ));
     Ok(Exit::DONE)
+}
+
+/// The noise densities of these files together.
+fn densities(paths: &[PathBuf], imu: &CalibratedImu) -> calibrant::Result<Option<ImuNoise>> {
+    let mut all: Option<ImuNoise> = None;
+    for path in paths {
+        let is_ours = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("json"));
+        let noise = if is_ours { read_measured_noise(path, imu)? } else { read_kalibr_noise(path)? };
+        all = Some(match all {
+            Some(before) => before.or(noise),
+            None => noise,
+        });
+    }
+    Ok(all)
+}
+
+/// One sensor of the calibration alone.
+fn only(imu: &CalibratedImu, triad: Triad, path: &Path) -> calibrant::Result<CalibratedImu> {
+    let refuse = |message: &str, help: &str| {
+        Err(Error::Experiment(Box::new(Complaint::new(message, help).in_file(path))))
+    };
+    if imu.unit(triad).is_none() {
+        return refuse(
+            &format!("the calibration has no {triad}"),
+            "choose the other with --sensor, or leave it away",
+        );
+    }
+    if triad == Triad::Gyroscope && imu.parameters.g_sensitivity.iter().any(|&entry| entry != 0.0) {
+        return refuse(
+            "the gyroscope's g-sensitivity takes the accelerometer's readings, and the correction would be another without them",
+            "leave it out on purpose with --drop-g-sensitivity",
+        );
+    }
+    Ok(imu.only(triad))
 }

@@ -8,25 +8,28 @@ use crate::reading::{in_file, name};
 use crate::{Exit, console, place};
 use calibrant::Error;
 use calibrant::error::Complaint;
-use calibrant::io::{ImuUnit, Input, noise_json, write_atomically, write_noise};
+use calibrant::io::{ImuFile, ImuUnit, Input, noise_json, write_atomically, write_noise};
 use calibrant::noise::{Stretch, TriadNoise};
 use calibrant::report::{About, noise_report, number};
-use calibrant::sensor::Triad;
+use calibrant::sensor::{Recording, Triad};
 use nalgebra::Vector3;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Find the noise of a sensor at rest: Allan deviation, random walks, bias instability.
 ///
-/// The longest hold of the recording is examined, or the interval of --hold. What the recording is too short to tell is reported as not
-/// determined. Writes noise.json and report.html into DIR.
+/// Both sensors of an IMU, or the one that was recorded. The longest hold of the recording is examined, or the interval of --hold. What the recording is too
+/// short to tell is reported as not determined. Writes noise.json and report.html into DIR.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
     /// Recording, in any format that `calibrant inspect` knows, or of one sensor alone: columns t x y z.
     recording: PathBuf,
-    /// What the columns are readings of.
-    #[arg(long, value_enum, default_value = "accelerometer")]
-    sensor: SensorKind,
-    /// Unit of this sensor's readings where the file does not say: m/s2, g, rad/s, deg/s or counts.
+    /// The gyroscope's file, where the sensors have a file each (imu_tk).
+    #[arg(long, value_name = "FILE")]
+    gyroscope: Option<PathBuf>,
+    /// Examine this sensor alone; it is also what columns t x y z are readings of (default: the accelerometer's).
+    #[arg(long, value_enum)]
+    sensor: Option<SensorKind>,
+    /// Unit of the readings of the accelerometer, or of --sensor, where the file does not say: m/s2, g, rad/s, deg/s or counts.
     #[arg(long, value_parser = crate::reading::any_unit)]
     unit: Option<ImuUnit>,
     #[command(flatten)]
@@ -34,9 +37,12 @@ pub(crate) struct Arguments {
     /// Experiment file whose [columns] say what is what.
     #[arg(long, value_name = "EXPERIMENT")]
     columns: Option<PathBuf>,
-    /// Nominal gain in counts per m/s² or rad/s (one number or x,y,z): states the noise of readings in counts in SI and customary units.
+    /// Nominal gain of the accelerometer, or of --sensor, in counts per m/s² or rad/s (one number or x,y,z): states the noise of readings in counts in SI and customary units.
     #[arg(long, value_name = "GAIN", value_delimiter = ',', num_args = 1..=3, allow_negative_numbers = true)]
     gain: Vec<f64>,
+    /// The same of the gyroscope, beside the accelerometer's.
+    #[arg(long, value_name = "GAIN", value_delimiter = ',', num_args = 1..=3, allow_negative_numbers = true)]
+    gyroscope_gain: Vec<f64>,
     /// Start and end of the interval at rest, s (default: the longest hold that is found).
     #[arg(long, num_args = 2, value_names = ["START", "END"], allow_negative_numbers = true)]
     hold: Option<Vec<f64>>,
@@ -54,21 +60,38 @@ enum SensorKind {
     Gyroscope,
 }
 
+impl From<SensorKind> for Triad {
+    fn from(sensor: SensorKind) -> Self {
+        match sensor {
+            SensorKind::Accelerometer => Self::Accelerometer,
+            SensorKind::Gyroscope => Self::Gyroscope,
+        }
+    }
+}
+
+/// Gains by sensor.
+type Gains = Vec<(Triad, Vector3<f64>)>;
+
 pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     if let Some(directory) = &arguments.output {
         place::check_directory(directory)?;
     }
-    let gain = gain(&arguments.gain)?;
-    let triad = match arguments.sensor {
-        SensorKind::Accelerometer => Triad::Accelerometer,
-        SensorKind::Gyroscope => Triad::Gyroscope,
-    };
-    let file = read::read(arguments, triad)?;
+    let gains = gains(arguments)?;
+    let asked = arguments.sensor.map(Triad::from);
+    let file = read::read(arguments, asked.unwrap_or(Triad::Accelerometer), &gains)?;
     let imu = &file.recording;
     let in_file = |error| in_file(error, &arguments.recording);
-    let recording = imu.triad(triad).ok_or_else(|| in_file(no_sensor(triad)))?;
+    let is_asked = |triad: &Triad| asked.is_none_or(|asked| asked == *triad);
+    let there: Vec<(Triad, &Recording)> = Triad::ALL
+        .into_iter()
+        .filter(is_asked)
+        .filter_map(|triad| Some((triad, imu.triad(triad)?)))
+        .collect();
+    if there.is_empty() {
+        return Err(in_file(no_sensor(asked.unwrap_or(Triad::Accelerometer))));
+    }
     let found = holds::holds(imu);
-    let (holds, (start_s, end_s)) = match arguments.hold.as_deref() {
+    let (holds, interval) = match arguments.hold.as_deref() {
         Some(&[start, end]) => (found.unwrap_or_default(), (start, end)),
         _ => {
             let holds = found.map_err(in_file)?;
@@ -76,68 +99,51 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
             (holds, interval)
         }
     };
-    let stretch = Stretch::between(recording, start_s, end_s).map_err(in_file)?;
-    let found = TriadNoise::of(triad, recording, stretch).map_err(in_file)?;
-    let mut found = match &gain {
-        Some(gain) => found.with_gain(recording, gain)?,
-        None => found,
-    };
-    let examined = match arguments.hold {
-        Some(_) => {
-            if let Some(moving) = holds::moves(&holds, &found.stretch) {
-                found.doubt = Some("the sensor moves in the interval that was given".into());
-                found.warnings.push(moving);
-            }
-            None
+    let of_sensor = |&(triad, recording): &(Triad, &Recording)| -> calibrant::Result<TriadNoise> {
+        let stretch = Stretch::between(recording, interval.0, interval.1)?;
+        let mut found = TriadNoise::of(triad, recording, stretch)?;
+        if let Some((_, gain)) = gains.iter().find(|(of, _)| *of == triad) {
+            found = found.with_gain(recording, gain)?;
         }
-        None => holds::examined(&holds, &found.stretch, recording),
+        let moving = arguments.hold.as_ref().and_then(|_| holds::moves(&holds, &found.stretch));
+        if let Some(moving) = moving {
+            found.doubt = Some("the sensor moves in the interval that was given".into());
+            found.warnings.push(moving);
+        }
+        Ok(found)
     };
-    let input = Input {
-        file: name(&arguments.recording),
-        sha256: file.sha256.concat(),
-        samples: recording.len(),
-        rate_hz: recording.rate_hz(),
+    let mut noise = Vec::new();
+    let mut failed = None;
+    for sensor in &there {
+        match of_sensor(sensor) {
+            Ok(found) => noise.push(found),
+            // of two sensors, the other still has its noise
+            Err(error) if there.len() > 1 && failed.is_none() => failed = Some((sensor.0, error)),
+            Err(error) => return Err(in_file(error)),
+        }
+    }
+    let first = &noise[0];
+    let examined = match arguments.hold {
+        Some(_) => None,
+        None => imu.triad(first.triad).and_then(|it| holds::examined(&holds, &first.stretch, it)),
     };
+    let inputs = inputs(arguments, &file, first.triad);
 
     for finding in &file.findings {
-        console::finding(&input.file, finding);
+        console::finding(&inputs[0].file, finding);
     }
-    found.warnings.iter().for_each(|warning| console::warn(warning));
-    let noise = [found];
+    if let Some((triad, error)) = &failed {
+        console::warn(&format!("no noise of the {triad}: {error}"));
+    }
+    noise.iter().flat_map(|sensor| &sensor.warnings).for_each(|warning| console::warn(warning));
     if arguments.json {
-        console::print(&noise_json(&noise, &input));
+        console::print(&noise_json(&noise, &inputs));
     } else {
-        console::print(&table::of(&noise[0], examined.as_deref()));
+        noise.iter().for_each(|sensor| console::print(&table::of(sensor, examined.as_deref())));
     }
     if let Some(directory) = &arguments.output {
-        write_noise(&directory.join("noise.json"), &noise, &input)?;
-        let about = About {
-            title: format!("Noise from {}", input.file),
-            facts: vec![
-                ("Recording".into(), arguments.recording.display().to_string()),
-                ("SHA-256".into(), input.sha256.clone()),
-                (
-                    "Samples".into(),
-                    format!(
-                        "{} at {} Hz",
-                        number::count(input.samples),
-                        number::significant(input.rate_hz, 5)
-                    ),
-                ),
-                (
-                    "Hold".into(),
-                    match (&arguments.hold, examined) {
-                        (Some(_), _) => "as given".into(),
-                        (None, Some(examined)) => examined,
-                        (None, None) => "the longest that was found".into(),
-                    },
-                ),
-            ],
-            findings: file.findings.iter().map(ToString::to_string).collect(),
-            program: format!("calibrant {}", env!("CARGO_PKG_VERSION")),
-            ..About::default()
-        };
-        let html = noise_report(&noise, &about);
+        write_noise(&directory.join("noise.json"), &noise, &inputs)?;
+        let html = noise_report(&noise, &about(arguments, &file, &inputs, examined));
         let page = directory.join("report.html");
         write_atomically(&page, |out| out.write_all(html.as_bytes()))?;
         if !arguments.json {
@@ -147,12 +153,77 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     Ok(Exit::DONE)
 }
 
+/// The files, for noise.json: the one, or the accelerometer's and the gyroscope's.
+fn inputs(arguments: &Arguments, file: &ImuFile, of_one: Triad) -> Vec<Input> {
+    let input = |path: &Path, sha256: String, triad: Triad| {
+        let readings = file.recording.triad(triad);
+        Input {
+            file: name(path),
+            sha256,
+            samples: readings.map_or(0, Recording::len),
+            rate_hz: readings.map_or(0.0, Recording::rate_hz),
+        }
+    };
+    match (&arguments.gyroscope, file.sha256.as_slice()) {
+        (Some(gyroscope), [first, second]) => vec![
+            input(&arguments.recording, first.clone(), Triad::Accelerometer),
+            input(gyroscope, second.clone(), Triad::Gyroscope),
+        ],
+        _ => vec![input(&arguments.recording, file.sha256.concat(), of_one)],
+    }
+}
+
+/// The head of the report.
+fn about(arguments: &Arguments, file: &ImuFile, inputs: &[Input], examined: Option<String>) -> About {
+    let of_inputs = |say: &dyn Fn(&Input) -> String| inputs.iter().map(say).collect::<Vec<_>>().join(", ");
+    let paths = std::iter::once(&arguments.recording).chain(&arguments.gyroscope);
+    let paths: Vec<String> = paths.map(|path| path.display().to_string()).collect();
+    let samples = |input: &Input| {
+        format!("{} at {} Hz", number::count(input.samples), number::significant(input.rate_hz, 5))
+    };
+    let hold = match (&arguments.hold, examined) {
+        (Some(_), _) => "as given".into(),
+        (None, Some(examined)) => examined,
+        (None, None) => "the longest that was found".into(),
+    };
+    About {
+        title: format!("Noise from {}", of_inputs(&|input| input.file.clone())),
+        facts: vec![
+            ("Recording".into(), paths.join(", ")),
+            ("SHA-256".into(), of_inputs(&|input| input.sha256.clone())),
+            ("Samples".into(), of_inputs(&samples)),
+            ("Hold".into(), hold),
+        ],
+        findings: file.findings.iter().map(ToString::to_string).collect(),
+        program: format!("calibrant {}", env!("CARGO_PKG_VERSION")),
+        ..About::default()
+    }
+}
+
 fn no_sensor(triad: Triad) -> Error {
     let complaint = Complaint::new(format!("the file has no {triad}"), "choose the other with --sensor");
     Error::Recording(Box::new(complaint))
 }
 
-fn gain(given: &[f64]) -> calibrant::Result<Option<Vector3<f64>>> {
+/// --gain is that of --sensor, else of the accelerometer; --gyroscope-gain the gyroscope's.
+fn gains(arguments: &Arguments) -> calibrant::Result<Gains> {
+    let asked = arguments.sensor.map_or(Triad::Accelerometer, Triad::from);
+    let mut gains = Gains::new();
+    for (option, given, triad) in [
+        ("--gain", &arguments.gain, asked),
+        ("--gyroscope-gain", &arguments.gyroscope_gain, Triad::Gyroscope),
+    ] {
+        let Some(gain) = gain(option, given)? else { continue };
+        if gains.iter().any(|(other, _)| *other == triad) {
+            let message = "--gain and --gyroscope-gain are both the gyroscope's with --sensor gyroscope";
+            return Err(Error::Experiment(Box::new(Complaint::new(message, "leave one of them away"))));
+        }
+        gains.push((triad, gain));
+    }
+    Ok(gains)
+}
+
+fn gain(option: &str, given: &[f64]) -> calibrant::Result<Option<Vector3<f64>>> {
     let gain = match *given {
         [] => return Ok(None),
         [all] => Vector3::repeat(all),
@@ -163,7 +234,7 @@ fn gain(given: &[f64]) -> calibrant::Result<Option<Vector3<f64>>> {
         return Ok(Some(gain.abs()));
     }
     Err(Error::Experiment(Box::new(Complaint::new(
-        "--gain is one number or three, none of them zero",
-        "counts per m/s² or per rad/s: --gain 415,413,415",
+        format!("{option} is one number or three, none of them zero"),
+        format!("counts per m/s² or per rad/s: {option} 415,413,415"),
     ))))
 }

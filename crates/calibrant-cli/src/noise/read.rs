@@ -1,25 +1,33 @@
 //! The recording, whatever its format, and what the user says of it.
 
-use super::Arguments;
+use super::{Arguments, Gains};
 use calibrant::Error;
 use calibrant::error::Complaint;
-use calibrant::io::{ImuFile, ImuReadOptions, ImuUnit, read_imu_sensor};
+use calibrant::io::{ImuFile, ImuReadOptions, ImuUnit, read_imu_pair, read_imu_sensor};
 use calibrant::sensor::{ReadingUnit, Triad};
 
-/// Reads the recording of a sensor, from a file of its own or from one of a whole IMU.
-pub(super) fn read(arguments: &Arguments, triad: Triad) -> calibrant::Result<ImuFile> {
+/// Reads the recording: a file of one sensor, one of a whole IMU, or a pair. `triad` is the sensor of a file whose columns do not say.
+pub(super) fn read(arguments: &Arguments, triad: Triad, gains: &Gains) -> calibrant::Result<ImuFile> {
     let options = options(arguments, triad)?;
-    let path = &arguments.recording;
-    if arguments.gain.is_empty() || options.unit(triad).is_some() {
-        return read_imu_sensor(path, triad, &options);
-    }
+    let open = |options: &ImuReadOptions| match &arguments.gyroscope {
+        Some(gyroscope) => read_imu_pair(&arguments.recording, gyroscope, options),
+        None => read_imu_sensor(&arguments.recording, triad, options),
+    };
     // a gain is one of counts: it answers for the unit where the file does not
-    let in_counts = options.clone().with_unit(triad, Some(ImuUnit::Counts));
-    read_imu_sensor(path, triad, &in_counts).map_err(|error| {
-        let stated = read_imu_sensor(path, triad, &options).ok();
-        let unit = stated.as_ref().and_then(|file| Some(file.recording.triad(triad)?.unit));
-        match unit.filter(|unit| *unit != ReadingUnit::Counts) {
-            Some(unit) => usage(
+    let counted = || gains.iter().map(|(triad, _)| *triad).filter(|triad| options.unit(*triad).is_none());
+    if counted().next().is_none() {
+        return open(&options);
+    }
+    let in_counts =
+        counted().fold(options.clone(), |options, triad| options.with_unit(triad, Some(ImuUnit::Counts)));
+    open(&in_counts).map_err(|error| {
+        let stated = open(&options).ok();
+        let other = counted().find_map(|triad| {
+            let unit = stated.as_ref()?.recording.triad(triad)?.unit;
+            (unit != ReadingUnit::Counts).then_some((triad, unit))
+        });
+        match other {
+            Some((triad, unit)) => usage(
                 &format!("--gain is one of counts, but the file gives the {triad} in {}", unit.symbol()),
                 "leave --gain away",
             ),

@@ -8,21 +8,24 @@ use crate::sensor::{ReadingUnit, Triad};
 use serde::Serialize;
 use std::path::Path;
 
-/// Writes `noise.json`.
+/// The version of `noise.json`. Fields that are only added leave it.
+pub(super) const NOISE_SCHEMA: u32 = 1;
+
+/// Writes `noise.json`: the noise of one sensor or of both, and the recording that it came from, or the accelerometer's and the gyroscope's.
 ///
 /// Coefficients carry their unit beside them, in the unit of the readings and in customary ones; a coefficient that is not determined has a
 /// `reason` and, where the recording gives one, an `upper_limit`.
 ///
 /// # Errors
 /// [`Error::Output`](crate::Error::Output) where it cannot be written.
-pub fn write_noise(path: &Path, noise: &[TriadNoise], input: &Input) -> Result<()> {
-    json::write_json(path, &NoiseFile::of(noise, input))
+pub fn write_noise(path: &Path, noise: &[TriadNoise], inputs: &[Input]) -> Result<()> {
+    json::write_json(path, &NoiseFile::of(noise, inputs))
 }
 
 /// The text that [`write_noise`] writes.
 #[must_use]
-pub fn noise_json(noise: &[TriadNoise], input: &Input) -> String {
-    json::to_json(&NoiseFile::of(noise, input))
+pub fn noise_json(noise: &[TriadNoise], inputs: &[Input]) -> String {
+    json::to_json(&NoiseFile::of(noise, inputs))
 }
 
 /// The line of an experiment file that states a sensor's white noise, and its section.
@@ -59,16 +62,20 @@ struct NoiseFile<'a> {
     schema: u32,
     confidence: f64,
     sensors: Vec<TriadFields<'a>>,
-    input: &'a Input,
+    input: Option<&'a Input>,
+    /// Where the gyroscope has a file of its own.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    gyroscope_input: Option<&'a Input>,
 }
 
 impl<'a> NoiseFile<'a> {
-    fn of(noise: &'a [TriadNoise], input: &'a Input) -> Self {
+    fn of(noise: &'a [TriadNoise], inputs: &'a [Input]) -> Self {
         Self {
-            schema: 1,
+            schema: NOISE_SCHEMA,
             confidence: CONFIDENCE,
             sensors: noise.iter().map(TriadFields::of).collect(),
-            input,
+            input: inputs.first(),
+            gyroscope_input: inputs.get(1),
         }
     }
 }

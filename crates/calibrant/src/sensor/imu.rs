@@ -292,6 +292,29 @@ impl CalibratedImu {
         imu
     }
 
+    /// One sensor alone; the gyroscope keeps its g-sensitivity.
+    #[must_use]
+    pub fn only(&self, triad: Triad) -> Self {
+        let kept: Vec<usize> =
+            (0..self.quantities.len()).filter(|&k| self.quantities[k].triad() == triad).collect();
+        let mut imu = self.clone();
+        let without = match triad {
+            Triad::Accelerometer => {
+                imu.parameters.g_sensitivity = Matrix3::zeros();
+                imu.gyroscope_unit = None;
+                Triad::Gyroscope
+            }
+            Triad::Gyroscope => {
+                imu.accelerometer_unit = None;
+                Triad::Accelerometer
+            }
+        };
+        *imu.parameters.triad_mut(without) = SensorParameters::identity();
+        *imu.parameters.thermal.triad_mut(without) = Default::default();
+        imu.restrict(&kept);
+        imu
+    }
+
     /// Forgets all but these of the quantities.
     pub(super) fn restrict(&mut self, kept: &[usize]) {
         self.quantities = kept.iter().map(|&k| self.quantities[k]).collect();

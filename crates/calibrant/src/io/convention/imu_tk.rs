@@ -168,7 +168,7 @@ pub(super) fn write(file: &CalibratedImuFile) -> Checked<Vec<(Triad, String)>> {
     if imu.gyroscope_unit.is_some() && imu.parameters.g_sensitivity != Matrix3::zeros() {
         return Err(complaint(
             "imu_tk's .calib has no place for the gyroscope's g-sensitivity, and the correction would be another without it",
-            "choose another format, or leave it out on purpose with --drop-g-sensitivity",
+            "choose another format, write the accelerometer alone with --sensor accelerometer, or leave it out on purpose with --drop-g-sensitivity",
         ));
     }
     let there = Triad::ALL.into_iter().filter_map(|triad| Some((triad, imu.unit(triad)?)));

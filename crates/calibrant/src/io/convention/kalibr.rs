@@ -56,6 +56,19 @@ impl ImuNoise {
         Ok(self)
     }
 
+    /// What either has; where both have it, what `self` has.
+    #[must_use]
+    pub fn or(self, other: Self) -> Self {
+        Self {
+            accelerometer_density: self.accelerometer_density.or(other.accelerometer_density),
+            accelerometer_random_walk: self.accelerometer_random_walk.or(other.accelerometer_random_walk),
+            gyroscope_density: self.gyroscope_density.or(other.gyroscope_density),
+            gyroscope_random_walk: self.gyroscope_random_walk.or(other.gyroscope_random_walk),
+            update_rate_hz: self.update_rate_hz.or(other.update_rate_hz),
+            rostopic: self.rostopic.or(other.rostopic),
+        }
+    }
+
     fn fields(&self) -> [(&'static str, Option<f64>); 5] {
         [
             ("accelerometer_noise_density", self.accelerometer_density),

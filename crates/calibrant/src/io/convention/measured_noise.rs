@@ -3,15 +3,19 @@
 use super::{ImuNoise, LARGEST, complaint};
 use crate::error::{Error, Result};
 use crate::io::json;
+use crate::io::noise::NOISE_SCHEMA;
 use crate::io::text::{self, Checked};
 use crate::sensor::{CalibratedImu, Triad};
 use serde::Deserialize;
 use std::path::Path;
 
+/// No sample time is better known than to this part of an interval.
+const FINEST: f64 = 1e-6;
 const HELP: &str = "give noise.json as `calibrant noise` writes it";
 
 #[derive(Deserialize)]
 struct NoiseFile {
+    schema: Option<u32>,
     sensors: Vec<Sensor>,
 }
 
@@ -20,6 +24,9 @@ struct Sensor {
     sensor: String,
     reading_unit: String,
     interval_s: f64,
+    interval_jitter: Option<f64>,
+    first_sample: Option<usize>,
+    end_sample: Option<usize>,
     axes: Vec<Axis>,
     doubt: Option<String>,
 }
@@ -47,6 +54,10 @@ pub fn read_measured_noise(path: &Path, imu: &CalibratedImu) -> Result<ImuNoise>
         let bytes = text::read_bytes(path, LARGEST, "noise.json")?;
         let file: NoiseFile = serde_json::from_str(text::as_text(&bytes)?)
             .map_err(|error| json::broken(&error, "the noise of a sensor", HELP))?;
+        if let Some(schema) = file.schema.filter(|schema| *schema > NOISE_SCHEMA) {
+            let message = format!("it is of version {schema}, and this program knows up to {NOISE_SCHEMA}");
+            return Err(complaint(message, "convert with the program that wrote it"));
+        }
         let mut noise = ImuNoise::default();
         for sensor in &file.sensors {
             take(&mut noise, sensor, imu)?;
@@ -94,6 +105,40 @@ fn take(noise: &mut ImuNoise, sensor: &Sensor, imu: &CalibratedImu) -> Checked<(
         }
         Triad::Gyroscope => (noise.gyroscope_density, noise.gyroscope_random_walk) = (density, walk),
     }
-    noise.update_rate_hz = Some(1.0 / sensor.interval_s);
+    noise.update_rate_hz = Some(sensor.rate_hz());
     Ok(())
+}
+
+impl Sensor {
+    /// The rate, to the digits that the sample times tell: the ends of `n` intervals are known to the jitter of a time.
+    fn rate_hz(&self) -> f64 {
+        let rate = self.interval_s.recip();
+        let samples = self.first_sample.zip(self.end_sample).map(|(first, end)| end.saturating_sub(first));
+        let jitter = self.interval_jitter.unwrap_or(0.0).max(FINEST);
+        let tolerance = rate * jitter / samples.unwrap_or(1).max(1) as f64;
+        let mut rounded = (0..17_usize).filter_map(|digits| format!("{rate:.digits$e}").parse::<f64>().ok());
+        rounded.find(|rounded| (rounded - rate).abs() <= tolerance).unwrap_or(rate)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_rate_has_the_digits_that_its_times_tell() {
+        let rate = |rate_hz: f64, jitter: f64, samples: usize| {
+            let text = format!(
+                r#"{{"sensor": "gyroscope", "reading_unit": "rad/s", "interval_s": {:?}, "interval_jitter": {jitter:?}, "first_sample": 0,
+                    "end_sample": {samples}, "axes": []}}"#,
+                1.0 / rate_hz
+            );
+            serde_json::from_str::<Sensor>(&text).expect("a sensor").rate_hz()
+        };
+        assert_eq!(rate(99.999_999_999_999_96, 0.0, 6000), 100.0);
+        // 5206 intervals to a hundredth of one: 2e-6 of the rate
+        assert_eq!(rate(100.009_812_3, 0.01, 5206), 100.0098);
+        assert_eq!(rate(100.009_812_3, 0.0, 5206), 100.009_812_3);
+        assert_eq!(rate(102.4, 1e-9, 3000), 102.4);
+    }
 }
