@@ -180,6 +180,7 @@ fn verdict(noise: &[TriadNoise], about: &About) -> String {
         of(PowerLaw::Flicker, "bias instability (B)"),
         of(PowerLaw::RandomWalk, "rate random walk (K)")
     );
-    let warnings = noise.iter().flat_map(|triad| triad.warnings.clone()).collect();
+    let doubts = noise.iter().filter_map(|triad| Some(format!("{}: {}", triad.triad, triad.doubt.as_ref()?)));
+    let warnings = doubts.chain(noise.iter().flat_map(|triad| triad.warnings.clone())).collect();
     verdict_box(class, word, &sentence, &[("Warnings", warnings), ("Findings", about.findings.clone())])
 }
