@@ -31,8 +31,8 @@ pub fn calibrate_imu(problem: &ImuProblem<'_>, settings: &CalibrationSettings) -
 
 /// The same where the gyroscope's white noise is still to be found: `white_noise` finds it while the accelerometer is fitted, which does not wait for it.
 ///
-/// What it gives counts in place of [`ImuSetup::white_noise`]. Sparks and wild readings are taken out first ([`ImuRecording::without_sparks`](crate::sensor::ImuRecording::without_sparks)), and
-/// warnings say so.
+/// What it gives counts in place of [`ImuSetup::white_noise`]. Where no holds were found before ([`ImuSetup::found`]), sparks and wild readings are taken out first
+/// ([`ImuRecording::without_sparks`](crate::sensor::ImuRecording::without_sparks)), and warnings say so.
 ///
 /// # Errors
 /// As [`calibrate_imu`].
@@ -41,6 +41,9 @@ pub fn calibrate_imu_while(
     settings: &CalibrationSettings,
     white_noise: impl FnOnce() -> Option<WhiteNoise> + Send,
 ) -> Result<ImuCalibration> {
+    if problem.setup.found.is_some() {
+        return of_clean(problem, settings, white_noise);
+    }
     let (recording, sparks) = problem.recording.without_sparks();
     let mut calibration = of_clean(&ImuProblem { recording: &recording, ..*problem }, settings, white_noise)?;
     let unit = |triad: Triad| problem.recording.triad(triad).map_or("", |of| of.unit.symbol());

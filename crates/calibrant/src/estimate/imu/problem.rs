@@ -51,7 +51,7 @@ impl Default for Gyroscope {
 pub struct ImuSetup {
     /// The holds.
     pub holds: HoldsSetup,
-    /// The holds that [`find_imu_holds`](crate::estimate::find_imu_holds) found in this recording, where none are given and that was done before; `None` to find them.
+    /// The holds that [`find_imu_holds`](crate::estimate::find_imu_holds) found in this recording, where none are given and that was done before, with sparks taken out before that ([`ImuRecording::without_sparks`]: they are not looked for again); `None` to find them.
     pub found: Option<Vec<Hold>>,
     /// Direction of the specific force in each of the given holds (up), unit vectors in the true frame; `None` where only its magnitude is known.
     pub directions: Option<Vec<Vector3<f64>>>,

@@ -137,7 +137,7 @@ mod tests {
         };
         assert_eq!(rate(99.999_999_999_999_96, 0.0, 6000), 100.0);
         // 5206 intervals to a hundredth of one: 2e-6 of the rate
-        assert_eq!(rate(100.009_812_3, 0.01, 5206), 100.0098);
+        assert_eq!(rate(100.009_512_3, 0.01, 5206), 100.0095);
         assert_eq!(rate(100.009_812_3, 0.0, 5206), 100.009_812_3);
         assert_eq!(rate(102.4, 1e-9, 3000), 102.4);
     }
