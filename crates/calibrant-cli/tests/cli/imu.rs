@@ -182,7 +182,8 @@ fn an_outlier_of_the_gyroscope_is_not_taken_for_its_noise() {
     let (sparked, said, stderr) = noise("spark.csv");
     assert!((sparked / clean - 1.0).abs() < 0.01, "{sparked} {clean}: {said}");
     assert!(
-        stderr.contains("gyroscope x: 1 of") && stderr.contains("was left out; with it N would be"),
+        stderr.contains("gyroscope: 1 sample far off those beside it was left out")
+            && stderr.contains("15 standard deviations"),
         "{stderr}"
     );
 }

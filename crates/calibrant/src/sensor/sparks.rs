@@ -92,13 +92,18 @@ impl Sparks {
             }
         };
         let off = if self.deviations.is_finite() {
-            format!(", {:.3e} standard deviations of the noise off", self.deviations)
+            let few = self.deviations < 1e4;
+            let times =
+                if few { format!("{:.0}", self.deviations) } else { format!("{:.1e}", self.deviations) };
+            format!(", {times} standard deviations of the noise off")
         } else {
             String::new()
         };
+        // as many digits as the largest of 32 bits
+        let reading = format!("{:.9e}", self.reading).parse().unwrap_or(self.reading);
         format!(
-            "{triad}: {what}; farthest off is {:?} {unit} at {:.3} s on axis {}{off}: a loose contact, or a byte lost on the way?",
-            self.reading, self.time_s, self.axis
+            "{triad}: {what}; farthest off is {reading:?} {unit} at {:.3} s on axis {}{off}: a loose contact, or a byte lost on the way?",
+            self.time_s, self.axis
         )
     }
 }

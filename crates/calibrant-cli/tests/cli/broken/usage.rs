@@ -16,7 +16,7 @@ const CASES: &[(&str, &[&str])] = &[
     ),
     ("init report extra", &["unexpected argument 'extra'"]),
     ("simulate experiment.toml", &["--output <DIR>"]),
-    ("simulate experiment.toml --seed -1 -o result", &["unexpected argument '-1'"]),
+    ("simulate experiment.toml --seed -1 -o result", &["invalid value '-1' for '--seed"]),
     ("simulate experiment.toml --seed one -o result", &["invalid value 'one' for '--seed <SEED>'"]),
     ("simulate experiment.toml --recording 0 -o result", &["0 is not in 1..="]),
     ("calibrate experiment.toml --motion motion.csv -o result", &["<RECORDINGS>..."]),
