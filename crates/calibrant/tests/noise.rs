@@ -275,9 +275,12 @@ fn mean_of(values: &[f64], count: usize) -> Vec<f64> {
     values.windows(count).map(|window| window.iter().sum::<f64>() / count as f64).collect()
 }
 
-const FILTERS: [Filter; 6] = [
+const FILTERS: [Filter; 8] = [
     Filter { what: "the mean of two samples", settled: 1, run: |x| mean_of(x, 2) },
     Filter { what: "the mean of four samples", settled: 3, run: |x| mean_of(x, 4) },
+    // longer than the cluster times from which its share shows beside those before
+    Filter { what: "the mean of eight samples", settled: 7, run: |x| mean_of(x, 8) },
+    Filter { what: "the mean of ten samples", settled: 9, run: |x| mean_of(x, 10) },
     Filter { what: "a pole at 0.5", settled: 60, run: |x| second_order(x, [0.5, 0.0, 0.0], [-0.5, 0.0]) },
     Filter { what: "a pole at 0.9", settled: 300, run: |x| second_order(x, [0.1, 0.0, 0.0], [-0.9, 0.0]) },
     Filter { what: "Butterworth at rate/4", settled: 60, run: |x| butterworth(x, 0.25) },

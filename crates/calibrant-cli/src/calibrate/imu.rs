@@ -159,8 +159,14 @@ impl Job<'_> {
         let cells = vec![
             share(calibration.holds.holds.iter().map(|hold| hold.used)),
             share(calibration.rotations.iter().map(|rotation| rotation.used)),
-            number::significant(1e3 * magnitude, 3),
-            number::significant(calibration.rotation_rms_rad().to_degrees(), 2),
+            match calibration.holds.degrees_of_freedom {
+                0 => "–".into(),
+                _ => number::significant(1e3 * magnitude, 3),
+            },
+            match calibration.rotations.is_empty() {
+                true => "–".into(),
+                false => number::significant(calibration.rotation_rms_rad().to_degrees(), 2),
+            },
         ];
         let (status, summary) = (calibration.status, Summary::of_imu(&calibration));
         Calibrated { status, warnings: calibration.warnings, cells, summary, json }
@@ -169,8 +175,10 @@ impl Job<'_> {
 
 /// How many of them are used, in words.
 fn share(used: impl ExactSizeIterator<Item = bool>) -> String {
-    let all = used.len();
-    format!("{} of {all}", used.filter(|used| *used).count())
+    match used.len() {
+        0 => "–".into(),
+        all => format!("{} of {all}", used.filter(|used| *used).count()),
+    }
 }
 
 impl Files<'_> {

@@ -47,7 +47,7 @@ pub(super) fn examined(holds: &[Hold], stretch: &Stretch, recording: &Recording)
             n => format!("the longest of {n} holds"),
         };
         format!(
-            "{used_s:.1} of the {recorded_s:.1} s recorded, {hold}: outside a hold the sensor moves, or is shaken (--hold START END takes another interval)"
+            "{used_s:.1} of the {recorded_s:.1} s recorded, {hold}: elsewhere the sensor moves, is shaken, or has no samples (--hold START END takes another interval)"
         )
     })
 }

@@ -137,7 +137,7 @@ impl ReasonFields {
             LikelyReason::AccelerometerBias { shift_mps2, sd_mps2 } => {
                 vec![("shift_mps2", per_axis(shift_mps2, 3)), ("shift_sd_mps2", per_axis(sd_mps2, 3))]
             }
-            LikelyReason::AccelerometerGain { change, sd } => {
+            LikelyReason::AccelerometerGain { change, sd } | LikelyReason::GyroscopeGain { change, sd } => {
                 vec![("change", per_axis(change, 3)), ("change_sd", per_axis(sd, 3))]
             }
             LikelyReason::AngularUnit { factor } => vec![("factor", vec![*factor])],

@@ -38,14 +38,19 @@ pub(super) fn choose<'a>(moments: &'a Moments, observed: &'a DVector<f64>) -> Re
     let last = moments.scales().len().saturating_sub(FEWEST_SCALES);
     let without = |first: usize| Regression::reduced(moments, observed, first, false);
     let unfiltered = without(0);
-    let filter = unfiltered.filter_significance().unwrap_or(0.0);
-    if filter > -SIGNIFICANT {
+    let shows = |fit: &Regression| fit.filter_significance().is_some_and(|found| found <= -SIGNIFICANT);
+    if !shows(&unfiltered) {
         if unfiltered.explains() {
             return unfiltered;
         }
         if last > 0 && unfiltered.chi2 < without(1).chi2 + DISAGREES {
-            // the misfit is not at the shortest cluster time
-            return (1..=last).map(without).find(Regression::explains).unwrap_or(unfiltered);
+            // the misfit is not at the shortest cluster time; a filter of many samples shows its share only where they are left out
+            let mut later = (1..=last).map(without);
+            match later.find(|fit| fit.explains() || shows(fit)) {
+                Some(fit) if !shows(&fit) => return fit,
+                Some(_) => {}
+                None => return unfiltered,
+            }
         }
     }
     let from = |first: usize| Regression::reduced(moments, observed, first, true);

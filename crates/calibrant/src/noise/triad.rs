@@ -130,8 +130,9 @@ impl TriadNoise {
             let doubt = noise.doubt(&values, stretch.rate_hz());
             Ok((noise, doubt))
         };
-        let axes: Vec<(AxisNoise, Option<String>)> =
-            recording.active_axes().par_iter().map(axis).collect::<Result<_>>()?;
+        let axes: Vec<Result<_>> = recording.active_axes().par_iter().map(axis).collect();
+        // the first axis of which there is no noise is named, whichever is tried first
+        let axes: Vec<(AxisNoise, Option<String>)> = axes.into_iter().collect::<Result<_>>()?;
         let doubt = axes.iter().find_map(|(_, doubt)| doubt.clone());
         let axes: Vec<AxisNoise> = axes.into_iter().map(|(axis, _)| axis).collect();
         let unit = recording.unit;

@@ -25,9 +25,20 @@ pub fn validation_sentences(validation: &Validation) -> Vec<String> {
         other.filter(|noise| in_unit || noise.triad == Triad::Accelerometer).map(other_noise).collect();
     sentences.extend(validation.reasons.iter().map(likely_reason));
     sentences.extend(validation.bias_shift.as_ref().filter(|_| in_unit).map(bias));
+    let explained =
+        |errors: &ValidatedErrors| validation.reasons.iter().any(|reason| reason.explains(errors.kind));
+    let beyond = |errors: &ValidatedErrors| {
+        errors.verdict == CovarianceVerdict::TooSmall && errors.factor > ANOTHER && !explained(errors)
+    };
+    let any_beyond = validation.kinds.iter().any(beyond);
     for errors in &validation.kinds {
-        let explained = validation.reasons.iter().any(|reason| reason.explains(errors.kind));
-        sentences.push(sentence(errors, explained));
+        let cause = match errors {
+            _ if explained(errors) => Cause::Told,
+            _ if beyond(errors) => Cause::Another,
+            _ if any_beyond => Cause::Beside,
+            _ => Cause::Covariance,
+        };
+        sentences.push(sentence(errors, cause));
         let outlying: Vec<&UnusedError> = errors.outlying().collect();
         sentences.extend(outlying.iter().take(NAMED).map(|error| stands_out(errors.kind, error)));
         if outlying.len() > NAMED {
@@ -134,8 +145,19 @@ fn between(factor: f64, (low, high): (f64, f64)) -> String {
     format!("{} ({} to {high})", two(factor), two(low))
 }
 
-/// `explained`: has a likely reason of larger errors been told?
-fn sentence(errors: &ValidatedErrors, explained: bool) -> String {
+/// Where errors larger than predicted come from.
+#[derive(Clone, Copy, PartialEq)]
+enum Cause {
+    /// A likely reason that was told.
+    Told,
+    /// Something that no covariance explains.
+    Another,
+    /// The like, as errors of another kind show.
+    Beside,
+    Covariance,
+}
+
+fn sentence(errors: &ValidatedErrors, cause: Cause) -> String {
     let (kind, count) = (errors.kind, errors.counted());
     let (rms, predicted) = (measured(kind, errors.rms), measured(kind, errors.predicted_rms));
     let misses = match kind {
@@ -162,11 +184,15 @@ fn sentence(errors: &ValidatedErrors, explained: bool) -> String {
         (CovarianceVerdict::TooFew, _) => {
             format!("too few to tell (the factor is anywhere between {} and {})", two(low), two(high))
         }
-        (CovarianceVerdict::TooSmall, _) if explained => format!(
+        (CovarianceVerdict::TooSmall, _) if cause == Cause::Told => format!(
             "{} times what was predicted; the reason that is told above is a likelier one than the covariance",
             two(errors.factor)
         ),
-        (CovarianceVerdict::TooSmall, _) if errors.factor > ANOTHER => format!(
+        (CovarianceVerdict::TooSmall, _) if cause == Cause::Beside => format!(
+            "{} times what was predicted; where other errors are beyond any covariance, it is not to be judged by these",
+            two(errors.factor)
+        ),
+        (CovarianceVerdict::TooSmall, _) if cause == Cause::Another => format!(
             "{} times what was predicted, which no covariance explains: is it the same sensor, in the same units, its axes in the same order, and nothing changed or damaged \
              since?",
             two(errors.factor)
@@ -223,6 +249,11 @@ fn likely_reason(reason: &LikelyReason) -> String {
         ),
         LikelyReason::AccelerometerGain { change, sd } => format!(
             "The accelerometer's gains have changed by {} % since the calibration, up to {} standard deviations; that explains how |f| misses gravity. Calibrate it again.",
+            list(change, 100.0),
+            most(change, sd)
+        ),
+        LikelyReason::GyroscopeGain { change, sd } => format!(
+            "The gyroscope's gains have changed by {} % since the calibration (or its clock by as much), up to {} standard deviations; that explains how rotations miss gravity. Calibrate it again.",
             list(change, 100.0),
             most(change, sd)
         ),

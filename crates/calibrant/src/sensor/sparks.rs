@@ -81,6 +81,7 @@ impl Sparks {
     pub fn words(&self, triad: Triad, unit: &str) -> String {
         let counted = |count: usize| if count == 1 { "1 sample".into() } else { format!("{count} samples") };
         let what = match (self.samples.len(), self.cut.len()) {
+            (0, 1) => "1 sample cannot be a reading and was cut out".to_owned(),
             (0, cut) => format!("{} cannot be readings and were cut out", counted(cut)),
             (sparks, 0) => replaced(sparks, &counted(sparks)),
             (sparks, cut) => {

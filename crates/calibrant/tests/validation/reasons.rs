@@ -83,6 +83,31 @@ fn a_gain_of_the_accelerometer_that_has_changed_is_told_with_its_size() {
 }
 
 #[test]
+fn a_gain_of_the_gyroscope_that_has_changed_is_told_with_its_size() {
+    let found = tried(
+        |truth| {
+            let row = truth.gyroscope.matrix.row(1) * 1.01;
+            truth.gyroscope.matrix.set_row(1, &row);
+        },
+        |_| (),
+    );
+    let mut told = 0;
+    for validation in found {
+        let [LikelyReason::GyroscopeGain { change, sd }] = validation.reasons.as_slice() else {
+            println!("{:?}", validation.reasons);
+            continue;
+        };
+        told += 1;
+        let missed = (change - nalgebra::Vector3::new(0.0, 0.01, 0.0)).component_div(sd);
+        assert!(missed.amax() < 5.0, "{change:?} {sd:?}");
+        let sentences = validation_sentences(&validation);
+        assert!(sentences.iter().all(|sentence| !sentence.contains("multiply")), "{sentences:#?}");
+    }
+    println!("{told} of {COUNT}");
+    assert!(told > 54, "{told} of {COUNT}");
+}
+
+#[test]
 fn rates_in_another_unit_are_known_by_their_turns() {
     for (times, factor) in
         [(1.0_f64.to_degrees(), 1.0_f64.to_radians()), (1.0_f64.to_radians(), 1.0_f64.to_degrees())]

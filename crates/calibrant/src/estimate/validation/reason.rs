@@ -1,18 +1,20 @@
 //! Why errors may be larger than predicted although the covariance is right: something is another than at the calibration.
 //!
 //! An accelerometer whose bias has moved by `δ` (as a specific force) misses gravity in a hold with the direction `u` by `u·δ`, one whose gains have changed by the shares `γ` by `g Σ_i u_i² γ_i`.
-//! Where either, fitted by generalised least squares, leaves errors as they were predicted, it is a likely reason, and the better one of both is told. Angular rates in another unit
+//! Where either, fitted by generalised least squares, leaves errors as they were predicted, it is a likely reason, and the better one of both is told. So are a gyroscope's gains that have changed by
+//! shares `γ`: then each of its axes reads `1 + γ_i` times as much of what it feels, and the errors of rotations change as they do with the rows of its matrix. Angular rates in another unit
 //! than the stated one carry gravity rightly once they are converted.
 
 use super::claim::Claim;
+use super::item::Group;
 use super::predict::{Errors, Unused};
 use super::ratio::Ratio;
 use super::result::{CovarianceVerdict, ErrorKind, Validation};
-use super::statistics::degrees_behind;
-use super::whitened::Whitened;
+use super::statistics::{Degrees, degrees_behind};
+use super::whitened::{Shift, Whitened};
 use crate::estimate::ImuCalibration;
 use crate::estimate::holds::median;
-use crate::sensor::{ImuRecording, ReadingUnit, Recording};
+use crate::sensor::{ImuQuantity, ImuRecording, Quantity, ReadingUnit, Recording, Triad};
 use nalgebra::{DMatrix, Vector3};
 
 /// So many more errors than numbers that are fitted to them.
@@ -46,6 +48,13 @@ pub enum LikelyReason {
         /// Their predicted standard deviation.
         sd: Vector3<f64>,
     },
+    /// The gyroscope's gains have changed, which explains the rotations.
+    GyroscopeGain {
+        /// By these shares of themselves.
+        change: Vector3<f64>,
+        /// Their predicted standard deviation.
+        sd: Vector3<f64>,
+    },
     /// The gyroscope's readings are in another unit than the stated one.
     AngularUnit {
         /// Readings times this are in the stated unit: π/180 where they are in deg/s, 180/π where they were taken for deg/s and are in rad/s.
@@ -54,13 +63,14 @@ pub enum LikelyReason {
 }
 
 impl LikelyReason {
-    /// As written in results: `temperature`, `accelerometer_bias`, `accelerometer_gain`, `angular_unit`.
+    /// As written in results: `temperature`, `accelerometer_bias`, `accelerometer_gain`, `gyroscope_gain`, `angular_unit`.
     #[must_use]
     pub fn name(&self) -> &'static str {
         match self {
             Self::Temperature { .. } => "temperature",
             Self::AccelerometerBias { .. } => "accelerometer_bias",
             Self::AccelerometerGain { .. } => "accelerometer_gain",
+            Self::GyroscopeGain { .. } => "gyroscope_gain",
             Self::AngularUnit { .. } => "angular_unit",
         }
     }
@@ -73,6 +83,7 @@ impl LikelyReason {
             Self::AccelerometerBias { .. } | Self::AccelerometerGain { .. } => {
                 matches!(kind, ErrorKind::Magnitude | ErrorKind::Rotation)
             }
+            Self::GyroscopeGain { .. } => kind == ErrorKind::Rotation,
             Self::AngularUnit { .. } => matches!(kind, ErrorKind::Rate | ErrorKind::Rotation),
         }
     }
@@ -111,22 +122,41 @@ pub(super) fn reasons(validation: &Validation, claim: &Claim, unused: &Unused<'_
     let Some(errors) = unused.errors(claim) else { return Vec::new() };
     let of_accelerometer = magnitude.then(|| accelerometer_moved(&errors, claim)).flatten();
     let of_unit = rotation.then(|| angular_unit(&errors, claim, unused)).flatten();
-    of_accelerometer.into_iter().chain(of_unit).collect()
+    let of_gains = (rotation && of_unit.is_none()).then(|| gyroscope_gains(&errors, claim)).flatten();
+    of_accelerometer.into_iter().chain(of_unit).chain(of_gains).collect()
+}
+
+/// Three numbers that leave errors as they were predicted: χ² over its degrees of freedom that is left, and the numbers. `by`: how each error changes with them.
+fn explaining(group: &Group, scatter: Degrees, by: &dyn Fn(usize) -> DMatrix<f64>) -> Option<(f64, Shift)> {
+    let count: usize = group.items.iter().map(|item| item.error.len()).sum();
+    let left = count.checked_sub(3).filter(|left| *left >= ENOUGH)?;
+    let (low, high) = Ratio::new(left, &degrees_behind(group.items.iter(), &[scatter])).usual();
+    let whitened = Whitened::about(group, &vec![true; group.items.len()], by)?;
+    let shift = whitened.shift()?;
+    let rest = (whitened.chi2()? - shift.chi2).max(0.0) / left as f64;
+    let verdict = CovarianceVerdict::of(rest.sqrt(), ((rest / high).sqrt(), (rest / low).sqrt()));
+    (verdict != CovarianceVerdict::TooSmall).then_some((rest, shift))
+}
+
+fn gyroscope_gains(errors: &Errors, claim: &Claim) -> Option<LikelyReason> {
+    // what the estimates lack of the truth, for each share
+    let mut lacking = DMatrix::zeros(claim.quantities.len(), 3);
+    for (k, quantity) in claim.quantities.iter().enumerate() {
+        let ImuQuantity::Of(Triad::Gyroscope, Quantity::Scale(row) | Quantity::CrossAxis(row, _)) = quantity
+        else {
+            continue;
+        };
+        lacking[(k, row.index())] = -quantity.of(&claim.imu);
+    }
+    let by = |k: usize| &errors.rotations.items[k].by_parameters * &lacking;
+    let (_, shift) = explaining(&errors.rotations, claim.rotation_degrees, &by)?;
+    Some(LikelyReason::GyroscopeGain { change: shift.value, sd: shift.covariance.diagonal().map(f64::sqrt) })
 }
 
 fn accelerometer_moved(errors: &Errors, claim: &Claim) -> Option<LikelyReason> {
-    let group = &errors.magnitudes;
-    let left = group.items.len().checked_sub(3).filter(|left| *left >= ENOUGH)?;
-    let all = vec![true; group.items.len()];
-    let ratio = Ratio::new(left, &degrees_behind(group.items.iter(), &[claim.holds_degrees]));
-    let (low, high) = ratio.usual();
     let about = |row: &dyn Fn(&Vector3<f64>) -> Vector3<f64>| {
         let by = |k: usize| DMatrix::from_row_slice(1, 3, row(&errors.along[k]).as_slice());
-        let whitened = Whitened::about(group, &all, &by)?;
-        let shift = whitened.shift()?;
-        let rest = (whitened.chi2()? - shift.chi2).max(0.0) / left as f64;
-        let verdict = CovarianceVerdict::of(rest.sqrt(), ((rest / high).sqrt(), (rest / low).sqrt()));
-        (verdict != CovarianceVerdict::TooSmall).then_some((rest, shift))
+        explaining(&errors.magnitudes, claim.holds_degrees, &by)
     };
     let bias = about(&|along| *along);
     let gain = about(&|along| along.component_mul(along) * claim.gravity_mps2);
