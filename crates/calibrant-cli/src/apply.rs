@@ -75,6 +75,13 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     {
         console::warn_beyond(&imu, range);
     }
+    for (triad, sparks) in recording.without_sparks().1 {
+        let samples = number::counted(sparks.samples.len() + sparks.cut.len(), "sample");
+        console::warn(&format!(
+            "{triad}: {samples} far off those beside them, such as that at {} s: corrected as they are, but what is left out by `calibrant calibrate` (a loose contact, a byte lost on the way?)",
+            number::short(sparks.time_s)
+        ));
+    }
     if let Some(unknown) = &corrected.without_force {
         console::warn(&without_force(unknown));
     }

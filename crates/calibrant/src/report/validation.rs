@@ -328,10 +328,10 @@ mod tests {
 
     #[test]
     fn a_question_has_no_full_stop_and_an_angle_ends_at_half_a_revolution() {
-        let said = sentence(&errors(100.0, 1.0), false);
+        let said = sentence(&errors(100.0, 1.0), Cause::Another);
         assert!(said.ends_with("or damaged since?"), "{said}");
         assert!(said.contains("gravity is missed by 57° rms, more than 180° predicted: "), "{said}");
-        let said = sentence(&errors(3.0, 98_966_f64.to_radians()), false);
+        let said = sentence(&errors(3.0, 98_966_f64.to_radians()), Cause::Covariance);
         assert!(said.ends_with("(between 2.7 and 3.3)."), "{said}");
         assert!(said.contains("gravity is missed by more than 180° rms"), "{said}");
     }

@@ -5,13 +5,14 @@
 //! noise of the reading is not in it. Where biases and gains follow temperature, all of this is at the temperature of each sample.
 
 use super::entries::{self, ENTRIES, EntryMatrix};
-use super::unforced::{Unforced, WithoutForce, unknown_force_variance};
+use super::unforced::{Unforced, WithoutForce, felt_readings, unknown_force_variance};
 use super::{
     CalibratedImu, Correction, HIGHEST_ORDER, ImuParameters, ImuQuantity, ImuRecording, Recording,
     Temperatures, ThermalPart, Triad, interpolated, times,
 };
 use crate::error::{Complaint, Error, Result};
 use nalgebra::{Matrix3, SMatrix, Vector3};
+use std::borrow::Cow;
 use std::sync::Arc;
 
 /// The correction of an IMU: `f = C_a (y_a − b_a)`, `ω = C_g (y_g − b_g − Γ f)`.
@@ -240,7 +241,7 @@ impl ImuCorrection {
     /// A corrected recording: every sensor that the calibration and the recording both have.
     ///
     /// The specific force at a sample of the gyroscope is interpolated where the sensors' times differ. Where the accelerometer has none within two of its sample intervals, the nearest is taken
-    /// (between both ends of a gap, what lies on the line), and the uncertainty has in it that gravity may point anywhere else.
+    /// (between both ends of a gap, what lies on the line), and the uncertainty has in it that gravity may point anywhere else. [Sparks](Recording::without_sparks) are no such force.
     ///
     /// # Errors
     /// [`Error::Recording`] where the readings are in another unit than the calibration's, where there is a g-sensitivity to correct and the
@@ -289,9 +290,15 @@ impl ImuCorrection {
                         "give the recording of both sensors",
                     )));
                 }
-                let found = Unforced::of(readings, recording.accelerometer.as_ref().filter(|_| needed));
+                let felt = recording.accelerometer.as_ref().filter(|_| needed).map(felt_readings);
+                let found = Unforced::of(readings, felt.as_deref());
                 without_force = found.summary(readings, &self.by_unknown_force());
-                Some(self.correct_rates(readings, accelerometer.as_ref(), temperatures, &found)?)
+                let clean = match &felt {
+                    Some(Cow::Owned(clean)) => Some(self.correct_forces(clean, temperatures)?),
+                    _ => None,
+                };
+                let forces = clean.as_ref().or(accelerometer.as_ref());
+                Some(self.correct_rates(readings, forces, temperatures, &found)?)
             }
         };
         Ok(CorrectedRecording { accelerometer, gyroscope, without_force })

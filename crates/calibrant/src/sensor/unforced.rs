@@ -2,8 +2,9 @@
 //!
 //! The sensor may have been turned since the last known force `f`: with gravity in any direction the force that is missed has the mean square `f fᵀ + I g²/3`.
 
-use super::Recording;
+use super::{Recording, Triad};
 use nalgebra::{Matrix3, Vector3};
+use std::borrow::Cow;
 
 /// A force is known within so many sample intervals of the accelerometer.
 const INTERVALS: f64 = 2.0;
@@ -19,6 +20,11 @@ pub struct WithoutForce {
     pub span_s: (f64, f64),
     /// What the correction may be off by where gravity points the other way, along the worst axis, rad/s.
     pub most_radps: f64,
+}
+
+/// An accelerometer's readings as the gyroscope feels them: a spark is no force.
+pub(super) fn felt_readings(accelerometer: &Recording) -> Cow<'_, Recording> {
+    accelerometer.without_sparks(Triad::Accelerometer).0
 }
 
 /// The samples of a gyroscope without a known force.
@@ -120,5 +126,34 @@ mod tests {
             assert!(ratios.iter().all(|ratio| (ratio - 1.0).abs() < 0.03), "{by_unknown:?} {squares:?}");
         }
         assert!(most <= unknown.most_radps, "{most} {unknown:?}");
+    }
+
+    #[test]
+    fn a_spark_of_the_accelerometer_is_no_force_that_is_felt() {
+        let imu = imu();
+        let correction = ImuCorrection::of(&imu).expect("regular");
+        let times_s: Vec<f64> = (0..600).map(|k| f64::from(k) * 0.01).collect();
+        let force = |t: &f64| Vector3::new(0.01 * (700.0 * t).sin(), -5.0, 8.0 + 0.01 * (900.0 * t).cos());
+        let reading = |t: &f64| imu.parameters.accelerometer.reading(&force(t));
+        let whole = ImuRecording {
+            accelerometer: Some(Recording {
+                readings: times_s.iter().map(reading).collect(),
+                ..recording(&times_s, Vector3::zeros())
+            }),
+            gyroscope: Some(recording(&times_s, imu.parameters.gyroscope.bias)),
+            temperature_c: None,
+        };
+        let rates = |of: &ImuRecording| {
+            correction.apply(&imu, of).expect("both there").gyroscope.expect("there").values
+        };
+        let clean = rates(&whole);
+        for wild in [-2_147_483_648.0, 1e12] {
+            let mut sparked = whole.clone();
+            sparked.accelerometer.as_mut().expect("there").readings[300].x = wild;
+            let by_force = imu.parameters.g_sensitivity.norm();
+            for (one, other) in rates(&sparked).iter().zip(&clean) {
+                assert!((one - other).norm() < 0.1 * by_force, "{one} {other}");
+            }
+        }
     }
 }

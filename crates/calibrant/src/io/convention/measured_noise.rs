@@ -74,7 +74,10 @@ fn take(noise: &mut ImuNoise, sensor: &Sensor, imu: &CalibratedImu) -> Checked<(
     let Some(unit) = imu.unit(triad) else { return Ok(()) };
     if let Some(doubt) = &sensor.doubt {
         let message = format!("the noise of the {triad} is not that of a sensor at rest: {doubt}");
-        return Err(complaint(message, "run `calibrant noise` on a recording at rest"));
+        return Err(complaint(
+            message,
+            "run `calibrant noise` on a recording at rest, where nothing vibrates; or write the densities into the file by hand",
+        ));
     }
     let is_physical = sensor.reading_unit == triad.stimulus_unit().symbol();
     if !is_physical && unit.symbol() != sensor.reading_unit {
