@@ -76,9 +76,12 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
         console::warn_beyond(&imu, range);
     }
     for (triad, sparks) in recording.without_sparks().1 {
-        let samples = number::counted(sparks.samples.len() + sparks.cut.len(), "sample");
+        let what = match sparks.samples.len() + sparks.cut.len() {
+            1 => "1 sample is far off those beside it".to_owned(),
+            count => format!("{} are far off those beside them", number::counted(count, "sample")),
+        };
         console::warn(&format!(
-            "{triad}: {samples} far off those beside them, such as that at {} s: corrected as they are, but what is left out by `calibrant calibrate` (a loose contact, a byte lost on the way?)",
+            "{triad}: {what} ({} s): corrected as recorded, and no force that the gyroscope feels; a loose contact, or a byte lost on the way?",
             number::short(sparks.time_s)
         ));
     }

@@ -34,6 +34,11 @@ pub(super) fn run(
     calibrate: impl Fn(usize, &Path) -> Outcome + Sync,
 ) -> calibrant::Result<Exit> {
     let folders = folders(&arguments.recordings);
+    for (folder, path) in folders.iter().zip(&arguments.recordings) {
+        if *folder != stem(path) {
+            console::note(&format!("{folder} is {}: the name is taken", path.display()));
+        }
+    }
     let bar = console::progress(folders.len() as u64, "calibrating");
     let outcomes = in_parallel(folders.len(), |number| {
         let outcome = calibrate(number, &arguments.output.join(&folders[number]));
@@ -108,11 +113,6 @@ fn in_parallel<T: Send>(count: usize, of: impl Fn(usize) -> T + Sync) -> Vec<T> 
 /// A subfolder for each recording: its name without ending, with a number where names repeat (capitals or not: not every file system
 /// tells them apart), or where another file of DIR has that name.
 fn folders(recordings: &[PathBuf]) -> Vec<String> {
-    let stem = |path: &PathBuf| {
-        let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
-        // `...csv` is a name without its ending, too: `..`
-        stem.filter(|stem| stem != "." && stem != "..").unwrap_or_else(|| "recording".into())
-    };
     let mut seen = HashSet::from(["summary.csv".to_owned()]);
     let mut taken: HashSet<String> = recordings.iter().map(|path| stem(path).to_lowercase()).collect();
     recordings
@@ -127,4 +127,11 @@ fn folders(recordings: &[PathBuf]) -> Vec<String> {
             free.unwrap_or(stem)
         })
         .collect()
+}
+
+/// The name of a recording's file without its ending.
+fn stem(path: &Path) -> String {
+    let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
+    // `...csv` is a name without its ending, too: `..`
+    stem.filter(|stem| stem != "." && stem != "..").unwrap_or_else(|| "recording".into())
 }

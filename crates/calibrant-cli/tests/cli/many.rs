@@ -75,7 +75,7 @@ fn the_worst_exit_status_counts_and_the_undetermined_one_is_named() {
 fn files_of_one_name_do_not_collide() {
     let bench = bench(&["one/rec.csv", "two/rec.csv", "rec-2.csv", "three/rec.txt"]);
     let command = format!("{CALIBRATE} one/rec.csv two/rec.csv rec-2.csv three/rec.txt -o result");
-    bench.run(&command).done();
+    bench.run(&command).done().says("note: rec-3 is two/rec.csv: the name is taken");
     let value = |folder: &str| {
         let calibration = bench.json(&format!("result/{folder}/calibration.json"));
         (calibration["input"]["file"].to_string(), calibration["input"]["sha256"].to_string())

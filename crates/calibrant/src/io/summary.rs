@@ -64,6 +64,9 @@ impl Summary {
         let (holds, rotations) = (&calibration.holds.holds, &calibration.rotations);
         let good_holds = holds.iter().filter(|hold| hold.used).count();
         let good_rotations = rotations.iter().filter(|rotation| rotation.used).count();
+        // holds that only just determine the accelerometer leave nothing
+        let checked = calibration.holds.degrees_of_freedom > 0;
+        let magnitude = checked.then_some(calibration.holds.magnitude_residual_rms_mps2);
         let angle = (good_rotations > 0).then(|| calibration.rotation_rms_rad());
         let estimates = calibration.values.iter().zip(calibration.sd());
         let parameters =
@@ -80,7 +83,7 @@ impl Summary {
                 ("holds_used", good_holds.to_string()),
                 ("rotations", rotations.len().to_string()),
                 ("rotations_used", good_rotations.to_string()),
-                ("magnitude_rms_mps2", number(Some(calibration.holds.magnitude_residual_rms_mps2))),
+                ("magnitude_rms_mps2", number(magnitude)),
                 ("rotation_rms_rad", number(angle)),
             ],
             parameters: parameters.collect(),

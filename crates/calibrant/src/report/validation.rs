@@ -24,13 +24,14 @@ pub fn validation_sentences(validation: &Validation) -> Vec<String> {
     let mut sentences: Vec<String> =
         other.filter(|noise| in_unit || noise.triad == Triad::Accelerometer).map(other_noise).collect();
     sentences.extend(validation.reasons.iter().map(likely_reason));
-    sentences.extend(validation.bias_shift.as_ref().filter(|_| in_unit).map(bias));
     let explained =
         |errors: &ValidatedErrors| validation.reasons.iter().any(|reason| reason.explains(errors.kind));
     let beyond = |errors: &ValidatedErrors| {
         errors.verdict == CovarianceVerdict::TooSmall && errors.factor > ANOTHER && !explained(errors)
     };
     let any_beyond = validation.kinds.iter().any(beyond);
+    // of another sensor, or in another order of the axes, it is no bias that has moved
+    sentences.extend(validation.bias_shift.as_ref().filter(|_| in_unit && !any_beyond).map(bias));
     for errors in &validation.kinds {
         let cause = match errors {
             _ if explained(errors) => Cause::Told,
