@@ -166,7 +166,7 @@ fn verdict(noise: &[TriadNoise], about: &About) -> String {
     let slow = determined(PowerLaw::Flicker) + determined(PowerLaw::RandomWalk);
     let doubtful = noise.iter().any(|triad| triad.doubt.is_some());
     let (class, word) = match () {
-        () if doubtful => ("bad", "✗ This is not the noise of a sensor at rest."),
+        () if doubtful => ("bad", "✗ This is not the noise of a sensor at rest alone."),
         () if !explained => ("bad", "✗ The noise is not explained."),
         () if drifts || determined(PowerLaw::White) < total => ("caution", "! Look closer."),
         () if slow == 0 => {
