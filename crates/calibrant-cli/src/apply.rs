@@ -57,8 +57,10 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
         Some(_) => console::note("--temperature is not used: the calibration does not follow temperature"),
         None => {}
     }
-    let corrected =
-        correction.apply(&imu, &recording).map_err(|error| in_file(error, &arguments.recording))?;
+    let (clean, sparks) = recording.without_sparks();
+    let corrected = correction
+        .apply_feeling(&imu, &recording, clean.accelerometer.as_ref())
+        .map_err(|error| in_file(error, &arguments.recording))?;
     for triad in Triad::ALL {
         match (imu.unit(triad), recording.triad(triad)) {
             (Some(_), None) => {
@@ -75,7 +77,7 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     {
         console::warn_beyond(&imu, range);
     }
-    for (triad, sparks) in recording.without_sparks().1 {
+    for (triad, sparks) in sparks {
         let what = match sparks.samples.len() + sparks.cut.len() {
             1 => "1 sample is far off those beside it".to_owned(),
             count => format!("{} are far off those beside them", number::counted(count, "sample")),

@@ -8,7 +8,8 @@ use crate::{Exit, console};
 use calibrant::Error;
 use calibrant::error::Complaint;
 use calibrant::estimate::{
-    CalibrationSettings, ImuCalibration, ImuProblem, ImuSetup, Turn, calibrate_imu_while, find_imu_holds,
+    CalibrationSettings, ImuCalibration, ImuProblem, ImuSetup, Turn, calibrate_imu_while,
+    find_clean_imu_holds,
 };
 use calibrant::io::{
     Experiment, HoldsPlan, ImuFile, ImuPlan, ImuReadOptions, ImuUnit, Input, Plan, Section, SectionKind,
@@ -112,7 +113,7 @@ impl Job<'_> {
         let sparks = take_out_sparks(&mut file.recording);
         if setup.holds.intervals_s.is_none() {
             // an error is the calibration's to tell
-            setup.found = find_imu_holds(&file.recording, setup.holds.minimum_hold_s).ok();
+            setup.found = find_clean_imu_holds(&file.recording, setup.holds.minimum_hold_s).ok();
         }
         let (accelerometer, gyroscope, recording) = (&experiment.sensor, &plan.gyroscope, &file.recording);
         let problem = ImuProblem { accelerometer, gyroscope, recording, setup: &setup };

@@ -5,7 +5,7 @@ use super::recording::{Finding, ImuColumn, ImuFile};
 use crate::error::Result;
 use crate::estimate::{
     CoarseAxis, Coverage, ExpectedCalibration, clipped_holds, coarse_axes_in, coverage, expected_calibration,
-    find_imu_holds,
+    find_clean_imu_holds,
 };
 use crate::motion::Hold;
 use crate::sensor::{Gauge, ImuRecording, MeanReading, ReadingUnit, Recording, Saturation, Sparks, Triad};
@@ -140,7 +140,7 @@ impl SensorInspection {
 
 impl HoldsInspection {
     fn of(recording: &ImuRecording, accelerometer: &Recording) -> Result<Self> {
-        let holds = find_imu_holds(recording, MINIMUM_HOLD_S)?;
+        let holds = find_clean_imu_holds(recording, MINIMUM_HOLD_S)?;
         let clipped = clipped_holds(accelerometer, &holds);
         let sound: Vec<Hold> = holds
             .iter()

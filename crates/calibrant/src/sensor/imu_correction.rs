@@ -5,14 +5,14 @@
 //! noise of the reading is not in it. Where biases and gains follow temperature, all of this is at the temperature of each sample.
 
 use super::entries::{self, ENTRIES, EntryMatrix};
-use super::unforced::{Unforced, WithoutForce, felt_readings, unknown_force_variance};
+use super::unforced::{Unforced, unknown_force_variance};
 use super::{
-    CalibratedImu, Correction, HIGHEST_ORDER, ImuParameters, ImuQuantity, ImuRecording, Recording,
-    Temperatures, ThermalPart, Triad, interpolated, times,
+    CalibratedImu, CorrectedRecording, CorrectedTriad, Correction, HIGHEST_ORDER, ImuParameters, ImuQuantity,
+    ImuRecording, Recording, Temperatures, ThermalPart, Triad, interpolated, times,
 };
 use crate::error::{Complaint, Error, Result};
 use nalgebra::{Matrix3, SMatrix, Vector3};
-use std::borrow::Cow;
+use std::ptr;
 use std::sync::Arc;
 
 /// The correction of an IMU: `f = C_a (y_a − b_a)`, `ω = C_g (y_g − b_g − Γ f)`.
@@ -48,28 +48,6 @@ pub struct ImuCorrection {
     temperature_c: f64,
     covariance: Option<Arc<EntryMatrix>>,
     known: [bool; 2],
-}
-
-/// A corrected recording of an IMU.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct CorrectedRecording<'a> {
-    /// Specific force, m/s².
-    pub accelerometer: Option<CorrectedTriad<'a>>,
-    /// Angular rate, rad/s.
-    pub gyroscope: Option<CorrectedTriad<'a>>,
-    /// Where the accelerometer has no data to correct the g-sensitivity with; `None` where it has some at every sample of the gyroscope, or they are not needed.
-    pub without_force: Option<WithoutForce>,
-}
-
-/// Corrected readings of one sensor over time.
-#[derive(Debug, Clone, PartialEq)]
-pub struct CorrectedTriad<'a> {
-    /// Sample times, s: those of the recording.
-    pub times_s: &'a [f64],
-    /// Corrected readings, in the sensor's SI unit.
-    pub values: Vec<Vector3<f64>>,
-    /// Standard uncertainty of the correction at each; `None` where the calibration has no covariance of this sensor.
-    pub sd: Option<Vec<Vector3<f64>>>,
 }
 
 impl ImuCorrection {
@@ -241,7 +219,7 @@ impl ImuCorrection {
     /// A corrected recording: every sensor that the calibration and the recording both have.
     ///
     /// The specific force at a sample of the gyroscope is interpolated where the sensors' times differ. Where the accelerometer has none within two of its sample intervals, the nearest is taken
-    /// (between both ends of a gap, what lies on the line), and the uncertainty has in it that gravity may point anywhere else. [Sparks](Recording::without_sparks) are no such force.
+    /// (between both ends of a gap, what lies on the line), and the uncertainty has in it that gravity may point anywhere else.
     ///
     /// # Errors
     /// [`Error::Recording`] where the readings are in another unit than the calibration's, where there is a g-sensitivity to correct and the
@@ -250,6 +228,19 @@ impl ImuCorrection {
         &self,
         imu: &CalibratedImu,
         recording: &'a ImuRecording,
+    ) -> Result<CorrectedRecording<'a>> {
+        self.apply_feeling(imu, recording, recording.accelerometer.as_ref())
+    }
+
+    /// The same where the accelerometer has sparks: `felt` are its readings without ([`Recording::without_sparks`]), which are the force that the gyroscope feels.
+    ///
+    /// # Errors
+    /// As [`apply`](Self::apply).
+    pub fn apply_feeling<'a>(
+        &self,
+        imu: &CalibratedImu,
+        recording: &'a ImuRecording,
+        felt: Option<&Recording>,
     ) -> Result<CorrectedRecording<'a>> {
         for triad in Triad::ALL {
             if let (Some(unit), Some(readings)) = (imu.unit(triad), recording.triad(triad))
@@ -290,14 +281,15 @@ impl ImuCorrection {
                         "give the recording of both sensors",
                     )));
                 }
-                let felt = recording.accelerometer.as_ref().filter(|_| needed).map(felt_readings);
-                let found = Unforced::of(readings, felt.as_deref());
+                let felt = felt.filter(|_| needed);
+                let found = Unforced::of(readings, felt);
                 without_force = found.summary(readings, &self.by_unknown_force());
-                let clean = match &felt {
-                    Some(Cow::Owned(clean)) => Some(self.correct_forces(clean, temperatures)?),
-                    _ => None,
+                let same = |felt: &&Recording| {
+                    !recording.accelerometer.as_ref().is_some_and(|of| ptr::eq(of, *felt))
                 };
-                let forces = clean.as_ref().or(accelerometer.as_ref());
+                let other =
+                    felt.filter(same).map(|felt| self.correct_forces(felt, temperatures)).transpose()?;
+                let forces = other.as_ref().or(accelerometer.as_ref());
                 Some(self.correct_rates(readings, forces, temperatures, &found)?)
             }
         };

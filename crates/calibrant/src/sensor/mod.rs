@@ -5,6 +5,7 @@
 //! diagonal and the cross-axis sensitivities (misalignment, non-orthogonality) off it.
 
 mod axis;
+mod corrected;
 mod datasheet;
 pub(crate) mod entries;
 mod gauge;
@@ -25,11 +26,12 @@ mod thermal;
 mod unforced;
 
 pub use axis::Axis;
+pub use corrected::{CorrectedRecording, CorrectedTriad};
 pub use datasheet::{ReadingUnit, Sensor};
 pub(crate) use gauge::times;
 pub use gauge::{Correction, Gauge};
 pub use imu::{CalibratedImu, Condition, ImuParameters, ImuQuantity, ImuRecording, Triad};
-pub use imu_correction::{CorrectedRecording, CorrectedTriad, ImuCorrection};
+pub use imu_correction::ImuCorrection;
 pub(crate) use interpolation::interpolated;
 pub use invariant::{Invariant, InvariantValue};
 pub(crate) use mean_reading::MeanReading;

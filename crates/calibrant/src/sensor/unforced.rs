@@ -2,9 +2,8 @@
 //!
 //! The sensor may have been turned since the last known force `f`: with gravity in any direction the force that is missed has the mean square `f fᵀ + I g²/3`.
 
-use super::{Recording, Triad};
+use super::Recording;
 use nalgebra::{Matrix3, Vector3};
-use std::borrow::Cow;
 
 /// A force is known within so many sample intervals of the accelerometer.
 const INTERVALS: f64 = 2.0;
@@ -20,11 +19,6 @@ pub struct WithoutForce {
     pub span_s: (f64, f64),
     /// What the correction may be off by where gravity points the other way, along the worst axis, rad/s.
     pub most_radps: f64,
-}
-
-/// An accelerometer's readings as the gyroscope feels them: a spark is no force.
-pub(super) fn felt_readings(accelerometer: &Recording) -> Cow<'_, Recording> {
-    accelerometer.without_sparks(Triad::Accelerometer).0
 }
 
 /// The samples of a gyroscope without a known force.
@@ -144,7 +138,9 @@ mod tests {
             temperature_c: None,
         };
         let rates = |of: &ImuRecording| {
-            correction.apply(&imu, of).expect("both there").gyroscope.expect("there").values
+            let (clean, _) = of.without_sparks();
+            let found = correction.apply_feeling(&imu, of, clean.accelerometer.as_ref());
+            found.expect("both there").gyroscope.expect("there").values
         };
         let clean = rates(&whole);
         for wild in [-2_147_483_648.0, 1e12] {

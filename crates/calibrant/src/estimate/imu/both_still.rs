@@ -19,23 +19,30 @@ const TURNING: f64 = 0.02;
 /// # Errors
 /// [`Error::Recording`] where there is no accelerometer, or its rate is too low for holds this short.
 pub fn find_imu_holds(recording: &ImuRecording, minimum_s: f64) -> Result<Vec<Hold>> {
+    let (clean, sparks) = recording.without_sparks();
+    let holds = find_clean_imu_holds(&clean, minimum_s)?;
+    let of_accelerometer = sparks.iter().find(|(triad, _)| *triad == Triad::Accelerometer);
+    Ok(as_recorded(holds, of_accelerometer.map(|(_, sparks)| sparks)))
+}
+
+/// The same in a recording from which sparks were taken out before ([`ImuRecording::without_sparks`]): they are not looked for again.
+///
+/// # Errors
+/// As [`find_imu_holds`].
+pub fn find_clean_imu_holds(recording: &ImuRecording, minimum_s: f64) -> Result<Vec<Hold>> {
     let Some(accelerometer) = &recording.accelerometer else {
         return Err(Error::recording(Complaint::new(
             format!("the recording has no {}", Triad::Accelerometer),
             "holds are found with it",
         )));
     };
-    let ((accelerometer, sparks), of_gyroscope) = rayon::join(
-        || accelerometer.without_sparks(Triad::Accelerometer),
-        || recording.gyroscope.as_ref().map(|of| of.without_sparks(Triad::Gyroscope)),
-    );
-    let Some((gyroscope, _)) = of_gyroscope else {
-        return Ok(as_recorded(find_holds_in(&accelerometer, minimum_s)?, sparks.as_ref()));
+    let Some(gyroscope) = &recording.gyroscope else {
+        return find_holds_in(accelerometer, minimum_s);
     };
     let (holds, calm) =
-        rayon::join(|| find_holds_in(&accelerometer, minimum_s), || find_holds_in(&gyroscope, minimum_s));
+        rayon::join(|| find_holds_in(accelerometer, minimum_s), || find_holds_in(gyroscope, minimum_s));
     let (holds, calm) = (holds?, calm.unwrap_or_default());
-    let turning = turning(&gyroscope, &calm);
+    let turning = turning(gyroscope, &calm);
     let mut intervals = Vec::with_capacity(holds.len());
     for hold in &holds {
         let mut is_calm = false;
@@ -50,7 +57,7 @@ pub fn find_imu_holds(recording: &ImuRecording, minimum_s: f64) -> Result<Vec<Ho
             intervals.push((hold.start_s, hold.end_s));
         }
     }
-    Ok(as_recorded(holds_between(&accelerometer, &intervals)?, sparks.as_ref()))
+    holds_between(accelerometer, &intervals)
 }
 
 /// Which of its calm stretches does the gyroscope turn in?

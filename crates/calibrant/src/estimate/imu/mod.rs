@@ -39,7 +39,7 @@ mod turned;
 mod verdict;
 mod weights;
 
-pub use both_still::find_imu_holds;
+pub use both_still::{find_clean_imu_holds, find_imu_holds};
 pub(super) use carried::{Carried, Carrying, GyroscopeAtRest, HeldStill};
 pub use known::{calibrate_imu, calibrate_imu_while};
 pub use problem::{Gyroscope, ImuProblem, ImuSetup, KnownTerm, NoiseSource, Turn, WhiteNoise};

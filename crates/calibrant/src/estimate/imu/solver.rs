@@ -1,7 +1,7 @@
 //! From the recording to the joint problem, its weights, and its solution.
 
 use super::assemble::Finished;
-use super::both_still::find_imu_holds;
+use super::both_still::find_clean_imu_holds;
 use super::faces::{self, First};
 use super::joint::{HoldData, Joint, Misses, State};
 use super::readings::{Integrable, felt_forces, rotation_spans, turns};
@@ -245,7 +245,9 @@ fn from_holds(
         None => {
             let found = match &problem.setup.found {
                 Some(found) => Cow::Borrowed(found),
-                None => Cow::Owned(find_imu_holds(problem.recording, problem.setup.holds.minimum_hold_s)?),
+                None => {
+                    Cow::Owned(find_clean_imu_holds(problem.recording, problem.setup.holds.minimum_hold_s)?)
+                }
             };
             found.iter().map(|hold| (hold.start_s, hold.end_s)).collect()
         }
