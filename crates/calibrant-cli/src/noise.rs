@@ -129,9 +129,8 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     };
     let inputs = inputs(arguments, &file, first.triad);
 
-    for finding in &file.findings {
-        console::finding(&inputs[0].file, finding);
-    }
+    let second = arguments.gyroscope.as_deref().map(name);
+    console::findings(&file.findings, &name(&arguments.recording), second.as_deref());
     if let Some((triad, error)) = &failed {
         console::warn(&format!("no noise of the {triad}: {error}"));
     }

@@ -147,7 +147,7 @@ impl FarOff {
 }
 
 /// Robust standard deviation of the difference of values so many samples apart.
-fn typical_step(values: &[f64], apart: usize) -> f64 {
+pub(super) fn typical_step(values: &[f64], apart: usize) -> f64 {
     let mut sizes: Vec<f64> =
         values.iter().zip(&values[apart..]).map(|(one, other)| (other - one).abs()).collect();
     let middle = sizes.len() / 2;

@@ -3,6 +3,7 @@
 //! For independent samples of excess kurtosis κ every Allan variance varies by the same factor more, `var(N̂²)/N⁴` by `κ/n`: each sample has the weight `1/(m n)` in the variance at
 //! `m`, which is `N²/m`. Differences of successive samples have half of κ, and hardly anything of slow noise.
 
+use super::outliers::typical_step;
 use super::{Coefficient, Estimate};
 
 /// Below this excess kurtosis, which Gaussian noise of a few thousand samples does not reach, nothing is made of it.
@@ -11,8 +12,6 @@ const HEAVY: f64 = 0.5;
 const FAR_OFF: f64 = 1.6;
 /// Steps of the resolution coarser than this part of a standard deviation make a median jump.
 const COARSE: f64 = 0.3;
-/// Median of the absolute deviations of normal noise, times this, is its standard deviation.
-const MAD: f64 = 1.4826;
 /// Standard deviations of half a 95 % interval.
 const HALF_INTERVAL: f64 = 1.96;
 
@@ -28,13 +27,12 @@ pub(super) struct Tails {
 impl Tails {
     /// Of values at equal intervals, at least two of them different.
     pub(super) fn of(values: &[f64]) -> Self {
-        let mut sizes: Vec<f64> = values.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
+        let sizes: Vec<f64> = values.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
         let count = sizes.len() as f64;
         let moment = |power: i32| sizes.iter().map(|size| size.powi(power)).sum::<f64>() / count;
         let (second, fourth) = (moment(2), moment(4));
         let finest = sizes.iter().copied().filter(|size| *size > 0.0).fold(f64::INFINITY, f64::min);
-        let middle = sizes.len() / 2;
-        let robust = MAD * *sizes.select_nth_unstable_by(middle, f64::total_cmp).1;
+        let robust = typical_step(values, 1);
         let reach = if finest < COARSE * robust { second.sqrt() / robust } else { 1.0 };
         Self { samples: values.len(), excess: 2.0 * (fourth / (second * second) - 3.0), reach }
     }
