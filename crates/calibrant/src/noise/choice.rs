@@ -23,6 +23,7 @@
 use super::Moments;
 use super::regression::{Regression, SIGNIFICANT};
 use nalgebra::DVector;
+use std::cell::OnceCell;
 
 /// Fewest cluster times that are fitted.
 const FEWEST_SCALES: usize = 5;
@@ -58,12 +59,16 @@ pub(super) fn choose<'a>(moments: &'a Moments, observed: &'a DVector<f64>) -> Re
     if weak.p_value().is_none_or(|p| p >= NO_MISFIT) && weak.filter_share().abs() < WEAK {
         return weak;
     }
-    // two parameters explain the shortest two cluster times of any filter
-    let found: Vec<Regression> = (1..=last).map(from).collect();
-    let agrees = |k: usize| found.get(k + 1).is_none_or(|without| found[k].chi2 < without.chi2 + DISAGREES);
-    let explained = || (0..found.len()).filter(|&k| found[k].explains());
-    let seen = explained().find(|&k| agrees(k)).or_else(|| explained().next());
-    let chosen =
-        seen.map(|seen| if found.get(seen + 1).is_some_and(Regression::explains) { seen + 1 } else { seen });
-    chosen.and_then(|place| found.into_iter().nth(place)).unwrap_or(unfiltered)
+    // two parameters explain the shortest two cluster times of any filter; few of these fits are asked for
+    let fits: Vec<OnceCell<Regression>> = (1..=last).map(|_| OnceCell::new()).collect();
+    let fit = |k: usize| fits.get(k).map(|cell| cell.get_or_init(|| from(k + 1)));
+    let explains = |k: &usize| fit(*k).is_some_and(Regression::explains);
+    let agrees = |k: &usize| match (fit(*k), fit(k + 1)) {
+        (Some(with), Some(without)) => with.chi2 < without.chi2 + DISAGREES,
+        _ => true,
+    };
+    let explained = || (0..fits.len()).filter(explains);
+    let seen = explained().find(agrees).or_else(|| explained().next());
+    let chosen = seen.map(|seen| if explains(&(seen + 1)) { seen + 1 } else { seen });
+    chosen.and_then(|place| fits.into_iter().nth(place)?.into_inner()).unwrap_or(unfiltered)
 }

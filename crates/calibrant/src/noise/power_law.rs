@@ -77,7 +77,8 @@ impl PowerLaw {
     /// `E d_j(s) d_k(s + lag)` of differences between adjacent clusters of `j` and of `k` samples that begin at `s` and `s + lag`, for a coefficient and
     /// a sample interval of 1.
     pub(super) fn covariance_of_differences(self, j: usize, k: usize, lag: i64) -> f64 {
-        self.differences(j, k, lag, |h| self.phase_covariance(h))
+        let sum = || second_differences(j, k, lag, |h| [self.phase_covariance(h)]);
+        self.far_apart(j, k, lag).unwrap_or_else(|| sum()[0])
     }
 
     /// The same for all processes, the flicker noise's from a table.
@@ -87,30 +88,25 @@ impl PowerLaw {
         lag: i64,
         flicker: &FlickerTable,
     ) -> [f64; 4] {
-        Self::ALL.map(|process| match process {
-            Self::Flicker => process.differences(j, k, lag, |h| flicker.at(h)),
-            _ => process.covariance_of_differences(j, k, lag),
-        })
+        let phase_covariances = |h: f64| {
+            Self::ALL.map(|process| match process {
+                Self::Flicker => flicker.at(h),
+                _ => process.phase_covariance(h),
+            })
+        };
+        let sums = second_differences(j, k, lag, phase_covariances);
+        Self::ALL.map(|process| process.far_apart(j, k, lag).unwrap_or(sums[process as usize]))
     }
 
-    fn differences(self, j: usize, k: usize, lag: i64, phase_covariance: impl Fn(f64) -> f64) -> f64 {
+    /// What is known of it where the clusters are far apart.
+    fn far_apart(self, j: usize, k: usize, lag: i64) -> Option<f64> {
         let (j, k, h) = (j as f64, k as f64, lag as f64);
         if self == Self::Flicker {
             let apart = h + k - j;
-            if apart.abs() > FAR * j.max(k) {
-                return -j * k / (PI * apart * apart);
-            }
-        } else if h > 2.0 * j || h < -2.0 * k {
-            return 0.0; // clusters that do not meet
+            return (apart.abs() > FAR * j.max(k)).then(|| -j * k / (PI * apart * apart));
         }
-        const SECOND_DIFFERENCE: [f64; 3] = [1.0, -2.0, 1.0];
-        let mut sum = 0.0;
-        for (p, u) in SECOND_DIFFERENCE.iter().enumerate() {
-            for (q, v) in SECOND_DIFFERENCE.iter().enumerate() {
-                sum += u * v * phase_covariance(h + q as f64 * k - p as f64 * j);
-            }
-        }
-        sum / (j * k)
+        // clusters that do not meet
+        (h > 2.0 * j || h < -2.0 * k).then_some(0.0)
     }
 
     /// The process that dominates the difference of adjacent clusters, by the lag-1 autocorrelation of the cluster means (`riley2004`).
@@ -149,6 +145,25 @@ impl PowerLaw {
             differences += 1.0;
         }
     }
+}
+
+/// Covariances of differences between clusters from those of the phase.
+fn second_differences<const N: usize>(
+    j: usize,
+    k: usize,
+    lag: i64,
+    phase_covariances: impl Fn(f64) -> [f64; N],
+) -> [f64; N] {
+    const SECOND_DIFFERENCE: [f64; 3] = [1.0, -2.0, 1.0];
+    let (j, k, h) = (j as f64, k as f64, lag as f64);
+    let mut sums = [0.0; N];
+    for (p, u) in SECOND_DIFFERENCE.iter().enumerate() {
+        for (q, v) in SECOND_DIFFERENCE.iter().enumerate() {
+            let covariances = phase_covariances(h + q as f64 * k - p as f64 * j);
+            sums.iter_mut().zip(covariances).for_each(|(sum, covariance)| *sum += u * v * covariance);
+        }
+    }
+    sums.map(|sum| sum / (j * k))
 }
 
 /// Autocovariances of the phase of flicker noise at the lags that are asked for again and again: each takes a logarithm.

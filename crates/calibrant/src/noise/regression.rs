@@ -19,6 +19,10 @@ pub(super) const MISFIT: f64 = 1e-3;
 /// Of the limit of a coefficient that is not determined: probability that it is exceeded.
 const LIMIT_TAIL: f64 = 0.05;
 const ITERATIONS: usize = 50;
+/// A change this small, in standard deviations of a coefficient, is none.
+const SETTLED: f64 = 1e-6;
+/// Extrapolations by more than so many changes are left.
+const FARTHEST: f64 = 4.0;
 const QUANTISATION: usize = PowerLaw::Quantisation as usize;
 
 /// Generalised least squares of the Allan variances on the variances of some of the processes, a sample interval being 1.
@@ -86,22 +90,31 @@ impl<'a> Regression<'a> {
         }));
         let mut theta = [0.0; PROCESSES];
         let mut gain = DMatrix::zeros(active.len(), size);
+        // what the variances were weighted by; the change and the estimate of the round before
+        let (mut weighted_by, mut before): (Option<DVector<f64>>, _) = (None, None);
         for _ in 0..ITERATIONS {
             let whitened = white.of(design.clone());
             let Some(inverse) = scaled_inverse(&whitened.tr_mul(&whitened)) else { break };
-            gain = inverse * white.transposed(whitened).transpose();
+            gain = inverse.clone() * white.transposed(whitened).transpose();
             let found = &gain * values;
-            let before = theta;
             active.iter().zip(found.iter()).for_each(|(&a, &value)| theta[a] = value);
-            let Some(next) = Whitening::of_covariance(&moments.covariance(&positive(theta), first)) else {
+            let mut next = found.clone();
+            if let Some(weights) = weighted_by {
+                let change = (&found - weights).component_div(&inverse.diagonal().map(f64::sqrt));
+                if change.amax() <= SETTLED {
+                    break;
+                }
+                if let Some((last_change, last_found)) = before {
+                    next -= (&found - last_found) * extrapolation(&change, &last_change);
+                }
+                before = Some((change, found));
+            }
+            let mut weights = [0.0; PROCESSES];
+            active.iter().zip(next.iter()).for_each(|(&a, &value)| weights[a] = value.max(0.0));
+            let Some(covariance) = Whitening::of_covariance(&moments.covariance(&weights, first)) else {
                 break;
             };
-            white = next;
-            let change =
-                |a: usize| (theta[a] - before[a]).abs() <= 1e-9 * theta[a].abs().max(before[a].abs());
-            if (0..PROCESSES).all(change) {
-                break;
-            }
+            (white, weighted_by) = (covariance, Some(next));
         }
         let residual =
             values - &design * DVector::from_iterator(active.len(), active.iter().map(|&a| theta[a]));
@@ -294,6 +307,15 @@ impl<'a> Regression<'a> {
             ),
         }
     }
+}
+
+/// How far back towards the estimate before: what makes the change, were it linear in the weights, the shortest (`anderson1965`, of two rounds).
+///
+/// Without it every round halves the change, and it takes twenty.
+fn extrapolation(change: &DVector<f64>, before: &DVector<f64>) -> f64 {
+    let turned = change - before;
+    let back = change.dot(&turned) / turned.norm_squared();
+    if back.abs() < FARTHEST { back } else { 0.0 }
 }
 
 fn positive(theta: [f64; PROCESSES]) -> [f64; PROCESSES] {

@@ -75,7 +75,7 @@ pub(crate) fn greater(one: f64, other: f64) -> f64 {
 
 /// The inverse of the median step between times in s, Hz; 0 for fewer than two.
 pub(crate) fn rate_hz(times_s: &[f64]) -> f64 {
-    let steps = || times_s.windows(2).map(|pair| pair[1] - pair[0]);
+    let steps = || times_s.array_windows().map(|[one, next]| next - one);
     let count = steps().len();
     if count == 0 {
         return 0.0;
@@ -85,8 +85,11 @@ pub(crate) fn rate_hz(times_s: &[f64]) -> f64 {
     let mut some: Vec<f64> = steps().step_by(count.div_ceil(SOME)).collect();
     some.sort_unstable_by(f64::total_cmp);
     let (low, high) = (some[some.len() * 2 / 5], some[some.len() * 3 / 5]);
-    let lower = steps().filter(|step| *step < low).count();
-    let not_higher = steps().filter(|step| *step <= high).count();
+    let (mut lower, mut not_higher) = (0, 0);
+    for step in steps() {
+        lower += usize::from(step < low);
+        not_higher += usize::from(step <= high);
+    }
     let is_between = (lower..not_higher).contains(&middle);
     if is_between && low == high {
         return 1.0 / low;

@@ -25,6 +25,10 @@ use std::borrow::Cow;
 const FAR: f64 = 7.0;
 /// The same in a movement, which is rough by itself.
 const FAR_MOVING: f64 = 12.0;
+/// A sample that is off the median of those about it stands out of those beside it by this share of that.
+const CANDIDATE: f64 = 0.7;
+/// So many samples are asked at once whether they stand out.
+const AT_ONCE: usize = 64;
 /// Samples about one, itself included, with which it is compared.
 const ABOUT: usize = 9;
 /// Samples near their median are off it by fewer deviations than this.
@@ -247,9 +251,11 @@ impl<'a> OfAxis<'a> {
         if n < 2 * ABOUT || self.scale <= 0.0 {
             return Vec::new();
         }
-        let (mut found, least) = self.far_off(FAR, |k, least| self.off_the_still(k, least));
+        let candidates = self.standing_out(CANDIDATE * FAR * self.scale);
+        let (mut found, least) = self.far_off(&candidates, FAR, |k, least| self.off_the_still(k, least));
         if self.moves {
-            let (moving, _) = self.far_off(FAR_MOVING, |k, least| self.off_the_moving(k, least));
+            let off_the_moving = |k, least| self.off_the_moving(k, least);
+            let (moving, _) = self.far_off(&candidates, FAR_MOVING, off_the_moving);
             // noise of a heavy tail has it in a movement, too
             found.extend(moving.into_iter().filter(|spark| spark.off > least));
             found.sort_unstable_by_key(|spark| spark.sample);
@@ -259,22 +265,24 @@ impl<'a> OfAxis<'a> {
     }
 
     /// The samples that are off by so much and more; by more where these are not much fewer than those that are off by half. And by how much that is.
-    fn far_off(&self, far: f64, off: impl Fn(usize, f64) -> Option<f64>) -> (Vec<Spark>, f64) {
-        let beyond = |least: f64| -> Vec<Spark> {
-            let n = self.values.len();
-            let candidates = (1..n - 1).filter(|&k| self.stands_out(k, 0.7 * least * self.scale));
-            let candidates = std::iter::once(0).chain(candidates).chain([n - 1]);
-            let spark = |sample| {
+    fn far_off(
+        &self,
+        candidates: &[usize],
+        far: f64,
+        off: impl Fn(usize, f64) -> Option<f64>,
+    ) -> (Vec<Spark>, f64) {
+        let beyond = |least: f64, candidates: &[usize]| -> Vec<Spark> {
+            let spark = |&sample: &usize| {
                 let off = off(sample, least * self.scale)? / self.scale;
                 Some(Spark { sample, off, instead: 0.0 })
             };
-            candidates.filter_map(spark).collect()
+            candidates.iter().filter_map(spark).collect()
         };
-        let mut found = beyond(far);
+        let mut found = beyond(far, candidates);
         if found.is_empty() {
             return (found, far);
         }
-        let half = beyond(far / 2.0);
+        let half = beyond(far / 2.0, &self.standing_out(CANDIDATE * far / 2.0 * self.scale));
         let mut least = far;
         loop {
             let beyond = |least: f64| half.iter().filter(|spark| spark.off > least).count();
@@ -288,20 +296,27 @@ impl<'a> OfAxis<'a> {
         (found, least)
     }
 
-    /// Is a sample above both of its neighbours, or below both, by so much; or it and the one before or after it, above or below those beside the two? This is asked of every sample.
-    #[inline]
-    fn stands_out(&self, k: usize, least: f64) -> bool {
-        let here = self.values[k];
-        let by = |other: usize| here - self.values[other];
-        let (before, after) = (by(k - 1), by(k + 1));
-        let alike = |a: f64, b: f64| (a > least && b > least) || (a < -least && b < -least);
-        // most are not off on either side
-        if before.abs() <= least && after.abs() <= least {
-            return false;
+    /// The samples above both of their neighbours, or below both, by so much; or with the one before or after, above or below those beside the two. And the two at each end.
+    ///
+    /// This is asked of every sample, so of many at once and without a branch.
+    fn standing_out(&self, least: f64) -> Vec<usize> {
+        let stands_out = |[a, b, here, d, e]: &[f64; 5]| {
+            let (low, high) = (here - least, here + least);
+            let above = ((*b < low) & ((*d < low) | (*e < low))) | ((*a < low) & (*d < low));
+            let below = ((*b > high) & ((*d > high) | (*e > high))) | ((*a > high) & (*d > high));
+            above | below
+        };
+        let last = self.values.len() - 2;
+        let mut found = vec![0, 1];
+        for first in (2..last).step_by(AT_ONCE) {
+            let block = &self.values[first - 2..(first + AT_ONCE).min(last) + 2];
+            let places = || block.array_windows().zip(first..);
+            if places().fold(false, |any, (five, _)| any | stands_out(five)) {
+                found.extend(places().filter(|(five, _)| stands_out(five)).map(|(_, k)| k));
+            }
         }
-        alike(before, after)
-            || (k + 2 < self.values.len() && alike(before, by(k + 2)))
-            || (k > 1 && alike(by(k - 2), after))
+        found.extend([last, last + 1]);
+        found
     }
 
     /// By how much a sample in a hold is off the median of those about it, if by more than this.
