@@ -29,14 +29,16 @@ impl Unforced {
     pub(super) fn of(readings: &Recording, forces: Option<&Recording>) -> Self {
         let Some(forces) = forces else { return Self(Vec::new()) };
         let step = forces.rate_hz().recip();
-        let known = |t: &f64| {
-            let after = forces.times_s.partition_point(|time| time < t);
+        let mut after = 0;
+        let is_unknown = |t: &f64| {
+            // both clocks go forwards
+            after += forces.times_s[after..].iter().take_while(|time| *time < t).count();
             let near = |k: Option<usize>| {
                 k.and_then(|k| forces.times_s.get(k)).is_some_and(|time| (time - t).abs() <= INTERVALS * step)
             };
-            near(Some(after)) || near(after.checked_sub(1))
+            !near(Some(after)) && !near(after.checked_sub(1))
         };
-        Self(readings.times_s.iter().map(|t| !known(t)).collect())
+        Self(readings.times_s.iter().map(is_unknown).collect())
     }
 
     pub(super) fn has(&self, sample: usize) -> bool {

@@ -177,7 +177,10 @@ fn increasing(
             continue; // a row of the thermometer
         }
         let (mut is_new, mut repeated) = (false, None);
-        for (before, _) in last.iter_mut().zip(held).filter(|(_, held)| *held || is_empty) {
+        for (before, held) in last.iter_mut().zip(held) {
+            if !(held || is_empty) {
+                continue;
+            }
             match *before {
                 Some(other) if t < times[other] => {
                     return Err(at(backwards(times[other], t), samples, row).into());
