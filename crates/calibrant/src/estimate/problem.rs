@@ -68,7 +68,11 @@ pub(super) fn sound(recording: &Recording) -> Result<()> {
         recording.readings.iter().position(|y| y.iter().any(|y| !y.is_finite() || y.abs() > 1e12))
     {
         return complain(
-            format!("sample {k} is not a usable reading: {:?}", recording.readings[k].as_slice()),
+            format!(
+                "sample {k}, at {:?} s, is not a usable reading: {:?}",
+                recording.times_s[k],
+                recording.readings[k].as_slice()
+            ),
             "remove it",
         );
     }

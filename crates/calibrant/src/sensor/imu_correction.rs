@@ -379,9 +379,9 @@ fn own_errors(stimulus: &Vector3<f64>, gain_factor: &Vector3<f64>) -> SMatrix<f6
     errors
 }
 
-/// Square root of a variance, which rounding may have made a little negative.
+/// Square root of a variance, which rounding may have made a little negative; NaN is one that overflowed.
 fn sqrt(variance: f64) -> f64 {
-    variance.max(0.0).sqrt()
+    if variance.is_nan() { f64::INFINITY } else { variance.max(0.0).sqrt() }
 }
 
 #[cfg(test)]

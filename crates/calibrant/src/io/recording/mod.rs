@@ -72,7 +72,8 @@ pub struct RecordingFile {
 ///
 /// # Errors
 /// [`Error::Recording`] with file, line and column: a file that cannot be read or is not text; columns missing, or units that
-/// contradict each other; a row with too few or too many columns, or something that is not a number; |t| or |reading| above 1e12;
+/// contradict each other; a row with too few or too many columns, or something that is not a number; |t| above 1e12, or |reading|
+/// in more than one row of 50 (fewer are wild samples; none above 1e300);
 /// a time that goes backwards; fewer than two samples.
 pub fn read_recording(path: &Path, options: &ReadOptions) -> Result<RecordingFile> {
     let bytes =
@@ -127,6 +128,7 @@ fn parse(bytes: &[u8], options: &ReadOptions) -> Checked<RecordingFile> {
         last = line.number;
         rows.take(line)?;
     }
+    rows.check_wild()?;
     rows.report(&mut findings);
     if rows.times_s.len() < 2 {
         return Err(too_short(&rows, last, &findings).into());

@@ -3,9 +3,39 @@
 use crate::error::Complaint;
 use crate::io::delimited::{Delimiter, Line, last_number_is_cut};
 use crate::io::text::Checked;
+use std::ops::RangeInclusive;
 
 /// Largest time and reading that make sense, in any unit.
-pub(super) const LARGEST: f64 = 1e12;
+const LARGEST: f64 = 1e12;
+/// A few readings up to this are wild samples, which are found where their neighbours are known; conversion to SI does not overflow below it.
+const LARGEST_WILD: f64 = 1e300;
+/// Readings that make no sense in more than one row of so many are no wild samples.
+const MOST_WILD: usize = 50;
+/// Slots of readings in every layout.
+const READINGS: RangeInclusive<usize> = 1..=6;
+
+/// Does a value make sense in this slot? A reading that does not may still be a wild sample.
+pub(super) enum Sense {
+    Some,
+    Wild,
+    None,
+}
+
+impl Sense {
+    /// That of a value that is there.
+    pub(super) fn of(value: f64, slot: usize) -> Self {
+        match value.abs() {
+            size if size <= LARGEST => Self::Some,
+            size if size <= LARGEST_WILD && READINGS.contains(&slot) => Self::Wild,
+            _ => Self::None,
+        }
+    }
+
+    /// Are there too many wild samples for this number of rows?
+    pub(super) fn is_lost(wild: usize, rows: usize) -> bool {
+        wild > rows / MOST_WILD
+    }
+}
 /// Whole numbers above this are not exact as `f64`.
 const EXACT: u64 = 1 << 53;
 
@@ -42,6 +72,8 @@ pub(super) struct RowReader<'l> {
     last_is_cut: bool,
     /// What was taken from ticks that are too large to be exact as `f64`.
     pub(super) origin: Option<i64>,
+    /// Number of wild readings, and what is to be said of the first if they are too many.
+    wild: (usize, Option<Box<Complaint>>),
 }
 
 /// What is wrong with a row.
@@ -61,7 +93,15 @@ enum Width {
 
 impl<'l> RowReader<'l> {
     pub(super) fn new(layout: &'l Layout) -> Self {
-        Self { layout, rows: 0, width: Width::Unknown, truncated: None, last_is_cut: false, origin: None }
+        Self {
+            layout,
+            rows: 0,
+            width: Width::Unknown,
+            truncated: None,
+            last_is_cut: false,
+            origin: None,
+            wild: (0, None),
+        }
     }
 
     /// Looks at the end of the text that the next lines are from.
@@ -104,6 +144,14 @@ impl<'l> RowReader<'l> {
         Ok(true)
     }
 
+    /// Complains of the first wild reading where they are too many to be a few bad samples; after the last row.
+    pub(super) fn check_wild(&mut self) -> Checked<()> {
+        match self.wild.1.take() {
+            Some(complaint) if Sense::is_lost(self.wild.0, self.rows) => Err(complaint),
+            _ => Ok(()),
+        }
+    }
+
     /// Is this line, the last one, known to be cut off, or shorter than all rows before, which have the same length (numbers in columns)?
     fn is_cut(&self, line: Line<'_>) -> bool {
         self.last_is_cut
@@ -122,10 +170,18 @@ impl<'l> RowReader<'l> {
                 let is_tick = slot == 0 && layout.ticks;
                 match if is_tick { self.tick(field) } else { plain.or_else(|| number(field)) } {
                     Some(value) if value.is_nan() => (),
-                    Some(value) if value.abs() <= LARGEST || (is_tick && value.is_finite()) => {
-                        values[slot] = value;
-                    }
-                    Some(_) => return Err(self.out_of_range(field, fields, line, offset)),
+                    Some(value) if is_tick && value.is_finite() => values[slot] = value,
+                    Some(value) => match Sense::of(value, slot) {
+                        Sense::Some => values[slot] = value,
+                        Sense::Wild => {
+                            values[slot] = value;
+                            self.wild.0 += 1;
+                            if self.wild.1.is_none() {
+                                self.wild.1 = Some(self.out_of_range(field, fields, line, offset).complaint);
+                            }
+                        }
+                        Sense::None => return Err(self.out_of_range(field, fields, line, offset)),
+                    },
                     None => return Err(self.not_a_number(field, fields, line, offset)),
                 }
             }

@@ -60,6 +60,11 @@ impl<'c> Rows<'c> {
         self.push(values[0], reading * self.columns.factor, line)
     }
 
+    /// Complains of readings that make no sense, where they are too many to be a few bad samples.
+    pub(super) fn check_wild(&mut self) -> Checked<()> {
+        self.reader.check_wild()
+    }
+
     fn push(&mut self, t: f64, reading: Vector3<f64>, line: Line<'_>) -> Checked<()> {
         if let (Some(&before), Some(last)) = (self.times_s.last(), self.readings.last()) {
             if t == before {

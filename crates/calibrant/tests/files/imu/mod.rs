@@ -8,6 +8,7 @@ mod parquet;
 mod pieces;
 mod real;
 mod separate_rows;
+mod wild;
 
 use calibrant::io::{ImuFile, ImuReadOptions, ImuUnit, parse_imu_recording};
 

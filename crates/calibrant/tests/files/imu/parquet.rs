@@ -193,3 +193,31 @@ fn a_dictionary_that_promises_more_values_than_it_has_bytes_is_refused() {
     let said = parse_imu_recording(&bytes, &ImuReadOptions::default()).expect_err("refused").to_string();
     assert!(said.contains("damaged") && said.contains("a dictionary of 7 values has 24 bytes"), "{said}");
 }
+
+#[test]
+fn one_absurd_number_of_a_table_is_a_wild_sample() {
+    let table = |wild: usize| {
+        let values = |axis: usize| (0..200).map(|k| ((7 * k + axis) % 101) as f32).collect::<Vec<_>>();
+        let mut x = values(0);
+        x[20..20 + wild].fill(1e38);
+        let times = (0..200).map(|k| 10 * k).collect();
+        write(
+            "required int64 t_ms; required float gx_radps; required float gy_radps; required float gz_radps;",
+            &[vec![
+                Values::Int64(times),
+                Values::Float(x),
+                Values::Float(values(1)),
+                Values::Float(values(2)),
+            ]],
+            Compression::UNCOMPRESSED,
+        )
+    };
+    let read = |wild| parse_imu_recording(&table(wild), &ImuReadOptions::default());
+    let recording = read(1).expect("read").recording.gyroscope.expect("there");
+    assert_eq!(recording.readings[20].x, f64::from(1e38_f32));
+    let said = read(5).expect_err("refused").to_string();
+    assert!(
+        said.starts_with("the value 9.99999968028569") && said.contains("e37 in row 21 is out of range"),
+        "{said}"
+    );
+}

@@ -3,7 +3,7 @@
 use super::column::ColumnMeaning;
 use crate::error::Complaint;
 use crate::io::delimited::Line;
-use crate::io::recording::row::{LARGEST, Layout, RowReader};
+use crate::io::recording::row::{Layout, RowReader, Sense};
 use crate::io::recording::rows::LineMap;
 use crate::io::text::Checked;
 use crate::sensor::{Axis, Triad};
@@ -86,13 +86,21 @@ impl Samples {
             )
             .into());
         }
+        let (mut wild, mut first) = (0, None);
         for (slot, column) in columns.iter().enumerate() {
-            let most = if slot == TIME { f64::MAX } else { LARGEST };
             // NaN is a missing value
-            if let Some(row) = column.iter().position(|value| value.abs() > most) {
-                let message = format!("the value {:e} in row {} is out of range", column[row], row + 1);
-                return Err(Complaint::new(message, "is the unit right? is the file damaged?").into());
+            for (row, &value) in column.iter().enumerate().filter(|(_, value)| !value.is_nan()) {
+                match Sense::of(value, slot) {
+                    Sense::Some => continue,
+                    Sense::None if slot == TIME && value.is_finite() => continue,
+                    Sense::None => return Err(out_of_range(value, row)),
+                    Sense::Wild => wild += 1,
+                }
+                first = first.or(Some((value, row)));
             }
+        }
+        if let Some((value, row)) = first.filter(|_| Sense::is_lost(wild, rows)) {
+            return Err(out_of_range(value, row));
         }
         let triads = Triad::ALL.map(|triad| {
             let [x, y, z] = slots_of(triad).map(|slot| columns[slot].as_slice());
@@ -101,6 +109,11 @@ impl Samples {
         let [times, .., temperatures, counts] = columns;
         Ok(Self { times, counts, temperatures, triads, rows, origin, ..Self::default() })
     }
+}
+
+fn out_of_range(value: f64, row: usize) -> Box<Complaint> {
+    let message = format!("the value {value:e} in row {} is out of range", row + 1);
+    Complaint::new(message, "is the unit right? is the file damaged?").into()
 }
 
 /// Reads the rows of a text.
@@ -158,9 +171,11 @@ impl<'l> SampleReader<'l> {
         self.samples.last_line
     }
 
-    pub(super) fn finish(mut self) -> Samples {
+    /// The values of all rows, which must not be wild in many of them.
+    pub(super) fn finish(mut self) -> Checked<Samples> {
+        self.reader.check_wild()?;
         self.samples.origin = self.reader.origin.unwrap_or(0);
         self.samples.truncated = self.reader.truncated;
-        self.samples
+        Ok(self.samples)
     }
 }

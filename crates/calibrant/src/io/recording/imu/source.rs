@@ -69,7 +69,7 @@ impl Source<'_> {
             None => reader.take(lines, self.text)?,
             Some(rest) => in_pieces(&mut reader, lines, self.text, rest)?,
         }
-        Ok(reader.finish())
+        reader.finish()
     }
 }
 
