@@ -249,3 +249,29 @@ fn a_result_is_compared_with_the_truth_which_is_a_calibration_as_any_other() {
     bench.write("part.json", bench.read("one/truth.json").replace("scale.x\"", "scale.u\""));
     bench.refuses("compare part.json one/truth.json", 2, &["\"accelerometer.scale.u\" is no parameter"]);
 }
+
+#[test]
+fn numbers_in_the_other_direction_are_refused() {
+    let bench = Bench::new();
+    for preset in ["imu", "static-poses"] {
+        bench.preset(preset, "experiment.toml", &[]);
+        bench.run("simulate experiment.toml -o one").done();
+        bench.run("calibrate experiment.toml one/recording.csv --no-report -o result").done();
+        for file in ["one/truth.json", "result/calibration.json"] {
+            let text = bench.read(file);
+            assert!(text.contains("\"true to raw: y"), "{text}");
+            bench.write("turned.json", text.replace("true to raw: y", "raw to true: y"));
+            for command in [
+                "compare one/truth.json turned.json",
+                "convert turned.json o.h",
+                "apply turned.json one/recording.csv -o o.csv",
+            ] {
+                bench.refuses(
+                    command,
+                    2,
+                    &["turned.json: `", "must be true to raw in this format, not \"raw to true: y"],
+                );
+            }
+        }
+    }
+}

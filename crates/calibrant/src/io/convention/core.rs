@@ -124,12 +124,7 @@ impl ImuCore {
     /// The IMU that the fields describe, and its recordings.
     pub(in crate::io) fn into_imu(self) -> Checked<(CalibratedImu, Vec<Input>)> {
         let missing = |field: &str| missing(field);
-        if self.direction.ok_or_else(|| missing("direction"))?.starts_with("raw to true") {
-            return Err(complaint(
-                "`direction` must be true to raw in this format",
-                "convert with calibrant convert",
-            ));
-        }
+        check_direction("direction", &self.direction.ok_or_else(|| missing("direction"))?)?;
         let mut parameters = ImuParameters::identity();
         let mut units = [None, None];
         for (triad, fields) in
@@ -351,6 +346,20 @@ pub(super) fn covariance_of(rows: &[Vec<Option<f64>>], size: usize) -> Checked<D
 
 fn unit_of(imu: &CalibratedImu, triad: Triad) -> ReadingUnit {
     imu.unit(triad).unwrap_or(triad.stimulus_unit())
+}
+
+/// Complains of a field that says another direction than that of our own files.
+pub(super) fn check_direction(field: &str, said: &str) -> Checked<()> {
+    if said.starts_with("true to raw") {
+        return Ok(());
+    }
+    Err(complaint(
+        format!(
+            "`{field}` must be true to raw in this format, not {:?}",
+            said.chars().take(40).collect::<String>()
+        ),
+        "write y = S s + b, the reading of a true value; or give imu_tk's .calib, which is raw to true",
+    ))
 }
 
 /// A field that is not there.

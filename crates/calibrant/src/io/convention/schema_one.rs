@@ -1,6 +1,6 @@
 //! calibrant JSON, schema 1: `calibration.json` of one accelerometer, read as an IMU that has no gyroscope.
 
-use super::core::quantity_of;
+use super::core::{check_direction, quantity_of};
 use super::{CalibratedImuFile, ImuFormat, complaint};
 use crate::io::calibration::Input;
 use crate::io::earlier;
@@ -19,6 +19,7 @@ struct Beside {
 
 #[derive(Deserialize)]
 struct Convention {
+    direction: Option<String>,
     gauge: Option<String>,
     frame: Option<String>,
 }
@@ -28,6 +29,8 @@ pub(super) fn read(text: &str) -> Checked<CalibratedImuFile> {
     let beside: Beside = serde_json::from_str(text).map_err(|error| {
         json::broken(&error, "a calibration.json", "give one that `calibrant calibrate` wrote")
     })?;
+    let direction = beside.convention.as_ref().and_then(|convention| convention.direction.as_deref());
+    direction.iter().try_for_each(|said| check_direction("convention.direction", said))?;
     let (gauge, frame) =
         beside.convention.map_or((None, None), |convention| (convention.gauge, convention.frame));
     let names: Vec<_> =

@@ -1,6 +1,6 @@
 //! `truth.json` of a simulated sensor, read as a calibration without a covariance: its values are exact.
 
-use super::core::quantity_of;
+use super::core::{check_direction, quantity_of};
 use super::{CalibratedImuFile, ImuFormat, complaint};
 use crate::io::json;
 use crate::io::text::Checked;
@@ -15,6 +15,7 @@ const HELP: &str = "give a truth.json that `calibrant simulate` wrote";
 #[derive(Deserialize)]
 struct File {
     seed: Option<u64>,
+    convention: Option<String>,
     gauge: Option<String>,
     reference_c: Option<f64>,
     parameters: Option<Vec<Value>>,
@@ -39,6 +40,7 @@ impl Value {
 
 pub(super) fn read(text: &str) -> Checked<CalibratedImuFile> {
     let file: File = serde_json::from_str(text).map_err(|error| json::broken(&error, KIND, HELP))?;
+    file.convention.iter().try_for_each(|said| check_direction("convention", said))?;
     let missing = |field: &str| complaint(format!("in {KIND} the field `{field}` is missing"), HELP);
     let listed = file.parameters.ok_or_else(|| missing("parameters"))?;
     let known = |gauge: &String| Gauge::ALL.iter().any(|of| of.name() == gauge.as_str());
