@@ -60,7 +60,7 @@ pub(crate) struct Arguments {
     /// Write no report.html: where there are many sensors, and time counts.
     #[arg(long)]
     no_report: bool,
-    /// Print calibration.json on stdout in place of the tables (an array of them for several recordings).
+    /// Print calibration.json on stdout in place of the tables; for several recordings an array with the file of each, and its calibration or its error.
     #[arg(long)]
     json: bool,
     /// Directory for the results.

@@ -3,7 +3,7 @@
 use super::Arguments;
 use crate::{Exit, console};
 use calibrant::estimate::CalibrationStatus;
-use calibrant::io::{Finding, Summary, SummaryRow, write_summary};
+use calibrant::io::{Finding, Summary, SummaryRow, calibrations_json, write_summary};
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -58,7 +58,7 @@ pub(super) fn run(
                 row.push(calibrated.status.name().into());
                 row.extend(calibrated.cells);
                 row.push(calibrated.warnings.len().to_string());
-                texts.extend(calibrated.json);
+                texts.push(calibrated.json.unwrap_or_default());
                 Ok(calibrated.summary)
             }
             Err(error) => {
@@ -66,6 +66,7 @@ pub(super) fn run(
                 exit = exit.max(Exit::of(&error));
                 row.push("ERROR".into());
                 row.resize(columns.len() + 3, "–".into());
+                texts.push(String::new());
                 Err(error.to_string())
             }
         };
@@ -75,7 +76,12 @@ pub(super) fn run(
     let path = arguments.output.join("summary.csv");
     write_summary(&path, &summary)?;
     if arguments.json {
-        console::print(&format!("[\n{}]\n", texts.join(",\n")));
+        let files: Vec<String> = arguments.recordings.iter().map(|path| path.display().to_string()).collect();
+        let outcomes = summary.iter().zip(&texts).map(|(row, text)| match &row.outcome {
+            Ok(_) => Ok(text.as_str()),
+            Err(error) => Err(error.as_str()),
+        });
+        console::print(&calibrations_json(files.iter().map(String::as_str).zip(outcomes)));
     } else {
         let header = [&["recording", "status"], columns, &["warnings"]].concat();
         console::print(&console::table(&header, &rows));

@@ -21,3 +21,4 @@ mod temperature;
 mod undetermined;
 mod unfinished;
 mod validation;
+mod wild;

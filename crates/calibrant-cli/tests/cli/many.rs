@@ -164,9 +164,15 @@ fn every_imu_is_calibrated_as_if_it_were_alone() {
             assert_eq!(Some(field(format!("{name}_sd{ending}"))), parameter["sd"].as_f64());
         }
     }
-    let printed = bench.run("calibrate imu.toml imu1.csv imu2.csv --json -o json").done();
+    let printed = bench.run("calibrate imu.toml imu1.csv broken.csv absent\\\".csv imu2.csv --json -o json");
+    assert_eq!(printed.status, 3, "{printed:?}");
     let printed: serde_json::Value = serde_json::from_str(&printed.stdout).expect("an array");
-    assert_eq!(printed[1], bench.json("json/imu2/calibration.json"));
+    let files: Vec<&str> = (0..4).filter_map(|k| printed[k]["file"].as_str()).collect();
+    assert_eq!(files, ["imu1.csv", "broken.csv", "absent\\\".csv", "imu2.csv"]);
+    assert_eq!(printed[3]["calibration"], bench.json("json/imu2/calibration.json"));
+    assert!(printed[3].get("error").is_none() && printed[1].get("calibration").is_none(), "{printed}");
+    let error = printed[1]["error"].as_str().expect("a text");
+    assert!(error.starts_with("broken.csv:2:7: \"oops\" in column `az_mps2` is not a number"), "{error}");
 }
 
 #[test]

@@ -77,6 +77,6 @@ pub use recording::{
 };
 pub use sections::{Section, SectionKind, parse_sections, read_sections};
 pub use study::{study_json, write_study};
-pub use summary::{Summary, SummaryRow, write_summary};
+pub use summary::{Summary, SummaryRow, calibrations_json, write_summary};
 pub use sweep::{sweep_json, write_sweep, write_sweep_csv};
 pub use truth::{truth_json, write_imu_truth, write_truth};

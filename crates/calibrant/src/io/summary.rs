@@ -1,5 +1,6 @@
 //! `summary.csv`: one row for each of several recordings.
 
+use super::json::to_json;
 use super::output::write_atomically;
 use crate::error::Result;
 use crate::estimate::{Calibration, CalibrationStatus, ImuCalibration};
@@ -14,6 +15,32 @@ pub struct SummaryRow {
     pub file: String,
     /// Its calibration, or why there is none.
     pub outcome: std::result::Result<Summary, String>,
+}
+
+/// The calibrations of several recordings as one JSON array, in their order: of each its file, and either the text of its calibration.json or its error.
+///
+/// # Examples
+/// ```
+/// use calibrant::io::calibrations_json;
+/// let text = calibrations_json([("a.csv", Ok("{\"schema\": 2}\n")), ("b.csv", Err("the file is empty"))]);
+/// assert!(text.contains("\"file\": \"b.csv\",\n    \"error\": \"the file is empty\""));
+/// ```
+#[must_use]
+pub fn calibrations_json<'a>(
+    recordings: impl IntoIterator<Item = (&'a str, std::result::Result<&'a str, &'a str>)>,
+) -> String {
+    let entry = |(file, outcome): (&str, std::result::Result<&str, &str>)| {
+        let quoted = |text: &str| to_json(&text).trim_end().to_owned();
+        let outcome = match outcome {
+            // no text of JSON has a line end within a string
+            Ok(calibration) => {
+                format!("\"calibration\": {}", calibration.trim_end().replace('\n', "\n    "))
+            }
+            Err(error) => format!("\"error\": {}", quoted(error)),
+        };
+        format!("  {{\n    \"file\": {},\n    {outcome}\n  }}", quoted(file))
+    };
+    format!("[\n{}\n]\n", recordings.into_iter().map(entry).collect::<Vec<_>>().join(",\n"))
 }
 
 /// What is kept of a calibration where there are thousands.
