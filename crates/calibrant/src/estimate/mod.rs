@@ -32,7 +32,7 @@ mod validation;
 pub use comparison::{ComparedQuantity, Comparison, OverallDifference};
 pub use holds::{
     Coverage, ExpectedCalibration, HoldsSetup, clipped_holds, coverage, expected_calibration, find_holds,
-    holds_between,
+    holds_between, holds_lost_to_filter,
 };
 pub use imu::{
     Gyroscope, ImuCalibration, ImuProblem, ImuSetup, KnownTerm, NoiseSource, RotationResult, StillGyroscope,

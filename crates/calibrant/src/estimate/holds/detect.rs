@@ -62,7 +62,6 @@ pub(in crate::estimate) fn as_recorded(mut holds: Vec<Hold>, sparks: Option<&Spa
 /// [`find_holds`] in a recording without sparks.
 pub(in crate::estimate) fn find_holds_in(recording: &Recording, minimum_s: f64) -> Result<Vec<Hold>> {
     let rate = recording.rate_hz();
-    let window = (((minimum_s / 2.0).min(LONGEST_WINDOW_S) * rate).round() as usize).max(5);
     if minimum_s * rate < 8.0 {
         return Err(Error::recording(Complaint::new(
             format!(
@@ -72,13 +71,24 @@ pub(in crate::estimate) fn find_holds_in(recording: &Recording, minimum_s: f64) 
             "is the time column in seconds? if so, give the holds yourself (holds.intervals_s), or raise holds.minimum_hold_s",
         )));
     }
+    let (stretches, window) = still_stretches(recording, minimum_s);
+    let long = stretches.into_iter().filter(|(from, to)| (to - from) as f64 >= minimum_s * rate);
+    Ok(long.filter_map(|(from, to)| steady(recording, from + window / 2, to - window / 2, window)).collect())
+}
+
+/// The stretches, of any length, whose windows are all still: first sample and one past the last. And the number of samples in a window.
+pub(super) fn still_stretches(recording: &Recording, minimum_s: f64) -> (Vec<(usize, usize)>, usize) {
+    let rate = recording.rate_hz();
+    let window = (((minimum_s / 2.0).min(LONGEST_WINDOW_S) * rate).round() as usize).max(5);
+    let mut stretches = Vec::new();
     if recording.len() < 2 * window {
-        return Ok(Vec::new());
+        return (stretches, window);
     }
     let mean = recording.readings.iter().sum::<Vector3<f64>>() / recording.len() as f64;
     let variance = window_variance(recording, &mean, window, 1.0 / rate);
-    let Some(threshold) = threshold(&variance, resolution(recording, &mean)) else { return Ok(Vec::new()) };
-    let mut holds = Vec::new();
+    let Some(threshold) = threshold(&variance, resolution(recording, &mean)) else {
+        return (stretches, window);
+    };
     let mut k = 0;
     while k < variance.len() {
         if variance[k] > threshold {
@@ -89,15 +99,10 @@ pub(in crate::estimate) fn find_holds_in(recording: &Recording, minimum_s: f64) 
         while k < variance.len() && variance[k] <= threshold {
             k += 1;
         }
-        // the still windows reach from sample `start` to `k − 1 + window`; a sample is part of the hold if the window around it is still
-        let (from, to) = (start, k - 1 + window);
-        if (to - from) as f64 >= minimum_s * rate
-            && let Some(hold) = steady(recording, from + window / 2, to - window / 2, window)
-        {
-            holds.push(hold);
-        }
+        // the still windows reach from sample `start` to `k − 1 + window`; a sample is part of a hold if the window around it is still
+        stretches.push((start, k - 1 + window));
     }
-    Ok(holds)
+    (stretches, window)
 }
 
 /// Sum over the axes of the variance within each window of so many samples, whose mean is about this one; infinite for windows that span a gap.

@@ -25,6 +25,7 @@ mod clipped;
 mod coverage;
 mod detect;
 mod expected;
+mod filtered;
 mod fit;
 mod robust;
 mod verdict;
@@ -50,6 +51,8 @@ pub use coverage::{Coverage, coverage};
 pub(super) use detect::{as_recorded, beyond, find_holds_in, median};
 pub use detect::{find_holds, holds_between};
 pub use expected::{ExpectedCalibration, expected_calibration};
+pub use filtered::holds_lost_to_filter;
+pub(super) use filtered::with_filter;
 
 /// What is known of the holds.
 #[derive(Debug, Clone, PartialEq)]
@@ -96,13 +99,20 @@ pub(super) fn calibrate(
     let sound: Vec<usize> = (0..holds.len()).filter(|&j| clipped[j].is_none()).collect();
     let coarse = coarse_axes_in(as_read, sound.iter().map(|&j| &holds[j]));
     let of_mean = of_means(&coarse);
+    let found = setup.intervals_s.is_none().then_some((problem.recording, setup.minimum_hold_s));
+    let lost = found.and_then(|(recording, minimum_s)| holds_lost_to_filter(recording, &holds, minimum_s));
     let robust = match problem.sensor.model {
         SensorModel::ScaleBias => robust::fit::<6>(problem, setup, settings, &holds, sound, of_mean),
         SensorModel::Full => robust::fit::<9>(problem, setup, settings, &holds, sound, of_mean),
     }
-    .map_err(|error| with_clipped(error, &clipped, as_read))?;
+    .map_err(|error| with_clipped(error, &clipped, as_read))
+    .map_err(|error| match found {
+        Some((recording, minimum_s)) => with_filter(error, recording, &holds, minimum_s),
+        None => error,
+    })?;
     let reasons = clipped.iter().map(|end| end.map(|end| clipped_reason(&end, as_read))).collect();
     let mut calibration = assemble(problem, setup, holds, reasons, robust);
+    calibration.warnings.extend(lost);
     calibration.warnings.extend(coarse_words(&coarse, as_read));
     calibration.warnings.extend(beyond(as_read, setup.intervals_s.as_deref().unwrap_or_default()));
     Ok(Calibration { datasheet_prior: settings.datasheet_prior, ..calibration })

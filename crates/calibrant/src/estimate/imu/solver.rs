@@ -11,11 +11,12 @@ use super::thermal::{self, Climate};
 use super::verdict::{self, undetermined, vague};
 use super::{Gyroscope, ImuCalibration, ImuProblem, NoiseSource, WhiteNoise, start, turned};
 use crate::error::{Complaint, Error, Result};
-use crate::estimate::holds::beyond;
+use crate::estimate::holds::{beyond, with_filter};
 use crate::estimate::problem::sound;
 use crate::estimate::quantisation::of_means;
 use crate::estimate::{
     CalibrationProblem, CalibrationSettings, HoldsSetup, Recovered, Stimulus, coarse_axes_in, holds,
+    holds_lost_to_filter,
 };
 use crate::information;
 use crate::motion::Hold;
@@ -240,23 +241,25 @@ fn from_holds(
     intervals_s: Option<Vec<(f64, f64)>>,
 ) -> Result<First> {
     let detected = intervals_s.is_none();
-    let intervals_s = match intervals_s {
-        Some(intervals) => intervals,
-        None => {
-            let found = match &problem.setup.found {
-                Some(found) => Cow::Borrowed(found),
-                None => {
-                    Cow::Owned(find_clean_imu_holds(problem.recording, problem.setup.holds.minimum_hold_s)?)
-                }
-            };
-            found.iter().map(|hold| (hold.start_s, hold.end_s)).collect()
-        }
+    let minimum_s = problem.setup.holds.minimum_hold_s;
+    let found = match (&problem.setup.found, detected) {
+        (_, false) => Cow::Borrowed(&[][..]),
+        (Some(found), true) => Cow::Borrowed(found.as_slice()),
+        (None, true) => Cow::Owned(find_clean_imu_holds(problem.recording, minimum_s)?),
     };
+    let intervals_s =
+        intervals_s.unwrap_or_else(|| found.iter().map(|hold| (hold.start_s, hold.end_s)).collect());
     let setup = HoldsSetup { intervals_s: Some(intervals_s), ..problem.setup.holds.clone() };
     let stimulus = Stimulus::Holds(&setup);
     let as_read = problem.recording.accelerometer.as_ref().unwrap_or(recording);
     let alone = CalibrationProblem { sensor: problem.accelerometer, recording, stimulus };
-    let first = holds::calibrate(&alone, &setup, settings, as_read)?;
+    let mut first = holds::calibrate(&alone, &setup, settings, as_read).map_err(|error| match detected {
+        true => with_filter(error, as_read, &found, minimum_s),
+        false => error,
+    })?;
+    if detected {
+        first.warnings.extend(holds_lost_to_filter(as_read, &found, minimum_s));
+    }
     let Recovered::Holds(mut holds) = first.recovered else {
         return Err(Error::experiment(Complaint::new("an IMU is calibrated from holds", "use [holds]")));
     };
