@@ -3,8 +3,8 @@
 use crate::reading::{RecordingOptions, name};
 use crate::{Exit, console};
 use calibrant::io::{
-    HoldsInspection, ImuFile, Inspection, SensorInspection, inspect, inspection_json, read_imu_pair,
-    read_imu_recording,
+    FileFormat, HoldsInspection, ImuColumn, ImuFile, Inspection, SensorInspection, inspect, inspection_json,
+    read_imu_pair, read_imu_recording,
 };
 use calibrant::motion::Hold;
 use calibrant::report::number::{count, short, significant};
@@ -59,11 +59,7 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
 }
 
 fn text(file: &ImuFile, inspection: &Inspection, arguments: &Arguments) -> String {
-    let names = [Some(arguments.file.as_path()), arguments.second()];
-    let names: Vec<String> = names.iter().flatten().map(|path| path.display().to_string()).collect();
-    let mut text =
-        format!("{}: {}, {} rows\n\n", names.join(", "), file.format.description(), count(file.rows));
-    text.push_str(&columns(file));
+    let mut text = files(file, arguments);
     for sensor in &inspection.sensors {
         text.push_str(&sampling(sensor));
     }
@@ -88,9 +84,22 @@ fn text(file: &ImuFile, inspection: &Inspection, arguments: &Arguments) -> Strin
     text
 }
 
-fn columns(file: &ImuFile) -> String {
-    let rows: Vec<_> = file
-        .columns
+/// Each file with its columns.
+fn files(file: &ImuFile, arguments: &Arguments) -> String {
+    let one = |path: &Path, format: FileFormat, rows: usize, of: &[ImuColumn]| {
+        format!("{}: {}, {} rows\n\n{}", path.display(), format.description(), count(rows), columns(of))
+    };
+    let of_second = file.second.as_ref().map_or(0, |second| second.columns);
+    let (first, second) = file.columns.split_at(file.columns.len() - of_second);
+    let mut text = one(&arguments.file, file.format, file.rows, first);
+    if let (Some(found), Some(path)) = (&file.second, arguments.second()) {
+        text.push_str(&one(path, found.format, found.rows, second));
+    }
+    text
+}
+
+fn columns(columns: &[ImuColumn]) -> String {
+    let rows: Vec<_> = columns
         .iter()
         .map(|column| {
             vec![
@@ -160,6 +169,9 @@ fn holds(found: &HoldsInspection, inspection: &Inspection) -> String {
             short((longest * 10.0).round() / 10.0)
         ),
     };
+    if let Some(lost) = &found.lost {
+        text.push_str(&format!("  {lost}\n"));
+    }
     for axis in Axis::ALL {
         let cut = |end: &Option<Saturation>| end.is_some_and(|end| end.axis == axis);
         let numbers: Vec<String> = (1..)

@@ -5,7 +5,7 @@ use super::recording::{Finding, ImuColumn, ImuFile};
 use crate::error::Result;
 use crate::estimate::{
     CoarseAxis, Coverage, ExpectedCalibration, clipped_holds, coarse_axes_in, coverage, expected_calibration,
-    find_clean_imu_holds,
+    find_clean_imu_holds, holds_lost_to_filter,
 };
 use crate::motion::Hold;
 use crate::sensor::{Gauge, ImuRecording, MeanReading, ReadingUnit, Recording, Saturation, Sparks, Triad};
@@ -70,6 +70,8 @@ pub struct HoldsInspection {
     pub coverage: Option<Coverage>,
     /// What they will determine of the accelerometer; the reason where that is not all of it.
     pub expected: std::result::Result<ExpectedCalibration, String>,
+    /// Why there may be fewer than there should be: a filter that breaks them up, in words.
+    pub lost: Option<String>,
     /// Axes whose readings come in steps coarser than their noise.
     pub coarse: Vec<(Triad, CoarseAxis)>,
     /// Mean of the gyroscope over the holds and scatter of its samples within them, unit of its readings.
@@ -159,6 +161,7 @@ impl HoldsInspection {
         Ok(Self {
             coverage: directions.and_then(|directions| coverage(&directions)),
             gyroscope_at_rest: recording.gyroscope.as_ref().and_then(|gyroscope| at_rest(gyroscope, &holds)),
+            lost: holds_lost_to_filter(accelerometer, &holds, MINIMUM_HOLD_S),
             coarse: Triad::ALL.into_iter().flat_map(|triad| coarse(recording, triad, &sound)).collect(),
             expected,
             clipped,
@@ -195,6 +198,9 @@ struct InspectionFile<'a> {
     /// Of each file, with spaces between.
     sha256: String,
     rows: usize,
+    /// The gyroscope's file of a pair.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    second_file: Option<SecondFields>,
     columns: Vec<ColumnFields<'a>>,
     findings: Vec<String>,
     sensors: Vec<SensorFields>,
@@ -232,6 +238,14 @@ struct SensorFields {
     most: Vec<f64>,
 }
 
+/// Of the gyroscope's file of a pair; `columns` is how many of the last columns are its.
+#[derive(Serialize)]
+struct SecondFields {
+    format: &'static str,
+    rows: usize,
+    columns: usize,
+}
+
 /// Samples that were left out; of the one that is farthest off, what it is.
 #[derive(Serialize)]
 struct SparksFields {
@@ -255,6 +269,8 @@ struct HoldsFields<'a> {
     coarse_axes: Vec<CoarseFields>,
     expected: Option<ExpectedFields>,
     not_determined_because: Option<&'a str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    lost: Option<&'a str>,
 }
 
 /// An axis whose steps are coarser than its noise, in the unit of the readings.
@@ -312,6 +328,11 @@ impl<'a> InspectionFile<'a> {
             format: file.format.name(),
             sha256: file.sha256.join(" "),
             rows: file.rows,
+            second_file: file.second.as_ref().map(|second| SecondFields {
+                format: second.format.name(),
+                rows: second.rows,
+                columns: second.columns,
+            }),
             columns: file.columns.iter().map(ColumnFields::of).collect(),
             findings: file.findings.iter().map(Finding::to_string).collect(),
             sensors: inspection.sensors.iter().map(SensorFields::of).collect(),
@@ -397,6 +418,7 @@ impl<'a> HoldsFields<'a> {
             coarse_axes: holds.coarse.iter().map(coarse).collect(),
             expected: holds.expected.as_ref().ok().map(ExpectedFields::of),
             not_determined_because: holds.expected.as_ref().err().map(String::as_str),
+            lost: holds.lost.as_deref(),
         }
     }
 }

@@ -71,9 +71,9 @@ pub use output::write_atomically;
 pub use preset::{PRESETS, preset};
 pub use recording::{
     ColumnMapping, ColumnMeaning, ColumnUnit, FileFormat, Finding, FindingKind, ImuColumn, ImuFile,
-    ImuReadOptions, ImuUnit, ReadOptions, RecordingFile, TimeUnit, parse_imu_pair, parse_imu_recording,
-    parse_recording, read_accelerometer, read_imu_pair, read_imu_recording, read_imu_sensor, read_recording,
-    write_imu_recording, write_recording,
+    ImuReadOptions, ImuUnit, ReadOptions, RecordingFile, SecondFile, TimeUnit, parse_imu_pair,
+    parse_imu_recording, parse_recording, read_accelerometer, read_imu_pair, read_imu_recording,
+    read_imu_sensor, read_recording, write_imu_recording, write_recording,
 };
 pub use sections::{Section, SectionKind, parse_sections, read_sections};
 pub use study::{study_json, write_study};

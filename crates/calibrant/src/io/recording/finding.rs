@@ -31,6 +31,8 @@ pub enum FindingKind {
     Clock,
     /// A sensor of a pair of files was recorded for a part of the other's time only.
     ShorterThanOther,
+    /// The sensors of a pair of files were never recorded at the same time.
+    NoCommonTime,
     /// The sample times are hardly in the unit that is stated.
     DoubtfulClock,
     /// The temperature is missing in some rows, seldom for long.
@@ -56,8 +58,8 @@ impl Finding {
     /// Is it more than a note: does what follows from the recording become doubtful?
     #[must_use]
     pub fn is_warning(&self) -> bool {
-        use FindingKind::{DoubtfulClock, DoubtfulTemperature, Unfinished};
-        matches!(self.kind, DoubtfulClock | DoubtfulTemperature | Unfinished)
+        use FindingKind::{DoubtfulClock, DoubtfulTemperature, NoCommonTime, Unfinished};
+        matches!(self.kind, DoubtfulClock | DoubtfulTemperature | NoCommonTime | Unfinished)
     }
 
     pub(super) fn new(kind: FindingKind, line: Option<usize>, message: String) -> Self {

@@ -23,8 +23,8 @@ mod write;
 pub use finding::{Finding, FindingKind};
 pub use imu::{
     ColumnMapping, ColumnMeaning, ColumnUnit, FileFormat, ImuColumn, ImuFile, ImuReadOptions, ImuUnit,
-    TimeUnit, parse_imu_pair, parse_imu_recording, read_accelerometer, read_imu_pair, read_imu_recording,
-    read_imu_sensor,
+    SecondFile, TimeUnit, parse_imu_pair, parse_imu_recording, read_accelerometer, read_imu_pair,
+    read_imu_recording, read_imu_sensor,
 };
 pub use write::{write_imu_recording, write_recording};
 

@@ -94,7 +94,8 @@ const PAIRS: &[Pair] = &[
         "0 1 2 9.8\n1 2 1 9.8\n",
         "0 1 2 90\n1 2 1 80\n",
         plain,
-        "accelerometer: the accelerometer's columns have no unit: magnitudes around 10.1 suggest m/s² (say --accelerometer-unit m/s², g or counts (also in [columns] of an experiment file))",
+        "accelerometer: the accelerometer's columns have no unit: magnitudes around 10.1 suggest m/s²; gyroscope: the gyroscope's columns have no unit: magnitudes up to 90 suggest deg/s \
+         (say --accelerometer-unit m/s², g or counts (accelerometer_unit in [columns]); --gyroscope-unit rad/s, deg/s or counts (gyroscope_unit in [columns]))",
     ),
 ];
 
@@ -148,7 +149,7 @@ const CASES: &[Case] = &[
     (
         "0 1 2 3 4 5 6\n1 1 2 3 4 5 6\n",
         plain,
-        "line 1: 7 columns without a header: nothing says what they hold (name them like t_s,ax_mps2,ay_mps2,az_mps2,gx_radps,gy_radps,gz_radps, or say which is which in [columns] of an experiment file)",
+        "line 1: 7 columns without a header: nothing says what they hold (begin the file with a line like t_s,ax_mps2,ay_mps2,az_mps2,gx_radps,gy_radps,gz_radps; or say what they hold in [columns] of an experiment file (of a file of its own for --columns), a line each, such as time = \"1\", time_unit = \"s\", accelerometer = [\"2\", \"3\", \"4\"], accelerometer_unit = \"m/s²\", gyroscope = [\"5\", \"6\", \"7\"], gyroscope_unit = \"rad/s\")",
     ),
     // gravity removed
     (
@@ -191,32 +192,32 @@ const CASES: &[Case] = &[
     (
         "t_s,ax,ay,az\n0,0,0.1,9.8\n1,0,9.8,0.1\n2,9.8,0,0\n",
         plain,
-        "the accelerometer's columns have no unit: magnitudes around 9.8 suggest m/s² (say --accelerometer-unit m/s², g or counts (also in [columns] of an experiment file))",
+        "the accelerometer's columns have no unit: magnitudes around 9.8 suggest m/s² (say --accelerometer-unit m/s², g or counts (accelerometer_unit in [columns]))",
     ),
     (
         "t_s,ax,ay,az\n0,0,0.1,1\n1,0,1,0.1\n2,1,0,0\n",
         plain,
-        "the accelerometer's columns have no unit: magnitudes around 1 suggest g (say --accelerometer-unit m/s², g or counts (also in [columns] of an experiment file))",
+        "the accelerometer's columns have no unit: magnitudes around 1 suggest g (say --accelerometer-unit m/s², g or counts (accelerometer_unit in [columns]))",
     ),
     (
         "t_s,ax,ay,az\n0,0,1,16384\n1,0,16384,1\n2,16384,0,0\n",
         plain,
-        "the accelerometer's columns have no unit: magnitudes around 16400 suggest counts (say --accelerometer-unit m/s², g or counts (also in [columns] of an experiment file))",
+        "the accelerometer's columns have no unit: magnitudes around 16400 suggest counts (say --accelerometer-unit m/s², g or counts (accelerometer_unit in [columns]))",
     ),
     (
         "t_s,ax,ay,az\n0,0,1,4.2\n1,0,4.2,1\n2,4.2,0,0\n",
         plain,
-        "the accelerometer's columns have no unit: magnitudes around 4.32 do not tell (say --accelerometer-unit m/s², g or counts (also in [columns] of an experiment file))",
+        "the accelerometer's columns have no unit: magnitudes around 4.32 do not tell (say --accelerometer-unit m/s², g or counts (accelerometer_unit in [columns]))",
     ),
     (
         "t_s,gx,gy,gz\n0,0,1,360\n1,0,360,1.5\n2,0,0,0\n",
         plain,
-        "the gyroscope's columns have no unit: magnitudes up to 360 suggest deg/s (say --gyroscope-unit rad/s, deg/s or counts (also in [columns] of an experiment file))",
+        "the gyroscope's columns have no unit: magnitudes up to 360 suggest deg/s (say --gyroscope-unit rad/s, deg/s or counts (gyroscope_unit in [columns]))",
     ),
     (
         "t_s,gx,gy,gz\n0,0,1,3\n1,0,3,1.5\n2,0,0,0\n",
         plain,
-        "the gyroscope's columns have no unit: magnitudes up to 3 may be rad/s, or deg/s of slow turns (say --gyroscope-unit rad/s, deg/s or counts (also in [columns] of an experiment file))",
+        "the gyroscope's columns have no unit: magnitudes up to 3 may be rad/s, or deg/s of slow turns (say --gyroscope-unit rad/s, deg/s or counts (gyroscope_unit in [columns]))",
     ),
     (
         "time,gx_radps,gy_radps,gz_radps\n0,0,1,3\n10,0,3,1.5\n20,0,0,0\n",
@@ -231,17 +232,17 @@ const CASES: &[Case] = &[
     (
         "timestamp,gx,gy,gz\n0,0,1,3\n10000000,0,3,1.5\n20000000,0,0,0\n",
         plain,
-        "the gyroscope's columns have no unit: magnitudes up to 3 may be rad/s, or deg/s of slow turns; the time column `timestamp` has no unit: steps of 10000000 suggest ns (say --gyroscope-unit rad/s, deg/s or counts; --time-unit s, ms, us or ns (time_unit in [columns]), or end its name in _s, _ms, _us or _ns)",
+        "the gyroscope's columns have no unit: magnitudes up to 3 may be rad/s, or deg/s of slow turns; the time column `timestamp` has no unit: steps of 10000000 suggest ns (say --gyroscope-unit rad/s, deg/s or counts (gyroscope_unit in [columns]); --time-unit s, ms, us or ns (time_unit in [columns]), or end its name in _s, _ms, _us or _ns)",
     ),
     (
         "n_samples,gyr_x,gyr_y,gyr_z,acc_x,acc_y,acc_z\n0,1,2,3,0,0,9.8\n1,1,360,3,0,0,9.8\n",
         plain,
-        "the accelerometer's columns have no unit: magnitudes around 9.8 suggest m/s²; the gyroscope's columns have no unit: magnitudes up to 360 suggest deg/s; the file has no sample times, and nothing in it says the sample rate (say --accelerometer-unit m/s², g or counts; --gyroscope-unit rad/s, deg/s or counts; --rate-hz, or rate_hz in [columns]: the sample rate in Hz, as it was set when the recording was made)",
+        "the accelerometer's columns have no unit: magnitudes around 9.8 suggest m/s²; the gyroscope's columns have no unit: magnitudes up to 360 suggest deg/s; the file has no sample times, and nothing in it says the sample rate (say --accelerometer-unit m/s², g or counts (accelerometer_unit in [columns]); --gyroscope-unit rad/s, deg/s or counts (gyroscope_unit in [columns]); --rate-hz, or rate_hz in [columns]: the sample rate in Hz, as it was set when the recording was made)",
     ),
     (
         "0 1 2 3\n1 2 3 4\n",
         plain,
-        "line 1: imu_tk keeps each sensor in a file of its own, t x y z: this one does not say which it is (give the accelerometer's file as the recording and the gyroscope's with --gyroscope, or name the columns in [columns]: time = \"1\", accelerometer = [\"2\", \"3\", \"4\"])",
+        "line 1: imu_tk keeps each sensor in a file of its own, t x y z: this one does not say which it is (give the accelerometer's file as the recording, the gyroscope's with --gyroscope, and their units with --accelerometer-unit and --gyroscope-unit; or say what they hold in [columns] of an experiment file (of a file of its own for --columns), a line each, such as time = \"1\", time_unit = \"s\", accelerometer = [\"2\", \"3\", \"4\"], accelerometer_unit = \"m/s²\")",
     ),
     (
         "PacketCounter,SampleTimeFine,Acc_X,Acc_Y,Acc_Z\n1,1,1,2,3\n",
@@ -308,7 +309,7 @@ const CASES: &[Case] = &[
     (
         "t_s,gx_radps,gy_radps,gz_radps\n0,0,0,1\n1,0,1,0\n",
         || format(FileFormat::ImuTk),
-        "line 1: imu_tk keeps each sensor in a file of its own, t x y z: this one does not say which it is (give the accelerometer's file as the recording and the gyroscope's with --gyroscope, or name the columns in [columns]: time = \"1\", accelerometer = [\"2\", \"3\", \"4\"])",
+        "line 1: imu_tk's files have no header, and this one has (leave --format away: the format is recognised by the content)",
     ),
     (
         "0 1 2\n1 2 3\n",
@@ -406,6 +407,11 @@ const CASES: &[Case] = &[
         "t_ms,gx_radps,gy_radps,gz_radps\n1e300,1,2,1\n1,1,2,3\n",
         plain,
         "line 3: the time -1e297 s in `t_ms` is out of range (is the unit of the time right?)",
+    ),
+    (
+        "t_ns,gx_radps,gy_radps,gz_radps\n1e300,1,2,1\n1763690000000000000,1,2,3\n",
+        plain,
+        "line 3: the time -1e291 s in `t_ns` is out of range (is the unit of the time right?)",
     ),
     (
         "t_s,gx_radps,gy_radps,gz_radps\n0,1,2,3\n1,1,2,3\n0.5,1,2,4\n",

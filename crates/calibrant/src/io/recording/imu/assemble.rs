@@ -110,18 +110,13 @@ fn ask(
     for (&triad, _) in triads.iter().zip(units).filter(|(_, unit)| unit.is_none()) {
         let raw = raw(triad, samples);
         questions.push(question(triad, &raw));
-        answers.push(format!("--{triad}-unit {}", ImuUnit::choices(triad)));
+        answers.push(format!("--{triad}-unit {} ({triad}_unit in [columns])", ImuUnit::choices(triad)));
     }
     if let Some(clock) = clock {
         questions.push(clock.message);
         answers.push(clock.help.trim_start_matches("say ").to_owned());
     }
-    let last = if answers.iter().any(|answer| answer.contains("[columns]")) {
-        ""
-    } else {
-        " (also in [columns] of an experiment file)"
-    };
-    Complaint::new(questions.join("; "), format!("say {}{last}", answers.join("; ")))
+    Complaint::new(questions.join("; "), format!("say {}", answers.join("; ")))
 }
 
 /// The readings of a sensor as they are in the file.

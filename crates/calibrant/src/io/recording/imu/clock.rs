@@ -13,6 +13,8 @@ use crate::io::text::Checked;
 const EPOCH_S: f64 = 1e8;
 /// Largest time that makes sense, s.
 const LARGEST_S: f64 = 1e12;
+/// Said of times that have another beginning than in the file.
+pub(super) const COUNTED: &str = "times count from the first";
 /// A stated rate and a given one may differ by this share.
 const SAME_RATE: f64 = 1e-3;
 
@@ -99,8 +101,9 @@ fn of_times(draft: &Draft, samples: &mut Samples, findings: &mut Vec<Finding>) -
         ticks.iter_mut().for_each(|t| *t -= first);
     } else if whole && (epoch / per_second).abs() > EPOCH_S {
         ticks.iter_mut().for_each(|t| *t -= first);
-        let first = i128::from(samples.origin) + first as i128;
-        let message = format!("times count from the first, `{name}` = {first} {}", unit.symbol());
+        let first = (first as i128).saturating_add(samples.origin.into());
+        samples.counted_from_ns = first.checked_mul((1e9 / per_second) as i128);
+        let message = format!("{COUNTED}, `{name}` = {first} {}", unit.symbol());
         findings.push(Finding::new(FindingKind::Clock, None, message));
     } else if samples.origin != 0 {
         ticks.iter_mut().for_each(|t| *t += samples.origin as f64);
@@ -159,9 +162,11 @@ fn which_unit(name: &str, ticks: &[f64]) -> Complaint {
             _ => format!(": steps of {} may be anything", short(*step)),
         }
     };
+    let is_number = name.parse::<usize>().is_ok();
+    let or = if is_number { "" } else { ", or end its name in _s, _ms, _us or _ns" };
     Complaint::new(
         format!("the time column `{name}` has no unit{hint}"),
-        "say --time-unit s, ms, us or ns (time_unit in [columns]), or end its name in _s, _ms, _us or _ns",
+        format!("say --time-unit s, ms, us or ns (time_unit in [columns]){or}"),
     )
 }
 

@@ -197,14 +197,10 @@ impl Draft {
             );
         }
         let all: Vec<String> = self.columns.iter().map(|column| column.name.clone()).collect();
-        let message = if self.columns.iter().all(|column| column.name.parse::<usize>().is_ok()) {
-            format!("{} columns without a header: nothing says what they hold", all.len())
-        } else {
-            format!(
-                "no column is known to be an accelerometer's or a gyroscope's; the columns are {}",
-                list(&all, 20)
-            )
-        };
+        let message = format!(
+            "no column is known to be an accelerometer's or a gyroscope's; the columns are {}",
+            list(&all, 20)
+        );
         Complaint::new(
             message,
             "name them like t_s,ax_mps2,ay_mps2,az_mps2,gx_radps,gy_radps,gz_radps, or say which is which in [columns] of an experiment file",

@@ -4,8 +4,8 @@ use super::column::{ColumnMeaning, ImuColumn};
 use super::draft::Draft;
 use super::format::FileFormat;
 use super::head::Head;
-use super::naming;
 use super::unit::{ColumnUnit, TimeUnit};
+use super::{LEAVE_AWAY, naming, unnamed};
 use crate::error::Complaint;
 use crate::io::text::Checked;
 use crate::sensor::{Axis, Triad};
@@ -17,11 +17,19 @@ pub(super) fn draft(head: &Head<'_>, triad: Option<Triad>) -> Checked<Draft> {
         let message = format!("{columns} column{} where 4 are needed", if columns == 1 { "" } else { "s" });
         return Err(Complaint::new(message, "imu_tk's columns are t x y z").at_line(head.line()).into());
     }
+    if !head.names.is_empty() && triad.is_none() {
+        return Err(Complaint::new("imu_tk's files have no header, and this one has", LEAVE_AWAY)
+            .at_line(head.line())
+            .into());
+    }
     let Some(triad) = triad else {
         return Err(Complaint::new(
             "imu_tk keeps each sensor in a file of its own, t x y z: this one does not say which it is",
-            "give the accelerometer's file as the recording and the gyroscope's with --gyroscope, or name the columns in [columns]: time = \"1\", \
-             accelerometer = [\"2\", \"3\", \"4\"]",
+            format!(
+                "give the accelerometer's file as the recording, the gyroscope's with --gyroscope, and their units with --accelerometer-unit and --gyroscope-unit; \
+                 or {}",
+                unnamed::in_columns(head).unwrap_or_default()
+            ),
         )
         .at_line(head.line())
         .into());

@@ -36,6 +36,7 @@ mod movella_dot;
 mod mt_manager;
 mod naming;
 mod options;
+mod pair;
 #[cfg(feature = "parquet")]
 mod parquet;
 mod parquet_pages;
@@ -43,6 +44,7 @@ mod readings;
 mod samples;
 mod source;
 mod unit;
+mod unnamed;
 mod xsens;
 #[cfg(feature = "mcap")]
 mod zstd;
@@ -51,14 +53,15 @@ pub use accelerometer::read_accelerometer;
 pub use column::{ColumnMeaning, ImuColumn};
 pub use format::FileFormat;
 pub use options::{ColumnMapping, ImuReadOptions};
+pub use pair::{parse_imu_pair, read_imu_pair};
 pub use unit::{ColumnUnit, ImuUnit, TimeUnit};
 
-use super::finding::{Finding, FindingKind, moment, short};
+use super::finding::{Finding, FindingKind};
 use super::hex_sha256;
 use super::row::Layout;
 use crate::error::{Complaint, Error, Result};
 use crate::io::text::Checked;
-use crate::sensor::{ImuRecording, Recording, Triad};
+use crate::sensor::{ImuRecording, Triad};
 use assemble::assemble;
 use draft::Draft;
 use head::Head;
@@ -71,16 +74,31 @@ use std::path::Path;
 pub struct ImuFile {
     /// The samples: times in s, strictly increasing, everything finite; SI or counts.
     pub recording: ImuRecording,
-    /// The format, as recognised or given.
+    /// The format, as recognised or given; of a pair the accelerometer's.
     pub format: FileFormat,
     /// The columns in their order, used or not; of both files for a pair.
     pub columns: Vec<ImuColumn>,
     /// What was noticed and repaired.
     pub findings: Vec<Finding>,
-    /// Number of rows, dropped ones included; of the longer file for a pair.
+    /// Number of rows, dropped ones included; of a pair the accelerometer's.
     pub rows: usize,
     /// SHA-256 of the bytes of each file, hexadecimal.
     pub sha256: Vec<String>,
+    /// The gyroscope's file of a pair.
+    pub second: Option<SecondFile>,
+    /// The time that the times count from, where that is their first and the file has another, ns.
+    counted_from_ns: Option<i128>,
+}
+
+/// What is told of the gyroscope's file of a pair.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SecondFile {
+    /// The format, as recognised or given.
+    pub format: FileFormat,
+    /// Number of rows, dropped ones included.
+    pub rows: usize,
+    /// Number of its columns: the last ones of [`ImuFile::columns`].
+    pub columns: usize,
 }
 
 /// Reads a recording of an IMU in any known format.
@@ -133,51 +151,6 @@ pub fn parse_imu_recording(bytes: &[u8], options: &ImuReadOptions) -> Result<Imu
     parse(bytes, options).map_err(|complaint| Error::recording(*complaint))
 }
 
-/// Reads a recording whose accelerometer and gyroscope are in a file each, as imu_tk's are: `t x y z`.
-///
-/// A file with a header serves as well: `t_s,x,y,z`, or any that has the sensor's columns by name. The sensors share a clock; their sample times may differ.
-///
-/// # Errors
-/// As [`read_imu_recording`], for each file.
-pub fn read_imu_pair(accelerometer: &Path, gyroscope: &Path, options: &ImuReadOptions) -> Result<ImuFile> {
-    let one = |path: &Path, triad: Triad| {
-        let in_file = |complaint: Box<Complaint>| Error::recording(complaint.in_file(path));
-        let beginning = source::beginning(path).map_err(in_file)?;
-        source::of_file(beginning, |source| parse_one(source, options, triad)).map_err(in_file)
-    };
-    // one beside the other: this is what a calibration waits for
-    let (accelerometer, gyroscope) =
-        rayon::join(|| one(accelerometer, Triad::Accelerometer), || one(gyroscope, Triad::Gyroscope));
-    Ok(joined(accelerometer?, gyroscope?))
-}
-
-/// Reads the bytes of a pair of files, accelerometer and gyroscope.
-///
-/// # Errors
-/// As [`read_imu_pair`], without the names of the files.
-///
-/// # Examples
-/// ```
-/// use calibrant::io::{ImuReadOptions, ImuUnit, parse_imu_pair};
-/// let options = ImuReadOptions {
-///     accelerometer_unit: Some(ImuUnit::Counts),
-///     gyroscope_unit: Some(ImuUnit::Counts),
-///     ..ImuReadOptions::default()
-/// };
-/// let file = parse_imu_pair(b"0.00 33108 33329 36429\n0.01 33096 33336 36437\n", b"0.00 32786 32429 32499\n0.01 32797 32410 32531\n", &options)?;
-/// assert_eq!(file.recording.gyroscope.expect("there").readings[1].y, 32410.0);
-/// # Ok::<(), calibrant::Error>(())
-/// ```
-pub fn parse_imu_pair(accelerometer: &[u8], gyroscope: &[u8], options: &ImuReadOptions) -> Result<ImuFile> {
-    let one = |bytes: &[u8], triad: Triad| {
-        source::of_bytes(bytes, |source| parse_one(source, options, triad)).map_err(|complaint| {
-            let message = format!("{triad}: {}", complaint.message);
-            Error::recording(Complaint { message, ..*complaint })
-        })
-    };
-    Ok(joined(one(accelerometer, Triad::Accelerometer)?, one(gyroscope, Triad::Gyroscope)?))
-}
-
 fn parse(bytes: &[u8], options: &ImuReadOptions) -> Checked<ImuFile> {
     if let Some(format) = FileFormat::of_magic(bytes) {
         if let Some(given) = options.format.filter(|given| *given != format) {
@@ -204,6 +177,9 @@ fn parse_text(source: Source<'_>, options: &ImuReadOptions, asked: Option<Triad>
         FileFormat::Euroc => euroc::draft(&head),
         FileFormat::Imucal => imucal::draft(&head)?,
         FileFormat::ImuTk => imu_tk::draft(&head, asked)?,
+        FileFormat::Csv if head.names.is_empty() && options.columns.is_empty() => {
+            return Err(unnamed::question(&head).into());
+        }
         FileFormat::Csv => csv::draft(&head, asked),
         FileFormat::Mcap | FileFormat::Parquet => return Err(not_binary(format).into()),
     };
@@ -269,20 +245,6 @@ fn sniffed(head: &Head<'_>, options: &ImuReadOptions) -> Checked<FileFormat> {
     }
 }
 
-/// One file of a pair.
-fn parse_one(source: Source<'_>, options: &ImuReadOptions, triad: Triad) -> Checked<ImuFile> {
-    let head = Head::find(source.text)?;
-    let mut draft = if head.names.is_empty() {
-        imu_tk::draft(&head, Some(triad))?
-    } else {
-        Draft::new(FileFormat::Csv, imu_tk::named(&head, triad))
-    };
-    draft.keep_only(triad);
-    // the other sensor's unit, or the columns of one file that holds both, are not meant
-    let options = ImuReadOptions { columns: ColumnMapping::default(), ..options.clone() };
-    rows(draft, head, source, &options)
-}
-
 /// Reads the rows of a text whose columns are known.
 fn rows(mut draft: Draft, head: Head<'_>, source: Source<'_>, options: &ImuReadOptions) -> Checked<ImuFile> {
     let line = head.line();
@@ -312,88 +274,10 @@ fn finish(mut draft: Draft, mut samples: Samples, options: &ImuReadOptions) -> C
         findings: assembled.findings,
         rows: samples.rows,
         sha256: Vec::new(),
+        second: None,
+        counted_from_ns: samples.counted_from_ns,
     })
 }
-
-/// The other sensor's columns of a file that was given for one sensor.
-fn left_aside(file: &ImuFile, triad: Triad) -> Option<Finding> {
-    let is_other =
-        |column: &&ImuColumn| matches!(column.meaning, ColumnMeaning::Reading(of, _) if of != triad);
-    let names: Vec<&str> = file.columns.iter().filter(is_other).map(|column| column.name.as_str()).collect();
-    let other = match triad {
-        Triad::Accelerometer => Triad::Gyroscope,
-        Triad::Gyroscope => Triad::Accelerometer,
-    };
-    (!names.is_empty()).then(|| {
-        let message = format!(
-            "its own columns of the {other}, {}, are left aside: the {other} is that of the other file",
-            names.join(", ")
-        );
-        Finding::new(FindingKind::IgnoredColumns, None, message)
-    })
-}
-
-/// Says where one of a pair of files covers much less of the time than the other.
-fn shorter_than_other(first: &ImuRecording, second: &ImuRecording) -> Option<Finding> {
-    let span = |recording: &Recording| Some((*recording.times_s.first()?, *recording.times_s.last()?));
-    let (accelerometer, gyroscope) =
-        (span(first.accelerometer.as_ref()?)?, span(second.gyroscope.as_ref()?)?);
-    let common = accelerometer.1.min(gyroscope.1) - accelerometer.0.max(gyroscope.0);
-    let lengths = [accelerometer, gyroscope].map(|(start, end)| end - start);
-    let is_gyroscope = lengths[1] < lengths[0];
-    let (shorter, longer) = if is_gyroscope {
-        (Triad::Gyroscope, Triad::Accelerometer)
-    } else {
-        (Triad::Accelerometer, Triad::Gyroscope)
-    };
-    let of = |triad: Triad| if triad == Triad::Gyroscope { gyroscope } else { accelerometer };
-    if common >= COVERED * lengths[0].max(lengths[1]) {
-        return None;
-    }
-    let words = |(start, end): (f64, f64)| format!("from {} to {} s", moment(start), moment(end));
-    let message = format!(
-        "{shorter}: it was recorded {}, the {longer} {}: {} s of both",
-        words(of(shorter)),
-        words(of(longer)),
-        short(common.max(0.0))
-    );
-    Some(Finding {
-        in_second_file: is_gyroscope,
-        ..Finding::new(FindingKind::ShorterThanOther, None, message)
-    })
-}
-
-/// Two files as one recording.
-fn joined(first: ImuFile, second: ImuFile) -> ImuFile {
-    let named = |triad: Triad, file: &ImuFile| -> Vec<Finding> {
-        let named = |mut finding: Finding| {
-            if !finding.message.starts_with(triad.name()) {
-                finding.message = format!("{triad}: {}", finding.message);
-            }
-            finding
-        };
-        file.findings.iter().cloned().chain(left_aside(file, triad)).map(named).collect()
-    };
-    let of_second = named(Triad::Gyroscope, &second).into_iter();
-    let mut findings = named(Triad::Accelerometer, &first);
-    findings.extend(of_second.map(|finding| Finding { in_second_file: true, ..finding }));
-    findings.extend(shorter_than_other(&first.recording, &second.recording));
-    ImuFile {
-        recording: ImuRecording {
-            accelerometer: first.recording.accelerometer,
-            gyroscope: second.recording.gyroscope,
-            temperature_c: first.recording.temperature_c,
-        },
-        format: first.format,
-        columns: first.columns.into_iter().chain(second.columns).collect(),
-        findings,
-        rows: first.rows.max(second.rows),
-        sha256: [first.sha256, second.sha256].concat(),
-    }
-}
-
-/// What both files of a pair have in common of the longer one's time, where nothing is to be said of it.
-const COVERED: f64 = 0.9;
 
 const LEAVE_AWAY: &str = "leave --format away: the format is recognised by the content";
 

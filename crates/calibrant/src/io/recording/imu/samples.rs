@@ -49,6 +49,8 @@ pub(super) struct Samples {
     pub(super) lines: LineMap,
     /// What was taken from each time, in its ticks, so that they are exact.
     pub(super) origin: i64,
+    /// The time that the times were made to count from, ns.
+    pub(super) counted_from_ns: Option<i128>,
     /// Line that was cut off, where the last one was.
     pub(super) truncated: Option<usize>,
     /// Last line of the text.
