@@ -19,6 +19,7 @@ mod gravity;
 mod holds;
 mod imu;
 mod motion;
+mod one_sided;
 mod problem;
 mod quantisation;
 mod result;

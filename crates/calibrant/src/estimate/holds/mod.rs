@@ -31,6 +31,7 @@ mod robust;
 mod verdict;
 
 use super::gravity::gravity_slope;
+use super::one_sided::one_sided;
 use super::quantisation::of_means;
 use super::{
     Calibration, CalibrationProblem, CalibrationSettings, CoarseAxis, FitStatistics, HoldCalibration,
@@ -99,6 +100,7 @@ pub(super) fn calibrate(
     let sound: Vec<usize> = (0..holds.len()).filter(|&j| clipped[j].is_none()).collect();
     let coarse = coarse_axes_in(as_read, sound.iter().map(|&j| &holds[j]));
     let of_mean = of_means(&coarse);
+    let one_sided = one_sided(problem.recording, Triad::Accelerometer, sound.iter().map(|&j| &holds[j]));
     let found = setup.intervals_s.is_none().then_some((problem.recording, setup.minimum_hold_s));
     let lost = found.and_then(|(recording, minimum_s)| holds_lost_to_filter(recording, &holds, minimum_s));
     let robust = match problem.sensor.model {
@@ -114,6 +116,7 @@ pub(super) fn calibrate(
     let mut calibration = assemble(problem, setup, holds, reasons, robust);
     calibration.warnings.extend(lost);
     calibration.warnings.extend(coarse_words(&coarse, as_read));
+    calibration.warnings.extend(one_sided);
     calibration.warnings.extend(beyond(as_read, setup.intervals_s.as_deref().unwrap_or_default()));
     Ok(Calibration { datasheet_prior: settings.datasheet_prior, ..calibration })
 }

@@ -16,6 +16,7 @@ use super::{ImuCalibration, ImuProblem, NoiseSource, RotationResult, StillGyrosc
 use crate::error::Result;
 use crate::estimate::gravity::gravity_slope;
 use crate::estimate::holds::left_out;
+use crate::estimate::one_sided::one_sided;
 use crate::estimate::{CoarseAxis, HoldCalibration, Uncalibrated};
 use crate::information;
 use crate::sensor::{Condition, Correction, ImuParameters, ReadingUnit, Thermal, Triad};
@@ -157,6 +158,10 @@ impl Finished<'_> {
                 found.words("gyroscope", unit)
             )
         }));
+        if let Some(gyroscope) = &problem.recording.gyroscope {
+            let used = calibration.holds.holds.iter().filter(|hold| hold.used).map(|result| &result.hold);
+            calibration.warnings.extend(one_sided(gyroscope, Triad::Gyroscope, used));
+        }
         calibration.warnings.extend(verdict::extrapolation(&imu.thermal, self.climate.of_recording()));
         Ok(calibration)
     }

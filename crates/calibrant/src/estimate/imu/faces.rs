@@ -7,13 +7,14 @@ use super::ImuProblem;
 use crate::error::{Complaint, Error, NotIdentifiable, Result, UndeterminedGroup};
 use crate::estimate::excess::excess;
 use crate::estimate::holds::{clipped_reason, coarse_words, left_out, magnitude_rms, with_clipped};
+use crate::estimate::one_sided::one_sided;
 use crate::estimate::quantisation::of_means;
 use crate::estimate::{
     HoldCalibration, HoldResult, Uncalibrated, clipped_holds, coarse_axes_in, holds_between,
 };
 use crate::information;
 use crate::motion::Hold;
-use crate::sensor::{ParameterList, Recording, SensorParameters, TriadThermal};
+use crate::sensor::{ParameterList, Recording, SensorParameters, Triad, TriadThermal};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
 /// Faces that scatter by more than this share of gravity were not placed badly: a direction is wrong.
@@ -125,6 +126,7 @@ pub(super) fn fit(
             .chain(left_out(&holds))
             .chain(scattered)
             .chain(coarse_words(&coarse, as_read))
+            .chain(one_sided(recording, Triad::Accelerometer, &usable))
             .collect(),
         holds,
         thermal: TriadThermal::default(),
