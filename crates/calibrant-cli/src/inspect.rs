@@ -7,9 +7,14 @@ use calibrant::io::{
     read_imu_pair, read_imu_recording,
 };
 use calibrant::motion::Hold;
-use calibrant::report::number::{count, short, significant};
+use calibrant::report::number::{count, counted, short, significant};
 use calibrant::sensor::{Axis, ReadingUnit, Saturation, Triad};
 use std::path::{Path, PathBuf};
+
+/// Names of columns are cut to so many characters,
+const LONGEST_NAME: usize = 40;
+/// and of those that are not used none is shown after so many.
+const MOST_COLUMNS: usize = 50;
 
 /// Say what a recording of an IMU holds, before anything is calibrated.
 ///
@@ -99,18 +104,25 @@ fn files(file: &ImuFile, arguments: &Arguments) -> String {
 }
 
 fn columns(columns: &[ImuColumn]) -> String {
-    let rows: Vec<_> = columns
-        .iter()
-        .map(|column| {
-            vec![
-                column.name.clone(),
-                column.meaning.to_string(),
-                column.unit.map_or("–", |unit| unit.symbol()).to_owned(),
-                column.unused.as_deref().map_or_else(|| "used".to_owned(), |why| format!("not used: {why}")),
-            ]
-        })
-        .collect();
-    console::table(&["column", "meaning", "unit", ""], &rows) + "\n"
+    let name = |name: &str| match name.char_indices().nth(LONGEST_NAME) {
+        Some((end, _)) => format!("{}…", &name[..end]),
+        None => name.to_owned(),
+    };
+    let row = |column: &ImuColumn| {
+        vec![
+            name(&column.name),
+            column.meaning.to_string(),
+            column.unit.map_or("–", |unit| unit.symbol()).to_owned(),
+            column.unused.as_deref().map_or_else(|| "used".to_owned(), |why| format!("not used: {why}")),
+        ]
+    };
+    let shown = |(k, column): &(usize, &ImuColumn)| *k < MOST_COLUMNS || column.is_used();
+    let rows: Vec<_> = columns.iter().enumerate().filter(shown).map(|(_, column)| row(column)).collect();
+    let more = match columns.len() - rows.len() {
+        0 => String::new(),
+        more => format!("  and {} that are not used\n", counted(more, "more column")),
+    };
+    console::table(&["column", "meaning", "unit", ""], &rows) + &more + "\n"
 }
 
 fn sampling(sensor: &SensorInspection) -> String {

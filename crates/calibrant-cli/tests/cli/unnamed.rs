@@ -109,6 +109,38 @@ fn a_pair_is_asked_for_both_units_at_once_and_told_file_by_file() {
     );
 }
 
+#[test]
+fn exchanged_files_are_asked_about() {
+    let bench = bench();
+    bench.write("acc.mat", rows(&bench, &[0, 1, 2, 3], 500.0));
+    bench.write("gyro.mat", rows(&bench, &[0, 4, 5, 6], 5000.0));
+    let says = "the accelerometer does not: are their files or columns exchanged?";
+    let units = "--accelerometer-unit counts --gyroscope-unit counts";
+    for (one, other, expected) in [("acc.mat", "gyro.mat", false), ("gyro.mat", "acc.mat", true)] {
+        let said = bench.run(&format!("inspect {one} --gyroscope {other} {units}")).done().stdout;
+        assert_eq!(said.contains(says), expected, "{said}");
+        let outcome =
+            bench.run(&format!("calibrate counts.toml {one} --gyroscope {other} --no-report -o out"));
+        assert_eq!(
+            (outcome.status, outcome.stderr.contains(says)),
+            (if expected { 4 } else { 0 }, expected),
+            "{outcome:?}"
+        );
+    }
+}
+
+#[test]
+fn a_table_of_many_columns_with_long_names_stays_legible() {
+    let bench = Bench::new();
+    let more: Vec<String> = (0..5000).map(|k| format!("{k}{}", "x".repeat(300))).collect();
+    let row = |t: usize| format!("{},{t},{},9.8,1", vec!["7"; 5000].join(","), t % 2);
+    let rows: Vec<String> = (0..3).map(row).collect();
+    bench.write("wide.csv", format!("{},t_s,ax_mps2,ay_mps2,az_mps2\n{}\n", more.join(","), rows.join("\n")));
+    let said = plain(&bench.run("inspect wide.csv").done().stdout);
+    assert!(said.len() < 20_000 && said.contains("az_mps2"), "{}", said.len());
+    assert!(said.contains("and 4950 more columns that are not used"), "{said}");
+}
+
 /// Times since 1970 in two files, which begin at different times.
 #[test]
 fn the_files_of_a_pair_keep_their_common_clock() {

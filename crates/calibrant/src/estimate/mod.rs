@@ -37,8 +37,8 @@ pub use holds::{
 };
 pub use imu::{
     Gyroscope, ImuCalibration, ImuProblem, ImuSetup, KnownTerm, NoiseSource, RotationResult, StillGyroscope,
-    ThermalModel, Turn, TurnResult, WhiteNoise, calibrate_imu, calibrate_imu_while, find_clean_imu_holds,
-    find_imu_holds,
+    ThermalModel, Turn, TurnResult, WhiteNoise, calibrate_imu, calibrate_imu_while, exchanged_sensors,
+    find_clean_imu_holds, find_imu_holds,
 };
 pub use problem::{CalibrationProblem, Stimulus};
 pub use quantisation::{CoarseAxis, coarse_axes, coarse_axes_in};

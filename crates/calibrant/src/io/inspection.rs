@@ -4,8 +4,8 @@ use super::json;
 use super::recording::{Finding, ImuColumn, ImuFile};
 use crate::error::Result;
 use crate::estimate::{
-    CoarseAxis, Coverage, ExpectedCalibration, clipped_holds, coarse_axes_in, coverage, expected_calibration,
-    find_clean_imu_holds, holds_lost_to_filter,
+    CoarseAxis, Coverage, ExpectedCalibration, clipped_holds, coarse_axes_in, coverage, exchanged_sensors,
+    expected_calibration, find_clean_imu_holds, holds_lost_to_filter,
 };
 use crate::motion::Hold;
 use crate::sensor::{Gauge, ImuRecording, MeanReading, ReadingUnit, Recording, Saturation, Sparks, Triad};
@@ -70,7 +70,7 @@ pub struct HoldsInspection {
     pub coverage: Option<Coverage>,
     /// What they will determine of the accelerometer; the reason where that is not all of it.
     pub expected: std::result::Result<ExpectedCalibration, String>,
-    /// Why there may be fewer than there should be: a filter that breaks them up, in words.
+    /// Why there may be fewer than there should be, in words: a filter that breaks them up, or sensors that were exchanged.
     pub lost: Option<String>,
     /// Axes whose readings come in steps coarser than their noise.
     pub coarse: Vec<(Triad, CoarseAxis)>,
@@ -161,7 +161,11 @@ impl HoldsInspection {
         Ok(Self {
             coverage: directions.and_then(|directions| coverage(&directions)),
             gyroscope_at_rest: recording.gyroscope.as_ref().and_then(|gyroscope| at_rest(gyroscope, &holds)),
-            lost: holds_lost_to_filter(accelerometer, &holds, MINIMUM_HOLD_S),
+            lost: match &expected {
+                Err(_) => exchanged_sensors(recording, MINIMUM_HOLD_S).map(str::to_owned),
+                Ok(_) => None,
+            }
+            .or_else(|| holds_lost_to_filter(accelerometer, &holds, MINIMUM_HOLD_S)),
             coarse: Triad::ALL.into_iter().flat_map(|triad| coarse(recording, triad, &sound)).collect(),
             expected,
             clipped,

@@ -20,6 +20,7 @@ mod assemble;
 mod both_still;
 mod carried;
 mod contradiction;
+mod exchanged;
 mod faces;
 mod joint;
 mod known;
@@ -41,6 +42,7 @@ mod weights;
 
 pub use both_still::{find_clean_imu_holds, find_imu_holds};
 pub(super) use carried::{Carried, Carrying, GyroscopeAtRest, HeldStill};
+pub use exchanged::exchanged_sensors;
 pub use known::{calibrate_imu, calibrate_imu_while};
 pub use problem::{Gyroscope, ImuProblem, ImuSetup, KnownTerm, NoiseSource, Turn, WhiteNoise};
 pub use result::{ImuCalibration, RotationResult, StillGyroscope, TurnResult};

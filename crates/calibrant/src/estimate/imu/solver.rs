@@ -2,6 +2,7 @@
 
 use super::assemble::Finished;
 use super::both_still::find_clean_imu_holds;
+use super::exchanged::with_exchanged;
 use super::faces::{self, First};
 use super::joint::{HoldData, Joint, Misses, State};
 use super::readings::{Integrable, felt_forces, rotation_spans, turns};
@@ -254,7 +255,7 @@ fn from_holds(
     let as_read = problem.recording.accelerometer.as_ref().unwrap_or(recording);
     let alone = CalibrationProblem { sensor: problem.accelerometer, recording, stimulus };
     let mut first = holds::calibrate(&alone, &setup, settings, as_read).map_err(|error| match detected {
-        true => with_filter(error, as_read, &found, minimum_s),
+        true => with_exchanged(with_filter(error, as_read, &found, minimum_s), problem.recording, minimum_s),
         false => error,
     })?;
     if detected {

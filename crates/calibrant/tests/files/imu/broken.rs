@@ -338,6 +338,11 @@ const CASES: &[Case] = &[
         "line 1: two columns hold the time: `t_s` and `time_ms` (say which in [columns] of an experiment file)",
     ),
     (
+        "t_s,gx_radps,gy_radps,gx_radps\n0,1,2,3\n1,1,2,3\n",
+        plain,
+        "line 1: two columns hold the gyroscope x: `gx_radps` and `gx_radps` (rename one of them in the file)",
+    ),
+    (
         "t_s,c1,c2\n0,1,2\n",
         mapped,
         "line 1: [columns] names `c3`, which the file does not have; it has `t_s`, `c1`, `c2` (names count letter by letter, capitals too)",

@@ -129,7 +129,11 @@ impl Draft {
                     "two columns hold the {}: `{}` and `{}`",
                     column.meaning, self.columns[other].name, column.name
                 );
-                return Err(Complaint::new(message, "say which in [columns] of an experiment file").into());
+                let help = match self.columns[other].name == column.name {
+                    true => "rename one of them in the file",
+                    false => "say which in [columns] of an experiment file",
+                };
+                return Err(Complaint::new(message, help).into());
             }
             slots[k] = Some(slot);
         }
