@@ -2,6 +2,8 @@
 
 use crate::calibration_file::{Reading, in_words};
 use crate::{Exit, console};
+use calibrant::Error;
+use calibrant::error::Complaint;
 use calibrant::estimate::{ComparedQuantity, Comparison};
 use calibrant::io::comparison_json;
 use calibrant::report::number;
@@ -28,6 +30,19 @@ pub(crate) struct Arguments {
 pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     let (a, b) = (arguments.reading.read(&arguments.a)?.imu, arguments.reading.read(&arguments.b)?.imu);
     let comparison = Comparison::of(&a, &b);
+    if comparison.quantities.is_empty() {
+        let message = format!(
+            "{} and {} have no sensor in common: {}; {}",
+            arguments.a.display(),
+            arguments.b.display(),
+            in_words(&a),
+            in_words(&b)
+        );
+        return Err(Error::Experiment(Box::new(Complaint::new(
+            message,
+            "compare calibrations of one sensor",
+        ))));
+    }
     let (name_a, name_b) = (arguments.a.display().to_string(), arguments.b.display().to_string());
     if arguments.json {
         console::print(&comparison_json(&comparison, &name_a, &name_b));

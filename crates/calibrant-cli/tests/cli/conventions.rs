@@ -136,6 +136,24 @@ fn apply_writes_true_values_with_their_uncertainty() {
     );
 }
 
+/// Two files of imu_tk that were taken for each other, and calibrations of different sensors.
+#[test]
+fn sensors_that_are_not_those_expected_are_refused() {
+    let bench = Bench::new();
+    bench.preset("imu", "imu.toml", &[]);
+    bench.run("simulate imu.toml -o made").done();
+    bench.run("convert made/truth.json a.calib --drop-g-sensitivity").done();
+    bench.run("compare a.calib made/truth.json").done();
+    bench.write("x_acc.calib", bench.read("a_gyro.calib"));
+    bench.write("x_gyro.calib", bench.read("a_acc.calib"));
+    let says = "x_acc.calib: the file says that it is of the gyroscope, and it was given as that of the accelerometer";
+    bench.refuses("compare x.calib made/truth.json", 2, &[says, "are the two files exchanged"]);
+    let says = "a_acc.calib and a_gyro.calib have no sensor in common: accelerometer in m/s², no covariance; gyroscope in rad/s";
+    for json in ["", " --json"] {
+        bench.refuses(&format!("compare a_acc.calib a_gyro.calib{json}"), 2, &[says]);
+    }
+}
+
 /// What is read is not replaced by the result.
 #[test]
 fn a_result_does_not_replace_what_it_is_made_from() {

@@ -105,6 +105,14 @@ pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<Calibrate
         let message = format!("the file has {} of {COUNT} numbers", numbers.len());
         return Err(Box::new(Complaint::new(message, HELP).at_line(last)));
     }
+    if let (Some(said), Some(given)) = (triad, options.triad)
+        && said != given
+    {
+        return Err(complaint(
+            format!("the file says that it is of the {said}, and it was given as that of the {given}"),
+            "are the two files exchanged, or is --sensor wrong?",
+        ));
+    }
     let Some(triad) = triad.or(options.triad) else {
         return Err(complaint(
             "is this the accelerometer's or the gyroscope's? The file does not say",
