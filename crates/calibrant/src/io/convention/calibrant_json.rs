@@ -113,6 +113,7 @@ impl NoiseFields {
             gyroscope_random_walk: self.gyroscope_random_walk,
             update_rate_hz: self.update_rate_hz,
             rostopic: self.rostopic,
+            ..ImuNoise::default()
         }
         .checked()
     }

@@ -24,6 +24,8 @@ use std::fmt::Write;
 use std::path::Path;
 
 const HELP: &str = "give an imu.yaml as Kalibr writes it";
+/// Rates are the same to this part: clocks of two sensors differ by less, and the noise of a sample by half of it.
+const SAME_RATE: f64 = 0.01;
 
 /// Noise densities of an IMU, as Kalibr's `imu.yaml` has them.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -38,6 +40,8 @@ pub struct ImuNoise {
     pub gyroscope_random_walk: Option<f64>,
     /// Sample rate, Hz.
     pub update_rate_hz: Option<f64>,
+    /// Sample rates at which the densities of accelerometer and gyroscope were measured, Hz, where that is known: the files have one rate.
+    pub measured_at_hz: [Option<f64>; 2],
     /// The ROS topic of the readings.
     pub rostopic: Option<String>,
 }
@@ -65,8 +69,24 @@ impl ImuNoise {
             gyroscope_density: self.gyroscope_density.or(other.gyroscope_density),
             gyroscope_random_walk: self.gyroscope_random_walk.or(other.gyroscope_random_walk),
             update_rate_hz: self.update_rate_hz.or(other.update_rate_hz),
+            measured_at_hz: [0, 1].map(|k| self.measured_at_hz[k].or(other.measured_at_hz[k])),
             rostopic: self.rostopic.or(other.rostopic),
         }
+    }
+
+    /// A warning where the one rate of a file is not that of a sensor.
+    pub(super) fn of_rates(&self) -> Option<String> {
+        let rate = self.update_rate_hz?;
+        let is_other = |measured: &f64| (measured / rate - 1.0).abs() > SAME_RATE;
+        let (triad, measured) = Triad::ALL
+            .into_iter()
+            .zip(self.measured_at_hz)
+            .find_map(|(triad, measured)| Some((triad, measured.filter(is_other)?)))?;
+        Some(format!(
+            "update_rate is one number: {rate} Hz is written, but the {triad} has {measured} Hz. Kalibr takes the noise of a sample for the density times √update_rate, {:.2} times that of the \
+             {triad}: bring both sensors to one rate",
+            (rate / measured).sqrt()
+        ))
     }
 
     fn fields(&self) -> [(&'static str, Option<f64>); 5] {
@@ -170,6 +190,7 @@ impl Imu {
             gyroscope_random_walk: self.gyroscope_random_walk,
             update_rate_hz: self.update_rate,
             rostopic: self.rostopic.clone(),
+            ..ImuNoise::default()
         }
         .checked()?;
         Ok((noise != ImuNoise::default()).then_some(noise))

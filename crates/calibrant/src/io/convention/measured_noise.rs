@@ -109,6 +109,7 @@ fn take(noise: &mut ImuNoise, sensor: &Sensor, imu: &CalibratedImu) -> Checked<(
         Triad::Gyroscope => (noise.gyroscope_density, noise.gyroscope_random_walk) = (density, walk),
     }
     noise.update_rate_hz = Some(sensor.rate_hz());
+    noise.measured_at_hz[triad as usize] = noise.update_rate_hz;
     Ok(())
 }
 

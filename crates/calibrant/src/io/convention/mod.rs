@@ -224,8 +224,11 @@ fn text_of(file: &CalibratedImuFile, format: ImuFormat) -> Checked<Texts> {
         ImuFormat::Imucal => one(imucal::write(file)?),
         ImuFormat::CHeader => one(c_header::write(file)?),
     };
-    if file.noise.is_some() && !matches!(format, ImuFormat::CalibrantJson | ImuFormat::Kalibr) {
-        warnings.push(format!("{} has no place for the noise densities", format.title()));
+    if let Some(noise) = &file.noise {
+        warnings.extend(match format {
+            ImuFormat::CalibrantJson | ImuFormat::Kalibr => noise.of_rates(),
+            _ => Some(format!("{} has no place for the noise densities", format.title())),
+        });
     }
     Ok((texts, warnings))
 }
