@@ -36,9 +36,12 @@ pub(super) fn read(arguments: &Arguments, triad: Triad, gains: &Gains) -> calibr
     })
 }
 
-/// The options, with --unit as that of the sensor.
+/// The options, with --unit as that of the sensor. The unit of one that --sensor leaves aside is not asked for: it only tells when the IMU is still.
 fn options(arguments: &Arguments, triad: Triad) -> calibrant::Result<ImuReadOptions> {
-    let options = arguments.reading.with_columns(arguments.columns.as_deref())?;
+    let mut options = arguments.reading.with_columns(arguments.columns.as_deref())?;
+    if arguments.sensor.is_some() {
+        options.counts_unless_stated = Triad::ALL.map(|other| other != triad);
+    }
     let Some(unit) = arguments.unit else { return Ok(options) };
     if !unit.suits(triad) {
         let message = format!("--unit {} is no unit of the {triad}", unit.symbol());

@@ -109,3 +109,53 @@ fn both_sensors_of_an_imu_are_examined_at_once() {
     bench.write("next.json", bench.read("both/noise.json").replacen("\"schema\": 1", "\"schema\": 9", 1));
     bench.refuses("convert ferraris.json next.yaml --noise next.json", 2, &["version 9"]);
 }
+
+/// Where one sensor is asked for, the unit of the other says nothing: it only tells when the IMU is still.
+#[test]
+fn of_a_pair_only_the_unit_of_the_sensor_that_is_asked_for_is_needed() {
+    let bench = Bench::new();
+    let [_, first, second] = imu(6000);
+    let bare = |text: &str| text.lines().skip(1).collect::<Vec<_>>().join("\n").replace(',', " ");
+    bench.write("acc.mat", bare(&first));
+    bench.write("gyro.mat", bare(&second));
+    let pair = "noise acc.mat --gyroscope gyro.mat";
+    bench.refuses(pair, 3, &["have no unit"]);
+    let outcome = bench.run(&format!("{pair} --sensor gyroscope --gyroscope-unit rad/s -o one")).done();
+    assert!(outcome.stdout.contains("in [gyroscope]: noise_radps = "), "{}", outcome.stdout);
+    bench.run(&format!("{pair} --sensor accelerometer --unit m/s2")).done();
+    bench.refuses(
+        &format!("{pair} --sensor gyroscope"),
+        3,
+        &["gyro.mat", "the gyroscope's columns have no unit"],
+    );
+    // the same hold, and the same noise, as with both units
+    bench.run(&format!("{pair} --accelerometer-unit m/s2 --gyroscope-unit rad/s -o both")).done();
+    assert_eq!(bench.json("one/noise.json")["sensors"][0], bench.json("both/noise.json")["sensors"][1]);
+}
+
+/// An imu.yaml has one update_rate.
+#[test]
+fn sensors_of_different_rates_are_told_apart() {
+    let bench = Bench::new();
+    let [_, first, second] = imu(6000);
+    let every_other = |text: &str| -> String {
+        text.lines().take(1).chain(text.lines().skip(1).step_by(2)).collect::<Vec<_>>().join("\n")
+    };
+    bench.write("acc.csv", every_other(&first));
+    bench.write("gyro.csv", &second);
+    bench.run("noise acc.csv --gyroscope gyro.csv -o noise").done();
+    bench.write("imu_in.yaml", YAML);
+    let outcome = bench.run("convert imu_in.yaml imu.yaml --noise noise/noise.json").done();
+    for text in ["update_rate is one number: 100 Hz is written", "the accelerometer has 50 Hz", "1.41 times"]
+    {
+        assert!(outcome.stderr.contains(text), "{text}: {}", outcome.stderr);
+    }
+    assert!(bench.read("imu.yaml").contains("update_rate: 100.0\n"));
+    bench.write("gyro.csv", every_other(&second));
+    bench.run("noise acc.csv --gyroscope gyro.csv -o same").done();
+    let outcome = bench.run("convert imu_in.yaml same.yaml --noise same/noise.json").done();
+    assert!(!outcome.stderr.contains("update_rate is"), "{}", outcome.stderr);
+    assert!(bench.read("same.yaml").contains("update_rate: 50.0\n"));
+}
+
+const YAML: &str = "imu0:\n  accelerometers:\n    M:\n    - [1.0, 0.0, 0.0]\n    - [0.0, 1.0, 0.0]\n    - [0.0, 0.0, 1.0]\n  gyroscopes:\n    M:\n    - [1.0, 0.0, 0.0]\n    - [0.0, 1.0, 0.0]\n    - [0.0, 0.0, 1.0]\n  model: scale-misalignment\n";
