@@ -412,7 +412,13 @@ fn the_mti_at_rest() {
         "{}",
         outcome.stdout
     );
-    for axis in bench.json("result/noise.json")["sensors"][0]["axes"].as_array().expect("axes") {
+    let sensor = &bench.json("result/noise.json")["sensors"][0];
+    // a line with 1.5 % of the variance of x, where its samples' filter leaves little else: N is that of longer cluster times
+    assert!(outcome.stderr.contains("accelerometer x: a line at 45.4 Hz has 1.5 %"), "{}", outcome.stderr);
+    assert!(outcome.stdout.contains("in [sensor]: noise_counts = ") && sensor["doubt"].is_null());
+    let line = &sensor["axes"][0]["vibration"];
+    assert!(line["left_out"] == true && line["of_white"].as_f64().expect("known") < 0.01, "{line}");
+    for axis in sensor["axes"].as_array().expect("axes") {
         let n = axis["random_walk"]["value"].as_f64().expect("determined");
         // its samples are filtered: 8 to 9.5e-4 where the filter is taken for the end of the white noise
         assert!((8e-4..1.05e-3).contains(&n), "{n} m/s²/√Hz");

@@ -128,6 +128,7 @@ struct AxisFields<'a> {
     bias_instability_tau_s: Option<f64>,
     drift: DriftFields,
     fit: FitFields,
+    vibration: Option<VibrationFields>,
     allan: AllanFields,
 }
 
@@ -159,6 +160,12 @@ impl<'a> AxisFields<'a> {
                 degrees_of_freedom: axis.fit.degrees_of_freedom,
                 p_value: axis.fit.p_value,
             },
+            vibration: axis.fit.vibration.as_ref().map(|line| VibrationFields {
+                frequency_hz: line.frequency_hz,
+                share: line.share,
+                of_white: line.of_white,
+                left_out: line.left_out,
+            }),
             allan: AllanFields {
                 cluster_samples: points.iter().map(|point| point.cluster).collect(),
                 tau_s: column(|point| point.tau_s),
@@ -232,6 +239,17 @@ struct FitFields {
     chi2: f64,
     degrees_of_freedom: usize,
     p_value: Option<f64>,
+}
+
+/// Lines in the spectrum.
+#[derive(Serialize)]
+struct VibrationFields {
+    frequency_hz: f64,
+    /// Of the variance of the samples.
+    share: f64,
+    /// Of N², were they left in.
+    of_white: f64,
+    left_out: bool,
 }
 
 #[derive(Serialize)]

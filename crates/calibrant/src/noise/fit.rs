@@ -3,6 +3,7 @@
 use super::choice::choose;
 use super::regression::MISFIT;
 use super::tails::Tails;
+use super::vibration::{Lines, Vibration};
 use super::{Drift, Moments, NoiseModel, PowerLaw, allan};
 use crate::error::{Complaint, Error, Result};
 
@@ -30,6 +31,8 @@ pub struct NoiseFit {
     pub degrees_of_freedom: usize,
     /// Probability of a χ² at least as high; `None` without degrees of freedom.
     pub p_value: Option<f64>,
+    /// Lines in the spectrum that are worth a word: a vibration, a hum. The coefficients are those of the noise beside them.
+    pub vibration: Option<Vibration>,
 }
 
 impl NoiseFit {
@@ -70,7 +73,10 @@ impl NoiseFit {
                 "is the axis connected? its resolution may be coarser than its noise",
             )));
         }
-        let regression = choose(moments, &observed);
+        let lines = Lines::of(readings, moments.scales());
+        let without = lines.as_ref().map(|lines| lines.taken_off(&observed));
+        let regression = choose(moments, without.as_ref().unwrap_or(&observed));
+        let vibration = lines.and_then(|lines| lines.vibration(&observed, &regression, interval_s));
         let mut model = regression.model(interval_s);
         model.random_walk = Tails::of(readings).widen(model.random_walk);
         let drift = Drift::of(readings, interval_s, &model);
@@ -94,6 +100,7 @@ impl NoiseFit {
             p_value,
             filtered: regression.filtered,
             model,
+            vibration,
         })
     }
 

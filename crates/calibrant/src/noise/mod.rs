@@ -39,12 +39,13 @@
 //! quantisation; shorter cluster times are left out and named (`choice`). N is then the noise before the filter: that of means of many samples.
 //!
 //! # What is taken out first
-//! Up to one in fifty samples that are far from those beside them ([`Outliers`]), which no process above explains; they are named.
+//! Up to one in fifty samples that are far from those beside them ([`Outliers`]), and what lines in the spectrum add to the Allan variances ([`Vibration`]): no process above explains them. Both are named.
 //!
 //! # Confidence
 //! An estimate of a variance is skewed. The bounds of `θ_i` are those values under which an estimate as high, or as low, as this one has a
 //! probability of 2.5 %, the estimate following a gamma distribution with the mean and the variance that the model gives it *there*.
-//! With few degrees of freedom this is the familiar χ² interval. Heavy tails widen that of N (`tails`). A Monte Carlo test checks the coverage.
+//! With few degrees of freedom this is the familiar χ² interval. Heavy tails widen that of N (`tails`). A filter that does not show may have taken a little from N: where a fit with its share has more, the
+//! upper bound is higher by the difference (the standard deviation is that of noise without a filter). A Monte Carlo test checks the coverage.
 //!
 //! # References
 //! `ieee952`, `ieee1293`, `riley2008`, `greenhall2003`, `riley2004`, `guerrier2013`, `kasdin1995`
@@ -80,6 +81,7 @@ pub use power_law::PowerLaw;
 pub use stretch::Stretch;
 pub use triad::{AxisNoise, TriadNoise};
 pub use unit::{CoefficientUnit, coefficient_units};
+pub use vibration::Vibration;
 
 /// Probability that a stated interval covers the truth.
 pub const CONFIDENCE: f64 = 0.95;

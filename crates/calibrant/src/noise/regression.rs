@@ -24,6 +24,7 @@ const SETTLED: f64 = 1e-6;
 /// Extrapolations by more than so many changes are left.
 const FARTHEST: f64 = 4.0;
 const QUANTISATION: usize = PowerLaw::Quantisation as usize;
+const WHITE: usize = PowerLaw::White as usize;
 
 /// Generalised least squares of the Allan variances on the variances of some of the processes, a sample interval being 1.
 pub(super) struct Regression<'a> {
@@ -42,6 +43,8 @@ pub(super) struct Regression<'a> {
     pub(super) filtered: bool,
     /// What [`rival`](Self::rival) found: it is asked for again and again.
     rivals: [OnceCell<Option<usize>>; PROCESSES],
+    /// What [`beside_filter`](Self::beside_filter) found.
+    beside_filter: OnceCell<(f64, f64)>,
 }
 
 impl<'a> Regression<'a> {
@@ -119,8 +122,9 @@ impl<'a> Regression<'a> {
         let residual =
             values - &design * DVector::from_iterator(active.len(), active.iter().map(|&a| theta[a]));
         let chi2 = white.of(residual).norm_squared();
-        let rivals = Default::default();
-        Self { moments, observed, first, active: active.to_vec(), theta, gain, chi2, rivals, filtered }
+        let (rivals, beside_filter) = Default::default();
+        let active = active.to_vec();
+        Self { moments, observed, first, active, theta, gain, chi2, rivals, beside_filter, filtered }
     }
 
     /// Variance of the estimate of active process `i`, as a function of what its `θ` would be.
@@ -136,11 +140,20 @@ impl<'a> Regression<'a> {
 
     /// How many standard deviations a filter's share is above zero beside the processes; `None` where quantisation is one of them.
     pub(super) fn filter_significance(&self) -> Option<f64> {
+        self.beside_filter().map(|(significance, _)| significance)
+    }
+
+    /// The same, and the square of N beside it.
+    fn beside_filter(&self) -> Option<(f64, f64)> {
         if self.active.contains(&QUANTISATION) {
             return None;
         }
-        let active: Vec<usize> = std::iter::once(QUANTISATION).chain(self.active.iter().copied()).collect();
-        Some(Self::of(self.moments, self.observed, self.first, &active, true).significance(0))
+        Some(*self.beside_filter.get_or_init(|| {
+            let active: Vec<usize> =
+                std::iter::once(QUANTISATION).chain(self.active.iter().copied()).collect();
+            let with = Self::of(self.moments, self.observed, self.first, &active, true);
+            (with.significance(0), with.theta[WHITE])
+        }))
     }
 
     /// How many standard deviations the square of a coefficient is above zero.
@@ -158,7 +171,24 @@ impl<'a> Regression<'a> {
 
     /// A filter's share over the white noise.
     pub(super) fn filter_share(&self) -> f64 {
-        self.theta[QUANTISATION] / self.theta[PowerLaw::White as usize]
+        self.theta[QUANTISATION] / self.theta[WHITE]
+    }
+
+    /// What part of N² these Allan variances would add to it; zero without white noise.
+    pub(super) fn part_of_white(&self, variances: &DVector<f64>) -> f64 {
+        let scales = variances.rows(self.first, variances.len() - self.first);
+        self.white().map_or(0.0, |i| self.gain.row(i).transpose().dot(&scales) / self.theta[WHITE])
+    }
+
+    /// Standard deviation of N² over N².
+    pub(super) fn relative_sd_of_white(&self) -> f64 {
+        let theta = self.theta[WHITE];
+        self.white().map_or(f64::INFINITY, |i| self.variance(i)(theta).sqrt() / theta)
+    }
+
+    /// The place of white noise among the active processes.
+    fn white(&self) -> Option<usize> {
+        self.active.iter().position(|&a| a == WHITE)
     }
 
     pub(super) fn p_value(&self) -> Option<f64> {
@@ -196,12 +226,15 @@ impl<'a> Regression<'a> {
             let (theta, variance) = (self.theta[a], self.variance(i));
             let sd = variance(theta).sqrt();
             let (low, high) = interval::bounds(theta, variance);
-            let value = to_coefficient(theta);
+            let (value, high) = (to_coefficient(theta), to_coefficient(high));
+            // a filter that does not show has taken from N what N beside its share has more
+            let unseen = self.beside_filter().filter(|_| a == WHITE);
+            let taken = unseen.map_or(0.0, |(_, beside)| to_coefficient(beside.max(theta)) - value);
             return Coefficient::Determined(Estimate {
                 value,
                 sd: 0.5 * value * sd / theta,
                 low: to_coefficient(low),
-                high: to_coefficient(high),
+                high: high + taken,
             });
         }
         let limit = match position {

@@ -2,7 +2,6 @@
 
 use super::outliers::{self, Outliers};
 use super::tails::Tails;
-use super::vibration;
 use super::{AllanDeviation, Moments, NoiseFit, Stretch};
 use crate::error::{Complaint, Error, Result};
 use crate::sensor::{Axis, ReadingUnit, Recording, Triad};
@@ -127,7 +126,7 @@ impl TriadNoise {
                 sample_sd: (squares / (n - 1.0)).sqrt(),
                 outliers,
             };
-            let doubt = noise.doubt(&values, stretch.rate_hz());
+            let doubt = noise.doubt(&values);
             Ok((noise, doubt))
         };
         let axes: Vec<Result<_>> = recording.active_axes().par_iter().map(axis).collect();
@@ -284,6 +283,16 @@ impl TriadNoise {
                     short_time(fit.shortest_tau_s)
                 ));
             }
+            if let Some(line) = fit.vibration.as_ref().filter(|line| line.left_out) {
+                remarks.push(format!(
+                    "{} {name}: a line at {} Hz has {} % of the samples' variance: a vibration, or the hum of the mains? What is stated is the noise beside it; with it N would be \
+                     {:.1} % larger",
+                    self.triad,
+                    three_digits(line.frequency_hz),
+                    two_digits(100.0 * line.share),
+                    50.0 * line.of_white.max(0.0)
+                ));
+            }
             let white = fit.model.white_noise_per_sample(self.stretch.rate_hz());
             if let Some(white) = white
                 && axis.sample_sd > BEYOND_WHITE * white
@@ -316,7 +325,7 @@ impl TriadNoise {
 
 impl AxisNoise {
     /// Why its white noise is not that of a sensor at rest, where it is not.
-    fn doubt(&self, values: &[f64], rate_hz: f64) -> Option<String> {
+    fn doubt(&self, values: &[f64]) -> Option<String> {
         let sparks = self.outliers.as_ref().is_some_and(|outliers| !outliers.left_out);
         if sparks {
             return Some("there are too many sparks".into());
@@ -327,8 +336,8 @@ impl AxisNoise {
                 self.axis
             ));
         }
-        if let Some(frequency) = vibration::find(values) {
-            let hertz = three_digits(frequency * rate_hz);
+        if let Some(line) = self.fit.vibration.as_ref().filter(|line| !line.left_out) {
+            let hertz = three_digits(line.frequency_hz);
             return Some(format!(
                 "axis {} has a line at {hertz} Hz: a vibration, or the hum of the mains?",
                 self.axis

@@ -7,6 +7,8 @@ use crate::noise::{AxisNoise, PowerLaw, TriadNoise};
 
 /// Points of a fitted line.
 const LINE: usize = 60;
+/// Label of a filter's share of the Allan variance.
+const FILTER: &str = "share of a filter";
 
 /// Allan deviation of each axis with its 95 % bounds, the fitted model and the processes that it consists of.
 pub(in crate::report) fn allan_figure(noise: &TriadNoise) -> Figure {
@@ -20,14 +22,27 @@ pub(in crate::report) fn allan_figure(noise: &TriadNoise) -> Figure {
     let caption = "Markers: overlapping Allan deviation; band: its 95 % bounds, wide where the recording has few clusters of that length. Black: the fit. \
                    Dashed: its parts, each with its slope: −1 quantisation, −½ white noise (N is its value at 1 s), 0 bias instability (0.664 B), \
                    +½ rate random walk (K √(τ/3)). A part that is drawn but not determined in the table is too uncertain to be given a value.";
-    let drifts = noise.axes.iter().any(|axis| axis.fit.drift.is_significant());
-    let caption = if drifts {
-        format!(
-            "{caption} A linear drift (slope +1) is drawn apart: it is no noise, and the fit is to what remains without it."
-        )
-    } else {
-        caption.to_string()
+    let mut caption = caption.to_string();
+    let mut add = |applies: bool, sentence: &str| {
+        if applies {
+            caption.push(' ');
+            caption.push_str(sentence);
+        }
     };
+    let has_filter = |panel: &Panel| panel.series.iter().any(|series| series.label == FILTER);
+    let any = |of: fn(&AxisNoise) -> bool| noise.axes.iter().any(of);
+    add(
+        panels.iter().any(has_filter),
+        "Where samples are filtered, slope −1 is what the filter adds to short cluster times, and no quantisation.",
+    );
+    add(
+        any(|axis| axis.fit.vibration.is_some()),
+        "The markers have the vibration in them; the fit is to what remains without it.",
+    );
+    add(
+        any(|axis| axis.fit.drift.is_significant()),
+        "A linear drift (slope +1) is drawn apart: it is no noise, and the fit is to what remains without it.",
+    );
     Figure::new(format!("Allan deviation of the {}", noise.triad), panels, caption).with_columns(2)
 }
 
@@ -53,8 +68,9 @@ fn panel(axis: &AxisNoise, unit: DisplayUnit) -> Panel {
 
     let (fit, lowest) =
         (&axis.fit, 0.5 * unit.factor * points.iter().map(|point| point.low).fold(f64::INFINITY, f64::min));
+    let shortest = if fit.filtered { FILTER } else { "quantisation Q" };
     let parts = [
-        (PowerLaw::Quantisation, "quantisation Q", colour::GREY),
+        (PowerLaw::Quantisation, shortest, colour::GREY),
         (PowerLaw::White, "white noise N", colour::GREEN),
         (PowerLaw::Flicker, "bias instability B", colour::ORANGE),
         (PowerLaw::RandomWalk, "rate random walk K", colour::VERMILLION),

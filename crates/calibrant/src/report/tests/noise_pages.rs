@@ -16,7 +16,11 @@ fn noise(triad: Triad, unit: ReadingUnit, drift: f64) -> TriadNoise {
         values.iter_mut().zip(walk).for_each(|(value, walk)| *value += walk);
         values
     };
-    let axes = [axis(0.0), axis(5e-3), axis(0.0)];
+    of_axes(triad, unit, &[axis(0.0), axis(5e-3), axis(0.0)], drift)
+}
+
+fn of_axes(triad: Triad, unit: ReadingUnit, axes: &[Vec<f64>; 3], drift: f64) -> TriadNoise {
+    let (n, interval) = (axes[0].len(), 0.01);
     let recording = Recording {
         times_s: (0..n).map(|k| k as f64 * interval).collect(),
         readings: (0..n)
@@ -25,7 +29,7 @@ fn noise(triad: Triad, unit: ReadingUnit, drift: f64) -> TriadNoise {
         axes: 3,
         unit,
     };
-    let stretch = Stretch::between(&recording, 0.0, 60.0).expect("long enough");
+    let stretch = Stretch::between(&recording, 0.0, 1e3).expect("long enough");
     TriadNoise::of(triad, &recording, stretch).expect("noisy")
 }
 
@@ -58,4 +62,29 @@ fn a_drift_is_told_apart() {
     assert!(
         html.contains("gyroscope z drifts by") && html.contains("linear drift") && html.contains("deg/√h")
     );
+}
+
+/// What a filter with a resonance adds to short cluster times has the slope of quantisation, and is none.
+#[test]
+fn a_filters_share_is_not_called_quantisation() {
+    let mut rng = stream(4, Purpose::Sensor, 0);
+    // two poles at 0.7 and 60 degrees
+    let mut axis = || {
+        let mut before = [0.0; 2];
+        let white = simulate_noise(PowerLaw::White, 1e-3, 0.01, 6000, &mut rng);
+        let resonance = |x: &f64| {
+            before = [0.79 * x + 0.7 * before[0] - 0.49 * before[1], before[0]];
+            before[0]
+        };
+        white.iter().map(resonance).collect::<Vec<f64>>()
+    };
+    let (triad, unit) = (Triad::Accelerometer, ReadingUnit::MetrePerSecondSquared);
+    let resonant = of_axes(triad, unit, &[axis(), axis(), axis()], 0.0);
+    let page = |noise: &TriadNoise| noise_report(std::slice::from_ref(noise), &about());
+    let filtered = resonant.axes.iter().filter(|axis| axis.fit.filtered).count();
+    assert!(filtered > 0, "{:?}", resonant.warnings);
+    let html = page(&resonant);
+    assert_sound(&html);
+    assert!(html.contains("share of a filter") && html.contains("and no quantisation"));
+    assert!(!page(&noise(triad, unit, 0.0)).contains("share of a filter"));
 }
