@@ -10,7 +10,7 @@ use calibrant::Error;
 use calibrant::estimate::{Calibration, HoldCalibration, Recovered};
 use calibrant::io::Finding;
 use calibrant::report::number;
-use calibrant::sensor::CalibratedImu;
+use calibrant::sensor::{CalibratedImu, Thermal};
 use indicatif::{ProgressBar, ProgressStyle};
 use miette::{LabeledSpan, MietteDiagnostic, NamedSource, Report};
 use std::io::Write;
@@ -53,18 +53,24 @@ pub(crate) fn findings(findings: &[Finding], file: &str, gyroscope: Option<&str>
 }
 
 /// Warns where temperatures lie far beyond those at which a calibration was made.
-pub(crate) fn warn_beyond(imu: &CalibratedImu, [coldest, hottest]: [f64; 2]) {
-    let thermal = &imu.parameters.thermal;
-    let Some([low, high]) = thermal.range_c else { return };
-    if thermal.extrapolates_to(coldest) || thermal.extrapolates_to(hottest) {
-        let given = match coldest == hottest {
-            true => format!("{coldest:.1}"),
-            false => format!("{coldest:.1} to {hottest:.1}"),
-        };
-        warn(&format!(
-            "the calibration was made at {low:.1} to {high:.1} °C: its polynomials are extrapolated to {given} °C"
-        ));
+pub(crate) fn warn_beyond(imu: &CalibratedImu, range_c: [f64; 2]) {
+    if let Some(words) = beyond(&imu.parameters.thermal, range_c) {
+        warn(&words);
     }
+}
+
+/// Temperatures far beyond those at which a calibration was made, in words.
+pub(crate) fn beyond(thermal: &Thermal, [coldest, hottest]: [f64; 2]) -> Option<String> {
+    let [low, high] = thermal.range_c?;
+    let given = match coldest == hottest {
+        true => format!("{coldest:.1}"),
+        false => format!("{coldest:.1} to {hottest:.1}"),
+    };
+    (thermal.extrapolates_to(coldest) || thermal.extrapolates_to(hottest)).then(|| {
+        format!(
+            "the calibration was made at {low:.1} to {high:.1} °C: its polynomials are extrapolated to {given} °C"
+        )
+    })
 }
 
 /// Prints an error to stderr, with the place in the file underlined where it is known.

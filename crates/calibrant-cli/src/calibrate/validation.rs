@@ -12,7 +12,7 @@ use calibrant::estimate::{
 };
 use calibrant::io::{ImuFile, ImuReadOptions, read_accelerometer, read_imu_pair, read_imu_recording};
 use calibrant::motion::Hold;
-use calibrant::sensor::{Recording, Triad};
+use calibrant::sensor::{Recording, Temperatures, Triad};
 use std::path::Path;
 
 /// Refuses `--validate` and `--folds` with several recordings.
@@ -38,6 +38,24 @@ pub(super) fn read(
     }
 }
 
+/// Reads the recording of an IMU that a calibration is tried on; where it lacks its gyroscope, the option that gives it is named.
+fn read_other(arguments: &Arguments, path: &Path, options: &ImuReadOptions) -> calibrant::Result<ImuFile> {
+    let gyroscope = arguments.validate_gyroscope.as_deref();
+    let help = "give the gyroscope's file of that recording with --validate-gyroscope";
+    match read(path, gyroscope, options) {
+        Ok(file) if gyroscope.is_none() && file.recording.gyroscope.is_none() => {
+            let message = "the recording has no gyroscope";
+            Err(Error::Recording(Box::new(Complaint::new(message, help).in_file(path))))
+        }
+        Err(Error::Recording(complaint))
+            if gyroscope.is_none() && complaint.help.contains("with --gyroscope,") =>
+        {
+            Err(Error::Recording(Box::new(Complaint { help: help.into(), ..*complaint })))
+        }
+        read => read,
+    }
+}
+
 /// What was asked for of an IMU.
 pub(super) fn of_imu(
     arguments: &Arguments,
@@ -48,7 +66,7 @@ pub(super) fn of_imu(
 ) -> calibrant::Result<Vec<Validation>> {
     let mut validations = Vec::new();
     if let Some(path) = &arguments.validate {
-        let mut other = read(path, arguments.validate_gyroscope.as_deref(), options)?;
+        let mut other = read_other(arguments, path, options)?;
         let second = arguments.validate_gyroscope.as_deref().map(name);
         console::findings(&other.findings, &name(path), second.as_deref());
         let sparks = take_out_sparks(&mut other.recording);
@@ -64,6 +82,11 @@ pub(super) fn of_imu(
         let mut validation = validate_imu(calibration, &on_other).map_err(|error| in_file(error, path))?;
         let temperature = other_temperature(calibration, &validation, problem.recording, &other.recording);
         validation.reasons.extend(temperature);
+        let thermal = &calibration.imu.thermal;
+        let range = Temperatures::of(&other.recording)?.and_then(|temperatures| temperatures.range_c());
+        if let Some(words) = range.and_then(|range| console::beyond(thermal, range)) {
+            console::warn(&format!("{}: {words}", name(path)));
+        }
         validations.push(on(path, validation));
     }
     if let Some(folds) = arguments.folds {
@@ -154,7 +177,7 @@ fn refuse_the_same(
     }
     match correlation {
         Some(correlation) => refused(&format!(
-            "{same}, in another form (rounded, thinned out, in other units?): the noise of its samples is theirs (correlation {correlation:.2}, where another recording has none)"
+            "{same}, in another form (rounded, smoothed, thinned out, in other units?): the noise of its samples is theirs (correlation {correlation:.2}, where another recording has none)"
         )),
         None => Ok(()),
     }

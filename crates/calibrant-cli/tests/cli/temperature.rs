@@ -214,3 +214,22 @@ fn kelvin_are_asked_about_and_a_long_time_without_temperature_is_a_warning() {
         );
     }
 }
+
+/// A recording beyond the temperatures of the calibration is named, believed or not.
+#[test]
+fn a_validation_beyond_the_calibrations_temperatures_is_said() {
+    let (bench, _) = bench();
+    let mut truth = ImuParameters::identity();
+    truth.thermal.gyroscope.bias[0].x = 2e-4;
+    let simulation = ImuSimulation { temperature_c: Some([60.0, 65.0]), ..ImuSimulation::default() };
+    let hot = simulate_imu(&truth, &simulation, &mut stream(4, Purpose::Sensor, 8));
+    bench.write("hot.csv", csv(&hot, true));
+    let outcome = bench.run("calibrate imu.toml recording.csv --validate hot.csv -o out").done();
+    outcome.says("hot.csv: the calibration was made at 20.");
+    outcome.says("extrapolated to 60.0 to 65.0 °C");
+    let simulation = ImuSimulation { temperature_c: Some([22.0, 43.0]), ..simulation };
+    let inside = simulate_imu(&truth, &simulation, &mut stream(5, Purpose::Sensor, 8));
+    bench.write("inside.csv", csv(&inside, true));
+    let outcome = bench.run("calibrate imu.toml recording.csv --validate inside.csv -o out").done();
+    assert!(!outcome.stderr.contains("extrapolated"), "{}", outcome.stderr);
+}

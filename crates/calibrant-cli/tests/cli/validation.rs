@@ -99,13 +99,15 @@ fn one_hold_is_too_few_to_tell_and_another_sensor_is_asked_about() {
         })
         .collect();
     let half = rows.len() / 2;
-    let write = |name: &str, rows: &[[f64; 4]], gain: f64| {
-        let row = |[t, x, y, z]: &[f64; 4]| format!("{t},{},{},{}\n", gain * x, gain * y, gain * z);
+    let write = |name: &str, rows: &[[f64; 4]], gain: f64, cross: f64| {
+        let row =
+            |[t, x, y, z]: &[f64; 4]| format!("{t},{},{},{}\n", gain * x + cross * y, gain * y, gain * z);
         bench.write(name, format!("{header}\n{}", rows.iter().map(row).collect::<String>()));
     };
-    write("half.csv", &rows[half..], 1.0);
-    write("one-hold.csv", &rows[..400], 1.0);
-    write("other-gain.csv", &rows[..half], 1.05);
+    write("half.csv", &rows[half..], 1.0, 0.0);
+    write("one-hold.csv", &rows[..400], 1.0, 0.0);
+    write("other-gain.csv", &rows[..half], 1.05, 0.0);
+    write("other-axes.csv", &rows[..half], 1.05, 0.05);
     let validate = |file: &str| {
         let outcome = bench.run(&format!("calibrate poses.toml half.csv --validate {file} -o result")).done();
         let json = bench.json("result/calibration.json");
@@ -114,7 +116,11 @@ fn one_hold_is_too_few_to_tell_and_another_sensor_is_asked_about() {
     let (said, verdict) = validate("one-hold.csv");
     assert!(said.contains("On 1 hold that was not used") && said.contains("too few to tell"), "{said}");
     assert_eq!(verdict, "too_few");
-    let (said, verdict) = validate("other-gain.csv");
+    // bias and gains that are all 5 % larger
+    let (said, _) = validate("other-gain.csv");
+    assert!(said.contains("its gains have changed by 5."), "{said}");
+    assert!(!said.contains("no covariance explains") && !said.contains("multiply"), "{said}");
+    let (said, verdict) = validate("other-axes.csv");
     assert!(said.contains("which no covariance explains: is it the same sensor"), "{said}");
     assert!(!said.contains("multiply"), "{said}");
     assert_eq!(verdict, "too_small");
@@ -181,6 +187,37 @@ fn the_imu_of_imu_tk_is_validated_by_folds_and_its_file_is_still_read() {
         2,
         &["thin-acc.mat: it has the data that were calibrated from, in another form", "(correlation 1.00,"],
     );
+    // the other recording's gyroscope has an option of its own
+    bench.refuses(
+        &format!("{calibrate} --validate other-acc.mat -o result"),
+        3,
+        &["other-acc.mat", "imu_tk keeps each sensor in a file of its own", "with --validate-gyroscope"],
+    );
+    let smooth = |name: &str| {
+        let rows: Vec<Vec<f64>> = bench
+            .read(&format!("half-{name}"))
+            .lines()
+            .map(|line| line.split_whitespace().map(|word| word.parse().expect("a number")).collect())
+            .collect();
+        let row = |k: usize| {
+            let around = &rows[k.saturating_sub(2)..(k + 3).min(rows.len())];
+            let mean =
+                |column: usize| around.iter().map(|row| row[column]).sum::<f64>() / around.len() as f64;
+            format!("{} {} {} {}\n", rows[k][0], mean(1), mean(2), mean(3))
+        };
+        bench.write(&format!("smooth-{name}"), (0..rows.len()).map(row).collect::<String>());
+    };
+    ["acc.mat", "gyro.mat"].into_iter().for_each(smooth);
+    for (accelerometer, gyroscope, which) in [
+        ("smooth-acc.mat", "other-gyro.mat", "smooth-acc.mat: it has the data that were calibrated from"),
+        ("other-acc.mat", "smooth-gyro.mat", "smooth-gyro.mat: its gyroscope has the data"),
+    ] {
+        bench.refuses(
+            &format!("{calibrate} --validate {accelerometer} --validate-gyroscope {gyroscope} -o result"),
+            2,
+            &[which, "in another form (rounded, smoothed,"],
+        );
+    }
     let command = format!(
         "{calibrate} --folds 5 --validate other-acc.mat --validate-gyroscope other-gyro.mat -o result"
     );

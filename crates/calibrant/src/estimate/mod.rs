@@ -46,7 +46,7 @@ pub use result::*;
 pub use settings::CalibrationSettings;
 pub use uncalibrated::Uncalibrated;
 pub use validation::{
-    BiasShift, CovarianceVerdict, ErrorKind, FailedFold, LikelyReason, NoiseRatio, ParameterPart,
+    BiasShift, CoarseStep, CovarianceVerdict, ErrorKind, FailedFold, LikelyReason, NoiseRatio, ParameterPart,
     UnusedError, ValidatedErrors, Validation, ValidationSource, cross_validate, cross_validate_imu,
     noise_in_common, other_temperature, readings_in_common, validate, validate_imu,
 };

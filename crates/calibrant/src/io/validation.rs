@@ -21,6 +21,9 @@ pub(super) struct SourceFields {
     failed_folds: Vec<FailedFields>,
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     noise_ratio: BTreeMap<String, Vec<f64>>,
+    /// In the unit of the readings.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    coarse_step: BTreeMap<String, f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     gyroscope_bias_shift: Option<ShiftFields>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -104,10 +107,13 @@ fn named(validation: &Validation) -> (&'static str, SourceFields) {
     let kinds = validation.kinds.iter().map(|errors| (errors.kind.name(), KindFields::of(errors))).collect();
     let gyroscope_bias_shift = validation.bias_shift.as_ref().map(ShiftFields::of);
     let ratios = validation.noise.iter();
+    let steps =
+        ratios.clone().filter_map(|noise| Some((noise.triad.to_string(), noise.coarse.map(|of| of.step)?)));
     let none = SourceFields {
         file: None,
         folds: None,
         failed_folds: Vec::new(),
+        coarse_step: steps.collect(),
         noise_ratio: ratios.map(|noise| (noise.triad.to_string(), per_axis(&noise.axes, 3))).collect(),
         gyroscope_bias_shift,
         likely_reasons: validation.reasons.iter().map(ReasonFields::of).collect(),
@@ -134,12 +140,21 @@ impl ReasonFields {
             LikelyReason::Temperature { calibrated_c, here_c } => {
                 vec![("calibrated_mean_c", vec![*calibrated_c]), ("mean_c", vec![*here_c])]
             }
+            LikelyReason::BeyondTemperatures { calibrated_c, here_c } => {
+                vec![("calibrated_range_c", calibrated_c.to_vec()), ("range_c", here_c.to_vec())]
+            }
             LikelyReason::AccelerometerBias { shift_mps2, sd_mps2 } => {
                 vec![("shift_mps2", per_axis(shift_mps2, 3)), ("shift_sd_mps2", per_axis(sd_mps2, 3))]
             }
             LikelyReason::AccelerometerGain { change, sd } | LikelyReason::GyroscopeGain { change, sd } => {
                 vec![("change", per_axis(change, 3)), ("change_sd", per_axis(sd, 3))]
             }
+            LikelyReason::AccelerometerBiasAndGain { shift_mps2, shift_sd_mps2, change, change_sd } => vec![
+                ("shift_mps2", per_axis(shift_mps2, 3)),
+                ("shift_sd_mps2", per_axis(shift_sd_mps2, 3)),
+                ("change", per_axis(change, 3)),
+                ("change_sd", per_axis(change_sd, 3)),
+            ],
             LikelyReason::AngularUnit { factor } => vec![("factor", vec![*factor])],
         };
         Self { reason: reason.name(), numbers: numbers.into_iter().collect() }

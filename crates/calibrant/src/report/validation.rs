@@ -221,11 +221,20 @@ fn of(count: usize, what: &str) -> String {
 }
 
 fn other_noise(noise: &NoiseRatio) -> String {
+    let ratio = number::significant(noise.overall(), 2);
+    if let Some(coarse) = noise.coarse {
+        return format!(
+            "The {}'s readings come in steps of {} {} here, coarser than their noise (a wider range, or rounded?): they scatter {ratio} times as in the calibration's recording. What is \
+             predicted goes with that, which is no reason to distrust the calibration.",
+            noise.triad,
+            number::significant(coarse.step, 2),
+            coarse.unit.symbol()
+        );
+    }
     format!(
         "The {}'s noise is {} times that of the calibration's recording (another range, bandwidth or filter?): what is predicted goes with the noise found here, which is no reason to \
          distrust the calibration.",
-        noise.triad,
-        number::significant(noise.overall(), 2)
+        noise.triad, ratio
     )
 }
 
@@ -243,6 +252,18 @@ fn likely_reason(reason: &LikelyReason) -> String {
             number::fixed(*here_c, 1),
             number::fixed(*calibrated_c, 1)
         ),
+        LikelyReason::BeyondTemperatures { calibrated_c, here_c } => {
+            let between = |[low, high]: &[f64; 2]| match high - low < 0.1 {
+                true => number::fixed(*low, 1),
+                false => format!("{} to {}", number::fixed(*low, 1), number::fixed(*high, 1)),
+            };
+            format!(
+                "This recording was made at {} °C, the calibration at {} °C: beyond these its temperature terms are extrapolated, and what differs has its likely reason in that. Calibrate over \
+                 the temperatures of use.",
+                between(here_c),
+                between(calibrated_c)
+            )
+        }
         LikelyReason::AccelerometerBias { shift_mps2, sd_mps2 } => format!(
             "The accelerometer's bias has moved by {} mm/s² since the calibration, up to {} standard deviations; that explains how |f| misses gravity. Calibrate it again.",
             list(shift_mps2, 1e3),
@@ -252,6 +273,14 @@ fn likely_reason(reason: &LikelyReason) -> String {
             "The accelerometer's gains have changed by {} % since the calibration, up to {} standard deviations; that explains how |f| misses gravity. Calibrate it again.",
             list(change, 100.0),
             most(change, sd)
+        ),
+        LikelyReason::AccelerometerBiasAndGain { shift_mps2, shift_sd_mps2, change, change_sd } => format!(
+            "Since the calibration the accelerometer's bias has moved by {} mm/s², up to {} standard deviations, and its gains have changed by {} %, up to {}; both together explain how |f| misses \
+             gravity. Calibrate it again.",
+            list(shift_mps2, 1e3),
+            most(shift_mps2, shift_sd_mps2),
+            list(change, 100.0),
+            most(change, change_sd)
         ),
         LikelyReason::GyroscopeGain { change, sd } => format!(
             "The gyroscope's gains have changed by {} % since the calibration (or its clock by as much), up to {} standard deviations; that explains how rotations miss gravity. Calibrate it again.",

@@ -41,6 +41,14 @@ impl<'a> Temperatures<'a> {
         Ok(Some(Self { times_s, values_c }))
     }
 
+    /// Least and greatest of them, °C; `None` without any.
+    #[must_use]
+    pub fn range_c(&self) -> Option<[f64; 2]> {
+        let first = *self.values_c.first()?;
+        let wider = |[low, high]: [f64; 2], value: &f64| [low.min(*value), high.max(*value)];
+        Some(self.values_c.iter().fold([first; 2], wider))
+    }
+
     /// What to ask about a temperature that no sensor has.
     pub(crate) fn question(value: f64) -> String {
         let (low, high) = (WORKING_C.start(), WORKING_C.end());

@@ -255,3 +255,48 @@ fn a_gyroscope_with_coarse_steps_in_the_other_recording_has_not_moved() {
         }
     }
 }
+
+/// Steps of the other recording that make its readings scatter more are told with their size; noise of the same size is noise.
+#[test]
+fn coarser_steps_are_no_noise() {
+    let setup = ImuSimulation::default();
+    let bench = bench(&setup);
+    let mut rng = stream(49, Purpose::Sensor, 0);
+    let truth = draw_imu(&mut rng);
+    let fine = in_both(&mut simulate(&truth, &setup, 1.0, &mut rng), 0.1, &setup);
+    let calibration = bench.calibrate(&fine);
+    for steps in [4.0, 8.0, 20.0] {
+        let coarse = in_both(&mut simulate(&truth, &setup, 1.0, &mut rng), steps, &setup);
+        let validation = bench.validate(&calibration, &coarse);
+        let sentences = validation_sentences(&validation);
+        println!("{steps}: {sentences:#?}");
+        for (noise, (sd, symbol)) in validation
+            .noise
+            .iter()
+            .zip([(setup.accelerometer_noise, "m/s²"), (setup.gyroscope_noise, "rad/s")])
+        {
+            let found = noise.coarse.expect("coarse");
+            assert!((found.step / (steps * sd) - 1.0).abs() < 1e-6, "{found:?}");
+            let says = format!("The {}'s readings come in steps of ", noise.triad);
+            let said = sentences.iter().find(|sentence| sentence.starts_with(&says));
+            assert!(said.is_some_and(|said| said.contains(&format!(" {symbol} here, "))), "{sentences:#?}");
+        }
+        assert!(sentences.iter().all(|sentence| !sentence.contains("'s noise is")), "{sentences:#?}");
+    }
+    let noisy = ImuSimulation {
+        accelerometer_noise: 3.0 * setup.accelerometer_noise,
+        gyroscope_noise: 3.0 * setup.gyroscope_noise,
+        ..setup.clone()
+    };
+    let noisy = in_both(&mut simulate(&truth, &noisy, 1.0, &mut rng), 0.1, &setup);
+    let validation = bench.validate(&calibration, &noisy);
+    assert!(validation.noise.iter().all(|noise| noise.coarse.is_none() && noise.differs()));
+    assert!(validation_sentences(&validation)[0].starts_with("The accelerometer's noise is 3.0 times"));
+}
+
+/// Both sensors in steps of so many standard deviations of their noise.
+fn in_both(recording: &mut ImuRecording, deviations: f64, setup: &ImuSimulation) -> ImuRecording {
+    in_steps(recording.accelerometer.as_mut().expect("there"), deviations * setup.accelerometer_noise);
+    in_steps(recording.gyroscope.as_mut().expect("there"), deviations * setup.gyroscope_noise);
+    recording.clone()
+}

@@ -2,7 +2,9 @@
 
 use crate::bench::{bench, simulate};
 use crate::common::draw_imu;
-use calibrant::estimate::{ErrorKind, LikelyReason, Validation, other_temperature, validate_imu};
+use calibrant::estimate::{
+    ErrorKind, LikelyReason, ThermalModel, Validation, other_temperature, validate_imu,
+};
 use calibrant::report::validation_sentences;
 use calibrant::sensor::{ImuParameters, ImuRecording};
 use calibrant::simulate::{ImuSimulation, Purpose, stream};
@@ -182,4 +184,107 @@ fn another_temperature_is_told_where_nothing_follows_it() {
             .any(|sentence| sentence.contains("at 45.0 °C in the mean, the calibration at 24.5 °C")),
         "{sentences:#?}"
     );
+}
+
+#[test]
+fn a_bias_and_a_gain_that_have_changed_together_are_both_told() {
+    let found = tried(
+        |truth| {
+            truth.accelerometer.bias.x += 0.05;
+            let row = truth.accelerometer.matrix.row(2) * 1.01;
+            truth.accelerometer.matrix.set_row(2, &row);
+        },
+        |_| (),
+    );
+    let mut told = 0;
+    for validation in found {
+        let [LikelyReason::AccelerometerBiasAndGain { shift_mps2, shift_sd_mps2, change, change_sd }] =
+            validation.reasons.as_slice()
+        else {
+            println!("{:?}", validation.reasons);
+            continue;
+        };
+        told += 1;
+        // 1 % of the bias moves, too; it was drawn with 0.1 m/s² or so
+        assert!((shift_mps2.x - 0.05).abs() < 5.0 * shift_sd_mps2.x, "{shift_mps2:?} {shift_sd_mps2:?}");
+        assert!((change.z - 0.01).abs() < 5.0 * change_sd.z, "{change:?} {change_sd:?}");
+        let sentences = validation_sentences(&validation);
+        assert!(
+            sentences[0].starts_with("Since the calibration the accelerometer's bias has moved by "),
+            "{sentences:#?}"
+        );
+        assert!(
+            sentences
+                .iter()
+                .all(|says| !says.contains("multiply") && !says.contains("no covariance explains")),
+            "{sentences:#?}"
+        );
+    }
+    println!("{told} of {COUNT}");
+    assert!(told > 54, "{told} of {COUNT}");
+}
+
+/// Axes that have turned in the case are no bias and no gain.
+#[test]
+fn another_sensor_is_no_bias_and_gain() {
+    let found = tried(
+        |truth| {
+            truth.accelerometer.matrix[(0, 1)] += 0.02;
+            truth.accelerometer.matrix[(2, 0)] -= 0.02;
+        },
+        |_| (),
+    );
+    let named = found.iter().filter(|validation| {
+        let of_accelerometer = |reason: &LikelyReason| reason.explains(ErrorKind::Magnitude);
+        validation.reasons.iter().any(of_accelerometer)
+    });
+    let count = named.count();
+    println!("{count} of {COUNT}");
+    assert!(count <= 3, "{count} of {COUNT}");
+}
+
+/// A calibration with temperature terms, from 20 to 45 °C, on a recording at 60 °C whose bias follows no polynomial of the first order.
+#[test]
+fn temperatures_beyond_the_calibrations_are_told() {
+    let setup = ImuSimulation { temperature_c: Some([20.0, 45.0]), ..ImuSimulation::default() };
+    let mut bench = bench(&setup);
+    bench.setup.thermal = ThermalModel {
+        accelerometer_bias: 1,
+        gyroscope_bias: 1,
+        reference_c: Some(32.0),
+        ..ThermalModel::default()
+    };
+    let mut rng = stream(48, Purpose::Sensor, 0);
+    let mut truth = draw_imu(&mut rng);
+    truth.thermal.reference_c = 32.0;
+    truth.thermal.gyroscope.bias[0].x = 2e-4;
+    truth.thermal.accelerometer.bias[0].y = 1e-3;
+    let calibration = bench.calibrate(&simulate(&truth, &setup, 1.0, &mut rng));
+    let mut tried = |temperatures_c: [f64; 2], off: f64| {
+        let mut truth = truth;
+        truth.accelerometer.bias.z += off;
+        truth.gyroscope.bias.z += off;
+        let other = ImuSimulation { temperature_c: Some(temperatures_c), ..setup.clone() };
+        bench.validate(&calibration, &simulate(&truth, &other, 1.0, &mut rng))
+    };
+    let told = tried([55.0, 60.0], 0.05);
+    let [LikelyReason::BeyondTemperatures { calibrated_c, here_c }] = told.reasons.as_slice() else {
+        panic!("{:?}", told.reasons)
+    };
+    assert!((calibrated_c[0] - 20.0).abs() < 1.0 && (calibrated_c[1] - 45.0).abs() < 1.0, "{calibrated_c:?}");
+    assert_eq!(here_c, &[55.0, 60.0]);
+    let sentences = validation_sentences(&told);
+    println!("{sentences:#?}");
+    assert!(sentences[0].starts_with("This recording was made at 55.0 to 60.0 °C, the calibration at 20."));
+    assert!(sentences.iter().all(|sentence| !sentence.contains("multiply")), "{sentences:#?}");
+    // within them it is something else
+    let inside = tried([22.0, 44.0], 0.05);
+    assert!(
+        matches!(inside.reasons.as_slice(), [LikelyReason::AccelerometerBias { .. }]),
+        "{:?}",
+        inside.reasons
+    );
+    // and where all is as predicted, there is nothing to explain
+    let right = tried([55.0, 60.0], 0.0);
+    assert!(right.reasons.is_empty(), "{:?} {:#?}", right.reasons, validation_sentences(&right));
 }

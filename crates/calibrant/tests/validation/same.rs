@@ -1,10 +1,11 @@
 //! The same recording in disguise, and honest repetitions that look alike.
 
-use crate::common::{normal, xsens};
+use crate::bench::{bench, simulate};
+use crate::common::{draw_imu, normal, xsens};
 use calibrant::estimate::{find_holds, noise_in_common, readings_in_common};
 use calibrant::motion::Hold;
-use calibrant::sensor::{ReadingUnit, Recording, SensorParameters};
-use calibrant::simulate::{HoldsSimulation, Purpose, Rng, simulate_holds, stream};
+use calibrant::sensor::{ImuRecording, ReadingUnit, Recording, SensorParameters, Triad};
+use calibrant::simulate::{HoldsSimulation, ImuSimulation, Purpose, Rng, simulate_holds, stream};
 use nalgebra::Vector3;
 use rayon::prelude::*;
 
@@ -220,5 +221,105 @@ fn the_same_readings_are_known_in_any_order_and_at_any_time() {
                 assert!(found.is_some_and(|found| found > share), "{disguise} {step}: {found:?}");
             }
         }
+    }
+}
+
+/// A moving average over so many samples; `trailing`: its times are those of the last one.
+fn smoothed(recording: &Recording, window: usize, trailing: bool) -> Recording {
+    let n = recording.len();
+    let after = if trailing { 0 } else { window / 2 };
+    let mean = |k: usize| {
+        let of = &recording.readings[(k + after + 1).saturating_sub(window)..(k + after + 1).min(n)];
+        of.iter().sum::<Vector3<f64>>() / of.len() as f64
+    };
+    Recording { readings: (0..n).map(mean).collect(), ..recording.clone() }
+}
+
+/// White and filtered noise, centred and trailing windows, thinned out after it, rounded.
+#[test]
+fn a_smoothed_recording_is_known() {
+    for (number, filter) in [0.0, 0.8, 0.0, 0.8].into_iter().enumerate() {
+        let one = noisy(&quiet(), filter, &mut stream(76, Purpose::Sensor, number as u64));
+        let known = |copy: &Recording, disguise: &str| {
+            for (one, other) in [(&one, copy), (copy, &one)] {
+                let found = noise_in_common(one, &holds(one), other);
+                println!("{filter} {disguise}: {found:?}");
+                assert!(found.is_some_and(|r| r > 0.4), "{filter} {disguise}: {found:?}");
+            }
+        };
+        for window in [3, 5, 10] {
+            let centred = smoothed(&one, window, false);
+            known(&centred, &format!("mean of {window}"));
+            known(&smoothed(&one, window, true), &format!("mean of the last {window}"));
+            known(&rounded(centred.clone(), 0.5 * SD), &format!("mean of {window}, rounded"));
+            let every: Vec<usize> = (0..one.len()).step_by(window).collect();
+            known(&chosen(&centred, &every), &format!("means of {window}"));
+        }
+        let mut low_pass = one.clone();
+        for k in 1..one.len() {
+            low_pass.readings[k] = 0.8 * low_pass.readings[k - 1] + 0.2 * one.readings[k];
+        }
+        known(&low_pass, "through a low-pass filter");
+    }
+}
+
+/// A machine that settles after each turn, and whose sensor creeps in each hold, as before; holds of any length.
+#[test]
+fn what_a_machine_repeats_slowly_is_no_noise_in_common() {
+    let still = quiet();
+    for (amplitude, settling_s) in
+        [(3.0, 0.05), (3.0, 0.2), (30.0, 0.2), (3.0, 0.7), (30.0, 0.7), (10.0, 3.0)]
+    {
+        let mut machine = still.clone();
+        for (t, y) in machine.times_s.iter().zip(&mut machine.readings) {
+            // another direction in each hold
+            let direction = Vector3::new((t / 3.0).floor().sin(), (t / 3.0).floor().cos(), 1.0);
+            *y += direction * amplitude * SD * (-(t % 3.0) / settling_s).exp();
+            *y += Vector3::new(1.0, 0.0, -1.0) * SD * (4.4 * t).sin();
+        }
+        let alarms: Vec<_> = (0..100_u64)
+            .into_par_iter()
+            .filter_map(|number| {
+                let mut rng = stream(77, Purpose::Sensor, number);
+                let filter = [0.0, 0.8][number as usize % 2];
+                let (one, other) = (noisy(&machine, filter, &mut rng), noisy(&machine, filter, &mut rng));
+                let intervals: Vec<(f64, f64)> =
+                    (0..20).map(|j| 3.0 * f64::from(j)).map(|t| (t + 0.05, t + 1.95)).collect();
+                let holds = calibrant::estimate::holds_between(&one, &intervals).expect("samples");
+                noise_in_common(&one, &holds, &other).map(|r| (number, r))
+            })
+            .collect();
+        println!("{amplitude} {settling_s}: {}", alarms.len());
+        assert!(alarms.is_empty(), "{amplitude} {settling_s}: {alarms:?}");
+    }
+}
+
+/// Both sensors of an IMU, with scatter beside the noise and without.
+#[test]
+fn recordings_of_an_imu_have_no_noise_in_common_but_with_a_smoothed_copy() {
+    let simulation = ImuSimulation::default();
+    let bench = bench(&simulation);
+    let found: Vec<[(Option<f64>, bool); 2]> = (0..200_u64)
+        .into_par_iter()
+        .map(|number| {
+            let mut rng = stream(78, Purpose::Sensor, number);
+            let truth = draw_imu(&mut rng);
+            let size = [0.0, 0.3, 1.0, 3.0][number as usize % 4];
+            let mut record = || simulate(&truth, &simulation, size, &mut rng);
+            let (one, other) = (record(), record());
+            let holds: Vec<Hold> =
+                bench.calibrate(&one).holds.holds.into_iter().map(|result| result.hold).collect();
+            let window = [3, 5, 10][number as usize % 3];
+            [Triad::Accelerometer, Triad::Gyroscope].map(|triad| {
+                let of = |recording: &ImuRecording| recording.triad(triad).expect("there").clone();
+                let (one, other) = (of(&one), of(&other));
+                let copy = noise_in_common(&one, &holds, &smoothed(&one, window, number % 2 == 1));
+                (noise_in_common(&one, &holds, &other), copy.is_some_and(|r| r > 0.4))
+            })
+        })
+        .collect();
+    for k in 0..2 {
+        assert!(found.iter().all(|pair| pair[k].0.is_none()));
+        assert!(found.iter().all(|pair| pair[k].1));
     }
 }

@@ -33,11 +33,12 @@ mod reordered;
 mod result;
 mod same;
 mod scatter;
+mod smoothed;
 mod statistics;
 mod whitened;
 
 pub use cross::{cross_validate, cross_validate_imu};
-pub use noise::NoiseRatio;
+pub use noise::{CoarseStep, NoiseRatio};
 pub use reason::{LikelyReason, other_temperature};
 pub use reordered::readings_in_common;
 pub use result::*;
@@ -51,7 +52,7 @@ use super::{
 };
 use crate::error::{Complaint, Error, Result};
 use crate::motion::Hold;
-use crate::sensor::Temperatures;
+use crate::sensor::{Temperatures, Triad};
 use claim::Claim;
 use item::Group;
 use predict::{Errors, Unused};
@@ -138,6 +139,14 @@ fn on_another(claim: &Claim, unused: Unused<'_>) -> Result<Validation> {
     }
     let source = ValidationSource::Recording { name: String::new() };
     let mut validation = judged(source, vec![errors], claim);
+    for noise in &mut validation.noise {
+        let recording = match noise.triad {
+            Triad::Accelerometer => Some(unused.accelerometer),
+            Triad::Gyroscope => unused.gyroscope,
+        };
+        let holds = unused.holds.iter().map(|(_, hold)| *hold);
+        *noise = recording.map_or(*noise, |recording| noise.with_steps(recording, holds));
+    }
     validation.reasons = reason::reasons(&validation, claim, &unused);
     Ok(validation)
 }

@@ -3,7 +3,9 @@
 //! What the calibration took for the noise of a sample, from a datasheet or an Allan deviation, goes with the scatter of the samples about the mean of their hold, `s' / s` of both recordings.
 
 use super::result::CLOSE;
-use crate::sensor::Triad;
+use crate::estimate::coarse_axes_in;
+use crate::motion::Hold;
+use crate::sensor::{ReadingUnit, Recording, Triad};
 use nalgebra::Vector3;
 
 /// How the samples of a sensor scatter within the holds of another recording, over how they do in the calibration's.
@@ -13,6 +15,17 @@ pub struct NoiseRatio {
     pub triad: Triad,
     /// The ratio of each axis; 1 where a recording shows no noise.
     pub axes: Vector3<f64>,
+    /// Where it is another noise, and the recording's readings come in steps coarser than what they show beside them: the coarsest step.
+    pub coarse: Option<CoarseStep>,
+}
+
+/// A step of readings that is coarse beside their noise.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CoarseStep {
+    /// The step, in the unit of the readings.
+    pub step: f64,
+    /// That unit.
+    pub unit: ReadingUnit,
 }
 
 impl NoiseRatio {
@@ -20,12 +33,22 @@ impl NoiseRatio {
     pub(super) fn of(triad: Triad, sd: &Vector3<f64>, calibrated_sd: &Vector3<f64>) -> Self {
         let shows = |axis: usize| sd[axis] > 0.0 && calibrated_sd[axis] > 0.0;
         let ratio = |axis: usize| if shows(axis) { sd[axis] / calibrated_sd[axis] } else { 1.0 };
-        Self { triad, axes: Vector3::from_fn(|axis, _| ratio(axis)) }
+        Self { triad, axes: Vector3::from_fn(|axis, _| ratio(axis)), coarse: None }
     }
 
     /// That of a recording with the calibration's own noise.
     pub(super) fn one(triad: Triad) -> Self {
-        Self { triad, axes: Vector3::repeat(1.0) }
+        Self { triad, axes: Vector3::repeat(1.0), coarse: None }
+    }
+
+    /// With the step of the recording, where it makes the noise another.
+    pub(super) fn with_steps<'a>(self, recording: &Recording, holds: impl Iterator<Item = &'a Hold>) -> Self {
+        if !self.differs() {
+            return self;
+        }
+        let steps = coarse_axes_in(recording, holds).into_iter().map(|found| found.step);
+        let coarsest = steps.max_by(f64::total_cmp);
+        Self { coarse: coarsest.map(|step| CoarseStep { step, unit: recording.unit }), ..self }
     }
 
     /// Of all axes: the geometric mean.

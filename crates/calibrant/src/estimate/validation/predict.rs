@@ -221,22 +221,23 @@ fn moved(
     let chi2 = beyond_steps(&expected, claim).unwrap_or(expected.chi2);
     let p_value = Ratio::new(3, &behind).above(chi2 / 3.0);
     let shift = BiasShift {
-        shift_radps: found.value,
-        sd_radps: expected.covariance.diagonal().map(f64::sqrt),
+        shift_radps: found.three(0),
+        sd_radps: expected.sd_of_three(0),
         p_value,
         moved: p_value < MOVED,
     };
-    Some((shift, found.value, found.covariance))
+    Some((shift, found.three(0), found.covariance_of_three(0)))
 }
 
 /// χ² of a shift less what coarse steps may have made of it, where there are some: no more than √3 of their standard deviation, which is half a step where noise is small.
 fn beyond_steps(shift: &Shift, claim: &Claim) -> Option<f64> {
     let correction = claim.imu.gyroscope.matrix.try_inverse().filter(|_| claim.of_steps.amax() > 0.0)?;
     let of_steps = correction * Matrix3::from_diagonal(&claim.of_steps) * correction.transpose();
+    let value = shift.three(0);
     let beyond = Vector3::from_fn(|axis, _| {
         let most = (3.0 * of_steps[(axis, axis)]).sqrt();
-        shift.value[axis] - shift.value[axis].clamp(-most, most)
+        value[axis] - value[axis].clamp(-most, most)
     });
-    let covariance = (shift.covariance - of_steps).cholesky()?;
+    let covariance = (shift.covariance_of_three(0) - of_steps).cholesky()?;
     Some(beyond.dot(&covariance.solve(&beyond)))
 }

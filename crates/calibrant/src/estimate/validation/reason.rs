@@ -1,7 +1,7 @@
 //! Why errors may be larger than predicted although the covariance is right: something is another than at the calibration.
 //!
 //! An accelerometer whose bias has moved by `δ` (as a specific force) misses gravity in a hold with the direction `u` by `u·δ`, one whose gains have changed by the shares `γ` by `g Σ_i u_i² γ_i`.
-//! Where either, fitted by generalised least squares, leaves errors as they were predicted, it is a likely reason, and the better one of both is told. So are a gyroscope's gains that have changed by
+//! Where either, fitted by generalised least squares, leaves errors as they were predicted, it is a likely reason, and the better one of both is told; where neither does, both together. So are a gyroscope's gains that have changed by
 //! shares `γ`: then each of its axes reads `1 + γ_i` times as much of what it feels, and the errors of rotations change as they do with the rows of its matrix. Angular rates in another unit
 //! than the stated one carry gravity rightly once they are converted.
 
@@ -34,6 +34,13 @@ pub enum LikelyReason {
         /// That of the other one, °C.
         here_c: f64,
     },
+    /// The recording lies beyond the temperatures at which the calibration's terms were determined: they extrapolate.
+    BeyondTemperatures {
+        /// Least and greatest temperature of the calibration, °C.
+        calibrated_c: [f64; 2],
+        /// Those of the recording, °C.
+        here_c: [f64; 2],
+    },
     /// The accelerometer's bias has moved, which explains the magnitudes.
     AccelerometerBias {
         /// By so much, as a specific force, m/s².
@@ -47,6 +54,17 @@ pub enum LikelyReason {
         change: Vector3<f64>,
         /// Their predicted standard deviation.
         sd: Vector3<f64>,
+    },
+    /// Both have, which explains the magnitudes, and neither alone does.
+    AccelerometerBiasAndGain {
+        /// The bias by so much, as a specific force, m/s².
+        shift_mps2: Vector3<f64>,
+        /// Its predicted standard deviation, m/s².
+        shift_sd_mps2: Vector3<f64>,
+        /// The gains by these shares of themselves.
+        change: Vector3<f64>,
+        /// Their predicted standard deviation.
+        change_sd: Vector3<f64>,
     },
     /// The gyroscope's gains have changed, which explains the rotations.
     GyroscopeGain {
@@ -63,13 +81,15 @@ pub enum LikelyReason {
 }
 
 impl LikelyReason {
-    /// As written in results: `temperature`, `accelerometer_bias`, `accelerometer_gain`, `gyroscope_gain`, `angular_unit`.
+    /// As written in results: `temperature`, `beyond_temperatures`, `accelerometer_bias`, `accelerometer_gain`, `accelerometer_bias_and_gain`, `gyroscope_gain`, `angular_unit`.
     #[must_use]
     pub fn name(&self) -> &'static str {
         match self {
             Self::Temperature { .. } => "temperature",
+            Self::BeyondTemperatures { .. } => "beyond_temperatures",
             Self::AccelerometerBias { .. } => "accelerometer_bias",
             Self::AccelerometerGain { .. } => "accelerometer_gain",
+            Self::AccelerometerBiasAndGain { .. } => "accelerometer_bias_and_gain",
             Self::GyroscopeGain { .. } => "gyroscope_gain",
             Self::AngularUnit { .. } => "angular_unit",
         }
@@ -79,8 +99,10 @@ impl LikelyReason {
     #[must_use]
     pub fn explains(&self, kind: ErrorKind) -> bool {
         match self {
-            Self::Temperature { .. } => true,
-            Self::AccelerometerBias { .. } | Self::AccelerometerGain { .. } => {
+            Self::Temperature { .. } | Self::BeyondTemperatures { .. } => true,
+            Self::AccelerometerBias { .. }
+            | Self::AccelerometerGain { .. }
+            | Self::AccelerometerBiasAndGain { .. } => {
                 matches!(kind, ErrorKind::Magnitude | ErrorKind::Rotation)
             }
             Self::GyroscopeGain { .. } => kind == ErrorKind::Rotation,
@@ -97,9 +119,7 @@ pub fn other_temperature(
     calibrated: &ImuRecording,
     here: &ImuRecording,
 ) -> Option<LikelyReason> {
-    let wrong = validation.kinds.iter().any(|errors| errors.verdict == CovarianceVerdict::TooSmall)
-        || validation.bias_shift.is_some_and(|shift| shift.moved);
-    if calibration.hold_temperatures_c.is_some() || !wrong {
+    if calibration.hold_temperatures_c.is_some() || !is_wrong(validation) {
         return None;
     }
     let mean = |recording: &ImuRecording| {
@@ -110,12 +130,29 @@ pub fn other_temperature(
     ((here_c - calibrated_c).abs() >= SAME_K).then_some(LikelyReason::Temperature { calibrated_c, here_c })
 }
 
+/// Is anything not as predicted?
+fn is_wrong(validation: &Validation) -> bool {
+    validation.kinds.iter().any(|errors| errors.verdict == CovarianceVerdict::TooSmall)
+        || validation.bias_shift.is_some_and(|shift| shift.moved)
+}
+
+/// Temperatures beyond those of the calibration, where it follows them and something is not as predicted.
+fn beyond_temperatures(validation: &Validation, claim: &Claim, unused: &Unused<'_>) -> Option<LikelyReason> {
+    let here_c = unused.temperatures.filter(|_| is_wrong(validation))?.range_c()?;
+    let calibrated_c = claim.imu.thermal.range_c?;
+    let beyond = here_c.iter().any(|temperature_c| claim.imu.thermal.extrapolates_to(*temperature_c));
+    beyond.then_some(LikelyReason::BeyondTemperatures { calibrated_c, here_c })
+}
+
 /// What explains the errors of a recording that are larger than predicted.
 pub(super) fn reasons(validation: &Validation, claim: &Claim, unused: &Unused<'_>) -> Vec<LikelyReason> {
     let small = |kind: ErrorKind| {
         validation.of_kind(kind).is_some_and(|errors| errors.verdict == CovarianceVerdict::TooSmall)
     };
     let (magnitude, rotation) = (small(ErrorKind::Magnitude), small(ErrorKind::Rotation));
+    if let Some(beyond) = beyond_temperatures(validation, claim, unused) {
+        return vec![beyond];
+    }
     if !magnitude && !rotation {
         return Vec::new();
     }
@@ -126,10 +163,10 @@ pub(super) fn reasons(validation: &Validation, claim: &Claim, unused: &Unused<'_
     of_accelerometer.into_iter().chain(of_unit).chain(of_gains).collect()
 }
 
-/// Three numbers that leave errors as they were predicted: χ² over its degrees of freedom that is left, and the numbers. `by`: how each error changes with them.
+/// Numbers that leave errors as they were predicted: χ² over its degrees of freedom that is left, and the numbers. `by`: how each error changes with them.
 fn explaining(group: &Group, scatter: Degrees, by: &dyn Fn(usize) -> DMatrix<f64>) -> Option<(f64, Shift)> {
     let count: usize = group.items.iter().map(|item| item.error.len()).sum();
-    let left = count.checked_sub(3).filter(|left| *left >= ENOUGH)?;
+    let left = count.checked_sub(by(0).ncols()).filter(|left| *left >= ENOUGH)?;
     let (low, high) = Ratio::new(left, &degrees_behind(group.items.iter(), &[scatter])).usual();
     let whitened = Whitened::about(group, &vec![true; group.items.len()], by)?;
     let shift = whitened.shift()?;
@@ -150,25 +187,40 @@ fn gyroscope_gains(errors: &Errors, claim: &Claim) -> Option<LikelyReason> {
     }
     let by = |k: usize| &errors.rotations.items[k].by_parameters * &lacking;
     let (_, shift) = explaining(&errors.rotations, claim.rotation_degrees, &by)?;
-    Some(LikelyReason::GyroscopeGain { change: shift.value, sd: shift.covariance.diagonal().map(f64::sqrt) })
+    Some(LikelyReason::GyroscopeGain { change: shift.three(0), sd: shift.sd_of_three(0) })
 }
 
 fn accelerometer_moved(errors: &Errors, claim: &Claim) -> Option<LikelyReason> {
-    let about = |row: &dyn Fn(&Vector3<f64>) -> Vector3<f64>| {
-        let by = |k: usize| DMatrix::from_row_slice(1, 3, row(&errors.along[k]).as_slice());
+    let direction = |along: &Vector3<f64>| *along;
+    let squares = |along: &Vector3<f64>| along.component_mul(along) * claim.gravity_mps2;
+    let about = |rows: &[&dyn Fn(&Vector3<f64>) -> Vector3<f64>]| {
+        let row = |along: &Vector3<f64>| -> Vec<f64> {
+            rows.iter().flat_map(|row| row(along).iter().copied().collect::<Vec<f64>>()).collect()
+        };
+        let by = |k: usize| DMatrix::from_row_slice(1, 3 * rows.len(), &row(&errors.along[k]));
         explaining(&errors.magnitudes, claim.holds_degrees, &by)
     };
-    let bias = about(&|along| *along);
-    let gain = about(&|along| along.component_mul(along) * claim.gravity_mps2);
+    let (bias, gain) = (about(&[&direction]), about(&[&squares]));
     let is_bias = match (&bias, &gain) {
         (Some((of_bias, _)), Some((of_gain, _))) => of_bias <= of_gain,
         (bias, _) => bias.is_some(),
     };
-    let (_, shift) = if is_bias { bias? } else { gain? };
-    let sd = shift.covariance.diagonal().map(f64::sqrt);
-    Some(match is_bias {
-        true => LikelyReason::AccelerometerBias { shift_mps2: shift.value, sd_mps2: sd },
-        false => LikelyReason::AccelerometerGain { change: shift.value, sd },
+    Some(match if is_bias { bias } else { gain } {
+        Some((_, shift)) if is_bias => {
+            LikelyReason::AccelerometerBias { shift_mps2: shift.three(0), sd_mps2: shift.sd_of_three(0) }
+        }
+        Some((_, shift)) => {
+            LikelyReason::AccelerometerGain { change: shift.three(0), sd: shift.sd_of_three(0) }
+        }
+        None => {
+            let (_, both) = about(&[&direction, &squares])?;
+            LikelyReason::AccelerometerBiasAndGain {
+                shift_mps2: both.three(0),
+                shift_sd_mps2: both.sd_of_three(0),
+                change: both.three(3),
+                change_sd: both.sd_of_three(3),
+            }
+        }
     })
 }
 

@@ -1,4 +1,4 @@
-//! Are two recordings one, in disguise: rounded, in other units, thinned out, cut, with other times?
+//! Are two recordings one, in disguise: rounded, in other units, thinned out, cut, with other times, or smoothed (`smoothed`)?
 //!
 //! Poses, motions and times may be the same in honest repetitions; noise is not. It is compared in the holds, where nothing else changes fast: `u` and `v` are the
 //! differences of successive samples of both recordings, which have no unit, bias or drift in common, and
@@ -10,6 +10,7 @@
 //! Noise of its own makes `r(0)` about zero, the same noise nearly 1: what is left after rounding. A hum that both hear is as much in step at other shifts `l`, so that
 //! `r(0)` must stand out among them. The median does not mind if a machine settles in the same way in the beginning of each hold.
 
+use super::smoothed::slow_noise_in_common;
 use crate::estimate::holds::median;
 use crate::motion::Hold;
 use crate::sensor::{Recording, interpolated};
@@ -25,11 +26,13 @@ const MOST_THINNED: f64 = 10.0;
 const STANDS_OUT: f64 = 0.35;
 /// Shifts at which only a hum is in step; samples next to each other are, too, where the sensor filters.
 const SHIFTS: std::ops::RangeInclusive<usize> = 4..=16;
+/// Samples by which a smoothed recording may lag behind: moving averages over the last so many samples.
+const LAGS: [f64; 5] = [0.0, 2.0, -2.0, 5.0, -5.0];
 
 /// Correlation of the noise of two recordings of one sensor in the holds of the first, where it is so high that the data are the same; `None` where they are not.
 ///
 /// Their samples are compared at the same times, then from the beginning and from the end of both, so that neither part of a recording nor one whose clock was set back escapes. The unit of the
-/// readings does not matter.
+/// readings does not matter. Noise of a smoothed recording is compared in means over longer stretches.
 ///
 /// # Examples
 /// ```
@@ -64,10 +67,18 @@ pub fn noise_in_common(one: &Recording, holds: &[Hold], other: &Recording) -> Op
         let skipped_s = (sample as f64 / rate.max(other_rate)).copysign(rate - other_rate);
         delays.extend([other_start - start - skipped_s, other_end - end + skipped_s]);
     }
-    delays
+    let fast = delays
         .into_iter()
         .filter_map(|delay_s| Differences::of(one, holds, other, delay_s).in_common())
-        .max_by(f64::total_cmp)
+        .max_by(f64::total_cmp);
+    let slow = || {
+        let ends = [other_start - start, other_end - end];
+        // a filter may delay
+        let delays = LAGS.into_iter().map(|lag| lag / rate.min(other_rate)).chain(ends);
+        let found = delays.filter_map(|delay_s| slow_noise_in_common(one, holds, other, delay_s));
+        found.max_by(f64::total_cmp)
+    };
+    fast.or_else(slow)
 }
 
 /// Differences of successive samples in holds, of two recordings at the same times.

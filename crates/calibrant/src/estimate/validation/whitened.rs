@@ -22,9 +22,26 @@ pub(super) struct Whitened {
 
 /// A shift that all errors have in common.
 pub(super) struct Shift {
-    pub(super) value: Vector3<f64>,
-    pub(super) covariance: Matrix3<f64>,
+    value: DVector<f64>,
+    covariance: DMatrix<f64>,
     pub(super) chi2: f64,
+}
+
+impl Shift {
+    /// Three of its components, from this one on.
+    pub(super) fn three(&self, from: usize) -> Vector3<f64> {
+        Vector3::from_fn(|i, _| self.value[from + i])
+    }
+
+    /// Their covariance.
+    pub(super) fn covariance_of_three(&self, from: usize) -> Matrix3<f64> {
+        Matrix3::from_fn(|i, j| self.covariance[(from + i, from + j)])
+    }
+
+    /// Their standard deviations.
+    pub(super) fn sd_of_three(&self, from: usize) -> Vector3<f64> {
+        self.covariance_of_three(from).diagonal().map(f64::sqrt)
+    }
 }
 
 impl Whitened {
@@ -87,17 +104,14 @@ impl Whitened {
         Some(self.weighed(&z)?.tr_mul(&z)[(0, 0)].max(0.0))
     }
 
-    /// The shift of three components that explains the errors best (generalised least squares), and how much of χ² it takes.
+    /// The shift that explains the errors best (generalised least squares), and how much of χ² it takes.
     pub(super) fn shift(&self) -> Option<Shift> {
         let weighed = self.weighed(&self.ones)?;
         let covariance = weighed.tr_mul(&self.ones).cholesky()?.inverse();
         let h = weighed.tr_mul(&self.z);
         let value = &covariance * &h;
-        Some(Shift {
-            value: Vector3::new(value[0], value[1], value[2]),
-            covariance: Matrix3::from_fn(|i, j| covariance[(i, j)]),
-            chi2: value.dot(&h).max(0.0),
-        })
+        let chi2 = value.dot(&h).max(0.0);
+        Some(Shift { value, covariance, chi2 })
     }
 
     /// The error along each direction in which the parameters move them, `a_k`, of variance `1 + λ_k` if `Σ` is right; `(a_k², λ_k)`.
@@ -193,7 +207,7 @@ mod tests {
         let of_shift = (ones.transpose() * &inverse * &ones).try_inverse().expect("regular");
         let value = &of_shift * ones.transpose() * &inverse * &e;
         let shift = whitened.shift().expect("regular");
-        assert!((DVector::from_column_slice(shift.value.as_slice()) - &value).norm() < 1e-10 * value.norm());
+        assert!((&shift.value - &value).norm() < 1e-10 * value.norm());
         let left = &e - &ones * &value;
         let rest = (left.transpose() * &inverse * &left)[(0, 0)];
         assert!((chi2 - shift.chi2 - rest).abs() < 1e-10 * chi2);
