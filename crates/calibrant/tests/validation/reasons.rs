@@ -243,7 +243,7 @@ fn another_sensor_is_no_bias_and_gain() {
     assert!(count <= 3, "{count} of {COUNT}");
 }
 
-/// A calibration with temperature terms, from 20 to 45 °C, on a recording at 60 °C whose bias follows no polynomial of the first order.
+/// A calibration with temperature terms, from 20 to 45 °C, on recordings beyond and within, whose biases are off.
 #[test]
 fn temperatures_beyond_the_calibrations_are_told() {
     let setup = ImuSimulation { temperature_c: Some([20.0, 45.0]), ..ImuSimulation::default() };

@@ -191,16 +191,16 @@ fn gyroscope_gains(errors: &Errors, claim: &Claim) -> Option<LikelyReason> {
 }
 
 fn accelerometer_moved(errors: &Errors, claim: &Claim) -> Option<LikelyReason> {
-    let direction = |along: &Vector3<f64>| *along;
     let squares = |along: &Vector3<f64>| along.component_mul(along) * claim.gravity_mps2;
-    let about = |rows: &[&dyn Fn(&Vector3<f64>) -> Vector3<f64>]| {
-        let row = |along: &Vector3<f64>| -> Vec<f64> {
-            rows.iter().flat_map(|row| row(along).iter().copied().collect::<Vec<f64>>()).collect()
+    let about = |row: &dyn Fn(&Vector3<f64>) -> Vec<f64>| {
+        let by = |k: usize| {
+            let row = row(&errors.along[k]);
+            DMatrix::from_row_slice(1, row.len(), &row)
         };
-        let by = |k: usize| DMatrix::from_row_slice(1, 3 * rows.len(), &row(&errors.along[k]));
         explaining(&errors.magnitudes, claim.holds_degrees, &by)
     };
-    let (bias, gain) = (about(&[&direction]), about(&[&squares]));
+    let bias = about(&|along| along.as_slice().to_vec());
+    let gain = about(&|along| squares(along).as_slice().to_vec());
     let is_bias = match (&bias, &gain) {
         (Some((of_bias, _)), Some((of_gain, _))) => of_bias <= of_gain,
         (bias, _) => bias.is_some(),
@@ -213,7 +213,7 @@ fn accelerometer_moved(errors: &Errors, claim: &Claim) -> Option<LikelyReason> {
             LikelyReason::AccelerometerGain { change: shift.three(0), sd: shift.sd_of_three(0) }
         }
         None => {
-            let (_, both) = about(&[&direction, &squares])?;
+            let (_, both) = about(&|along| [along.as_slice(), squares(along).as_slice()].concat())?;
             LikelyReason::AccelerometerBiasAndGain {
                 shift_mps2: both.three(0),
                 shift_sd_mps2: both.sd_of_three(0),
