@@ -256,8 +256,10 @@ fn json_on_stdout_is_the_file_and_nothing_else() {
     let outcome = bench.run(&format!("{calibrate} a/recording.csv b/recording.csv -o two")).done();
     let list: Value = serde_json::from_str(&outcome.stdout).expect("JSON");
     assert_eq!(list.as_array().map(Vec::len), Some(2));
-    assert_eq!(list[0], bench.json("two/recording/calibration.json"));
-    assert_eq!(list[1], bench.json("two/recording-2/calibration.json"));
+    for (k, (file, folder)) in [("a", "recording"), ("b", "recording-2")].into_iter().enumerate() {
+        assert_eq!(list[k]["file"], format!("{file}/recording.csv"));
+        assert_eq!(list[k]["calibration"], bench.json(&format!("two/{folder}/calibration.json")));
+    }
 }
 
 #[test]

@@ -64,7 +64,9 @@ pub fn simulate_table(
                 world_from_sensor *= UnitQuaternion::from_scaled_axis(over);
             }
             TableAction::Turn { axis, angle_rad, angle_sd_rad } => {
-                let made = axis * angle_rad + Vector3::from_fn(|_, _| angle_sd_rad * normal());
+                let missed = Vector3::from_fn(|_, _| angle_sd_rad * normal());
+                let along = axis * axis.dot(&missed);
+                let made = axis * angle_rad + along + (missed - along) * angle_rad;
                 path.push((step.start_s, step.end_s, world_from_sensor, made));
                 world_from_sensor *= UnitQuaternion::from_scaled_axis(made);
             }

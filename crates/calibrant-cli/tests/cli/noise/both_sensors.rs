@@ -103,7 +103,7 @@ fn both_sensors_of_an_imu_are_examined_at_once() {
     bench.refuses(
         "convert acc.calib other.json --sensor gyroscope",
         2,
-        &["the calibration has no gyroscope"],
+        &["the file says that it is of the accelerometer, and it was given as that of the gyroscope"],
     );
     // a version that is not known yet
     bench.write("next.json", bench.read("both/noise.json").replacen("\"schema\": 1", "\"schema\": 9", 1));

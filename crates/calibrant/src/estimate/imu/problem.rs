@@ -140,7 +140,7 @@ pub struct Turn {
     pub axis: Vector3<f64>,
     /// The angle, positive by the right-hand rule, rad.
     pub angle_rad: f64,
-    /// Standard uncertainty of the angle, and of the axis' direction times the angle, rad.
+    /// Standard uncertainty of the angle, and of the axis' direction, rad: across the axis the rotation is known to the angle times this. An axis that was met to 0.5° makes 3.1° of a full turn.
     pub angle_sd_rad: f64,
 }
 

@@ -221,7 +221,9 @@ pub(super) fn turns(
             let temperature_c = still.1.mean(turn.start_s, turn.end_s);
             let bias = still.0.at(temperature_c).gyroscope.bias * duration_s;
             let gain = (integral - bias).norm() / turn.angle_rad.abs();
-            variance += Vector3::repeat((gain * turn.angle_sd_rad).powi(2));
+            let along = (integral - bias).try_normalize(0.0).unwrap_or_default().map(|share| share * share);
+            let across = (Vector3::repeat(1.0) - along) * turn.angle_rad.powi(2);
+            variance += (along + across) * (gain * turn.angle_sd_rad).powi(2);
             Ok(TurnData {
                 integral,
                 duration_s,

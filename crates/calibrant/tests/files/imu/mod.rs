@@ -4,6 +4,7 @@ mod alone;
 mod bag;
 mod broken;
 mod good;
+mod packets;
 mod parquet;
 mod pieces;
 mod real;

@@ -4,6 +4,7 @@ use super::clock::{self, at};
 use super::column::ColumnMeaning;
 use super::draft::Draft;
 use super::options::ImuReadOptions;
+use super::packets::Packets;
 use super::readings::{check_gravity, question, stated_unit};
 use super::samples::Samples;
 use super::unit::{ColumnUnit, ImuUnit};
@@ -38,7 +39,7 @@ pub(super) fn assemble(
         triads.iter().map(|&triad| stated_unit(draft, options, triad)).collect::<Checked<Vec<_>>>()?;
     let times = clock::times(draft, samples, options, &mut findings);
     // the questions are asked all at once
-    let times = match times {
+    let mut times = match times {
         Ok(times) => times,
         Err(complaint) if units.contains(&None) => {
             return Err(ask(Some(*complaint), samples, &triads, &units).into());
@@ -48,7 +49,18 @@ pub(super) fn assemble(
     if units.contains(&None) {
         return Err(ask(None, samples, &triads, &units).into());
     }
-    let kept = increasing(&times, &triads, samples, &mut findings)?;
+    let mut of_rows = Vec::new();
+    let mut kept = increasing(&times, &triads, samples, &mut of_rows)?;
+    let packets = |&triad: &Triad| Some((triad, Packets::of(&times, samples, triad)?));
+    if let Some((triad, packets)) = triads.iter().find_map(packets) {
+        let alike = |row: usize| triads.iter().all(|&triad| holds(samples, triad, row));
+        let Some(rate) = options.rate_hz.filter(|_| (0..samples.rows).all(alike)) else {
+            return Err(packets.question(triad).into());
+        };
+        times = clock::of_rows(samples.rows, rate, &mut findings);
+        (kept, of_rows) = (Kept { rows: times.len(), dropped: Vec::new() }, Vec::new());
+    }
+    findings.append(&mut of_rows);
     let mut recording = ImuRecording::default();
     let mut maps: Vec<LineMap> = Vec::new();
     for (&triad, unit) in triads.iter().zip(units.iter().flatten()) {

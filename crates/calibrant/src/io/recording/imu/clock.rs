@@ -15,6 +15,7 @@ const EPOCH_S: f64 = 1e8;
 const LARGEST_S: f64 = 1e12;
 /// Said of times that have another beginning than in the file.
 pub(super) const COUNTED: &str = "times count from the first";
+const NOT_USED: &str = "the rate that was given is not used: the file has sample times";
 /// A stated rate and a given one may differ by this share.
 const SAME_RATE: f64 = 1e-3;
 
@@ -33,8 +34,7 @@ pub(super) fn times(
     if present > 0 && (2 * present > samples.rows || !has_counter) {
         draft.leave_aside(ColumnMeaning::Counter, "there are sample times");
         if options.rate_hz.is_some() {
-            let message = "the rate that was given is not used: the file has sample times".to_owned();
-            findings.push(Finding::new(FindingKind::Clock, None, message));
+            findings.push(Finding::new(FindingKind::Clock, None, NOT_USED.to_owned()));
         }
         return of_times(draft, samples, findings);
     }
@@ -59,6 +59,17 @@ pub(super) fn times(
     );
     findings.push(Finding::new(FindingKind::Clock, None, message));
     Ok((0..samples.rows).map(|row| row as f64 / rate).collect())
+}
+
+/// Times of the rows by the rate that was given, in the place of those in the file, which are not those of samples.
+pub(super) fn of_rows(rows: usize, rate_hz: f64, findings: &mut Vec<Finding>) -> Vec<f64> {
+    findings.retain(|finding| finding.message != NOT_USED);
+    let message = format!(
+        "its times are those of packets, not of samples: they follow from the rows and {} Hz, as given; lost samples would not show",
+        short(rate_hz)
+    );
+    findings.push(Finding::new(FindingKind::Clock, None, message));
+    (0..rows).map(|row| row as f64 / rate_hz).collect()
 }
 
 /// The sample rate where it is stated or given, and who says so.

@@ -36,6 +36,7 @@ mod movella_dot;
 mod mt_manager;
 mod naming;
 mod options;
+mod packets;
 mod pair;
 #[cfg(feature = "parquet")]
 mod parquet;
