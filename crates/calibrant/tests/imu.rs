@@ -141,6 +141,9 @@ fn a_ferraris_session_agrees_with_imucal() {
         assert!((bias - theirs).abs() < 2.0 * bias_sd, "b_a {name}: {bias} beside {theirs}, sd {bias_sd}");
     }
     assert!(sd("accelerometer.bias.x") > 5e-3, "the scatter of the faces is in the covariance");
+    // an axis that was met to half a degree has that share of the turn
+    let (tilt, found) = (0.5_f64.to_radians(), sd("gyroscope.matrix.xy"));
+    assert!((found / tilt - 1.0).abs() < 0.05, "{found} beside {tilt}");
 }
 
 /// An IMU of the size of MEMS errors, with g-sensitivity.
