@@ -22,7 +22,7 @@ const COVERED: f64 = 0.9;
 /// A file with a header serves as well: `t_s,x,y,z`, or any that has the sensor's columns by name. The sensors share a clock; their sample times may differ.
 ///
 /// # Errors
-/// As [`read_imu_recording`], for each file.
+/// As [`read_imu_recording`](crate::io::read_imu_recording), for each file.
 pub fn read_imu_pair(accelerometer: &Path, gyroscope: &Path, options: &ImuReadOptions) -> Result<ImuFile> {
     let one = |path: &Path, triad: Triad| {
         let in_file = |complaint: Box<Complaint>| Error::recording(complaint.in_file(path));
