@@ -80,11 +80,17 @@ impl Lines {
             if powers[near(k, ABOUT)].iter().any(|other| *other > powers[k]) {
                 continue;
             }
-            let mut about: Vec<f64> = near(k, WIDELY.min(k / 2))
-                .filter(|other| other.abs_diff(k) > LINE)
-                .map(|other| powers[other])
-                .collect();
-            let middle = about.len() / 2;
+            let about = || {
+                let others = near(k, WIDELY.min(k / 2)).filter(|other| other.abs_diff(k) > LINE);
+                others.map(|other| powers[other])
+            };
+            let middle = about().count() / 2;
+            // most peaks are noise: so many are above the median that a line would need, which is cheaper to see than the median
+            let least = powers[k] / beyond * LN_2;
+            if about().filter(|power| *power <= least).count() <= middle {
+                continue;
+            }
+            let mut about: Vec<f64> = about().collect();
             let noise = *about.select_nth_unstable_by(middle, f64::total_cmp).1 / LN_2;
             if noise <= 0.0 || powers[k] < beyond * noise {
                 continue;

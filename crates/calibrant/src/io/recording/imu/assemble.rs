@@ -53,7 +53,7 @@ pub(super) fn assemble(
     let mut kept = increasing(&times, &triads, samples, &mut of_rows)?;
     let packets = |&triad: &Triad| Some((triad, Packets::of(&times, samples, triad)?));
     if let Some((triad, packets)) = triads.iter().find_map(packets) {
-        let alike = |row: usize| triads.iter().all(|&triad| holds(samples, triad, row));
+        let alike = |row: usize| triads.iter().all(|&triad| samples.holds(triad, row));
         let Some(rate) = options.rate_hz.filter(|_| (0..samples.rows).all(alike)) else {
             return Err(packets.question(triad).into());
         };
@@ -156,11 +156,6 @@ impl Kept {
     }
 }
 
-/// Does a row have a value of this sensor?
-fn holds(samples: &Samples, triad: Triad, row: usize) -> bool {
-    samples.triad(triad).get(row).is_some_and(|reading| reading.iter().any(|value| !value.is_nan()))
-}
-
 /// The rows in which the times of a sensor increase; where sensors have rows of their own, each has its times. Rows that repeat the time before are dropped; one
 /// that goes back is an error.
 fn increasing(
@@ -178,7 +173,7 @@ fn increasing(
             kept.dropped.push(row);
             continue;
         }
-        let held = [0, 1].map(|k| triads.get(k).is_some_and(|&triad| holds(samples, triad, row)));
+        let held = [0, 1].map(|k| triads.get(k).is_some_and(|&triad| samples.holds(triad, row)));
         let is_empty = !held.contains(&true);
         if is_empty && samples.temperatures.get(row).is_some_and(|value| value.is_finite()) {
             continue; // a row of the thermometer

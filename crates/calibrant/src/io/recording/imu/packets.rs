@@ -27,10 +27,7 @@ pub(super) struct Packets {
 impl Packets {
     /// `None` where a sensor's times are those of its samples. Rows that repeat all of the one before are none.
     pub(super) fn of(times: &[f64], samples: &Samples, triad: Triad) -> Option<Self> {
-        let holds = |row: &usize| {
-            !times[*row].is_nan()
-                && samples.triad(triad).get(*row).is_some_and(|reading| reading.iter().any(|y| !y.is_nan()))
-        };
+        let holds = |row: &usize| !times[*row].is_nan() && samples.holds(triad, *row);
         let (mut found, mut same, mut before) = (Vec::with_capacity(times.len()), 0, None);
         for row in (0..times.len()).filter(holds) {
             if let Some(other) = before.replace(row)

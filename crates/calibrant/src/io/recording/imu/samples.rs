@@ -68,6 +68,11 @@ impl Samples {
         std::mem::take(&mut self.triads[triad as usize])
     }
 
+    /// Has a row a value of this sensor?
+    pub(super) fn holds(&self, triad: Triad, row: usize) -> bool {
+        self.triad(triad).get(row).is_some_and(|reading| reading.iter().any(|value| !value.is_nan()))
+    }
+
     /// Has a row the values of another, the time apart?
     pub(super) fn repeats(&self, row: usize, other: usize) -> bool {
         let same = |one: f64, other: f64| one == other || (one.is_nan() && other.is_nan());
