@@ -86,7 +86,12 @@ impl Comparison {
                 )),
                 (Some(_), None) => notes.push(format!("only A has a {triad}")),
                 (None, Some(_)) => notes.push(format!("only B has a {triad}")),
-                _ => {}
+                (Some(_), Some(_)) => {
+                    for (name, _) in [("A", a), ("B", b)].iter().filter(|(_, imu)| !imu.has_bias(triad)) {
+                        notes.push(format!("{name} does not say the biases of the {triad}: they are not compared"));
+                    }
+                }
+                (None, None) => {}
             }
         }
         let (a, b) = &brought_together(a, b, &mut notes);
@@ -191,6 +196,10 @@ fn overall(a: &CalibratedImu, b: &CalibratedImu, notes: &mut Vec<String>) -> Opt
         return None;
     }
     let in_both = |triad: Triad| a.unit(triad).is_some() && a.unit(triad) == b.unit(triad);
+    let known = |quantity: &ImuQuantity| match quantity {
+        ImuQuantity::Of(triad, Quantity::Bias(_)) => a.has_bias(*triad) && b.has_bias(*triad),
+        _ => true,
+    };
     let reference = Triad::ALL.into_iter().find(|&triad| in_both(triad))?;
     let turned = (a.in_gauge_of(reference, Gauge::Lower), b.in_gauge_of(reference, Gauge::Lower));
     let (a, b) = match turned {
@@ -203,7 +212,7 @@ fn overall(a: &CalibratedImu, b: &CalibratedImu, notes: &mut Vec<String>) -> Opt
     let mut list: Vec<ImuQuantity> = Vec::new();
     for imu in [&a, &b] {
         let listed = imu.quantities.iter().filter(|_| imu.covariance.is_some());
-        let common = listed.filter(|quantity| in_both(quantity.triad()));
+        let common = listed.filter(|quantity| in_both(quantity.triad()) && known(quantity));
         common.for_each(|quantity| {
             if !list.contains(quantity) {
                 list.push(*quantity);
@@ -297,6 +306,30 @@ mod tests {
         let two = Comparison::of(&imu(), &turned).overall.expect("covariances");
         assert!((one.chi2 / two.chi2 - 1.0).abs() < 1e-6, "{one:?} {two:?}");
         assert!(one.chi2 > 1e-3);
+    }
+
+    #[test]
+    fn biases_that_are_not_known_are_not_compared() {
+        let mut other = CalibratedImu { covariance: None, ..imu() };
+        for triad in Triad::ALL {
+            let shift = if triad == Triad::Accelerometer { 0.0 } else { 1.0 };
+            ImuQuantity::Of(triad, Quantity::Bias(crate::sensor::Axis::X))
+                .add_to(&mut other.parameters, shift);
+        }
+        let far = Comparison::of(&imu(), &other).overall.expect("a covariance");
+        assert!(far.chi2 > 1e5, "{far:?}");
+        let of_gyroscope =
+            |quantity: &ImuQuantity| matches!(quantity, ImuQuantity::Of(Triad::Gyroscope, Quantity::Bias(_)));
+        other.quantities.retain(|quantity| !of_gyroscope(quantity));
+        for comparison in [Comparison::of(&imu(), &other), Comparison::of(&other, &imu())] {
+            let overall = comparison.overall.expect("a covariance");
+            assert!(overall.chi2 < 1e-15, "{overall:?}");
+            assert_eq!(overall.degrees_of_freedom, 27, "3 biases fewer");
+            let names = comparison.quantities.iter().map(|row| row.invariant.name());
+            assert_eq!(names.filter(|name| name.contains("bias")).count(), 3);
+            let note = "does not say the biases of the gyroscope: they are not compared";
+            assert!(comparison.notes.iter().any(|said| said.contains(note)), "{:?}", comparison.notes);
+        }
     }
 
     #[test]

@@ -262,7 +262,7 @@ pub struct CalibratedImu {
     pub accelerometer_unit: Option<ReadingUnit>,
     /// Unit of the gyroscope's readings; `None` where there is no gyroscope.
     pub gyroscope_unit: Option<ReadingUnit>,
-    /// The quantities that the covariance speaks of, in its order.
+    /// The quantities that the covariance speaks of, in its order; without one, those that are known.
     pub quantities: Vec<ImuQuantity>,
     /// Covariance of these quantities; `None` where it is not known.
     pub covariance: Option<DMatrix<f64>>,
@@ -278,6 +278,14 @@ impl CalibratedImu {
             Triad::Accelerometer => self.accelerometer_unit,
             Triad::Gyroscope => self.gyroscope_unit,
         }
+    }
+
+    /// Are the biases of a sensor known? Kalibr's files, which have no covariance either, do not list them: zeros stand in their place.
+    #[must_use]
+    pub fn has_bias(&self, triad: Triad) -> bool {
+        let listed = |quantity: &ImuQuantity| matches!(quantity, ImuQuantity::Of(of, Quantity::Bias(_)) if *of == triad);
+        self.unit(triad).is_some()
+            && (self.covariance.is_some() || self.quantities.is_empty() || self.quantities.iter().any(listed))
     }
 
     /// The same IMU without g-sensitivity, as if it were known to be zero.

@@ -156,7 +156,7 @@ impl Invariant {
 }
 
 impl CalibratedImu {
-    /// Everything about it that does not depend on the true frame, with standard deviations where it has a covariance.
+    /// Everything about it that is known and does not depend on the true frame, with standard deviations where it has a covariance.
     ///
     /// # Examples
     /// ```
@@ -184,8 +184,13 @@ impl CalibratedImu {
                 _ => None,
             }
         });
+        let is_known = |invariant: &Invariant| match invariant {
+            Invariant::Bias(triad, _) => self.has_bias(*triad),
+            _ => true,
+        };
         Invariant::list(accelerometer, gyroscope)
             .into_iter()
+            .filter(is_known)
             .chain(terms)
             .map(|invariant| {
                 let (value, gradient) = invariant.with_gradient(&self.parameters);

@@ -15,7 +15,9 @@ use super::core::{matrix3, vector3};
 use super::{CalibratedImuFile, ConventionOptions, ImuFormat, RawUnits, complaint, written_by};
 use crate::error::{Complaint, Error, Result};
 use crate::io::text::{self, Checked};
-use crate::sensor::{CalibratedImu, Gauge, ImuParameters, ImuQuantity, ReadingUnit, SensorParameters, Triad};
+use crate::sensor::{
+    CalibratedImu, Gauge, ImuParameters, ImuQuantity, Quantity, ReadingUnit, SensorParameters, Triad,
+};
 use nalgebra::{Matrix3, Vector3};
 use serde::Deserialize;
 use serde::de::IgnoredAny;
@@ -239,10 +241,13 @@ pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<Calibrate
     let unit = |triad: Triad, said: Option<&String>| unit_of(triad, said, options.units);
     let bias =
         |said: Option<&Vec<f64>>, field: &str| said.map_or(Ok(Vector3::zeros()), |b| vector3(b, field));
-    let said_bias = beside.and_then(|beside| beside.accelerometer_bias.as_ref());
+    let said_biases = [
+        beside.and_then(|beside| beside.accelerometer_bias.as_ref()),
+        beside.and_then(|beside| beside.gyroscope_bias.as_ref()),
+    ];
     let mut parameters = ImuParameters::identity();
     parameters.accelerometer =
-        SensorParameters { bias: bias(said_bias, "calibrant.accelerometer_bias")?, matrix: m_a * c_i_b };
+        SensorParameters { bias: bias(said_biases[0], "calibrant.accelerometer_bias")?, matrix: m_a * c_i_b };
     let accelerometer_unit =
         Some(unit(Triad::Accelerometer, beside.and_then(|beside| beside.accelerometer_unit.as_ref()))?);
     let gyroscope_unit = match &imu.gyroscopes {
@@ -250,9 +255,8 @@ pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<Calibrate
         Some(gyroscopes) => {
             let c_gyro_i = optional(&gyroscopes.c_gyro_i, "gyroscopes.C_gyro_i", Matrix3::identity())?;
             rotation(&c_gyro_i, "gyroscopes.C_gyro_i")?;
-            let said_bias = beside.and_then(|beside| beside.gyroscope_bias.as_ref());
             parameters.gyroscope = SensorParameters {
-                bias: bias(said_bias, "calibrant.gyroscope_bias")?,
+                bias: bias(said_biases[1], "calibrant.gyroscope_bias")?,
                 matrix: needed(&gyroscopes.m, "gyroscopes.M")? * c_gyro_i * c_i_b,
             };
             parameters.g_sensitivity =
@@ -260,7 +264,7 @@ pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<Calibrate
             Some(unit(Triad::Gyroscope, beside.and_then(|beside| beside.gyroscope_unit.as_ref()))?)
         }
     };
-    if said_bias.is_none() {
+    if said_biases[0].is_none() || gyroscope_unit.is_some() && said_biases[1].is_none() {
         findings.push(
             "Kalibr does not write biases (it estimates them as curves in time): they are zero here".into(),
         );
@@ -277,7 +281,11 @@ pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<Calibrate
     });
     let gyroscope = gyroscope_unit.is_some();
     let g_sensitivity = parameters.g_sensitivity != Matrix3::zeros();
-    let quantities = ImuQuantity::full_list(true, gyroscope, g_sensitivity);
+    let mut quantities = ImuQuantity::full_list(true, gyroscope, g_sensitivity);
+    quantities.retain(|quantity| match quantity {
+        ImuQuantity::Of(triad, Quantity::Bias(_)) => said_biases[*triad as usize].is_some(),
+        _ => true,
+    });
     let imu =
         CalibratedImu { parameters, accelerometer_unit, gyroscope_unit, quantities, covariance: None, frame };
     Ok(CalibratedImuFile { imu, noise, inputs: Vec::new(), format: ImuFormat::Kalibr, findings })
@@ -404,8 +412,10 @@ fn beside(out: &mut String, imu: &CalibratedImu, gyroscope_unit: Option<ReadingU
     {
         if let Some(unit) = unit {
             put(out, format_args!("    {triad}_unit: {}\n", unit.symbol()));
-            let bias: Vec<f64> = imu.parameters.triad(triad).bias.iter().copied().collect();
-            line(out, &format!("    {triad}_bias: "), &bias);
+            if imu.has_bias(triad) {
+                let bias: Vec<f64> = imu.parameters.triad(triad).bias.iter().copied().collect();
+                line(out, &format!("    {triad}_bias: "), &bias);
+            }
         }
     }
     put(out, format_args!("    frame: {}\n", quoted(&imu.frame)));

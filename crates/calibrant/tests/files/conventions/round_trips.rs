@@ -211,6 +211,12 @@ fn kalibrs_own_file_is_read() {
     assert_eq!((noise.accelerometer_density, noise.update_rate_hz), (Some(0.00668), Some(200.0)));
     let after = there_and_back(&file, ImuFormat::Kalibr).remove(0);
     assert_eq!(after.noise, file.noise);
+    // that the biases are not known is not lost: neither on the way nor through another format
+    for format in [ImuFormat::Kalibr, ImuFormat::CalibrantJson] {
+        let after = there_and_back(&file, format).remove(0).imu;
+        assert!(Triad::ALL.into_iter().all(|triad| !after.has_bias(triad)), "{format:?}");
+        assert_eq!(after.quantities.len(), 27, "{format:?}");
+    }
     // the plain file that Kalibr reads has noise alone
     let directory = tempfile::tempdir().expect("a directory");
     let path = directory.path().join("imu.yaml");
