@@ -60,6 +60,7 @@ mod lags;
 mod model;
 mod moments;
 mod outliers;
+mod periodogram;
 mod power_law;
 mod regression;
 mod scaled;

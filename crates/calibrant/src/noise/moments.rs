@@ -1,6 +1,7 @@
 //! Mean and covariance of the drift-free Allan variances of each process.
 
 use super::allan::{Confidence, Differences};
+use super::periodogram::Periodogram;
 use super::power_law::FlickerTable;
 use super::{PowerLaw, lags};
 use nalgebra::{DMatrix, DVector};
@@ -31,6 +32,7 @@ pub struct Moments {
     /// For each pair `a ≤ b`, in the order of [`pair`].
     covariance: Vec<DMatrix<f64>>,
     confidence: Confidence,
+    periodogram: Periodogram,
 }
 
 /// Position of the pair of processes `a`, `b`.
@@ -63,8 +65,9 @@ impl Moments {
         let mut covariance = vec![DMatrix::zeros(size, size); PAIRS];
         let places: Vec<(usize, usize)> = (0..size).flat_map(|j| (j..size).map(move |k| (j, k))).collect();
         let flicker = FlickerTable::of(n);
-        let pairs: Vec<Pair> =
-            places.par_iter().map(|&(j, k)| Pair::of(n, scales[j], scales[k], &flicker)).collect();
+        let pair_of = |&(j, k): &(usize, usize)| Pair::of(n, scales[j], scales[k], &flicker);
+        let (periodogram, pairs): (_, Vec<Pair>) =
+            rayon::join(|| Periodogram::of_length(n), || places.par_iter().map(pair_of).collect());
         for (&(j, k), two) in places.iter().zip(&pairs) {
             for a in 0..PROCESSES {
                 if j == k {
@@ -77,7 +80,7 @@ impl Moments {
                 }
             }
         }
-        Self { samples: n, scales, mean, covariance, confidence: Confidence::of(n) }
+        Self { samples: n, scales, mean, covariance, confidence: Confidence::of(n), periodogram }
     }
 
     /// Number of samples.
@@ -89,6 +92,11 @@ impl Moments {
     /// How uncertain an Allan deviation of so many samples is.
     pub(super) fn confidence(&self) -> &Confidence {
         &self.confidence
+    }
+
+    /// The transform of so many values.
+    pub(super) fn periodogram(&self) -> &Periodogram {
+        &self.periodogram
     }
 
     /// The cluster sizes m.

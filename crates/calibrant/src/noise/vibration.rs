@@ -13,6 +13,7 @@
 //! # Where the noise is in doubt
 //! Where lines are most of the Allan variance at a cluster time that is fitted, and where their tails, known to no more than their size, are more than the standard deviation of N².
 
+use super::periodogram::Periodogram;
 use super::regression::Regression;
 use nalgebra::DVector;
 use std::f64::consts::{LN_2, PI};
@@ -61,15 +62,15 @@ pub(super) struct Lines {
 
 impl Lines {
     /// Those that are beyond chance; `None` without any.
-    pub(super) fn of(values: &[f64], scales: &[usize]) -> Option<Self> {
+    pub(super) fn of(values: &[f64], scales: &[usize], periodogram: &Periodogram) -> Option<Self> {
         if values.len() < 8 * ABOUT {
             return None;
         }
         let count = values.len() as f64;
         let mean = values.iter().sum::<f64>() / count;
         let square: f64 = values.iter().map(|value| (value - mean).powi(2)).sum();
-        let size = values.len().next_power_of_two();
-        let powers = periodogram(values.iter().map(|value| value - mean), size);
+        let size = periodogram.size();
+        let powers = periodogram.of(values.iter().map(|value| value - mean));
         let last = powers.len() - 1;
         let near = |k: usize, by: usize| k - by..=(k + by).min(last);
         let beyond = (size as f64).ln() + BEYOND_CHANCE;
@@ -150,52 +151,6 @@ fn allan_variance(bins: &[(f64, f64)], m: f64) -> f64 {
     bins.iter().map(of_bin).sum()
 }
 
-/// `|Σ y e^{−2πi jk/n}|²` up to half the rate, of values that zeros make `n`, a power of two: the transform of half as many complex numbers, even values and odd ones.
-fn periodogram(values: impl Iterator<Item = f64>, n: usize) -> Vec<f64> {
-    let half = n / 2;
-    let (mut re, mut im) = (vec![0.0; half], vec![0.0; half]);
-    for (k, value) in values.enumerate() {
-        if k % 2 == 0 { re[k / 2] = value } else { im[k / 2] = value }
-    }
-    transform(&mut re, &mut im);
-    let power = |k: usize| {
-        let (a, b) = (k % half, (half - k) % half);
-        let even = [re[a] + re[b], im[a] - im[b]];
-        let odd = [im[a] + im[b], re[b] - re[a]];
-        let (sin, cos) = (-2.0 * PI * k as f64 / n as f64).sin_cos();
-        let sum = [even[0] + odd[0] * cos - odd[1] * sin, even[1] + odd[0] * sin + odd[1] * cos];
-        0.25 * (sum[0] * sum[0] + sum[1] * sum[1])
-    };
-    (0..=half).map(power).collect()
-}
-
-/// The Fourier transform of a power of two of complex numbers, in place.
-fn transform(re: &mut [f64], im: &mut [f64]) {
-    let n = re.len();
-    let bits = n.ilog2();
-    for k in 0..n {
-        let other = k.reverse_bits().checked_shr(usize::BITS - bits).unwrap_or(0);
-        if k < other {
-            re.swap(k, other);
-            im.swap(k, other);
-        }
-    }
-    let mut half = 1;
-    while half < n {
-        let turn = -PI / half as f64;
-        for j in 0..half {
-            let (sin, cos) = (turn * j as f64).sin_cos();
-            for a in (j..n).step_by(2 * half) {
-                let b = a + half;
-                let (x, y) = (re[b] * cos - im[b] * sin, re[b] * sin + im[b] * cos);
-                (re[b], im[b]) = (re[a] - x, im[a] - y);
-                (re[a], im[a]) = (re[a] + x, im[a] + y);
-            }
-        }
-        half *= 2;
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -204,20 +159,9 @@ mod tests {
     use std::f64::consts::TAU;
 
     #[test]
-    fn the_periodogram_is_that_of_the_sum() {
-        let values: Vec<f64> = (0..64).map(|k| f64::from(k * k % 17)).collect();
-        for (k, power) in periodogram(values.iter().copied(), 64).into_iter().enumerate() {
-            let part = |of: fn(f64) -> f64| -> f64 {
-                values.iter().enumerate().map(|(j, y)| y * of(TAU * (j * k) as f64 / 64.0)).sum()
-            };
-            let expected = part(f64::cos).powi(2) + part(f64::sin).powi(2);
-            assert!((power - expected).abs() < 1e-7 * (1.0 + expected), "{k}: {power} {expected}");
-        }
-    }
-
-    #[test]
     fn a_hum_is_seen_and_noise_is_none() {
         let scales = [1, 2, 4, 8, 16];
+        let lines = |values: &[f64]| Lines::of(values, &scales, &Periodogram::of_length(values.len()));
         for seed in 0..40 {
             let noise = |process, coefficient| {
                 simulate_noise(process, coefficient, 0.01, 10_000, &mut stream(seed, Purpose::Sensor, 0))
@@ -228,7 +172,7 @@ mod tests {
             let sum: Vec<f64> = white.iter().zip(&walk).map(|(one, other)| one + other).collect();
             let filtered: Vec<f64> = white.windows(5).map(|window| window.iter().sum()).collect();
             for values in [&white, &walk, &sum, &filtered] {
-                assert!(Lines::of(values, &scales).is_none(), "{seed}");
+                assert!(lines(values).is_none(), "{seed}");
             }
             for frequency in [0.0101, 0.03, 0.25, 0.4981] {
                 let hum = |amplitude: f64, of: f64| -> Vec<f64> {
@@ -236,14 +180,14 @@ mod tests {
                         |(k, y): (usize, &f64)| of * y + amplitude * (TAU * frequency * k as f64 + 1.0).sin();
                     white.iter().enumerate().map(add).collect()
                 };
-                let found = Lines::of(&hum(0.4, 1.0), &scales).expect("seen");
+                let found = lines(&hum(0.4, 1.0)).expect("seen");
                 assert!((found.frequency - frequency).abs() < 1e-4, "{} {frequency}", found.frequency);
                 // its standard deviation is √(4 · 0.08/n)
                 assert!((found.share - 0.08 / 1.08).abs() < 4.5 * 0.0057, "{}", found.share);
                 // far too small to matter
-                assert!(Lines::of(&hum(0.01, 1.0), &scales).is_none(), "{seed}");
+                assert!(lines(&hum(0.01, 1.0)).is_none(), "{seed}");
                 // what it adds is the Allan variance of the sine alone
-                let (found, mut x) = (Lines::of(&hum(1.0, 0.01), &scales).expect("seen"), vec![0.0]);
+                let (found, mut x) = (lines(&hum(1.0, 0.01)).expect("seen"), vec![0.0]);
                 for k in 0..10_000 {
                     x.push(x[k] + (TAU * frequency * k as f64 + 1.0).sin());
                 }
