@@ -101,6 +101,15 @@ fn a_gauge_change_carries_the_covariance_and_compare_sees_one_sensor() {
     assert!(done.stdout.contains("accelerometer.angle.xy"), "{}", done.stdout);
     assert!(done.stdout.contains("their uncertainties explain the difference; χ² 0"), "{}", done.stdout);
     assert!(done.stdout.contains("9 degrees of freedom, p-value > 0.9999"), "{}", done.stdout);
+    // Kalibr's own files have no biases
+    bench.run("convert out/calibration.json own.yaml --to kalibr --gauge lower").done();
+    let text = bench.read("own.yaml");
+    let own: Vec<&str> = text.lines().filter(|line| !line.contains("accelerometer_bias")).collect();
+    bench.write("own.yaml", own.join("\n"));
+    let done = bench.run("compare out/calibration.json own.yaml").done();
+    assert!(done.stderr.contains("B does not say the biases of the accelerometer"), "{}", done.stderr);
+    assert!(done.stdout.contains("χ² 0") && !done.stdout.contains("bias"), "{}", done.stdout);
+    assert!(done.stdout.contains(" 6 degrees of freedom"), "{}", done.stdout);
     // another bias is seen
     let text = bench.read("lower.json");
     let bias = lower["accelerometer"]["bias_mps2"][0].as_f64().expect("a number");
@@ -144,6 +153,9 @@ fn sensors_that_are_not_those_expected_are_refused() {
     bench.run("simulate imu.toml -o made").done();
     bench.run("convert made/truth.json a.calib --drop-g-sensitivity").done();
     bench.run("compare a.calib made/truth.json").done();
+    let done = bench.run("compare a.calib made/truth.json --unit counts").done();
+    let note = "the readings of the accelerometer are in m/s², as the file says: the unit counts is given for files that do not say it";
+    assert!(done.stderr.contains(note), "{}", done.stderr);
     bench.write("x_acc.calib", bench.read("a_gyro.calib"));
     bench.write("x_gyro.calib", bench.read("a_acc.calib"));
     let says = "x_acc.calib: the file says that it is of the gyroscope, and it was given as that of the accelerometer";

@@ -260,7 +260,7 @@ impl ImuCorrection {
             Some(Temperatures::of(recording)?.ok_or_else(|| {
                 Error::recording(Complaint::new(
                     "the calibration follows temperature, and this recording has no temperature",
-                    "say the temperature with --temperature CELSIUS, or give a recording with a column of it",
+                    "say the temperature with --temperature CELSIUS, or, where a column of the recording has it, which one with --columns EXPERIMENT",
                 ))
             })?)
         } else {

@@ -152,7 +152,7 @@ fn parse(bytes: &[u8], options: &ConventionOptions) -> Checked<CalibratedImuFile
         Some(format) => format,
         None => ImuFormat::of_content(text)?,
     };
-    let file = match format {
+    let mut file = match format {
         ImuFormat::CalibrantJson => calibrant_json::read(text)?,
         ImuFormat::Kalibr => kalibr::read(text, options)?,
         ImuFormat::ImuTk => imu_tk::read(text, options)?,
@@ -160,6 +160,18 @@ fn parse(bytes: &[u8], options: &ConventionOptions) -> Checked<CalibratedImuFile
         ImuFormat::CHeader => c_header::read(text)?,
     };
     check::usable(&file.imu)?;
+    for triad in Triad::ALL {
+        let given = options.units.map(|units| units.of(triad));
+        if let (Some(said), Some(given)) = (file.imu.unit(triad), given)
+            && said != given
+        {
+            file.findings.push(format!(
+                "the readings of the {triad} are in {}, as the file says: the unit {} is given for files that do not say it",
+                said.symbol(),
+                given.symbol()
+            ));
+        }
+    }
     Ok(file)
 }
 

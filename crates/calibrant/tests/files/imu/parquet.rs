@@ -80,9 +80,16 @@ fn read(bytes: &[u8], options: &ImuReadOptions) -> ImuFile {
 }
 
 #[test]
-fn a_table_reads_with_any_compression_that_needs_no_c() {
+fn a_table_reads_with_any_compression() {
     let groups = [group(0), group(3)];
-    for compression in [Compression::UNCOMPRESSED, Compression::SNAPPY, Compression::LZ4_RAW] {
+    for compression in [
+        Compression::UNCOMPRESSED,
+        Compression::SNAPPY,
+        Compression::LZ4_RAW,
+        Compression::ZSTD(Default::default()),
+        Compression::GZIP(Default::default()),
+        Compression::BROTLI(Default::default()),
+    ] {
         let file = read(&write(SCHEMA, &groups, compression), &ImuReadOptions::default());
         assert_eq!((file.format, file.rows), (FileFormat::Parquet, 6));
         let (accelerometer, gyroscope) = (

@@ -13,7 +13,6 @@ use super::mcap_records::chunks_end;
 use super::options::ImuReadOptions;
 use super::samples::{SLOTS, Samples, TIME, slots_of};
 use super::unit::{ColumnUnit, ImuUnit, TimeUnit};
-use super::zstd::Zstd;
 use crate::error::Complaint;
 use crate::io::recording::columns::list;
 use crate::io::recording::finding::{Finding, count};
@@ -100,7 +99,6 @@ impl Bag {
             // a recorder that was killed has written no end
             .with_skip_end_magic(true);
         let mut reader = LinearReader::new_with_options(options);
-        reader.add_decompressor(Zstd::default()).map_err(|error| damaged(&error))?;
         while let Some(event) = reader.next_event() {
             match event {
                 Ok(LinearReadEvent::ReadRequest(need)) => {
@@ -231,7 +229,7 @@ fn damaged(error: &McapError) -> Complaint {
     match error {
         McapError::UnsupportedCompression(name) => Complaint::new(
             format!("the bag is compressed with {name}, which is not read"),
-            "write it again without compression, or with zstd: `mcap compress --compression zstd`",
+            "write it again with zstd: `mcap compress --compression zstd`",
         ),
         error => Complaint::new(format!("the MCAP container is damaged: {error}"), "try `mcap recover`"),
     }

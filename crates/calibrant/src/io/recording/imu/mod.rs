@@ -48,8 +48,6 @@ mod unit;
 mod unnamed;
 mod xsens;
 #[cfg(feature = "mcap")]
-mod zstd;
-
 pub use accelerometer::read_accelerometer;
 pub use column::{ColumnMeaning, ImuColumn};
 pub use format::FileFormat;

@@ -84,16 +84,12 @@ pub(super) fn samples(file: &Opened, slots: &[Option<usize>]) -> Checked<Samples
             };
             for group in 0..file.reader.num_row_groups() {
                 let group = file.reader.get_row_group(group).map_err(|error| damaged(&error))?;
-                if let Compression::ZSTD(_) | Compression::BROTLI(_) | Compression::GZIP(_) =
-                    group.metadata().column(at).compression()
-                {
-                    let message = format!(
-                        "the file is compressed with {}, which is not read",
-                        group.metadata().column(at).compression()
-                    );
-                    return Err(
-                        Complaint::new(message, "write it again with snappy, lz4 or no compression").into()
-                    );
+                if group.metadata().column(at).compression() == Compression::LZO {
+                    return Err(Complaint::new(
+                        "the file is compressed with LZO, which is not read",
+                        "write it again with zstd, snappy or no compression",
+                    )
+                    .into());
                 }
                 let descriptor = file.reader.metadata().file_metadata().schema_descr().column(at);
                 let pages = group.get_column_page_reader(at).map_err(|error| damaged(&error))?;
