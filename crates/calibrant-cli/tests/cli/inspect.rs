@@ -82,6 +82,30 @@ fn seconds_since_1970_are_told_as_they_stand_and_durations_beside_them() {
 }
 
 #[test]
+fn tabs_and_spaces_may_both_separate_columns() {
+    let bench = Bench::new();
+    let text = poses("t_ms,ax_mps2,ay_mps2,az_mps2,gx_radps,gy_radps,gz_radps", 9.8).replace(',', "\t");
+    let said = |name: &str, text: String| {
+        bench.write(name, text);
+        let stdout = bench.run(&format!("inspect {name}")).done().stdout;
+        stdout.split_once('\n').expect("lines").1.to_owned()
+    };
+    let plain = said("tabs.txt", text.clone());
+    // the second tab of each line, of the rows alone, and of the header alone
+    let mix = |line: &str| {
+        let at = line.match_indices('\t').nth(1).expect("columns").0;
+        format!("{}  {}", &line[..at], &line[at + 1..])
+    };
+    for (header, rows) in [(true, true), (false, true), (true, false)] {
+        let line = |(k, line): (usize, &str)| {
+            if (k == 0 && header) || (k > 0 && rows) { mix(line) } else { line.to_owned() }
+        };
+        let mixed: Vec<String> = text.lines().enumerate().map(line).collect();
+        assert_eq!(said("mixed.txt", mixed.join("\n") + "\n"), plain, "{header} {rows}");
+    }
+}
+
+#[test]
 fn holds_in_which_the_accelerometer_saturates_are_named() {
     let bench = Bench::new();
     let cut = |line: &str| {

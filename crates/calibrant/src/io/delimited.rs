@@ -29,7 +29,8 @@ impl<'t> Line<'t> {
         if ends == 0 {
             return Ok(());
         }
-        let message = format!("{ends} line ends are a lone CR, as on an old Mac, others are LF");
+        let are = if ends == 1 { "line end is" } else { "line ends are" };
+        let message = format!("{ends} {are} a lone CR, as on an old Mac, others are LF");
         let complaint = Complaint::new(message, "end all lines alike: tr '\\r' '\\n' < FILE > OTHER");
         Err(complaint.at_line(self.number).into())
     }
@@ -46,6 +47,7 @@ impl<'t> Line<'t> {
 }
 
 /// The lines of a text. Line ends: LF, CR LF, or CR where there is no LF before the end of the text.
+#[derive(Clone)]
 pub(super) struct Lines<'t> {
     rest: &'t str,
     end: u8,

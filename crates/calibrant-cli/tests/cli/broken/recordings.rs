@@ -19,7 +19,7 @@ const CASES: &[(&[u8], &str)] = &[
     (b"BZh,1,2,3\n0,1,2,3\n", ":1:1: \"BZh\" in column 1 is not a number"),
     (
         b"t_s,ax,ay,az\r0,1,2,3\n1,1,2,3\r",
-        ":1: 1 line ends are a lone CR, as on an old Mac, others are LF (end all lines alike: tr",
+        ":1: 1 line end is a lone CR, as on an old Mac, others are LF (end all lines alike: tr",
     ),
     (b"t_s,ax,ay,az\n0,1,2,3\r1,1,2,3\r2,1,2,3\r", ":2: 2 line ends are a lone CR, as on an old Mac"),
     (b"\xff\xfet\0_\0s\0", ": the text is encoded in UTF-16"),
@@ -44,7 +44,14 @@ const CASES: &[(&[u8], &str)] = &[
     ),
     (b"t_s,ax_g,ay_counts,az\n0,1,2,3\n", ":1: the axes have different units"),
     (b"0 1 2\n1 2 3\n", ":1: 3 columns where 4 are needed"),
-    (b"{\"t_s\": [0, 1], \"ax\": [1, 2]}\n", ":1: no column is known to be an accelerometer's"),
+    (
+        b"{\"t_s\": [0, 1], \"ax\": [1, 2]}\n",
+        ":1: this is JSON, not a recording (a recording is a table: a header",
+    ),
+    (
+        b"{\n\"parameters\": []}\n",
+        ":1: this is JSON, a calibration as it seems, not a recording (`calibrant convert`",
+    ),
     (
         b"t_s,ax_counts,ay_counts,az_counts\n0,1,2,3\n1,2,3,4\n",
         ": the recording is in counts, the sensor's readings in m/s²",

@@ -51,7 +51,7 @@ pub fn read_accelerometer(
 
 /// Is this the text of one accelerometer, `t_s,ax,ay,az` or `t x y z`?
 fn is_plain(bytes: &[u8]) -> bool {
-    if FileFormat::of_magic(bytes).is_some() {
+    if FileFormat::of_magic(bytes).is_some() || bytes.trim_ascii_start().starts_with(b"{") {
         return false;
     }
     // what is no text at all, or has no rows, is the plain reader's to complain of

@@ -31,6 +31,9 @@ impl<'t> Head<'t> {
             if plain.is_empty() {
                 continue;
             }
+            if plain.starts_with('{') {
+                return Err(no_json(text).at_line(line.number).into());
+            }
             is_dot |= is_separator(plain) || plain.starts_with("DeviceTag");
             let is_euroc =
                 plain.strip_prefix('#').is_some_and(|name| name.trim_start().starts_with("timestamp"));
@@ -59,7 +62,7 @@ impl<'t> Head<'t> {
     }
 
     fn at(line: Line<'t>, preamble: Vec<Line<'t>>, rest: Lines<'t>) -> Self {
-        let delimiter = delimiter_of(line.text);
+        let delimiter = mixed(line, &rest).unwrap_or_else(|| delimiter_of(line.text));
         let names = fields(line, delimiter);
         if !names.iter().any(is_number) && names.iter().any(|name| !name.is_empty()) {
             return Self { preamble, header: Some(line), first_row: None, delimiter, names, rest };
@@ -137,6 +140,33 @@ fn delimiter_of(line: &str) -> Delimiter {
             Delimiter::Character(b' ')
         }
         delimiter => delimiter,
+    }
+}
+
+/// White space, where tabs and spaces both separate the numbers below this line, or in it.
+fn mixed(line: Line<'_>, rest: &Lines<'_>) -> Option<Delimiter> {
+    let tab = Delimiter::Character(b'\t');
+    if delimiter_of(line.text) != tab {
+        return None;
+    }
+    let words = |line: Line<'_>| fields(line, Delimiter::Whitespace).len();
+    let row = rest.clone().find(|line| !line.is_void()).unwrap_or(line);
+    let are_numbers = fields(row, Delimiter::Whitespace).iter().all(is_number);
+    let is_mixed = [line, row].into_iter().any(|line| fields(line, tab).len() < words(line));
+    (are_numbers && is_mixed && words(line) == words(row)).then_some(Delimiter::Whitespace)
+}
+
+/// The complaint about JSON in place of a recording.
+fn no_json(text: &str) -> Complaint {
+    match text.contains("\"parameters\"") || text.contains("\"K_a\"") {
+        true => Complaint::new(
+            "this is JSON, a calibration as it seems, not a recording",
+            "`calibrant convert` and `compare` read calibrations, `apply` corrects a recording by one",
+        ),
+        false => Complaint::new(
+            "this is JSON, not a recording",
+            "a recording is a table: a header such as t_s,ax_mps2,ay_mps2,az_mps2,gx_radps,gy_radps,gz_radps, and a row for each sample",
+        ),
     }
 }
 
