@@ -12,7 +12,7 @@ use crate::sensor::{Gauge, ImuRecording, MeanReading, ReadingUnit, Recording, Sa
 use nalgebra::Vector3;
 use serde::Serialize;
 
-/// A step of the time is a gap from this many median steps on.
+/// A step of the time is a gap from this many usual steps on.
 const GAP: f64 = 5.0;
 /// Gravity that is assumed, m/s²: its place changes a prediction by less than one per cent.
 const GRAVITY_MPS2: f64 = 9.806_65;
@@ -41,13 +41,13 @@ pub struct SensorInspection {
     pub samples: usize,
     /// First and last sample time, s.
     pub span_s: (f64, f64),
-    /// The inverse of the median step, Hz.
+    /// The inverse of the usual step, Hz.
     pub rate_hz: f64,
     /// Shortest and longest step, gaps left out, s.
     pub steps_s: (f64, f64),
     /// Standard deviation of the steps, gaps left out, s.
     pub jitter_s: f64,
-    /// Number of gaps: steps of more than five times the median.
+    /// Number of gaps: steps of more than five usual ones.
     pub gaps: usize,
     /// Time that is lost in gaps, s.
     pub lost_s: f64,
@@ -106,13 +106,13 @@ pub fn inspect(file: &ImuFile) -> Inspection {
 
 impl SensorInspection {
     fn of(triad: Triad, recording: &Recording) -> Self {
-        let median = 1.0 / recording.rate_hz();
+        let usual = 1.0 / recording.rate_hz();
         let (mut steps, mut gaps, mut lost_s) = (Vec::with_capacity(recording.len()), 0, 0.0);
         for pair in recording.times_s.windows(2) {
             let step = pair[1] - pair[0];
-            if step > GAP * median {
+            if step > GAP * usual {
                 gaps += 1;
-                lost_s += step - median;
+                lost_s += step - usual;
             } else {
                 steps.push(step);
             }

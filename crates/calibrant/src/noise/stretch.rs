@@ -4,7 +4,7 @@ use crate::error::{Complaint, Error, Result};
 use crate::sensor::{Recording, rate_hz};
 use std::ops::Range;
 
-/// A time step is a gap from this many median steps on.
+/// A time step is a gap from this many usual steps on.
 const GAP: f64 = 1.5;
 /// Fewest samples.
 const FEWEST: usize = 96;

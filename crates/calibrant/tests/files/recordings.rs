@@ -174,7 +174,7 @@ fn irregular_sampling_is_told_once() {
     let (kind, message, _) = finding(&text);
     assert_eq!(kind, FindingKind::IrregularSampling);
     assert!(
-        message.starts_with("sampling is irregular: time steps from 9.7 to 10.3 ms, median "),
+        message.starts_with("sampling is irregular: time steps from 9.7 to 10.3 ms, usually "),
         "{message}"
     );
     // half a percent is not worth a word, nor is the rounding of time stamps that began in 1970

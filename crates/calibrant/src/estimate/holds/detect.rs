@@ -85,7 +85,7 @@ pub(super) fn still_stretches(recording: &Recording, minimum_s: f64) -> (Vec<(us
         return (stretches, window);
     }
     let mean = recording.readings.iter().sum::<Vector3<f64>>() / recording.len() as f64;
-    let variance = window_variance(recording, &mean, window, 1.0 / rate);
+    let variance = window_variance(recording, &mean, window);
     let Some(threshold) = threshold(&variance, resolution(recording, &mean)) else {
         return (stretches, window);
     };
@@ -106,13 +106,14 @@ pub(super) fn still_stretches(recording: &Recording, minimum_s: f64) -> (Vec<(us
 }
 
 /// Sum over the axes of the variance within each window of so many samples, whose mean is about this one; infinite for windows that span a gap.
-fn window_variance(recording: &Recording, mean: &Vector3<f64>, window: usize, step: f64) -> Vec<f64> {
+fn window_variance(recording: &Recording, mean: &Vector3<f64>, window: usize) -> Vec<f64> {
+    let gap_s = recording.gap_s();
     let n = recording.len();
     let (mut sum, mut squares) = (Vector3::zeros(), 0.0);
     let mut gaps = 0_usize;
     // of a sample in the mean of a window: a division for each would take longer than all else
     let share = 1.0 / window as f64;
-    let gap = |k: usize| usize::from(recording.times_s[k + 1] - recording.times_s[k] > 5.0 * step);
+    let gap = |k: usize| usize::from(recording.times_s[k + 1] - recording.times_s[k] > gap_s);
     let mut variance = Vec::with_capacity(n - window + 1);
     for k in 0..n {
         let y = recording.readings[k] - mean;

@@ -27,6 +27,7 @@ mod detect;
 mod expected;
 mod filtered;
 mod fit;
+mod paused;
 mod robust;
 mod verdict;
 
@@ -54,6 +55,7 @@ pub use detect::{find_holds, holds_between};
 pub use expected::{ExpectedCalibration, expected_calibration};
 pub use filtered::holds_lost_to_filter;
 pub(super) use filtered::with_filter;
+pub(super) use paused::with_pauses;
 
 /// What is known of the holds.
 #[derive(Debug, Clone, PartialEq)]
@@ -109,7 +111,9 @@ pub(super) fn calibrate(
     }
     .map_err(|error| with_clipped(error, &clipped, as_read))
     .map_err(|error| match found {
-        Some((recording, minimum_s)) => with_filter(error, recording, &holds, minimum_s),
+        Some((recording, minimum_s)) => {
+            with_pauses(with_filter(error, recording, &holds, minimum_s), recording)
+        }
         None => error,
     })?;
     let reasons = clipped.iter().map(|end| end.map(|end| clipped_reason(&end, as_read))).collect();

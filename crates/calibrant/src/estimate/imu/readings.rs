@@ -19,8 +19,6 @@ const PIECE: usize = 4096;
 /// What a saturated accelerometer lacks for less than this in a rotation does not matter, s: with 1 g cut off and the g-sensitivity of common sensors, 2e-4
 /// (rad/s)/(m/s²), the gyroscope adds up to 0.1 mrad in it.
 const BRIEF_S: f64 = 0.05;
-/// A pause between samples longer than so many steps makes a rotation useless.
-const GAP: f64 = 5.0;
 
 /// The specific force at the gyroscope's sample times.
 pub(super) fn felt_forces(
@@ -72,7 +70,7 @@ pub(super) fn rotation_spans(gyroscope: &Recording, holds: &[&Hold]) -> Vec<Span
 /// Can rotations be integrated?
 pub(super) struct Integrable<'a> {
     gyroscope: &'a Recording,
-    rate_hz: f64,
+    gap_s: f64,
     saturations: Vec<Saturation>,
     /// The accelerometer as it was read, where the gyroscope feels the specific force, with the ends of its range that it touches.
     felt: Option<(&'a Recording, Vec<Saturation>)>,
@@ -82,11 +80,11 @@ impl<'a> Integrable<'a> {
     /// `felt`: the accelerometer as it was read, where the gyroscope feels the specific force.
     pub(super) fn of(gyroscope: &'a Recording, felt: Option<&'a Recording>) -> Self {
         let (of_gyroscope, felt) = rayon::join(
-            || (gyroscope.rate_hz(), gyroscope.saturations()),
+            || (gyroscope.gap_s(), gyroscope.saturations()),
             || felt.map(|accelerometer| (accelerometer, accelerometer.saturations())),
         );
-        let (rate_hz, saturations) = of_gyroscope;
-        Self { gyroscope, rate_hz, saturations, felt }
+        let (gap_s, saturations) = of_gyroscope;
+        Self { gyroscope, gap_s, saturations, felt }
     }
 
     /// The rotations in these spans, each from one of the holds to the next.
@@ -123,7 +121,7 @@ impl<'a> Integrable<'a> {
             });
         }
         let longest = times[span.samples.clone()].windows(2).map(|t| t[1] - t[0]).fold(0.0, f64::max);
-        if longest * self.rate_hz > GAP {
+        if longest > self.gap_s {
             return Some(format!("the gyroscope pauses for {longest:.3} s in it"));
         }
         if span.samples.len() < 3 {

@@ -12,7 +12,7 @@ use super::thermal::{self, Climate};
 use super::verdict::{self, undetermined, vague};
 use super::{Gyroscope, ImuCalibration, ImuProblem, NoiseSource, WhiteNoise, start, turned};
 use crate::error::{Complaint, Error, Result};
-use crate::estimate::holds::{beyond, with_filter};
+use crate::estimate::holds::{beyond, with_filter, with_pauses};
 use crate::estimate::problem::sound;
 use crate::estimate::quantisation::of_means;
 use crate::estimate::{
@@ -255,7 +255,10 @@ fn from_holds(
     let as_read = problem.recording.accelerometer.as_ref().unwrap_or(recording);
     let alone = CalibrationProblem { sensor: problem.accelerometer, recording, stimulus };
     let mut first = holds::calibrate(&alone, &setup, settings, as_read).map_err(|error| match detected {
-        true => with_exchanged(with_filter(error, as_read, &found, minimum_s), problem.recording, minimum_s),
+        true => {
+            let error = with_pauses(with_filter(error, as_read, &found, minimum_s), as_read);
+            with_exchanged(error, problem.recording, minimum_s)
+        }
         false => error,
     })?;
     if detected {

@@ -4,11 +4,11 @@ use super::finding::{Finding, FindingKind, count, moment, short};
 use super::rows::LineMap;
 use crate::sensor::{Recording, greater, lesser};
 
-/// A step of the time is a gap from this many median steps on.
+/// A step of the time is a gap from this many usual steps on.
 const GAP: f64 = 5.0;
 /// Most gaps that are told one by one.
 const GAPS_SHOWN: usize = 3;
-/// Relative deviation of time steps from their median that is not worth a word.
+/// Relative deviation of time steps from the usual one that is not worth a word.
 const JITTER: f64 = 0.01;
 /// Inertial sensors are hardly read more seldom than this; where they seem to be, the unit of the time is in doubt.
 const SLOW_HZ: f64 = 2.5;
@@ -61,11 +61,11 @@ pub(super) fn clock(rate: f64, findings: &mut Vec<Finding>) {
 
 /// Looks for gaps and irregular sampling, the rate being that of most samples, Hz.
 pub(super) fn sampling(recording: &Recording, rate: f64, lines: &LineMap, findings: &mut Vec<Finding>) {
-    let median = 1.0 / rate;
+    let usual = 1.0 / rate;
     let (mut gaps, mut longest, mut least, mut most) = (0_usize, (0.0, 0), f64::INFINITY, 0.0_f64);
     for (before, pair) in recording.times_s.windows(2).enumerate() {
         let step = pair[1] - pair[0];
-        if step > GAP * median {
+        if step > GAP * usual {
             gaps += 1;
             if step > longest.0 {
                 longest = (step, before);
@@ -75,7 +75,7 @@ pub(super) fn sampling(recording: &Recording, rate: f64, lines: &LineMap, findin
                     "gap of {} s after t = {} s, about {:.0} samples",
                     short(step),
                     moment(pair[0]),
-                    (step / median).round() - 1.0
+                    (step / usual).round() - 1.0
                 );
                 findings.push(Finding::new(FindingKind::Gap, lines.line(before + 1), message));
             }
@@ -98,12 +98,12 @@ pub(super) fn sampling(recording: &Recording, rate: f64, lines: &LineMap, findin
     let ends = [recording.times_s.first(), recording.times_s.last()];
     let resolution =
         4.0 * f64::EPSILON * ends.into_iter().flatten().fold(0.0_f64, |most, t| most.max(t.abs()));
-    if most - median > JITTER * median + resolution || median - least > JITTER * median + resolution {
+    if most - usual > JITTER * usual + resolution || usual - least > JITTER * usual + resolution {
         let message = format!(
-            "sampling is irregular: time steps from {} to {} ms, median {} ms ({} Hz)",
+            "sampling is irregular: time steps from {} to {} ms, usually {} ms ({} Hz)",
             short(least * 1e3),
             short(most * 1e3),
-            short(median * 1e3),
+            short(usual * 1e3),
             short(rate)
         );
         findings.push(Finding::new(FindingKind::IrregularSampling, None, message));
