@@ -1,5 +1,6 @@
 //! Puts the result together.
 
+use super::clocks::ClockDifference;
 use super::contradiction::contradictions;
 use super::faces::First;
 use super::joint::{Fit, Joint, Miss, State};
@@ -162,8 +163,17 @@ impl Finished<'_> {
             let used = calibration.holds.holds.iter().filter(|hold| hold.used).map(|result| &result.hold);
             calibration.warnings.extend(one_sided(gyroscope, Triad::Gyroscope, used));
         }
+        let clocks = self.clocks(problem);
+        calibration.warnings.splice(0..0, clocks);
         calibration.warnings.extend(verdict::extrapolation(&imu.thermal, self.climate.of_recording()));
         Ok(calibration)
+    }
+
+    /// What is to be said of the sensors' clocks.
+    fn clocks(&self, problem: &ImuProblem<'_>) -> Option<String> {
+        let (accelerometer, gyroscope) =
+            (problem.recording.accelerometer.as_ref()?, problem.recording.gyroscope.as_ref()?);
+        ClockDifference::of(self.joint, &self.fit.state, accelerometer)?.words(accelerometer, gyroscope)
     }
 
     /// For each coarse axis of the gyroscope: how the estimates follow errors that its means in the holds, or its readings in the rotations, have in common, and their size. Holds that read nearly the

@@ -15,15 +15,18 @@
 //! # References
 //! `tedaldi2014`, `ferraris1995`
 
+mod activity;
 mod arc;
 mod assemble;
 mod both_still;
 mod carried;
+mod clocks;
 mod contradiction;
 mod exchanged;
 mod faces;
 mod joint;
 mod known;
+mod lag;
 mod magnitudes;
 mod mistaken;
 mod problem;

@@ -167,7 +167,7 @@ fn matrix(attitude: &UnitQuaternion<f64>) -> Matrix3<f64> {
 /// # Numerics
 /// Between two samples the angle is small: five terms of the series of `cos` and `sin(x)/x` at half the angle leave less than 1e-16.
 #[inline]
-fn exponential(turn: &Vector3<f64>) -> UnitQuaternion<f64> {
+pub(super) fn exponential(turn: &Vector3<f64>) -> UnitQuaternion<f64> {
     const SMALL: f64 = 0.01;
     let half = turn * 0.5;
     let h = half.norm_squared();

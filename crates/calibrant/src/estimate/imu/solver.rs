@@ -1,5 +1,6 @@
 //! From the recording to the joint problem, its weights, and its solution.
 
+use super::activity::with_clocks;
 use super::assemble::Finished;
 use super::both_still::find_clean_imu_holds;
 use super::exchanged::with_exchanged;
@@ -34,6 +35,14 @@ const ROUGH: f64 = 1e-2;
 
 /// Calibrates an IMU, whatever is known beforehand.
 pub(super) fn calibrate_imu(
+    problem: &ImuProblem<'_>,
+    settings: &CalibrationSettings,
+    white_noise: impl FnOnce() -> Option<WhiteNoise> + Send,
+) -> Result<ImuCalibration> {
+    fit(problem, settings, white_noise).map_err(|error| with_clocks(error, problem.recording))
+}
+
+fn fit(
     problem: &ImuProblem<'_>,
     settings: &CalibrationSettings,
     white_noise: impl FnOnce() -> Option<WhiteNoise> + Send,
