@@ -3,6 +3,7 @@
 mod apply;
 mod bench;
 mod broken;
+mod change;
 mod commands;
 mod conventions;
 #[path = "../../../calibrant/tests/common/data.rs"]

@@ -13,6 +13,7 @@
 //! eliminated (Schur complement, [`arrowhead`](crate::arrowhead)). It holds to first order in the noise, for noise that is white,
 //! Gaussian and as large as assumed; the fit's [`FitStatistics`] say whether the data agree.
 
+mod change;
 mod comparison;
 mod excess;
 mod gravity;
@@ -30,6 +31,7 @@ mod tangents;
 mod uncalibrated;
 mod validation;
 
+pub use change::{Change, Changed, Course};
 pub use comparison::{ComparedQuantity, Comparison, OverallDifference};
 pub use holds::{
     Coverage, ExpectedCalibration, HoldsSetup, clipped_holds, coverage, expected_calibration, find_holds,
@@ -46,9 +48,9 @@ pub use result::*;
 pub use settings::CalibrationSettings;
 pub use uncalibrated::Uncalibrated;
 pub use validation::{
-    BiasShift, CoarseStep, CovarianceVerdict, ErrorKind, FailedFold, LikelyReason, NoiseRatio, ParameterPart,
-    UnusedError, ValidatedErrors, Validation, ValidationSource, cross_validate, cross_validate_imu,
-    noise_in_common, other_temperature, readings_in_common, validate, validate_imu,
+    BiasShift, CoarseStep, CovarianceVerdict, Doubt, ErrorKind, FailedFold, LikelyReason, NoiseRatio,
+    ParameterPart, UnusedError, ValidatedErrors, Validation, ValidationSource, cross_validate,
+    cross_validate_imu, noise_in_common, other_temperature, readings_in_common, validate, validate_imu,
 };
 
 use crate::error::Result;
@@ -106,6 +108,9 @@ pub fn calibrate(problem: &CalibrationProblem<'_>, settings: &CalibrationSetting
             let unit = recording.unit.symbol();
             let said = sparks.map(|sparks| sparks.words(Triad::Accelerometer, unit));
             calibration.warnings.splice(0..0, said);
+            if let Recovered::Holds(HoldCalibration { change: Some(change), .. }) = &calibration.recovered {
+                calibration.warnings.push(change.warning(None));
+            }
             Ok(calibration)
         }
     }

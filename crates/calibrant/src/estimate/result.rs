@@ -1,6 +1,6 @@
 //! What a calibration gives.
 
-use super::{Uncalibrated, Validation};
+use super::{Change, Uncalibrated, Validation};
 use crate::motion::{Gravity, Hold, JerkControlledMotion};
 use crate::sensor::{Gauge, Parameter, ReadingUnit, SensorParameters};
 use nalgebra::{DMatrix, Vector3};
@@ -162,6 +162,8 @@ pub struct HoldCalibration {
     pub detected: bool,
     /// The accelerometer before its calibration.
     pub before: Uncalibrated,
+    /// Is the accelerometer another one from some time on? `None` where nothing shows it, and where the directions are known.
+    pub change: Option<Change>,
 }
 
 impl HoldCalibration {

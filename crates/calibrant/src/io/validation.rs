@@ -2,7 +2,7 @@
 
 use super::fields::per_axis;
 use crate::estimate::{
-    BiasShift, LikelyReason, ParameterPart, UnusedError, ValidatedErrors, Validation, ValidationSource,
+    BiasShift, Doubt, LikelyReason, ParameterPart, UnusedError, ValidatedErrors, Validation, ValidationSource,
 };
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -68,6 +68,8 @@ struct KindFields {
     factor: f64,
     factor_interval_99: [f64; 2],
     verdict: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    doubt: Option<&'static str>,
     #[serde(skip_serializing_if = "Option::is_none")]
     parameters: Option<PartFields>,
     table: Vec<ErrorFields>,
@@ -186,6 +188,7 @@ impl KindFields {
             factor: errors.factor,
             factor_interval_99: [errors.factor_interval.0, errors.factor_interval.1],
             verdict: errors.verdict.name(),
+            doubt: errors.doubt.as_ref().map(Doubt::name),
             parameters: errors.parameters.as_ref().map(PartFields::of),
             table: errors.errors.iter().map(ErrorFields::of).collect(),
         }

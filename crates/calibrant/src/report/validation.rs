@@ -5,7 +5,7 @@ use super::html::{Page, list};
 use super::number;
 use super::table::{Cell, Table};
 use crate::estimate::{
-    BiasShift, CovarianceVerdict, ErrorKind, FailedFold, LikelyReason, NoiseRatio, UnusedError,
+    BiasShift, CovarianceVerdict, Doubt, ErrorKind, FailedFold, LikelyReason, NoiseRatio, UnusedError,
     ValidatedErrors, Validation, ValidationSource,
 };
 use crate::sensor::Triad;
@@ -185,6 +185,12 @@ fn sentence(errors: &ValidatedErrors, cause: Cause) -> String {
         (CovarianceVerdict::TooFew, _) => {
             format!("too few to tell (the factor is anywhere between {} and {})", two(low), two(high))
         }
+        (CovarianceVerdict::Doubtful, _) => format!(
+            "as predicted (the factor is between {} and {}), but not to be believed: {}",
+            two(low),
+            two(high),
+            errors.doubt.as_ref().map_or_else(String::new, |doubt| why(doubt, errors))
+        ),
         (CovarianceVerdict::TooSmall, _) if cause == Cause::Told => format!(
             "{} times what was predicted; the reason that is told above is a likelier one than the covariance",
             two(errors.factor)
@@ -218,6 +224,37 @@ fn sentence(errors: &ValidatedErrors, cause: Cause) -> String {
 
 fn of(count: usize, what: &str) -> String {
     format!("{} that {}", number::counted(count, what), if count == 1 { "was" } else { "were" })
+}
+
+/// Why errors as large as predicted confirm nothing.
+fn why(doubt: &Doubt, errors: &ValidatedErrors) -> String {
+    let what = match errors.kind {
+        ErrorKind::Magnitude | ErrorKind::Rate => "hold",
+        ErrorKind::Rotation => "rotation",
+    };
+    let from_to = |start_s: f64, end_s: f64| {
+        format!("from {} to {} s", number::fixed(start_s, 1), number::fixed(end_s, 1))
+    };
+    match doubt {
+        Doubt::Change(change) => {
+            format!("{}, and what is predicted has the scatter in it that this makes", change.headline())
+        }
+        Doubt::LeftOut { count, start_s, end_s } => format!(
+            "the calibration left out {count} in a row, {}, which is no chance, and speaks for the others only",
+            from_to(*start_s, *end_s)
+        ),
+        Doubt::InARow { count, start_s, end_s } => format!(
+            "{} in a row, {}, {} not count, which is no chance: did the sensor change there?",
+            number::counted(*count, what),
+            from_to(*start_s, *end_s),
+            if *count == 1 { "does" } else { "do" }
+        ),
+        Doubt::Several { count } => format!(
+            "{} of {} do not count, too many for a chance",
+            number::counted(*count, what),
+            errors.errors.len()
+        ),
+    }
 }
 
 fn other_noise(noise: &NoiseRatio) -> String {
@@ -353,6 +390,7 @@ mod tests {
             factor_interval: (0.9 * factor, 1.1 * factor),
             parameters: None,
             verdict: CovarianceVerdict::TooSmall,
+            doubt: None,
         }
     }
 

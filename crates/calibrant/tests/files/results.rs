@@ -220,6 +220,7 @@ pub(super) fn holds_in_counts() -> Calibration {
             sensor: SensorParameters::identity(),
             source: "the readings as they are".into(),
         },
+        change: None,
     };
     let parameters = SensorParameters {
         bias: Vector3::new(100.0, 200.0, 300.0),

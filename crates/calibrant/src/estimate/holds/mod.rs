@@ -21,6 +21,7 @@
 //! point of Student's t, Bonferroni-corrected for the number of holds. Holds left out are listed with their residual. A hold in which the sensor stops at the end of
 //! its range is left out before that (`clipped`).
 
+mod changing;
 mod clipped;
 mod coverage;
 mod detect;
@@ -163,7 +164,7 @@ fn assemble(
         .enumerate()
         .map(|(j, (hold, reason))| HoldResult {
             force_mps2: robust.forces[j],
-            magnitude_residual_mps2: robust.magnitude_residuals[j],
+            magnitude_residual_mps2: robust.magnitudes[j].error,
             studentised_residual: robust.studentised[j],
             used: robust.used[j],
             reason,
@@ -178,6 +179,7 @@ fn assemble(
         residual_rms += residual.component_mul(&residual) / count as f64;
     }
     let magnitude_rms = magnitude_rms(&results);
+    let change = changing::change(&results, &robust.magnitudes, setup.gravity.magnitude_mps2);
     let degrees_of_freedom = robust.degrees_of_freedom;
     let fit = FitStatistics {
         chi2: robust.chi2,
@@ -217,6 +219,7 @@ fn assemble(
             condition_number: robust.condition_number,
             detected: setup.intervals_s.is_none(),
             before: Uncalibrated::accelerometer(problem.sensor, &sensor),
+            change,
         }),
         residuals: Vec::new(),
         first_sample: 0,

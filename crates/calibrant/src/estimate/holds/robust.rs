@@ -4,6 +4,7 @@ use super::HoldsSetup;
 use super::fit::{Directions, Fit};
 use super::verdict::explain;
 use crate::error::{Complaint, Error, NotIdentifiable, Result};
+use crate::estimate::change::longest_run;
 use crate::estimate::excess::excess;
 use crate::estimate::{CalibrationProblem, CalibrationSettings, CalibrationStatus};
 use crate::information;
@@ -25,7 +26,7 @@ const BIWEIGHT: f64 = 4.685;
 pub(super) struct Robust {
     pub(super) sensor: SensorParameters,
     pub(super) forces: Vec<Vector3<f64>>,
-    pub(super) magnitude_residuals: Vec<f64>,
+    pub(super) magnitudes: Vec<Magnitude>,
     pub(super) studentised: Vec<f64>,
     pub(super) used: Vec<bool>,
     pub(super) covariance: DMatrix<f64>,
@@ -41,6 +42,18 @@ pub(super) struct Robust {
     pub(super) status: CalibrationStatus,
     pub(super) iterations: usize,
     pub(super) gradient_norm: f64,
+}
+
+/// The magnitude of a corrected hold less gravity.
+pub(super) struct Magnitude {
+    /// m/s²
+    pub(super) error: f64,
+    /// Its variance by noise and scatter of the hold itself.
+    pub(super) own: f64,
+    /// Direction of the corrected force.
+    pub(super) along: Vector3<f64>,
+    /// Derivative of the magnitude that the fit leaves with respect to the parameters, up to its sign.
+    pub(super) by_parameters: DVector<f64>,
 }
 
 /// A fit with its weights.
@@ -223,7 +236,7 @@ impl<const P: usize> Problem<'_, P> {
         let mut weighted = self.weigh(&used, start)?;
         // one change at a time: leave out the worst hold that is too bad, take back the best that is not
         for _ in 0..3 * self.sound.len() {
-            let studentised = self.studentise(&used, &weighted);
+            let studentised = self.studentise(&used, &weighted, &self.magnitudes(&weighted));
             let count = used.iter().filter(|used| **used).count();
             let limit = critical(self.sound.len(), count.saturating_sub(P));
             let worst = (0..used.len())
@@ -254,9 +267,14 @@ impl<const P: usize> Problem<'_, P> {
         if shares && rms < 0.02 * self.gravity && rms.is_finite() {
             return Ok(());
         }
+        let in_a_row = longest_run(self.sound.iter().map(|&j| !used[j])).map_or_else(String::new, |run| {
+            let (first, last) = (&self.holds[self.sound[run.start]], &self.holds[self.sound[run.end - 1]]);
+            let (start_s, end_s) = (first.start_s, last.end_s);
+            format!("; those from {start_s:.1} to {end_s:.1} s do not: did the sensor change there?")
+        });
         Err(Error::recording(Complaint::new(
             format!(
-                "the holds do not look like gravity: {count} of {all} fit, with magnitudes that scatter by {:.0} mm/s²",
+                "the holds do not look like gravity: {count} of {all} fit, with magnitudes that scatter by {:.0} mm/s²{in_a_row}",
                 1e3 * rms
             ),
             "is this an accelerometer, still in each hold, in the unit that was given? Give the holds yourself with holds.intervals_s otherwise",
@@ -343,33 +361,42 @@ impl<const P: usize> Problem<'_, P> {
         Ok(Weighted { fit, covariance, between, gains_of })
     }
 
-    /// Residual of each hold in standard deviations expected of it, its own influence removed.
-    fn studentise(&self, used: &[bool], weighted: &Weighted<P>) -> Vec<f64> {
+    fn magnitudes(&self, weighted: &Weighted<P>) -> Vec<Magnitude> {
         let sensor = &weighted.fit.sensor;
         let inverse = sensor.matrix.try_inverse().unwrap_or_else(Matrix3::identity);
         let directions = self.directions(&[], &|_| 1.0, 0.0, sensor);
+        let of_hold = |hold: &Hold| {
+            let s = inverse * (hold.mean - sensor.bias);
+            let magnitude = s.norm();
+            let along = s / magnitude;
+            let row = inverse.tr_mul(&along); // uᵀ C
+            let v = self.variance(hold, weighted.between, &weighted.gains_of);
+            let j = directions.sensitivity(&(along * self.gravity)).tr_mul(&row);
+            Magnitude {
+                error: magnitude - self.gravity,
+                own: row.component_mul(&row).dot(&v),
+                along,
+                by_parameters: DVector::from_fn(P, |k, _| j[k]),
+            }
+        };
+        self.holds.iter().map(of_hold).collect()
+    }
+
+    /// Residual of each hold in standard deviations expected of it, its own influence removed.
+    fn studentise(&self, used: &[bool], weighted: &Weighted<P>, magnitudes: &[Magnitude]) -> Vec<f64> {
         let count = used.iter().filter(|used| **used).count();
         let degrees = count.saturating_sub(P) as f64;
         let scatter = if degrees > 0.0 { (weighted.fit.chi2 / degrees).max(f64::MIN_POSITIVE) } else { 1.0 };
-        self.holds
+        magnitudes
             .iter()
             .zip(used)
-            .map(|(hold, &used)| {
-                let s = inverse * (hold.mean - sensor.bias);
-                let magnitude = s.norm();
-                let u = s / magnitude;
-                let row = inverse.tr_mul(&u); // uᵀ C
-                let v = self.variance(hold, weighted.between, &weighted.gains_of);
-                let own = row.component_mul(&row).dot(&v);
-                let j = directions.sensitivity(&(u * self.gravity)).tr_mul(&row);
-                let j = DVector::from_fn(P, |k, _| j[k]);
-                let from_parameters = (&weighted.covariance * &j).dot(&j);
-                let e = magnitude - self.gravity;
+            .map(|(Magnitude { error, own, by_parameters, .. }, &used)| {
+                let from_parameters = (&weighted.covariance * by_parameters).dot(by_parameters);
                 if !used {
-                    return e / (own + from_parameters).sqrt();
+                    return error / (own + from_parameters).sqrt();
                 }
                 let left = (own - from_parameters).max(1e-6 * own);
-                let internal = e / left.sqrt() / scatter.sqrt();
+                let internal = error / left.sqrt() / scatter.sqrt();
                 if degrees < 2.0 {
                     return internal;
                 }
@@ -397,11 +424,12 @@ impl<const P: usize> Problem<'_, P> {
         for (j, force) in (0..used.len()).filter(|&j| used[j]).zip(&fit.forces) {
             forces[j] = *force;
         }
+        let magnitudes = self.magnitudes(&weighted);
         Robust {
             sensor: fit.sensor,
             forces,
-            magnitude_residuals: self.magnitude_residuals(&fit.sensor),
-            studentised: self.studentise(&used, &weighted),
+            studentised: self.studentise(&used, &weighted, &magnitudes),
+            magnitudes,
             condition_number: eigen.eigenvalues.max() / eigen.eigenvalues.min().max(f64::MIN_POSITIVE),
             weakest: shares,
             covariance: covariance.clone(),

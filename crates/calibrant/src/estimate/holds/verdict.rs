@@ -3,6 +3,7 @@
 use super::{Calibration, HoldCalibration, HoldResult, Recovered};
 use crate::error::UndeterminedGroup;
 use crate::estimate::CalibrationStatus;
+use crate::estimate::change::longest_run;
 use crate::estimate::statistics::implausible;
 use crate::motion::Hold;
 use crate::sensor::{Axis, ParameterList};
@@ -83,6 +84,7 @@ pub(super) fn warnings(calibration: &Calibration, weakest: &[String]) -> Vec<Str
         ));
     }
     warnings.extend(left_out(holds));
+    warnings.extend(left_out_in_a_row(holds));
     let used: Vec<&HoldResult> = holds.holds.iter().filter(|hold| hold.used).collect();
     if calibration.fit.degrees_of_freedom == 0 {
         warnings.push(format!(
@@ -123,7 +125,6 @@ pub(super) fn warnings(calibration: &Calibration, weakest: &[String]) -> Vec<Str
             }
         }
     }
-    warnings.extend(trend(&used));
     if holds.between_holds_sd_mps2 > 0.02 {
         warnings.push(format!(
             "the holds scatter by {:.0} mm/s² beyond their noise: something moves, drifts, clips or is not gravity",
@@ -153,26 +154,18 @@ pub(in crate::estimate) fn left_out(holds: &HoldCalibration) -> Vec<String> {
         .collect()
 }
 
-/// Residuals that follow time: a drift of temperature, for one, which the model does not have.
-fn trend(holds: &[&HoldResult]) -> Option<String> {
-    let n = holds.len() as f64;
-    let mean = |f: &dyn Fn(&HoldResult) -> f64| holds.iter().map(|hold| f(hold)).sum::<f64>() / n;
-    let (time, residual) =
-        (|hold: &HoldResult| hold.hold.start_s, |hold: &HoldResult| hold.magnitude_residual_mps2);
-    let (t, e) = (mean(&time), mean(&residual));
-    let (tt, ee, te) = (
-        mean(&|hold| (time(hold) - t).powi(2)),
-        mean(&|hold| (residual(hold) - e).powi(2)),
-        mean(&|hold| (time(hold) - t) * (residual(hold) - e)),
-    );
-    let r = te / (tt * ee).sqrt();
-    // |r| √(n − 2)/√(1 − r²) is Student's t; 3.5 is about one in a thousand
-    let t_value = r.abs() * ((n - 2.0) / (1.0 - r * r).max(1e-9)).sqrt();
-    (holds.len() > 10 && t_value > 3.5).then(|| {
-        format!(
-            "the residuals of the holds follow time (correlation {r:.2}): did the temperature drift? The standard deviations do not cover this"
-        )
-    })
+/// Holds that were left out one after another, where no change explains them.
+fn left_out_in_a_row(holds: &HoldCalibration) -> Option<String> {
+    let sound: Vec<&HoldResult> = holds.holds.iter().filter(|hold| hold.reason.is_none()).collect();
+    let run = longest_run(sound.iter().map(|hold| !hold.used)).filter(|_| holds.change.is_none())?;
+    let (first, last) = (&sound[run.start].hold, &sound[run.end - 1].hold);
+    Some(format!(
+        "the {} holds from {:.1} to {:.1} s were left out one after another, which is no chance: the sensor was another one there, or not still; calibrate them apart \
+         (holds.intervals_s) and compare",
+        run.len(),
+        first.start_s,
+        last.end_s
+    ))
 }
 
 /// Directions, out of ±x, ±y, ±z, near which there is no hold.

@@ -1,5 +1,6 @@
 //! Puts the result together.
 
+use super::changing::Changing;
 use super::clocks::ClockDifference;
 use super::contradiction::contradictions;
 use super::faces::First;
@@ -20,7 +21,9 @@ use crate::estimate::holds::left_out;
 use crate::estimate::one_sided::one_sided;
 use crate::estimate::{CoarseAxis, HoldCalibration, Uncalibrated};
 use crate::information;
-use crate::sensor::{Condition, Correction, ImuParameters, ReadingUnit, Thermal, Triad};
+use crate::sensor::{
+    Condition, Correction, ImuParameters, MeanReading, ReadingUnit, Temperatures, Thermal, Triad,
+};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use rayon::prelude::*;
 
@@ -42,6 +45,8 @@ pub(super) struct Finished<'a> {
     pub(super) spans: &'a [Span],
     pub(super) chosen: &'a [usize],
     pub(super) climate: &'a Climate<'a>,
+    /// Mean readings of the gyroscope in the holds, also in those in which it is taken to turn.
+    pub(super) stills: &'a [Option<MeanReading>],
 }
 
 impl Finished<'_> {
@@ -114,6 +119,8 @@ impl Finished<'_> {
         let of_accelerometer = first.warnings.iter().filter(|said| !said_before.contains(said));
         let warnings =
             left_out(&holds).into_iter().chain(of_accelerometer.chain(self.said).cloned()).collect();
+        let (stills, between, chosen) = (self.stills, self.between, self.chosen);
+        let changes = Changing { joint, fit, stills, between, holds: &holds, chosen }.changes();
         let mut calibration = ImuCalibration {
             status: fit.status,
             iterations: fit.iterations,
@@ -141,9 +148,16 @@ impl Finished<'_> {
             rotation_excess_sd_rad: joint.excess_rad,
             turns,
             hold_temperatures_c,
+            changes,
             validations: Vec::new(),
             warnings,
         };
+        if !calibration.changes.is_empty() {
+            let temperatures = Temperatures::of(problem.recording).ok().flatten().filter(|_| !follows);
+            let range_c = temperatures.and_then(|temperatures| temperatures.range_c());
+            let said = calibration.changes.iter().map(|change| change.warning(range_c));
+            calibration.warnings.splice(0..0, said.collect::<Vec<_>>());
+        }
         calibration.warnings.extend(verdict::warnings(&calibration, axes.as_ref()));
         calibration.warnings.extend(contradictions(
             &calibration,

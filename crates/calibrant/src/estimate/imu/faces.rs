@@ -116,6 +116,7 @@ pub(super) fn fit(
         condition_number: condition,
         detected: false,
         before: Uncalibrated::accelerometer(problem.accelerometer, &sensor),
+        change: None,
     };
     Ok(First {
         sensor,

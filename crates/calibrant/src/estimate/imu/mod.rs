@@ -20,6 +20,7 @@ mod arc;
 mod assemble;
 mod both_still;
 mod carried;
+mod changing;
 mod clocks;
 mod contradiction;
 mod exchanged;

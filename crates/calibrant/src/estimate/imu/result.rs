@@ -1,7 +1,7 @@
 //! What the calibration of an IMU gives.
 
 use super::NoiseSource;
-use crate::estimate::{CalibrationStatus, HoldCalibration, Uncalibrated, Validation};
+use crate::estimate::{CalibrationStatus, Change, HoldCalibration, Uncalibrated, Validation};
 use crate::sensor::{CalibratedImu, Gauge, ImuParameters, ImuQuantity, ReadingUnit, SensorModel, Triad};
 use nalgebra::{DMatrix, Vector3};
 
@@ -46,6 +46,8 @@ pub struct ImuCalibration {
     pub turns: Vec<TurnResult>,
     /// Mean temperature of each of the holds, °C, where something follows temperature.
     pub hold_temperatures_c: Option<Vec<f64>>,
+    /// Sensors that are not the same throughout the recording.
+    pub changes: Vec<Change>,
     /// How it fares on data that were not used for it, where it was tried; the estimation leaves it empty.
     pub validations: Vec<Validation>,
     /// Things a user should know, in words.

@@ -63,6 +63,7 @@ fn fit(
             "both need the same clock: are these files of one recording?",
         )));
     }
+    let measured = stills.clone();
     let mut said =
         turned::take_out(&mut stills, (&used, &chosen), gyroscope, setup.thermal.gyroscope_bias > 0);
     let given = setup.holds.intervals_s.as_deref().unwrap_or_default();
@@ -156,6 +157,7 @@ fn fit(
         spans: &spans,
         chosen: &chosen,
         climate: &climate,
+        stills: &measured,
     };
     finished.assemble(problem, holds, axes, &first)
 }

@@ -1,10 +1,11 @@
 //! What a user should know about the calibration of an IMU, in words.
 
-use super::ImuCalibration;
 use super::joint::{Joint, RotationData, State, TurnData};
 use super::start::{FirstLook, Start, WRONG};
+use super::{ImuCalibration, RotationResult};
 use crate::error::{Complaint, Error, NotIdentifiable, Result, UndeterminedGroup};
-use crate::estimate::{CalibrationStatus, HoldCalibration};
+use crate::estimate::change::longest_run;
+use crate::estimate::{CalibrationStatus, Changed, HoldCalibration};
 use crate::information::Undetermined;
 use crate::sensor::{Axis, ImuParameters, ImuQuantity, Quantity, ReadingUnit, Thermal, Triad};
 use nalgebra::DMatrix;
@@ -294,7 +295,27 @@ pub(super) fn warnings(calibration: &ImuCalibration, axes: Option<&[String; 3]>)
             rotation.end_s
         ));
     }
+    warnings.extend(rotations_in_a_row(calibration));
     warnings
+}
+
+/// Rotations that were left out one after another, where no change explains them.
+fn rotations_in_a_row(calibration: &ImuCalibration) -> Option<String> {
+    let rotations: Vec<&RotationResult> =
+        calibration.rotations.iter().filter(|rotation| rotation.is_integrated()).collect();
+    let run = longest_run(rotations.iter().map(|rotation| !rotation.used))?;
+    let explained = calibration
+        .changes
+        .iter()
+        .any(|change| change.of != Changed::Bias || change.triad == Triad::Accelerometer);
+    (!explained).then(|| {
+        format!(
+            "the {} rotations from {:.1} to {:.1} s were left out one after another, which is no chance: did the gyroscope saturate there, or one of the sensors change?",
+            run.len(),
+            rotations[run.start].start_s,
+            rotations[run.end - 1].end_s
+        )
+    })
 }
 
 /// Warns where the polynomials of temperature are used beyond the temperatures of the holds.

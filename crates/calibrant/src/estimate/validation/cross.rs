@@ -1,6 +1,7 @@
 //! A calibration tried on its own holds, each block predicted by a calibration without it.
 
 use super::claim::Claim;
+use super::doubt::Doubts;
 use super::folds::{Block, blocks, sorted};
 use super::predict::{Errors, Unused};
 use super::{Validation, ValidationSource, judged, of_holds, singular, temperatures};
@@ -60,7 +61,7 @@ fn cross_validated_imu(
         temperatures: temperatures(calibration, problem)?,
         ..Unused::of_accelerometer(accelerometer, &all)
     };
-    crossed(&calibration.holds, folds, &data, &train)
+    crossed(&calibration.holds, folds, &data, &Doubts::of_imu(calibration), &train)
 }
 
 /// Leaves out each of so many contiguous blocks of the holds that the calibration of an accelerometer used, and predicts it from the others.
@@ -84,7 +85,8 @@ pub fn cross_validate(
         Ok(Claim::of_accelerometer(&trained, found, &list, &setup.gravity))
     };
     let all: Vec<Hold> = found.holds.iter().map(|result| result.hold.clone()).collect();
-    crossed(found, folds, &Unused::of_accelerometer(problem.recording, &all), &train)
+    let data = Unused::of_accelerometer(problem.recording, &all);
+    crossed(found, folds, &data, &Doubts::of_holds(found), &train)
 }
 
 /// The errors of each block by the claim without it.
@@ -92,6 +94,7 @@ fn crossed(
     found: &HoldCalibration,
     folds: usize,
     data: &Unused<'_>,
+    doubts: &Doubts,
     train: &(dyn Fn(&Block) -> Result<Claim> + Sync),
 ) -> Result<Validation> {
     let used: Vec<(usize, &Hold)> =
@@ -112,7 +115,7 @@ fn crossed(
     let (done, failed) = sorted(&blocks, &numbers, outcomes)?;
     let (claims, errors): (Vec<Claim>, Vec<Errors>) = done.into_iter().unzip();
     let Some(claim) = claims.last() else { return Err(singular()) };
-    Ok(judged(ValidationSource::Folds { folds, failed }, errors, claim))
+    Ok(judged(ValidationSource::Folds { folds, failed }, errors, claim, doubts))
 }
 
 /// What is known of the recording, without a block of its holds.

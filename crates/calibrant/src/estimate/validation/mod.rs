@@ -22,6 +22,7 @@
 
 mod claim;
 mod cross;
+mod doubt;
 mod folds;
 mod held;
 mod item;
@@ -38,6 +39,7 @@ mod statistics;
 mod whitened;
 
 pub use cross::{cross_validate, cross_validate_imu};
+pub use doubt::Doubt;
 pub use noise::{CoarseStep, NoiseRatio};
 pub use reason::{LikelyReason, other_temperature};
 pub use reordered::readings_in_common;
@@ -54,6 +56,7 @@ use crate::error::{Complaint, Error, Result};
 use crate::motion::Hold;
 use crate::sensor::{Temperatures, Triad};
 use claim::Claim;
+use doubt::Doubts;
 use item::Group;
 use predict::{Errors, Unused};
 use statistics::{Behind, Degrees, judge};
@@ -88,7 +91,8 @@ pub fn validate_imu(calibration: &ImuCalibration, problem: &ImuProblem<'_>) -> R
             "both need the same clock: are these files of one recording?",
         )));
     }
-    on_another(&Claim::of_imu(calibration, &setup.gravity), unused)
+    let claim = Claim::of_imu(calibration, &setup.gravity);
+    on_another(&claim, unused, &Doubts::of_imu(calibration))
 }
 
 /// Tries the calibration of an accelerometer from holds on another recording of it.
@@ -105,7 +109,8 @@ pub fn validate(calibration: &Calibration, problem: &CalibrationProblem<'_>) -> 
     let holds = at_least_one(holds, setup)?;
     let list = setup.gauge.parameter_list(problem.sensor.model);
     let claim = Claim::of_accelerometer(calibration, found, &list, &setup.gravity);
-    on_another(&claim, Unused::of_accelerometer(problem.recording, &holds))
+    let unused = Unused::of_accelerometer(problem.recording, &holds);
+    on_another(&claim, unused, &Doubts::of_holds(found))
 }
 
 /// The temperatures of a recording, where the calibration follows them.
@@ -116,7 +121,7 @@ fn temperatures<'a>(
     calibration.hold_temperatures_c.as_ref().map(|_| needed_temperatures(problem.recording)).transpose()
 }
 
-fn on_another(claim: &Claim, unused: Unused<'_>) -> Result<Validation> {
+fn on_another(claim: &Claim, unused: Unused<'_>, doubts: &Doubts) -> Result<Validation> {
     let unused = Unused { another: true, ..unused };
     if unused.holds.is_empty() {
         return Err(Error::recording(Complaint::new(
@@ -138,7 +143,7 @@ fn on_another(claim: &Claim, unused: Unused<'_>) -> Result<Validation> {
         )));
     }
     let source = ValidationSource::Recording { name: String::new() };
-    let mut validation = judged(source, vec![errors], claim);
+    let mut validation = judged(source, vec![errors], claim, doubts);
     for noise in &mut validation.noise {
         let recording = match noise.triad {
             Triad::Accelerometer => Some(unused.accelerometer),
@@ -198,7 +203,7 @@ fn singular() -> Error {
 }
 
 /// The errors of one or more claims, those of the last of which tells how much is behind the scatter that was estimated.
-fn judged(source: ValidationSource, errors: Vec<Errors>, claim: &Claim) -> Validation {
+fn judged(source: ValidationSource, errors: Vec<Errors>, claim: &Claim, doubts: &Doubts) -> Validation {
     let (bias_shift, noise) = match errors.as_slice() {
         [one] => (one.shift, one.noise.clone()),
         _ => (None, Vec::new()),
@@ -210,7 +215,7 @@ fn judged(source: ValidationSource, errors: Vec<Errors>, claim: &Claim) -> Valid
         rotations.push(errors.rotations);
     }
     let folds = matches!(source, ValidationSource::Folds { .. });
-    let behind = |of: &[Degrees]| Behind { scatter_degrees: of.to_vec(), folds, free_shift: false };
+    let behind = |of: &[Degrees]| Behind { scatter_degrees: of.to_vec(), folds, free_shift: false, doubts };
     let of_rates =
         Behind { free_shift: bias_shift.is_some_and(|shift| shift.moved), ..behind(&claim.still_degrees) };
     let kinds = [

@@ -1,5 +1,6 @@
 //! What a validation gives.
 
+use super::doubt::Doubt;
 use super::noise::NoiseRatio;
 use super::reason::LikelyReason;
 use nalgebra::{DVector, Vector3};
@@ -109,6 +110,8 @@ pub struct ValidatedErrors {
     pub parameters: Option<ParameterPart>,
     /// What follows.
     pub verdict: CovarianceVerdict,
+    /// Why errors as large as predicted confirm nothing; `None` where nothing speaks against them.
+    pub doubt: Option<Doubt>,
 }
 
 /// An error on data that were not used.
@@ -160,10 +163,12 @@ pub enum CovarianceVerdict {
     LargerThanNeeded,
     /// They are too few to tell: neither contradicted nor confirmed within a factor of about three.
     TooFew,
+    /// Those that count are as large as predicted, and confirm nothing: see [`ValidatedErrors::doubt`].
+    Doubtful,
 }
 
 impl CovarianceVerdict {
-    /// As written in results: `believed`, `too_small`, `larger_than_needed`, `too_few`.
+    /// As written in results: `believed`, `too_small`, `larger_than_needed`, `too_few`, `doubtful`.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -171,6 +176,7 @@ impl CovarianceVerdict {
             Self::TooSmall => "too_small",
             Self::LargerThanNeeded => "larger_than_needed",
             Self::TooFew => "too_few",
+            Self::Doubtful => "doubtful",
         }
     }
 

@@ -1,5 +1,6 @@
 //! Errors beside their prediction: χ², the factor between them, and the errors that stand out.
 
+use super::doubt::Doubts;
 use super::item::{Group, Item};
 use super::ratio::{Ratio, falls_to};
 use super::result::{CovarianceVerdict, ErrorKind, ParameterPart, UnusedError, ValidatedErrors};
@@ -12,13 +13,15 @@ const OUTLYING: f64 = 0.01;
 const SEEN: f64 = 0.1;
 
 /// What is known of the errors of a kind beside themselves.
-pub(super) struct Behind {
+pub(super) struct Behind<'a> {
     /// Behind each scatter that is part of their prediction.
     pub(super) scatter_degrees: Vec<Degrees>,
     /// Are they of folds?
     pub(super) folds: bool,
     /// Is a shift that all have in common free?
     pub(super) free_shift: bool,
+    /// What the calibration itself gives reason to doubt.
+    pub(super) doubts: &'a Doubts,
 }
 
 /// Degrees of freedom behind a scatter that is part of a prediction.
@@ -53,7 +56,7 @@ pub(super) fn degrees_behind<'a>(
 }
 
 /// Judges the errors of one kind. Errors that stand out are put aside, one at a time, a fifth of them at most. `None` where there is no error.
-pub(super) fn judge(kind: ErrorKind, groups: &[Group], behind: &Behind) -> Option<ValidatedErrors> {
+pub(super) fn judge(kind: ErrorKind, groups: &[Group], behind: &Behind<'_>) -> Option<ValidatedErrors> {
     let lengths: Vec<usize> = groups.iter().map(|group| group.items.len()).collect();
     let count: usize = lengths.iter().sum();
     let width = groups.iter().find_map(|group| group.items.first())?.error.len();
@@ -116,6 +119,11 @@ pub(super) fn judge(kind: ErrorKind, groups: &[Group], behind: &Behind) -> Optio
     {
         verdict = CovarianceVerdict::TooSmall;
     }
+    let doubt = behind.doubts.about(kind, &errors);
+    if doubt.is_some() && matches!(verdict, CovarianceVerdict::Believed | CovarianceVerdict::LargerThanNeeded)
+    {
+        verdict = CovarianceVerdict::Doubtful;
+    }
     Some(ValidatedErrors {
         kind,
         rms,
@@ -127,6 +135,7 @@ pub(super) fn judge(kind: ErrorKind, groups: &[Group], behind: &Behind) -> Optio
         factor_interval,
         parameters,
         verdict,
+        doubt,
         errors,
     })
 }

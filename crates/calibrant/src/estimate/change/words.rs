@@ -1,0 +1,92 @@
+//! A change in words, for whoever has to find its reason.
+
+use super::{Change, Changed, Course};
+use crate::sensor::{Axis, Triad};
+use nalgebra::Vector3;
+
+/// A recording that is warmer or colder by this is another one, K.
+const WARMER_K: f64 = 1.0;
+
+impl Change {
+    /// What changes, when, by how much, and what to do. `temperature_c`: least and greatest of the recording, where they are known and nothing follows them.
+    pub(in crate::estimate) fn warning(&self, temperature_c: Option<[f64; 2]>) -> String {
+        let reason = match (temperature_c, self.course) {
+            (Some([low, high]), _) if high - low >= WARMER_K => format!(
+                "the temperature goes from {low:.1} to {high:.1} °C, and nothing follows it: set [temperature]; or"
+            ),
+            (_, Course::Drift | Course::Wander { .. }) => "let the sensor warm up before; or".to_owned(),
+            (_, Course::Step { .. }) => {
+                "was it knocked, did a mounting slip, did it saturate, was it still warming up?".to_owned()
+            }
+        };
+        let apart = match self.course {
+            Course::Drift | Course::Wander { .. } => "calibrate the first and the second half apart",
+            Course::Step { .. } => "calibrate what lies before and after apart",
+        };
+        format!(
+            "{}: {}; the estimates are a mean of that, and their standard deviations do not cover it: {reason} {apart} (holds.intervals_s), and compare",
+            self.headline(),
+            self.by_how_much()
+        )
+    }
+
+    /// Which sensor changes, and when.
+    #[must_use]
+    pub fn headline(&self) -> String {
+        match self.course {
+            Course::Drift => format!("the {} drifts through the recording", self.triad),
+            Course::Wander { .. } => format!("the {} wanders through the recording", self.triad),
+            Course::Step { before, after, time_s } => {
+                let place = match before == after {
+                    true => format!("in hold {}", after + 1),
+                    false => format!("between hold {} and hold {}", before + 1, after + 1),
+                };
+                format!("the {} changes at about {time_s:.0} s ({place})", self.triad)
+            }
+        }
+    }
+
+    fn by_how_much(&self) -> String {
+        let what = match self.instead {
+            Some(instead) => format!("its {} (or its {})", name(self.of), name(instead)),
+            None => format!("its {}", name(self.of)),
+        };
+        let ending = if self.of == Changed::Bias { "s" } else { "" };
+        let moves = match self.course {
+            Course::Step { .. } => format!("step{ending} by"),
+            Course::Drift => format!("change{ending} from begin to end by"),
+            Course::Wander { time_s } => format!("differ{ending} before and after {time_s:.0} s by"),
+        };
+        let (scale, unit) = match (self.of, self.triad) {
+            (Changed::Bias, Triad::Accelerometer) => (1e3, "mm/s²"),
+            (Changed::Bias, Triad::Gyroscope) => (1_f64.to_degrees(), "°/s"),
+            (Changed::Gain, _) => (100.0, "%"),
+            (Changed::Axes, _) => (1_f64.to_degrees(), "°"),
+        };
+        let known: Vec<Axis> = Axis::ALL.into_iter().filter(|axis| self.sd[axis.index()] > 0.0).collect();
+        let amounts = listed(&self.amount, &self.sd, &known, scale);
+        let on = match known.as_slice() {
+            [_, _, _] => String::new(),
+            some => format!(" on {}", some.iter().map(Axis::to_string).collect::<Vec<_>>().join(", ")),
+        };
+        format!("{what} {moves} {amounts} {unit}{on}, up to {:.0} standard deviations", self.in_sd())
+    }
+}
+
+fn name(of: Changed) -> &'static str {
+    match of {
+        Changed::Bias => "bias",
+        Changed::Gain => "gains",
+        Changed::Axes => "axes (against the accelerometer's)",
+    }
+}
+
+/// The amounts to the digits that their standard deviations leave.
+fn listed(amount: &Vector3<f64>, sd: &Vector3<f64>, axes: &[Axis], scale: f64) -> String {
+    let one = |axis: &Axis| {
+        let (amount, sd) = (scale * amount[axis.index()], scale * sd[axis.index()]);
+        let decimals = (-sd.log10().floor()).clamp(0.0, 9.0) as usize;
+        format!("{amount:.decimals$}").replace('-', "−")
+    };
+    axes.iter().map(one).collect::<Vec<_>>().join(", ")
+}

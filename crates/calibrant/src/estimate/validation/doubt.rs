@@ -1,0 +1,124 @@
+//! Errors that are as large as predicted, and confirm nothing.
+//!
+//! A sensor that changes within a recording scatters more, which is predicted; errors that do not count are not among those that are as predicted.
+
+use super::result::{ErrorKind, UnusedError};
+use crate::estimate::change::longest_run;
+use crate::estimate::{Change, Changed, HoldCalibration, ImuCalibration};
+use crate::sensor::Triad;
+
+/// Fewest errors that do not count and are several, and the share of all that they are.
+const SEVERAL: usize = 3;
+const SHARE: f64 = 0.05;
+
+/// Why errors that are as large as predicted are no reason to believe the covariance.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Doubt {
+    /// A sensor changes within the recording that was calibrated from.
+    Change(Change),
+    /// The calibration left out so many holds or rotations one after another.
+    LeftOut {
+        /// Number of them.
+        count: usize,
+        /// Begin of the first, s.
+        start_s: f64,
+        /// End of the last, s.
+        end_s: f64,
+    },
+    /// So many errors one after another do not count.
+    InARow {
+        /// Number of them.
+        count: usize,
+        /// Begin of the first, s.
+        start_s: f64,
+        /// End of the last, s.
+        end_s: f64,
+    },
+    /// So many errors do not count.
+    Several {
+        /// Number of them.
+        count: usize,
+    },
+}
+
+impl Doubt {
+    /// As written in results: `change`, `left_out`, `in_a_row`, `several`.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Change(_) => "change",
+            Self::LeftOut { .. } => "left_out",
+            Self::InARow { .. } => "in_a_row",
+            Self::Several { .. } => "several",
+        }
+    }
+}
+
+/// What a calibration itself gives reason to doubt.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Doubts {
+    changes: Vec<Change>,
+    holds: Option<Doubt>,
+    rotations: Option<Doubt>,
+}
+
+impl Doubts {
+    pub(super) fn of_imu(calibration: &ImuCalibration) -> Self {
+        let times: Vec<(bool, f64, f64)> = calibration
+            .rotations
+            .iter()
+            .filter(|rotation| rotation.is_integrated())
+            .map(|rotation| (!rotation.used, rotation.start_s, rotation.end_s))
+            .collect();
+        Self {
+            changes: calibration.changes.clone(),
+            rotations: left_out(&times),
+            ..Self::of_holds(&calibration.holds)
+        }
+    }
+
+    pub(super) fn of_holds(holds: &HoldCalibration) -> Self {
+        let times: Vec<(bool, f64, f64)> = holds
+            .holds
+            .iter()
+            .filter(|result| result.reason.is_none())
+            .map(|result| (!result.used, result.hold.start_s, result.hold.end_s))
+            .collect();
+        Self { changes: holds.change.into_iter().collect(), holds: left_out(&times), rotations: None }
+    }
+
+    /// The reason to doubt errors of a kind, in order of time.
+    pub(super) fn about(&self, kind: ErrorKind, errors: &[UnusedError]) -> Option<Doubt> {
+        let concerns = |change: &&Change| match (change.triad, change.of) {
+            (Triad::Accelerometer, _) => matches!(kind, ErrorKind::Magnitude | ErrorKind::Rotation),
+            // rotations follow the bias of the holds beside them
+            (Triad::Gyroscope, Changed::Bias) => kind == ErrorKind::Rate,
+            (Triad::Gyroscope, _) => kind == ErrorKind::Rotation,
+        };
+        let change = || self.changes.iter().find(concerns).map(|change| Doubt::Change(*change));
+        let left_out = || match kind {
+            ErrorKind::Magnitude => self.holds,
+            ErrorKind::Rate => None,
+            ErrorKind::Rotation => self.holds.or(self.rotations),
+        };
+        let in_a_row = || {
+            let run = longest_run(errors.iter().map(|error| !error.counts))?;
+            let (first, last) = (errors.get(run.start)?, errors.get(run.end - 1)?);
+            Some(Doubt::InARow { count: run.len(), start_s: first.start_s, end_s: last.end_s })
+        };
+        let several = || {
+            let count = errors.iter().filter(|error| !error.counts).count();
+            (count >= SEVERAL && count as f64 > SHARE * errors.len() as f64)
+                .then_some(Doubt::Several { count })
+        };
+        change().or_else(left_out).or_else(in_a_row).or_else(several)
+    }
+}
+
+/// A run of those that were left out, of their begins and ends.
+fn left_out(times: &[(bool, f64, f64)]) -> Option<Doubt> {
+    let run = longest_run(times.iter().map(|(left_out, ..)| *left_out))?;
+    let (_, start_s, _) = times.get(run.start)?;
+    let (_, _, end_s) = times.get(run.end - 1)?;
+    Some(Doubt::LeftOut { count: run.len(), start_s: *start_s, end_s: *end_s })
+}
