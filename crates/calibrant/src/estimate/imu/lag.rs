@@ -32,7 +32,7 @@ impl Lag {
     pub(super) fn of(rotation: &RotationData<'_>, state: &State, accelerometer: &Recording) -> Option<Self> {
         let samples = &rotation.samples;
         let imu = state.imu.at(samples.temperature_c());
-        let (start_s, end_s) = (samples.times_s[0], samples.times_s[samples.times_s.len() - 1]);
+        let (start_s, end_s) = (*samples.times_s.first()?, *samples.times_s.last()?);
         let step = (GRID_S * samples.times_s.len() as f64 / (end_s - start_s)).round().max(1.0) as usize;
         let last = samples.times_s.len() - 1;
         let times: Vec<f64> = (0..last).step_by(step).chain([last]).map(|k| samples.times_s[k]).collect();
