@@ -51,7 +51,7 @@ fn a_sensor_that_does_not_change_is_not_accused() {
         let mut rng = stream(402, Purpose::Sensor, number);
         let noise_radps = [None, Some(2e-3 / 3.0), Some(6e-3)][(number / 3 % 3) as usize];
         let scatter = [0.0, 3e-3][(number / 9 % 2) as usize];
-        let bad = number % 5 == 0;
+        let bad = number.is_multiple_of(5);
         let pushes: Vec<Vector3<f64>> = (0..poses)
             .map(|k| {
                 let size = if bad && k % 11 == 3 { 0.1 } else { scatter };

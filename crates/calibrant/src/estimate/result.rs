@@ -163,7 +163,7 @@ pub struct HoldCalibration {
     /// The accelerometer before its calibration.
     pub before: Uncalibrated,
     /// Is the accelerometer another one from some time on? `None` where nothing shows it, and where the directions are known.
-    pub change: Option<Change>,
+    pub change: Option<Box<Change>>,
 }
 
 impl HoldCalibration {

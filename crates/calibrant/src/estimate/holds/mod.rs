@@ -219,7 +219,7 @@ fn assemble(
             condition_number: robust.condition_number,
             detected: setup.intervals_s.is_none(),
             before: Uncalibrated::accelerometer(problem.sensor, &sensor),
-            change,
+            change: change.map(Box::new),
         }),
         residuals: Vec::new(),
         first_sample: 0,

@@ -24,7 +24,7 @@ impl Changing<'_> {
     /// The changes of both sensors, that of the accelerometer being known. An accelerometer that changes gives directions with which rotations miss gravity: that is no change of the gyroscope.
     pub(super) fn changes(&self) -> Vec<Change> {
         let rotations = || self.holds.change.is_none().then(|| self.in_rotations()).flatten();
-        self.holds.change.into_iter().chain(self.at_rest()).chain(rotations()).collect()
+        self.holds.change.as_deref().copied().into_iter().chain(self.at_rest()).chain(rotations()).collect()
     }
 
     fn hold(&self, place: usize) -> &Hold {

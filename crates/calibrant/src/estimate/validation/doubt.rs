@@ -84,7 +84,11 @@ impl Doubts {
             .filter(|result| result.reason.is_none())
             .map(|result| (!result.used, result.hold.start_s, result.hold.end_s))
             .collect();
-        Self { changes: holds.change.into_iter().collect(), holds: left_out(&times), rotations: None }
+        Self {
+            changes: holds.change.as_deref().copied().into_iter().collect(),
+            holds: left_out(&times),
+            rotations: None,
+        }
     }
 
     /// The reason to doubt errors of a kind, in order of time.
