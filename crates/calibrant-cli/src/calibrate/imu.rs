@@ -252,6 +252,9 @@ fn setup(
         }
         take_sections(&mut setup, &sections, times, plan);
     }
+    if setup.face_sd_rad.is_some() && setup.directions.is_none() {
+        console::warn("holds.face_sd_deg is not used: no directions of the holds are given");
+    }
     Ok(setup)
 }
 

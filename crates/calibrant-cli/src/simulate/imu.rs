@@ -56,6 +56,7 @@ pub(super) fn run(
         gyroscope_noise: one_for_all(Triad::Gyroscope, &noise_g),
         accelerometer_unit: sensor.unit,
         gyroscope_unit: plan.gyroscope.unit,
+        face_sd_rad: holds.face_sd_rad.unwrap_or(0.0),
         temperature_c: warming(plan),
     };
     let units = [sensor.unit, plan.gyroscope.unit];

@@ -136,6 +136,10 @@ fn faces_whose_directions_the_readings_contradict_are_named() {
     };
     let second = "hold 2 (19.0 to 24.0 s) is given with x up, and the accelerometer shows -x up";
     bench.refuses(given(r#""x", "x", "y", "-y", "z", "-z""#), 2, &[second, "correct the directions"]);
+    // whatever is given of how well they were met
+    let met = table.replacen("[holds]", "[holds]\nface_sd_deg = 0.1", 1);
+    bench.write("met.toml", met.replacen(r#""x", "-x""#, r#""x", "x""#, 1));
+    bench.refuses("calibrate met.toml table/recording.csv -o out", 2, &[second]);
     let first = "hold 1 (1.0 to 6.0 s) is given with -x up, and the accelerometer shows x up";
     bench.refuses(given(r#""-x", "x", "y", "-y", "z", "-z""#), 2, &[first, second]);
     let third = "hold 3 (27.0 to 32.0 s) is given with z up, and the accelerometer shows y up";

@@ -11,6 +11,7 @@ mod data;
 mod design;
 mod determinism;
 mod examples;
+mod ferraris;
 mod filtered;
 mod imu;
 mod inspect;

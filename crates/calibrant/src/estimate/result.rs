@@ -148,13 +148,15 @@ pub struct HoldCalibration {
     pub gravity: Gravity,
     /// Gauge of the parameters.
     pub gauge: Gauge,
-    /// Standard deviation of a hold's mean beyond what its samples' noise explains, m/s².
+    /// Standard deviation of a hold's mean beyond what its samples' noise explains, m/s²; of holds of known directions, along these.
     pub between_holds_sd_mps2: f64,
     /// Does the scatter between holds exceed what the noise within them explains (so that it decides the covariance)?
     pub between_holds_dominates: bool,
+    /// How well known directions were met; `None` where only the magnitude of gravity is known.
+    pub tilt: Option<FaceTilt>,
     /// Root mean square over the used holds of the corrected magnitude less gravity, m/s².
     pub magnitude_residual_rms_mps2: f64,
-    /// Equations of the used holds, and what was known beforehand, less the accelerometer's parameters: with none left, the holds are met exactly and check nothing.
+    /// How many of the magnitudes of the used holds are left to check, the accelerometer's parameters and what was known beforehand counted off: with none, gravity is met exactly and checks nothing.
     pub degrees_of_freedom: usize,
     /// Condition number of the information on the parameters, each scaled by its own standard deviation when the others are known.
     pub condition_number: f64,
@@ -184,6 +186,54 @@ impl HoldCalibration {
             .map(|result| self.magnitude_residual_before_mps2(&result.hold))
             .collect::<Option<_>>()?;
         (!used.is_empty()).then(|| (used.iter().map(|e| e * e).sum::<f64>() / used.len() as f64).sqrt())
+    }
+}
+
+/// How well the sensor was placed on faces of known directions.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FaceTilt {
+    /// Standard deviation of the tilt about each axis, rad.
+    pub sd_rad: f64,
+    /// Where that comes from.
+    pub source: TiltSource,
+    /// How many equations were left to tell it by their scatter; 0 where they did not.
+    pub degrees_of_freedom: usize,
+}
+
+/// Where the tilt of faces comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum TiltSource {
+    /// It was given.
+    Given,
+    /// The scatter of the faces.
+    Recording,
+    /// Too few faces to tell: half a degree.
+    Assumed,
+}
+
+impl TiltSource {
+    /// In one word.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Given => "given",
+            Self::Recording => "scatter",
+            Self::Assumed => "assumed",
+        }
+    }
+}
+
+impl FaceTilt {
+    /// Where it comes from, in words.
+    #[must_use]
+    pub fn source_in_words(&self) -> String {
+        match self.source {
+            TiltSource::Given => "as given".into(),
+            TiltSource::Recording => {
+                format!("by their scatter, {} degrees of freedom", self.degrees_of_freedom)
+            }
+            TiltSource::Assumed => "assumed, since so few tell nothing of it".into(),
+        }
     }
 }
 

@@ -14,6 +14,8 @@ pub(super) struct HoldsFields {
     detected: bool,
     between_holds_sd_mps2: f64,
     between_holds_dominates: bool,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    faces: Option<FacesFields>,
     /// With 0, the magnitudes are met exactly and check nothing.
     degrees_of_freedom: usize,
     magnitude_residual_rms_mps2: f64,
@@ -21,6 +23,15 @@ pub(super) struct HoldsFields {
     before: String,
     condition_number: f64,
     table: Vec<HoldFields>,
+}
+
+/// How well the directions of the holds were met.
+#[derive(Serialize)]
+struct FacesFields {
+    tilt_sd_rad: f64,
+    source: &'static str,
+    /// Equations that told it by their scatter.
+    degrees_of_freedom: usize,
 }
 
 #[derive(Serialize)]
@@ -69,6 +80,11 @@ impl HoldsFields {
             detected: holds.detected,
             between_holds_sd_mps2: holds.between_holds_sd_mps2,
             between_holds_dominates: holds.between_holds_dominates,
+            faces: holds.tilt.map(|tilt| FacesFields {
+                tilt_sd_rad: tilt.sd_rad,
+                source: tilt.source.name(),
+                degrees_of_freedom: tilt.degrees_of_freedom,
+            }),
             degrees_of_freedom: holds.degrees_of_freedom,
             magnitude_residual_rms_mps2: holds.magnitude_residual_rms_mps2,
             magnitude_residual_rms_before_mps2: holds.magnitude_residual_rms_before_mps2(),

@@ -5,6 +5,8 @@ use super::table::{Cell, Table};
 use crate::estimate::{HoldCalibration, HoldResult};
 use crate::sensor::ReadingUnit;
 
+/// Fewer magnitudes left to check tell no scatter along gravity.
+const FEWEST: usize = 3;
 /// Beyond this many standard deviations, a hold that was left out is called an outlier.
 const OUTLYING: f64 = 3.0;
 
@@ -36,15 +38,37 @@ pub(super) fn hold_summary(holds: &HoldCalibration) -> String {
             "Corrected magnitude less g over the holds that were used.",
         ),
     }
-    row(
-        "scatter between holds, sd",
-        format!("{} mm/s²", number::significant(1e3 * holds.between_holds_sd_mps2, 3)),
-        if holds.between_holds_dominates {
-            "Exceeds what the samples' noise explains, so it decides the stated standard deviations."
-        } else {
-            "Explained by the samples' noise, which decides the stated standard deviations."
-        },
-    );
+    if let Some(tilt) = &holds.tilt {
+        row(
+            "tilt of the faces, sd",
+            format!("{}°", number::significant(tilt.sd_rad.to_degrees(), 2)),
+            &format!(
+                "How well each face was met, about each axis: {}. It decides the stated standard deviations of the matrix' cross terms; along gravity a tilt acts by its square only.",
+                tilt.source_in_words()
+            ),
+        );
+    }
+    let (name, nothing) = match holds.tilt {
+        Some(_) => ("scatter along gravity, sd", holds.degrees_of_freedom < FEWEST),
+        None => ("scatter between holds, sd", false),
+    };
+    if nothing {
+        row(
+            name,
+            "too little left to tell it".into(),
+            "The samples' noise and the tilt decide the stated standard deviations of biases and scale factors. Put each face down twice to see more.",
+        );
+    } else {
+        row(
+            name,
+            format!("{} mm/s²", number::significant(1e3 * holds.between_holds_sd_mps2, 3)),
+            if holds.between_holds_dominates {
+                "Exceeds what the samples' noise explains, so it decides the stated standard deviations."
+            } else {
+                "Explained by the samples' noise, which decides the stated standard deviations."
+            },
+        );
+    }
     row(
         "condition number",
         number::significant(holds.condition_number, 3),

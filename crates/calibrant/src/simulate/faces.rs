@@ -59,7 +59,12 @@ pub fn simulate_table(
     for step in steps {
         match step.action {
             TableAction::Hold(direction) => {
-                let over = turn_over(&world_from_sensor, &direction);
+                let mut over = turn_over(&world_from_sensor, &direction);
+                if setup.face_sd_rad > 0.0 {
+                    let tilt = Vector3::from_fn(|_, _| setup.face_sd_rad * normal());
+                    let met = UnitQuaternion::from_scaled_axis(over) * UnitQuaternion::from_scaled_axis(tilt);
+                    over = met.scaled_axis();
+                }
                 path.push((end_s, step.start_s, world_from_sensor, over));
                 world_from_sensor *= UnitQuaternion::from_scaled_axis(over);
             }

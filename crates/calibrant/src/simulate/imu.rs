@@ -33,6 +33,8 @@ pub struct ImuSimulation {
     pub accelerometer_unit: ReadingUnit,
     /// Unit of the gyroscope's readings.
     pub gyroscope_unit: ReadingUnit,
+    /// Standard deviation of the tilt, about each axis, with which a face on a table is met, rad.
+    pub face_sd_rad: f64,
     /// Temperature at the beginning and at the end, °C, even in between; `None` for an IMU at its reference temperature, of which nothing is recorded.
     pub temperature_c: Option<[f64; 2]>,
 }
@@ -49,6 +51,7 @@ impl Default for ImuSimulation {
             gyroscope_noise: 2e-3,
             accelerometer_unit: ReadingUnit::MetrePerSecondSquared,
             gyroscope_unit: ReadingUnit::RadianPerSecond,
+            face_sd_rad: 0.0,
             temperature_c: None,
         }
     }

@@ -212,6 +212,7 @@ pub(super) fn holds_in_counts() -> Calibration {
         gauge: Gauge::Upper,
         between_holds_sd_mps2: 0.002,
         between_holds_dominates: true,
+        tilt: None,
         magnitude_residual_rms_mps2: 0.001,
         degrees_of_freedom: 3,
         condition_number: 50.0,

@@ -214,6 +214,7 @@ fn assemble(
             gauge: setup.gauge,
             between_holds_sd_mps2: robust.between_holds_sd,
             between_holds_dominates: robust.between_holds_sd > 0.0,
+            tilt: None,
             magnitude_residual_rms_mps2: magnitude_rms,
             degrees_of_freedom,
             condition_number: robust.condition_number,

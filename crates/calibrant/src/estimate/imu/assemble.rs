@@ -91,12 +91,13 @@ impl Finished<'_> {
         }
         let said_before = left_out(&holds);
         magnitudes::correct(&mut holds, &imu, self.climate)?;
-        let known_directions = joint.holds.iter().any(|hold| hold.known.is_some());
-        let of_accelerometer = |k: &usize| joint.quantities[*k].triad() == Triad::Accelerometer;
-        let known = |k: &usize| joint.prior.as_ref().is_some_and(|(_, weight)| weight[*k] > 0.0);
-        let unknown = (0..size).filter(of_accelerometer).filter(|k| !known(k)).count();
-        let of_holds = if known_directions { 3 } else { 1 } * joint.holds.len();
-        holds.degrees_of_freedom = of_holds.saturating_sub(unknown);
+        // of faces the fit of these knows it
+        if first.met.is_none() {
+            let of_accelerometer = |k: &usize| joint.quantities[*k].triad() == Triad::Accelerometer;
+            let known = |k: &usize| joint.prior.as_ref().is_some_and(|(_, weight)| weight[*k] > 0.0);
+            let unknown = (0..size).filter(of_accelerometer).filter(|k| !known(k)).count();
+            holds.degrees_of_freedom = joint.holds.len().saturating_sub(unknown);
+        }
         holds.before = Uncalibrated::accelerometer(problem.accelerometer, &imu.accelerometer);
         let turns = joint
             .turns

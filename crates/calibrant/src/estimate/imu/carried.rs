@@ -7,7 +7,7 @@ use super::still::{StillNoise, still, usual_scatter, weigh};
 use crate::estimate::coarse_axes_in;
 use crate::motion::Hold;
 use crate::sensor::{ImuParameters, ImuQuantity, MeanReading, Recording};
-use nalgebra::{DMatrix, Matrix2, Matrix2x3, Vector2, Vector3};
+use nalgebra::{DMatrix, Matrix2, Matrix2x3, Matrix3, Vector2, Vector3};
 
 /// The gyroscope in a hold.
 #[derive(Debug, Clone, Copy)]
@@ -124,7 +124,7 @@ impl Carrying<'_> {
             .zip(temperatures_c)
             .map(|(hold, &temperature_c)| HoldData {
                 accelerometer: hold.mean,
-                accelerometer_weight: Vector3::zeros(),
+                accelerometer_weight: Matrix3::zeros(),
                 gyroscope: None,
                 known: None,
                 temperature_c,

@@ -1,11 +1,11 @@
 //! The accelerometer from holds whose directions are known: six faces on a table, a turntable, a robot.
 //!
 //! `ȳ_j = S f_j + b + ε_j` with known `f_j`: linear least squares, and no gauge, since the directions are the true frame. `ε_j` is the noise of the mean and how
-//! well the sensor was placed, `σ_b` in m/s² per axis, chosen so that χ² equals its degrees of freedom (Paule and Mandel).
+//! well the sensor was placed (`placing`).
 
 use super::ImuProblem;
+use super::placing::{Chi2, Degrees, Met, Placing, placing};
 use crate::error::{Complaint, Error, NotIdentifiable, Result, UndeterminedGroup};
-use crate::estimate::excess::excess;
 use crate::estimate::holds::{clipped_reason, coarse_words, left_out, magnitude_rms, with_clipped};
 use crate::estimate::one_sided::one_sided;
 use crate::estimate::quantisation::of_means;
@@ -14,13 +14,13 @@ use crate::estimate::{
 };
 use crate::information;
 use crate::motion::Hold;
-use crate::sensor::{ParameterList, Recording, SensorParameters, Triad, TriadThermal};
+use crate::sensor::{ParameterList, Quantity, Recording, SensorParameters, Triad, TriadThermal};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
 /// Faces that scatter by more than this share of gravity were not placed badly: a direction is wrong.
 const SCATTERED: f64 = 0.05;
-/// A scatter between faces of the usual size, m/s².
-const USUAL: f64 = 0.03;
+/// Equations along gravity that differ by less than this share are one.
+const RANK: f64 = 1e-6;
 
 /// The accelerometer, before the joint problem.
 pub(super) struct First {
@@ -30,6 +30,8 @@ pub(super) struct First {
     /// Variance of a hold's mean that more samples do not lower.
     pub(super) of_mean: Vector3<f64>,
     pub(super) holds: HoldCalibration,
+    /// How well the faces were met, where the directions are known.
+    pub(super) met: Option<Met>,
     pub(super) warnings: Vec<String>,
     /// Its temperature terms, and the recording as it would be at the reference temperature, where they were fitted.
     pub(super) thermal: TriadThermal,
@@ -37,14 +39,35 @@ pub(super) struct First {
 }
 
 impl First {
-    /// Inverse variances of a hold's mean, for a scatter between holds in m/s².
-    pub(super) fn weight(&self, hold: &Hold, between: f64) -> Vector3<f64> {
+    /// Inverse covariance of a hold's mean, for a scatter between holds in m/s².
+    pub(super) fn weight(&self, hold: &Hold, between: f64) -> Matrix3<f64> {
         let gain = Vector3::from_fn(|axis, _| self.sensor.matrix.row(axis).norm_squared());
-        let variance = self.within.component_mul(&self.within) / hold.samples() as f64
-            + self.of_mean
-            + gain * between.powi(2);
-        variance.map(|variance| 1.0 / variance.max(f64::MIN_POSITIVE))
+        let variance = of_noise(hold, &self.within, &self.of_mean) + gain * between.powi(2);
+        Matrix3::from_diagonal(&variance.map(|variance| 1.0 / variance.max(f64::MIN_POSITIVE)))
     }
+
+    /// Inverse covariance of the mean on a face.
+    pub(super) fn weight_on_face(
+        &self,
+        hold: &Hold,
+        force: &Vector3<f64>,
+        placing: &Placing,
+    ) -> Matrix3<f64> {
+        inverse(&of_noise(hold, &self.within, &self.of_mean), &self.sensor.matrix, &placing.covariance(force))
+    }
+}
+
+/// Variance of a hold's mean by the noise in it.
+fn of_noise(hold: &Hold, within: &Vector3<f64>, of_mean: &Vector3<f64>) -> Vector3<f64> {
+    within.component_mul(within) / hold.samples() as f64 + of_mean
+}
+
+/// The inverse of `diag(variance) + S C Sᵀ`.
+fn inverse(variance: &Vector3<f64>, s: &Matrix3<f64>, c: &Matrix3<f64>) -> Matrix3<f64> {
+    // readings without noise have a last digit still
+    let least = f64::EPSILON.powi(2) * s.norm_squared();
+    let variance = variance.map(|variance| variance.max(least));
+    (Matrix3::from_diagonal(&variance) + s * c * s.transpose()).try_inverse().unwrap_or_else(Matrix3::zeros)
 }
 
 /// Fits the accelerometer to holds of known directions.
@@ -79,10 +102,30 @@ pub(super) fn fit(
     let coarse = coarse_axes_in(as_read, &usable);
     let (within, of_mean) = (Hold::pooled_sd(&usable), of_means(&coarse));
     let linear = Linear { holds: &usable, forces: &along, list: &list, within, of_mean };
-    let (sensor, between, condition) =
-        linear.solve().map_err(|error| with_clipped(error, &clipped, as_read))?;
+    let given_rad = problem.setup.face_sd_rad;
+    let (mut sensor, met, condition) = match linear.solve(given_rad) {
+        Ok(solved) => solved,
+        Err(error) => {
+            if !matches!(error, Error::NotIdentifiable(_)) {
+                super::mistaken::directions(problem, &holds, directions, false)?;
+            }
+            return Err(with_clipped(error, &clipped, as_read));
+        }
+    };
+    // how they scatter, whatever was given of it
+    let free = match given_rad {
+        Some(_) => linear.solve(None).map_or(met, |(_, free, _)| free),
+        None => met,
+    };
+    let of_tilt = match given_rad {
+        Some(given_rad) => free.tilt.contradicts(given_rad),
+        None => met.tilt.assumed(usable.len()),
+    };
+    sensor.matrix /= met.placing.cosine();
     let mirrored = sensor.matrix.determinant() <= 0.0;
-    if mirrored || between > SCATTERED * setup.gravity.magnitude_mps2 {
+    let is_scattered =
+        free.placing.tilt_rad.max(free.placing.along_mps2 / setup.gravity.magnitude_mps2) > SCATTERED;
+    if mirrored || is_scattered {
         super::mistaken::directions(problem, &holds, directions, mirrored)?;
     }
     let turned = super::mistaken::turned_alike(problem, &holds, &forces, &sensor.matrix);
@@ -92,27 +135,29 @@ pub(super) fn fit(
         .zip(&forces)
         .zip(&clipped)
         .map(|((hold, force), clipped)| {
-            let corrected = correction * (hold.mean - sensor.bias);
+            let off = (correction * (hold.mean - sensor.bias)).norm() - setup.gravity.magnitude_mps2;
+            let along = sensor.matrix * force.normalize();
+            let weight = linear.weight(hold, force, &sensor.matrix, &met.placing);
             HoldResult {
                 hold: hold.clone(),
                 force_mps2: *force,
-                magnitude_residual_mps2: corrected.norm() - setup.gravity.magnitude_mps2,
-                studentised_residual: if between > 0.0 { (corrected - force).norm() / between } else { 0.0 },
+                magnitude_residual_mps2: off,
+                studentised_residual: off * along.dot(&(weight * along)).sqrt(),
                 used: clipped.is_none(),
                 reason: clipped.map(|end| clipped_reason(&end, as_read)),
             }
         })
         .collect();
-    let scattered = (between > SCATTERED * setup.gravity.magnitude_mps2)
-        .then(|| scattered(&results, &sensor, &correction, between));
+    let scattered = is_scattered.then(|| scattered(&results, &sensor, &correction, &free.placing));
     let holds = HoldCalibration {
         magnitude_residual_rms_mps2: magnitude_rms(&results),
-        degrees_of_freedom: (3 * usable.len()).saturating_sub(list.len()),
+        degrees_of_freedom: met.along_degrees,
         holds: results,
         gravity: setup.gravity,
         gauge: setup.gauge,
-        between_holds_sd_mps2: between,
-        between_holds_dominates: between > 0.0,
+        between_holds_sd_mps2: met.placing.along_mps2,
+        between_holds_dominates: met.placing.along_mps2 > 0.0,
+        tilt: Some(met.tilt),
         condition_number: condition,
         detected: false,
         before: Uncalibrated::accelerometer(problem.accelerometer, &sensor),
@@ -120,12 +165,14 @@ pub(super) fn fit(
     };
     Ok(First {
         sensor,
+        met: Some(met),
         within,
         of_mean,
         warnings: turned
             .into_iter()
             .chain(left_out(&holds))
             .chain(scattered)
+            .chain(of_tilt)
             .chain(coarse_words(&coarse, as_read))
             .chain(one_sided(recording, Triad::Accelerometer, &usable))
             .collect(),
@@ -135,12 +182,40 @@ pub(super) fn fit(
     })
 }
 
+/// What is left of faces along these forces to tell their scatter, `others` further parameters estimated.
+pub(super) fn degrees(forces: &[Vector3<f64>], quantities: &[Quantity], others: usize) -> Degrees {
+    // along gravity, in a sensor without errors: one equation for each face
+    let rows = DMatrix::from_fn(forces.len(), quantities.len(), |j, k| {
+        let up = forces[j].normalize();
+        up.dot(&quantities[k].derivative(&up))
+    });
+    let all = (3 * forces.len()).saturating_sub(quantities.len() + others);
+    Degrees {
+        faces: forces.len(),
+        along: (forces.len() - rows.rank(RANK)).saturating_sub(others).min(all),
+        all,
+    }
+}
+
+/// What a face adds to χ²: `r` is left of its mean, `weight` the inverse covariance of that.
+pub(super) fn of_face(
+    r: &Vector3<f64>,
+    s: &Matrix3<f64>,
+    force: &Vector3<f64>,
+    weight: &Matrix3<f64>,
+) -> Option<Chi2> {
+    let (up, to_force) = (force.normalize(), s.try_inverse()?);
+    let covariance = to_force * weight.try_inverse()? * to_force.transpose();
+    let along = up.dot(&(to_force * r)).powi(2) / up.dot(&(covariance * up));
+    Some(Chi2 { along, all: r.dot(&(weight * r)) })
+}
+
 /// The faces that fit least, of faces that scatter too much: both of an axis, where only these tell its direction.
 fn scattered(
     results: &[HoldResult],
     sensor: &SensorParameters,
     correction: &Matrix3<f64>,
-    between: f64,
+    placing: &Placing,
 ) -> String {
     let used = || results.iter().enumerate().filter(|(_, result)| result.used);
     let off: Vec<f64> = results
@@ -151,7 +226,9 @@ fn scattered(
     let worst: Vec<String> =
         used().filter(|(k, _)| off[*k] > 0.8 * most).map(|(k, result)| result.hold.named(k)).collect();
     format!(
-        "the faces scatter by {between:.2} m/s² beyond their noise; by {:.1}° and least of all fits {}: are directions and times of the holds right?",
+        "the faces scatter by {:.1}° and {:.2} m/s² along gravity beyond their noise; by {:.1}° and least of all fits {}: are directions and times of the holds right?",
+        placing.tilt_rad.to_degrees(),
+        placing.along_mps2,
         most.to_degrees(),
         worst.join(", or ")
     )
@@ -166,10 +243,10 @@ struct Linear<'a> {
 }
 
 impl Linear<'_> {
-    /// The sensor, `σ_b` and the condition number of the scaled information.
-    fn solve(&self) -> Result<(SensorParameters, f64, f64)> {
-        let ones = Vector3::repeat(1.0);
-        let (f, _) = self.normal(0.0, &ones);
+    /// The sensor, how the faces were met, and the condition number of the scaled information.
+    fn solve(&self, given_rad: Option<f64>) -> Result<(SensorParameters, Met, f64)> {
+        let (one, none) = (Matrix3::identity(), Placing::default());
+        let (f, _) = self.normal(&one, &none);
         let groups = information::undetermined(&f, &f.diagonal());
         if !groups.is_empty() {
             return Err(Error::NotIdentifiable(Box::new(self.undetermined(&groups))));
@@ -184,37 +261,30 @@ impl Linear<'_> {
                 "check the directions of the holds and the unit of the recording",
             ))
         };
-        let sensor = self.fit(0.0, &ones).ok_or_else(singular)?;
-        let gain = Vector3::from_fn(|axis, _| sensor.matrix.row(axis).norm());
-        let degrees = (3 * self.holds.len()).saturating_sub(size) as f64;
-        let (between, sensor) = excess(
-            degrees,
-            |_| USUAL,
-            |between| {
-                let sensor = self.fit(between, &gain)?;
-                Some((self.chi2(&sensor, between, &gain), sensor))
-            },
-        )
+        let rough = self.fit(&one, &none).ok_or_else(singular)?.matrix;
+        let degrees = degrees(self.forces, self.list.quantities(), 0);
+        let gravity = self.forces.first().map_or(0.0, Vector3::norm);
+        let (met, sensor) = placing(degrees, given_rad, gravity, |placing| {
+            let sensor = self.fit(&rough, placing)?;
+            Some((self.chi2(&sensor, &rough, placing)?, sensor))
+        })
         .ok_or_else(singular)?;
-        Ok((sensor, between, condition))
+        Ok((sensor, met, condition))
     }
 
-    fn weight(&self, hold: &Hold, between: f64, gain: &Vector3<f64>) -> Vector3<f64> {
-        let variance = self.within.component_mul(&self.within) / hold.samples() as f64
-            + self.of_mean
-            + gain.component_mul(gain) * (between * between);
-        variance.map(|variance| 1.0 / variance.max(f64::MIN_POSITIVE))
+    fn weight(&self, hold: &Hold, force: &Vector3<f64>, s: &Matrix3<f64>, placing: &Placing) -> Matrix3<f64> {
+        inverse(&of_noise(hold, &self.within, &self.of_mean), s, &placing.covariance(force))
     }
 
-    fn normal(&self, between: f64, gain: &Vector3<f64>) -> (DMatrix<f64>, DVector<f64>) {
+    fn normal(&self, s: &Matrix3<f64>, placing: &Placing) -> (DMatrix<f64>, DVector<f64>) {
         let size = self.list.len();
         let (mut f, mut g) = (DMatrix::zeros(size, size), DVector::zeros(size));
         for (hold, force) in self.holds.iter().zip(self.forces) {
-            let weight = self.weight(hold, between, gain);
+            let weight = self.weight(hold, force, s, placing);
             let columns: Vec<Vector3<f64>> =
                 self.list.quantities().iter().map(|quantity| quantity.derivative(force)).collect();
             for i in 0..size {
-                let weighted = columns[i].component_mul(&weight);
+                let weighted = weight * columns[i];
                 g[i] += weighted.dot(&hold.mean);
                 for j in 0..size {
                     f[(i, j)] += weighted.dot(&columns[j]);
@@ -224,8 +294,8 @@ impl Linear<'_> {
         (f, g)
     }
 
-    fn fit(&self, between: f64, gain: &Vector3<f64>) -> Option<SensorParameters> {
-        let (f, g) = self.normal(between, gain);
+    fn fit(&self, s: &Matrix3<f64>, placing: &Placing) -> Option<SensorParameters> {
+        let (f, g) = self.normal(s, placing);
         let values = information::covariance(&f)? * g;
         let mut sensor = SensorParameters { bias: Vector3::zeros(), matrix: Matrix3::zeros() };
         for (quantity, value) in self.list.quantities().iter().zip(values.iter()) {
@@ -234,15 +304,15 @@ impl Linear<'_> {
         Some(sensor)
     }
 
-    fn chi2(&self, sensor: &SensorParameters, between: f64, gain: &Vector3<f64>) -> f64 {
-        self.holds
-            .iter()
-            .zip(self.forces)
-            .map(|(hold, force)| {
-                let r = hold.mean - sensor.reading(force);
-                r.component_mul(&r).dot(&self.weight(hold, between, gain))
-            })
-            .sum()
+    fn chi2(&self, sensor: &SensorParameters, s: &Matrix3<f64>, placing: &Placing) -> Option<Chi2> {
+        let of = |(hold, force): (&Hold, &Vector3<f64>)| {
+            let weight = self.weight(hold, force, s, placing);
+            of_face(&(hold.mean - sensor.reading(force)), s, force, &weight)
+        };
+        self.holds.iter().zip(self.forces).map(of).try_fold(Chi2 { along: 0.0, all: 0.0 }, |sum, of| {
+            let of = of?;
+            Some(Chi2 { along: sum.along + of.along, all: sum.all + of.all })
+        })
     }
 
     fn undetermined(&self, groups: &[information::Undetermined]) -> NotIdentifiable {

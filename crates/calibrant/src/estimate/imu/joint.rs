@@ -33,8 +33,8 @@ const CLOSE: f64 = 0.1;
 #[derive(Debug, Clone)]
 pub(super) struct HoldData {
     pub(super) accelerometer: Vector3<f64>,
-    /// Inverse variances of the mean.
-    pub(super) accelerometer_weight: Vector3<f64>,
+    /// Inverse covariance of the mean.
+    pub(super) accelerometer_weight: Matrix3<f64>,
     /// Mean reading of the gyroscope and its inverse variances.
     pub(super) gyroscope: Option<(Vector3<f64>, Vector3<f64>)>,
     /// Specific force, where its direction is known.
@@ -224,10 +224,8 @@ impl Joint<'_> {
             .zip(&state.forces)
             .map(|(hold, force)| {
                 let imu = imu.at(hold.temperature_c);
-                let own = weighted(
-                    hold.accelerometer - imu.accelerometer.reading(force),
-                    &hold.accelerometer_weight,
-                );
+                let r = hold.accelerometer - imu.accelerometer.reading(force);
+                let own = r.dot(&(hold.accelerometer_weight * r));
                 own + hold.gyroscope.as_ref().map_or(0.0, |(mean, weight)| {
                     weighted(mean - imu.gyroscope.bias - imu.g_sensitivity * force, weight)
                 })
@@ -295,9 +293,8 @@ impl Joint<'_> {
                 gp: SVector::zeros(),
             };
             let mut add =
-                |by_force: Matrix3<f64>, g: SMatrix<f64, 3, P>, r: Vector3<f64>, weight: &Vector3<f64>| {
-                    let w = Matrix3::from_diagonal(weight);
-                    let wr = weight.component_mul(&r);
+                |by_force: Matrix3<f64>, g: SMatrix<f64, 3, P>, r: Vector3<f64>, w: Matrix3<f64>| {
+                    let wr = w * r;
                     link.c += g.tr_mul(&(w * g));
                     link.gp += g.tr_mul(&wr);
                     if hold.known.is_none() {
@@ -312,11 +309,11 @@ impl Joint<'_> {
             let imu = state.imu.at(temperature_c);
             let g = self.sensitivity(Triad::Accelerometer, &felt);
             let r = hold.accelerometer - imu.accelerometer.reading(force);
-            add(imu.accelerometer.matrix, g, r, &hold.accelerometer_weight);
+            add(imu.accelerometer.matrix, g, r, hold.accelerometer_weight);
             if let Some((mean, weight)) = &hold.gyroscope {
                 let g = self.sensitivity(Triad::Gyroscope, &Condition { stimulus: Vector3::zeros(), ..felt });
                 let r = mean - imu.gyroscope.bias - imu.g_sensitivity * force;
-                add(imu.g_sensitivity, g, r, weight);
+                add(imu.g_sensitivity, g, r, Matrix3::from_diagonal(weight));
             }
             let counted =
                 |before: &usize| self.rotations.get(*before).is_some_and(|rotation| rotation.counts);

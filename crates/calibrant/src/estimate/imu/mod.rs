@@ -30,6 +30,7 @@ mod known;
 mod lag;
 mod magnitudes;
 mod mistaken;
+mod placing;
 mod problem;
 mod rates;
 mod readings;

@@ -55,6 +55,8 @@ pub struct ImuSetup {
     pub found: Option<Vec<Hold>>,
     /// Direction of the specific force in each of the given holds (up), unit vectors in the true frame; `None` where only its magnitude is known.
     pub directions: Option<Vec<Vector3<f64>>>,
+    /// How well these directions were met, rad about each axis; by the scatter of the holds where it is not given.
+    pub face_sd_rad: Option<f64>,
     /// Turns of known angle.
     pub turns: Vec<Turn>,
     /// Quantities that are known beforehand.

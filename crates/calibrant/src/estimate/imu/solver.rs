@@ -17,8 +17,8 @@ use crate::estimate::holds::{beyond, with_filter, with_pauses};
 use crate::estimate::problem::sound;
 use crate::estimate::quantisation::of_means;
 use crate::estimate::{
-    CalibrationProblem, CalibrationSettings, HoldsSetup, Recovered, Stimulus, coarse_axes_in, holds,
-    holds_lost_to_filter,
+    CalibrationProblem, CalibrationSettings, HoldResult, HoldsSetup, Recovered, Stimulus, coarse_axes_in,
+    holds, holds_lost_to_filter,
 };
 use crate::information;
 use crate::motion::Hold;
@@ -54,7 +54,8 @@ fn fit(
     let accelerometer = first.adjusted.as_ref().unwrap_or(accelerometer);
     let holds = &first.holds;
     let chosen: Vec<usize> = (0..holds.holds.len()).filter(|&j| holds.holds[j].used).collect();
-    let forces: Vec<Vector3<f64>> = chosen.iter().map(|&j| holds.holds[j].force_mps2).collect();
+    let met = first.met.map_or(1.0, |met| met.placing.cosine());
+    let forces: Vec<Vector3<f64>> = chosen.iter().map(|&j| holds.holds[j].force_mps2 * met).collect();
     let used: Vec<&Hold> = chosen.iter().map(|&j| &holds.holds[j].hold).collect();
     let mut stills: Vec<Option<MeanReading>> = used.par_iter().map(|hold| still(gyroscope, hold)).collect();
     if stills.iter().flatten().count() == 0 {
@@ -74,7 +75,7 @@ fn fit(
     let noise = StillNoise::of(noise, &coarse);
     let quantities = quantities(problem);
     let prior = prior(problem, &quantities);
-    let mut data = hold_data(&first, &chosen, setup.directions.is_some(), &climate);
+    let mut data = hold_data(&first, &chosen, &climate);
     let mut thermal = Thermal { accelerometer: first.thermal, ..climate.start };
     let by = Explanation {
         forces: problem.gyroscope.g_sensitivity.then_some(forces.as_slice()),
@@ -283,21 +284,25 @@ fn from_holds(
     let sound = holds.holds.iter().filter(|result| result.reason.is_none());
     let of_mean = of_means(&coarse_axes_in(as_read, sound.map(|result| &result.hold)));
     let (thermal, adjusted) = (TriadThermal::default(), None);
-    Ok(First { sensor: first.sensor, within, of_mean, holds, warnings: first.warnings, thermal, adjusted })
+    let warnings = first.warnings;
+    Ok(First { sensor: first.sensor, within, of_mean, holds, met: None, warnings, thermal, adjusted })
 }
 
 /// The used holds with the accelerometer's weights.
-fn hold_data(first: &First, chosen: &[usize], known: bool, climate: &Climate<'_>) -> Vec<HoldData> {
+fn hold_data(first: &First, chosen: &[usize], climate: &Climate<'_>) -> Vec<HoldData> {
     let holds = &first.holds;
     chosen
         .iter()
         .map(|&j| {
-            let hold = &holds.holds[j].hold;
+            let HoldResult { hold, force_mps2, .. } = &holds.holds[j];
             HoldData {
                 accelerometer: hold.mean,
-                accelerometer_weight: first.weight(hold, holds.between_holds_sd_mps2),
+                accelerometer_weight: match &first.met {
+                    Some(met) => first.weight_on_face(hold, force_mps2, &met.widened),
+                    None => first.weight(hold, holds.between_holds_sd_mps2),
+                },
                 gyroscope: None,
-                known: known.then_some(holds.holds[j].force_mps2),
+                known: first.met.map(|met| force_mps2 * met.placing.cosine()),
                 temperature_c: climate.of_hold(hold),
             }
         })

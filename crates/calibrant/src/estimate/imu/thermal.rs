@@ -4,8 +4,9 @@
 //! are asked for, they are therefore fitted first, with the accelerometer alone, and the scatter between holds with them (Paule and Mandel, degrees of
 //! freedom less these terms). The static fit is then made with the recording as it would be at the reference temperature: it tells the bad holds.
 
-use super::faces::First;
-use super::joint::{HoldData, Joint, State};
+use super::faces::{self, First};
+use super::joint::{Fit, HoldData, Joint, State};
+use super::placing::{Chi2, Degrees, Met, Placing, placing};
 use super::solver::{self, singular};
 use super::still::StillNoise;
 use super::{ImuProblem, KnownTerm};
@@ -15,10 +16,10 @@ use crate::estimate::holds::{critical, left_out, magnitude_rms};
 use crate::estimate::{CalibrationSettings, HoldCalibration};
 use crate::motion::Hold;
 use crate::sensor::{
-    ImuParameters, ImuQuantity, ImuRecording, Recording, SensorParameters, Temperatures, Thermal,
+    ImuParameters, ImuQuantity, ImuRecording, Quantity, Recording, SensorParameters, Temperatures, Thermal,
     ThermalTerm, Triad,
 };
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
 /// Temperatures of holds count as different from here on, K: closer ones are noise and rounding of a thermometer.
 const LEVEL_K: f64 = 0.5;
@@ -210,7 +211,7 @@ pub(super) fn accelerometer(
     let mut used: Vec<bool> = first.holds.holds.iter().map(|result| result.reason.is_none()).collect();
     for _ in 0..ROUNDS {
         let alone = Alone::new(problem, &first, &raw, &used, climate);
-        let (state, between) = alone.fit(settings)?;
+        let (state, scatter) = alone.fit(settings)?;
         let thermal = state.imu.thermal;
         let adjusted =
             at_reference(recording, Triad::Accelerometer, &state.imu.accelerometer, &thermal, climate);
@@ -219,6 +220,15 @@ pub(super) fn accelerometer(
         reconsider(&mut next.holds, alone.degrees(), alone.terms());
         next.warnings.retain(|warning| !left_out_before.contains(warning));
         next.warnings.splice(0..0, left_out(&next.holds));
+        let between = match scatter {
+            Scatter::OfMagnitudes(between) => between,
+            Scatter::OfFaces(met) => {
+                next.met = Some(met);
+                next.holds.tilt = Some(met.tilt);
+                next.holds.degrees_of_freedom = met.along_degrees;
+                met.placing.along_mps2
+            }
+        };
         next.holds.between_holds_sd_mps2 = between;
         next.holds.between_holds_dominates = between > 0.0;
         next.holds.detected = detected;
@@ -248,9 +258,17 @@ fn reconsider(holds: &mut HoldCalibration, degrees: usize, terms: usize) {
     holds.magnitude_residual_rms_mps2 = magnitude_rms(&holds.holds);
 }
 
+/// What scatters between holds.
+enum Scatter {
+    /// Their magnitudes, m/s².
+    OfMagnitudes(f64),
+    OfFaces(Met),
+}
+
 /// The accelerometer alone, with what follows temperature.
 struct Alone<'a> {
     first: &'a First,
+    face_sd_rad: Option<f64>,
     raw: Vec<&'a Hold>,
     joint: Joint<'static>,
     start: State,
@@ -274,7 +292,7 @@ impl<'a> Alone<'a> {
             .zip(&forces)
             .map(|(&j, force)| HoldData {
                 accelerometer: raw[j].mean,
-                accelerometer_weight: Vector3::zeros(),
+                accelerometer_weight: Matrix3::zeros(),
                 gyroscope: None,
                 known: known.then_some(*force),
                 temperature_c: climate.of_hold(&raw[j]),
@@ -290,6 +308,7 @@ impl<'a> Alone<'a> {
         set_fixed(&mut imu, &problem.setup.known);
         Self {
             first,
+            face_sd_rad: problem.setup.face_sd_rad,
             raw: chosen.iter().map(|&j| &raw[j]).collect(),
             joint: Joint {
                 gravity: problem.setup.holds.gravity.magnitude_mps2,
@@ -317,33 +336,68 @@ impl<'a> Alone<'a> {
         equations.saturating_sub(self.joint.quantities.len())
     }
 
-    /// The problem for a scatter between holds.
-    fn weighed(&self, between: f64) -> Joint<'static> {
+    /// What is left of known faces to tell their scatter.
+    fn face_degrees(&self) -> Degrees {
+        let of = |quantity: &ImuQuantity| match quantity {
+            ImuQuantity::Of(_, of) => Some(*of),
+            _ => None,
+        };
+        let quantities: Vec<Quantity> = self.joint.quantities.iter().filter_map(of).collect();
+        let others = self.joint.quantities.len() - quantities.len();
+        faces::degrees(&self.start.forces, &quantities, others.saturating_sub(self.joint.priors()))
+    }
+
+    /// The problem for such weights of the holds.
+    fn weighed(&self, weight: impl Fn(&Hold, &Vector3<f64>) -> Matrix3<f64>) -> Joint<'static> {
         let mut joint = self.joint.clone();
-        for (hold, raw) in joint.holds.iter_mut().zip(&self.raw) {
-            hold.accelerometer_weight = self.first.weight(raw, between);
+        for ((hold, raw), force) in joint.holds.iter_mut().zip(&self.raw).zip(&self.start.forces) {
+            hold.accelerometer_weight = weight(raw, force);
         }
         joint
     }
 
-    /// The fit, and the scatter between holds that makes χ² equal its degrees of freedom, m/s².
-    fn fit(&self, settings: &CalibrationSettings) -> Result<(State, f64)> {
-        let degrees = self.degrees() as f64;
-        let rough = self.first.holds.between_holds_sd_mps2;
-        solver::check(&self.weighed(rough), &self.start, settings)?;
+    /// The fit, and the scatter between holds that makes χ² equal its degrees of freedom.
+    fn fit(&self, settings: &CalibrationSettings) -> Result<(State, Scatter)> {
         let mut from = self.start.clone();
+        let mut fit = |weighed: &Joint<'_>| {
+            let fit = weighed.fit(from.clone(), weighed.misses(&from)?, settings)?;
+            from = fit.state.clone();
+            Some(fit)
+        };
+        if let Some(rough) = &self.first.met {
+            let on_faces = |placing: &Placing| {
+                self.weighed(|hold, force| self.first.weight_on_face(hold, force, placing))
+            };
+            solver::check(&on_faces(&rough.placing), &self.start, settings)?;
+            let (met, state) =
+                placing(self.face_degrees(), self.face_sd_rad, self.joint.gravity, |placing| {
+                    let weighed = on_faces(placing);
+                    let fit = fit(&weighed)?;
+                    Some((self.chi2_of_faces(&weighed, &fit)?, fit.state))
+                })
+                .ok_or_else(singular)?;
+            return Ok((state, Scatter::OfFaces(met)));
+        }
+        let rough = self.first.holds.between_holds_sd_mps2;
+        let of_magnitudes = |between: f64| self.weighed(|hold, _| self.first.weight(hold, between));
+        solver::check(&of_magnitudes(rough), &self.start, settings)?;
         let (between, state) = excess(
-            degrees,
+            self.degrees() as f64,
             |_| rough.max(1e-9 * self.joint.gravity),
-            |between| {
-                let weighed = self.weighed(between);
-                let fit = weighed.fit(from.clone(), weighed.misses(&from)?, settings)?;
-                from = fit.state.clone();
-                Some((fit.chi2, fit.state))
-            },
+            |between| fit(&of_magnitudes(between)).map(|fit| (fit.chi2, fit.state)),
         )
         .ok_or_else(singular)?;
-        Ok((state, between))
+        Ok((state, Scatter::OfMagnitudes(between)))
+    }
+
+    /// χ² of the faces; what was known beforehand is in all of it.
+    fn chi2_of_faces(&self, weighed: &Joint<'_>, fit: &Fit) -> Option<Chi2> {
+        let along = weighed.holds.iter().zip(&fit.state.forces).map(|(hold, force)| {
+            let r = hold.accelerometer - fit.state.imu.at(hold.temperature_c).accelerometer.reading(force);
+            let s = &self.first.sensor.matrix;
+            faces::of_face(&r, s, force, &hold.accelerometer_weight).map(|of| of.along)
+        });
+        Some(Chi2 { along: along.sum::<Option<f64>>()?, all: fit.chi2 })
     }
 }
 

@@ -51,6 +51,7 @@ impl ImuPlan {
                 minimum_hold_s: holds.minimum_hold_s,
             },
             directions: holds.directions.clone(),
+            face_sd_rad: holds.face_sd_rad,
             turns: self.turns.clone(),
             known: self.known.clone(),
             thermal: self.thermal,

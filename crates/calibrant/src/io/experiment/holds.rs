@@ -11,6 +11,7 @@ use crate::simulate::{MOST_SAMPLES, TURN_S};
 use nalgebra::Vector3;
 
 const GRAVITY: Bounds = Bounds::from(0.1, 100.0, "m/s²");
+const TILT: Bounds = Bounds::from(0.0, 45.0, "degrees");
 const GRAVITY_SD: Bounds = Bounds::from(0.0, 1.0, "m/s²");
 const LATITUDE: Bounds = Bounds::from(-90.0, 90.0, "degrees");
 const HEIGHT: Bounds = Bounds::from(-12_000.0, 100_000.0, "m");
@@ -30,6 +31,8 @@ pub struct HoldsPlan {
     pub intervals_s: Option<Vec<(f64, f64)>>,
     /// Direction of the specific force (up) in each of these holds, where it is known.
     pub directions: Option<Vec<Vector3<f64>>>,
+    /// How well these directions are met, rad about each axis; by the scatter of the holds where it is not given.
+    pub face_sd_rad: Option<f64>,
     /// Shortest stretch of stillness that counts as a hold, s.
     pub minimum_hold_s: f64,
     /// Number of poses of a simulated recording.
@@ -66,12 +69,14 @@ pub(super) fn read(section: &Section<'_>) -> Result<HoldsPlan> {
     let intervals_s = section.get("intervals_s").map(|entry| read_intervals(&entry)).transpose()?;
     let directions =
         section.get("directions").map(|entry| read_directions(&entry, intervals_s.as_deref())).transpose()?;
+    let face_sd = section.get("face_sd_deg").map(|entry| entry.number(&TILT)).transpose()?;
     Ok(HoldsPlan {
         gravity,
         gravity_source,
         gauge,
         intervals_s,
         directions,
+        face_sd_rad: face_sd.map(f64::to_radians),
         minimum_hold_s: number("minimum_hold_s", &DURATION, 1.0)?,
         poses,
         hold_s,

@@ -48,6 +48,7 @@ const KEYS: &[(&str, &[&str])] = &[
             "gauge",
             "intervals_s",
             "directions",
+            "face_sd_deg",
             "minimum_hold_s",
             "poses",
             "hold_s",

@@ -22,6 +22,17 @@ pub fn imu_quality(calibration: &ImuCalibration) -> String {
         let rms = (squares.sum::<f64>() / calibration.turns.len() as f64).sqrt();
         parts.push(format!("known turns are {}", met(rms)));
     }
+    if let Some(tilt) = &calibration.holds.tilt {
+        parts.push(match tilt.sd_rad {
+            0.0 if tilt.degrees_of_freedom > 0 => {
+                "the faces scatter no more than noise explains: no tilt shows".into()
+            }
+            sd => {
+                let sd = number::significant(sd.to_degrees(), 2);
+                format!("the faces were met within {sd}° about each axis, {}", tilt.source_in_words())
+            }
+        });
+    }
     parts.push(match calibration.holds.degrees_of_freedom {
         0 => "gravity in the holds determines the accelerometer: nothing is left to check it with".into(),
         _ => format!(
