@@ -2,6 +2,79 @@
 
 use crate::bench::{Bench, assert_close_to_truth};
 
+/// What a hand does to a Ferraris session: sections exchanged, columns in another order, another unit. What cannot be is refused, another mounting is told.
+#[test]
+fn a_ferraris_session_that_cannot_be_is_refused_and_another_mounting_is_told() {
+    let bench = Bench::new();
+    bench.write("table.toml", include_str!("../../../../examples/06_whole_imu/table.toml"));
+    bench.write("ferraris.toml", include_str!("../../../../examples/06_whole_imu/ferraris.toml"));
+    let list = include_str!("../../../../examples/06_whole_imu/sections.json");
+    bench.write("sections.json", list);
+    bench.run("simulate table.toml --seed 3 -o table").done();
+    let recording = bench.read("table/recording.csv");
+    bench.write("ok.csv", &recording);
+    let run =
+        |file: &str| format!("calibrate ferraris.toml {file} --sections sections.json --no-report -o out");
+    let honest = bench.run(&run("ok.csv")).done();
+    assert!(!honest.stderr.contains("warning"), "{}", honest.stderr);
+
+    let exchanged = |one: &str, other: &str| {
+        let list = list.replacen(one, "?", 1).replacen(other, one, 1).replacen('?', other, 1);
+        bench.write("sections.json", list);
+        run("ok.csv")
+    };
+    bench.refuses(
+        &exchanged("x_rot", "y_rot"),
+        2,
+        &["is given as 360.0° about y, and the gyroscope shows 360° about x", "exchange these turns"],
+    );
+    bench.refuses(
+        &exchanged("x_rot", "x_p"),
+        2,
+        &["is given as 360.0° about x, and the gyroscope shows", "correct axis, angle or times"],
+    );
+    bench.write("sections.json", list);
+
+    // columns: t, accelerometer, gyroscope
+    let columns = |name: &str, of: &dyn Fn(&[f64]) -> Vec<f64>| {
+        let mut lines = recording.lines();
+        let mut text = lines.next().expect("a header").to_owned();
+        for line in lines {
+            let row: Vec<f64> = line.split(',').map(|number| number.parse().expect("a number")).collect();
+            let row: Vec<String> = of(&row).iter().map(f64::to_string).collect();
+            text.push_str(&format!("\n{}", row.join(",")));
+        }
+        bench.write(name, text);
+        run(name)
+    };
+    let chosen = |places: [usize; 7]| move |row: &[f64]| places.map(|place| row[place]).to_vec();
+    let opposite = columns("opposite.csv", &|row| {
+        row.iter().enumerate().map(|(k, y)| if k > 3 { -y } else { *y }).collect()
+    });
+    bench.refuses(
+        &opposite,
+        3,
+        &["of the angle of every turn", "is the sign of the angle of the turns right"],
+    );
+    let degrees = columns("degrees.csv", &|row| {
+        row.iter().enumerate().map(|(k, y)| if k > 3 { y.to_degrees() } else { *y }).collect()
+    });
+    bench.refuses(&degrees, 3, &["180/π times", "read as rad/s"]);
+    let heavy = columns("heavy.csv", &|row| {
+        row.iter().enumerate().map(|(k, y)| if (1..4).contains(&k) { y * 9.806_65 } else { *y }).collect()
+    });
+    bench.refuses(&heavy, 3, &["the accelerometer shows 9."]);
+    let mirrored = columns("mirrored.csv", &chosen([0, 1, 2, 3, 5, 4, 6]));
+    bench.refuses(&mirrored, 2, &["exchange these turns", "or the gyroscope's columns"]);
+    // both sensors turned alike in their housing, and the gyroscope alone: both are possible
+    let both = columns("both.csv", &chosen([0, 2, 3, 1, 5, 6, 4]));
+    let told = bench.run(&both).done();
+    told.says("all directions are turned alike");
+    assert!(!told.stderr.contains("turn 1"), "{}", told.stderr);
+    let one = columns("one.csv", &chosen([0, 1, 2, 3, 5, 6, 4]));
+    bench.run(&one).done().says("along x, y and z of the accelerometer lie z, x and y of the gyroscope");
+}
+
 /// Faces are simulated as well as they are met, and told so.
 #[test]
 fn how_well_the_faces_were_met_is_told() {

@@ -229,12 +229,14 @@ fn turns_that_are_missing_and_values_that_are_absurd_are_named() {
         "sign.toml",
         table.replacen("axis = \"x\", angle_deg = 360.0", "axis = \"x\", angle_deg = -360.0", 1),
     );
-    let outcome = bench.run("calibrate sign.toml table/recording.csv -o out");
-    outcome.says("turn 1 (7.0 to 11.0 s) is given as -360.0° about x, and the gyroscope shows 360° about x");
+    let first = "turn 1 (7.0 to 11.0 s) is given as -360.0° about x, and the gyroscope shows 360° about x";
+    let sign = "calibrate sign.toml table/recording.csv -o out";
+    bench.refuses(sign, 2, &[first, "correct axis, angle or times of the turn"]);
+    let outcome = bench.run(sign);
     assert!(!outcome.stderr.contains("turn 2"), "{}", outcome.stderr);
     bench.write("axis.toml", table.replacen("end_s = 11.0, axis = \"x\"", "end_s = 11.0, axis = \"y\"", 1));
-    let outcome = bench.run("calibrate axis.toml table/recording.csv -o out");
-    outcome.says("turn 1 (7.0 to 11.0 s) is given as 360.0° about y, and the gyroscope shows 360° about x: correct its angle");
+    let first = "turn 1 (7.0 to 11.0 s) is given as 360.0° about y, and the gyroscope shows 360° about x";
+    bench.refuses("calibrate axis.toml table/recording.csv -o out", 2, &[first]);
 
     // what is wrong of all turns is not each turn's fault
     bench.write(
@@ -243,8 +245,10 @@ fn turns_that_are_missing_and_values_that_are_absurd_are_named() {
             .replace("angle_deg = 360.0", "angle_deg = 720.0")
             .replace("angle_deg = -360.0", "angle_deg = -720.0"),
     );
-    let outcome = bench.run("calibrate double.toml table/recording.csv -o out");
-    outcome.says("the gyroscope shows 0.500 of the angle of every turn: are the angle of the turns");
+    let double = "calibrate double.toml table/recording.csv -o out";
+    let share = "the gyroscope shows 0.500 of the angle of every turn";
+    bench.refuses(double, 3, &[share, "the sample rate, or the angle of the turns"]);
+    let outcome = bench.run(double);
     assert!(!outcome.stderr.contains("turn 1"), "{}", outcome.stderr);
     // radians in place of degrees, in all turns and in one
     let radians = |count: usize| {
@@ -252,20 +256,22 @@ fn turns_that_are_missing_and_values_that_are_absurd_are_named() {
         let table = of(table.to_owned(), "angle_deg = 360.0", "angle_deg = 6.283");
         of(table, "angle_deg = -360.0", if count > 1 { "angle_deg = -6.283" } else { "angle_deg = -360.0" })
     };
-    for (name, count, says) in [
+    for (name, count, status, says) in [
         (
             "radians.toml",
             99,
+            3,
             "of the angle of every turn: 180/π times. Is the angle in radians, where degrees are meant",
         ),
         (
             "one.toml",
             1,
+            2,
             "turn 1 (7.0 to 11.0 s) is given as 6.3° about x, and the gyroscope shows 360° about x, 180/π times. Is the angle in radians",
         ),
     ] {
         bench.write(name, radians(count));
-        bench.run(&format!("calibrate {name} table/recording.csv -o out")).says(says);
+        bench.refuses(&format!("calibrate {name} table/recording.csv -o out"), status, &[says]);
     }
 
     let hand = include_str!("../../../../examples/06_whole_imu/hand.toml");

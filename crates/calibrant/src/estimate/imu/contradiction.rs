@@ -9,7 +9,7 @@ use nalgebra::Vector3;
 /// Standard deviations by which the data may be off what was given before it is told.
 const CONTRADICTED: f64 = 4.5;
 /// Readings in SI that are off a turn by more than this share of it show another one.
-const OTHER_TURN: f64 = 0.25;
+pub(super) const OTHER_TURN: f64 = 0.25;
 /// A factor this close to 180/π is taken for it.
 const DEGREES_OR_RADIANS: f64 = 0.1;
 /// Gains of readings in SI that are plausible.
@@ -25,7 +25,7 @@ pub(super) fn contradictions(
     scatter: &Vector3<f64>,
     reordered: bool,
 ) -> Vec<String> {
-    let mut warnings = of_turns(joint, fit, turns, calibration.gyroscope_unit);
+    let mut warnings = of_turns(joint, fit, turns, calibration);
     if let Some((mean, weight)) = &joint.prior {
         for (k, quantity) in joint.quantities.iter().enumerate() {
             let off = (quantity.of(&fit.state.imu) - mean[k]).abs() * weight[k].sqrt();
@@ -68,15 +68,17 @@ pub(super) fn contradictions(
     warnings
 }
 
-fn of_turns(joint: &Joint<'_>, fit: &Fit, turns: &[Turn], unit: ReadingUnit) -> Vec<String> {
+fn of_turns(joint: &Joint<'_>, fit: &Fit, turns: &[Turn], calibration: &ImuCalibration) -> Vec<String> {
     let mut warnings = Vec::new();
-    if unit != ReadingUnit::Counts {
+    let on_faces = calibration.frame_is_known();
+    if calibration.gyroscope_unit != ReadingUnit::Counts {
         if let Some(share) = same_share(joint, fit) {
             let why = factor(share)
                 .unwrap_or("are the angle of the turns, the sample rate and the gyroscope's unit right?");
             return vec![format!("the gyroscope shows {share:.3} of the angle of every turn: {why}")];
         }
-        let other = joint.turns.iter().zip(turns).enumerate();
+        // on known faces these were refused before
+        let other = joint.turns.iter().zip(turns).enumerate().filter(|_| !on_faces);
         warnings.extend(other.filter_map(|(k, (data, turn))| other_turn(fit, data, turn, k)));
     }
     if !warnings.is_empty() {
@@ -111,7 +113,7 @@ fn same_share(joint: &Joint<'_>, fit: &Fit) -> Option<f64> {
 }
 
 /// What a factor between the angle that the gyroscope shows and the one that was given tells, if it is that between degrees and radians.
-fn factor(share: f64) -> Option<&'static str> {
+pub(super) fn factor(share: f64) -> Option<&'static str> {
     const DEGREES: f64 = 180.0 / std::f64::consts::PI;
     let near = |factor: f64| (share / factor - 1.0).abs() < DEGREES_OR_RADIANS;
     if near(DEGREES) {
@@ -125,25 +127,29 @@ fn factor(share: f64) -> Option<&'static str> {
 /// A turn of which the readings, in SI, show quite another one.
 fn other_turn(fit: &Fit, data: &TurnData, turn: &Turn, number: usize) -> Option<String> {
     let shown = data.beyond_bias(&fit.state.imu);
-    let degrees = |angle: f64| angle.to_degrees();
-    // about the axis as it was named
-    let sign = if shown.dot(&turn.axis) < -0.5 * shown.norm() { -1.0 } else { 1.0 };
-    let about = (sign * shown).try_normalize(0.0).unwrap_or(turn.axis);
     let share = shown.dot(&data.angle) / data.angle.norm_squared();
     let why = factor(share)
         .map_or_else(|| ": correct its angle, its axis or its times".to_owned(), |why| format!(", {why}"));
-    ((shown - data.angle).norm() > OTHER_TURN * data.angle.norm()).then(|| {
-        format!(
-            "turn {} ({:.1} to {:.1} s) is given as {:.1}° about {}, and the gyroscope shows {:.0}° about {}{why}",
-            number + 1,
-            turn.start_s,
-            turn.end_s,
-            degrees(turn.angle_rad),
-            words(&turn.axis),
-            degrees(sign * shown.norm()),
-            words(&about)
-        )
-    })
+    ((shown - data.angle).norm() > OTHER_TURN * data.angle.norm())
+        .then(|| format!("{}{why}", shows_another(number, turn, &shown)))
+}
+
+/// What was given of a turn, and what is shown of it, rad.
+pub(super) fn shows_another(number: usize, turn: &Turn, shown: &Vector3<f64>) -> String {
+    // about the axis as it was named
+    let along = shown.dot(&turn.axis);
+    let sign = if along.abs() > 0.5 * shown.norm() { along.signum() } else { turn.angle_rad.signum() };
+    let about = (sign * shown).try_normalize(0.0).unwrap_or(turn.axis);
+    format!(
+        "turn {} ({:.1} to {:.1} s) is given as {:.1}° about {}, and the gyroscope shows {:.0}° about {}",
+        number + 1,
+        turn.start_s,
+        turn.end_s,
+        turn.angle_rad.to_degrees(),
+        words(&turn.axis),
+        (sign * shown.norm()).to_degrees(),
+        words(&about)
+    )
 }
 
 /// Readings in SI have gains near one, each axis along its own.
@@ -157,8 +163,8 @@ fn of_gains(calibration: &ImuCalibration, reordered: bool) -> Vec<String> {
             continue;
         }
         let matrix = &calibration.imu.triad(triad).matrix;
-        if triad == Triad::Accelerometer && calibration.frame_is_known() && turned_frame(matrix) {
-            // the faces say it better
+        if calibration.frame_is_known() && turned_frame(matrix) {
+            // the faces and turns say it better
             continue;
         }
         for axis in Axis::ALL {

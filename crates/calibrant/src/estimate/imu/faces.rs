@@ -128,6 +128,7 @@ pub(super) fn fit(
     if mirrored || is_scattered {
         super::mistaken::directions(problem, &holds, directions, mirrored)?;
     }
+    super::mistaken::absurd(problem.accelerometer.unit, &sensor.matrix)?;
     let turned = super::mistaken::turned_alike(problem, &holds, &forces, &sensor.matrix);
     let correction = sensor.matrix.try_inverse().unwrap_or_else(Matrix3::identity);
     let results: Vec<HoldResult> = holds

@@ -30,6 +30,7 @@ mod known;
 mod lag;
 mod magnitudes;
 mod mistaken;
+mod mistaken_turns;
 mod placing;
 mod problem;
 mod rates;

@@ -6,6 +6,7 @@ use super::both_still::find_clean_imu_holds;
 use super::exchanged::with_exchanged;
 use super::faces::{self, First};
 use super::joint::{HoldData, Joint, Misses, State};
+use super::mistaken_turns;
 use super::readings::{Integrable, felt_forces, rotation_spans, turns};
 use super::settle::{apply, follow_drift, reweigh, settle};
 use super::still::{Explanation, StillNoise, between_sd, still, weigh};
@@ -108,6 +109,9 @@ fn fit(
         quantities,
     };
     let mut state = State { imu: start, forces };
+    if setup.directions.is_some() {
+        said.extend(mistaken_turns::turns(problem.gyroscope, &state.imu, &joint.turns, &setup.turns)?);
+    }
     let obstacles: Vec<String> = spans.iter().filter_map(|span| integrable.obstacle(span)).collect();
     let explained = |error: Error| verdict::with_obstacles(error, &obstacles);
     if joint.rotations.iter().all(|rotation| !rotation.used) && joint.turns.is_empty() {

@@ -177,7 +177,7 @@ fn gain_bound(joint: &Joint<'_>, state: &State) -> Option<f64> {
 }
 
 /// All orders and signs of three axes.
-fn orders() -> [Matrix3<f64>; 48] {
+pub(super) fn orders() -> [Matrix3<f64>; 48] {
     let permutations = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
     std::array::from_fn(|k| {
         let (permutation, signs) = (permutations[k / 8], k % 8);
@@ -189,7 +189,7 @@ fn orders() -> [Matrix3<f64>; 48] {
 }
 
 /// The gyroscope's axis along each of the accelerometer's.
-fn names(matrix: &Matrix3<f64>) -> [String; 3] {
+pub(super) fn names(matrix: &Matrix3<f64>) -> [String; 3] {
     std::array::from_fn(|column| {
         let row = matrix.column(column).iamax();
         let sign = if matrix[(row, column)] < 0.0 { "-" } else { "" };
