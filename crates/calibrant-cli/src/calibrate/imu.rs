@@ -250,6 +250,11 @@ fn setup(
             let complaint = Complaint::new(message, "are the list and the recording of one session?");
             return Err(Error::Experiment(Box::new(complaint.in_file(path))));
         }
+        if setup.holds.intervals_s.is_some() {
+            console::warn(
+                "holds.intervals_s and holds.directions are not used: the list of sections gives the faces",
+            );
+        }
         take_sections(&mut setup, &sections, times, plan);
     }
     if setup.face_sd_rad.is_some() && setup.directions.is_none() {

@@ -5,6 +5,7 @@ use super::text::{self, Checked};
 use crate::error::{Complaint, Error, Result};
 use crate::sensor::Axis;
 use nalgebra::Vector3;
+use serde::de::{Deserialize, Deserializer, MapAccess, Visitor};
 use serde_json::Value;
 use std::path::Path;
 
@@ -63,7 +64,10 @@ pub fn parse_sections(bytes: &[u8]) -> Result<Vec<Section>> {
 
 fn parse(bytes: &[u8]) -> Checked<Vec<Section>> {
     let text = text::as_text(bytes)?;
-    let value: Value = serde_json::from_str(text).map_err(|error| {
+    let List(list) = serde_json::from_str(text).map_err(|error| {
+        if error.is_data() {
+            return Complaint::new("no list of sections: its names are missing", EXAMPLE);
+        }
         let complaint = Complaint::new("no list of sections: this is not JSON", EXAMPLE);
         if error.line() > 0 {
             complaint.at_line(error.line()).at_column(error.column().max(1))
@@ -71,11 +75,12 @@ fn parse(bytes: &[u8]) -> Checked<Vec<Section>> {
             complaint
         }
     })?;
-    let Value::Object(list) = value else {
-        return Err(Complaint::new("no list of sections: its names are missing", EXAMPLE).into());
-    };
-    let mut sections = Vec::with_capacity(list.len());
+    let mut sections: Vec<(&str, Section)> = Vec::with_capacity(list.len());
     for (name, samples) in &list {
+        if sections.iter().any(|(before, _)| before == name) {
+            let message = format!("the section \"{}\" is there twice", shorten(name));
+            return Err(Complaint::new(message, "a list has each name once; more faces and turns: holds.intervals_s, directions and gyroscope.turns in the experiment file").into());
+        }
         let kind = kind(name)
             .ok_or_else(|| Complaint::new(format!("the section \"{name}\" is not known"), NAMES))?;
         let (start, end) = (sample(name, samples, "start")?, sample(name, samples, "end")?);
@@ -89,13 +94,45 @@ fn parse(bytes: &[u8]) -> Checked<Vec<Section>> {
             let message = format!("the section \"{name}\" from sample {start} to {end} has no samples");
             return Err(Complaint::new(message, "its end must be after its start").into());
         }
-        sections.push(Section { kind, start, end });
+        sections.push((name, Section { kind, start, end }));
     }
     if sections.is_empty() {
         return Err(Complaint::new("the list has no sections", NAMES).into());
     }
-    sections.sort_by_key(|section| section.start);
-    Ok(sections)
+    sections.sort_by_key(|(_, section)| section.start);
+    let is_face = |section: &Section| matches!(section.kind, SectionKind::Face(_));
+    for (k, (name, section)) in sections.iter().enumerate() {
+        let overlaps =
+            |(_, other): &&(&str, Section)| other.start < section.end && is_face(other) == is_face(section);
+        if let Some((other, _)) = sections[k + 1..].iter().find(overlaps) {
+            let message = format!("the sections \"{name}\" and \"{other}\" overlap");
+            return Err(Complaint::new(message, "correct their samples: none may count twice").into());
+        }
+    }
+    Ok(sections.into_iter().map(|(_, section)| section).collect())
+}
+
+/// The names of a list with what belongs to each; one that is there twice is in it twice.
+struct List(Vec<(String, Value)>);
+
+impl<'de> Deserialize<'de> for List {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> std::result::Result<Self, D::Error> {
+        struct Names;
+        impl<'de> Visitor<'de> for Names {
+            type Value = Vec<(String, Value)>;
+            fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                f.write_str("a list of sections")
+            }
+            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> std::result::Result<Self::Value, A::Error> {
+                let mut list = Vec::new();
+                while let Some(entry) = map.next_entry()? {
+                    list.push(entry);
+                }
+                Ok(list)
+            }
+        }
+        from.deserialize_map(Names).map(Self)
+    }
 }
 
 /// The sample at which a section starts or ends.
@@ -152,6 +189,18 @@ mod tests {
             (r#"{"x_p": {"start": 0, "end": 9, "stop": 9}}"#, "\"x_p\" has a \"stop\", which is not known"),
             (r#"{"x_p": {"start": 9, "end": 9}}"#, "from sample 9 to 9 has no samples"),
             ("{}", "the list has no sections"),
+            (
+                r#"{"x_p": {"start": 0, "end": 9}, "y_p": {"start": 20, "end": 29}, "x_p": {"start": 40, "end": 49}}"#,
+                "the section \"x_p\" is there twice",
+            ),
+            (
+                r#"{"x_p": {"start": 0, "end": 30}, "x_rot": {"start": 5, "end": 9}, "y_p": {"start": 29, "end": 49}}"#,
+                "the sections \"x_p\" and \"y_p\" overlap",
+            ),
+            (
+                r#"{"x_rot": {"start": 10, "end": 30}, "y_rot": {"start": 0, "end": 40}}"#,
+                "the sections \"y_rot\" and \"x_rot\" overlap",
+            ),
         ] {
             let said = parse_sections(list.as_bytes()).expect_err(list).to_string();
             assert!(said.contains(says), "{list}: {said}");

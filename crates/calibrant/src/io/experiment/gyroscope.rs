@@ -99,9 +99,6 @@ pub(super) fn read(
         ReadingUnit::Counts => per_axis("noise_counts", &NOISE_COUNTS)?,
         _ => per_axis("noise_radps", &NOISE_RADPS)?,
     };
-    let angle = |key: &str, bounds: &Bounds, otherwise: f64| {
-        section.get(key).map_or(Ok(otherwise), |entry| entry.number(bounds)).map(f64::to_radians)
-    };
     Ok(ImuPlan {
         gyroscope: Gyroscope {
             unit,
@@ -112,11 +109,24 @@ pub(super) fn read(
         },
         file_unit,
         turns: section.get("turns").map_or(Ok(Vec::new()), |entry| turns(&entry))?,
-        section_angle_rad: angle("turn_angle_deg", &ANGLE, -360.0)?,
-        section_angle_sd_rad: angle("turn_sd_deg", &ANGLE_SD, 0.5)?,
+        section_angle_rad: section
+            .get("turn_angle_deg")
+            .map_or(Ok((-360.0_f64).to_radians()), |entry| turned_by(&entry))?,
+        section_angle_sd_rad: section
+            .get("turn_sd_deg")
+            .map_or(Ok(0.5), |entry| entry.number(&ANGLE_SD))?
+            .to_radians(),
         known: known.map_or(Ok(Vec::new()), |section| read_known(section, &thermal))?,
         thermal,
     })
+}
+
+/// The angle of a turn, rad.
+fn turned_by(entry: &Entry<'_>) -> Result<f64> {
+    match entry.number(&ANGLE)?.to_radians() {
+        0.0 => Err(entry.complain("a turn by nothing", "its angle in degrees, right-handed about its axis")),
+        angle_rad => Ok(angle_rad),
+    }
 }
 
 fn turns(entry: &Entry<'_>) -> Result<Vec<Turn>> {
@@ -131,12 +141,7 @@ fn turns(entry: &Entry<'_>) -> Result<Vec<Turn>> {
             return Err(item.complain(message, HELP));
         }
         let angle = turn.need("angle_deg", HELP)?;
-        let angle_rad = angle.number(&ANGLE)?.to_radians();
-        if angle_rad == 0.0 {
-            return Err(
-                angle.complain("a turn by nothing", "its angle in degrees, right-handed about its axis")
-            );
-        }
+        let angle_rad = turned_by(&angle)?;
         let sd = turn.get("angle_sd_deg").map_or(Ok(0.5), |entry| entry.number(&ANGLE_SD))?;
         let axis = direction(&turn.need("axis", HELP)?)?;
         let turn = Turn { start_s, end_s, axis, angle_rad, angle_sd_rad: sd.to_radians() };
