@@ -127,6 +127,9 @@ pub(super) fn placing<T>(
     let source = degrees.source(given_rad);
     let told = source == TiltSource::Recording;
     let mut placing = Placing::of(given_rad.unwrap_or(ASSUMED_RAD), 0.0, degrees.faces);
+    // where noise decides, all three components of a face share the parameters alike; where tilts do, what it shows along tells what it can alone
+    let scattered = (fit(&Placing::default())?.0.all / degrees.all.max(1) as f64).max(1.0);
+    let shared = (degrees.all as f64 / 3.0 - degrees.along as f64).max(0.0);
     for _ in 0..ROUNDS {
         let before = placing;
         if told {
@@ -139,7 +142,7 @@ pub(super) fn placing<T>(
         if degrees.along >= FEWEST {
             let at = |along_mps2: f64| Placing { along_mps2, ..placing };
             let guess = gravity * ASSUMED_RAD.powi(2);
-            let along = degrees.along as f64;
+            let along = degrees.along as f64 + shared / scattered;
             placing.along_mps2 =
                 excess(along, |_| guess, |along| fit(&at(along)).map(|(chi2, _)| (chi2.along, ())))?.0;
         }
