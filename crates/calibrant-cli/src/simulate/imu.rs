@@ -4,7 +4,7 @@ use super::{Arguments, Random};
 use crate::console;
 use calibrant::Error;
 use calibrant::error::Complaint;
-use calibrant::io::{Experiment, HoldsPlan, ImuPlan, write_imu_recording, write_imu_truth};
+use calibrant::io::{Experiment, HoldsPlan, ImuPlan, ImuReadOptions, write_imu_recording, write_imu_truth};
 use calibrant::sensor::{CalibratedImu, ImuParameters, ImuQuantity, ReadingUnit, Triad, WORKING_C};
 use calibrant::simulate::{
     GyroscopeToDraw, ImuSimulation, MOST_SAMPLES, Rng, TURN_S, TableAction, TableStep, draw_imu, draw_known,
@@ -84,6 +84,12 @@ pub(super) fn run(
     };
     write_imu_truth(&arguments.output.join("truth.json"), random.seed, &quantities, units, &truth)?;
     write_imu_recording(&arguments.output.join("recording.csv"), &recording)?;
+    if experiment.columns != ImuReadOptions::default() {
+        console::note(&format!(
+            "recording.csv says its columns and units itself: to calibrate it take a copy of {} without [columns] and gyroscope.unit, which are about another file",
+            arguments.experiment.display()
+        ));
+    }
     Ok(recording.accelerometer.map_or(0, |recording| recording.len()))
 }
 

@@ -110,3 +110,19 @@ fn how_well_the_faces_were_met_is_told() {
         &["face_sd_deg"],
     );
 }
+
+/// The preset is for files of imucal, and simulated recordings are none: the way from one to the other is said, and leads there.
+#[test]
+fn a_recording_simulated_for_files_of_another_format_is_told_how_to_be_calibrated() {
+    let bench = Bench::new();
+    bench.preset("ferraris", "ferraris.toml", &[]);
+    let done = bench.run("simulate ferraris.toml --seed 2 -o made").done();
+    let says = "take a copy of ferraris.toml without [columns] and gyroscope.unit";
+    assert!(done.stderr.contains(says), "{}", done.stderr);
+    let text = bench.read("ferraris.toml");
+    let (before, columns) = text.split_once("[columns]").expect("a section");
+    let after = columns.split_once("\n[").map_or(String::new(), |(_, after)| format!("[{after}"));
+    let copy = format!("{before}{after}").replace("unit = \"degps\"", "#");
+    bench.write("copy.toml", copy);
+    bench.run("calibrate copy.toml made/recording.csv --no-report -o out").done();
+}
