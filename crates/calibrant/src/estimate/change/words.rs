@@ -15,9 +15,10 @@ impl Change {
                 "the temperature goes from {low:.1} to {high:.1} °C, and nothing follows it: set [temperature]; or"
             ),
             (_, Course::Drift | Course::Wander { .. }) => "let the sensor warm up before; or".to_owned(),
-            (_, Course::Step { .. }) => {
-                "was it knocked, did a mounting slip, did it saturate, was it still warming up?".to_owned()
-            }
+            (_, Course::Step { .. }) => format!(
+                "was it knocked, did a mounting slip, did it saturate, was it still warming up{}?",
+                if self.of == Changed::Bias { ", does its bias walk at random" } else { "" }
+            ),
         };
         let apart = match self.course {
             Course::Drift | Course::Wander { .. } => "calibrate the first and the second half apart",
