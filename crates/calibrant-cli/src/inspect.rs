@@ -137,6 +137,10 @@ fn sampling(sensor: &SensorInspection) -> String {
         1 => format!("1 gap of {} s", short(sensor.lost_s)),
         many => format!("{many} gaps, {} s lost", short(sensor.lost_s)),
     };
+    let gaps = match sensor.missing > 0.0 {
+        true => format!("{} % of the samples missing, {gaps}", significant(100.0 * sensor.missing, 2)),
+        false => gaps,
+    };
     // a nanosecond and less is rounding, as are the last digits of a time long after the clock began
     let jitter = if sensor.jitter_s < 1e-9_f64.max(f64::EPSILON * end.abs()) {
         "none".into()

@@ -3,10 +3,10 @@
 use calibrant::estimate::{ImuCalibration, ImuSetup, WhiteNoise, holds_between};
 use calibrant::motion::Hold;
 use calibrant::noise::{Moments, Stretch, TriadNoise};
-use calibrant::sensor::{ImuRecording, Triad};
+use calibrant::sensor::{ImuRecording, Recording, Triad};
 use nalgebra::Vector3;
 
-/// A hold shorter than this says too little of the noise, s.
+/// A hold, or what is left of it between gaps, that is shorter than this says too little of the noise, s.
 const LONG_HOLD_S: f64 = 20.0;
 
 /// The longest hold, where it is long enough.
@@ -29,10 +29,7 @@ impl LongestHold {
         let mut holds = given.or_else(|| setup.found.clone())?;
         let number = Hold::longest(&holds)?;
         let hold = holds.swap_remove(number);
-        if hold.duration_s() < LONG_HOLD_S {
-            return None;
-        }
-        let stretch = |triad| Stretch::between(recording.triad(triad)?, hold.start_s, hold.end_s).ok();
+        let stretch = |triad| long_stretch(recording.triad(triad)?, &hold);
         let stretch = stretch(Triad::Gyroscope).or_else(|| stretch(Triad::Accelerometer))?;
         Some(Self { number, moments: Moments::of(stretch.samples()), hold })
     }
@@ -40,7 +37,7 @@ impl LongestHold {
     /// The noise of a sensor in it; `None` where its samples do not determine it.
     pub(super) fn noise(&self, triad: Triad, recording: &ImuRecording) -> Option<TriadNoise> {
         let recording = recording.triad(triad)?;
-        let stretch = Stretch::between(recording, self.hold.start_s, self.hold.end_s).ok()?;
+        let stretch = long_stretch(recording, &self.hold)?;
         if stretch.samples() == self.moments.samples() {
             TriadNoise::with_moments(triad, recording, stretch, &self.moments).ok()
         } else {
@@ -55,6 +52,12 @@ impl LongestHold {
             .filter(|_| gyroscope.explains() && gyroscope.doubt.is_none())?;
         Some(WhiteNoise { sd, hold: self.number, duration_s: gyroscope.stretch.duration_s() })
     }
+}
+
+/// The samples of a hold without a gap, where they last long enough.
+fn long_stretch(recording: &Recording, hold: &Hold) -> Option<Stretch> {
+    let stretch = Stretch::between(recording, hold.start_s, hold.end_s).ok()?;
+    (stretch.duration_s() + stretch.interval_s >= LONG_HOLD_S).then_some(stretch)
 }
 
 /// The noise of a sensor in m/s² or rad/s.

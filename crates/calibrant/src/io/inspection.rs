@@ -8,7 +8,9 @@ use crate::estimate::{
     expected_calibration, find_clean_imu_holds, holds_lost_to_filter,
 };
 use crate::motion::Hold;
-use crate::sensor::{Gauge, ImuRecording, MeanReading, ReadingUnit, Recording, Saturation, Sparks, Triad};
+use crate::sensor::{
+    Gauge, ImuRecording, MeanReading, ReadingUnit, Recording, Saturation, Sparks, Triad, missing,
+};
 use nalgebra::Vector3;
 use serde::Serialize;
 
@@ -51,6 +53,8 @@ pub struct SensorInspection {
     pub gaps: usize,
     /// Time that is lost in gaps, s.
     pub lost_s: f64,
+    /// The share of the samples that is missing one by one between the gaps; 0 where it is too little to be told.
+    pub missing: f64,
     /// Least, mean and largest reading per axis.
     pub least: Vector3<f64>,
     /// Mean reading per axis.
@@ -106,7 +110,8 @@ pub fn inspect(file: &ImuFile) -> Inspection {
 
 impl SensorInspection {
     fn of(triad: Triad, recording: &Recording) -> Self {
-        let usual = 1.0 / recording.rate_hz();
+        let rate_hz = recording.rate_hz();
+        let usual = 1.0 / rate_hz;
         let (mut steps, mut gaps, mut lost_s) = (Vec::with_capacity(recording.len()), 0, 0.0);
         for pair in recording.times_s.windows(2) {
             let step = pair[1] - pair[0];
@@ -128,11 +133,12 @@ impl SensorInspection {
             unit: recording.unit,
             samples: recording.len(),
             span_s: (recording.times_s[0], recording.times_s[recording.len() - 1]),
-            rate_hz: recording.rate_hz(),
+            rate_hz,
             steps_s: (bounds(f64::INFINITY, f64::min), bounds(0.0, f64::max)),
             jitter_s: variance.sqrt(),
             gaps,
             lost_s,
+            missing: missing(&recording.times_s, rate_hz, GAP * usual),
             least,
             mean: readings.iter().sum::<Vector3<f64>>() / readings.len() as f64,
             most,
@@ -237,6 +243,7 @@ struct SensorFields {
     jitter_s: f64,
     gaps: usize,
     lost_s: f64,
+    missing_share: f64,
     least: Vec<f64>,
     mean: Vec<f64>,
     most: Vec<f64>,
@@ -387,6 +394,7 @@ impl SensorFields {
             jitter_s: sensor.jitter_s,
             gaps: sensor.gaps,
             lost_s: sensor.lost_s,
+            missing_share: sensor.missing,
             least: list(&sensor.least),
             mean: list(&sensor.mean),
             most: list(&sensor.most),

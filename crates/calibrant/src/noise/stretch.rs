@@ -1,11 +1,14 @@
 //! The stretch of a recording whose noise is examined: at rest, at equal intervals.
 
 use crate::error::{Complaint, Error, Result};
-use crate::sensor::{Recording, rate_hz};
+use crate::sensor::{Recording, missing, rate_hz};
 use std::ops::Range;
 
-/// A time step is a gap from this many usual steps on.
-const GAP: f64 = 1.5;
+/// A time step is a gap from this many usual steps on,
+const GAP: f64 = 5.0;
+/// where no more than this share of the samples is missing between gaps; else each that is missing is one.
+const MISSING: f64 = 0.1;
+const STEP: f64 = 1.5;
 /// Fewest samples.
 const FEWEST: usize = 96;
 
@@ -24,6 +27,8 @@ pub struct Stretch {
     pub interval_s: f64,
     /// Largest deviation of a time step from the mean, relative to it.
     pub jitter: f64,
+    /// Share of the samples that is missing; 0 where it is too little to be told.
+    pub missing: f64,
     /// Parts that gaps make of the interval that was asked for; this is the longest.
     pub parts: usize,
 }
@@ -31,8 +36,8 @@ pub struct Stretch {
 impl Stretch {
     /// The longest stretch without a gap between these times in s.
     ///
-    /// Missing samples would shift all that follow against the clusters, so a gap ends a stretch. Jitter of the sample times averages out and is only
-    /// reported.
+    /// Missing samples shift all that follow against the clusters, so a gap ends a stretch: one of five samples, or of one where more than 10 % are missing. The samples beside fewer missing ones are taken
+    /// as if they followed one another, `interval_s` being their mean distance; N is then that of what was recorded. Jitter of the sample times averages out and is only reported.
     ///
     /// # Errors
     /// [`Error::Experiment`] for times that are none, in the wrong order, or of which the recording has nothing; [`Error::Recording`] where it has fewer than 96 samples.
@@ -40,9 +45,11 @@ impl Stretch {
         check(recording, start_s, end_s)?;
         let Range { start: first, end } = recording.between(start_s, end_s);
         let times = &recording.times_s[first..end];
-        let step = rate_hz(times).recip();
+        let rate = rate_hz(times);
+        let lacks = |times: &[f64]| missing(times, rate, GAP / rate);
+        let gap_s = if lacks(times) > MISSING { STEP } else { GAP } / rate;
         let mut edges = vec![0];
-        edges.extend((1..times.len()).filter(|&k| times[k] - times[k - 1] > GAP * step));
+        edges.extend((1..times.len()).filter(|&k| times[k] - times[k - 1] > gap_s));
         edges.push(times.len());
         let parts = edges.len() - 1;
         let longest =
@@ -67,6 +74,7 @@ impl Stretch {
             end_s: times[samples - 1],
             interval_s,
             jitter,
+            missing: lacks(times),
             parts,
         })
     }
@@ -125,11 +133,24 @@ mod tests {
 
     #[test]
     fn a_gap_ends_a_stretch() {
-        let times = (0..1000).filter(|k| !(300..303).contains(k)).map(|k| f64::from(k) * 0.01).collect();
+        let times = (0..1000).filter(|k| !(300..305).contains(k)).map(|k| f64::from(k) * 0.01).collect();
         let stretch = Stretch::between(&recording(times), 0.5, 9.0).expect("long enough");
-        assert_eq!((stretch.parts, stretch.samples()), (2, 598));
-        assert!((stretch.start_s - 3.03).abs() < 1e-12 && (stretch.interval_s - 0.01).abs() < 1e-12);
-        assert!(stretch.jitter < 1e-9);
+        assert_eq!((stretch.parts, stretch.samples()), (2, 596));
+        assert!((stretch.start_s - 3.05).abs() < 1e-12 && (stretch.interval_s - 0.01).abs() < 1e-12);
+        assert!(stretch.jitter < 1e-9 && stretch.missing == 0.0);
+    }
+
+    #[test]
+    fn single_samples_may_be_missing() {
+        let lacking = |one_in: i32| {
+            let times = (0..10_000).filter(|k| k * 7919 % one_in != 1).map(|k| f64::from(k) * 0.01).collect();
+            Stretch::between(&recording(times), 0.0, 99.0)
+        };
+        let stretch = lacking(37).expect("one in 37");
+        assert_eq!(stretch.parts, 1);
+        assert!((stretch.missing * 37.0 - 1.0).abs() < 0.01, "{}", stretch.missing);
+        assert!((stretch.interval_s / 0.01 * 36.0 / 37.0 - 1.0).abs() < 1e-3, "{}", stretch.interval_s);
+        assert!(lacking(7).expect_err("too many").to_string().contains("without a gap"));
     }
 
     #[test]
@@ -146,8 +167,8 @@ mod tests {
 
     #[test]
     fn too_short_is_refused_with_the_reason() {
-        let times = (0..300).filter(|k| k % 60 != 0).map(|k| f64::from(k) * 0.01).collect();
+        let times = (0..300).filter(|k| k % 12 != 0).map(|k| f64::from(k) * 0.01).collect();
         let error = Stretch::between(&recording(times), 0.0, 3.0).expect_err("gaps everywhere");
-        assert!(error.to_string().contains("59 samples without a gap (there are 4)"), "{error}");
+        assert!(error.to_string().contains("11 samples without a gap (there are 24)"), "{error}");
     }
 }

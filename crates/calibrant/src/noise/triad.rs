@@ -235,7 +235,13 @@ impl TriadNoise {
     fn remarks(&self, readings: &[Vector3<f64>]) -> Vec<String> {
         let unit = self.unit.symbol();
         let mut remarks = self.of_outliers();
-        if self.stretch.jitter > JITTER {
+        if self.stretch.missing > 0.0 {
+            remarks.push(format!(
+                "{:.1} % of the samples are missing; the others are taken as if they followed one another: N is that of what was recorded, {:.1} % above the sensor's",
+                100.0 * self.stretch.missing,
+                100.0 * ((1.0 - self.stretch.missing).sqrt().recip() - 1.0)
+            ));
+        } else if self.stretch.jitter > JITTER {
             remarks.push(format!(
                 "the sample times vary by up to {:.0} % of the interval: short cluster times are less certain than stated",
                 100.0 * self.stretch.jitter

@@ -2,7 +2,7 @@
 
 use super::finding::{Finding, FindingKind, count, moment, short};
 use super::rows::LineMap;
-use crate::sensor::{Recording, greater, lesser};
+use crate::sensor::{Recording, greater, lesser, missing};
 
 /// A step of the time is a gap from this many usual steps on.
 const GAP: f64 = 5.0;
@@ -99,12 +99,18 @@ pub(super) fn sampling(recording: &Recording, rate: f64, lines: &LineMap, findin
     let resolution =
         4.0 * f64::EPSILON * ends.into_iter().flatten().fold(0.0_f64, |most, t| most.max(t.abs()));
     if most - usual > JITTER * usual + resolution || usual - least > JITTER * usual + resolution {
+        let missing = missing(&recording.times_s, rate, GAP * usual);
         let message = format!(
-            "sampling is irregular: time steps from {} to {} ms, usually {} ms ({} Hz)",
+            "sampling is irregular: time steps from {} to {} ms, usually {} ms ({} Hz){}",
             short(least * 1e3),
             short(most * 1e3),
             short(usual * 1e3),
-            short(rate)
+            short(rate),
+            if missing > 0.0 {
+                format!("; {:.1} % of the samples are missing", 100.0 * missing)
+            } else {
+                String::new()
+            }
         );
         findings.push(Finding::new(FindingKind::IrregularSampling, None, message));
     }

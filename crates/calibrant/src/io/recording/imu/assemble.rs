@@ -37,6 +37,7 @@ pub(super) fn assemble(
     let triads = with_values(draft, samples)?;
     let units =
         triads.iter().map(|&triad| stated_unit(draft, options, triad)).collect::<Checked<Vec<_>>>()?;
+    let has_unused_rate = options.rate_hz.is_some() && clock::are_recorded(samples);
     let times = clock::times(draft, samples, options, &mut findings);
     // the questions are asked all at once
     let mut times = match times {
@@ -59,6 +60,8 @@ pub(super) fn assemble(
         };
         times = clock::of_rows(samples.rows, rate, &mut findings);
         (kept, of_rows) = (Kept { rows: times.len(), dropped: Vec::new() }, Vec::new());
+    } else if has_unused_rate {
+        findings.push(clock::rate_not_used());
     }
     findings.append(&mut of_rows);
     let mut recording = ImuRecording::default();

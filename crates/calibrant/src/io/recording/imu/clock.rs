@@ -15,9 +15,14 @@ const EPOCH_S: f64 = 1e8;
 const LARGEST_S: f64 = 1e12;
 /// Said of times that have another beginning than in the file.
 pub(super) const COUNTED: &str = "times count from the first";
-const NOT_USED: &str = "the rate that was given is not used: the file has sample times";
 /// A stated rate and a given one may differ by this share.
 const SAME_RATE: f64 = 1e-3;
+
+/// Are there sample times? A clock that most rows lack is none, where there is a counter.
+pub(super) fn are_recorded(samples: &Samples) -> bool {
+    let present = samples.times.iter().filter(|t| t.is_finite()).count();
+    present > 0 && (2 * present > samples.rows || samples.counts.is_empty())
+}
 
 /// Sample times of the rows, s; NaN where a row has none.
 pub(super) fn times(
@@ -28,14 +33,9 @@ pub(super) fn times(
 ) -> Checked<Vec<f64>> {
     let rate = rate(draft, options)?;
     let times = &samples.times;
-    let present = times.iter().filter(|t| t.is_finite()).count();
     let has_counter = !samples.counts.is_empty();
-    // a clock that most rows lack is none, where there is a counter
-    if present > 0 && (2 * present > samples.rows || !has_counter) {
+    if are_recorded(samples) {
         draft.leave_aside(ColumnMeaning::Counter, "there are sample times");
-        if options.rate_hz.is_some() {
-            findings.push(Finding::new(FindingKind::Clock, None, NOT_USED.to_owned()));
-        }
         return of_times(draft, samples, findings);
     }
     let empty =
@@ -63,13 +63,21 @@ pub(super) fn times(
 
 /// Times of the rows by the rate that was given, in the place of those in the file, which are not those of samples.
 pub(super) fn of_rows(rows: usize, rate_hz: f64, findings: &mut Vec<Finding>) -> Vec<f64> {
-    findings.retain(|finding| finding.message != NOT_USED);
     let message = format!(
         "its times are those of packets, not of samples: they follow from the rows and {} Hz, as given; lost samples would not show",
         short(rate_hz)
     );
     findings.push(Finding::new(FindingKind::Clock, None, message));
     (0..rows).map(|row| row as f64 / rate_hz).collect()
+}
+
+/// What is said of a rate that the times do without.
+pub(super) fn rate_not_used() -> Finding {
+    Finding::new(
+        FindingKind::Clock,
+        None,
+        "the rate that was given is not used: the file has sample times".into(),
+    )
 }
 
 /// The sample rate where it is stated or given, and who says so.
