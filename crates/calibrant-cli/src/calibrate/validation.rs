@@ -77,7 +77,8 @@ pub(super) fn of_imu(
             let others = (&*other.sha256.concat(), other.recording.triad(triad));
             refuse_the_same(triad, known, &calibration.holds, others, path)?;
         }
-        let setup = ImuSetup { holds: found(&problem.setup.holds), ..ImuSetup::default() };
+        let (holds, latitude_deg) = (found(&problem.setup.holds), problem.setup.latitude_deg);
+        let setup = ImuSetup { holds, latitude_deg, ..ImuSetup::default() };
         let on_other = ImuProblem { recording: &other.recording, setup: &setup, ..*problem };
         let mut validation = validate_imu(calibration, &on_other).map_err(|error| in_file(error, path))?;
         let temperature = other_temperature(calibration, &validation, problem.recording, &other.recording);

@@ -5,6 +5,7 @@ use crate::console;
 use calibrant::Error;
 use calibrant::error::Complaint;
 use calibrant::io::{Experiment, HoldsPlan, ImuPlan, ImuReadOptions, write_imu_recording, write_imu_truth};
+use calibrant::motion::earth_rate;
 use calibrant::sensor::{CalibratedImu, ImuParameters, ImuQuantity, ReadingUnit, Triad, WORKING_C};
 use calibrant::simulate::{
     GyroscopeToDraw, ImuSimulation, MOST_SAMPLES, Rng, TURN_S, TableAction, TableStep, draw_imu, draw_known,
@@ -57,6 +58,7 @@ pub(super) fn run(
         accelerometer_unit: sensor.unit,
         gyroscope_unit: plan.gyroscope.unit,
         face_sd_rad: holds.face_sd_rad.unwrap_or(0.0),
+        earth_rate_radps: holds.latitude_deg.map_or_else(Vector3::zeros, earth_rate),
         temperature_c: warming(plan),
     };
     let units = [sensor.unit, plan.gyroscope.unit];

@@ -15,6 +15,7 @@
 
 mod change;
 mod comparison;
+mod earth;
 mod excess;
 mod gravity;
 mod holds;

@@ -2,6 +2,7 @@
 
 mod at_time;
 mod command;
+mod earth;
 mod gravity;
 mod hold;
 mod jerk_controlled;
@@ -10,6 +11,7 @@ mod sampling;
 
 pub use at_time::MotionState;
 pub use command::{CommandedMotion, InputNoise, KnownEnds, Trust};
+pub use earth::{EARTH_RATE_RADPS, earth_rate};
 pub use gravity::Gravity;
 pub use hold::Hold;
 pub use jerk_controlled::JerkControlledMotion;

@@ -90,7 +90,10 @@ pub fn simulate_table(
     for k in 0..=samples {
         let t = from_s + k as f64 * step_s;
         let (before, here, after) = (attitude(t - 0.5 * step_s), attitude(t), attitude(t + 0.5 * step_s));
-        stimuli.push(t, here.inverse() * up, (before.inverse() * after).scaled_axis() / step_s);
+        let rate = (before.inverse() * after).scaled_axis() / step_s;
+        let sensor_from_world = here.inverse();
+        let of_earth = sensor_from_world * setup.earth_rate_radps;
+        stimuli.push(t, sensor_from_world * up, rate + of_earth);
     }
     stimuli.record(imu, setup, rng)
 }

@@ -35,6 +35,8 @@ pub struct ImuSimulation {
     pub gyroscope_unit: ReadingUnit,
     /// Standard deviation of the tilt, about each axis, with which a face on a table is met, rad.
     pub face_sd_rad: f64,
+    /// The Earth's rate in a frame whose z axis is up ([`earth_rate`](crate::motion::earth_rate) at a latitude), rad/s; zero for an Earth that does not turn.
+    pub earth_rate_radps: Vector3<f64>,
     /// Temperature at the beginning and at the end, °C, even in between; `None` for an IMU at its reference temperature, of which nothing is recorded.
     pub temperature_c: Option<[f64; 2]>,
 }
@@ -52,6 +54,7 @@ impl Default for ImuSimulation {
             accelerometer_unit: ReadingUnit::MetrePerSecondSquared,
             gyroscope_unit: ReadingUnit::RadianPerSecond,
             face_sd_rad: 0.0,
+            earth_rate_radps: Vector3::zeros(),
             temperature_c: None,
         }
     }
@@ -69,7 +72,9 @@ pub fn simulate_imu(imu: &ImuParameters, setup: &ImuSimulation, rng: &mut Rng) -
     let mut world_from_sensor = UnitQuaternion::from_scaled_axis(random(rng));
     let mut stimuli = Stimuli::default();
     let mut emit = |attitude: &UnitQuaternion<f64>, rate: Vector3<f64>| {
-        stimuli.push(stimuli.len() as f64 * step, attitude.inverse() * up, rate);
+        let sensor_from_world = attitude.inverse();
+        let of_earth = sensor_from_world * setup.earth_rate_radps;
+        stimuli.push(stimuli.len() as f64 * step, sensor_from_world * up, rate + of_earth);
     };
     for pose in 0..setup.poses {
         for _ in 0..samples(setup.hold_s) {

@@ -37,9 +37,10 @@ fn every_preset_is_valid_also_with_its_commented_keys_switched_on_one_by_one() {
                 let lines = text.lines().enumerate().map(|(i, line)| if i == at { key } else { line });
                 Experiment::parse(&lines.collect::<Vec<_>>().join("\n"), None)
             };
-            // latitude and height stand for gravity, and go together: no line is good alone
+            // latitude and height stand for gravity, and go together: no line is good alone, but the latitude of an IMU
+            let alone = |key: &str| key.starts_with("latitude") && name.starts_with("imu");
             match with(key) {
-                Ok(_) => assert!(!key.starts_with("latitude") && !key.starts_with("height")),
+                Ok(_) => assert!(alone(key) || !key.starts_with("latitude") && !key.starts_with("height")),
                 Err(error) => {
                     assert!(error.to_string().contains("gravity is given twice"), "{name}: {key}: {error}")
                 }
@@ -118,6 +119,21 @@ fn gravity_comes_from_latitude_and_height() {
     assert_eq!(plan.gravity_source, "from latitude 52.2°, height 30 m");
     let experiment = parse(&format!("{HOLDS}latitude_deg = 52.2\nheight_m = 30\ngravity_sd_mps2 = 1e-3\n"));
     assert_eq!(holds(&experiment).gravity.sd_mps2, 1e-3);
+}
+
+#[test]
+fn a_latitude_beside_the_gravity_of_an_imu_is_for_the_rate_of_the_earth() {
+    let imu = preset("imu").expect("known");
+    let gravity = "gravity_mps2 = 9.80665 ";
+    let experiment = parse(&imu.replace(gravity, &format!("latitude_deg = -33.9\n{gravity}")));
+    let plan = holds(&experiment);
+    assert_eq!((plan.gravity.magnitude_mps2, plan.latitude_deg), (9.80665, Some(-33.9)));
+    assert_eq!(experiment.imu.as_ref().expect("an IMU").setup(plan).latitude_deg, Some(-33.9));
+    // the height is of no use to it
+    let both = imu.replace(gravity, &format!("height_m = 30.0\nlatitude_deg = -33.9\n{gravity}"));
+    let error = Experiment::parse(&both, None).expect_err("twice").to_string();
+    assert!(error.contains("`holds.height_m`: gravity is given twice"), "{error}");
+    assert!(error.contains("latitude_deg alone may stand beside it, for the Earth's rate"), "{error}");
 }
 
 #[test]

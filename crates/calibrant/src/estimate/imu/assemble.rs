@@ -16,6 +16,7 @@ use super::verdict;
 use super::weights::Weighed;
 use super::{ImuCalibration, ImuProblem, NoiseSource, RotationResult, StillGyroscope, TurnResult};
 use crate::error::Result;
+use crate::estimate::earth::{VERTICAL_VARIANCE, vertical_slope};
 use crate::estimate::gravity::gravity_slope;
 use crate::estimate::holds::left_out;
 use crate::estimate::one_sided::one_sided;
@@ -60,7 +61,7 @@ impl Finished<'_> {
         let (joint, fit) = (self.joint, self.fit);
         let size = joint.quantities.len();
         let mut covariance = information::covariance(&fit.information).ok_or_else(singular)?;
-        let prior_share = (0..size)
+        let prior_share: Vec<f64> = (0..size)
             .map(|k| {
                 joint
                     .prior
@@ -77,6 +78,10 @@ impl Finished<'_> {
         let of_noise = covariance.clone();
         for (slope, sd) in self.common_slopes(&of_noise) {
             covariance += &slope * slope.transpose() * (sd * sd);
+        }
+        if problem.setup.latitude_deg.is_none() {
+            let slope = vertical_slope(&joint.quantities, &prior_share, &imu, g.magnitude_mps2);
+            covariance += &slope * slope.transpose() * VERTICAL_VARIANCE;
         }
         let before = self.gyroscope_before(problem);
         let rotations = self.rotations(&before);
@@ -133,6 +138,7 @@ impl Finished<'_> {
             imu,
             accelerometer_unit: problem.accelerometer.unit,
             gyroscope_unit: problem.gyroscope.unit,
+            latitude_deg: problem.setup.latitude_deg,
             chi2: fit.chi2,
             degrees_of_freedom: equations.saturating_sub(unknowns),
             holds,
@@ -211,7 +217,7 @@ impl Finished<'_> {
             }
             for (hold, force) in joint.holds.iter().zip(&self.fit.state.forces) {
                 let Some((_, weight)) = &hold.gyroscope else { continue };
-                let (stimulus, temperature_c) = (Vector3::zeros(), hold.temperature_c);
+                let (stimulus, temperature_c) = (force * joint.vertical_rate, hold.temperature_c);
                 let at = Condition { imu, stimulus, force: *force, temperature_c };
                 let shapes = force.push(joint.gravity) / joint.gravity;
                 for k in joint.gyroscope_places() {
@@ -236,7 +242,8 @@ impl Finished<'_> {
         for (hold, force) in self.joint.holds.iter().zip(&self.fit.state.forces) {
             let Some((mean, _)) = &hold.gyroscope else { continue };
             let correction = Correction::of(&imu.at(hold.temperature_c).gyroscope)?;
-            sum += correction.apply(&(mean - imu.g_sensitivity * force)).norm_squared();
+            let rate = correction.apply(&(mean - imu.g_sensitivity * force));
+            sum += (rate - force * self.joint.vertical_rate).norm_squared();
             count += 1;
         }
         Some((sum / f64::from(count.max(1))).sqrt())

@@ -100,6 +100,8 @@ pub(in crate::estimate) struct Carrying<'a> {
     pub(in crate::estimate) imu: &'a ImuParameters,
     pub(in crate::estimate) quantities: &'a [ImuQuantity],
     pub(in crate::estimate) gravity_mps2: f64,
+    /// The Earth's rate about the vertical over gravity, (rad/s)/(m/s²), where it is known.
+    pub(in crate::estimate) vertical_rate: f64,
     /// Scatter of the gyroscope's bias between holds, in the unit of its readings.
     pub(in crate::estimate) between: Vector3<f64>,
     pub(in crate::estimate) accelerometer: &'a Recording,
@@ -144,6 +146,7 @@ impl Carrying<'_> {
         let mut joint = Joint {
             quantities: self.quantities.to_vec(),
             gravity: g,
+            vertical_rate: self.vertical_rate,
             holds: data,
             rotations,
             turns: Vec::new(),

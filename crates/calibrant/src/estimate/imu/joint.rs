@@ -6,11 +6,12 @@
 //! | of | residual | unknowns |
 //! |---|---|---|
 //! | a hold, accelerometer | `ȳ_a − S_a f_j − b_a` | `f_j`, accelerometer |
-//! | a hold, gyroscope | `ȳ_g − b_g − Γ f_j` | `f_j`, gyroscope |
+//! | a hold, gyroscope | `ȳ_g − b_g − Γ f_j − S_g κ f_j` | `f_j`, gyroscope |
 //! | a rotation | the arc from `f_k` to `Rᵀ f_i`: 2 numbers | `f_i`, `f_k`, gyroscope |
-//! | a turn of known angle | `∫ (y_g − b_g − Γ f) dt − S_g φ e` | gyroscope |
+//! | a turn of known angle | `∫ (y_g − b_g − Γ f − S_g κ f) dt − S_g φ e` | gyroscope |
 //!
-//! `S` and `b` are those at the temperature of the hold, the rotation or the turn.
+//! `S` and `b` are those at the temperature of the hold, the rotation or the turn. `κ f` is the Earth's rate about the vertical, `κ = Ω sin φ/g` at a known latitude φ; of a rotation it changes
+//! nothing, since a turn about gravity leaves gravity where it is. The rate about the north is scatter of the holds: the heading is not known.
 
 use super::arc::Arc;
 use super::rates::Samples;
@@ -81,6 +82,8 @@ impl TurnData {
 pub(super) struct Joint<'a> {
     pub(super) quantities: Vec<ImuQuantity>,
     pub(super) gravity: f64,
+    /// `κ`, (rad/s)/(m/s²); 0 where the latitude is not known.
+    pub(super) vertical_rate: f64,
     pub(super) holds: Vec<HoldData>,
     pub(super) rotations: Vec<RotationData<'a>>,
     pub(super) turns: Vec<TurnData>,
@@ -206,13 +209,23 @@ impl Joint<'_> {
             .collect()
     }
 
+    /// What the gyroscope of an IMU at its temperature reads at rest.
+    pub(super) fn at_rest(&self, imu: &ImuParameters, force: &Vector3<f64>) -> Vector3<f64> {
+        imu.gyroscope.reading(&(force * self.vertical_rate)) + imu.g_sensitivity * force
+    }
+
     /// What a turn leaves unexplained.
     pub(super) fn turn_residual(&self, turn: &TurnData, imu: &ImuParameters) -> Vector3<f64> {
         let imu = imu.at(turn.temperature_c);
         turn.integral
             - imu.gyroscope.bias * turn.duration_s
             - imu.g_sensitivity * turn.force
-            - imu.gyroscope.matrix * turn.angle
+            - imu.gyroscope.matrix * self.turned(turn)
+    }
+
+    /// The rotation of a turn, the Earth's about the vertical with it, rad.
+    pub(super) fn turned(&self, turn: &TurnData) -> Vector3<f64> {
+        turn.angle + turn.force * self.vertical_rate
     }
 
     fn chi2(&self, state: &State, misses: &[Option<Miss>]) -> f64 {
@@ -226,9 +239,10 @@ impl Joint<'_> {
                 let imu = imu.at(hold.temperature_c);
                 let r = hold.accelerometer - imu.accelerometer.reading(force);
                 let own = r.dot(&(hold.accelerometer_weight * r));
-                own + hold.gyroscope.as_ref().map_or(0.0, |(mean, weight)| {
-                    weighted(mean - imu.gyroscope.bias - imu.g_sensitivity * force, weight)
-                })
+                own + hold
+                    .gyroscope
+                    .as_ref()
+                    .map_or(0.0, |(mean, weight)| weighted(mean - self.at_rest(&imu, force), weight))
             })
             .sum();
         let rotations: f64 = misses
@@ -261,7 +275,7 @@ impl Joint<'_> {
             }
         }
         for turn in &self.turns {
-            let (stimulus, force, temperature_c) = (turn.angle, turn.force, turn.temperature_c);
+            let (stimulus, force, temperature_c) = (self.turned(turn), turn.force, turn.temperature_c);
             let mut j: SMatrix<f64, 3, P> =
                 self.sensitivity(Triad::Gyroscope, &Condition { imu, stimulus, force, temperature_c });
             for (k, quantity) in self.quantities.iter().enumerate() {
@@ -311,9 +325,10 @@ impl Joint<'_> {
             let r = hold.accelerometer - imu.accelerometer.reading(force);
             add(imu.accelerometer.matrix, g, r, hold.accelerometer_weight);
             if let Some((mean, weight)) = &hold.gyroscope {
-                let g = self.sensitivity(Triad::Gyroscope, &Condition { stimulus: Vector3::zeros(), ..felt });
-                let r = mean - imu.gyroscope.bias - imu.g_sensitivity * force;
-                add(imu.g_sensitivity, g, r, Matrix3::from_diagonal(weight));
+                let stimulus = force * self.vertical_rate;
+                let g = self.sensitivity(Triad::Gyroscope, &Condition { stimulus, ..felt });
+                let by_force = imu.g_sensitivity + imu.gyroscope.matrix * self.vertical_rate;
+                add(by_force, g, mean - self.at_rest(&imu, force), Matrix3::from_diagonal(weight));
             }
             let counted =
                 |before: &usize| self.rotations.get(*before).is_some_and(|rotation| rotation.counts);

@@ -6,6 +6,7 @@
 use super::solver;
 use super::{ImuCalibration, ImuProblem, ImuSetup, KnownTerm, WhiteNoise};
 use crate::error::{Complaint, Error, Result};
+use crate::estimate::earth::unknown_latitude;
 use crate::estimate::{CalibrationSettings, CalibrationStatus};
 use crate::sensor::{Condition, ImuQuantity, Triad};
 use nalgebra::Vector3;
@@ -41,9 +42,20 @@ pub fn calibrate_imu_while(
     settings: &CalibrationSettings,
     white_noise: impl FnOnce() -> Option<WhiteNoise> + Send,
 ) -> Result<ImuCalibration> {
-    if problem.setup.found.is_some() {
-        return of_clean(problem, settings, white_noise);
-    }
+    let mut calibration = match problem.setup.found {
+        Some(_) => of_clean(problem, settings, white_noise)?,
+        None => with_sparks(problem, settings, white_noise)?,
+    };
+    calibration.warnings.extend(unknown_latitude(&calibration));
+    Ok(calibration)
+}
+
+/// The same of a recording of which sparks are still to be taken out.
+fn with_sparks(
+    problem: &ImuProblem<'_>,
+    settings: &CalibrationSettings,
+    white_noise: impl FnOnce() -> Option<WhiteNoise> + Send,
+) -> Result<ImuCalibration> {
     let (recording, sparks) = problem.recording.without_sparks();
     let mut calibration = of_clean(&ImuProblem { recording: &recording, ..*problem }, settings, white_noise)?;
     let unit = |triad: Triad| problem.recording.triad(triad).map_or("", |of| of.unit.symbol());

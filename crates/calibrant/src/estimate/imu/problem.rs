@@ -2,7 +2,7 @@
 
 use super::ThermalModel;
 use crate::estimate::HoldsSetup;
-use crate::motion::Hold;
+use crate::motion::{Hold, earth_rate};
 use crate::sensor::{ImuQuantity, ImuRecording, ParameterList, ReadingUnit, Sensor, SensorModel, Triad};
 use nalgebra::Vector3;
 
@@ -51,6 +51,8 @@ impl Default for Gyroscope {
 pub struct ImuSetup {
     /// The holds.
     pub holds: HoldsSetup,
+    /// Geographic latitude, degrees, southern ones negative: the Earth's turn about the vertical is then part of the model. Where it is not known, it is part of the uncertainty of the g-sensitivity.
+    pub latitude_deg: Option<f64>,
     /// The holds that [`find_imu_holds`](crate::estimate::find_imu_holds) found in this recording, where none are given and that was done before, with sparks taken out before that ([`ImuRecording::without_sparks`]: they are not looked for again); `None` to find them.
     pub found: Option<Vec<Hold>>,
     /// Direction of the specific force in each of the given holds (up), unit vectors in the true frame; `None` where only its magnitude is known.
@@ -68,6 +70,12 @@ pub struct ImuSetup {
 }
 
 impl ImuSetup {
+    /// The Earth's rate about the vertical over gravity, `Ω sin φ/g`, (rad/s)/(m/s²): at rest an IMU turns by this times the specific force. Zero where the latitude is not known.
+    pub(in crate::estimate) fn vertical_rate(&self) -> f64 {
+        let rate = self.latitude_deg.map_or(0.0, |latitude_deg| earth_rate(latitude_deg).z);
+        rate / self.holds.gravity.magnitude_mps2
+    }
+
     /// What an IMU of these sensors consists of, in the order of a result: the accelerometer's quantities in its gauge, the gyroscope's, then what temperature does to both. What is
     /// fixed beforehand is among them.
     #[must_use]

@@ -16,13 +16,15 @@ pub(super) struct Samples<'a> {
     pub(super) drift: [LocalBias; 2],
 }
 
-/// The bias at one end of a rotation: `b + share ∘ (mean − b − Γ f)`.
+/// The bias at one end of a rotation: `b + share ∘ (mean − b − Γ f − S ω)`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct LocalBias {
     /// Mean reading of the hold.
     pub(super) mean: Vector3<f64>,
     /// Specific force in it.
     pub(super) force: Vector3<f64>,
+    /// Known angular rate in it: the Earth's about the vertical, rad/s.
+    pub(super) rate: Vector3<f64>,
     /// How far it counts against the mean bias of all, 0 to 1: the share of its variance that is a true deviation.
     pub(super) share: Vector3<f64>,
     /// Variance of the mean from the noise of its samples.
@@ -38,15 +40,16 @@ impl LocalBias {
             temperature_c,
             mean: Vector3::zeros(),
             force: Vector3::zeros(),
+            rate: Vector3::zeros(),
             share: Vector3::zeros(),
             variance: Vector3::zeros(),
         }
     }
 
     fn of(&self, imu: &ImuParameters) -> Vector3<f64> {
-        let bias = imu.at(self.temperature_c).gyroscope.bias;
-        let deviation = self.mean - bias - imu.g_sensitivity * self.force;
-        bias + self.share.component_mul(&deviation)
+        let gyroscope = imu.at(self.temperature_c).gyroscope;
+        let deviation = self.mean - gyroscope.reading(&self.rate) - imu.g_sensitivity * self.force;
+        gyroscope.bias + self.share.component_mul(&deviation)
     }
 }
 

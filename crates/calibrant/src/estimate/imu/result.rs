@@ -28,6 +28,8 @@ pub struct ImuCalibration {
     pub accelerometer_unit: ReadingUnit,
     /// Unit of the gyroscope's readings.
     pub gyroscope_unit: ReadingUnit,
+    /// Geographic latitude by which the Earth's turn about the vertical is part of the model, degrees.
+    pub latitude_deg: Option<f64>,
     /// Weighted sum of squares of all residuals.
     pub chi2: f64,
     /// Residuals less unknowns.
@@ -65,7 +67,7 @@ pub struct StillGyroscope {
     pub within_holds_sd: Vector3<f64>,
     /// Standard deviation between holds beyond this noise: a wandering bias, the Earth's rotation, g-sensitivity that is not estimated.
     pub between_holds_sd: Vector3<f64>,
-    /// Root mean square over the holds of the mean rate that the calibrated gyroscope shows, all axes together, rad/s.
+    /// Root mean square over the holds of the mean rate that the calibrated gyroscope shows, less the Earth's about the vertical where the latitude is known, all axes together, rad/s.
     pub rate_rms_radps: f64,
     /// The same before the calibration, rad/s.
     pub rate_rms_before_radps: f64,

@@ -200,10 +200,14 @@ impl Rotation {
         let thermal = &imu.thermal;
         let tau_k = thermal.tau_k(middle(&self.drift));
         let factor = thermal.gyroscope.gain_factor(tau_k);
-        // a reading that is larger by δy means a rate that is smaller by M δy
-        let entry = |sums: &[Matrix3<f64>; 3], row: usize, column: usize| {
-            -(sums[column] * self.correction.column(row)) * factor[row]
-        };
+        // a reading that is larger by δy means a rate that is smaller by M δy, less what the holds take for bias of it
+        let own =
+            |sums: &[Matrix3<f64>; 3], row: usize, column: usize, still: fn(&LocalBias) -> &Vector3<f64>| {
+                let [start, end] = [0, 1].map(|k| self.drift[k].share[row] * still(&self.drift[k])[column]);
+                -((sums[column] - self.by_start * start - self.by_end * end) * self.correction.column(row))
+            };
+        let entry =
+            |row: usize, column: usize| own(&self.by_rate, row, column, |end| &end.rate) * factor[row];
         // a bias that is larger by the first in the hold before and by the second in the hold after
         let bias = |axis: usize, by: [f64; 2]| {
             let [start, end] = self.drift.map(|end| end.share[axis]);
@@ -223,25 +227,21 @@ impl Rotation {
                     ThermalPart::Scale => {
                         let row = imu.gyroscope.matrix.row(axis);
                         let along: Vector3<f64> =
-                            (0..3).map(|column| entry(&self.by_rate, axis, column) * row[column]).sum();
+                            (0..3).map(|column| entry(axis, column) * row[column]).sum();
                         along * (term.power(tau_k) / factor[axis])
                     }
                 }
             }
             ImuQuantity::Of(Triad::Gyroscope, quantity) => match quantity {
                 Quantity::Bias(axis) => bias(axis.index(), [1.0; 2]),
-                Quantity::Scale(axis) => entry(&self.by_rate, axis.index(), axis.index()),
-                Quantity::CrossAxis(row, column) => entry(&self.by_rate, row.index(), column.index()),
+                Quantity::Scale(axis) => entry(axis.index(), axis.index()),
+                Quantity::CrossAxis(row, column) => entry(row.index(), column.index()),
                 Quantity::Symmetric(row, column) => {
-                    entry(&self.by_rate, row.index(), column.index())
-                        + entry(&self.by_rate, column.index(), row.index())
+                    entry(row.index(), column.index()) + entry(column.index(), row.index())
                 }
             },
             ImuQuantity::GSensitivity(row, column) => {
-                let (r, c) = (row.index(), column.index());
-                let [start, end] = self.drift.map(|end| end.share[r] * end.force[c]);
-                let own = self.by_force[c] - self.by_start * start - self.by_end * end;
-                -(own * self.correction.column(r))
+                own(&self.by_force, row.index(), column.index(), |end| &end.force)
             }
         }
     }

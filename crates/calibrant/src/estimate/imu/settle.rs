@@ -39,13 +39,13 @@ fn rest(joint: &Joint<'_>, state: &State) -> (DMatrix<f64>, DVector<f64>) {
     for (hold, force) in joint.holds.iter().zip(&state.forces) {
         if let Some((mean, weight)) = &hold.gyroscope {
             let temperature_c = hold.temperature_c;
-            let still = Condition { imu, stimulus: Vector3::zeros(), force: *force, temperature_c };
-            let bias = imu.at(temperature_c).gyroscope.bias;
-            add(still, 1.0, mean - bias - imu.g_sensitivity * force, weight);
+            let still =
+                Condition { imu, stimulus: force * joint.vertical_rate, force: *force, temperature_c };
+            add(still, 1.0, mean - joint.at_rest(&imu.at(temperature_c), force), weight);
         }
     }
     for turn in &joint.turns {
-        let (stimulus, force, temperature_c) = (turn.angle, turn.force, turn.temperature_c);
+        let (stimulus, force, temperature_c) = (joint.turned(turn), turn.force, turn.temperature_c);
         let at = Condition { imu, stimulus, force, temperature_c };
         add(at, turn.duration_s, joint.turn_residual(turn, imu), &turn.weight);
     }
@@ -87,6 +87,7 @@ pub(super) fn follow_drift(joint: &mut Joint<'_>, state: &State, between: &Vecto
                 LocalBias {
                     mean,
                     force: *force,
+                    rate: force * joint.vertical_rate,
                     share: true_variance.component_mul(&weight),
                     variance: weight.map(|weight| 1.0 / weight) - true_variance,
                     ..none

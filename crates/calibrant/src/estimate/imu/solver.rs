@@ -80,6 +80,7 @@ fn fit(
     let mut thermal = Thermal { accelerometer: first.thermal, ..climate.start };
     let by = Explanation {
         forces: problem.gyroscope.g_sensitivity.then_some(forces.as_slice()),
+        of_earth: of_earth(problem, &forces),
         tau_k: data.iter().map(|hold| thermal.tau_k(hold.temperature_c)).collect(),
         fixed: thermal.gyroscope,
         terms: std::array::from_fn(|axis| thermal::bias_terms(&quantities, prior.as_ref(), axis)),
@@ -90,16 +91,19 @@ fn fit(
     let start = start_values(problem, &first, &data, thermal);
 
     let feels = problem.gyroscope.g_sensitivity;
-    let felt = feels.then(|| felt_forces(accelerometer, gyroscope, &first.sensor)).flatten();
+    let vertical_rate = setup.vertical_rate();
+    let needs_forces = feels || (vertical_rate != 0.0 && !setup.turns.is_empty());
+    let felt = needs_forces.then(|| felt_forces(accelerometer, gyroscope, &first.sensor)).flatten();
     let spans = match setup.directions {
         // the sensor was put down anew on each face: what it went through in between says less than the turns
         Some(_) if !setup.turns.is_empty() => Vec::new(),
         _ => rotation_spans(gyroscope, &used),
     };
     let integrable = Integrable::of(gyroscope, problem.recording.accelerometer.as_ref().filter(|_| feels));
-    let rotations = integrable.rotations(felt.as_deref(), &spans, &data);
+    let rotations = integrable.rotations(felt.as_deref().filter(|_| feels), &spans, &data);
     let mut joint = Joint {
         gravity: setup.holds.gravity.magnitude_mps2,
+        vertical_rate,
         holds: data,
         rotations,
         turns: turns(problem, &integrable, &noise, felt.as_deref(), (&start, &climate))?,
@@ -165,6 +169,17 @@ fn fit(
         stills: &measured,
     };
     finished.assemble(problem, holds, axes, &first)
+}
+
+/// What the gyroscope reads of the Earth's turn about the vertical at these forces, where no g-sensitivity takes it up; by the datasheet's gain, and nothing where that is not known.
+fn of_earth(problem: &ImuProblem<'_>, forces: &[Vector3<f64>]) -> Option<Vec<Vector3<f64>>> {
+    let gain = match problem.gyroscope.unit {
+        ReadingUnit::Counts => problem.gyroscope.gain?,
+        _ => Vector3::repeat(1.0),
+    };
+    let reading = gain * problem.setup.vertical_rate();
+    let is_free = problem.gyroscope.g_sensitivity;
+    (!is_free).then(|| forces.iter().map(|force| force.component_mul(&reading)).collect())
 }
 
 pub(super) fn singular() -> Error {

@@ -63,6 +63,8 @@ impl StillNoise {
 pub(super) struct Explanation<'a> {
     /// The specific forces, where the gyroscope feels them.
     pub(super) forces: Option<&'a [Vector3<f64>]>,
+    /// What the gyroscope reads of the Earth's turn about the vertical in each hold, where that is known and no force takes it up.
+    pub(super) of_earth: Option<Vec<Vector3<f64>>>,
     /// `τ` of each hold, K.
     pub(super) tau_k: Vec<f64>,
     /// Terms that are fixed.
@@ -117,7 +119,8 @@ impl Regression {
                 let tau_k = by.tau_k[j];
                 row.extend(terms.iter().map(|(term, ..)| term.power(tau_k)));
                 let expected: f64 = terms.iter().map(|(term, mean, _)| mean * term.power(tau_k)).sum();
-                let mean = still.mean[axis] - by.fixed.bias_change(tau_k)[axis] - expected;
+                let of_earth = by.of_earth.as_ref().map_or(0.0, |of_earth| of_earth[j][axis]);
+                let mean = still.mean[axis] - by.fixed.bias_change(tau_k)[axis] - expected - of_earth;
                 Some((DVector::from_vec(row), mean, noise.variance(still.samples)[axis]))
             })
             .collect();

@@ -312,6 +312,7 @@ impl<'a> Alone<'a> {
             raw: chosen.iter().map(|&j| &raw[j]).collect(),
             joint: Joint {
                 gravity: problem.setup.holds.gravity.magnitude_mps2,
+                vertical_rate: 0.0,
                 holds,
                 rotations: Vec::new(),
                 turns: Vec::new(),

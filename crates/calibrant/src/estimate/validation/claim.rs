@@ -1,8 +1,9 @@
 //! What a calibration claims to know: the parameters, their covariance, and the scatter that it found.
 
 use super::statistics::Degrees;
+use crate::estimate::earth::{VERTICAL_VARIANCE, vertical_slope};
 use crate::estimate::gravity::gravity_slope;
-use crate::estimate::{Calibration, HoldCalibration, ImuCalibration};
+use crate::estimate::{Calibration, HoldCalibration, ImuCalibration, ImuSetup};
 use crate::motion::{Gravity, Hold};
 use crate::sensor::{Axis, ImuParameters, ImuQuantity, ParameterList, Quantity, ThermalPart, Triad};
 use nalgebra::{DMatrix, Matrix3, Vector3};
@@ -16,6 +17,8 @@ pub(super) struct Claim {
     pub(super) covariance: DMatrix<f64>,
     /// Gravity of the recording that is predicted, m/s².
     pub(super) gravity_mps2: f64,
+    /// The Earth's rate about the vertical over gravity there, (rad/s)/(m/s²); 0 where it is not known.
+    pub(super) vertical_rate: f64,
     /// Scatter between holds, m/s², and the degrees of freedom behind it.
     pub(super) between_holds_sd_mps2: f64,
     pub(super) holds_degrees: Degrees,
@@ -37,10 +40,12 @@ pub(super) struct Claim {
 }
 
 impl Claim {
-    /// What a calibrated IMU claims of a recording made under this gravity.
+    /// What a calibrated IMU claims of a recording made under this gravity, at this latitude.
     ///
-    /// Where gravity is the one of the calibration, its uncertainty moves corrected and true magnitude alike and is left out; where it is another, both count.
-    pub(super) fn of_imu(calibration: &ImuCalibration, gravity: &Gravity) -> Self {
+    /// Where gravity is the one of the calibration, its uncertainty moves corrected and true magnitude alike and is left out; where it is another, both count. So with a latitude that is not known:
+    /// it is the calibration's, or that of the calibration is known.
+    pub(super) fn of_imu(calibration: &ImuCalibration, setup: &ImuSetup) -> Self {
+        let gravity = &setup.holds.gravity;
         let holds = &calibration.holds;
         let used = holds.holds.iter().filter(|hold| hold.used).count();
         let rotations = calibration.rotations.iter().filter(|rotation| rotation.used).count();
@@ -66,8 +71,9 @@ impl Claim {
         Self {
             imu: calibration.imu,
             quantities: calibration.quantities.clone(),
-            covariance: without_gravity(calibration, gravity),
+            covariance: without_place(calibration, setup),
             gravity_mps2: gravity.magnitude_mps2,
+            vertical_rate: setup.vertical_rate(),
             between_holds_sd_mps2: between(calibration),
             holds_degrees: Degrees::of_scatter(used, accelerometer),
             within: within(holds),
@@ -98,6 +104,7 @@ impl Claim {
             imu,
             covariance,
             gravity_mps2: gravity.magnitude_mps2,
+            vertical_rate: 0.0,
             between_holds_sd_mps2: holds.between_holds_sd_mps2,
             holds_degrees: Degrees::of_scatter(used, quantities.len()),
             quantities,
@@ -177,9 +184,16 @@ fn between(calibration: &ImuCalibration) -> f64 {
     if calibration.frame_is_known() { 0.0 } else { calibration.holds.between_holds_sd_mps2 }
 }
 
-fn without_gravity(calibration: &ImuCalibration, gravity: &Gravity) -> DMatrix<f64> {
+fn without_place(calibration: &ImuCalibration, setup: &ImuSetup) -> DMatrix<f64> {
     let ImuCalibration { covariance, quantities, imu, holds, .. } = calibration;
-    recentred(covariance, quantities, imu, &holds.gravity, gravity)
+    let covariance = recentred(covariance, quantities, imu, &holds.gravity, &setup.holds.gravity);
+    let variance = match (calibration.latitude_deg, setup.latitude_deg) {
+        (None, None) => -VERTICAL_VARIANCE,
+        (Some(_), None) => VERTICAL_VARIANCE,
+        (_, Some(_)) => return covariance,
+    };
+    let slope = vertical_slope(quantities, &calibration.prior_share, imu, holds.gravity.magnitude_mps2);
+    covariance + &slope * slope.transpose() * variance
 }
 
 /// The covariance without the uncertainty of the calibration's gravity where the new one is the same, with that of both where it is not: an error of the new

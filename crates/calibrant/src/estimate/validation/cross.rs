@@ -53,7 +53,7 @@ fn cross_validated_imu(
         tamper(&mut trained);
         // noise is that of all holds
         let still_noise = calibration.still.noise;
-        Ok(Claim { still_noise, ..Claim::of_imu(&trained, &setup.holds.gravity) })
+        Ok(Claim { still_noise, ..Claim::of_imu(&trained, &setup) })
     };
     let all: Vec<Hold> = calibration.holds.holds.iter().map(|result| result.hold.clone()).collect();
     let data = Unused {

@@ -1,7 +1,7 @@
 //! What a claim predicts of a hold: the magnitude of gravity, and no rotation.
 //!
-//! With `C = S⁻¹`: `f̂ = C_a (ȳ_a − b_a)`, `ω̂ = C_g (ȳ_g − b_g − Γ f̂)`. An error of the parameters moves them by `df̂ = −C_a Σ_k ∂y_a/∂p_k dp_k` and
-//! `dω̂ = −C_g (Σ_k ∂y_g/∂p_k dp_k + Γ df̂)`.
+//! With `C = S⁻¹`: `f̂ = C_a (ȳ_a − b_a)`, `ω̂ = C_g (ȳ_g − b_g − Γ f̂) − κ f̂`, where `κ f̂` is the Earth's rate about the vertical at a known latitude. An error of the parameters moves them by
+//! `df̂ = −C_a Σ_k ∂y_a/∂p_k dp_k` and `dω̂ = −C_g (Σ_k ∂y_g/∂p_k dp_k + Γ df̂) − κ df̂`.
 
 use super::claim::Claim;
 use super::item::{Item, Place, Scattered};
@@ -79,21 +79,21 @@ impl Held {
         let rate = match (still, noise.get(1)) {
             (Some(still), Some(ratio)) => {
                 let correction = imu.gyroscope.matrix.try_inverse()?;
-                let value = correction * (still.mean - imu.gyroscope.bias - imu.g_sensitivity * force);
-                let by_force = -(correction * imu.g_sensitivity);
+                let turning = correction * (still.mean - imu.gyroscope.bias - imu.g_sensitivity * force);
+                let by_force = -(correction * imu.g_sensitivity) - Matrix3::identity() * claim.vertical_rate;
                 let mut by_parameters =
                     DMatrix::from_column_slice(3, 3, by_force.as_slice()) * &by_parameters;
                 for (k, quantity) in claim.quantities.iter().enumerate() {
                     if quantity.triad() == Triad::Gyroscope {
                         by_parameters
-                            .set_column(k, &(-(correction * quantity.derivative(&at(value, force)))));
+                            .set_column(k, &(-(correction * quantity.derivative(&at(turning, force)))));
                     }
                 }
                 let through_force = by_force * own * by_force.transpose();
                 let of_mean =
                     (still.variance, still.variance + claim.still_sd.component_mul(&claim.still_sd));
                 Some(Rate {
-                    value,
+                    value: turning - force * claim.vertical_rate,
                     by_parameters,
                     own: spread(of_mean.1, &correction) + through_force,
                     of_mean,

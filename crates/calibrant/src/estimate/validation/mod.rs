@@ -91,7 +91,7 @@ pub fn validate_imu(calibration: &ImuCalibration, problem: &ImuProblem<'_>) -> R
             "both need the same clock: are these files of one recording?",
         )));
     }
-    let claim = Claim::of_imu(calibration, &setup.gravity);
+    let claim = Claim::of_imu(calibration, problem.setup);
     on_another(&claim, unused, &Doubts::of_imu(calibration))
 }
 

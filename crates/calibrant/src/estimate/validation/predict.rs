@@ -160,6 +160,7 @@ impl<'a> Unused<'a> {
             imu: &claim.imu,
             quantities: &claim.quantities,
             gravity_mps2: claim.gravity_mps2,
+            vertical_rate: claim.vertical_rate,
             between: claim.still_sd,
             accelerometer: self.accelerometer,
             gyroscope,

@@ -50,6 +50,7 @@ impl ImuPlan {
                 intervals_s: holds.intervals_s.clone(),
                 minimum_hold_s: holds.minimum_hold_s,
             },
+            latitude_deg: holds.latitude_deg,
             directions: holds.directions.clone(),
             face_sd_rad: holds.face_sd_rad,
             turns: self.turns.clone(),

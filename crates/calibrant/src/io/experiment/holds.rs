@@ -23,6 +23,8 @@ const DURATION: Bounds = Bounds::above(0.0, 1e6, "s");
 pub struct HoldsPlan {
     /// Gravity where the recording was made.
     pub gravity: Gravity,
+    /// Geographic latitude, degrees, where it is given: for the Earth's rate.
+    pub latitude_deg: Option<f64>,
     /// Where the value of gravity comes from, in words: `given`, or `from latitude 52.2°, height 30 m`.
     pub gravity_source: String,
     /// Convention that fixes the true frame.
@@ -43,9 +45,10 @@ pub struct HoldsPlan {
     pub rate_hz: f64,
 }
 
-/// Reads `[holds]`.
-pub(super) fn read(section: &Section<'_>) -> Result<HoldsPlan> {
-    let (gravity, gravity_source) = read_gravity(section)?;
+/// Reads `[holds]`. The gyroscope of an IMU feels the Earth turn: a latitude beside a value of gravity is for that.
+pub(super) fn read(section: &Section<'_>, is_imu: bool) -> Result<HoldsPlan> {
+    let (gravity, gravity_source) = read_gravity(section, is_imu)?;
+    let latitude_deg = section.get("latitude_deg").map(|entry| entry.number(&LATITUDE)).transpose()?;
     let gauge = section
         .need("gauge", "gauge = \"upper\" (as imu_tk), \"lower\" (as Kalibr) or \"symmetric\"")?
         .word(&[("lower", Gauge::Lower), ("upper", Gauge::Upper), ("symmetric", Gauge::Symmetric)])?;
@@ -72,6 +75,7 @@ pub(super) fn read(section: &Section<'_>) -> Result<HoldsPlan> {
     let face_sd = section.get("face_sd_deg").map(|entry| entry.number(&TILT)).transpose()?;
     Ok(HoldsPlan {
         gravity,
+        latitude_deg,
         gravity_source,
         gauge,
         intervals_s,
@@ -84,16 +88,21 @@ pub(super) fn read(section: &Section<'_>) -> Result<HoldsPlan> {
     })
 }
 
-fn read_gravity(section: &Section<'_>) -> Result<(Gravity, String)> {
+fn read_gravity(section: &Section<'_>, is_imu: bool) -> Result<(Gravity, String)> {
     const HELP: &str = "give gravity_mps2, or latitude_deg and height_m";
     let sd = section.get("gravity_sd_mps2").map(|entry| entry.number(&GRAVITY_SD)).transpose()?;
     let (given, latitude, height) =
         (section.get("gravity_mps2"), section.get("latitude_deg"), section.get("height_m"));
     match (given, latitude, height) {
-        (Some(_), Some(entry), _) | (Some(_), None, Some(entry)) => {
+        (Some(_), Some(entry), _) if !is_imu => {
             Err(entry.complain("gravity is given twice", format!("{HELP}, not both")))
         }
-        (Some(entry), None, None) => {
+        (Some(_), _, Some(entry)) => {
+            let help =
+                if is_imu { "; latitude_deg alone may stand beside it, for the Earth's rate" } else { "" };
+            Err(entry.complain("gravity is given twice", format!("{HELP}, not both{help}")))
+        }
+        (Some(entry), _, None) => {
             let gravity = Gravity { magnitude_mps2: entry.number(&GRAVITY)?, sd_mps2: sd.unwrap_or(0.0) };
             Ok((gravity, "given".into()))
         }

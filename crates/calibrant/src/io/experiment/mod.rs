@@ -172,10 +172,14 @@ impl Experiment {
     }
 }
 
+fn is_imu(root: &Section<'_>) -> Result<bool> {
+    Ok(root.section("sensor")?.and_then(|section| section.get("kind")?.text().map(|kind| kind == "imu"))
+        == Some(true))
+}
+
 /// The second sensor of an IMU: there if, and only if, the kind is \"imu\".
 fn read_imu(root: &Section<'_>, plan: &Plan) -> Result<Option<ImuPlan>> {
-    let sensor = root.section("sensor")?;
-    let is_imu = sensor.as_ref().and_then(|section| section.get("kind")?.text()) == Some("imu");
+    let is_imu = is_imu(root)?;
     let known = root.get("known").map(|entry| Section::open(&entry, "known")).transpose()?;
     let temperature = root.section("temperature")?;
     if let Some(section) = temperature.as_ref().filter(|_| !is_imu) {
@@ -236,7 +240,7 @@ fn read_plan(root: &Section<'_>, sensor: &Sensor) -> Result<Plan> {
                     "",
                 ));
             }
-            Ok(Plan::Holds(holds::read(&section)?))
+            Ok(Plan::Holds(holds::read(&section, is_imu(root)?)?))
         }
         (Some(_), Some(section)) => Err(section.complain(
             "[motion] and [holds] are both there",
