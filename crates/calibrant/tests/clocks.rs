@@ -4,7 +4,8 @@ mod common;
 
 use calibrant::Error;
 use calibrant::estimate::{
-    CalibrationSettings, Gyroscope, HoldsSetup, ImuCalibration, ImuProblem, ImuSetup, calibrate_imu,
+    CalibrationSettings, CovarianceVerdict, ErrorKind, Gyroscope, HoldsSetup, ImuCalibration, ImuProblem,
+    ImuSetup, calibrate_imu, cross_validate_imu,
 };
 use calibrant::sensor::{ImuParameters, ImuRecording, Recording, Sensor, SensorModel};
 use calibrant::simulate::{ImuSimulation, Purpose, simulate_imu, stream};
@@ -46,26 +47,45 @@ fn of_uneven_holds(recording: &Recording, number: u64) -> Recording {
     Recording { times_s, readings, ..*recording }
 }
 
-/// An IMU that is turned about a point some centimetres beside it, its accelerometer at 50 to 200 Hz and its gyroscope at 80 to 400 Hz; the time of the latter goes to `clock(t)`.
-fn pair(number: u64, clock: impl Fn(f64) -> f64) -> (ImuParameters, ImuRecording) {
+/// An IMU, and what it records at 400 Hz when it is turned so on an arm whose components have this standard deviation, m.
+fn on_an_arm(number: u64, setup: &ImuSimulation, arm_sd_m: f64) -> (ImuParameters, ImuRecording) {
     let mut rng = stream(71, Purpose::Sensor, number);
     let imu = draw_imu(&mut rng);
-    let setup = ImuSimulation { rate_hz: 400.0, hold_s: 4.0, ..ImuSimulation::default() };
-    let mut both = simulate_imu(&imu, &setup, &mut rng);
-    let arm = Vector3::from_fn(|_, _| 0.03 * common::normal(&mut rng));
+    let mut both = simulate_imu(&imu, setup, &mut rng);
+    let arm = Vector3::from_fn(|_, _| arm_sd_m * common::normal(&mut rng));
     let (Some(forces), Some(rates)) = (&mut both.accelerometer, &both.gyroscope) else { unreachable!() };
     let rate = |k: usize| rates.readings[k] - imu.gyroscope.bias;
     for k in 4..rates.len() - 4 {
         let change = (rate(k + 4) - rate(k - 4)) * (400.0 / 8.0);
         forces.readings[k] += change.cross(&arm) + rate(k).cross(&rate(k).cross(&arm));
     }
+    (imu, both)
+}
+
+/// The accelerometer at 50 to 200 Hz and the gyroscope at 80 to 400 Hz, whose time goes to `clock(t)`.
+fn thinned(both: &ImuRecording, number: u64, clock: impl Fn(f64) -> f64) -> ImuRecording {
+    let (Some(forces), Some(rates)) = (&both.accelerometer, &both.gyroscope) else { unreachable!() };
     let steps = [[4, 1], [2, 5], [8, 2], [4, 4], [3, 3]][number as usize % 5];
-    let [forces, rates] = [&*forces, rates].map(|of| of_uneven_holds(of, number));
-    let (accelerometer, mut gyroscope) = (every(&forces, steps[0], 1), every(&rates, steps[1], 2));
+    let (accelerometer, mut gyroscope) = (every(forces, steps[0], 1), every(rates, steps[1], 2));
     gyroscope.times_s.iter_mut().for_each(|t| *t = clock(*t));
-    let recording =
-        ImuRecording { accelerometer: Some(accelerometer), gyroscope: Some(gyroscope), temperature_c: None };
-    (imu, recording)
+    ImuRecording { accelerometer: Some(accelerometer), gyroscope: Some(gyroscope), temperature_c: None }
+}
+
+/// An IMU that is turned about a point some centimetres beside it; the time of the gyroscope goes to `clock(t)`.
+fn pair(number: u64, clock: impl Fn(f64) -> f64) -> (ImuParameters, ImuRecording) {
+    let setup = ImuSimulation { rate_hz: 400.0, hold_s: 4.0, ..ImuSimulation::default() };
+    let (imu, mut both) = on_an_arm(number, &setup, 0.03);
+    for of in [&mut both.accelerometer, &mut both.gyroscope] {
+        *of = of.as_ref().map(|of| of_uneven_holds(of, number));
+    }
+    (imu, thinned(&both, number, clock))
+}
+
+/// Quick turns on long arms, which accelerate as much as gravity.
+fn quick(number: u64, clock: impl Fn(f64) -> f64) -> ImuRecording {
+    let turn_s = [0.6, 0.8, 1.0][number as usize % 3];
+    let setup = ImuSimulation { rate_hz: 400.0, hold_s: 2.5, turn_s, ..ImuSimulation::default() };
+    thinned(&on_an_arm(number, &setup, 0.3).1, number, clock)
 }
 
 fn said(calibration: &ImuCalibration) -> Option<&String> {
@@ -94,6 +114,54 @@ fn honest_pairs_are_not_accused() {
     };
     let accused: Vec<String> = (0..60).into_par_iter().filter_map(accused).collect();
     assert!(accused.is_empty(), "{accused:?}");
+}
+
+#[test]
+fn honest_pairs_that_are_turned_quickly_on_long_arms_are_not_accused() {
+    let outcomes: Vec<Option<String>> = (0..200_u64)
+        .into_par_iter()
+        .filter_map(|number| {
+            let calibration = run(&quick(number, |t| t)).ok()?;
+            Some(said(&calibration).map(|warning| format!("{number}: {warning}")))
+        })
+        .collect();
+    let accused: Vec<&String> = outcomes.iter().flatten().collect();
+    assert!(accused.is_empty() && outcomes.len() >= 195, "{} {accused:?}", outcomes.len());
+}
+
+#[test]
+fn clocks_of_different_rates_are_told_on_long_arms_and_make_folds_doubtful() {
+    let count = 24_u64;
+    let told: Vec<f64> = (0..count)
+        .into_par_iter()
+        .filter_map(|number| {
+            let rate = [1e-3, -1e-3][number as usize % 2];
+            let clocks = run(&quick(number, |t| t * (1.0 + rate))).ok()?.clocks?;
+            Some((clocks.faster - rate) / clocks.sd)
+        })
+        .collect();
+    assert!(told.len() as u64 >= count - 2, "{told:?}");
+    assert!(told.iter().all(|z| z.abs() < 4.5), "{told:?}");
+
+    let (accelerometer, gyroscope) = (Sensor::triaxial(SensorModel::Full), Gyroscope::default());
+    for (rate, expected) in [(0.0, None), (1e-3, Some("clocks"))] {
+        let (_, recording) = pair(3, |t| t * (1.0 + rate));
+        let setup = ImuSetup::default();
+        let problem = ImuProblem {
+            accelerometer: &accelerometer,
+            gyroscope: &gyroscope,
+            recording: &recording,
+            setup: &setup,
+        };
+        let settings = CalibrationSettings::default();
+        let calibration = calibrate_imu(&problem, &settings).expect("determined");
+        let folds = cross_validate_imu(&calibration, &problem, &settings, 5).expect("determined");
+        for errors in &folds.kinds {
+            let expected = expected.filter(|_| errors.kind == ErrorKind::Rotation);
+            assert_eq!(errors.doubt.map(|doubt| doubt.name()), expected, "{rate} {:?}", errors.kind);
+            assert_eq!(errors.verdict == CovarianceVerdict::Doubtful, expected.is_some(), "{errors:#?}");
+        }
+    }
 }
 
 #[test]

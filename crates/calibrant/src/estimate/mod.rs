@@ -39,9 +39,9 @@ pub use holds::{
     holds_between, holds_lost_to_filter,
 };
 pub use imu::{
-    Gyroscope, ImuCalibration, ImuProblem, ImuSetup, KnownTerm, NoiseSource, RotationResult, StillGyroscope,
-    ThermalModel, Turn, TurnResult, WhiteNoise, calibrate_imu, calibrate_imu_while, exchanged_sensors,
-    find_clean_imu_holds, find_imu_holds,
+    ClockRate, Gyroscope, ImuCalibration, ImuProblem, ImuSetup, KnownTerm, NoiseSource, RotationResult,
+    StillGyroscope, ThermalModel, Turn, TurnResult, WhiteNoise, calibrate_imu, calibrate_imu_while,
+    exchanged_sensors, find_clean_imu_holds, find_imu_holds,
 };
 pub use problem::{CalibrationProblem, Stimulus};
 pub use quantisation::{CoarseAxis, coarse_axes, coarse_axes_in};

@@ -5,8 +5,8 @@ use super::html::{Page, list};
 use super::number;
 use super::table::{Cell, Table};
 use crate::estimate::{
-    BiasShift, CovarianceVerdict, Doubt, ErrorKind, FailedFold, LikelyReason, NoiseRatio, UnusedError,
-    ValidatedErrors, Validation, ValidationSource,
+    BiasShift, ClockRate, CovarianceVerdict, Doubt, ErrorKind, FailedFold, LikelyReason, NoiseRatio,
+    UnusedError, ValidatedErrors, Validation, ValidationSource,
 };
 use crate::sensor::Triad;
 
@@ -239,6 +239,11 @@ fn why(doubt: &Doubt, errors: &ValidatedErrors) -> String {
         Doubt::Change(change) => {
             format!("{}, and what is predicted has the scatter in it that this makes", change.headline())
         }
+        Doubt::Clocks(ClockRate { faster, sd }) => format!(
+            "the clocks of the sensors go at different rates, by {:.4} ± {:.4} %: gains are wrong by this share in all rotations alike",
+            100.0 * faster.abs(),
+            100.0 * sd
+        ),
         Doubt::LeftOut { count, start_s, end_s } => format!(
             "the calibration left out {count} in a row, {}, which is no chance, and speaks for the others only",
             from_to(*start_s, *end_s)

@@ -1,7 +1,7 @@
 //! Puts the result together.
 
 use super::changing::Changing;
-use super::clocks::ClockDifference;
+use super::clocks::{ClockDifference, ClockRate};
 use super::contradiction::contradictions;
 use super::faces::First;
 use super::joint::{Fit, Joint, Miss, State};
@@ -156,6 +156,7 @@ impl Finished<'_> {
             turns,
             hold_temperatures_c,
             changes,
+            clocks: None,
             validations: Vec::new(),
             warnings,
         };
@@ -184,17 +185,20 @@ impl Finished<'_> {
             let used = calibration.holds.holds.iter().filter(|hold| hold.used).map(|result| &result.hold);
             calibration.warnings.extend(one_sided(gyroscope, Triad::Gyroscope, used));
         }
-        let clocks = self.clocks(problem);
-        calibration.warnings.splice(0..0, clocks);
+        if let Some((rate, words)) = self.clocks(problem) {
+            calibration.clocks = rate;
+            calibration.warnings.splice(0..0, words);
+        }
         calibration.warnings.extend(verdict::extrapolation(&imu.thermal, self.climate.of_recording()));
         Ok(calibration)
     }
 
-    /// What is to be said of the sensors' clocks.
-    fn clocks(&self, problem: &ImuProblem<'_>) -> Option<String> {
+    /// The rates of the sensors' clocks, and what is to be said of them.
+    fn clocks(&self, problem: &ImuProblem<'_>) -> Option<(Option<ClockRate>, Option<String>)> {
         let (accelerometer, gyroscope) =
             (problem.recording.accelerometer.as_ref()?, problem.recording.gyroscope.as_ref()?);
-        ClockDifference::of(self.joint, &self.fit.state, accelerometer)?.words(accelerometer, gyroscope)
+        let found = ClockDifference::of(self.joint, &self.fit.state, accelerometer)?;
+        Some((found.rate(), found.words(accelerometer, gyroscope)))
     }
 
     /// For each coarse axis of the gyroscope: how the estimates follow errors that its means in the holds, or its readings in the rotations, have in common, and their size. Holds that read nearly the

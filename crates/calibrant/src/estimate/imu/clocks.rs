@@ -7,7 +7,7 @@
 //! `mackinnon1985`
 
 use super::joint::{Joint, State};
-use super::lag::Lag;
+use super::lag::{Lag, Shown};
 use crate::estimate::holds::median;
 use crate::sensor::Recording;
 use rayon::prelude::*;
@@ -15,6 +15,10 @@ use statrs::distribution::{ContinuousCDF, StudentsT};
 
 /// Fewer rotations do not tell.
 const FEWEST: usize = 6;
+/// Lags are looked for beside an arm so many times, from the line through those before,
+const PASSES: usize = 2;
+/// and count where they are found in this share of the rotations.
+const FOUND: f64 = 0.4;
 /// Lags this many standard deviations off the line do not count,
 const OUTLYING: f64 = 4.0;
 /// if most do.
@@ -28,6 +32,15 @@ const INTERVALS: f64 = 1.5;
 const SHORT_S: f64 = 0.005;
 /// Nor does a rate that differs by less than this share, as those of good quartzes do.
 const COMMON: f64 = 5e-5;
+
+/// The gyroscope's clock beside the accelerometer's, where they go at different rates.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ClockRate {
+    /// By this share of the time the gyroscope's goes faster, and by this share its gains are too large if the accelerometer's is right.
+    pub faster: f64,
+    /// Standard deviation.
+    pub sd: f64,
+}
 
 /// By how much the gyroscope's times are later than the accelerometer's: `lag_s + growth (t − at_s)`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -43,24 +56,30 @@ pub(super) struct ClockDifference {
 impl ClockDifference {
     /// What the rotations say at a state; `None` where they are too few or disagree.
     pub(super) fn of(joint: &Joint<'_>, state: &State, accelerometer: &Recording) -> Option<Self> {
-        let lags: Vec<Lag> = joint
+        let rotations: Vec<Shown<'_>> = joint
             .rotations
             .par_iter()
-            .filter_map(|rotation| Lag::of(rotation, state, accelerometer))
+            .filter_map(|rotation| Shown::of(rotation, state, accelerometer))
             .collect();
+        let mut lags: Vec<Lag> = rotations.par_iter().filter_map(Shown::lag).collect();
+        for _ in 0..PASSES {
+            let (lag_s, growth) = median_line(&lags)?;
+            let near = |shown: &Shown<'_>| shown.lag_beside_arm(lag_s + growth * shown.at_s);
+            let closer: Vec<Lag> = rotations.par_iter().filter_map(near).collect();
+            if (closer.len() as f64) < FOUND * rotations.len() as f64 {
+                break;
+            }
+            lags = closer;
+            if lags.len() == rotations.len() {
+                break;
+            }
+        }
         Self::through(&lags)
     }
 
     /// The line through lags of which some may be wild.
     fn through(lags: &[Lag]) -> Option<Self> {
-        if lags.len() < FEWEST {
-            return None;
-        }
-        let pairs =
-            lags.iter().enumerate().flat_map(|(k, one)| lags[..k].iter().map(move |other| (one, other)));
-        let growth =
-            median(pairs.map(|(one, other)| (one.lag_s - other.lag_s) / (one.at_s - other.at_s)).collect());
-        let lag_s = median(lags.iter().map(|lag| lag.lag_s - growth * lag.at_s).collect());
+        let (lag_s, growth) = median_line(lags)?;
         let mut line =
             Self { at_s: 0.0, lag_s, lag_sd_s: 0.0, growth, growth_sd: 0.0, degrees_of_freedom: 0 };
         for _ in 0..ROUNDS {
@@ -109,15 +128,21 @@ impl ClockDifference {
         self.lag_s + self.growth * (time_s - self.at_s)
     }
 
+    fn is_certain(&self, value: f64, sd: f64) -> bool {
+        let distribution = StudentsT::new(0.0, 1.0, self.degrees_of_freedom as f64).ok();
+        distribution.is_some_and(|of| 2.0 * of.sf((value / sd).abs()) < BY_CHANCE)
+    }
+
+    /// The rates of the clocks, where they are certain to differ by more than those of good ones.
+    pub(super) fn rate(&self) -> Option<ClockRate> {
+        let differ = self.growth.abs() > COMMON && self.is_certain(self.growth, self.growth_sd);
+        differ.then_some(ClockRate { faster: self.growth, sd: self.growth_sd })
+    }
+
     /// What to say of it, where it is certain and matters.
     pub(super) fn words(&self, accelerometer: &Recording, gyroscope: &Recording) -> Option<String> {
-        let is_certain = |value: f64, sd: f64| {
-            let distribution = StudentsT::new(0.0, 1.0, self.degrees_of_freedom as f64).ok();
-            distribution.is_some_and(|of| 2.0 * of.sf((value / sd).abs()) < BY_CHANCE)
-        };
         let (first, last) = (*gyroscope.times_s.first()?, *gyroscope.times_s.last()?);
-        let grows = self.growth.abs() > COMMON && is_certain(self.growth, self.growth_sd);
-        if grows {
+        if self.rate().is_some() {
             return Some(format!(
                 "the clocks of the two sensors go at different rates: the gyroscope shows movements {} than the accelerometer at the beginning and {} at the end, {:+.4} ± {:.4} % of the time; its \
                  gains are too {} by this share if the accelerometer's clock is right: {}",
@@ -131,7 +156,7 @@ impl ClockDifference {
         }
         let step = accelerometer.rate_hz().min(gyroscope.rate_hz()).recip();
         let matters = self.lag_s.abs() > SHORT_S.max(INTERVALS * step);
-        (matters && is_certain(self.lag_s, self.lag_sd_s)).then(|| {
+        (matters && self.is_certain(self.lag_s, self.lag_sd_s)).then(|| {
             format!(
                 "the gyroscope shows movements {} than the accelerometer (± {:.1} ms): a latency, or clocks that were set differently; holds and rotations are cut short by it: {}",
                 late(self.lag_s, 1),
@@ -140,6 +165,17 @@ impl ClockDifference {
             )
         })
     }
+}
+
+/// The lag at the time 0 and the growth that half of the lags are above, and half of their pairs; `None` of too few.
+fn median_line(lags: &[Lag]) -> Option<(f64, f64)> {
+    if lags.len() < FEWEST {
+        return None;
+    }
+    let pairs = lags.iter().enumerate().flat_map(|(k, one)| lags[..k].iter().map(move |other| (one, other)));
+    let growth =
+        median(pairs.map(|(one, other)| (one.lag_s - other.lag_s) / (one.at_s - other.at_s)).collect());
+    Some((median(lags.iter().map(|lag| lag.lag_s - growth * lag.at_s).collect()), growth))
 }
 
 /// `12.3 ms later`.

@@ -2,19 +2,32 @@
 //!
 //! Where gravity goes both sensors tell: the gyroscope carries it, `g(t)`, the accelerometer measures it, `f`. With the lag `L` of the gyroscope's times `f(t − L) = g(t)`, hence
 //! `L = ∫ ġᵀ (f − g) dt / ∫ |ġ|² dt`, far below a sample: what a hand adds by accelerating has little to do with ġ.
+//!
+//! An arm `r` from the point about which a hand turns adds `A r` with `A = [ω̇]× + [ω]×²`, which is much in fast turns. With `u = ġ − A c`, `c` such that `∫ Aᵀ u dt = 0`, no arm moves
+//! `Φ(L) = ∫ uᵀ (f(t − L) − g) dt`; its root is found by secants from a lag near it.
 
 use super::joint::{RotationData, State};
 use super::rotation::exponential;
 use crate::sensor::{Correction, Recording, interpolated};
+use nalgebra::{Matrix3, Vector3};
 
-/// Gravity is compared at times about so far apart, s.
-const GRID_S: f64 = 0.1;
-/// A lag that moved by more than this is refined once more, s.
+/// A rotation is compared at times about so far apart, s: in so many steps, or these limits.
+const STEPS: f64 = 32.0;
+const GRID_S: [f64; 2] = [0.02, 0.1];
+/// A lag that moved by more than this is refined once more, s,
 const ROUGH_S: f64 = 0.01;
+/// or than this where it is found beside an arm.
+const FINE_S: f64 = 1e-3;
+/// Longest step of that search, s.
+const LONGEST_S: f64 = 0.1;
 /// Refinements at most.
 const ROUNDS: usize = 8;
 /// Gravity must move by this in a rotation that tells of its lag, rad.
 const MOVES_RAD: f64 = 0.5;
+/// What an arm does is not told from less than this, `∫ |A e|² dt` in s⁻³: turns about one axis alone say nothing of the arm along it.
+const NO_ARM: f64 = 0.04;
+/// `Φ` falls by this share of `∫ |u|² dt` per s at least, or the root is another one.
+const FALLS: f64 = 0.25;
 
 /// The lag of the gyroscope's times in a rotation.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,13 +40,34 @@ pub(super) struct Lag {
     pub(super) weight: f64,
 }
 
-impl Lag {
-    /// `None` for a rotation that is not used, hardly moves gravity, or in which the lag is not found.
-    pub(super) fn of(rotation: &RotationData<'_>, state: &State, accelerometer: &Recording) -> Option<Self> {
+/// A rotation as the gyroscope shows it, to be compared with the accelerometer.
+pub(super) struct Shown<'a> {
+    /// Its middle, s.
+    pub(super) at_s: f64,
+    accelerometer: &'a Recording,
+    force: Correction,
+    /// Each time, with gravity as it is carried there.
+    carried: Vec<(f64, Vector3<f64>)>,
+    /// `2 ġ dt` at each.
+    changes: Vec<Vector3<f64>>,
+    /// `2 u dt` at each.
+    beside_arm: Vec<Vector3<f64>>,
+    /// `2 ∫ |ġ|² dt` and `2 ∫ |u|² dt`.
+    weights: [f64; 2],
+}
+
+impl<'a> Shown<'a> {
+    /// `None` for a rotation that is not used or hardly moves gravity.
+    pub(super) fn of(
+        rotation: &RotationData<'_>,
+        state: &State,
+        accelerometer: &'a Recording,
+    ) -> Option<Self> {
         let samples = &rotation.samples;
         let imu = state.imu.at(samples.temperature_c());
         let (start_s, end_s) = (*samples.times_s.first()?, *samples.times_s.last()?);
-        let step = (GRID_S * samples.times_s.len() as f64 / (end_s - start_s)).round().max(1.0) as usize;
+        let grid_s = ((end_s - start_s) / STEPS).clamp(GRID_S[0], GRID_S[1]);
+        let step = (grid_s * samples.times_s.len() as f64 / (end_s - start_s)).round().max(1.0) as usize;
         let last = samples.times_s.len() - 1;
         let times: Vec<f64> = (0..last).step_by(step).chain([last]).map(|k| samples.times_s[k]).collect();
         if !rotation.used || times.len() < 4 {
@@ -41,34 +75,104 @@ impl Lag {
         }
         // gravity by the gyroscope; what it misses at the end is spread over the rotation
         let by_rate = imu.gyroscope.matrix.try_inverse()?;
+        let turns: Vec<Vector3<f64>> =
+            samples.cut_down(&imu.gyroscope.bias, step).into_iter().map(|turn| by_rate * turn).collect();
         let mut gravity = state.forces[rotation.from];
         let mut carried = vec![gravity];
-        for turn in samples.cut_down(&imu.gyroscope.bias, step) {
-            gravity = exponential(&-(by_rate * turn)) * gravity;
+        for turn in &turns {
+            gravity = exponential(&-turn) * gravity;
             carried.push(gravity);
         }
         let missed = (state.forces[rotation.from + 1] - gravity) / (carried.len() - 1) as f64;
         carried.iter_mut().enumerate().for_each(|(k, gravity)| *gravity += missed * k as f64);
         let path: f64 = carried.array_windows().map(|[one, next]| (next - one).norm()).sum();
-        let force = Correction::of(&imu.accelerometer)?;
+        if path < MOVES_RAD * gravity.norm() {
+            return None;
+        }
+        let between = 1..times.len() - 1;
+        let changes: Vec<Vector3<f64>> = between.clone().map(|k| carried[k + 1] - carried[k - 1]).collect();
+        let spans: Vec<f64> = between.clone().map(|k| times[k + 1] - times[k - 1]).collect();
+        let arms: Vec<Matrix3<f64>> = between
+            .clone()
+            .map(|k| {
+                let [before, after] = [k - 1, k].map(|k| turns[k] / (times[k + 1] - times[k]));
+                let rate = (0.5 * (before + after)).cross_matrix();
+                ((after - before) * (2.0 / spans[k - 1])).cross_matrix() + rate * rate
+            })
+            .collect();
+        let (mut of_arm, mut with_change) = (Matrix3::identity() * NO_ARM, Vector3::zeros());
+        for ((arm, span), change) in arms.iter().zip(&spans).zip(&changes) {
+            of_arm += arm.tr_mul(arm) * *span;
+            with_change += arm.tr_mul(change);
+        }
+        let looks_alike = of_arm.cholesky()?.solve(&with_change);
+        let beside_arm: Vec<Vector3<f64>> = arms
+            .iter()
+            .zip(&spans)
+            .zip(&changes)
+            .map(|((arm, span), change)| change - arm * looks_alike * *span)
+            .collect();
+        let weights = [&changes, &beside_arm].map(|along| {
+            along
+                .iter()
+                .zip(&changes)
+                .zip(&spans)
+                .map(|((along, change), span)| along.dot(change) / span)
+                .sum()
+        });
+        Some(Self {
+            at_s: 0.5 * (start_s + end_s),
+            accelerometer,
+            force: Correction::of(&imu.accelerometer)?,
+            carried: between.map(|k| (times[k], carried[k])).collect(),
+            changes,
+            beside_arm,
+            weights,
+        })
+    }
+
+    /// `2 ∫ alongᵀ (f(t − L) − g) dt`.
+    fn missed(&self, along: &[Vector3<f64>], lag_s: f64) -> Option<f64> {
+        let [(first_s, _), .., (last_s, _)] = self.carried.as_slice() else { return None };
+        let known = self.accelerometer.between(first_s - lag_s, last_s - lag_s);
+        let known = known.start.saturating_sub(1)..(known.end + 1).min(self.accelerometer.len());
+        let (times_s, readings) =
+            (&self.accelerometer.times_s[known.clone()], &self.accelerometer.readings[known]);
+        let at = |((time_s, gravity), along): (&(f64, Vector3<f64>), &Vector3<f64>)| {
+            let reading = interpolated(times_s, |at| readings[at], time_s - lag_s, 0)?;
+            Some(along.dot(&(self.force.apply(&reading) - gravity)))
+        };
+        self.carried.iter().zip(along).map(at).sum()
+    }
+
+    /// The lag by gravity alone; `None` where it is not found.
+    pub(super) fn lag(&self) -> Option<Lag> {
         let mut lag_s = 0.0;
         for _ in 0..ROUNDS {
-            let (mut along, mut weight) = (0.0, 0.0);
-            let known = accelerometer.between(start_s - lag_s, end_s - lag_s);
-            let known = known.start.saturating_sub(1)..(known.end + 1).min(accelerometer.len());
-            let (known_s, readings) = (&accelerometer.times_s[known.clone()], &accelerometer.readings[known]);
-            for k in 1..times.len() - 1 {
-                let change = carried[k + 1] - carried[k - 1];
-                let reading = interpolated(known_s, |at| readings[at], times[k] - lag_s, 0)?;
-                along += change.dot(&(force.apply(&reading) - carried[k]));
-                weight += change.norm_squared() / (times[k + 1] - times[k - 1]);
-            }
-            let more = along / weight;
+            let more = self.missed(&self.changes, lag_s)? / self.weights[0];
             lag_s += more;
             if more.abs() < ROUGH_S {
-                let at_s = 0.5 * (start_s + end_s);
-                let weight = weight.sqrt();
-                return (path > MOVES_RAD * gravity.norm()).then_some(Self { at_s, lag_s, weight });
+                return Some(Lag { at_s: self.at_s, lag_s, weight: self.weights[0].sqrt() });
+            }
+        }
+        None
+    }
+
+    /// The lag whatever the arm is, near one that is known roughly; `None` where it is not found.
+    pub(super) fn lag_beside_arm(&self, near_s: f64) -> Option<Lag> {
+        let (mut before_s, mut lag_s) = (near_s, near_s + ROUGH_S);
+        let mut before = self.missed(&self.beside_arm, before_s)?;
+        for _ in 0..ROUNDS {
+            let here = self.missed(&self.beside_arm, lag_s)?;
+            let slope = (here - before) / (lag_s - before_s);
+            if slope > -FALLS * self.weights[1] {
+                return None;
+            }
+            (before_s, before) = (lag_s, here);
+            let more = (-here / slope).clamp(-LONGEST_S, LONGEST_S);
+            lag_s += more;
+            if more.abs() < FINE_S {
+                return Some(Lag { at_s: self.at_s, lag_s, weight: -slope / self.weights[1].sqrt() });
             }
         }
         None

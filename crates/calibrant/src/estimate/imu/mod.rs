@@ -48,6 +48,7 @@ mod weights;
 
 pub use both_still::{find_clean_imu_holds, find_imu_holds};
 pub(super) use carried::{Carried, Carrying, GyroscopeAtRest, HeldStill};
+pub use clocks::ClockRate;
 pub use exchanged::exchanged_sensors;
 pub use known::{calibrate_imu, calibrate_imu_while};
 pub use problem::{Gyroscope, ImuProblem, ImuSetup, KnownTerm, NoiseSource, Turn, WhiteNoise};

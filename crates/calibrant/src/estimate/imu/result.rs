@@ -1,6 +1,6 @@
 //! What the calibration of an IMU gives.
 
-use super::NoiseSource;
+use super::{ClockRate, NoiseSource};
 use crate::estimate::{CalibrationStatus, Change, HoldCalibration, Uncalibrated, Validation};
 use crate::sensor::{CalibratedImu, Gauge, ImuParameters, ImuQuantity, ReadingUnit, SensorModel, Triad};
 use nalgebra::{DMatrix, Vector3};
@@ -50,6 +50,8 @@ pub struct ImuCalibration {
     pub hold_temperatures_c: Option<Vec<f64>>,
     /// Sensors that are not the same throughout the recording.
     pub changes: Vec<Change>,
+    /// The rates of the sensors' clocks, where the rotations show that they differ.
+    pub clocks: Option<ClockRate>,
     /// How it fares on data that were not used for it, where it was tried; the estimation leaves it empty.
     pub validations: Vec<Validation>,
     /// Things a user should know, in words.

@@ -1,10 +1,10 @@
 //! Errors that are as large as predicted, and confirm nothing.
 //!
-//! A sensor that changes within a recording scatters more, which is predicted; errors that do not count are not among those that are as predicted.
+//! A sensor that changes within a recording scatters more, which is predicted; clocks of different rates give gains that are wrong by the same share in all rotations; errors that do not count are not among those that are as predicted.
 
 use super::result::{ErrorKind, UnusedError};
 use crate::estimate::change::longest_run;
-use crate::estimate::{Change, Changed, HoldCalibration, ImuCalibration};
+use crate::estimate::{Change, Changed, ClockRate, HoldCalibration, ImuCalibration};
 use crate::sensor::Triad;
 
 /// Fewest errors that do not count and are several, and the share of all that they are.
@@ -16,6 +16,8 @@ const SHARE: f64 = 0.05;
 pub enum Doubt {
     /// A sensor changes within the recording that was calibrated from.
     Change(Change),
+    /// The clocks of the sensors go at different rates in the recording that was calibrated from.
+    Clocks(ClockRate),
     /// The calibration left out so many holds or rotations one after another.
     LeftOut {
         /// Number of them.
@@ -42,11 +44,12 @@ pub enum Doubt {
 }
 
 impl Doubt {
-    /// As written in results: `change`, `left_out`, `in_a_row`, `several`.
+    /// As written in results: `change`, `clocks`, `left_out`, `in_a_row`, `several`.
     #[must_use]
     pub fn name(&self) -> &'static str {
         match self {
             Self::Change(_) => "change",
+            Self::Clocks(_) => "clocks",
             Self::LeftOut { .. } => "left_out",
             Self::InARow { .. } => "in_a_row",
             Self::Several { .. } => "several",
@@ -58,6 +61,7 @@ impl Doubt {
 #[derive(Debug, Clone, Default)]
 pub(super) struct Doubts {
     changes: Vec<Change>,
+    clocks: Option<ClockRate>,
     holds: Option<Doubt>,
     rotations: Option<Doubt>,
 }
@@ -72,6 +76,7 @@ impl Doubts {
             .collect();
         Self {
             changes: calibration.changes.clone(),
+            clocks: calibration.clocks,
             rotations: left_out(&times),
             ..Self::of_holds(&calibration.holds)
         }
@@ -86,6 +91,7 @@ impl Doubts {
             .collect();
         Self {
             changes: holds.change.as_deref().copied().into_iter().collect(),
+            clocks: None,
             holds: left_out(&times),
             rotations: None,
         }
@@ -100,6 +106,7 @@ impl Doubts {
             (Triad::Gyroscope, _) => kind == ErrorKind::Rotation,
         };
         let change = || self.changes.iter().find(concerns).map(|change| Doubt::Change(*change));
+        let clocks = || self.clocks.filter(|_| kind == ErrorKind::Rotation).map(Doubt::Clocks);
         let left_out = || match kind {
             ErrorKind::Magnitude => self.holds,
             ErrorKind::Rate => None,
@@ -115,7 +122,7 @@ impl Doubts {
             (count >= SEVERAL && count as f64 > SHARE * errors.len() as f64)
                 .then_some(Doubt::Several { count })
         };
-        change().or_else(left_out).or_else(in_a_row).or_else(several)
+        change().or_else(clocks).or_else(left_out).or_else(in_a_row).or_else(several)
     }
 }
 
