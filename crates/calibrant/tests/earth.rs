@@ -3,8 +3,8 @@
 mod common;
 
 use calibrant::estimate::{
-    CalibrationSettings, CovarianceVerdict, ErrorKind, Gyroscope, ImuCalibration, ImuProblem, ImuSetup,
-    KnownTerm, Turn, calibrate_imu, cross_validate_imu,
+    CalibrationSettings, CovarianceVerdict, ErrorKind, Gyroscope, HoldsSetup, ImuCalibration, ImuProblem,
+    ImuSetup, KnownTerm, Turn, calibrate_imu, cross_validate_imu,
 };
 use calibrant::motion::{EARTH_RATE_RADPS, earth_rate};
 use calibrant::sensor::{ImuParameters, ImuQuantity, ImuRecording, Sensor, SensorModel};
@@ -30,7 +30,7 @@ impl Bench {
         Self {
             accelerometer: Sensor::triaxial(SensorModel::Full),
             gyroscope: Gyroscope { g_sensitivity, ..Gyroscope::default() },
-            setup: ImuSetup { latitude_deg, ..ImuSetup::default() },
+            setup: ImuSetup { latitude_deg, holds: holds(), ..ImuSetup::default() },
         }
     }
 
@@ -42,6 +42,12 @@ impl Bench {
     fn calibrate(&self, recording: &ImuRecording) -> ImuCalibration {
         calibrate_imu(&self.problem(recording), &CalibrationSettings::default()).expect("determined")
     }
+}
+
+/// Holds known to the sample, so that no gentle beginning of a turn falls into one: it would be more than the noise of a good gyroscope.
+fn holds() -> HoldsSetup {
+    let hold = |k: usize| (4.5 * k as f64 + 0.02, 4.5 * k as f64 + 2.46);
+    HoldsSetup { intervals_s: Some((0..24).map(hold).collect()), ..HoldsSetup::default() }
 }
 
 /// A good gyroscope and accelerometer, turned by hand where the Earth turns so.
@@ -66,8 +72,8 @@ fn g_sensitivity(calibration: &ImuCalibration) -> Vec<usize> {
     (0..calibration.quantities.len()).filter(is).collect()
 }
 
-/// Mean square of the scores of the g-sensitivity over its entries and many sensors, the share of them within 1.96, mean of `eᵀ C⁻¹ e` over the number of entries, and in how many a word is said.
-fn scores(known: bool) -> (f64, f64, f64, usize) {
+/// Mean square of the scores of the g-sensitivity over its entries and many sensors, the share of them within 1.96, mean of `eᵀ C⁻¹ e` over the number of entries, and in how many a word is said. `north`: does the Earth turn about the north, too?
+fn scores(known: bool, north: bool) -> (f64, f64, f64, usize) {
     let count = 200_u64;
     let found: Vec<(Vec<f64>, f64, bool)> = (0..count)
         .into_par_iter()
@@ -76,7 +82,9 @@ fn scores(known: bool) -> (f64, f64, f64, usize) {
             let truth = draw_imu(&mut rng);
             // anywhere on the Earth's sphere
             let latitude_deg = rng.random_range(-1.0_f64..1.0).asin().to_degrees();
-            let recording = simulate_imu(&truth, &simulation(earth_rate(latitude_deg)), &mut rng);
+            let mut rate = earth_rate(latitude_deg);
+            rate.x *= f64::from(u8::from(north));
+            let recording = simulate_imu(&truth, &simulation(rate), &mut rng);
             let calibration = Bench::new(true, known.then_some(latitude_deg)).calibrate(&recording);
             let places = g_sensitivity(&calibration);
             let error = |k: &usize| calibration.values[*k] - calibration.quantities[*k].of(&truth);
@@ -100,13 +108,14 @@ fn scores(known: bool) -> (f64, f64, f64, usize) {
 
 #[test]
 fn the_standard_deviations_of_the_g_sensitivity_are_right_wherever_on_the_earth() {
-    let (squares, within, whole, said) = scores(true);
-    // the scatter of the holds decides, and 24 holds tell it to 15 %
-    assert!((0.85..1.2).contains(&squares) && (0.93..0.97).contains(&within), "{squares} {within}");
-    assert!((0.85..1.25).contains(&whole) && said == 0, "{whole} {said}");
-    let (squares, within, whole, said) = scores(false);
-    assert!((0.8..1.2).contains(&squares) && within > 0.94, "{squares} {within}");
-    assert!((0.85..1.25).contains(&whole) && said == 200, "{whole} {said}");
+    for known in [true, false] {
+        let (squares, within, whole, said) = scores(known, false);
+        assert!((0.8..1.2).contains(&squares) && within > 0.94, "{known} {squares} {within}");
+        assert!((0.8..1.2).contains(&whole) && said == if known { 0 } else { 200 }, "{known} {whole} {said}");
+        // the rate about the north is one vector for all holds and rotations, and counts as scatter of each by itself
+        let (squares, within, ..) = scores(known, true);
+        assert!(squares < 1.8 && within > 0.86, "{known} {squares} {within}");
+    }
 }
 
 #[test]
@@ -132,7 +141,7 @@ fn the_vertical_rate_is_in_the_model_and_without_a_latitude_it_is_the_g_sensitiv
             bench.setup.known = places.iter().map(|&k| term(&calibration.quantities[k])).collect();
             let known = bench.calibrate(&recording);
             assert!(close(&known), "{sd:?} {} {}", off(&known), bias(&known));
-            assert!(known.warnings.is_empty(), "{:?}", known.warnings);
+            assert!(!known.warnings.join("; ").contains("contradict"), "{:?}", known.warnings);
         }
         // without a latitude all of it goes into the g-sensitivity, and the covariance knows
         let unknown = Bench::new(true, None).calibrate(&recording);
