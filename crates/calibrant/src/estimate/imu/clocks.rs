@@ -119,7 +119,8 @@ impl ClockDifference {
         let of_lag = (variance / weight).max(sum(&own) / weight.powi(2));
         let of_growth =
             (variance / spread).max(sum(&|lag| (lag.at_s - at_s).powi(2) * own(lag)) / spread.powi(2));
-        let (lag_sd_s, growth_sd) = (of_lag.sqrt(), of_growth.sqrt());
+        // lags are of first order in the growth
+        let (lag_sd_s, growth_sd) = (of_lag.sqrt(), of_growth.sqrt().hypot(growth * growth));
         Self { at_s, lag_s, lag_sd_s, growth, growth_sd, degrees_of_freedom }
     }
 
