@@ -8,7 +8,7 @@ use calibrant::estimate::{
 use calibrant::sensor::{ImuParameters, ImuQuantity, ImuRecording, Quantity, Sensor, SensorModel, Triad};
 use calibrant::simulate::{ImuSimulation, Purpose, TableAction, TableStep, simulate_table, stream};
 use common::draw_imu;
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 use rayon::prelude::*;
 
 fn run(recording: &ImuRecording, setup: &ImuSetup) -> calibrant::Result<ImuCalibration> {
@@ -123,6 +123,36 @@ fn intervals_cover_the_truth_with_a_given_tilt_with_more_faces_and_with_fewer() 
     let corner = [six()[0], six()[2], six()[4], six()[5]];
     off.extend(covers(65, &corner, 0.5, false));
     assert!(off.is_empty(), "{off:#?}");
+}
+
+/// Turns that are exchanged, cut, or of another sign are refused (`cli/ferraris.rs`); sensors that are only crooked are not.
+#[test]
+fn crooked_sensors_with_gains_that_are_off_are_calibrated() {
+    let (steps, setup) = session(&six());
+    for (crooked_deg, gain) in [(5.0_f64, 0.04), (8.0, 0.08)] {
+        for sensor in 0..64 {
+            let mut rng = stream(81, Purpose::Sensor, sensor);
+            let mut truth = draw_imu(&mut rng);
+            // signs by the bits of the number, the two sensors' the other way round: the worst of them are turned against each other
+            for (k, triad) in [&mut truth.accelerometer, &mut truth.gyroscope].into_iter().enumerate() {
+                let mut bits = if k == 0 { sensor } else { !sensor };
+                let mut sign = || {
+                    bits = bits.rotate_right(1);
+                    if bits >> 63 == 1 { 1.0 } else { -1.0 }
+                };
+                triad.matrix = Matrix3::from_fn(|i, j| match i == j {
+                    true => 1.0,
+                    false => sign() * crooked_deg.to_radians().tan(),
+                });
+                for axis in 0..3 {
+                    triad.matrix[(axis, axis)] += sign() * gain;
+                }
+            }
+            let recording = simulate_table(&truth, &steps, &ImuSimulation::default(), &mut rng);
+            let found = run(&recording, &setup);
+            assert!(found.is_ok(), "{crooked_deg}°, sensor {sensor}: {:?}", found.err());
+        }
+    }
 }
 
 #[test]

@@ -1,15 +1,15 @@
 //! What was given beforehand (turns, priors, noise, units), where the data contradict it.
 
 use super::joint::{Fit, Joint, TurnData};
-use super::mistaken::{turned_frame, words};
+use super::mistaken::{AGREES_RAD, turned_frame, words};
 use super::{ImuCalibration, NoiseSource, Turn};
 use crate::sensor::{Axis, ReadingUnit, Triad};
 use nalgebra::Vector3;
 
 /// Standard deviations by which the data may be off what was given before it is told.
 const CONTRADICTED: f64 = 4.5;
-/// Readings in SI that are off a turn by more than this share of it show another one.
-pub(super) const OTHER_TURN: f64 = 0.25;
+/// Readings in SI whose angle is off that of a turn by more than this share show another one.
+const OTHER_TURN: f64 = 0.25;
 /// A factor this close to 180/π is taken for it.
 const DEGREES_OR_RADIANS: f64 = 0.1;
 /// Gains of readings in SI that are plausible.
@@ -124,14 +124,18 @@ pub(super) fn factor(share: f64) -> Option<&'static str> {
     near(1.0 / DEGREES).then_some("π/180 of it. Are the gyroscope's readings in rad/s and read as deg/s?")
 }
 
+/// Is what readings in SI show of a turn another one, by its angle or by its axis? Errors of a few degrees and per cent in both sensors are none.
+pub(super) fn is_another(shown: &Vector3<f64>, given: &Vector3<f64>) -> bool {
+    (shown.norm() / given.norm() - 1.0).abs() > OTHER_TURN || shown.angle(given) > AGREES_RAD
+}
+
 /// A turn of which the readings, in SI, show quite another one.
 fn other_turn(fit: &Fit, data: &TurnData, turn: &Turn, number: usize) -> Option<String> {
     let shown = data.beyond_bias(&fit.state.imu);
     let share = shown.dot(&data.angle) / data.angle.norm_squared();
     let why = factor(share)
         .map_or_else(|| ": correct its angle, its axis or its times".to_owned(), |why| format!(", {why}"));
-    ((shown - data.angle).norm() > OTHER_TURN * data.angle.norm())
-        .then(|| format!("{}{why}", shows_another(number, turn, &shown)))
+    is_another(&shown, &data.angle).then(|| format!("{}{why}", shows_another(number, turn, &shown)))
 }
 
 /// What was given of a turn, and what is shown of it, rad.

@@ -11,7 +11,7 @@ use crate::sensor::{Axis, ReadingUnit};
 use nalgebra::{Matrix3, Vector3};
 
 /// Faces by hand, unknown gains and non-orthogonality stay well below this angle, mistakes of a direction are 90° or 180°.
-const AGREES_RAD: f64 = 0.5;
+pub(super) const AGREES_RAD: f64 = 0.5;
 /// Gains of readings in SI that may be: a range that is not the one that was set is half or twice of it.
 const GAINS: std::ops::RangeInclusive<f64> = 0.4..=2.5;
 /// Axes of a sensor are at right angles to a few degrees; mistakes are far larger, rad.

@@ -1,10 +1,11 @@
 //! Turns of known angle on known faces that the gyroscope contradicts: exchanged, of another angle, or read in another unit.
 //!
-//! A turn adds up to `S φ e`, and the errors of a sensor are a few per cent of it. How the sensor sits in the frame of the directions the faces tell. A gyroscope whose axes are all
+//! A turn adds up to `S φ e`, and the errors of a sensor are a few per cent of its angle and some degrees of its axis, twice where both sensors have them. How the sensor sits in the
+//! frame of the directions the faces tell. A gyroscope whose axes are all
 //! turned alike against the accelerometer's sits otherwise in its housing; no sensor is a mirror image of another.
 
 use super::Turn;
-use super::contradiction::{OTHER_TURN, factor, shows_another};
+use super::contradiction::{factor, is_another, shows_another};
 use super::joint::TurnData;
 use super::start::{names, orders};
 use crate::error::{Complaint, Error, Result};
@@ -96,7 +97,7 @@ impl<'a> Shown<'a> {
 
     /// Is what a turn shows this rotation?
     fn agrees(&self, k: usize, rotation: &Vector3<f64>) -> bool {
-        (self.in_frame[k] - rotation).norm() <= OTHER_TURN * self.data[k].angle.norm()
+        !is_another(&self.in_frame[k], rotation)
     }
 
     /// Does a turn show another one?
@@ -116,9 +117,7 @@ impl<'a> Shown<'a> {
         let of =
             |(shown, turn): (&Vector3<f64>, &TurnData)| shown.dot(&turn.angle) / turn.angle.norm_squared();
         let share = pairs().map(of).sum::<f64>() / self.data.len() as f64;
-        let follows = |(shown, turn): (&Vector3<f64>, &TurnData)| {
-            (shown - turn.angle * share).norm() < OTHER_TURN * share.abs() * turn.angle.norm()
-        };
+        let follows = |(shown, turn): (&Vector3<f64>, &TurnData)| !is_another(shown, &(turn.angle * share));
         pairs().all(follows).then_some(share)
     }
 }
