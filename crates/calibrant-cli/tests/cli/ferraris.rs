@@ -103,7 +103,7 @@ fn how_well_the_faces_were_met_is_told() {
     assert!(page.contains("too little left to tell it"));
     bench.refuses(
         &format!("calibrate {} tilted/recording.csv -o no", {
-            bench.write("wrong.toml", table.replacen("[holds]", "[holds]\nface_sd_deg = 60.0", 1));
+            bench.write("wrong.toml", table.replacen("[holds]", "[holds]\nface_sd_deg = 12.0", 1));
             "wrong.toml"
         }),
         2,

@@ -112,19 +112,11 @@ pub(super) fn fit(
             return Err(with_clipped(error, &clipped, as_read));
         }
     };
-    // how they scatter, whatever was given of it
-    let free = match given_rad {
-        Some(_) => linear.solve(None).map_or(met, |(_, free, _)| free),
-        None => met,
-    };
-    let of_tilt = match given_rad {
-        Some(given_rad) => free.tilt.contradicts(given_rad),
-        None => met.tilt.assumed(usable.len()),
-    };
-    sensor.matrix /= met.placing.cosine();
+    let of_tilt = met.contradiction().or_else(|| met.tilt.assumed(usable.len()));
+    sensor.matrix /= met.cosine();
     let mirrored = sensor.matrix.determinant() <= 0.0;
-    let is_scattered =
-        free.placing.tilt_rad.max(free.placing.along_mps2 / setup.gravity.magnitude_mps2) > SCATTERED;
+    let shown_rad = met.shown_rad.unwrap_or(met.placing.tilt_rad);
+    let is_scattered = shown_rad.max(met.placing.along_mps2 / setup.gravity.magnitude_mps2) > SCATTERED;
     if mirrored || is_scattered {
         super::mistaken::directions(problem, &holds, directions, mirrored)?;
     }
@@ -149,7 +141,8 @@ pub(super) fn fit(
             }
         })
         .collect();
-    let scattered = is_scattered.then(|| scattered(&results, &sensor, &correction, &free.placing));
+    let scattered =
+        is_scattered.then(|| scattered(&results, &sensor, &correction, (shown_rad, met.placing.along_mps2)));
     let holds = HoldCalibration {
         magnitude_residual_rms_mps2: magnitude_rms(&results),
         degrees_of_freedom: met.along_degrees,
@@ -198,6 +191,17 @@ pub(super) fn degrees(forces: &[Vector3<f64>], quantities: &[Quantity], others: 
     }
 }
 
+/// Variance of the direction that the mean of a face shows, by noise alone, rad². `weights`: inverse covariances of the means.
+pub(super) fn noise_rad2(
+    weights: impl ExactSizeIterator<Item = Matrix3<f64>>,
+    s: &Matrix3<f64>,
+    gravity: f64,
+) -> f64 {
+    let count = weights.len() as f64;
+    let precision: f64 = weights.map(|weight| (s.transpose() * weight * s).trace() / 3.0).sum();
+    count / (precision * gravity * gravity)
+}
+
 /// What a face adds to χ²: `r` is left of its mean, `weight` the inverse covariance of that.
 pub(super) fn of_face(
     r: &Vector3<f64>,
@@ -216,7 +220,7 @@ fn scattered(
     results: &[HoldResult],
     sensor: &SensorParameters,
     correction: &Matrix3<f64>,
-    placing: &Placing,
+    (tilt_rad, along_mps2): (f64, f64),
 ) -> String {
     let used = || results.iter().enumerate().filter(|(_, result)| result.used);
     let off: Vec<f64> = results
@@ -228,8 +232,8 @@ fn scattered(
         used().filter(|(k, _)| off[*k] > 0.8 * most).map(|(k, result)| result.hold.named(k)).collect();
     format!(
         "the faces scatter by {:.1}° and {:.2} m/s² along gravity beyond their noise; by {:.1}° and least of all fits {}: are directions and times of the holds right?",
-        placing.tilt_rad.to_degrees(),
-        placing.along_mps2,
+        tilt_rad.to_degrees(),
+        along_mps2,
         most.to_degrees(),
         worst.join(", or ")
     )
@@ -265,7 +269,10 @@ impl Linear<'_> {
         let rough = self.fit(&one, &none).ok_or_else(singular)?.matrix;
         let degrees = degrees(self.forces, self.list.quantities(), 0);
         let gravity = self.forces.first().map_or(0.0, Vector3::norm);
-        let (met, sensor) = placing(degrees, given_rad, gravity, |placing| {
+        let weights =
+            self.holds.iter().zip(self.forces).map(|(hold, force)| self.weight(hold, force, &rough, &none));
+        let noise = noise_rad2(weights, &rough, gravity);
+        let (met, sensor) = placing(degrees, given_rad, (gravity, noise), |placing| {
             let sensor = self.fit(&rough, placing)?;
             Some((self.chi2(&sensor, &rough, placing)?, sensor))
         })

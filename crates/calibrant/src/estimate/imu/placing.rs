@@ -7,18 +7,26 @@
 //!
 //! `τ` is such that χ² equals its degrees of freedom, and so is what else scatters along the direction, where anything is left there to tell it: six faces fix three
 //! scale factors and three biases by what they show along gravity, and leave nothing. A scatter of few residuals is known badly: for the covariance its variance is multiplied by
-//! `ν/(ν − 2)`, which makes the normal distribution as wide as Student's t.
+//! `ν/(ν − 2)`, which makes the normal distribution as wide as Student's t. Where the noise's variance `v` is no less than that of the tilt, a scatter that is small by chance leaves nothing
+//! to multiply. With `S = Σ r²`, the variance `v + τ²` is `S/χ²_ν` and not less than `v`; its mean is
+//!
+//! `E[v + τ²] = S/(ν − 2) · P(χ²_{ν−2} < S/v)/P(χ²_ν < S/v)`
+//!
+//! which is `S/(ν − 2)` for large tilts, and leaves six faces that scatter as their noise does a `τ²` of `v`.
 
 use crate::estimate::excess::excess;
 use crate::estimate::{FaceTilt, TiltSource};
 use nalgebra::{Matrix3, Vector3};
+use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 /// Tilt of faces whose scatter does not tell it, rad: half a degree, as of known turns.
 const ASSUMED_RAD: f64 = 0.5 * std::f64::consts::PI / 180.0;
 /// A scatter of fewer degrees of freedom has no variance that could be stated.
 const FEWEST: usize = 3;
-/// Faces that scatter by so many times what was given of their tilt contradict it.
+/// Faces that scatter by so many times what was given of their tilt contradict it …
 const CONTRADICTED: f64 = 2.5;
+/// … and so do those that scatter as little in one of so many sessions only.
+const TOO_LITTLE: f64 = 1e-3;
 /// The two scatters follow each other in at most so many rounds …
 const ROUNDS: usize = 30;
 /// … until they change by less than this share.
@@ -45,6 +53,10 @@ pub(super) struct Met {
     pub(super) tilt: FaceTilt,
     /// What is left of the magnitudes to check.
     pub(super) along_degrees: usize,
+    /// The tilt by the scatter, rad, where it tells it.
+    pub(super) shown_rad: Option<f64>,
+    /// Does it contradict the tilt that was given?
+    pub(super) contradicted: bool,
 }
 
 /// What is left of the faces to tell the scatter.
@@ -66,11 +78,6 @@ impl Placing {
     fn of(tilt_rad: f64, along_mps2: f64, faces: usize) -> Self {
         let of_square = tilt_rad.powi(4) * (1.0 + 6.0 / faces.max(1) as f64);
         Self { tilt_rad, along_mps2, of_square }
-    }
-
-    /// Share of gravity along the direction, on average.
-    pub(super) fn cosine(&self) -> f64 {
-        1.0 - self.tilt_rad.powi(2)
     }
 
     /// Covariance of the specific force, (m/s²)².
@@ -95,37 +102,65 @@ impl Degrees {
         }
     }
 
-    fn met(self, placing: Placing, source: TiltSource) -> Met {
+    /// `tilt2`: mean of τ² over what the recording leaves open, where it tells it.
+    fn met(self, placing: Placing, source: TiltSource, tilt2: Option<f64>) -> Met {
         let factor = |degrees: usize| {
             let degrees = degrees.max(FEWEST) as f64;
-            (degrees / (degrees - 2.0)).sqrt()
+            degrees / (degrees - 2.0)
         };
-        let (of_tilt, degrees_of_freedom) = match source {
-            TiltSource::Recording => (factor(self.across()), self.across()),
-            TiltSource::Given | TiltSource::Assumed => (1.0, 0),
+        let (of_square, degrees_of_freedom) = match tilt2 {
+            Some(_) => (factor(self.across()), self.across()),
+            None => (1.0, 0),
         };
         Met {
             placing,
             widened: Placing {
-                tilt_rad: placing.tilt_rad * of_tilt,
-                along_mps2: placing.along_mps2 * factor(self.along),
-                of_square: placing.of_square * of_tilt.powi(2),
+                tilt_rad: tilt2.map_or(placing.tilt_rad, f64::sqrt),
+                along_mps2: placing.along_mps2 * factor(self.along).sqrt(),
+                of_square: placing.of_square * of_square,
             },
             tilt: FaceTilt { sd_rad: placing.tilt_rad, source, degrees_of_freedom },
             along_degrees: self.along,
+            shown_rad: (source == TiltSource::Recording).then_some(placing.tilt_rad),
+            contradicted: false,
         }
     }
 }
 
-/// How the faces were met, and what was fitted with it. `fit` gives χ² and what it fitted for a scatter; `None` where it fails, which ends the search.
+/// How the faces were met, and what was fitted with it. `noise`: variance of the direction of a face's mean by its noise, rad²; `fit` gives χ² and what it fitted for a scatter; `None` where it fails, which ends the search.
 pub(super) fn placing<T>(
     degrees: Degrees,
     given_rad: Option<f64>,
-    gravity: f64,
+    (gravity, noise): (f64, f64),
     mut fit: impl FnMut(&Placing) -> Option<(Chi2, T)>,
 ) -> Option<(Met, T)> {
-    let source = degrees.source(given_rad);
-    let told = source == TiltSource::Recording;
+    let Some(given_rad) = given_rad else {
+        let (found, chi2, fitted) = search(degrees, None, gravity, &mut fit)?;
+        let source = degrees.source(None);
+        let is_told = source == TiltSource::Recording;
+        let tilt2 = is_told.then(|| mean_square(degrees, &found, &chi2, noise));
+        return Some((degrees.met(found, source, tilt2), fitted));
+    };
+    // how they scatter, whatever was given of it
+    let shown = match degrees.source(None) {
+        TiltSource::Recording => search(degrees, None, gravity, &mut fit).map(|(shown, ..)| shown.tilt_rad),
+        TiltSource::Given | TiltSource::Assumed => None,
+    };
+    let (found, chi2, fitted) = search(degrees, Some(given_rad), gravity, &mut fit)?;
+    let met = degrees.met(found, TiltSource::Given, None);
+    let is_less = probability(degrees.across(), chi2.all - chi2.along) < TOO_LITTLE;
+    let contradicted = shown.is_some_and(|shown_rad| is_less || shown_rad > CONTRADICTED * given_rad);
+    Some((Met { shown_rad: shown, contradicted, ..met }, fitted))
+}
+
+/// The scatter, χ² and what was fitted with it.
+fn search<T>(
+    degrees: Degrees,
+    given_rad: Option<f64>,
+    gravity: f64,
+    fit: &mut impl FnMut(&Placing) -> Option<(Chi2, T)>,
+) -> Option<(Placing, Chi2, T)> {
+    let told = degrees.source(given_rad) == TiltSource::Recording;
     let mut placing = Placing::of(given_rad.unwrap_or(ASSUMED_RAD), 0.0, degrees.faces);
     // where noise decides, all three components of a face share the parameters alike; where tilts do, what it shows along tells what it can alone
     let scattered = (fit(&Placing::default())?.0.all / degrees.all.max(1) as f64).max(1.0);
@@ -153,23 +188,50 @@ pub(super) fn placing<T>(
             break;
         }
     }
-    let fitted = fit(&placing)?.1;
-    Some((degrees.met(placing, source), fitted))
+    let (chi2, fitted) = fit(&placing)?;
+    Some((placing, chi2, fitted))
+}
+
+/// Mean of `τ²`, rad², over what a scatter of so few residuals leaves open. `noise`: `v`, rad².
+fn mean_square(degrees: Degrees, found: &Placing, chi2: &Chi2, noise: f64) -> f64 {
+    let (nu, of_tilt) = (degrees.across() as f64, found.tilt_rad.powi(2));
+    let squares = chi2.all * nu / degrees.all as f64 * (noise + of_tilt);
+    let below = |degrees_of_freedom: usize| probability(degrees_of_freedom, squares / noise);
+    let mean = squares / (nu - 2.0) * below(degrees.across() - 2) / below(degrees.across()) - noise;
+    if mean.is_finite() { mean.max(of_tilt) } else { of_tilt }
+}
+
+/// Probability of a χ² of so many degrees of freedom below this.
+fn probability(degrees_of_freedom: usize, chi2: f64) -> f64 {
+    ChiSquared::new(degrees_of_freedom as f64).map_or(f64::NAN, |of| of.cdf(chi2.max(0.0)))
+}
+
+impl Met {
+    /// Share of gravity along the direction, on average: by the scatter where this contradicts what was given.
+    pub(super) fn cosine(&self) -> f64 {
+        let shown_rad = self.shown_rad.filter(|_| self.contradicted);
+        1.0 - shown_rad.unwrap_or(self.placing.tilt_rad).powi(2)
+    }
+
+    /// What is to be said where the scatter of the faces contradicts what was given of it.
+    pub(super) fn contradiction(&self) -> Option<String> {
+        let (shown_rad, given_rad) = (self.shown_rad.filter(|_| self.contradicted)?, self.placing.tilt_rad);
+        let [by, so] = match shown_rad > given_rad {
+            true => ["by", "the standard deviations are too small"],
+            false => [
+                "by only",
+                "the standard deviations are too large; leave the key out, and the scatter of the faces tells it",
+            ],
+        };
+        Some(format!(
+            "the faces scatter {by} {:.2}° about each axis, and holds.face_sd_deg says {:.2}°: {so}",
+            shown_rad.to_degrees(),
+            given_rad.to_degrees()
+        ))
+    }
 }
 
 impl FaceTilt {
-    /// What is to be said where the scatter of the faces, this, contradicts what was given of it.
-    pub(super) fn contradicts(&self, given_rad: f64) -> Option<String> {
-        let does = self.source == TiltSource::Recording && self.sd_rad > CONTRADICTED * given_rad;
-        does.then(|| {
-            format!(
-                "the faces scatter by {:.2}° about each axis, and holds.face_sd_deg says {:.2}°: the standard deviations are too small",
-                self.sd_rad.to_degrees(),
-                given_rad.to_degrees()
-            )
-        })
-    }
-
     /// What is to be said where so many faces do not tell how well they were met.
     pub(super) fn assumed(&self, faces: usize) -> Option<String> {
         (self.source == TiltSource::Assumed).then(|| {
@@ -178,5 +240,43 @@ impl FaceTilt {
                 self.sd_rad.to_degrees()
             )
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Six faces whose residuals have the squares `S` together, each component with the same noise.
+    fn widened(squares: f64, noise: f64) -> f64 {
+        let degrees = Degrees { faces: 6, along: 0, all: 6 };
+        let fit = |placing: &Placing| {
+            let all = squares / (noise + placing.tilt_rad.powi(2));
+            Some((Chi2 { along: 0.0, all }, ()))
+        };
+        placing(degrees, None, (9.81, noise), fit).expect("found").0.widened.tilt_rad.powi(2)
+    }
+
+    #[test]
+    fn a_scatter_as_small_as_its_noise_leaves_a_tilt_open() {
+        let noise = 1e-6;
+        for times in [1e-3, 0.1, 1.0, 1.5, 4.0, 30.0, 1e4] {
+            let squares = 6.0 * times * noise;
+            // the posterior of T = v + τ² is T^(−ν/2 − 1) exp(−S/(2 T)), by the sum over ln T from ln v on
+            let (mut sum, mut weights) = (0.0, 0.0);
+            for k in 0..400_000 {
+                let both = noise * (f64::from(k) * 1e-4).exp();
+                let weight = (-3.0 * (both / noise).ln() - 0.5 * squares / both
+                    + 0.5 * squares / (noise * (1.0 + times)))
+                    .exp()
+                    * if k == 0 { 0.5 } else { 1.0 };
+                sum += weight * (both - noise);
+                weights += weight;
+            }
+            let (found, expected) = (widened(squares, noise), sum / weights);
+            assert!((found / expected - 1.0).abs() < 1e-3, "{times}: {found:e} {expected:e}");
+        }
+        // S/(ν − 2) without noise
+        assert!((widened(6e-4, 1e-14) / 1.5e-4 - 1.0).abs() < 1e-6);
     }
 }

@@ -55,7 +55,7 @@ fn fit(
     let accelerometer = first.adjusted.as_ref().unwrap_or(accelerometer);
     let holds = &first.holds;
     let chosen: Vec<usize> = (0..holds.holds.len()).filter(|&j| holds.holds[j].used).collect();
-    let met = first.met.map_or(1.0, |met| met.placing.cosine());
+    let met = first.met.map_or(1.0, |met| met.cosine());
     let forces: Vec<Vector3<f64>> = chosen.iter().map(|&j| holds.holds[j].force_mps2 * met).collect();
     let used: Vec<&Hold> = chosen.iter().map(|&j| &holds.holds[j].hold).collect();
     let mut stills: Vec<Option<MeanReading>> = used.par_iter().map(|hold| still(gyroscope, hold)).collect();
@@ -321,7 +321,7 @@ fn hold_data(first: &First, chosen: &[usize], climate: &Climate<'_>) -> Vec<Hold
                     None => first.weight(hold, holds.between_holds_sd_mps2),
                 },
                 gyroscope: None,
-                known: first.met.map(|met| force_mps2 * met.placing.cosine()),
+                known: first.met.map(|met| force_mps2 * met.cosine()),
                 temperature_c: climate.of_hold(hold),
             }
         })

@@ -370,8 +370,11 @@ impl<'a> Alone<'a> {
                 self.weighed(|hold, force| self.first.weight_on_face(hold, force, placing))
             };
             solver::check(&on_faces(&rough.placing), &self.start, settings)?;
+            let weights = on_faces(&Placing::default()).holds;
+            let weights = weights.iter().map(|hold| hold.accelerometer_weight);
+            let noise = faces::noise_rad2(weights, &self.first.sensor.matrix, self.joint.gravity);
             let (met, state) =
-                placing(self.face_degrees(), self.face_sd_rad, self.joint.gravity, |placing| {
+                placing(self.face_degrees(), self.face_sd_rad, (self.joint.gravity, noise), |placing| {
                     let weighed = on_faces(placing);
                     let fit = fit(&weighed)?;
                     Some((self.chi2_of_faces(&weighed, &fit)?, fit.state))

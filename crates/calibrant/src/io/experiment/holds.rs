@@ -11,7 +11,8 @@ use crate::simulate::{MOST_SAMPLES, TURN_S};
 use nalgebra::Vector3;
 
 const GRAVITY: Bounds = Bounds::from(0.1, 100.0, "m/s²");
-const TILT: Bounds = Bounds::from(0.0, 45.0, "degrees");
+/// Faces that are met worse are none.
+const TILT: Bounds = Bounds::from(0.0, 10.0, "degrees");
 const GRAVITY_SD: Bounds = Bounds::from(0.0, 1.0, "m/s²");
 const LATITUDE: Bounds = Bounds::from(-90.0, 90.0, "degrees");
 const HEIGHT: Bounds = Bounds::from(-12_000.0, 100_000.0, "m");
