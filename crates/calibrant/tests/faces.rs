@@ -3,7 +3,7 @@
 mod common;
 
 use calibrant::estimate::{
-    CalibrationSettings, Gyroscope, ImuCalibration, ImuProblem, ImuSetup, TiltSource,
+    CalibrationSettings, CalibrationStatus, Gyroscope, ImuCalibration, ImuProblem, ImuSetup, TiltSource,
     Turn, calibrate_imu,
 };
 use calibrant::sensor::{ImuParameters, ImuQuantity, ImuRecording, Quantity, Sensor, SensorModel, Triad};
@@ -136,6 +136,26 @@ fn intervals_cover_the_truth_with_a_given_tilt_with_more_faces_and_with_fewer() 
     let corner = [six()[0], six()[2], six()[4], six()[5]];
     off.extend(covers(65, &corner, 0.5, false));
     assert!(off.is_empty(), "{off:#?}");
+}
+
+#[test]
+fn a_session_without_noise_converges() {
+    let (steps, setup) = session(&six());
+    let quiet = ImuSimulation { accelerometer_noise: 0.0, gyroscope_noise: 0.0, ..ImuSimulation::default() };
+    for sensor in 0..4 {
+        let mut rng = stream(92, Purpose::Sensor, sensor);
+        let truth = draw_imu(&mut rng);
+        let mut recording = simulate_table(&truth, &steps, &quiet, &mut rng);
+        // a file of seven decimals
+        let of = recording.accelerometer.as_mut().expect("recorded");
+        for reading in &mut of.readings {
+            *reading = reading.map(|y| (y * 1e7).round() / 1e7);
+        }
+        let found = run(&recording, &setup).expect("determined");
+        assert_eq!(found.status, CalibrationStatus::Converged);
+        let off = found.imu.accelerometer.matrix - truth.accelerometer.matrix;
+        assert!(off.amax() < 2e-8, "{off}");
+    }
 }
 
 /// A scatter that is small by chance, beside noise as large, does not pass for small.

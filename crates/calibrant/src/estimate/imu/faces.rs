@@ -19,6 +19,8 @@ use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
 /// Faces that scatter by more than this share of gravity were not placed badly: a direction is wrong.
 const SCATTERED: f64 = 0.05;
+/// Noise of a face's mean, m/s², that none is below: readings without noise have a last digit still.
+const LEAST_MPS2: f64 = 3e-8;
 /// Equations along gravity that differ by less than this share are one.
 const RANK: f64 = 1e-6;
 
@@ -64,8 +66,7 @@ fn of_noise(hold: &Hold, within: &Vector3<f64>, of_mean: &Vector3<f64>) -> Vecto
 
 /// The inverse of `diag(variance) + S C Sᵀ`.
 fn inverse(variance: &Vector3<f64>, s: &Matrix3<f64>, c: &Matrix3<f64>) -> Matrix3<f64> {
-    // readings without noise have a last digit still
-    let least = f64::EPSILON.powi(2) * s.norm_squared();
+    let least = LEAST_MPS2.powi(2) * s.norm_squared() / 3.0;
     let variance = variance.map(|variance| variance.max(least));
     (Matrix3::from_diagonal(&variance) + s * c * s.transpose()).try_inverse().unwrap_or_else(Matrix3::zeros)
 }
