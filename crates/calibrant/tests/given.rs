@@ -33,7 +33,7 @@ fn table() -> (ImuParameters, ImuRecording, ImuSetup) {
             (from_s + 6.0, from_s + 11.0, std::f64::consts::TAU, 1e-3);
         let action = TableAction::Turn { axis: up, angle_rad, angle_sd_rad };
         steps.insert(steps.len() - 1, TableStep { start_s, end_s, action });
-        setup.turns.push(Turn { start_s, end_s, axis: up, angle_rad, angle_sd_rad });
+        setup.turns.push(Turn { name: None, start_s, end_s, axis: up, angle_rad, angle_sd_rad });
     }
     setup.holds.intervals_s = Some(intervals);
     setup.directions = Some(directions);
@@ -97,7 +97,7 @@ fn a_turn_that_is_given_twice_is_refused() {
     let again = Turn { start_s: setup.turns[1].start_s + 0.5, ..setup.turns[1].clone() };
     setup.turns.push(again);
     let error = run(&recording, &setup).expect_err("twice").to_string();
-    assert!(error.contains("turns 2 and 4 are the same"), "{error}");
+    assert!(error.contains(") and turn 4 ("), "{error}");
 }
 
 #[test]

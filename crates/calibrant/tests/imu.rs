@@ -106,6 +106,7 @@ fn a_ferraris_session_agrees_with_imucal() {
             SectionKind::Turn(axis) => {
                 let angle_rad = -std::f64::consts::TAU;
                 setup.turns.push(Turn {
+                    name: None,
                     start_s,
                     end_s,
                     axis,
@@ -467,6 +468,7 @@ fn a_known_bias_is_kept_and_a_prior_shares() {
 fn a_turn_that_was_not_made_is_named() {
     let (_, recording) = small();
     let turn = Turn {
+        name: None,
         start_s: 10.0,
         end_s: 14.0,
         axis: Vector3::x(),

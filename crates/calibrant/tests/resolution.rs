@@ -51,7 +51,7 @@ fn table() -> (Vec<TableStep>, ImuSetup) {
                 (sign * std::f64::consts::TAU, 0.1_f64.to_radians(), start_s + 4.0);
             let action = TableAction::Turn { axis: up, angle_rad, angle_sd_rad };
             steps.push(TableStep { start_s, end_s, action });
-            setup.turns.push(Turn { start_s, end_s, axis: up, angle_rad, angle_sd_rad });
+            setup.turns.push(Turn { name: None, start_s, end_s, axis: up, angle_rad, angle_sd_rad });
         }
     }
     steps.sort_by(|one, other| one.start_s.total_cmp(&other.start_s));

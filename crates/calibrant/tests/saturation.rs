@@ -167,7 +167,14 @@ fn known_faces_that_are_cut_off_are_left_out_too() {
         match *action {
             TableAction::Hold(_) => intervals.push((*start_s, *end_s)),
             TableAction::Turn { axis, angle_rad, angle_sd_rad } => {
-                setup.turns.push(Turn { start_s: *start_s, end_s: *end_s, axis, angle_rad, angle_sd_rad });
+                setup.turns.push(Turn {
+                    name: None,
+                    start_s: *start_s,
+                    end_s: *end_s,
+                    axis,
+                    angle_rad,
+                    angle_sd_rad,
+                });
             }
         }
     }
@@ -182,7 +189,7 @@ fn known_faces_that_are_cut_off_are_left_out_too() {
 
     // where the gyroscope feels the force, a turn in which it is not known is refused
     let axis = Vector3::x();
-    setup.turns.push(Turn { start_s: 0.0, end_s: 3.0, axis, angle_rad: 1.0, angle_sd_rad: 1e-3 });
+    setup.turns.push(Turn { name: None, start_s: 0.0, end_s: 3.0, axis, angle_rad: 1.0, angle_sd_rad: 1e-3 });
     let gyroscope = Gyroscope { g_sensitivity: true, ..Gyroscope::default() };
     let error = run(&recording, &gyroscope, &setup).expect_err("not known").to_string();
     assert!(

@@ -136,7 +136,7 @@ fn intervals_of_400_imus_turned_by_known_angles_cover_the_truth() {
         let (axis, angle_rad, angle_sd_rad) = (*face, std::f64::consts::TAU, 0.1_f64.to_radians());
         let action = TableAction::Turn { axis, angle_rad, angle_sd_rad };
         steps.push(TableStep { start_s: turn.0, end_s: turn.1, action });
-        setup.turns.push(Turn { start_s: turn.0, end_s: turn.1, axis, angle_rad, angle_sd_rad });
+        setup.turns.push(Turn { name: None, start_s: turn.0, end_s: turn.1, axis, angle_rad, angle_sd_rad });
     }
     setup.holds.intervals_s = Some(intervals);
     setup.directions = Some(faces);

@@ -274,6 +274,7 @@ fn take_sections(setup: &mut ImuSetup, sections: &[Section], times: &[f64], plan
                 directions.push(direction);
             }
             SectionKind::Turn(axis) => setup.turns.push(Turn {
+                name: Some(section.name.clone()),
                 start_s,
                 end_s,
                 axis,

@@ -26,7 +26,11 @@ fn a_ferraris_session_that_cannot_be_is_refused_and_another_mounting_is_told() {
     bench.refuses(
         &exchanged("x_rot", "y_rot"),
         2,
-        &["is given as 360.0° about y, and the gyroscope shows 360° about x", "exchange these turns"],
+        &[
+            "y_rot (",
+            "is given as 360.0° about y, and the gyroscope shows 360° about x",
+            "exchange these turns",
+        ],
     );
     bench.refuses(
         &exchanged("x_rot", "x_p"),

@@ -15,8 +15,10 @@ const EXAMPLE: &str = "write {\"x_p\": {\"start\": 540, \"end\": 1271}, …}, in
 const NAMES: &str = "x_p, x_a, y_p, … (an axis up, or down) and x_rot, y_rot, z_rot";
 
 /// One section: from sample `start` up to, not including, sample `end`.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Section {
+    /// Its name: `x_p`, `x_rot`.
+    pub name: String,
     /// What was done in it.
     pub kind: SectionKind,
     /// First sample.
@@ -75,9 +77,9 @@ fn parse(bytes: &[u8]) -> Checked<Vec<Section>> {
             complaint
         }
     })?;
-    let mut sections: Vec<(&str, Section)> = Vec::with_capacity(list.len());
+    let mut sections: Vec<Section> = Vec::with_capacity(list.len());
     for (name, samples) in &list {
-        if sections.iter().any(|(before, _)| before == name) {
+        if sections.iter().any(|before| before.name == *name) {
             let message = format!("the section \"{}\" is there twice", shorten(name));
             return Err(Complaint::new(message, "a list has each name once; more faces and turns: holds.intervals_s, directions and gyroscope.turns in the experiment file").into());
         }
@@ -94,22 +96,21 @@ fn parse(bytes: &[u8]) -> Checked<Vec<Section>> {
             let message = format!("the section \"{name}\" from sample {start} to {end} has no samples");
             return Err(Complaint::new(message, "its end must be after its start").into());
         }
-        sections.push((name, Section { kind, start, end }));
+        sections.push(Section { name: name.clone(), kind, start, end });
     }
     if sections.is_empty() {
         return Err(Complaint::new("the list has no sections", NAMES).into());
     }
-    sections.sort_by_key(|(_, section)| section.start);
+    sections.sort_by_key(|section| section.start);
     let is_face = |section: &Section| matches!(section.kind, SectionKind::Face(_));
-    for (k, (name, section)) in sections.iter().enumerate() {
-        let overlaps =
-            |(_, other): &&(&str, Section)| other.start < section.end && is_face(other) == is_face(section);
-        if let Some((other, _)) = sections[k + 1..].iter().find(overlaps) {
-            let message = format!("the sections \"{name}\" and \"{other}\" overlap");
+    for (k, section) in sections.iter().enumerate() {
+        let overlaps = |other: &&Section| other.start < section.end && is_face(other) == is_face(section);
+        if let Some(other) = sections[k + 1..].iter().find(overlaps) {
+            let message = format!("the sections \"{}\" and \"{}\" overlap", section.name, other.name);
             return Err(Complaint::new(message, "correct their samples: none may count twice").into());
         }
     }
-    Ok(sections.into_iter().map(|(_, section)| section).collect())
+    Ok(sections)
 }
 
 /// The names of a list with what belongs to each; one that is there twice is in it twice.

@@ -19,6 +19,11 @@ pub struct Hold {
     pub sd: Vector3<f64>,
 }
 
+/// A time to the ms: those of samples have all the digits that a division leaves.
+pub(crate) fn to_ms(time_s: f64) -> f64 {
+    (time_s * 1e3).round() / 1e3
+}
+
 impl Hold {
     /// Number of samples n.
     #[must_use]

@@ -14,6 +14,7 @@ pub use command::{CommandedMotion, InputNoise, KnownEnds, Trust};
 pub use earth::{EARTH_RATE_RADPS, earth_rate};
 pub use gravity::Gravity;
 pub use hold::Hold;
+pub(crate) use hold::to_ms;
 pub use jerk_controlled::JerkControlledMotion;
 pub use limits::{AxisLimits, Limits, Rest};
 pub use sampling::{IntervalSums, sample_times};

@@ -5,7 +5,7 @@
 //! moving. No threshold in absolute units is needed, and holds of any noise level are found, hands that tremble included.
 
 use crate::error::{Complaint, Error, Result};
-use crate::motion::Hold;
+use crate::motion::{Hold, to_ms};
 use crate::sensor::{MeanReading, Recording, Sparks, Triad, greater, lesser};
 use nalgebra::Vector3;
 use std::f64::consts::LOG10_2;
@@ -267,11 +267,13 @@ pub fn holds_between(recording: &Recording, intervals_s: &[(f64, f64)]) -> Resul
         if end < first + 2 {
             return Err(Error::recording(Complaint::new(
                 format!(
-                    "hold {} from {start} to {stop} s has {} samples; the recording spans {} to {} s",
+                    "hold {} from {} to {} s has {} samples; the recording spans {} to {} s",
                     k + 1,
+                    to_ms(start),
+                    to_ms(stop),
                     end.saturating_sub(first),
-                    recording.times_s[0],
-                    recording.times_s[recording.len() - 1]
+                    to_ms(recording.times_s[0]),
+                    to_ms(recording.times_s[recording.len() - 1])
                 ),
                 "correct holds.intervals_s",
             )));

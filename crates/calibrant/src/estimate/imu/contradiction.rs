@@ -90,10 +90,8 @@ fn of_turns(joint: &Joint<'_>, fit: &Fit, turns: &[Turn], calibration: &ImuCalib
         let off = residual.component_mul(&residual).dot(&data.weight).sqrt();
         if off > CONTRADICTED {
             warnings.push(format!(
-                "turn {} ({:.1} to {:.1} s, {:.1}°) does not fit the other data, by {off:.0} standard deviations: are its times, axis and angle right?",
-                number + 1,
-                turn.start_s,
-                turn.end_s,
+                "{}, {:.1}°, does not fit the other data, by {off:.0} standard deviations: are its times, axis and angle right?",
+                turn.named(number),
                 turn.angle_rad.to_degrees()
             ));
         }
@@ -145,10 +143,8 @@ pub(super) fn shows_another(number: usize, turn: &Turn, shown: &Vector3<f64>) ->
     let sign = if along.abs() > 0.5 * shown.norm() { along.signum() } else { turn.angle_rad.signum() };
     let about = (sign * shown).try_normalize(0.0).unwrap_or(turn.axis);
     format!(
-        "turn {} ({:.1} to {:.1} s) is given as {:.1}° about {}, and the gyroscope shows {:.0}° about {}",
-        number + 1,
-        turn.start_s,
-        turn.end_s,
+        "{} is given as {:.1}° about {}, and the gyroscope shows {:.0}° about {}",
+        turn.named(number),
         turn.angle_rad.to_degrees(),
         words(&turn.axis),
         (sign * shown.norm()).to_degrees(),

@@ -2,7 +2,7 @@
 
 use super::ThermalModel;
 use crate::estimate::HoldsSetup;
-use crate::motion::{Hold, earth_rate};
+use crate::motion::{Hold, earth_rate, to_ms};
 use crate::sensor::{ImuQuantity, ImuRecording, ParameterList, ReadingUnit, Sensor, SensorModel, Triad};
 use nalgebra::Vector3;
 
@@ -142,6 +142,8 @@ impl std::fmt::Display for NoiseSource {
 /// A turn of known angle about an axis that is fixed in the sensor: the Ferraris procedure, or a turntable.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Turn {
+    /// Its name in a list of sections, `x_rot`, where it is from one.
+    pub name: Option<String>,
     /// First and last time of the section, s.
     pub start_s: f64,
     /// End of the section, s.
@@ -155,6 +157,12 @@ pub struct Turn {
 }
 
 impl Turn {
+    /// What it is called in a sentence, by its name, or its number from 0, and its times to the ms: `turn 3 (12.0 to 15.512 s)`.
+    pub(crate) fn named(&self, number: usize) -> String {
+        let name = self.name.clone().unwrap_or_else(|| format!("turn {}", number + 1));
+        format!("{name} ({:?} to {:?} s)", to_ms(self.start_s), to_ms(self.end_s))
+    }
+
     /// Is it the same turn once more? Two that share more than half of the shorter one's time are.
     #[must_use]
     pub fn repeats(&self, other: &Self) -> bool {

@@ -168,11 +168,9 @@ pub(super) fn turns(
             {
                 return Err(Error::experiment(Complaint::new(
                     format!(
-                        "turns {} and {} are the same, from {} to {} s: it would count twice",
-                        before + 1,
-                        number + 1,
-                        turn.start_s,
-                        turn.end_s
+                        "{} and {} are the same turn: it would count twice",
+                        problem.setup.turns[before].named(before),
+                        turn.named(number)
                     ),
                     "give each turn once, in gyroscope.turns or in the list of sections",
                 )));
@@ -180,24 +178,13 @@ pub(super) fn turns(
             let Range { start: first, end } = gyroscope.between(turn.start_s, turn.end_s);
             if end < first + 3 {
                 return Err(Error::recording(Complaint::new(
-                    format!(
-                        "turn {} from {} to {} s has {} samples",
-                        number + 1,
-                        turn.start_s,
-                        turn.end_s,
-                        end - first
-                    ),
+                    format!("{} has {} samples of the gyroscope", turn.named(number), end - first),
                     "correct the times of the turns",
                 )));
             }
             if let Some(saturation) = integrable.saturation(&(first..end)) {
                 return Err(Error::recording(Complaint::new(
-                    format!(
-                        "turn {} from {} to {} s cannot be integrated: {saturation}",
-                        number + 1,
-                        turn.start_s,
-                        turn.end_s
-                    ),
+                    format!("{} cannot be integrated: {saturation}", turn.named(number)),
                     "turn more slowly, record with a larger range, or take this turn out",
                 )));
             }

@@ -145,7 +145,7 @@ fn turns(entry: &Entry<'_>) -> Result<Vec<Turn>> {
         let angle_rad = turned_by(&angle)?;
         let sd = turn.get("angle_sd_deg").map_or(Ok(0.5), |entry| entry.number(&ANGLE_SD))?;
         let axis = direction(&turn.need("axis", HELP)?)?;
-        let turn = Turn { start_s, end_s, axis, angle_rad, angle_sd_rad: sd.to_radians() };
+        let turn = Turn { name: None, start_s, end_s, axis, angle_rad, angle_sd_rad: sd.to_radians() };
         if let Some(before) = turns.iter().position(|before| turn.repeats(before)) {
             let [one, other] =
                 [&turns[before], &turn].map(|turn| format!("{} to {} s", turn.start_s, turn.end_s));
