@@ -38,6 +38,16 @@ fn a_ferraris_session_that_cannot_be_is_refused_and_another_mounting_is_told() {
         &["is given as 360.0° about x, and the gyroscope shows", "correct axis, angle or times"],
     );
     bench.write("sections.json", list);
+    // a turn is never met exactly, and gravity is that of the Earth
+    let ferraris = include_str!("../../../../examples/06_whole_imu/ferraris.toml");
+    bench.write("exact.toml", ferraris.replacen("turn_sd_deg = 0.5", "turn_sd_deg = 0.0", 1));
+    let with = |file: &str| run("ok.csv").replacen("ferraris.toml", file, 1);
+    bench.refuses(&with("exact.toml"), 2, &["gyroscope.turn_sd_deg"]);
+    bench.write(
+        "light.toml",
+        ferraris.replacen("latitude_deg = 52.0\nheight_m = 30.0", "gravity_mps2 = 9.0", 1),
+    );
+    bench.run(&with("light.toml")).done().says("on the Earth's surface it is 9.76 to 9.84");
 
     // columns: t, accelerometer, gyroscope
     let columns = |name: &str, of: &dyn Fn(&[f64]) -> Vec<f64>| {

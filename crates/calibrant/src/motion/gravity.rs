@@ -9,6 +9,9 @@ pub struct Gravity {
     pub sd_mps2: f64,
 }
 
+/// On the surface of the Earth: from the Andes to the Arctic Ocean, m/s².
+const ON_EARTH: std::ops::RangeInclusive<f64> = 9.76..=9.84;
+
 impl Gravity {
     /// Standard uncertainty of [`from_latitude`](Self::from_latitude), m/s²: the root mean square of gravity anomalies over land,
     /// about 35 mGal.
@@ -44,11 +47,32 @@ impl Gravity {
         let magnitude_mps2 = surface * (1.0 - 2.0 * (1.0 + F + M - 2.0 * F * s2) * h + 3.0 * h * h);
         Self { magnitude_mps2, sd_mps2: Self::ANOMALY_SD_MPS2 }
     }
+
+    /// What is to be said of a gravity that the Earth has nowhere. No recording contradicts it, since all gains are off by the same share.
+    pub(crate) fn elsewhere(&self) -> Option<String> {
+        let words = || {
+            format!(
+                "gravity is given as {} m/s², and on the Earth's surface it is {} to {}: correct holds.gravity_mps2, or all gains of the accelerometer are off by as much",
+                self.magnitude_mps2,
+                ON_EARTH.start(),
+                ON_EARTH.end()
+            )
+        };
+        (!ON_EARTH.contains(&self.magnitude_mps2)).then(words)
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_gravity_of_another_planet_is_told() {
+        let told = |magnitude_mps2: f64| Gravity { magnitude_mps2, sd_mps2: 0.0 }.elsewhere().is_some();
+        assert!([9.0, 9.7, 9.9, 1.62].into_iter().all(told));
+        // Huascarán and the Arctic Ocean have the extremes (Hirt et al. 2013)
+        assert!(![9.7639, 9.80665, 9.8337].into_iter().any(told));
+    }
 
     #[test]
     fn normal_gravity_equals_the_published_wgs84_values() {

@@ -83,6 +83,7 @@ pub(super) fn warnings(calibration: &Calibration, weakest: &[String]) -> Vec<Str
             calibration.status.name()
         ));
     }
+    warnings.extend(holds.gravity.elsewhere());
     warnings.extend(left_out(holds));
     warnings.extend(left_out_in_a_row(holds));
     let used: Vec<&HoldResult> = holds.holds.iter().filter(|hold| hold.used).collect();

@@ -19,6 +19,8 @@ use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
 /// Faces that scatter by more than this share of gravity were not placed badly: a direction is wrong.
 const SCATTERED: f64 = 0.05;
+/// A face of fewer samples is a mistake of its times.
+const BRIEF: usize = 10;
 /// Noise of a face's mean, m/s², that none is below: readings without noise have a last digit still.
 const LEAST_MPS2: f64 = 3e-8;
 /// Equations along gravity that differ by less than this share are one.
@@ -142,6 +144,7 @@ pub(super) fn fit(
             }
         })
         .collect();
+    let brief: Vec<String> = holds.iter().enumerate().filter_map(|(k, hold)| brief(k, hold)).collect();
     let scattered =
         is_scattered.then(|| scattered(&results, &sensor, &correction, (shown_rad, met.placing.along_mps2)));
     let holds = HoldCalibration {
@@ -165,7 +168,9 @@ pub(super) fn fit(
         of_mean,
         warnings: turned
             .into_iter()
+            .chain(setup.gravity.elsewhere())
             .chain(left_out(&holds))
+            .chain(brief)
             .chain(scattered)
             .chain(of_tilt)
             .chain(coarse_words(&coarse, as_read))
@@ -214,6 +219,14 @@ pub(super) fn of_face(
     let covariance = to_force * weight.try_inverse()? * to_force.transpose();
     let along = up.dot(&(to_force * r)).powi(2) / up.dot(&(covariance * up));
     Some(Chi2 { along, all: r.dot(&(weight * r)) })
+}
+
+/// What is to be said of a face that is hardly there.
+fn brief(number: usize, hold: &Hold) -> Option<String> {
+    (hold.samples() < BRIEF).then(|| {
+        let (named, samples) = (hold.named(number), hold.samples());
+        format!("{named} has {samples} samples only: are its times right? A face is held for seconds")
+    })
 }
 
 /// The faces that fit least, of faces that scatter too much: both of an axis, where only these tell its direction.

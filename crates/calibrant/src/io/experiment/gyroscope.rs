@@ -14,7 +14,8 @@ const NOISE_RADPS: Bounds = Bounds::from(1e-9, 1e3, "rad/s");
 const NOISE_COUNTS: Bounds = Bounds::from(1e-9, 1e9, "counts");
 const TIME: Bounds = Bounds::from(-1e12, 1e12, "s");
 const ANGLE: Bounds = Bounds::from(-1e6, 1e6, "degrees");
-const ANGLE_SD: Bounds = Bounds::from(0.0, 360.0, "degrees");
+/// No turn is met exactly, and nothing in the recording says so.
+const ANGLE_SD: Bounds = Bounds::above(0.0, 360.0, "degrees");
 const NUMBER: Bounds = Bounds::from(-1e12, 1e12, "");
 /// A smaller one leaves the other data no digits.
 const PRIOR_SD: Bounds = Bounds::from(1e-12, 1e12, "");
