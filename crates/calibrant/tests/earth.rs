@@ -191,7 +191,14 @@ fn table(latitude_deg: f64) -> (ImuParameters, ImuRecording, ImuSetup) {
                 let (axis, angle_rad, angle_sd_rad) = (face, std::f64::consts::TAU, 0.0);
                 let action = TableAction::Turn { axis, angle_rad, angle_sd_rad };
                 steps.push(TableStep { start_s: from_s, end_s, action });
-                setup.turns.push(Turn { start_s: from_s, end_s, axis, angle_rad, angle_sd_rad: 1e-9 });
+                setup.turns.push(Turn {
+                    name: None,
+                    start_s: from_s,
+                    end_s,
+                    axis,
+                    angle_rad,
+                    angle_sd_rad: 1e-9,
+                });
                 start_s += 11.0;
             }
             start_s += 8.0;
