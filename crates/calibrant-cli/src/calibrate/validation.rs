@@ -92,7 +92,7 @@ pub(super) fn of_imu(
     }
     if let Some(folds) = arguments.folds {
         let settings = CalibrationSettings::default();
-        validations.push(cross_validate_imu(calibration, problem, &settings, folds)?);
+        validations.extend(unless_too_few(cross_validate_imu(calibration, problem, &settings, folds))?);
     }
     Ok(validations)
 }
@@ -128,9 +128,25 @@ pub(super) fn of_accelerometer(
         validations.push(on(path, validation));
     }
     if let Some(folds) = arguments.folds {
-        validations.push(cross_validate(&done.calibration, &problem, &job.settings, folds)?);
+        validations.extend(unless_too_few(cross_validate(
+            &done.calibration,
+            &problem,
+            &job.settings,
+            folds,
+        ))?);
     }
     Ok(validations)
+}
+
+/// What folds say; a recording whose holds do not suffice for them is calibrated still.
+fn unless_too_few(folds: calibrant::Result<Validation>) -> calibrant::Result<Option<Validation>> {
+    match folds {
+        Err(error @ Error::Recording(_)) => {
+            console::warn(&format!("not validated by folds: {error}"));
+            Ok(None)
+        }
+        folds => folds.map(Some),
+    }
 }
 
 /// The holds of another recording are found: intervals that are given are those of the first.

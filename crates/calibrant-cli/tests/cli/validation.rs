@@ -127,6 +127,16 @@ fn one_hold_is_too_few_to_tell_and_another_sensor_is_asked_about() {
 }
 
 #[test]
+fn too_few_holds_for_folds_are_calibrated_still() {
+    let bench = Bench::new();
+    bench.preset("static-poses", "poses.toml", &[("poses = 24 ", "poses = 12 ")]);
+    bench.run("simulate poses.toml -o one").done();
+    let outcome = bench.run("calibrate poses.toml one/recording.csv --folds 2 -o result").done();
+    assert!(outcome.stderr.contains("not validated by folds: none of the 2 folds"), "{}", outcome.stderr);
+    assert!(bench.json("result/calibration.json")["validation"].is_null());
+}
+
+#[test]
 fn what_cannot_be_validated_is_refused() {
     let bench = poses();
     let calibrate = "calibrate poses.toml recording.csv -o result";

@@ -18,8 +18,8 @@ use rayon::prelude::*;
 /// Leaves out each of so many contiguous blocks of the holds that the calibration of an IMU used, and predicts it from the others.
 ///
 /// # Errors
-/// [`Error::Experiment`](crate::Error::Experiment) for a number of folds below 2 or above that of the used holds, where the directions of the holds are known, and
-/// where no block can be predicted from the others (it says why). A single block that cannot is in the result.
+/// [`Error::Experiment`](crate::Error::Experiment) for a number of folds below 2 or above that of the used holds, where the directions of the holds are known;
+/// [`Error::Recording`](crate::Error::Recording) where no block can be predicted from the others (it says why). A single block that cannot is in the result.
 pub fn cross_validate_imu(
     calibration: &ImuCalibration,
     problem: &ImuProblem<'_>,

@@ -75,7 +75,7 @@ pub(super) fn sorted<T>(
         }
     }
     match failed.first() {
-        Some(first) if done.is_empty() => Err(Error::experiment(Complaint::new(
+        Some(first) if done.is_empty() => Err(Error::recording(Complaint::new(
             format!(
                 "none of the {} folds can be predicted from the others; without holds {} to {}: {}",
                 blocks.len(),
