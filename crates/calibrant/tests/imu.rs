@@ -8,6 +8,7 @@ use calibrant::estimate::{
     KnownTerm, NoiseSource, Turn, WhiteNoise, calibrate_imu,
 };
 use calibrant::io::{ImuReadOptions, ImuUnit, SectionKind, read_imu_recording, read_sections};
+use calibrant::motion::earth_rate;
 use calibrant::sensor::{ImuParameters, ImuRecording, ReadingUnit, Recording, Sensor, SensorModel};
 use calibrant::simulate::{ImuSimulation, Purpose, Rng, simulate_imu, stream};
 use common::{draw_imu, normal};
@@ -168,7 +169,8 @@ fn draw(rng: &mut Rng) -> ImuParameters {
 
 #[test]
 fn intervals_of_2000_simulated_imus_cover_the_truth() {
-    let simulation = ImuSimulation::default();
+    let simulation = ImuSimulation { earth_rate_radps: earth_rate(48.1), ..ImuSimulation::default() };
+    let setup = ImuSetup { latitude_deg: Some(48.1), ..ImuSetup::default() };
     let gyroscope = Gyroscope { g_sensitivity: true, ..Gyroscope::default() };
     let (count, unit) = (2000, ReadingUnit::MetrePerSecondSquared);
     let inside: Vec<Vec<f64>> = (0..count)
@@ -177,7 +179,7 @@ fn intervals_of_2000_simulated_imus_cover_the_truth() {
             let mut rng = stream(11, Purpose::Sensor, number);
             let truth = draw(&mut rng);
             let recording = simulate_imu(&truth, &simulation, &mut rng);
-            let calibration = run(&recording, &gyroscope, &ImuSetup::default(), unit).expect("determined");
+            let calibration = run(&recording, &gyroscope, &setup, unit).expect("determined");
             assert_eq!(calibration.status, CalibrationStatus::Converged, "{number}");
             let sd = calibration.sd();
             let pairs = calibration.quantities.iter().zip(calibration.values.iter().zip(sd));

@@ -193,7 +193,7 @@ fn known_faces_that_are_cut_off_are_left_out_too() {
     let gyroscope = Gyroscope { g_sensitivity: true, ..Gyroscope::default() };
     let error = run(&recording, &gyroscope, &setup).expect_err("not known").to_string();
     assert!(
-        error.contains("turn 4 from 0 to 3 s cannot be integrated: axis x of the accelerometer saturates"),
+        error.contains("turn 4 (0.0 to 3.0 s) cannot be integrated: axis x of the accelerometer saturates"),
         "{error}"
     );
 }
