@@ -254,8 +254,11 @@ fn the_imu_of_imu_tk_is_validated_by_folds_and_its_file_is_still_read() {
 #[test]
 fn a_calibration_from_faces_and_turns_is_validated_on_another_session() {
     let bench = Bench::new();
-    let table = include_str!("../../../../examples/06_whole_imu/table.toml");
-    bench.write("table.toml", table);
+    // on an Earth that does not turn: six holds are too few to tell how its rate about the north scatters
+    let placed = ("latitude_deg = 52.0\nheight_m = 30.0", "gravity_mps2 = 9.8127");
+    let table = include_str!("../../../../examples/06_whole_imu/table.toml").replacen(placed.0, placed.1, 1);
+    assert!(table.contains(placed.1));
+    bench.write("table.toml", &table);
     let other = table.replacen("rate_hz = 100.0", "rate_hz = 80.0", 1);
     assert_ne!(other, table);
     bench.write("other.toml", other);
