@@ -52,10 +52,14 @@ pub(crate) fn rate_hz(times_s: &[f64]) -> f64 {
 
 /// The share of the samples that is missing between times, in steps of less than `gap_s`; 0 where it cannot be told from a rate that is a little lower.
 pub(crate) fn missing(times_s: &[f64], rate_hz: f64, gap_s: f64) -> f64 {
-    let steps = times_s.array_windows().map(|[one, next]| next - one).filter(|step| *step <= gap_s);
-    let (count, sum) = steps.fold((0_u32, 0.0), |(count, sum), step| (count + 1, sum + step));
-    let missing = 1.0 - f64::from(count) / (sum * rate_hz);
+    let (mean, _) = mean(steps(times_s).filter(|step| *step <= gap_s));
+    let missing = 1.0 - 1.0 / (mean * rate_hz);
     if missing > UNEVEN { missing } else { 0.0 }
+}
+
+/// The times from each sample to the next, s.
+fn steps(times_s: &[f64]) -> impl ExactSizeIterator<Item = f64> {
+    times_s.array_windows().map(|[one, next]| next - one)
 }
 
 /// Some samples one after another.
@@ -71,14 +75,13 @@ impl Block {
     fn of(times_s: &[f64]) -> Option<Self> {
         let (&[first, .., last], true) = (times_s, times_s.len() >= FEW) else { return None };
         let mean = (last - first) / (times_s.len() - 1) as f64;
-        let steps = || times_s.array_windows().map(|[one, next]| next - one);
         let early = times_s.iter().enumerate().map(|(k, time)| time - first - mean * k as f64);
         let [before, after] =
             early.fold([0.0, 0.0], |[before, after], off| [lesser(before, off), greater(after, off)]);
         Some(Self {
             mean,
-            shortest: steps().fold(f64::INFINITY, lesser),
-            longest: steps().fold(0.0, greater),
+            shortest: steps(times_s).fold(f64::INFINITY, lesser),
+            longest: steps(times_s).fold(0.0, greater),
             off: after - before,
         })
     }
@@ -108,8 +111,7 @@ fn mean_of_most(blocks: &[Block], is_such: fn(&Block) -> bool) -> Option<f64> {
 
 /// The least usual step, if most are whole multiples of it: those that are longer lack samples.
 fn least_step(times_s: &[f64], median: f64) -> Option<f64> {
-    let steps = || times_s.array_windows().map(|[one, next]| next - one);
-    let mut some: Vec<f64> = steps().step_by(times_s.len().div_ceil(SOME)).collect();
+    let mut some: Vec<f64> = steps(times_s).step_by(times_s.len().div_ceil(SOME)).collect();
     some.sort_unstable_by(f64::total_cmp);
     let least = some[some.len() / 20];
     let multiple = |step: f64| Some((step / least).round()).filter(|n| (step / least - n).abs() < MULTIPLE);
@@ -117,15 +119,14 @@ fn least_step(times_s: &[f64], median: f64) -> Option<f64> {
     // of coarse times each step is a multiple
     let fewest = if least < COARSE_S { 1.0 - MULTIPLE } else { 0.3 };
     let is_usual = least > fewest * median && whole as f64 > WHOLE * some.len() as f64;
-    is_usual.then(|| mean(steps().filter(|step| multiple(*step) == Some(1.0))).0)
+    is_usual.then(|| mean(steps(times_s).filter(|step| multiple(*step) == Some(1.0))).0)
 }
 
 /// The mean of the steps within half of the median of it; where fewer than half are, as in times of arrival, that of all but pauses.
 fn mean_near(times_s: &[f64], median: f64) -> f64 {
-    let steps = || times_s.array_windows().map(|[one, next]| next - one);
-    let (near, count) = mean(steps().filter(|step| (0.5..=1.5).contains(&(step / median))));
-    match count < MOST * steps().len() as f64 {
-        true => mean(steps().filter(|step| *step <= PAUSE * median)).0,
+    let (near, count) = mean(steps(times_s).filter(|step| (0.5..=1.5).contains(&(step / median))));
+    match count < MOST * steps(times_s).len() as f64 {
+        true => mean(steps(times_s).filter(|step| *step <= PAUSE * median)).0,
         false => near,
     }
 }
@@ -138,15 +139,14 @@ fn mean(steps: impl Iterator<Item = f64>) -> (f64, f64) {
 
 /// The median step between at least two times, s.
 fn median_step(times_s: &[f64]) -> f64 {
-    let steps = || times_s.array_windows().map(|[one, next]| next - one);
-    let count = steps().len();
+    let count = steps(times_s).len();
     let middle = count / 2;
     // some of the steps tell about where the median is: the others need only be compared with that
-    let mut some: Vec<f64> = steps().step_by(count.div_ceil(SOME)).collect();
+    let mut some: Vec<f64> = steps(times_s).step_by(count.div_ceil(SOME)).collect();
     some.sort_unstable_by(f64::total_cmp);
     let (low, high) = (some[some.len() * 2 / 5], some[some.len() * 3 / 5]);
     let (mut lower, mut not_higher) = (0, 0);
-    for step in steps() {
+    for step in steps(times_s) {
         lower += usize::from(step < low);
         not_higher += usize::from(step <= high);
     }
@@ -155,8 +155,8 @@ fn median_step(times_s: &[f64]) -> f64 {
         return low;
     }
     let (mut left, lower) = match is_between {
-        true => (steps().filter(|step| (low..=high).contains(step)).collect(), lower),
-        false => (steps().collect::<Vec<f64>>(), 0),
+        true => (steps(times_s).filter(|step| (low..=high).contains(step)).collect(), lower),
+        false => (steps(times_s).collect::<Vec<f64>>(), 0),
     };
     *left.select_nth_unstable_by(middle - lower, f64::total_cmp).1
 }
