@@ -179,12 +179,14 @@ impl<'t> Fields<'t> {
 
     /// Where the next field begins, blanks apart.
     fn start(&self) -> usize {
-        let bytes = &self.line.as_bytes()[self.at..];
-        let is_blank = |byte: u8| match self.delimiter {
-            Delimiter::Whitespace => is_space(byte),
-            Delimiter::Character(delimiter) => matches!(byte, b' ' | b'\t') && byte != delimiter,
+        let bytes = self.line.as_bytes()[self.at..].iter();
+        let blanks = match self.delimiter {
+            Delimiter::Whitespace => bytes.take_while(|&&byte| is_space(byte)).count(),
+            Delimiter::Character(delimiter) => {
+                bytes.take_while(|&&byte| matches!(byte, b' ' | b'\t') && byte != delimiter).count()
+            }
         };
-        self.at + bytes.iter().take_while(|&&byte| is_blank(byte)).count()
+        self.at + blanks
     }
 
     fn next_word(&mut self) -> Option<(usize, &'t str)> {

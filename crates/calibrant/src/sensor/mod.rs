@@ -39,7 +39,7 @@ pub(crate) use mean_reading::MeanReading;
 pub use parameters::{Parameter, ParameterList, Quantity, SensorModel, SensorParameters};
 pub(crate) use rate::{missing, rate_hz};
 pub use recording::Recording;
-pub(crate) use recording::{greater, lesser};
+pub(crate) use recording::{gap_s, greater, lesser};
 pub use saturation::Saturation;
 pub use sparks::Sparks;
 pub use temperatures::{Temperatures, WORKING_C};

@@ -8,8 +8,10 @@ const SOME: usize = 512;
 const UNEVEN: f64 = 0.01;
 /// first in eight blocks of so many samples.
 const FEW: usize = 64;
-/// Uneven times are judged in blocks of so many.
+/// Uneven times are judged in blocks of so many,
 const BLOCK: usize = 512;
+/// of so many blocks at most, spread evenly.
+const BLOCKS: usize = 40;
 /// The share of the steps that is near the median where there is a usual one.
 const MOST: f64 = 0.48;
 /// A step of so many medians is a pause.
@@ -37,8 +39,10 @@ pub(crate) fn rate_hz(times_s: &[f64]) -> f64 {
     if times_s.len() < FEW || !blocks.into_iter().any(is_uneven) {
         return 1.0 / median;
     }
-    let blocks: Vec<Block> =
-        times_s.chunks(BLOCK).filter_map(Block::of).filter(|block| block.longest < PAUSE * median).collect();
+    let blocks = times_s.chunks(BLOCK);
+    let apart = blocks.len().div_ceil(BLOCKS);
+    let of_one_piece = |block: &Block| block.longest < PAUSE * median;
+    let blocks: Vec<Block> = blocks.step_by(apart).filter_map(Block::of).filter(of_one_piece).collect();
     let usual = mean_of_most(&blocks, Block::is_coarse)
         .or_else(|| least_step(times_s, median))
         .unwrap_or_else(|| {

@@ -68,8 +68,13 @@ impl Recording {
     /// A time between samples longer than this, s, is a gap that parts what is before from what is after: of five usual steps, but no less than a sensor needs to be moved.
     #[must_use]
     pub(crate) fn gap_s(&self) -> f64 {
-        (GAP / self.rate_hz()).max(MOVED_S)
+        gap_s(self.rate_hz())
     }
+}
+
+/// The same for readings at this rate.
+pub(crate) fn gap_s(rate_hz: f64) -> f64 {
+    (GAP / rate_hz).max(MOVED_S)
 }
 
 /// The lesser of two numbers, the first if they cannot be compared. For what is done with every sample: `f64::min` minds NaN and takes thrice as long.

@@ -6,7 +6,7 @@
 
 use crate::error::{Complaint, Error, Result};
 use crate::motion::{Hold, to_ms};
-use crate::sensor::{MeanReading, Recording, Sparks, Triad, greater, lesser};
+use crate::sensor::{MeanReading, Recording, Sparks, Triad, gap_s, greater, lesser};
 use nalgebra::Vector3;
 use std::f64::consts::LOG10_2;
 
@@ -71,21 +71,24 @@ pub(in crate::estimate) fn find_holds_in(recording: &Recording, minimum_s: f64) 
             "is the time column in seconds? if so, give the holds yourself (holds.intervals_s), or raise holds.minimum_hold_s",
         )));
     }
-    let (stretches, window) = still_stretches(recording, minimum_s);
+    let (stretches, window) = still_stretches(recording, minimum_s, rate);
     let long = stretches.into_iter().filter(|(from, to)| (to - from) as f64 >= minimum_s * rate);
     Ok(long.filter_map(|(from, to)| steady(recording, from + window / 2, to - window / 2, window)).collect())
 }
 
 /// The stretches, of any length, whose windows are all still: first sample and one past the last. And the number of samples in a window.
-pub(super) fn still_stretches(recording: &Recording, minimum_s: f64) -> (Vec<(usize, usize)>, usize) {
-    let rate = recording.rate_hz();
-    let window = (((minimum_s / 2.0).min(LONGEST_WINDOW_S) * rate).round() as usize).max(5);
+pub(super) fn still_stretches(
+    recording: &Recording,
+    minimum_s: f64,
+    rate_hz: f64,
+) -> (Vec<(usize, usize)>, usize) {
+    let window = (((minimum_s / 2.0).min(LONGEST_WINDOW_S) * rate_hz).round() as usize).max(5);
     let mut stretches = Vec::new();
     if recording.len() < 2 * window {
         return (stretches, window);
     }
     let mean = recording.readings.iter().sum::<Vector3<f64>>() / recording.len() as f64;
-    let variance = window_variance(recording, &mean, window);
+    let variance = window_variance(recording, &mean, window, gap_s(rate_hz));
     let Some(threshold) = threshold(&variance, resolution(recording, &mean)) else {
         return (stretches, window);
     };
@@ -106,8 +109,7 @@ pub(super) fn still_stretches(recording: &Recording, minimum_s: f64) -> (Vec<(us
 }
 
 /// Sum over the axes of the variance within each window of so many samples, whose mean is about this one; infinite for windows that span a gap.
-fn window_variance(recording: &Recording, mean: &Vector3<f64>, window: usize) -> Vec<f64> {
-    let gap_s = recording.gap_s();
+fn window_variance(recording: &Recording, mean: &Vector3<f64>, window: usize, gap_s: f64) -> Vec<f64> {
     let n = recording.len();
     let (mut sum, mut squares) = (Vector3::zeros(), 0.0);
     let mut gaps = 0_usize;
@@ -237,7 +239,9 @@ fn summarise(recording: &Recording, first: usize, end: usize) -> Hold {
 
 /// Says which of the holds that are given reach beyond the recording, whose samples are all that counts of them.
 pub(in crate::estimate) fn beyond(recording: &Recording, intervals_s: &[(f64, f64)]) -> Vec<String> {
-    let (Some(&first), Some(&last)) = (recording.times_s.first(), recording.times_s.last()) else {
+    let (Some(&first), Some(&last), [_, ..]) =
+        (recording.times_s.first(), recording.times_s.last(), intervals_s)
+    else {
         return Vec::new();
     };
     let step = 1.0 / recording.rate_hz();

@@ -62,7 +62,7 @@ fn pieces(recording: &Recording, holds: &[Hold], minimum_s: f64) -> Option<usize
     if !holds.is_empty() && smoothness(recording, of_holds)? < FILTERED {
         return None;
     }
-    let (stretches, _) = still_stretches(recording, minimum_s);
+    let (stretches, _) = still_stretches(recording, minimum_s, recording.rate_hz());
     if holds.is_empty()
         && !(FILTERED..MOVING).contains(&smoothness(recording, stretches.iter().map(|&(from, to)| from..to))?)
     {

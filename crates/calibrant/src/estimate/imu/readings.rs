@@ -138,9 +138,10 @@ impl<'a> Integrable<'a> {
         }
         let (accelerometer, ends) = self.felt.as_ref()?;
         let times = &self.gyroscope.times_s;
-        let during = accelerometer.between(times[span.start], times[span.end - 1]);
-        let readings = &accelerometer.readings[during];
-        let lasts = |end: &&Saturation| end.touches(readings) as f64 > BRIEF_S * accelerometer.rate_hz();
+        let (start_s, end_s) = (times[span.start], times[span.end - 1]);
+        let readings = &accelerometer.readings[accelerometer.between(start_s, end_s)];
+        let brief = BRIEF_S * readings.len() as f64 / (end_s - start_s);
+        let lasts = |end: &&Saturation| end.touches(readings) as f64 > brief;
         let end = ends.iter().find(lasts)?;
         Some(format!(
             "axis {} of the accelerometer saturates in it, so that the force that the gyroscope feels is not known",

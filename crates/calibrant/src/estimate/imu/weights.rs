@@ -134,17 +134,15 @@ impl Linear<'_> {
 
     fn solve(&self, used: &[bool], excess: f64) -> Option<Solved> {
         let (mut f, mut g) = (self.rest.clone(), self.rest_rhs.clone());
-        for (miss, jacobian) in self.used(used) {
-            let weight = self.weight(miss, excess);
-            for (b, by_b) in jacobian.column_iter().enumerate() {
-                let weighted = weight * by_b;
-                g[b] -= weighted.dot(&miss.error);
-                for (a, by_a) in jacobian.column_iter().enumerate().take(b + 1) {
-                    f[(a, b)] += by_a.dot(&weighted);
-                }
-            }
+        let rows = 2 * count(used);
+        let (mut all, mut weighted) = (DMatrix::zeros(self.size, rows), DMatrix::zeros(rows, self.size));
+        for (k, (miss, jacobian)) in self.used(used).enumerate() {
+            let by_weight = self.weight(miss, excess) * jacobian;
+            g.gemv_tr(-1.0, &by_weight, &miss.error, 1.0);
+            all.columns_mut(2 * k, 2).tr_copy_from(jacobian);
+            weighted.rows_mut(2 * k, 2).copy_from(&by_weight);
         }
-        f.fill_lower_triangle_with_upper_triangle();
+        f.gemm(1.0, &all, &weighted, 1.0);
         let covariance = crate::information::covariance(&f)?;
         let step = &covariance * &g;
         let length = step.dot(&g).max(0.0).sqrt();
