@@ -103,6 +103,39 @@ fn a_step_is_found_and_its_sensor_its_kind_and_its_time_are_told() {
     }
 }
 
+/// A bias that is off for the middle third is no single step: both ends are told, and by how much it is off in between.
+#[test]
+fn a_bias_that_comes_and_goes_is_an_episode() {
+    let simulation = ImuSimulation { poses: 36, ..ImuSimulation::default() };
+    let changes = (0..12_u64).into_par_iter().map(|number| {
+        let mut recording = simulated(408, number, &simulation);
+        let axis = (number % 3) as usize;
+        for (hold, step) in [(11.0, 0.05), (23.0, -0.05)] {
+            from(&mut recording, 4.5 * hold + 3.5, Triad::Accelerometer, axis, (1.0, step));
+        }
+        let calibration = run(&recording, &Gyroscope::default());
+        let change = calibration.changes.first().copied();
+        if let Some(change) = change.filter(|change| matches!(change.course, Course::Episode { .. })) {
+            let said = &calibration.warnings[0];
+            assert!(said.contains("changes at about") && said.contains("and back at about"), "{said}");
+            let off = (change.amount[axis] - 0.05).abs();
+            assert!(off < 5.0 * change.sd[axis] + 0.005, "{number}: {change:?}");
+        }
+        change
+    });
+    let changes: Vec<Option<Change>> = changes.collect();
+    let is_told = |change: &&Change| match change.course {
+        Course::Episode { first, last, start_s, end_s } => {
+            first.abs_diff(12) <= 2
+                && last.abs_diff(23) <= 2
+                && (start_s - 4.5 * 11.0 - 3.5).abs() < 10.0
+                && (end_s - 4.5 * 23.0 - 3.5).abs() < 10.0
+        }
+        _ => false,
+    };
+    assert!(changes.iter().flatten().filter(is_told).count() >= 10, "{changes:#?}");
+}
+
 /// Of a few holds at the end each looks like an outlier.
 #[test]
 fn holds_that_are_left_out_in_a_row_are_a_change() {

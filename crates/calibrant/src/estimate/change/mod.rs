@@ -57,10 +57,16 @@ pub enum Course {
     },
     /// All along, as time.
     Drift,
-    /// More than one step, and no drift: a bias that walks at random, or comes and goes.
-    Wander {
-        /// The amount is that between before and after, s.
-        time_s: f64,
+    /// There and back: the amount is that of the holds in between against those before and after.
+    Episode {
+        /// Number of the first hold of it, from 0.
+        first: usize,
+        /// Number of the last hold of it, from 0.
+        last: usize,
+        /// About when it begins, s.
+        start_s: f64,
+        /// About when it ends, s.
+        end_s: f64,
     },
 }
 
@@ -73,10 +79,14 @@ impl Change {
     ) -> Self {
         let course = match found.when {
             When::Always => Course::Drift,
-            When::Between(last, first) => match step(last, first) {
-                (_, _, time_s) if found.and_more => Course::Wander { time_s },
-                (before, after, time_s) => Course::Step { before, after, time_s },
-            },
+            When::From((last, first)) => {
+                let (before, after, time_s) = step(last, first);
+                Course::Step { before, after, time_s }
+            }
+            When::Episode(begin, end) => {
+                let ((_, first, start_s), (last, _, end_s)) = (step(begin.0, begin.1), step(end.0, end.1));
+                Course::Episode { first, last: last.max(first), start_s, end_s }
+            }
         };
         let Found { of, instead, amount, sd, p_value, .. } = found;
         Self { triad, of, instead, course, amount, sd, p_value }

@@ -1,7 +1,8 @@
 //! Scores of a change against time.
 //!
 //! Residuals of holds or rotations, whitened and in order of time, are `e = A θ + ε`, with `A` their derivatives with respect to what was estimated. A change adds `W B δ`: `B` says what a
-//! bias or a gain does to each residual, `W` is 0 before a time and 1 after it for a step, and time itself for a drift. With an orthonormal basis `Q` of the columns of `A`:
+//! bias or a gain does to each residual, `W` is 0 before a time and 1 after it for a step, 1 between two times for an episode, and time itself for a drift. With an orthonormal basis `Q` of the
+//! columns of `A`:
 //!
 //! ```text
 //! r = e − Q Qᵀ e,   s = (W B)ᵀ r,   V = (W B)ᵀ (W B) − (W B)ᵀ Q Qᵀ (W B),   δ = V⁻¹ s
@@ -9,10 +10,10 @@
 //!
 //! and δ takes `sᵀ V⁻¹ s` of `rᵀ r`: Rao's score for a change of parameters, which sees one that leaves the mean of the residuals where it was. Of m numbers beside ν degrees of freedom its share
 //! has the distribution Beta(m/2, (ν − m)/2) where nothing changes, whatever the scale of the noise: a scatter that the change itself has made larger hides nothing. Every time is tried, and the
-//! probability of the best multiplied by their number (Bonferroni), half of it left to drifts.
+//! probability of the best multiplied by their number (Bonferroni); steps, episodes and drifts have a third of it each.
 //!
 //! # References
-//! `andrews1993`
+//! `andrews1993`, `levin1985`
 
 use super::Changed;
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
@@ -23,11 +24,13 @@ use std::cmp::Ordering;
 const SIGNIFICANCE: f64 = 5e-4;
 /// Without any two neighbours a change at its time is still one that would be seen in fewer than this share.
 const STILL_SEEN: f64 = 2e-4;
-/// Another change beside one that is allowed for, by chance.
-const AND_MORE: f64 = 1e-3;
 /// Fewest holds or rotations, and rows beyond the numbers of a change, on either side of a step.
 const FEWEST: usize = 3;
 const BEYOND: usize = 2;
+/// Steps, episodes, drifts.
+const COURSES: f64 = 3.0;
+/// An episode begins and ends at one of so many places.
+const EDGES: usize = 24;
 /// So many that were left out may be a change.
 const MANY: usize = 3;
 /// What is left after a change, over what is usual: more, and those that were left out are no change.
@@ -52,11 +55,16 @@ pub(in crate::estimate) struct Series {
     pub(in crate::estimate) kinds: Vec<(Changed, DMatrix<f64>)>,
 }
 
+/// The last before a change of the series, and the first after it.
+pub(in crate::estimate) type Gap = (usize, usize);
+
 /// When a change is.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::estimate) enum When {
-    /// Between two of the series.
-    Between(usize, usize),
+    /// From between two of the series on.
+    From(Gap),
+    /// From between two of the series to between two others.
+    Episode(Gap, Gap),
     Always,
 }
 
@@ -69,8 +77,6 @@ pub(in crate::estimate) struct Found {
     pub(in crate::estimate) amount: Vector3<f64>,
     pub(in crate::estimate) sd: Vector3<f64>,
     pub(in crate::estimate) p_value: f64,
-    /// Is there another change beside it?
-    pub(in crate::estimate) and_more: bool,
 }
 
 impl Series {
@@ -86,12 +92,12 @@ impl Series {
         let of_all = || {
             let all = vec![true; used.len()];
             let usual = USUAL * Residuals::of(self, &used)?.variance();
-            among(&all).filter(|(_, left)| *left <= usual).map(|(found, _)| (found, all))
+            among(&all).filter(|(_, left)| *left <= usual).map(|(found, _)| found)
         };
         let left_out = self.left_out.iter().filter(|left_out| **left_out).count();
         let found = (left_out >= MANY).then(of_all).flatten();
-        let (found, items) = found.or_else(|| among(&used).map(|(found, _)| (found, used.clone())))?;
-        Some(Found { p_value: chance(&found).min(1.0), and_more: self.has_more(&found, items), ..found })
+        let found = found.or_else(|| among(&used).map(|(found, _)| found))?;
+        Some(Found { p_value: chance(&found).min(1.0), ..found })
     }
 
     /// Is a change seen without any two neighbours? One that is made of both rotations beside a bad hold is not.
@@ -106,24 +112,6 @@ impl Series {
             });
             chance.is_some_and(|chance| chance < STILL_SEEN)
         })
-    }
-
-    /// Is there another change beside a step of all kinds at its time? What may lie in the midst of the step is of no account.
-    fn has_more(&self, found: &Found, mut items: Vec<bool>) -> bool {
-        let When::Between(last, first) = found.when else { return false };
-        let (columns, width) = (self.parameters.ncols(), self.errors.len() / self.times_s.len().max(1));
-        let mut parameters = self.parameters.clone().insert_columns(columns, 3 * self.kinds.len(), 0.0);
-        for (kind, (_, by)) in self.kinds.iter().enumerate() {
-            let rows = by.nrows() - width * first;
-            let after = (width * first, columns + 3 * kind);
-            parameters.view_mut(after, (rows, 3)).copy_from(&by.rows(width * first, rows));
-        }
-        let allowing = Self { parameters, ..self.clone() };
-        (items[last], items[first]) = (false, false);
-        let another = Residuals::of(&allowing, &items).and_then(|rest| rest.change(&allowing));
-        let by_chance =
-            |another: &Found| another.p_value >= AND_MORE || !allowing.is_of_many(another, &items);
-        another.is_some_and(|(another, _)| !by_chance(&another))
     }
 
     /// A change of this kind at this time, significant or not: its amount and standard deviation.
@@ -190,18 +178,39 @@ impl Residuals {
             .collect()
     }
 
-    /// The step before each of the items; `None` where it is not determined.
-    fn steps(&self, rows: &[Vec<Vector3<f64>>]) -> Vec<Option<Solved>> {
-        let mut score = Score::none(rows, self.basis.len());
-        let mut steps: Vec<Option<Solved>> = (0..self.items.len())
-            .rev()
-            .map(|item| {
-                self.add(&mut score, item, &rows[item], 1.0);
-                score.solved()
-            })
-            .collect();
-        steps.reverse();
-        steps
+    /// The scores of all items before each, and of all.
+    fn sums(&self, rows: &[Vec<Vector3<f64>>]) -> Vec<Score> {
+        let mut sums = vec![Score::none(rows, self.basis.len())];
+        for (item, rows) in rows.iter().enumerate() {
+            let mut sum = sums[item].clone();
+            self.add(&mut sum, item, rows, 1.0);
+            sums.push(sum);
+        }
+        sums
+    }
+
+    /// The change of items from one to before another that explains most, and among how many it is.
+    fn most(
+        &self,
+        sums: &[Score],
+        spans: impl Iterator<Item = (usize, usize)>,
+    ) -> Option<(When, Solved, f64)> {
+        let mut tried = 0.0;
+        let solved = spans.filter_map(|(from, to)| {
+            tried += 1.0;
+            Some((self.when(from, to), sums[to].less(&sums[from]).solved()?))
+        });
+        let most = solved.max_by(|one, other| one.1.square.total_cmp(&other.1.square));
+        most.map(|(when, solved)| (when, solved, tried))
+    }
+
+    fn when(&self, from: usize, to: usize) -> When {
+        let before = |place: usize| (self.items[place - 1], self.items[place]);
+        if to == self.items.len() {
+            When::From(before(from))
+        } else {
+            When::Episode(before(from), before(to))
+        }
     }
 
     fn drift(&self, series: &Series, rows: &[Vec<Vector3<f64>>]) -> Option<Solved> {
@@ -233,11 +242,16 @@ impl Residuals {
         let rows = self.rows(by);
         match when {
             When::Always => self.drift(series, &rows),
-            When::Between(_, after) => {
-                let split = self.items.iter().position(|item| *item >= after)?;
-                self.steps(&rows).swap_remove(split)
-            }
+            When::From((_, first)) => self.between(&rows, first, usize::MAX),
+            When::Episode((_, first), (_, after)) => self.between(&rows, first, after),
         }
+    }
+
+    /// A change of the items from one of the series to before another.
+    fn between(&self, rows: &[Vec<Vector3<f64>>], first: usize, after: usize) -> Option<Solved> {
+        let [from, to] = [first, after].map(|end| self.items.partition_point(|item| *item < end));
+        let sums = self.sums(rows);
+        sums[to].less(&sums[from]).solved()
     }
 
     /// Probability of a change that explains as much, its time given, where there is none.
@@ -251,24 +265,23 @@ impl Residuals {
     fn change(&self, series: &Series) -> Option<(Found, f64)> {
         let of_kind = |(of, by): &(Changed, DMatrix<f64>)| {
             let rows = self.rows(by);
-            let steps = self.steps(&rows);
-            let side = FEWEST.max((Score::none(&rows, 0).numbers() + BEYOND).div_ceil(self.width));
-            let splits = side..(steps.len() + 1).saturating_sub(side);
-            let tried = splits.len() as f64;
-            let step = splits
-                .filter_map(|split| {
-                    Some((When::Between(self.items[split - 1], self.items[split]), steps[split]?))
-                })
-                .max_by(|one, other| one.1.square.total_cmp(&other.1.square));
-            let step = step.map(|(when, solved)| (when, solved, tried));
-            let drift = self.drift(series, &rows).map(|solved| (When::Always, solved, 1.0));
-            let both = step.into_iter().chain(drift).filter_map(|(when, solved, tried)| {
-                let ((left, _), chance) = (self.left(&solved)?, self.chance(&solved)?);
-                let p_value = (2.0 * series.kinds.len() as f64 * tried * chance).min(1.0);
-                let (amount, sd) = (solved.amount, solved.sd(left));
-                Some((Found { of: *of, instead: None, when, amount, sd, p_value, and_more: false }, left))
+            let (sums, count) = (self.sums(&rows), rows.len());
+            let side = FEWEST.max((sums[0].numbers() + BEYOND).div_ceil(self.width));
+            let splits = side..(count + 1).saturating_sub(side);
+            let edges = splits.clone().step_by(splits.len().div_ceil(EDGES).max(1));
+            let episodes = edges.clone().flat_map(|from| {
+                edges.clone().filter(move |to| *to >= from + side).map(move |to| (from, to))
             });
-            both.min_by(better)
+            let step = self.most(&sums, splits.map(|from| (from, count)));
+            let episode = self.most(&sums, episodes);
+            let drift = self.drift(series, &rows).map(|solved| (When::Always, solved, 1.0));
+            let all = [step, episode, drift].into_iter().flatten().filter_map(|(when, solved, tried)| {
+                let ((left, _), chance) = (self.left(&solved)?, self.chance(&solved)?);
+                let p_value = (COURSES * series.kinds.len() as f64 * tried * chance).min(1.0);
+                let (amount, sd) = (solved.amount, solved.sd(left));
+                Some((Found { of: *of, instead: None, when, amount, sd, p_value }, left))
+            });
+            all.min_by(better)
         };
         let mut kinds: Vec<(Found, f64)> = series.kinds.iter().filter_map(of_kind).collect();
         kinds.sort_by(better);
@@ -293,6 +306,7 @@ fn beside(mut column: DVector<f64>, basis: &[DVector<f64>]) -> DVector<f64> {
 }
 
 /// `s`, `(W B)ᵀ (W B)` and `(W B)ᵀ Q`.
+#[derive(Clone)]
 struct Score {
     /// The axes that are asked about.
     asked: [bool; 3],
@@ -320,6 +334,16 @@ impl Score {
         self.information += row * row.transpose();
         for (along, of_basis) in self.along.iter_mut().zip(basis) {
             *along += row * of_basis;
+        }
+    }
+
+    /// That of the items of this one which another has not.
+    fn less(&self, other: &Self) -> Self {
+        Self {
+            asked: self.asked,
+            gradient: self.gradient - other.gradient,
+            information: self.information - other.information,
+            along: self.along.iter().zip(&other.along).map(|(here, there)| here - there).collect(),
         }
     }
 

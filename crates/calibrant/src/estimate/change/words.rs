@@ -14,14 +14,18 @@ impl Change {
             (Some([low, high]), _) if high - low >= WARMER_K => format!(
                 "the temperature goes from {low:.1} to {high:.1} °C, and nothing follows it: set [temperature]; or"
             ),
-            (_, Course::Drift | Course::Wander { .. }) => "let the sensor warm up before; or".to_owned(),
+            (_, Course::Drift) => "let the sensor warm up before; or".to_owned(),
+            (_, Course::Episode { .. }) => {
+                "was it touched, warmed or clamped then, or its supply another?".to_owned()
+            }
             (_, Course::Step { .. }) => format!(
                 "was it knocked, did a mounting slip, did it saturate, was it still warming up{}?",
                 if self.of == Changed::Bias { ", does its bias walk at random" } else { "" }
             ),
         };
         let apart = match self.course {
-            Course::Drift | Course::Wander { .. } => "calibrate the first and the second half apart",
+            Course::Drift => "calibrate the first and the second half apart",
+            Course::Episode { .. } => "calibrate without what lies in between",
             Course::Step { .. } => "calibrate what lies before and after apart",
         };
         format!(
@@ -36,7 +40,12 @@ impl Change {
     pub fn headline(&self) -> String {
         match self.course {
             Course::Drift => format!("the {} drifts through the recording", self.triad),
-            Course::Wander { .. } => format!("the {} wanders through the recording", self.triad),
+            Course::Episode { first, last, start_s, end_s } => format!(
+                "the {} changes at about {start_s:.0} s and back at about {end_s:.0} s (hold {} to hold {})",
+                self.triad,
+                first + 1,
+                last + 1
+            ),
             Course::Step { before, after, time_s } => {
                 let place = match before == after {
                     true => format!("in hold {}", after + 1),
@@ -56,7 +65,7 @@ impl Change {
         let moves = match self.course {
             Course::Step { .. } => format!("step{ending} by"),
             Course::Drift => format!("change{ending} from begin to end by"),
-            Course::Wander { time_s } => format!("differ{ending} before and after {time_s:.0} s by"),
+            Course::Episode { .. } => format!("differ{ending} in between by"),
         };
         let (scale, unit) = match (self.of, self.triad) {
             (Changed::Bias, Triad::Accelerometer) => (1e3, "mm/s²"),
