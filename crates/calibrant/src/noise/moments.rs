@@ -216,28 +216,32 @@ struct Integral<'a> {
     curves: &'a [[f64; PROCESSES]],
     /// Sum over the lags before each, half of its own value included.
     sums: Vec<[f64; PROCESSES]>,
+    /// From each to the next.
+    slopes: Vec<[f64; PROCESSES]>,
 }
 
 impl<'a> Integral<'a> {
     fn of(lags: &'a [i64], curves: &'a [[f64; PROCESSES]]) -> Self {
         let mut sums = vec![[0.0; PROCESSES]; lags.len()];
+        let mut slopes = sums.clone();
         for i in 1..lags.len() {
-            let half = 0.5 * (lags[i] - lags[i - 1]) as f64;
+            let step = (lags[i] - lags[i - 1]) as f64;
             for a in 0..PROCESSES {
-                sums[i][a] = sums[i - 1][a] + half * (curves[i - 1][a] + curves[i][a]);
+                let (before, after) = (curves[i - 1][a], curves[i][a]);
+                sums[i][a] = sums[i - 1][a] + 0.5 * step * (before + after);
+                slopes[i - 1][a] = (after - before) / step;
             }
         }
-        Self { lags, curves, sums }
+        Self { lags, curves, sums, slopes }
     }
 
     /// Curves and running sums at a lag.
     fn at(&self, lag: i64) -> [(f64, f64); PROCESSES] {
         let i = self.lags.partition_point(|&l| l <= lag).clamp(1, self.lags.len() - 1);
-        let (left, right) = (self.lags[i - 1], self.lags[i]);
-        let (x, step) = ((lag - left) as f64, (right - left) as f64);
-        let (before, after, sums) = (&self.curves[i - 1], &self.curves[i], &self.sums[i - 1]);
+        let x = (lag - self.lags[i - 1]) as f64;
+        let (before, slope, sums) = (&self.curves[i - 1], &self.slopes[i - 1], &self.sums[i - 1]);
         std::array::from_fn(|a| {
-            let value = before[a] + (after[a] - before[a]) / step * x;
+            let value = before[a] + slope[a] * x;
             (value, sums[a] + 0.5 * x * (before[a] + value))
         })
     }

@@ -81,21 +81,23 @@ impl PowerLaw {
         self.far_apart(j, k, lag).unwrap_or_else(|| sum()[0])
     }
 
-    /// The same for all processes, the flicker noise's from a table.
+    /// The same for all processes, the flicker noise's from a table: it alone is not zero where clusters do not meet.
     pub(super) fn covariances_of_differences(
         j: usize,
         k: usize,
         lag: i64,
         flicker: &FlickerTable,
     ) -> [f64; 4] {
-        let phase_covariances = |h: f64| {
+        if Self::White.far_apart(j, k, lag).is_some() {
+            let sum = || second_differences(j, k, lag, |h| [flicker.at(h)])[0];
+            return [0.0, 0.0, Self::Flicker.far_apart(j, k, lag).unwrap_or_else(sum), 0.0];
+        }
+        second_differences(j, k, lag, |h| {
             Self::ALL.map(|process| match process {
                 Self::Flicker => flicker.at(h),
                 _ => process.phase_covariance(h),
             })
-        };
-        let sums = second_differences(j, k, lag, phase_covariances);
-        Self::ALL.map(|process| process.far_apart(j, k, lag).unwrap_or(sums[process as usize]))
+        })
     }
 
     /// What is known of it where the clusters are far apart.

@@ -47,13 +47,12 @@ impl Default for Column {
 impl Column {
     /// Takes another point, if it is finite.
     fn add(&mut self, point: (f64, f64)) {
-        if !(point.0.is_finite() && point.1.is_finite()) {
-            return;
-        }
-        if point.1 < self.low.1 {
+        // few points get so far that this is asked
+        let is_finite = || point.0.is_finite() && point.1.is_finite();
+        if point.1 < self.low.1 && is_finite() {
             self.low = point;
         }
-        if point.1 > self.high.1 {
+        if point.1 > self.high.1 && is_finite() {
             self.high = point;
         }
     }
