@@ -55,7 +55,7 @@ impl Finished<'_> {
         &self,
         problem: &ImuProblem<'_>,
         holds: &HoldCalibration,
-        axes: Option<[String; 3]>,
+        axes: Option<start::Axes>,
         first: &First,
     ) -> Result<ImuCalibration> {
         let (joint, fit) = (self.joint, self.fit);

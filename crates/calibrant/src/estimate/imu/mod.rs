@@ -42,6 +42,7 @@ mod solver;
 mod start;
 mod still;
 mod thermal;
+mod tilted;
 mod turned;
 mod verdict;
 mod weights;

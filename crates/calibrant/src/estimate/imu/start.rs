@@ -1,10 +1,11 @@
 //! Where the iteration begins: the gyroscope's gain and the order of its axes, where the datasheet does not say.
 //!
 //! A rotation turns gravity by no more than the angle that the gyroscope went through, so each rotation bounds the gain from above, and one about an axis
-//! across gravity gives it. From that bound downwards gains are tried, and if none brings gravity back, all orders and signs of the axes.
+//! across gravity gives it. From that bound downwards gains are tried, and if none brings gravity back, all orders and signs of the axes, then all attitudes (`tilted`).
 
 use super::joint::{HoldData, Joint, RotationData, State};
 use super::rotation::carried_back;
+use super::tilted;
 use crate::estimate::holds::median;
 use crate::sensor::{Axis, ImuParameters, ReadingUnit, Thermal};
 use nalgebra::{Matrix3, Vector3};
@@ -27,8 +28,16 @@ const SAMPLES: usize = 150;
 pub(super) struct Start {
     pub(super) imu: ImuParameters,
     pub(super) median_rad: f64,
-    /// The gyroscope's axes along the accelerometer's x, y and z, where they differ: `-y`.
-    pub(super) axes: Option<[String; 3]>,
+    /// The gyroscope's axes, where they are not the accelerometer's.
+    pub(super) axes: Option<Axes>,
+}
+
+/// How the axes of a gyroscope lie in the accelerometer's frame.
+pub(super) enum Axes {
+    /// Those along the accelerometer's x, y and z: `-y`.
+    InOrder([String; 3]),
+    /// Turned by some angle.
+    Turned,
 }
 
 /// Finds a start. `nominal` is the gyroscope's matrix by its datasheet (the identity for rad/s), where it is known.
@@ -66,8 +75,12 @@ pub(super) fn find(
             .map(|(look, matrix)| Start {
                 imu: with(matrix),
                 median_rad: look.median_rad,
-                axes: Some(names(&matrix)),
+                axes: Some(Axes::InOrder(names(&matrix))),
             })
+    };
+    let turned = |gains: &[Matrix3<f64>], is_scaled: bool| {
+        let (median_rad, matrix) = tilted::find(&look, gains, is_scaled)?;
+        (median_rad <= WRONG).then(|| Start { imu: with(matrix), median_rad, axes: Some(Axes::Turned) })
     };
     if let Some(matrix) = nominal {
         let imu = with(matrix);
@@ -80,10 +93,14 @@ pub(super) fn find(
         }
         if unit != ReadingUnit::Counts {
             let (Judged { median_rad, .. }, found) = best(&orders().map(|order| order * matrix))?;
-            return Some(match median_rad <= WRONG {
-                true => Start { imu: with(found), median_rad, axes: Some(names(&found)) },
-                false => as_it_is,
-            });
+            if median_rad <= WRONG {
+                return Some(Start {
+                    imu: with(found),
+                    median_rad,
+                    axes: Some(Axes::InOrder(names(&found))),
+                });
+            }
+            return Some(turned(&[matrix], false).unwrap_or(as_it_is));
         }
     }
     let largest = gain_bound(joint, state)?;
@@ -97,7 +114,18 @@ pub(super) fn find(
         let better = best(&scaled(&orders())).filter(|(other, _)| other.median_rad < 0.5 * found.median_rad);
         if let Some(other) = better {
             (found, matrix) = other;
-            axes = Some(names(&matrix));
+            axes = Some(Axes::InOrder(names(&matrix)));
+        }
+    }
+    if found.median_rad > WRONG {
+        let some: Vec<Matrix3<f64>> = gains
+            .iter()
+            .step_by(2)
+            .take(GAINS / 3)
+            .map(|gain| Matrix3::from_diagonal_element(*gain))
+            .collect();
+        if let Some(turned) = turned(&some, true) {
+            return Some(turned);
         }
     }
     let Judged { median_rad, upside_down } = found;
@@ -139,6 +167,11 @@ impl FirstLook {
             }
         };
         Self { rotations: used.map(cut_down).collect() }
+    }
+
+    /// Number of rotations.
+    pub(super) fn len(&self) -> usize {
+        self.rotations.len()
     }
 
     /// Looks at a matrix of the gyroscope; `None` where it is singular, or there are no rotations.

@@ -1,7 +1,8 @@
 //! What a user should know about the calibration of an IMU, in words.
 
 use super::joint::{Joint, RotationData, State, TurnData};
-use super::start::{FirstLook, Start, WRONG};
+use super::start::{Axes, FirstLook, Start, WRONG};
+use super::tilted;
 use super::{ImuCalibration, RotationResult};
 use crate::error::{Complaint, Error, NotIdentifiable, Result, UndeterminedGroup};
 use crate::estimate::change::longest_run;
@@ -272,7 +273,7 @@ pub(super) fn plausible(
 }
 
 /// Warnings about a fit.
-pub(super) fn warnings(calibration: &ImuCalibration, axes: Option<&[String; 3]>) -> Vec<String> {
+pub(super) fn warnings(calibration: &ImuCalibration, axes: Option<&Axes>) -> Vec<String> {
     let mut warnings = Vec::new();
     if calibration.status != CalibrationStatus::Converged {
         warnings.push(format!(
@@ -280,11 +281,12 @@ pub(super) fn warnings(calibration: &ImuCalibration, axes: Option<&[String; 3]>)
             calibration.status.name()
         ));
     }
-    if let Some([x, y, z]) = axes {
-        warnings.push(format!(
+    warnings.extend(axes.map(|axes| match axes {
+        Axes::InOrder([x, y, z]) => format!(
             "the gyroscope's axes are not the accelerometer's: along x, y and z of the accelerometer lie {x}, {y} and {z} of the gyroscope"
-        ));
-    }
+        ),
+        Axes::Turned => tilted::in_words(&calibration.imu.gyroscope.matrix),
+    }));
     for rotation in calibration.rotations.iter().filter(|rotation| !rotation.used) {
         let reason = rotation.reason.as_deref().unwrap_or("it does not fit");
         warnings.push(format!(
