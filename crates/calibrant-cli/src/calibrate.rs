@@ -68,6 +68,9 @@ pub(crate) struct Arguments {
     output: PathBuf,
 }
 
+/// Names of the files that are written.
+const RESULTS: [&str; 3] = ["calibration.json", "report.html", "summary.csv"];
+
 /// A report that is not written anew is not that of the calibration beside it.
 fn warn_of_earlier_report(directory: &Path) {
     let report = directory.join("report.html");
@@ -79,7 +82,34 @@ fn warn_of_earlier_report(directory: &Path) {
     }
 }
 
+/// What is left of an earlier run is not the result of one that failed.
+fn warn_of_earlier_result(directory: &Path) {
+    let calibration = directory.join("calibration.json");
+    if calibration.exists() {
+        console::warn(&format!(
+            "{} is that of an earlier recording: this one has none",
+            calibration.display()
+        ));
+    }
+}
+
 impl Arguments {
+    /// Refuses to write results of these folders of DIR where something was read.
+    fn check_inputs(&self, folders: &[String]) -> calibrant::Result<()> {
+        let others =
+            [&self.motion, &self.sections, &self.validate, &self.validate_gyroscope].into_iter().flatten();
+        let inputs = self.recordings.iter().chain(&self.gyroscope).chain([&self.experiment]).chain(others);
+        for input in inputs.filter(|input| {
+            input.file_name().is_some_and(|name| RESULTS.iter().any(|result| name == *result))
+        }) {
+            for folder in folders {
+                let output = self.output.join(folder).join(input.file_name().unwrap_or_default());
+                place::check_not_input(&output, &[input])?;
+            }
+        }
+        Ok(())
+    }
+
     /// The file to look at.
     fn main_result(&self) -> PathBuf {
         self.output.join(if self.no_report { "calibration.json" } else { "report.html" })
@@ -115,6 +145,7 @@ struct Done {
 
 pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     place::check_directory(&arguments.output)?;
+    arguments.check_inputs(&[String::new()])?;
     let experiment = Experiment::read(&arguments.experiment)?;
     if let Some(plan) = &experiment.imu {
         return imu::run(arguments, &experiment, plan);
@@ -137,6 +168,7 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
             Ok(Exit::of_status(done.calibration.status))
         }
         Err(error) => {
+            warn_of_earlier_result(&arguments.output);
             console::error_in(&error, recording);
             Ok(Exit::of(&error))
         }

@@ -29,7 +29,7 @@ pub(crate) struct Arguments {
     /// Examine this sensor alone; it is also what columns t x y z are readings of (default: the accelerometer's).
     #[arg(long, value_enum)]
     sensor: Option<SensorKind>,
-    /// Unit of the readings of the accelerometer, or of --sensor, where the file does not say: m/s2, g, rad/s, deg/s or counts.
+    /// Unit of the readings of the accelerometer, or of --sensor, where the file does not say: m/s2, g, mg, rad/s, deg/s, mdps or counts.
     #[arg(long, value_parser = crate::reading::any_unit)]
     unit: Option<ImuUnit>,
     #[command(flatten)]

@@ -11,10 +11,10 @@ pub(crate) struct RecordingOptions {
     /// The format: mt-manager, movella-dot, euroc, imu-tk, imucal, csv, mcap or parquet (default: by content).
     #[arg(long, value_parser = format)]
     format: Option<FileFormat>,
-    /// Unit of the accelerometer where the file does not say: m/s2, g or counts.
+    /// Unit of the accelerometer where the file does not say: m/s2, g, mg or counts.
     #[arg(long, value_name = "UNIT", value_parser = accelerometer_unit)]
     accelerometer_unit: Option<ImuUnit>,
-    /// Unit of the gyroscope where the file does not say: rad/s, deg/s or counts.
+    /// Unit of the gyroscope where the file does not say: rad/s, deg/s, mdps or counts.
     #[arg(long, value_name = "UNIT", value_parser = gyroscope_unit)]
     gyroscope_unit: Option<ImuUnit>,
     /// Unit of the time column where its name does not say: s, ms, us or ns; samples for a counter.

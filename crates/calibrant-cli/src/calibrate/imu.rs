@@ -56,9 +56,11 @@ pub(super) fn run(arguments: &Arguments, experiment: &Experiment, plan: &ImuPlan
     let job = Job { arguments, experiment, plan, holds, options: options(arguments, experiment, plan) };
     let recordings = recordings(arguments)?;
     if let [files] = recordings.as_slice() {
-        let file = job.read(*files)?;
-        console::findings(&file.findings, &name(files.path), files.gyroscope.map(name).as_deref());
-        let done = job.calibrate(*files, file, &arguments.output)?;
+        let done = job.read(*files).and_then(|file| {
+            console::findings(&file.findings, &name(files.path), files.gyroscope.map(name).as_deref());
+            job.calibrate(*files, file, &arguments.output)
+        });
+        let done = done.inspect_err(|_| super::warn_of_earlier_result(&arguments.output))?;
         for warning in &done.calibration.warnings {
             console::warn(warning);
         }

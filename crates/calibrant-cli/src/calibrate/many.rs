@@ -34,6 +34,7 @@ pub(super) fn run(
     calibrate: impl Fn(usize, &Path) -> Outcome + Sync,
 ) -> calibrant::Result<Exit> {
     let folders = folders(&arguments.recordings);
+    arguments.check_inputs(&folders)?;
     for (folder, path) in folders.iter().zip(&arguments.recordings) {
         if *folder != stem(path) {
             console::note(&format!("{folder} is {}: the name is taken", path.display()));
@@ -62,6 +63,7 @@ pub(super) fn run(
                 Ok(calibrated.summary)
             }
             Err(error) => {
+                super::warn_of_earlier_result(&arguments.output.join(folder));
                 console::error_in(&error, path);
                 exit = exit.max(Exit::of(&error));
                 row.push("ERROR".into());
@@ -71,7 +73,7 @@ pub(super) fn run(
             }
         };
         rows.push(row);
-        summary.push(SummaryRow { file: folder.clone(), outcome });
+        summary.push(SummaryRow { file: folder.clone(), recording: path.display().to_string(), outcome });
     }
     let path = arguments.output.join("summary.csv");
     write_summary(&path, &summary)?;

@@ -148,7 +148,11 @@ fn questions_are_answered_by_options_or_by_an_experiment() {
     assert_eq!(bench.run("inspect imu.csv --columns experiment.toml").done().stdout, expected);
     bench.preset("static-poses", "none.toml", &[]);
     bench.refuses("inspect imu.csv --columns none.toml", 2, &["none.toml: there is no [columns] section"]);
-    bench.refuses("inspect imu.csv --gyroscope-unit g", 2, &["the gyroscope is in rad/s, deg/s or counts"]);
+    bench.refuses(
+        "inspect imu.csv --gyroscope-unit g",
+        2,
+        &["the gyroscope is in rad/s, deg/s, mdps or counts"],
+    );
     bench.refuses("inspect imu.csv --format text", 2, &["the formats are mt-manager, movella-dot"]);
     bench.refuses("inspect absent.csv", 3, &["cannot read the recording"]);
 }

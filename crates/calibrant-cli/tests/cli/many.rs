@@ -38,18 +38,22 @@ fn one_bad_recording_does_not_stop_the_others() {
     let rows: Vec<&str> = summary.lines().collect();
     assert!(
         rows[0].starts_with(
-            "file,status,error,chi2,degrees_of_freedom,p_value,bias.x_mps2,bias.x_sd_mps2,bias.y_mps2,"
+            "file,recording,status,error,warnings,chi2,degrees_of_freedom,p_value,bias.x_mps2,bias.x_sd_mps2,bias.y_mps2,"
         ),
         "{summary}"
     );
     assert!(rows[0].ends_with(",scale.z,scale.z_sd"), "{summary}");
-    let starts =
-        ["a,converged,,", "b,error,\"b.csv:5:5: \"\"oops\"\" in column", "c,converged,,", "missing,error,"];
+    let starts = [
+        "a,a.csv,converged,,",
+        "b,b.csv,error,\"b.csv:5:5: \"\"oops\"\" in column",
+        "c,c.csv,converged,,",
+        "missing,missing.csv,error,",
+    ];
     assert_eq!(rows.len(), 1 + starts.len(), "{summary}");
     for (row, start) in rows[1..].iter().zip(starts) {
         assert!(row.starts_with(start), "{row}");
     }
-    let values: Vec<&str> = rows[3].split(',').skip(6).collect();
+    let values: Vec<&str> = rows[3].split(',').skip(8).collect();
     let calibration = bench.read("result/c/calibration.json");
     assert_eq!(values.len(), 12, "{summary}");
     for (pair, field) in values.chunks(2).flat_map(|pair| [(pair[0], "value"), (pair[1], "sd")]) {
@@ -68,7 +72,10 @@ fn the_worst_exit_status_counts_and_the_undetermined_one_is_named() {
     outcome.says("error: short.csv: the data cannot determine the parameters; bias.x and scale.x");
     outcome.says("error: broken.csv: the file is empty");
     let summary = bench.read("result/summary.csv");
-    assert!(summary.contains("\nshort,error,the data cannot determine the parameters; bias.x"), "{summary}");
+    assert!(
+        summary.contains("\nshort,short.csv,error,the data cannot determine the parameters; bias.x"),
+        "{summary}"
+    );
 }
 
 #[test]
@@ -87,8 +94,39 @@ fn files_of_one_name_do_not_collide() {
     sums.sort();
     assert!(sums.windows(2).all(|pair| pair[0] != pair[1]), "four recordings");
     let summary = bench.read("result/summary.csv");
-    let files: Vec<_> = summary.lines().skip(1).filter_map(|row| row.split(',').next()).collect();
-    assert_eq!(files, ["rec", "rec-3", "rec-2", "rec-4"]);
+    let files: Vec<_> =
+        summary.lines().skip(1).map(|row| row.split(',').take(2).collect::<Vec<_>>().join(" ")).collect();
+    assert_eq!(files, ["rec one/rec.csv", "rec-3 two/rec.csv", "rec-2 rec-2.csv", "rec-4 three/rec.txt"]);
+}
+
+#[test]
+fn what_is_left_of_an_earlier_run_is_told() {
+    let bench = bench(&["a.csv", "b.csv"]);
+    bench.run(&format!("{CALIBRATE} a.csv b.csv -o result")).done();
+    bench.write("a.csv", String::new());
+    let said = "a/calibration.json is that of an earlier recording: this one has none";
+    for command in ["a.csv b.csv -o result", "a.csv -o result/a"] {
+        bench.run(&format!("{CALIBRATE} {command}")).says(&format!("warning: result/{said}"));
+    }
+}
+
+#[test]
+fn a_result_takes_the_place_of_no_recording() {
+    let bench = bench(&["summary.csv", "a.csv", "a/calibration.json", "b.csv"]);
+    let before = bench.read("summary.csv");
+    for (command, file) in [
+        ("summary.csv a.csv -o .", "summary.csv"),
+        ("a.csv a/calibration.json b.csv -o .", "a/calibration.json"),
+        ("a/calibration.json -o a", "a/calibration.json"),
+    ] {
+        bench.refuses(
+            &format!("{CALIBRATE} {command}"),
+            2,
+            &[file, "this file is read, and would be replaced"],
+        );
+        assert_eq!(bench.read(file), before, "{command}");
+    }
+    assert!(!bench.path("b").exists(), "nothing is written before");
 }
 
 #[test]

@@ -314,23 +314,23 @@ fn a_unit_that_the_file_does_not_say_is_asked_for() {
     bench.write("columns.toml", bench.read("poses.toml") + "\n" + units);
 
     for (arguments, hint, option) in [
-        ("si.csv", "magnitudes around 9.8 suggest m/s²", "--accelerometer-unit m/s², g or counts"),
-        ("g.csv", "magnitudes around 0.999 suggest g", "--accelerometer-unit m/s², g or counts"),
-        ("bare.mat", "magnitudes around 0.999 suggest g", "--accelerometer-unit m/s², g or counts"),
+        ("si.csv", "magnitudes around 9.8 suggest m/s²", "--accelerometer-unit m/s², g, mg or counts"),
+        ("g.csv", "magnitudes around 0.999 suggest g", "--accelerometer-unit m/s², g, mg or counts"),
+        ("bare.mat", "magnitudes around 0.999 suggest g", "--accelerometer-unit m/s², g, mg or counts"),
         (
             "gyro.csv --sensor gyroscope",
             "may be rad/s, or deg/s of slow turns",
-            "--gyroscope-unit rad/s, deg/s or counts",
+            "--gyroscope-unit rad/s, deg/s, mdps or counts",
         ),
         (
             "bare.mat --sensor gyroscope",
             "may be rad/s, or deg/s of slow turns",
-            "--gyroscope-unit rad/s, deg/s or counts",
+            "--gyroscope-unit rad/s, deg/s, mdps or counts",
         ),
         (
             "si.csv --sensor gyroscope",
             "may be rad/s, or deg/s of slow turns",
-            "--gyroscope-unit rad/s, deg/s or counts",
+            "--gyroscope-unit rad/s, deg/s, mdps or counts",
         ),
     ] {
         bench.refuses(&format!("noise {arguments} -o result"), 3, &["columns have no unit", hint, option]);
@@ -376,7 +376,11 @@ fn a_unit_that_the_file_does_not_say_is_asked_for() {
             2,
             "--unit is g, but the accelerometer's unit is given as",
         ),
-        ("si.csv --unit furlongs", 2, "the accelerometer is in m/s², g or counts, the gyroscope in rad/s"),
+        (
+            "si.csv --unit furlongs",
+            2,
+            "the accelerometer is in m/s², g, mg or counts, the gyroscope in rad/s",
+        ),
         ("si.csv --columns poses.toml", 2, "there is no [columns] section"),
     ];
     refused.iter().for_each(|(arguments, status, says)| {

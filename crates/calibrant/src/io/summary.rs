@@ -3,7 +3,7 @@
 use super::json::to_json;
 use super::output::write_atomically;
 use crate::error::Result;
-use crate::estimate::{Calibration, CalibrationStatus, ImuCalibration};
+use crate::estimate::{Calibration, CalibrationStatus, ImuCalibration, Recovered};
 use crate::sensor::Parameter;
 use std::io;
 use std::path::Path;
@@ -11,8 +11,10 @@ use std::path::Path;
 /// A recording and what came of it.
 #[derive(Debug, Clone)]
 pub struct SummaryRow {
-    /// Name of the recording's file.
+    /// Where its results are: the name of the recording's file, with a number where names repeat.
     pub file: String,
+    /// The recording, as it was given.
+    pub recording: String,
     /// Its calibration, or why there is none.
     pub outcome: std::result::Result<Summary, String>,
 }
@@ -62,7 +64,7 @@ struct Estimate {
 }
 
 impl Summary {
-    /// Of an accelerometer: χ², degrees of freedom, p-value, and the parameters.
+    /// Of an accelerometer: the number of warnings, χ², degrees of freedom, p-value, from holds the root mean square of `|f| − g`, and the parameters.
     #[must_use]
     pub fn of(calibration: &Calibration) -> Self {
         let fit = &calibration.fit;
@@ -73,18 +75,23 @@ impl Summary {
             value: *value,
             sd,
         };
+        let mut quality = vec![
+            ("warnings", calibration.warnings.len().to_string()),
+            ("chi2", number(Some(fit.chi2))),
+            ("degrees_of_freedom", fit.degrees_of_freedom.to_string()),
+            ("p_value", number(fit.p_value)),
+        ];
+        if let Recovered::Holds(holds) = &calibration.recovered {
+            quality.push(("magnitude_rms_mps2", number(Some(holds.magnitude_residual_rms_mps2))));
+        }
         Self {
             status: calibration.status,
-            quality: vec![
-                ("chi2", number(Some(fit.chi2))),
-                ("degrees_of_freedom", fit.degrees_of_freedom.to_string()),
-                ("p_value", number(fit.p_value)),
-            ],
+            quality,
             parameters: calibration.parameters.iter().zip(estimates).map(estimate).collect(),
         }
     }
 
-    /// Of an IMU: holds and rotations, how many were used of them, root mean square of `|f| − g` in the holds and of the angles by which gravity misses after
+    /// Of an IMU: the number of warnings, holds and rotations, how many were used of them, root mean square of `|f| − g` in the holds and of the angles by which gravity misses after
     /// the rotations, and the parameters.
     #[must_use]
     pub fn of_imu(calibration: &ImuCalibration) -> Self {
@@ -106,6 +113,7 @@ impl Summary {
         Self {
             status: calibration.status,
             quality: vec![
+                ("warnings", calibration.warnings.len().to_string()),
                 ("holds", holds.len().to_string()),
                 ("holds_used", good_holds.to_string()),
                 ("rotations", rotations.len().to_string()),
@@ -118,7 +126,7 @@ impl Summary {
     }
 }
 
-/// Writes `summary.csv`: file, status, error, what tells how good the calibration is ([`Summary`]), then value and standard deviation of each parameter.
+/// Writes `summary.csv`: file, recording, status, error, what tells how good the calibration is ([`Summary`]), then value and standard deviation of each parameter.
 ///
 /// Units are in the header (`bias.x_mps2`, `bias.x_sd_mps2`; nothing for pure numbers). A recording without a calibration has status
 /// `error`, the reason, and empty fields.
@@ -130,7 +138,7 @@ pub fn write_summary(path: &Path, rows: &[SummaryRow]) -> Result<()> {
     let named = rows.iter().find_map(|row| row.outcome.as_ref().ok());
     write_atomically(path, |out| {
         let mut out = csv::Writer::from_writer(out);
-        let mut header = ["file", "status", "error"].map(String::from).to_vec();
+        let mut header = ["file", "recording", "status", "error"].map(String::from).to_vec();
         if let Some(named) = named {
             header.extend(named.quality.iter().map(|(name, _)| (*name).to_owned()));
             for Estimate { name, ending, .. } in &named.parameters {
@@ -139,7 +147,7 @@ pub fn write_summary(path: &Path, rows: &[SummaryRow]) -> Result<()> {
         }
         out.write_record(&header).map_err(io::Error::other)?;
         for row in rows {
-            let mut fields = vec![row.file.clone()];
+            let mut fields = vec![row.file.clone(), row.recording.clone()];
             match (&row.outcome, named) {
                 (Ok(summary), Some(named)) => fields.extend(summary.fields(named)),
                 (Ok(_), None) => {}
@@ -153,7 +161,7 @@ pub fn write_summary(path: &Path, rows: &[SummaryRow]) -> Result<()> {
 }
 
 impl Summary {
-    /// Its fields after the file's name, the parameters in the order of another's.
+    /// Its fields after those of the recording, the parameters in the order of another's.
     fn fields(&self, named: &Self) -> Vec<String> {
         let mut fields = vec![self.status.name().to_owned(), String::new()];
         fields.extend(self.quality.iter().map(|(_, text)| text.clone()));

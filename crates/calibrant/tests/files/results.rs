@@ -262,12 +262,16 @@ fn truth_and_summary() {
     let path = directory.path().join("summary.csv");
     let good = uniaxial();
     let rows = [
-        SummaryRow { file: "bad,name.csv".into(), outcome: Err("no \"rows\"".into()) },
-        SummaryRow { file: "good.csv".into(), outcome: Ok(Summary::of(&good)) },
+        SummaryRow {
+            file: "bad,name".into(),
+            recording: "a/bad,name.csv".into(),
+            outcome: Err("no \"rows\"".into()),
+        },
+        SummaryRow { file: "good".into(), recording: "a/good.csv".into(), outcome: Ok(Summary::of(&good)) },
     ];
     write_summary(&path, &rows).expect("written");
-    let expected = "file,status,error,chi2,degrees_of_freedom,p_value,bias.x_mps2,bias.x_sd_mps2,scale.x,scale.x_sd\n\
-                    \"bad,name.csv\",error,\"no \"\"rows\"\"\",,,,,,,\n\
-                    good.csv,converged,,5.5,4,,0.5,0.5,2.0,0.5\n";
+    let expected = "file,recording,status,error,warnings,chi2,degrees_of_freedom,p_value,bias.x_mps2,bias.x_sd_mps2,scale.x,scale.x_sd\n\
+                    \"bad,name\",\"a/bad,name.csv\",error,\"no \"\"rows\"\"\",,,,,,,,\n\
+                    good,a/good.csv,converged,,0,5.5,4,,0.5,0.5,2.0,0.5\n";
     assert_eq!(std::fs::read_to_string(path).expect("read"), expected);
 }

@@ -37,7 +37,11 @@ pub(super) fn explain(
     let cross_terms = parameters.iter().any(|&k| names[k].starts_with("matrix."));
     UndeterminedGroup {
         parameters: if every { names } else { parameters.iter().map(|&k| names[k].clone()).collect() },
-        free_combinations: if every { list.len().saturating_sub(holds.len()) } else { free_combinations },
+        free_combinations: if every {
+            list.len().saturating_sub(holds.len()).max(1)
+        } else {
+            free_combinations
+        },
         reason,
         remedy: format!(
             "hold the sensor still, longer than holds.minimum_hold_s, in at least {} well-spread orientations: each axis up, down and at angles in \

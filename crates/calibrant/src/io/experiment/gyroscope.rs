@@ -74,6 +74,7 @@ pub(super) fn read(
         Some(entry) => Some(entry.word(&[
             ("radps", ImuUnit::RadianPerSecond),
             ("degps", ImuUnit::DegreePerSecond),
+            ("mdps", ImuUnit::MilliDegreePerSecond),
             ("counts", ImuUnit::Counts),
         ])?),
     };

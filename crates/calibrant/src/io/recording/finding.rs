@@ -25,6 +25,8 @@ pub enum FindingKind {
     IrregularSampling,
     /// An axis never changes.
     ConstantAxis,
+    /// Two axes always have the same reading.
+    EqualAxes,
     /// Readings stay at the extreme value as if clipped there.
     Saturation,
     /// Where the sample times come from, where it is not simply a column of seconds.

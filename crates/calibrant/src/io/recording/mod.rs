@@ -18,6 +18,7 @@ mod pieces;
 mod quality;
 mod row;
 mod rows;
+mod signed;
 mod write;
 
 pub use finding::{Finding, FindingKind};
@@ -135,6 +136,7 @@ fn parse(bytes: &[u8], options: &ReadOptions) -> Checked<RecordingFile> {
     }
     let Rows { times_s, readings, lines, .. } = rows;
     let recording = Recording { times_s, readings, axes: options.axes, unit: columns.unit };
+    signed::check(&recording, "")?;
     quality::examine(&recording, &lines, &mut findings);
     Ok(RecordingFile { recording, findings, sha256: hex_sha256(bytes), lines: last })
 }

@@ -2,7 +2,8 @@
 
 use super::finding::{Finding, FindingKind, count, moment, short};
 use super::rows::LineMap;
-use crate::sensor::{Recording, greater, lesser, missing};
+use crate::sensor::{Axis, Recording, greater, lesser, missing};
+use nalgebra::Vector3;
 
 /// A step of the time is a gap from this many usual steps on.
 const GAP: f64 = 5.0;
@@ -28,6 +29,16 @@ pub(super) fn readings(recording: &Recording, of: &str, lines: &LineMap, finding
             let message =
                 format!("{of}axis {axis} never changes: {} throughout; is it connected?", short(value));
             findings.push(Finding::new(FindingKind::ConstantAxis, None, message));
+        }
+    }
+    for (one, other) in [(Axis::X, Axis::Y), (Axis::X, Axis::Z), (Axis::Y, Axis::Z)] {
+        let is_same = |reading: &Vector3<f64>| reading[one.index()] == reading[other.index()];
+        let is_connected = recording.constant(one).is_none();
+        if recording.axes == 3 && recording.readings.iter().all(is_same) && is_connected {
+            let message = format!(
+                "{of}axes {one} and {other} are the same in every sample: is one column there twice?"
+            );
+            findings.push(Finding::new(FindingKind::EqualAxes, None, message));
         }
     }
     for found in recording.saturations() {

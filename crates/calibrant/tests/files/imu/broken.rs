@@ -95,7 +95,7 @@ const PAIRS: &[Pair] = &[
         "0 1 2 90\n1 2 1 80\n",
         plain,
         "accelerometer: the accelerometer's columns have no unit: magnitudes around 10.1 suggest m/s²; gyroscope: the gyroscope's columns have no unit: magnitudes up to 90 suggest deg/s \
-         (say --accelerometer-unit m/s², g or counts (accelerometer_unit in [columns]); --gyroscope-unit rad/s, deg/s or counts (gyroscope_unit in [columns]))",
+         (say --accelerometer-unit m/s², g, mg or counts (accelerometer_unit in [columns]); --gyroscope-unit rad/s, deg/s, mdps or counts (gyroscope_unit in [columns]))",
     ),
 ];
 
@@ -186,38 +186,38 @@ const CASES: &[Case] = &[
     (
         "t_s,ax_mps2,ay_mps2,az_mps2\n0,33000,32000,36000\n1,33001,32000,36000\n2,33000,32001,36000\n",
         plain,
-        "the accelerometer is said to be in m/s², but its magnitude is 58400 half of the time or more: are these counts? (correct the unit)",
+        "the accelerometer is said to be in m/s², but its magnitude is 58400 half of the time or more: is it in mg, or are these counts? (correct the unit)",
     ),
     // units that are asked for
     (
         "t_s,ax,ay,az\n0,0,0.1,9.8\n1,0,9.8,0.1\n2,9.8,0,0\n",
         plain,
-        "the accelerometer's columns have no unit: magnitudes around 9.8 suggest m/s² (say --accelerometer-unit m/s², g or counts (accelerometer_unit in [columns]))",
+        "the accelerometer's columns have no unit: magnitudes around 9.8 suggest m/s² (say --accelerometer-unit m/s², g, mg or counts (accelerometer_unit in [columns]))",
     ),
     (
         "t_s,ax,ay,az\n0,0,0.1,1\n1,0,1,0.1\n2,1,0,0\n",
         plain,
-        "the accelerometer's columns have no unit: magnitudes around 1 suggest g (say --accelerometer-unit m/s², g or counts (accelerometer_unit in [columns]))",
+        "the accelerometer's columns have no unit: magnitudes around 1 suggest g (say --accelerometer-unit m/s², g, mg or counts (accelerometer_unit in [columns]))",
     ),
     (
         "t_s,ax,ay,az\n0,0,1,16384\n1,0,16384,1\n2,16384,0,0\n",
         plain,
-        "the accelerometer's columns have no unit: magnitudes around 16400 suggest counts (say --accelerometer-unit m/s², g or counts (accelerometer_unit in [columns]))",
+        "the accelerometer's columns have no unit: magnitudes around 16400 suggest counts (say --accelerometer-unit m/s², g, mg or counts (accelerometer_unit in [columns]))",
     ),
     (
         "t_s,ax,ay,az\n0,0,1,4.2\n1,0,4.2,1\n2,4.2,0,0\n",
         plain,
-        "the accelerometer's columns have no unit: magnitudes around 4.32 do not tell (say --accelerometer-unit m/s², g or counts (accelerometer_unit in [columns]))",
+        "the accelerometer's columns have no unit: magnitudes around 4.32 do not tell (say --accelerometer-unit m/s², g, mg or counts (accelerometer_unit in [columns]))",
     ),
     (
         "t_s,gx,gy,gz\n0,0,1,360\n1,0,360,1.5\n2,0,0,0\n",
         plain,
-        "the gyroscope's columns have no unit: magnitudes up to 360 suggest deg/s (say --gyroscope-unit rad/s, deg/s or counts (gyroscope_unit in [columns]))",
+        "the gyroscope's columns have no unit: magnitudes up to 360 suggest deg/s (say --gyroscope-unit rad/s, deg/s, mdps or counts (gyroscope_unit in [columns]))",
     ),
     (
         "t_s,gx,gy,gz\n0,0,1,3\n1,0,3,1.5\n2,0,0,0\n",
         plain,
-        "the gyroscope's columns have no unit: magnitudes up to 3 may be rad/s, or deg/s of slow turns (say --gyroscope-unit rad/s, deg/s or counts (gyroscope_unit in [columns]))",
+        "the gyroscope's columns have no unit: magnitudes up to 3 may be rad/s, or deg/s of slow turns (say --gyroscope-unit rad/s, deg/s, mdps or counts (gyroscope_unit in [columns]))",
     ),
     (
         "time,gx_radps,gy_radps,gz_radps\n0,0,1,3\n10,0,3,1.5\n20,0,0,0\n",
@@ -232,12 +232,12 @@ const CASES: &[Case] = &[
     (
         "timestamp,gx,gy,gz\n0,0,1,3\n10000000,0,3,1.5\n20000000,0,0,0\n",
         plain,
-        "the gyroscope's columns have no unit: magnitudes up to 3 may be rad/s, or deg/s of slow turns; the time column `timestamp` has no unit: steps of 10000000 suggest ns (say --gyroscope-unit rad/s, deg/s or counts (gyroscope_unit in [columns]); --time-unit s, ms, us or ns (time_unit in [columns]), or end its name in _s, _ms, _us or _ns)",
+        "the gyroscope's columns have no unit: magnitudes up to 3 may be rad/s, or deg/s of slow turns; the time column `timestamp` has no unit: steps of 10000000 suggest ns (say --gyroscope-unit rad/s, deg/s, mdps or counts (gyroscope_unit in [columns]); --time-unit s, ms, us or ns (time_unit in [columns]), or end its name in _s, _ms, _us or _ns)",
     ),
     (
         "n_samples,gyr_x,gyr_y,gyr_z,acc_x,acc_y,acc_z\n0,1,2,3,0,0,9.8\n1,1,360,3,0,0,9.8\n",
         plain,
-        "the accelerometer's columns have no unit: magnitudes around 9.8 suggest m/s²; the gyroscope's columns have no unit: magnitudes up to 360 suggest deg/s; the file has no sample times, and nothing in it says the sample rate (say --accelerometer-unit m/s², g or counts (accelerometer_unit in [columns]); --gyroscope-unit rad/s, deg/s or counts (gyroscope_unit in [columns]); --rate-hz, or rate_hz in [columns]: the sample rate in Hz, as it was set when the recording was made)",
+        "the accelerometer's columns have no unit: magnitudes around 9.8 suggest m/s²; the gyroscope's columns have no unit: magnitudes up to 360 suggest deg/s; the file has no sample times, and nothing in it says the sample rate (say --accelerometer-unit m/s², g, mg or counts (accelerometer_unit in [columns]); --gyroscope-unit rad/s, deg/s, mdps or counts (gyroscope_unit in [columns]); --rate-hz, or rate_hz in [columns]: the sample rate in Hz, as it was set when the recording was made)",
     ),
     (
         "0 1 2 3\n1 2 3 4\n",
@@ -284,7 +284,7 @@ const CASES: &[Case] = &[
     (
         "t_s,gx,gy,gz\n0,0,0,1\n1,0,1,0\n",
         || units(ImuUnit::Counts, ImuUnit::StandardGravity),
-        "g is no unit of the gyroscope (say rad/s, deg/s or counts)",
+        "g is no unit of the gyroscope (say rad/s, deg/s, mdps or counts)",
     ),
     (
         "t_s,gx_radps,gy_degps,gz_radps\n0,0,0,1\n1,0,1,0\n",

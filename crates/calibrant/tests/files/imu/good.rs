@@ -5,6 +5,7 @@ use calibrant::io::{
     ColumnMapping, ColumnUnit, FileFormat, FindingKind, ImuReadOptions, ImuUnit, TimeUnit, parse_imu_pair,
 };
 use calibrant::sensor::{ReadingUnit, Recording};
+use nalgebra::Vector3;
 
 const PLAIN: ImuReadOptions = ImuReadOptions {
     format: None,
@@ -177,6 +178,19 @@ fn a_csv_says_units_by_name_in_many_ways() {
         assert_eq!(file.recording, expected.recording, "{text}");
         assert_eq!(file.columns[4].unit, Some(ColumnUnit::Reading(ImuUnit::StandardGravity)));
     }
+}
+
+/// As ST's sensors and Arduino's libraries give them.
+#[test]
+fn thousandths_are_units() {
+    let rows = "0,0,980,17,90000,0,-500\n0.01,1000,0,0,0,180000,0\n0.02,0,0,-1000,0,0,0\n";
+    let named = read(&format!("t_s,ax_mg,ay_mg,az_mg,gx_mdps,gy_mdps,gz_mdps\n{rows}"), &PLAIN).recording;
+    let given = units(ImuUnit::MilliGravity, ImuUnit::MilliDegreePerSecond);
+    assert_eq!(read(&format!("t_s,ax,ay,az,gx,gy,gz\n{rows}"), &given).recording, named);
+    let (accelerometer, gyroscope) = (named.accelerometer.expect("there"), named.gyroscope.expect("there"));
+    assert!((accelerometer.readings[0] - Vector3::new(0.0, 0.98, 0.017) * 9.80665).amax() < 1e-14);
+    let expected = Vector3::new(std::f64::consts::FRAC_PI_2, 0.0, -0.5_f64.to_radians());
+    assert!((gyroscope.readings[0] - expected).amax() < 1e-14);
 }
 
 #[test]

@@ -12,6 +12,7 @@ use crate::error::Complaint;
 use crate::io::recording::finding::{Finding, FindingKind, Tally, count, short};
 use crate::io::recording::quality;
 use crate::io::recording::rows::{LineMap, backwards, report_duplicates, report_truncated};
+use crate::io::recording::signed;
 use crate::io::text::Checked;
 use crate::sensor::{ImuRecording, ReadingUnit, Recording, Temperatures, Triad, WORKING_C, interpolated};
 use nalgebra::Vector3;
@@ -68,6 +69,7 @@ pub(super) fn assemble(
     let mut maps: Vec<LineMap> = Vec::new();
     for (&triad, unit) in triads.iter().zip(units.iter().flatten()) {
         let (readings, lines) = readings(triad, *unit, &times, &kept, samples, &mut findings)?;
+        signed::check(&readings, &format!("{triad} "))?;
         if triad == Triad::Accelerometer {
             check_gravity(&readings, *unit)?;
             recording.accelerometer = Some(readings);

@@ -4,8 +4,8 @@
 //! |---|---|---|
 //! | time | `t`, `time`, `timestamp`, `stamp` | `_s`, `_ms`, `_us`, `_ns` |
 //! | counter | `n_samples`, `sample`, `index`, `counter`, `packetcounter` | |
-//! | accelerometer | `ax`, `acc_x`, `accel_x`, `accelerometer_x`, `acceleration_x`, `linear_acceleration_x` | `_mps2`, `_g`, `_counts` |
-//! | gyroscope | `gx`, `wx`, `gyr_x`, `gyro_x`, `gyroscope_x`, `omega_x`, `angular_velocity_x` | `_radps`, `_degps`, `_counts` |
+//! | accelerometer | `ax`, `acc_x`, `accel_x`, `accelerometer_x`, `acceleration_x`, `linear_acceleration_x` | `_mps2`, `_g`, `_mg`, `_counts` |
+//! | gyroscope | `gx`, `wx`, `gyr_x`, `gyro_x`, `gyroscope_x`, `omega_x`, `angular_velocity_x` | `_radps`, `_degps`, `_mdps`, `_counts` |
 //! | temperature | `temp`, `temperature` | `_c` |
 //!
 //! Capitals, and whether words are joined by `_`, `.`, `-` or a space, do not matter. `linear_acceleration` is ROS' name of an accelerometer's

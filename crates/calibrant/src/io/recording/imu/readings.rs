@@ -11,6 +11,8 @@ use crate::sensor::{Axis, Recording, Triad};
 
 /// A gyroscope that turns faster than this is hardly in rad/s.
 const FAST_RADPS: f64 = 40.0;
+/// Nor is one that turns faster than this in deg/s.
+const FAST_DEGPS: f64 = 8000.0;
 /// Whole numbers larger than this are hardly anything but counts.
 const COUNTS: f64 = 2500.0;
 /// A sensor that reads less than this, m/s², half of the time has had gravity removed.
@@ -69,10 +71,12 @@ pub(super) fn question(triad: Triad, recording: &Recording) -> String {
     let median = median_magnitude(recording);
     let hint = match triad {
         _ if whole && largest > COUNTS => "suggest counts",
+        Triad::Gyroscope if largest > FAST_DEGPS => "suggest mdps",
         Triad::Gyroscope if largest > FAST_RADPS => "suggest deg/s",
         Triad::Gyroscope => "may be rad/s, or deg/s of slow turns",
         Triad::Accelerometer if (9.0..=10.6).contains(&median) => "suggest m/s²",
         Triad::Accelerometer if (1.0 - ONE..=1.0 + ONE).contains(&median) => "suggest g",
+        Triad::Accelerometer if (1e3 * (1.0 - ONE)..=1e3 * (1.0 + ONE)).contains(&median) => "suggest mg",
         Triad::Accelerometer => "do not tell",
     };
     let of = match triad {
@@ -121,7 +125,7 @@ pub(super) fn check_gravity(recording: &Recording, stated: ImuUnit) -> Checked<(
     }
     if median > 100.0 * crate::io::recording::columns::STANDARD_GRAVITY_MPS2 {
         return Err(Complaint::new(
-            format!("the accelerometer is said to be in {unit}, but its magnitude is {shown} half of the time or more: are these counts?"),
+            format!("the accelerometer is said to be in {unit}, but its magnitude is {shown} half of the time or more: is it in mg, or are these counts?"),
             "correct the unit",
         )
         .into());

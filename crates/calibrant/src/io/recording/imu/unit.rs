@@ -10,37 +10,45 @@ pub enum ImuUnit {
     MetrePerSecondSquared,
     /// Standard gravity, 9.80665 m/s²; converted to m/s².
     StandardGravity,
+    /// Thousandths of standard gravity; converted to m/s².
+    MilliGravity,
     /// Radians per second.
     RadianPerSecond,
     /// Degrees per second; converted to rad/s.
     DegreePerSecond,
+    /// Thousandths of a degree per second; converted to rad/s.
+    MilliDegreePerSecond,
     /// Raw counts of the analogue-to-digital converter, of either sensor.
     Counts,
 }
 
 impl ImuUnit {
     /// All of them.
-    pub const ALL: [Self; 5] = [
+    pub const ALL: [Self; 7] = [
         Self::MetrePerSecondSquared,
         Self::StandardGravity,
+        Self::MilliGravity,
         Self::RadianPerSecond,
         Self::DegreePerSecond,
+        Self::MilliDegreePerSecond,
         Self::Counts,
     ];
 
-    /// As it is printed: `m/s²`, `g`, `rad/s`, `deg/s` or `counts`.
+    /// As it is printed: `m/s²`, `g`, `mg`, `rad/s`, `deg/s`, `mdps` or `counts`.
     #[must_use]
     pub fn symbol(self) -> &'static str {
         match self {
             Self::MetrePerSecondSquared => "m/s²",
             Self::StandardGravity => "g",
+            Self::MilliGravity => "mg",
             Self::RadianPerSecond => "rad/s",
             Self::DegreePerSecond => "deg/s",
+            Self::MilliDegreePerSecond => "mdps",
             Self::Counts => "counts",
         }
     }
 
-    /// The unit of this name in one of its usual spellings: `m/s²`, `m/s^2`, `mps2`, `m s^-2`, `g`, `rad/s`, `radps`, `deg/s`, `dps`, `°/s`, `counts`, `LSB`, …
+    /// The unit of this name in one of its usual spellings: `m/s²`, `m/s^2`, `mps2`, `m s^-2`, `g`, `mg`, `rad/s`, `radps`, `deg/s`, `dps`, `°/s`, `mdps`, `counts`, `LSB`, …
     ///
     /// # Examples
     /// ```
@@ -57,10 +65,12 @@ impl ImuUnit {
                 Self::MetrePerSecondSquared
             }
             "g" | "gs" | "gee" => Self::StandardGravity,
+            "mg" | "millig" => Self::MilliGravity,
             "rad/s" | "radps" | "rads" | "rads-1" | "radpersecond" | "rad/sec" => Self::RadianPerSecond,
             "deg/s" | "degps" | "dps" | "degs" | "degs-1" | "°/s" | "deg/sec" | "degpersecond" => {
                 Self::DegreePerSecond
             }
+            "mdps" | "mdeg/s" | "mdegps" | "m°/s" => Self::MilliDegreePerSecond,
             "counts" | "count" | "cnt" | "lsb" | "raw" | "adc" => Self::Counts,
             _ => return None,
         })
@@ -70,18 +80,22 @@ impl ImuUnit {
     #[must_use]
     pub fn suits(self, triad: Triad) -> bool {
         match self {
-            Self::MetrePerSecondSquared | Self::StandardGravity => triad == Triad::Accelerometer,
-            Self::RadianPerSecond | Self::DegreePerSecond => triad == Triad::Gyroscope,
+            Self::MetrePerSecondSquared | Self::StandardGravity | Self::MilliGravity => {
+                triad == Triad::Accelerometer
+            }
+            Self::RadianPerSecond | Self::DegreePerSecond | Self::MilliDegreePerSecond => {
+                triad == Triad::Gyroscope
+            }
             Self::Counts => true,
         }
     }
 
-    /// The units that this sensor's readings can have, in words: `m/s², g or counts`.
+    /// The units that this sensor's readings can have, in words: `m/s², g, mg or counts`.
     #[must_use]
     pub fn choices(triad: Triad) -> &'static str {
         match triad {
-            Triad::Accelerometer => "m/s², g or counts",
-            Triad::Gyroscope => "rad/s, deg/s or counts",
+            Triad::Accelerometer => "m/s², g, mg or counts",
+            Triad::Gyroscope => "rad/s, deg/s, mdps or counts",
         }
     }
 
@@ -91,8 +105,10 @@ impl ImuUnit {
         match self {
             Self::MetrePerSecondSquared => (ReadingUnit::MetrePerSecondSquared, 1.0),
             Self::StandardGravity => (ReadingUnit::MetrePerSecondSquared, STANDARD_GRAVITY_MPS2),
+            Self::MilliGravity => (ReadingUnit::MetrePerSecondSquared, 1e-3 * STANDARD_GRAVITY_MPS2),
             Self::RadianPerSecond => (ReadingUnit::RadianPerSecond, 1.0),
             Self::DegreePerSecond => (ReadingUnit::RadianPerSecond, std::f64::consts::PI / 180.0),
+            Self::MilliDegreePerSecond => (ReadingUnit::RadianPerSecond, std::f64::consts::PI / 180e3),
             Self::Counts => (ReadingUnit::Counts, 1.0),
         }
     }
