@@ -10,6 +10,9 @@ use serde::Serialize;
 pub(super) struct HoldsFields {
     gravity_mps2: f64,
     gravity_sd_mps2: f64,
+    /// By which the Earth's turn about the vertical is part of the model.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    latitude_deg: Option<f64>,
     gauge: &'static str,
     detected: bool,
     between_holds_sd_mps2: f64,
@@ -76,6 +79,7 @@ impl HoldsFields {
         Self {
             gravity_mps2: holds.gravity.magnitude_mps2,
             gravity_sd_mps2: holds.gravity.sd_mps2,
+            latitude_deg: None,
             gauge: holds.gauge.name(),
             detected: holds.detected,
             between_holds_sd_mps2: holds.between_holds_sd_mps2,
@@ -92,5 +96,10 @@ impl HoldsFields {
             condition_number: holds.condition_number,
             table: holds.holds.iter().map(fields).collect(),
         }
+    }
+
+    /// With the latitude of an IMU, where it was known.
+    pub(super) fn at_latitude(self, latitude_deg: Option<f64>) -> Self {
+        Self { latitude_deg, ..self }
     }
 }

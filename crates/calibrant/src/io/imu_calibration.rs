@@ -65,7 +65,8 @@ impl<'a> ImuCalibrationFile<'a> {
             core: ImuCore::of(&calibration.calibrated(), inputs).with_prior_share(&calibration.prior_share),
             correlation: matrix_rows(&calibration.correlation()),
             fit: FitFields { chi2: calibration.chi2, degrees_of_freedom: calibration.degrees_of_freedom },
-            holds: HoldsFields::of(&calibration.holds, calibration.accelerometer_unit),
+            holds: HoldsFields::of(&calibration.holds, calibration.accelerometer_unit)
+                .at_latitude(calibration.latitude_deg),
             still_gyroscope: StillFields::of(calibration),
             rotations: RotationsFields::of(calibration),
             turns: calibration.turns.iter().map(TurnFields::of).collect(),

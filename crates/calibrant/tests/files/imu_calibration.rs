@@ -51,6 +51,11 @@ fn it_says_everything_that_is_needed_to_judge_it() {
 
     let holds = &json["holds"];
     assert_eq!(holds["gauge"], "upper");
+    assert!(holds.get("latitude_deg").is_none(), "not known");
+    let mut placed = calibration.clone();
+    placed.latitude_deg = Some(-33.9);
+    let placed: Value = serde_json::from_str(&imu_calibration_json(&placed, &[input()])).expect("JSON");
+    assert_eq!(placed["holds"]["latitude_deg"], -33.9);
     assert_eq!(holds["table"].as_array().expect("a list").len(), 14);
     assert!(number(&holds["table"][0]["mean_counts"][0]) > 3e4);
     let noise = number(&json["still_gyroscope"]["noise_per_sample_counts"][1]);
