@@ -96,7 +96,10 @@ fn a_step_is_found_and_its_sensor_its_kind_and_its_time_are_told() {
             );
             assert!((time_s - 4.5 * last as f64 - 3.5).abs() < 10.0, "{change:?}");
             let off = (change.amount[axis] - amount).abs();
-            assert!(off < 5.0 * change.sd[axis] + 0.1 * amount, "{triad} {of:?} {number}: {change:?}");
+            // a step that is placed a turn early or late is diluted
+            let misplaced = (before.abs_diff(last) + after.abs_diff(last + 1)) as f64;
+            let most = 5.0 * change.sd[axis] + 0.1 * amount * (1.0 + misplaced);
+            assert!(off < most, "{triad} {of:?} {number}: {change:?}");
             let said = &calibration.warnings[0];
             assert!(said.contains("changes at about") && said.contains("holds.intervals_s"), "{said}");
         });

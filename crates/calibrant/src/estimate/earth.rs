@@ -2,15 +2,15 @@
 //!
 //! At rest a gyroscope reads `b + Γ f + S (Ω sin φ/g) f + S ω_h`, with `f` the specific force, φ the latitude and `ω_h` the Earth's rate about the north: the rate about the vertical looks like a
 //! g-sensitivity `S Ω sin φ/g`. At a known latitude it is part of the model. Otherwise `sin φ` is anything from −1 to 1: the rate about the vertical has the variance `Ω²/3`, and all entries of Γ
-//! are off by it together. The rate about the north points anywhere in the sensor, and is scatter of the holds.
+//! are off by it together. How the rest of the Earth's rate is found is told in `imu/earth.rs`.
 
 use super::ImuCalibration;
 use crate::motion::EARTH_RATE_RADPS;
 use crate::sensor::{ImuParameters, ImuQuantity};
 use nalgebra::DVector;
 
-/// Variance of the rate about the vertical at an unknown latitude, (rad/s)².
-pub(super) const VERTICAL_VARIANCE: f64 = EARTH_RATE_RADPS * EARTH_RATE_RADPS / 3.0;
+/// Standard deviation of each component of the Earth's rate at an unknown latitude, `Ω/√3`, rad/s.
+pub(super) const UNKNOWN_SD_RADPS: f64 = EARTH_RATE_RADPS / 1.732_050_807_568_877_2;
 /// Standard deviations that it makes larger by less need no word.
 const SIZEABLE: f64 = 1.15;
 
@@ -32,19 +32,22 @@ pub(super) fn vertical_slope(
 
 /// What to say where an unknown latitude is a sizeable part of the uncertainty.
 pub(super) fn unknown_latitude(calibration: &ImuCalibration) -> Option<String> {
-    let ImuCalibration { quantities, prior_share, imu, holds, covariance, .. } = calibration;
-    if calibration.latitude_deg.is_some() {
-        return None;
-    }
-    let slope = vertical_slope(quantities, prior_share, imu, holds.gravity.magnitude_mps2);
+    let slope = calibration.of_vertical.as_ref()?;
     let larger = |(slope, variance): (&f64, &f64)| {
-        let without = (variance - slope.powi(2) * VERTICAL_VARIANCE).max(f64::MIN_POSITIVE);
+        let without = (variance - slope.powi(2)).max(f64::MIN_POSITIVE);
         (variance / without).sqrt()
     };
-    let most = slope.iter().zip(covariance.diagonal().iter()).map(larger).fold(1.0, f64::max);
+    let variances = calibration.covariance.diagonal();
+    let all = slope.iter().zip(variances.iter()).map(larger);
+    let (quantity, most) =
+        calibration.quantities.iter().zip(all).max_by(|one, other| one.1.total_cmp(&other.1))?;
+    let (like, of_what) = match quantity {
+        ImuQuantity::GSensitivity(..) => ("looks like g-sensitivity", "the latter's"),
+        _ => ("adds to turns of known angle", "the gyroscope's"),
+    };
     (most > SIZEABLE).then(|| {
         format!(
-            "the Earth turns about the vertical by {EARTH_RATE_RADPS:.2e} rad/s times the sine of the latitude, which looks like g-sensitivity: not knowing it makes the latter's standard deviations \
+            "the Earth turns about the vertical by {EARTH_RATE_RADPS:.2e} rad/s times the sine of the latitude, which {like}: not knowing it makes {of_what} standard deviations \
              up to {most:.1} times larger; give holds.latitude_deg"
         )
     })

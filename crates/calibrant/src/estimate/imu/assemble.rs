@@ -4,7 +4,7 @@ use super::changing::Changing;
 use super::clocks::{ClockDifference, ClockRate};
 use super::contradiction::contradictions;
 use super::faces::First;
-use super::joint::{Fit, Joint, Miss, State};
+use super::joint::{Fit, HoldData, Joint, Miss, State};
 use super::magnitudes;
 use super::rates::{LocalBias, Path};
 use super::readings::{Integrable, Span};
@@ -16,7 +16,6 @@ use super::verdict;
 use super::weights::Weighed;
 use super::{ImuCalibration, ImuProblem, NoiseSource, RotationResult, StillGyroscope, TurnResult};
 use crate::error::Result;
-use crate::estimate::earth::{VERTICAL_VARIANCE, vertical_slope};
 use crate::estimate::gravity::gravity_slope;
 use crate::estimate::holds::left_out;
 use crate::estimate::one_sided::one_sided;
@@ -79,10 +78,7 @@ impl Finished<'_> {
         for (slope, sd) in self.common_slopes(&of_noise) {
             covariance += &slope * slope.transpose() * (sd * sd);
         }
-        if problem.setup.latitude_deg.is_none() {
-            let slope = vertical_slope(&joint.quantities, &prior_share, &imu, g.magnitude_mps2);
-            covariance += &slope * slope.transpose() * VERTICAL_VARIANCE;
-        }
+        let (of_vertical, north_rms_radps) = self.add_earth(&mut covariance)?;
         let before = self.gyroscope_before(problem);
         let rotations = self.rotations(&before);
         let counted = rotations.iter().filter(|rotation| rotation.used).count();
@@ -139,6 +135,8 @@ impl Finished<'_> {
             accelerometer_unit: problem.accelerometer.unit,
             gyroscope_unit: problem.gyroscope.unit,
             latitude_deg: problem.setup.latitude_deg,
+            of_vertical,
+            north_rms_radps,
             chi2: fit.chi2,
             degrees_of_freedom: equations.saturating_sub(unknowns),
             holds,
@@ -146,9 +144,11 @@ impl Finished<'_> {
                 noise: joint.gyroscope_noise.of_sample,
                 noise_source: self.noise_source,
                 within_holds_sd: StillNoise::of(self.scatter, self.coarse).of_sample,
-                between_holds_sd: self.between,
-                rate_rms_radps: self.rate_rms(&imu).ok_or_else(singular)?,
-                rate_rms_before_radps: self.rate_rms(&self.plain(&before)).ok_or_else(singular)?,
+                between_holds_sd: self.between_holds_sd(),
+                rate_rms_radps: self.rate_rms(&imu, problem.setup.vertical_rate()).ok_or_else(singular)?,
+                rate_rms_before_radps: self
+                    .rate_rms(&self.plain(&before), problem.setup.vertical_rate())
+                    .ok_or_else(singular)?,
             },
             gyroscope_before: before,
             rotations,
@@ -193,6 +193,38 @@ impl Finished<'_> {
         Ok(calibration)
     }
 
+    /// What the unknown rate of the Earth adds to a covariance: `D C Dᵀ`, with `C` that of its unknowns and `D = −K C⁻¹` how the estimates follow them, `K` the covariance of both. Gives how each
+    /// estimate follows the rate about the vertical, by one standard deviation of that, where it is unknown, and how large that about the north is.
+    fn add_earth(&self, covariance: &mut DMatrix<f64>) -> Result<(Option<DVector<f64>>, f64)> {
+        let (places, all) = (self.joint.gyroscope_places(), &self.weighed.covariance);
+        let count = all.nrows() - places.len();
+        let mut both = DMatrix::zeros(covariance.nrows(), count);
+        for (row, &k) in places.iter().enumerate() {
+            both.row_mut(k).copy_from(&all.view((row, places.len()), (1, count)));
+        }
+        let own = all.view((places.len(), places.len()), (count, count)).into_owned();
+        let of_vertical = self
+            .joint
+            .earth
+            .has_vertical()
+            .then(|| both.column(0) / own[(0, 0)].max(f64::MIN_POSITIVE).sqrt());
+        let north_rms_radps = self.joint.earth.north_rms(&own);
+        let follow = own.cholesky().ok_or_else(singular)?.solve(&both.transpose());
+        *covariance += both * follow;
+        Ok((of_vertical, north_rms_radps))
+    }
+
+    /// The scatter between holds, with that by the Earth's rate beyond what was given.
+    fn between_holds_sd(&self) -> Vector3<f64> {
+        let (joint, state) = (self.joint, &self.fit.state);
+        let found = |(j, hold): (usize, &HoldData)| {
+            let rate = joint.earth.rate_found(j, &state.forces[j]);
+            (state.imu.at(hold.temperature_c).gyroscope.matrix * rate).map(|reading| reading * reading)
+        };
+        let squares: Vector3<f64> = joint.holds.iter().enumerate().map(found).sum();
+        (squares / joint.holds.len() as f64 + self.between.component_mul(&self.between)).map(f64::sqrt)
+    }
+
     /// The rates of the sensors' clocks, and what is to be said of them.
     fn clocks(&self, problem: &ImuProblem<'_>) -> Option<(Option<ClockRate>, Option<String>)> {
         let (accelerometer, gyroscope) =
@@ -219,9 +251,9 @@ impl Finished<'_> {
                     of_rotations[k] -= by_parameter.dot(&weighted);
                 }
             }
-            for (hold, force) in joint.holds.iter().zip(&self.fit.state.forces) {
+            for (j, (hold, force)) in joint.holds.iter().zip(&self.fit.state.forces).enumerate() {
                 let Some((_, weight)) = &hold.gyroscope else { continue };
-                let (stimulus, temperature_c) = (force * joint.vertical_rate, hold.temperature_c);
+                let (stimulus, temperature_c) = (joint.earth.rate(j, force), hold.temperature_c);
                 let at = Condition { imu, stimulus, force: *force, temperature_c };
                 let shapes = force.push(joint.gravity) / joint.gravity;
                 for k in joint.gyroscope_places() {
@@ -241,13 +273,13 @@ impl Finished<'_> {
     }
 
     /// The mean rate that an IMU's gyroscope shows in the holds, root mean square over them; `None` where its matrix is singular.
-    fn rate_rms(&self, imu: &ImuParameters) -> Option<f64> {
+    fn rate_rms(&self, imu: &ImuParameters, vertical_rate: f64) -> Option<f64> {
         let (mut sum, mut count) = (0.0, 0);
         for (hold, force) in self.joint.holds.iter().zip(&self.fit.state.forces) {
             let Some((mean, _)) = &hold.gyroscope else { continue };
             let correction = Correction::of(&imu.at(hold.temperature_c).gyroscope)?;
             let rate = correction.apply(&(mean - imu.g_sensitivity * force));
-            sum += (rate - force * self.joint.vertical_rate).norm_squared();
+            sum += (rate - force * vertical_rate).norm_squared();
             count += 1;
         }
         Some((sum / f64::from(count.max(1))).sqrt())

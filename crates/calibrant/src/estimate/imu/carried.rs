@@ -1,5 +1,6 @@
 //! Rotations between holds that a calibration is tried on: what it needs of the recording, and gravity carried through them.
 
+use super::earth::Earth;
 use super::joint::{HoldData, Joint, Miss, State};
 use super::readings::{Integrable, felt_forces, rotation_spans};
 use super::settle::follow_drift;
@@ -91,7 +92,9 @@ pub(in crate::estimate) struct Carried {
     pub(in crate::estimate) by_to: Matrix2x3<f64>,
     /// Covariance of the error from the gyroscope's noise.
     pub(in crate::estimate) noise: Matrix2<f64>,
-    /// The same with the error of the rotation that ends with the hold that this one begins with; zero where there is none.
+    /// The same from the Earth's rate about the north, whose heading is not known.
+    pub(in crate::estimate) of_earth: Matrix2<f64>,
+    /// Covariance of the noise's error with that of the rotation that ends with the hold that this one begins with; zero where there is none.
     pub(in crate::estimate) noise_with_previous: Matrix2<f64>,
 }
 
@@ -102,6 +105,8 @@ pub(in crate::estimate) struct Carrying<'a> {
     pub(in crate::estimate) gravity_mps2: f64,
     /// The Earth's rate about the vertical over gravity, (rad/s)/(m/s²), where it is known.
     pub(in crate::estimate) vertical_rate: f64,
+    /// Standard deviation of each component of that about the north, rad/s.
+    pub(in crate::estimate) north_sd_radps: f64,
     /// Scatter of the gyroscope's bias between holds, in the unit of its readings.
     pub(in crate::estimate) between: Vector3<f64>,
     pub(in crate::estimate) accelerometer: &'a Recording,
@@ -146,7 +151,7 @@ impl Carrying<'_> {
         let mut joint = Joint {
             quantities: self.quantities.to_vec(),
             gravity: g,
-            vertical_rate: self.vertical_rate,
+            earth: Earth::at_place(self.vertical_rate, self.north_sd_radps, g),
             holds: data,
             rotations,
             turns: Vec::new(),
@@ -159,11 +164,16 @@ impl Carrying<'_> {
         let state = State { imu: *self.imu, forces };
         follow_drift(&mut joint, &state, &self.between);
         let misses = joint.misses(&state)?;
+        joint.earth.follow(&joint.rotations, &misses, &state.forces);
         let found = misses.iter().enumerate().filter_map(|(from, miss)| {
-            let span = &spans[from];
+            let (span, data) = (&spans[from], &joint.rotations[from]);
             let ends = (span.start_s, span.end_s);
             let previous = from.checked_sub(1).and_then(|before| misses[before].as_ref());
-            miss.as_ref().map(|miss| self.carried(from, ends, &state, miss, previous))
+            miss.as_ref().map(|miss| {
+                let by_earth = joint.earth.of_rotation(data, miss, &state.imu, &state.forces);
+                let of_earth = &by_earth * by_earth.transpose();
+                Carried { of_earth, ..self.carried(from, ends, &state, miss, previous) }
+            })
         });
         Some(found.collect())
     }
@@ -187,6 +197,7 @@ impl Carrying<'_> {
             by_from,
             by_to,
             noise: miss.covariance,
+            of_earth: Matrix2::zeros(),
             noise_with_previous: previous.map_or_else(Matrix2::zeros, |previous| {
                 miss.by_turn * miss.rotation.noise_with(&previous.rotation) * previous.by_turn.transpose()
             }),

@@ -63,10 +63,10 @@ impl Changing<'_> {
             places.iter().zip(places.iter().filter_map(|&place| self.stills[place])).enumerate()
         {
             let (force, temperature_c) = (self.fit.state.forces[place], joint.holds[place].temperature_c);
-            let at = Condition { imu, stimulus: force * joint.vertical_rate, force, temperature_c };
+            let at = Condition { imu, stimulus: joint.earth.rate(place, &force), force, temperature_c };
             let of_noise = joint.gyroscope_noise.variance(still.samples)[axis];
             let sd = (of_noise + self.between[axis].powi(2)).max(f64::MIN_POSITIVE).sqrt();
-            let expected = joint.at_rest(&imu.at(temperature_c), &force);
+            let expected = joint.at_rest(place, &imu.at(temperature_c), &force);
             errors[row] = (still.mean - expected)[axis] / sd;
             for (k, quantity) in quantities.iter().enumerate() {
                 parameters[(row, k)] = quantity.derivative(&at)[axis] / sd;

@@ -6,14 +6,15 @@
 //! | of | residual | unknowns |
 //! |---|---|---|
 //! | a hold, accelerometer | `ȳ_a − S_a f_j − b_a` | `f_j`, accelerometer |
-//! | a hold, gyroscope | `ȳ_g − b_g − Γ f_j − S_g κ f_j` | `f_j`, gyroscope |
-//! | a rotation | the arc from `f_k` to `Rᵀ f_i`: 2 numbers | `f_i`, `f_k`, gyroscope |
+//! | a hold, gyroscope | `ȳ_g − b_g − Γ f_j − S_g ω_j` | `f_j`, gyroscope |
+//! | a rotation | the arc from `f_k` to `Rᵀ (f_i + T ω_i × f_i)`: 2 numbers | `f_i`, `f_k`, gyroscope |
 //! | a turn of known angle | `∫ (y_g − b_g − Γ f − S_g κ f) dt − S_g φ e` | gyroscope |
 //!
-//! `S` and `b` are those at the temperature of the hold, the rotation or the turn. `κ f` is the Earth's rate about the vertical, `κ = Ω sin φ/g` at a known latitude φ; of a rotation it changes
-//! nothing, since a turn about gravity leaves gravity where it is. The rate about the north is scatter of the holds: the heading is not known.
+//! `S` and `b` are those at the temperature of the hold, the rotation or the turn. `ω_j = κ f_j + E_j h` is the Earth's rate ([`Earth`]), which is held fixed here and settled beside the weights; `T` is the
+//! duration of the rotation.
 
 use super::arc::Arc;
+use super::earth::Earth;
 use super::rates::Samples;
 use super::rotation::Rotation;
 use super::still::StillNoise;
@@ -82,8 +83,7 @@ impl TurnData {
 pub(super) struct Joint<'a> {
     pub(super) quantities: Vec<ImuQuantity>,
     pub(super) gravity: f64,
-    /// `κ`, (rad/s)/(m/s²); 0 where the latitude is not known.
-    pub(super) vertical_rate: f64,
+    pub(super) earth: Earth,
     pub(super) holds: Vec<HoldData>,
     pub(super) rotations: Vec<RotationData<'a>>,
     pub(super) turns: Vec<TurnData>,
@@ -169,7 +169,9 @@ impl Joint<'_> {
     /// What a rotation says at a state; `None` where the gyroscope's matrix is singular.
     pub(super) fn miss(&self, data: &RotationData<'_>, state: &State) -> Option<Miss> {
         let rotation = data.samples.integrate(&state.imu, &self.gyroscope_noise.of_sample)?;
-        let (from, to) = (state.forces[data.from], state.forces[data.from + 1]);
+        let (before, to) = (state.forces[data.from], state.forces[data.from + 1]);
+        // where the Earth turns gravity meanwhile
+        let from = before + self.earth.rate(data.from, &before).cross(&before) * data.samples.duration_s();
         let back = rotation.start_from_end.transpose();
         let arc = Arc::of(&(back * from / self.gravity), &(to / self.gravity));
         let by_turn = arc.by_missing * back * (from / self.gravity).cross_matrix();
@@ -185,7 +187,7 @@ impl Joint<'_> {
             by_reading * Matrix3::from_diagonal(&self.gyroscope_noise.of_mean) * by_reading.transpose();
         Some(Miss {
             error: arc.error,
-            by_from: arc.by_missing * back * tangents(&from),
+            by_from: arc.by_missing * back * tangents(&before),
             by_to: arc.by_missed,
             by_turn,
             by_parameters,
@@ -209,9 +211,9 @@ impl Joint<'_> {
             .collect()
     }
 
-    /// What the gyroscope of an IMU at its temperature reads at rest.
-    pub(super) fn at_rest(&self, imu: &ImuParameters, force: &Vector3<f64>) -> Vector3<f64> {
-        imu.gyroscope.reading(&(force * self.vertical_rate)) + imu.g_sensitivity * force
+    /// What the gyroscope of an IMU at its temperature reads in a hold.
+    pub(super) fn at_rest(&self, hold: usize, imu: &ImuParameters, force: &Vector3<f64>) -> Vector3<f64> {
+        imu.gyroscope.reading(&self.earth.rate(hold, force)) + imu.g_sensitivity * force
     }
 
     /// What a turn leaves unexplained.
@@ -225,7 +227,7 @@ impl Joint<'_> {
 
     /// The rotation of a turn, the Earth's about the vertical with it, rad.
     pub(super) fn turned(&self, turn: &TurnData) -> Vector3<f64> {
-        turn.angle + turn.force * self.vertical_rate
+        turn.angle + turn.force * self.earth.vertical_rate()
     }
 
     fn chi2(&self, state: &State, misses: &[Option<Miss>]) -> f64 {
@@ -235,14 +237,15 @@ impl Joint<'_> {
             .holds
             .iter()
             .zip(&state.forces)
-            .map(|(hold, force)| {
+            .enumerate()
+            .map(|(j, (hold, force))| {
                 let imu = imu.at(hold.temperature_c);
                 let r = hold.accelerometer - imu.accelerometer.reading(force);
                 let own = r.dot(&(hold.accelerometer_weight * r));
                 own + hold
                     .gyroscope
                     .as_ref()
-                    .map_or(0.0, |(mean, weight)| weighted(mean - self.at_rest(&imu, force), weight))
+                    .map_or(0.0, |(mean, weight)| weighted(mean - self.at_rest(j, &imu, force), weight))
             })
             .sum();
         let rotations: f64 = misses
@@ -325,10 +328,10 @@ impl Joint<'_> {
             let r = hold.accelerometer - imu.accelerometer.reading(force);
             add(imu.accelerometer.matrix, g, r, hold.accelerometer_weight);
             if let Some((mean, weight)) = &hold.gyroscope {
-                let stimulus = force * self.vertical_rate;
+                let stimulus = self.earth.rate(j, force);
                 let g = self.sensitivity(Triad::Gyroscope, &Condition { stimulus, ..felt });
-                let by_force = imu.g_sensitivity + imu.gyroscope.matrix * self.vertical_rate;
-                add(by_force, g, mean - self.at_rest(&imu, force), Matrix3::from_diagonal(weight));
+                let by_force = imu.g_sensitivity + imu.gyroscope.matrix * self.earth.vertical_rate();
+                add(by_force, g, mean - self.at_rest(j, &imu, force), Matrix3::from_diagonal(weight));
             }
             let counted =
                 |before: &usize| self.rotations.get(*before).is_some_and(|rotation| rotation.counts);

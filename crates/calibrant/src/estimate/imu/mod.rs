@@ -23,6 +23,7 @@ mod carried;
 mod changing;
 mod clocks;
 mod contradiction;
+mod earth;
 mod exchanged;
 mod faces;
 mod joint;

@@ -2,6 +2,7 @@
 
 use super::ThermalModel;
 use crate::estimate::HoldsSetup;
+use crate::estimate::earth::UNKNOWN_SD_RADPS;
 use crate::motion::{Hold, earth_rate, to_ms};
 use crate::sensor::{ImuQuantity, ImuRecording, ParameterList, ReadingUnit, Sensor, SensorModel, Triad};
 use nalgebra::Vector3;
@@ -51,7 +52,7 @@ impl Default for Gyroscope {
 pub struct ImuSetup {
     /// The holds.
     pub holds: HoldsSetup,
-    /// Geographic latitude, degrees, southern ones negative: the Earth's turn about the vertical is then part of the model. Where it is not known, it is part of the uncertainty of the g-sensitivity.
+    /// Geographic latitude, degrees, southern ones negative: the Earth's turn about the vertical is then part of the model. Where it is not known, it is estimated as far as the recording tells it, and part of the uncertainty, of the g-sensitivity above all.
     pub latitude_deg: Option<f64>,
     /// The holds that [`find_imu_holds`](crate::estimate::find_imu_holds) found in this recording, where none are given and that was done before, with sparks taken out before that ([`ImuRecording::without_sparks`]: they are not looked for again); `None` to find them.
     pub found: Option<Vec<Hold>>,
@@ -74,6 +75,14 @@ impl ImuSetup {
     pub(in crate::estimate) fn vertical_rate(&self) -> f64 {
         let rate = self.latitude_deg.map_or(0.0, |latitude_deg| earth_rate(latitude_deg).z);
         rate / self.holds.gravity.magnitude_mps2
+    }
+
+    /// Standard deviation of each component of the Earth's rate about the north, in a heading that is not known, rad/s: `Ω cos φ/√2`, or `Ω/√3` where the latitude is not known.
+    pub(in crate::estimate) fn north_sd(&self) -> f64 {
+        match self.latitude_deg {
+            Some(latitude_deg) => earth_rate(latitude_deg).x.abs() / 2.0_f64.sqrt(),
+            None => UNKNOWN_SD_RADPS,
+        }
     }
 
     /// What an IMU of these sensors consists of, in the order of a result: the accelerometer's quantities in its gauge, the gyroscope's, then what temperature does to both. What is

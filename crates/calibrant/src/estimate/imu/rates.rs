@@ -23,7 +23,7 @@ pub(super) struct LocalBias {
     pub(super) mean: Vector3<f64>,
     /// Specific force in it.
     pub(super) force: Vector3<f64>,
-    /// Known angular rate in it: the Earth's about the vertical, rad/s.
+    /// Angular rate in it: the Earth's, rad/s.
     pub(super) rate: Vector3<f64>,
     /// How far it counts against the mean bias of all, 0 to 1: the share of its variance that is a true deviation.
     pub(super) share: Vector3<f64>,
@@ -57,6 +57,11 @@ impl Samples<'_> {
     /// Mean temperature of the holds before and after, °C.
     pub(super) fn temperature_c(&self) -> f64 {
         middle(&self.drift)
+    }
+
+    /// How long it lasts, s.
+    pub(super) fn duration_s(&self) -> f64 {
+        self.times_s[self.times_s.len() - 1] - self.times_s[0]
     }
 
     /// How far and how fast it went by an IMU.

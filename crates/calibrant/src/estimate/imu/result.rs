@@ -3,7 +3,7 @@
 use super::{ClockRate, NoiseSource};
 use crate::estimate::{CalibrationStatus, Change, HoldCalibration, Uncalibrated, Validation};
 use crate::sensor::{CalibratedImu, Gauge, ImuParameters, ImuQuantity, ReadingUnit, SensorModel, Triad};
-use nalgebra::{DMatrix, Vector3};
+use nalgebra::{DMatrix, DVector, Vector3};
 
 /// A calibrated IMU: parameters, their one covariance, and everything needed to judge them.
 #[derive(Debug, Clone)]
@@ -30,6 +30,10 @@ pub struct ImuCalibration {
     pub gyroscope_unit: ReadingUnit,
     /// Geographic latitude by which the Earth's turn about the vertical is part of the model, degrees.
     pub latitude_deg: Option<f64>,
+    /// How each estimate is off by one standard deviation of the Earth's rate about the vertical, where the latitude is unknown.
+    pub(in crate::estimate) of_vertical: Option<DVector<f64>>,
+    /// Root mean square of each component of the Earth's rate about the north by this recording, rad/s.
+    pub(in crate::estimate) north_rms_radps: f64,
     /// Weighted sum of squares of all residuals.
     pub chi2: f64,
     /// Residuals less unknowns.
@@ -67,7 +71,7 @@ pub struct StillGyroscope {
     pub noise_source: NoiseSource,
     /// Standard deviation of one sample about the mean of its hold, whatever the noise was taken for; coarse steps make it no less than their own scatter.
     pub within_holds_sd: Vector3<f64>,
-    /// Standard deviation between holds beyond this noise: a wandering bias, the Earth's rotation, g-sensitivity that is not estimated.
+    /// Standard deviation between holds beyond this noise: a wandering bias, the Earth's rate about the north (and about the vertical, where the latitude is not known), g-sensitivity that is not estimated.
     pub between_holds_sd: Vector3<f64>,
     /// Root mean square over the holds of the mean rate that the calibrated gyroscope shows, less the Earth's about the vertical where the latitude is known, all axes together, rad/s.
     pub rate_rms_radps: f64,

@@ -14,7 +14,7 @@
 
 use super::rates::{LocalBias, Rates, Samples, middle};
 use crate::sensor::{ImuParameters, ImuQuantity, Quantity, ThermalPart, Triad, times};
-use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
+use nalgebra::{Matrix3, Matrix3xX, Quaternion, UnitQuaternion, Vector3};
 
 const TWELFTH: f64 = 1.0 / 12.0;
 
@@ -185,6 +185,18 @@ impl Rotation {
     /// How `δθ` follows an error of all its readings, the same throughout.
     pub(super) fn by_reading(&self) -> Matrix3<f64> {
         (self.by_start + self.by_end) * self.correction
+    }
+
+    /// How `δθ` follows readings in the holds before and after, which these take for their bias as far as they count.
+    pub(super) fn by_readings_at_ends(&self, readings: &[Matrix3xX<f64>; 2]) -> Matrix3xX<f64> {
+        let [start, end] = self.drift.map(|end| self.correction * Matrix3::from_diagonal(&end.share));
+        self.by_start * start * &readings[0] + self.by_end * end * &readings[1]
+    }
+
+    /// How `δθ` follows a g-sensitivity of these entries together that the bias of the holds knows nothing of.
+    pub(super) fn by_g_sensitivity(&self, entries: &Matrix3<f64>) -> Vector3<f64> {
+        let rates = self.correction * entries;
+        -(0..3).map(|column| self.by_force[column] * rates.column(column)).sum::<Vector3<f64>>()
     }
 
     /// Covariance of `δθ` with that of the rotation before, from the noise of the mean in the hold between them, by which both take the bias to be.

@@ -3,13 +3,14 @@
 use super::activity::with_clocks;
 use super::assemble::Finished;
 use super::both_still::find_clean_imu_holds;
+use super::earth::Earth;
 use super::exchanged::with_exchanged;
 use super::faces::{self, First};
 use super::joint::{HoldData, Joint, Misses, State};
 use super::mistaken_turns;
 use super::readings::{Integrable, felt_forces, rotation_spans, turns};
 use super::settle::{apply, follow_drift, reweigh, settle};
-use super::still::{Explanation, StillNoise, between_sd, still, weigh};
+use super::still::{Explanation, Means, StillNoise, between_sd, still, weigh};
 use super::thermal::{self, Climate};
 use super::verdict::{self, undetermined, vague};
 use super::{Gyroscope, ImuCalibration, ImuProblem, NoiseSource, WhiteNoise, start, turned};
@@ -81,18 +82,19 @@ fn fit(
     let by = Explanation {
         forces: problem.gyroscope.g_sensitivity.then_some(forces.as_slice()),
         of_earth: of_earth(problem, &forces),
+        by_earth: Vec::new(),
         tau_k: data.iter().map(|hold| thermal.tau_k(hold.temperature_c)).collect(),
         fixed: thermal.gyroscope,
         terms: std::array::from_fn(|axis| thermal::bias_terms(&quantities, prior.as_ref(), axis)),
     };
-    let between;
-    (between, thermal.gyroscope) = between_sd(&stills, &noise, &by);
+    let means = Means { stills: &stills, noise: &noise, by };
+    let mut between;
+    (between, thermal.gyroscope) = between_sd(&means);
     weigh(&mut data, &stills, &noise, &between);
     let start = start_values(problem, &first, &data, thermal);
 
     let feels = problem.gyroscope.g_sensitivity;
-    let vertical_rate = setup.vertical_rate();
-    let needs_forces = feels || (vertical_rate != 0.0 && !setup.turns.is_empty());
+    let needs_forces = feels || !setup.turns.is_empty();
     let felt = needs_forces.then(|| felt_forces(accelerometer, gyroscope, &first.sensor)).flatten();
     let spans = match setup.directions {
         // the sensor was put down anew on each face: what it went through in between says less than the turns
@@ -103,7 +105,7 @@ fn fit(
     let rotations = integrable.rotations(felt.as_deref().filter(|_| feels), &spans, &data);
     let mut joint = Joint {
         gravity: setup.holds.gravity.magnitude_mps2,
-        vertical_rate,
+        earth: Earth::of(setup, &quantities),
         holds: data,
         rotations,
         turns: turns(problem, &integrable, &noise, felt.as_deref(), (&start, &climate))?,
@@ -112,7 +114,7 @@ fn fit(
         prior,
         quantities,
     };
-    let mut state = State { imu: start, forces };
+    let mut state = State { imu: start, forces: forces.clone() };
     if setup.directions.is_some() {
         said.extend(mistaken_turns::turns(problem.gyroscope, &state.imu, &joint.turns, &setup.turns)?);
     }
@@ -137,25 +139,20 @@ fn fit(
     let before = state.imu;
     follow_drift(&mut joint, &state, &between);
     let misses = check(&joint, &state, settings).map_err(explained)?;
-    let (weighed, misses) = settle(&mut joint, &mut state, misses, &between)?;
+    let (weighed, misses) = settle(&mut joint, &mut state, misses, &means, &mut between)?;
     let rough = CalibrationSettings { tolerance: ROUGH, ..settings.clone() };
     let close = joint.fit(state, misses, &rough).ok_or_else(singular)?;
     // the weights once more, where directions and parameters go together
-    let weighed = match reweigh(&joint, &close.state, &close.misses)? {
-        Some(again) => {
-            let moved = (again.excess_rad - joint.excess_rad).abs() > 0.01 * joint.excess_rad;
-            if moved || again.used != weighed.used {
-                apply(&mut joint, &again);
-            }
-            again
-        }
-        None => weighed,
-    };
+    let again = reweigh(&joint, &close.state, &close.misses)?;
+    let moved = (again.excess_rad - joint.excess_rad).abs() > 0.01 * joint.excess_rad;
+    if moved || again.used != weighed.used {
+        apply(&mut joint, &again);
+    }
     let fit = joint.fit(close.state, close.misses, settings).ok_or_else(singular)?;
     let finished = Finished {
         joint: &joint,
         fit: &fit,
-        weighed: &weighed,
+        weighed: &again,
         before: &before,
         between,
         integrable: &integrable,

@@ -7,7 +7,7 @@ use crate::estimate::excess::excess;
 use crate::estimate::quantisation::of_means;
 use crate::motion::Hold;
 use crate::sensor::{MeanReading, Recording, ThermalTerm, TriadThermal};
-use nalgebra::{DMatrix, DVector, Vector3};
+use nalgebra::{DMatrix, DVector, Matrix3xX, Vector3};
 use rayon::prelude::*;
 
 /// The gyroscope between the times of a hold; `None` with fewer than two samples.
@@ -59,12 +59,23 @@ impl StillNoise {
     }
 }
 
+/// The means in the holds.
+pub(super) struct Means<'a> {
+    /// Of each hold.
+    pub(super) stills: &'a [Option<MeanReading>],
+    pub(super) noise: &'a StillNoise,
+    pub(super) by: Explanation<'a>,
+}
+
 /// What the means in the holds are explained by, beside a constant.
+#[derive(Clone)]
 pub(super) struct Explanation<'a> {
     /// The specific forces, where the gyroscope feels them.
     pub(super) forces: Option<&'a [Vector3<f64>]>,
     /// What the gyroscope reads of the Earth's turn about the vertical in each hold, where that is known and no force takes it up.
     pub(super) of_earth: Option<Vec<Vector3<f64>>>,
+    /// What the gyroscope reads in each hold of each unknown of the Earth's rate, which are known to be 0 ± 1; empty where they count as scatter.
+    pub(super) by_earth: Vec<Matrix3xX<f64>>,
     /// `τ` of each hold, K.
     pub(super) tau_k: Vec<f64>,
     /// Terms that are fixed.
@@ -74,14 +85,11 @@ pub(super) struct Explanation<'a> {
 }
 
 /// The scatter between holds that makes χ² equal its degrees of freedom (Paule and Mandel), per axis; each mean is explained by a constant, by the
-/// specific force where asked for, and by powers of the temperature, which are returned as well.
-pub(super) fn between_sd(
-    stills: &[Option<MeanReading>],
-    noise: &StillNoise,
-    by: &Explanation<'_>,
-) -> (Vector3<f64>, TriadThermal) {
+/// specific force where asked for, by powers of the temperature, which are returned as well, and by the Earth's rate.
+pub(super) fn between_sd(means: &Means<'_>) -> (Vector3<f64>, TriadThermal) {
+    let by = &means.by;
     let (mut between, mut thermal) = (Vector3::zeros(), by.fixed);
-    let fit = |axis: usize| Regression::new(stills, noise, by, axis).fit();
+    let fit = |axis: usize| Regression::new(means, axis).fit();
     let fits: Vec<Option<(f64, DVector<f64>)>> = (0..3).into_par_iter().map(fit).collect();
     for (axis, fit) in fits.into_iter().enumerate() {
         let solution = fit.map(|(sd, solution)| {
@@ -101,11 +109,14 @@ struct Regression {
     rows: Vec<(DVector<f64>, f64, f64)>,
     /// Inverse variance of each unknown beforehand.
     prior: DVector<f64>,
+    /// Number of the unknowns that are of the Earth's rate: the last.
+    of_earth: usize,
     degrees: f64,
 }
 
 impl Regression {
-    fn new(stills: &[Option<MeanReading>], noise: &StillNoise, by: &Explanation<'_>, axis: usize) -> Self {
+    fn new(means: &Means<'_>, axis: usize) -> Self {
+        let Means { stills, noise, by } = means;
         let terms = &by.terms[axis];
         let rows: Vec<(DVector<f64>, f64, f64)> = stills
             .iter()
@@ -118,6 +129,9 @@ impl Regression {
                 }
                 let tau_k = by.tau_k[j];
                 row.extend(terms.iter().map(|(term, ..)| term.power(tau_k)));
+                if let Some(by_earth) = by.by_earth.get(j) {
+                    row.extend(by_earth.row(axis).iter());
+                }
                 let expected: f64 = terms.iter().map(|(term, mean, _)| mean * term.power(tau_k)).sum();
                 let of_earth = by.of_earth.as_ref().map_or(0.0, |of_earth| of_earth[j][axis]);
                 let mean = still.mean[axis] - by.fixed.bias_change(tau_k)[axis] - expected - of_earth;
@@ -125,30 +139,39 @@ impl Regression {
             })
             .collect();
         let unknowns = rows.first().map_or(1, |(row, ..)| row.len());
+        let of_earth = by.by_earth.first().map_or(0, Matrix3xX::ncols);
         let mut prior = DVector::zeros(unknowns);
         for (k, (_, _, weight)) in terms.iter().enumerate() {
-            prior[unknowns - terms.len() + k] = *weight;
+            prior[unknowns - of_earth - terms.len() + k] = *weight;
         }
+        prior.rows_mut(unknowns - of_earth, of_earth).fill(1.0);
         let known = prior.iter().filter(|weight| **weight > 0.0).count();
         let degrees = (rows.len() + known).saturating_sub(unknowns) as f64;
-        Self { rows, prior, degrees }
+        Self { rows, prior, of_earth, degrees }
     }
 
-    /// χ² and the unknowns.
+    /// χ² and the unknowns. Those of the Earth's rate are the same for all axes and count with what is expected of their squares, `1 − c` with their variance `c`: at this latitude they may be another.
     fn solve(&self, between: f64) -> Option<(f64, DVector<f64>)> {
         let weight = |variance: f64| 1.0 / (variance + between * between).max(f64::MIN_POSITIVE);
         let (mut f, mut g) = (DMatrix::from_diagonal(&self.prior), DVector::zeros(self.prior.len()));
         for (row, mean, variance) in &self.rows {
-            f += row * row.transpose() * weight(*variance);
-            g += row * (weight(*variance) * mean);
+            f.syger(weight(*variance), row, row, 1.0);
+            g.axpy(weight(*variance) * mean, row, 1.0);
         }
-        let solution = f.cholesky()?.solve(&g);
+        let factor = f.cholesky()?;
+        let solution = factor.solve(&g);
+        let others = self.prior.len() - self.of_earth;
+        let of_earth: f64 = match self.of_earth {
+            0 => 0.0,
+            _ => factor.inverse().diagonal().rows(others, self.of_earth).map(|variance| 1.0 - variance).sum(),
+        };
         let chi2 = self
             .rows
             .iter()
             .map(|(row, mean, variance)| weight(*variance) * (mean - row.dot(&solution)).powi(2))
             .sum::<f64>();
-        Some((chi2 + solution.component_mul(&solution).dot(&self.prior), solution))
+        let known = solution.rows(0, others).map(|off| off * off).dot(&self.prior.rows(0, others));
+        Some((chi2 + known + of_earth, solution))
     }
 
     /// The scatter between holds with the unknowns; `None` where these are not determined.

@@ -4,6 +4,7 @@
 //! are asked for, they are therefore fitted first, with the accelerometer alone, and the scatter between holds with them (Paule and Mandel, degrees of
 //! freedom less these terms). The static fit is then made with the recording as it would be at the reference temperature: it tells the bad holds.
 
+use super::earth::Earth;
 use super::faces::{self, First};
 use super::joint::{Fit, HoldData, Joint, State};
 use super::placing::{Chi2, Degrees, Met, Placing, placing};
@@ -312,7 +313,7 @@ impl<'a> Alone<'a> {
             raw: chosen.iter().map(|&j| &raw[j]).collect(),
             joint: Joint {
                 gravity: problem.setup.holds.gravity.magnitude_mps2,
-                vertical_rate: 0.0,
+                earth: Earth::of(problem.setup, &quantities),
                 holds,
                 rotations: Vec::new(),
                 turns: Vec::new(),

@@ -2,9 +2,9 @@
 //!
 //! The noise of the samples explains only part of a rotation's error; the rest (scale factors that depend on the rate, a wandering bias, clocks, what the
 //! model lacks) is estimated from the scatter itself: the excess `σ_r` for which χ² of the rotations equals its degrees of freedom (Paule and Mandel), in the
-//! problem linearised at the present estimate, directions fixed (they are known ten times better than a rotation can tell).
+//! problem linearised at the present estimate, directions fixed (they are known ten times better than a rotation can tell). The Earth's rate is among its unknowns, after the gyroscope's quantities.
 
-use super::joint::{Joint, Miss};
+use super::joint::{Joint, Miss, State};
 use crate::estimate::excess::excess;
 use nalgebra::{DMatrix, DVector, Matrix2, Matrix2xX, Vector2};
 use std::f64::consts::FRAC_PI_2;
@@ -23,8 +23,10 @@ pub(super) struct Weighed {
     pub(super) used: Vec<bool>,
     /// Error of each rotation, its own influence removed, in standard deviations: `χ²` of two degrees of freedom.
     pub(super) studentised: Vec<f64>,
-    /// The step of the gyroscope's parameters that these weights ask for.
+    /// The step of the gyroscope's parameters that these weights ask for, and of the Earth's rate.
     pub(super) step: DVector<f64>,
+    /// Their covariance, directions fixed.
+    pub(super) covariance: DMatrix<f64>,
     /// Its length in standard deviations.
     pub(super) length: f64,
 }
@@ -37,6 +39,7 @@ impl Weighed {
             used: vec![false; rotations],
             studentised: vec![f64::INFINITY; rotations],
             step: DVector::zeros(0),
+            covariance: DMatrix::zeros(0, 0),
             length: 0.0,
         }
     }
@@ -46,34 +49,50 @@ impl Weighed {
 struct Linear<'a> {
     /// The rotations, each with its Jacobian.
     misses: Vec<Option<(&'a Miss, Matrix2xX<f64>)>>,
-    /// Number of the gyroscope's quantities.
+    /// Number of unknowns.
     size: usize,
     rest: DMatrix<f64>,
     rest_rhs: DVector<f64>,
+    told: usize,
+}
+
+/// What the data beside the rotations say of the unknowns.
+pub(super) struct Rest {
+    pub(super) information: DMatrix<f64>,
+    pub(super) rhs: DVector<f64>,
+    /// Number of unknowns that they tell: these take nothing of the rotations.
+    pub(super) told: usize,
 }
 
 /// Weighs the rotations of a problem, given their misses (`None` for those that cannot be used).
-pub(super) fn weigh(
+pub(super) fn weigh<'a>(
     joint: &Joint<'_>,
-    misses: &[Option<Miss>],
-    rest: &DMatrix<f64>,
-    rest_rhs: &DVector<f64>,
+    state: &State,
+    misses: &'a [Option<Miss>],
+    rest: Rest,
 ) -> Option<Weighed> {
     let places = joint.gyroscope_places();
-    let jacobian =
-        |miss: &Miss| Matrix2xX::from_fn(places.len(), |row, k| miss.by_parameters[(row, places[k])]);
+    let size = rest.rhs.len();
+    let jacobian = |(i, miss): (usize, &'a Miss)| {
+        let of_earth = joint.earth.of_rotation(&joint.rotations[i], miss, &state.imu, &state.forces);
+        let mut jacobian = Matrix2xX::zeros(size);
+        places.iter().enumerate().for_each(|(to, &k)| jacobian.set_column(to, &miss.by_parameters.column(k)));
+        jacobian.columns_mut(places.len(), of_earth.ncols()).copy_from(&of_earth);
+        (miss, jacobian)
+    };
     let linear = Linear {
-        misses: misses.iter().map(|miss| miss.as_ref().map(|miss| (miss, jacobian(miss)))).collect(),
-        size: places.len(),
-        rest: rest.clone(),
-        rest_rhs: rest_rhs.clone(),
+        misses: misses.iter().enumerate().map(|(i, miss)| Some(jacobian((i, miss.as_ref()?)))).collect(),
+        size,
+        rest: rest.information,
+        rest_rhs: rest.rhs,
+        told: rest.told,
     };
     let is_there: Vec<bool> = misses.iter().map(Option::is_some).collect();
     let all = count(&is_there);
     // those that end upside down are far from where the problem is linear, and a few of them would hide each other
     let upright: Vec<bool> =
         misses.iter().map(|miss| miss.as_ref().is_some_and(|miss| miss.error.norm() < FRAC_PI_2)).collect();
-    let are_enough = |used: &[bool]| 2 * count(used) > linear.size + 4;
+    let are_enough = |used: &[bool]| 2 * count(used) > places.len() + 4;
     let mut used = if are_enough(&upright) { upright } else { is_there };
     let mut excess;
     let mut solved;
@@ -99,6 +118,7 @@ pub(super) fn weigh(
                     studentised,
                     length: solved.length,
                     step: solved.step,
+                    covariance: solved.covariance,
                 });
             }
         }
@@ -158,12 +178,8 @@ impl Linear<'_> {
 
     /// The excess that makes χ² equal its degrees of freedom, zero where the noise explains the scatter.
     fn excess(&self, used: &[bool]) -> Option<(f64, Solved)> {
-        let count = used.iter().filter(|used| **used).count();
-        // what the holds say of the bias are as many equations as it has unknowns
-        let unknowns = self.size.saturating_sub((0..self.size).filter(|&k| self.rest[(k, k)] > 0.0).count());
-        let degrees = (2 * count).saturating_sub(unknowns) as f64;
         excess(
-            degrees,
+            (2 * count(used)).saturating_sub(self.size - self.told) as f64,
             |_| USUAL,
             |excess| {
                 let solved = self.solve(used, excess)?;

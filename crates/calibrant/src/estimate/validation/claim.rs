@@ -1,7 +1,7 @@
 //! What a calibration claims to know: the parameters, their covariance, and the scatter that it found.
 
 use super::statistics::Degrees;
-use crate::estimate::earth::{VERTICAL_VARIANCE, vertical_slope};
+use crate::estimate::earth::{UNKNOWN_SD_RADPS, vertical_slope};
 use crate::estimate::gravity::gravity_slope;
 use crate::estimate::{Calibration, HoldCalibration, ImuCalibration, ImuSetup};
 use crate::motion::{Gravity, Hold};
@@ -19,6 +19,8 @@ pub(super) struct Claim {
     pub(super) gravity_mps2: f64,
     /// The Earth's rate about the vertical over gravity there, (rad/s)/(m/s²); 0 where it is not known.
     pub(super) vertical_rate: f64,
+    /// Standard deviation of each component of the Earth's rate about the north there, rad/s.
+    pub(super) north_sd_radps: f64,
     /// Scatter between holds, m/s², and the degrees of freedom behind it.
     pub(super) between_holds_sd_mps2: f64,
     pub(super) holds_degrees: Degrees,
@@ -74,6 +76,10 @@ impl Claim {
             covariance: without_place(calibration, setup),
             gravity_mps2: gravity.magnitude_mps2,
             vertical_rate: setup.vertical_rate(),
+            north_sd_radps: match (calibration.latitude_deg, setup.latitude_deg) {
+                (None, None) => calibration.north_rms_radps,
+                _ => setup.north_sd(),
+            },
             between_holds_sd_mps2: between(calibration),
             holds_degrees: Degrees::of_scatter(used, accelerometer),
             within: within(holds),
@@ -105,6 +111,7 @@ impl Claim {
             covariance,
             gravity_mps2: gravity.magnitude_mps2,
             vertical_rate: 0.0,
+            north_sd_radps: 0.0,
             between_holds_sd_mps2: holds.between_holds_sd_mps2,
             holds_degrees: Degrees::of_scatter(used, quantities.len()),
             quantities,
@@ -187,13 +194,15 @@ fn between(calibration: &ImuCalibration) -> f64 {
 fn without_place(calibration: &ImuCalibration, setup: &ImuSetup) -> DMatrix<f64> {
     let ImuCalibration { covariance, quantities, imu, holds, .. } = calibration;
     let covariance = recentred(covariance, quantities, imu, &holds.gravity, &setup.holds.gravity);
-    let variance = match (calibration.latitude_deg, setup.latitude_deg) {
-        (None, None) => -VERTICAL_VARIANCE,
-        (Some(_), None) => VERTICAL_VARIANCE,
-        (_, Some(_)) => return covariance,
-    };
-    let slope = vertical_slope(quantities, &calibration.prior_share, imu, holds.gravity.magnitude_mps2);
-    covariance + &slope * slope.transpose() * variance
+    match (&calibration.of_vertical, setup.latitude_deg) {
+        (Some(slope), None) => covariance - slope * slope.transpose(),
+        (None, None) => {
+            let slope =
+                vertical_slope(quantities, &calibration.prior_share, imu, holds.gravity.magnitude_mps2);
+            covariance + &slope * slope.transpose() * UNKNOWN_SD_RADPS.powi(2)
+        }
+        (_, Some(_)) => covariance,
+    }
 }
 
 /// The covariance without the uncertainty of the calibration's gravity where the new one is the same, with that of both where it is not: an error of the new

@@ -161,6 +161,7 @@ impl<'a> Unused<'a> {
             quantities: &claim.quantities,
             gravity_mps2: claim.gravity_mps2,
             vertical_rate: claim.vertical_rate,
+            north_sd_radps: claim.north_sd_radps,
             between: claim.still_sd,
             accelerometer: self.accelerometer,
             gyroscope,
@@ -181,6 +182,7 @@ impl<'a> Unused<'a> {
                 + dense(&carried.by_to) * &after.by_parameters;
             let excess = Matrix2::identity() * claim.rotation_sd_rad.powi(2);
             let own = carried.noise
+                + carried.of_earth
                 + excess
                 + carried.by_from * before.own * carried.by_from.transpose()
                 + carried.by_to * after.own * carried.by_to.transpose()
