@@ -77,7 +77,7 @@ fn g_sensitivity(calibration: &ImuCalibration) -> Vec<usize> {
     (0..calibration.quantities.len()).filter(is).collect()
 }
 
-/// Errors of many sensors in standard deviations.
+/// Errors of sensors in standard deviations.
 struct Scores {
     /// Of the g-sensitivity's entries.
     g_sensitivity: Vec<f64>,
@@ -103,7 +103,7 @@ const RATE_HZ: f64 = 200.0;
 
 fn scores(known: bool) -> Scores {
     let count = 200_u64;
-    let found: Vec<(Vec<f64>, Vec<f64>, f64, f64, bool)> = (0..count)
+    let found: Vec<Scores> = (0..count)
         .into_par_iter()
         .map(|number| {
             let mut rng = stream(91, Purpose::Sensor, number);
@@ -126,18 +126,22 @@ fn scores(known: bool) -> Scores {
             let whole = errors.dot(&covariance.cholesky().expect("positive").solve(&errors)) / 9.0;
             let mean_sd = places.iter().map(|&k| sd[k]).sum::<f64>() / 9.0;
             let said = calibration.warnings.iter().any(|warning| warning.contains(SAID));
-            (places.iter().map(score).collect(), others.map(|k| score(&k)).collect(), whole, mean_sd, said)
+            Scores {
+                g_sensitivity: places.iter().map(score).collect(),
+                others: others.map(|k| score(&k)).collect(),
+                whole,
+                sd: mean_sd,
+                said: usize::from(said),
+            }
         })
         .collect();
-    let mean = |of: fn(&(Vec<f64>, Vec<f64>, f64, f64, bool)) -> f64| {
-        found.iter().map(of).sum::<f64>() / count as f64
-    };
+    let mean = |of: fn(&Scores) -> f64| found.iter().map(of).sum::<f64>() / count as f64;
     Scores {
-        g_sensitivity: found.iter().flat_map(|(z, ..)| z).copied().collect(),
-        others: found.iter().flat_map(|(_, z, ..)| z).copied().collect(),
-        whole: mean(|found| found.2),
-        sd: mean(|found| found.3),
-        said: found.iter().filter(|found| found.4).count(),
+        g_sensitivity: found.iter().flat_map(|found| found.g_sensitivity.clone()).collect(),
+        others: found.iter().flat_map(|found| found.others.clone()).collect(),
+        whole: mean(|found| found.whole),
+        sd: mean(|found| found.sd),
+        said: found.iter().map(|found| found.said).sum(),
     }
 }
 
