@@ -113,12 +113,12 @@ fn what_is_left_of_an_earlier_run_is_told() {
 #[test]
 fn a_result_takes_the_place_of_no_recording() {
     let bench = bench(&["summary.csv", "a.csv", "a/calibration.json", "b.csv"]);
-    let before = bench.read("summary.csv");
     for (command, file) in [
         ("summary.csv a.csv -o .", "summary.csv"),
         ("a.csv a/calibration.json b.csv -o .", "a/calibration.json"),
         ("a/calibration.json -o a", "a/calibration.json"),
     ] {
+        let before = bench.read(file);
         bench.refuses(
             &format!("{CALIBRATE} {command}"),
             2,
@@ -179,8 +179,12 @@ fn every_imu_is_calibrated_as_if_it_were_alone() {
     assert!(outcome.stdout.contains("3 calibrated, 1 failed: all/summary.csv"), "{outcome:?}");
     let summary = bench.read("all/summary.csv");
     let rows: Vec<Vec<&str>> = summary.lines().map(|row| row.split(',').collect()).collect();
-    assert_eq!(rows[0][..5], ["file", "status", "error", "holds", "holds_used"], "{summary}");
-    assert_eq!((rows[2][0], rows[2][1]), ("broken", "error"), "{summary}");
+    assert_eq!(
+        rows[0][..7],
+        ["file", "recording", "status", "error", "warnings", "holds", "holds_used"],
+        "{summary}"
+    );
+    assert_eq!(rows[2][..3], ["broken", "broken.csv", "error"], "{summary}");
     let column = |name: &str| rows[0].iter().position(|column| *column == name).expect(name);
     for (row, seed) in [(1, 1), (3, 2), (4, 3)] {
         bench.run(&format!("calibrate imu.toml imu{seed}.csv -o alone{seed}")).done();

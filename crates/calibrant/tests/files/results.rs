@@ -272,6 +272,6 @@ fn truth_and_summary() {
     write_summary(&path, &rows).expect("written");
     let expected = "file,recording,status,error,warnings,chi2,degrees_of_freedom,p_value,bias.x_mps2,bias.x_sd_mps2,scale.x,scale.x_sd\n\
                     \"bad,name\",\"a/bad,name.csv\",error,\"no \"\"rows\"\"\",,,,,,,,\n\
-                    good,a/good.csv,converged,,0,5.5,4,,0.5,0.5,2.0,0.5\n";
+                    good,a/good.csv,converged,,1,5.5,4,,0.5,0.5,2.0,0.5\n";
     assert_eq!(std::fs::read_to_string(path).expect("read"), expected);
 }

@@ -47,12 +47,12 @@ pub(super) const CASES: &[Case] = &[
     (
         "gauge = \"upper\"",
         "gauge = \"upper\"⏎[columns]⏎accelerometer_unit = \"deg/s\"",
-        r#"line 13, column 22: `columns.accelerometer_unit`: "deg/s" is not known here (one of "m/s²", "g", "counts")"#,
+        r#"line 13, column 22: `columns.accelerometer_unit`: "deg/s" is not known here (one of "m/s²", "g", "mg", "counts")"#,
     ),
     (
         "gauge = \"upper\"",
         "gauge = \"upper\"⏎[columns]⏎gyroscope_unit = \"rpm\"",
-        r#"line 13, column 18: `columns.gyroscope_unit`: "rpm" is not known here (one of "rad/s", "deg/s", "counts")"#,
+        r#"line 13, column 18: `columns.gyroscope_unit`: "rpm" is not known here (one of "rad/s", "deg/s", "mdps", "counts")"#,
     ),
     (
         "gauge = \"upper\"",
