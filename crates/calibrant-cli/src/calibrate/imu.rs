@@ -120,21 +120,23 @@ impl Job<'_> {
         let (accelerometer, gyroscope, recording) = (&experiment.sensor, &plan.gyroscope, &file.recording);
         let problem = ImuProblem { accelerometer, gyroscope, recording, setup: &setup };
         let longest = LongestHold::of(&setup, &file.recording);
-        let noise = |triad: Triad| longest.as_ref()?.noise(triad, recording);
-        let (mut of_gyroscope, mut white_noise) = (None, None);
-        let find_white_noise = || {
-            of_gyroscope = noise(Triad::Gyroscope);
-            white_noise = longest.as_ref()?.white_noise(of_gyroscope.as_ref()?);
-            white_noise
-        };
-        let (calibration, (inputs, of_accelerometer)) = rayon::join(
-            || calibrate_imu_while(&problem, &CalibrationSettings::default(), find_white_noise),
-            || {
-                let for_report = !arguments.no_report;
-                (files.inputs(&file), for_report.then(|| noise(Triad::Accelerometer)).flatten())
-            },
-        );
+        let noise = &|triad: Triad| longest.as_ref()?.noise(triad, recording);
+        let (mut of_accelerometer, mut of_gyroscope, mut white_noise) = (None, None, None);
+        let only_for_report = (!arguments.no_report).then_some(&mut of_accelerometer);
+        let calibration = rayon::scope(|scope| {
+            let find_white_noise = || {
+                of_gyroscope = noise(Triad::Gyroscope);
+                // beside the fit of the rotations, which leaves a processor idle at times
+                if let Some(found) = only_for_report {
+                    scope.spawn(move |_| *found = noise(Triad::Accelerometer));
+                }
+                white_noise = longest.as_ref()?.white_noise(of_gyroscope.as_ref()?);
+                white_noise
+            };
+            calibrate_imu_while(&problem, &CalibrationSettings::default(), find_white_noise)
+        });
         let mut calibration = calibration.map_err(|error| in_file(error, files.path))?;
+        let inputs = files.inputs(&file);
         calibration.warnings.splice(0..0, sparks);
         calibration.warnings.extend(of_gyroscope.iter().flat_map(TriadNoise::of_outliers));
         setup.white_noise = white_noise;
