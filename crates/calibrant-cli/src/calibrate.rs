@@ -21,6 +21,7 @@ use calibrant::io::{
 use calibrant::motion::CommandedMotion;
 use calibrant::report::{About, calibration_report, number};
 use calibrant::sensor::{ReadingUnit, Recording};
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 /// Calibrate sensors from their recordings.
@@ -73,23 +74,17 @@ const RESULTS: [&str; 3] = ["calibration.json", "report.html", "summary.csv"];
 
 /// A report that is not written anew is not that of the calibration beside it.
 fn warn_of_earlier_report(directory: &Path) {
-    let report = directory.join("report.html");
-    if report.exists() {
-        console::warn(&format!(
-            "{} is that of an earlier calibration: --no-report writes none",
-            report.display()
-        ));
-    }
+    warn_of_earlier(&directory.join("report.html"), "calibration: --no-report writes none");
 }
 
 /// What is left of an earlier run is not the result of one that failed.
 fn warn_of_earlier_result(directory: &Path) {
-    let calibration = directory.join("calibration.json");
-    if calibration.exists() {
-        console::warn(&format!(
-            "{} is that of an earlier recording: this one has none",
-            calibration.display()
-        ));
+    warn_of_earlier(&directory.join("calibration.json"), "recording: this one has none");
+}
+
+fn warn_of_earlier(file: &Path, what: &str) {
+    if file.exists() {
+        console::warn(&format!("{} is that of an earlier {what}", file.display()));
     }
 }
 
@@ -99,12 +94,11 @@ impl Arguments {
         let others =
             [&self.motion, &self.sections, &self.validate, &self.validate_gyroscope].into_iter().flatten();
         let inputs = self.recordings.iter().chain(&self.gyroscope).chain([&self.experiment]).chain(others);
-        for input in inputs.filter(|input| {
-            input.file_name().is_some_and(|name| RESULTS.iter().any(|result| name == *result))
-        }) {
+        for input in inputs {
+            let is_taken = |name: &&OsStr| RESULTS.iter().any(|result| *name == *result);
+            let Some(name) = input.file_name().filter(is_taken) else { continue };
             for folder in folders {
-                let output = self.output.join(folder).join(input.file_name().unwrap_or_default());
-                place::check_not_input(&output, &[input])?;
+                place::check_not_input(&self.output.join(folder).join(name), &[input])?;
             }
         }
         Ok(())

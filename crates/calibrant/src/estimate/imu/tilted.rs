@@ -26,6 +26,7 @@ pub(super) fn find(look: &FirstLook, gains: &[Matrix3<f64>], is_scaled: bool) ->
         return None;
     }
     let judged = |matrix: Matrix3<f64>| Some((look.judge(&matrix)?.median_rad, matrix));
+    let by_error = |one: &(f64, Matrix3<f64>), other: &(f64, Matrix3<f64>)| one.0.total_cmp(&other.0);
     // −1, 0 or 1 along each axis
     let digit = |k: i32, place: u32| f64::from(k / 3_i32.pow(place) % 3 - 1);
     let offsets = (0..27).map(|k| turned_by(MESH * Vector3::new(digit(k, 0), digit(k, 1), digit(k, 2))));
@@ -33,12 +34,10 @@ pub(super) fn find(look: &FirstLook, gains: &[Matrix3<f64>], is_scaled: bool) ->
     let orders = orders();
     let attitudes: Vec<Matrix3<f64>> =
         orders.iter().flat_map(|order| offsets.iter().map(move |offset| order * offset)).collect();
-    let knot = |attitude: &Matrix3<f64>| {
-        let all = gains.iter().filter_map(|gain| judged(gain * attitude));
-        all.min_by(|one, other| one.0.total_cmp(&other.0))
-    };
+    let knot =
+        |attitude: &Matrix3<f64>| gains.iter().filter_map(|gain| judged(gain * attitude)).min_by(by_error);
     let mut knots: Vec<(f64, Matrix3<f64>)> = attitudes.par_iter().filter_map(knot).collect();
-    knots.sort_by(|one, other| one.0.total_cmp(&other.0));
+    knots.sort_by(by_error);
     knots.truncate(BEST);
     let improved = |(mut least, mut matrix): (f64, Matrix3<f64>)| {
         for angle in TURNS {
@@ -48,7 +47,7 @@ pub(super) fn find(look: &FirstLook, gains: &[Matrix3<f64>], is_scaled: bool) ->
             let changes: Vec<Matrix3<f64>> = turns.chain(scales).collect();
             for _ in 0..ROUNDS {
                 let tries = changes.iter().filter_map(|change| judged(matrix * change));
-                match tries.min_by(|one, other| one.0.total_cmp(&other.0)) {
+                match tries.min_by(by_error) {
                     Some(better) if better.0 < least => (least, matrix) = better,
                     _ => break,
                 }
@@ -56,7 +55,7 @@ pub(super) fn find(look: &FirstLook, gains: &[Matrix3<f64>], is_scaled: bool) ->
         }
         (least, matrix)
     };
-    knots.into_par_iter().map(improved).min_by(|one, other| one.0.total_cmp(&other.0))
+    knots.into_par_iter().map(improved).min_by(by_error)
 }
 
 /// By how much and about what the gyroscope is turned, in words.
