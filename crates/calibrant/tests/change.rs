@@ -10,7 +10,7 @@ use calibrant::estimate::{
 use calibrant::report::validation_sentences;
 use calibrant::sensor::{ImuRecording, ReadingUnit, Sensor, SensorModel, Triad};
 use calibrant::simulate::{ImuSimulation, Purpose, simulate_imu, stream};
-use common::{draw_imu, normal};
+use common::{draw_imu, normal, run_imu};
 use nalgebra::Vector3;
 use rayon::prelude::*;
 
@@ -20,10 +20,8 @@ fn simulated(seed: u64, number: u64, simulation: &ImuSimulation) -> ImuRecording
 }
 
 fn run(recording: &ImuRecording, gyroscope: &Gyroscope) -> ImuCalibration {
-    let accelerometer = Sensor::triaxial(SensorModel::Full);
-    let setup = ImuSetup::default();
-    let problem = ImuProblem { accelerometer: &accelerometer, gyroscope, recording, setup: &setup };
-    calibrate_imu(&problem, &CalibrationSettings::default()).expect("determined")
+    let unit = ReadingUnit::MetrePerSecondSquared;
+    run_imu(recording, gyroscope, &ImuSetup::default(), unit).expect("determined")
 }
 
 /// From a time on, one axis of a sensor reads `gain` times as much and `bias` more.

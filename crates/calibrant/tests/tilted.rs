@@ -2,21 +2,15 @@
 
 mod common;
 
-use calibrant::estimate::{
-    CalibrationSettings, Gyroscope, ImuCalibration, ImuProblem, ImuSetup, calibrate_imu,
-};
-use calibrant::sensor::{ImuParameters, ImuRecording, ReadingUnit, Sensor, SensorModel};
+use calibrant::estimate::{Gyroscope, ImuCalibration, ImuSetup};
+use calibrant::sensor::{ImuParameters, ImuRecording, ReadingUnit};
 use calibrant::simulate::{ImuSimulation, Purpose, simulate_imu, stream};
-use common::{draw_imu, normal};
+use common::{draw_imu, normal, run_imu};
 use nalgebra::{Matrix3, Rotation3, Unit, UnitQuaternion, Vector4};
 
 fn run(recording: &ImuRecording, unit: ReadingUnit) -> calibrant::Result<ImuCalibration> {
-    let accelerometer = Sensor::triaxial(SensorModel::Full);
     let gyroscope = Gyroscope { unit, ..Gyroscope::default() };
-    let setup = ImuSetup::default();
-    let problem =
-        ImuProblem { accelerometer: &accelerometer, gyroscope: &gyroscope, recording, setup: &setup };
-    calibrate_imu(&problem, &CalibrationSettings::default())
+    run_imu(recording, &gyroscope, &ImuSetup::default(), ReadingUnit::MetrePerSecondSquared)
 }
 
 /// An IMU whose gyroscope reads by this matrix more.

@@ -1,8 +1,13 @@
 //! IMUs, simulated and recorded.
 
+use calibrant::estimate::{
+    CalibrationSettings, Gyroscope, ImuCalibration, ImuProblem, ImuSetup, calibrate_imu,
+};
 use calibrant::io::{ImuReadOptions, ImuUnit, read_imu_pair};
 use calibrant::motion::Gravity;
-use calibrant::sensor::{Gauge, ImuParameters, ImuRecording, SensorParameters, Thermal};
+use calibrant::sensor::{
+    Gauge, ImuParameters, ImuRecording, ReadingUnit, Sensor, SensorModel, SensorParameters, Thermal,
+};
 use calibrant::simulate::Rng;
 use nalgebra::{Matrix3, Vector3};
 use rand_distr::{Distribution, StandardNormal};
@@ -33,4 +38,31 @@ pub(crate) fn draw_imu(rng: &mut Rng) -> ImuParameters {
     let accelerometer = Gauge::Upper.apply(&sensor(0.1, 0.01));
     let gyroscope = sensor(0.02, 0.01);
     ImuParameters { accelerometer, gyroscope, g_sensitivity: Matrix3::zeros(), thermal: Thermal::none() }
+}
+
+/// An IMU of the size of MEMS errors, with g-sensitivity.
+pub(crate) fn draw_feeling_imu(rng: &mut Rng) -> ImuParameters {
+    let imu = draw_imu(rng);
+    ImuParameters { g_sensitivity: Matrix3::from_fn(|_, _| 2e-4 * normal(rng)), ..imu }
+}
+
+/// A triaxial accelerometer with cross terms; of counts its gain is not known.
+fn accelerometer(unit: ReadingUnit) -> Sensor {
+    let sensor = Sensor::triaxial(SensorModel::Full);
+    match unit {
+        ReadingUnit::Counts => Sensor { unit, gain: None, offset: None, ..sensor },
+        _ => sensor,
+    }
+}
+
+/// Calibrates an IMU from holds and rotations.
+pub(crate) fn run_imu(
+    recording: &ImuRecording,
+    gyroscope: &Gyroscope,
+    setup: &ImuSetup,
+    unit: ReadingUnit,
+) -> calibrant::Result<ImuCalibration> {
+    let accelerometer = accelerometer(unit);
+    let problem = ImuProblem { accelerometer: &accelerometer, gyroscope, recording, setup };
+    calibrate_imu(&problem, &CalibrationSettings::default())
 }

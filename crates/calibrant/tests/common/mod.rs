@@ -6,4 +6,4 @@ mod data;
 mod imu;
 
 pub(crate) use data::shared_data;
-pub(crate) use imu::{draw_imu, normal, xsens};
+pub(crate) use imu::{draw_feeling_imu, draw_imu, normal, run_imu, xsens};
