@@ -53,7 +53,9 @@ pub(crate) fn dependencies(manifest: &str) -> BTreeSet<String> {
     for line in manifest.lines().map(str::trim) {
         if let Some(section) = line.strip_prefix('[') {
             inside = section.starts_with("dependencies]");
-            names.extend(section.strip_prefix("dependencies.").map(|name| name.trim_end_matches(']').to_owned()));
+            names.extend(
+                section.strip_prefix("dependencies.").map(|name| name.trim_end_matches(']').to_owned()),
+            );
         } else if inside && !line.starts_with('#') {
             let name = line.split(['.', ' ', '=']).next().unwrap_or_default();
             names.extend((!name.is_empty()).then(|| name.to_owned()));

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::modules::{Modules, Path};
+use super::modules::{Modules, Path};
 
 /// For each file the files it uses, each with a path that it names.
 #[derive(Debug, Default)]
@@ -47,7 +47,11 @@ impl Graph {
         let mut circles = Vec::new();
         let mut seen = BTreeSet::new();
         for (file, from) in &reached {
-            let circle: Vec<&str> = from.iter().copied().filter(|other| reached[other].contains(file)).collect();
+            let circle: Vec<&str> = from
+                .iter()
+                .copied()
+                .filter(|other| reached.get(other).is_some_and(|back| back.contains(file)))
+                .collect();
             if circle.len() > 1 && seen.insert(circle.clone()) {
                 circles.push(circle);
             }
@@ -70,7 +74,7 @@ impl Graph {
         let mut reached = BTreeSet::new();
         let mut open = vec![start];
         while let Some(file) = open.pop() {
-            for used in self.edges[file].keys() {
+            for used in self.edges.get(file).into_iter().flat_map(BTreeMap::keys) {
                 if reached.insert(used.as_str()) {
                     open.push(used);
                 }

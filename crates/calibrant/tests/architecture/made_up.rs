@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use crate::crates::dependencies;
-use crate::graph::Graph;
-use crate::modules::Modules;
+use super::crates::dependencies;
+use super::graph::Graph;
+use super::modules::Modules;
 
 fn graph(sources: &[(&str, &str)]) -> Graph {
     let mut modules = Modules::default();
@@ -109,11 +109,17 @@ fn every_way_of_naming_is_followed() {
         ("a/one.rs", "use crate::{\n    two::{self, Two},\n    three::deep::*,\n};\nfn f() { two::g(); X }"),
         ("a/two.rs", "pub struct Two; pub fn g() { self::h(); } fn h() {}"),
         ("a/three/mod.rs", "pub mod deep; use crate::two::Two;"),
-        ("a/three/deep.rs", "pub const X: u8 = 0; fn f(_: super::Two) {} fn g() { super::super::four::fit(); }"),
+        (
+            "a/three/deep.rs",
+            "pub const X: u8 = 0; fn f(_: super::Two) {} fn g() { super::super::four::fit(); }",
+        ),
         ("a/four.rs", "pub mod fit; pub use fit::fit; fn f() { crate::five!(); }"),
         ("a/four/fit.rs", "pub fn fit() {} pub enum Kind { A } fn f() { use self::Kind::A; }"),
         ("a/five.rs", "macro_rules! five { () => {} } pub(crate) use five;"),
-        ("a/six.rs", "use crate::four::fit; fn f(_: fit::Kind, v: Vec<crate::two::Two>) { <crate::three::deep::X>::x() }"),
+        (
+            "a/six.rs",
+            "use crate::four::fit; fn f(_: fit::Kind, v: Vec<crate::two::Two>) { <crate::three::deep::X>::x() }",
+        ),
     ]);
     assert_eq!(uses(&graph, "a/one.rs"), ["a/three/deep.rs", "a/two.rs"]);
     assert!(uses(&graph, "a/two.rs").is_empty());

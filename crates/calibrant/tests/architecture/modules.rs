@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::tokens::{after_group, tokens};
+use super::tokens::{after_group, tokens};
 
 /// A path as it is written: `crate::sensor::Imu`.
 pub(crate) type Path = Vec<String>;
@@ -74,7 +74,8 @@ impl Modules {
                 "{" | "(" | "[" => depth += 1,
                 "}" | ")" | "]" => depth -= 1,
                 "use" if at(place + 1) != "<" => {
-                    let end = (place..tokens.len()).find(|place| tokens[*place] == ";").unwrap_or(tokens.len());
+                    let end =
+                        (place..tokens.len()).find(|place| tokens[*place] == ";").unwrap_or(tokens.len());
                     self.read_use(module, &tokens[place + 1..end], is_public(&tokens[..place]));
                     place = end;
                 }

@@ -85,7 +85,8 @@ fn after_raw_string(signs: &[char], start: usize) -> Option<usize> {
         return None;
     }
     let closes = |place: &usize| {
-        signs[*place] == '"' && signs[place + 1..].iter().take(hashes).filter(|sign| **sign == '#').count() == hashes
+        signs[*place] == '"'
+            && signs[place + 1..].iter().take(hashes).filter(|sign| **sign == '#').count() == hashes
     };
     Some((open + 1..signs.len()).find(closes).map_or(signs.len(), |place| place + 1 + hashes))
 }
