@@ -55,10 +55,10 @@ IMU_EDITS = [
     ("unit", '"radps"', '"rpm"'),
     ("many-poses", "poses = 24", "poses = 1000000000"),
     ("too-many-samples", "poses = 24", "poses = 1000000"),
-    ("known-name", "[holds]", '[known]\n"gyroscope.bais.x" = 0.1\n[holds]'),
-    ("known-sd", "[holds]", '[known]\n"gyroscope.scale.x" = { value = 1.0, sd = 1e-200 }\n[holds]'),
-    ("temperature-order", "[holds]", "[temperature]\ngyroscope_bias = 3\n[holds]"),
-    ("columns-unit", "[holds]", '[columns]\naccelerometer_unit = "furlong"\n[holds]'),
+    ("known-name", "\n[holds]", '\n[known]\n"gyroscope.bais.x" = 0.1\n[holds]'),
+    ("known-sd", "\n[holds]", '\n[known]\n"gyroscope.scale.x" = { value = 1.0, sd = 1e-200 }\n[holds]'),
+    ("temperature-order", "\n[holds]", "\n[temperature]\ngyroscope_bias = 3\n[holds]"),
+    ("columns-unit", "\n[holds]", '\n[columns]\naccelerometer_unit = "furlong"\n[holds]'),
     ("turn-axis", "g_sensitivity = true", 'turns = [{ start_s = 7.0, end_s = 11.0, axis = "w", angle_deg = 360.0 }]'),
     ("interval-backwards", "poses = 24", "intervals_s = [[5.0, 1.0], [6.0, 9.0]]"),
     ("intervals-overlap", "poses = 24", "intervals_s = [[1.0, 5.0], [4.0, 9.0]]"),
@@ -507,7 +507,7 @@ def binaries(maker, case):
     dot += "".join(",".join([str(place), str((4294000000 + 20000 * place) % 2**32), *map(repr, row[1:4] + scaled(row, [4, 5, 6], 57.29577951308232)[4:7])]) + "\n" for place, row in enumerate(table.rows))
     plain = "".join(" ".join(map(repr, row)) + "\n" for row in table.rows)
     for name, text in {"euroc.csv": euroc, "mt.txt": mt, "dot.csv": dot, "plain.txt": plain, "semicolons.csv": recording.replace(",", ";"), "tabs.txt": recording.replace(",", "\t")}.items():
-        yield case(f"format/{name}", [f"calibrate hand.toml {name} --no-report -o result", f"inspect {name}", f"inspect {name} --json"], {"hand.toml": hand, name: text})
+        yield case(f"format/{name}", [f"calibrate hand.toml {name} --no-report -o result", f"calibrate file.toml {name} --no-report -o result", f"inspect {name}", f"inspect {name} --json"], {"hand.toml": hand, "file.toml": edited(hand, 'unit = "radps"', ""), name: text})
 
 
 # --- calibrations in files ---

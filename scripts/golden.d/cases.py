@@ -303,13 +303,13 @@ def real_cases(maker, data):
     case("xsens-exchanged", ["calibrate imu.toml gyro.mat --gyroscope acc.mat -o result"], pair, {"imu.toml": counts})
     case("xsens-accelerometer", ["calibrate static.toml acc.mat -o result", "calibrate static.toml acc.mat --folds 5 --json -o folds", "convert result/calibration.json acc.calib"], {"acc.mat": pair["acc.mat"]}, {"static.toml": static_counts})
     case("xsens-inspect", [f"inspect acc.mat gyro.mat {units}", f"inspect acc.mat --gyroscope gyro.mat {units} --json", "inspect acc.mat gyro.mat"], pair)
-    case("xsens-noise", ["noise acc.mat --gyroscope gyro.mat --gain 414 --gyroscope-gain 4778,4758,4766 -o noise", "noise acc.mat --json", "noise gyro.mat --sensor gyroscope --unit counts --json"], pair)
+    case("xsens-noise", ["noise acc.mat --gyroscope gyro.mat --gain 414 --gyroscope-gain 4778,4758,4766 -o noise", "noise acc.mat --unit counts --json", "noise gyro.mat --sensor gyroscope --unit counts --json"], pair)
 
     ferraris = {"session.csv": "imucal-ferraris/example_ferraris_session.csv", "list.json": "imucal-ferraris/example_ferraris_session_list.json"}
     preset = maker.preset("ferraris")
-    case("ferraris", ["calibrate ferraris.toml session.csv --sections list.json -o result", "convert result/calibration.json out.json --to imucal --drop-g-sensitivity", "apply result/calibration.json session.csv --columns ferraris.toml -o out.csv"], ferraris, {"ferraris.toml": preset})
+    case("ferraris", ["calibrate ferraris.toml session.csv --sections list.json -o result", "convert result/calibration.json out.json --to imucal --drop-g-sensitivity", "apply result/calibration.json session.csv --columns ferraris.toml --gyroscope-unit deg/s -o out.csv"], ferraris, {"ferraris.toml": preset})
     case("ferraris-variants", ["calibrate ferraris.toml session.csv --sections list.json --json --no-report -o result", "calibrate ferraris.toml session.csv --json -o none"], ferraris, {"ferraris.toml": replaced(preset, ("g_sensitivity = true", "g_sensitivity = false"), ("# face_sd_deg", "face_sd_deg"))})
-    case("ferraris-inspect", ["inspect session.csv", "inspect session.csv --rate-hz 102.4 --accelerometer-unit m/s2 --json", "noise session.csv --columns ferraris.toml --json"], ferraris, {"ferraris.toml": preset})
+    case("ferraris-inspect", ["inspect session.csv", "inspect session.csv --rate-hz 102.4 --accelerometer-unit m/s2 --gyroscope-unit deg/s --json", "noise session.csv --columns ferraris.toml --gyroscope-unit deg/s --json"], ferraris, {"ferraris.toml": preset})
 
     for name, file in [("tab", "MT2022_ACC_GYRO_ROT_ALL_TAB_NAN_00B42D4B"), ("semicolon", "MT2022_ACC_GYRO_ROT_MAT_SEMICOLON_00B42D4B"), ("old", "MT46_01-000_00B42D4D"), ("no-sensors", "MT_012005D6-000_sit_to_stand-000_00B421ED")]:
         commands = ["inspect mt.txt", "inspect mt.txt --rate-hz 60 --json", "calibrate imu.toml mt.txt -o result", "noise mt.txt --rate-hz 60 --json"]
