@@ -300,6 +300,23 @@ def noisy(table, force_sd, rate_sd):
     return table.each(lambda _, row: [row[0], *(value + source.gauss(0, force_sd) for value in row[1:4]), *(value + source.gauss(0, rate_sd) for value in row[4:])])
 
 
+def noise_faults(recording):
+    """Name and text of recordings of an IMU at rest, each with one thing wrong."""
+    table = Table(recording)
+    table.rows = table.rows[:8000]
+    yield "spikes", table.each(lambda place, row: with_cell(row, 1 + place % 6, row[1 + place % 6] + 0.8) if place % 401 == 77 else row)
+    yield "many-spikes", table.each(lambda place, row: with_cell(row, 4, row[4] + 0.5) if place % 31 == 7 else row)
+    yield "wild", table.each(lambda place, row: with_cell(row, 2, 1e200) if place == 3000 else row)
+    yield "filtered", filtered(table, 0.9)
+    yield "vibrating", table.each(lambda place, row: with_cell(row, 3, row[3] + (0.2 if place % 8 < 4 else -0.2)))
+    yield "drifting", table.each(lambda place, row: with_cell(row, 6, row[6] + 1e-6 * place))
+    yield "rounded", table.each(lambda _, row: [row[0], *(round(value, 1) for value in row[1:4]), *(round(value, 2) for value in row[4:])])
+    yield "dead", table.each(lambda _, row: with_cell(row, 5, 0.0))
+    yield "gap", table.text(table.rows[:3000] + table.rows[3500:])
+    yield "short", table.text(table.rows[:150])
+    yield "moving", noisy(table, 5.0, 2.0)
+
+
 def imus(maker, case):
     hand, recording = quick_imu(maker)
     table = Table(recording)
@@ -307,6 +324,11 @@ def imus(maker, case):
         options = "--folds 3 " if name in ("bias-jumps", "spikes") else ""
         report = "" if name in ("gap", "wild-samples", "saturated-rate", "clock-offset", "rate-in-degrees") else "--no-report "
         yield case(f"imu/{name}", [f"calibrate hand.toml recording.csv {options}{report}-o result", "inspect recording.csv --json"], {"hand.toml": hand, "recording.csv": text})
+
+    good = maker.calibrated(hand, recording)
+    for name, text in imu_faults(table):
+        if name in ("nan-scattered", "wild-sample", "saturated-rate", "gap", "times-twice", "lost-gyroscope", "force-in-g", "no-units", "column-twice"):
+            yield case(f"apply/{name}", "apply good.json recording.csv -o true.csv", {"good.json": good, "recording.csv": text})
 
     half = len(table.rows) // 2
     other = Table(maker.simulated(hand, "--seed 3 --recording 2")["recording.csv"])

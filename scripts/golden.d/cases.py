@@ -8,7 +8,7 @@ import shlex
 import subprocess
 from pathlib import Path
 
-from broken import broken_cases
+from broken import broken_cases, noise_faults
 
 PRESETS = ("report", "report-unknown", "report-noisy", "static-poses", "static-poses-counts", "imu", "imu-counts", "ferraris")
 FORMATS = ("imu.json", "imu.yaml", "imu.h")
@@ -101,10 +101,11 @@ def preset_cases(maker):
         motion = " --motion made/motion.csv" if name.startswith("report") else ""
         commands.append(f"calibrate preset.toml made/recording.csv{motion} -o result")
         if motion:
-            commands.append("design preset.toml --starts 2 --no-certificate -o best")
+            commands += ["design preset.toml --starts 2 --no-certificate -o best", "design preset.toml --json -o certified"]
         yield Case(f"preset/{name}", commands, {})
     edits = [("sensors = 30 ", "sensors = 3 "), ("motions = 10 ", "motions = 2 "), ("points = 41 ", "points = 7 "), ("sensors = 50 ", "sensors = 4 ")]
     study = replaced(maker.preset("report"), *edits)
+    yield Case("study/report", ["study --sensors 8 -o out"], {})
     yield Case("study/small", ["study study.toml --starts 2 -o out"], {"study.toml": study})
     yield Case("study/json", ["study study.toml --sensors 2 --starts 1 --seed 5 --threads 2 --json -o out"], {"study.toml": study})
     yield Case("study/unknown", ["study study.toml --sensors 4 --json -o out"], {"study.toml": maker.preset("report-unknown")})
@@ -134,7 +135,7 @@ def design_cases(maker):
 
 def simulated_cases(maker):
     """Recordings of simulated sensors. What `simulate` makes is a case; what is made of the recording is another, from the stored recording."""
-    for name, experiment, options, calibrate in [*hand_recordings(maker), *table_recordings(maker), *pose_recordings(maker)]:
+    for name, experiment, options, calibrate in [*hand_recordings(maker), *many_recordings(maker), *table_recordings(maker), *pose_recordings(maker)]:
         made = maker.simulated(experiment, options)
         yield Case(f"simulate/{name}", [f"simulate experiment.toml {options} -o made".replace("  ", " ")], {"experiment.toml": experiment})
         files = {"experiment.toml": experiment, "recording.csv": made["recording.csv"]}
@@ -176,6 +177,18 @@ def hand_recordings(maker):
     yield "hand-many", replaced(hand, ("poses = 24", "poses = 48"), ("rate_hz = 100.0", "rate_hz = 50.0")), "--seed 17", "--no-report --threads 2 "
     yield "hand-counts", counts, "--seed 18", ""
     yield "hand-noise-given", replaced(hand, ("g_sensitivity = true", "g_sensitivity = true\nnoise_radps = 2e-3")), "--seed 19", "--no-report "
+
+
+def many_recordings(maker):
+    """Short recordings of an IMU: many sensors, and every kind of option with another."""
+    hand = maker.example("06_whole_imu/hand.toml")
+    short = replaced(hand, ("poses = 24", "poses = 18"), ("rate_hz = 100.0", "rate_hz = 50.0"))
+    gauges = ("lower", "upper", "symmetric")
+    extras = ("", "\n[temperature]\ngyroscope_bias = 1\n", '\n[known]\n"gyroscope.bias.y" = { value = 0.0, sd = 0.02 }\n')
+    options = ("--folds 3 ", "--validate other.csv ", "--validate other.csv --folds 4 ", "")
+    for seed in range(101, 125):
+        experiment = replaced(short, ('"lower"', f'"{gauges[seed % 3]}"'), ("g_sensitivity = true", f"g_sensitivity = {'true' if seed % 2 else 'false'}"))
+        yield f"short-{seed}", experiment + extras[seed // 3 % 3], f"--seed {seed}", f"--no-report {options[seed % 4]}"
 
 
 def table_recordings(maker):
@@ -269,6 +282,8 @@ def file_cases(maker):
     at_rest = {"recording.csv": maker.simulated(long, "--seed 22")["recording.csv"]}
     commands = ["noise recording.csv -o noise", "noise recording.csv --json", "noise recording.csv --sensor gyroscope --hold 5 60 -o part", "noise recording.csv --sensor accelerometer --json --threads 2"]
     yield Case("noise/imu", commands, at_rest)
+    for name, text in noise_faults(at_rest["recording.csv"]):
+        yield Case(f"noise/{name}", ["noise recording.csv --json", "noise recording.csv --hold 1 50 --json"], {"recording.csv": text})
     commands = ["noise recording.csv --gain 415 --json", "noise recording.csv -o noise"]
     yield Case("noise/counts", commands, {"recording.csv": pose_counts})
     yield Case("noise/into-kalibr", ["noise recording.csv -o noise", "convert imu.json imu.yaml --noise noise/noise.json", "convert imu.json again.yaml --noise imu.yaml"], at_rest | {"imu.json": of_hand["imu.json"]})
