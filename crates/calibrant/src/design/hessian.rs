@@ -5,7 +5,7 @@
 //! differences of the exact gradient, and its positive part is the model's bend. That costs a gradient for each node, and so is done
 //! for motions of up to [`LARGEST`] unknowns; longer ones take the model, more slowly.
 
-use super::local::{Nodes, Part};
+use super::part::{Nodes, Part};
 use nalgebra::{DMatrix, DVector, SMatrix, SVector};
 
 /// Most unknowns for which the Hessian is formed.

@@ -7,7 +7,8 @@
 //! all of them. Among motions that are equally good each axis takes the one most like its initial motion: optima come in pairs, `a` and `−a`,
 //! and often more.
 
-use super::local::{LocalOptimum, Nodes, Part};
+use super::local::LocalOptimum;
+use super::part::{Nodes, Part};
 use super::region::Region;
 use super::{DesignProblem, DesignSettings, DesignStatus, StartOutcome};
 use crate::error::Result;

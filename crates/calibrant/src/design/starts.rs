@@ -5,7 +5,7 @@
 //! frequency and phase. Kicks go most of the way from the best motion so far to a random corner: shorter ones come back.
 
 use super::conic::ConicProgram;
-use super::local::{Nodes, Part};
+use super::part::{Nodes, Part};
 use super::region::Watch;
 use crate::simulate::Rng;
 use nalgebra::SVector;

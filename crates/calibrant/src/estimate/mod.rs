@@ -13,6 +13,7 @@
 //! eliminated (Schur complement, [`arrowhead`](crate::arrowhead)). It holds to first order in the noise, for noise that is white,
 //! Gaussian and as large as assumed; the fit's [`FitStatistics`] say whether the data agree.
 
+mod calibrate;
 mod change;
 mod comparison;
 mod earth;
@@ -30,8 +31,10 @@ mod settings;
 pub(crate) mod statistics;
 mod tangents;
 mod uncalibrated;
+mod unknown_latitude;
 mod validation;
 
+pub use calibrate::calibrate;
 pub use change::{Change, Changed, Course};
 pub use comparison::{ComparedQuantity, Comparison, OverallDifference};
 pub use holds::{
@@ -53,66 +56,3 @@ pub use validation::{
     ParameterPart, UnusedError, ValidatedErrors, Validation, ValidationSource, cross_validate,
     cross_validate_imu, noise_in_common, other_temperature, readings_in_common, validate, validate_imu,
 };
-
-use crate::error::Result;
-use crate::sensor::Triad;
-
-/// Calibrates a sensor.
-///
-/// From holds, sparks and wild readings are taken out first ([`Recording::without_sparks`](crate::sensor::Recording::without_sparks)), and a warning says so.
-///
-/// # Errors
-/// [`Error::Recording`](crate::Error::Recording) for a recording that is none, or that does not overlap the motion;
-/// [`Error::NotIdentifiable`](crate::Error::NotIdentifiable) names the parameters that the data cannot determine and what would change that;
-/// [`Error::Experiment`](crate::Error::Experiment) where the problem itself lacks something, such as the noise. An iteration that does not
-/// converge is a [`CalibrationStatus`] in the result.
-///
-/// # References
-/// `vamvaka2021`, `burger2017`
-///
-/// # Examples
-/// Three samples of an exactly known motion determine bias and scale factor of one axis:
-/// ```
-/// use calibrant::estimate::{CalibrationProblem, CalibrationSettings, Stimulus, calibrate};
-/// use calibrant::motion::{CommandedMotion, JerkControlledMotion, KnownEnds, Trust};
-/// use calibrant::sensor::{ReadingUnit, Recording, Sensor};
-/// use nalgebra::Vector3;
-///
-/// let sensor = Sensor { axes: 1, ..Sensor::memsic_mxd2020u() };
-/// let nodes = vec![Vector3::new(-9.0, 0.0, 0.0), Vector3::new(9.0, 0.0, 0.0)];
-/// let motion = JerkControlledMotion::uniform(1.0, nodes)?;
-/// let command = CommandedMotion { motion, trust: Trust::Known, known_ends: KnownEnds::Start };
-/// let recording = Recording {
-///     times_s: vec![0.0, 0.5, 1.0],
-///     readings: [-8.91, 0.09, 9.09].map(|y| Vector3::new(y, 0.0, 0.0)).to_vec(),
-///     axes: 1,
-///     unit: ReadingUnit::MetrePerSecondSquared,
-/// };
-/// let problem = CalibrationProblem { sensor: &sensor, recording: &recording, stimulus: Stimulus::Motion(&command) };
-/// let calibration = calibrate(&problem, &CalibrationSettings::default())?;
-/// assert!((calibration.values[0] - 0.09).abs() < 1e-12, "bias.x");
-/// assert!((calibration.values[1] - 1.0).abs() < 1e-12, "scale.x");
-/// assert!((calibration.sd()[1] - 2e-4 / (2.0_f64 * 81.0).sqrt()).abs() < 1e-15);
-/// # Ok::<(), calibrant::Error>(())
-/// ```
-pub fn calibrate(problem: &CalibrationProblem<'_>, settings: &CalibrationSettings) -> Result<Calibration> {
-    match problem.stimulus {
-        Stimulus::Motion(command) => {
-            problem.validate()?;
-            motion::calibrate(problem, command, settings)
-        }
-        Stimulus::Holds(setup) => {
-            let (recording, sparks) = problem.recording.without_sparks(Triad::Accelerometer);
-            let problem = CalibrationProblem { recording: &recording, ..*problem };
-            problem.validate()?;
-            let mut calibration = holds::calibrate(&problem, setup, settings, &recording)?;
-            let unit = recording.unit.symbol();
-            let said = sparks.map(|sparks| sparks.words(Triad::Accelerometer, unit));
-            calibration.warnings.splice(0..0, said);
-            if let Recovered::Holds(HoldCalibration { change: Some(change), .. }) = &calibration.recovered {
-                calibration.warnings.push(change.warning(None));
-            }
-            Ok(calibration)
-        }
-    }
-}

@@ -1,6 +1,7 @@
 //! The overlapping Allan deviation.
 
-use super::{CONFIDENCE, PowerLaw, lags};
+use super::confidence::CONFIDENCE;
+use super::{PowerLaw, lags};
 use crate::error::{Complaint, Error, Result};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 use std::sync::OnceLock;

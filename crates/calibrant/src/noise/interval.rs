@@ -1,6 +1,6 @@
 //! Confidence bounds of a variance, by inverting a test.
 
-use super::CONFIDENCE;
+use super::confidence::CONFIDENCE;
 use crate::root::root;
 use statrs::distribution::{ContinuousCDF, Gamma};
 use std::convert::Infallible;

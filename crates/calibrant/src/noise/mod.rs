@@ -53,6 +53,7 @@
 mod allan;
 mod choice;
 mod coefficient;
+mod confidence;
 mod drift;
 mod fit;
 mod interval;
@@ -70,9 +71,11 @@ mod triad;
 mod unit;
 mod vibration;
 mod whitening;
+mod words;
 
 pub use allan::{AllanDeviation, AllanPoint};
 pub use coefficient::{Coefficient, Estimate};
+pub use confidence::CONFIDENCE;
 pub use drift::Drift;
 pub use fit::NoiseFit;
 pub use model::NoiseModel;
@@ -83,6 +86,3 @@ pub use stretch::Stretch;
 pub use triad::{AxisNoise, TriadNoise};
 pub use unit::{CoefficientUnit, coefficient_units};
 pub use vibration::Vibration;
-
-/// Probability that a stated interval covers the truth.
-pub const CONFIDENCE: f64 = 0.95;

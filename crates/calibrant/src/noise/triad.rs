@@ -2,6 +2,7 @@
 
 use super::outliers::{self, Outliers};
 use super::tails::Tails;
+use super::words::{short_time, three_digits, two_digits};
 use super::{AllanDeviation, Moments, NoiseFit, Stretch};
 use crate::error::{Complaint, Error, Result};
 use crate::sensor::{Axis, ReadingUnit, Recording, Triad};
@@ -368,24 +369,6 @@ fn about(error: crate::Error, axis: Axis) -> crate::Error {
         }
         other => other,
     }
-}
-
-/// A time as people say it: `0.32 s`, `17 s`, `4.2 min`, `1.5 h`.
-pub(super) fn short_time(seconds: f64) -> String {
-    match seconds {
-        s if s < 120.0 => format!("{} s", two_digits(s)),
-        s if s < 7200.0 => format!("{} min", two_digits(s / 60.0)),
-        s => format!("{} h", two_digits(s / 3600.0)),
-    }
-}
-
-fn two_digits(value: f64) -> String {
-    format!("{value:.1e}").parse::<f64>().map_or_else(|_| value.to_string(), |rounded| rounded.to_string())
-}
-
-fn three_digits(value: f64) -> String {
-    let rounded: f64 = format!("{value:.2e}").parse().unwrap_or(value);
-    if (1e-3..1e6).contains(&rounded.abs()) { rounded.to_string() } else { format!("{rounded:e}") }
 }
 
 #[cfg(test)]

@@ -1,40 +1,7 @@
 //! What is known of a sensor before it is calibrated.
 
-use super::{Axis, ParameterList, SensorModel, SensorParameters};
+use super::{Axis, ParameterList, ReadingUnit, SensorModel, SensorParameters};
 use nalgebra::{Matrix3, Vector3};
-
-/// Unit of a sensor's readings.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ReadingUnit {
-    /// Metres per second squared, of an accelerometer.
-    MetrePerSecondSquared,
-    /// Radians per second, of a gyroscope.
-    RadianPerSecond,
-    /// Raw counts of the analogue-to-digital converter.
-    Counts,
-}
-
-impl ReadingUnit {
-    /// As it is printed: `m/s²`, `rad/s` or `counts`.
-    #[must_use]
-    pub fn symbol(self) -> &'static str {
-        match self {
-            Self::MetrePerSecondSquared => "m/s²",
-            Self::RadianPerSecond => "rad/s",
-            Self::Counts => "counts",
-        }
-    }
-
-    /// As it ends a column's name: `mps2`, `radps` or `counts`.
-    #[must_use]
-    pub fn suffix(self) -> &'static str {
-        match self {
-            Self::MetrePerSecondSquared => "mps2",
-            Self::RadianPerSecond => "radps",
-            Self::Counts => "counts",
-        }
-    }
-}
 
 /// An accelerometer's datasheet: its model, the unit of its readings, its noise and the spread of its errors.
 ///

@@ -4,48 +4,11 @@
 //! true frame. `Γ` is the g-sensitivity, what the gyroscope shows of specific force. `S` and `b` may follow temperature ([`Thermal`]).
 
 use super::sparks::{Sparks, without};
-use super::{Axis, Quantity, ReadingUnit, Recording, SensorParameters, Thermal, ThermalPart, ThermalTerm};
+use super::{
+    Axis, Quantity, ReadingUnit, Recording, SensorParameters, Thermal, ThermalPart, ThermalTerm, Triad,
+};
 use nalgebra::{DMatrix, Matrix3, Vector3};
 use std::borrow::Cow;
-use std::fmt;
-
-/// One of the two sensors of an IMU.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Triad {
-    /// Specific force.
-    Accelerometer,
-    /// Angular rate.
-    Gyroscope,
-}
-
-impl Triad {
-    /// Both.
-    pub const ALL: [Self; 2] = [Self::Accelerometer, Self::Gyroscope];
-
-    /// `accelerometer` or `gyroscope`: how names of parameters begin.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Accelerometer => "accelerometer",
-            Self::Gyroscope => "gyroscope",
-        }
-    }
-
-    /// Unit of its stimulus: m/s² or rad/s.
-    #[must_use]
-    pub fn stimulus_unit(self) -> ReadingUnit {
-        match self {
-            Self::Accelerometer => ReadingUnit::MetrePerSecondSquared,
-            Self::Gyroscope => ReadingUnit::RadianPerSecond,
-        }
-    }
-}
-
-impl fmt::Display for Triad {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
-    }
-}
 
 /// A recording of an IMU. Its sensors share a clock, not necessarily their sample times.
 #[derive(Debug, Clone, PartialEq, Default)]

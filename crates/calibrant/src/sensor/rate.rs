@@ -1,6 +1,6 @@
 //! How fast a sensor was sampled, by times that are coarse, jitter, or lack samples.
 
-use super::recording::{greater, lesser};
+use super::extremes::{greater, lesser};
 
 /// So many steps tell about where the median of all is.
 const SOME: usize = 512;

@@ -1,5 +1,6 @@
 //! Readings of a sensor over time.
 
+use super::extremes::{greater, lesser};
 use super::rate::rate_hz;
 use super::{Axis, ReadingUnit};
 use nalgebra::Vector3;
@@ -75,18 +76,6 @@ impl Recording {
 /// The same for readings at this rate.
 pub(crate) fn gap_s(rate_hz: f64) -> f64 {
     (GAP / rate_hz).max(MOVED_S)
-}
-
-/// The lesser of two numbers, the first if they cannot be compared. For what is done with every sample: `f64::min` minds NaN and takes thrice as long.
-#[inline]
-pub(crate) fn lesser(one: f64, other: f64) -> f64 {
-    if other < one { other } else { one }
-}
-
-/// The greater of two numbers, as [`lesser`].
-#[inline]
-pub(crate) fn greater(one: f64, other: f64) -> f64 {
-    if other > one { other } else { one }
 }
 
 #[cfg(test)]

@@ -3,8 +3,8 @@
 //! With `τ = T − T₀` in K: `b(T) = b + Σ_m b_m τ^m` and `S(T) = diag(1 + Σ_m k_m τ^m) S`. The gain of each sense element drifts, its direction does not;
 //! `k_m` in 1/K^m, as datasheets give it. A change of the true frame, `S → S R`, leaves both as they are. The g-sensitivity `Γ` does not follow temperature.
 
-use super::{Axis, ImuParameters, ImuQuantity, ReadingUnit, Triad};
-use nalgebra::{Matrix3, Vector3};
+use super::{Axis, ReadingUnit, Triad};
+use nalgebra::Vector3;
 
 /// Highest power of τ.
 pub const HIGHEST_ORDER: usize = 2;
@@ -177,114 +177,5 @@ impl Thermal {
     #[must_use]
     pub fn tau_k(&self, temperature_c: f64) -> f64 {
         temperature_c - self.reference_c
-    }
-}
-
-impl ImuParameters {
-    /// The IMU at a temperature: `b(T)`, `S(T)` and `Γ`, and nothing that follows temperature any more.
-    ///
-    /// # Examples
-    /// ```
-    /// use calibrant::sensor::ImuParameters;
-    /// let mut imu = ImuParameters::identity();
-    /// imu.thermal.reference_c = 20.0;
-    /// imu.thermal.gyroscope.bias[0].x = 1e-4; // rad/s/K
-    /// imu.thermal.accelerometer.scale[1].z = 2e-6; // 1/K²
-    /// let hot = imu.at(50.0);
-    /// assert!((hot.gyroscope.bias.x - 3e-3).abs() < 1e-15);
-    /// assert!((hot.accelerometer.matrix[(2, 2)] - 1.0018).abs() < 1e-15);
-    /// ```
-    #[must_use]
-    pub fn at(&self, temperature_c: f64) -> Self {
-        if self.thermal.is_none() {
-            return *self;
-        }
-        let tau_k = self.thermal.tau_k(temperature_c);
-        let mut imu = Self { thermal: Thermal::none(), ..*self };
-        for triad in Triad::ALL {
-            let (thermal, sensor) = (self.thermal.triad(triad), imu.triad_mut(triad));
-            sensor.bias += thermal.bias_change(tau_k);
-            sensor.matrix = Matrix3::from_diagonal(&thermal.gain_factor(tau_k)) * sensor.matrix;
-        }
-        imu
-    }
-}
-
-impl ImuQuantity {
-    /// The temperature terms of one sensor up to these orders: of the bias first, then of the scale, order by order.
-    #[must_use]
-    pub fn thermal_list(triad: Triad, bias_order: usize, scale_order: usize) -> Vec<Self> {
-        let mut list = Vec::new();
-        for (part, order) in [(ThermalPart::Bias, bias_order), (ThermalPart::Scale, scale_order)] {
-            for order in 1..=order.min(HIGHEST_ORDER) {
-                list.extend(Axis::ALL.map(|axis| Self::Thermal(triad, ThermalTerm { part, axis, order })));
-            }
-        }
-        list
-    }
-
-    /// Every temperature term of the sensors that are there.
-    #[must_use]
-    pub fn all_thermal(accelerometer: bool, gyroscope: bool) -> Vec<Self> {
-        [(Triad::Accelerometer, accelerometer), (Triad::Gyroscope, gyroscope)]
-            .into_iter()
-            .filter(|(_, there)| *there)
-            .flat_map(|(triad, _)| Self::thermal_list(triad, HIGHEST_ORDER, HIGHEST_ORDER))
-            .collect()
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::sensor::Condition;
-
-    #[test]
-    fn names_and_units_say_the_power() {
-        let list = ImuQuantity::thermal_list(Triad::Gyroscope, 2, 1);
-        let names: Vec<String> = list.iter().map(|quantity| quantity.name()).collect();
-        assert_eq!(names[0], "gyroscope.bias_per_k.x");
-        assert_eq!(names[4], "gyroscope.bias_per_k2.y");
-        assert_eq!(names[8], "gyroscope.scale_per_k.z");
-        assert_eq!(list[4].unit(ReadingUnit::Counts), "counts/K²");
-        assert_eq!(ImuQuantity::all_thermal(true, true).len(), 24);
-    }
-
-    #[test]
-    fn derivatives_equal_differences() {
-        let mut imu = ImuParameters::identity();
-        let mut all = ImuQuantity::full_list(true, true, true);
-        all.extend(ImuQuantity::all_thermal(true, true));
-        for (k, quantity) in all.iter().enumerate() {
-            quantity.add_to(&mut imu, 1e-3 * ((5 * k % 13) as f64 - 6.0));
-        }
-        let (stimulus, force, temperature_c) =
-            (Vector3::new(0.4, -1.2, 0.3), Vector3::new(1.0, -5.0, 8.0), 29.5);
-        let reading = |imu: &ImuParameters, triad: Triad| {
-            let felt = if triad == Triad::Gyroscope { imu.g_sensitivity * force } else { Vector3::zeros() };
-            imu.at(temperature_c).triad(triad).reading(&stimulus) + felt
-        };
-        for quantity in all {
-            let moved = |by: f64| {
-                let mut moved = imu;
-                quantity.add_to(&mut moved, by);
-                reading(&moved, quantity.triad())
-            };
-            let difference = (moved(1e-4) - moved(-1e-4)) / 2e-4;
-            let at = Condition { imu: &imu, stimulus, force, temperature_c };
-            assert!((difference - quantity.derivative(&at)).amax() < 1e-8, "{}", quantity.name());
-        }
-    }
-
-    #[test]
-    fn each_term_is_found_where_it_was_added() {
-        for (k, quantity) in ImuQuantity::all_thermal(true, true).into_iter().enumerate() {
-            let mut imu = ImuParameters::identity();
-            quantity.add_to(&mut imu, 1.0 + k as f64);
-            let found: Vec<f64> =
-                ImuQuantity::all_thermal(true, true).iter().map(|other| other.of(&imu)).collect();
-            assert_eq!(found.iter().sum::<f64>(), 1.0 + k as f64);
-            assert_eq!(found[k], 1.0 + k as f64, "{}", quantity.name());
-        }
     }
 }

@@ -18,6 +18,7 @@
 //! perfect, the scale factor would still have to be found from increments that are noisy, `F_KK ≤ Σ (u_i/(K σ_u(u_i)))²`, and each term grows with the jerk.
 //! Where nothing but the ends is known, `C_KK = c/(a_N − a_0)²` with a constant c, and the ends can only be so far apart.
 
+mod axis_chain;
 mod conic;
 mod motion_variance;
 mod polynomial;
@@ -26,35 +27,11 @@ mod relaxation;
 mod tighten;
 mod variances;
 
+pub(crate) use axis_chain::{AxisChain, States};
 pub(super) use variances::certify;
 
 // Clarabel's semidefinite cone calls BLAS and LAPACK by their Fortran names: the linker finds them here
 use lapack_over_nalgebra as _;
-
-use crate::motion::{AxisLimits, IntervalSums};
-
-/// One axis of a chain of intervals of equal duration.
-#[derive(Debug, Clone)]
-pub(crate) struct AxisChain {
-    /// Duration of an interval, s.
-    pub(crate) interval_s: f64,
-    /// Samples of each interval.
-    pub(crate) sums: Vec<IntervalSums>,
-    /// The limits; they hold for all t.
-    pub(crate) limits: AxisLimits,
-    /// The motion variance is `V = Σ α² − (Σ α + shift)²/mass`.
-    pub(crate) shift: f64,
-    /// At least the number of samples.
-    pub(crate) mass: f64,
-}
-
-/// The states that are carried from interval to interval.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct States {
-    velocity: bool,
-    displacement: bool,
-    sum: bool,
-}
 
 #[cfg(test)]
 mod tests;

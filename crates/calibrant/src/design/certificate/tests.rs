@@ -1,6 +1,6 @@
 use super::motion_variance::{BoundKind, MotionVarianceBound, bound_within, motion_variance_bound};
 use super::*;
-use crate::motion::Rest;
+use crate::motion::{AxisLimits, IntervalSums, Rest};
 use crate::simulate::{Purpose, stream};
 use rand::RngExt;
 

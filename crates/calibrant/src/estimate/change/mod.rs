@@ -3,99 +3,11 @@
 //! A knock, a mounting that slips or a sensor that warms up leaves estimates that are a mean of before and after. Their standard deviations come from the scatter, which the change itself makes
 //! larger, so that nothing looks wrong; and each part of such a recording is predicted by the rest of it as well as that scatter promises. Only the order of time tells (`score`).
 
+mod result;
 mod run;
 mod score;
 mod words;
 
+pub use result::{Change, Changed, Course};
 pub(in crate::estimate) use run::longest_run;
-pub(in crate::estimate) use score::{Found, Series, When};
-
-use crate::sensor::Triad;
-use nalgebra::Vector3;
-
-/// A sensor that is not the same throughout a recording.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Change {
-    /// The sensor.
-    pub triad: Triad,
-    /// What of it changes.
-    pub of: Changed,
-    /// What explains the residuals nearly as well in its place.
-    pub instead: Option<Changed>,
-    /// When.
-    pub course: Course,
-    /// By how much, from before to after, or from begin to end; per axis, in the unit of [`Changed`].
-    pub amount: Vector3<f64>,
-    /// Its standard deviation; zero for an axis of which nothing is known.
-    pub sd: Vector3<f64>,
-    /// Probability of a change at least as significant, at any time, in a sensor that does not change.
-    pub p_value: f64,
-}
-
-/// What of a sensor changes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Changed {
-    /// Its bias, m/s² or rad/s.
-    Bias,
-    /// Its gains, as shares of themselves.
-    Gain,
-    /// The directions of its axes against those of the accelerometer, rad about each.
-    Axes,
-}
-
-/// How a change runs.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Course {
-    /// All at once.
-    Step {
-        /// Number of the last hold before it, from 0.
-        before: usize,
-        /// Number of the first hold after it; the same where it is seen in the rotations beside that hold.
-        after: usize,
-        /// About when, s.
-        time_s: f64,
-    },
-    /// All along, as time.
-    Drift,
-    /// There and back: the amount is that of the holds in between against those before and after.
-    Episode {
-        /// Number of the first hold of it, from 0.
-        first: usize,
-        /// Number of the last hold of it, from 0.
-        last: usize,
-        /// About when it begins, s.
-        start_s: f64,
-        /// About when it ends, s.
-        end_s: f64,
-    },
-}
-
-impl Change {
-    /// What a series found. `step`: the step between two of the series.
-    pub(in crate::estimate) fn of(
-        triad: Triad,
-        found: Found,
-        step: impl Fn(usize, usize) -> (usize, usize, f64),
-    ) -> Self {
-        let course = match found.when {
-            When::Always => Course::Drift,
-            When::From((last, first)) => {
-                let (before, after, time_s) = step(last, first);
-                Course::Step { before, after, time_s }
-            }
-            When::Episode(begin, end) => {
-                let ((_, first, start_s), (last, _, end_s)) = (step(begin.0, begin.1), step(end.0, end.1));
-                Course::Episode { first, last: last.max(first), start_s, end_s }
-            }
-        };
-        let Found { of, instead, amount, sd, p_value, .. } = found;
-        Self { triad, of, instead, course, amount, sd, p_value }
-    }
-
-    /// The largest amount on an axis in its standard deviations.
-    #[must_use]
-    pub fn in_sd(&self) -> f64 {
-        let of = |(amount, sd): (&f64, &f64)| if *sd > 0.0 { amount.abs() / sd } else { 0.0 };
-        self.amount.iter().zip(&self.sd).map(of).fold(0.0, f64::max)
-    }
-}
+pub(in crate::estimate) use score::Series;

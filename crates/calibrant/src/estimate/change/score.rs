@@ -15,7 +15,8 @@
 //! # References
 //! `andrews1993`, `levin1985`
 
-use super::Changed;
+use super::{Change, Changed, Course};
+use crate::sensor::Triad;
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use statrs::function::beta::beta_reg;
 use std::cmp::Ordering;
@@ -77,6 +78,29 @@ pub(in crate::estimate) struct Found {
     pub(in crate::estimate) amount: Vector3<f64>,
     pub(in crate::estimate) sd: Vector3<f64>,
     pub(in crate::estimate) p_value: f64,
+}
+
+impl Change {
+    /// What a series found. `step`: the step between two of the series.
+    pub(in crate::estimate) fn of(
+        triad: Triad,
+        found: Found,
+        step: impl Fn(usize, usize) -> (usize, usize, f64),
+    ) -> Self {
+        let course = match found.when {
+            When::Always => Course::Drift,
+            When::From((last, first)) => {
+                let (before, after, time_s) = step(last, first);
+                Course::Step { before, after, time_s }
+            }
+            When::Episode(begin, end) => {
+                let ((_, first, start_s), (last, _, end_s)) = (step(begin.0, begin.1), step(end.0, end.1));
+                Course::Episode { first, last: last.max(first), start_s, end_s }
+            }
+        };
+        let Found { of, instead, amount, sd, p_value, .. } = found;
+        Self { triad, of, instead, course, amount, sd, p_value }
+    }
 }
 
 impl Series {

@@ -1,7 +1,7 @@
 //! Does the accelerometer change from a hold on?
 
-use super::HoldResult;
 use super::robust::Magnitude;
+use crate::estimate::HoldResult;
 use crate::estimate::change::{Change, Changed, Series};
 use crate::sensor::Triad;
 use nalgebra::{DMatrix, DVector};

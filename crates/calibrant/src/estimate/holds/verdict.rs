@@ -1,8 +1,8 @@
 //! What a user should know about a static calibration, in words.
 
-use super::{Calibration, HoldCalibration, HoldResult, Recovered};
 use crate::error::UndeterminedGroup;
-use crate::estimate::CalibrationStatus;
+use crate::estimate::{Calibration, CalibrationStatus, HoldCalibration, HoldResult, Recovered};
+
 use crate::estimate::change::longest_run;
 use crate::estimate::statistics::implausible;
 use crate::motion::Hold;

@@ -4,6 +4,7 @@
 //! blocks. Everything after that is put together from [`Solved`] chains.
 
 mod chain;
+mod context;
 mod fit;
 mod moments;
 mod pairs;
@@ -18,7 +19,8 @@ use crate::error::{Complaint, Error, NotIdentifiable, Result};
 use crate::information::chain_model::FULL_SLOTS;
 use crate::motion::{CommandedMotion, JerkControlledMotion, Trust};
 use crate::sensor::{Axis, SensorModel, SensorParameters};
-use chain::{Context, Solved, solve};
+use chain::{Solved, solve};
+use context::Context;
 use nalgebra::{DMatrix, Matrix3, Vector3};
 
 /// Calibrates from a motion.

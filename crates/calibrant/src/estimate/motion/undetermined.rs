@@ -1,7 +1,7 @@
 //! What the recording cannot determine, in the user's words.
 
 use super::Axis;
-use super::chain::Context;
+use super::context::Context;
 use crate::arrowhead;
 use crate::error::UndeterminedGroup;
 use crate::information::{MotionFacts, Undetermined, explain as explain_motion};

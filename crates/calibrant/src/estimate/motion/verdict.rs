@@ -1,6 +1,6 @@
 //! What a user should know about a fit, in words.
 
-use super::chain::Context;
+use super::context::Context;
 use super::{Calibration, Error, Result, Trust};
 use crate::error::UndeterminedGroup;
 use crate::estimate::CalibrationStatus;

@@ -3,8 +3,10 @@
 use super::claim::Claim;
 use super::doubt::Doubts;
 use super::folds::{Block, blocks, sorted};
+use super::inputs::{of_holds, singular, temperatures};
+use super::judgement::judged;
 use super::predict::{Errors, Unused};
-use super::{Validation, ValidationSource, judged, of_holds, singular, temperatures};
+use super::{Validation, ValidationSource};
 use crate::error::{Complaint, Error, Result};
 use crate::estimate::imu::recordings;
 use crate::estimate::{

@@ -2,7 +2,8 @@
 //!
 //! A sensor that changes within a recording scatters more, which is predicted; clocks of different rates give gains that are wrong by the same share in all rotations; errors that do not count are not among those that are as predicted.
 
-use super::result::{ErrorKind, UnusedError};
+use super::caveat::Doubt;
+use super::unused_error::{ErrorKind, UnusedError};
 use crate::estimate::change::longest_run;
 use crate::estimate::{Change, Changed, ClockRate, HoldCalibration, ImuCalibration};
 use crate::sensor::Triad;
@@ -10,52 +11,6 @@ use crate::sensor::Triad;
 /// Fewest errors that do not count and are several, and the share of all that they are.
 const SEVERAL: usize = 3;
 const SHARE: f64 = 0.05;
-
-/// Why errors that are as large as predicted are no reason to believe the covariance.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Doubt {
-    /// A sensor changes within the recording that was calibrated from.
-    Change(Change),
-    /// The clocks of the sensors go at different rates in the recording that was calibrated from.
-    Clocks(ClockRate),
-    /// The calibration left out so many holds or rotations one after another.
-    LeftOut {
-        /// Number of them.
-        count: usize,
-        /// Begin of the first, s.
-        start_s: f64,
-        /// End of the last, s.
-        end_s: f64,
-    },
-    /// So many errors one after another do not count.
-    InARow {
-        /// Number of them.
-        count: usize,
-        /// Begin of the first, s.
-        start_s: f64,
-        /// End of the last, s.
-        end_s: f64,
-    },
-    /// So many errors do not count.
-    Several {
-        /// Number of them.
-        count: usize,
-    },
-}
-
-impl Doubt {
-    /// As written in results: `change`, `clocks`, `left_out`, `in_a_row`, `several`.
-    #[must_use]
-    pub fn name(&self) -> &'static str {
-        match self {
-            Self::Change(_) => "change",
-            Self::Clocks(_) => "clocks",
-            Self::LeftOut { .. } => "left_out",
-            Self::InARow { .. } => "in_a_row",
-            Self::Several { .. } => "several",
-        }
-    }
-}
 
 /// What a calibration itself gives reason to doubt.
 #[derive(Debug, Clone, Default)]

@@ -2,7 +2,7 @@
 //!
 //! What the calibration took for the noise of a sample, from a datasheet or an Allan deviation, goes with the scatter of the samples about the mean of their hold, `s' / s` of both recordings.
 
-use super::result::CLOSE;
+use super::covariance_verdict::CLOSE;
 use crate::estimate::coarse_axes_in;
 use crate::motion::Hold;
 use crate::sensor::{ReadingUnit, Recording, Triad};

@@ -1,14 +1,11 @@
 //! What a validation gives.
 
-use super::doubt::Doubt;
+use super::caveat::Doubt;
+use super::covariance_verdict::CovarianceVerdict;
+use super::explanation::LikelyReason;
 use super::noise::NoiseRatio;
-use super::reason::LikelyReason;
-use nalgebra::{DVector, Vector3};
-
-/// A factor between prediction and error so close to one is no reason to doubt, however sure it is.
-pub(super) const CLOSE: f64 = 1.25;
-/// Where upper and lower end of the factor's interval are further apart than this, nothing is believed: three errors or fewer.
-const OPEN: f64 = 10.0;
+use super::unused_error::{ErrorKind, UnusedError};
+use nalgebra::Vector3;
 
 /// A calibration on data that were not used for it.
 #[derive(Debug, Clone)]
@@ -51,39 +48,6 @@ pub struct FailedFold {
     pub reason: String,
 }
 
-/// A kind of error.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ErrorKind {
-    /// Corrected specific force in a hold: its magnitude less gravity, m/s².
-    Magnitude,
-    /// Corrected angular rate in a hold, where it is zero, rad/s per axis.
-    Rate,
-    /// Gravity carried by the gyroscope from a hold to the next one, less gravity found there, across it in two directions, rad.
-    Rotation,
-}
-
-impl ErrorKind {
-    /// As written in results: `magnitude`, `rate`, `rotation`.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Magnitude => "magnitude",
-            Self::Rate => "rate",
-            Self::Rotation => "rotation",
-        }
-    }
-
-    /// SI unit of the errors.
-    #[must_use]
-    pub fn unit(self) -> &'static str {
-        match self {
-            Self::Magnitude => "m/s²",
-            Self::Rate => "rad/s",
-            Self::Rotation => "rad",
-        }
-    }
-}
-
 /// All errors of one kind beside what was predicted of them.
 #[derive(Debug, Clone)]
 pub struct ValidatedErrors {
@@ -114,29 +78,6 @@ pub struct ValidatedErrors {
     pub doubt: Option<Doubt>,
 }
 
-/// An error on data that were not used.
-#[derive(Debug, Clone, PartialEq)]
-pub struct UnusedError {
-    /// The hold that it was found in, from 0: of the other recording, or of the recording's table of holds.
-    pub hold: usize,
-    /// The hold that a rotation begins with.
-    pub from_hold: Option<usize>,
-    /// Begin of the hold or of the rotation, s.
-    pub start_s: f64,
-    /// Its end, s.
-    pub end_s: f64,
-    /// The block that it belongs to, from 0; 0 for another recording.
-    pub fold: usize,
-    /// The error: one, two or three numbers in the kind's unit.
-    pub error: DVector<f64>,
-    /// The standard deviation predicted of each.
-    pub predicted_sd: DVector<f64>,
-    /// Its length in predicted standard deviations, over the root of the number of components: about 1.
-    pub in_sd: f64,
-    /// Does it count, or is it beyond what chance explains beside the others?
-    pub counts: bool,
-}
-
 /// What the errors say of the parameters alone: their common part along the directions in which the parameters would move them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ParameterPart {
@@ -150,48 +91,6 @@ pub struct ParameterPart {
     pub factor: f64,
     /// Its 99 % confidence interval; it reaches to 0, or to infinity, where these data leave it open.
     pub factor_interval: (f64, f64),
-}
-
-/// What errors on unused data say of the covariance.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum CovarianceVerdict {
-    /// Errors are as large as predicted, or within a quarter of it.
-    Believed,
-    /// They are larger.
-    TooSmall,
-    /// They are smaller.
-    LargerThanNeeded,
-    /// They are too few to tell: neither contradicted nor confirmed within a factor of about three.
-    TooFew,
-    /// Those that count are as large as predicted, and confirm nothing: see [`ValidatedErrors::doubt`].
-    Doubtful,
-}
-
-impl CovarianceVerdict {
-    /// As written in results: `believed`, `too_small`, `larger_than_needed`, `too_few`, `doubtful`.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Believed => "believed",
-            Self::TooSmall => "too_small",
-            Self::LargerThanNeeded => "larger_than_needed",
-            Self::TooFew => "too_few",
-            Self::Doubtful => "doubtful",
-        }
-    }
-
-    /// What a factor and its interval say.
-    pub(super) fn of(factor: f64, interval: (f64, f64)) -> Self {
-        if interval.0 > 1.0 && factor > CLOSE {
-            Self::TooSmall
-        } else if interval.1 < 1.0 && factor < 1.0 / CLOSE {
-            Self::LargerThanNeeded
-        } else if interval.1 > OPEN * interval.0 {
-            Self::TooFew
-        } else {
-            Self::Believed
-        }
-    }
 }
 
 /// The gyroscope's bias in another recording, less that of the calibration.

@@ -1,9 +1,11 @@
 //! Errors beside their prediction: χ², the factor between them, and the errors that stand out.
 
+use super::covariance_verdict::CovarianceVerdict;
 use super::doubt::Doubts;
 use super::item::{Group, Item};
 use super::ratio::{Ratio, falls_to};
-use super::result::{CovarianceVerdict, ErrorKind, ParameterPart, UnusedError, ValidatedErrors};
+use super::result::{ParameterPart, ValidatedErrors};
+use super::unused_error::{ErrorKind, UnusedError};
 use super::whitened::Whitened;
 use nalgebra::DVector;
 

@@ -1,5 +1,6 @@
 //! D: the volume of the confidence ellipsoid.
 
+use super::scaling::scaled;
 use nalgebra::{Cholesky, DMatrix, DVector};
 
 /// Logarithm of the generalised variance.
@@ -25,7 +26,7 @@ pub struct DOptimality {
 
 impl DOptimality {
     pub(super) fn value(&self, covariance: &DMatrix<f64>) -> f64 {
-        Cholesky::new(super::scaled(covariance, &self.scale)).map_or(f64::NAN, |cholesky| {
+        Cholesky::new(scaled(covariance, &self.scale)).map_or(f64::NAN, |cholesky| {
             2.0 * cholesky.l_dirty().diagonal().iter().map(|d| d.ln()).sum::<f64>()
         })
     }

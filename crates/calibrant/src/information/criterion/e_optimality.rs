@@ -1,5 +1,6 @@
 //! E: the worst direction.
 
+use super::scaling::scaled;
 use nalgebra::{DMatrix, DVector};
 
 /// Largest eigenvalue of the covariance: the variance of the worst-determined combination of parameters.
@@ -22,11 +23,11 @@ pub struct EOptimality {
 
 impl EOptimality {
     pub(super) fn value(&self, covariance: &DMatrix<f64>) -> f64 {
-        super::scaled(covariance, &self.scale).symmetric_eigenvalues().max()
+        scaled(covariance, &self.scale).symmetric_eigenvalues().max()
     }
 
     pub(super) fn derivative(&self, covariance: &DMatrix<f64>) -> DMatrix<f64> {
-        let eigen = super::scaled(covariance, &self.scale).symmetric_eigen();
+        let eigen = scaled(covariance, &self.scale).symmetric_eigen();
         let v = eigen.eigenvectors.column(eigen.eigenvalues.imax()).component_div(&self.scale);
         &v * v.transpose()
     }

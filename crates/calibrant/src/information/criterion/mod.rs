@@ -21,6 +21,7 @@ mod d_optimality;
 mod e_optimality;
 mod i_optimality;
 mod m_optimality;
+mod scaling;
 
 pub use a_optimality::AOptimality;
 pub use c_optimality::COptimality;
@@ -150,11 +151,6 @@ impl Criterion {
 
 fn pick(values: &DVector<f64>, places: &[usize]) -> DVector<f64> {
     DVector::from_iterator(places.len(), places.iter().map(|&place| values[place]))
-}
-
-/// `C_ij / (s_i s_j)`.
-fn scaled(covariance: &DMatrix<f64>, scale: &DVector<f64>) -> DMatrix<f64> {
-    DMatrix::from_fn(scale.len(), scale.len(), |i, j| covariance[(i, j)] / (scale[i] * scale[j]))
 }
 
 #[cfg(test)]

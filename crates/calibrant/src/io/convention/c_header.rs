@@ -4,17 +4,16 @@
 //! `CALIBRANT_REAL`, `double` unless it is defined before (as `float` for small processors). What it cannot carry: the covariance. Our own headers are
 //! read back by the names of their constants. Where the calibration follows temperature, the functions take it.
 
-use super::core::vector3;
-use super::{CalibratedImuFile, ImuFormat, c_temperature, complaint, written_by};
-use crate::error::Complaint;
+use super::arrays::vector3;
+use super::c_constants::{HELP, matrix, numbers, vector};
+use super::words::{complaint, written_by};
+use super::{CalibratedImuFile, ImuFormat, c_temperature};
 use crate::io::text::Checked;
 use crate::sensor::{
     CalibratedImu, ImuCorrection, ImuParameters, ImuQuantity, ReadingUnit, SensorParameters, Triad,
 };
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Matrix3;
 use std::fmt::Write;
-
-pub(super) const HELP: &str = "give a header that calibrant wrote, as it wrote it";
 
 pub(super) fn write(file: &CalibratedImuFile) -> Checked<String> {
     let imu = &file.imu;
@@ -119,15 +118,6 @@ fn comment(text: &str) -> String {
     text.replace("*/", "* /").replace(['\n', '\r'], " ")
 }
 
-pub(super) fn vector(values: &Vector3<f64>) -> String {
-    format!("{{ {:?}, {:?}, {:?} }}", values.x, values.y, values.z)
-}
-
-fn matrix(values: &Matrix3<f64>) -> String {
-    let row = |i: usize| vector(&values.row(i).transpose());
-    format!("{{\n    {},\n    {},\n    {},\n}}", row(0), row(1), row(2))
-}
-
 pub(super) fn read(text: &str) -> Checked<CalibratedImuFile> {
     let mut parameters = ImuParameters::identity();
     let mut units = [None, None];
@@ -188,38 +178,4 @@ fn unit_of(text: &str, triad: Triad) -> Checked<ReadingUnit> {
         .into_iter()
         .find(|unit| ascii(unit.symbol()) == said.trim())
         .ok_or_else(|| complaint(format!("the unit of the {triad} is \"{}\"", said.trim()), HELP))
-}
-
-/// The numbers of a constant, between its braces; `None` where there is no such constant.
-pub(super) fn numbers(text: &str, name: &str, count: usize) -> Checked<Option<Vec<f64>>> {
-    read_constant(text, &format!("{name}[3]"), count)
-}
-
-/// The number of a constant that has one.
-pub(super) fn number(text: &str, name: &str) -> Checked<Option<f64>> {
-    Ok(read_constant(text, &format!("CALIBRANT_REAL {name} ="), 1)?.map(|found| found[0]))
-}
-
-fn read_constant(text: &str, name: &str, count: usize) -> Checked<Option<Vec<f64>>> {
-    let Some(start) = text.find(name) else { return Ok(None) };
-    let name = name.trim_end_matches("[3]");
-    let line = 1 + text[..start].matches('\n').count();
-    let complain = |message: String| Err(Box::new(Complaint::new(message, HELP).at_line(line)));
-    let Some((value, _)) = text[start..].split_once('=').and_then(|(_, rest)| rest.split_once(';')) else {
-        return complain(format!("`{name}` has no value"));
-    };
-    let mut numbers = Vec::with_capacity(count);
-    for word in value
-        .split(|c: char| c.is_whitespace() || matches!(c, '{' | '}' | ','))
-        .filter(|word| !word.is_empty())
-    {
-        match word.parse::<f64>() {
-            Ok(number) if number.is_finite() => numbers.push(number),
-            _ => return complain(format!("`{name}`: not a number: {word}")),
-        }
-    }
-    if numbers.len() != count {
-        return complain(format!("`{name}` has {} numbers, not {count}", numbers.len()));
-    }
-    Ok(Some(numbers))
 }

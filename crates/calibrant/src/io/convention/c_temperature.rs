@@ -1,8 +1,8 @@
 //! What temperature does to an IMU, in the C header: coefficients, and what the correction functions do with them.
 
-use super::c_header::{HELP, number, numbers, vector};
-use super::complaint;
-use super::core::vector3;
+use super::arrays::vector3;
+use super::c_constants::{HELP, number, numbers, vector};
+use super::words::complaint;
 use crate::io::text::Checked;
 use crate::sensor::{CalibratedImu, HIGHEST_ORDER, Thermal, Triad, TriadThermal};
 use nalgebra::Vector3;

@@ -4,9 +4,11 @@
 //! units in the names of the fields. Carries everything: covariance, g-sensitivity, counts, noise densities, the hashes of the recordings. Numbers have the
 //! fewest digits that read back to the same bits. Schema 1, `calibration.json` of one accelerometer, is read as well, and `truth.json` of a simulation.
 
-use super::core::{ImuCore, missing};
-use super::kalibr::ImuNoise;
-use super::{CalibratedImuFile, ImuFormat, complaint, schema_one, truth};
+use super::arrays::missing;
+use super::core::ImuCore;
+use super::imu_noise::ImuNoise;
+use super::words::complaint;
+use super::{CalibratedImuFile, ImuFormat, schema_one, truth};
 use crate::io::json;
 use crate::io::text::Checked;
 use serde::{Deserialize, Serialize};

@@ -1,6 +1,6 @@
 //! What every calibration must be to be of use, whatever its format.
 
-use super::complaint;
+use super::words::complaint;
 use crate::io::text::Checked;
 use crate::sensor::{CalibratedImu, ImuCorrection, Triad};
 use nalgebra::{DMatrix, Matrix3};

@@ -5,18 +5,17 @@
 //! what the covariance speaks of; a file where they contradict each other is refused.
 
 use super::super::calibration::Input;
-use super::complaint;
+use super::arrays::{Rows, matrix3, missing, rows, vector3};
 use super::temperature::TemperatureCore;
+use super::words::complaint;
 use crate::io::fields::matrix_rows;
 use crate::io::text::Checked;
 use crate::sensor::{
-    Axis, CalibratedImu, Correction, Gauge, ImuParameters, ImuQuantity, Quantity, ReadingUnit,
-    SensorParameters, Triad,
+    CalibratedImu, Correction, Gauge, ImuParameters, ImuQuantity, Quantity, ReadingUnit, SensorParameters,
+    Triad,
 };
-use nalgebra::{DMatrix, Matrix3, Vector3};
+use nalgebra::{DMatrix, Matrix3};
 use serde::{Deserialize, Serialize};
-
-type Rows = Vec<Vec<f64>>;
 
 /// To be flattened into a file. Everything is optional when it is read, so that what is missing can be named.
 #[derive(Debug, Serialize, Deserialize)]
@@ -360,35 +359,4 @@ pub(super) fn check_direction(field: &str, said: &str) -> Checked<()> {
         ),
         "write y = S s + b, the reading of a true value; or give imu_tk's .calib, which is raw to true",
     ))
-}
-
-/// A field that is not there.
-pub(super) fn missing(field: &str) -> Box<crate::error::Complaint> {
-    complaint(
-        format!("this is no calibration of an IMU: the field `{field}` is missing"),
-        "give a file that calibrant wrote, or name its format with --from",
-    )
-}
-
-/// A matrix row by row.
-pub(super) fn rows(matrix: &Matrix3<f64>) -> Rows {
-    Axis::ALL.map(|row| matrix.row(row.index()).iter().copied().collect()).to_vec()
-}
-
-/// Three numbers.
-pub(super) fn vector3(values: &[f64], field: &str) -> Checked<Vector3<f64>> {
-    match values {
-        [x, y, z] => Ok(Vector3::new(*x, *y, *z)),
-        _ => {
-            Err(complaint(format!("`{field}` has {} numbers, not 3", values.len()), "give one for each axis"))
-        }
-    }
-}
-
-/// Three rows of three numbers.
-pub(super) fn matrix3(values: &[Vec<f64>], field: &str) -> Checked<Matrix3<f64>> {
-    if values.len() != 3 || values.iter().any(|row| row.len() != 3) {
-        return Err(complaint(format!("`{field}` is not 3 × 3"), "give three rows of three numbers"));
-    }
-    Ok(Matrix3::from_fn(|row, column| values[row][column]))
 }

@@ -1,6 +1,6 @@
 //! The formats: their names, and how a file is recognised.
 
-use super::complaint;
+use super::words::complaint;
 use crate::io::text::Checked;
 use std::path::Path;
 

@@ -8,7 +8,8 @@
 //! # References
 //! `tedaldi2014`, `imu_tk`
 
-use super::{CalibratedImuFile, ConventionOptions, ImuFormat, complaint, written_by};
+use super::words::{complaint, written_by};
+use super::{CalibratedImuFile, ConventionOptions, ImuFormat};
 use crate::error::Complaint;
 use crate::io::delimited::Lines;
 use crate::io::text::Checked;

@@ -9,8 +9,9 @@
 //! # References
 //! `ferraris1995`, `imucal`
 
-use super::core::{matrix3, rows, vector3};
-use super::{CalibratedImuFile, ConventionOptions, ImuFormat, RawUnits, complaint, written_by};
+use super::arrays::{matrix3, rows, vector3};
+use super::words::{complaint, written_by};
+use super::{CalibratedImuFile, ConventionOptions, ImuFormat, RawUnits};
 use crate::io::json;
 use crate::io::text::Checked;
 use crate::sensor::{

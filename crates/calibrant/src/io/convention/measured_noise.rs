@@ -1,6 +1,8 @@
 //! Noise densities from `noise.json`, as `calibrant noise` writes it, for formats that carry one number for a sensor.
 
-use super::{ImuNoise, LARGEST, complaint};
+use super::ImuNoise;
+use super::file::LARGEST;
+use super::words::complaint;
 use crate::error::{Error, Result};
 use crate::io::json;
 use crate::io::noise::NOISE_SCHEMA;

@@ -1,7 +1,8 @@
 //! calibrant JSON, schema 1: `calibration.json` of one accelerometer, read as an IMU that has no gyroscope.
 
 use super::core::{check_direction, quantity_of};
-use super::{CalibratedImuFile, ImuFormat, complaint};
+use super::words::complaint;
+use super::{CalibratedImuFile, ImuFormat};
 use crate::io::calibration::Input;
 use crate::io::earlier;
 use crate::io::json;

@@ -2,8 +2,8 @@
 //!
 //! Of each sensor's bias, the fields in its unit are there; what is not there is zero.
 
-use super::complaint;
-use super::core::vector3;
+use super::arrays::{missing, vector3};
+use super::words::complaint;
 use crate::io::text::Checked;
 use crate::sensor::{CalibratedImu, ReadingUnit, Thermal, Triad, TriadThermal};
 use nalgebra::Vector3;
@@ -60,7 +60,7 @@ impl TemperatureCore {
     /// What they say; units are those of the sensors.
     pub(super) fn into_thermal(self, units: [Option<ReadingUnit>; 2]) -> Checked<Thermal> {
         let Some(reference_c) = self.reference_c else {
-            return Err(super::core::missing("temperature.reference_c"));
+            return Err(missing("temperature.reference_c"));
         };
         let range_c = match self.range_c.as_deref() {
             None => None,

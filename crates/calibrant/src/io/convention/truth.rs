@@ -1,7 +1,8 @@
 //! `truth.json` of a simulated sensor, read as a calibration without a covariance: its values are exact.
 
 use super::core::{check_direction, quantity_of};
-use super::{CalibratedImuFile, ImuFormat, complaint};
+use super::words::complaint;
+use super::{CalibratedImuFile, ImuFormat};
 use crate::io::json;
 use crate::io::text::Checked;
 use crate::sensor::{Axis, CalibratedImu, Gauge, ImuParameters, ImuQuantity, Quantity, ReadingUnit, Triad};

@@ -1,6 +1,7 @@
 //! `[calibrate]`: how a recording is evaluated.
 
 use super::document::Section;
+use super::spreads::need_spreads;
 use crate::error::Result;
 use crate::sensor::Sensor;
 
@@ -27,7 +28,7 @@ pub(super) fn read(section: &Section<'_>, sensor: &Sensor) -> Result<CalibrateOp
         entry.word(&[("none", Prior::None), ("datasheet", Prior::Datasheet)])
     })?;
     if prior == Prior::Datasheet {
-        super::need_spreads(section, "prior", sensor)?;
+        need_spreads(section, "prior", sensor)?;
     }
     Ok(CalibrateOptions { prior })
 }

@@ -3,6 +3,7 @@
 use super::bounds::Bounds;
 use super::document::Section;
 use super::keys;
+use super::spreads::need_spreads;
 use crate::error::Result;
 use crate::sensor::{ParameterList, Sensor};
 
@@ -118,7 +119,7 @@ pub(super) fn read(section: &Section<'_>, sensor: &Sensor, list: &ParameterList)
         _ => (),
     }
     if options.scale_by == ScaleBy::Datasheet {
-        super::need_spreads(section, "scale_by", sensor)?;
+        need_spreads(section, "scale_by", sensor)?;
     }
     Ok(options)
 }

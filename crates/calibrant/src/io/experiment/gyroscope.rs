@@ -2,11 +2,12 @@
 
 use super::HoldsPlan;
 use super::bounds::Bounds;
+use super::direction::direction;
 use super::document::{Entry, Section};
 use crate::error::Result;
 use crate::estimate::{Gyroscope, HoldsSetup, ImuSetup, KnownTerm, ThermalModel, Turn};
 use crate::io::ImuUnit;
-use crate::sensor::{Axis, ImuQuantity, ReadingUnit, SensorModel};
+use crate::sensor::{ImuQuantity, ReadingUnit, SensorModel};
 use nalgebra::Vector3;
 
 const GAIN: Bounds = Bounds::above(0.0, 1e12, "counts/(rad/s)");
@@ -19,8 +20,6 @@ const ANGLE_SD: Bounds = Bounds::above(0.0, 360.0, "degrees");
 const NUMBER: Bounds = Bounds::from(-1e12, 1e12, "");
 /// A smaller one leaves the other data no digits.
 const PRIOR_SD: Bounds = Bounds::from(1e-12, 1e12, "");
-const COMPONENT: Bounds = Bounds::from(-1e3, 1e3, "");
-
 /// The second sensor of an IMU and what both share, as `[gyroscope]`, `[known]` and `[temperature]` describe it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ImuPlan {
@@ -158,25 +157,6 @@ fn turns(entry: &Entry<'_>) -> Result<Vec<Turn>> {
         turns.push(turn);
     }
     Ok(turns)
-}
-
-/// A direction: `"x"`, `"-z"`, or three numbers.
-pub(super) fn direction(entry: &Entry<'_>) -> Result<Vector3<f64>> {
-    const HELP: &str = "\"x\", \"-x\", …, or three numbers: [0.0, 0.6, 0.8]";
-    if let Some(text) = entry.text() {
-        let (sign, name) = text.strip_prefix('-').map_or((1.0, text), |name| (-1.0, name));
-        let name = name.strip_prefix('+').unwrap_or(name);
-        return match Axis::ALL.iter().position(|axis| axis.to_string() == name) {
-            Some(axis) => Ok(Vector3::from_fn(|k, _| if k == axis { sign } else { 0.0 })),
-            None => Err(entry.complain(format!("\"{text}\" is no direction"), HELP)),
-        };
-    }
-    let items = entry.items(HELP)?;
-    let [x, y, z] = items.as_slice() else {
-        return Err(entry.complain(format!("a direction has three numbers, this has {}", items.len()), HELP));
-    };
-    let vector = Vector3::new(x.number(&COMPONENT)?, y.number(&COMPONENT)?, z.number(&COMPONENT)?);
-    vector.try_normalize(1e-9).ok_or_else(|| entry.complain("a direction of no length", HELP))
 }
 
 fn read_known(section: &Section<'_>, thermal: &ThermalModel) -> Result<Vec<KnownTerm>> {

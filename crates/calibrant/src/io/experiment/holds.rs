@@ -1,8 +1,8 @@
 //! `[holds]`: static calibration in several poses.
 
 use super::bounds::Bounds;
+use super::direction::direction;
 use super::document::{Entry, Section};
-use super::gyroscope::direction;
 use super::motion::RATE_HZ;
 use crate::error::Result;
 use crate::motion::Gravity;

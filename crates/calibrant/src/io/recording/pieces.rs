@@ -1,6 +1,7 @@
 //! A text file in pieces of whole lines: however long a recording is, its text is never in memory at once.
 
-use super::{LARGEST, hex};
+use super::checksum::hex;
+use super::size::LARGEST;
 use crate::io::text::{self, Checked};
 use sha2::{Digest, Sha256};
 use std::fs::File;

@@ -1,10 +1,12 @@
 //! The report on a design: how good the motion is, what it promises, what the arm has to do, how it was found.
 
+mod axes;
 mod limits;
 mod promised;
 pub(super) mod starts;
 mod verdict;
 
+pub(super) use axes::axes;
 pub(super) use limits::limit_table;
 pub(super) use promised::{above, promised_table, times};
 pub(super) use starts::status;
@@ -17,7 +19,6 @@ use super::figure::{
 };
 use super::html::{Page, escape, facts};
 use crate::design::{Design, limit_use};
-use crate::sensor::{Axis, Parameter};
 use promised::criterion_table;
 use verdict::verdict;
 
@@ -106,10 +107,4 @@ fn search(page: &mut Page, design: &Design) {
         page.push(figure.html());
     }
     page.push(starts::start_table(&design.starts, &design.criterion));
-}
-
-/// The axes that the parameters are about.
-pub(super) fn axes(parameters: &[Parameter]) -> &'static [Axis] {
-    let biases = parameters.iter().filter(|parameter| parameter.name.starts_with("bias.")).count();
-    &Axis::ALL[..biases.min(3)]
 }

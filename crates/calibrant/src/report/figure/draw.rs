@@ -5,7 +5,6 @@ use crate::report::html::escape;
 use crate::report::number;
 use kuva::prelude::{Layout, LinePlot, LineStyle, MarkerShape, Plot, ScatterPlot, Theme};
 use kuva::{TickFormat, plot::BandPlot, render::annotations::ShadedRegion};
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// Width of a panel in SVG units; a column of a wide page, or a phone, is about as many pixels wide.
@@ -178,27 +177,6 @@ fn responsive(svg: &str, height: f64, name: &str) -> String {
     )
 }
 
-/// What the plotting library's names of clipping paths begin with; a number follows.
-const CLIP: &str = "kuva-clip-";
-
-/// A page whose clipping paths are numbered in their order on it. The library counts those of the whole process, figures of other threads among them.
-pub(in crate::report) fn renumbered(page: &str) -> String {
-    let mut numbers: BTreeMap<&str, usize> = BTreeMap::new();
-    let mut text = String::with_capacity(page.len());
-    let mut copied = 0;
-    for start in memchr::memmem::find_iter(page.as_bytes(), CLIP) {
-        let at = start + CLIP.len();
-        let end = page[at..].find(|c: char| !c.is_ascii_digit()).map_or(page.len(), |length| at + length);
-        let (before, count) = (&page[..start], numbers.len() + 1);
-        if end > at && (before.ends_with("id=\"") || before.ends_with("url(#")) {
-            text.push_str(&page[copied..at]);
-            text.push_str(&numbers.entry(&page[at..end]).or_insert(count).to_string());
-            copied = end;
-        }
-    }
-    text + &page[copied..]
-}
-
 /// Decimals beyond the second dropped within tags: the plotting library writes some coordinates as 123.45000000000002.
 fn shortened(svg: &str) -> String {
     let mut short = String::with_capacity(svg.len());
@@ -245,14 +223,5 @@ mod tests {
         assert_eq!(tick(0.5, epoch), "0.5", "of the other axis");
         assert_eq!(tick(1e-12 + 9.80, (9.8, 9.802)), "9.8000");
         assert_eq!(tick(40.0, (0.0, 166.0)), "40");
-    }
-
-    #[test]
-    fn clipping_paths_are_numbered_in_their_order_and_text_is_left_alone() {
-        let page = "<clipPath id=\"kuva-clip-17\"/><g clip-path=\"url(#kuva-clip-17)\"/>kuva-clip-17 \
-                    <clipPath id=\"kuva-clip-2\"/><g clip-path=\"url(#kuva-clip-2)\"/><g clip-path=\"url(#kuva-clip-17)\"/>kuva-clip-";
-        let expected = "<clipPath id=\"kuva-clip-1\"/><g clip-path=\"url(#kuva-clip-1)\"/>kuva-clip-17 \
-                        <clipPath id=\"kuva-clip-2\"/><g clip-path=\"url(#kuva-clip-2)\"/><g clip-path=\"url(#kuva-clip-1)\"/>kuva-clip-";
-        assert_eq!(renumbered(page), expected);
     }
 }

@@ -2,7 +2,8 @@
 //!
 //! Drawn by hand: a sphere with a graticule and numbered points is beyond the plotting library.
 
-use super::{colour, framed};
+use super::colour;
+use super::frame::framed;
 use crate::estimate::{HoldCalibration, HoldResult};
 use nalgebra::Vector3;
 

@@ -2,7 +2,7 @@
 //!
 //! Drawn by hand: bands whose edges read as contours, with a bar that names them, are beyond the plotting library.
 
-use super::framed;
+use super::frame::framed;
 use crate::report::html::escape;
 use crate::report::number;
 use crate::study::TraceSurface;

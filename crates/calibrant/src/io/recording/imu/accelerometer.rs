@@ -1,11 +1,13 @@
 //! The accelerometer alone, out of a recording in any format.
 
 use super::head::Head;
+use super::read::parse;
 use super::source::whole;
-use super::{FileFormat, ImuReadOptions, ImuUnit, parse};
+use super::{FileFormat, ImuReadOptions, ImuUnit};
 use crate::error::{Complaint, Error, Result};
 use crate::io::recording::columns::is_axis;
-use crate::io::recording::{ReadOptions, RecordingFile, parse as parse_plain};
+use crate::io::recording::read::parse as parse_plain;
+use crate::io::recording::{ReadOptions, RecordingFile};
 use crate::io::text;
 use crate::sensor::{Axis, ReadingUnit, Triad};
 use std::path::Path;

@@ -4,6 +4,9 @@ use super::head::Head;
 use crate::error::Complaint;
 use crate::io::text::Checked;
 
+/// What to do where the format that was given is not that of the content.
+pub(super) const LEAVE_AWAY: &str = "leave --format away: the format is recognised by the content";
+
 /// A file format of whole-IMU recordings.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum FileFormat {

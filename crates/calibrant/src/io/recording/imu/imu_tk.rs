@@ -2,10 +2,10 @@
 
 use super::column::{ColumnMeaning, ImuColumn};
 use super::draft::Draft;
-use super::format::FileFormat;
+use super::format::{FileFormat, LEAVE_AWAY};
 use super::head::Head;
 use super::unit::{ColumnUnit, TimeUnit};
-use super::{LEAVE_AWAY, naming, unnamed};
+use super::{naming, unnamed};
 use crate::error::Complaint;
 use crate::io::text::Checked;
 use crate::sensor::{Axis, Triad};

@@ -4,12 +4,11 @@ use super::clock::COUNTED;
 use super::column::{ColumnMeaning, ImuColumn};
 use super::draft::Draft;
 use super::head::Head;
+use super::read::rows;
 use super::source::{self, Source};
-use super::{
-    ColumnMapping, FileFormat, Finding, FindingKind, ImuFile, ImuReadOptions, SecondFile, imu_tk, rows,
-};
+use super::{ColumnMapping, FileFormat, ImuFile, ImuReadOptions, SecondFile, imu_tk};
 use crate::error::{Complaint, Error, Result};
-use crate::io::recording::finding::{moment, short};
+use crate::io::recording::finding::{Finding, FindingKind, moment, short};
 use crate::io::text::Checked;
 use crate::sensor::{ImuRecording, Recording, Triad};
 use std::path::Path;

@@ -4,9 +4,10 @@ use super::head::Head;
 use super::samples::{SampleReader, Samples};
 use super::{FileFormat, ImuFile};
 use crate::io::delimited::{Line, Lines};
+use crate::io::recording::checksum::hex_sha256;
 use crate::io::recording::pieces::{Beginning, Pieces};
 use crate::io::recording::row::Layout;
-use crate::io::recording::{estimated_rows, hex_sha256};
+use crate::io::recording::size::estimated_rows;
 use crate::io::text::{self, Checked};
 use std::path::Path;
 

@@ -1,0 +1,49 @@
+//! What errors on unused data say of the covariance.
+
+/// A factor between prediction and error so close to one is no reason to doubt, however sure it is.
+pub(super) const CLOSE: f64 = 1.25;
+
+/// Where upper and lower end of the factor's interval are further apart than this, nothing is believed: three errors or fewer.
+const OPEN: f64 = 10.0;
+
+/// What errors on unused data say of the covariance.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum CovarianceVerdict {
+    /// Errors are as large as predicted, or within a quarter of it.
+    Believed,
+    /// They are larger.
+    TooSmall,
+    /// They are smaller.
+    LargerThanNeeded,
+    /// They are too few to tell: neither contradicted nor confirmed within a factor of about three.
+    TooFew,
+    /// Those that count are as large as predicted, and confirm nothing: see [`ValidatedErrors::doubt`](super::ValidatedErrors::doubt).
+    Doubtful,
+}
+
+impl CovarianceVerdict {
+    /// As written in results: `believed`, `too_small`, `larger_than_needed`, `too_few`, `doubtful`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Believed => "believed",
+            Self::TooSmall => "too_small",
+            Self::LargerThanNeeded => "larger_than_needed",
+            Self::TooFew => "too_few",
+            Self::Doubtful => "doubtful",
+        }
+    }
+
+    /// What a factor and its interval say.
+    pub(super) fn of(factor: f64, interval: (f64, f64)) -> Self {
+        if interval.0 > 1.0 && factor > CLOSE {
+            Self::TooSmall
+        } else if interval.1 < 1.0 && factor < 1.0 / CLOSE {
+            Self::LargerThanNeeded
+        } else if interval.1 > OPEN * interval.0 {
+            Self::TooFew
+        } else {
+            Self::Believed
+        }
+    }
+}

@@ -1,0 +1,50 @@
+//! What a validation begins with: holds, temperatures, and a calibration that corrects something.
+
+use crate::error::{Complaint, Error, Result};
+use crate::estimate::imu::needed_temperatures;
+use crate::estimate::{
+    Calibration, CalibrationProblem, HoldCalibration, HoldsSetup, ImuCalibration, ImuProblem, Recovered,
+    Stimulus,
+};
+use crate::motion::Hold;
+use crate::sensor::Temperatures;
+
+/// The temperatures of a recording, where the calibration follows them.
+pub(super) fn temperatures<'a>(
+    calibration: &ImuCalibration,
+    problem: &ImuProblem<'a>,
+) -> Result<Option<Temperatures<'a>>> {
+    calibration.hold_temperatures_c.as_ref().map(|_| needed_temperatures(problem.recording)).transpose()
+}
+
+/// The holds, of which there are some.
+pub(super) fn at_least_one(holds: Vec<Hold>, setup: &HoldsSetup) -> Result<Vec<Hold>> {
+    if holds.is_empty() {
+        return Err(Error::recording(Complaint::new(
+            format!("it has no holds of at least {} s", setup.minimum_hold_s),
+            "a validation needs the sensor held still in several orientations",
+        )));
+    }
+    Ok(holds)
+}
+
+/// How holds are to be treated, and what a calibration found of them.
+pub(super) fn of_holds<'a>(
+    calibration: &'a Calibration,
+    problem: &CalibrationProblem<'a>,
+) -> Result<(&'a HoldsSetup, &'a HoldCalibration)> {
+    match (&problem.stimulus, &calibration.recovered) {
+        (Stimulus::Holds(setup), Recovered::Holds(found)) => Ok((setup, found)),
+        _ => Err(Error::experiment(Complaint::new(
+            "only a calibration from holds can be validated: a commanded motion gives no errors of which anything is known",
+            "record the sensor held still in several orientations, and use [holds]",
+        ))),
+    }
+}
+
+pub(super) fn singular() -> Error {
+    Error::recording(Complaint::new(
+        "the calibration has a singular matrix, so that it corrects nothing",
+        "calibrate again",
+    ))
+}

@@ -1,0 +1,118 @@
+//! Tries a calibration on another recording of its sensor.
+
+use super::claim::Claim;
+use super::doubt::Doubts;
+use super::inputs::{at_least_one, of_holds, singular, temperatures};
+use super::judgement::judged;
+use super::predict::{Errors, Unused};
+use super::result::{Validation, ValidationSource};
+use super::{reason, scatter};
+use crate::error::{Complaint, Error, Result};
+use crate::estimate::holds::median;
+use crate::estimate::imu::recordings;
+use crate::estimate::{
+    Calibration, CalibrationProblem, ImuCalibration, ImuProblem, find_holds, find_imu_holds, holds_between,
+};
+use crate::sensor::Triad;
+
+/// A magnitude this far from gravity on half of the holds is not that of the sensor that was calibrated.
+const ANOTHER_SENSOR: f64 = 0.1;
+
+/// A magnitude is off by g, or by 1/g, within this share: a bias changes it where the readings are a tenth of what they should be.
+const OTHER_UNIT: f64 = 0.25;
+
+/// Tries the calibration of an IMU on another recording of it.
+///
+/// `problem` is that of the other recording: its holds are found (or given) as the setup says.
+///
+/// # Errors
+/// [`Error::Recording`](crate::Error::Recording) where the recording has no holds, lacks a sensor, is in other units, or is not one of this IMU.
+pub fn validate_imu(calibration: &ImuCalibration, problem: &ImuProblem<'_>) -> Result<Validation> {
+    let (accelerometer, gyroscope) = recordings(problem)?;
+    let setup = &problem.setup.holds;
+    let holds = match &setup.intervals_s {
+        Some(intervals) => holds_between(accelerometer, intervals)?,
+        None => find_imu_holds(problem.recording, setup.minimum_hold_s)?,
+    };
+    let holds = at_least_one(holds, setup)?;
+    let unused = Unused {
+        gyroscope: Some(gyroscope),
+        temperatures: temperatures(calibration, problem)?,
+        ..Unused::of_accelerometer(accelerometer, &holds)
+    };
+    if holds.iter().all(|hold| gyroscope.between(hold.start_s, hold.end_s).len() < 2) {
+        return Err(Error::recording(Complaint::new(
+            "the gyroscope has no samples in the holds of the accelerometer",
+            "both need the same clock: are these files of one recording?",
+        )));
+    }
+    let claim = Claim::of_imu(calibration, problem.setup);
+    on_another(&claim, unused, &Doubts::of_imu(calibration))
+}
+
+/// Tries the calibration of an accelerometer from holds on another recording of it.
+///
+/// # Errors
+/// As [`validate_imu`]; [`Error::Experiment`](crate::Error::Experiment) for a calibration that is not from holds.
+pub fn validate(calibration: &Calibration, problem: &CalibrationProblem<'_>) -> Result<Validation> {
+    let (setup, found) = of_holds(calibration, problem)?;
+    problem.validate()?;
+    let holds = match &setup.intervals_s {
+        Some(intervals) => holds_between(problem.recording, intervals)?,
+        None => find_holds(problem.recording, setup.minimum_hold_s)?,
+    };
+    let holds = at_least_one(holds, setup)?;
+    let list = setup.gauge.parameter_list(problem.sensor.model);
+    let claim = Claim::of_accelerometer(calibration, found, &list, &setup.gravity);
+    let unused = Unused::of_accelerometer(problem.recording, &holds);
+    on_another(&claim, unused, &Doubts::of_holds(found))
+}
+
+fn on_another(claim: &Claim, unused: Unused<'_>, doubts: &Doubts) -> Result<Validation> {
+    let unused = Unused { another: true, ..unused };
+    if unused.holds.is_empty() {
+        return Err(Error::recording(Complaint::new(
+            "the accelerometer saturates in each of its holds",
+            "record with a larger range",
+        )));
+    }
+    let mut errors = unused.errors(claim).ok_or_else(singular)?;
+    let open = scatter::as_shown(claim, &errors);
+    let claim = open.as_ref().unwrap_or(claim);
+    if open.is_some() {
+        errors = unused.errors(claim).ok_or_else(singular)?;
+    }
+    let median = median(errors.magnitudes.items.iter().map(|item| item.error[0].abs()).collect());
+    if median > ANOTHER_SENSOR * claim.gravity_mps2 {
+        return Err(Error::recording(Complaint::new(
+            format!("with this calibration, its holds miss the magnitude of gravity by {median:.2} m/s²"),
+            other_unit(&errors, claim).unwrap_or("is it a recording of the same sensor, in the same units?"),
+        )));
+    }
+    let source = ValidationSource::Recording { name: String::new() };
+    let mut validation = judged(source, vec![errors], claim, doubts);
+    for noise in &mut validation.noise {
+        let recording = match noise.triad {
+            Triad::Accelerometer => Some(unused.accelerometer),
+            Triad::Gyroscope => unused.gyroscope,
+        };
+        let holds = unused.holds.iter().map(|(_, hold)| *hold);
+        *noise = recording.map_or(*noise, |recording| noise.with_steps(recording, holds));
+    }
+    validation.reasons = reason::reasons(&validation, claim, &unused);
+    Ok(validation)
+}
+
+/// What to ask where magnitudes are off by g or by 1/g: readings in g taken for m/s², or the other way round.
+fn other_unit(errors: &Errors, claim: &Claim) -> Option<&'static str> {
+    let magnitudes = errors.magnitudes.items.iter().map(|item| item.error[0] + claim.gravity_mps2);
+    let ratio = median(magnitudes.collect()) / claim.gravity_mps2;
+    let near = |expected: f64| (ratio / expected).ln().abs() < OTHER_UNIT;
+    if near(1.0 / claim.gravity_mps2) {
+        Some("they are 9.8 times too small: are the readings in g, and stated to be in m/s²?")
+    } else if near(claim.gravity_mps2) {
+        Some("they are 9.8 times too large: are the readings in m/s², and stated to be in g?")
+    } else {
+        None
+    }
+}

@@ -1,0 +1,42 @@
+//! The two sensors of an IMU.
+
+use super::ReadingUnit;
+use std::fmt;
+
+/// One of the two sensors of an IMU.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Triad {
+    /// Specific force.
+    Accelerometer,
+    /// Angular rate.
+    Gyroscope,
+}
+
+impl Triad {
+    /// Both.
+    pub const ALL: [Self; 2] = [Self::Accelerometer, Self::Gyroscope];
+
+    /// `accelerometer` or `gyroscope`: how names of parameters begin.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Accelerometer => "accelerometer",
+            Self::Gyroscope => "gyroscope",
+        }
+    }
+
+    /// Unit of its stimulus: m/s² or rad/s.
+    #[must_use]
+    pub fn stimulus_unit(self) -> ReadingUnit {
+        match self {
+            Self::Accelerometer => ReadingUnit::MetrePerSecondSquared,
+            Self::Gyroscope => ReadingUnit::RadianPerSecond,
+        }
+    }
+}
+
+impl fmt::Display for Triad {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
