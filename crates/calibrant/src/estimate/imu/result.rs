@@ -1,7 +1,10 @@
 //! What the calibration of an IMU gives.
 
-use super::{ClockRate, NoiseSource};
-use crate::estimate::{CalibrationStatus, Change, HoldCalibration, Uncalibrated, Validation};
+use crate::estimate::Validation;
+use crate::estimate::change::Change;
+use crate::estimate::imu::problem::NoiseSource;
+use crate::estimate::result::{CalibrationStatus, HoldCalibration};
+use crate::estimate::uncalibrated::Uncalibrated;
 use crate::sensor::{CalibratedImu, Gauge, ImuParameters, ImuQuantity, ReadingUnit, SensorModel, Triad};
 use nalgebra::{DMatrix, DVector, Vector3};
 
@@ -230,4 +233,13 @@ impl ImuCalibration {
         };
         format!("fixed by the accelerometer's gauge: its matrix is {form} with a positive diagonal")
     }
+}
+
+/// The gyroscope's clock beside the accelerometer's, where they go at different rates.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ClockRate {
+    /// By this share of the time the gyroscope's goes faster, and by this share its gains are too large if the accelerometer's is right.
+    pub faster: f64,
+    /// Standard deviation.
+    pub sd: f64,
 }

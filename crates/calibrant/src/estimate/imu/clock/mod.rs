@@ -1,0 +1,4 @@
+//! The gyroscope's clock beside the accelerometer's.
+
+pub(crate) mod difference;
+pub(crate) mod offset;
