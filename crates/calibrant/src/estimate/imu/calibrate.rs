@@ -2,8 +2,7 @@
 
 use crate::error::{Complaint, Error, Result};
 use crate::estimate::earth::unknown_latitude;
-use crate::estimate::imu::checks::known_terms;
-use crate::estimate::imu::checks::known_terms::Contradiction;
+use crate::estimate::imu::checks::known_terms::{self, Contradiction};
 use crate::estimate::imu::problem::{ImuProblem, ImuSetup, WhiteNoise};
 use crate::estimate::imu::result::ImuCalibration;
 use crate::estimate::imu::solver::solve_imu;

@@ -2,6 +2,7 @@
 
 use crate::estimate::Validation;
 use crate::estimate::change::Change;
+use crate::estimate::imu::clock::rate::ClockRate;
 use crate::estimate::imu::problem::NoiseSource;
 use crate::estimate::result::{CalibrationStatus, HoldCalibration};
 use crate::estimate::uncalibrated::Uncalibrated;
@@ -233,13 +234,4 @@ impl ImuCalibration {
         };
         format!("fixed by the accelerometer's gauge: its matrix is {form} with a positive diagonal")
     }
-}
-
-/// The gyroscope's clock beside the accelerometer's, where they go at different rates.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ClockRate {
-    /// By this share of the time the gyroscope's goes faster, and by this share its gains are too large if the accelerometer's is right.
-    pub faster: f64,
-    /// Standard deviation.
-    pub sd: f64,
 }

@@ -8,10 +8,10 @@
 
 use crate::error::{Error, Result};
 use crate::estimate::imu::alignment::stage::align_sensors;
-use crate::estimate::imu::assembly::Finished;
+use crate::estimate::imu::assembly::imu_calibration::Finished;
+use crate::estimate::imu::checks::changing_gyroscope::Changing;
 use crate::estimate::imu::checks::evidence::Evidence;
-use crate::estimate::imu::checks::identifiability;
-use crate::estimate::imu::checks::identifiability::with_obstacles;
+use crate::estimate::imu::checks::identifiability::{self, with_obstacles};
 use crate::estimate::imu::checks::list::all_checks;
 use crate::estimate::imu::checks::time_offset_by_activity::with_time_offset;
 use crate::estimate::imu::checks::wrong_turns;
@@ -88,6 +88,15 @@ fn stages(
     let uncertainty = Uncertainty::of(&model, &solution, &setup.holds.gravity, &gyroscope.coarse)?;
     let recorded = problem.recording.accelerometer.as_ref();
     let clock = recorded.and_then(|recorded| ClockDifference::of(&model, &solution.fit.state, recorded));
+    let changes = Changing {
+        model: &model,
+        fit: &solution.fit,
+        readings: &gyroscope.measured,
+        between: solution.between,
+        holds: &first.holds,
+        numbers: &used.numbers,
+    }
+    .changes();
     let calibration = Finished {
         problem,
         accelerometer: &first,
@@ -100,6 +109,7 @@ fn stages(
         solution: &solution,
         uncertainty,
         clock: clock.as_ref().and_then(ClockDifference::rate),
+        changes,
     }
     .assemble()?;
     let warnings = all_checks(&Evidence {

@@ -17,7 +17,7 @@ pub(crate) struct Changing<'a> {
     pub(crate) between: Vector3<f64>,
     pub(crate) holds: &'a HoldCalibration,
     /// Numbers of the holds of the problem.
-    pub(crate) chosen: &'a [usize],
+    pub(crate) numbers: &'a [usize],
 }
 
 impl Changing<'_> {
@@ -28,7 +28,7 @@ impl Changing<'_> {
     }
 
     fn hold(&self, place: usize) -> &Hold {
-        &self.holds.holds[self.chosen[place]].hold
+        &self.holds.holds[self.numbers[place]].hold
     }
 
     /// The mean rates in the holds, each axis by itself: its scatter is its own.
@@ -45,7 +45,7 @@ impl Changing<'_> {
         let step = |last: usize, first: usize| {
             let (last, first) = (places[last], places[first]);
             let time_s = 0.5 * (self.hold(last).end_s + self.hold(first).start_s);
-            (self.chosen[last], self.chosen[first], time_s)
+            (self.numbers[last], self.numbers[first], time_s)
         };
         Some(Change::of(Triad::Gyroscope, found, step))
     }
@@ -139,7 +139,7 @@ impl Changing<'_> {
         let step = |last: usize, first: usize| {
             let (last, first) = (model.rotations[seen[last].0].from + 1, model.rotations[seen[first].0].from);
             let time_s = 0.5 * (self.hold(last).start_s + self.hold(first).end_s);
-            (self.chosen[last], self.chosen[first], time_s)
+            (self.numbers[last], self.numbers[first], time_s)
         };
         Some(Change::of(Triad::Gyroscope, series.change(1)?, step))
     }

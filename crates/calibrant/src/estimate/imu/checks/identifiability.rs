@@ -3,8 +3,7 @@
 use crate::error::{Error, NotIdentifiable, Result, UndeterminedGroup};
 use crate::estimate::imu::checks::axes_in_words::axes_in_words;
 use crate::estimate::imu::model::{Fit, ImuModel, State, TurnData};
-use crate::information;
-use crate::information::Undetermined;
+use crate::information::{self, Undetermined};
 use crate::sensor::{Axis, ImuParameters, ImuQuantity, Quantity, Triad};
 use nalgebra::DMatrix;
 

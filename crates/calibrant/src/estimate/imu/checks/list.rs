@@ -1,23 +1,11 @@
 //! The checks after the fit, in the order in which a user reads what they say.
 
-use crate::estimate::imu::checks::axis_order;
-use crate::estimate::imu::checks::changes;
-use crate::estimate::imu::checks::chi_squared;
-use crate::estimate::imu::checks::coarse_steps;
-use crate::estimate::imu::checks::convergence;
 use crate::estimate::imu::checks::evidence::{Diagnostics, Evidence};
-use crate::estimate::imu::checks::extrapolation;
-use crate::estimate::imu::checks::gains;
-use crate::estimate::imu::checks::gravity_residuals;
-use crate::estimate::imu::checks::gyroscope_noise;
-use crate::estimate::imu::checks::hold_intervals;
-use crate::estimate::imu::checks::holds_left_out;
-use crate::estimate::imu::checks::known_values;
-use crate::estimate::imu::checks::motion_in_hold;
-use crate::estimate::imu::checks::rotations_left_out;
-use crate::estimate::imu::checks::skewed_spikes;
-use crate::estimate::imu::checks::time_offset;
-use crate::estimate::imu::checks::turns_of_known_angle;
+use crate::estimate::imu::checks::{
+    axis_order, changes, chi_squared, coarse_steps, convergence, extrapolation, gains, gravity_residuals,
+    gyroscope_noise, hold_intervals, holds_left_out, known_values, motion_in_hold, rotations_left_out,
+    skewed_spikes, time_offset, turns_of_known_angle,
+};
 
 type Check = fn(&Evidence<'_>) -> Diagnostics;
 

@@ -2,8 +2,7 @@
 
 use crate::error::{Complaint, Error, Result};
 use crate::estimate::imu::alignment::coarse_rotations::WRONG;
-use crate::estimate::imu::checks::axes_without_rotation;
-use crate::estimate::imu::checks::gyroscope_unit;
+use crate::estimate::imu::checks::{axes_without_rotation, gyroscope_unit};
 use crate::estimate::imu::model::{ImuModel, State};
 use crate::estimate::result::HoldCalibration;
 use crate::sensor::ReadingUnit;

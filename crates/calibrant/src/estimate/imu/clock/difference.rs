@@ -8,8 +8,8 @@
 
 use crate::estimate::holds::median;
 use crate::estimate::imu::clock::offset::{ComparedRotation, TimeOffset};
+use crate::estimate::imu::clock::rate::ClockRate;
 use crate::estimate::imu::model::{ImuModel, State};
-use crate::estimate::imu::result::ClockRate;
 use crate::sensor::Recording;
 use rayon::prelude::*;
 use statrs::distribution::{ContinuousCDF, StudentsT};

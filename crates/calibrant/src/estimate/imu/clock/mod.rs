@@ -2,3 +2,4 @@
 
 pub(crate) mod difference;
 pub(crate) mod offset;
+pub(crate) mod rate;

@@ -8,8 +8,7 @@ use crate::estimate::holds::{
     clipped_holds, clipped_reason, coarse_words, holds_between, left_out, magnitude_rms, with_clipped,
 };
 use crate::estimate::imu::checks::accelerometer_gains;
-use crate::estimate::imu::checks::wrong_faces;
-use crate::estimate::imu::checks::wrong_faces::turned_faces;
+use crate::estimate::imu::checks::wrong_faces::{self, turned_faces};
 use crate::estimate::imu::initial::accelerometer::{
     InitialAccelerometer, inverse_covariance, noise_variance,
 };

@@ -1,8 +1,7 @@
 //! The accelerometer from holds whose directions are not known: its static calibration.
 
 use crate::error::{Complaint, Error, Result};
-use crate::estimate::holds;
-use crate::estimate::holds::{HoldsSetup, holds_lost_to_filter, with_filter, with_pauses};
+use crate::estimate::holds::{self, HoldsSetup, holds_lost_to_filter, with_filter, with_pauses};
 use crate::estimate::imu::checks::swapped_sensors::with_swapped_sensors;
 use crate::estimate::imu::initial::accelerometer::InitialAccelerometer;
 use crate::estimate::imu::problem::ImuProblem;

@@ -41,7 +41,7 @@ impl Samples<'_> {
                 here = next;
             }
         }
-        let (by_start, by_end) = (sums.of(3), sums.of(4));
+        let (by_start, by_end) = (sums.integral(3), sums.integral(4));
         let mut covariance = sums.covariance();
         // the noise of the two means
         for (by_bias, end) in [(by_start, &self.drift[0]), (by_end, &self.drift[1])] {
@@ -51,11 +51,11 @@ impl Samples<'_> {
         }
         Some(IntegratedRotation {
             start_from_end: matrix(&attitude),
-            by_rate: [0, 1, 2].map(|scalar| sums.of(scalar)),
+            by_rate: [0, 1, 2].map(|scalar| sums.integral(scalar)),
             by_start,
             by_end,
             drift: self.drift,
-            by_force: [5, 6, 7].map(|scalar| sums.of(scalar)),
+            by_force: [5, 6, 7].map(|scalar| sums.integral(scalar)),
             correction,
             covariance,
         })
@@ -129,7 +129,7 @@ impl Sums {
     }
 
     /// `∫ R s dt` of the scalar in this place.
-    fn of(&self, scalar: usize) -> Matrix3<f64> {
+    fn integral(&self, scalar: usize) -> Matrix3<f64> {
         Matrix3::from_fn(|row, column| self.of_attitude[column][row][scalar])
     }
 

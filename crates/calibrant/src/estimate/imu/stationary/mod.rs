@@ -3,5 +3,4 @@
 pub(crate) mod gyroscope;
 pub(crate) mod intervals;
 pub(crate) mod motion;
-pub(crate) mod result;
 pub(crate) mod scatter;

@@ -7,7 +7,7 @@ use crate::sensor::{Condition, ImuParameters, ImuQuantity};
 use nalgebra::{DMatrix, DVector, Matrix3xX, Vector3};
 use std::ops::SubAssign;
 
-/// What holds, turns and prior say of the gyroscope and the Earth's rate, directions fixed: the rest of the problem beside the rotations. In place of `Γ` stands what [`EarthRate`](super::earth) makes of it.
+/// What holds, turns and prior say of the gyroscope and the Earth's rate, directions fixed: the rest of the problem beside the rotations. In place of `Γ` stands what [`EarthRate`](crate::estimate::imu::earth_rate) makes of it.
 fn rest(model: &ImuModel<'_>, state: &State) -> Rest {
     let places = model.gyroscope_places();
     let unknowns = model.earth.unknowns();

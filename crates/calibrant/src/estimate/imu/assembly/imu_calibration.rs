@@ -1,18 +1,19 @@
 //! Puts the result together, and nothing else.
 
 use crate::error::Result;
-use crate::estimate::imu::checks::changing_gyroscope::Changing;
+use crate::estimate::change::Change;
+use crate::estimate::imu::assembly::gyroscope_before::{gyroscope_before, with_plain_gyroscope};
+use crate::estimate::imu::assembly::holds::hold_results;
+use crate::estimate::imu::assembly::rotations::rotation_results;
+use crate::estimate::imu::assembly::stationary::stationary_result;
+use crate::estimate::imu::clock::rate::ClockRate;
 use crate::estimate::imu::covariance::Uncertainty;
-use crate::estimate::imu::gyroscope_before::{gyroscope_before, with_plain_gyroscope};
-use crate::estimate::imu::hold_results::hold_results;
 use crate::estimate::imu::initial::accelerometer::InitialAccelerometer;
 use crate::estimate::imu::model::{ImuModel, TurnData, singular};
 use crate::estimate::imu::problem::{ImuProblem, Turn};
-use crate::estimate::imu::result::{ClockRate, ImuCalibration, RotationResult, TurnResult};
-use crate::estimate::imu::rotation_results::rotation_results;
+use crate::estimate::imu::result::{ImuCalibration, RotationResult, TurnResult};
 use crate::estimate::imu::rotations::movement::Movement;
 use crate::estimate::imu::stationary::gyroscope::StationaryGyroscope;
-use crate::estimate::imu::stationary::result::stationary_result;
 use crate::estimate::imu::temperature::RecordingTemperature;
 use crate::estimate::imu::variance_components::solution::Solution;
 use crate::estimate::result::HoldResult;
@@ -33,6 +34,8 @@ pub(crate) struct Finished<'a> {
     pub(crate) solution: &'a Solution,
     pub(crate) uncertainty: Uncertainty,
     pub(crate) clock: Option<ClockRate>,
+    /// The sensors that change.
+    pub(crate) changes: Vec<Change>,
 }
 
 impl Finished<'_> {
@@ -47,14 +50,6 @@ impl Finished<'_> {
             hold_results(problem, (self.accelerometer, self.temperature), self.numbers, model, &fit.state)?;
         let of_hold = |hold: &HoldResult| self.temperature.of_hold(&hold.hold);
         let follows = !problem.setup.thermal.is_none();
-        let changing = Changing {
-            model,
-            fit,
-            readings: &gyroscope.measured,
-            between: solution.between,
-            holds: &holds,
-            chosen: self.numbers,
-        };
         Ok(ImuCalibration {
             status: fit.status,
             iterations: fit.iterations,
@@ -83,7 +78,7 @@ impl Finished<'_> {
             rotation_excess_sd_rad: model.excess_rad,
             turns: turn_results(model, &problem.setup.turns, &imu)?,
             hold_temperatures_c: follows.then(|| holds.holds.iter().map(of_hold).collect()),
-            changes: changing.changes(),
+            changes: self.changes,
             clocks: self.clock,
             holds,
             validations: Vec::new(),
