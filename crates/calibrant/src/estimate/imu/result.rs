@@ -1,6 +1,5 @@
 //! What the calibration of an IMU gives.
 
-use crate::estimate::Validation;
 use crate::estimate::change::Change;
 use crate::estimate::imu::clock::rate::ClockRate;
 use crate::estimate::imu::problem::NoiseSource;
@@ -60,8 +59,6 @@ pub struct ImuCalibration {
     pub changes: Vec<Change>,
     /// The rates of the sensors' clocks, where the rotations show that they differ.
     pub clocks: Option<ClockRate>,
-    /// How it fares on data that were not used for it, where it was tried; the estimation leaves it empty.
-    pub validations: Vec<Validation>,
     /// Things a user should know, in words.
     pub warnings: Vec<String>,
 }

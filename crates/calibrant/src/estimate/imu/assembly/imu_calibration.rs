@@ -81,7 +81,6 @@ impl Finished<'_> {
             changes: self.changes,
             clocks: self.clock,
             holds,
-            validations: Vec::new(),
             warnings: Vec::new(),
         })
     }
