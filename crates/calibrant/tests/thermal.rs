@@ -326,7 +326,7 @@ fn a_calibration_keeps_its_terms_in_its_file() {
     let (_, recording) = recorded(&ALL_TO_2, [20.0, 45.0]);
     let linear = ThermalModel { accelerometer_bias: 1, ..GYROSCOPE_BIAS };
     let calibration = run(&recording, &setup(linear)).expect("determined");
-    let text = imu_calibration_json(&calibration, &[]);
+    let text = imu_calibration_json(&calibration, &[], &[]);
     let back = parse_calibrated_imu(text.as_bytes(), &ConventionOptions::default()).expect("ours");
     assert_eq!(back.imu, calibration.calibrated());
     let said = text.replace("\"reference_c\": 32.0", "\"reference_c\": 3200.0");

@@ -8,7 +8,7 @@ use crate::{Exit, console};
 use calibrant::Error;
 use calibrant::error::Complaint;
 use calibrant::estimate::{
-    CalibrationSettings, ImuCalibration, ImuProblem, ImuSetup, Turn, calibrate_imu_while,
+    CalibrationSettings, ImuCalibration, ImuProblem, ImuSetup, Turn, Validation, calibrate_imu_while,
     find_clean_imu_holds,
 };
 use calibrant::io::{
@@ -23,6 +23,7 @@ use std::path::{Path, PathBuf};
 /// An IMU that is calibrated.
 pub(super) struct Done {
     pub(super) calibration: ImuCalibration,
+    pub(super) validations: Vec<Validation>,
     pub(super) file: ImuFile,
     pub(super) inputs: Vec<Input>,
 }
@@ -141,10 +142,9 @@ impl Job<'_> {
         calibration.warnings.extend(of_gyroscope.iter().flat_map(TriadNoise::of_outliers));
         setup.white_noise = white_noise;
         let problem = ImuProblem { accelerometer, gyroscope, recording, setup: &setup };
-        calibration.validations =
-            super::validation::of_imu(arguments, options, &calibration, &problem, &file)?;
+        let validations = super::validation::of_imu(arguments, options, &calibration, &problem, &file)?;
         let noise: Vec<TriadNoise> = of_accelerometer.into_iter().chain(of_gyroscope).collect();
-        let done = Done { calibration, file, inputs };
+        let done = Done { calibration, validations, file, inputs };
         super::imu_output::write(arguments, directory, &done, noise)?;
         Ok(done)
     }
@@ -158,8 +158,8 @@ impl Job<'_> {
         Outcome { findings, calibrated: self.calibrate(files, file, directory).map(|done| self.told(done)) }
     }
 
-    fn told(&self, Done { calibration, inputs, .. }: Done) -> Calibrated {
-        let json = self.arguments.json.then(|| imu_calibration_json(&calibration, &inputs));
+    fn told(&self, Done { calibration, validations, inputs, .. }: Done) -> Calibrated {
+        let json = self.arguments.json.then(|| imu_calibration_json(&calibration, &validations, &inputs));
         let magnitude = calibration.holds.magnitude_residual_rms_mps2;
         let cells = vec![
             share(calibration.holds.holds.iter().map(|hold| hold.used)),

@@ -14,11 +14,11 @@ use std::path::Path;
 pub(super) fn write(
     arguments: &Arguments,
     directory: &Path,
-    Done { calibration, file, inputs }: &Done,
+    Done { calibration, validations, file, inputs }: &Done,
     noise: Vec<TriadNoise>,
 ) -> calibrant::Result<()> {
     let json = directory.join("calibration.json");
-    let json = || write_imu_calibration(&json, calibration, inputs);
+    let json = || write_imu_calibration(&json, calibration, validations, inputs);
     if arguments.no_report {
         super::warn_of_earlier_report(directory);
         return json();
@@ -38,6 +38,7 @@ pub(super) fn write(
             ("Experiment".into(), arguments.experiment.display().to_string()),
         ],
         findings: file.findings.iter().map(ToString::to_string).collect(),
+        validations: validations.clone(),
         program: format!("calibrant {}", env!("CARGO_PKG_VERSION")),
         ..About::default()
     };
@@ -52,10 +53,10 @@ pub(super) fn write(
 }
 
 /// Prints the tables, or calibration.json.
-pub(super) fn show(arguments: &Arguments, Done { calibration, inputs, .. }: &Done) {
+pub(super) fn show(arguments: &Arguments, Done { calibration, validations, inputs, .. }: &Done) {
     if arguments.json {
-        return console::print(&imu_calibration_json(calibration, inputs));
+        return console::print(&imu_calibration_json(calibration, validations, inputs));
     }
-    console::print(&console::imu_calibration(calibration));
+    console::print(&console::imu_calibration(calibration, validations));
     console::print(&format!("\n{}\n", arguments.main_result().display()));
 }

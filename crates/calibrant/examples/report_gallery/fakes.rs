@@ -125,7 +125,6 @@ fn calibrated(
         residuals,
         first_sample: 0,
         datasheet_prior: false,
-        validations: Vec::new(),
         warnings: Vec::new(),
     }
 }
@@ -225,7 +224,6 @@ pub(crate) fn hold_case(count: usize, samples_per_hold: usize) -> (Calibration, 
         residuals: Vec::new(),
         first_sample: 0,
         datasheet_prior: false,
-        validations: Vec::new(),
         warnings: vec![
             "hold 18 was left out: its residual is 21 times what is expected; it was probably not still"
                 .to_string(),

@@ -44,7 +44,7 @@ pub use holds::{
 pub use imu::{
     ClockRate, Gyroscope, ImuCalibration, ImuProblem, ImuSetup, KnownTerm, NoiseSource, RotationResult,
     StillGyroscope, ThermalModel, Turn, TurnResult, WhiteNoise, calibrate_imu, calibrate_imu_while,
-    exchanged_sensors, find_clean_imu_holds, find_imu_holds,
+    find_clean_imu_holds, find_imu_holds, swapped_sensors,
 };
 pub use problem::{CalibrationProblem, Stimulus};
 pub use quantisation::{CoarseAxis, coarse_axes, coarse_axes_in};

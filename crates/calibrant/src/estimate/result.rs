@@ -1,6 +1,6 @@
 //! What a calibration gives.
 
-use super::{Change, Uncalibrated, Validation};
+use super::{Change, Uncalibrated};
 use crate::motion::{Gravity, Hold, JerkControlledMotion};
 use crate::sensor::{Gauge, Parameter, ReadingUnit, SensorParameters};
 use nalgebra::{DMatrix, Vector3};
@@ -58,8 +58,6 @@ pub struct Calibration {
     pub first_sample: usize,
     /// Did the datasheet count as a prior?
     pub datasheet_prior: bool,
-    /// How it fares on data that were not used for it, where it was tried; the estimation leaves it empty.
-    pub validations: Vec<Validation>,
     /// Things a user should know, in words.
     pub warnings: Vec<String>,
 }

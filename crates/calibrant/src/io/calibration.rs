@@ -5,7 +5,7 @@ use super::holds::HoldsFields;
 use super::json;
 use super::validation::{ValidationFields, validation_fields};
 use crate::error::Result;
-use crate::estimate::{Calibration, Recovered};
+use crate::estimate::{Calibration, Recovered, Validation};
 use crate::sensor::{Correction, ReadingUnit};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
@@ -25,19 +25,24 @@ pub struct Input {
 
 /// Writes `calibration.json`.
 ///
-/// The same calibration gives the same bytes. Arrays over axes have 1 or 3 entries; entry (i, j) of the covariance is in the unit
+/// `validations`: how it fares on data that were not used for it. The same calibration gives the same bytes. Arrays over axes have 1 or 3 entries; entry (i, j) of the covariance is in the unit
 /// of parameter i times that of parameter j; fields in the unit of the readings end in `_mps2` or `_counts`.
 ///
 /// # Errors
 /// [`Error::Output`](crate::Error::Output) where it cannot be written.
-pub fn write_calibration(path: &Path, calibration: &Calibration, input: &Input) -> Result<()> {
-    json::write_json(path, &CalibrationFile::of(calibration, input))
+pub fn write_calibration(
+    path: &Path,
+    calibration: &Calibration,
+    validations: &[Validation],
+    input: &Input,
+) -> Result<()> {
+    json::write_json(path, &CalibrationFile::of(calibration, validations, input))
 }
 
 /// The text that [`write_calibration`] writes.
 #[must_use]
-pub fn calibration_json(calibration: &Calibration, input: &Input) -> String {
-    json::to_json(&CalibrationFile::of(calibration, input))
+pub fn calibration_json(calibration: &Calibration, validations: &[Validation], input: &Input) -> String {
+    json::to_json(&CalibrationFile::of(calibration, validations, input))
 }
 
 #[derive(Serialize)]
@@ -63,7 +68,7 @@ struct CalibrationFile<'a> {
 }
 
 impl<'a> CalibrationFile<'a> {
-    fn of(calibration: &'a Calibration, input: &'a Input) -> Self {
+    fn of(calibration: &'a Calibration, validations: &[Validation], input: &'a Input) -> Self {
         let axes = axes_of(&calibration.parameters);
         let (motion, holds) = match &calibration.recovered {
             Recovered::Motion(recovered) => {
@@ -86,7 +91,7 @@ impl<'a> CalibrationFile<'a> {
             motion,
             holds,
             convention: Convention::of(calibration, axes),
-            validation: validation_fields(&calibration.validations),
+            validation: validation_fields(validations),
             warnings: &calibration.warnings,
             input,
         }

@@ -7,25 +7,34 @@ use super::holds::HoldsFields;
 use super::json;
 use super::validation::{ValidationFields, validation_fields};
 use crate::error::Result;
-use crate::estimate::{ImuCalibration, RotationResult, TurnResult};
+use crate::estimate::{ImuCalibration, RotationResult, TurnResult, Validation};
 use serde::Serialize;
 use std::path::Path;
 
 /// Writes `calibration.json` of a whole IMU, which [`read_calibrated_imu`](super::read_calibrated_imu) reads.
 ///
 /// The same calibration gives the same bytes. Angles are in rad; of a rotation that could not be integrated they are `null`. Holds of a rotation are
-/// indices into the table of holds, from 0. `inputs`: one for each file of the recording.
+/// indices into the table of holds, from 0. `validations`: how it fares on data that were not used for it; `inputs`: one for each file of the recording.
 ///
 /// # Errors
 /// [`Error::Output`](crate::Error::Output) where it cannot be written.
-pub fn write_imu_calibration(path: &Path, calibration: &ImuCalibration, inputs: &[Input]) -> Result<()> {
-    json::write_json(path, &ImuCalibrationFile::of(calibration, inputs))
+pub fn write_imu_calibration(
+    path: &Path,
+    calibration: &ImuCalibration,
+    validations: &[Validation],
+    inputs: &[Input],
+) -> Result<()> {
+    json::write_json(path, &ImuCalibrationFile::of(calibration, validations, inputs))
 }
 
 /// The text that [`write_imu_calibration`] writes.
 #[must_use]
-pub fn imu_calibration_json(calibration: &ImuCalibration, inputs: &[Input]) -> String {
-    json::to_json(&ImuCalibrationFile::of(calibration, inputs))
+pub fn imu_calibration_json(
+    calibration: &ImuCalibration,
+    validations: &[Validation],
+    inputs: &[Input],
+) -> String {
+    json::to_json(&ImuCalibrationFile::of(calibration, validations, inputs))
 }
 
 #[derive(Serialize)]
@@ -56,7 +65,7 @@ struct FitFields {
 }
 
 impl<'a> ImuCalibrationFile<'a> {
-    fn of(calibration: &'a ImuCalibration, inputs: &[Input]) -> Self {
+    fn of(calibration: &'a ImuCalibration, validations: &[Validation], inputs: &[Input]) -> Self {
         Self {
             heading: Heading::new(),
             status: calibration.status.name(),
@@ -70,7 +79,7 @@ impl<'a> ImuCalibrationFile<'a> {
             still_gyroscope: StillFields::of(calibration),
             rotations: RotationsFields::of(calibration),
             turns: calibration.turns.iter().map(TurnFields::of).collect(),
-            validation: validation_fields(&calibration.validations),
+            validation: validation_fields(validations),
             warnings: &calibration.warnings,
         }
     }

@@ -4,8 +4,8 @@ use super::json;
 use super::recording::{Finding, ImuColumn, ImuFile};
 use crate::error::Result;
 use crate::estimate::{
-    CoarseAxis, Coverage, ExpectedCalibration, clipped_holds, coarse_axes_in, coverage, exchanged_sensors,
-    expected_calibration, find_clean_imu_holds, holds_lost_to_filter,
+    CoarseAxis, Coverage, ExpectedCalibration, clipped_holds, coarse_axes_in, coverage, expected_calibration,
+    find_clean_imu_holds, holds_lost_to_filter, swapped_sensors,
 };
 use crate::motion::Hold;
 use crate::sensor::{
@@ -168,7 +168,7 @@ impl HoldsInspection {
             coverage: directions.and_then(|directions| coverage(&directions)),
             gyroscope_at_rest: recording.gyroscope.as_ref().and_then(|gyroscope| at_rest(gyroscope, &holds)),
             lost: match &expected {
-                Err(_) => exchanged_sensors(recording, MINIMUM_HOLD_S).map(str::to_owned),
+                Err(_) => swapped_sensors(recording, MINIMUM_HOLD_S).map(str::to_owned),
                 Ok(_) => None,
             }
             .or_else(|| holds_lost_to_filter(accelerometer, &holds, MINIMUM_HOLD_S)),

@@ -1,5 +1,6 @@
 //! What a report says beside the result itself.
 
+use crate::estimate::Validation;
 use crate::motion::JerkControlledMotion;
 use crate::sensor::SensorParameters;
 
@@ -26,6 +27,8 @@ pub struct About {
     pub facts: Vec<(String, String)>,
     /// What was found in the recording, in words: gaps, repeated times, saturated readings. Shown beside the warnings.
     pub findings: Vec<String>,
+    /// How the calibration fares on data that were not used for it, where it was tried.
+    pub validations: Vec<Validation>,
     /// True parameters, where the recording was simulated.
     pub truth: Option<SensorParameters>,
     /// The motion that really happened, where the recording was simulated.

@@ -50,7 +50,7 @@ pub fn calibration_report(calibration: &Calibration, recording: &Recording, abou
         }
         Recovered::Holds(holds) => hold_section(&mut page, calibration, holds, recording),
     }
-    validation_section(&mut page, &calibration.validations);
+    validation_section(&mut page, &about.validations);
     page.section("Correlations", "");
     page.push(correlation_map(&calibration.parameters, &calibration.covariance));
     page.finish(title, &about.footer())

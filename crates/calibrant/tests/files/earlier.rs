@@ -108,7 +108,7 @@ fn a_file_that_is_written_is_read_back() {
     let directory = tempfile::tempdir().expect("a directory");
     let path = directory.path().join("calibration.json");
     let calibration = uniaxial();
-    std::fs::write(&path, calibration_json(&calibration, &input())).expect("written");
+    std::fs::write(&path, calibration_json(&calibration, &[], &input())).expect("written");
     let found = read_calibration(&path).expect("read");
     assert_eq!(found.values, calibration.values);
     assert_eq!(found.covariance, calibration.covariance);

@@ -150,7 +150,6 @@ fn assemble(
         residuals: Vec::new(),
         first_sample: 0,
         datasheet_prior: false,
-        validations: Vec::new(),
         warnings: Vec::new(),
     };
     calibration.warnings = verdict::warnings(&calibration, &robust.weakest);

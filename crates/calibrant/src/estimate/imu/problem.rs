@@ -1,8 +1,7 @@
 //! What is to be calibrated of an IMU, and what is known of its recording.
 
-use super::ThermalModel;
-use crate::estimate::HoldsSetup;
 use crate::estimate::earth::UNKNOWN_SD_RADPS;
+use crate::estimate::holds::HoldsSetup;
 use crate::motion::{Hold, earth_rate, to_ms};
 use crate::sensor::{ImuQuantity, ImuRecording, ParameterList, ReadingUnit, Sensor, SensorModel, Triad};
 use nalgebra::Vector3;
@@ -189,4 +188,39 @@ pub struct KnownTerm {
     pub value: f64,
     /// Its standard uncertainty; `None` where it is fixed at the value.
     pub sd: Option<f64>,
+}
+
+/// What is to follow temperature: orders of the polynomials, 0 where nothing follows.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct ThermalModel {
+    /// The reference `T₀`, °C; the mean over the holds, to the degree, where it is not given.
+    pub reference_c: Option<f64>,
+    /// Order of the accelerometer's bias, to 2.
+    pub accelerometer_bias: usize,
+    /// Order of the accelerometer's gains.
+    pub accelerometer_scale: usize,
+    /// Order of the gyroscope's bias.
+    pub gyroscope_bias: usize,
+    /// Order of the gyroscope's gains.
+    pub gyroscope_scale: usize,
+}
+
+impl ThermalModel {
+    /// Does nothing follow temperature?
+    #[must_use]
+    pub fn is_none(&self) -> bool {
+        self.quantities().is_empty()
+    }
+
+    /// The terms, in the order of a result.
+    #[must_use]
+    pub fn quantities(&self) -> Vec<ImuQuantity> {
+        let mut list = ImuQuantity::thermal_list(
+            Triad::Accelerometer,
+            self.accelerometer_bias,
+            self.accelerometer_scale,
+        );
+        list.extend(ImuQuantity::thermal_list(Triad::Gyroscope, self.gyroscope_bias, self.gyroscope_scale));
+        list
+    }
 }

@@ -1,7 +1,10 @@
 //! What the calibration of an IMU gives.
 
-use super::{ClockRate, NoiseSource};
-use crate::estimate::{CalibrationStatus, Change, HoldCalibration, Uncalibrated, Validation};
+use crate::estimate::change::Change;
+use crate::estimate::imu::clock::rate::ClockRate;
+use crate::estimate::imu::problem::NoiseSource;
+use crate::estimate::result::{CalibrationStatus, HoldCalibration};
+use crate::estimate::uncalibrated::Uncalibrated;
 use crate::sensor::{CalibratedImu, Gauge, ImuParameters, ImuQuantity, ReadingUnit, SensorModel, Triad};
 use nalgebra::{DMatrix, DVector, Vector3};
 
@@ -56,8 +59,6 @@ pub struct ImuCalibration {
     pub changes: Vec<Change>,
     /// The rates of the sensors' clocks, where the rotations show that they differ.
     pub clocks: Option<ClockRate>,
-    /// How it fares on data that were not used for it, where it was tried; the estimation leaves it empty.
-    pub validations: Vec<Validation>,
     /// Things a user should know, in words.
     pub warnings: Vec<String>,
 }

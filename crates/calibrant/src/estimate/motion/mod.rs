@@ -150,7 +150,6 @@ fn assemble(context: &Context<'_>, solved: Solved, first_sample: usize) -> Resul
         residuals,
         first_sample,
         datasheet_prior: context.settings.datasheet_prior,
-        validations: Vec::new(),
         warnings: Vec::new(),
     };
     verdict::respond(context, &calibration)?;

@@ -6,7 +6,7 @@
 use super::claim::Claim;
 use super::item::{Item, Place, Scattered};
 use super::noise::NoiseRatio;
-use crate::estimate::imu::HeldStill;
+use crate::estimate::imu::StationaryMean;
 use crate::motion::Hold;
 use crate::sensor::{Condition, Triad};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
@@ -48,7 +48,7 @@ impl Held {
         hold: &Hold,
         temperature_c: f64,
         (within, of_mean, noise): (&Vector3<f64>, &Vector3<f64>, &[NoiseRatio]),
-        still: Option<&HeldStill>,
+        still: Option<&StationaryMean>,
     ) -> Option<Self> {
         let imu = &claim.imu.at(temperature_c);
         let at = |stimulus: Vector3<f64>, force: Vector3<f64>| Condition {

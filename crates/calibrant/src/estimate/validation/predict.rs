@@ -8,7 +8,7 @@ use super::ratio::Ratio;
 use super::result::BiasShift;
 use super::statistics::degrees_behind;
 use super::whitened::{Shift, Whitened};
-use crate::estimate::imu::{Carried, Carrying, GyroscopeAtRest, HeldStill};
+use crate::estimate::imu::{GravityPropagation, GyroscopeAtRest, PropagatedGravity, StationaryMean};
 use crate::estimate::quantisation::of_means;
 use crate::estimate::{clipped_holds, coarse_axes_in};
 use crate::motion::Hold;
@@ -87,7 +87,7 @@ impl<'a> Unused<'a> {
             None => claim.clone(),
         };
         let claim = &with_steps;
-        let stills: Vec<Option<HeldStill>> = match &at_rest {
+        let stills: Vec<Option<StationaryMean>> = match &at_rest {
             Some((_, at_rest)) => at_rest.holds().collect(),
             None => vec![None; holds.len()],
         };
@@ -156,7 +156,7 @@ impl<'a> Unused<'a> {
         temperatures_c: &[f64],
         noise_here: f64,
     ) -> Option<Vec<Item>> {
-        let carrying = Carrying {
+        let carrying = GravityPropagation {
             imu: &claim.imu,
             quantities: &claim.quantities,
             gravity_mps2: claim.gravity_mps2,
@@ -169,7 +169,7 @@ impl<'a> Unused<'a> {
         };
         let forces: Vec<Vector3<f64>> = held.iter().map(|held| held.force).collect();
         let all = carrying.through(holds, &forces, temperatures_c)?;
-        let mut previous: Option<&Carried> = None;
+        let mut previous: Option<&PropagatedGravity> = None;
         let items = all.iter().map(|carried| {
             let (before, after) = (&held[carried.from], &held[carried.from + 1]);
             let neighbour = previous.replace(carried).filter(|previous| previous.from + 1 == carried.from);

@@ -22,7 +22,7 @@ use super::html::{Page, escape, facts};
 use super::noise::noise_sections;
 use super::validation::validation_section;
 use super::{About, before_after};
-use crate::estimate::ImuCalibration;
+use crate::estimate::{ImuCalibration, Validation};
 use crate::noise::TriadNoise;
 use crate::sensor::{ImuRecording, Triad};
 
@@ -45,7 +45,7 @@ pub fn imu_calibration_report(
         &|| holds(calibration, recording),
         &|| rotations(calibration),
         &|| noise_sections(noise),
-        &|| fit(calibration),
+        &|| fit(calibration, &about.validations),
     ]);
     page.finish(
         title,
@@ -143,9 +143,9 @@ fn rotations(calibration: &ImuCalibration) -> Page {
     page
 }
 
-fn fit(calibration: &ImuCalibration) -> Page {
+fn fit(calibration: &ImuCalibration, validations: &[Validation]) -> Page {
     let mut page = Page::default();
-    validation_section(&mut page, &calibration.validations);
+    validation_section(&mut page, validations);
     page.section("Fit and correlations", "");
     page.push(fit::fit_table(calibration));
     let names: Vec<String> = calibration.quantities.iter().map(|quantity| quantity.name()).collect();

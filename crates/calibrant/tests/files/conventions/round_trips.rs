@@ -97,7 +97,7 @@ fn the_json_says_what_it_means() {
 #[test]
 fn todays_calibration_json_is_read_as_an_imu() {
     let calibration = crate::results::holds_in_counts();
-    let text = calibration_json(&calibration, &crate::results::input());
+    let text = calibration_json(&calibration, &[], &crate::results::input());
     let file = parse_calibrated_imu(text.as_bytes(), &ConventionOptions::default()).expect("schema 1");
     assert_eq!(file.imu.parameters.accelerometer, calibration.sensor);
     assert_eq!(file.imu.covariance.as_ref(), Some(&calibration.covariance));
