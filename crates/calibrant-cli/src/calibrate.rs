@@ -31,7 +31,7 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
         });
     };
     let outcome = job.run(recording).and_then(|mut done| {
-        done.calibration.validations = validation::of_accelerometer(&job, arguments, &done)?;
+        done.validations = validation::of_accelerometer(&job, arguments, &done)?;
         job.write(&done, recording, &arguments.output)?;
         Ok(done)
     });

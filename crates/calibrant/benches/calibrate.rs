@@ -1,7 +1,7 @@
 //! Whole calibrations: every trust and model at the report's size (N = 14, M = 141), and 38 static holds with their detection.
 
 #[allow(unreachable_pub)]
-#[path = "../tests/common/mod.rs"]
+#[path = "../tests/library/common/mod.rs"]
 mod common;
 
 use calibrant::estimate::{CalibrationProblem, CalibrationSettings, HoldsSetup, Stimulus, calibrate};

@@ -5,7 +5,7 @@
 //! motions with intervals of exactly known increment (σ_u = 0). Times are of the whole `calibrate()` call on one thread.
 
 #[allow(unreachable_pub)]
-#[path = "../tests/common/mod.rs"]
+#[path = "../tests/library/common/mod.rs"]
 mod common;
 
 use calibrant::estimate::{Calibration, Recovered};

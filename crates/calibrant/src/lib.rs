@@ -65,18 +65,10 @@
 //! its result into covariance and into words about what is undetermined; [`noise`] examines a sensor at rest; [`estimate`] calibrates; [`design`] finds the motion; [`simulate`] makes sensors and recordings;
 //! [`study`] compares truth and estimate over many. [`io`] and [`report`] may use all and are used by none.
 
-pub mod arrowhead;
-pub mod design;
-pub mod error;
-pub mod estimate;
-pub mod information;
-pub mod io;
-pub mod motion;
-pub mod noise;
-pub mod report;
-mod root;
-pub mod sensor;
-pub mod simulate;
-pub mod study;
-
-pub use error::{Error, Result};
+pub use calibrant_core::{
+    Error, Result, arrowhead, error, estimate, information, motion, noise, sensor, simulate,
+};
+pub use calibrant_design as design;
+pub use calibrant_design::study;
+pub use calibrant_io as io;
+pub use calibrant_report as report;

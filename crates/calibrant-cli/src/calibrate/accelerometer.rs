@@ -9,7 +9,8 @@ use crate::reading::{in_file, name, sparks_taken_out};
 use calibrant::Error;
 use calibrant::error::Complaint;
 use calibrant::estimate::{
-    Calibration, CalibrationProblem, CalibrationSettings, HoldsSetup, Recovered, Stimulus, calibrate,
+    Calibration, CalibrationProblem, CalibrationSettings, HoldsSetup, Recovered, Stimulus, Validation,
+    calibrate,
 };
 use calibrant::io::{
     Experiment, ImuReadOptions, Input, Plan, Prior, ReadOptions, RecordingFile, Summary, calibration_json,
@@ -36,6 +37,7 @@ pub(super) struct Job {
 pub(super) struct Done {
     pub(super) file: RecordingFile,
     pub(super) calibration: Calibration,
+    pub(super) validations: Vec<Validation>,
     pub(super) input: Input,
 }
 
@@ -115,7 +117,7 @@ impl Job {
             samples: file.recording.len(),
             rate_hz: file.recording.rate_hz(),
         };
-        Ok(Done { file, calibration, input })
+        Ok(Done { file, calibration, validations: Vec::new(), input })
     }
 
     pub(super) fn problem<'a>(&'a self, recording: &'a Recording) -> CalibrationProblem<'a> {
@@ -132,13 +134,13 @@ impl Job {
         let done = self.run(path).and_then(|done| self.write(&done, path, directory).map(|()| done));
         match done {
             Err(error) => many::Outcome { findings: Vec::new(), calibrated: Err(error) },
-            Ok(Done { file, calibration, input }) => many::Outcome {
+            Ok(Done { file, calibration, validations, input }) => many::Outcome {
                 findings: file.findings,
                 calibrated: Ok(many::Calibrated {
                     status: calibration.status,
                     cells: vec![calibration.fit.p_value.map_or_else(|| "–".into(), number::probability)],
                     summary: Summary::of(&calibration),
-                    json: arguments.json.then(|| calibration_json(&calibration, &input)),
+                    json: arguments.json.then(|| calibration_json(&calibration, &validations, &input)),
                     warnings: calibration.warnings,
                 }),
             },
@@ -147,7 +149,12 @@ impl Job {
 
     /// Writes calibration.json and report.html.
     pub(super) fn write(&self, done: &Done, path: &Path, directory: &Path) -> calibrant::Result<()> {
-        write_calibration(&directory.join("calibration.json"), &done.calibration, &done.input)?;
+        write_calibration(
+            &directory.join("calibration.json"),
+            &done.calibration,
+            &done.validations,
+            &done.input,
+        )?;
         if !self.report {
             warn_of_earlier_report(directory);
             return Ok(());
@@ -175,6 +182,7 @@ impl Job {
                 ),
             ],
             findings: done.file.findings.iter().map(ToString::to_string).collect(),
+            validations: done.validations.clone(),
             program: format!("calibrant {}", env!("CARGO_PKG_VERSION")),
             ..About::default()
         };
@@ -191,13 +199,13 @@ pub(super) fn show(done: &Done, arguments: &Arguments) {
         console::warn(warning);
     }
     if arguments.json {
-        return console::print(&calibration_json(&done.calibration, &done.input));
+        return console::print(&calibration_json(&done.calibration, &done.validations, &done.input));
     }
     if let Recovered::Holds(holds) = &done.calibration.recovered {
         console::print(&(console::holds(holds) + "\n"));
     }
     console::print(&console::parameters(&done.calibration));
     console::print(&console::fit(&done.calibration));
-    console::print(&console::validations(&done.calibration.validations));
+    console::print(&console::validations(&done.validations));
     console::print(&format!("\n{}\n", arguments.main_result().display()));
 }

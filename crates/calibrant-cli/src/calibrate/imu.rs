@@ -134,10 +134,9 @@ impl Job<'_> {
         calibration.warnings.extend(of_gyroscope.iter().flat_map(TriadNoise::of_outliers));
         setup.white_noise = white_noise;
         let problem = ImuProblem { accelerometer, gyroscope, recording, setup: &setup };
-        calibration.validations =
-            super::validation::of_imu(arguments, options, &calibration, &problem, &file)?;
+        let validations = super::validation::of_imu(arguments, options, &calibration, &problem, &file)?;
         let noise: Vec<TriadNoise> = of_accelerometer.into_iter().chain(of_gyroscope).collect();
-        let done = Done { calibration, file, inputs };
+        let done = Done { calibration, validations, file, inputs };
         super::imu_output::write(arguments, directory, &done, noise)?;
         Ok(done)
     }
@@ -151,8 +150,8 @@ impl Job<'_> {
         Outcome { findings, calibrated: self.calibrate(files, file, directory).map(|done| self.told(done)) }
     }
 
-    fn told(&self, Done { calibration, inputs, .. }: Done) -> Calibrated {
-        let json = self.arguments.json.then(|| imu_calibration_json(&calibration, &inputs));
+    fn told(&self, Done { calibration, validations, inputs, .. }: Done) -> Calibrated {
+        let json = self.arguments.json.then(|| imu_calibration_json(&calibration, &validations, &inputs));
         let magnitude = calibration.holds.magnitude_residual_rms_mps2;
         let cells = vec![
             share(calibration.holds.holds.iter().map(|hold| hold.used)),

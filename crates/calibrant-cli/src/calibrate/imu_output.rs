@@ -3,7 +3,7 @@
 use super::Arguments;
 use super::imu_noise::physical;
 use crate::console;
-use calibrant::estimate::ImuCalibration;
+use calibrant::estimate::{ImuCalibration, Validation};
 use calibrant::io::{ImuFile, Input, imu_calibration_json, write_atomically, write_imu_calibration};
 use calibrant::noise::TriadNoise;
 use calibrant::report::{About, imu_calibration_report, number};
@@ -13,6 +13,7 @@ use std::path::Path;
 /// An IMU that is calibrated.
 pub(super) struct Done {
     pub(super) calibration: ImuCalibration,
+    pub(super) validations: Vec<Validation>,
     pub(super) file: ImuFile,
     pub(super) inputs: Vec<Input>,
 }
@@ -21,11 +22,11 @@ pub(super) struct Done {
 pub(super) fn write(
     arguments: &Arguments,
     directory: &Path,
-    Done { calibration, file, inputs }: &Done,
+    Done { calibration, validations, file, inputs }: &Done,
     noise: Vec<TriadNoise>,
 ) -> calibrant::Result<()> {
     let json = directory.join("calibration.json");
-    let json = || write_imu_calibration(&json, calibration, inputs);
+    let json = || write_imu_calibration(&json, calibration, validations, inputs);
     if arguments.no_report {
         super::earlier::warn_of_earlier_report(directory);
         return json();
@@ -45,6 +46,7 @@ pub(super) fn write(
             ("Experiment".into(), arguments.experiment.display().to_string()),
         ],
         findings: file.findings.iter().map(ToString::to_string).collect(),
+        validations: validations.clone(),
         program: format!("calibrant {}", env!("CARGO_PKG_VERSION")),
         ..About::default()
     };
@@ -59,10 +61,10 @@ pub(super) fn write(
 }
 
 /// Prints the tables, or calibration.json.
-pub(super) fn show(arguments: &Arguments, Done { calibration, inputs, .. }: &Done) {
+pub(super) fn show(arguments: &Arguments, Done { calibration, validations, inputs, .. }: &Done) {
     if arguments.json {
-        return console::print(&imu_calibration_json(calibration, inputs));
+        return console::print(&imu_calibration_json(calibration, validations, inputs));
     }
-    console::print(&console::imu_calibration(calibration));
+    console::print(&console::imu_calibration(calibration, validations));
     console::print(&format!("\n{}\n", arguments.main_result().display()));
 }

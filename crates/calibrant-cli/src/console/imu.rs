@@ -1,12 +1,12 @@
 //! The calibration of a whole IMU on stdout.
 
 use super::table;
-use calibrant::estimate::ImuCalibration;
+use calibrant::estimate::{ImuCalibration, Validation};
 use calibrant::report::{imu_quality, number, over_the_gain, temperature_in_words};
 use calibrant::sensor::Triad;
 
 /// What was used, the parameters of both sensors, and how good they are.
-pub(crate) fn imu_calibration(calibration: &ImuCalibration) -> String {
+pub(crate) fn imu_calibration(calibration: &ImuCalibration, validations: &[Validation]) -> String {
     let mut text = used(calibration);
     for triad in Triad::ALL {
         text.push('\n');
@@ -25,7 +25,7 @@ pub(crate) fn imu_calibration(calibration: &ImuCalibration) -> String {
         number::significant(calibration.chi2, 4),
         number::count(calibration.degrees_of_freedom),
     ));
-    text.push_str(&super::validations(&calibration.validations));
+    text.push_str(&super::validations(validations));
     text
 }
 

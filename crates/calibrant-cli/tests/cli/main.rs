@@ -6,7 +6,7 @@ mod broken;
 mod change;
 mod commands;
 mod conventions;
-#[path = "../../../calibrant/tests/common/data.rs"]
+#[path = "../../../calibrant/tests/library/common/data.rs"]
 mod data;
 mod design;
 mod determinism;

@@ -1,0 +1,244 @@
+//! The one error of the library, and the questions that a caller asks of it.
+//!
+//! An [`Error`] says what is wrong, where, and what to do about it. It is for input that makes no sense; an iteration that
+//! does not converge is a [`CalibrationStatus`](crate::estimate::CalibrationStatus) in a complete result.
+
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+/// Shorthand for results of this library.
+pub type Result<T> = std::result::Result<T, Error>;
+
+/// Everything that can go wrong.
+///
+/// Ask it with [`is_invalid_experiment`](Error::is_invalid_experiment), [`is_invalid_recording`](Error::is_invalid_recording),
+/// [`is_not_identifiable`](Error::is_not_identifiable) and [`is_infeasible`](Error::is_infeasible) rather than by matching: variants may be added.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// The experiment file, the commanded motion or an option makes no sense (exit status 2).
+    #[error("{0}")]
+    Experiment(Box<Complaint>),
+    /// The limits admit no motion (exit status 4).
+    #[error("{0}")]
+    Infeasible(Box<Complaint>),
+    /// The recording cannot be used (exit status 3).
+    #[error("{0}")]
+    Recording(Box<Complaint>),
+    /// The data cannot determine some of the parameters (exit status 4).
+    #[error("{0}")]
+    NotIdentifiable(Box<NotIdentifiable>),
+    /// A result could not be written (exit status 2: choose another place).
+    #[error("cannot write {}: {source}", path.display())]
+    Output {
+        /// What was to be written.
+        path: PathBuf,
+        /// Why the system refused.
+        source: std::io::Error,
+    },
+}
+
+/// What is wrong with an input, where, and what to do about it.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Complaint {
+    /// The file, where the input is one.
+    pub file: Option<PathBuf>,
+    /// Line in the file, counted from 1.
+    pub line: Option<usize>,
+    /// Column in the line, counted in characters from 1.
+    pub column: Option<usize>,
+    /// The key, for experiment files: `motion.interval_s`.
+    pub key: Option<String>,
+    /// What is wrong.
+    pub message: String,
+    /// What to do about it.
+    pub help: String,
+    /// The text of the file and the range of bytes at fault, so that it can be shown underlined.
+    pub excerpt: Option<(String, std::ops::Range<usize>)>,
+}
+
+impl Complaint {
+    /// A complaint that is not about a place in a file.
+    #[must_use]
+    pub fn new(message: impl Into<String>, help: impl Into<String>) -> Self {
+        Self { message: message.into(), help: help.into(), ..Self::default() }
+    }
+
+    /// The same complaint, about this file.
+    #[must_use]
+    pub fn in_file(mut self, file: &Path) -> Self {
+        self.file = Some(file.to_path_buf());
+        self
+    }
+
+    /// The same complaint, at this line (from 1).
+    #[must_use]
+    pub fn at_line(mut self, line: usize) -> Self {
+        self.line = Some(line);
+        self
+    }
+
+    /// The same complaint, at this column (from 1).
+    #[must_use]
+    pub fn at_column(mut self, column: usize) -> Self {
+        self.column = Some(column);
+        self
+    }
+
+    /// The same complaint, about this key of an experiment file.
+    #[must_use]
+    pub fn about_key(mut self, key: impl Into<String>) -> Self {
+        self.key = Some(key.into());
+        self
+    }
+}
+
+impl fmt::Display for Complaint {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(file) = &self.file {
+            write!(f, "{}", file.display())?;
+            if let Some(line) = self.line {
+                write!(f, ":{line}")?;
+                if let Some(column) = self.column {
+                    write!(f, ":{column}")?;
+                }
+            }
+            write!(f, ": ")?;
+        } else if let Some(line) = self.line {
+            write!(f, "line {line}")?;
+            if let Some(column) = self.column {
+                write!(f, ", column {column}")?;
+            }
+            write!(f, ": ")?;
+        }
+        if let Some(key) = &self.key {
+            write!(f, "`{key}`: ")?;
+        }
+        write!(f, "{}", self.message)?;
+        if !self.help.is_empty() {
+            write!(f, " ({})", self.help)?;
+        }
+        Ok(())
+    }
+}
+
+/// The parameters that a recording cannot determine, in the user's words.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct NotIdentifiable {
+    /// One entry for each group of parameters that cannot be told apart.
+    pub groups: Vec<UndeterminedGroup>,
+}
+
+/// Parameters that cannot be told apart, why, and what would fix it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct UndeterminedGroup {
+    /// Names of the parameters that are involved.
+    pub parameters: Vec<String>,
+    /// How many independent combinations of them the data leave free.
+    pub free_combinations: usize,
+    /// Why, in words.
+    pub reason: String,
+    /// What would fix it.
+    pub remedy: String,
+}
+
+impl fmt::Display for NotIdentifiable {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "the data cannot determine the parameters")?;
+        // a reason that several groups share is given once
+        for groups in self.groups.chunk_by(|one, next| one.reason == next.reason) {
+            let what: Vec<String> = groups.iter().filter_map(UndeterminedGroup::what).collect();
+            let colon = if what.is_empty() { "" } else { ": " };
+            write!(f, "; {}{colon}{}", what.join("; "), groups[0].reason)?;
+            let mut remedies: Vec<&str> = groups.iter().map(|group| group.remedy.as_str()).collect();
+            remedies.dedup();
+            let all = remedies.clone();
+            remedies.retain(|one| {
+                !one.is_empty() && !all.iter().any(|other| other != one && other.starts_with(one))
+            });
+            if !remedies.is_empty() {
+                write!(f, " ({})", remedies.join("; "))?;
+            }
+        }
+        Ok(())
+    }
+}
+
+impl UndeterminedGroup {
+    /// What of the parameters is not known; `None` where there is none.
+    #[must_use]
+    pub fn what(&self) -> Option<String> {
+        match self.parameters.as_slice() {
+            [] => None,
+            [one] => Some(format!("{one} is not determined")),
+            [one, two] => Some(format!("{one} and {two} cannot be told apart")),
+            many => Some(format!(
+                "{} combination{} of {} left free",
+                self.free_combinations,
+                if self.free_combinations == 1 { "" } else { "s" },
+                many.join(", ")
+            )),
+        }
+    }
+}
+
+impl Error {
+    /// Is the experiment file, the commanded motion or an option at fault?
+    #[must_use]
+    pub fn is_invalid_experiment(&self) -> bool {
+        matches!(self, Self::Experiment(_))
+    }
+
+    /// Is the recording at fault?
+    #[must_use]
+    pub fn is_invalid_recording(&self) -> bool {
+        matches!(self, Self::Recording(_))
+    }
+
+    /// Are the data unable to determine the parameters?
+    #[must_use]
+    pub fn is_not_identifiable(&self) -> bool {
+        matches!(self, Self::NotIdentifiable(_))
+    }
+
+    /// Do the limits admit no motion?
+    #[must_use]
+    pub fn is_infeasible(&self) -> bool {
+        matches!(self, Self::Infeasible(_))
+    }
+
+    /// The complaint about an input, where this is one.
+    #[must_use]
+    pub fn complaint(&self) -> Option<&Complaint> {
+        match self {
+            Self::Experiment(complaint) | Self::Recording(complaint) | Self::Infeasible(complaint) => {
+                Some(complaint)
+            }
+            _ => None,
+        }
+    }
+
+    /// The experiment, the commanded motion or an option at fault.
+    #[must_use]
+    pub fn experiment(complaint: Complaint) -> Self {
+        Self::Experiment(Box::new(complaint))
+    }
+
+    /// Limits that admit no motion.
+    #[must_use]
+    pub fn infeasible(complaint: Complaint) -> Self {
+        Self::Infeasible(Box::new(complaint))
+    }
+
+    /// One group of parameters that the data cannot determine.
+    #[must_use]
+    pub fn undetermined(group: UndeterminedGroup) -> Self {
+        Self::NotIdentifiable(Box::new(NotIdentifiable { groups: vec![group] }))
+    }
+
+    /// A recording at fault.
+    #[must_use]
+    pub fn recording(complaint: Complaint) -> Self {
+        Self::Recording(Box::new(complaint))
+    }
+}

@@ -1,0 +1,157 @@
+//! From a recording with holds to the calibration: find the holds, fit, put the result together.
+
+use super::clipped::{clipped_holds, reason as clipped_reason, with_clipped};
+use super::detect::{beyond, find_holds_in, holds_between};
+use super::filtered::{holds_lost_to_filter, with_filter};
+use super::paused::with_pauses;
+use super::residuals::magnitude_rms;
+use super::robust::{self, Robust};
+use super::setup::HoldsSetup;
+use super::words::coarse_words;
+use super::{changing, verdict};
+use crate::error::{Complaint, Error, Result};
+use crate::estimate::gravity::gravity_slope;
+use crate::estimate::one_sided::one_sided;
+use crate::estimate::quantisation::of_means;
+use crate::estimate::{
+    Calibration, CalibrationProblem, CalibrationSettings, FitStatistics, HoldCalibration, HoldResult,
+    Recovered, Uncalibrated, coarse_axes_in, statistics,
+};
+use crate::motion::Hold;
+use crate::sensor::{ImuParameters, ImuQuantity, Recording, SensorModel, SensorParameters, Triad};
+use nalgebra::{Matrix3, Vector3};
+
+/// Calibrates from holds, sparks taken out. `as_read` is the recording before anything was corrected in it, of the same samples: it tells which holds are clipped.
+pub(in crate::estimate) fn calibrate(
+    problem: &CalibrationProblem<'_>,
+    setup: &HoldsSetup,
+    settings: &CalibrationSettings,
+    as_read: &Recording,
+) -> Result<Calibration> {
+    if problem.sensor.axes != 3 {
+        return Err(Error::experiment(Complaint::new(
+            "a static calibration needs three axes: only the magnitude of gravity is known, not its direction",
+            "set sensor.axes = 3",
+        )));
+    }
+    let holds = match &setup.intervals_s {
+        Some(intervals) => holds_between(problem.recording, intervals)?,
+        None => find_holds_in(problem.recording, setup.minimum_hold_s)?,
+    };
+    let clipped = clipped_holds(as_read, &holds);
+    let sound: Vec<usize> = (0..holds.len()).filter(|&j| clipped[j].is_none()).collect();
+    let coarse = coarse_axes_in(as_read, sound.iter().map(|&j| &holds[j]));
+    let of_mean = of_means(&coarse);
+    let one_sided = one_sided(problem.recording, Triad::Accelerometer, sound.iter().map(|&j| &holds[j]));
+    let found = setup.intervals_s.is_none().then_some((problem.recording, setup.minimum_hold_s));
+    let lost = found.and_then(|(recording, minimum_s)| holds_lost_to_filter(recording, &holds, minimum_s));
+    let robust = match problem.sensor.model {
+        SensorModel::ScaleBias => robust::fit::<6>(problem, setup, settings, &holds, sound, of_mean),
+        SensorModel::Full => robust::fit::<9>(problem, setup, settings, &holds, sound, of_mean),
+    }
+    .map_err(|error| with_clipped(error, &clipped, as_read))
+    .map_err(|error| match found {
+        Some((recording, minimum_s)) => {
+            with_pauses(with_filter(error, recording, &holds, minimum_s), recording)
+        }
+        None => error,
+    })?;
+    let reasons = clipped.iter().map(|end| end.map(|end| clipped_reason(&end, as_read))).collect();
+    let mut calibration = assemble(problem, setup, holds, reasons, robust);
+    calibration.warnings.extend(lost);
+    calibration.warnings.extend(coarse_words(&coarse, as_read));
+    calibration.warnings.extend(one_sided);
+    calibration.warnings.extend(beyond(as_read, setup.intervals_s.as_deref().unwrap_or_default()));
+    Ok(Calibration { datasheet_prior: settings.datasheet_prior, ..calibration })
+}
+
+/// Puts the result together.
+fn assemble(
+    problem: &CalibrationProblem<'_>,
+    setup: &HoldsSetup,
+    holds: Vec<Hold>,
+    reasons: Vec<Option<String>>,
+    robust: Robust,
+) -> Calibration {
+    let list = setup.gauge.parameter_list(problem.sensor.model);
+    let sensor = robust.sensor;
+    let g = setup.gravity;
+    let mut covariance = robust.covariance.clone();
+    let quantities: Vec<ImuQuantity> =
+        list.quantities().iter().map(|of| ImuQuantity::Of(Triad::Accelerometer, *of)).collect();
+    let imu = ImuParameters { accelerometer: sensor, ..ImuParameters::identity() };
+    let slope = gravity_slope(&quantities, &imu, &g);
+    covariance += &slope * slope.transpose() * (g.sd_mps2 * g.sd_mps2);
+
+    let results: Vec<HoldResult> = holds
+        .into_iter()
+        .zip(reasons)
+        .enumerate()
+        .map(|(j, (hold, reason))| HoldResult {
+            force_mps2: robust.forces[j],
+            magnitude_residual_mps2: robust.magnitudes[j].error,
+            studentised_residual: robust.studentised[j],
+            used: robust.used[j],
+            reason,
+            hold,
+        })
+        .collect();
+    let used = || results.iter().filter(|result| result.used);
+    let count = used().count();
+    let mut residual_rms = Vector3::zeros();
+    for result in used() {
+        let residual = result.hold.mean - sensor.reading(&result.force_mps2);
+        residual_rms += residual.component_mul(&residual) / count as f64;
+    }
+    let magnitude_rms = magnitude_rms(&results);
+    let change = changing::change(&results, &robust.magnitudes, setup.gravity.magnitude_mps2);
+    let degrees_of_freedom = robust.degrees_of_freedom;
+    let fit = FitStatistics {
+        chi2: robust.chi2,
+        degrees_of_freedom,
+        p_value: if robust.between_holds_sd > 0.0 {
+            None
+        } else {
+            statistics::chi2_p_value(robust.chi2, degrees_of_freedom)
+        },
+        residual_rms: residual_rms.map(f64::sqrt),
+        assumed_noise: problem.sensor.noise(&sensor.matrix.diagonal()),
+        noise_estimate: Some(robust.within_sd),
+        whiteness: Vec::new(),
+    };
+    let nominal = problem.sensor.nominal().unwrap_or(SensorParameters {
+        bias: sensor.bias,
+        matrix: Matrix3::from_diagonal(&sensor.matrix.diagonal()),
+    });
+    let mut calibration = Calibration {
+        status: robust.status,
+        iterations: robust.iterations,
+        gradient_norm: robust.gradient_norm,
+        parameters: list.describe(problem.sensor, &nominal),
+        values: list.quantities().iter().map(|quantity| quantity.of(&sensor)).collect(),
+        covariance,
+        sensor,
+        unit: problem.sensor.unit,
+        fit,
+        recovered: Recovered::Holds(HoldCalibration {
+            holds: results,
+            gravity: g,
+            gauge: setup.gauge,
+            between_holds_sd_mps2: robust.between_holds_sd,
+            between_holds_dominates: robust.between_holds_sd > 0.0,
+            tilt: None,
+            magnitude_residual_rms_mps2: magnitude_rms,
+            degrees_of_freedom,
+            condition_number: robust.condition_number,
+            detected: setup.intervals_s.is_none(),
+            before: Uncalibrated::accelerometer(problem.sensor, &sensor),
+            change: change.map(Box::new),
+        }),
+        residuals: Vec::new(),
+        first_sample: 0,
+        datasheet_prior: false,
+        warnings: Vec::new(),
+    };
+    calibration.warnings = verdict::warnings(&calibration, &robust.weakest);
+    calibration
+}

@@ -1,0 +1,66 @@
+//! The rotations cut down to few steps, for a first look at the gyroscope's matrix.
+
+use crate::estimate::holds::median;
+use crate::estimate::imu::least_squares::integration::propagated_back;
+use crate::estimate::imu::model::{ImuModel, RotationData, State};
+use nalgebra::{Matrix3, Vector3};
+use std::f64::consts::FRAC_PI_2;
+
+/// Median error of a rotation beyond which something is wrong with units or axes, rad.
+pub(crate) const WRONG: f64 = 0.2;
+
+/// A rotation is cut down to about so many samples for a first look.
+const SAMPLES: usize = 150;
+
+/// How far gravity misses after the rotations, for one matrix of the gyroscope.
+pub(crate) struct Judged {
+    /// Median of the angles, rad.
+    pub(crate) median_rad: f64,
+    /// How many are beyond a right angle.
+    pub(crate) upside_down: usize,
+}
+
+/// The rotations cut down.
+pub(crate) struct CoarseRotations {
+    rotations: Vec<CutDown>,
+}
+
+/// A rotation cut down, with gravity before and after it.
+struct CutDown {
+    turns: Vec<Vector3<f64>>,
+    from: Vector3<f64>,
+    to: Vector3<f64>,
+}
+
+impl CoarseRotations {
+    /// At a state whose bias counts, whatever its gains.
+    pub(crate) fn of(model: &ImuModel<'_>, state: &State) -> Self {
+        let used = model.rotations.iter().filter(|data| data.used);
+        let cut_down = |data: &RotationData<'_>| {
+            let step = data.samples.times_s.len().div_ceil(SAMPLES);
+            let bias = state.imu.at(data.samples.temperature_c()).gyroscope.bias;
+            CutDown {
+                turns: data.samples.cut_down(&bias, step),
+                from: state.forces[data.from],
+                to: state.forces[data.from + 1],
+            }
+        };
+        Self { rotations: used.map(cut_down).collect() }
+    }
+
+    /// Number of rotations.
+    pub(crate) fn len(&self) -> usize {
+        self.rotations.len()
+    }
+
+    /// Looks at a matrix of the gyroscope; `None` where it is singular, or there are no rotations.
+    pub(crate) fn judge(&self, matrix: &Matrix3<f64>) -> Option<Judged> {
+        let correction = matrix.try_inverse()?;
+        let error = |rotation: &CutDown| {
+            propagated_back(&rotation.turns, &correction, &rotation.from).angle(&rotation.to)
+        };
+        let errors: Vec<f64> = self.rotations.iter().map(error).collect();
+        let upside_down = errors.iter().filter(|error| **error > FRAC_PI_2).count();
+        (!errors.is_empty()).then(|| Judged { median_rad: median(errors), upside_down })
+    }
+}

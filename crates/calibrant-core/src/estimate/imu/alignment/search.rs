@@ -1,0 +1,148 @@
+//! The search for the gyroscope's gain and the order of its axes, where the datasheet does not say.
+//!
+//! A rotation turns gravity by no more than the angle that the gyroscope went through, so each rotation bounds the gain from above, and one about
+//! an axis across gravity gives it. From that bound downwards gains are tried. If none brings gravity back, all orders and signs of the axes
+//! follow, then all attitudes (`mounting`).
+
+use crate::estimate::imu::alignment::axes::{Axes, axis_names, orders};
+use crate::estimate::imu::alignment::coarse_rotations::{CoarseRotations, Judged, WRONG};
+use crate::estimate::imu::alignment::mounting::find_mounting;
+use crate::estimate::imu::model::{ImuModel, State};
+use crate::sensor::{ImuParameters, ReadingUnit};
+use nalgebra::Matrix3;
+use rayon::prelude::*;
+
+/// Rotations that no wrong order of the axes fits by chance: three of four within [`WRONG`] for one of 48 orders happens once in 5000 times.
+const ENOUGH: usize = 4;
+
+/// So many rotations that end upside down are no single faults.
+const SEVERAL: usize = 2;
+
+/// Gains that are tried: so many, each smaller by this factor.
+const GAINS: usize = 16;
+
+const FACTOR: f64 = 0.92;
+
+/// A start, and the median error of the rotations with it, rad.
+pub(crate) struct Alignment {
+    pub(crate) imu: ImuParameters,
+    pub(crate) median_rad: f64,
+    /// The gyroscope's axes, where they are not the accelerometer's.
+    pub(crate) axes: Option<Axes>,
+}
+
+/// Finds a start. `nominal` is the gyroscope's matrix by its datasheet (the identity for rad/s), where it is known.
+pub(crate) fn find_alignment(
+    model: &ImuModel<'_>,
+    state: &State,
+    unit: ReadingUnit,
+    nominal: Option<Matrix3<f64>>,
+) -> Option<Alignment> {
+    let with = |matrix: Matrix3<f64>| {
+        let mut imu = state.imu;
+        imu.gyroscope.matrix = matrix;
+        imu
+    };
+    let look = CoarseRotations::of(model, state);
+    let judged = |matrix: Matrix3<f64>| Some((look.judge(&matrix)?, matrix));
+    let best = |tries: &[Matrix3<f64>]| {
+        tries
+            .par_iter()
+            .filter_map(|matrix| judged(*matrix))
+            .min_by(|(one, _), (other, _)| one.median_rad.total_cmp(&other.median_rad))
+    };
+    // the axis about which the fewer rotations turned may be the one that points the other way
+    let fewer_upside_down = |matrix: &Matrix3<f64>, before: usize| {
+        if before < SEVERAL {
+            return None;
+        }
+        orders()
+            .par_iter()
+            .filter_map(|order| judged(order * matrix))
+            .filter(|(look, _)| SEVERAL * look.upside_down <= before && look.median_rad <= WRONG)
+            .min_by(|(one, _), (other, _)| {
+                one.upside_down.cmp(&other.upside_down).then(one.median_rad.total_cmp(&other.median_rad))
+            })
+            .map(|(look, matrix)| Alignment {
+                imu: with(matrix),
+                median_rad: look.median_rad,
+                axes: Some(Axes::InOrder(axis_names(&matrix))),
+            })
+    };
+    let turned = |gains: &[Matrix3<f64>], is_scaled: bool| {
+        let (median_rad, matrix) = find_mounting(&look, gains, is_scaled)?;
+        (median_rad <= WRONG).then(|| Alignment { imu: with(matrix), median_rad, axes: Some(Axes::Turned) })
+    };
+    if let Some(matrix) = nominal {
+        let imu = with(matrix);
+        let Judged { median_rad, upside_down } = look.judge(&matrix)?;
+        let as_it_is = Alignment { imu, median_rad, axes: None };
+        // few rotations fit some order by chance
+        let few = model.rotations.iter().filter(|data| data.used).count() < ENOUGH;
+        if median_rad <= WRONG || (unit != ReadingUnit::Counts && few) {
+            return Some(fewer_upside_down(&matrix, upside_down).filter(|_| !few).unwrap_or(as_it_is));
+        }
+        if unit != ReadingUnit::Counts {
+            let (Judged { median_rad, .. }, found) = best(&orders().map(|order| order * matrix))?;
+            if median_rad <= WRONG {
+                return Some(Alignment {
+                    imu: with(found),
+                    median_rad,
+                    axes: Some(Axes::InOrder(axis_names(&found))),
+                });
+            }
+            return Some(turned(&[matrix], false).unwrap_or(as_it_is));
+        }
+    }
+    let largest = gain_bound(model, state)?;
+    let gains: Vec<f64> = (0..GAINS).map(|k| 1.1 * largest * FACTOR.powi(k as i32)).collect();
+    let scaled = |orders: &[Matrix3<f64>]| -> Vec<Matrix3<f64>> {
+        orders.iter().flat_map(|order| gains.iter().map(move |gain| order * *gain)).collect()
+    };
+    let (mut found, mut matrix) = best(&scaled(&[Matrix3::identity()]))?;
+    let mut axes = None;
+    if found.median_rad > WRONG {
+        let better = best(&scaled(&orders())).filter(|(other, _)| other.median_rad < 0.5 * found.median_rad);
+        if let Some(other) = better {
+            (found, matrix) = other;
+            axes = Some(Axes::InOrder(axis_names(&matrix)));
+        }
+    }
+    if found.median_rad > WRONG {
+        let some: Vec<Matrix3<f64>> = gains
+            .iter()
+            .step_by(2)
+            .take(GAINS / 3)
+            .map(|gain| Matrix3::from_diagonal_element(*gain))
+            .collect();
+        if let Some(turned) = turned(&some, true) {
+            return Some(turned);
+        }
+    }
+    let Judged { median_rad, upside_down } = found;
+    let upright = if median_rad <= WRONG { fewer_upside_down(&matrix, upside_down) } else { None };
+    Some(upright.unwrap_or_else(|| Alignment { imu: with(matrix), median_rad, axes }))
+}
+
+/// The largest gain that no rotation contradicts, a few outliers apart.
+fn gain_bound(model: &ImuModel<'_>, state: &State) -> Option<f64> {
+    let mut bounds: Vec<f64> = model
+        .rotations
+        .iter()
+        .filter(|data| data.used)
+        .filter_map(|data| {
+            let angle = state.forces[data.from].angle(&state.forces[data.from + 1]);
+            let samples = &data.samples;
+            let bias = state.imu.at(samples.temperature_c()).gyroscope.bias;
+            let path: f64 = samples
+                .times_s
+                .windows(2)
+                .zip(samples.readings)
+                .map(|(t, y)| (t[1] - t[0]) * (y - bias).norm())
+                .sum();
+            (angle > 0.2).then_some(path / angle)
+        })
+        .collect();
+    bounds.sort_by(f64::total_cmp);
+    bounds.get(bounds.len() / 10).copied().filter(|bound| *bound > 0.0)
+}

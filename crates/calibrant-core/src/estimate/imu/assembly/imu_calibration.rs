@@ -1,0 +1,112 @@
+//! Puts the result together, and nothing else.
+
+use crate::error::Result;
+use crate::estimate::change::Change;
+use crate::estimate::imu::assembly::gyroscope_before::{gyroscope_before, with_plain_gyroscope};
+use crate::estimate::imu::assembly::holds::hold_results;
+use crate::estimate::imu::assembly::rotations::rotation_results;
+use crate::estimate::imu::assembly::stationary::stationary_result;
+use crate::estimate::imu::clock::rate::ClockRate;
+use crate::estimate::imu::covariance::Uncertainty;
+use crate::estimate::imu::initial::accelerometer::InitialAccelerometer;
+use crate::estimate::imu::model::{ImuModel, TurnData, singular};
+use crate::estimate::imu::problem::{ImuProblem, Turn};
+use crate::estimate::imu::result::{ImuCalibration, RotationResult, TurnResult};
+use crate::estimate::imu::rotations::movement::Movement;
+use crate::estimate::imu::stationary::gyroscope::StationaryGyroscope;
+use crate::estimate::imu::temperature::RecordingTemperature;
+use crate::estimate::imu::variance_components::solution::Solution;
+use crate::estimate::result::HoldResult;
+use crate::sensor::ImuParameters;
+
+/// Everything that the result is put together from.
+pub(crate) struct Finished<'a> {
+    pub(crate) problem: &'a ImuProblem<'a>,
+    pub(crate) accelerometer: &'a InitialAccelerometer,
+    pub(crate) temperature: &'a RecordingTemperature<'a>,
+    /// Numbers of the holds that are used.
+    pub(crate) numbers: &'a [usize],
+    pub(crate) gyroscope: &'a StationaryGyroscope,
+    pub(crate) movement: &'a Movement<'a>,
+    /// The IMU as it was known before the least squares.
+    pub(crate) start: &'a ImuParameters,
+    pub(crate) model: &'a ImuModel<'a>,
+    pub(crate) solution: &'a Solution,
+    pub(crate) uncertainty: Uncertainty,
+    pub(crate) clock: Option<ClockRate>,
+    /// The sensors that change.
+    pub(crate) changes: Vec<Change>,
+}
+
+impl Finished<'_> {
+    /// The result without warnings.
+    pub(crate) fn assemble(self) -> Result<ImuCalibration> {
+        let Self { problem, model, solution, uncertainty, gyroscope, .. } = self;
+        let (fit, imu) = (&solution.fit, solution.fit.state.imu);
+        let before = gyroscope_before(problem.gyroscope, &model.holds, self.start, &imu);
+        let plain = with_plain_gyroscope(self.start, &before);
+        let rotations = rotation_results(model, solution, self.movement, &plain, self.numbers);
+        let holds =
+            hold_results(problem, (self.accelerometer, self.temperature), self.numbers, model, &fit.state)?;
+        let of_hold = |hold: &HoldResult| self.temperature.of_hold(&hold.hold);
+        let follows = !problem.setup.thermal.is_none();
+        Ok(ImuCalibration {
+            status: fit.status,
+            iterations: fit.iterations,
+            gradient_norm: fit.gradient_norm,
+            values: model.quantities.iter().map(|quantity| quantity.of(&imu)).collect(),
+            quantities: model.quantities.clone(),
+            covariance: uncertainty.covariance,
+            prior_share: uncertainty.prior_share,
+            imu,
+            accelerometer_unit: problem.accelerometer.unit,
+            gyroscope_unit: problem.gyroscope.unit,
+            latitude_deg: problem.setup.latitude_deg,
+            of_vertical: uncertainty.of_vertical,
+            north_rms_radps: uncertainty.north_rms_radps,
+            chi2: fit.chi2,
+            degrees_of_freedom: degrees_of_freedom(model, &rotations),
+            still: stationary_result(
+                model,
+                (&fit.state, &solution.between),
+                gyroscope,
+                &plain,
+                problem.setup.vertical_rate(),
+            )?,
+            gyroscope_before: before,
+            rotations,
+            rotation_excess_sd_rad: model.excess_rad,
+            turns: turn_results(model, &problem.setup.turns, &imu)?,
+            hold_temperatures_c: follows.then(|| holds.holds.iter().map(of_hold).collect()),
+            changes: self.changes,
+            clocks: self.clock,
+            holds,
+            warnings: Vec::new(),
+        })
+    }
+}
+
+/// Residuals less unknowns.
+fn degrees_of_freedom(model: &ImuModel<'_>, rotations: &[RotationResult]) -> usize {
+    let counted = rotations.iter().filter(|rotation| rotation.used).count();
+    let readings = model.holds.iter().filter(|hold| hold.gyroscope.is_some()).count();
+    let equations =
+        3 * model.holds.len() + 3 * readings + 2 * counted + 3 * model.turns.len() + model.priors();
+    let unknowns =
+        model.quantities.len() + 2 * model.holds.iter().filter(|hold| hold.known.is_none()).count();
+    equations.saturating_sub(unknowns)
+}
+
+/// The turns of known angle, as the calibrated gyroscope shows them.
+fn turn_results(model: &ImuModel<'_>, turns: &[Turn], imu: &ImuParameters) -> Result<Vec<TurnResult>> {
+    let result = |(data, turn): (&TurnData, &Turn)| {
+        let correction = imu.at(data.temperature_c).gyroscope.matrix.try_inverse().ok_or_else(singular)?;
+        Ok(TurnResult {
+            start_s: turn.start_s,
+            end_s: turn.end_s,
+            angle_rad: data.angle,
+            measured_rad: data.angle + correction * model.turn_residual(data, imu),
+        })
+    };
+    model.turns.iter().zip(turns).map(result).collect()
+}

@@ -1,0 +1,7 @@
+//! The parts of the result, and the result put together from them.
+
+pub(crate) mod gyroscope_before;
+pub(crate) mod holds;
+pub(crate) mod imu_calibration;
+pub(crate) mod rotations;
+pub(crate) mod stationary;

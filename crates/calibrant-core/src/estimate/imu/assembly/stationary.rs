@@ -1,0 +1,55 @@
+//! The gyroscope in the stationary intervals, by the result.
+
+use crate::error::Result;
+use crate::estimate::imu::model::{GyroscopeNoise, HoldData, ImuModel, State, singular};
+use crate::estimate::imu::result::StillGyroscope;
+use crate::estimate::imu::stationary::gyroscope::StationaryGyroscope;
+use crate::sensor::{Correction, ImuParameters};
+use nalgebra::Vector3;
+
+/// What it shows there. `before`: the IMU before its calibration; `vertical_rate`: the Earth's about the vertical over gravity, where it is known.
+pub(crate) fn stationary_result(
+    model: &ImuModel<'_>,
+    (state, between): (&State, &Vector3<f64>),
+    gyroscope: &StationaryGyroscope,
+    before: &ImuParameters,
+    vertical_rate: f64,
+) -> Result<StillGyroscope> {
+    let rms = |imu: &ImuParameters| rate_rms(model, &state.forces, imu, vertical_rate).ok_or_else(singular);
+    Ok(StillGyroscope {
+        noise: model.gyroscope_noise.of_sample,
+        noise_source: gyroscope.noise_source,
+        within_holds_sd: GyroscopeNoise::of(gyroscope.scatter, &gyroscope.coarse).of_sample,
+        between_holds_sd: between_holds_sd(model, state, between),
+        rate_rms_radps: rms(&state.imu)?,
+        rate_rms_before_radps: rms(before)?,
+    })
+}
+
+/// The scatter between holds, with that by the Earth's rate beyond what was given.
+fn between_holds_sd(model: &ImuModel<'_>, state: &State, between: &Vector3<f64>) -> Vector3<f64> {
+    let found = |(j, hold): (usize, &HoldData)| {
+        let rate = model.earth.rate_found(j, &state.forces[j]);
+        (state.imu.at(hold.temperature_c).gyroscope.matrix * rate).map(|reading| reading * reading)
+    };
+    let squares: Vector3<f64> = model.holds.iter().enumerate().map(found).sum();
+    (squares / model.holds.len() as f64 + between.component_mul(between)).map(f64::sqrt)
+}
+
+/// The mean rate that an IMU's gyroscope shows in the holds, root mean square over them; `None` where its matrix is singular.
+fn rate_rms(
+    model: &ImuModel<'_>,
+    forces: &[Vector3<f64>],
+    imu: &ImuParameters,
+    vertical_rate: f64,
+) -> Option<f64> {
+    let (mut sum, mut count) = (0.0, 0);
+    for (hold, force) in model.holds.iter().zip(forces) {
+        let Some((mean, _)) = &hold.gyroscope else { continue };
+        let correction = Correction::of(&imu.at(hold.temperature_c).gyroscope)?;
+        let rate = correction.apply(&(mean - imu.g_sensitivity * force));
+        sum += (rate - force * vertical_rate).norm_squared();
+        count += 1;
+    }
+    Some((sum / f64::from(count.max(1))).sqrt())
+}

@@ -1,0 +1,110 @@
+//! Calibrates an IMU: outliers are taken out first, and what is known beforehand is compared with the recording.
+
+use crate::error::{Complaint, Error, Result};
+use crate::estimate::earth::unknown_latitude;
+use crate::estimate::imu::checks::known_terms::{self, Contradiction};
+use crate::estimate::imu::problem::{ImuProblem, ImuSetup, WhiteNoise};
+use crate::estimate::imu::result::ImuCalibration;
+use crate::estimate::imu::solver::solve_imu;
+use crate::estimate::result::CalibrationStatus;
+use crate::estimate::settings::CalibrationSettings;
+use crate::sensor::Triad;
+
+/// Calibrates an IMU.
+///
+/// # Errors
+/// [`Error::Recording`](crate::Error::Recording) where a sensor's recording is missing or is none, where gyroscope and accelerometer do not overlap, or where the
+/// gyroscope's readings cannot be angular rates in the unit given; [`Error::Experiment`](crate::Error::Experiment) where the readings contradict the directions of
+/// the holds or what is known beforehand; [`Error::NotIdentifiable`](crate::Error::NotIdentifiable) names what the holds or the rotations do not determine, and what would.
+pub fn calibrate_imu(problem: &ImuProblem<'_>, settings: &CalibrationSettings) -> Result<ImuCalibration> {
+    calibrate_imu_while(problem, settings, || problem.setup.white_noise)
+}
+
+/// The same where the gyroscope's white noise is still to be found: `white_noise` finds it while the accelerometer is fitted, which does not wait for it.
+///
+/// What it gives counts in place of [`ImuSetup::white_noise`]. Where no holds were found before ([`ImuSetup::found`]), sparks and wild readings are taken out first
+/// ([`ImuRecording::without_sparks`](crate::sensor::ImuRecording::without_sparks)), and warnings say so.
+///
+/// # Errors
+/// As [`calibrate_imu`].
+pub fn calibrate_imu_while(
+    problem: &ImuProblem<'_>,
+    settings: &CalibrationSettings,
+    white_noise: impl FnOnce() -> Option<WhiteNoise> + Send,
+) -> Result<ImuCalibration> {
+    let mut calibration = match problem.setup.found {
+        Some(_) => of_clean(problem, settings, white_noise)?,
+        None => without_outliers(problem, settings, white_noise)?,
+    };
+    calibration.warnings.extend(unknown_latitude(&calibration));
+    Ok(calibration)
+}
+
+/// The same of a recording of which outliers are still to be taken out.
+fn without_outliers(
+    problem: &ImuProblem<'_>,
+    settings: &CalibrationSettings,
+    white_noise: impl FnOnce() -> Option<WhiteNoise> + Send,
+) -> Result<ImuCalibration> {
+    let (recording, outliers) = problem.recording.without_sparks();
+    let mut calibration = of_clean(&ImuProblem { recording: &recording, ..*problem }, settings, white_noise)?;
+    let unit = |triad: Triad| problem.recording.triad(triad).map_or("", |of| of.unit.symbol());
+    let said = outliers.iter().map(|(triad, outliers)| outliers.words(*triad, unit(*triad)));
+    calibration.warnings.splice(0..0, said);
+    Ok(calibration)
+}
+
+/// The same of a recording without outliers.
+fn of_clean(
+    problem: &ImuProblem<'_>,
+    settings: &CalibrationSettings,
+    white_noise: impl FnOnce() -> Option<WhiteNoise> + Send,
+) -> Result<ImuCalibration> {
+    let known = &problem.setup.known;
+    if known.is_empty() {
+        return solve_imu(problem, settings, white_noise);
+    }
+    known.iter().try_for_each(known_terms::check)?;
+    let mut found_noise = None;
+    let outcome = solve_imu(problem, settings, || {
+        found_noise = white_noise();
+        found_noise
+    });
+    // what is fixed leaves no residual of its own
+    let fixed = known.iter().any(|known| known.sd.is_none());
+    if let Ok(found) = &outcome
+        && !fixed
+        && found.status == CalibrationStatus::Converged
+        && found.warnings.is_empty()
+    {
+        return outcome;
+    }
+    let contradictions = contradictions(problem, settings, found_noise);
+    let absurd = contradictions.iter().any(|term| term.is_absurd);
+    let said = contradictions.into_iter().map(|term| term.words);
+    match outcome {
+        Ok(mut found) if !absurd => {
+            found.warnings.splice(0..0, said);
+            Ok(found)
+        }
+        Err(error) if said.len() == 0 => Err(error),
+        _ => Err(Error::experiment(Complaint::new(
+            said.collect::<Vec<_>>().join("; "),
+            "correct the value in [known], its unit too, or leave it out and let the recording tell",
+        ))),
+    }
+}
+
+/// The terms that the recording contradicts by far, by the fit that knows of none.
+fn contradictions(
+    problem: &ImuProblem<'_>,
+    settings: &CalibrationSettings,
+    white_noise: Option<WhiteNoise>,
+) -> Vec<Contradiction> {
+    let setup = ImuSetup { known: Vec::new(), ..problem.setup.clone() };
+    let without = ImuProblem { setup: &setup, ..*problem };
+    match solve_imu(&without, settings, || white_noise) {
+        Ok(without) => known_terms::contradicted(&problem.setup.known, &without),
+        Err(_) => Vec::new(),
+    }
+}

@@ -1,0 +1,43 @@
+//! Axes of the gyroscope that show hardly a turn in any rotation.
+
+use crate::error::{Complaint, Error, Result};
+use crate::estimate::imu::alignment::coarse_rotations::WRONG;
+use crate::estimate::imu::checks::axes_in_words::axes_in_words;
+use crate::estimate::imu::model::{ImuModel, RotationData, State};
+use crate::sensor::Axis;
+
+/// An axis that shows less than this in all rotations does not turn, rad: noise and drift of the bias.
+const HARDLY: f64 = 0.05;
+
+/// Refuses them, but where gravity does not move much either.
+pub(crate) fn check(model: &ImuModel<'_>, state: &State) -> Result<()> {
+    let used = || model.rotations.iter().filter(|rotation| rotation.used);
+    let moved = used()
+        .map(|rotation| state.forces[rotation.from].angle(&state.forces[rotation.from + 1]))
+        .fold(0.0, f64::max);
+    let turned = |axis: &Axis| {
+        let angle = |rotation: &RotationData<'_>| {
+            let samples = &rotation.samples;
+            let bias = state.imu.at(samples.temperature_c()).gyroscope.bias[axis.index()];
+            let gain = state.imu.gyroscope.matrix.row(axis.index()).norm();
+            let steps = samples.times_s.windows(2).zip(samples.readings);
+            steps.map(|(t, y)| (t[1] - t[0]) * (y[axis.index()] - bias)).sum::<f64>().abs() / gain
+        };
+        used().map(angle).fold(0.0, f64::max)
+    };
+    let still: Vec<Axis> = Axis::ALL.into_iter().filter(|axis| turned(axis) < HARDLY).collect();
+    if still.is_empty() || moved < WRONG {
+        return Ok(());
+    }
+    let most = still.iter().map(turned).fold(0.0, f64::max);
+    Err(Error::recording(Complaint::new(
+        format!(
+            "the gyroscope hardly turns about its ax{} {}: by less than {:.0}° between two holds, while gravity turns by up to {:.0}°",
+            if still.len() == 1 { "is" } else { "es" },
+            axes_in_words(&still, ""),
+            most.to_degrees().floor() + 1.0,
+            moved.to_degrees()
+        ),
+        "are its columns the right ones, in the right unit, and of this recording? is each axis connected?",
+    )))
+}

@@ -1,0 +1,16 @@
+//! Did the iteration converge?
+
+use crate::estimate::imu::checks::evidence::{Diagnostics, Evidence};
+use crate::estimate::result::CalibrationStatus;
+
+/// Nothing where it did.
+pub(crate) fn check(evidence: &Evidence<'_>) -> Diagnostics {
+    let status = evidence.calibration.status;
+    if status == CalibrationStatus::Converged {
+        return Vec::new();
+    }
+    vec![format!(
+        "the iteration did not converge ({}): the numbers are the best found, not the optimum",
+        status.name()
+    )]
+}

@@ -1,0 +1,27 @@
+//! Directions of holds and axes: which are the same, and what they are called.
+
+use crate::sensor::Axis;
+use nalgebra::{Matrix3, Vector3};
+
+/// Faces by hand, unknown gains and non-orthogonality stay well below this angle, mistakes of a direction are 90° or 180°.
+pub(crate) const AGREES_RAD: f64 = 0.5;
+
+/// Is this matrix of an accelerometer that of another order of its axes?
+pub(crate) fn turned_frame(matrix: &Matrix3<f64>) -> bool {
+    Axis::ALL.into_iter().any(|axis| {
+        let row = matrix.row(axis.index());
+        row[axis.index()] < 0.5 * row.norm()
+    })
+}
+
+/// A direction in words: `-x`, or its components.
+pub(crate) fn direction_in_words(direction: &Vector3<f64>) -> String {
+    let near =
+        |sign: f64, axis: &Axis| direction.angle(&(sign * Vector3::ith(axis.index(), 1.0))) < AGREES_RAD;
+    for (sign, name) in [(1.0, ""), (-1.0, "-")] {
+        if let Some(axis) = Axis::ALL.iter().find(|axis| near(sign, axis)) {
+            return format!("{name}{axis}");
+        }
+    }
+    format!("({:+.1}, {:+.1}, {:+.1})", direction.x, direction.y, direction.z)
+}

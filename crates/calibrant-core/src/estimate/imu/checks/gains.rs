@@ -1,0 +1,43 @@
+//! Gains of readings in SI, which are near one, each axis along its own.
+
+use crate::estimate::imu::checks::directions::turned_frame;
+use crate::estimate::imu::checks::evidence::{Diagnostics, Evidence};
+use crate::estimate::imu::result::ImuCalibration;
+use crate::sensor::{Axis, ReadingUnit, Triad};
+
+/// Gains of readings in SI that are plausible.
+const GAINS: std::ops::RangeInclusive<f64> = 0.8..=1.25;
+
+/// Those that are not.
+pub(crate) fn check(evidence: &Evidence<'_>) -> Diagnostics {
+    of_gains(evidence.calibration, evidence.axes.is_some())
+}
+
+/// Readings in SI have gains near one, each axis along its own.
+fn of_gains(calibration: &ImuCalibration, reordered: bool) -> Vec<String> {
+    let mut warnings = Vec::new();
+    for (triad, unit) in [
+        (Triad::Accelerometer, calibration.accelerometer_unit),
+        (Triad::Gyroscope, calibration.gyroscope_unit),
+    ] {
+        if unit == ReadingUnit::Counts || (triad == Triad::Gyroscope && reordered) {
+            continue;
+        }
+        let matrix = &calibration.imu.triad(triad).matrix;
+        if calibration.frame_is_known() && turned_frame(matrix) {
+            // the faces and turns say it better
+            continue;
+        }
+        for axis in Axis::ALL {
+            let along = matrix[(axis.index(), axis.index())];
+            if !GAINS.contains(&along) {
+                warnings.push(format!(
+                    "the {triad} shows {along:.3} of what there is along its axis {axis}, for readings in {} it should be near 1: are unit, sample rate, order and \
+                     direction of the axes right, and what was given of turns and faces?",
+                    unit.symbol()
+                ));
+            }
+        }
+    }
+    warnings
+}

@@ -1,0 +1,25 @@
+//! The gyroscope's noise, where the datasheet gives it.
+
+use crate::estimate::imu::checks::evidence::{Diagnostics, Evidence};
+use crate::estimate::imu::problem::NoiseSource;
+use crate::sensor::Axis;
+
+/// Scatter within holds over the noise that was given that is not worth a word.
+const NOISE: std::ops::RangeInclusive<f64> = 0.5..=2.0;
+
+/// Axes that scatter by much more or less in the holds.
+pub(crate) fn check(evidence: &Evidence<'_>) -> Diagnostics {
+    if evidence.calibration.still.noise_source != NoiseSource::Datasheet {
+        return Vec::new();
+    }
+    let (scatter, noise) = (&evidence.gyroscope.scatter, &evidence.model.gyroscope_noise.of_sample);
+    let words = |axis: Axis| {
+        let ratio = scatter[axis.index()] / noise[axis.index()];
+        (!NOISE.contains(&ratio)).then(|| {
+            format!(
+                "the scatter of the gyroscope's axis {axis} within the holds is {ratio:.2} times the noise that was given"
+            )
+        })
+    };
+    Axis::ALL.into_iter().filter_map(words).collect()
+}

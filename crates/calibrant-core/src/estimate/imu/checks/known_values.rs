@@ -1,0 +1,24 @@
+//! Values that were given in `[known]`, where the data contradict them.
+
+use crate::estimate::imu::checks::evidence::{Diagnostics, Evidence};
+
+/// Standard deviations by which the data may be off what was given before it is told.
+const CONTRADICTED: f64 = 4.5;
+
+/// Those that are far off by their own standard deviations.
+pub(crate) fn check(evidence: &Evidence<'_>) -> Diagnostics {
+    let (model, imu) = (evidence.model, &evidence.fit.state.imu);
+    let Some((mean, weight)) = &model.prior else { return Vec::new() };
+    let mut warnings = Vec::new();
+    for (k, quantity) in model.quantities.iter().enumerate() {
+        let off = (quantity.of(imu) - mean[k]).abs() * weight[k].sqrt();
+        if off > CONTRADICTED {
+            warnings.push(format!(
+                "the data contradict what [known] says of {}: {off:.0} standard deviations from {}",
+                quantity.name(),
+                mean[k]
+            ));
+        }
+    }
+    warnings
+}

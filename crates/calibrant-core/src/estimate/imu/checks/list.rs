@@ -1,0 +1,36 @@
+//! The checks after the fit, in the order in which a user reads what they say.
+
+use crate::estimate::imu::checks::evidence::{Diagnostics, Evidence};
+use crate::estimate::imu::checks::{
+    axis_order, changes, chi_squared, coarse_steps, convergence, extrapolation, gains, gravity_residuals,
+    gyroscope_noise, hold_intervals, holds_left_out, known_values, motion_in_hold, rotations_left_out,
+    skewed_spikes, time_offset, turns_of_known_angle,
+};
+
+type Check = fn(&Evidence<'_>) -> Diagnostics;
+
+const CHECKS: [Check; 18] = [
+    time_offset::check,
+    changes::check,
+    holds_left_out::check,
+    motion_in_hold::check,
+    hold_intervals::check,
+    |evidence| evidence.turns.clone(),
+    convergence::check,
+    axis_order::check,
+    rotations_left_out::check,
+    turns_of_known_angle::check,
+    known_values::check,
+    chi_squared::check,
+    gravity_residuals::check,
+    gains::check,
+    gyroscope_noise::check,
+    coarse_steps::check,
+    skewed_spikes::check,
+    extrapolation::check,
+];
+
+/// What all checks say.
+pub(crate) fn all_checks(evidence: &Evidence<'_>) -> Diagnostics {
+    CHECKS.iter().flat_map(|check| check(evidence)).collect()
+}

@@ -1,0 +1,45 @@
+//! Gravity that half of the rotations miss, whatever the gyroscope's matrix.
+
+use crate::error::{Complaint, Error, Result};
+use crate::estimate::imu::alignment::coarse_rotations::WRONG;
+use crate::estimate::imu::checks::{axes_without_rotation, gyroscope_unit};
+use crate::estimate::imu::model::{ImuModel, State};
+use crate::estimate::result::HoldCalibration;
+use crate::sensor::ReadingUnit;
+
+/// Holds that scatter by more than this share of gravity are none.
+const MOVING: f64 = 0.005;
+
+/// Refuses readings that cannot be angular rates in the unit given.
+pub(crate) fn check(
+    model: &ImuModel<'_>,
+    state: &State,
+    median_rad: f64,
+    unit: ReadingUnit,
+    holds: &HoldCalibration,
+) -> Result<()> {
+    if median_rad <= WRONG {
+        return Ok(());
+    }
+    let degrees = median_rad.to_degrees();
+    let message = format!(
+        "half of the rotations miss gravity by more than {degrees:.0}°: the gyroscope's readings do not fit the accelerometer's"
+    );
+    if unit == ReadingUnit::RadianPerSecond {
+        gyroscope_unit::check(model, state, median_rad)?;
+    }
+    axes_without_rotation::check(model, state)?;
+    let scatter = holds.between_holds_sd_mps2;
+    if scatter > MOVING * model.gravity {
+        let message = format!(
+            "{message}, and the holds themselves scatter by {:.0} mm/s² beyond their noise",
+            1e3 * scatter
+        );
+        let help = "was the sensor still in them? they are the calmest parts of the recording (holds.minimum_hold_s, holds.intervals_s)";
+        return Err(Error::recording(Complaint::new(message, help)));
+    }
+    Err(Error::recording(Complaint::new(
+        message,
+        "do both files belong to one recording, with one clock? are the axes of the gyroscope those of the accelerometer? does the gyroscope saturate?",
+    )))
+}

@@ -1,0 +1,43 @@
+//! Swapped sensors, taken for each other: files or columns exchanged.
+
+use crate::error::{Error, NotIdentifiable};
+use crate::estimate::holds::{find_holds_in, median};
+use crate::sensor::{ImuRecording, Recording};
+use nalgebra::Vector3;
+
+/// So many stretches of rest that differ are those of an accelerometer in several orientations.
+const SEVERAL: usize = 4;
+
+/// They differ if their means scatter by this many standard deviations of a sample.
+const DIFFER: f64 = 10.0;
+
+/// Says that the gyroscope rests at different values, as an accelerometer does, and the accelerometer at one value at most.
+#[must_use]
+pub fn swapped_sensors(recording: &ImuRecording, minimum_s: f64) -> Option<&'static str> {
+    let (accelerometer, gyroscope) = (recording.accelerometer.as_ref()?, recording.gyroscope.as_ref()?);
+    (rests_at_several(gyroscope, minimum_s) && !rests_at_several(accelerometer, minimum_s)).then_some(
+        "the gyroscope rests at values that differ, as an accelerometer does, and the accelerometer does not: are their files or columns exchanged?",
+    )
+}
+
+/// The same error, which came of the holds, with this question.
+pub(crate) fn with_swapped_sensors(error: Error, recording: &ImuRecording, minimum_s: f64) -> Error {
+    match (error, swapped_sensors(recording, minimum_s)) {
+        (Error::NotIdentifiable(undetermined), Some(said)) => {
+            let mut groups = undetermined.groups;
+            groups.iter_mut().for_each(|group| group.reason = format!("{}; {said}", group.reason));
+            Error::NotIdentifiable(Box::new(NotIdentifiable { groups }))
+        }
+        (error, _) => error,
+    }
+}
+
+fn rests_at_several(recording: &Recording, minimum_s: f64) -> bool {
+    let Ok(rests) = find_holds_in(recording, minimum_s) else { return false };
+    if rests.len() < SEVERAL {
+        return false;
+    }
+    let center = Vector3::from_fn(|axis, _| median(rests.iter().map(|rest| rest.mean[axis]).collect()));
+    let off = median(rests.iter().map(|rest| (rest.mean - center).norm()).collect());
+    off > DIFFER * median(rests.iter().map(|rest| rest.sd.norm()).collect())
+}

@@ -1,0 +1,67 @@
+//! Turns of known angle that do not fit the other data.
+
+use crate::estimate::imu::checks::evidence::{Diagnostics, Evidence};
+use crate::estimate::imu::checks::turn_angles::{OTHER_TURN, factor, is_another, shows_another};
+use crate::estimate::imu::model::{Fit, ImuModel, TurnData};
+use crate::estimate::imu::problem::Turn;
+use crate::estimate::imu::result::ImuCalibration;
+use crate::sensor::ReadingUnit;
+
+/// Standard deviations by which the data may be off what was given before it is told.
+const CONTRADICTED: f64 = 4.5;
+
+/// Turns that show another angle than was given; where there are none, turns that fit badly.
+pub(crate) fn check(evidence: &Evidence<'_>) -> Diagnostics {
+    of_turns(evidence.model, evidence.fit, &evidence.problem.setup.turns, evidence.calibration)
+}
+
+fn of_turns(model: &ImuModel<'_>, fit: &Fit, turns: &[Turn], calibration: &ImuCalibration) -> Vec<String> {
+    let mut warnings = Vec::new();
+    let on_faces = calibration.frame_is_known();
+    if calibration.gyroscope_unit != ReadingUnit::Counts {
+        if let Some(share) = same_share(model, fit) {
+            let why = factor(share)
+                .unwrap_or("are the angle of the turns, the sample rate and the gyroscope's unit right?");
+            return vec![format!("the gyroscope shows {share:.3} of the angle of every turn: {why}")];
+        }
+        // on known faces these were refused before
+        let other = model.turns.iter().zip(turns).enumerate().filter(|_| !on_faces);
+        warnings.extend(other.filter_map(|(k, (data, turn))| other_turn(fit, data, turn, k)));
+    }
+    if !warnings.is_empty() {
+        // the others fit badly since these do
+        return warnings;
+    }
+    for (number, (data, turn)) in model.turns.iter().zip(turns).enumerate() {
+        let residual = model.turn_residual(data, &fit.state.imu);
+        let off = residual.component_mul(&residual).dot(&data.weight).sqrt();
+        if off > CONTRADICTED {
+            warnings.push(format!(
+                "{}, {:.1}°, does not fit the other data, by {off:.0} standard deviations: are its times, axis and angle right?",
+                turn.named(number),
+                turn.angle_rad.to_degrees()
+            ));
+        }
+    }
+    warnings
+}
+
+/// The share of their angle that several turns show, where it is the same of all and far from one: no turn is wrong then, but what they have in common.
+fn same_share(model: &ImuModel<'_>, fit: &Fit) -> Option<f64> {
+    let shown = |data: &TurnData| data.beyond_bias(&fit.state.imu);
+    let share = |data: &TurnData| shown(data).dot(&data.angle) / data.angle.norm_squared();
+    let mean = model.turns.iter().map(share).sum::<f64>() / model.turns.len() as f64;
+    let follows =
+        |data: &TurnData| (shown(data) - mean * data.angle).norm() < 0.1 * mean.abs() * data.angle.norm();
+    (model.turns.len() > 1 && (mean - 1.0).abs() > OTHER_TURN && model.turns.iter().all(follows))
+        .then_some(mean)
+}
+
+/// A turn of which the readings, in SI, show quite another one.
+fn other_turn(fit: &Fit, data: &TurnData, turn: &Turn, number: usize) -> Option<String> {
+    let shown = data.beyond_bias(&fit.state.imu);
+    let share = shown.dot(&data.angle) / data.angle.norm_squared();
+    let why = factor(share)
+        .map_or_else(|| ": correct its angle, its axis or its times".to_owned(), |why| format!(", {why}"));
+    is_another(&shown, &data.angle).then(|| format!("{}{why}", shows_another(number, turn, &shown)))
+}

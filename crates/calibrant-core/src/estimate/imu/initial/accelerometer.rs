@@ -1,0 +1,88 @@
+//! The accelerometer by itself, before anything is known of the gyroscope.
+
+use crate::estimate::imu::initial::face_alignment::{FaceAlignment, FaceScatter};
+use crate::estimate::result::HoldCalibration;
+use crate::motion::Hold;
+use crate::sensor::{Recording, SensorParameters, TriadThermal};
+use nalgebra::{Matrix3, Vector3};
+
+/// Noise of a face's mean, m/s², that none is below: readings without noise have a last digit still.
+const LEAST_MPS2: f64 = 3e-8;
+
+/// The accelerometer, before the joint problem.
+pub(crate) struct InitialAccelerometer {
+    pub(crate) sensor: SensorParameters,
+    /// Standard deviation of a sample within holds.
+    pub(crate) within: Vector3<f64>,
+    /// Variance of a hold's mean that more samples do not lower.
+    pub(crate) of_mean: Vector3<f64>,
+    pub(crate) holds: HoldCalibration,
+    /// How well the faces were met, where the directions are known.
+    pub(crate) alignment: Option<FaceAlignment>,
+    pub(crate) warnings: Vec<String>,
+    /// Its temperature terms, and the recording as it would be at the reference temperature, where they were fitted.
+    pub(crate) thermal: TriadThermal,
+    pub(crate) adjusted: Option<Recording>,
+}
+
+impl InitialAccelerometer {
+    /// Inverse covariance of a hold's mean, for a scatter between holds in m/s².
+    pub(crate) fn weight(&self, hold: &Hold, between: f64) -> Matrix3<f64> {
+        let gain = Vector3::from_fn(|axis, _| self.sensor.matrix.row(axis).norm_squared());
+        let variance = noise_variance(hold, &self.within, &self.of_mean) + gain * between.powi(2);
+        Matrix3::from_diagonal(&variance.map(|variance| 1.0 / variance.max(f64::MIN_POSITIVE)))
+    }
+
+    /// Inverse covariance of the mean on a face.
+    pub(crate) fn weight_on_face(
+        &self,
+        hold: &Hold,
+        force: &Vector3<f64>,
+        scatter: &FaceScatter,
+    ) -> Matrix3<f64> {
+        inverse_covariance(
+            &noise_variance(hold, &self.within, &self.of_mean),
+            &self.sensor.matrix,
+            &scatter.covariance(force),
+        )
+    }
+}
+
+/// Variance of a hold's mean by the noise in it.
+pub(crate) fn noise_variance(hold: &Hold, within: &Vector3<f64>, of_mean: &Vector3<f64>) -> Vector3<f64> {
+    within.component_mul(within) / hold.samples() as f64 + of_mean
+}
+
+/// The inverse of `diag(variance) + S C Sᵀ`.
+pub(crate) fn inverse_covariance(
+    variance: &Vector3<f64>,
+    s: &Matrix3<f64>,
+    c: &Matrix3<f64>,
+) -> Matrix3<f64> {
+    let least = LEAST_MPS2.powi(2) * s.norm_squared() / 3.0;
+    let variance = variance.map(|variance| variance.max(least));
+    (Matrix3::from_diagonal(&variance) + s * c * s.transpose()).try_inverse().unwrap_or_else(Matrix3::zeros)
+}
+
+/// The holds that are used.
+pub(crate) struct UsedHolds<'a> {
+    /// Their numbers, from 0.
+    pub(crate) numbers: Vec<usize>,
+    pub(crate) holds: Vec<&'a Hold>,
+    /// Specific force in each, in the frame of the accelerometer, m/s².
+    pub(crate) forces: Vec<Vector3<f64>>,
+}
+
+impl InitialAccelerometer {
+    /// The holds that are used.
+    pub(crate) fn used_holds(&self) -> UsedHolds<'_> {
+        let all = &self.holds.holds;
+        let numbers: Vec<usize> = (0..all.len()).filter(|&j| all[j].used).collect();
+        let along = self.alignment.map_or(1.0, |alignment| alignment.cosine());
+        UsedHolds {
+            forces: numbers.iter().map(|&j| all[j].force_mps2 * along).collect(),
+            holds: numbers.iter().map(|&j| &all[j].hold).collect(),
+            numbers,
+        }
+    }
+}

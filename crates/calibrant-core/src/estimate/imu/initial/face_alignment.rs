@@ -1,0 +1,287 @@
+//! Face alignment: how well the sensor was placed on known faces.
+//!
+//! A tilt by `θ` moves gravity across the direction that was given by `g θ`, and along it only by `g θ²/2`. With tilts of standard deviation `τ` about each axis, the specific force is
+//! about `g (1 − τ²)` along the direction, known to `g τ²` there, and to `g τ` across it. So six faces tell the scale factors far better than the cross-axis terms. What a tilt shows
+//! across passes for something along where the cross-axis terms are wrong: of `n` faces they are known to `τ √(3/n)`, two of them act on each face, and the variance along is
+//! `g² τ⁴ (1 + 6/n)`. That is true of biases; in scale factors both parts cancel to some degree, and what is stated of them is up to 1.6 times too wide where tilts decide.
+//!
+//! `τ` is such that χ² equals its degrees of freedom, and so is what else scatters along the direction, where anything is left there to tell it: six faces fix three
+//! scale factors and three biases by what they show along gravity, and leave nothing. A scatter of few residuals is known badly: for the covariance its variance is multiplied by
+//! `ν/(ν − 2)`, which makes the normal distribution as wide as Student's t. Where the noise's variance `v` is no less than that of the tilt, a scatter that is small by chance leaves nothing
+//! to multiply. With `S = Σ r²`, the variance `v + τ²` is `S/χ²_ν` and not less than `v`; its mean is
+//!
+//! `E[v + τ²] = S/(ν − 2) · P(χ²_{ν−2} < S/v)/P(χ²_ν < S/v)`
+//!
+//! which is `S/(ν − 2)` for large tilts, and leaves six faces that scatter as their noise does a `τ²` of `v`.
+
+use crate::estimate::excess::excess;
+use crate::estimate::result::{FaceTilt, TiltSource};
+use nalgebra::{Matrix3, Vector3};
+use statrs::distribution::{ChiSquared, ContinuousCDF};
+
+/// Tilt of faces whose scatter does not tell it, rad: half a degree, as of known turns.
+const ASSUMED_RAD: f64 = 0.5 * std::f64::consts::PI / 180.0;
+
+/// A scatter of fewer degrees of freedom has no variance that could be stated.
+const FEWEST: usize = 3;
+
+/// Faces that scatter by so many times what was given of their tilt contradict it …
+const CONTRADICTED: f64 = 2.5;
+
+/// … and so do those that scatter as little in one of so many sessions only.
+const TOO_LITTLE: f64 = 1e-3;
+
+/// The two scatters follow each other in at most so many rounds …
+const ROUNDS: usize = 30;
+
+/// … until they change by less than this share.
+const SETTLED: f64 = 1e-9;
+
+/// Scatter of the specific force about known directions.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct FaceScatter {
+    /// Standard deviation of a tilt about each axis, rad.
+    pub(crate) tilt_rad: f64,
+    /// Standard deviation along the direction beyond noise and tilt, m/s².
+    pub(crate) along_mps2: f64,
+    /// What the tilt adds along the direction, as a variance in shares of gravity.
+    pub(crate) of_square: f64,
+}
+
+/// How the faces were met.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct FaceAlignment {
+    pub(crate) scatter: FaceScatter,
+    /// As it counts for the covariance of the estimates: for as few residuals as told it.
+    pub(crate) widened: FaceScatter,
+    /// As it is told.
+    pub(crate) tilt: FaceTilt,
+    /// What is left of the magnitudes to check.
+    pub(crate) along_degrees: usize,
+    /// The tilt by the scatter, rad, where it tells it.
+    pub(crate) shown_rad: Option<f64>,
+    /// Does it contradict the tilt that was given?
+    pub(crate) contradicted: bool,
+}
+
+/// What is left of the faces to tell the scatter.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Degrees {
+    pub(crate) faces: usize,
+    pub(crate) along: usize,
+    pub(crate) all: usize,
+}
+
+/// `Σ rᵀ C⁻¹ r` of the faces, and of what they show along their directions.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Chi2 {
+    pub(crate) along: f64,
+    pub(crate) all: f64,
+}
+
+impl FaceScatter {
+    fn of(tilt_rad: f64, along_mps2: f64, faces: usize) -> Self {
+        let of_square = tilt_rad.powi(4) * (1.0 + 6.0 / faces.max(1) as f64);
+        Self { tilt_rad, along_mps2, of_square }
+    }
+
+    /// Covariance of the specific force, (m/s²)².
+    pub(crate) fn covariance(&self, force: &Vector3<f64>) -> Matrix3<f64> {
+        let (g2, up) = (force.norm_squared(), force.normalize());
+        let along = self.along_mps2.powi(2) + g2 * self.of_square;
+        let across = g2 * self.tilt_rad.powi(2);
+        Matrix3::identity() * across + up * up.transpose() * (along - across)
+    }
+}
+
+impl Degrees {
+    fn across(self) -> usize {
+        self.all.saturating_sub(self.along)
+    }
+
+    fn source(self, given_rad: Option<f64>) -> TiltSource {
+        match given_rad {
+            Some(_) => TiltSource::Given,
+            None if self.across() >= FEWEST => TiltSource::Recording,
+            None => TiltSource::Assumed,
+        }
+    }
+
+    /// `tilt2`: mean of τ² over what the recording leaves open, where it tells it.
+    fn alignment(self, scatter: FaceScatter, source: TiltSource, tilt2: Option<f64>) -> FaceAlignment {
+        let factor = |degrees: usize| {
+            let degrees = degrees.max(FEWEST) as f64;
+            degrees / (degrees - 2.0)
+        };
+        let (of_square, degrees_of_freedom) = match tilt2 {
+            Some(_) => (factor(self.across()), self.across()),
+            None => (1.0, 0),
+        };
+        FaceAlignment {
+            scatter,
+            widened: FaceScatter {
+                tilt_rad: tilt2.map_or(scatter.tilt_rad, f64::sqrt),
+                along_mps2: scatter.along_mps2 * factor(self.along).sqrt(),
+                of_square: scatter.of_square * of_square,
+            },
+            tilt: FaceTilt { sd_rad: scatter.tilt_rad, source, degrees_of_freedom },
+            along_degrees: self.along,
+            shown_rad: (source == TiltSource::Recording).then_some(scatter.tilt_rad),
+            contradicted: false,
+        }
+    }
+}
+
+/// How the faces were met, and what was fitted with it. `noise`: variance of the direction of a face's mean by its noise, rad²; `fit` gives χ² and what it fitted for a scatter; `None` where it fails, which ends the search.
+pub(crate) fn align_faces<T>(
+    degrees: Degrees,
+    given_rad: Option<f64>,
+    (gravity, noise): (f64, f64),
+    mut fit: impl FnMut(&FaceScatter) -> Option<(Chi2, T)>,
+) -> Option<(FaceAlignment, T)> {
+    let Some(given_rad) = given_rad else {
+        let (found, chi2, fitted) = search(degrees, None, gravity, &mut fit)?;
+        let source = degrees.source(None);
+        let is_told = source == TiltSource::Recording;
+        let tilt2 = is_told.then(|| mean_square(degrees, &found, &chi2, noise));
+        return Some((degrees.alignment(found, source, tilt2), fitted));
+    };
+    // how they scatter, whatever was given of it
+    let shown = match degrees.source(None) {
+        TiltSource::Recording => search(degrees, None, gravity, &mut fit).map(|(shown, ..)| shown.tilt_rad),
+        TiltSource::Given | TiltSource::Assumed => None,
+    };
+    let (found, chi2, fitted) = search(degrees, Some(given_rad), gravity, &mut fit)?;
+    let alignment = degrees.alignment(found, TiltSource::Given, None);
+    let is_less = probability(degrees.across(), chi2.all - chi2.along) < TOO_LITTLE;
+    let contradicted = shown.is_some_and(|shown_rad| is_less || shown_rad > CONTRADICTED * given_rad);
+    Some((FaceAlignment { shown_rad: shown, contradicted, ..alignment }, fitted))
+}
+
+/// The scatter, χ² and what was fitted with it.
+fn search<T>(
+    degrees: Degrees,
+    given_rad: Option<f64>,
+    gravity: f64,
+    fit: &mut impl FnMut(&FaceScatter) -> Option<(Chi2, T)>,
+) -> Option<(FaceScatter, Chi2, T)> {
+    let told = degrees.source(given_rad) == TiltSource::Recording;
+    let mut scatter = FaceScatter::of(given_rad.unwrap_or(ASSUMED_RAD), 0.0, degrees.faces);
+    // where noise decides, all three components of a face share the parameters alike; where tilts do, what it shows along tells what it can alone
+    let scattered = (fit(&FaceScatter::default())?.0.all / degrees.all.max(1) as f64).max(1.0);
+    let shared = (degrees.all as f64 / 3.0 - degrees.along as f64).max(0.0);
+    for _ in 0..ROUNDS {
+        let before = scatter;
+        if told {
+            let at = |tilt_rad: f64| FaceScatter::of(tilt_rad, scatter.along_mps2, degrees.faces);
+            let all = degrees.all as f64;
+            let (tilt_rad, ()) =
+                excess(all, |_| ASSUMED_RAD, |tilt| fit(&at(tilt)).map(|(chi2, _)| (chi2.all, ())))?;
+            scatter = at(tilt_rad);
+        }
+        if degrees.along >= FEWEST {
+            let at = |along_mps2: f64| FaceScatter { along_mps2, ..scatter };
+            let guess = gravity * ASSUMED_RAD.powi(2);
+            let along = degrees.along as f64 + shared / scattered;
+            scatter.along_mps2 =
+                excess(along, |_| guess, |along| fit(&at(along)).map(|(chi2, _)| (chi2.along, ())))?.0;
+        }
+        let moved = |now: f64, before: f64| (now - before).abs() > SETTLED * now;
+        if degrees.along < FEWEST
+            || !moved(scatter.tilt_rad, before.tilt_rad) && !moved(scatter.along_mps2, before.along_mps2)
+        {
+            break;
+        }
+    }
+    let (chi2, fitted) = fit(&scatter)?;
+    Some((scatter, chi2, fitted))
+}
+
+/// Mean of `τ²`, rad², over what a scatter of so few residuals leaves open. `noise`: `v`, rad².
+fn mean_square(degrees: Degrees, found: &FaceScatter, chi2: &Chi2, noise: f64) -> f64 {
+    let (nu, of_tilt) = (degrees.across() as f64, found.tilt_rad.powi(2));
+    let squares = chi2.all * nu / degrees.all as f64 * (noise + of_tilt);
+    let below = |degrees_of_freedom: usize| probability(degrees_of_freedom, squares / noise);
+    let mean = squares / (nu - 2.0) * below(degrees.across() - 2) / below(degrees.across()) - noise;
+    if mean.is_finite() { mean.max(of_tilt) } else { of_tilt }
+}
+
+/// Probability of a χ² of so many degrees of freedom below this.
+fn probability(degrees_of_freedom: usize, chi2: f64) -> f64 {
+    ChiSquared::new(degrees_of_freedom as f64).map_or(f64::NAN, |of| of.cdf(chi2.max(0.0)))
+}
+
+impl FaceAlignment {
+    /// Share of gravity along the direction, on average: by the scatter where this contradicts what was given.
+    pub(crate) fn cosine(&self) -> f64 {
+        let shown_rad = self.shown_rad.filter(|_| self.contradicted);
+        1.0 - shown_rad.unwrap_or(self.scatter.tilt_rad).powi(2)
+    }
+
+    /// What is to be said where the scatter of the faces contradicts what was given of it.
+    pub(crate) fn contradiction(&self) -> Option<String> {
+        let (shown_rad, given_rad) = (self.shown_rad.filter(|_| self.contradicted)?, self.scatter.tilt_rad);
+        let [by, so] = match shown_rad > given_rad {
+            true => ["by", "the standard deviations are too small"],
+            false => [
+                "by only",
+                "the standard deviations are too large; leave the key out, and the scatter of the faces tells it",
+            ],
+        };
+        Some(format!(
+            "the faces scatter {by} {:.2}° about each axis, and holds.face_sd_deg says {:.2}°: {so}",
+            shown_rad.to_degrees(),
+            given_rad.to_degrees()
+        ))
+    }
+}
+
+impl FaceTilt {
+    /// What is to be said where so many faces do not tell how well they were met.
+    pub(crate) fn assumed(&self, faces: usize) -> Option<String> {
+        (self.source == TiltSource::Assumed).then(|| {
+            format!(
+                "{faces} faces are too few to tell how well they were met: {:.1}° about each axis is assumed; add faces, or give holds.face_sd_deg",
+                self.sd_rad.to_degrees()
+            )
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Six faces whose residuals have the squares `S` together, each component with the same noise.
+    fn widened(squares: f64, noise: f64) -> f64 {
+        let degrees = Degrees { faces: 6, along: 0, all: 6 };
+        let fit = |scatter: &FaceScatter| {
+            let all = squares / (noise + scatter.tilt_rad.powi(2));
+            Some((Chi2 { along: 0.0, all }, ()))
+        };
+        align_faces(degrees, None, (9.81, noise), fit).expect("found").0.widened.tilt_rad.powi(2)
+    }
+
+    #[test]
+    fn a_scatter_as_small_as_its_noise_leaves_a_tilt_open() {
+        let noise = 1e-6;
+        for times in [1e-3, 0.1, 1.0, 1.5, 4.0, 30.0, 1e4] {
+            let squares = 6.0 * times * noise;
+            // the posterior of T = v + τ² is T^(−ν/2 − 1) exp(−S/(2 T)), by the sum over ln T from ln v on
+            let (mut sum, mut weights) = (0.0, 0.0);
+            for k in 0..400_000 {
+                let both = noise * (f64::from(k) * 1e-4).exp();
+                let weight = (-3.0 * (both / noise).ln() - 0.5 * squares / both
+                    + 0.5 * squares / (noise * (1.0 + times)))
+                    .exp()
+                    * if k == 0 { 0.5 } else { 1.0 };
+                sum += weight * (both - noise);
+                weights += weight;
+            }
+            let (found, expected) = (widened(squares, noise), sum / weights);
+            assert!((found / expected - 1.0).abs() < 1e-3, "{times}: {found:e} {expected:e}");
+        }
+        // S/(ν − 2) without noise
+        assert!((widened(6e-4, 1e-14) / 1.5e-4 - 1.0).abs() < 1e-6);
+    }
+}

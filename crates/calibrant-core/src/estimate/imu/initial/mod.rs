@@ -1,0 +1,10 @@
+//! Initial values: the accelerometer by itself or on known faces, its temperature terms, and the gyroscope's bias.
+
+pub(crate) mod accelerometer;
+pub(crate) mod accelerometer_alone;
+pub(crate) mod face_alignment;
+pub(crate) mod face_statistics;
+pub(crate) mod faces;
+pub(crate) mod gyroscope;
+pub(crate) mod temperature_terms;
+pub(crate) mod unknown_directions;

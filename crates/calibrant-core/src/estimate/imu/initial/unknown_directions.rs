@@ -1,0 +1,66 @@
+//! The accelerometer from holds whose directions are not known: its static calibration.
+
+use crate::error::{Complaint, Error, Result};
+use crate::estimate::holds::{self, HoldsSetup, holds_lost_to_filter, with_filter, with_pauses};
+use crate::estimate::imu::checks::swapped_sensors::with_swapped_sensors;
+use crate::estimate::imu::initial::accelerometer::InitialAccelerometer;
+use crate::estimate::imu::problem::ImuProblem;
+use crate::estimate::imu::stationary::intervals::find_clean_imu_holds;
+use crate::estimate::problem::{CalibrationProblem, Stimulus};
+use crate::estimate::quantisation::{coarse_axes_in, of_means};
+use crate::estimate::result::Recovered;
+use crate::estimate::settings::CalibrationSettings;
+use crate::sensor::{Recording, TriadThermal};
+use nalgebra::Vector3;
+use std::borrow::Cow;
+
+/// The accelerometer by its static calibration.
+pub(crate) fn from_unknown_directions(
+    problem: &ImuProblem<'_>,
+    recording: &Recording,
+    settings: &CalibrationSettings,
+    intervals_s: Option<Vec<(f64, f64)>>,
+) -> Result<InitialAccelerometer> {
+    let detected = intervals_s.is_none();
+    let minimum_s = problem.setup.holds.minimum_hold_s;
+    let found = match (&problem.setup.found, detected) {
+        (_, false) => Cow::Borrowed(&[][..]),
+        (Some(found), true) => Cow::Borrowed(found.as_slice()),
+        (None, true) => Cow::Owned(find_clean_imu_holds(problem.recording, minimum_s)?),
+    };
+    let intervals_s =
+        intervals_s.unwrap_or_else(|| found.iter().map(|hold| (hold.start_s, hold.end_s)).collect());
+    let setup = HoldsSetup { intervals_s: Some(intervals_s), ..problem.setup.holds.clone() };
+    let stimulus = Stimulus::Holds(&setup);
+    let as_read = problem.recording.accelerometer.as_ref().unwrap_or(recording);
+    let alone = CalibrationProblem { sensor: problem.accelerometer, recording, stimulus };
+    let mut first = holds::calibrate(&alone, &setup, settings, as_read).map_err(|error| match detected {
+        true => {
+            let error = with_pauses(with_filter(error, as_read, &found, minimum_s), as_read);
+            with_swapped_sensors(error, problem.recording, minimum_s)
+        }
+        false => error,
+    })?;
+    if detected {
+        first.warnings.extend(holds_lost_to_filter(as_read, &found, minimum_s));
+    }
+    let Recovered::Holds(mut holds) = first.recovered else {
+        return Err(Error::experiment(Complaint::new("an IMU is calibrated from holds", "use [holds]")));
+    };
+    holds.detected = detected;
+    let within = first.fit.noise_estimate.unwrap_or_else(Vector3::zeros);
+    let sound = holds.holds.iter().filter(|result| result.reason.is_none());
+    let of_mean = of_means(&coarse_axes_in(as_read, sound.map(|result| &result.hold)));
+    let (thermal, adjusted) = (TriadThermal::default(), None);
+    let warnings = first.warnings;
+    Ok(InitialAccelerometer {
+        sensor: first.sensor,
+        within,
+        of_mean,
+        holds,
+        alignment: None,
+        warnings,
+        thermal,
+        adjusted,
+    })
+}

@@ -1,0 +1,256 @@
+//! The one least-squares problem of a whole IMU, for given weights: Gauss–Newton on directions and parameters.
+//!
+//! The unknown directions `f_j` of the holds are a chain whose links are the rotations between them, with the parameters as the border: the arrowhead
+//! again. Residuals:
+//!
+//! | of | residual | unknowns |
+//! |---|---|---|
+//! | a hold, accelerometer | `ȳ_a − S_a f_j − b_a` | `f_j`, accelerometer |
+//! | a hold, gyroscope | `ȳ_g − b_g − Γ f_j − S_g ω_j` | `f_j`, gyroscope |
+//! | a rotation | the arc from `f_k` to `Rᵀ (f_i + T ω_i × f_i)`: 2 numbers | `f_i`, `f_k`, gyroscope |
+//! | a turn of known angle | `∫ (y_g − b_g − Γ f − S_g κ f) dt − S_g φ e` | gyroscope |
+//!
+//! `S` and `b` are those at the temperature of the hold, the rotation or the turn. `ω_j = κ f_j + E_j h` is the Earth's rate ([`Earth`]), which is held fixed here and settled beside the weights; `T` is the
+//! duration of the rotation.
+
+use crate::arrowhead::{Arrowhead, Increment, Link};
+use crate::error::Result;
+use crate::estimate::imu::model::{Fit, GravityResidual, GravityResiduals, ImuModel, State, singular};
+use crate::estimate::result::CalibrationStatus;
+use crate::estimate::settings::CalibrationSettings;
+use crate::estimate::tangents::tangents;
+use crate::sensor::entries::{AT_REFERENCE, ENTRIES};
+use crate::sensor::{Condition, Triad};
+use nalgebra::{DMatrix, DVector, Matrix3, SMatrix, SVector, Vector3};
+
+/// A step this short, in standard deviations, needs no test: the derivatives of a rotation are exact to second order in the sample step only, so that the last steps
+/// may not lower χ².
+const CLOSE: f64 = 0.1;
+
+impl ImuModel<'_> {
+    fn sensitivity<const P: usize>(&self, triad: Triad, at: &Condition<'_>) -> SMatrix<f64, 3, P> {
+        let mut matrix = SMatrix::<f64, 3, P>::zeros();
+        for (k, quantity) in self.quantities.iter().enumerate() {
+            if quantity.triad() == triad {
+                matrix.set_column(k, &quantity.derivative(at));
+            }
+        }
+        matrix
+    }
+
+    fn factor<const P: usize>(
+        &self,
+        state: &State,
+        residuals: &[Option<GravityResidual>],
+    ) -> Option<(Arrowhead<2, P>, SVector<f64, P>)> {
+        let imu = &state.imu;
+        let (mut border, mut rhs) = (SMatrix::<f64, P, P>::zeros(), SVector::<f64, P>::zeros());
+        if let Some((mean, weight)) = &self.prior {
+            for (k, quantity) in self.quantities.iter().enumerate() {
+                border[(k, k)] += weight[k];
+                rhs[k] += (mean[k] - quantity.of(imu)) * weight[k];
+            }
+        }
+        for turn in &self.turns {
+            let (stimulus, force, temperature_c) = (self.turned(turn), turn.force, turn.temperature_c);
+            let mut j: SMatrix<f64, 3, P> =
+                self.sensitivity(Triad::Gyroscope, &Condition { imu, stimulus, force, temperature_c });
+            for (k, quantity) in self.quantities.iter().enumerate() {
+                if quantity.is_of_bias() {
+                    j.column_mut(k).scale_mut(turn.duration_s);
+                }
+            }
+            let w = Matrix3::from_diagonal(&turn.weight);
+            border += j.tr_mul(&(w * j));
+            rhs += j.tr_mul(&turn.weight.component_mul(&self.turn_residual(turn, imu)));
+        }
+        let mut unreduced = border.diagonal();
+        // places that no quantity takes
+        for k in self.quantities.len()..P {
+            border[(k, k)] = 1.0;
+        }
+        let link = |j: usize| {
+            let (hold, force) = (&self.holds[j], &state.forces[j]);
+            let turn = tangents(force) * self.gravity;
+            let mut link = Link {
+                h00: SMatrix::zeros(),
+                h01: SMatrix::zeros(),
+                h11: SMatrix::zeros(),
+                b0: SMatrix::zeros(),
+                b1: SMatrix::zeros(),
+                c: SMatrix::zeros(),
+                g0: SVector::zeros(),
+                g1: SVector::zeros(),
+                gp: SVector::zeros(),
+            };
+            let mut add =
+                |by_force: Matrix3<f64>, g: SMatrix<f64, 3, P>, r: Vector3<f64>, w: Matrix3<f64>| {
+                    let wr = w * r;
+                    link.c += g.tr_mul(&(w * g));
+                    link.gp += g.tr_mul(&wr);
+                    if hold.known.is_none() {
+                        let turn = by_force * turn;
+                        link.h11 += turn.tr_mul(&(w * turn));
+                        link.b1 += turn.tr_mul(&(w * g));
+                        link.g1 += turn.tr_mul(&wr);
+                    }
+                };
+            let temperature_c = hold.temperature_c;
+            let felt = Condition { imu: &state.imu, stimulus: *force, force: *force, temperature_c };
+            let imu = state.imu.at(temperature_c);
+            let g = self.sensitivity(Triad::Accelerometer, &felt);
+            let r = hold.accelerometer - imu.accelerometer.reading(force);
+            add(imu.accelerometer.matrix, g, r, hold.accelerometer_weight);
+            if let Some((mean, weight)) = &hold.gyroscope {
+                let stimulus = self.earth.rate(j, force);
+                let g = self.sensitivity(Triad::Gyroscope, &Condition { stimulus, ..felt });
+                let by_force = imu.g_sensitivity + imu.gyroscope.matrix * self.earth.vertical_rate();
+                add(by_force, g, mean - self.at_rest(j, &imu, force), Matrix3::from_diagonal(weight));
+            }
+            let counted =
+                |before: &usize| self.rotations.get(*before).is_some_and(|rotation| rotation.counts);
+            if let Some(residual) =
+                j.checked_sub(1).filter(counted).and_then(|before| residuals[before].as_ref())
+            {
+                let w = self.rotation_weight(residual);
+                let wr = -(w * residual.error);
+                let mut g = SMatrix::<f64, 2, P>::zeros();
+                g.columns_mut(0, self.quantities.len()).copy_from(&residual.by_parameters);
+                let wg = w * g;
+                link.c += g.tr_mul(&wg);
+                link.gp += g.tr_mul(&wr);
+                if self.holds[j - 1].known.is_none() {
+                    link.h00 += residual.by_from.tr_mul(&(w * residual.by_from));
+                    link.b0 += residual.by_from.tr_mul(&wg);
+                    link.g0 += residual.by_from.tr_mul(&wr);
+                }
+                if hold.known.is_none() {
+                    link.h11 += residual.by_to.tr_mul(&(w * residual.by_to));
+                    link.b1 += residual.by_to.tr_mul(&wg);
+                    link.g1 += residual.by_to.tr_mul(&wr);
+                }
+                if hold.known.is_none() && self.holds[j - 1].known.is_none() {
+                    link.h01 += residual.by_from.tr_mul(&(w * residual.by_to));
+                }
+            }
+            unreduced += link.c.diagonal();
+            link
+        };
+        let increment =
+            |j: usize| Increment { fixed: [self.holds[j].known.is_some(); 2], ..Increment::unknown() };
+        let system = Arrowhead::eliminate(self.holds.len(), link, increment, border, rhs).ok()?;
+        Some((system, unreduced))
+    }
+
+    /// Iterates from a state with its misses; `None` where a matrix is or becomes singular.
+    pub(crate) fn fit(
+        &self,
+        start: State,
+        residuals: GravityResiduals,
+        settings: &CalibrationSettings,
+    ) -> Option<Fit> {
+        match self.quantities.len() {
+            ..=AT_REFERENCE => self.iterate::<AT_REFERENCE>(start, residuals, settings),
+            _ => self.iterate::<ENTRIES>(start, residuals, settings),
+        }
+    }
+
+    fn iterate<const P: usize>(
+        &self,
+        start: State,
+        residuals: GravityResiduals,
+        settings: &CalibrationSettings,
+    ) -> Option<Fit> {
+        let (mut state, mut residuals) = (start, residuals);
+        let mut chi2 = self.chi2(&state, &residuals);
+        let (mut system, mut unreduced) = self.factor::<P>(&state, &residuals)?;
+        let (mut status, mut iterations) = (CalibrationStatus::IterationLimit, 0);
+        let (mut damping, mut norm, mut last_norm) = (0.0_f64, f64::INFINITY, f64::INFINITY);
+        while iterations < settings.max_iterations {
+            iterations += 1;
+            norm = system.gradient_norm();
+            if norm <= settings.tolerance || (norm < 1e-6 && norm > 0.5 * last_norm) {
+                status = CalibrationStatus::Converged;
+                break;
+            }
+            last_norm = norm;
+            let trial = system.border_step(damping).and_then(|step| self.take(&state, &system, &step));
+            let accepted = trial.and_then(|trial| {
+                let trial_misses = self.gravity_residuals(&trial)?;
+                let trial_chi2 = self.chi2(&trial, &trial_misses);
+                (trial_chi2 <= chi2 * (1.0 + 1e-9) || norm < CLOSE).then_some((
+                    trial,
+                    trial_misses,
+                    trial_chi2,
+                ))
+            });
+            match accepted.and_then(|found| Some((self.factor(&found.0, &found.1)?, found))) {
+                Some(((next, diagonal), found)) => {
+                    (state, residuals, chi2) = found;
+                    (system, unreduced) = (next, diagonal);
+                    damping = if damping < 1e-6 { 0.0 } else { damping / 10.0 };
+                }
+                None => {
+                    damping = (damping * 10.0).max(1e-4);
+                    last_norm = f64::INFINITY;
+                    if damping > 1e14 {
+                        status = CalibrationStatus::Stalled;
+                        break;
+                    }
+                }
+            }
+        }
+        let size = self.quantities.len();
+        Some(Fit {
+            state,
+            residuals,
+            information: DMatrix::from_fn(size, size, |i, j| system.information[(i, j)]),
+            unreduced: DVector::from_fn(size, |k, _| unreduced[k]),
+            chi2,
+            status,
+            iterations,
+            gradient_norm: norm,
+        })
+    }
+
+    /// The state after a step, the directions scaled back to gravity.
+    fn take<const P: usize>(
+        &self,
+        state: &State,
+        system: &Arrowhead<2, P>,
+        step: &SVector<f64, P>,
+    ) -> Option<State> {
+        let mut imu = state.imu;
+        for (quantity, step) in self.quantities.iter().zip(step.iter()) {
+            quantity.add_to(&mut imu, *step);
+        }
+        if imu.accelerometer.matrix.determinant() <= 0.0 {
+            return None;
+        }
+        let turns = system.chain_step(step);
+        let forces = state
+            .forces
+            .iter()
+            .zip(&turns[1..])
+            .zip(&self.holds)
+            .map(|((force, turn), hold)| {
+                if hold.known.is_some() {
+                    return Some(*force);
+                }
+                (force + tangents(force) * turn * self.gravity)
+                    .try_normalize(1e-300)
+                    .map(|u| u * self.gravity)
+            })
+            .collect::<Option<Vec<_>>>()?;
+        Some(State { imu, forces })
+    }
+}
+
+impl ImuModel<'_> {
+    /// The problem linearised at a state.
+    pub(crate) fn linearised(&self, state: &State, settings: &CalibrationSettings) -> Result<Fit> {
+        let none = CalibrationSettings { max_iterations: 0, ..settings.clone() };
+        let residuals = self.gravity_residuals(state).ok_or_else(singular)?;
+        self.fit(state.clone(), residuals, &none).ok_or_else(singular)
+    }
+}

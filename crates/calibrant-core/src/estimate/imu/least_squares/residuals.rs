@@ -1,0 +1,88 @@
+//! The residuals of the model at a state, and χ² of them. They are told in `gauss_newton`.
+
+use crate::estimate::imu::least_squares::arc::Arc;
+use crate::estimate::imu::model::{GravityResidual, GravityResiduals, ImuModel, RotationData, State};
+use crate::estimate::tangents::tangents;
+use crate::sensor::Triad;
+use nalgebra::{Matrix2, Matrix2xX, Matrix3, Vector3};
+use rayon::prelude::*;
+
+impl ImuModel<'_> {
+    /// What a rotation says at a state; `None` where the gyroscope's matrix is singular.
+    pub(crate) fn gravity_residual(&self, data: &RotationData<'_>, state: &State) -> Option<GravityResidual> {
+        let rotation = data.samples.integrate(&state.imu, &self.gyroscope_noise.of_sample)?;
+        let (before, to) = (state.forces[data.from], state.forces[data.from + 1]);
+        // where the Earth turns gravity meanwhile
+        let from = before + self.earth.rate(data.from, &before).cross(&before) * data.samples.duration_s();
+        let back = rotation.start_from_end.transpose();
+        let arc = Arc::of(&(back * from / self.gravity), &(to / self.gravity));
+        let by_turn = arc.by_missing * back * (from / self.gravity).cross_matrix();
+        let mut by_parameters = Matrix2xX::zeros(self.quantities.len());
+        for (k, quantity) in self.quantities.iter().enumerate() {
+            if quantity.triad() == Triad::Gyroscope {
+                by_parameters.set_column(k, &(by_turn * rotation.derivative(*quantity, &state.imu)));
+            }
+        }
+        // an axis that hardly turns reads as in a hold
+        let by_reading = rotation.by_reading();
+        let of_steps =
+            by_reading * Matrix3::from_diagonal(&self.gyroscope_noise.of_mean) * by_reading.transpose();
+        Some(GravityResidual {
+            error: arc.error,
+            by_from: arc.by_missing * back * tangents(&before),
+            by_to: arc.by_missed,
+            by_turn,
+            by_parameters,
+            covariance: by_turn * (rotation.covariance + of_steps) * by_turn.transpose(),
+            rotation,
+        })
+    }
+
+    /// Weight of a rotation.
+    pub(crate) fn rotation_weight(&self, residual: &GravityResidual) -> Matrix2<f64> {
+        let variance = residual.covariance + Matrix2::identity() * (self.excess_rad.powi(2) + 1e-18);
+        variance.try_inverse().unwrap_or_else(Matrix2::zeros)
+    }
+
+    /// All rotations that can be integrated.
+    pub(crate) fn gravity_residuals(&self, state: &State) -> Option<GravityResiduals> {
+        self.rotations
+            .par_iter()
+            .map(|data| if data.used { self.gravity_residual(data, state).map(Some) } else { Some(None) })
+            .collect()
+    }
+
+    pub(crate) fn chi2(&self, state: &State, residuals: &[Option<GravityResidual>]) -> f64 {
+        let weighted = |r: Vector3<f64>, w: &Vector3<f64>| r.component_mul(&r).dot(w);
+        let imu = &state.imu;
+        let holds: f64 = self
+            .holds
+            .iter()
+            .zip(&state.forces)
+            .enumerate()
+            .map(|(j, (hold, force))| {
+                let imu = imu.at(hold.temperature_c);
+                let r = hold.accelerometer - imu.accelerometer.reading(force);
+                let own = r.dot(&(hold.accelerometer_weight * r));
+                own + hold
+                    .gyroscope
+                    .as_ref()
+                    .map_or(0.0, |(mean, weight)| weighted(mean - self.at_rest(j, &imu, force), weight))
+            })
+            .sum();
+        let rotations: f64 = residuals
+            .iter()
+            .zip(&self.rotations)
+            .filter(|(_, data)| data.counts)
+            .filter_map(|(residual, _)| residual.as_ref())
+            .map(|residual| residual.error.dot(&(self.rotation_weight(residual) * residual.error)))
+            .sum();
+        let turns: f64 =
+            self.turns.iter().map(|turn| weighted(self.turn_residual(turn, imu), &turn.weight)).sum();
+        let prior = self.prior.as_ref().map_or(0.0, |(mean, weight)| {
+            let off = self.quantities.iter().zip(mean.iter().zip(weight));
+            off.map(|(quantity, (mean, weight))| (mean - quantity.of(imu)).powi(2) * weight).sum()
+        });
+        holds + rotations + turns + prior
+    }
+}

@@ -1,0 +1,22 @@
+//! The specific force that the gyroscope feels.
+
+use crate::sensor::{Recording, SensorParameters, interpolated, times};
+use nalgebra::Vector3;
+use rayon::prelude::*;
+
+/// Samples that one thread takes at a time.
+const PIECE: usize = 4096;
+
+/// The specific force at the gyroscope's sample times.
+pub(crate) fn felt_forces(
+    accelerometer: &Recording,
+    gyroscope: &Recording,
+    sensor: &SensorParameters,
+) -> Option<Vec<Vector3<f64>>> {
+    let correction = sensor.matrix.try_inverse()?;
+    let force = |k: usize| times(&correction, &(accelerometer.readings[k] - sensor.bias));
+    let at = |k: usize| interpolated(&accelerometer.times_s, force, gyroscope.times_s[k], k);
+    // zero only where the accelerometer has no sample at all
+    let felt = |k: usize| at(k).unwrap_or_else(Vector3::zeros);
+    Some((0..gyroscope.len()).into_par_iter().with_min_len(PIECE).map(felt).collect())
+}

@@ -1,0 +1,6 @@
+//! What the gyroscope recorded between the stationary intervals: rotations, and turns of known angle.
+
+pub(crate) mod felt_force;
+pub(crate) mod movement;
+pub(crate) mod spans;
+pub(crate) mod turns;

@@ -1,0 +1,64 @@
+//! What lies between the stationary intervals: rotations, and turns of known angle.
+
+use crate::error::Result;
+use crate::estimate::imu::model::{GyroscopeNoise, HoldData, RotationData, TurnData};
+use crate::estimate::imu::problem::ImuProblem;
+use crate::estimate::imu::rotations::felt_force::felt_forces;
+use crate::estimate::imu::rotations::spans::{Integrable, Span, rotation_spans};
+use crate::estimate::imu::rotations::turns::turn_data;
+use crate::estimate::imu::temperature::RecordingTemperature;
+use crate::motion::Hold;
+use crate::sensor::{ImuParameters, Recording, SensorParameters};
+use nalgebra::Vector3;
+
+/// The recording between the holds that are used.
+pub(crate) struct Movement<'a> {
+    pub(crate) spans: Vec<Span>,
+    pub(crate) integrable: Integrable<'a>,
+    /// Specific force at the gyroscope's times, where turns or the gyroscope need it.
+    forces: Option<Vec<Vector3<f64>>>,
+    /// Does the gyroscope feel it?
+    feels: bool,
+}
+
+impl<'a> Movement<'a> {
+    /// `accelerometer`: at the reference temperature, with what is known of it by itself.
+    pub(crate) fn of(
+        problem: &ImuProblem<'a>,
+        (accelerometer, sensor): (&Recording, &SensorParameters),
+        gyroscope: &'a Recording,
+        holds: &[&Hold],
+    ) -> Self {
+        let setup = problem.setup;
+        let feels = problem.gyroscope.g_sensitivity;
+        let needs_forces = feels || !setup.turns.is_empty();
+        let forces = needs_forces.then(|| felt_forces(accelerometer, gyroscope, sensor)).flatten();
+        let spans = match setup.directions {
+            // the sensor was put down anew on each face: what it went through in between says less than the turns
+            Some(_) if !setup.turns.is_empty() => Vec::new(),
+            _ => rotation_spans(gyroscope, holds),
+        };
+        let as_read = problem.recording.accelerometer.as_ref().filter(|_| feels);
+        Self { spans, integrable: Integrable::of(gyroscope, as_read), forces, feels }
+    }
+
+    /// The rotations, each from one of the holds to the next.
+    pub(crate) fn rotations(&self, holds: &[HoldData]) -> Vec<RotationData<'_>> {
+        self.integrable.rotations(self.forces.as_deref().filter(|_| self.feels), &self.spans, holds)
+    }
+
+    /// The turns of known angle. `start`: the IMU as far as it is known, and the temperatures.
+    pub(crate) fn turns(
+        &self,
+        problem: &ImuProblem<'_>,
+        noise: &GyroscopeNoise,
+        start: (&ImuParameters, &RecordingTemperature<'_>),
+    ) -> Result<Vec<TurnData>> {
+        turn_data(problem, &self.integrable, noise, self.forces.as_deref(), start)
+    }
+
+    /// Why rotations cannot be integrated, of each that cannot.
+    pub(crate) fn obstacles(&self) -> Vec<String> {
+        self.spans.iter().filter_map(|span| self.integrable.obstacle(span)).collect()
+    }
+}

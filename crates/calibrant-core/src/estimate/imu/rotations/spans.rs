@@ -1,0 +1,130 @@
+//! The time of each rotation from one stationary interval to the next, and whether it can be integrated.
+
+use crate::estimate::imu::model::{HoldData, LocalBias, RotationData, Samples};
+use crate::motion::Hold;
+use crate::sensor::{Recording, Saturation};
+use nalgebra::Vector3;
+use std::ops::Range;
+
+/// A rotation begins this long before the end of a hold, s: a hand begins to turn so gently that the first milliradians look still.
+const MARGIN_S: f64 = 0.3;
+
+/// What a saturated accelerometer lacks for less than this in a rotation does not matter, s: with 1 g cut off and the g-sensitivity of common sensors, 2e-4
+/// (rad/s)/(m/s²), the gyroscope adds up to 0.1 mrad in it.
+const BRIEF_S: f64 = 0.05;
+
+/// The time from shortly before the end of a hold to shortly after the start of the next.
+pub(crate) struct Span {
+    /// Begin, s: of the first sample, where the gyroscope covers it.
+    pub(crate) start_s: f64,
+    /// End, s: of the last sample, where the gyroscope covers it.
+    pub(crate) end_s: f64,
+    /// The gyroscope's samples in it and one beside it on each side.
+    samples: Range<usize>,
+    /// Does the gyroscope's recording begin before and end after it?
+    covered: bool,
+}
+
+/// The times between these holds, with the gyroscope's samples.
+pub(crate) fn rotation_spans(gyroscope: &Recording, holds: &[&Hold]) -> Vec<Span> {
+    holds
+        .windows(2)
+        .map(|pair| {
+            let (from, to) = (pair[0], pair[1]);
+            let margin = |hold: &Hold| (0.25 * hold.duration_s()).min(MARGIN_S);
+            let (start_s, end_s) = (from.end_s - margin(from), to.start_s + margin(to));
+            let times = &gyroscope.times_s;
+            let first = times.partition_point(|&t| t <= start_s).saturating_sub(1);
+            let end = (times.partition_point(|&t| t < end_s) + 1).min(gyroscope.len());
+            let covered = times[first] <= from.end_s && times[end - 1] >= to.start_s;
+            if covered {
+                Span { start_s: times[first], end_s: times[end - 1], samples: first..end, covered }
+            } else {
+                Span { start_s, end_s, samples: first..first + 1, covered }
+            }
+        })
+        .collect()
+}
+
+/// Can rotations be integrated?
+pub(crate) struct Integrable<'a> {
+    pub(crate) gyroscope: &'a Recording,
+    gap_s: f64,
+    saturations: Vec<Saturation>,
+    /// The accelerometer as it was read, where the gyroscope feels the specific force, with the ends of its range that it touches.
+    felt: Option<(&'a Recording, Vec<Saturation>)>,
+}
+
+impl<'a> Integrable<'a> {
+    /// `felt`: the accelerometer as it was read, where the gyroscope feels the specific force.
+    pub(crate) fn of(gyroscope: &'a Recording, felt: Option<&'a Recording>) -> Self {
+        let (of_gyroscope, felt) = rayon::join(
+            || (gyroscope.gap_s(), gyroscope.saturations()),
+            || felt.map(|accelerometer| (accelerometer, accelerometer.saturations())),
+        );
+        let (gap_s, saturations) = of_gyroscope;
+        Self { gyroscope, gap_s, saturations, felt }
+    }
+
+    /// The rotations in these spans, each from one of the holds to the next.
+    pub(crate) fn rotations(
+        &self,
+        felt: Option<&'a [Vector3<f64>]>,
+        spans: &[Span],
+        holds: &[HoldData],
+    ) -> Vec<RotationData<'a>> {
+        let rotation = |(from, span): (usize, &Span)| RotationData {
+            from,
+            samples: Samples {
+                times_s: &self.gyroscope.times_s[span.samples.clone()],
+                readings: &self.gyroscope.readings[span.samples.clone()],
+                forces: felt.map(|felt| &felt[span.samples.clone()]),
+                drift: [from, from + 1].map(|hold| LocalBias::none(holds[hold].temperature_c)),
+            },
+            used: self.obstacle(span).is_none(),
+            counts: true,
+        };
+        spans.iter().enumerate().map(rotation).collect()
+    }
+
+    /// Why a span cannot be integrated; nothing where it can.
+    pub(crate) fn obstacle(&self, span: &Span) -> Option<String> {
+        let times = &self.gyroscope.times_s;
+        if !span.covered {
+            return Some(match (times.first(), times.last()) {
+                (Some(begin), _) if *begin > span.start_s + MARGIN_S => {
+                    format!("the gyroscope's recording begins only at {begin:.1} s")
+                }
+                (_, Some(end)) => format!("the gyroscope's recording ends at {end:.1} s"),
+                _ => "the gyroscope's recording does not cover it".into(),
+            });
+        }
+        let longest = times[span.samples.clone()].windows(2).map(|t| t[1] - t[0]).fold(0.0, f64::max);
+        if longest > self.gap_s {
+            return Some(format!("the gyroscope pauses for {longest:.3} s in it"));
+        }
+        if span.samples.len() < 3 {
+            return Some("the gyroscope has too few samples in it".into());
+        }
+        self.saturation(&span.samples)
+    }
+
+    /// Which sensor stops at the end of its range in these samples so that they cannot be integrated, in words.
+    pub(crate) fn saturation(&self, span: &Range<usize>) -> Option<String> {
+        let readings = &self.gyroscope.readings[span.clone()];
+        if let Some(end) = self.saturations.iter().find(|end| end.is_reached(readings)) {
+            return Some(format!("axis {} of the gyroscope saturates in it", end.axis));
+        }
+        let (accelerometer, ends) = self.felt.as_ref()?;
+        let times = &self.gyroscope.times_s;
+        let (start_s, end_s) = (times[span.start], times[span.end - 1]);
+        let readings = &accelerometer.readings[accelerometer.between(start_s, end_s)];
+        let brief = BRIEF_S * readings.len() as f64 / (end_s - start_s);
+        let lasts = |end: &&Saturation| end.touches(readings) as f64 > brief;
+        let end = ends.iter().find(lasts)?;
+        Some(format!(
+            "axis {} of the accelerometer saturates in it, so that the force that the gyroscope feels is not known",
+            end.axis
+        ))
+    }
+}

@@ -1,0 +1,130 @@
+//! The calibration of an IMU, stage by stage (`tedaldi2014`).
+//!
+//! 1. Stationary intervals: the accelerometer's holds, and the gyroscope's means in them.
+//! 2. Initial values: the accelerometer by itself, the gyroscope's bias.
+//! 3. Alignment of the two sensors, by the rotations between the holds.
+//! 4. Least squares of all, with the variance components as weights.
+//! 5. Covariance, result and checks.
+
+use crate::error::{Error, Result};
+use crate::estimate::imu::alignment::stage::align_sensors;
+use crate::estimate::imu::assembly::imu_calibration::Finished;
+use crate::estimate::imu::checks::changing_gyroscope::Changing;
+use crate::estimate::imu::checks::evidence::Evidence;
+use crate::estimate::imu::checks::identifiability::{self, with_obstacles};
+use crate::estimate::imu::checks::list::all_checks;
+use crate::estimate::imu::checks::time_offset_by_activity::with_time_offset;
+use crate::estimate::imu::checks::wrong_turns;
+use crate::estimate::imu::clock::difference::ClockDifference;
+use crate::estimate::imu::covariance::Uncertainty;
+use crate::estimate::imu::earth_rate::EarthRate;
+use crate::estimate::imu::estimated::{estimated_quantities, prior_of};
+use crate::estimate::imu::initial::accelerometer_alone::initial_accelerometer;
+use crate::estimate::imu::initial::gyroscope::{explained_means, initial_values};
+use crate::estimate::imu::model::{ImuModel, State};
+use crate::estimate::imu::problem::{ImuProblem, WhiteNoise};
+use crate::estimate::imu::recordings::recordings;
+use crate::estimate::imu::result::ImuCalibration;
+use crate::estimate::imu::rotations::movement::Movement;
+use crate::estimate::imu::stationary::gyroscope::StationaryGyroscope;
+use crate::estimate::imu::variance_components::bias_drift::follow_drift;
+use crate::estimate::imu::variance_components::solution::solve;
+use crate::estimate::settings::CalibrationSettings;
+
+/// Calibrates an IMU. `white_noise` is found while the accelerometer is fitted.
+pub(crate) fn solve_imu(
+    problem: &ImuProblem<'_>,
+    settings: &CalibrationSettings,
+    white_noise: impl FnOnce() -> Option<WhiteNoise> + Send,
+) -> Result<ImuCalibration> {
+    stages(problem, settings, white_noise).map_err(|error| with_time_offset(error, problem.recording))
+}
+
+fn stages(
+    problem: &ImuProblem<'_>,
+    settings: &CalibrationSettings,
+    white_noise: impl FnOnce() -> Option<WhiteNoise> + Send,
+) -> Result<ImuCalibration> {
+    let setup = problem.setup;
+    let (as_read, gyroscope_recording) = recordings(problem)?;
+    // stationary intervals and initial values
+    let (first, white_noise) = rayon::join(|| initial_accelerometer(problem, as_read, settings), white_noise);
+    let (first, temperature) = first?;
+    let recording = first.adjusted.as_ref().unwrap_or(as_read);
+    let used = first.used_holds();
+    let gyroscope = StationaryGyroscope::measure(problem, gyroscope_recording, &used.holds, white_noise)?;
+    let quantities = estimated_quantities(problem);
+    let prior = prior_of(problem, &quantities);
+    let means =
+        explained_means(problem, (&first, &temperature), &used, &gyroscope, (&quantities, prior.as_ref()));
+    let initial = initial_values(problem, (&first, &temperature), &used.numbers, &means);
+    // rotations and turns between them
+    let movement = Movement::of(problem, (recording, &first.sensor), gyroscope_recording, &used.holds);
+    let explained = |error: Error| with_obstacles(error, &movement.obstacles());
+    let mut model = ImuModel {
+        gravity: setup.holds.gravity.magnitude_mps2,
+        earth: EarthRate::of(setup, &quantities),
+        rotations: movement.rotations(&initial.holds),
+        turns: movement.turns(problem, &gyroscope.noise, (&initial.imu, &temperature))?,
+        holds: initial.holds,
+        gyroscope_noise: gyroscope.noise,
+        excess_rad: 0.0,
+        prior,
+        quantities,
+    };
+    let turns = match setup.directions {
+        Some(_) => wrong_turns::check(problem.gyroscope, &initial.imu, &model.turns, &setup.turns)?,
+        None => None,
+    };
+    // alignment of the two sensors
+    let state = State { imu: initial.imu, forces: used.forces.clone() };
+    let (state, axes) = align_sensors(problem, &model, state, &first.holds).map_err(explained)?;
+    let start = state.imu;
+    follow_drift(&mut model, &state, &initial.between);
+    let linearised = model.linearised(&state, settings)?;
+    identifiability::check(&model, &state, &linearised).map_err(explained)?;
+    // least squares and variance components
+    let solution = solve(&mut model, (state, linearised.residuals), &means, initial.between, settings)?;
+    let uncertainty = Uncertainty::of(&model, &solution, &setup.holds.gravity, &gyroscope.coarse)?;
+    let recorded = problem.recording.accelerometer.as_ref();
+    let clock = recorded.and_then(|recorded| ClockDifference::of(&model, &solution.fit.state, recorded));
+    let changes = Changing {
+        model: &model,
+        fit: &solution.fit,
+        readings: &gyroscope.measured,
+        between: solution.between,
+        holds: &first.holds,
+        numbers: &used.numbers,
+    }
+    .changes();
+    let calibration = Finished {
+        problem,
+        accelerometer: &first,
+        temperature: &temperature,
+        numbers: &used.numbers,
+        gyroscope: &gyroscope,
+        movement: &movement,
+        start: &start,
+        model: &model,
+        solution: &solution,
+        uncertainty,
+        clock: clock.as_ref().and_then(ClockDifference::rate),
+        changes,
+    }
+    .assemble()?;
+    let warnings = all_checks(&Evidence {
+        problem,
+        accelerometer: &first,
+        accelerometer_recording: recording,
+        used: &used,
+        gyroscope: &gyroscope,
+        temperature: &temperature,
+        model: &model,
+        fit: &solution.fit,
+        axes: axes.as_ref(),
+        turns: turns.into_iter().collect(),
+        clock,
+        calibration: &calibration,
+    });
+    Ok(ImuCalibration { warnings, ..calibration })
+}

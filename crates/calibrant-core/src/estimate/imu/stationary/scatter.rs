@@ -1,0 +1,33 @@
+//! The scatter of the gyroscope's samples in the stationary intervals.
+
+use crate::estimate::holds::median;
+use crate::motion::Hold;
+use crate::sensor::{MeanReading, Recording};
+use nalgebra::Vector3;
+
+/// The gyroscope between the times of a hold; `None` with fewer than two samples.
+pub(crate) fn mean_in_hold(recording: &Recording, hold: &Hold) -> Option<MeanReading> {
+    recording.mean_between(hold.start_s, hold.end_s).filter(|still| still.samples > 1)
+}
+
+/// Standard deviation of a sample about the mean of its hold, but for holds that scatter so much more than half of them that the gyroscope turns there.
+pub(crate) fn usual_scatter(readings: &[Option<MeanReading>], gyroscope: &Recording) -> Vector3<f64> {
+    let sds: Vec<Vector3<f64>> =
+        readings.iter().flatten().map(|still| MeanReading::pooled_sd([still])).collect();
+    if sds.is_empty() {
+        return Vector3::zeros();
+    }
+    let restless = restless_from(&sds, gyroscope);
+    let calm =
+        readings.iter().flatten().zip(&sds).filter(|(_, sd)| (0..3).all(|axis| sd[axis] <= restless[axis]));
+    MeanReading::pooled_sd(calm.map(|(still, _)| still))
+}
+
+/// It turns, too, in a hold in which it scatters so many times as much as in half of the holds.
+const RESTLESS: f64 = 4.0;
+
+/// From which standard deviation of its samples on the gyroscope turns in a hold, by those in all of them, at least one; coarse steps scatter by themselves.
+pub(crate) fn restless_from(sds: &[Vector3<f64>], gyroscope: &Recording) -> Vector3<f64> {
+    let step = gyroscope.resolution();
+    Vector3::from_fn(|axis, _| RESTLESS * median(sds.iter().map(|sd| sd[axis]).collect()).max(step[axis]))
+}

@@ -1,0 +1,135 @@
+//! The temperatures of a recording of which something follows them, and whether they differ enough.
+
+use crate::error::{Complaint, Error, NotIdentifiable, Result, UndeterminedGroup};
+use crate::estimate::imu::estimated::set_fixed;
+use crate::estimate::imu::problem::ImuProblem;
+use crate::motion::Hold;
+use crate::sensor::{
+    ImuParameters, ImuQuantity, ImuRecording, Recording, SensorParameters, Temperatures, Thermal,
+    ThermalTerm, Triad,
+};
+
+/// Temperatures of holds count as different from here on, K: closer ones are noise and rounding of a thermometer.
+const LEVEL_K: f64 = 0.5;
+
+/// The temperatures of a recording of which something follows them.
+pub(in crate::estimate) fn needed_temperatures(recording: &ImuRecording) -> Result<Temperatures<'_>> {
+    Temperatures::of(recording)?.ok_or_else(|| {
+        Error::recording(Complaint::new(
+            "the calibration is to follow temperature, and the recording has none",
+            "name its column with temperature = \"…\" in [columns], or take [temperature] out of the experiment",
+        ))
+    })
+}
+
+/// The temperatures of a problem in which something follows them.
+pub(crate) struct RecordingTemperature<'a> {
+    temperatures: Option<Temperatures<'a>>,
+    /// Nothing but the fixed terms.
+    pub(crate) start: Thermal,
+}
+
+impl<'a> RecordingTemperature<'a> {
+    /// That of a problem with these holds: where nothing follows temperature, it is the reference always.
+    pub(crate) fn of(problem: &ImuProblem<'a>, holds: &[Hold]) -> Result<Self> {
+        let model = problem.setup.thermal;
+        let mut start = Thermal::none();
+        if model.is_none() {
+            return Ok(Self { temperatures: None, start });
+        }
+        let temperatures = needed_temperatures(problem.recording)?;
+        let of_holds: Vec<f64> =
+            holds.iter().map(|hold| temperatures.mean(hold.start_s, hold.end_s)).collect();
+        let mean = of_holds.iter().sum::<f64>() / of_holds.len().max(1) as f64;
+        start.reference_c = model.reference_c.unwrap_or(mean.round());
+        start.range_c =
+            of_holds.iter().map(|&t| [t, t]).reduce(|[low, high], [t, _]| [low.min(t), high.max(t)]);
+        let mut imu = ImuParameters { thermal: start, ..ImuParameters::identity() };
+        set_fixed(&mut imu, &problem.setup.known);
+        let temperature = Self { temperatures: Some(temperatures), start: imu.thermal };
+        temperature.enough(problem, &of_holds)?;
+        Ok(temperature)
+    }
+
+    /// Mean temperature between two times.
+    pub(crate) fn mean(&self, start_s: f64, end_s: f64) -> f64 {
+        self.temperatures.map_or(self.start.reference_c, |temperatures| temperatures.mean(start_s, end_s))
+    }
+
+    /// That of a hold.
+    pub(crate) fn of_hold(&self, hold: &Hold) -> f64 {
+        self.mean(hold.start_s, hold.end_s)
+    }
+
+    /// Least and greatest of the whole recording.
+    pub(crate) fn of_recording(&self) -> Option<[f64; 2]> {
+        let values = self.temperatures?.values_c.iter();
+        values.map(|&t| [t, t]).reduce(|[low, high], [t, _]| [low.min(t), high.max(t)])
+    }
+
+    /// Are the temperatures of the holds different enough for the terms of which nothing is known beforehand?
+    fn enough(&self, problem: &ImuProblem<'_>, of_holds: &[f64]) -> Result<()> {
+        let mut sorted = of_holds.to_vec();
+        sorted.sort_by(f64::total_cmp);
+        let (mut levels, mut last) = (0, f64::NEG_INFINITY);
+        for t in &sorted {
+            if *t >= last + LEVEL_K {
+                (levels, last) = (levels + 1, *t);
+            }
+        }
+        let known =
+            |quantity: &ImuQuantity| problem.setup.known.iter().any(|term| term.quantity == *quantity);
+        let unknown: Vec<ImuQuantity> =
+            problem.setup.thermal.quantities().into_iter().filter(|quantity| !known(quantity)).collect();
+        // the terms of one polynomial, which need one temperature more than there are
+        let siblings = |quantity: &ImuQuantity| {
+            let family = |quantity: &ImuQuantity| match quantity {
+                ImuQuantity::Thermal(triad, ThermalTerm { part, axis, .. }) => Some((*triad, *part, *axis)),
+                _ => None,
+            };
+            unknown.iter().filter(|other| family(other) == family(quantity)).count()
+        };
+        let most = unknown.iter().map(siblings).max().unwrap_or(0);
+        if levels > most || most == 0 {
+            return Ok(());
+        }
+        let short: Vec<&ImuQuantity> =
+            unknown.iter().filter(|quantity| siblings(quantity) >= levels).collect();
+        let span = sorted.last().zip(sorted.first()).map_or(0.0, |(high, low)| high - low);
+        let reason = match levels {
+            0 | 1 => format!("the temperature of the holds changed by {span:.1} K only"),
+            _ => format!(
+                "the holds have {levels} temperatures that differ by {LEVEL_K} K or more, and polynomials of order {most} need {}",
+                most + 1
+            ),
+        };
+        Err(Error::NotIdentifiable(Box::new(NotIdentifiable {
+            groups: vec![UndeterminedGroup {
+                parameters: short.iter().map(|quantity| quantity.name()).collect(),
+                free_combinations: short.len(),
+                reason,
+                remedy: "record over a wider range of temperatures, with holds all along it; or lower the order in [temperature], or give the terms in [known]"
+                    .into(),
+            }],
+        })))
+    }
+}
+
+/// The readings of a sensor as they would be at the reference temperature.
+pub(crate) fn at_reference(
+    recording: &Recording,
+    triad: Triad,
+    sensor: &SensorParameters,
+    thermal: &Thermal,
+    temperature: &RecordingTemperature<'_>,
+) -> Recording {
+    let mut adjusted = recording.clone();
+    let Some(temperatures) = temperature.temperatures else { return adjusted };
+    let terms = thermal.triad(triad);
+    for (reading, &time_s) in adjusted.readings.iter_mut().zip(&recording.times_s) {
+        let tau_k = thermal.tau_k(temperatures.at(time_s));
+        let excess = *reading - sensor.bias - terms.bias_change(tau_k);
+        *reading = sensor.bias + excess.component_div(&terms.gain_factor(tau_k));
+    }
+    adjusted
+}

@@ -1,0 +1,58 @@
+//! From a recording to parameters with an honest covariance.
+//!
+//! ```text
+//! minimise over p, a:  ½ Σ_k ‖y_k − S α(t_k; a) − b‖²_{Σ_ν⁻¹}
+//!                    + ½ Σ_i ‖(a_{i+1} − a_i)/Δτ − u_i‖²_{Σ_{w,i}⁻¹}
+//!                    + anchors (known start, known end) + optional prior on p
+//! ```
+//!
+//! [`Trust`](crate::motion::Trust) in the commanded motion tells the report's problems (5), (6) and (3) apart; a static calibration has an
+//! unknown direction for each hold instead of a chain ([`HoldsSetup`]). Both end in a [`Calibration`].
+//!
+//! The covariance is the inverse of the information `F` that is left for the parameters once motion or directions are
+//! eliminated (Schur complement, [`arrowhead`](crate::arrowhead)). It holds to first order in the noise, for noise that is white,
+//! Gaussian and as large as assumed; the fit's [`FitStatistics`] say whether the data agree.
+
+mod calibrate;
+mod change;
+mod comparison;
+mod earth;
+mod excess;
+mod gravity;
+mod holds;
+mod imu;
+mod motion;
+mod one_sided;
+mod problem;
+mod quantisation;
+mod result;
+mod rounded;
+mod settings;
+pub(crate) mod statistics;
+mod tangents;
+mod uncalibrated;
+mod unknown_latitude;
+mod validation;
+
+pub use calibrate::calibrate;
+pub use change::{Change, Changed, Course};
+pub use comparison::{ComparedQuantity, Comparison, OverallDifference};
+pub use holds::{
+    Coverage, ExpectedCalibration, HoldsSetup, clipped_holds, coverage, expected_calibration, find_holds,
+    holds_between, holds_lost_to_filter,
+};
+pub use imu::{
+    ClockRate, Gyroscope, ImuCalibration, ImuProblem, ImuSetup, KnownTerm, NoiseSource, RotationResult,
+    StillGyroscope, ThermalModel, Turn, TurnResult, WhiteNoise, calibrate_imu, calibrate_imu_while,
+    find_clean_imu_holds, find_imu_holds, swapped_sensors,
+};
+pub use problem::{CalibrationProblem, Stimulus};
+pub use quantisation::{CoarseAxis, coarse_axes, coarse_axes_in};
+pub use result::*;
+pub use settings::CalibrationSettings;
+pub use uncalibrated::Uncalibrated;
+pub use validation::{
+    BiasShift, CoarseStep, CovarianceVerdict, Doubt, ErrorKind, FailedFold, LikelyReason, NoiseRatio,
+    ParameterPart, UnusedError, ValidatedErrors, Validation, ValidationSource, cross_validate,
+    cross_validate_imu, noise_in_common, other_temperature, readings_in_common, validate, validate_imu,
+};

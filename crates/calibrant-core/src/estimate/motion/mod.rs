@@ -1,0 +1,163 @@
+//! Calibration from a commanded motion: the chain problem for each axis (scale-bias) or for all at once (full).
+//!
+//! With a diagonal `S` the axes share nothing, so the scale-bias model is three chains of scalars; the full model is one chain of 3×3
+//! blocks. Everything after that is put together from [`Solved`] chains.
+
+mod chain;
+mod context;
+mod fit;
+mod moments;
+mod pairs;
+mod undetermined;
+mod verdict;
+
+use super::{
+    Calibration, CalibrationProblem, CalibrationSettings, CalibrationStatus, FitStatistics, Recovered,
+    RecoveredMotion, statistics,
+};
+use crate::error::{Complaint, Error, NotIdentifiable, Result};
+use crate::information::chain_model::FULL_SLOTS;
+use crate::motion::{CommandedMotion, JerkControlledMotion, Trust};
+use crate::sensor::{Axis, SensorModel, SensorParameters};
+use chain::{Solved, solve};
+use context::Context;
+use nalgebra::{DMatrix, Matrix3, Vector3};
+
+/// Calibrates from a motion.
+pub(super) fn calibrate(
+    problem: &CalibrationProblem<'_>,
+    command: &CommandedMotion,
+    settings: &CalibrationSettings,
+) -> Result<Calibration> {
+    let (first, end) = samples_within(problem, &command.motion)?;
+    let context = Context::new(problem, command, settings, first, end)?;
+    let solved = match problem.sensor.model {
+        SensorModel::ScaleBias => solve_axes(&context)?,
+        SensorModel::Full => {
+            let whole = solve::<3, 12>(&context, [0, 1, 2], FULL_SLOTS).map_err(not_identifiable)?;
+            Solved::merge(vec![whole])
+        }
+    };
+    assemble(&context, solved, first)
+}
+
+/// The range of samples within the motion. Those outside are left out; [`verdict`] says so.
+fn samples_within(problem: &CalibrationProblem<'_>, motion: &JerkControlledMotion) -> Result<(usize, usize)> {
+    let times = &problem.recording.times_s;
+    let (start, stop) = (motion.times_s()[0], motion.times_s()[motion.intervals()]);
+    let slack = 1e-6 * (stop - start) / motion.intervals() as f64;
+    let first = times.partition_point(|&t| t < start - slack);
+    let end = times.partition_point(|&t| t <= stop + slack);
+    if first >= end {
+        return Err(Error::recording(Complaint::new(
+            format!(
+                "no sample lies within the motion: the recording spans {} to {} s, the motion {start} to {stop} s",
+                times[0],
+                times[times.len() - 1]
+            ),
+            "check that both use the same clock and start together",
+        )));
+    }
+    Ok((first, end))
+}
+
+fn not_identifiable(groups: Vec<crate::error::UndeterminedGroup>) -> Error {
+    Error::NotIdentifiable(Box::new(NotIdentifiable { groups }))
+}
+
+/// The scale-bias model: one chain per axis. What is not determined is collected over all axes before it is an error.
+fn solve_axes(context: &Context<'_>) -> Result<Solved> {
+    let axes = context.problem.sensor.axes;
+    let mut parts = Vec::with_capacity(axes);
+    let mut undetermined = Vec::new();
+    for axis in 0..axes {
+        match solve::<1, 2>(context, [axis], [axis, axes + axis]) {
+            Ok(part) => parts.push(part),
+            Err(groups) => undetermined.extend(groups),
+        }
+    }
+    if undetermined.is_empty() { Ok(Solved::merge(parts)) } else { Err(not_identifiable(undetermined)) }
+}
+
+/// Puts the result together: residuals, statistics, warnings.
+fn assemble(context: &Context<'_>, solved: Solved, first_sample: usize) -> Result<Calibration> {
+    let problem = context.problem;
+    let list = problem.sensor.parameter_list();
+    let mut sensor = SensorParameters { bias: Vector3::zeros(), matrix: Matrix3::zeros() };
+    for (quantity, value) in list.quantities().iter().zip(&solved.values) {
+        quantity.add_to(&mut sensor, *value);
+    }
+    let bias = solved.bias;
+    let motion =
+        JerkControlledMotion::new(context.command.motion.times_s().to_vec(), solved.nodes).map_err(|_| {
+            Error::recording(Complaint::new(
+                "the estimated motion is not finite",
+                "check the recording's unit",
+            ))
+        })?;
+    let fitted: Vec<_> = motion.acceleration_mps2().iter().map(|a| sensor.reading(a)).collect();
+    let mut residuals = Vec::with_capacity(context.readings.len());
+    for i in 0..context.positions.intervals() {
+        let samples = context.positions.of(i);
+        let lambda = &context.positions.lambda[samples.clone()];
+        residuals.extend(
+            lambda
+                .iter()
+                .zip(&context.readings[samples])
+                .map(|(l, y)| y - (fitted[i] * (1.0 - l) + fitted[i + 1] * *l)),
+        );
+    }
+    let samples = residuals.len() as f64;
+    let mut fit = FitStatistics {
+        chi2: solved.chi2,
+        degrees_of_freedom: solved.degrees_of_freedom,
+        p_value: statistics::chi2_p_value(solved.chi2, solved.degrees_of_freedom),
+        residual_rms: Vector3::zeros(),
+        assumed_noise: Some(context.noise),
+        noise_estimate: None,
+        whiteness: Vec::new(),
+    };
+    let mut noise_estimate = Vector3::zeros();
+    for &axis in problem.sensor.active_axes() {
+        let k = axis.index();
+        let own: Vec<f64> = residuals.iter().map(|r| r[k]).collect();
+        let squares = statistics::dot(&own, &own);
+        fit.residual_rms[k] = (squares / samples).sqrt();
+        let left = samples - solved.leverage[k];
+        noise_estimate[k] = if left > 0.5 { (squares / left).sqrt() } else { f64::NAN };
+        let shortfall: Vec<f64> = solved.shortfall.iter().map(|c| c[k]).collect();
+        fit.whiteness.extend(statistics::ljung_box(&own, &shortfall, solved.leverage[k]));
+    }
+    if noise_estimate.iter().all(|noise| noise.is_finite()) {
+        fit.noise_estimate = Some(noise_estimate);
+    }
+    let nominal = problem.sensor.nominal().unwrap_or_else(|| nominal_from_data(&sensor));
+    let mut calibration = Calibration {
+        status: solved.status,
+        iterations: solved.iterations,
+        gradient_norm: solved.gradient_norm,
+        parameters: list.describe(problem.sensor, &nominal),
+        values: solved.values,
+        covariance: solved.covariance,
+        sensor,
+        unit: problem.sensor.unit,
+        fit,
+        recovered: Recovered::Motion(RecoveredMotion {
+            motion,
+            acceleration_sd_mps2: solved.node_sd,
+            trust: context.command.trust.name(),
+        }),
+        residuals,
+        first_sample,
+        datasheet_prior: context.settings.datasheet_prior,
+        warnings: Vec::new(),
+    };
+    verdict::respond(context, &calibration)?;
+    calibration.warnings = verdict::warnings(context, &calibration, &bias);
+    Ok(calibration)
+}
+
+/// Nominal values for a sensor whose gain and offset are not known: those of the data, without cross-axis terms.
+fn nominal_from_data(sensor: &SensorParameters) -> SensorParameters {
+    SensorParameters { bias: sensor.bias, matrix: Matrix3::from_diagonal(&sensor.matrix.diagonal()) }
+}

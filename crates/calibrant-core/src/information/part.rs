@@ -1,0 +1,301 @@
+//! What a recording of a motion will tell of the parameters, and how that changes with the motion.
+//!
+//! With the residuals zero, as they are on average, the normal equations of the estimation problem give the Fisher information of the parameters, the
+//! motion marginalised: with `G(a)` the sensitivity of the readings to the parameters, `A` the response of the estimated motion to a change of
+//! the parameters, `R = G + S A` what of it the readings still show, and `W_i = A_{i+1} − A_i`,
+//!
+//! `F = min over A:  Σ_k R_kᵀ Σ_ν⁻¹ R_k + Σ_i W_iᵀ Q_i⁻¹ W_i`
+//!
+//! (a minimum of matrices: `A` minimises in every direction at once). For trust `known` `A = 0`; for `noisy`, `Q_i = diag(σ_u(u_i)² Δτ_i²)`;
+//! for `unknown`, `Q_i = ∞` and the ends are fixed.
+//!
+//! # Derivative
+//! `A` minimises, so it may be held (envelope theorem): for a symmetric `Ω`,
+//!
+//! `d⟨Ω, F⟩ = 2 Σ_k ⟨Σ_ν⁻¹ R_k Ω, dG_k⟩ − Σ_i ⟨ψ_i Ω ψ_iᵀ, dQ_i⟩`, `ψ_i = Q_i⁻¹ W_i`
+//!
+//! The costate `ψ` is the force of the readings after interval i on its increment, found without dividing by `Q`. `F` is matrix convex in the
+//! motion for given `Q` (quadratic over linear) and falls with `Q`: linearising it gives a lower bound, which is what the design's solver lives on.
+//!
+//! # Cost
+//! `O(N)` for the factorisation, and again for each derivative.
+
+use super::chain_model as model;
+use crate::arrowhead::{Arrowhead, Increment, Link};
+use crate::error::{Error, Result, UndeterminedGroup};
+use crate::motion::{IntervalSums, JerkControlledMotion, KnownEnds, Trust};
+use nalgebra::{DMatrix, SMatrix, SVector, Vector3};
+
+/// The setting of axes that are seen together: one axis (P = 2), or all three of a full sensor (P = 12, sorted by reading).
+#[derive(Debug, Clone)]
+pub struct PartInformation<const D: usize, const P: usize> {
+    /// The axes.
+    pub axes: [usize; D],
+    /// Places of its parameters in the parameter list.
+    pub slots: [usize; P],
+    /// Breakpoints, s.
+    pub tau: Vec<f64>,
+    /// Samples of each interval.
+    pub sums: Vec<IntervalSums>,
+    pub(super) weight: SVector<f64, D>,
+    pub(super) s: SMatrix<f64, D, D>,
+    pub(super) trust: Trust,
+    pub(super) known_ends: KnownEnds,
+}
+
+/// The information at a motion, with what its derivative needs.
+#[derive(Debug, Clone)]
+pub struct Linearised<const D: usize, const P: usize> {
+    /// Information `F`.
+    pub information: SMatrix<f64, P, P>,
+    /// What the readings at each node show of the parameters, `R`.
+    residual: Vec<SMatrix<f64, D, P>>,
+    /// Costate `ψ` of each interval; empty unless the motion is noisy.
+    costate: Vec<SMatrix<f64, D, P>>,
+}
+
+/// Derivative of `⟨Ω, F⟩`.
+#[derive(Debug, Clone)]
+pub struct InformationDerivative<const D: usize> {
+    /// With respect to the nodes' accelerations, the variances of the increments held.
+    pub nodes: Vec<SVector<f64, D>>,
+    /// With respect to the variances of the increments; zero unless the motion is noisy. Never positive for `Ω ⪰ 0`.
+    pub variances: Vec<SVector<f64, D>>,
+}
+
+impl<const D: usize, const P: usize> PartInformation<D, P> {
+    /// Number of intervals.
+    #[must_use]
+    pub fn intervals(&self) -> usize {
+        self.sums.len()
+    }
+
+    /// Duration of interval i, s.
+    #[must_use]
+    pub fn interval_s(&self, i: usize) -> f64 {
+        self.tau[i + 1] - self.tau[i]
+    }
+
+    /// Does a motion tell the same here as there?
+    #[must_use]
+    pub fn is_like(&self, other: &Self) -> bool {
+        (&self.tau, &self.sums, &self.weight, &self.s) == (&other.tau, &other.sums, &other.weight, &other.s)
+            && (self.trust, self.known_ends) == (other.trust, other.known_ends)
+    }
+
+    /// Process noise `σ_u(u) = floor + ratio |u|`, where the motion is noisy: (floor, ratio).
+    #[must_use]
+    pub fn input_noise(&self) -> Option<(f64, f64)> {
+        if let Trust::Noisy(noise) = self.trust { Some((noise.floor_mps3, noise.ratio)) } else { None }
+    }
+
+    /// The nodes of a motion on these axes.
+    #[must_use]
+    pub fn nodes(&self, motion: &JerkControlledMotion) -> Vec<SVector<f64, D>> {
+        motion.acceleration_mps2().iter().map(|a| SVector::from_fn(|k, _| a[self.axes[k]])).collect()
+    }
+
+    /// Adds the derivative of `⟨Ω, F⟩` with respect to all nodes of a motion, `Ω` for all parameters.
+    pub(super) fn add_derivative(
+        &self,
+        motion: &JerkControlledMotion,
+        omega: &DMatrix<f64>,
+        gradient: &mut [Vector3<f64>],
+    ) -> Result<()> {
+        let nodes = self.nodes(motion);
+        let own = SMatrix::from_fn(|i, j| omega[(self.slots[i], self.slots[j])]);
+        let at = self.determined(&nodes)?;
+        for (sum, part) in gradient.iter_mut().zip(self.total(&nodes, &self.derivative(&at, &own))) {
+            for (k, &axis) in self.axes.iter().enumerate() {
+                sum[axis] += part[k];
+            }
+        }
+        Ok(())
+    }
+
+    /// The information at a motion.
+    pub(super) fn at(&self, motion: &JerkControlledMotion) -> Result<SMatrix<f64, P, P>> {
+        self.determined(&self.nodes(motion)).map(|at| at.information)
+    }
+
+    fn determined(&self, nodes: &[SVector<f64, D>]) -> Result<Linearised<D, P>> {
+        self.linearise(nodes).ok_or_else(|| {
+            Error::undetermined(UndeterminedGroup {
+                parameters: Vec::new(),
+                free_combinations: 0,
+                reason: "the samples do not determine the motion in between its ends".into(),
+                remedy: "sample faster, or use fewer intervals".into(),
+            })
+        })
+    }
+
+    /// The information at a motion. `None` where the samples leave a node of an unknown motion undetermined.
+    #[must_use]
+    pub fn linearise(&self, a: &[SVector<f64, D>]) -> Option<Linearised<D, P>> {
+        if self.trust == Trust::Known {
+            let mut information = SMatrix::zeros();
+            for (m, a) in self.sums.iter().zip(a.windows(2)) {
+                information += model::information::<D, P>(&self.weight, [m.m00, m.m01, m.m11], &a[0], &a[1]);
+            }
+            let residual = a.iter().map(sensitivity).collect();
+            return Some(Linearised { information, residual, costate: Vec::new() });
+        }
+        let increments = self.increments(a);
+        let sws = self.s.tr_mul(&SMatrix::from_diagonal(&self.weight)) * self.s;
+        let link = |i: usize| {
+            let m = &self.sums[i];
+            Link {
+                h00: sws * m.m00,
+                h01: sws * m.m01,
+                h11: sws * m.m11,
+                b0: model::coupling(&self.s, &self.weight, [m.m00, m.m01], &a[i], &a[i + 1]),
+                b1: model::coupling(&self.s, &self.weight, [m.m01, m.m11], &a[i], &a[i + 1]),
+                c: model::information(&self.weight, [m.m00, m.m01, m.m11], &a[i], &a[i + 1]),
+                g0: SVector::zeros(),
+                g1: SVector::zeros(),
+                gp: SVector::zeros(),
+            }
+        };
+        let system = Arrowhead::eliminate(
+            self.intervals(),
+            link,
+            |i| increments[i].clone(),
+            SMatrix::zeros(),
+            SVector::zeros(),
+        )
+        .ok()?;
+        let mut residual: Vec<SMatrix<f64, D, P>> = a.iter().map(sensitivity).collect();
+        for parameter in 0..P {
+            let response = system.chain_step(&SVector::from_fn(|k, _| f64::from(u8::from(k == parameter))));
+            for (r, step) in residual.iter_mut().zip(&response) {
+                let column = r.column(parameter) + self.s * step;
+                r.set_column(parameter, &column);
+            }
+        }
+        let costate =
+            if let Trust::Noisy(_) = self.trust { self.costate(&residual, &increments) } else { Vec::new() };
+        Some(Linearised { information: system.information, residual, costate })
+    }
+
+    /// The force of the readings at and after each interval's end on its increment, less what holds a known end.
+    fn costate(
+        &self,
+        residual: &[SMatrix<f64, D, P>],
+        increments: &[Increment<D>],
+    ) -> Vec<SMatrix<f64, D, P>> {
+        let sw = self.s.tr_mul(&SMatrix::from_diagonal(&self.weight));
+        let mut force = SMatrix::<f64, D, P>::zeros();
+        let mut costate = vec![force; self.intervals()];
+        for i in (0..self.intervals()).rev() {
+            let m = &self.sums[i];
+            costate[i] = force - sw * (residual[i] * m.m01 + residual[i + 1] * m.m11);
+            force -= sw * (residual[i] * (m.m00 + m.m01) + residual[i + 1] * (m.m01 + m.m11));
+        }
+        if self.known_ends == KnownEnds::Both {
+            // Σ W = 0: the force that holds the end makes Σ Q ψ vanish
+            for k in 0..D {
+                let total: f64 = increments.iter().map(|increment| increment.variance[k]).sum();
+                if total > 0.0 {
+                    let mut mean = SMatrix::<f64, 1, P>::zeros();
+                    for (increment, psi) in increments.iter().zip(&costate) {
+                        mean += psi.fixed_rows::<1>(k) * (increment.variance[k] / total);
+                    }
+                    for psi in &mut costate {
+                        let held = psi.fixed_rows::<1>(k) - mean;
+                        psi.set_row(k, &held);
+                    }
+                }
+            }
+        }
+        costate
+    }
+
+    /// Derivative of `⟨Ω, F⟩`, `Ω` symmetric.
+    #[must_use]
+    pub fn derivative(&self, at: &Linearised<D, P>, omega: &SMatrix<f64, P, P>) -> InformationDerivative<D> {
+        let mut nodes = vec![SVector::zeros(); at.residual.len()];
+        let felt: Vec<SMatrix<f64, D, P>> = at.residual.iter().map(|r| r * omega).collect();
+        // reading r shows acceleration k through its parameter S_rk
+        let pull = |felt: &SMatrix<f64, D, P>| {
+            SVector::<f64, D>::from_fn(|k, _| {
+                (0..D).map(|r| 2.0 * self.weight[r] * felt[(r, r * (D + 1) + 1 + k)]).sum()
+            })
+        };
+        for (i, m) in self.sums.iter().enumerate() {
+            let (p0, p1) = (pull(&felt[i]), pull(&felt[i + 1]));
+            nodes[i] += p0 * m.m00 + p1 * m.m01;
+            nodes[i + 1] += p0 * m.m01 + p1 * m.m11;
+        }
+        let mut variances = vec![SVector::zeros(); self.intervals()];
+        for (variance, psi) in variances.iter_mut().zip(&at.costate) {
+            let force = psi * omega;
+            *variance = SVector::from_fn(|k, _| -force.row(k).dot(&psi.row(k)));
+        }
+        InformationDerivative { nodes, variances }
+    }
+
+    /// The same with respect to the nodes alone, the variances following the jerk: `q = (floor + ratio |u|)² Δτ²`.
+    #[must_use]
+    pub fn total(
+        &self,
+        a: &[SVector<f64, D>],
+        derivative: &InformationDerivative<D>,
+    ) -> Vec<SVector<f64, D>> {
+        let mut total = derivative.nodes.clone();
+        if let Some((floor, ratio)) = self.input_noise() {
+            for (i, variance) in derivative.variances.iter().enumerate() {
+                let dt = self.interval_s(i);
+                let step = SVector::<f64, D>::from_fn(|k, _| {
+                    let u = (a[i + 1][k] - a[i][k]) / dt;
+                    variance[k] * 2.0 * (floor + ratio * u.abs()) * ratio * u.signum() * dt
+                });
+                total[i] -= step;
+                total[i + 1] += step;
+            }
+        }
+        total
+    }
+
+    /// What is known of each increment beforehand.
+    fn increments(&self, a: &[SVector<f64, D>]) -> Vec<Increment<D>> {
+        let rounding = 64.0 * f64::EPSILON * a.iter().map(SVector::amax).fold(0.0, f64::max);
+        let mut increments: Vec<_> = (0..self.intervals())
+            .map(|i| {
+                let dt = self.interval_s(i);
+                let variance = match self.trust {
+                    Trust::Known => SVector::zeros(),
+                    Trust::Unknown => SVector::repeat(f64::INFINITY),
+                    Trust::Noisy(noise) => (a[i + 1] - a[i]).map(|step| {
+                        let sd = noise.floor_mps3 * dt + noise.ratio * step.abs();
+                        if sd <= rounding { 0.0 } else { sd * sd }
+                    }),
+                };
+                Increment { variance, residual: SVector::zeros(), fixed: [false; D] }
+            })
+            .collect();
+        if self.known_ends == KnownEnds::Both && self.trust != Trust::Known {
+            // where the last increments are known exactly, so are the nodes before them
+            for k in 0..D {
+                for increment in increments.iter_mut().rev() {
+                    increment.fixed[k] = true;
+                    if increment.variance[k] != 0.0 {
+                        break;
+                    }
+                }
+            }
+        }
+        increments
+    }
+}
+
+/// `G(a)`: reading r shows `(1, a)` through its own parameters.
+fn sensitivity<const D: usize, const P: usize>(a: &SVector<f64, D>) -> SMatrix<f64, D, P> {
+    let mut g = SMatrix::zeros();
+    for row in 0..D {
+        g[(row, row * (D + 1))] = 1.0;
+        for k in 0..D {
+            g[(row, row * (D + 1) + 1 + k)] = a[k];
+        }
+    }
+    g
+}

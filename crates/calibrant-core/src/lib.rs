@@ -1,0 +1,18 @@
+//! The mathematics of calibrant: how an inertial sensor is modelled, estimated, examined for noise, and simulated.
+//!
+//! Data flow one way: [`sensor`] and [`motion`] say what is measured. [`arrowhead`] is the one linear-algebra kernel. [`information`] turns its result into a
+//! covariance, and explains what is undetermined. [`noise`] examines a sensor at rest. [`estimate`] calibrates. [`simulate`] makes sensors and recordings.
+//!
+//! The crate `calibrant` re-exports all of it; depend on that one unless the build time matters.
+
+pub mod arrowhead;
+pub mod error;
+pub mod estimate;
+pub mod information;
+pub mod motion;
+pub mod noise;
+mod root;
+pub mod sensor;
+pub mod simulate;
+
+pub use error::{Error, Result};

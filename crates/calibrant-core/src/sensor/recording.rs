@@ -1,0 +1,97 @@
+//! Readings of a sensor over time.
+
+use super::extremes::{greater, lesser};
+use super::rate::rate_hz;
+use super::{Axis, ReadingUnit};
+use nalgebra::Vector3;
+
+/// A recording: times in seconds, strictly increasing, and a reading for each. A uniaxial sensor uses x, the others are zero.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Recording {
+    /// Sample times, s.
+    pub times_s: Vec<f64>,
+    /// Readings, in [`unit`](Recording::unit).
+    pub readings: Vec<Vector3<f64>>,
+    /// Number of axes, 1 or 3.
+    pub axes: usize,
+    /// Unit of the readings.
+    pub unit: ReadingUnit,
+}
+
+/// A step of so many usual ones is a gap,
+const GAP: f64 = 5.0;
+/// unless nothing moves in so short a time, s.
+const MOVED_S: f64 = 0.05;
+
+impl Recording {
+    /// Number of samples.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.times_s.len()
+    }
+
+    /// Is there no sample?
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.times_s.is_empty()
+    }
+
+    /// The one value of an axis that never changes; `None` where it does.
+    #[must_use]
+    pub fn constant(&self, axis: Axis) -> Option<f64> {
+        let value = self.readings.first()?[axis.index()];
+        self.readings.iter().all(|reading| reading[axis.index()] == value).then_some(value)
+    }
+
+    /// Least and largest reading of each axis; ∞ and −∞ where there is no sample.
+    #[must_use]
+    pub fn extremes(&self) -> [Vector3<f64>; 2] {
+        let infinite = Vector3::repeat(f64::INFINITY);
+        self.readings.iter().fold([infinite, -infinite], |[least, most], y| {
+            [least.zip_map(y, lesser), most.zip_map(y, greater)]
+        })
+    }
+
+    /// The axes that were recorded.
+    #[must_use]
+    pub fn active_axes(&self) -> &'static [Axis] {
+        &Axis::ALL[..self.axes]
+    }
+
+    /// Sample rate in Hz: the inverse of the usual time between samples, so that gaps do not matter; 0 for fewer than two samples.
+    ///
+    /// That is the median step. Where steps come in coarse units, as at 400 Hz in whole milliseconds, or jitter, it is the mean step; where samples are lost, the least that is usual.
+    #[must_use]
+    pub fn rate_hz(&self) -> f64 {
+        rate_hz(&self.times_s)
+    }
+
+    /// A time between samples longer than this, s, is a gap that parts what is before from what is after: of five usual steps, but no less than a sensor needs to be moved.
+    #[must_use]
+    pub(crate) fn gap_s(&self) -> f64 {
+        gap_s(self.rate_hz())
+    }
+}
+
+/// The same for readings at this rate.
+pub(crate) fn gap_s(rate_hz: f64) -> f64 {
+    (GAP / rate_hz).max(MOVED_S)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_gap_is_of_five_steps_and_lasts_long_enough_to_be_moved() {
+        let at = |time: &dyn Fn(usize) -> f64| -> Vec<f64> { (0..40_000).map(time).collect() };
+        let recording = |times_s| Recording {
+            times_s,
+            readings: Vec::new(),
+            axes: 3,
+            unit: ReadingUnit::RadianPerSecond,
+        };
+        assert_eq!(recording(at(&|k| k as f64 * 0.0625)).gap_s(), 0.3125);
+        assert_eq!(recording(at(&|k| k as f64 / 1024.0)).gap_s(), 0.05);
+    }
+}

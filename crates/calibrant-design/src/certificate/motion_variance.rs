@@ -1,0 +1,223 @@
+//! The largest motion variance that any admissible motion of one axis can have.
+
+use super::reach::Reach;
+use super::relaxation::Segment;
+use super::{AxisChain, States};
+use calibrant_core::motion::Rest;
+
+/// An upper bound on the motion variance `V = Σ α² − (Σ α + shift)²/mass` over all admissible motions of one axis.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct MotionVarianceBound {
+    /// The bound, (m/s²)².
+    pub(crate) value: f64,
+    /// Where it comes from.
+    pub(crate) kind: BoundKind,
+    /// Did the conic solver end as it should? The bound holds in any case; where it did not, it is looser than need be.
+    pub(crate) solved: bool,
+    /// Part of `value` that pays for the solver's residual and for rounding.
+    pub(crate) correction: f64,
+}
+
+/// Where a bound comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum BoundKind {
+    /// Moment relaxation of the whole chain.
+    Chain {
+        /// Is `(Σ α + shift)²/mass` part of it, or dropped?
+        mean: bool,
+        /// Were velocity or displacement states needed?
+        states: bool,
+    },
+    /// Moment relaxations of stretches of the chain that may each start and end anywhere.
+    Stretches,
+    /// Every node at its largest acceleration at once.
+    Reach,
+    /// Every node as far from the middle of the motion as the largest jerk takes it.
+    Jerk,
+}
+
+impl BoundKind {
+    /// What it is and why it may be loose, for a reader who has not seen one before.
+    pub(crate) fn explanation(self) -> &'static str {
+        match self {
+            Self::Chain { states: false, mean: true } => {
+                "a moment relaxation of the whole motion, in most cases exact to within rounding"
+            }
+            Self::Chain { states: false, .. } => {
+                "a moment relaxation of the whole motion that leaves out what the mean acceleration costs: loose where the best motion is not balanced"
+            }
+            Self::Chain { states: true, mean: true } => {
+                "a moment relaxation of the whole motion that holds velocity and displacement to their limits at four times in each interval: usually loose by some percent of a standard deviation"
+            }
+            Self::Chain { states: true, .. } => {
+                "a moment relaxation of the whole motion that holds velocity and displacement to their limits at four times in each interval and leaves out what the mean acceleration costs: usually loose by some percent of a standard deviation"
+            }
+            Self::Stretches => {
+                "the motion is long, so its stretches were bounded one by one as if each could start and end anywhere: loose where they cannot"
+            }
+            Self::Reach => {
+                "every node was taken at its largest acceleration at once, which no motion may be able to do: can be loose by a factor"
+            }
+            Self::Jerk => {
+                "in the time that there is, the largest jerk takes no node further from the acceleration in the middle; exact where a straight line keeps the limits"
+            }
+        }
+    }
+}
+
+/// Most iterations of the conic solver; it needs some 20.
+const MAX_ITERATIONS: u32 = 100;
+/// Places inside each interval at which limits on velocity and displacement are imposed.
+const INSIDE: [f64; 3] = [0.25, 0.5, 0.75];
+/// Most intervals for moments up to degree 6 with states: seconds.
+const MOST_HIGH_ORDER: usize = 12;
+/// Most intervals of a chain with states that are looked at in pairs: seconds.
+const MOST_WIDE: usize = 40;
+/// Most intervals of a whole chain with states, and without: seconds.
+const MOST_WITH_STATES: usize = 100;
+const MOST_WITHOUT_STATES: usize = 1000;
+/// Most intervals over which the running sum is carried, its scale grows with the chain; and with other states beside it.
+const MOST_WITH_MEAN: usize = 200;
+const MOST_WITH_STATES_AND_MEAN: usize = 30;
+/// Most intervals whose bounds are tightened by linear programs.
+const MOST_TIGHTENED: usize = 30;
+/// Intervals of a stretch, and most different stretches that are relaxed.
+const STRETCH: usize = 8;
+const MOST_STRETCHES: usize = 12;
+
+/// Bounds the motion variance; `None` where nothing bounds the acceleration.
+pub(crate) fn motion_variance_bound(chain: &AxisChain) -> Option<MotionVarianceBound> {
+    bound_within(chain, MAX_ITERATIONS, 3)
+}
+
+/// The same with at most so many iterations of the conic solver, and moments up to degree `2 · most_order`.
+pub(super) fn bound_within(
+    chain: &AxisChain,
+    max_iterations: u32,
+    most_order: u8,
+) -> Option<MotionVarianceBound> {
+    let (n, l) = (chain.sums.len(), &chain.limits);
+    let mut reach = Reach::of(chain);
+    if !reach.sum_of_squares(chain, 0..n).is_finite() {
+        return None;
+    }
+    let displacement = l.displacement.is_some();
+    let velocity = displacement || l.velocity.is_some() || l.rest == Rest::Both;
+    if n <= MOST_TIGHTENED && (velocity || l.intercept.is_some()) {
+        reach = reach.tightened(chain, &INSIDE);
+    }
+    let value = reach.sum_of_squares(chain, 0..n);
+    let cheap = MotionVarianceBound { value, kind: BoundKind::Reach, solved: true, correction: 0.0 };
+    let most = if velocity { MOST_WITH_STATES } else { MOST_WITHOUT_STATES };
+    let mut best = cheap;
+    let mut consider = |bound: Option<MotionVarianceBound>| {
+        best =
+            bound.into_iter().fold(best.clone(), |best, new| if new.value < best.value { new } else { best });
+    };
+    consider(by_jerk(chain, &reach));
+    if n > most {
+        consider(stretches(chain, &reach, States { velocity, displacement, sum: false }, max_iterations));
+        return Some(best);
+    }
+    // the running sum is one more state: with velocity and displacement only to second order, and not where rest at the end makes the mean small
+    let with_mean = chain.mass.is_finite()
+        && n <= if velocity { MOST_WITH_STATES_AND_MEAN } else { MOST_WITH_MEAN }
+        && !(velocity && l.rest == Rest::Both);
+    let with_order = |sum: bool, order: u8| {
+        let states = States { velocity, displacement, sum };
+        let width = if velocity && !sum && order == 2 && (3..=MOST_WIDE).contains(&n) { 2 } else { 1 };
+        let segment =
+            Segment { chain, reach: &reach, range: 0..n, width, states, open: false, inside: &INSIDE, order };
+        relax(&segment, max_iterations, BoundKind::Chain { mean: sum, states: velocity })
+    };
+    if with_mean {
+        consider(with_order(true, 2));
+    }
+    if velocity || !with_mean {
+        consider(with_order(false, if velocity && n <= MOST_HIGH_ORDER { most_order } else { 2 }));
+    }
+    Some(best)
+}
+
+/// What the jerk alone admits: `V ≤ Σ (α − c)² + (mass − M) c² + 2 |shift| |c|` for every c, here the acceleration in the middle of the motion.
+///
+/// The relaxations divide by the largest acceleration, beside which a small jerk is lost in the solver's tolerance; this bound is not.
+fn by_jerk(chain: &AxisChain, reach: &Reach) -> Option<MotionVarianceBound> {
+    let (n, jerk) = (chain.sums.len(), chain.limits.jerk?);
+    let samples: f64 = chain.sums.iter().map(|sum| sum.samples).sum();
+    let apart =
+        (0..=n).map(|i| jerk * chain.interval_s * (i as f64 - n as f64 / 2.0).abs()).collect::<Vec<_>>();
+    let middle = reach.a[n / 2].max(reach.a[n.div_ceil(2)]);
+    let spread = Reach { a: apart, ..reach.clone() }.sum_of_squares(chain, 0..n);
+    let value = spread + (chain.mass - samples).max(0.0) * middle * middle + 2.0 * chain.shift.abs() * middle;
+    let kind = BoundKind::Jerk;
+    value.is_finite().then_some(MotionVarianceBound { value, kind, solved: true, correction: 0.0 })
+}
+
+fn relax(segment: &Segment<'_>, max_iterations: u32, kind: BoundKind) -> Option<MotionVarianceBound> {
+    let scale = segment.reach.sum_of_squares(segment.chain, segment.range.clone());
+    if scale == 0.0 {
+        return None;
+    }
+    let bound = segment.relax(scale)?.bound(max_iterations)?;
+    Some(MotionVarianceBound {
+        value: (bound.value * scale).max(0.0),
+        kind,
+        solved: bound.solved,
+        correction: bound.correction * scale,
+    })
+}
+
+/// The sum of the bounds of stretches; equal stretches are relaxed once.
+fn stretches(
+    chain: &AxisChain,
+    reach: &Reach,
+    states: States,
+    max_iterations: u32,
+) -> Option<MotionVarianceBound> {
+    let n = chain.sums.len();
+    // the same bounds everywhere make stretches equal, but for the report's intercept, which counts from t = 0
+    let uniform = reach.everywhere();
+    let (reach, moves) = if chain.limits.intercept.is_some() { (reach, true) } else { (&uniform, false) };
+    let mut total =
+        MotionVarianceBound { value: 0.0, kind: BoundKind::Stretches, solved: true, correction: 0.0 };
+    let mut known: Vec<(std::ops::Range<usize>, MotionVarianceBound)> = Vec::new();
+    for first in (0..n).step_by(STRETCH) {
+        let range = first..(first + STRETCH).min(n);
+        let same =
+            |other: &std::ops::Range<usize>| !moves && chain.sums[other.clone()] == chain.sums[range.clone()];
+        let part = if let Some((_, part)) = known.iter().find(|(other, _)| same(other)) {
+            part.clone()
+        } else {
+            let cheap = MotionVarianceBound {
+                value: reach.sum_of_squares(chain, range.clone()),
+                kind: BoundKind::Reach,
+                solved: true,
+                correction: 0.0,
+            };
+            let relaxed = if known.len() < MOST_STRETCHES {
+                let segment = Segment {
+                    chain,
+                    reach,
+                    range: range.clone(),
+                    width: 1,
+                    states,
+                    open: true,
+                    inside: &INSIDE,
+                    order: 2,
+                };
+                relax(&segment, max_iterations, BoundKind::Stretches)
+            } else {
+                None
+            };
+            let part = relaxed.filter(|bound| bound.value < cheap.value).unwrap_or(cheap);
+            known.push((range, part.clone()));
+            part
+        };
+        total.value += part.value;
+        total.correction += part.correction;
+        total.solved &= part.solved;
+    }
+    total.value *= 1.0 + 1e-12;
+    Some(total)
+}

@@ -1,0 +1,237 @@
+//! From bounds on the motion to bounds on variances and on the criterion.
+
+use super::AxisChain;
+use super::motion_variance::{MotionVarianceBound, motion_variance_bound};
+use super::reach::Reach;
+use crate::{Certificate, DesignProblem};
+use calibrant_core::error::Result;
+use calibrant_core::information::{Criterion, covariance};
+use calibrant_core::motion::{AxisLimits, InputNoise, IntervalSums, JerkControlledMotion, KnownEnds, Trust};
+use calibrant_core::sensor::{Quantity, SensorModel};
+use nalgebra::{DMatrix, DVector, Vector3};
+
+/// The certificate of a design whose criterion has this value.
+///
+/// `None` where nothing bounds the motion, or the limits leave it no freedom at all.
+///
+/// # Errors
+/// As [`MotionInformation::of`](calibrant_core::information::MotionInformation::of).
+pub(crate) fn certify(problem: &DesignProblem<'_>, value: f64) -> Result<Option<Certificate>> {
+    let setting = problem.setting()?;
+    let rest =
+        JerkControlledMotion::uniform(problem.interval_s, vec![Vector3::zeros(); problem.intervals + 1])?;
+    let mut bounds = Bounds {
+        problem,
+        noise: setting.noise,
+        sums: IntervalSums::of(&rest, problem.rate_hz),
+        still: setting.of(&rest)?,
+        ramp: if problem.trust == Trust::Unknown { Some(setting.of(&ramp(problem)?)?) } else { None },
+        known: Vec::new(),
+        reasons: Vec::new(),
+    };
+    let quantities = problem.sensor.parameter_list().quantities().to_vec();
+    let Some(variances) = (0..quantities.len())
+        .map(|place| bounds.variance(place, quantities[place], &quantities))
+        .collect::<Option<Vec<_>>>()
+    else {
+        return Ok(None);
+    };
+    let variances = DVector::from_vec(variances);
+    let smallest = DMatrix::from_diagonal(&variances);
+    let lower_bound = problem.criterion.value(&smallest) * independence(&problem.criterion, &smallest);
+    if !lower_bound.is_finite() {
+        return Ok(None);
+    }
+    Ok(Some(Certificate {
+        lower_bound,
+        gap: problem.criterion.gap(value, lower_bound),
+        sd_lower_bound: variances.iter().map(|variance| variance.sqrt()).collect(),
+        explanation: bounds.explanation(),
+    }))
+}
+
+/// Every axis from −1 to 1 m/s² in a straight line.
+fn ramp(problem: &DesignProblem<'_>) -> Result<JerkControlledMotion> {
+    let n = problem.intervals;
+    let nodes = (0..=n).map(|i| Vector3::repeat(2.0 * i as f64 / n as f64 - 1.0)).collect();
+    JerkControlledMotion::uniform(problem.interval_s, nodes)
+}
+
+/// The λ in `W ⪰ λ diag(W)` of criterion I; 1 for all others, whose weights are diagonal.
+fn independence(criterion: &Criterion, at: &DMatrix<f64>) -> f64 {
+    let Criterion::I(_) = criterion else { return 1.0 };
+    let weight = criterion.derivative(at);
+    let scale = weight.diagonal().map(|w| if w > 0.0 { 1.0 / w.sqrt() } else { 0.0 });
+    let mut scaled = DMatrix::from_diagonal(&scale) * &weight * DMatrix::from_diagonal(&scale);
+    scaled.fill_diagonal(0.0);
+    if scaled.amax() == 0.0 { 1.0 } else { (1.0 + scaled.symmetric_eigenvalues().min() - 1e-14).max(0.0) }
+}
+
+/// By how much, relatively, rounding may have made a bound on the information too small: a bound that the motion meets exactly must not end above its value.
+const ROUNDING: f64 = 1e-12;
+
+/// Lower bounds on variances, with what they share.
+struct Bounds<'a> {
+    problem: &'a DesignProblem<'a>,
+    noise: Vector3<f64>,
+    sums: Vec<IntervalSums>,
+    /// Information at rest: that on the biases does not depend on the motion, and with process noise is largest there.
+    still: DMatrix<f64>,
+    /// Information of a straight line from −1 to 1, where the motion is unknown.
+    ramp: Option<DMatrix<f64>>,
+    /// Motion variances that are bounded already.
+    known: Vec<(AxisLimits, [f64; 2], Option<MotionVarianceBound>)>,
+    reasons: Vec<String>,
+}
+
+impl Bounds<'_> {
+    /// Lower bound on the variance of the parameter at a place; `None` where there is none.
+    fn variance(&mut self, place: usize, quantity: Quantity, all: &[Quantity]) -> Option<f64> {
+        let prior = |i: usize, j: usize| self.problem.prior.as_ref().map_or(0.0, |prior| prior[(i, j)]);
+        let (row, column) = match quantity {
+            Quantity::Bias(_) => {
+                let information = self.still[(place, place)] + prior(place, place);
+                return Some(1.0 / (information * (1.0 + ROUNDING)));
+            }
+            Quantity::Scale(axis) => (axis.index(), axis.index()),
+            Quantity::CrossAxis(row, column) => (row.index(), column.index()),
+            // no motion is designed for this parametrisation
+            Quantity::Symmetric(..) => return None,
+        };
+        let bias =
+            all.iter().position(|other| matches!(other, Quantity::Bias(axis) if axis.index() == row))?;
+        let (own, cross, on_bias) = (prior(place, place), prior(place, bias), prior(bias, bias));
+        let reach = Reach::of(&self.chain(column, 0.0, f64::INFINITY));
+        // what earlier information on the bias adds where the bias follows from the scale factor and a known acceleration
+        let anchored = |a: f64| own + 2.0 * a * cross.abs() + a * a * on_bias;
+
+        let mut information = f64::INFINITY;
+        if let (Some(ramp), SensorModel::ScaleBias) = (&self.ramp, self.problem.sensor.model) {
+            let apart = self.ends_apart(column, &reach);
+            let per_unit = if self.problem.prior.is_none() {
+                let block = DMatrix::from_fn(2, 2, |i, j| ramp[([bias, place][i], [bias, place][j])]);
+                1.0 / covariance(&block).map_or(0.0, |c| c[(1, 1)])
+            } else {
+                ramp[(place, place)]
+            };
+            information =
+                per_unit * apart * apart / 4.0 + anchored(reach.a[0].max(reach.a[reach.a.len() - 1]));
+            self.explain("scale factors: the two ends of the motion, which is all that is known of it, can be no further apart than the limits allow; exact where the ends are free to be so");
+        } else {
+            let noise = self.noise[row] * self.noise[row];
+            let samples: f64 = self.sums.iter().map(|sum| sum.samples).sum();
+            if let Some(bound) = self.motion_variance(column, noise * cross, samples + noise * on_bias) {
+                information = bound.value / noise + own;
+                let known = if self.problem.trust == Trust::Known {
+                    ""
+                } else {
+                    "as if the motion were known exactly: "
+                };
+                let shared = if self.problem.sensor.model == SensorModel::Full {
+                    "; each axis as if it could be moved independently of what the others need"
+                } else {
+                    ""
+                };
+                let solver = if bound.solved {
+                    ""
+                } else {
+                    "; the conic solver stopped early, which makes the bound looser, not wrong"
+                };
+                self.explain(&format!("scale factors: {known}{}{shared}{solver}", bound.kind.explanation()));
+            }
+            if let (Trust::Noisy(input), KnownEnds::Start) = (self.problem.trust, self.problem.known_ends) {
+                let from_increments = self.increments(input, row, column) + anchored(reach.a[0]);
+                if from_increments < information {
+                    information = from_increments;
+                    self.reasons.retain(|reason| !reason.starts_with("scale factors"));
+                    self.explain("scale factors: the process noise alone, as if the readings were perfect and every interval had the largest jerk; close where the process noise dominates");
+                }
+            }
+        }
+        (information.is_finite() && information > 0.0).then(|| 1.0 / (information * (1.0 + ROUNDING)))
+    }
+
+    fn explain(&mut self, reason: &str) {
+        if !self.reasons.iter().any(|known| known == reason) {
+            self.reasons.push(reason.to_owned());
+        }
+    }
+
+    fn explanation(&self) -> String {
+        let bias = match self.problem.trust {
+            Trust::Known => "biases: the noise of the readings averaged over all samples",
+            Trust::Noisy(_) => {
+                "biases: as if the scale factors were known and the process noise at its floor"
+            }
+            Trust::Unknown => "biases: as if the scale factors were known",
+        };
+        let mut all = vec![bias.to_owned()];
+        all.extend(self.reasons.iter().cloned());
+        format!("No admissible motion can do better than this, since for the {}.", all.join(". For the "))
+    }
+
+    fn chain(&self, axis: usize, shift: f64, mass: f64) -> AxisChain {
+        let limits = self.problem.effective_limits().axis(axis);
+        AxisChain { interval_s: self.problem.interval_s, sums: self.sums.clone(), limits, shift, mass }
+    }
+
+    fn motion_variance(&mut self, axis: usize, shift: f64, mass: f64) -> Option<MotionVarianceBound> {
+        let chain = self.chain(axis, shift, mass);
+        if let Some((.., bound)) =
+            self.known.iter().find(|(l, at, _)| *l == chain.limits && *at == [shift, mass])
+        {
+            return bound.clone();
+        }
+        let bound = motion_variance_bound(&chain);
+        self.known.push((chain.limits, [shift, mass], bound.clone()));
+        bound
+    }
+
+    /// Largest `|a_N − a_0|`.
+    fn ends_apart(&self, axis: usize, reach: &Reach) -> f64 {
+        let l = self.problem.effective_limits().axis(axis);
+        let n = self.problem.intervals;
+        let apart = match (l.start, l.end) {
+            (Some(start), Some(end)) => (end - start).abs(),
+            _ => reach.a[0] + reach.a[n],
+        };
+        apart.min(l.jerk.unwrap_or(f64::INFINITY) * self.problem.interval_s * n as f64)
+    }
+
+    /// Largest information on `S_rk` that noisy increments can carry where readings are perfect:
+    /// `Σ_i u_ik² Σ_m (S⁻¹)²_mr/σ_u,m²`.
+    fn increments(&self, input: InputNoise, row: usize, column: usize) -> f64 {
+        let problem = self.problem;
+        let active: Vec<usize> = problem.sensor.active_axes().iter().map(|axis| axis.index()).collect();
+        let full = problem.sensor.model == SensorModel::Full;
+        let Some(inverse) = problem.at.matrix.try_inverse() else { return f64::INFINITY };
+        let limits = problem.effective_limits().axis(column);
+        let reach = Reach::of(&self.chain(column, 0.0, f64::INFINITY));
+        reach
+            .a
+            .windows(2)
+            .map(|a| {
+                let u = limits.jerk.unwrap_or(f64::INFINITY).min((a[0] + a[1]) / problem.interval_s);
+                if u == 0.0 {
+                    return 0.0;
+                }
+                let mut sum = 0.0;
+                for &m in &active {
+                    let share = if full {
+                        inverse[(m, row)]
+                    } else if m == row {
+                        1.0 / problem.at.matrix[(row, row)]
+                    } else {
+                        0.0
+                    };
+                    // the jerk of axis k is what excites; that of any other axis may be zero, and its noise at the floor
+                    let sd = input.floor_mps3 + if m == column { input.ratio * u } else { 0.0 };
+                    if share != 0.0 {
+                        sum += (share * u / sd).powi(2);
+                    }
+                }
+                sum
+            })
+            .sum()
+    }
+}

@@ -1,0 +1,135 @@
+//! What a design gives.
+
+use calibrant_core::error::UndeterminedGroup;
+use calibrant_core::information::Criterion;
+use calibrant_core::motion::{JerkControlledMotion, Limits};
+use calibrant_core::sensor::{Axis, Parameter};
+use nalgebra::DMatrix;
+
+/// A start that ends within this of the best (relatively; for criterion D in nats) has reached it.
+///
+/// Far below a percent: criterion A in SI units is nearly the variance of the biases alone, and motions whose scale factors differ by a third differ by a
+/// thousandth in it.
+pub const AT_BEST: f64 = 1e-5;
+
+/// The best motion found, beside the initial one, and how close to the best possible it is.
+#[derive(Debug, Clone)]
+pub struct Design {
+    /// How the search ended.
+    pub status: DesignStatus,
+    /// What was minimised.
+    pub criterion: Criterion,
+    /// Name, unit, nominal value and spread of each parameter.
+    pub parameters: Vec<Parameter>,
+    /// The best motion.
+    pub optimal: Evaluation,
+    /// The motion that experience would choose.
+    pub initial: Evaluation,
+    /// Every start, in order.
+    pub starts: Vec<StartOutcome>,
+    /// Iterations over all starts.
+    pub iterations: usize,
+    /// The limits that the motion keeps at all times, the sensor's range among them.
+    pub limits: Limits,
+    /// The lower bound, where one was asked for and found.
+    pub certificate: Option<Certificate>,
+}
+
+impl Design {
+    /// Number of starts that converged.
+    #[must_use]
+    pub fn starts_converged(&self) -> usize {
+        self.starts.iter().filter(|start| start.status == DesignStatus::Converged).count()
+    }
+
+    /// Number of starts that ended within [`AT_BEST`] of the best of their axes.
+    #[must_use]
+    pub fn starts_at_best(&self) -> usize {
+        let best = |axes: &[Axis]| {
+            let own = self.starts.iter().filter(|start| start.axes == axes);
+            own.map(|start| start.value).fold(f64::INFINITY, f64::min)
+        };
+        let near =
+            |start: &&StartOutcome| self.criterion.gap(start.value, best(&start.axes)).abs() <= AT_BEST;
+        self.starts.iter().filter(near).count()
+    }
+}
+
+/// What a recording of a motion will tell.
+#[derive(Debug, Clone)]
+pub struct Evaluation {
+    /// The motion.
+    pub motion: JerkControlledMotion,
+    /// Value of the criterion; infinite where the motion does not determine the parameters.
+    pub value: f64,
+    /// Information on the parameters, what was there before included.
+    pub information: DMatrix<f64>,
+    /// Predicted covariance; `None` where the motion does not determine the parameters.
+    pub covariance: Option<DMatrix<f64>>,
+    /// The parameters that it leaves undetermined, in words.
+    pub undetermined: Vec<UndeterminedGroup>,
+}
+
+impl Evaluation {
+    /// Predicted standard deviation of each parameter; infinite where it is not determined.
+    #[must_use]
+    pub fn sd(&self) -> Vec<f64> {
+        match &self.covariance {
+            Some(covariance) => covariance.diagonal().iter().map(|variance| variance.sqrt()).collect(),
+            None => vec![f64::INFINITY; self.information.nrows()],
+        }
+    }
+}
+
+/// How a design ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum DesignStatus {
+    /// The best start converged.
+    Converged,
+    /// The best start reached the iteration limit: its motion is admissible, a better one may be near.
+    IterationLimit,
+    /// The best start stopped because a subproblem could not be solved: its motion is admissible, a better one may be near.
+    Stalled,
+}
+
+impl DesignStatus {
+    /// As written in files: `converged`, `iteration_limit`, `stalled`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Converged => "converged",
+            Self::IterationLimit => "iteration_limit",
+            Self::Stalled => "stalled",
+        }
+    }
+}
+
+/// One start of the search.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StartOutcome {
+    /// The axes that were designed: one, several that share the same problem, or all of a full sensor.
+    pub axes: Vec<Axis>,
+    /// Number of the start among those of these axes, from 0; 0 is the initial motion.
+    pub number: usize,
+    /// Value of the criterion, for the parameters of one of these axes, where it began.
+    pub initial_value: f64,
+    /// Value where it ended.
+    pub value: f64,
+    /// Iterations.
+    pub iterations: usize,
+    /// How it ended.
+    pub status: DesignStatus,
+}
+
+/// A lower bound on the criterion that no admissible motion can beat.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Certificate {
+    /// The bound.
+    pub lower_bound: f64,
+    /// How far the design is from it at most: `value/bound − 1`, for criterion D the difference in nats.
+    pub gap: f64,
+    /// Smallest standard deviation that any admissible motion can give each parameter.
+    pub sd_lower_bound: Vec<f64>,
+    /// Which bound it is, and why it may be loose, in words.
+    pub explanation: String,
+}

@@ -1,0 +1,157 @@
+//! What a design's certificate means, for someone who sees one for the first time.
+
+use super::{AT_BEST, Certificate, Design, DesignStatus};
+use calibrant_core::information::Criterion;
+
+impl Design {
+    /// How good the motion is, and how that is known, in one or two sentences.
+    ///
+    /// With a certificate: what no admissible motion can beat, and how close this one is. Without: how many starts agree.
+    #[must_use]
+    pub fn statement(&self) -> String {
+        if self.optimal.covariance.is_none() {
+            return "This motion does not determine the parameters.".into();
+        }
+        let found = match &self.certificate {
+            Some(certificate) => self.certified(certificate),
+            None => self.uncertified(),
+        };
+        match self.status {
+            DesignStatus::Converged => found,
+            DesignStatus::IterationLimit | DesignStatus::Stalled => {
+                format!("The search ended before it converged: a better motion may be near. {found}")
+            }
+        }
+    }
+
+    fn certified(&self, certificate: &Certificate) -> String {
+        let (letter, value) = (self.criterion.letter(), self.optimal.value);
+        let criterion = if let Criterion::D(_) = self.criterion {
+            // a typical sd is exp(Φ_D / 2p)
+            let sd = (certificate.gap / (2.0 * self.parameters.len() as f64)).exp_m1();
+            let typical = if sd < 1.0 { percent(sd) } else { format!("a factor of {}", short(1.0 + sd)) };
+            format!(
+                "No admissible motion can bring criterion D below {}; this one is within {} nats of that, {typical} in a typical standard deviation",
+                short(certificate.lower_bound),
+                short(certificate.gap.max(0.0)),
+            )
+        } else {
+            let gap = certificate.gap;
+            let near = if gap < 1.0 { format!("within {} of that", percent(gap)) } else { times(1.0 + gap) };
+            format!(
+                "No admissible motion can bring criterion {letter} below {}; this one has {}, {near}",
+                short(certificate.lower_bound),
+                short(value),
+            )
+        };
+        format!("{criterion}. {}", self.certified_sd(certificate)).trim_end().to_owned()
+    }
+
+    /// The parameter that is furthest above its bound, and so what can be said of all.
+    fn certified_sd(&self, certificate: &Certificate) -> String {
+        let sd = self.optimal.sd();
+        let excess = |k: usize| sd[k] / certificate.sd_lower_bound[k] - 1.0;
+        let worst = (0..sd.len())
+            .filter(|&k| k < certificate.sd_lower_bound.len() && excess(k).is_finite())
+            .max_by(|&one, &other| excess(one).total_cmp(&excess(other)));
+        let Some(k) = worst else { return String::new() };
+        let (name, least) = (&self.parameters[k].name, short(certificate.sd_lower_bound[k]));
+        let bound = format!(
+            "No admissible motion can give {name} an sd below {least}{}",
+            unit(self.parameters[k].unit)
+        );
+        if excess(k) < 5e-4 {
+            return format!("{bound}; this one gives it that, and every other parameter its least sd too.");
+        }
+        let others = if sd.len() > 1 { ", and every other parameter is closer to its bound" } else { "" };
+        let more = if excess(k) < 1.0 { percent(excess(k)) + " more" } else { times(1.0 + excess(k)) };
+        format!("{bound}; this one gives {}, {more}{others}.", short(sd[k]))
+    }
+
+    fn uncertified(&self) -> String {
+        match self.starts.len() {
+            0 => "No lower bound was computed, so a better motion cannot be ruled out.".into(),
+            starts => format!(
+                "This is the best of {starts} starts, {} of which ended there (within {}). No lower bound was computed, so a better motion cannot be \
+                 ruled out.",
+                self.starts_at_best(),
+                match self.criterion {
+                    Criterion::D(_) => format!("{AT_BEST} nats"),
+                    _ => format!("{} %", 100.0 * AT_BEST),
+                }
+            ),
+        }
+    }
+}
+
+/// Four significant digits, powers of ten for the small and the large.
+fn short(value: f64) -> String {
+    if value == 0.0 {
+        return "0".into();
+    }
+    if !value.is_finite() {
+        return "–".into();
+    }
+    let exponent = value.abs().log10().floor() as i32;
+    if (-3..5).contains(&exponent) {
+        return format!("{value:.*}", (3 - exponent).max(0) as usize).replace('-', "−");
+    }
+    let power: String = exponent.to_string().chars().map(superscript).collect();
+    format!("{:.3} × 10{power}", value / 10f64.powi(exponent)).replace('-', "−")
+}
+
+fn superscript(digit: char) -> char {
+    match digit {
+        '-' => '⁻',
+        digit => digit
+            .to_digit(10)
+            .map_or(digit, |d| ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'][d as usize]),
+    }
+}
+
+/// A multiple: `3.4 times that`.
+fn times(factor: f64) -> String {
+    let number = match factor {
+        f if f < 9.95 => format!("{f:.1}"),
+        f if f < 999.5 => format!("{f:.0}"),
+        f => short(f),
+    };
+    format!("{number} times that")
+}
+
+/// A relative difference below one, at least 0.01 %: `0.32 %`.
+fn percent(relative: f64) -> String {
+    let percent = 100.0 * relative.max(0.0);
+    match percent {
+        p if p < 0.01 => "0.01 %".into(),
+        p if p < 1.0 => format!("{p:.2} %"),
+        p if p < 10.0 => format!("{p:.1} %"),
+        p => format!("{p:.0} %"),
+    }
+}
+
+/// A unit behind a number; a pure number has none.
+fn unit(unit: &str) -> String {
+    if unit == "1" { String::new() } else { format!(" {unit}") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_short() {
+        assert_eq!(short(7.1188e-7), "7.119 × 10⁻⁷");
+        assert_eq!(short(-12.3456), "−12.35");
+        assert_eq!((short(0.012_345_6), short(1_234.56)), ("0.01235".into(), "1235".into()));
+        assert_eq!(
+            (percent(0.0), percent(0.0032), percent(0.25)),
+            ("0.01 %".into(), "0.32 %".into(), "25 %".into())
+        );
+        // a loose bound is a matter of factors: 51489740 % tells nobody anything
+        assert_eq!(
+            (times(2.04), times(14.2), times(514_898.4)),
+            ("2.0 times that".into(), "14 times that".into(), "5.149 × 10⁵ times that".into())
+        );
+    }
+}

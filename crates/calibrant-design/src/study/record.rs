@@ -1,0 +1,25 @@
+//! A simulated sensor moves and is recorded.
+
+use calibrant_core::error::Result;
+use calibrant_core::motion::{CommandedMotion, JerkControlledMotion, Trust};
+use calibrant_core::sensor::{Recording, Sensor, SensorParameters};
+use calibrant_core::simulate::{Rng, perturb, sample_times, simulate_recording};
+use nalgebra::Vector3;
+
+/// The motion that really happens when this one is commanded, and the sensor's recording of it.
+pub(super) fn record(
+    sensor: &Sensor,
+    truth: &SensorParameters,
+    command: &CommandedMotion,
+    rate_hz: f64,
+    rng: &mut Rng,
+) -> Result<(JerkControlledMotion, Recording)> {
+    let happened = match command.trust {
+        Trust::Noisy(noise) => perturb(&command.motion, &noise, sensor.axes, command.known_ends, rng)?,
+        Trust::Known | Trust::Unknown => command.motion.clone(),
+    };
+    let noise = sensor.noise(&truth.matrix.diagonal()).unwrap_or_else(Vector3::zeros);
+    let times = sample_times(&command.motion, rate_hz);
+    let recording = simulate_recording(truth, &noise, sensor.unit, sensor.axes, &happened, &times, rng);
+    Ok((happened, recording))
+}

@@ -1,0 +1,77 @@
+//! All experiments of one experiment file.
+
+use super::{
+    DesignStudy, DesignStudyProblem, Study, StudyProblem, StudySettings, SurfaceSettings, TraceSurface,
+    run_design_study, run_study, trace_surface,
+};
+use calibrant_core::error::Result;
+use calibrant_core::sensor::Sensor;
+
+/// The experiments that are asked for.
+#[derive(Debug, Clone, Default)]
+pub struct StudiesProblem<'a> {
+    /// Sensors calibrated without a design.
+    pub calibration: Option<StudyProblem<'a>>,
+    /// The criterion over the jerks of two intervals, for the first axis of this sensor.
+    pub surface: Option<(&'a Sensor, SurfaceSettings)>,
+    /// Initial against optimal motion.
+    pub design: Option<DesignStudyProblem<'a>>,
+    /// The same with process noise.
+    pub noisy: Option<DesignStudyProblem<'a>>,
+    /// What is not asked for although one might expect it, and why, in words.
+    pub remarks: Vec<String>,
+}
+
+impl StudiesProblem<'_> {
+    /// How often `progress` will be called.
+    #[must_use]
+    pub fn steps(&self) -> u64 {
+        let designs = [&self.design, &self.noisy].into_iter().flatten().map(|problem| problem.sensors);
+        let sensors = self.calibration.iter().map(|problem| problem.sensors).chain(designs).sum::<usize>();
+        sensors as u64
+    }
+}
+
+/// What `calibrant study` gives: the experiments that were asked for. The preset `report` asks for all of them.
+#[derive(Debug, Clone, Default)]
+pub struct Studies {
+    /// Sensors calibrated without a design: the report's chapter 3, where nothing is known of the motion but its ends (Figures 4 to 6).
+    pub calibration: Option<Study>,
+    /// The criterion over the jerks of two intervals (Figure 7).
+    pub surface: Option<TraceSurface>,
+    /// Initial against optimal motion, as `[motion]` and `[limits]` say (Figures 8 to 11).
+    pub design: Option<DesignStudy>,
+    /// The same with process noise, of `[study.noisy]` (Figures 13 and 14).
+    pub noisy: Option<DesignStudy>,
+    /// What was not run although one might expect it, and why, in words.
+    pub remarks: Vec<String>,
+}
+
+/// Runs the experiments that are asked for, one after the other; `progress` is called with 1 after each sensor.
+///
+/// # Errors
+/// As [`run_study`], [`trace_surface`] and [`run_design_study`].
+pub fn run_studies(
+    problem: &StudiesProblem<'_>,
+    settings: &StudySettings,
+    progress: &(dyn Fn(u64) + Sync),
+) -> Result<Studies> {
+    let designed = |problem: &Option<DesignStudyProblem<'_>>| {
+        problem.as_ref().map(|problem| run_design_study(problem, settings, progress)).transpose()
+    };
+    Ok(Studies {
+        calibration: problem
+            .calibration
+            .as_ref()
+            .map(|problem| run_study(problem, settings, progress))
+            .transpose()?,
+        surface: problem
+            .surface
+            .as_ref()
+            .map(|(sensor, surface)| trace_surface(sensor, surface))
+            .transpose()?,
+        design: designed(&problem.design)?,
+        noisy: designed(&problem.noisy)?,
+        remarks: problem.remarks.clone(),
+    })
+}

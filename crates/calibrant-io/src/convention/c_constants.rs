@@ -1,0 +1,50 @@
+//! Numbers in a C header: written as constants, and read back by name.
+
+use crate::text::Checked;
+use calibrant_core::error::Complaint;
+use nalgebra::{Matrix3, Vector3};
+
+pub(super) const HELP: &str = "give a header that calibrant wrote, as it wrote it";
+
+pub(super) fn vector(values: &Vector3<f64>) -> String {
+    format!("{{ {:?}, {:?}, {:?} }}", values.x, values.y, values.z)
+}
+
+pub(super) fn matrix(values: &Matrix3<f64>) -> String {
+    let row = |i: usize| vector(&values.row(i).transpose());
+    format!("{{\n    {},\n    {},\n    {},\n}}", row(0), row(1), row(2))
+}
+
+/// The numbers of a constant, between its braces; `None` where there is no such constant.
+pub(super) fn numbers(text: &str, name: &str, count: usize) -> Checked<Option<Vec<f64>>> {
+    read_constant(text, &format!("{name}[3]"), count)
+}
+
+/// The number of a constant that has one.
+pub(super) fn number(text: &str, name: &str) -> Checked<Option<f64>> {
+    Ok(read_constant(text, &format!("CALIBRANT_REAL {name} ="), 1)?.map(|found| found[0]))
+}
+
+fn read_constant(text: &str, name: &str, count: usize) -> Checked<Option<Vec<f64>>> {
+    let Some(start) = text.find(name) else { return Ok(None) };
+    let name = name.trim_end_matches("[3]");
+    let line = 1 + text[..start].matches('\n').count();
+    let complain = |message: String| Err(Box::new(Complaint::new(message, HELP).at_line(line)));
+    let Some((value, _)) = text[start..].split_once('=').and_then(|(_, rest)| rest.split_once(';')) else {
+        return complain(format!("`{name}` has no value"));
+    };
+    let mut numbers = Vec::with_capacity(count);
+    for word in value
+        .split(|c: char| c.is_whitespace() || matches!(c, '{' | '}' | ','))
+        .filter(|word| !word.is_empty())
+    {
+        match word.parse::<f64>() {
+            Ok(number) if number.is_finite() => numbers.push(number),
+            _ => return complain(format!("`{name}`: not a number: {word}")),
+        }
+    }
+    if numbers.len() != count {
+        return complain(format!("`{name}` has {} numbers, not {count}", numbers.len()));
+    }
+    Ok(Some(numbers))
+}

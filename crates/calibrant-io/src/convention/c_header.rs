@@ -1,0 +1,181 @@
+//! A C header with the correction ready to apply: constants with all their digits and a function for each sensor (C99 and C++).
+//!
+//! Direction raw → true: `f = C_a (y_a − b_a)`, `ω = C_g (y_g − b_g − G f)`. Units and frame are in its comments. The type of the numbers is the macro
+//! `CALIBRANT_REAL`, `double` unless it is defined before (as `float` for small processors). What it cannot carry: the covariance. Our own headers are
+//! read back by the names of their constants. Where the calibration follows temperature, the functions take it.
+
+use super::arrays::vector3;
+use super::c_constants::{HELP, matrix, numbers, vector};
+use super::words::{complaint, written_by};
+use super::{CalibratedImuFile, ImuFormat, c_temperature};
+use crate::text::Checked;
+use calibrant_core::sensor::{
+    CalibratedImu, ImuCorrection, ImuParameters, ImuQuantity, ReadingUnit, SensorParameters, Triad,
+};
+use nalgebra::Matrix3;
+use std::fmt::Write;
+
+pub(super) fn write(file: &CalibratedImuFile) -> Checked<String> {
+    let imu = &file.imu;
+    let correction = ImuCorrection::of(imu).map_err(|error| complaint(error.to_string(), ""))?;
+    let mut out = format!(
+        "/* Correction of an IMU, raw to true; {}.\n *\n * frame: {}\n",
+        written_by(),
+        comment(&imu.frame)
+    );
+    for triad in Triad::ALL {
+        if let Some(unit) = imu.unit(triad) {
+            let si = triad.stimulus_unit().symbol();
+            let _ =
+                writeln!(out, " * {triad}: readings in {}, corrected in {}", ascii(unit.symbol()), ascii(si));
+        }
+    }
+    out.push_str(&c_temperature::head(imu));
+    for input in &file.inputs {
+        let _ = writeln!(out, " * recording: {} (SHA-256 {})", comment(&input.file), comment(&input.sha256));
+    }
+    out.push_str(
+        " *\n * Define CALIBRANT_REAL as float before including this for single precision.\n */\n\
+         #ifndef CALIBRANT_IMU_H\n#define CALIBRANT_IMU_H\n\n\
+         #ifndef CALIBRANT_REAL\n#define CALIBRANT_REAL double\n#endif\n",
+    );
+    out.push_str(&c_temperature::reference(imu));
+    for (triad, of) in
+        [(Triad::Accelerometer, correction.accelerometer), (Triad::Gyroscope, correction.gyroscope)]
+    {
+        let (Some(of), Some(unit)) = (of, imu.unit(triad)) else { continue };
+        let (unit, si) = (ascii(unit.symbol()), ascii(triad.stimulus_unit().symbol()));
+        let _ = writeln!(out, "\n/* Bias of the {triad}, {unit}. */");
+        let _ =
+            writeln!(out, "static const CALIBRANT_REAL calibrant_{triad}_bias[3] = {};", vector(&of.bias));
+        let _ = writeln!(out, "\n/* Matrix of its correction, ({si}) per ({unit}). */");
+        let _ = writeln!(
+            out,
+            "static const CALIBRANT_REAL calibrant_{triad}_matrix[3][3] = {};",
+            matrix(&of.matrix)
+        );
+        let terms = imu.parameters.thermal.triad(triad);
+        out.push_str(&c_temperature::coefficients(triad, terms, &unit));
+        let function = |at_reference: &str| match terms.is_none() {
+            true => at_reference.to_owned(),
+            false => c_temperature::with_temperature(triad, at_reference),
+        };
+        match triad {
+            Triad::Accelerometer => out.push_str(&function(ACCELEROMETER)),
+            Triad::Gyroscope => {
+                let _ = writeln!(out, "\n/* What it shows of specific force, ({unit}) per (m/s^2). */");
+                let _ = writeln!(
+                    out,
+                    "static const CALIBRANT_REAL calibrant_gyroscope_g_sensitivity[3][3] = {};",
+                    matrix(&correction.g_sensitivity)
+                );
+                out.push_str(&function(GYROSCOPE));
+            }
+        }
+    }
+    out.push_str("\n#endif\n");
+    Ok(out)
+}
+
+const ACCELEROMETER: &str = "
+/* Specific force (m/s^2) of a reading of the accelerometer. */
+static inline void calibrant_correct_accelerometer(const CALIBRANT_REAL raw[3], CALIBRANT_REAL force[3])
+{
+    CALIBRANT_REAL y[3];
+    int i;
+    for (i = 0; i < 3; i++)
+        y[i] = raw[i] - calibrant_accelerometer_bias[i];
+    for (i = 0; i < 3; i++)
+        force[i] = calibrant_accelerometer_matrix[i][0] * y[0] + calibrant_accelerometer_matrix[i][1] * y[1]
+                 + calibrant_accelerometer_matrix[i][2] * y[2];
+}
+";
+
+const GYROSCOPE: &str = "
+/* Angular rate (rad/s) of a reading of the gyroscope, at the corrected specific force (m/s^2; zeros where it is not known). */
+static inline void calibrant_correct_gyroscope(const CALIBRANT_REAL raw[3], const CALIBRANT_REAL force[3],
+                                               CALIBRANT_REAL rate[3])
+{
+    CALIBRANT_REAL y[3];
+    int i;
+    for (i = 0; i < 3; i++)
+        y[i] = raw[i] - calibrant_gyroscope_bias[i]
+             - (calibrant_gyroscope_g_sensitivity[i][0] * force[0] + calibrant_gyroscope_g_sensitivity[i][1] * force[1]
+                + calibrant_gyroscope_g_sensitivity[i][2] * force[2]);
+    for (i = 0; i < 3; i++)
+        rate[i] = calibrant_gyroscope_matrix[i][0] * y[0] + calibrant_gyroscope_matrix[i][1] * y[1]
+                + calibrant_gyroscope_matrix[i][2] * y[2];
+}
+";
+
+/// A unit in ASCII.
+fn ascii(unit: &str) -> String {
+    unit.replace('²', "^2")
+}
+
+/// A text that cannot end a comment.
+fn comment(text: &str) -> String {
+    text.replace("*/", "* /").replace(['\n', '\r'], " ")
+}
+
+pub(super) fn read(text: &str) -> Checked<CalibratedImuFile> {
+    let mut parameters = ImuParameters::identity();
+    let mut units = [None, None];
+    for (triad, unit) in Triad::ALL.into_iter().zip(&mut units) {
+        let Some(correction) = numbers(text, &format!("calibrant_{triad}_matrix"), 9)? else { continue };
+        let name = format!("calibrant_{triad}_bias");
+        let bias = numbers(text, &name, 3)?.ok_or_else(|| complaint(format!("`{name}` is missing"), HELP))?;
+        let Some(matrix) = Matrix3::from_row_slice(&correction).try_inverse() else {
+            return Err(complaint(format!("the matrix of the {triad} is singular"), "calibrate again"));
+        };
+        let sensor = SensorParameters { bias: vector3(&bias, &name)?, matrix };
+        *unit = Some(unit_of(text, triad)?);
+        match triad {
+            Triad::Accelerometer => parameters.accelerometer = sensor,
+            Triad::Gyroscope => {
+                parameters.gyroscope = sensor;
+                if let Some(entries) = numbers(text, "calibrant_gyroscope_g_sensitivity", 9)? {
+                    parameters.g_sensitivity = Matrix3::from_row_slice(&entries);
+                }
+            }
+        }
+    }
+    if units == [None, None] {
+        return Err(complaint(
+            "there is no `calibrant_accelerometer_matrix` and no `calibrant_gyroscope_matrix` in it",
+            HELP,
+        ));
+    }
+    let g_sensitivity = parameters.g_sensitivity != Matrix3::zeros();
+    parameters.thermal = c_temperature::read(text)?;
+    let mut quantities = ImuQuantity::full_list(units[0].is_some(), units[1].is_some(), g_sensitivity);
+    let terms = ImuQuantity::all_thermal(units[0].is_some(), units[1].is_some());
+    quantities.extend(terms.into_iter().filter(|term| term.of(&parameters) != 0.0));
+    let frame = text.lines().find_map(|line| line.strip_prefix(" * frame: ")).unwrap_or("not said");
+    let imu = CalibratedImu {
+        parameters,
+        accelerometer_unit: units[0],
+        gyroscope_unit: units[1],
+        quantities,
+        covariance: None,
+        frame: frame.trim().into(),
+    };
+    Ok(CalibratedImuFile {
+        imu,
+        noise: None,
+        inputs: Vec::new(),
+        format: ImuFormat::CHeader,
+        findings: Vec::new(),
+    })
+}
+
+fn unit_of(text: &str, triad: Triad) -> Checked<ReadingUnit> {
+    let before = format!(" * {triad}: readings in ");
+    let said = text.lines().find_map(|line| line.strip_prefix(&before)?.split(',').next());
+    let said =
+        said.ok_or_else(|| complaint(format!("the comment with the unit of the {triad} is missing"), HELP))?;
+    [triad.stimulus_unit(), ReadingUnit::Counts]
+        .into_iter()
+        .find(|unit| ascii(unit.symbol()) == said.trim())
+        .ok_or_else(|| complaint(format!("the unit of the {triad} is \"{}\"", said.trim()), HELP))
+}

@@ -1,0 +1,118 @@
+//! What temperature does to an IMU, in the C header: coefficients, and what the correction functions do with them.
+
+use super::arrays::vector3;
+use super::c_constants::{HELP, number, numbers, vector};
+use super::words::complaint;
+use crate::text::Checked;
+use calibrant_core::sensor::{CalibratedImu, HIGHEST_ORDER, Thermal, Triad, TriadThermal};
+use nalgebra::Vector3;
+use std::fmt::Write;
+
+const RANGE: &str = " * temperatures of the calibration: ";
+const REFERENCE: &str = "calibrant_reference_c";
+
+/// The lines of the head of the file.
+pub(super) fn head(imu: &CalibratedImu) -> String {
+    match imu.parameters.thermal.range_c {
+        Some([low, high]) if imu.follows_temperature() => {
+            format!("{RANGE}{low:?} to {high:?} degrees Celsius\n")
+        }
+        _ => String::new(),
+    }
+}
+
+/// The reference temperature, before everything that needs it.
+pub(super) fn reference(imu: &CalibratedImu) -> String {
+    if imu.parameters.thermal.is_none() {
+        return String::new();
+    }
+    format!(
+        "\n/* Temperature at which biases and matrices are given, degrees Celsius. */\n\
+         static const CALIBRANT_REAL {REFERENCE} = {:?};\n",
+        imu.parameters.thermal.reference_c
+    )
+}
+
+fn name(triad: Triad, part: &str, order: usize) -> String {
+    let power = if order > 1 { order.to_string() } else { String::new() };
+    format!("calibrant_{triad}_{part}_per_k{power}")
+}
+
+/// The coefficients of a sensor; empty where it does not follow temperature.
+pub(super) fn coefficients(triad: Triad, terms: &TriadThermal, unit: &str) -> String {
+    let mut out = String::new();
+    if terms.is_none() {
+        return out;
+    }
+    for (part, values, unit) in [("bias", &terms.bias, unit), ("scale", &terms.scale, "1")] {
+        for (m, value) in values.iter().enumerate() {
+            let power = if m > 0 { format!("^{}", m + 1) } else { String::new() };
+            let _ = writeln!(out, "\n/* What 1 K does to its {part}, ({unit}) per K{power}. */");
+            let _ = writeln!(
+                out,
+                "static const CALIBRANT_REAL {}[3] = {};",
+                name(triad, part, m + 1),
+                vector(value)
+            );
+        }
+    }
+    out
+}
+
+/// The correction of a sensor that follows temperature: that of one that does not, with the temperature as its second argument.
+pub(super) fn with_temperature(triad: Triad, function: &str) -> String {
+    let change = format!(
+        "    for (i = 0; i < 3; i++)\n        y[i] = (y[i] - tau * ({b1}[i] + tau * {b2}[i]))\n             / ((CALIBRANT_REAL)1 + tau * ({k1}[i] + tau * {k2}[i]));\n",
+        b1 = name(triad, "bias", 1),
+        b2 = name(triad, "bias", 2),
+        k1 = name(triad, "scale", 1),
+        k2 = name(triad, "scale", 2),
+    );
+    let result = match triad {
+        Triad::Accelerometer => "    for (i = 0; i < 3; i++)\n        force[i] =",
+        Triad::Gyroscope => "    for (i = 0; i < 3; i++)\n        rate[i] =",
+    };
+    function
+        .replacen(
+            "const CALIBRANT_REAL raw[3], ",
+            "const CALIBRANT_REAL raw[3], CALIBRANT_REAL temperature_c, ",
+            1,
+        )
+        .replacen(
+            "    CALIBRANT_REAL y[3];\n",
+            &format!(
+                "    const CALIBRANT_REAL tau = temperature_c - {REFERENCE};\n    CALIBRANT_REAL y[3];\n"
+            ),
+            1,
+        )
+        .replacen(result, &format!("{change}{result}"), 1)
+        .replacen(" of a reading of the", " of a reading, at a temperature in degrees Celsius, of the", 1)
+}
+
+/// What a header says of temperature.
+pub(super) fn read(text: &str) -> Checked<Thermal> {
+    let mut thermal = Thermal::none();
+    let Some(reference_c) = number(text, REFERENCE)? else { return Ok(thermal) };
+    thermal.reference_c = reference_c;
+    thermal.range_c = text.lines().find_map(|line| {
+        let (low, high) = line.strip_prefix(RANGE)?.strip_suffix(" degrees Celsius")?.split_once(" to ")?;
+        Some([low.parse().ok()?, high.parse().ok()?])
+    });
+    for (triad, terms) in
+        [(Triad::Accelerometer, &mut thermal.accelerometer), (Triad::Gyroscope, &mut thermal.gyroscope)]
+    {
+        for (part, values) in [("bias", &mut terms.bias), ("scale", &mut terms.scale)] {
+            for order in 1..=HIGHEST_ORDER {
+                let name = name(triad, part, order);
+                values[order - 1] = match numbers(text, &name, 3)? {
+                    Some(found) => vector3(&found, &name)?,
+                    None => Vector3::zeros(),
+                };
+            }
+        }
+    }
+    if thermal.is_none() {
+        return Err(complaint(format!("`{REFERENCE}` is there, and no temperature term"), HELP));
+    }
+    Ok(thermal)
+}

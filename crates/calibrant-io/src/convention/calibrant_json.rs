@@ -1,0 +1,122 @@
+//! calibrant JSON, schema 2: a whole IMU, with everything.
+//!
+//! Direction true → raw; frame in words, and by `gauge` where the matrix of the reference sensor (the accelerometer where there is one) has such a form;
+//! units in the names of the fields. Carries everything: covariance, g-sensitivity, counts, noise densities, the hashes of the recordings. Numbers have the
+//! fewest digits that read back to the same bits. Schema 1, `calibration.json` of one accelerometer, is read as well, and `truth.json` of a simulation.
+
+use super::arrays::missing;
+use super::core::ImuCore;
+use super::imu_noise::ImuNoise;
+use super::words::complaint;
+use super::{CalibratedImuFile, ImuFormat, schema_one, truth};
+use crate::json;
+use crate::text::Checked;
+use serde::{Deserialize, Serialize};
+
+const KIND: &str = "calibrated IMU";
+const HELP: &str = "give a file that calibrant wrote";
+
+/// How every file of this schema begins, whatever else it holds.
+#[derive(Serialize)]
+pub(crate) struct Heading {
+    schema: u32,
+    kind: &'static str,
+    program: String,
+}
+
+impl Heading {
+    pub(crate) fn new() -> Self {
+        Self { schema: 2, kind: KIND, program: format!("calibrant {}", env!("CARGO_PKG_VERSION")) }
+    }
+}
+
+#[derive(Serialize)]
+struct File {
+    #[serde(flatten)]
+    heading: Heading,
+    #[serde(flatten)]
+    core: ImuCore,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    noise: Option<NoiseFields>,
+}
+
+/// What is beside the core; a file of the estimator has more, which is not read here.
+#[derive(Deserialize)]
+struct Header {
+    schema: Option<serde_json::Value>,
+    status: Option<String>,
+    /// A simulation has one.
+    seed: Option<serde_json::Value>,
+    noise: Option<NoiseFields>,
+}
+
+#[derive(Serialize, Deserialize)]
+struct NoiseFields {
+    #[serde(rename = "accelerometer_density_mps2_per_sqrt_hz")]
+    accelerometer_density: Option<f64>,
+    #[serde(rename = "accelerometer_random_walk_mps3_per_sqrt_hz")]
+    accelerometer_random_walk: Option<f64>,
+    #[serde(rename = "gyroscope_density_radps_per_sqrt_hz")]
+    gyroscope_density: Option<f64>,
+    #[serde(rename = "gyroscope_random_walk_radps2_per_sqrt_hz")]
+    gyroscope_random_walk: Option<f64>,
+    update_rate_hz: Option<f64>,
+    rostopic: Option<String>,
+}
+
+pub(super) fn write(file: &CalibratedImuFile) -> String {
+    json::to_json(&File {
+        heading: Heading::new(),
+        core: ImuCore::of(&file.imu, &file.inputs),
+        noise: file.noise.as_ref().map(NoiseFields::of),
+    })
+}
+
+pub(super) fn read(text: &str) -> Checked<CalibratedImuFile> {
+    let broken = |error: &serde_json::Error| json::broken(error, "a calibration of calibrant", HELP);
+    let header: Header = serde_json::from_str(text).map_err(|error| broken(&error))?;
+    match header.schema {
+        Some(schema) if schema == 1 && header.seed.is_some() => return truth::read(text),
+        Some(schema) if schema == 1 => return schema_one::read(text),
+        Some(schema) if schema == 2 => (),
+        Some(schema) => {
+            let message = format!("schema {schema} of a calibration is not known to this version");
+            return Err(complaint(message, "1 and 2 are; use a newer calibrant"));
+        }
+        None => return Err(missing("schema")),
+    }
+    if let Some(status) = header.status.filter(|status| status != "converged") {
+        let message = format!("this calibration did not converge: its status is \"{status}\"");
+        return Err(complaint(message, "calibrate again; its report says what is wrong"));
+    }
+    let core: ImuCore = serde_json::from_str(text).map_err(|error| broken(&error))?;
+    let (imu, inputs) = core.into_imu()?;
+    let noise = header.noise.map(NoiseFields::into_noise).transpose()?;
+    Ok(CalibratedImuFile { imu, noise, inputs, format: ImuFormat::CalibrantJson, findings: Vec::new() })
+}
+
+impl NoiseFields {
+    fn of(noise: &ImuNoise) -> Self {
+        Self {
+            accelerometer_density: noise.accelerometer_density,
+            accelerometer_random_walk: noise.accelerometer_random_walk,
+            gyroscope_density: noise.gyroscope_density,
+            gyroscope_random_walk: noise.gyroscope_random_walk,
+            update_rate_hz: noise.update_rate_hz,
+            rostopic: noise.rostopic.clone(),
+        }
+    }
+
+    fn into_noise(self) -> Checked<ImuNoise> {
+        ImuNoise {
+            accelerometer_density: self.accelerometer_density,
+            accelerometer_random_walk: self.accelerometer_random_walk,
+            gyroscope_density: self.gyroscope_density,
+            gyroscope_random_walk: self.gyroscope_random_walk,
+            update_rate_hz: self.update_rate_hz,
+            rostopic: self.rostopic,
+            ..ImuNoise::default()
+        }
+        .checked()
+    }
+}

@@ -1,0 +1,81 @@
+//! Noise densities that stand beside a calibration.
+
+use super::words::complaint;
+use crate::text::Checked;
+use calibrant_core::sensor::Triad;
+
+/// Rates are the same to this part: clocks of two sensors differ by less, and the noise of a sample by half of it.
+const SAME_RATE: f64 = 0.01;
+
+/// Noise densities of an IMU, as Kalibr's `imu.yaml` has them.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ImuNoise {
+    /// White noise of the accelerometer, m/s²/√Hz.
+    pub accelerometer_density: Option<f64>,
+    /// Random walk of its bias, m/s³/√Hz.
+    pub accelerometer_random_walk: Option<f64>,
+    /// White noise of the gyroscope, rad/s/√Hz.
+    pub gyroscope_density: Option<f64>,
+    /// Random walk of its bias, rad/s²/√Hz.
+    pub gyroscope_random_walk: Option<f64>,
+    /// Sample rate, Hz.
+    pub update_rate_hz: Option<f64>,
+    /// Sample rates at which the densities of accelerometer and gyroscope were measured, Hz, where that is known: the files have one rate.
+    pub measured_at_hz: [Option<f64>; 2],
+    /// The ROS topic of the readings.
+    pub rostopic: Option<String>,
+}
+
+impl ImuNoise {
+    /// The same, where its numbers are positive and finite.
+    pub(super) fn checked(self) -> Checked<Self> {
+        for (name, value) in self.fields() {
+            if value.is_some_and(|value| !(value.is_finite() && value > 0.0)) {
+                return Err(complaint(
+                    format!("`{name}` is not a positive number"),
+                    "correct it or remove it",
+                ));
+            }
+        }
+        Ok(self)
+    }
+
+    /// What either has; where both have it, what `self` has.
+    #[must_use]
+    pub fn or(self, other: Self) -> Self {
+        Self {
+            accelerometer_density: self.accelerometer_density.or(other.accelerometer_density),
+            accelerometer_random_walk: self.accelerometer_random_walk.or(other.accelerometer_random_walk),
+            gyroscope_density: self.gyroscope_density.or(other.gyroscope_density),
+            gyroscope_random_walk: self.gyroscope_random_walk.or(other.gyroscope_random_walk),
+            update_rate_hz: self.update_rate_hz.or(other.update_rate_hz),
+            measured_at_hz: [0, 1].map(|k| self.measured_at_hz[k].or(other.measured_at_hz[k])),
+            rostopic: self.rostopic.or(other.rostopic),
+        }
+    }
+
+    /// A warning where the one rate of a file is not that of a sensor.
+    pub(super) fn of_rates(&self) -> Option<String> {
+        let rate = self.update_rate_hz?;
+        let is_other = |measured: &f64| (measured / rate - 1.0).abs() > SAME_RATE;
+        let (triad, measured) = Triad::ALL
+            .into_iter()
+            .zip(self.measured_at_hz)
+            .find_map(|(triad, measured)| Some((triad, measured.filter(is_other)?)))?;
+        Some(format!(
+            "update_rate is one number: {rate} Hz is written, but the {triad} has {measured} Hz. Kalibr takes the noise of a sample for the density times √update_rate, {:.2} times that of the \
+             {triad}: bring both sensors to one rate",
+            (rate / measured).sqrt()
+        ))
+    }
+
+    pub(super) fn fields(&self) -> [(&'static str, Option<f64>); 5] {
+        [
+            ("accelerometer_noise_density", self.accelerometer_density),
+            ("accelerometer_random_walk", self.accelerometer_random_walk),
+            ("gyroscope_noise_density", self.gyroscope_density),
+            ("gyroscope_random_walk", self.gyroscope_random_walk),
+            ("update_rate", self.update_rate_hz),
+        ]
+    }
+}

@@ -1,0 +1,214 @@
+//! imu_tk's `.calib`: one sensor in 21 numbers, misalignment `T` (3×3), scale `K` (3×3), bias `b` (3×1), separated by white space.
+//!
+//! Direction raw → true: `s = T K (y − b)`. imu_tk's own results have the upper gauge (`T` upper triangular with unit diagonal) for the accelerometer and the
+//! accelerometer's frame for the gyroscope; the file itself takes any `T`, and ours has `T_ij = C_ij/C_jj`. The file does not say which sensor it is of, nor the
+//! unit of its readings, so both are asked. imu_tk stops reading after 21 numbers: ours go on with comment lines that say it, and are read back
+//! without questions. What it cannot carry: the covariance; the g-sensitivity, without which the correction would be another.
+//!
+//! # References
+//! `tedaldi2014`, `imu_tk`
+
+use super::words::{complaint, written_by};
+use super::{CalibratedImuFile, ConventionOptions, ImuFormat};
+use crate::delimited::Lines;
+use crate::text::Checked;
+use calibrant_core::error::Complaint;
+use calibrant_core::sensor::{
+    CalibratedImu, Correction, ImuParameters, ImuQuantity, ReadingUnit, SensorParameters, Triad,
+};
+use nalgebra::{Matrix3, Vector3};
+use std::path::{Path, PathBuf};
+
+const COUNT: usize = 21;
+const HELP: &str = "imu_tk's file has 9 numbers of the misalignment, 9 of the scale and 3 of the bias";
+
+/// The pair of files that a name stands for where there is no file of that name.
+pub(super) fn pair_instead_of(path: &Path) -> Option<[PathBuf; 2]> {
+    if path.extension()? != "calib" || path.exists() {
+        return None;
+    }
+    let pair = Triad::ALL.map(|triad| name_of(path, triad));
+    pair.iter().all(|path| path.exists()).then_some(pair)
+}
+
+/// `NAME_acc.calib` and `NAME_gyro.calib` for `NAME.calib`: how imu_tk's programs name their files.
+pub(super) fn name_of(path: &Path, triad: Triad) -> PathBuf {
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    let ending = match triad {
+        Triad::Accelerometer => "acc",
+        Triad::Gyroscope => "gyro",
+    };
+    let extension =
+        path.extension().map_or_else(String::new, |extension| format!(".{}", extension.to_string_lossy()));
+    path.with_file_name(format!("{stem}_{ending}{extension}"))
+}
+
+/// The sensor that a file's name tells: `…_acc.calib`, `…_gyro.calib`.
+pub(super) fn triad_of_name(path: &Path) -> Option<Triad> {
+    let stem = path.file_stem()?.to_str()?.to_ascii_lowercase();
+    let (accelerometer, gyroscope) = (stem.contains("acc"), stem.contains("gyr"));
+    match (accelerometer, gyroscope) {
+        (true, false) => Some(Triad::Accelerometer),
+        (false, true) => Some(Triad::Gyroscope),
+        _ => None,
+    }
+}
+
+/// Both sensors of a pair of files.
+pub(super) fn joined(accelerometer: CalibratedImuFile, gyroscope: CalibratedImuFile) -> CalibratedImuFile {
+    let mut file = accelerometer;
+    file.imu.parameters.gyroscope = gyroscope.imu.parameters.gyroscope;
+    file.imu.gyroscope_unit = gyroscope.imu.gyroscope_unit;
+    file.imu.quantities = ImuQuantity::full_list(true, true, false);
+    if gyroscope.imu.frame != file.imu.frame {
+        file.findings.push(format!("the files name two frames, and one is supposed: {}", file.imu.frame));
+    }
+    file.findings.extend(
+        gyroscope.findings.into_iter().filter(|finding| !file.findings.contains(finding)).collect::<Vec<_>>(),
+    );
+    file
+}
+
+pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<CalibratedImuFile> {
+    let mut numbers = Vec::with_capacity(COUNT);
+    let (mut triad, mut unit, mut frame) = (None, None, None);
+    let mut last = 1;
+    for line in Lines::of(text) {
+        last = line.number;
+        if let Some(comment) = line.text.trim().strip_prefix('#') {
+            if let Some((key, value)) = comment.split_once(':') {
+                match key.trim() {
+                    "sensor" => triad = Triad::ALL.into_iter().find(|triad| triad.name() == value.trim()),
+                    "readings in" => unit = Some(value.trim().to_owned()),
+                    "frame" => frame = Some(value.trim().to_owned()),
+                    _ => {}
+                }
+            }
+            continue;
+        }
+        let mut from = 0;
+        for word in line.text.split_ascii_whitespace() {
+            let at = from + line.text[from..].find(word).unwrap_or(0);
+            from = at + word.len();
+            let complain = |message: String| {
+                Err(Box::new(Complaint::new(message, HELP).at_line(line.number).at_column(line.column(at))))
+            };
+            if numbers.len() == COUNT {
+                return complain(format!("there is more than {COUNT} numbers: {word}"));
+            }
+            match word.parse::<f64>() {
+                Ok(value) if value.is_finite() => numbers.push(value),
+                _ => return complain(format!("not a number: {word}")),
+            }
+        }
+    }
+    if numbers.len() < COUNT {
+        let message = format!("the file has {} of {COUNT} numbers", numbers.len());
+        return Err(Box::new(Complaint::new(message, HELP).at_line(last)));
+    }
+    if let (Some(said), Some(given)) = (triad, options.triad)
+        && said != given
+    {
+        return Err(complaint(
+            format!("the file says that it is of the {said}, and it was given as that of the {given}"),
+            "are the two files exchanged, or is --sensor wrong?",
+        ));
+    }
+    let Some(triad) = triad.or(options.triad) else {
+        return Err(complaint(
+            "is this the accelerometer's or the gyroscope's? The file does not say",
+            "say --sensor accelerometer or --sensor gyroscope, or give the pair NAME_acc.calib and NAME_gyro.calib as NAME.calib",
+        ));
+    };
+    let said = unit.as_deref().map(|said| {
+        [triad.stimulus_unit(), ReadingUnit::Counts].into_iter().find(|unit| unit.symbol() == said)
+    });
+    let unit = match said {
+        Some(Some(unit)) => unit,
+        Some(None) => {
+            return Err(complaint("its unit of readings is not known", "m/s², rad/s or counts"));
+        }
+        None => match options.units {
+            Some(units) => units.of(triad),
+            None => {
+                let scale = numbers[9].abs();
+                let [likely, option] =
+                    if scale < 0.1 { ["counts", "counts"] } else { [triad.stimulus_unit().symbol(), "si"] };
+                return Err(complaint(
+                    format!("in which unit are the readings of the {triad}? imu_tk's file does not say"),
+                    &format!(
+                        "say --unit si or --unit counts; a scale of {scale} looks like {likely}: --unit {option}"
+                    ),
+                ));
+            }
+        },
+    };
+    let matrix = |first: usize| Matrix3::from_row_slice(&numbers[first..first + 9]);
+    let Some(inverse) = (matrix(0) * matrix(9)).try_inverse() else {
+        return Err(complaint(format!("the matrix of the {triad} is singular"), "calibrate again"));
+    };
+    let sensor = SensorParameters { bias: Vector3::from_column_slice(&numbers[18..]), matrix: inverse };
+    let mut parameters = ImuParameters::identity();
+    let accelerometer = triad == Triad::Accelerometer;
+    if accelerometer {
+        parameters.accelerometer = sensor;
+    } else {
+        parameters.gyroscope = sensor;
+    }
+    let imu = CalibratedImu {
+        parameters,
+        accelerometer_unit: accelerometer.then_some(unit),
+        gyroscope_unit: (!accelerometer).then_some(unit),
+        quantities: ImuQuantity::full_list(accelerometer, !accelerometer, false),
+        covariance: None,
+        frame: frame.unwrap_or_else(|| "imu_tk's: that of its accelerometer, z along its z axis".into()),
+    };
+    Ok(CalibratedImuFile {
+        imu,
+        noise: None,
+        inputs: Vec::new(),
+        format: ImuFormat::ImuTk,
+        findings: Vec::new(),
+    })
+}
+
+pub(super) fn write(file: &CalibratedImuFile) -> Checked<Vec<(Triad, String)>> {
+    let imu = &file.imu;
+    if imu.gyroscope_unit.is_some() && imu.parameters.g_sensitivity != Matrix3::zeros() {
+        return Err(complaint(
+            "imu_tk's .calib has no place for the gyroscope's g-sensitivity, and the correction would be another without it",
+            "choose another format, write the accelerometer alone with --sensor accelerometer, or leave it out on purpose with --drop-g-sensitivity",
+        ));
+    }
+    let there = Triad::ALL.into_iter().filter_map(|triad| Some((triad, imu.unit(triad)?)));
+    there.map(|(triad, unit)| Ok((triad, text(imu, triad, unit)?))).collect()
+}
+
+fn text(imu: &CalibratedImu, triad: Triad, unit: ReadingUnit) -> Checked<String> {
+    let correction =
+        Correction::of(imu.parameters.triad(triad)).filter(|c| c.scale().iter().all(|&k| k != 0.0));
+    let Some(correction) = correction else {
+        return Err(complaint(
+            format!("the correction of the {triad} has a zero on its diagonal, and imu_tk's T has none"),
+            "turn the frame with --gauge upper",
+        ));
+    };
+    // + 0.0: no negative zeros
+    let row = |values: &[f64]| {
+        values.iter().map(|value| format!("{:>24?}", value + 0.0)).collect::<Vec<_>>().join(" ") + "\n"
+    };
+    let matrix = |matrix: &Matrix3<f64>| {
+        let rows = matrix.row_iter().map(|entries| row(&entries.iter().copied().collect::<Vec<_>>()));
+        rows.collect::<String>() + "\n"
+    };
+    let bias: String = correction.bias.iter().map(|&value| row(&[value])).collect();
+    Ok(format!(
+        "{}{}{bias}\n# {}; raw to true: s = T K (y - b), above T, K and b\n# sensor: {triad}\n# readings in: {}\n# corrected in: {}\n# frame: {}\n",
+        matrix(&correction.misalignment()),
+        matrix(&Matrix3::from_diagonal(&correction.scale())),
+        written_by(),
+        unit.symbol(),
+        triad.stimulus_unit().symbol(),
+        imu.frame.replace(['\n', '\r'], " ").trim(),
+    ))
+}

@@ -1,0 +1,203 @@
+//! imucal's JSON: the fields of its `FerrarisCalibrationInfo` and `TurntableCalibrationInfo`, format version 2.0.0.
+//!
+//! Direction true → raw by its fields, `y_a = K_a R_a f + b_a` and `y_g = K_g R_g ω + K_ga f + b_g`; it applies `f = R_a⁻¹ K_a⁻¹ (y_a − b_a)` and
+//! `ω = R_g⁻¹ K_g⁻¹ (y_g − K_ga f − b_g)`. `K` is diagonal with the lengths of the rows of `S`, so the rows of `R` have length 1: any true frame is carried; imucal's own is
+//! that of the six faces. Units are named: `from_acc_unit`, `from_gyr_unit` of the readings, `acc_unit`, `gyr_unit` of the corrected ones. Ours has rates
+//! in deg/s, the readings too where they are not counts (`a.u.`), as imucal itself has them. What it cannot carry: the covariance, and one sensor
+//! without the other.
+//!
+//! # References
+//! `ferraris1995`, `imucal`
+
+use super::arrays::{matrix3, rows, vector3};
+use super::words::{complaint, written_by};
+use super::{CalibratedImuFile, ConventionOptions, ImuFormat, RawUnits};
+use crate::json;
+use crate::text::Checked;
+use calibrant_core::sensor::{
+    CalibratedImu, ImuParameters, ImuQuantity, ReadingUnit, SensorParameters, Thermal, Triad,
+};
+use nalgebra::{Matrix3, Vector3};
+use serde::{Deserialize, Serialize};
+
+/// Standard gravity, m/s²: the unit g.
+const G: f64 = 9.80665;
+const DEGREE: f64 = std::f64::consts::PI / 180.0;
+const HELP: &str = "give the JSON of imucal's to_json_file";
+
+#[derive(Serialize, Deserialize)]
+#[allow(non_snake_case)] // imucal's names
+struct Fields {
+    acc_unit: Option<String>,
+    #[serde(alias = "gyro_unit")]
+    gyr_unit: Option<String>,
+    from_acc_unit: Option<String>,
+    from_gyr_unit: Option<String>,
+    comment: Option<String>,
+    K_a: Option<Vec<Vec<f64>>>,
+    R_a: Option<Vec<Vec<f64>>>,
+    b_a: Option<Vec<f64>>,
+    K_g: Option<Vec<Vec<f64>>>,
+    R_g: Option<Vec<Vec<f64>>>,
+    K_ga: Option<Vec<Vec<f64>>>,
+    b_g: Option<Vec<f64>>,
+    cal_type: Option<String>,
+    #[serde(rename = "_format_version")]
+    format_version: Option<String>,
+}
+
+/// What a unit is in SI; `None` for counts.
+fn factor(unit: &str, triad: Triad) -> Option<Option<f64>> {
+    match (triad, unit.trim()) {
+        (_, "a.u." | "counts" | "raw" | "LSB") => Some(None),
+        (Triad::Accelerometer, "m/s^2" | "m/s²" | "m/s**2" | "m/s2") => Some(Some(1.0)),
+        (Triad::Accelerometer, "g") => Some(Some(G)),
+        (Triad::Gyroscope, "rad/s") => Some(Some(1.0)),
+        (Triad::Gyroscope, "deg/s" | "dps" | "°/s") => Some(Some(DEGREE)),
+        _ => None,
+    }
+}
+
+/// The unit of the readings, and what one of them is in it (1 for counts).
+fn unit_of_readings(
+    said: Option<&String>,
+    field: &str,
+    triad: Triad,
+    given: Option<RawUnits>,
+) -> Checked<(ReadingUnit, f64)> {
+    let Some(said) = said else {
+        let Some(given) = given else {
+            return Err(complaint(
+                format!("in which unit are the readings of the {triad}? `{field}` is null"),
+                "say --unit si or --unit counts",
+            ));
+        };
+        return Ok((given.of(triad), 1.0));
+    };
+    match factor(said, triad) {
+        Some(Some(factor)) => Ok((triad.stimulus_unit(), factor)),
+        Some(None) => Ok((ReadingUnit::Counts, 1.0)),
+        None => Err(complaint(
+            format!("`{field}` is \"{said}\", which is not known"),
+            "known are m/s^2, g, deg/s, rad/s and a.u. for counts",
+        )),
+    }
+}
+
+pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<CalibratedImuFile> {
+    let fields: Fields =
+        serde_json::from_str(text).map_err(|error| json::broken(&error, "imucal's JSON", HELP))?;
+    match fields.cal_type.as_deref() {
+        Some("Ferraris" | "Turntable") => (),
+        Some(other) => {
+            return Err(complaint(
+                format!("cal_type \"{other}\" is not known"),
+                "Ferraris and Turntable are",
+            ));
+        }
+        None => return Err(complaint("`cal_type` is missing", HELP)),
+    }
+    let mut findings = Vec::new();
+    match fields.format_version.as_deref() {
+        Some("2.0.0") => (),
+        Some(other) => {
+            return Err(complaint(
+                format!("format version {other} is not known"),
+                "2.0.0 is, and files without one",
+            ));
+        }
+        None => {
+            findings.push("a file of imucal before 2.0, which does not name the units of its readings".into())
+        }
+    }
+    let matrix = |rows: &Option<Vec<Vec<f64>>>, name: &str| match rows {
+        Some(rows) => matrix3(rows, name),
+        None => Err(complaint(format!("`{name}` is missing"), HELP)),
+    };
+    let vector = |values: &Option<Vec<f64>>, name: &str| match values {
+        Some(values) => vector3(values, name),
+        None => Err(complaint(format!("`{name}` is missing"), HELP)),
+    };
+    let corrected = |said: &Option<String>, name: &str, triad: Triad| match said {
+        None => Err(complaint(format!("`{name}` is missing"), HELP)),
+        Some(said) => factor(said, triad).flatten().ok_or_else(|| {
+            complaint(
+                format!("`{name}` is \"{said}\", which is not known"),
+                "known are m/s^2, g, deg/s and rad/s",
+            )
+        }),
+    };
+    let (acc_unit, acc) = unit_of_readings(
+        fields.from_acc_unit.as_ref(),
+        "from_acc_unit",
+        Triad::Accelerometer,
+        options.units,
+    )?;
+    let (gyr_unit, gyr) =
+        unit_of_readings(fields.from_gyr_unit.as_ref(), "from_gyr_unit", Triad::Gyroscope, options.units)?;
+    let force = corrected(&fields.acc_unit, "acc_unit", Triad::Accelerometer)?;
+    let rate = corrected(&fields.gyr_unit, "gyr_unit", Triad::Gyroscope)?;
+    let parameters = ImuParameters {
+        accelerometer: SensorParameters {
+            bias: vector(&fields.b_a, "b_a")? * acc,
+            matrix: matrix(&fields.K_a, "K_a")? * matrix(&fields.R_a, "R_a")? * (acc / force),
+        },
+        gyroscope: SensorParameters {
+            bias: vector(&fields.b_g, "b_g")? * gyr,
+            matrix: matrix(&fields.K_g, "K_g")? * matrix(&fields.R_g, "R_g")? * (gyr / rate),
+        },
+        g_sensitivity: matrix(&fields.K_ga, "K_ga")? * (gyr / force),
+        thermal: Thermal::none(),
+    };
+    let frame =
+        fields.comment.as_deref().and_then(|comment| comment.split_once("frame: ")).map(|(_, frame)| frame);
+    let imu = CalibratedImu {
+        parameters,
+        accelerometer_unit: Some(acc_unit),
+        gyroscope_unit: Some(gyr_unit),
+        quantities: ImuQuantity::full_list(true, true, true),
+        covariance: None,
+        frame: frame.unwrap_or("imucal's: that of the faces on which the device was put").into(),
+    };
+    Ok(CalibratedImuFile { imu, noise: None, inputs: Vec::new(), format: ImuFormat::Imucal, findings })
+}
+
+/// `K` and `R` of `S = K R`: the lengths of the rows, and rows of length 1.
+fn factors(s: &Matrix3<f64>) -> (Matrix3<f64>, Matrix3<f64>) {
+    let lengths = Vector3::from_fn(|row, _| s.row(row).norm());
+    (Matrix3::from_diagonal(&lengths), Matrix3::from_fn(|row, column| s[(row, column)] / lengths[row]))
+}
+
+pub(super) fn write(file: &CalibratedImuFile) -> Checked<String> {
+    let imu = &file.imu;
+    let (Some(acc_unit), Some(gyr_unit)) = (imu.accelerometer_unit, imu.gyroscope_unit) else {
+        let absent = if imu.accelerometer_unit.is_some() { Triad::Gyroscope } else { Triad::Accelerometer };
+        return Err(complaint(
+            format!("imucal's JSON wants both sensors, and there is no {absent}"),
+            "choose another format",
+        ));
+    };
+    let counts = |unit: ReadingUnit| unit == ReadingUnit::Counts;
+    // one unit of the file's readings in ours; its rates are in deg/s
+    let gyr = if counts(gyr_unit) { 1.0 } else { DEGREE };
+    let (k_a, r_a) = factors(&imu.parameters.accelerometer.matrix);
+    let (k_g, r_g) = factors(&(imu.parameters.gyroscope.matrix * (DEGREE / gyr)));
+    let vector = |v: &Vector3<f64>| Some(v.iter().copied().collect());
+    let fields = Fields {
+        acc_unit: Some("m/s^2".into()),
+        gyr_unit: Some("deg/s".into()),
+        from_acc_unit: Some(if counts(acc_unit) { "a.u." } else { "m/s^2" }.into()),
+        from_gyr_unit: Some(if counts(gyr_unit) { "a.u." } else { "deg/s" }.into()),
+        comment: Some(format!("{}; frame: {}", written_by(), imu.frame)),
+        K_a: Some(rows(&k_a)),
+        R_a: Some(rows(&r_a)),
+        b_a: vector(&imu.parameters.accelerometer.bias),
+        K_g: Some(rows(&k_g)),
+        R_g: Some(rows(&r_g)),
+        K_ga: Some(rows(&(imu.parameters.g_sensitivity / gyr))),
+        b_g: vector(&(imu.parameters.gyroscope.bias / gyr)),
+        cal_type: Some("Ferraris".into()),
+        format_version: Some("2.0.0".into()),
+    };
+    Ok(json::to_json(&fields))
+}

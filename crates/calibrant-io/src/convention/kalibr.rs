@@ -1,0 +1,394 @@
+//! Kalibr's `imu.yaml`: noise densities, and with the scale-misalignment model the calibration.
+//!
+//! Direction true → raw, as its estimator predicts readings (`IccSensors.py`, March 2024): `y_a = M_a C_i_b f + b_a` and
+//! `y_g = M_g C_gyro_i C_i_b ω + A C_gyro_i C_i_b f + b_g`, `f` and `ω` in the body frame b. `M_a` and `M_g` are lower triangular, so that the x axis of frame i lies along
+//! the accelerometer's x axis; `C_i_b` is the rotation in `T_i_b`, the identity for a single IMU. So `S_a = M_a C_i_b`, `S_g = M_g C_gyro_i C_i_b`,
+//! `Γ = A C_gyro_i C_i_b`, and any `S` is carried: its triangular factor in `M`, the rotation in `C`.
+//!
+//! Readings are in m/s² and rad/s, `A` in (rad/s)/(m/s²). Kalibr estimates biases as curves in time and does not write them: they stand under a key
+//! `calibrant`, which its readers ignore, and so does the unit of readings that are counts. What it cannot carry: the covariance.
+//!
+//! # References
+//! `rehder2016`, `kalibr`
+
+use super::arrays::{matrix3, vector3};
+use super::file::LARGEST;
+use super::imu_noise::ImuNoise;
+use super::words::{complaint, written_by};
+use super::{CalibratedImuFile, ConventionOptions, ImuFormat, RawUnits};
+use crate::text::{self, Checked};
+use calibrant_core::error::{Complaint, Error, Result};
+use calibrant_core::sensor::{
+    CalibratedImu, Gauge, ImuParameters, ImuQuantity, Quantity, ReadingUnit, SensorParameters, Triad,
+};
+use nalgebra::{Matrix3, Vector3};
+use serde::Deserialize;
+use serde::de::IgnoredAny;
+use std::collections::BTreeMap;
+use std::fmt::Write;
+use std::path::Path;
+
+const HELP: &str = "give an imu.yaml as Kalibr writes it";
+#[derive(Deserialize)]
+struct Imu {
+    model: Option<String>,
+    #[serde(rename = "T_i_b")]
+    t_i_b: Option<Vec<Vec<f64>>>,
+    accelerometer_noise_density: Option<f64>,
+    accelerometer_random_walk: Option<f64>,
+    gyroscope_noise_density: Option<f64>,
+    gyroscope_random_walk: Option<f64>,
+    update_rate: Option<f64>,
+    rostopic: Option<String>,
+    accelerometers: Option<Accelerometers>,
+    gyroscopes: Option<Gyroscopes>,
+    calibrant: Option<Beside>,
+}
+
+#[derive(Deserialize)]
+struct Accelerometers {
+    #[serde(rename = "M")]
+    m: Option<Vec<Vec<f64>>>,
+    rx_i: Option<IgnoredAny>,
+}
+
+#[derive(Deserialize)]
+struct Gyroscopes {
+    #[serde(rename = "M")]
+    m: Option<Vec<Vec<f64>>>,
+    #[serde(rename = "A")]
+    a: Option<Vec<Vec<f64>>>,
+    #[serde(rename = "C_gyro_i")]
+    c_gyro_i: Option<Vec<Vec<f64>>>,
+}
+
+/// Our own key.
+#[derive(Deserialize)]
+struct Beside {
+    accelerometer_unit: Option<String>,
+    accelerometer_bias: Option<Vec<f64>>,
+    gyroscope_unit: Option<String>,
+    gyroscope_bias: Option<Vec<f64>>,
+    frame: Option<String>,
+}
+
+/// The one IMU of a file: its keys at the top, or below `imu0`.
+fn parse(text: &str) -> Checked<Imu> {
+    let broken = |error: serde_saphyr::Error| {
+        let error = error.without_snippet();
+        let message = error.to_string();
+        let mut complaint = Complaint::new(format!("not Kalibr's imu.yaml: {}", message.trim()), HELP);
+        if let Some(place) = error.location() {
+            let message = message.split(" at line ").next().unwrap_or(&message).trim().to_owned();
+            complaint.message = format!("not Kalibr's imu.yaml: {message}");
+            let number = |n: u64| usize::try_from(n).unwrap_or(1).max(1);
+            complaint = complaint.at_line(number(place.line())).at_column(number(place.column()));
+        }
+        Box::new(complaint)
+    };
+    let keys: BTreeMap<String, IgnoredAny> = serde_saphyr::from_str(text).map_err(broken)?;
+    let is_imu = |key: &&String| {
+        key.strip_prefix("imu").is_some_and(|n| !n.is_empty() && n.bytes().all(|byte| byte.is_ascii_digit()))
+    };
+    let imus: Vec<_> = keys.keys().filter(is_imu).collect();
+    match imus.as_slice() {
+        [] => serde_saphyr::from_str(text).map_err(broken),
+        [one] => {
+            if keys.len() > 1 {
+                return Err(complaint(
+                    format!("there are other keys beside {one}"),
+                    "leave only the IMU in the file",
+                ));
+            }
+            let mut imus: BTreeMap<String, Imu> = serde_saphyr::from_str(text).map_err(broken)?;
+            imus.remove(*one).ok_or_else(|| complaint("the file is empty", HELP))
+        }
+        [one, other, ..] => Err(complaint(
+            format!("the file has {one} and {other}, and one is read"),
+            "leave the one that you mean in the file",
+        )),
+    }
+}
+
+impl Imu {
+    fn noise(&self) -> Checked<Option<ImuNoise>> {
+        let noise = ImuNoise {
+            accelerometer_density: self.accelerometer_noise_density,
+            accelerometer_random_walk: self.accelerometer_random_walk,
+            gyroscope_density: self.gyroscope_noise_density,
+            gyroscope_random_walk: self.gyroscope_random_walk,
+            update_rate_hz: self.update_rate,
+            rostopic: self.rostopic.clone(),
+            ..ImuNoise::default()
+        }
+        .checked()?;
+        Ok((noise != ImuNoise::default()).then_some(noise))
+    }
+}
+
+/// Reads the noise densities of Kalibr's `imu.yaml`, the plain one that Kalibr reads or one that it wrote.
+///
+/// # Errors
+/// [`Error::Experiment`] with the file: not readable, no YAML, no noise in it, a number that is not positive.
+pub fn read_kalibr_noise(path: &Path) -> Result<ImuNoise> {
+    let read = || -> Checked<ImuNoise> {
+        let bytes = text::read_bytes(path, LARGEST, "the imu.yaml")?;
+        parse(text::as_text(&bytes)?)?
+            .noise()?
+            .ok_or_else(|| complaint("there are no noise densities in it", HELP))
+    };
+    read().map_err(|complaint| Error::experiment(complaint.in_file(path)))
+}
+
+pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<CalibratedImuFile> {
+    let imu = parse(text)?;
+    let noise = imu.noise()?;
+    let Some(accelerometers) = &imu.accelerometers else {
+        let model = imu.model.as_deref().unwrap_or("calibrated");
+        return Err(complaint(
+            format!("there is no calibration in it: model {model}, and no `accelerometers: M`"),
+            "run Kalibr with --imu-models scale-misalignment",
+        ));
+    };
+    let mut findings = Vec::new();
+    let needed = |rows: &Option<Vec<Vec<f64>>>, field: &str| match rows {
+        Some(rows) => matrix3(rows, field),
+        None => Err(complaint(format!("`{field}` is missing"), HELP)),
+    };
+    let c_i_b = match &imu.t_i_b {
+        None => Matrix3::identity(),
+        Some(rows) => pose(rows, &mut findings)?,
+    };
+    let optional = |rows: &Option<Vec<Vec<f64>>>, field: &str, otherwise: Matrix3<f64>| match rows {
+        Some(rows) => matrix3(rows, field),
+        None => Ok(otherwise),
+    };
+    let m_a = needed(&accelerometers.m, "accelerometers.M")?;
+    let beside = imu.calibrant.as_ref();
+    let unit = |triad: Triad, said: Option<&String>| unit_of(triad, said, options.units);
+    let bias =
+        |said: Option<&Vec<f64>>, field: &str| said.map_or(Ok(Vector3::zeros()), |b| vector3(b, field));
+    let said_biases = [
+        beside.and_then(|beside| beside.accelerometer_bias.as_ref()),
+        beside.and_then(|beside| beside.gyroscope_bias.as_ref()),
+    ];
+    let mut parameters = ImuParameters::identity();
+    parameters.accelerometer =
+        SensorParameters { bias: bias(said_biases[0], "calibrant.accelerometer_bias")?, matrix: m_a * c_i_b };
+    let accelerometer_unit =
+        Some(unit(Triad::Accelerometer, beside.and_then(|beside| beside.accelerometer_unit.as_ref()))?);
+    let gyroscope_unit = match &imu.gyroscopes {
+        None => None,
+        Some(gyroscopes) => {
+            let c_gyro_i = optional(&gyroscopes.c_gyro_i, "gyroscopes.C_gyro_i", Matrix3::identity())?;
+            rotation(&c_gyro_i, "gyroscopes.C_gyro_i")?;
+            parameters.gyroscope = SensorParameters {
+                bias: bias(said_biases[1], "calibrant.gyroscope_bias")?,
+                matrix: needed(&gyroscopes.m, "gyroscopes.M")? * c_gyro_i * c_i_b,
+            };
+            parameters.g_sensitivity =
+                optional(&gyroscopes.a, "gyroscopes.A", Matrix3::zeros())? * c_gyro_i * c_i_b;
+            Some(unit(Triad::Gyroscope, beside.and_then(|beside| beside.gyroscope_unit.as_ref()))?)
+        }
+    };
+    if said_biases[0].is_none() || gyroscope_unit.is_some() && said_biases[1].is_none() {
+        findings.push(
+            "Kalibr does not write biases (it estimates them as curves in time): they are zero here".into(),
+        );
+    }
+    if accelerometers.rx_i.is_some() {
+        findings.push("the lever arms of the accelerometer's axes (rx_i, ry_i, rz_i) are left out".into());
+    }
+    let frame = beside.and_then(|beside| beside.frame.clone()).unwrap_or_else(|| {
+        if c_i_b == Matrix3::identity() {
+            "Kalibr's: x along the accelerometer's x axis, y in the plane of its x and y axes".into()
+        } else {
+            "Kalibr's body frame".into()
+        }
+    });
+    let gyroscope = gyroscope_unit.is_some();
+    let g_sensitivity = parameters.g_sensitivity != Matrix3::zeros();
+    let mut quantities = ImuQuantity::full_list(true, gyroscope, g_sensitivity);
+    quantities.retain(|quantity| match quantity {
+        ImuQuantity::Of(triad, Quantity::Bias(_)) => said_biases[*triad as usize].is_some(),
+        _ => true,
+    });
+    let imu =
+        CalibratedImu { parameters, accelerometer_unit, gyroscope_unit, quantities, covariance: None, frame };
+    Ok(CalibratedImuFile { imu, noise, inputs: Vec::new(), format: ImuFormat::Kalibr, findings })
+}
+
+fn unit_of(triad: Triad, said: Option<&String>, given: Option<RawUnits>) -> Checked<ReadingUnit> {
+    match said {
+        None => Ok(given.map_or(triad.stimulus_unit(), |units| units.of(triad))),
+        Some(said) => [triad.stimulus_unit(), ReadingUnit::Counts]
+            .into_iter()
+            .find(|unit| unit.symbol() == said)
+            .ok_or_else(|| {
+                complaint(format!("`calibrant.{triad}_unit` is \"{said}\""), "m/s², rad/s or counts")
+            }),
+    }
+}
+
+/// The rotation of `T_i_b`; its translation is a lever arm, which the correction of a reading does not need.
+fn pose(rows: &[Vec<f64>], findings: &mut Vec<String>) -> Checked<Matrix3<f64>> {
+    if rows.len() != 4 || rows.iter().any(|row| row.len() != 4) {
+        return Err(complaint("`T_i_b` is not 4 × 4", HELP));
+    }
+    let c_i_b = Matrix3::from_fn(|row, column| rows[row][column]);
+    rotation(&c_i_b, "T_i_b")?;
+    if rows[..3].iter().any(|row| row[3] != 0.0) {
+        findings.push("the translation of T_i_b, a lever arm, is left out".into());
+    }
+    Ok(c_i_b)
+}
+
+fn rotation(c: &Matrix3<f64>, field: &str) -> Checked<()> {
+    let is_one = (c * c.transpose() - Matrix3::identity()).amax() < 1e-6 && c.determinant() > 0.0;
+    if is_one { Ok(()) } else { Err(complaint(format!("`{field}` is not a rotation"), HELP)) }
+}
+
+/// `L` and `Q` of `S = L Q`: lower triangular with positive diagonal, and a rotation.
+fn factors(s: &Matrix3<f64>, triad: Triad) -> Checked<(Matrix3<f64>, Matrix3<f64>)> {
+    if s.determinant() < 0.0 {
+        return Err(complaint(
+            format!("the axes of the {triad} are left-handed, which Kalibr's model cannot say"),
+            "one axis has the wrong sign: change the sign of its column in the recording and calibrate again",
+        ));
+    }
+    if Gauge::Lower.is_form_of(s) && s.diagonal().min() > 0.0 {
+        return Ok((*s, Matrix3::identity()));
+    }
+    let l = Gauge::Lower.apply(&SensorParameters { bias: Vector3::zeros(), matrix: *s }).matrix;
+    let l = Matrix3::from_fn(|row, column| if column > row { 0.0 } else { l[(row, column)] });
+    let q = l.try_inverse().map(|inverse| inverse * s);
+    q.map(|q| (l, q))
+        .ok_or_else(|| complaint(format!("the matrix of the {triad} is singular"), "calibrate again"))
+}
+
+pub(super) fn write(file: &CalibratedImuFile, warnings: &mut Vec<String>) -> Checked<String> {
+    let imu = &file.imu;
+    let Some(accelerometer_unit) = imu.accelerometer_unit else {
+        return Err(complaint(
+            "Kalibr's imu.yaml has no place for a gyroscope alone: its frame is the accelerometer's",
+            "choose another format",
+        ));
+    };
+    let noise = file.noise.clone().unwrap_or_default();
+    let (m_a, c_i_b) = factors(&imu.parameters.accelerometer.matrix, Triad::Accelerometer)?;
+    let mut out = format!("# {}: true to raw, y_a = M_a C_i_b f + b_a\nimu0:\n  T_i_b:\n", written_by());
+    for row in 0..3 {
+        let entries: Vec<f64> = c_i_b.row(row).iter().copied().chain([0.0]).collect();
+        line(&mut out, "  - ", &entries);
+    }
+    line(&mut out, "  - ", &[0.0, 0.0, 0.0, 1.0]);
+    let mut absent = Vec::new();
+    for (name, value) in noise.fields() {
+        match value {
+            Some(value) => put(&mut out, format_args!("  {name}: {}\n", number(value))),
+            None => {
+                put(&mut out, format_args!("  # {name}: not known, and Kalibr needs it\n"));
+                absent.push(name);
+            }
+        }
+    }
+    if let Some(topic) = &noise.rostopic {
+        put(&mut out, format_args!("  rostopic: {}\n", quoted(topic)));
+    }
+    out.push_str("  accelerometers:\n");
+    matrix(&mut out, "M", &m_a);
+    if let Some(gyroscope_unit) = imu.gyroscope_unit {
+        let (m_g, c_gyro_b) = factors(&imu.parameters.gyroscope.matrix, Triad::Gyroscope)?;
+        out.push_str("  gyroscopes:\n");
+        matrix(&mut out, "A", &(imu.parameters.g_sensitivity * c_gyro_b.transpose()));
+        matrix(&mut out, "C_gyro_i", &(c_gyro_b * c_i_b.transpose()));
+        matrix(&mut out, "M", &m_g);
+        beside(&mut out, imu, Some(gyroscope_unit));
+    } else {
+        warnings.push(
+            "Kalibr's own programs want a gyroscope in an imu.yaml of the scale-misalignment model".into(),
+        );
+        beside(&mut out, imu, None);
+    }
+    out.push_str("  model: scale-misalignment\n  time_offset: 0.0\n");
+    if c_i_b != Matrix3::identity() {
+        warnings.push(
+            "the true frame is not Kalibr's: T_i_b holds the rotation, which many readers ignore; --gauge lower makes it the identity".into(),
+        );
+    }
+    if imu.parameters.accelerometer.bias != Vector3::zeros()
+        || imu.parameters.gyroscope.bias != Vector3::zeros()
+    {
+        warnings.push("Kalibr's imu.yaml has no place for biases: they are under the key `calibrant`, which only calibrant reads".into());
+    }
+    if [Some(accelerometer_unit), imu.gyroscope_unit].contains(&Some(ReadingUnit::Counts)) {
+        warnings.push("Kalibr wants readings in m/s² and rad/s, this calibration is of counts: its unit is under the key `calibrant`".into());
+    }
+    if !absent.is_empty() {
+        warnings.push(format!(
+            "Kalibr needs {} as well: give an imu.yaml that has them with --noise",
+            absent.join(", ")
+        ));
+    }
+    Ok(out)
+}
+
+fn beside(out: &mut String, imu: &CalibratedImu, gyroscope_unit: Option<ReadingUnit>) {
+    out.push_str("  calibrant: # not read by Kalibr\n");
+    for (triad, unit) in [(Triad::Accelerometer, imu.accelerometer_unit), (Triad::Gyroscope, gyroscope_unit)]
+    {
+        if let Some(unit) = unit {
+            put(out, format_args!("    {triad}_unit: {}\n", unit.symbol()));
+            if imu.has_bias(triad) {
+                let bias: Vec<f64> = imu.parameters.triad(triad).bias.iter().copied().collect();
+                line(out, &format!("    {triad}_bias: "), &bias);
+            }
+        }
+    }
+    put(out, format_args!("    frame: {}\n", quoted(&imu.frame)));
+}
+
+fn matrix(out: &mut String, name: &str, matrix: &Matrix3<f64>) {
+    put(out, format_args!("    {name}:\n"));
+    for row in matrix.row_iter() {
+        line(out, "    - ", &row.iter().copied().collect::<Vec<_>>());
+    }
+}
+
+fn line(out: &mut String, before: &str, values: &[f64]) {
+    let values: Vec<_> = values.iter().map(|&value| number(value)).collect();
+    put(out, format_args!("{before}[{}]\n", values.join(", ")));
+}
+
+fn put(out: &mut String, text: std::fmt::Arguments<'_>) {
+    // writing into memory does not fail
+    let _ = out.write_fmt(text);
+}
+
+/// A number as YAML 1.1 has it too, where `1e-7` is a word: with a point, and a sign in the exponent.
+fn number(value: f64) -> String {
+    let text = format!("{value:?}");
+    let Some((mantissa, exponent)) = text.split_once('e') else { return text };
+    let point = if mantissa.contains('.') { "" } else { ".0" };
+    let sign = if exponent.starts_with('-') { "" } else { "+" };
+    format!("{mantissa}{point}e{sign}{exponent}")
+}
+
+/// A word in double quotes, with JSON's escapes, which are YAML's too.
+fn quoted(text: &str) -> String {
+    serde_json::Value::from(text).to_string()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::number;
+
+    #[test]
+    fn numbers_are_numbers_in_every_yaml() {
+        for (value, text) in
+            [(1e-7, "1.0e-7"), (1.5e-9, "1.5e-9"), (1e20, "1.0e+20"), (-0.25, "-0.25"), (3.0, "3.0")]
+        {
+            assert_eq!(number(value), text);
+        }
+    }
+}

@@ -1,0 +1,150 @@
+//! Noise densities from `noise.json`, as `calibrant noise` writes it, for formats that carry one number for a sensor.
+
+use super::ImuNoise;
+use super::file::LARGEST;
+use super::words::complaint;
+use crate::json;
+use crate::noise::NOISE_SCHEMA;
+use crate::text::{self, Checked};
+use calibrant_core::error::{Error, Result};
+use calibrant_core::sensor::{CalibratedImu, Triad};
+use serde::Deserialize;
+use std::path::Path;
+
+/// No sample time is better known than to this part of an interval.
+const FINEST: f64 = 1e-6;
+const HELP: &str = "give noise.json as `calibrant noise` writes it";
+
+#[derive(Deserialize)]
+struct NoiseFile {
+    schema: Option<u32>,
+    sensors: Vec<Sensor>,
+}
+
+#[derive(Deserialize)]
+struct Sensor {
+    sensor: String,
+    reading_unit: String,
+    interval_s: f64,
+    interval_jitter: Option<f64>,
+    first_sample: Option<usize>,
+    end_sample: Option<usize>,
+    axes: Vec<Axis>,
+    doubt: Option<String>,
+}
+
+#[derive(Deserialize)]
+struct Axis {
+    axis: String,
+    random_walk: Coefficient,
+    rate_random_walk: Coefficient,
+}
+
+#[derive(Deserialize)]
+struct Coefficient {
+    value: Option<f64>,
+}
+
+/// Reads the densities of `noise.json`: of the three axes the largest, in SI; the gain for readings in counts is that of the calibration.
+///
+/// A coefficient that is not determined on every axis is not given: Kalibr's users put a multiple of the datasheet's there.
+///
+/// # Errors
+/// [`Error::Experiment`] with the file: not readable, no `noise.json`, noise that is not that of a sensor at rest, a number that is not positive, counts of a sensor whose calibration is of SI readings.
+pub fn read_measured_noise(path: &Path, imu: &CalibratedImu) -> Result<ImuNoise> {
+    let read = || -> Checked<ImuNoise> {
+        let bytes = text::read_bytes(path, LARGEST, "noise.json")?;
+        let file: NoiseFile = serde_json::from_str(text::as_text(&bytes)?)
+            .map_err(|error| json::broken(&error, "the noise of a sensor", HELP))?;
+        if let Some(schema) = file.schema.filter(|schema| *schema > NOISE_SCHEMA) {
+            let message = format!("it is of version {schema}, and this program knows up to {NOISE_SCHEMA}");
+            return Err(complaint(message, "convert with the program that wrote it"));
+        }
+        let mut noise = ImuNoise::default();
+        for sensor in &file.sensors {
+            take(&mut noise, sensor, imu)?;
+        }
+        noise.checked()
+    };
+    read().map_err(|complaint| Error::experiment(complaint.in_file(path)))
+}
+
+fn take(noise: &mut ImuNoise, sensor: &Sensor, imu: &CalibratedImu) -> Checked<()> {
+    let Some(triad) = Triad::ALL.into_iter().find(|triad| triad.name() == sensor.sensor) else {
+        return Err(complaint(format!("no sensor is called \"{}\"", sensor.sensor), HELP));
+    };
+    let Some(unit) = imu.unit(triad) else { return Ok(()) };
+    if let Some(doubt) = &sensor.doubt {
+        let message = format!("the noise of the {triad} is not that of a sensor at rest: {doubt}");
+        return Err(complaint(
+            message,
+            "run `calibrant noise` on a recording at rest, where nothing vibrates; or write the densities into the file by hand",
+        ));
+    }
+    let is_physical = sensor.reading_unit == triad.stimulus_unit().symbol();
+    if !is_physical && unit.symbol() != sensor.reading_unit {
+        let message = format!(
+            "the noise of the {triad} is in {}, the calibration in {}",
+            sensor.reading_unit,
+            unit.symbol()
+        );
+        return Err(complaint(
+            message,
+            "run `calibrant noise` on the same readings, or give it their --gain",
+        ));
+    }
+    let matrix = &imu.parameters.triad(triad).matrix;
+    let gain = |name: &str| {
+        let row = ["x", "y", "z"].iter().position(|axis| *axis == name)?;
+        Some(if is_physical { 1.0 } else { matrix.row(row).norm() })
+    };
+    let largest = |of: fn(&Axis) -> &Coefficient| -> Option<f64> {
+        let densities: Option<Vec<f64>> =
+            sensor.axes.iter().map(|axis| Some(of(axis).value? / gain(&axis.axis)?)).collect();
+        densities?.into_iter().reduce(f64::max)
+    };
+    let (density, walk) = (largest(|axis| &axis.random_walk), largest(|axis| &axis.rate_random_walk));
+    match triad {
+        Triad::Accelerometer => {
+            (noise.accelerometer_density, noise.accelerometer_random_walk) = (density, walk)
+        }
+        Triad::Gyroscope => (noise.gyroscope_density, noise.gyroscope_random_walk) = (density, walk),
+    }
+    noise.update_rate_hz = Some(sensor.rate_hz());
+    noise.measured_at_hz[triad as usize] = noise.update_rate_hz;
+    Ok(())
+}
+
+impl Sensor {
+    /// The rate, to the digits that the sample times tell: the ends of `n` intervals are known to the jitter of a time.
+    fn rate_hz(&self) -> f64 {
+        let rate = self.interval_s.recip();
+        let samples = self.first_sample.zip(self.end_sample).map(|(first, end)| end.saturating_sub(first));
+        let jitter = self.interval_jitter.unwrap_or(0.0).max(FINEST);
+        let tolerance = rate * jitter / samples.unwrap_or(1).max(1) as f64;
+        let mut rounded = (0..17_usize).filter_map(|digits| format!("{rate:.digits$e}").parse::<f64>().ok());
+        rounded.find(|rounded| (rounded - rate).abs() <= tolerance).unwrap_or(rate)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_rate_has_the_digits_that_its_times_tell() {
+        let rate = |rate_hz: f64, jitter: f64, samples: usize| {
+            let text = format!(
+                r#"{{"sensor": "gyroscope", "reading_unit": "rad/s", "interval_s": {:?}, "interval_jitter": {jitter:?}, "first_sample": 0,
+                    "end_sample": {samples}, "axes": []}}"#,
+                1.0 / rate_hz
+            );
+            serde_json::from_str::<Sensor>(&text).expect("a sensor").rate_hz()
+        };
+        assert_eq!(rate(99.999_999_999_999_96, 0.0, 6000), 100.0);
+        // 5206 intervals to a hundredth of one: 2e-6 of the rate
+        assert_eq!(rate(100.009_512_3, 0.01, 5206), 100.0095);
+        assert_eq!(rate(100.009_812_3, 0.0, 5206), 100.009_812_3);
+        assert_eq!(rate(102.4, 1e-9, 3000), 102.4);
+    }
+}

@@ -1,0 +1,45 @@
+//! Calibrations of an IMU in the formats of other programs, and in our own.
+//!
+//! | format | file | direction | true frame | units of readings | cannot carry |
+//! |---|---|---|---|---|---|
+//! | [`CalibrantJson`](ImuFormat::CalibrantJson) | `.json` | true → raw | any, said in words and by its gauge | m/s², rad/s, counts | |
+//! | [`Kalibr`](ImuFormat::Kalibr) | `imu.yaml` | true → raw | `M` lower triangular; another frame through `T_i_b` | m/s², rad/s | covariance; temperature; biases and counts only in keys that Kalibr does not read |
+//! | [`ImuTk`](ImuFormat::ImuTk) | `.calib`, one for each sensor | raw → true | any; its own results have the upper gauge | not said | covariance, g-sensitivity, temperature |
+//! | [`Imucal`](ImuFormat::Imucal) | `.json` with `cal_type` | true → raw | any | named; true rates in deg/s | covariance; temperature; one sensor alone |
+//! | [`CHeader`](ImuFormat::CHeader) | `.h` | raw → true | any, said in words | named | covariance |
+//!
+//! What a format cannot carry is told as a warning when it is written, and refused where the correction itself would change. What a reader had to
+//! suppose is told as a finding; what is ambiguous (the unit of imu_tk's readings) is asked.
+
+mod arrays;
+mod c_constants;
+mod c_header;
+mod c_temperature;
+mod calibrant_json;
+mod check;
+mod core;
+mod file;
+mod format;
+mod imu_noise;
+mod imu_tk;
+mod imucal;
+mod kalibr;
+mod measured_noise;
+mod options;
+mod read;
+mod schema_one;
+mod temperature;
+mod truth;
+mod words;
+mod write;
+
+pub(crate) use calibrant_json::Heading;
+pub(crate) use core::ImuCore;
+pub use file::{CalibratedImuFile, WrittenImu};
+pub use format::ImuFormat;
+pub use imu_noise::ImuNoise;
+pub use kalibr::read_kalibr_noise;
+pub use measured_noise::read_measured_noise;
+pub use options::{ConventionOptions, RawUnits};
+pub use read::{parse_calibrated_imu, read_calibrated_imu};
+pub use write::{calibrated_imu_texts, write_calibrated_imu};

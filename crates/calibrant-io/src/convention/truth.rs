@@ -1,0 +1,119 @@
+//! `truth.json` of a simulated sensor, read as a calibration without a covariance: its values are exact.
+
+use super::core::{check_direction, quantity_of};
+use super::words::complaint;
+use super::{CalibratedImuFile, ImuFormat};
+use crate::json;
+use crate::text::Checked;
+use calibrant_core::sensor::{
+    Axis, CalibratedImu, Gauge, ImuParameters, ImuQuantity, Quantity, ReadingUnit, Triad,
+};
+use nalgebra::Matrix3;
+use serde::Deserialize;
+
+const KIND: &str = "the truth of a simulation";
+const HELP: &str = "give a truth.json that `calibrant simulate` wrote";
+
+/// Everything is optional, so that what is missing can be named.
+#[derive(Deserialize)]
+struct File {
+    seed: Option<u64>,
+    convention: Option<String>,
+    gauge: Option<String>,
+    reference_c: Option<f64>,
+    parameters: Option<Vec<Value>>,
+    #[serde(default)]
+    fixed: Vec<Value>,
+}
+
+#[derive(Deserialize)]
+struct Value {
+    name: String,
+    unit: String,
+    value: f64,
+}
+
+impl Value {
+    /// Its name among those of an IMU: one accelerometer's have no sensor.
+    fn full_name(&self) -> String {
+        let of_imu = Triad::ALL.iter().any(|triad| self.name.starts_with(&format!("{triad}.")));
+        if of_imu { self.name.clone() } else { format!("{}.{}", Triad::Accelerometer, self.name) }
+    }
+}
+
+pub(super) fn read(text: &str) -> Checked<CalibratedImuFile> {
+    let file: File = serde_json::from_str(text).map_err(|error| json::broken(&error, KIND, HELP))?;
+    file.convention.iter().try_for_each(|said| check_direction("convention", said))?;
+    let missing = |field: &str| complaint(format!("in {KIND} the field `{field}` is missing"), HELP);
+    let listed = file.parameters.ok_or_else(|| missing("parameters"))?;
+    let known = |gauge: &String| Gauge::ALL.iter().any(|of| of.name() == gauge.as_str());
+    if let Some(gauge) = file.gauge.as_ref().filter(|gauge| !known(gauge)) {
+        return Err(complaint(format!("the gauge \"{gauge}\" is none that is known"), HELP));
+    }
+    let names: Vec<String> = listed.iter().map(Value::full_name).collect();
+    let of = |triad: Triad| listed.iter().zip(&names).filter(move |(_, name)| name.starts_with(triad.name()));
+    let unit = |triad: Triad| {
+        of(triad).next()?;
+        let counts = of(triad).any(|(value, _)| value.unit.starts_with(ReadingUnit::Counts.symbol()));
+        Some(if counts { ReadingUnit::Counts } else { triad.stimulus_unit() })
+    };
+    let mut imu = CalibratedImu {
+        parameters: ImuParameters::identity(),
+        accelerometer_unit: unit(Triad::Accelerometer),
+        gyroscope_unit: unit(Triad::Gyroscope),
+        quantities: Vec::new(),
+        covariance: None,
+        frame: match &file.gauge {
+            Some(gauge) => {
+                format!("fixed by the {gauge} gauge of the accelerometer, with a positive diagonal")
+            }
+            None => "that of the simulation".into(),
+        },
+    };
+    // what is not listed is zero
+    if imu.accelerometer_unit.is_some() {
+        imu.parameters.accelerometer.matrix = Matrix3::zeros();
+    }
+    if imu.gyroscope_unit.is_some() {
+        imu.parameters.gyroscope.matrix = Matrix3::zeros();
+    }
+    let symmetric = (file.gauge.as_deref() == Some(Gauge::Symmetric.name())).then_some(&names);
+    let estimated = listed.len();
+    for (i, value) in listed.iter().chain(&file.fixed).enumerate() {
+        let name = value.full_name();
+        let quantity = quantity_of(&name, &imu, symmetric)
+            .ok_or_else(|| complaint(format!("\"{}\" is no parameter of a sensor", value.name), HELP))?;
+        let wanted = quantity.unit(imu.unit(quantity.triad()).unwrap_or(quantity.triad().stimulus_unit()));
+        if value.unit != wanted {
+            let message = format!("{name} is in \"{}\", and {wanted} is expected", value.unit);
+            return Err(complaint(message, HELP));
+        }
+        if imu.quantities.contains(&quantity) {
+            return Err(complaint(format!("{name} stands twice"), HELP));
+        }
+        quantity.add_to(&mut imu.parameters, value.value);
+        if i < estimated {
+            imu.quantities.push(quantity);
+        }
+    }
+    for triad in Triad::ALL.into_iter().filter(|&triad| imu.unit(triad).is_some()) {
+        let scale = |axis: &Axis| ImuQuantity::Of(triad, Quantity::Scale(*axis)).of(&imu.parameters) != 0.0;
+        if !Axis::ALL.iter().all(scale) {
+            return Err(complaint(
+                format!("the truth has fewer than three scale factors of the {triad}: it has not three axes"),
+                "use its parameters from the file itself",
+            ));
+        }
+    }
+    if imu.quantities.iter().any(|quantity| matches!(quantity, ImuQuantity::Thermal(..))) {
+        imu.parameters.thermal.reference_c = file.reference_c.ok_or_else(|| missing("reference_c"))?;
+    }
+    let seed = file.seed.map_or_else(String::new, |seed| format!(", seed {seed}"));
+    Ok(CalibratedImuFile {
+        imu,
+        noise: None,
+        inputs: Vec::new(),
+        format: ImuFormat::CalibrantJson,
+        findings: vec![format!("{KIND}{seed}: its values are exact")],
+    })
+}

@@ -1,0 +1,13 @@
+//! Words that all formats share.
+
+use calibrant_core::error::Complaint;
+
+/// Program and version, for the first line of a file.
+pub(super) fn written_by() -> String {
+    format!("written by calibrant {}", env!("CARGO_PKG_VERSION"))
+}
+
+/// A complaint without a place.
+pub(super) fn complaint(message: impl Into<String>, help: &str) -> Box<Complaint> {
+    Box::new(Complaint::new(message, help))
+}

@@ -1,0 +1,80 @@
+//! Writes a calibration in any format.
+
+use super::file::{CalibratedImuFile, WrittenImu};
+use super::words::complaint;
+use super::{ImuFormat, c_header, calibrant_json, check, imu_tk, imucal, kalibr};
+use crate::output::write_atomically;
+use crate::text::Checked;
+use calibrant_core::error::{Error, Result};
+use calibrant_core::sensor::Triad;
+use std::path::Path;
+
+/// Writes a calibration of an IMU in a format.
+///
+/// imu_tk's format has one file for each sensor: of a whole IMU, `NAME.calib` becomes `NAME_acc.calib` and `NAME_gyro.calib`.
+///
+/// # Errors
+/// [`Error::Experiment`] where the format cannot carry the correction, with the reason; [`Error::Output`] where a file cannot be written.
+pub fn write_calibrated_imu(path: &Path, file: &CalibratedImuFile, format: ImuFormat) -> Result<WrittenImu> {
+    let (texts, warnings) = text_of(file, format).map_err(|complaint| Error::experiment(*complaint))?;
+    let mut files = Vec::new();
+    for (triad, text) in &texts {
+        let place = match triad {
+            Some(triad) if texts.len() > 1 => imu_tk::name_of(path, *triad),
+            _ => path.to_path_buf(),
+        };
+        write_atomically(&place, |out| out.write_all(text.as_bytes()))?;
+        files.push(place);
+    }
+    Ok(WrittenImu { files, warnings })
+}
+
+/// The text that [`write_calibrated_imu`] writes: one for each file, with the sensor where a file is of one sensor.
+///
+/// # Errors
+/// [`Error::Experiment`] where the format cannot carry the correction.
+pub fn calibrated_imu_texts(
+    file: &CalibratedImuFile,
+    format: ImuFormat,
+) -> Result<Vec<(Option<Triad>, String)>> {
+    text_of(file, format).map(|(texts, _)| texts).map_err(|complaint| Error::experiment(*complaint))
+}
+
+type Texts = (Vec<(Option<Triad>, String)>, Vec<String>);
+
+fn text_of(file: &CalibratedImuFile, format: ImuFormat) -> Checked<Texts> {
+    check::usable(&file.imu)?;
+    let mut warnings = Vec::new();
+    if format != ImuFormat::CalibrantJson && file.imu.covariance.is_some() {
+        warnings.push(format!(
+            "{} has no place for the covariance: keep the calibrant JSON for the standard deviations",
+            format.title()
+        ));
+    }
+    if file.imu.follows_temperature() && !matches!(format, ImuFormat::CalibrantJson | ImuFormat::CHeader) {
+        return Err(complaint(
+            format!(
+                "{} has no place for what temperature does to bias and gain, and the correction would be another without it",
+                format.title()
+            ),
+            "choose another format, or take the values at one temperature with --temperature CELSIUS",
+        ));
+    }
+    let one = |text: String| vec![(None, text)];
+    let texts = match format {
+        ImuFormat::CalibrantJson => one(calibrant_json::write(file)),
+        ImuFormat::Kalibr => one(kalibr::write(file, &mut warnings)?),
+        ImuFormat::ImuTk => {
+            imu_tk::write(file)?.into_iter().map(|(triad, text)| (Some(triad), text)).collect()
+        }
+        ImuFormat::Imucal => one(imucal::write(file)?),
+        ImuFormat::CHeader => one(c_header::write(file)?),
+    };
+    if let Some(noise) = &file.noise {
+        warnings.extend(match format {
+            ImuFormat::CalibrantJson | ImuFormat::Kalibr => noise.of_rates(),
+            _ => Some(format!("{} has no place for the noise densities", format.title())),
+        });
+    }
+    Ok((texts, warnings))
+}

@@ -1,0 +1,34 @@
+//! `[calibrate]`: how a recording is evaluated.
+
+use super::document::Section;
+use super::spreads::need_spreads;
+use calibrant_core::error::Result;
+use calibrant_core::sensor::Sensor;
+
+/// What is assumed of the parameters before the recording is seen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Prior {
+    /// Nothing.
+    #[default]
+    None,
+    /// The datasheet: nominal values with their spread.
+    Datasheet,
+}
+
+/// What `[calibrate]` asks for.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct CalibrateOptions {
+    /// What is assumed of the parameters before the recording is seen.
+    pub prior: Prior,
+}
+
+/// Reads `[calibrate]`.
+pub(super) fn read(section: &Section<'_>, sensor: &Sensor) -> Result<CalibrateOptions> {
+    let prior = section.get("prior").map_or(Ok(Prior::None), |entry| {
+        entry.word(&[("none", Prior::None), ("datasheet", Prior::Datasheet)])
+    })?;
+    if prior == Prior::Datasheet {
+        need_spreads(section, "prior", sensor)?;
+    }
+    Ok(CalibrateOptions { prior })
+}

@@ -1,0 +1,164 @@
+//! `[holds]`: static calibration in several poses.
+
+use super::bounds::Bounds;
+use super::direction::direction;
+use super::document::{Entry, Section};
+use super::motion::RATE_HZ;
+use calibrant_core::error::Result;
+use calibrant_core::motion::Gravity;
+use calibrant_core::sensor::Gauge;
+use calibrant_core::simulate::{MOST_SAMPLES, TURN_S};
+use nalgebra::Vector3;
+
+const GRAVITY: Bounds = Bounds::from(0.1, 100.0, "m/s²");
+/// Faces that are met worse are none.
+const TILT: Bounds = Bounds::from(0.0, 10.0, "degrees");
+const GRAVITY_SD: Bounds = Bounds::from(0.0, 1.0, "m/s²");
+const LATITUDE: Bounds = Bounds::from(-90.0, 90.0, "degrees");
+const HEIGHT: Bounds = Bounds::from(-12_000.0, 100_000.0, "m");
+const TIME: Bounds = Bounds::from(-1e12, 1e12, "s");
+const DURATION: Bounds = Bounds::above(0.0, 1e6, "s");
+
+/// A static calibration, as `[holds]` describes it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HoldsPlan {
+    /// Gravity where the recording was made.
+    pub gravity: Gravity,
+    /// Geographic latitude, degrees, where it is given: for the Earth's rate.
+    pub latitude_deg: Option<f64>,
+    /// Where the value of gravity comes from, in words: `given`, or `from latitude 52.2°, height 30 m`.
+    pub gravity_source: String,
+    /// Convention that fixes the true frame.
+    pub gauge: Gauge,
+    /// Start and end of each hold, s, in order, where the user gives them; otherwise they are looked for.
+    pub intervals_s: Option<Vec<(f64, f64)>>,
+    /// Direction of the specific force (up) in each of these holds, where it is known.
+    pub directions: Option<Vec<Vector3<f64>>>,
+    /// How well these directions are met, rad about each axis; by the scatter of the holds where it is not given.
+    pub face_sd_rad: Option<f64>,
+    /// Shortest stretch of stillness that counts as a hold, s.
+    pub minimum_hold_s: f64,
+    /// Number of poses of a simulated recording.
+    pub poses: usize,
+    /// Duration of each simulated hold, s.
+    pub hold_s: f64,
+    /// Sample rate of a simulated recording, Hz.
+    pub rate_hz: f64,
+}
+
+/// Reads `[holds]`. The gyroscope of an IMU feels the Earth turn: a latitude beside a value of gravity is for that.
+pub(super) fn read(section: &Section<'_>, is_imu: bool) -> Result<HoldsPlan> {
+    let (gravity, gravity_source) = read_gravity(section, is_imu)?;
+    let latitude_deg = section.get("latitude_deg").map(|entry| entry.number(&LATITUDE)).transpose()?;
+    let gauge = section
+        .need("gauge", "gauge = \"upper\" (as imu_tk), \"lower\" (as Kalibr) or \"symmetric\"")?
+        .word(&[("lower", Gauge::Lower), ("upper", Gauge::Upper), ("symmetric", Gauge::Symmetric)])?;
+    let number = |key: &str, bounds: &Bounds, otherwise: f64| {
+        section.get(key).map_or(Ok(otherwise), |entry| entry.number(bounds))
+    };
+    let poses = section.get("poses").map_or(Ok(24), |entry| entry.size(1, 1_000_000))?;
+    let hold_s = number("hold_s", &DURATION, 5.0)?;
+    let rate_hz = number("rate_hz", &RATE_HZ, 100.0)?;
+    let samples = poses as f64 * (hold_s + TURN_S) * rate_hz;
+    if samples > MOST_SAMPLES {
+        let message = format!(
+            "poses × (hold_s + {TURN_S} s for a turn) × rate_hz is {samples:.1e} samples, at most {MOST_SAMPLES:.0e} fit into memory"
+        );
+        return Err(section.complain(&message, "lower one of the three", ""));
+    }
+    if hold_s * rate_hz < 1.0 - 1e-9 {
+        let message = format!("a hold of {hold_s} s at {rate_hz} Hz has less than one sample step");
+        return Err(section.complain(&message, "raise rate_hz or hold_s", ""));
+    }
+    let intervals_s = section.get("intervals_s").map(|entry| read_intervals(&entry)).transpose()?;
+    let directions =
+        section.get("directions").map(|entry| read_directions(&entry, intervals_s.as_deref())).transpose()?;
+    let face_sd = section.get("face_sd_deg").map(|entry| entry.number(&TILT)).transpose()?;
+    Ok(HoldsPlan {
+        gravity,
+        latitude_deg,
+        gravity_source,
+        gauge,
+        intervals_s,
+        directions,
+        face_sd_rad: face_sd.map(f64::to_radians),
+        minimum_hold_s: number("minimum_hold_s", &DURATION, 1.0)?,
+        poses,
+        hold_s,
+        rate_hz,
+    })
+}
+
+fn read_gravity(section: &Section<'_>, is_imu: bool) -> Result<(Gravity, String)> {
+    const HELP: &str = "give gravity_mps2, or latitude_deg and height_m";
+    let sd = section.get("gravity_sd_mps2").map(|entry| entry.number(&GRAVITY_SD)).transpose()?;
+    let (given, latitude, height) =
+        (section.get("gravity_mps2"), section.get("latitude_deg"), section.get("height_m"));
+    match (given, latitude, height) {
+        (Some(_), Some(entry), _) if !is_imu => {
+            Err(entry.complain("gravity is given twice", format!("{HELP}, not both")))
+        }
+        (Some(_), _, Some(entry)) => {
+            let help =
+                if is_imu { "; latitude_deg alone may stand beside it, for the Earth's rate" } else { "" };
+            Err(entry.complain("gravity is given twice", format!("{HELP}, not both{help}")))
+        }
+        (Some(entry), _, None) => {
+            let gravity = Gravity { magnitude_mps2: entry.number(&GRAVITY)?, sd_mps2: sd.unwrap_or(0.0) };
+            Ok((gravity, "given".into()))
+        }
+        (None, Some(latitude), Some(height)) => {
+            let (latitude, height) = (latitude.number(&LATITUDE)?, height.number(&HEIGHT)?);
+            let mut gravity = Gravity::from_latitude(latitude, height);
+            if let Some(sd) = sd {
+                gravity.sd_mps2 = sd;
+            }
+            Ok((gravity, format!("from latitude {latitude}°, height {height} m")))
+        }
+        (None, Some(_), None) => Err(section.missing("height_m", "latitude_deg and height_m go together")),
+        (None, None, Some(_)) => {
+            Err(section.missing("latitude_deg", "latitude_deg and height_m go together"))
+        }
+        (None, None, None) => Err(section.missing("gravity_mps2", HELP)),
+    }
+}
+
+fn read_directions(entry: &Entry<'_>, intervals: Option<&[(f64, f64)]>) -> Result<Vec<Vector3<f64>>> {
+    const HELP: &str =
+        "one for each of intervals_s, in the same order: [\"x\", \"-x\", \"y\", \"-y\", \"z\", \"-z\"]";
+    let directions: Vec<Vector3<f64>> = entry.items(HELP)?.iter().map(direction).collect::<Result<_>>()?;
+    if intervals.map_or(0, <[_]>::len) == directions.len() {
+        return Ok(directions);
+    }
+    let message = format!("{} directions for {} holds", directions.len(), intervals.map_or(0, <[_]>::len));
+    Err(entry.complain(message, HELP))
+}
+
+fn read_intervals(entry: &Entry<'_>) -> Result<Vec<(f64, f64)>> {
+    const HELP: &str = "start and end of each hold in seconds: [[0.0, 50.0], [52.0, 57.0]]";
+    let mut intervals: Vec<(f64, f64)> = Vec::new();
+    let items = entry.items(HELP)?;
+    if items.is_empty() {
+        return Err(
+            entry.complain("no hold is given", format!("{HELP}; without this key they are looked for"))
+        );
+    }
+    for item in items {
+        let pair = item.items(HELP)?;
+        let [start, end] = pair.as_slice() else {
+            return Err(item.complain(format!("a hold has two numbers, this has {}", pair.len()), HELP));
+        };
+        let (start, end) = (start.number(&TIME)?, end.number(&TIME)?);
+        if end <= start {
+            return Err(
+                item.complain(format!("the hold ends at {end} s, not after its start at {start} s"), HELP)
+            );
+        }
+        if let Some(&(_, before)) = intervals.last().filter(|(_, before)| *before > start) {
+            let message = format!("the hold starts at {start} s, before the one above ends at {before} s");
+            return Err(item.complain(message, "sort the holds by time; they must not overlap"));
+        }
+        intervals.push((start, end));
+    }
+    Ok(intervals)
+}

@@ -1,0 +1,226 @@
+//! Reads an experiment file, section by section.
+
+use super::document::{Document, Section};
+use super::{
+    CalibrateOptions, DesignOptions, ImuPlan, Plan, StudyOptions, calibrate, columns, design, gyroscope,
+    holds, limits, motion, sensor, study,
+};
+use crate::{ImuReadOptions, text};
+use calibrant_core::error::{Complaint, Error, Result};
+use calibrant_core::motion::Limits;
+use calibrant_core::sensor::{ReadingUnit, Sensor};
+use std::path::Path;
+use toml::de::DeTable;
+
+/// Largest experiment file, bytes.
+const LARGEST: u64 = 1 << 20;
+
+/// What an experiment file says.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Experiment {
+    /// `[sensor]`: the datasheet.
+    pub sensor: Sensor,
+    /// `[motion]` or `[holds]`.
+    pub plan: Plan,
+    /// `[gyroscope]`, `[known]` and `[temperature]`, for an IMU.
+    pub imu: Option<ImuPlan>,
+    /// `[columns]`: what the recordings' files do not say themselves; nothing where the section is absent.
+    pub columns: ImuReadOptions,
+    /// `[limits]`; none where the section is absent.
+    pub limits: Limits,
+    /// `[calibrate]`.
+    pub calibrate: CalibrateOptions,
+    /// `[design]`.
+    pub design: DesignOptions,
+    /// `[study]`.
+    pub study: StudyOptions,
+}
+
+/// Reads `[columns]` of a file that needs to have nothing else: an experiment file, or one with this table alone (and `schema = 1`, where it likes).
+///
+/// # Errors
+/// As [`Experiment::read`], whatever section is wrong; [`Error::Experiment`] without a `[columns]` section that says anything.
+pub fn read_columns(path: &Path) -> Result<ImuReadOptions> {
+    let text = read_text(path)?;
+    let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
+    let document = Document { text, file: Some(path) };
+    let table = DeTable::parse(text).map_err(|error| document.syntax(&error))?;
+    let root = Section::root(&document, table.get_ref())?;
+    let others = table.get_ref().keys().any(|key| !["schema", "columns"].contains(&key.get_ref().as_ref()));
+    let columns = match root.section("columns")? {
+        _ if others => Experiment::parse(text, Some(path))?.columns,
+        Some(section) => columns::read(&section)?,
+        None => ImuReadOptions::default(),
+    };
+    if columns == ImuReadOptions::default() {
+        let complaint = Complaint::new("there is no [columns] section", "add one, or leave --columns away");
+        return Err(Error::experiment(complaint.in_file(path)));
+    }
+    Ok(columns)
+}
+
+fn read_text(path: &Path) -> Result<String> {
+    let bytes = text::read_bytes(path, LARGEST, "the experiment file")
+        .map_err(|complaint| Error::experiment(*complaint))?;
+    let text = text::as_text(&bytes).map_err(|complaint| Error::experiment(complaint.in_file(path)))?;
+    Ok(text.to_owned())
+}
+
+impl Experiment {
+    /// Reads an experiment file.
+    ///
+    /// # Errors
+    /// [`Error::Experiment`] where the file cannot be read, is larger than 1 MiB, is not text, or as [`parse`](Self::parse).
+    pub fn read(path: &Path) -> Result<Self> {
+        Self::parse(&read_text(path)?, Some(path))
+    }
+
+    /// Reads the text of an experiment file; `file` is only named in complaints.
+    ///
+    /// # Errors
+    /// [`Error::Experiment`] with line, column, key and excerpt: invalid TOML, an unknown key, a required key that is missing,
+    /// a wrong type, a number out of range, or keys that contradict each other.
+    ///
+    /// # Examples
+    /// ```
+    /// use calibrant::io::{Experiment, preset};
+    /// let text = preset("report").expect("a preset");
+    /// assert_eq!(Experiment::parse(text, None)?.sensor.axes, 3);
+    ///
+    /// let error = Experiment::parse(&text.replace("interval_s", "intervall_s"), None).expect_err("misspelt");
+    /// assert!(error.to_string().contains("did you mean `interval_s`?"), "{error}");
+    /// # Ok::<(), calibrant::Error>(())
+    /// ```
+    pub fn parse(text: &str, file: Option<&Path>) -> Result<Self> {
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        let document = Document { text, file };
+        if text.len() as u64 > LARGEST {
+            return Err(Error::experiment(document.complain(
+                0..0,
+                "the experiment file is larger than 1 MiB".into(),
+                "this is hardly the file that you mean".into(),
+            )));
+        }
+        let table = DeTable::parse(text).map_err(|error| document.syntax(&error))?;
+        let root = Section::root(&document, table.get_ref())?;
+        let schema = root.need("schema", "the first line of an experiment file is schema = 1")?;
+        let version = schema.whole(0, u64::MAX)?;
+        if version != 1 {
+            return Err(
+                schema.complain(format!("schema {version} is not known to this version"), "schema = 1")
+            );
+        }
+        let need =
+            |name| root.section(name)?.ok_or_else(|| root.missing(name, "the sensor's datasheet: [sensor]"));
+        let sensor = sensor::read(&need("sensor")?)?;
+        let plan = read_plan(&root, &sensor)?;
+        let imu = read_imu(&root, &plan)?;
+        let list = match &plan {
+            Plan::Motion(_) => sensor.parameter_list(),
+            Plan::Holds(holds) => holds.gauge.parameter_list(sensor.model),
+        };
+        Ok(Self {
+            limits: root
+                .section("limits")?
+                .map_or(Ok(Limits::default()), |section| limits::read(&section, sensor.axes))?,
+            columns: root
+                .section("columns")?
+                .map_or(Ok(ImuReadOptions::default()), |section| columns::read(&section))?,
+            calibrate: root
+                .section("calibrate")?
+                .map_or(Ok(CalibrateOptions::default()), |section| calibrate::read(&section, &sensor))?,
+            design: root
+                .section("design")?
+                .map_or(Ok(DesignOptions::default()), |section| design::read(&section, &sensor, &list))?,
+            study: root
+                .section("study")?
+                .map_or(Ok(StudyOptions::default()), |section| study::read(&section, &plan, sensor.axes))?,
+            sensor,
+            plan,
+            imu,
+        })
+    }
+}
+
+fn is_imu(root: &Section<'_>) -> Result<bool> {
+    Ok(root.section("sensor")?.and_then(|section| section.get("kind")?.text().map(|kind| kind == "imu"))
+        == Some(true))
+}
+
+/// The second sensor of an IMU: there if, and only if, the kind is \"imu\".
+fn read_imu(root: &Section<'_>, plan: &Plan) -> Result<Option<ImuPlan>> {
+    let is_imu = is_imu(root)?;
+    let known = root.get("known").map(|entry| Section::open(&entry, "known")).transpose()?;
+    let temperature = root.section("temperature")?;
+    if let Some(section) = temperature.as_ref().filter(|_| !is_imu) {
+        return Err(section.complain(
+            "[temperature] is read for an IMU only",
+            "kind = \"imu\" in [sensor]",
+            "",
+        ));
+    }
+    match (root.section("gyroscope")?, is_imu) {
+        (Some(section), true) => match plan {
+            Plan::Holds(_) => gyroscope::read(&section, known.as_ref(), temperature.as_ref()).map(Some),
+            Plan::Motion(_) => Err(section.complain(
+                "an IMU is calibrated from holds and what lies between them",
+                "[holds] in place of [motion], or kind = \"accelerometer\"",
+                "",
+            )),
+        },
+        (Some(section), false) => {
+            Err(section.complain("only an IMU has a gyroscope", "kind = \"imu\" in [sensor]", ""))
+        }
+        (None, true) => {
+            Err(root.missing("gyroscope", "kind = \"imu\" needs [gyroscope]: its unit, at least"))
+        }
+        (None, false) => match known {
+            Some(section) => {
+                Err(section.complain("[known] is read for an IMU only", "kind = \"imu\" in [sensor]", ""))
+            }
+            None => Ok(None),
+        },
+    }
+}
+
+fn read_plan(root: &Section<'_>, sensor: &Sensor) -> Result<Plan> {
+    match (root.section("motion")?, root.section("holds")?) {
+        (Some(section), None) => {
+            if sensor.noise_mps2.is_none() && sensor.noise_counts.is_none() {
+                let help = match sensor.unit {
+                    ReadingUnit::MetrePerSecondSquared | ReadingUnit::RadianPerSecond => {
+                        "noise_mps2 = 2e-4, for example: the noise of one sample"
+                    }
+                    ReadingUnit::Counts => "noise_counts = 10.0, for example: the noise of one sample",
+                };
+                let key = if sensor.unit == ReadingUnit::Counts { "noise_counts" } else { "noise_mps2" };
+                // [sensor] is there: it was read
+                return Err(root.section("sensor")?.map_or_else(
+                    || root.missing(key, help),
+                    |section| section.complain("this key is required with [motion]", help, key),
+                ));
+            }
+            Ok(Plan::Motion(motion::read(&section)?))
+        }
+        (None, Some(section)) => {
+            if sensor.axes != 3 {
+                return Err(section.complain(
+                    "[holds] needs a sensor of three axes",
+                    "axes = 3, or [motion]",
+                    "",
+                ));
+            }
+            Ok(Plan::Holds(holds::read(&section, is_imu(root)?)?))
+        }
+        (Some(_), Some(section)) => Err(section.complain(
+            "[motion] and [holds] are both there",
+            "an experiment is one or the other: take one of them out",
+            "",
+        )),
+        (None, None) => Err(root.complain(
+            "neither [motion] nor [holds] is there",
+            "say how the sensor is moved: [motion] for a commanded motion, [holds] for still poses",
+            "",
+        )),
+    }
+}

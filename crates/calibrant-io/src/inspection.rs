@@ -1,0 +1,455 @@
+//! What a recording holds and what may be expected of it, before it is calibrated; as data and as JSON.
+
+use super::json;
+use super::recording::{Finding, ImuColumn, ImuFile};
+use calibrant_core::error::Result;
+use calibrant_core::estimate::{
+    CoarseAxis, Coverage, ExpectedCalibration, clipped_holds, coarse_axes_in, coverage, expected_calibration,
+    find_clean_imu_holds, holds_lost_to_filter, swapped_sensors,
+};
+use calibrant_core::motion::Hold;
+use calibrant_core::sensor::{
+    Gauge, ImuRecording, MeanReading, ReadingUnit, Recording, Saturation, Sparks, Triad, missing,
+};
+use nalgebra::Vector3;
+use serde::Serialize;
+
+/// A step of the time is a gap from this many usual steps on.
+const GAP: f64 = 5.0;
+/// Gravity that is assumed, m/s²: its place changes a prediction by less than one per cent.
+const GRAVITY_MPS2: f64 = 9.806_65;
+/// Shortest stillness that counts as a hold, s.
+const MINIMUM_HOLD_S: f64 = 1.0;
+
+/// What a recording holds.
+#[derive(Debug, Clone)]
+pub struct Inspection {
+    /// Each sensor that is there.
+    pub sensors: Vec<SensorInspection>,
+    /// Samples of a sensor that are none, which holds are looked for without.
+    pub sparks: Vec<(Triad, Sparks)>,
+    /// The holds of the accelerometer; `None` without one, and the reason where they could not be looked for.
+    pub holds: Option<std::result::Result<HoldsInspection, String>>,
+}
+
+/// Sampling and values of one sensor.
+#[derive(Debug, Clone)]
+pub struct SensorInspection {
+    /// Which sensor.
+    pub triad: Triad,
+    /// Unit of its readings, after the conversion.
+    pub unit: ReadingUnit,
+    /// Number of samples.
+    pub samples: usize,
+    /// First and last sample time, s.
+    pub span_s: (f64, f64),
+    /// The inverse of the usual step, Hz.
+    pub rate_hz: f64,
+    /// Shortest and longest step, gaps left out, s.
+    pub steps_s: (f64, f64),
+    /// Standard deviation of the steps, gaps left out, s.
+    pub jitter_s: f64,
+    /// Number of gaps: steps of more than five usual ones.
+    pub gaps: usize,
+    /// Time that is lost in gaps, s.
+    pub lost_s: f64,
+    /// The share of the samples that is missing one by one between the gaps; 0 where it is too little to be told.
+    pub missing: f64,
+    /// Least, mean and largest reading per axis.
+    pub least: Vector3<f64>,
+    /// Mean reading per axis.
+    pub mean: Vector3<f64>,
+    /// Largest reading per axis.
+    pub most: Vector3<f64>,
+}
+
+/// The holds of a recording and what they are good for.
+#[derive(Debug, Clone)]
+pub struct HoldsInspection {
+    /// The holds, in order of time.
+    pub holds: Vec<Hold>,
+    /// The end of its range at which the accelerometer stops in each of them, where it does: such a hold counts for nothing.
+    pub clipped: Vec<Option<Saturation>>,
+    /// How their directions cover the sphere; `None` where there is none, or none is known without the sensor's offset.
+    pub coverage: Option<Coverage>,
+    /// What they will determine of the accelerometer; the reason where that is not all of it.
+    pub expected: std::result::Result<ExpectedCalibration, String>,
+    /// Why there may be fewer than there should be, in words: a filter that breaks them up, or sensors that were exchanged.
+    pub lost: Option<String>,
+    /// Axes whose readings come in steps coarser than their noise.
+    pub coarse: Vec<(Triad, CoarseAxis)>,
+    /// Mean of the gyroscope over the holds and scatter of its samples within them, unit of its readings.
+    pub gyroscope_at_rest: Option<(Vector3<f64>, Vector3<f64>)>,
+}
+
+/// Looks at a recording: sampling, ranges, holds, coverage, expected quality.
+///
+/// # Examples
+/// ```
+/// use calibrant::io::{ImuReadOptions, inspect, parse_imu_recording};
+/// let file = parse_imu_recording(b"t_s,gx_radps,gy_radps,gz_radps\n0,0,1,2\n0.01,1,1,2.5\n0.02,2,4,3\n", &ImuReadOptions::default())?;
+/// let inspection = inspect(&file);
+/// assert_eq!(inspection.sensors[0].mean.y, 2.0);
+/// assert!(inspection.holds.is_none(), "there is no accelerometer");
+/// # Ok::<(), calibrant::Error>(())
+/// ```
+#[must_use]
+pub fn inspect(file: &ImuFile) -> Inspection {
+    let recording = &file.recording;
+    let sensors = Triad::ALL
+        .into_iter()
+        .filter_map(|triad| Some(SensorInspection::of(triad, recording.triad(triad)?)))
+        .collect();
+    let (clean, sparks) = recording.without_sparks();
+    let holds = clean
+        .accelerometer
+        .as_ref()
+        .map(|accelerometer| HoldsInspection::of(&clean, accelerometer).map_err(|error| error.to_string()));
+    Inspection { sensors, sparks, holds }
+}
+
+impl SensorInspection {
+    fn of(triad: Triad, recording: &Recording) -> Self {
+        let rate_hz = recording.rate_hz();
+        let usual = 1.0 / rate_hz;
+        let (mut steps, mut gaps, mut lost_s) = (Vec::with_capacity(recording.len()), 0, 0.0);
+        for pair in recording.times_s.windows(2) {
+            let step = pair[1] - pair[0];
+            if step > GAP * usual {
+                gaps += 1;
+                lost_s += step - usual;
+            } else {
+                steps.push(step);
+            }
+        }
+        let count = steps.len().max(1) as f64;
+        let mean_step = steps.iter().sum::<f64>() / count;
+        let variance = steps.iter().map(|step| (step - mean_step).powi(2)).sum::<f64>() / count;
+        let bounds = |start: f64, better: fn(f64, f64) -> f64| steps.iter().copied().fold(start, better);
+        let readings = &recording.readings;
+        let [least, most] = recording.extremes();
+        Self {
+            triad,
+            unit: recording.unit,
+            samples: recording.len(),
+            span_s: (recording.times_s[0], recording.times_s[recording.len() - 1]),
+            rate_hz,
+            steps_s: (bounds(f64::INFINITY, f64::min), bounds(0.0, f64::max)),
+            jitter_s: variance.sqrt(),
+            gaps,
+            lost_s,
+            missing: missing(&recording.times_s, rate_hz, GAP * usual),
+            least,
+            mean: readings.iter().sum::<Vector3<f64>>() / readings.len() as f64,
+            most,
+        }
+    }
+}
+
+impl HoldsInspection {
+    fn of(recording: &ImuRecording, accelerometer: &Recording) -> Result<Self> {
+        let holds = find_clean_imu_holds(recording, MINIMUM_HOLD_S)?;
+        let clipped = clipped_holds(accelerometer, &holds);
+        let sound: Vec<Hold> = holds
+            .iter()
+            .zip(&clipped)
+            .filter(|(_, end)| end.is_none())
+            .map(|(hold, _)| hold.clone())
+            .collect();
+        let expected = expected_calibration(&sound, accelerometer.unit, GRAVITY_MPS2, Gauge::Upper)
+            .map_err(|error| error.to_string());
+        let offset = match &expected {
+            Ok(expected) => Some(expected.like.bias),
+            // readings in counts have an offset that is not known without the calibration
+            Err(_) => (accelerometer.unit != ReadingUnit::Counts).then(Vector3::zeros),
+        };
+        let directions = offset.map(|offset| sound.iter().map(|hold| hold.mean - offset).collect::<Vec<_>>());
+        Ok(Self {
+            coverage: directions.and_then(|directions| coverage(&directions)),
+            gyroscope_at_rest: recording.gyroscope.as_ref().and_then(|gyroscope| at_rest(gyroscope, &holds)),
+            lost: match &expected {
+                Err(_) => swapped_sensors(recording, MINIMUM_HOLD_S).map(str::to_owned),
+                Ok(_) => None,
+            }
+            .or_else(|| holds_lost_to_filter(accelerometer, &holds, MINIMUM_HOLD_S)),
+            coarse: Triad::ALL.into_iter().flat_map(|triad| coarse(recording, triad, &sound)).collect(),
+            expected,
+            clipped,
+            holds,
+        })
+    }
+}
+
+/// The coarse axes of a sensor, by its samples in holds.
+fn coarse(recording: &ImuRecording, triad: Triad, holds: &[Hold]) -> Vec<(Triad, CoarseAxis)> {
+    let Some(recording) = recording.triad(triad) else { return Vec::new() };
+    coarse_axes_in(recording, holds).into_iter().map(|found| (triad, found)).collect()
+}
+
+/// Mean of a sensor over the holds, and the scatter of its samples within them.
+fn at_rest(recording: &Recording, holds: &[Hold]) -> Option<(Vector3<f64>, Vector3<f64>)> {
+    let of_holds = holds.iter().filter_map(|hold| recording.mean_between(hold.start_s, hold.end_s));
+    let stills: Vec<MeanReading> = of_holds.filter(|still| still.samples > 1).collect();
+    let sum: Vector3<f64> = stills.iter().map(|still| still.mean * still.samples as f64).sum();
+    let samples: usize = stills.iter().map(|still| still.samples).sum();
+    (samples > 0).then(|| (sum / samples as f64, MeanReading::pooled_sd(&stills)))
+}
+
+/// The text of `calibrant inspect --json`.
+#[must_use]
+pub fn inspection_json(file: &ImuFile, inspection: &Inspection) -> String {
+    json::to_json(&InspectionFile::of(file, inspection))
+}
+
+#[derive(Serialize)]
+struct InspectionFile<'a> {
+    schema: u32,
+    format: &'static str,
+    /// Of each file, with spaces between.
+    sha256: String,
+    rows: usize,
+    /// The gyroscope's file of a pair.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    second_file: Option<SecondFields>,
+    columns: Vec<ColumnFields<'a>>,
+    findings: Vec<String>,
+    sensors: Vec<SensorFields>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    sparks: Vec<SparksFields>,
+    temperature_c: Option<[f64; 2]>,
+    holds: Option<HoldsFields<'a>>,
+    no_holds_because: Option<&'a str>,
+}
+
+#[derive(Serialize)]
+struct ColumnFields<'a> {
+    name: &'a str,
+    meaning: String,
+    unit: Option<&'static str>,
+    used: bool,
+    not_used_because: Option<&'a str>,
+}
+
+#[derive(Serialize)]
+struct SensorFields {
+    sensor: &'static str,
+    unit: &'static str,
+    samples: usize,
+    start_s: f64,
+    end_s: f64,
+    rate_hz: f64,
+    shortest_step_s: f64,
+    longest_step_s: f64,
+    jitter_s: f64,
+    gaps: usize,
+    lost_s: f64,
+    missing_share: f64,
+    least: Vec<f64>,
+    mean: Vec<f64>,
+    most: Vec<f64>,
+}
+
+/// Of the gyroscope's file of a pair; `columns` is how many of the last columns are its.
+#[derive(Serialize)]
+struct SecondFields {
+    format: &'static str,
+    rows: usize,
+    columns: usize,
+}
+
+/// Samples that were left out; of the one that is farthest off, what it is.
+#[derive(Serialize)]
+struct SparksFields {
+    sensor: &'static str,
+    samples: usize,
+    cut_samples: usize,
+    axis: String,
+    time_s: f64,
+    reading: f64,
+}
+
+#[derive(Serialize)]
+struct HoldsFields<'a> {
+    count: usize,
+    minimum_hold_s: f64,
+    table: Vec<HoldFields>,
+    largest_gap_deg: Option<f64>,
+    emptiest_direction: Option<Vec<f64>>,
+    gyroscope_mean: Option<Vec<f64>>,
+    gyroscope_noise: Option<Vec<f64>>,
+    coarse_axes: Vec<CoarseFields>,
+    expected: Option<ExpectedFields>,
+    not_determined_because: Option<&'a str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    lost: Option<&'a str>,
+}
+
+/// An axis whose steps are coarser than its noise, in the unit of the readings.
+#[derive(Serialize)]
+struct CoarseFields {
+    sensor: &'static str,
+    axis: String,
+    step: f64,
+    noise: f64,
+    mean_sd: f64,
+}
+
+#[derive(Serialize)]
+struct HoldFields {
+    start_s: f64,
+    end_s: f64,
+    samples: usize,
+    mean: Vec<f64>,
+    sd: Vec<f64>,
+    saturated_axis: Option<String>,
+}
+
+#[derive(Serialize)]
+struct ExpectedFields {
+    gauge: &'static str,
+    gravity_mps2: f64,
+    noise: Vec<f64>,
+    condition_number: f64,
+    parameters: Vec<ExpectedParameter>,
+}
+
+#[derive(Serialize)]
+struct ExpectedParameter {
+    name: String,
+    unit: &'static str,
+    sd: f64,
+    /// Of biases in m/s², of others relative to the gain.
+    sd_in_si: f64,
+}
+
+fn list(vector: &Vector3<f64>) -> Vec<f64> {
+    vector.as_slice().to_vec()
+}
+
+impl<'a> InspectionFile<'a> {
+    fn of(file: &'a ImuFile, inspection: &'a Inspection) -> Self {
+        let range = |values: &Vec<f64>| {
+            values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], &value| {
+                [least.min(value), most.max(value)]
+            })
+        };
+        let found = inspection.holds.as_ref();
+        Self {
+            schema: 1,
+            format: file.format.name(),
+            sha256: file.sha256.join(" "),
+            rows: file.rows,
+            second_file: file.second.as_ref().map(|second| SecondFields {
+                format: second.format.name(),
+                rows: second.rows,
+                columns: second.columns,
+            }),
+            columns: file.columns.iter().map(ColumnFields::of).collect(),
+            findings: file.findings.iter().map(Finding::to_string).collect(),
+            sensors: inspection.sensors.iter().map(SensorFields::of).collect(),
+            sparks: inspection.sparks.iter().map(SparksFields::of).collect(),
+            temperature_c: file.recording.temperature_c.as_ref().map(range),
+            holds: found.and_then(|holds| holds.as_ref().ok()).map(HoldsFields::of),
+            no_holds_because: found.and_then(|holds| holds.as_ref().err()).map(String::as_str),
+        }
+    }
+}
+
+impl<'a> ColumnFields<'a> {
+    fn of(column: &'a ImuColumn) -> Self {
+        Self {
+            name: &column.name,
+            meaning: column.meaning.to_string(),
+            unit: column.unit.map(super::ColumnUnit::symbol),
+            used: column.is_used(),
+            not_used_because: column.unused.as_deref(),
+        }
+    }
+}
+
+impl SparksFields {
+    fn of((triad, sparks): &(Triad, Sparks)) -> Self {
+        Self {
+            sensor: triad.name(),
+            samples: sparks.samples.len(),
+            cut_samples: sparks.cut.len(),
+            axis: sparks.axis.to_string(),
+            time_s: sparks.time_s,
+            reading: sparks.reading,
+        }
+    }
+}
+
+impl SensorFields {
+    fn of(sensor: &SensorInspection) -> Self {
+        Self {
+            sensor: sensor.triad.name(),
+            unit: sensor.unit.symbol(),
+            samples: sensor.samples,
+            start_s: sensor.span_s.0,
+            end_s: sensor.span_s.1,
+            rate_hz: sensor.rate_hz,
+            shortest_step_s: sensor.steps_s.0,
+            longest_step_s: sensor.steps_s.1,
+            jitter_s: sensor.jitter_s,
+            gaps: sensor.gaps,
+            lost_s: sensor.lost_s,
+            missing_share: sensor.missing,
+            least: list(&sensor.least),
+            mean: list(&sensor.mean),
+            most: list(&sensor.most),
+        }
+    }
+}
+
+impl<'a> HoldsFields<'a> {
+    fn of(holds: &'a HoldsInspection) -> Self {
+        let hold = |(hold, clipped): (&Hold, &Option<Saturation>)| HoldFields {
+            start_s: hold.start_s,
+            end_s: hold.end_s,
+            samples: hold.samples(),
+            mean: list(&hold.mean),
+            sd: list(&hold.sd),
+            saturated_axis: clipped.map(|end| end.axis.to_string()),
+        };
+        let coarse = |(triad, found): &(Triad, CoarseAxis)| CoarseFields {
+            sensor: triad.name(),
+            axis: found.axis.to_string(),
+            step: found.step,
+            noise: found.noise,
+            mean_sd: found.mean_sd,
+        };
+        Self {
+            count: holds.holds.len(),
+            minimum_hold_s: MINIMUM_HOLD_S,
+            table: holds.holds.iter().zip(&holds.clipped).map(hold).collect(),
+            largest_gap_deg: holds.coverage.map(|coverage| coverage.gap_rad.to_degrees()),
+            emptiest_direction: holds.coverage.map(|coverage| list(&coverage.emptiest)),
+            gyroscope_mean: holds.gyroscope_at_rest.as_ref().map(|(mean, _)| list(mean)),
+            gyroscope_noise: holds.gyroscope_at_rest.as_ref().map(|(_, noise)| list(noise)),
+            coarse_axes: holds.coarse.iter().map(coarse).collect(),
+            expected: holds.expected.as_ref().ok().map(ExpectedFields::of),
+            not_determined_because: holds.expected.as_ref().err().map(String::as_str),
+            lost: holds.lost.as_deref(),
+        }
+    }
+}
+
+impl ExpectedFields {
+    fn of(expected: &ExpectedCalibration) -> Self {
+        let (sd, relative) = (expected.sd(), expected.relative_sd());
+        let parameter = |(k, quantity): (usize, &calibrant_core::sensor::Quantity)| ExpectedParameter {
+            name: quantity.name(),
+            unit: quantity.unit(expected.unit),
+            sd: sd[k],
+            sd_in_si: relative[k],
+        };
+        Self {
+            gauge: Gauge::Upper.name(),
+            gravity_mps2: GRAVITY_MPS2,
+            noise: list(&expected.noise),
+            condition_number: expected.condition_number,
+            parameters: expected.list.quantities().iter().enumerate().map(parameter).collect(),
+        }
+    }
+}

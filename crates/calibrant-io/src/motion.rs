@@ -1,0 +1,175 @@
+//! `motion.csv`: the nodes of a commanded motion.
+
+use super::delimited::{Delimiter, Line, Lines};
+use super::output::write_atomically;
+use super::text::{self, Checked};
+use calibrant_core::error::{Complaint, Error, Result};
+use calibrant_core::motion::JerkControlledMotion;
+use calibrant_core::sensor::Axis;
+use nalgebra::Vector3;
+use std::path::Path;
+
+/// Largest motion file, bytes.
+const LARGEST_FILE: u64 = 1 << 30;
+/// Largest time (s) and acceleration (m/s²) that make sense.
+const LARGEST: f64 = 1e9;
+const NAMES: [&str; 4] = ["t_s", "ax_mps2", "ay_mps2", "az_mps2"];
+
+/// Reads the nodes of a motion: header `t_s,ax_mps2,ay_mps2,az_mps2`, one row for each node.
+///
+/// For one axis only `ax_mps2` is read (`ay_mps2` and `az_mps2` may be there). Delimiters and comments as in recordings.
+///
+/// # Errors
+/// [`Error::Experiment`] with file, line and column: a file that cannot be read or is not text; a column missing, unknown or
+/// twice; a row with the wrong number of columns, a value that is missing, no number, not finite or above 1e9; times that do not
+/// increase; fewer than two nodes.
+pub fn read_motion(path: &Path, axes: usize) -> Result<JerkControlledMotion> {
+    let bytes = text::read_bytes(path, LARGEST_FILE, "the motion")
+        .map_err(|complaint| Error::experiment(*complaint))?;
+    parse(&bytes, axes).map_err(|complaint| Error::experiment(complaint.in_file(path)))
+}
+
+/// Reads the bytes of a motion file.
+///
+/// # Errors
+/// As [`read_motion`], without the name of the file.
+///
+/// # Examples
+/// ```
+/// let motion = calibrant::io::parse_motion(b"t_s,ax_mps2\n0,0\n1,5\n", 1)?;
+/// assert_eq!(motion.jerk_mps3()[0].x, 5.0);
+/// # Ok::<(), calibrant::Error>(())
+/// ```
+pub fn parse_motion(bytes: &[u8], axes: usize) -> Result<JerkControlledMotion> {
+    parse(bytes, axes).map_err(|complaint| Error::experiment(*complaint))
+}
+
+/// Writes the nodes of a motion; numbers read back to the same bits.
+///
+/// # Errors
+/// [`Error::Output`] where it cannot be written.
+pub fn write_motion(path: &Path, motion: &JerkControlledMotion, axes: usize) -> Result<()> {
+    let axes = axes.clamp(1, 3);
+    write_atomically(path, |out| {
+        writeln!(out, "{}", NAMES[..=axes].join(","))?;
+        for (t, node) in motion.times_s().iter().zip(motion.acceleration_mps2()) {
+            write!(out, "{t:?}")?;
+            for value in &node.as_slice()[..axes] {
+                write!(out, ",{value:?}")?;
+            }
+            writeln!(out)?;
+        }
+        Ok(())
+    })
+}
+
+fn parse(bytes: &[u8], axes: usize) -> Checked<JerkControlledMotion> {
+    const HELP: &str = "a motion has the header t_s,ax_mps2,ay_mps2,az_mps2 and a row for each node";
+    let text = text::as_text(bytes)?;
+    if axes != 1 && axes != 3 {
+        return Err(Complaint::new(format!("{axes} axes are not supported"), "1 or 3").into());
+    }
+    let mut lines = Lines::of(text).filter(|line| !line.is_void());
+    let Some(header) = lines.next() else { return Err(Complaint::new("the file is empty", HELP).into()) };
+    let delimiter = Delimiter::of(header.text);
+    let slots = read_header(header, delimiter, axes)?;
+    let (mut times_s, mut nodes): (Vec<f64>, Vec<Vector3<f64>>) = (Vec::new(), Vec::new());
+    for line in lines {
+        let [t, x, y, z] = read_row(line, delimiter, &slots)?;
+        if let Some(&before) = times_s.last().filter(|before| **before >= t) {
+            return Err(Complaint::new(
+                format!("node times must increase: {t:?} s comes after {before:?} s"),
+                "sort the rows and remove duplicates",
+            )
+            .at_line(line.number)
+            .into());
+        }
+        times_s.push(t);
+        nodes.push(Vector3::new(x, y, z));
+    }
+    if nodes.len() < 2 {
+        let message = format!("a motion needs at least two nodes, this one has {}", nodes.len());
+        return Err(Complaint::new(message, HELP).into());
+    }
+    JerkControlledMotion::new(times_s, nodes).map_err(|error| {
+        error.complaint().cloned().unwrap_or_else(|| Complaint::new(error.to_string(), HELP)).into()
+    })
+}
+
+/// What each column holds: 0 the time, 1 to 3 an axis; `None` for an axis that the sensor has not.
+fn read_header(line: Line<'_>, delimiter: Delimiter, axes: usize) -> Checked<Vec<Option<usize>>> {
+    let needed = &NAMES[..=axes];
+    let help = format!("the header is {}", needed.join(","));
+    let mut slots = Vec::new();
+    let mut fields: Vec<_> = line.fields(delimiter).collect();
+    if fields.len() > 1 && fields.last().is_some_and(|(_, field)| field.is_empty()) {
+        fields.pop();
+    }
+    for (offset, field) in fields {
+        let complain = |message: String| {
+            Err(Complaint::new(message, help.clone())
+                .at_line(line.number)
+                .at_column(line.column(offset))
+                .into())
+        };
+        let shown = shorten(field);
+        if field.parse::<f64>().is_ok() {
+            return complain(format!("there is no header, the first field is {shown}"));
+        }
+        match NAMES.iter().position(|name| name.eq_ignore_ascii_case(field)) {
+            Some(slot) if slots.contains(&Some(slot)) => {
+                return complain(format!("column `{shown}` is there twice"));
+            }
+            Some(slot) => slots.push(Some(slot)),
+            None => return complain(format!("column `{shown}` is not known")),
+        }
+    }
+    for slot in &mut slots {
+        *slot = slot.filter(|slot| *slot <= axes);
+    }
+    let missing: Vec<&str> =
+        (0..=axes).filter(|slot| !slots.contains(&Some(*slot))).map(|slot| NAMES[slot]).collect();
+    if missing.is_empty() {
+        return Ok(slots);
+    }
+    let message = match missing.as_slice() {
+        [one] => format!("column {one} is missing"),
+        several => format!("columns {} are missing", several.join(", ")),
+    };
+    Err(Complaint::new(message, help).at_line(line.number).into())
+}
+
+fn read_row(line: Line<'_>, delimiter: Delimiter, slots: &[Option<usize>]) -> Checked<[f64; 4]> {
+    let mut values = [0.0; 4];
+    let (mut fields, mut last_is_empty) = (0, false);
+    for (offset, field) in line.fields(delimiter) {
+        if let Some(Some(slot)) = slots.get(fields).copied() {
+            let complain = |message: &str, help: &str| {
+                let what =
+                    if slot == 0 { "the time".into() } else { format!("axis {}", Axis::ALL[slot - 1]) };
+                Err(Complaint::new(format!("\"{}\" for {what} {message}", shorten(field)), help)
+                    .at_line(line.number)
+                    .at_column(line.column(offset))
+                    .into())
+            };
+            match field.parse::<f64>() {
+                Err(_) => return complain("is not a number", "numbers look like 9.81 or 1e-3"),
+                Ok(value) if value.abs() <= LARGEST => values[slot] = value,
+                Ok(_) => return complain("is not a usable number", "times are in s, accelerations in m/s²"),
+            }
+        }
+        fields += 1;
+        last_is_empty = field.is_empty();
+    }
+    if fields == slots.len() || (fields == slots.len() + 1 && last_is_empty) {
+        return Ok(values);
+    }
+    let message = format!("{fields} columns where the header has {}", slots.len());
+    Err(Complaint::new(message, "every node needs a time and an acceleration for each axis")
+        .at_line(line.number)
+        .into())
+}
+
+pub(super) fn shorten(field: &str) -> String {
+    field.chars().take(40).collect::<String>().escape_debug().to_string()
+}

@@ -1,0 +1,267 @@
+//! `noise.json`: the noise of a sensor at rest, its Allan deviation and its coefficients.
+
+use super::calibration::Input;
+use super::json;
+use calibrant_core::error::Result;
+use calibrant_core::noise::{
+    AllanPoint, AxisNoise, CONFIDENCE, Coefficient, PowerLaw, TriadNoise, coefficient_units,
+};
+use calibrant_core::sensor::{ReadingUnit, Triad};
+use serde::Serialize;
+use std::path::Path;
+
+/// The version of `noise.json`. Fields that are only added leave it.
+pub(super) const NOISE_SCHEMA: u32 = 1;
+
+/// Writes `noise.json`: the noise of one sensor or of both, and the recording that it came from, or the accelerometer's and the gyroscope's.
+///
+/// Coefficients carry their unit beside them, in the unit of the readings and in customary ones; a coefficient that is not determined has a
+/// `reason` and, where the recording gives one, an `upper_limit`.
+///
+/// # Errors
+/// [`Error::Output`](calibrant_core::Error::Output) where it cannot be written.
+pub fn write_noise(path: &Path, noise: &[TriadNoise], inputs: &[Input]) -> Result<()> {
+    json::write_json(path, &NoiseFile::of(noise, inputs))
+}
+
+/// The text that [`write_noise`] writes.
+#[must_use]
+pub fn noise_json(noise: &[TriadNoise], inputs: &[Input]) -> String {
+    json::to_json(&NoiseFile::of(noise, inputs))
+}
+
+/// The line of an experiment file that states a sensor's white noise, and its section.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct NoiseLine {
+    /// `sensor` for an accelerometer, `gyroscope` for a gyroscope.
+    pub section: &'static str,
+    /// The line: `noise_counts = [26.3, 27.1, 25.8]`.
+    pub line: String,
+}
+
+/// The line to paste into an experiment file, in the unit of the readings; `None` where the white noise is not determined on an axis, or not that of a sensor at rest.
+#[must_use]
+pub fn noise_line(noise: &TriadNoise) -> Option<NoiseLine> {
+    if noise.doubt.is_some() {
+        return None;
+    }
+    let sigma = noise.white_noise_of_readings()?;
+    let counts = noise.unit == ReadingUnit::Counts || noise.gain.is_some();
+    let unit = if counts { ReadingUnit::Counts } else { noise.unit };
+    let section = match noise.triad {
+        Triad::Accelerometer => "sensor",
+        Triad::Gyroscope => "gyroscope",
+    };
+    // TOML reads a float by its point
+    let digits = |value: f64| format!("{value:.3e}").parse::<f64>().map(|rounded| format!("{rounded:?}"));
+    let values: Vec<String> =
+        noise.axes.iter().filter_map(|axis| digits(sigma[axis.axis.index()]).ok()).collect();
+    Some(NoiseLine { section, line: format!("noise_{} = [{}]", unit.suffix(), values.join(", ")) })
+}
+
+#[derive(Serialize)]
+struct NoiseFile<'a> {
+    schema: u32,
+    confidence: f64,
+    sensors: Vec<TriadFields<'a>>,
+    input: Option<&'a Input>,
+    /// Where the gyroscope has a file of its own.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    gyroscope_input: Option<&'a Input>,
+}
+
+impl<'a> NoiseFile<'a> {
+    fn of(noise: &'a [TriadNoise], inputs: &'a [Input]) -> Self {
+        Self {
+            schema: NOISE_SCHEMA,
+            confidence: CONFIDENCE,
+            sensors: noise.iter().map(TriadFields::of).collect(),
+            input: inputs.first(),
+            gyroscope_input: inputs.get(1),
+        }
+    }
+}
+
+#[derive(Serialize)]
+struct TriadFields<'a> {
+    sensor: &'static str,
+    reading_unit: &'static str,
+    first_sample: usize,
+    end_sample: usize,
+    start_s: f64,
+    end_s: f64,
+    interval_s: f64,
+    interval_jitter: f64,
+    missing_share: f64,
+    axes: Vec<AxisFields<'a>>,
+    experiment: Option<NoiseLine>,
+    doubt: Option<&'a str>,
+    warnings: &'a [String],
+}
+
+impl<'a> TriadFields<'a> {
+    fn of(noise: &'a TriadNoise) -> Self {
+        let rate = noise.stretch.rate_hz();
+        Self {
+            sensor: noise.triad.name(),
+            reading_unit: noise.unit.symbol(),
+            first_sample: noise.stretch.first,
+            end_sample: noise.stretch.end,
+            start_s: noise.stretch.start_s,
+            end_s: noise.stretch.end_s,
+            interval_s: noise.stretch.interval_s,
+            interval_jitter: noise.stretch.jitter,
+            missing_share: noise.stretch.missing,
+            axes: noise.axes.iter().map(|axis| AxisFields::of(axis, noise.triad, noise.unit, rate)).collect(),
+            experiment: noise_line(noise),
+            doubt: noise.doubt.as_deref(),
+            warnings: &noise.warnings,
+        }
+    }
+}
+
+#[derive(Serialize)]
+struct AxisFields<'a> {
+    axis: String,
+    white_noise_per_sample: Option<f64>,
+    sample_sd: f64,
+    random_walk: CoefficientFields<'a>,
+    bias_instability: CoefficientFields<'a>,
+    rate_random_walk: CoefficientFields<'a>,
+    quantisation: CoefficientFields<'a>,
+    bias_instability_tau_s: Option<f64>,
+    drift: DriftFields,
+    fit: FitFields,
+    vibration: Option<VibrationFields>,
+    allan: AllanFields,
+}
+
+impl<'a> AxisFields<'a> {
+    fn of(axis: &'a AxisNoise, triad: Triad, unit: ReadingUnit, rate_hz: f64) -> Self {
+        let model = &axis.fit.model;
+        let of = |process| CoefficientFields::of(model.coefficient(process), triad, process, unit);
+        let points = &axis.allan.points;
+        let column = |f: fn(&AllanPoint) -> f64| points.iter().map(f).collect();
+        Self {
+            axis: axis.axis.to_string(),
+            white_noise_per_sample: model.white_noise_per_sample(rate_hz),
+            sample_sd: axis.sample_sd,
+            random_walk: of(PowerLaw::White),
+            bias_instability: of(PowerLaw::Flicker),
+            rate_random_walk: of(PowerLaw::RandomWalk),
+            quantisation: of(PowerLaw::Quantisation),
+            bias_instability_tau_s: axis.fit.flat_tau_s,
+            drift: DriftFields {
+                per_s: axis.fit.drift.per_s,
+                sd: axis.fit.drift.sd,
+                significant: axis.fit.drift.is_significant(),
+            },
+            fit: FitFields {
+                filtered: axis.fit.filtered,
+                shortest_tau_s: axis.fit.shortest_tau_s,
+                longest_tau_s: axis.fit.longest_tau_s,
+                chi2: axis.fit.chi2,
+                degrees_of_freedom: axis.fit.degrees_of_freedom,
+                p_value: axis.fit.p_value,
+            },
+            vibration: axis.fit.vibration.as_ref().map(|line| VibrationFields {
+                frequency_hz: line.frequency_hz,
+                share: line.share,
+                of_white: line.of_white,
+                left_out: line.left_out,
+            }),
+            allan: AllanFields {
+                cluster_samples: points.iter().map(|point| point.cluster).collect(),
+                tau_s: column(|point| point.tau_s),
+                deviation: column(|point| point.deviation),
+                low: column(|point| point.low),
+                high: column(|point| point.high),
+                degrees_of_freedom: column(|point| point.degrees_of_freedom),
+            },
+        }
+    }
+}
+
+#[derive(Serialize)]
+struct CoefficientFields<'a> {
+    determined: bool,
+    unit: &'static str,
+    value: Option<f64>,
+    sd: Option<f64>,
+    low: Option<f64>,
+    high: Option<f64>,
+    customary: Vec<CustomaryFields>,
+    upper_limit: Option<f64>,
+    reason: Option<&'a str>,
+}
+
+impl<'a> CoefficientFields<'a> {
+    fn of(coefficient: &'a Coefficient, triad: Triad, process: PowerLaw, unit: ReadingUnit) -> Self {
+        let units = coefficient_units(triad, process, unit);
+        let found = coefficient.estimate();
+        let customary = |unit: &calibrant_core::noise::CoefficientUnit| {
+            let estimate = found?.scaled(unit.factor);
+            Some(CustomaryFields { unit: unit.symbol, value: estimate.value, sd: estimate.sd })
+        };
+        let reason = match coefficient {
+            Coefficient::Determined(_) => None,
+            Coefficient::NotDetermined { reason, .. } => Some(reason.as_str()),
+        };
+        Self {
+            determined: found.is_some(),
+            unit: units[0].symbol,
+            value: found.map(|found| found.value),
+            sd: found.map(|found| found.sd),
+            low: found.map(|found| found.low),
+            high: found.map(|found| found.high),
+            customary: units[1..].iter().filter_map(customary).collect(),
+            upper_limit: coefficient.limit(),
+            reason,
+        }
+    }
+}
+
+#[derive(Serialize)]
+struct CustomaryFields {
+    unit: &'static str,
+    value: f64,
+    sd: f64,
+}
+
+#[derive(Serialize)]
+struct DriftFields {
+    per_s: f64,
+    sd: f64,
+    significant: bool,
+}
+
+#[derive(Serialize)]
+struct FitFields {
+    filtered: bool,
+    shortest_tau_s: f64,
+    longest_tau_s: f64,
+    chi2: f64,
+    degrees_of_freedom: usize,
+    p_value: Option<f64>,
+}
+
+/// Lines in the spectrum.
+#[derive(Serialize)]
+struct VibrationFields {
+    frequency_hz: f64,
+    /// Of the variance of the samples.
+    share: f64,
+    /// Of N², were they left in.
+    of_white: f64,
+    left_out: bool,
+}
+
+#[derive(Serialize)]
+struct AllanFields {
+    cluster_samples: Vec<usize>,
+    tau_s: Vec<f64>,
+    deviation: Vec<f64>,
+    low: Vec<f64>,
+    high: Vec<f64>,
+    degrees_of_freedom: Vec<f64>,
+}

@@ -1,0 +1,61 @@
+//! Results are written beside their place and then renamed, so that they are whole or absent.
+
+use calibrant_core::error::{Error, Result};
+use std::io::{self, BufWriter, Write};
+use std::path::Path;
+
+/// Writes a file through `fill`: into a temporary file in the same directory, which then takes the name.
+///
+/// Directories that are missing are created. A link is followed; what is no regular file (`/dev/stdout`, a pipe) is written directly.
+///
+/// # Errors
+/// [`Error::Output`] with the path and what the system said; the file, where there was one before, is untouched then.
+///
+/// # Examples
+/// ```
+/// let directory = tempfile::tempdir().expect("a temporary directory");
+/// let path = directory.path().join("new/result.txt");
+/// calibrant::io::write_atomically(&path, |out| writeln!(out, "42"))?;
+/// assert_eq!(std::fs::read_to_string(path).expect("written"), "42\n");
+/// # Ok::<(), calibrant::Error>(())
+/// ```
+pub fn write_atomically(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<()> {
+    write(path, fill).map_err(|source| Error::Output { path: path.to_path_buf(), source })
+}
+
+fn write(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
+    // a link's target, where there is one
+    let target = path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
+    if let Ok(found) = target.metadata() {
+        if found.is_dir() {
+            return Err(io::Error::new(
+                io::ErrorKind::IsADirectory,
+                "a directory of this name is in the way",
+            ));
+        }
+        if !found.is_file() {
+            let mut out = BufWriter::new(std::fs::OpenOptions::new().write(true).open(&target)?);
+            fill(&mut out)?;
+            return out.flush();
+        }
+    }
+    let directory = match target.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    };
+    std::fs::create_dir_all(directory).map_err(|error| {
+        io::Error::new(error.kind(), format!("cannot create directory {}: {error}", directory.display()))
+    })?;
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".calibrant-").suffix(".tmp");
+    #[cfg(unix)]
+    {
+        // as any other file that a program creates: the user's mask decides
+        use std::os::unix::fs::PermissionsExt;
+        builder.permissions(std::fs::Permissions::from_mode(0o666));
+    }
+    let mut out = BufWriter::with_capacity(1 << 16, builder.tempfile_in(directory)?);
+    fill(&mut out)?;
+    let file = out.into_inner().map_err(io::IntoInnerError::into_error)?;
+    file.persist(&target).map(drop).map_err(|error| error.error)
+}

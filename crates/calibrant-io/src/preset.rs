@@ -1,0 +1,25 @@
+//! Commented experiment files to start from.
+
+/// The presets: name, and the text of the experiment file.
+pub const PRESETS: &[(&str, &str)] = &[
+    ("report", include_str!("../presets/report.toml")),
+    ("report-unknown", include_str!("../presets/report-unknown.toml")),
+    ("report-noisy", include_str!("../presets/report-noisy.toml")),
+    ("static-poses", include_str!("../presets/static-poses.toml")),
+    ("static-poses-counts", include_str!("../presets/static-poses-counts.toml")),
+    ("imu", include_str!("../presets/imu.toml")),
+    ("imu-counts", include_str!("../presets/imu-counts.toml")),
+    ("ferraris", include_str!("../presets/ferraris.toml")),
+];
+
+/// The text of the preset of this name.
+///
+/// # Examples
+/// ```
+/// assert!(calibrant::io::preset("static-poses").expect("known").contains("[holds]"));
+/// assert!(calibrant::io::preset("nonsense").is_none());
+/// ```
+#[must_use]
+pub fn preset(name: &str) -> Option<&'static str> {
+    PRESETS.iter().find(|(known, _)| *known == name).map(|(_, text)| *text)
+}

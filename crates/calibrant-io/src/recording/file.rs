@@ -1,0 +1,18 @@
+//! A recording of an accelerometer, as it stands in a file.
+
+use super::finding::Finding;
+use calibrant_core::sensor::Recording;
+
+/// A recording as it was read.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RecordingFile {
+    /// The samples: times strictly increasing, everything finite. Its unit is the file's, which may differ from the expected one
+    /// (there is a finding then).
+    pub recording: Recording,
+    /// What was noticed and repaired.
+    pub findings: Vec<Finding>,
+    /// SHA-256 of the file's bytes, hexadecimal.
+    pub sha256: String,
+    /// Number of lines of the file.
+    pub lines: usize,
+}

@@ -1,0 +1,87 @@
+//! The columns of a file: what each means, and why it is used or not.
+
+use super::unit::ColumnUnit;
+use calibrant_core::sensor::{Axis, Triad};
+use std::fmt;
+
+/// What a column holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ColumnMeaning {
+    /// Sample times.
+    Time,
+    /// A number that counts samples, lost ones included.
+    Counter,
+    /// Readings of one axis.
+    Reading(Triad, Axis),
+    /// Temperature of the sensor.
+    Temperature,
+    /// Acceleration from which a filter has taken gravity: no reading of a sensor.
+    GravityRemoved,
+    /// Orientation that a filter computed.
+    Orientation,
+    /// Increments of velocity or orientation over a sample.
+    Increment,
+    /// Magnetic field.
+    Magnetometer,
+    /// Date and time of day.
+    Calendar,
+    /// Something else, or unknown.
+    Other,
+}
+
+impl fmt::Display for ColumnMeaning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Time => f.write_str("time"),
+            Self::Counter => f.write_str("sample counter"),
+            Self::Reading(triad, axis) => write!(f, "{triad} {axis}"),
+            Self::Temperature => f.write_str("temperature"),
+            Self::GravityRemoved => f.write_str("acceleration without gravity"),
+            Self::Orientation => f.write_str("orientation"),
+            Self::Increment => f.write_str("increment"),
+            Self::Magnetometer => f.write_str("magnetic field"),
+            Self::Calendar => f.write_str("date or time of day"),
+            Self::Other => f.write_str("unknown"),
+        }
+    }
+}
+
+impl ColumnMeaning {
+    /// Why columns of this meaning are never used; `None` where they are.
+    pub(super) fn never_used(self) -> Option<&'static str> {
+        match self {
+            Self::GravityRemoved => Some("gravity has been removed: no reading of a sensor"),
+            Self::Orientation => Some("computed by a filter: no reading of a sensor"),
+            Self::Increment => Some("increments of a strapdown integration, not readings"),
+            Self::Magnetometer => Some("the magnetometer is not calibrated"),
+            Self::Calendar => Some("the time of day is not needed"),
+            Self::Other => Some("not known to be needed"),
+            Self::Time | Self::Counter | Self::Reading(..) | Self::Temperature => None,
+        }
+    }
+}
+
+/// A column of a file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ImuColumn {
+    /// Its name; its number, from 1, in a file without a header.
+    pub name: String,
+    /// What it holds.
+    pub meaning: ColumnMeaning,
+    /// Its unit in the file, where it is known.
+    pub unit: Option<ColumnUnit>,
+    /// Why it is not used; `None` where it is.
+    pub unused: Option<String>,
+}
+
+impl ImuColumn {
+    pub(super) fn new(name: &str, meaning: ColumnMeaning, unit: Option<ColumnUnit>) -> Self {
+        Self { name: name.to_owned(), meaning, unit, unused: meaning.never_used().map(ToOwned::to_owned) }
+    }
+
+    /// Is it used?
+    #[must_use]
+    pub fn is_used(&self) -> bool {
+        self.unused.is_none()
+    }
+}

@@ -1,0 +1,52 @@
+//! Delimited text whose header says what is what, or whose columns `[columns]` names.
+
+use super::column::{ColumnMeaning, ImuColumn};
+use super::draft::Draft;
+use super::format::FileFormat;
+use super::head::Head;
+use super::unit::{ColumnUnit, ImuUnit};
+use super::{imu_tk, naming};
+use crate::recording::columns::is_axis;
+use calibrant_core::sensor::Triad;
+
+/// The columns; `asked` is the sensor that the user says is among them, whose name they need not have then.
+pub(super) fn draft(head: &Head<'_>, asked: Option<Triad>) -> Draft {
+    let columns = if head.names.is_empty() {
+        let other = |column: usize| ImuColumn::new(&(column + 1).to_string(), ColumnMeaning::Other, None);
+        (0..head.fields()).map(other).collect()
+    } else {
+        let named: Vec<_> = head.names.iter().map(|name| naming::column(name)).collect();
+        match asked {
+            Some(triad) if !named.iter().any(is_reading) => imu_tk::named(head, triad),
+            Some(Triad::Gyroscope) if is_unnamed(&named) => named.into_iter().map(of_gyroscope).collect(),
+            _ => named,
+        }
+    };
+    Draft::new(FileFormat::Csv, columns)
+}
+
+fn is_reading(column: &ImuColumn) -> bool {
+    matches!(column.meaning, ColumnMeaning::Reading(..))
+}
+
+/// Are the columns of one sensor that is not named, beside nothing but times? Loggers of one sensor call any of them ax, ay, az.
+fn is_unnamed(columns: &[ImuColumn]) -> bool {
+    let may_be_another = |column: &ImuColumn| match column.unit {
+        None | Some(ColumnUnit::Reading(ImuUnit::Counts)) => is_axis(&column.name.to_lowercase()),
+        _ => false,
+    };
+    columns.iter().all(|column| match column.meaning {
+        ColumnMeaning::Reading(..) => may_be_another(column),
+        ColumnMeaning::Time | ColumnMeaning::Counter => true,
+        _ => false,
+    })
+}
+
+fn of_gyroscope(column: ImuColumn) -> ImuColumn {
+    match column.meaning {
+        ColumnMeaning::Reading(_, axis) => {
+            ImuColumn { meaning: ColumnMeaning::Reading(Triad::Gyroscope, axis), ..column }
+        }
+        _ => column,
+    }
+}

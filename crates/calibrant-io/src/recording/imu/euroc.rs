@@ -1,0 +1,44 @@
+//! `imu0/data.csv` of the EuRoC MAV dataset: `#timestamp [ns],w_RS_S_x [rad s^-1],…,a_RS_S_x [m s^-2],…`.
+
+use super::column::{ColumnMeaning, ImuColumn};
+use super::draft::Draft;
+use super::format::FileFormat;
+use super::head::Head;
+use super::naming;
+use super::unit::{ColumnUnit, ImuUnit, TimeUnit};
+use calibrant_core::sensor::{Axis, Triad};
+
+pub(super) fn draft(head: &Head<'_>) -> Draft {
+    let columns = if head.names.is_empty() {
+        // without its header (`--format euroc`): the columns of the format, in their order
+        (0..head.fields())
+            .map(|column| ImuColumn::new(&(column + 1).to_string(), of_order(column), unit(of_order(column))))
+            .collect()
+    } else {
+        head.names
+            .iter()
+            .map(|name| naming::column(name.trim_start_matches('#').trim_ascii_start()))
+            .collect()
+    };
+    Draft::new(FileFormat::Euroc, columns)
+}
+
+fn of_order(column: usize) -> ColumnMeaning {
+    match column {
+        0 => ColumnMeaning::Time,
+        1..=3 => ColumnMeaning::Reading(Triad::Gyroscope, Axis::ALL[column - 1]),
+        4..=6 => ColumnMeaning::Reading(Triad::Accelerometer, Axis::ALL[column - 4]),
+        _ => ColumnMeaning::Other,
+    }
+}
+
+fn unit(meaning: ColumnMeaning) -> Option<ColumnUnit> {
+    match meaning {
+        ColumnMeaning::Time => Some(ColumnUnit::Time(TimeUnit::Nanosecond)),
+        ColumnMeaning::Reading(Triad::Gyroscope, _) => Some(ColumnUnit::Reading(ImuUnit::RadianPerSecond)),
+        ColumnMeaning::Reading(Triad::Accelerometer, _) => {
+            Some(ColumnUnit::Reading(ImuUnit::MetrePerSecondSquared))
+        }
+        _ => None,
+    }
+}

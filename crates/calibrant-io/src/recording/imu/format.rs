@@ -1,0 +1,131 @@
+//! The formats, and how each is recognised by what is in the file.
+
+use super::head::Head;
+use crate::text::Checked;
+use calibrant_core::error::Complaint;
+
+/// What to do where the format that was given is not that of the content.
+pub(super) const LEAVE_AWAY: &str = "leave --format away: the format is recognised by the content";
+
+/// A file format of whole-IMU recordings.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum FileFormat {
+    /// Text export of Xsens/Movella MT Manager.
+    MtManager,
+    /// CSV export of the Movella DOT app.
+    MovellaDot,
+    /// `data.csv` of the EuRoC MAV dataset (and of TUM VI and others).
+    Euroc,
+    /// imu_tk: two files of `t x y z`, one for each sensor.
+    ImuTk,
+    /// CSV of imucal and NilsPod: `n_samples,gyr_x,…,acc_x,…`.
+    Imucal,
+    /// Delimited text whose header (or `[columns]`) says what is what.
+    Csv,
+    /// ROS 2 bag in an MCAP container, `sensor_msgs/msg/Imu`.
+    Mcap,
+    /// Apache Parquet, columns named as in CSV.
+    Parquet,
+}
+
+impl FileFormat {
+    /// All of them.
+    pub const ALL: [Self; 8] = [
+        Self::MtManager,
+        Self::MovellaDot,
+        Self::Euroc,
+        Self::ImuTk,
+        Self::Imucal,
+        Self::Csv,
+        Self::Mcap,
+        Self::Parquet,
+    ];
+
+    /// As `--format` takes it: `mt-manager`, `movella-dot`, `euroc`, `imu-tk`, `imucal`, `csv`, `mcap`, `parquet`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::MtManager => "mt-manager",
+            Self::MovellaDot => "movella-dot",
+            Self::Euroc => "euroc",
+            Self::ImuTk => "imu-tk",
+            Self::Imucal => "imucal",
+            Self::Csv => "csv",
+            Self::Mcap => "mcap",
+            Self::Parquet => "parquet",
+        }
+    }
+
+    /// In words, for people.
+    #[must_use]
+    pub fn description(self) -> &'static str {
+        match self {
+            Self::MtManager => "Xsens MT Manager text export",
+            Self::MovellaDot => "Movella DOT export",
+            Self::Euroc => "EuRoC CSV",
+            Self::ImuTk => "imu_tk text, t x y z",
+            Self::Imucal => "imucal CSV",
+            Self::Csv => "CSV",
+            Self::Mcap => "ROS 2 bag (MCAP)",
+            Self::Parquet => "Parquet",
+        }
+    }
+
+    /// The format of this name.
+    #[must_use]
+    pub fn parse(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|format| format.name() == name)
+    }
+
+    /// Is it text?
+    #[must_use]
+    pub fn is_text(self) -> bool {
+        !matches!(self, Self::Mcap | Self::Parquet)
+    }
+
+    /// The binary format that begins with these bytes.
+    pub(super) fn of_magic(bytes: &[u8]) -> Option<Self> {
+        if bytes.starts_with(b"\x89MCAP0\r\n") {
+            Some(Self::Mcap)
+        } else if bytes.starts_with(b"PAR1") {
+            Some(Self::Parquet)
+        } else {
+            None
+        }
+    }
+
+    /// The format of a text that begins like this.
+    pub(super) fn of_text(head: &Head<'_>) -> Checked<Self> {
+        let names = head.lower_names();
+        let has = |name: &str| names.iter().any(|known| known == name);
+        if names.first().is_some_and(|name| name.starts_with("#timestamp") || name.starts_with("# timestamp"))
+        {
+            return Ok(Self::Euroc);
+        }
+        let preamble = |keys: &[&str]| keys.iter().any(|key| head.value(key).is_some());
+        if preamble(&["DeviceTag", "AppVersion", "OutputRate", "Measurement Mode"]) {
+            return Ok(Self::MovellaDot);
+        }
+        let xsens = has("packetcounter") || has("sampletimefine");
+        let device = ["MT Manager version", "Update Rate", "DeviceId", "Start Time", "Filter Profile"];
+        if preamble(&device) || (xsens && !head.preamble.is_empty() && !head.has_separator_line()) {
+            return Ok(Self::MtManager);
+        }
+        if xsens {
+            return Err(Complaint::new(
+                "the columns are those of an MT Manager and of a Movella DOT export, whose units differ (rad/s and 0.1 ms; deg/s and µs), and \
+                 nothing above the header tells which it is",
+                "say --format mt-manager or movella-dot",
+            )
+            .at_line(head.line())
+            .into());
+        }
+        if has("n_samples") && has("gyr_x") {
+            return Ok(Self::Imucal);
+        }
+        if names.is_empty() && head.fields() == 4 {
+            return Ok(Self::ImuTk);
+        }
+        Ok(Self::Csv)
+    }
+}

@@ -1,0 +1,236 @@
+//! ROS 2 bags in MCAP containers: messages `sensor_msgs/msg/Imu` in CDR.
+//!
+//! Angular velocity is in rad/s, linear acceleration in m/s² and with gravity by the message's definition ([`readings`](super::readings) looks
+//! whether it is). Times are `header.stamp`, when the sample was taken, and not when the recorder got it. A covariance that begins with −1 says
+//! that a sensor is not there.
+
+use super::cdr::{self, ImuMessage};
+use super::column::{ColumnMeaning, ImuColumn};
+use super::draft::Draft;
+use super::format::FileFormat;
+use super::mcap_end::Cut;
+use super::mcap_records::chunks_end;
+use super::options::ImuReadOptions;
+use super::samples::{SLOTS, Samples, TIME, slots_of};
+use super::unit::{ColumnUnit, ImuUnit, TimeUnit};
+use crate::recording::columns::list;
+use crate::recording::finding::{Finding, count};
+use crate::text::Checked;
+use calibrant_core::error::Complaint;
+use calibrant_core::sensor::{Axis, Triad};
+use mcap::records::Record;
+use mcap::sans_io::{LinearReadEvent, LinearReader, LinearReaderOptions};
+use mcap::{MAGIC, McapError};
+use std::collections::BTreeMap;
+
+/// Names of the message's type.
+const IMU: [&str; 2] = ["sensor_msgs/msg/Imu", "sensor_msgs/msg/dds_/Imu_"];
+/// How much of the file the container's reader is given at once, bytes.
+const PIECE: usize = 1 << 20;
+/// Opcodes of the records that are of interest.
+const SCHEMA: u8 = 3;
+const CHANNEL: u8 = 4;
+const MESSAGE: u8 = 5;
+
+/// What the container says of its topics, and the messages of those with IMUs.
+#[derive(Default)]
+struct Bag {
+    /// Name of each schema.
+    schemas: BTreeMap<u16, String>,
+    channels: BTreeMap<u16, Channel>,
+}
+
+struct Channel {
+    topic: String,
+    schema: String,
+    messages: Vec<ImuMessage>,
+}
+
+/// Columns and values of the bag's IMU, and a warning where the bag has no end.
+pub(super) fn read(bytes: &[u8], options: &ImuReadOptions) -> Checked<(Draft, Samples, Option<Finding>)> {
+    let cut = Cut::of(bytes);
+    let bag = Bag::read(bytes, cut.is_some())?;
+    if let Some(cut) = cut.as_ref().filter(|_| !bag.has_messages()) {
+        return Err(cut.complaint().into());
+    }
+    let messages = bag.messages(options.topic.as_deref())?;
+    let origin = messages.first().map_or(0, |message| message.stamp_ns);
+    let mut columns: [Vec<f64>; SLOTS] = Default::default();
+    columns[TIME] = messages.iter().map(|message| (message.stamp_ns - origin) as f64).collect();
+    let mut described = vec![ImuColumn::new(
+        "header.stamp",
+        ColumnMeaning::Time,
+        Some(ColumnUnit::Time(TimeUnit::Nanosecond)),
+    )];
+    for (triad, name, unit) in [
+        (Triad::Gyroscope, "angular_velocity", ImuUnit::RadianPerSecond),
+        (Triad::Accelerometer, "linear_acceleration", ImuUnit::MetrePerSecondSquared),
+    ] {
+        let absent = messages.iter().all(|message| message.triad(triad).is_none());
+        for axis in Axis::ALL {
+            let meaning = ColumnMeaning::Reading(triad, axis);
+            let mut column =
+                ImuColumn::new(&format!("{name}.{axis}"), meaning, Some(ColumnUnit::Reading(unit)));
+            if absent {
+                column.unused = Some("its covariance begins with −1: the IMU does not have it".into());
+            } else {
+                let value = |message: &ImuMessage| message.triad(triad).map_or(f64::NAN, |y| y[axis.index()]);
+                columns[slots_of(triad)[axis.index()]] = messages.iter().map(value).collect();
+            }
+            described.push(column);
+        }
+    }
+    described.push(ImuColumn::new("orientation", ColumnMeaning::Orientation, None));
+    let last_s = messages.last().map_or(0.0, |message| (message.stamp_ns - origin) as f64 / 1e9);
+    let cut = cut.map(|cut| cut.finding(messages.len(), last_s));
+    Ok((Draft::new(FileFormat::Mcap, described), Samples::from_columns(columns, origin)?, cut))
+}
+
+impl Bag {
+    fn read(bytes: &[u8], is_cut: bool) -> Checked<Self> {
+        if !chunks_end(bytes.get(MAGIC.len()..).unwrap_or_default()) {
+            return Err(damaged(&McapError::UnexpectedEoc).into());
+        }
+        let mut bag = Self::default();
+        let mut rest = bytes;
+        let options = LinearReaderOptions::default()
+            .with_record_length_limit(bytes.len())
+            .with_validate_chunk_crcs(true)
+            // a recorder that was killed has written no end
+            .with_skip_end_magic(true);
+        let mut reader = LinearReader::new_with_options(options);
+        while let Some(event) = reader.next_event() {
+            match event {
+                Ok(LinearReadEvent::ReadRequest(need)) => {
+                    let length = rest.len().min(need.max(PIECE));
+                    reader.insert(length).copy_from_slice(&rest[..length]);
+                    reader.notify_read(length);
+                    rest = &rest[length..];
+                }
+                Ok(LinearReadEvent::Record { data, opcode }) => bag.take(opcode, data)?,
+                // a record that claims more than the file has is the one that was cut off
+                Err(McapError::UnexpectedEof | McapError::RecordTooLarge { .. }) if is_cut => break,
+                Err(error) => return Err(damaged(&error).into()),
+            }
+        }
+        Ok(bag)
+    }
+
+    fn has_messages(&self) -> bool {
+        self.channels.values().any(|channel| !channel.messages.is_empty())
+    }
+
+    fn take(&mut self, opcode: u8, data: &[u8]) -> Checked<()> {
+        if ![SCHEMA, CHANNEL, MESSAGE].contains(&opcode) {
+            return Ok(());
+        }
+        if !texts_end(opcode, data) {
+            return Err(damaged(&McapError::UnexpectedEof).into());
+        }
+        match mcap::parse_record(opcode, data).map_err(|error| damaged(&error))? {
+            Record::Schema { header, .. } => {
+                self.schemas.insert(header.id, header.name);
+            }
+            Record::Channel(channel) => {
+                let schema = self.schemas.get(&channel.schema_id).cloned().unwrap_or_default();
+                if IMU.contains(&schema.as_str()) && channel.message_encoding != "cdr" {
+                    let message = format!(
+                        "messages of `{}` are encoded as `{}`",
+                        channel.topic, channel.message_encoding
+                    );
+                    return Err(Complaint::new(message, "only CDR is read").into());
+                }
+                let new = || Channel { topic: channel.topic.clone(), schema, messages: Vec::new() };
+                self.channels.entry(channel.id).or_insert_with(new);
+            }
+            Record::Message { header, data } => {
+                let Some(channel) = self.channels.get_mut(&header.channel_id) else { return Ok(()) };
+                if !IMU.contains(&channel.schema.as_str()) {
+                    return Ok(());
+                }
+                let number = channel.messages.len() + 1;
+                let message = cdr::imu(&data).map_err(|why| {
+                    let message = format!("message {number} of `{}` cannot be read: {why}", channel.topic);
+                    Complaint::new(message, "was it recorded as sensor_msgs/msg/Imu by ROS 2?")
+                })?;
+                channel.messages.push(message);
+            }
+            _ => (),
+        }
+        Ok(())
+    }
+
+    /// The messages of the topic that is meant.
+    fn messages(mut self, topic: Option<&str>) -> Checked<Vec<ImuMessage>> {
+        let mut topics: BTreeMap<String, Vec<ImuMessage>> = BTreeMap::new();
+        let is_imu = |channel: &Channel| IMU.contains(&channel.schema.as_str());
+        for channel in self.channels.values_mut().filter(|channel| is_imu(channel)) {
+            topics.entry(channel.topic.clone()).or_default().append(&mut channel.messages);
+        }
+        let named = |names: Vec<String>| list(&names, 10);
+        if let Some(topic) = topic {
+            let known = named(topics.keys().cloned().collect());
+            return topics.remove(topic).filter(|messages| !messages.is_empty()).ok_or_else(|| {
+                let has = if known.is_empty() { "none".to_owned() } else { known };
+                let message = format!("there are no messages of sensor_msgs/msg/Imu on `{topic}`; the topics of such messages: {has}");
+                Complaint::new(message, "names count letter by letter, the slash too").into()
+            });
+        }
+        topics.retain(|_, messages| !messages.is_empty());
+        if topics.len() > 1 {
+            let each = topics
+                .iter()
+                .map(|(topic, messages)| format!("{topic} ({})", count(messages.len(), "message")));
+            let message = format!("there is more than one IMU: {}", each.collect::<Vec<_>>().join(", "));
+            return Err(Complaint::new(message, "say --topic, or topic in [columns]").into());
+        }
+        topics.into_values().next().ok_or_else(|| {
+            let others: Vec<String> = self
+                .channels
+                .values()
+                .map(|channel| format!("{} ({})", channel.topic, channel.schema))
+                .collect();
+            let message = if others.is_empty() {
+                "the bag has no topics".to_owned()
+            } else {
+                format!("the bag has no messages of sensor_msgs/msg/Imu; its topics are {}", named(others))
+            };
+            Complaint::new(message, "record the topic of the IMU").into()
+        })
+    }
+}
+
+/// Do the texts of a schema or a channel end within the record? `mcap::parse_record` reserves as many bytes as a text says it has, up to 4 GiB, before it
+/// looks whether they are there.
+fn texts_end(opcode: u8, data: &[u8]) -> bool {
+    /// What follows a block that begins with its length.
+    fn after(data: &[u8]) -> Option<(&[u8], &[u8])> {
+        let (length, rest) = data.split_first_chunk::<4>()?;
+        rest.split_at_checked(usize::try_from(u32::from_le_bytes(*length)).ok()?)
+    }
+    let two = |data: &[u8]| Some(after(after(data)?.1)?.1.len());
+    match opcode {
+        // id, name, encoding
+        SCHEMA => data.get(2..).and_then(two).is_some(),
+        // id, schema, topic, encoding, and pairs of texts
+        CHANNEL => data.get(4..).and_then(two).is_some_and(|left| {
+            after(&data[data.len() - left..]).is_some_and(|(mut pairs, _)| {
+                while let Some((_, rest)) = after(pairs) {
+                    pairs = rest;
+                }
+                pairs.is_empty()
+            })
+        }),
+        _ => true,
+    }
+}
+
+fn damaged(error: &McapError) -> Complaint {
+    match error {
+        McapError::UnsupportedCompression(name) => Complaint::new(
+            format!("the bag is compressed with {name}, which is not read"),
+            "write it again with zstd: `mcap compress --compression zstd`",
+        ),
+        error => Complaint::new(format!("the MCAP container is damaged: {error}"), "try `mcap recover`"),
+    }
+}

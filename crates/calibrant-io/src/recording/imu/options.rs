@@ -1,0 +1,114 @@
+//! What the user says of a file beyond what it says itself.
+
+use super::format::FileFormat;
+use super::unit::{ImuUnit, TimeUnit};
+use calibrant_core::sensor::Triad;
+
+/// How a recording of an IMU is read: everything that the file does not say itself. `[columns]` of an experiment file says the same.
+///
+/// # Examples
+/// ```
+/// use calibrant::io::{ImuReadOptions, ImuUnit, parse_imu_recording};
+///
+/// let text = b"n_samples,gyr_x,gyr_y,gyr_z,acc_x,acc_y,acc_z\n0,90,0,0,0,0,9.8\n1,0,90,0,0,9.8,0\n2,0,0,90,9.8,0,0\n";
+/// let question = parse_imu_recording(text, &ImuReadOptions::default()).expect_err("no units, no rate");
+/// assert!(question.to_string().contains("--gyroscope-unit"));
+///
+/// let options = ImuReadOptions {
+///     accelerometer_unit: Some(ImuUnit::MetrePerSecondSquared),
+///     gyroscope_unit: Some(ImuUnit::DegreePerSecond),
+///     rate_hz: Some(102.4),
+///     ..ImuReadOptions::default()
+/// };
+/// let file = parse_imu_recording(text, &options)?;
+/// let gyroscope = file.recording.gyroscope.expect("there");
+/// assert_eq!(gyroscope.readings[0].x, std::f64::consts::FRAC_PI_2);
+/// # Ok::<(), calibrant::Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ImuReadOptions {
+    /// The format; `None` to recognise it by the content.
+    pub format: Option<FileFormat>,
+    /// Columns by name, where their names do not say what they hold.
+    pub columns: ColumnMapping,
+    /// Unit of the time column, where its name does not say.
+    pub time_unit: Option<TimeUnit>,
+    /// Unit of the accelerometer's columns, where the file does not say.
+    pub accelerometer_unit: Option<ImuUnit>,
+    /// Unit of the gyroscope's columns, where the file does not say.
+    pub gyroscope_unit: Option<ImuUnit>,
+    /// Accelerometer, gyroscope: counts where neither the file nor the user says a unit, as where a calibration in counts is applied. Not asked then.
+    pub counts_unless_stated: [bool; 2],
+    /// Sample rate in Hz, for files without sample times.
+    pub rate_hz: Option<f64>,
+    /// Topic of a bag that has more than one of `sensor_msgs/msg/Imu`.
+    pub topic: Option<String>,
+}
+
+impl ImuReadOptions {
+    /// The unit that is given for a sensor.
+    #[must_use]
+    pub fn unit(&self, triad: Triad) -> Option<ImuUnit> {
+        match triad {
+            Triad::Accelerometer => self.accelerometer_unit,
+            Triad::Gyroscope => self.gyroscope_unit,
+        }
+    }
+
+    /// These options with this unit of a sensor.
+    #[must_use]
+    pub fn with_unit(self, triad: Triad, unit: Option<ImuUnit>) -> Self {
+        match triad {
+            Triad::Accelerometer => Self { accelerometer_unit: unit, ..self },
+            Triad::Gyroscope => Self { gyroscope_unit: unit, ..self },
+        }
+    }
+
+    /// These options, and those of `other` where these say nothing.
+    #[must_use]
+    pub fn or(self, other: Self) -> Self {
+        Self {
+            format: self.format.or(other.format),
+            columns: if self.columns.is_empty() { other.columns } else { self.columns },
+            time_unit: self.time_unit.or(other.time_unit),
+            accelerometer_unit: self.accelerometer_unit.or(other.accelerometer_unit),
+            gyroscope_unit: self.gyroscope_unit.or(other.gyroscope_unit),
+            counts_unless_stated: [0, 1]
+                .map(|k| self.counts_unless_stated[k] || other.counts_unless_stated[k]),
+            rate_hz: self.rate_hz.or(other.rate_hz),
+            topic: self.topic.or(other.topic),
+        }
+    }
+}
+
+/// Which column holds what, by name; columns of a file without a header are named `1`, `2`, ….
+///
+/// What is given replaces what the names of the columns say; what is not given is still found by name.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct ColumnMapping {
+    /// Sample times, in [`ImuReadOptions::time_unit`].
+    pub time: Option<String>,
+    /// x, y, z of the accelerometer.
+    pub accelerometer: Option<[String; 3]>,
+    /// x, y, z of the gyroscope.
+    pub gyroscope: Option<[String; 3]>,
+    /// Temperature, °C.
+    pub temperature: Option<String>,
+}
+
+impl ColumnMapping {
+    /// Is nothing given?
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        *self == Self::default()
+    }
+
+    /// The columns of a sensor.
+    #[must_use]
+    pub fn triad(&self, triad: Triad) -> Option<&[String; 3]> {
+        match triad {
+            Triad::Accelerometer => self.accelerometer.as_ref(),
+            Triad::Gyroscope => self.gyroscope.as_ref(),
+        }
+    }
+}

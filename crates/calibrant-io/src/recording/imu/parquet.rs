@@ -1,0 +1,186 @@
+//! Parquet files: columns named as in CSV; numbers of any width, times as numbers or time stamps.
+
+use super::column::{ColumnMeaning, ImuColumn};
+use super::draft::Draft;
+use super::format::FileFormat;
+use super::naming;
+use super::parquet_pages::Pages;
+use super::samples::{SLOTS, Samples, TIME};
+use super::unit::{ColumnUnit, TimeUnit};
+use crate::text::Checked;
+use bytes::Bytes;
+use calibrant_core::error::Complaint;
+use parquet::basic::{Compression, LogicalType, TimeUnit as StampUnit};
+use parquet::column::reader::{ColumnReader, ColumnReaderImpl, get_column_reader};
+use parquet::data_type::DataType;
+use parquet::errors::ParquetError;
+use parquet::file::reader::{FileReader, SerializedFileReader};
+use parquet::schema::types::ColumnDescriptor;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+/// Values that are read at once.
+const BATCH: usize = 1 << 16;
+/// Rows for each byte of the file, at most: what changes from row to row takes more room, and a few bytes can claim billions of equal ones.
+const ROWS_PER_BYTE: usize = 1000;
+/// Whole numbers above this are not exact as `f64`.
+const EXACT: u64 = 1 << 53;
+
+/// An opened file and what its columns mean.
+pub(super) struct Opened {
+    reader: SerializedFileReader<Bytes>,
+    bytes: usize,
+    pub(super) draft: Draft,
+}
+
+/// Reads the names of the columns.
+pub(super) fn open(bytes: &[u8]) -> Checked<Opened> {
+    guarded(|| {
+        let reader =
+            SerializedFileReader::new(Bytes::copy_from_slice(bytes)).map_err(|error| damaged(&error))?;
+        let columns =
+            reader.metadata().file_metadata().schema_descr().columns().iter().map(|column| describe(column));
+        let draft = Draft::new(FileFormat::Parquet, columns.collect());
+        Ok(Opened { reader, bytes: bytes.len(), draft })
+    })
+}
+
+/// A column: its name as in CSV, and the unit of a time stamp from its type.
+fn describe(column: &ColumnDescriptor) -> ImuColumn {
+    let name = column.path().string();
+    if column.max_rep_level() > 0 {
+        let mut described = ImuColumn::new(&name, ColumnMeaning::Other, None);
+        described.unused = Some("a list, not a number for each row".into());
+        return described;
+    }
+    let mut described = naming::column(&name);
+    let unit = match column.logical_type_ref() {
+        Some(LogicalType::Timestamp(stamp)) => match stamp.unit {
+            StampUnit::MILLIS => TimeUnit::Millisecond,
+            StampUnit::MICROS => TimeUnit::Microsecond,
+            StampUnit::NANOS => TimeUnit::Nanosecond,
+        },
+        _ => return described,
+    };
+    // a time stamp is a time whatever its name
+    described.unit = Some(ColumnUnit::Time(unit));
+    if described.meaning == ColumnMeaning::Other {
+        described = ImuColumn::new(&name, ColumnMeaning::Time, described.unit);
+    }
+    described
+}
+
+/// Reads the values of the columns that have a slot.
+pub(super) fn samples(file: &Opened, slots: &[Option<usize>]) -> Checked<Samples> {
+    guarded(|| {
+        let mut columns: [Vec<f64>; SLOTS] = Default::default();
+        let mut origin = 0;
+        for (at, slot) in slots.iter().enumerate().filter_map(|(at, slot)| Some((at, (*slot)?))) {
+            let mut column = Column {
+                name: &file.draft.columns[at].name,
+                is_time: slot == TIME,
+                origin: None,
+                values: Vec::new(),
+                most: file.bytes.saturating_mul(ROWS_PER_BYTE),
+            };
+            for group in 0..file.reader.num_row_groups() {
+                let group = file.reader.get_row_group(group).map_err(|error| damaged(&error))?;
+                if group.metadata().column(at).compression() == Compression::LZO {
+                    return Err(Complaint::new(
+                        "the file is compressed with LZO, which is not read",
+                        "write it again with zstd, snappy or no compression",
+                    )
+                    .into());
+                }
+                let descriptor = file.reader.metadata().file_metadata().schema_descr().column(at);
+                let pages = group.get_column_page_reader(at).map_err(|error| damaged(&error))?;
+                column.read(get_column_reader(descriptor, Box::new(Pages(pages))))?;
+            }
+            if slot == TIME {
+                origin = column.origin.unwrap_or(0);
+            }
+            columns[slot] = column.values;
+        }
+        Samples::from_columns(columns, origin)
+    })
+}
+
+/// A column that is being read.
+struct Column<'n> {
+    name: &'n str,
+    is_time: bool,
+    /// What is taken from times that are too large to be exact as `f64`.
+    origin: Option<i64>,
+    values: Vec<f64>,
+    /// The most rows that are believed.
+    most: usize,
+}
+
+impl Column<'_> {
+    fn read(&mut self, reader: ColumnReader) -> Checked<()> {
+        match reader {
+            ColumnReader::DoubleColumnReader(reader) => self.take(reader, |_, value| *value),
+            ColumnReader::FloatColumnReader(reader) => self.take(reader, |_, value| f64::from(*value)),
+            ColumnReader::Int32ColumnReader(reader) => self.take(reader, |_, value| f64::from(*value)),
+            ColumnReader::Int64ColumnReader(reader) => {
+                self.take(reader, |column, value| column.whole(*value))
+            }
+            _ => {
+                let message = format!("column `{}` does not hold numbers", self.name);
+                Err(Complaint::new(
+                    message,
+                    "is it the right column? numbers are float, double, int32 or int64",
+                )
+                .into())
+            }
+        }
+    }
+
+    fn whole(&mut self, value: i64) -> f64 {
+        if !self.is_time {
+            return value as f64;
+        }
+        let origin = *self.origin.get_or_insert(if value.unsigned_abs() > EXACT { value } else { 0 });
+        (i128::from(value) - i128::from(origin)) as f64
+    }
+
+    fn take<T: DataType>(
+        &mut self,
+        mut reader: ColumnReaderImpl<T>,
+        number: impl Fn(&mut Self, &T::T) -> f64,
+    ) -> Checked<()> {
+        loop {
+            let (mut present, mut found) = (Vec::new(), Vec::new());
+            let (rows, values, _) = reader
+                .read_records(BATCH, Some(&mut present), None, &mut found)
+                .map_err(|error| damaged(&error))?;
+            if rows == 0 {
+                return Ok(());
+            }
+            if self.values.len() + rows > self.most {
+                let message = format!("column `{}` claims more rows than the file can hold", self.name);
+                return Err(Complaint::new(message, "was it written to its end?").into());
+            }
+            // where every value is there, there are no levels
+            let all = values == rows;
+            let most = present.iter().copied().max().unwrap_or(0);
+            let mut found = found.iter();
+            for row in 0..rows {
+                let is_there = all || present.get(row).is_some_and(|level| *level == most && most > 0);
+                let value = if is_there { found.next() } else { None };
+                let value = value.map_or(f64::NAN, |value| number(self, value));
+                self.values.push(value);
+            }
+        }
+    }
+}
+
+fn damaged(error: &ParquetError) -> Complaint {
+    Complaint::new(format!("the Parquet file is damaged: {error}"), "was it written to its end?")
+}
+
+/// A damaged file must not end the program, even where the crate that reads it panics.
+fn guarded<T>(read: impl FnOnce() -> Checked<T>) -> Checked<T> {
+    catch_unwind(AssertUnwindSafe(read)).unwrap_or_else(|_| {
+        Err(Complaint::new("the Parquet file is damaged", "was it written to its end?").into())
+    })
+}

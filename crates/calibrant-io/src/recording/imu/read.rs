@@ -1,0 +1,209 @@
+//! Reads a recording of an IMU in any format: the header, the meaning of the columns, the rows, the recording.
+
+use super::assemble::assemble;
+use super::draft::Draft;
+use super::file::ImuFile;
+use super::format::{FileFormat, LEAVE_AWAY};
+use super::head::Head;
+#[cfg(feature = "mcap")]
+use super::mcap;
+use super::options::ImuReadOptions;
+#[cfg(feature = "parquet")]
+use super::parquet;
+use super::samples::Samples;
+use super::source::{self, Source};
+use super::unit::TimeUnit;
+use super::{csv, euroc, imu_tk, imucal, movella_dot, mt_manager, unnamed};
+use crate::recording::checksum::hex_sha256;
+use crate::recording::row::Layout;
+use crate::text::Checked;
+use calibrant_core::error::{Complaint, Error, Result};
+use calibrant_core::sensor::Triad;
+use std::path::Path;
+
+/// Reads a recording of an IMU in any known format.
+///
+/// # Errors
+/// [`Error::Recording`] with file, line and column: a file that cannot be read; no column of a sensor, or one from which gravity was removed, or
+/// only orientation; an axis that is missing or there twice; a unit or the sample rate that the file does not state (the message asks for it and says
+/// what the values suggest) or that contradicts the options; a row with the wrong number of columns, or something that is not a number; a time
+/// that goes backwards; fewer than two samples.
+pub fn read_imu_recording(path: &Path, options: &ImuReadOptions) -> Result<ImuFile> {
+    read(path, options, None)
+}
+
+/// Reads a recording that holds this sensor: as [`read_imu_recording`] does, with the other sensor where the file has it, or a text of this sensor alone whose columns do
+/// not say which it is: `t x y z` of imu_tk, `t_s,x,y,z`, or `t_s,ax,ay,az` of a gyroscope.
+///
+/// # Errors
+/// As [`read_imu_recording`]. That the file has the other sensor only is none.
+pub fn read_imu_sensor(path: &Path, triad: Triad, options: &ImuReadOptions) -> Result<ImuFile> {
+    read(path, options, Some(triad))
+}
+
+fn read(path: &Path, options: &ImuReadOptions, asked: Option<Triad>) -> Result<ImuFile> {
+    let in_file = |complaint: Box<Complaint>| Error::recording(complaint.in_file(path));
+    let beginning = source::beginning(path).map_err(in_file)?;
+    if FileFormat::of_magic(&beginning.bytes).is_some() {
+        return parse(&beginning.bytes, options).map_err(in_file);
+    }
+    source::of_file(beginning, |source| parse_text(source, options, asked)).map_err(in_file)
+}
+
+/// Reads the bytes of a recording of an IMU.
+///
+/// # Errors
+/// As [`read_imu_recording`], without the name of the file.
+///
+/// # Examples
+/// ```
+/// use calibrant::io::{FileFormat, ImuReadOptions, parse_imu_recording};
+///
+/// let text = "// Update Rate: 100.0Hz\nPacketCounter\tAcc_X\tAcc_Y\tAcc_Z\tGyr_X\tGyr_Y\tGyr_Z\n\
+///             65534\t0.1\t0.2\t9.81\t0.0\t0.1\t0.0\n65535\t0.2\t0.1\t9.80\t0.1\t0.0\t0.1\n00001\t0.1\t0.1\t9.82\t0.0\t0.0\t0.0\n";
+/// let file = parse_imu_recording(text.as_bytes(), &ImuReadOptions::default())?;
+/// assert_eq!(file.format, FileFormat::MtManager);
+/// let gyroscope = file.recording.gyroscope.expect("there");
+/// assert_eq!(gyroscope.times_s, [0.0, 0.01, 0.03], "the counter began anew, and one sample was lost");
+/// # Ok::<(), calibrant::Error>(())
+/// ```
+pub fn parse_imu_recording(bytes: &[u8], options: &ImuReadOptions) -> Result<ImuFile> {
+    parse(bytes, options).map_err(|complaint| Error::recording(*complaint))
+}
+
+pub(super) fn parse(bytes: &[u8], options: &ImuReadOptions) -> Checked<ImuFile> {
+    if let Some(format) = FileFormat::of_magic(bytes) {
+        if let Some(given) = options.format.filter(|given| *given != format) {
+            let message =
+                format!("the format was given as {}, but this is {}", given.name(), format.description());
+            return Err(Complaint::new(message, LEAVE_AWAY).into());
+        }
+        let (file, sha256) = rayon::join(|| binary(format, bytes, options), || hex_sha256(bytes));
+        return Ok(ImuFile { sha256: vec![sha256], ..file? });
+    }
+    source::of_bytes(bytes, |source| parse_text(source, options, None))
+}
+
+/// Reads a text; `asked` is the sensor that the user says is in it.
+fn parse_text(source: Source<'_>, options: &ImuReadOptions, asked: Option<Triad>) -> Checked<ImuFile> {
+    let head = Head::find(source.text)?;
+    let format = match options.format {
+        Some(format) => format,
+        None => sniffed(&head, options)?,
+    };
+    let draft = match format {
+        FileFormat::MtManager => mt_manager::draft(&head),
+        FileFormat::MovellaDot => movella_dot::draft(&head),
+        FileFormat::Euroc => euroc::draft(&head),
+        FileFormat::Imucal => imucal::draft(&head)?,
+        FileFormat::ImuTk => imu_tk::draft(&head, asked)?,
+        FileFormat::Csv if head.names.is_empty() && options.columns.is_empty() => {
+            return Err(unnamed::question(&head).into());
+        }
+        FileFormat::Csv => csv::draft(&head, asked),
+        FileFormat::Mcap | FileFormat::Parquet => return Err(not_binary(format).into()),
+    };
+    rows(draft, head, source, options)
+}
+
+#[cfg(feature = "mcap")]
+fn read_mcap(bytes: &[u8], options: &ImuReadOptions) -> Checked<ImuFile> {
+    if !options.columns.is_empty() {
+        return Err(Complaint::new(
+            "[columns] names columns, but the messages of a bag say what they hold",
+            "take time, accelerometer, gyroscope and temperature out of [columns]; topic may stay",
+        )
+        .into());
+    }
+    let (mut draft, samples, cut) = mcap::read(bytes, options)?;
+    draft.slots()?;
+    let mut file = finish(draft, samples, options).map_err(|mut complaint| {
+        if let Some(cut) = &cut {
+            complaint.help = format!("{}; {cut}", complaint.help);
+        }
+        complaint
+    })?;
+    file.findings.extend(cut);
+    Ok(file)
+}
+
+#[cfg(not(feature = "mcap"))]
+fn read_mcap(_: &[u8], _: &ImuReadOptions) -> Checked<ImuFile> {
+    Err(without("mcap"))
+}
+
+#[cfg(feature = "parquet")]
+fn read_parquet(bytes: &[u8], options: &ImuReadOptions) -> Checked<ImuFile> {
+    let mut file = parquet::open(bytes)?;
+    file.draft.map(options)?;
+    file.draft.set_time_unit(options)?;
+    let slots = file.draft.slots()?;
+    let samples = parquet::samples(&file, &slots)?;
+    finish(file.draft, samples, options)
+}
+
+#[cfg(not(feature = "parquet"))]
+fn read_parquet(_: &[u8], _: &ImuReadOptions) -> Checked<ImuFile> {
+    Err(without("parquet"))
+}
+
+#[cfg(not(all(feature = "mcap", feature = "parquet")))]
+fn without(feature: &str) -> Box<Complaint> {
+    let message = format!("this build of calibrant does not read {feature} files");
+    Complaint::new(message, format!("build it with the feature `{feature}`")).into()
+}
+
+fn binary(format: FileFormat, bytes: &[u8], options: &ImuReadOptions) -> Checked<ImuFile> {
+    if format == FileFormat::Mcap { read_mcap(bytes, options) } else { read_parquet(bytes, options) }
+}
+
+/// The format of a text. With the columns named, four of them need not be imu_tk's.
+fn sniffed(head: &Head<'_>, options: &ImuReadOptions) -> Checked<FileFormat> {
+    match FileFormat::of_text(head) {
+        Ok(FileFormat::ImuTk) | Err(_) if !options.columns.is_empty() => Ok(FileFormat::Csv),
+        format => format,
+    }
+}
+
+/// Reads the rows of a text whose columns are known.
+pub(super) fn rows(
+    mut draft: Draft,
+    head: Head<'_>,
+    source: Source<'_>,
+    options: &ImuReadOptions,
+) -> Checked<ImuFile> {
+    let line = head.line();
+    let at_header = |complaint: Box<Complaint>| Box::new(complaint.at_line(line));
+    draft.map(options).map_err(at_header)?;
+    draft.set_time_unit(options).map_err(at_header)?;
+    let slots = draft.slots().map_err(at_header)?;
+    let layout = Layout {
+        delimiter: head.delimiter,
+        slots,
+        names: head.names.iter().map(|name| (*name).to_owned()).collect(),
+        has_header: !head.names.is_empty(),
+        ticks: draft.time_unit() != Some(TimeUnit::Second),
+    };
+    let mut samples = source.samples(&layout, head)?;
+    samples.last_line = samples.last_line.or(Some(line));
+    finish(draft, samples, options)
+}
+
+/// From the values of a file to its recording.
+fn finish(mut draft: Draft, mut samples: Samples, options: &ImuReadOptions) -> Checked<ImuFile> {
+    let assembled = assemble(&mut draft, &mut samples, options)?;
+    Ok(ImuFile {
+        recording: assembled.recording,
+        format: draft.format,
+        columns: draft.columns,
+        findings: assembled.findings,
+        rows: samples.rows,
+        sha256: Vec::new(),
+        second: None,
+        counted_from_ns: samples.counted_from_ns,
+    })
+}
+
+fn not_binary(format: FileFormat) -> Complaint {
+    Complaint::new(format!("the format was given as {}, but this is text", format.name()), LEAVE_AWAY)
+}

@@ -1,0 +1,206 @@
+//! The units in which files give readings and times.
+
+use crate::recording::columns::STANDARD_GRAVITY_MPS2;
+use calibrant_core::sensor::{ReadingUnit, Triad};
+
+/// Unit of an accelerometer's or a gyroscope's readings as a file gives them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ImuUnit {
+    /// Metres per second squared.
+    MetrePerSecondSquared,
+    /// Standard gravity, 9.80665 m/s²; converted to m/s².
+    StandardGravity,
+    /// Thousandths of standard gravity; converted to m/s².
+    MilliGravity,
+    /// Radians per second.
+    RadianPerSecond,
+    /// Degrees per second; converted to rad/s.
+    DegreePerSecond,
+    /// Thousandths of a degree per second; converted to rad/s.
+    MilliDegreePerSecond,
+    /// Raw counts of the analogue-to-digital converter, of either sensor.
+    Counts,
+}
+
+impl ImuUnit {
+    /// All of them.
+    pub const ALL: [Self; 7] = [
+        Self::MetrePerSecondSquared,
+        Self::StandardGravity,
+        Self::MilliGravity,
+        Self::RadianPerSecond,
+        Self::DegreePerSecond,
+        Self::MilliDegreePerSecond,
+        Self::Counts,
+    ];
+
+    /// As it is printed: `m/s²`, `g`, `mg`, `rad/s`, `deg/s`, `mdps` or `counts`.
+    #[must_use]
+    pub fn symbol(self) -> &'static str {
+        match self {
+            Self::MetrePerSecondSquared => "m/s²",
+            Self::StandardGravity => "g",
+            Self::MilliGravity => "mg",
+            Self::RadianPerSecond => "rad/s",
+            Self::DegreePerSecond => "deg/s",
+            Self::MilliDegreePerSecond => "mdps",
+            Self::Counts => "counts",
+        }
+    }
+
+    /// The unit of this name in one of its usual spellings: `m/s²`, `m/s^2`, `mps2`, `m s^-2`, `g`, `mg`, `rad/s`, `radps`, `deg/s`, `dps`, `°/s`, `mdps`, `counts`, `LSB`, …
+    ///
+    /// # Examples
+    /// ```
+    /// use calibrant::io::ImuUnit;
+    /// assert_eq!(ImuUnit::parse("m s^-2"), Some(ImuUnit::MetrePerSecondSquared));
+    /// assert_eq!(ImuUnit::parse("dps"), Some(ImuUnit::DegreePerSecond));
+    /// assert_eq!(ImuUnit::parse("furlongs"), None);
+    /// ```
+    #[must_use]
+    pub fn parse(text: &str) -> Option<Self> {
+        let plain: String = text.to_lowercase().chars().filter(|c| !" _^*·".contains(*c)).collect();
+        Some(match plain.as_str() {
+            "m/s²" | "m/s2" | "mps2" | "ms2" | "ms-2" | "mpss" | "m/s/s" | "meterspersecondsquared" => {
+                Self::MetrePerSecondSquared
+            }
+            "g" | "gs" | "gee" => Self::StandardGravity,
+            "mg" | "millig" => Self::MilliGravity,
+            "rad/s" | "radps" | "rads" | "rads-1" | "radpersecond" | "rad/sec" => Self::RadianPerSecond,
+            "deg/s" | "degps" | "dps" | "degs" | "degs-1" | "°/s" | "deg/sec" | "degpersecond" => {
+                Self::DegreePerSecond
+            }
+            "mdps" | "mdeg/s" | "mdegps" | "m°/s" => Self::MilliDegreePerSecond,
+            "counts" | "count" | "cnt" | "lsb" | "raw" | "adc" => Self::Counts,
+            _ => return None,
+        })
+    }
+
+    /// Can this sensor's readings have it?
+    #[must_use]
+    pub fn suits(self, triad: Triad) -> bool {
+        match self {
+            Self::MetrePerSecondSquared | Self::StandardGravity | Self::MilliGravity => {
+                triad == Triad::Accelerometer
+            }
+            Self::RadianPerSecond | Self::DegreePerSecond | Self::MilliDegreePerSecond => {
+                triad == Triad::Gyroscope
+            }
+            Self::Counts => true,
+        }
+    }
+
+    /// The units that this sensor's readings can have, in words: `m/s², g, mg or counts`.
+    #[must_use]
+    pub fn choices(triad: Triad) -> &'static str {
+        match triad {
+            Triad::Accelerometer => "m/s², g, mg or counts",
+            Triad::Gyroscope => "rad/s, deg/s, mdps or counts",
+        }
+    }
+
+    /// Unit after the conversion, and the factor that readings are multiplied by.
+    #[must_use]
+    pub fn reading(self) -> (ReadingUnit, f64) {
+        match self {
+            Self::MetrePerSecondSquared => (ReadingUnit::MetrePerSecondSquared, 1.0),
+            Self::StandardGravity => (ReadingUnit::MetrePerSecondSquared, STANDARD_GRAVITY_MPS2),
+            Self::MilliGravity => (ReadingUnit::MetrePerSecondSquared, 1e-3 * STANDARD_GRAVITY_MPS2),
+            Self::RadianPerSecond => (ReadingUnit::RadianPerSecond, 1.0),
+            Self::DegreePerSecond => (ReadingUnit::RadianPerSecond, std::f64::consts::PI / 180.0),
+            Self::MilliDegreePerSecond => (ReadingUnit::RadianPerSecond, std::f64::consts::PI / 180e3),
+            Self::Counts => (ReadingUnit::Counts, 1.0),
+        }
+    }
+}
+
+impl From<ReadingUnit> for ImuUnit {
+    fn from(unit: ReadingUnit) -> Self {
+        match unit {
+            ReadingUnit::MetrePerSecondSquared => Self::MetrePerSecondSquared,
+            ReadingUnit::RadianPerSecond => Self::RadianPerSecond,
+            ReadingUnit::Counts => Self::Counts,
+        }
+    }
+}
+
+/// Unit of a file's sample times.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum TimeUnit {
+    /// Seconds.
+    Second,
+    /// Milliseconds.
+    Millisecond,
+    /// Tenths of a millisecond: the ticks of `SampleTimeFine` in MT Manager's exports.
+    TenthMillisecond,
+    /// Microseconds.
+    Microsecond,
+    /// Nanoseconds.
+    Nanosecond,
+    /// Samples: a counter, which becomes times by the sample rate.
+    Sample,
+}
+
+impl TimeUnit {
+    /// As it is printed and written: `s`, `ms`, `0.1 ms`, `µs`, `ns` or `samples`.
+    #[must_use]
+    pub fn symbol(self) -> &'static str {
+        match self {
+            Self::Second => "s",
+            Self::Millisecond => "ms",
+            Self::TenthMillisecond => "0.1 ms",
+            Self::Microsecond => "µs",
+            Self::Nanosecond => "ns",
+            Self::Sample => "samples",
+        }
+    }
+
+    /// The unit of this name: `s`, `ms`, `0.1 ms`, `us` or `µs`, `ns`, `samples`.
+    #[must_use]
+    pub fn parse(text: &str) -> Option<Self> {
+        Some(match text.trim().to_lowercase().as_str() {
+            "s" | "sec" | "second" | "seconds" => Self::Second,
+            "ms" | "msec" | "millis" | "milliseconds" => Self::Millisecond,
+            "0.1 ms" | "0.1ms" => Self::TenthMillisecond,
+            "us" | "µs" | "μs" | "usec" | "micros" | "microseconds" => Self::Microsecond,
+            "ns" | "nsec" | "nanos" | "nanoseconds" => Self::Nanosecond,
+            "samples" | "sample" => Self::Sample,
+            _ => return None,
+        })
+    }
+
+    /// Ticks in a second; `None` for samples, whose rate is another matter. (Times are divided by it: `1/1000` is no binary number.)
+    pub(super) fn per_second(self) -> Option<f64> {
+        match self {
+            Self::Second => Some(1.0),
+            Self::Millisecond => Some(1e3),
+            Self::TenthMillisecond => Some(1e4),
+            Self::Microsecond => Some(1e6),
+            Self::Nanosecond => Some(1e9),
+            Self::Sample => None,
+        }
+    }
+}
+
+/// Unit of a column.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ColumnUnit {
+    /// Of readings.
+    Reading(ImuUnit),
+    /// Of times.
+    Time(TimeUnit),
+    /// Degrees Celsius.
+    Celsius,
+}
+
+impl ColumnUnit {
+    /// As it is printed.
+    #[must_use]
+    pub fn symbol(self) -> &'static str {
+        match self {
+            Self::Reading(unit) => unit.symbol(),
+            Self::Time(unit) => unit.symbol(),
+            Self::Celsius => "°C",
+        }
+    }
+}

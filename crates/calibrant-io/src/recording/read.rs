@@ -1,0 +1,95 @@
+//! Reads a recording of an accelerometer: line by line, then as a whole.
+
+use super::checksum::hex_sha256;
+use super::columns::Columns;
+use super::finding::{Finding, count};
+use super::rows::Rows;
+use super::size::{LARGEST, estimated_rows};
+use super::{ReadOptions, RecordingFile, quality, signed};
+use crate::delimited::Lines;
+use crate::text::{self, Checked};
+use calibrant_core::error::{Complaint, Error, Result};
+use calibrant_core::sensor::Recording;
+use std::path::Path;
+
+/// Reads a recording.
+///
+/// # Errors
+/// [`Error::Recording`] with file, line and column: a file that cannot be read or is not text; columns missing, or units that
+/// contradict each other; a row with too few or too many columns, or something that is not a number; |t| above 1e12, or |reading|
+/// in more than one row of 50 (fewer are wild samples; none above 1e300);
+/// a time that goes backwards; fewer than two samples.
+pub fn read_recording(path: &Path, options: &ReadOptions) -> Result<RecordingFile> {
+    let bytes =
+        text::read_bytes(path, LARGEST, "the recording").map_err(|complaint| Error::recording(*complaint))?;
+    parse(&bytes, options).map_err(|complaint| Error::recording(complaint.in_file(path)))
+}
+
+/// Reads the bytes of a recording.
+///
+/// # Errors
+/// As [`read_recording`], without the name of the file.
+///
+/// # Examples
+/// ```
+/// use calibrant::io::{ReadOptions, parse_recording};
+/// use calibrant::sensor::ReadingUnit;
+///
+/// let options = ReadOptions { unit: None, expected_unit: ReadingUnit::MetrePerSecondSquared, axes: 3 };
+/// let file = parse_recording(b"t_s,ax_g,ay_g,az_g\n0.00,0,0,1\n0.01,0,0,1\n", &options)?;
+/// assert_eq!(file.recording.readings[0].z, 9.80665);
+/// assert!(file.findings[0].to_string().contains("axis x never changes"));
+/// # Ok::<(), calibrant::Error>(())
+/// ```
+pub fn parse_recording(bytes: &[u8], options: &ReadOptions) -> Result<RecordingFile> {
+    parse(bytes, options).map_err(|complaint| Error::recording(*complaint))
+}
+
+pub(super) fn parse(bytes: &[u8], options: &ReadOptions) -> Checked<RecordingFile> {
+    let text = text::as_text(bytes)?;
+    if options.axes != 1 && options.axes != 3 {
+        return Err(Complaint::new(format!("{} axes are not supported", options.axes), "1 or 3").into());
+    }
+    let mut findings = Vec::new();
+    let mut lines = Lines::of(text);
+    let Some(first) = lines.by_ref().find(|line| !line.is_void()) else {
+        return Err(Complaint::new(
+            if text.trim().is_empty() { "the file is empty" } else { "the file has only comments" },
+            "a recording has a header t_s,ax,ay,az and a row for each sample",
+        )
+        .into());
+    };
+    first.check_ends()?;
+    let columns = Columns::find(first, options, &mut findings)?;
+    let capacity = estimated_rows(text, first.text, text.len());
+    let mut rows = Rows::new(&columns, capacity);
+    rows.look_at_the_end(text);
+    let mut last = first.number;
+    if !columns.layout.has_header {
+        rows.take(first)?;
+    }
+    for line in lines {
+        last = line.number;
+        rows.take(line)?;
+    }
+    rows.check_wild()?;
+    rows.report(&mut findings);
+    if rows.times_s.len() < 2 {
+        return Err(too_short(&rows, last, &findings).into());
+    }
+    let Rows { times_s, readings, lines, .. } = rows;
+    let recording = Recording { times_s, readings, axes: options.axes, unit: columns.unit };
+    signed::check(&recording, "")?;
+    quality::examine(&recording, &lines, &mut findings);
+    Ok(RecordingFile { recording, findings, sha256: hex_sha256(bytes), lines: last })
+}
+
+pub(super) fn too_short(rows: &Rows<'_>, last: usize, findings: &[Finding]) -> Complaint {
+    let message = match rows.rows() {
+        0 => "there is a header but no sample below it".to_owned(),
+        n => format!("only {} in {}", count(rows.times_s.len(), "usable sample"), count(n, "row")),
+    };
+    let mut help = vec!["a recording needs two samples at least".to_owned()];
+    help.extend(findings.iter().map(ToString::to_string));
+    Complaint::new(message, help.join("; ")).at_line(last)
+}

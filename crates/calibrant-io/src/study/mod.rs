@@ -1,0 +1,52 @@
+//! `study.json`: every experiment that was run, sensor by sensor.
+
+mod calibration;
+mod improvement;
+mod surface;
+
+use super::json;
+use calibrant_core::error::Result;
+use calibrant_design::study::Studies;
+use calibration::StudyFields;
+use improvement::DesignStudyFields;
+use serde::Serialize;
+use std::path::Path;
+use surface::SurfaceFields;
+
+/// Writes `study.json`: of each experiment the setting, the summary, every sensor, and what was looked at in detail (without its samples); `null` where an
+/// experiment was not run.
+///
+/// # Errors
+/// [`Error::Output`](calibrant_core::Error::Output) where it cannot be written.
+pub fn write_study(path: &Path, studies: &Studies) -> Result<()> {
+    json::write_json(path, &StudiesFile::of(studies))
+}
+
+/// The text that [`write_study`] writes.
+#[must_use]
+pub fn study_json(studies: &Studies) -> String {
+    json::to_json(&StudiesFile::of(studies))
+}
+
+#[derive(Serialize)]
+struct StudiesFile<'a> {
+    schema: u32,
+    remarks: &'a [String],
+    calibration: Option<StudyFields<'a>>,
+    surface: Option<SurfaceFields<'a>>,
+    design: Option<DesignStudyFields<'a>>,
+    noisy: Option<DesignStudyFields<'a>>,
+}
+
+impl<'a> StudiesFile<'a> {
+    fn of(studies: &'a Studies) -> Self {
+        Self {
+            schema: 1,
+            remarks: &studies.remarks,
+            calibration: studies.calibration.as_ref().map(StudyFields::of),
+            surface: studies.surface.as_ref().map(SurfaceFields::of),
+            design: studies.design.as_ref().map(DesignStudyFields::of),
+            noisy: studies.noisy.as_ref().map(DesignStudyFields::of),
+        }
+    }
+}

@@ -1,0 +1,200 @@
+//! `summary.csv`: one row for each of several recordings.
+
+use super::json::to_json;
+use super::output::write_atomically;
+use calibrant_core::error::Result;
+use calibrant_core::estimate::{Calibration, CalibrationStatus, ImuCalibration, Recovered};
+use calibrant_core::sensor::Parameter;
+use std::io;
+use std::path::Path;
+
+/// A recording and what came of it.
+#[derive(Debug, Clone)]
+pub struct SummaryRow {
+    /// Where its results are: the name of the recording's file, with a number where names repeat.
+    pub file: String,
+    /// The recording, as it was given.
+    pub recording: String,
+    /// Its calibration, or why there is none.
+    pub outcome: std::result::Result<Summary, String>,
+}
+
+/// The calibrations of several recordings as one JSON array, in their order: of each its file, and either the text of its calibration.json or its error.
+///
+/// # Examples
+/// ```
+/// use calibrant::io::calibrations_json;
+/// let text = calibrations_json([("a.csv", Ok("{\"schema\": 2}\n")), ("b.csv", Err("the file is empty"))]);
+/// assert!(text.contains("\"file\": \"b.csv\",\n    \"error\": \"the file is empty\""));
+/// ```
+#[must_use]
+pub fn calibrations_json<'a>(
+    recordings: impl IntoIterator<Item = (&'a str, std::result::Result<&'a str, &'a str>)>,
+) -> String {
+    let entry = |(file, outcome): (&str, std::result::Result<&str, &str>)| {
+        let quoted = |text: &str| to_json(&text).trim_end().to_owned();
+        let outcome = match outcome {
+            // no text of JSON has a line end within a string
+            Ok(calibration) => {
+                format!("\"calibration\": {}", calibration.trim_end().replace('\n', "\n    "))
+            }
+            Err(error) => format!("\"error\": {}", quoted(error)),
+        };
+        format!("  {{\n    \"file\": {},\n    {outcome}\n  }}", quoted(file))
+    };
+    format!("[\n{}\n]\n", recordings.into_iter().map(entry).collect::<Vec<_>>().join(",\n"))
+}
+
+/// What is kept of a calibration where there are thousands.
+#[derive(Debug, Clone)]
+pub struct Summary {
+    status: CalibrationStatus,
+    /// How good it is: name, with the unit at its end, and number.
+    quality: Vec<(&'static str, String)>,
+    parameters: Vec<Estimate>,
+}
+
+#[derive(Debug, Clone)]
+struct Estimate {
+    name: String,
+    /// Its unit, as it ends a column's name.
+    ending: &'static str,
+    value: f64,
+    sd: f64,
+}
+
+impl Summary {
+    /// Of an accelerometer: the number of warnings, χ², degrees of freedom, p-value, from holds the root mean square of `|f| − g`, and the parameters.
+    #[must_use]
+    pub fn of(calibration: &Calibration) -> Self {
+        let fit = &calibration.fit;
+        let estimates = calibration.values.iter().zip(calibration.sd());
+        let estimate = |(parameter, (value, sd)): (&Parameter, (&f64, f64))| Estimate {
+            name: parameter.name.clone(),
+            ending: ending(parameter.unit),
+            value: *value,
+            sd,
+        };
+        let mut quality = vec![
+            ("warnings", calibration.warnings.len().to_string()),
+            ("chi2", number(Some(fit.chi2))),
+            ("degrees_of_freedom", fit.degrees_of_freedom.to_string()),
+            ("p_value", number(fit.p_value)),
+        ];
+        if let Recovered::Holds(holds) = &calibration.recovered {
+            quality.push(("magnitude_rms_mps2", number(Some(holds.magnitude_residual_rms_mps2))));
+        }
+        Self {
+            status: calibration.status,
+            quality,
+            parameters: calibration.parameters.iter().zip(estimates).map(estimate).collect(),
+        }
+    }
+
+    /// Of an IMU: the number of warnings, holds and rotations, how many were used of them, root mean square of `|f| − g` in the holds and of the angles by which gravity misses after
+    /// the rotations, and the parameters.
+    #[must_use]
+    pub fn of_imu(calibration: &ImuCalibration) -> Self {
+        let (holds, rotations) = (&calibration.holds.holds, &calibration.rotations);
+        let good_holds = holds.iter().filter(|hold| hold.used).count();
+        let good_rotations = rotations.iter().filter(|rotation| rotation.used).count();
+        // holds that only just determine the accelerometer leave nothing
+        let checked = calibration.holds.degrees_of_freedom > 0;
+        let magnitude = checked.then_some(calibration.holds.magnitude_residual_rms_mps2);
+        let angle = (good_rotations > 0).then(|| calibration.rotation_rms_rad());
+        let estimates = calibration.values.iter().zip(calibration.sd());
+        let parameters =
+            calibration.quantities.iter().zip(estimates).map(|(quantity, (value, sd))| Estimate {
+                name: quantity.name(),
+                ending: ending(calibration.unit_of(*quantity)),
+                value: *value,
+                sd,
+            });
+        Self {
+            status: calibration.status,
+            quality: vec![
+                ("warnings", calibration.warnings.len().to_string()),
+                ("holds", holds.len().to_string()),
+                ("holds_used", good_holds.to_string()),
+                ("rotations", rotations.len().to_string()),
+                ("rotations_used", good_rotations.to_string()),
+                ("magnitude_rms_mps2", number(magnitude)),
+                ("rotation_rms_rad", number(angle)),
+            ],
+            parameters: parameters.collect(),
+        }
+    }
+}
+
+/// Writes `summary.csv`: file, recording, status, error, what tells how good the calibration is ([`Summary`]), then value and standard deviation of each parameter.
+///
+/// Units are in the header (`bias.x_mps2`, `bias.x_sd_mps2`; nothing for pure numbers). A recording without a calibration has status
+/// `error`, the reason, and empty fields.
+///
+/// # Errors
+/// [`Error::Output`](calibrant_core::Error::Output) where it cannot be written.
+pub fn write_summary(path: &Path, rows: &[SummaryRow]) -> Result<()> {
+    // recordings of one experiment have the same parameters; the first calibration names them
+    let named = rows.iter().find_map(|row| row.outcome.as_ref().ok());
+    write_atomically(path, |out| {
+        let mut out = csv::Writer::from_writer(out);
+        let mut header = ["file", "recording", "status", "error"].map(String::from).to_vec();
+        if let Some(named) = named {
+            header.extend(named.quality.iter().map(|(name, _)| (*name).to_owned()));
+            for Estimate { name, ending, .. } in &named.parameters {
+                header.extend([format!("{name}{ending}"), format!("{name}_sd{ending}")]);
+            }
+        }
+        out.write_record(&header).map_err(io::Error::other)?;
+        for row in rows {
+            let mut fields = vec![row.file.clone(), row.recording.clone()];
+            match (&row.outcome, named) {
+                (Ok(summary), Some(named)) => fields.extend(summary.fields(named)),
+                (Ok(_), None) => {}
+                (Err(reason), _) => fields.extend(["error".into(), reason.clone()]),
+            }
+            fields.resize(header.len(), String::new());
+            out.write_record(&fields).map_err(io::Error::other)?;
+        }
+        out.flush()
+    })
+}
+
+impl Summary {
+    /// Its fields after those of the recording, the parameters in the order of another's.
+    fn fields(&self, named: &Self) -> Vec<String> {
+        let mut fields = vec![self.status.name().to_owned(), String::new()];
+        fields.extend(self.quality.iter().map(|(_, text)| text.clone()));
+        for column in &named.parameters {
+            let found = self.parameters.iter().find(|estimate| estimate.name == column.name);
+            fields.push(number(found.map(|estimate| estimate.value)));
+            fields.push(number(found.map(|estimate| estimate.sd)));
+        }
+        fields
+    }
+}
+
+fn number(value: Option<f64>) -> String {
+    value.filter(|value| value.is_finite()).map_or_else(String::new, |value| format!("{value:?}"))
+}
+
+/// A unit as it ends a column's name.
+pub(super) fn ending(unit: &str) -> &'static str {
+    match unit {
+        "m/s²" => "_mps2",
+        "counts" => "_counts",
+        "counts/(m/s²)" => "_counts_per_mps2",
+        "rad/s" => "_radps",
+        "counts/(rad/s)" => "_counts_per_radps",
+        "(rad/s)/(m/s²)" => "_radps_per_mps2",
+        "m/s²/K" => "_mps2_per_k",
+        "m/s²/K²" => "_mps2_per_k2",
+        "rad/s/K" => "_radps_per_k",
+        "rad/s/K²" => "_radps_per_k2",
+        "counts/K" => "_counts_per_k",
+        "counts/K²" => "_counts_per_k2",
+        "1/K" => "_per_k",
+        "1/K²" => "_per_k2",
+        _ => "",
+    }
+}

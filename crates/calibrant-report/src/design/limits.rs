@@ -1,0 +1,81 @@
+//! The limits and how far a motion uses them.
+
+use crate::number;
+use crate::table::{Cell, Table};
+use calibrant_design::{LimitKind, LimitUse};
+
+/// A limit used to at least this share holds the motion back.
+const ACTIVE: f64 = 0.9999;
+
+/// One row for each limit of each axis, at the time when the motion is worst.
+pub(crate) fn limit_table(uses: &[LimitUse], name: &str) -> String {
+    let reached = format!("largest of the {name}");
+    let columns = ["limit", "axis", "unit", "allowed", reached.as_str(), "at time (s)", "used"];
+    let mut table = Table::new("", &columns);
+    let mut rows = uses.to_vec();
+    rows.sort_by_key(|found| (found.kind, found.axis));
+    if rows.is_empty() {
+        return "<p>There are no limits.</p>".to_string();
+    }
+    // axes that do the same share a row
+    let mut lines: Vec<(bool, String, [String; 6])> = Vec::new();
+    for found in rows {
+        let (axis, line) = (found.axis.to_string(), line(&found));
+        match lines.iter_mut().find(|other| other.2 == line) {
+            Some(other) => other.1.push_str(&format!(", {axis}")),
+            None => lines.push((found.is_violated(), axis, line)),
+        }
+    }
+    for (violated, axis, [kind, unit, allowed, value, time, used]) in lines {
+        let mut cells = vec![
+            Cell::Name(kind),
+            Cell::Text(axis),
+            Cell::Text(unit),
+            Cell::Number(allowed),
+            Cell::Number(value),
+            Cell::Number(time),
+        ];
+        if violated {
+            cells.push(Cell::Mark(used));
+            table.row_left_out(cells);
+        } else {
+            cells.push(Cell::Text(used));
+            table.row(cells);
+        }
+    }
+    table.html()
+}
+
+/// Kind, unit, allowed, largest magnitude, time and use of a limit.
+fn line(found: &LimitUse) -> [String; 6] {
+    let prescribed = matches!(
+        found.kind,
+        LimitKind::RestAtEnd | LimitKind::StartAcceleration | LimitKind::EndAcceleration
+    );
+    let share = (found.value / found.limit).abs();
+    let used = match () {
+        () if found.is_violated() => {
+            format!("broken by {} {}", number::significant(found.excess(), 3), found.kind.unit())
+        }
+        () if prescribed => "kept".to_string(),
+        () if share >= ACTIVE => "100 %: holds the motion back".to_string(),
+        () => number::percent(share),
+    };
+    let allowed = match found.kind {
+        _ if prescribed => number::short(found.limit),
+        _ => format!("± {}", number::short(found.limit)),
+    };
+    let value = match found.kind {
+        _ if prescribed && !found.is_violated() => found.limit,
+        _ if prescribed => found.value,
+        _ => found.value.abs(),
+    };
+    [
+        found.kind.name().to_string(),
+        found.kind.unit().to_string(),
+        allowed,
+        number::significant(value, 4),
+        number::fixed(found.time_s, 2),
+        used,
+    ]
+}

@@ -1,0 +1,110 @@
+//! The report on a design: how good the motion is, what it promises, what the arm has to do, how it was found.
+
+mod axes;
+mod limits;
+mod promised;
+pub(super) mod starts;
+mod verdict;
+
+pub(super) use axes::axes;
+pub(super) use limits::limit_table;
+pub(super) use promised::{above, promised_table, times};
+pub(super) use starts::status;
+pub(super) use verdict::{undetermined_items, violation};
+
+use super::About;
+use super::figure::{
+    Drawn, confidence_ellipses, correlation_map, jerk_and_acceleration, start_values, states,
+    velocity_and_displacement,
+};
+use super::html::{Page, escape, facts};
+use calibrant_design::{Design, limit_use};
+use promised::criterion_table;
+use verdict::verdict;
+
+/// A design as one HTML file: the certificate in words, what the motion promises beside the initial one, the motions with their limits,
+/// confidence ellipses, correlations, and the starts of the search.
+///
+/// Self-contained as [`calibration_report`](super::calibration_report) is.
+#[must_use]
+pub fn design_report(design: &Design, about: &About) -> String {
+    let mut page = Page::default();
+    let title = if about.title.is_empty() { "Design" } else { &about.title };
+    page.push(format!("<h1>{}</h1>", escape(title)));
+    page.push(facts(about.facts.iter().map(|(label, value)| (label.as_str(), value.as_str()))));
+    page.push(verdict(design, about));
+
+    page.section(
+        "What the motion promises",
+        "Standard deviations that a calibration from a recording of the motion will state. The initial motion is what experience would \
+         choose: random, within a tenth of the limits.",
+    );
+    page.push(promised_table(
+        &design.parameters,
+        ("initial motion", &design.initial),
+        ("optimal motion", &design.optimal),
+        design.certificate.as_ref().map(|certificate| certificate.sd_lower_bound.as_slice()),
+    ));
+    page.paragraph(&format!(
+        "What was minimised: criterion {}, {} (C is the covariance of the parameters{}).",
+        design.criterion.letter(),
+        design.criterion.formula(),
+        design.criterion.scaling()
+    ));
+    page.push(criterion_table(design));
+    if let Some(certificate) = &design.certificate {
+        page.subsection("The lower bound");
+        page.paragraph(&certificate.explanation);
+        page.paragraph(
+            "Each standard deviation has a bound of its own; one motion need not reach them all at once.",
+        );
+    }
+
+    let axes = axes(&design.parameters);
+    page.section(
+        "The motion",
+        "What the arm has to do, per axis, beside the limits that it has to keep at all times.",
+    );
+    let motions =
+        [Drawn::before("initial", &design.initial.motion), Drawn::after("optimal", &design.optimal.motion)];
+    let title8 = "Figure 8 of the report: initial against optimal jerk (a) and acceleration (b)";
+    page.push(jerk_and_acceleration(title8, &motions, axes, &design.limits).html());
+    page.push(velocity_and_displacement(&motions, axes, &design.limits).html());
+    if let Some(figure) = states(&motions, axes, &design.limits) {
+        page.push(figure.html());
+    }
+    page.subsection("Limits and how far they are used");
+    page.push(limit_table(&limit_use(&design.limits, axes.len(), &design.optimal.motion), "optimal motion"));
+
+    page.section("Confidence", "How certain the parameters will be, and which errors come together.");
+    if let Some(figure) = confidence_ellipses(
+        &design.parameters,
+        ("initial", &design.initial),
+        Some(("optimal", &design.optimal)),
+    ) {
+        page.push(figure.html());
+    }
+    match &design.optimal.covariance {
+        Some(covariance) => page.push(correlation_map(&design.parameters, covariance)),
+        None => page.paragraph("The motion does not determine the parameters, so they have no covariance."),
+    }
+
+    page.section("The search", "");
+    search(&mut page, design);
+    page.finish(title, &about.footer())
+}
+
+fn search(page: &mut Page, design: &Design) {
+    page.paragraph(
+        "The problem has many local optima, so the search begins at many random motions, the initial one among them, and keeps the best.",
+    );
+    if design.starts.is_empty() {
+        page.paragraph("There is no record of the starts.");
+        return;
+    }
+    page.push(super::html::list(&starts::sentences(&design.starts, &design.criterion)));
+    if let Some(figure) = start_values(&design.starts, &design.criterion) {
+        page.push(figure.html());
+    }
+    page.push(starts::start_table(&design.starts, &design.criterion));
+}

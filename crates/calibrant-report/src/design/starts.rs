@@ -1,0 +1,139 @@
+//! The starts of the search in numbers.
+
+use crate::number;
+use crate::table::{Cell, Table};
+use calibrant_core::information::Criterion;
+use calibrant_core::sensor::Axis;
+use calibrant_design::{AT_BEST, DesignStatus, StartOutcome};
+
+/// A longer table is folded.
+const MOST_UNFOLDED: usize = 40;
+
+/// The starts of the same axes, best first.
+pub(crate) struct StartGroup<'a> {
+    pub(crate) axes: Vec<Axis>,
+    pub(crate) sorted: Vec<&'a StartOutcome>,
+    criterion: &'a Criterion,
+}
+
+impl StartGroup<'_> {
+    /// How far a start ended above the best.
+    pub(crate) fn excess(&self, start: &StartOutcome) -> f64 {
+        self.criterion.gap(start.value, self.sorted[0].value)
+    }
+
+    /// How many reached the best.
+    pub(crate) fn reached(&self) -> usize {
+        self.sorted.iter().filter(|start| self.excess(start).abs() <= AT_BEST).count()
+    }
+}
+
+/// The starts by the axes that they are about.
+pub(crate) fn groups<'a>(starts: &'a [StartOutcome], criterion: &'a Criterion) -> Vec<StartGroup<'a>> {
+    let mut groups: Vec<StartGroup<'a>> = Vec::new();
+    for start in starts {
+        match groups.iter_mut().find(|group| group.axes == start.axes) {
+            Some(group) => group.sorted.push(start),
+            None => groups.push(StartGroup { axes: start.axes.clone(), sorted: vec![start], criterion }),
+        }
+    }
+    for group in &mut groups {
+        group.sorted.sort_by(|a, b| a.value.total_cmp(&b.value));
+    }
+    groups
+}
+
+/// `axis x`, `axes x, y, z`.
+pub(crate) fn name(axes: &[Axis]) -> String {
+    let letters: Vec<String> = axes.iter().map(ToString::to_string).collect();
+    format!("{} {}", if axes.len() == 1 { "axis" } else { "axes" }, letters.join(", "))
+}
+
+/// One sentence for each group: how many starts reached its best value.
+pub(crate) fn sentences(starts: &[StartOutcome], criterion: &Criterion) -> Vec<String> {
+    let within = match criterion {
+        Criterion::D(_) => format!("{} nats", number::significant(AT_BEST, 1)),
+        _ => format!("{} %", number::short(100.0 * AT_BEST)),
+    };
+    groups(starts, criterion)
+        .iter()
+        .map(|group| {
+            let all = group.sorted.len();
+            format!(
+                "{}: {} of {} start{} ended within {within} of the best value.",
+                capitalised(&name(&group.axes)),
+                group.reached(),
+                number::count(all),
+                if all == 1 { "" } else { "s" }
+            )
+        })
+        .collect()
+}
+
+fn capitalised(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}
+
+/// All starts, best first; folded where there are many.
+pub(crate) fn start_table(starts: &[StartOutcome], criterion: &Criterion) -> String {
+    let excess_label =
+        if matches!(criterion, Criterion::D(_)) { "above the best (nats)" } else { "above the best" };
+    let columns = [
+        "rank",
+        "axes",
+        "start",
+        "value where it began",
+        "value where it ended",
+        excess_label,
+        "iterations",
+        "ended",
+    ];
+    let mut table = Table::new("", &columns);
+    for group in groups(starts, criterion) {
+        for (rank, start) in group.sorted.iter().enumerate() {
+            let excess = group.excess(start);
+            let excess = match criterion {
+                Criterion::D(_) => number::significant(excess, 2),
+                _ if excess == 0.0 => "0 %".to_string(),
+                _ if excess <= AT_BEST => format!("< {} %", number::short(100.0 * AT_BEST)),
+                _ => number::percent(excess),
+            };
+            let cells = vec![
+                Cell::Name((rank + 1).to_string()),
+                Cell::Text(group.axes.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")),
+                Cell::Text(if start.number == 0 {
+                    "initial motion".into()
+                } else {
+                    start.number.to_string()
+                }),
+                Cell::Number(number::significant(start.initial_value, 5)),
+                Cell::Number(number::significant(start.value, 8)),
+                Cell::Number(excess),
+                Cell::Number(start.iterations.to_string()),
+            ];
+            let converged = start.status == DesignStatus::Converged;
+            let ended = status(start.status).to_string();
+            let ended = if converged { Cell::Text(ended) } else { Cell::Mark(ended) };
+            table.row(cells.into_iter().chain([ended]).collect());
+        }
+    }
+    let html = table.html();
+    if starts.len() > MOST_UNFOLDED {
+        format!(
+            "<details><summary>All {} starts, best first</summary>{html}</details>",
+            number::count(starts.len())
+        )
+    } else {
+        html
+    }
+}
+
+/// How a search ended, in words.
+pub(crate) fn status(status: DesignStatus) -> &'static str {
+    match status {
+        DesignStatus::Converged => "converged",
+        DesignStatus::IterationLimit => "iteration limit",
+        DesignStatus::Stalled => "stalled",
+    }
+}

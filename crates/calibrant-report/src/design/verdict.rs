@@ -1,0 +1,198 @@
+//! The headline: how good is this motion, and how do we know?
+
+use super::axes;
+use super::promised::{above, times};
+use crate::About;
+use crate::figure::DisplayUnit;
+use crate::html::verdict_box;
+use crate::number;
+use calibrant_core::information::Criterion;
+use calibrant_core::motion::Limits;
+use calibrant_core::sensor::Parameter;
+use calibrant_design::{Certificate, Design, DesignStatus, Evaluation, LimitUse, limit_use};
+
+/// Within this of its lower bound, a standard deviation is as good as optimal.
+const PROVED: f64 = 0.01;
+/// An initial motion within this factor of the bound leaves nothing to gain.
+const NOTHING_TO_GAIN: f64 = 1.02;
+/// Within this, the bound still says something.
+const NEAR: f64 = 0.1;
+
+/// The verdict and everything that qualifies it, as one prominent box.
+pub(super) fn verdict(design: &Design, about: &About) -> String {
+    let remarks = [
+        ("Broken limits", violations(&design.limits, axes(&design.parameters).len(), &design.optimal)),
+        ("Undetermined", undetermined_items(&design.optimal)),
+        ("Findings", about.findings.clone()),
+    ];
+    let (class, word, sentences) = judge(design, &remarks[0].1);
+    verdict_box(class, &word, &sentences.join(" "), &remarks)
+}
+
+fn judge(design: &Design, broken: &[String]) -> (&'static str, String, Vec<String>) {
+    if design.optimal.covariance.is_none() {
+        let what = "No recording of this motion can calibrate the sensor: it leaves parameters undetermined. Loosen the limits, or \
+                    move the axes that are named.";
+        return ("bad", "✗ Useless for calibration.".into(), vec![what.to_string()]);
+    }
+    let mut sentences = Vec::new();
+    if let Some(sentence) = unfinished(design.status) {
+        sentences.push(sentence.to_string());
+    }
+    let nearest = design.certificate.as_ref().map(|certificate| bound(design, certificate, &mut sentences));
+    if design.certificate.is_none() {
+        sentences.push(
+            "No lower bound is given, so a better motion is not ruled out; how often the starts of the search agree is the only hint."
+                .to_string(),
+        );
+    }
+    sentences.extend(improvement(design));
+    match nearest {
+        _ if !broken.is_empty() => ("bad", "✗ Not admissible.".into(), sentences),
+        _ if design.status != DesignStatus::Converged => ("caution", "! Not converged.".into(), sentences),
+        Some(excess) if excess < 5e-5 => ("good", "✓ Proved optimal.".into(), sentences),
+        Some(excess) if excess <= NEAR => {
+            ("good", format!("✓ Proved optimal to within {}.", number::percent(excess)), sentences)
+        }
+        _ => ("good", "✓ Converged.".into(), sentences),
+    }
+}
+
+fn unfinished(status: DesignStatus) -> Option<&'static str> {
+    match status {
+        DesignStatus::Converged => None,
+        DesignStatus::IterationLimit => Some(
+            "The search stopped at its limit of iterations. The motion keeps the limits and can be used, but a better one may be near.",
+        ),
+        DesignStatus::Stalled => Some(
+            "The search stalled because a step could not be computed. The motion keeps the limits and can be used, but a better one may be \
+             near.",
+        ),
+    }
+}
+
+/// Says what the certificate proves; returns how far the worst parameter is from its bound.
+fn bound(design: &Design, certificate: &Certificate, sentences: &mut Vec<String>) -> f64 {
+    let excess: Vec<(&Parameter, f64, f64)> = design
+        .parameters
+        .iter()
+        .zip(design.optimal.sd())
+        .zip(&certificate.sd_lower_bound)
+        .filter(|(_, bound)| **bound > 0.0)
+        .map(|((parameter, sd), &bound)| (parameter, sd, bound))
+        .collect();
+    let Some(&(parameter, sd, least)) = excess.iter().max_by(|a, b| (a.1 / a.2).total_cmp(&(b.1 / b.2)))
+    else {
+        sentences.push(format!(
+            "No admissible motion can bring criterion {} below {}; this one is at most {} above it.",
+            design.criterion.letter(),
+            number::significant(certificate.lower_bound, 5),
+            gap(&design.criterion, certificate.gap)
+        ));
+        return if matches!(design.criterion, Criterion::D(_)) { f64::INFINITY } else { certificate.gap };
+    };
+    let unit = DisplayUnit::suited(parameter.unit, sd);
+    let shown = |value: f64| format!("{} {}", number::significant(value * unit.factor, 4), unit.symbol);
+    sentences.push(format!(
+        "No motion within the limits can give {} a standard deviation below {}; this one gives {}, {}.",
+        parameter.name,
+        shown(least).trim_end(),
+        shown(sd).trim_end(),
+        match sd / least - 1.0 {
+            excess if excess < 5e-5 => "less than 0.01 % above that".to_string(),
+            excess if excess < 1.0 => format!("{} above that", number::percent(excess)),
+            excess => format!("{} times that", number::significant(1.0 + excess, 2)),
+        }
+    ));
+    if excess.len() > 1 {
+        sentences.push("All other parameters are as near to their bounds or nearer.".to_string());
+    }
+    let farthest = sd / least - 1.0;
+    if farthest > PROVED {
+        sentences.push(
+            "The bound itself may be lower than any motion can reach (see below), so the distance need not be the motion's fault."
+                .to_string(),
+        );
+    }
+    farthest
+}
+
+fn gap(criterion: &Criterion, gap: f64) -> String {
+    match criterion {
+        Criterion::D(_) => format!("{} nats", number::significant(gap, 2)),
+        _ => above(gap),
+    }
+}
+
+fn improvement(design: &Design) -> Option<String> {
+    if design.initial.covariance.is_none() {
+        return Some(
+            "The initial motion leaves parameters undetermined; this one determines them all.".to_string(),
+        );
+    }
+    let factors = design.parameters.iter().zip(design.initial.sd()).zip(design.optimal.sd());
+    let factors: Vec<(&str, f64)> =
+        factors.map(|((parameter, old), new)| (parameter.name.as_str(), old / new)).collect();
+    let least = factors.iter().min_by(|a, b| a.1.total_cmp(&b.1))?;
+    let most = factors.iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
+    let mut sentence = format!(
+        "Against the initial motion, standard deviations shrink by a factor of {} ({}) to {} ({}).",
+        times(least.1).trim_end_matches(" ×"),
+        least.0,
+        times(most.1).trim_end_matches(" ×"),
+        most.0
+    );
+    let bounds = design.certificate.as_ref().map(|certificate| &certificate.sd_lower_bound);
+    let exhausted: Vec<&str> = bounds
+        .into_iter()
+        .flatten()
+        .zip(design.initial.sd())
+        .zip(&factors)
+        .filter(|((bound, initial), _)| **bound > 0.0 && initial / **bound < NOTHING_TO_GAIN)
+        .map(|(_, factor)| factor.0)
+        .collect();
+    if !exhausted.is_empty() && exhausted.len() < factors.len() {
+        sentence.push_str(&format!(
+            " For {} there was nothing to gain: the initial motion is as good as any.",
+            exhausted.join(", ")
+        ));
+    }
+    if least.1 < 0.995 {
+        sentence.push_str(
+            " A factor below 1: this parameter pays for the others, because the criterion weighs them more.",
+        );
+    }
+    Some(sentence)
+}
+
+/// One item for each group of parameters that a motion leaves undetermined.
+pub(crate) fn undetermined_items(evaluation: &Evaluation) -> Vec<String> {
+    evaluation
+        .undetermined
+        .iter()
+        .map(|group| {
+            let what = group.what().map_or_else(String::new, |what| what + ": ");
+            let remedy = if group.remedy.is_empty() { String::new() } else { format!(" ({})", group.remedy) };
+            format!("{what}{}{remedy}", group.reason)
+        })
+        .collect()
+}
+
+/// One item for each limit that a motion breaks.
+fn violations(limits: &Limits, axes: usize, evaluation: &Evaluation) -> Vec<String> {
+    let uses = limit_use(limits, axes, &evaluation.motion);
+    uses.iter().filter(|found| found.is_violated()).map(violation).collect()
+}
+
+/// A broken limit in words.
+pub(crate) fn violation(found: &LimitUse) -> String {
+    let unit = found.kind.unit();
+    format!(
+        "{} of axis {}: {} {unit} at {} s, allowed {} {unit}",
+        found.kind.name(),
+        found.axis,
+        number::significant(found.value, 4),
+        number::short(found.time_s),
+        number::short(found.limit)
+    )
+}

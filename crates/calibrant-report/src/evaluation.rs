@@ -1,0 +1,225 @@
+//! The report on a motion of one's own: what it tells, beside the best one and the limits.
+
+use super::About;
+use super::design::{axes, limit_table, promised_table, times, undetermined_items, violation};
+use super::figure::{
+    DisplayUnit, Drawn, confidence_ellipses, correlation_map, jerk_and_acceleration, states,
+    velocity_and_displacement,
+};
+use super::html::{Page, escape, facts, verdict_box};
+use super::number;
+use super::table::{Cell, Table};
+use calibrant_core::motion::Limits;
+use calibrant_core::sensor::Parameter;
+use calibrant_design::{Assessment, Design, LimitKind, LimitUse, OtherSetting};
+use nalgebra::Vector3;
+
+/// A motion whose standard deviations are all within this factor of the best is as good as it gets.
+const AS_GOOD: f64 = 1.05;
+/// An efficiency above this hides what single parameters would gain.
+const BLIND: f64 = 0.8;
+/// Beyond this factor, the better motion is worth the effort.
+const WORTH_IT: f64 = 1.5;
+
+/// A motion of one's own as one HTML file: is it any good, what it promises beside the best motion found, which limits it breaks, what it leaves
+/// undetermined.
+///
+/// Self-contained as [`calibration_report`](super::calibration_report) is.
+#[must_use]
+pub fn evaluation_report(assessment: &Assessment, about: &About) -> String {
+    let mut page = Page::default();
+    let title = if about.title.is_empty() { "Evaluation of a motion" } else { &about.title };
+    page.push(format!("<h1>{}</h1>", escape(title)));
+    page.push(facts(about.facts.iter().map(|(label, value)| (label.as_str(), value.as_str()))));
+    page.push(verdict(assessment, about));
+
+    let (own, parameters) = (&assessment.evaluation, &assessment.parameters);
+    let optimum = assessment.optimum.as_ref().ok();
+    page.section(
+        "What the motion promises",
+        "Standard deviations that a calibration from a recording of the motion will state.",
+    );
+    match optimum {
+        Some(design) => {
+            let bound = design.certificate.as_ref().map(|certificate| certificate.sd_lower_bound.as_slice());
+            page.push(promised_table(
+                parameters,
+                ("your motion", own),
+                ("optimal motion", &design.optimal),
+                bound,
+            ));
+        }
+        None => page.push(own_table(parameters, &own.sd())),
+    }
+    page.push(criterion_table(assessment));
+
+    let (axes, limits) = (axes(parameters), drawn_limits(&assessment.limits));
+    page.section("The motion", "What the arm has to do, per axis, beside the limits.");
+    let mut motions = vec![Drawn::before("your motion", &own.motion)];
+    motions.extend(optimum.map(|design| Drawn::after("optimal", &design.optimal.motion)));
+    page.push(jerk_and_acceleration("Jerk (a) and acceleration (b)", &motions, axes, &limits).html());
+    page.push(velocity_and_displacement(&motions, axes, &limits).html());
+    if let Some(figure) = states(&motions, axes, &limits) {
+        page.push(figure.html());
+    }
+    page.subsection("Limits and how far they are used");
+    page.push(limit_table(&assessment.limits, "motion"));
+
+    page.section("Confidence", "How certain the parameters will be, and which errors come together.");
+    let best = optimum.map(|design| ("optimal", &design.optimal));
+    let ellipses = confidence_ellipses(parameters, ("your motion", own), best);
+    if let Some(figure) = ellipses {
+        page.push(figure.html());
+    }
+    match &own.covariance {
+        Some(covariance) => page.push(correlation_map(parameters, covariance)),
+        None => page.paragraph("The motion does not determine the parameters, so they have no covariance."),
+    }
+    page.finish(title, &about.footer())
+}
+
+fn verdict(assessment: &Assessment, about: &About) -> String {
+    let broken: Vec<String> = assessment.violations().iter().map(violation).collect();
+    let mut sentences = Vec::new();
+    let determined = assessment.evaluation.covariance.is_some();
+    let factor = match &assessment.optimum {
+        Ok(design) if determined => compared(assessment, design, &mut sentences),
+        Ok(_) => None,
+        Err(why) => {
+            sentences.push(format!("There is no best motion to compare with: {why}."));
+            None
+        }
+    };
+    if let Some(other) = &assessment.other_setting {
+        sentences.push(not_alike(other));
+    }
+    let (class, word) = match factor {
+        _ if !determined => {
+            sentences.insert(
+                0,
+                "No recording of it can calibrate the sensor: it leaves parameters undetermined.".into(),
+            );
+            ("bad", "✗ Useless for calibration.")
+        }
+        _ if !broken.is_empty() => ("bad", "✗ Breaks limits."),
+        Some(factor) if factor <= AS_GOOD => ("good", "✓ As good as the best motion found."),
+        Some(factor) if factor <= WORTH_IT => ("good", "✓ Usable, a little better is possible."),
+        Some(_) => ("caution", "! Usable, but a better motion is worth it."),
+        None => ("good", "✓ Usable."),
+    };
+    let remarks = [
+        ("Broken limits", broken),
+        ("Undetermined", undetermined_items(&assessment.evaluation)),
+        ("Findings", about.findings.clone()),
+    ];
+    verdict_box(class, word, &sentences.join(" "), &remarks)
+}
+
+/// Says how the motion compares; returns the largest factor that the best motion gains.
+fn compared(assessment: &Assessment, design: &Design, sentences: &mut Vec<String>) -> Option<f64> {
+    let factors =
+        assessment.evaluation.sd().into_iter().zip(design.optimal.sd()).map(|(own, best)| own / best);
+    let (parameter, most) = assessment
+        .parameters
+        .iter()
+        .zip(factors)
+        .filter(|(_, factor)| factor.is_finite())
+        .max_by(|a, b| a.1.total_cmp(&b.1))?;
+    sentences.push(if most <= AS_GOOD {
+        "No parameter would gain more than a few per cent from the best motion found.".to_string()
+    } else {
+        format!(
+            "The best motion found would make the standard deviation of {} {} times smaller; other parameters gain less, or as much.",
+            parameter.name,
+            times(most).trim_end_matches(" ×")
+        )
+    });
+    if let Some(efficiency) = assessment.efficiency() {
+        let mut sentence = format!(
+            "By criterion {}, its efficiency is {}: what it tells in 100 recordings, the best motion tells in {}",
+            assessment.criterion.letter(),
+            number::percent(efficiency),
+            number::significant(100.0 * efficiency, 2)
+        );
+        if let Some(certain) = assessment.certain_efficiency() {
+            sentence.push_str(&format!("; against the lower bound it is {}", number::percent(certain)));
+        }
+        sentences.push(sentence + ".");
+        if efficiency > BLIND && most > WORTH_IT {
+            sentences.push(
+                "The criterion hardly sees the difference because it is dominated by parameters that no motion improves: judge by the standard \
+                 deviations."
+                    .to_string(),
+            );
+        }
+    }
+    Some(most)
+}
+
+fn not_alike(other: &OtherSetting) -> String {
+    format!(
+        "Mind that the motion takes {} s in {}, while the best motion is for the experiment's {} s in {}.",
+        number::short(other.duration_s),
+        number::counted(other.intervals, "interval"),
+        number::short(other.experiment_duration_s),
+        number::counted(other.experiment_intervals, "interval")
+    )
+}
+
+fn own_table(parameters: &[Parameter], sd: &[f64]) -> String {
+    let mut table = Table::new("", &["parameter", "unit", "sd"]);
+    for (parameter, &sd) in parameters.iter().zip(sd) {
+        let unit = DisplayUnit::suited_to(parameter.unit, [sd]);
+        let symbol = if unit.symbol.is_empty() { number::UNKNOWN } else { unit.symbol };
+        let shown =
+            if sd.is_finite() { number::significant(sd * unit.factor, 4) } else { "undetermined".into() };
+        table.row(vec![
+            Cell::Name(parameter.name.clone()),
+            Cell::Text(symbol.to_string()),
+            Cell::Number(shown),
+        ]);
+    }
+    table.html()
+}
+
+fn criterion_table(assessment: &Assessment) -> String {
+    let name = format!(
+        "criterion {}, {}{}",
+        assessment.criterion.letter(),
+        assessment.criterion.formula(),
+        assessment.criterion.scaling()
+    );
+    let mut table = Table::new("", &[name.as_str(), "value", "efficiency of your motion"]);
+    let mut row = |name: &str, value: f64, efficiency: Option<f64>| {
+        table.row(vec![
+            Cell::Name(name.to_string()),
+            Cell::Number(number::significant(value, 6)),
+            Cell::Number(efficiency.map_or_else(|| number::UNKNOWN.to_string(), number::percent)),
+        ]);
+    };
+    row("your motion", assessment.evaluation.value, None);
+    if let Ok(design) = &assessment.optimum {
+        row("optimal motion", design.optimal.value, assessment.efficiency());
+        if let Some(certificate) = &design.certificate {
+            row("lower bound", certificate.lower_bound, assessment.certain_efficiency());
+        }
+    }
+    table.html()
+}
+
+/// The limits as they are drawn, from how far they are used.
+fn drawn_limits(uses: &[LimitUse]) -> Limits {
+    let mut limits = Limits::default();
+    for found in uses {
+        let slot = match found.kind {
+            LimitKind::Acceleration => &mut limits.acceleration_mps2,
+            LimitKind::Jerk => &mut limits.jerk_mps3,
+            LimitKind::Intercept => &mut limits.intercept_mps2,
+            LimitKind::Velocity => &mut limits.velocity_mps,
+            LimitKind::Displacement => &mut limits.displacement_m,
+            LimitKind::RestAtEnd | LimitKind::StartAcceleration | LimitKind::EndAcceleration => continue,
+        };
+        slot.get_or_insert_with(Vector3::zeros)[found.axis.index()] = found.limit;
+    }
+    limits
+}

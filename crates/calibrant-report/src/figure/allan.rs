@@ -1,0 +1,100 @@
+//! The Allan deviation plot.
+
+use super::panel::{Mark, Panel, Series, Shape};
+use super::unit::DisplayUnit;
+use super::{Figure, colour};
+use calibrant_core::noise::{AxisNoise, PowerLaw, TriadNoise};
+
+/// Points of a fitted line.
+const LINE: usize = 60;
+/// Label of a filter's share of the Allan variance.
+const FILTER: &str = "share of a filter";
+
+/// Allan deviation of each axis with its 95 % bounds, the fitted model and the processes that it consists of.
+pub(crate) fn allan_figure(noise: &TriadNoise) -> Figure {
+    let highest = noise.axes.iter().flat_map(|axis| &axis.allan.points).map(|point| point.deviation);
+    let unit = DisplayUnit::suited_to(noise.unit.symbol(), highest);
+    let mut panels: Vec<Panel> = noise.axes.iter().map(|axis| panel(axis, unit)).collect();
+    // the same range everywhere, so that axes can be compared by eye
+    let extremes: Vec<f64> =
+        panels.iter().filter_map(Panel::ranges).flat_map(|[_, (low, high)]| [low, high]).collect();
+    panels.iter_mut().for_each(|panel| panel.y_includes.clone_from(&extremes));
+    let caption = "Markers: overlapping Allan deviation; band: its 95 % bounds, wide where the recording has few clusters of that length. Black: the fit. \
+                   Dashed: its parts, each with its slope: −1 quantisation, −½ white noise (N is its value at 1 s), 0 bias instability (0.664 B), \
+                   +½ rate random walk (K √(τ/3)). A part that is drawn but not determined in the table is too uncertain to be given a value.";
+    let mut caption = caption.to_string();
+    let mut add = |applies: bool, sentence: &str| {
+        if applies {
+            caption.push(' ');
+            caption.push_str(sentence);
+        }
+    };
+    let has_filter = |panel: &Panel| panel.series.iter().any(|series| series.label == FILTER);
+    let any = |of: fn(&AxisNoise) -> bool| noise.axes.iter().any(of);
+    add(
+        panels.iter().any(has_filter),
+        "Where samples are filtered, slope −1 is what the filter adds to short cluster times, and no quantisation.",
+    );
+    add(
+        any(|axis| axis.fit.vibration.is_some()),
+        "The markers have the vibration in them; the fit is to what remains without it.",
+    );
+    add(
+        any(|axis| axis.fit.drift.is_significant()),
+        "A linear drift (slope +1) is drawn apart: it is no noise, and the fit is to what remains without it.",
+    );
+    Figure::new(format!("Allan deviation of the {}", noise.triad), panels, caption).with_columns(2)
+}
+
+fn panel(axis: &AxisNoise, unit: DisplayUnit) -> Panel {
+    let points = &axis.allan.points;
+    let (first, last) =
+        (points.first().map_or(1.0, |point| point.tau_s), points.last().map_or(1.0, |point| point.tau_s));
+    let curve = |f: &dyn Fn(f64) -> f64, from: f64, to: f64| -> Vec<(f64, f64)> {
+        let tau = |i: usize| from * (to / from).powf(i as f64 / (LINE - 1) as f64);
+        (0..LINE).map(|i| (tau(i), unit.factor * f(tau(i)))).collect()
+    };
+    let mut panel =
+        Panel::new(format!("axis {}", axis.axis), "cluster time τ (s)", unit.label("Allan deviation σ"));
+    (panel.log_x, panel.log_y) = (true, true);
+    // a band is symmetric: about the middle of the bounds
+    let middle =
+        points.iter().map(|point| (point.tau_s, 0.5 * unit.factor * (point.low + point.high))).collect();
+    let half = points.iter().map(|point| 0.5 * unit.factor * (point.high - point.low)).collect();
+    let marks = points.iter().map(|point| (point.tau_s, unit.factor * point.deviation)).collect();
+    panel = panel
+        .with(Series::new("95 % bounds", colour::SKY, Mark::Band, middle).with_spread(half))
+        .with(Series::dots("Allan deviation", colour::BLUE, Shape::Circle, marks));
+
+    let (fit, lowest) =
+        (&axis.fit, 0.5 * unit.factor * points.iter().map(|point| point.low).fold(f64::INFINITY, f64::min));
+    let shortest = if fit.filtered { FILTER } else { "quantisation Q" };
+    let parts = [
+        (PowerLaw::Quantisation, shortest, colour::GREY),
+        (PowerLaw::White, "white noise N", colour::GREEN),
+        (PowerLaw::Flicker, "bias instability B", colour::ORANGE),
+        (PowerLaw::RandomWalk, "rate random walk K", colour::VERMILLION),
+    ];
+    let dashed = Mark::Line { width: 1.4, dashes: "5 4" };
+    for (process, label, colour) in parts {
+        let part: Vec<_> = curve(&|tau| fit.model.share(process, tau), first, last)
+            .into_iter()
+            .filter(|point| point.1 > lowest)
+            .collect();
+        if part.len() > 1 {
+            panel = panel.with(Series::new(label, colour, dashed, part));
+        }
+    }
+    if fit.drift.is_significant() {
+        let part = curve(&|tau| fit.drift.allan_deviation(tau), first, last);
+        let part: Vec<_> = part.into_iter().filter(|point| point.1 > lowest).collect();
+        panel = panel.with(Series::new(
+            "linear drift",
+            colour::GREY,
+            Mark::Line { width: 1.4, dashes: "1 3" },
+            part,
+        ));
+    }
+    let fitted = curve(&|tau| fit.model.deviation(tau), fit.shortest_tau_s, fit.longest_tau_s);
+    panel.with(Series::line("fit", colour::BLACK, fitted))
+}

@@ -1,0 +1,172 @@
+//! The readings before and after the correction.
+
+use super::panel::{Mark, Panel, Series, Shape};
+use super::thin::{is_thinned, thinned, thinned_dots};
+use super::unit::DisplayUnit;
+use super::{Figure, colour};
+use calibrant_core::estimate::{HoldCalibration, ImuCalibration};
+use calibrant_core::sensor::{
+    Axis, CalibratedImu, Correction, ImuCorrection, ImuRecording, Recording, SensorParameters,
+};
+use nalgebra::Vector3;
+
+const BEFORE: &str = "before";
+const AFTER: &str = "after";
+
+/// Magnitude of the mean reading of each hold less gravity: before and after on one axis, and after alone on its own. `None` without holds.
+pub(crate) fn holds_before_and_after(holds: &HoldCalibration) -> Option<Figure> {
+    let numbered = || (1..).map(f64::from).zip(&holds.holds);
+    let before: Vec<(f64, f64)> = numbered()
+        .filter_map(|(number, result)| Some((number, holds.magnitude_residual_before_mps2(&result.hold)?)))
+        .collect();
+    if before.is_empty() {
+        return None;
+    }
+    let after = |used: bool| -> Vec<(f64, f64)> {
+        numbered()
+            .filter(|(_, result)| result.used == used)
+            .map(|(number, result)| (number, result.magnitude_residual_mps2))
+            .collect()
+    };
+    let with_after = |mut panel: Panel, factor: f64| {
+        let mut dots = |label: &str, colour, shape, radius, points: Vec<(f64, f64)>| {
+            let points = points.into_iter().map(|(number, residual)| (number, factor * residual)).collect();
+            panel.series.push(Series::new(label, colour, Mark::Dots { shape, radius }, points));
+        };
+        dots(AFTER, colour::BLUE, Shape::Circle, 3.0, after(true));
+        let left_out = after(false);
+        if !left_out.is_empty() {
+            dots("after, left out", colour::VERMILLION, Shape::Cross, 4.5, left_out);
+        }
+        panel.y_includes.push(0.0);
+        panel
+    };
+    let stems = Series::new("", colour::GREY, Mark::Stems, before.clone());
+    let squares =
+        Series::new(BEFORE, colour::ORANGE, Mark::Dots { shape: Shape::Square, radius: 3.0 }, before);
+    let both = Panel::new("before and after", "hold", "|f| − g (m/s²)").with(stems).with(squares);
+    let residuals = holds.holds.iter().map(|result| result.magnitude_residual_mps2);
+    let unit = DisplayUnit::suited_to("m/s²", residuals);
+    let alone = Panel::new("after alone", "hold", unit.label("|f| − g"));
+    let caption = format!(
+        "Magnitude of the mean reading of each hold less gravity. Before: {}. Good: on the left the blue lies on zero however far the orange squares are off (errors that depend on the \
+         orientation), on the right it scatters about zero without a pattern.",
+        holds.before.source
+    );
+    let panels = vec![with_after(both, 1.0), with_after(alone, unit.factor)];
+    Some(Figure::new("Gravity in each hold, before and after", panels, caption).with_columns(2))
+}
+
+/// Magnitude of the specific force over a whole recording, before and after.
+pub(crate) fn force_before_and_after(
+    holds: &HoldCalibration,
+    sensor: &SensorParameters,
+    recording: &Recording,
+) -> Option<Figure> {
+    let after = Correction::of(sensor)?;
+    let corrected: Vec<Vector3<f64>> =
+        recording.readings.iter().map(|reading| after.apply(reading)).collect();
+    let panels = force_panels(holds, &corrected, recording)?;
+    let caption = caption(recording, &format!("Before: {}.", holds.before.source), "");
+    Some(Figure::new("The recording, before and after", panels, caption).with_columns(2))
+}
+
+/// The same of an IMU, and what the correction changes of its angular rate.
+pub(crate) fn imu_before_and_after(calibration: &ImuCalibration, recording: &ImuRecording) -> Option<Figure> {
+    let (accelerometer, gyroscope) = (recording.accelerometer.as_ref()?, recording.gyroscope.as_ref()?);
+    // the values are asked for, not how well they are known
+    let imu = CalibratedImu { covariance: None, ..calibration.calibrated() };
+    let corrected = ImuCorrection::of(&imu).ok()?.apply(&imu, recording).ok()?;
+    let forces = corrected.accelerometer?;
+    let (forces, rates) = rayon::join(
+        || force_panels(&calibration.holds, &forces.values, accelerometer),
+        || rate_panels(calibration, &corrected.gyroscope?.values, gyroscope),
+    );
+    let panels = forces?.into_iter().chain(rates?).collect();
+    let before = format!(
+        "Before, accelerometer: {}; gyroscope: {}.",
+        calibration.holds.before.source, calibration.gyroscope_before.source
+    );
+    let rates = " The correction of the gyroscope is far smaller than the rates, so its change is shown: nothing at rest but the g-sensitivity, and in the turns what misalignment \
+                 and the gains of the axes make of the rate.";
+    let caption = caption(gyroscope, &before, rates);
+    Some(Figure::new("The recording, before and after", panels, caption).with_columns(2))
+}
+
+/// The magnitude over time, in full and near gravity. `after` are the corrected readings.
+fn force_panels(
+    holds: &HoldCalibration,
+    after: &[Vector3<f64>],
+    recording: &Recording,
+) -> Option<Vec<Panel>> {
+    let before = Correction::of(&holds.before.sensor)?;
+    let gravity = holds.gravity.magnitude_mps2;
+    let before: Vec<f64> = recording.readings.iter().map(|reading| before.apply(reading).norm()).collect();
+    let after: Vec<f64> = after.iter().map(Vector3::norm).collect();
+    let before = |k: usize| (recording.times_s[k], before[k]);
+    let after = |k: usize| (recording.times_s[k], after[k]);
+    let all = || 0..recording.len();
+    let still: Vec<usize> =
+        holds.holds.iter().flat_map(|result| result.hold.first..result.hold.end).collect();
+    let still = || still.iter().copied();
+    let thin = Mark::Line { width: 0.9, dashes: "" };
+    let line = |label: &str, colour, points| Series::new(label, colour, thin, points);
+    let dots = |label: &str, colour, points| {
+        Series::new(label, colour, Mark::Dots { shape: Shape::Circle, radius: 1.0 }, points)
+    };
+    let (first, last) = (*recording.times_s.first()?, *recording.times_s.last()?);
+    let at_gravity = Series::new(
+        "g",
+        colour::BLACK,
+        Mark::Line { width: 1.2, dashes: "7 4" },
+        vec![(first, gravity), (last, gravity)],
+    );
+    Some(vec![
+        Panel::new("specific force", "time (s)", "|f| (m/s²)")
+            .with(line(BEFORE, colour::ORANGE, thinned(all().map(before))))
+            .with(line(AFTER, colour::BLUE, thinned(all().map(after))))
+            .with(at_gravity.clone()),
+        Panel::new("specific force in holds", "time (s)", "|f| (m/s²)")
+            .with(dots("before, in holds", colour::ORANGE, thinned_dots(still().map(before))))
+            .with(dots("after, in holds", colour::BLUE, thinned_dots(still().map(after))))
+            .with(at_gravity),
+    ])
+}
+
+/// The rate after the correction, and what that changes of it. `after` are the corrected readings.
+fn rate_panels(
+    calibration: &ImuCalibration,
+    after: &[Vector3<f64>],
+    recording: &Recording,
+) -> Option<Vec<Panel>> {
+    let before = Correction::of(&calibration.gyroscope_before.sensor)?;
+    let after = || recording.times_s.iter().copied().zip(after);
+    let thin = Mark::Line { width: 0.9, dashes: "" };
+    let magnitude = thinned(after().map(|(t, rate)| (t, rate.norm().to_degrees())));
+    let rate = Panel::new("angular rate, after", "time (s)", "|ω| (°/s)").with(Series::new(
+        AFTER,
+        colour::BLUE,
+        thin,
+        magnitude,
+    ));
+    let mut change = Panel::new("what the correction changes", "time (s)", "ω after − before (°/s)");
+    for (axis, colour) in Axis::ALL.into_iter().zip([colour::VERMILLION, colour::GREEN, colour::SKY]) {
+        let row = before.matrix.row(axis.index()).transpose();
+        let difference = thinned(after().zip(&recording.readings).map(|((t, after), reading)| {
+            (t, (after[axis.index()] - row.dot(&(reading - before.bias))).to_degrees())
+        }));
+        change = change.with(Series::new(&format!("change of axis {axis}"), colour, thin, difference));
+    }
+    Some(vec![rate, change])
+}
+
+fn caption(recording: &Recording, before: &str, more: &str) -> String {
+    let mut caption = format!(
+        "Magnitude of the specific force, of all samples and of those in holds. {before} Good: in the holds the blue lies on g from the first to the last, and its width is \
+         the noise of the samples.{more}"
+    );
+    if is_thinned(recording.len()) {
+        caption.push_str(" The smallest and the largest value of each pixel column are drawn.");
+    }
+    caption
+}

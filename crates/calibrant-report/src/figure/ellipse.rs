@@ -1,0 +1,114 @@
+//! Confidence ellipses of bias and scale factor.
+
+use super::panel::{Mark, Panel, Series, Shape};
+use super::unit::DisplayUnit;
+use super::{Figure, colour};
+use calibrant_core::sensor::{Axis, Parameter};
+use calibrant_design::Evaluation;
+use nalgebra::{DMatrix, Matrix2, Vector2};
+
+/// Mahalanobis radius that holds 95 % of two normal variables: √(−2 ln 0.05).
+const RADIUS_95: f64 = 2.447_746_83;
+/// Below this ratio of extents, both ellipses can be read in one panel.
+const SAME_SIZE: f64 = 3.0;
+
+/// The 95 % ellipse of (bias, scale factor) of each axis: both motions to one scale, and the better one alone where it is too small for that.
+pub(crate) fn confidence_ellipses(
+    parameters: &[Parameter],
+    before: (&str, &Evaluation),
+    after: Option<(&str, &Evaluation)>,
+) -> Option<Figure> {
+    let pairs: Vec<(Axis, usize, usize)> = Axis::ALL
+        .into_iter()
+        .filter_map(|axis| {
+            let place = |kind: &str| parameters.iter().position(|p| p.name == format!("{kind}.{axis}"));
+            Some((axis, place("bias")?, place("scale")?))
+        })
+        .collect();
+    let block = |evaluation: &Evaluation, i: usize, j: usize| {
+        evaluation.covariance.as_ref().and_then(|c| factor(c, i, j))
+    };
+    let after_name = after.map_or("", |after| after.0);
+    let (mut together, mut alone, mut magnified) = (Vec::new(), Vec::new(), false);
+    for &(axis, i, j) in &pairs {
+        let (old, new) = (block(before.1, i, j), after.and_then(|after| block(after.1, i, j)));
+        let Some(largest) = old.or(new) else { continue };
+        let units = units(parameters, i, j, &largest);
+        let mut panel = panel(format!("axis {axis}"), units);
+        if let Some(old) = old {
+            panel = panel.with(ellipse(before.0, colour::BLUE, 1.6, &old, units));
+        }
+        if let Some(new) = new {
+            panel = panel.with(ellipse(after_name, colour::VERMILLION, 2.2, &new, units));
+        }
+        together.push(panel.with(centre()));
+        if let (Some(old), Some(new)) = (old, new) {
+            let own = self::units(parameters, i, j, &new);
+            let ratio = (extent(&old).x / extent(&new).x).max(extent(&old).y / extent(&new).y);
+            magnified |= ratio > SAME_SIZE;
+            let title = format!("axis {axis}, {after_name} alone");
+            alone.push(
+                self::panel(title, own)
+                    .with(ellipse(after_name, colour::VERMILLION, 2.2, &new, own))
+                    .with(centre()),
+            );
+        }
+    }
+    if together.is_empty() {
+        return None;
+    }
+    let columns = if pairs.len() == 1 { 2 } else { 3 };
+    let mut caption = "In 95 of 100 calibrations, the errors of bias and scale factor together lie within the ellipse. Good: small, and \
+                       upright rather than tilted (a tilted one means that an error of one is mistaken for an error of the other)."
+        .to_string();
+    if magnified {
+        together.append(&mut alone);
+        caption.push_str(&format!(
+            " The two differ so much in size that the {} one is shown again by itself, magnified: mind its axes.",
+            after_name
+        ));
+    }
+    Some(
+        Figure::new("Confidence ellipses of bias and scale factor, 95 %", together, caption)
+            .with_columns(columns),
+    )
+}
+
+/// The Cholesky factor of the covariance of parameters i and j.
+fn factor(covariance: &DMatrix<f64>, i: usize, j: usize) -> Option<Matrix2<f64>> {
+    let c = |row: usize, column: usize| covariance[(row, column)];
+    Matrix2::new(c(i, i), c(i, j), c(j, i), c(j, j)).cholesky().map(|cholesky| cholesky.l())
+}
+
+/// Half width and half height.
+fn extent(factor: &Matrix2<f64>) -> Vector2<f64> {
+    Vector2::new(factor[(0, 0)], factor.row(1).norm()) * RADIUS_95
+}
+
+fn units(parameters: &[Parameter], i: usize, j: usize, factor: &Matrix2<f64>) -> [DisplayUnit; 2] {
+    let extent = extent(factor);
+    [DisplayUnit::suited(parameters[i].unit, extent.x), DisplayUnit::suited(parameters[j].unit, extent.y)]
+}
+
+fn panel(title: String, [x, y]: [DisplayUnit; 2]) -> Panel {
+    Panel::new(title, x.label("error of the bias"), y.label("error of the scale factor"))
+}
+
+fn ellipse(
+    label: &str,
+    colour: &'static str,
+    width: f64,
+    factor: &Matrix2<f64>,
+    [x, y]: [DisplayUnit; 2],
+) -> Series {
+    let points = (0..=90)
+        .map(|k| f64::from(k) * std::f64::consts::TAU / 90.0)
+        .map(|angle| factor * Vector2::new(angle.cos(), angle.sin()) * RADIUS_95)
+        .map(|error| (error.x * x.factor, error.y * y.factor))
+        .collect();
+    Series::new(label, colour, Mark::Line { width, dashes: "" }, points)
+}
+
+fn centre() -> Series {
+    Series::new("no error", colour::BLACK, Mark::Dots { shape: Shape::Cross, radius: 2.5 }, vec![(0.0, 0.0)])
+}

@@ -1,0 +1,79 @@
+//! A figure: panels in a frame, with title, legend and caption.
+
+use super::draw;
+use super::panel::{Panel, Series};
+use crate::html::escape;
+use rayon::prelude::*;
+
+/// A figure: panels that belong together.
+#[derive(Debug)]
+pub(crate) struct Figure {
+    title: String,
+    caption: String,
+    panels: Vec<Panel>,
+    columns: usize,
+}
+
+impl Figure {
+    pub(super) fn new(title: impl Into<String>, panels: Vec<Panel>, caption: impl Into<String>) -> Self {
+        let columns = panels.len().clamp(1, 3);
+        Self { title: title.into(), caption: caption.into(), panels, columns }
+    }
+
+    pub(super) fn with_columns(mut self, columns: usize) -> Self {
+        self.columns = columns;
+        self
+    }
+
+    /// The figure as HTML.
+    pub(crate) fn html(&self) -> String {
+        let panels: Vec<String> = self.panels.par_iter().map(draw::svg).collect();
+        framed(&self.title, &self.legend(), &panels.concat(), self.columns, &self.caption)
+    }
+
+    fn legend(&self) -> String {
+        let mut seen: Vec<&Series> = Vec::new();
+        for series in self.panels.iter().flat_map(|panel| &panel.series) {
+            if !series.label.is_empty() && seen.iter().all(|other| other.label != series.label) {
+                seen.push(series);
+            }
+        }
+        let mut entries: Vec<String> =
+            seen.iter().map(|series| entry(&draw::key(series), &series.label)).collect();
+        let mut shades: Vec<&str> = Vec::new();
+        for shade in self.panels.iter().flat_map(|panel| &panel.shades) {
+            if !shade.label.is_empty() && !shades.contains(&shade.label) {
+                shades.push(shade.label);
+                entries.push(entry(&draw::shade_key(shade.colour), shade.label));
+            }
+        }
+        format!("<ul class=\"legend\">{}</ul>", entries.concat())
+    }
+}
+
+/// Figures as HTML, side by side, as drawing is what a report waits for; nothing for those that there is no occasion for.
+pub(crate) fn drawn<const N: usize>(figures: [&(dyn Fn() -> Option<Figure> + Sync); N]) -> [String; N] {
+    let mut html = figures.map(|_| String::new());
+    html.par_iter_mut().zip(figures).for_each(|(html, figure)| {
+        *html = figure().map_or_else(String::new, |figure| figure.html());
+    });
+    html
+}
+
+fn entry(key: &str, label: &str) -> String {
+    format!("<li>{key}{}</li>", escape(label))
+}
+
+/// Title, legend, panels and caption in their frame.
+pub(super) fn framed(title: &str, legend: &str, panels: &str, columns: usize, caption: &str) -> String {
+    let class = match columns {
+        1 => "panels one",
+        2 => "panels two",
+        _ => "panels",
+    };
+    format!(
+        "<figure><h3>{}</h3>{legend}<div class=\"{class}\">{panels}</div><figcaption>{}</figcaption></figure>",
+        escape(title),
+        escape(caption)
+    )
+}

@@ -1,0 +1,176 @@
+//! The recovered motion: the report's Figures 4 and 5.
+
+use super::panel::{Mark, Panel, Series, Shape};
+use super::thin::{is_thinned, thinned};
+use super::unit::DisplayUnit;
+use super::{Figure, colour};
+use calibrant_core::estimate::{Calibration, RecoveredMotion};
+use calibrant_core::motion::JerkControlledMotion;
+use calibrant_core::sensor::{Axis, Correction, ReadingUnit, Recording};
+use nalgebra::Vector3;
+
+pub(super) const TIME: &str = "time (s)";
+
+/// Acceleration as measured, as it was where that is known, and as estimated: the report's Figure 4.
+pub(crate) fn acceleration_figure(
+    title: &str,
+    calibration: &Calibration,
+    recovered: &RecoveredMotion,
+    recording: &Recording,
+    truth: Option<&JerkControlledMotion>,
+) -> Figure {
+    let counts = calibration.unit == ReadingUnit::Counts;
+    let correction = if counts { Correction::of(&calibration.sensor) } else { None };
+    let first = calibration.first_sample.min(recording.len());
+    let end = match calibration.residuals.len() {
+        0 => recording.len(),
+        used => (first + used).min(recording.len()),
+    };
+    let readings_label = if counts { "readings, corrected" } else { "readings" };
+    let panels = panels_by_axis(recording, "acceleration (m/s²)", |axis, panel| {
+        let dots = if counts && correction.is_none() {
+            Vec::new()
+        } else {
+            (first..end)
+                .map(|k| {
+                    let reading = &recording.readings[k];
+                    let value = correction.as_ref().map_or(*reading, |c| c.apply(reading));
+                    (recording.times_s[k], value[axis.index()])
+                })
+                .collect()
+        };
+        let mark = Mark::Dots { shape: Shape::Circle, radius: 3.0 };
+        let dots = Series::new(readings_label, colour::SKY, mark, thinned(dots.into_iter()));
+        let mut panel = panel.with(dots);
+        if let Some(truth) = truth {
+            let mark = Mark::Line { width: 2.6, dashes: "" };
+            panel = panel.with(Series::new("true", colour::BLACK, mark, nodes(truth, axis)));
+        }
+        panel.with(Series::dashed("estimated", colour::VERMILLION, nodes(&recovered.motion, axis)))
+    });
+    let mut caption = match (truth.is_some(), counts) {
+        (true, _) => {
+            "Good: the dashed line lies on the solid one. The readings lie beside both by the sensor's bias and \
+             scale error, which is what the calibration takes out."
+        }
+        (false, false) => {
+            "Good: the estimated line follows the readings everywhere, apart from a constant shift (the bias) and a \
+             small stretch (the scale)."
+        }
+        (false, true) => {
+            "Good: the readings, converted to m/s² with the estimated parameters, lie on the estimated line."
+        }
+    }
+    .to_string();
+    if is_thinned(end.saturating_sub(first)) {
+        caption
+            .push_str(" Of the many readings, the smallest and the largest of each pixel column are drawn.");
+    }
+    Figure::new(title, panels, caption)
+}
+
+/// Estimated less true acceleration with its stated uncertainty, or the uncertainty alone; `None` where neither says anything.
+pub(crate) fn motion_error_figure(
+    recovered: &RecoveredMotion,
+    recording: &Recording,
+    truth: Option<&JerkControlledMotion>,
+) -> Option<Figure> {
+    let sd = &recovered.acceleration_sd_mps2;
+    let times = recovered.motion.times_s();
+    let error = |i: usize, t: f64| {
+        truth.map(|truth| recovered.motion.acceleration_mps2()[i] - truth.acceleration_at(t))
+    };
+    let errors: Vec<Vector3<f64>> =
+        times.iter().enumerate().map(|(i, &t)| error(i, t).unwrap_or_else(Vector3::zeros)).collect();
+    let largest =
+        |list: &[Vector3<f64>]| list.iter().map(|v| v.amax()).filter(|v| v.is_finite()).fold(0.0, f64::max);
+    let unit = DisplayUnit::suited("m/s²", largest(&errors).max(2.0 * largest(sd)));
+    if largest(&errors).max(largest(sd)) == 0.0 {
+        return None;
+    }
+    let label = unit.label(if truth.is_some() { "estimated − true" } else { "uncertainty" });
+    let panels = panels_by_axis(recording, &label, |axis, mut panel| {
+        let a = axis.index();
+        let spread: Vec<f64> = sd.iter().map(|sd| 2.0 * sd[a] * unit.factor).collect();
+        if spread.len() == times.len() {
+            let zero = times.iter().map(|&t| (t, 0.0)).collect();
+            panel =
+                panel.with(Series::new("±2 sd as stated", colour::SKY, Mark::Band, zero).with_spread(spread));
+        }
+        if truth.is_some() {
+            let points: Vec<_> = times.iter().zip(&errors).map(|(&t, e)| (t, e[a] * unit.factor)).collect();
+            let mark = Mark::Line { width: 0.8, dashes: "" };
+            panel = panel.with(Series::new("", colour::VERMILLION, mark, thinned(points.iter().copied())));
+            panel = panel.with(Series::dots(
+                "estimated − true at the nodes",
+                colour::VERMILLION,
+                Shape::Circle,
+                thinned(points.into_iter()),
+            ));
+        }
+        panel
+    });
+    let (title, caption) = if truth.is_some() {
+        (
+            "Error of the recovered acceleration",
+            "Good: nearly all points lie within the band. Neighbouring points move together because errors of bias and \
+             scale are common to all of them; known ends have no error.",
+        )
+    } else {
+        (
+            "Uncertainty of the recovered acceleration",
+            "The band is two standard deviations of each node's acceleration; it closes where the acceleration was known.",
+        )
+    };
+    Some(Figure::new(title, panels, caption))
+}
+
+/// The states xᵢ and the inputs uᵢ of each interval, true and estimated: the report's Figure 5.
+pub(crate) fn state_and_jerk_figure(
+    title: &str,
+    recovered: &RecoveredMotion,
+    recording: &Recording,
+    truth: Option<&JerkControlledMotion>,
+) -> Figure {
+    let quantity = |label: &str, of: fn(&JerkControlledMotion) -> Vec<Vector3<f64>>| {
+        panels_by_axis(recording, label, |axis, mut panel| {
+            if let Some(truth) = truth {
+                let mark = Mark::Line { width: 2.8, dashes: "" };
+                panel = panel.with(Series::new("true", colour::BLACK, mark, steps(truth, &of(truth), axis)));
+            }
+            let estimate = steps(&recovered.motion, &of(&recovered.motion), axis);
+            panel.with(Series::dashed("estimated", colour::VERMILLION, estimate))
+        })
+    };
+    let mut panels = quantity("state xᵢ (m/s²)", JerkControlledMotion::intercept_mps2);
+    panels.extend(quantity("input uᵢ (m/s³)", JerkControlledMotion::jerk_mps3));
+    let columns = if recording.axes == 1 { 2 } else { 3 };
+    let good = if truth.is_some() { " Good: the dashed steps cover the solid ones." } else { "" };
+    let caption = format!(
+        "Acceleration in interval i is α(t) = xᵢ + uᵢ t: uᵢ is the jerk, xᵢ the line's intercept at t = 0, which grows with \
+         the interval's distance from the start.{good}"
+    );
+    Figure::new(title, panels, caption).with_columns(columns)
+}
+
+fn panels_by_axis(recording: &Recording, label: &str, fill: impl Fn(Axis, Panel) -> Panel) -> Vec<Panel> {
+    recording
+        .active_axes()
+        .iter()
+        .map(|&axis| fill(axis, Panel::new(format!("axis {axis}"), TIME, label)))
+        .collect()
+}
+
+pub(super) fn nodes(motion: &JerkControlledMotion, axis: Axis) -> Vec<(f64, f64)> {
+    let values = motion.acceleration_mps2().iter().map(|a| a[axis.index()]);
+    thinned(motion.times_s().iter().copied().zip(values))
+}
+
+pub(super) fn steps(motion: &JerkControlledMotion, values: &[Vector3<f64>], axis: Axis) -> Vec<(f64, f64)> {
+    let ends = motion.times_s().windows(2);
+    let points: Vec<_> = ends
+        .zip(values)
+        .flat_map(|(ends, v)| [(ends[0], v[axis.index()]), (ends[1], v[axis.index()])])
+        .collect();
+    thinned(points.into_iter())
+}

@@ -1,0 +1,181 @@
+//! Motions over time with their limits: the report's Figure 8, and what the arm has to do for it.
+
+use super::motion::{TIME, nodes, steps};
+use super::panel::{Mark, Panel, Series};
+use super::thin::thinned;
+use super::{Figure, colour};
+use crate::design::starts::name;
+use calibrant_core::motion::{AxisLimits, JerkControlledMotion, Limits};
+use calibrant_core::sensor::Axis;
+
+/// Points drawn of each interval, so that peaks between nodes show.
+const POINTS_PER_INTERVAL: usize = 24;
+/// A limit is drawn where it is below this many times the largest value; farther away it would flatten the curves.
+const NEAR: f64 = 4.0;
+
+/// A motion as it is drawn: name in the legend, colour, width of its lines.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Drawn<'a> {
+    pub(crate) name: &'static str,
+    pub(crate) motion: &'a JerkControlledMotion,
+    colour: &'static str,
+    width: f64,
+}
+
+impl<'a> Drawn<'a> {
+    /// The motion to compare with: thin and blue.
+    pub(crate) fn before(name: &'static str, motion: &'a JerkControlledMotion) -> Self {
+        Self { name, motion, colour: colour::BLUE, width: 1.4 }
+    }
+
+    /// The motion that the page is about: bold and vermillion.
+    pub(crate) fn after(name: &'static str, motion: &'a JerkControlledMotion) -> Self {
+        Self { name, motion, colour: colour::VERMILLION, width: 2.3 }
+    }
+}
+
+/// Something of a motion that is drawn over time.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Profile {
+    Jerk,
+    Acceleration,
+    Intercept,
+    Velocity,
+    Displacement,
+}
+
+impl Profile {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Jerk => "jerk",
+            Self::Acceleration => "acceleration",
+            Self::Intercept => "state",
+            Self::Velocity => "velocity",
+            Self::Displacement => "displacement",
+        }
+    }
+
+    fn label(self) -> &'static str {
+        match self {
+            Self::Jerk => "jerk uᵢ (m/s³)",
+            Self::Acceleration => "acceleration (m/s²)",
+            Self::Intercept => "state xᵢ (m/s²)",
+            Self::Velocity => "velocity (m/s)",
+            Self::Displacement => "displacement (m)",
+        }
+    }
+
+    fn limit(self, limits: &AxisLimits) -> Option<f64> {
+        match self {
+            Self::Jerk => limits.jerk,
+            Self::Acceleration => limits.acceleration,
+            Self::Intercept => limits.intercept,
+            Self::Velocity => limits.velocity,
+            Self::Displacement => limits.displacement,
+        }
+    }
+
+    fn curve(self, motion: &JerkControlledMotion, axis: Axis) -> Vec<(f64, f64)> {
+        let a = axis.index();
+        match self {
+            Self::Jerk => steps(motion, &motion.jerk_mps3(), axis),
+            Self::Intercept => steps(motion, &motion.intercept_mps2(), axis),
+            Self::Acceleration => nodes(motion, axis),
+            Self::Velocity | Self::Displacement => {
+                let times = dense(motion.times_s());
+                let states = motion.states_at(&times);
+                let value = |i: usize| match self {
+                    Self::Velocity => states[i].velocity_mps[a],
+                    _ => states[i].displacement_m[a],
+                };
+                thinned(times.iter().enumerate().map(|(i, &t)| (t, value(i))))
+            }
+        }
+    }
+}
+
+fn dense(nodes: &[f64]) -> Vec<f64> {
+    let inside = nodes.windows(2).flat_map(|ends| {
+        let step = (ends[1] - ends[0]) / POINTS_PER_INTERVAL as f64;
+        (0..POINTS_PER_INTERVAL).map(move |k| ends[0] + step * k as f64)
+    });
+    inside.chain(nodes.last().copied()).collect()
+}
+
+/// Jerk in steps and acceleration in lines: the report's Figure 8.
+pub(crate) fn jerk_and_acceleration(
+    title: &str,
+    motions: &[Drawn<'_>],
+    axes: &[Axis],
+    limits: &Limits,
+) -> Figure {
+    let caption = "(a) Jerk, constant in each interval. (b) Acceleration, its integral. A good motion uses the limits: \
+                   where a curve touches a dashed line, that limit holds it back and widening it would help most.";
+    figure(title, &[Profile::Jerk, Profile::Acceleration], motions, axes, limits, caption)
+}
+
+/// The report's state, where it is limited: the intercept of each interval's line at t = 0.
+pub(crate) fn states(motions: &[Drawn<'_>], axes: &[Axis], limits: &Limits) -> Option<Figure> {
+    limits.intercept_mps2?;
+    let caption = "Acceleration in interval i is α(t) = xᵢ + uᵢ t. A limit on xᵢ, the line's value at t = 0, holds late intervals back more than \
+                   early ones, which no arm does: limit acceleration, velocity and displacement unless you compare with the report.";
+    Some(figure("States xᵢ, which the report limits", &[Profile::Intercept], motions, axes, limits, caption))
+}
+
+/// Velocity and displacement between the nodes too.
+pub(crate) fn velocity_and_displacement(motions: &[Drawn<'_>], axes: &[Axis], limits: &Limits) -> Figure {
+    let bounded = limits.velocity_mps.is_some() || limits.displacement_m.is_some();
+    let caption = format!(
+        "From rest at the origin. {} Peaks may lie between the nodes, so the curves are drawn there too.",
+        if bounded {
+            "Good: the curves stay between the dashed lines."
+        } else {
+            "Neither is limited: check that the arm reaches so far and moves so fast, or set limits.velocity_mps and \
+             limits.displacement_m."
+        }
+    );
+    let profiles = [Profile::Velocity, Profile::Displacement];
+    figure("Velocity (a) and displacement (b)", &profiles, motions, axes, limits, &caption)
+}
+
+fn figure(
+    title: &str,
+    profiles: &[Profile],
+    motions: &[Drawn<'_>],
+    axes: &[Axis],
+    limits: &Limits,
+    caption: &str,
+) -> Figure {
+    let mut far: Vec<String> = Vec::new();
+    let mut panels = Vec::new();
+    for (&profile, letter) in profiles.iter().zip(["(a) ", "(b) "]) {
+        let letter = if profiles.len() > 1 { letter } else { "" };
+        let mut hidden = Vec::new();
+        for &axis in axes {
+            let mut panel = Panel::new(format!("{letter}axis {axis}"), TIME, profile.label());
+            // thin over bold: both show where they coincide
+            for drawn in motions.iter().rev() {
+                let mark = Mark::Line { width: drawn.width, dashes: "" };
+                let curve = profile.curve(drawn.motion, axis);
+                panel = panel.with(Series::new(drawn.name, drawn.colour, mark, curve));
+            }
+            if let Some(limit) = profile.limit(&limits.axis(axis.index())) {
+                if limit <= NEAR * panel.largest() {
+                    panel = panel.with_limits(limit);
+                } else {
+                    hidden.push(axis);
+                }
+            }
+            panels.push(panel);
+        }
+        if !hidden.is_empty() {
+            far.push(format!("{} of {}", profile.name(), name(&hidden)));
+        }
+    }
+    let mut caption = caption.to_string();
+    if !far.is_empty() {
+        caption.push_str(&format!(" Limits far outside the panel are not drawn: {}.", far.join("; ")));
+    }
+    let columns = if axes.len() == 1 { 2 } else { 3 };
+    Figure::new(title, panels, caption).with_columns(columns)
+}

@@ -1,0 +1,57 @@
+//! How far gravity is missed after each rotation of a whole IMU.
+
+use super::panel::{Mark, Panel, Series, Shape};
+use super::{Figure, colour};
+use calibrant_core::estimate::RotationResult;
+
+/// Above this ratio of the largest to the smallest error, the axis is logarithmic.
+const WIDE: f64 = 10.0;
+
+/// Errors before and after the calibration of each rotation that could be integrated, over time and over the path; `None` where there is none.
+pub(crate) fn rotation_errors(rotations: &[RotationResult]) -> Option<Figure> {
+    let shown: Vec<&RotationResult> = rotations.iter().filter(|rotation| rotation.is_integrated()).collect();
+    if shown.is_empty() {
+        return None;
+    }
+    let of = |label: &str, x: fn(&RotationResult) -> f64| {
+        let pair =
+            |r: &RotationResult| [r.error_before_rad, r.error_rad].map(|error| (x(r), error.to_degrees()));
+        let mut panel = Panel::new("", label, "gravity missed by (°)");
+        for rotation in &shown {
+            let line = Mark::Line { width: 0.8, dashes: "" };
+            panel = panel.with(Series::new("", colour::GREY, line, pair(rotation).to_vec()));
+        }
+        let dots = |label: &str, colour, shape, radius, chosen: &dyn Fn(&RotationResult) -> Option<usize>| {
+            let points = shown.iter().filter_map(|r| Some(pair(r)[chosen(r)?])).collect();
+            Series::new(label, colour, Mark::Dots { shape, radius }, points)
+        };
+        panel = panel.with(dots("before", colour::ORANGE, Shape::Square, 3.0, &|_| Some(0))).with(dots(
+            "after",
+            colour::BLUE,
+            Shape::Circle,
+            3.2,
+            &|r| r.used.then_some(1),
+        ));
+        if shown.iter().any(|rotation| !rotation.used) {
+            panel = panel.with(dots("after, left out", colour::VERMILLION, Shape::Cross, 5.0, &|r| {
+                (!r.used).then_some(1)
+            }));
+        }
+        let errors = || shown.iter().flat_map(|r| pair(r)).map(|point| point.1).filter(|error| *error > 0.0);
+        let (low, high) = errors().fold((f64::INFINITY, 0.0_f64), |(l, h), e| (l.min(e), h.max(e)));
+        panel.log_y = high > WIDE * low;
+        if !panel.log_y {
+            panel.y_includes.push(0.0);
+        }
+        panel
+    };
+    let panels = vec![
+        of("time (s)", |rotation| 0.5 * (rotation.start_s + rotation.end_s)),
+        of("angle turned through (°)", |rotation| rotation.path_rad.to_degrees()),
+    ];
+    let caption = "The gyroscope carries gravity from the hold before a rotation to the hold after it; the angle by which it misses \
+                   gravity as the accelerometer finds it there, one pair of markers for each rotation. Before: with one bias and one gain for all axes, \
+                   or the datasheet's. Good: the blue ones far below the orange, without a trend; errors that grow to the right come from the gyroscope's \
+                   gains, those that do not from noise and a wandering bias.";
+    Some(Figure::new("Gravity after each rotation", panels, caption).with_columns(2))
+}

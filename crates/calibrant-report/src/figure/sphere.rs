@@ -1,0 +1,160 @@
+//! The holds' directions on the sphere, in two equal-area hemispheres.
+//!
+//! Drawn by hand: a sphere with a graticule and numbered points is beyond the plotting library.
+
+use super::colour;
+use super::frame::framed;
+use calibrant_core::estimate::{HoldCalibration, HoldResult};
+use nalgebra::Vector3;
+
+/// Radius of a hemisphere and half the side of its drawing.
+const RADIUS: f64 = 165.0;
+const HALF: f64 = 212.0;
+
+/// Directions of the specific force in the sensor's frame, one numbered point for each hold.
+pub(crate) fn hold_directions(holds: &HoldCalibration) -> String {
+    let hemispheres: String = [("upper half, z ≥ 0", true), ("lower half, z < 0", false)]
+        .map(|(name, upper)| hemisphere(holds, name, upper))
+        .concat();
+    let legend = format!(
+        "<ul class=\"legend\"><li>{}used</li>{}</ul>",
+        key(&dot(17.0, 7.0)),
+        if holds.holds.iter().all(|hold| hold.used) {
+            String::new()
+        } else {
+            format!("<li>{}left out</li>", key(&cross(17.0, 7.0)))
+        }
+    );
+    let caption = "Specific force over its magnitude in the true frame, with the number of the hold. Both halves are seen from \
+                   +z, equal areas on the sphere are equal areas here, rings are 30° apart, and the rim is z = 0. Good: points in \
+                   all parts of both halves. An empty region is a direction in which the calibration extrapolates.";
+    framed("Orientations of the holds", &legend, &hemispheres, 2, caption)
+}
+
+fn hemisphere(holds: &HoldCalibration, name: &str, upper: bool) -> String {
+    let points: Vec<(usize, (f64, f64), bool)> = holds
+        .holds
+        .iter()
+        .enumerate()
+        .filter_map(|(i, hold)| direction(hold).map(|d| (i + 1, d, hold.used)))
+        .filter(|(_, d, _)| (d.z >= 0.0) == upper)
+        .map(|(number, d, used)| (number, projected(&d), used))
+        .collect();
+    let mut svg = format!(
+        "<svg viewBox=\"{0} {1} {2} {3}\" role=\"img\" aria-label=\"{name}\" font-family=\"system-ui, 'DejaVu Sans', Arial, sans-serif\" fill=\"#1b1f24\">\
+         <text x=\"0\" y=\"{4}\" font-size=\"15\" text-anchor=\"middle\">{name}</text>",
+        -HALF,
+        -HALF - 16.0,
+        2.0 * HALF,
+        2.0 * HALF + 16.0,
+        -HALF + 2.0
+    );
+    for elevation in [0.0_f64, 30.0, 60.0] {
+        let radius = RADIUS * (1.0 - elevation.to_radians().sin()).sqrt();
+        let stroke = if elevation == 0.0 { "#424a53" } else { "#d0d7de" };
+        svg.push_str(&format!("<circle r=\"{radius:.1}\" fill=\"none\" stroke=\"{stroke}\"/>"));
+    }
+    svg.push_str(&format!("<path d=\"M{0} 0H{RADIUS}M0 {0}V{RADIUS}\" stroke=\"#d0d7de\"/>", -RADIUS));
+    for (label, x, y) in [
+        ("+x", RADIUS + 28.0, 4.0),
+        ("−x", -RADIUS - 28.0, 4.0),
+        ("+y", 0.0, -RADIUS - 20.0),
+        ("−y", 0.0, RADIUS + 30.0),
+    ] {
+        svg.push_str(&format!(
+            "<text x=\"{x}\" y=\"{y}\" font-size=\"13\" text-anchor=\"middle\">{label}</text>"
+        ));
+    }
+    for &(_, (x, y), used) in &points {
+        svg.push_str(&if used { dot(x, y) } else { cross(x, y) });
+    }
+    for (number, (x, y), used) in placed(&points) {
+        let fill = if used { "#1b1f24" } else { "#b34700" };
+        svg.push_str(&format!(
+            "<text x=\"{x:.1}\" y=\"{y:.1}\" font-size=\"12\" text-anchor=\"middle\" fill=\"{fill}\">{number}</text>"
+        ));
+    }
+    if points.is_empty() {
+        svg.push_str("<text y=\"30\" font-size=\"13\" text-anchor=\"middle\" fill=\"#57606a\">no hold in this half</text>");
+    }
+    svg + "</svg>"
+}
+
+/// Where each number goes: the place about its point that is farthest from other points and numbers already placed.
+fn placed(points: &[(usize, (f64, f64), bool)]) -> Vec<(usize, (f64, f64), bool)> {
+    const PLACES: [(f64, f64); 8] = [
+        (11.0, -5.0),
+        (-11.0, -5.0),
+        (11.0, 13.0),
+        (-11.0, 13.0),
+        (0.0, -8.0),
+        (0.0, 17.0),
+        (13.0, 4.0),
+        (-13.0, 4.0),
+    ];
+    let mut taken: Vec<(f64, f64)> = points.iter().map(|point| point.1).collect();
+    let mut labels = Vec::with_capacity(points.len());
+    for &(number, (x, y), used) in points {
+        let room = |&(dx, dy): &(f64, f64)| {
+            let (cx, cy) = (x + dx, y + dy - 4.0); // the middle of the number
+            taken
+                .iter()
+                .filter(|&&p| p != (x, y))
+                .map(|p| (p.0 - cx).hypot(1.3 * (p.1 - cy)))
+                .fold(40.0, f64::min)
+        };
+        // a little reluctance to leave the first place keeps the picture calm
+        let score = |i: usize| room(&PLACES[i]) - 0.5 * i as f64;
+        let best = (0..PLACES.len()).max_by(|&a, &b| score(a).total_cmp(&score(b))).unwrap_or(0);
+        let (dx, dy) = PLACES[best];
+        taken.push((x + dx, y + dy - 4.0));
+        labels.push((number, (x + dx, y + dy), used));
+    }
+    labels
+}
+
+fn direction(hold: &HoldResult) -> Option<Vector3<f64>> {
+    let norm = hold.force_mps2.norm();
+    (norm.is_finite() && norm > 0.0).then(|| hold.force_mps2 / norm)
+}
+
+/// Lambert's azimuthal equal-area projection about ±z, the equator at [`RADIUS`]; y points up.
+fn projected(direction: &Vector3<f64>) -> (f64, f64) {
+    let stretch = RADIUS / (1.0 + direction.z.abs()).sqrt();
+    (direction.x * stretch, -direction.y * stretch)
+}
+
+fn dot(x: f64, y: f64) -> String {
+    format!("<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"3.8\" fill=\"{}\"/>", colour::BLUE)
+}
+
+fn cross(x: f64, y: f64) -> String {
+    format!(
+        "<path d=\"M{:.1} {:.1}l9 9m-9 0l9 -9\" stroke=\"{}\" stroke-width=\"2.2\"/>",
+        x - 4.5,
+        y - 4.5,
+        colour::VERMILLION
+    )
+}
+
+fn key(drawing: &str) -> String {
+    format!("<svg viewBox=\"0 0 34 14\" aria-hidden=\"true\" fill=\"none\">{drawing}</svg>")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_projection_keeps_areas_and_puts_the_equator_on_the_rim() {
+        let at = |elevation: f64| {
+            let (x, y) = projected(&Vector3::new(elevation.cos(), 0.0, elevation.sin()));
+            x.hypot(y)
+        };
+        assert!((at(0.0) - RADIUS).abs() < 1e-9);
+        // the cap above elevation e has the share 1 − sin e of the half sphere's area
+        for e in [0.2, 0.7, 1.3_f64] {
+            assert!(((at(e) / RADIUS).powi(2) - (1.0 - e.sin())).abs() < 1e-12);
+        }
+    }
+}

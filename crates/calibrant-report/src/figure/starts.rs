@@ -1,0 +1,54 @@
+//! Where the starts of the search ended.
+
+use super::panel::{Mark, Panel, Series, Shape};
+use super::{Figure, colour};
+use crate::design::starts::{groups, name};
+use calibrant_core::information::Criterion;
+use calibrant_design::{DesignStatus, StartOutcome};
+
+/// The values of all starts, best first, as their distance from the best; `None` where there is nothing to compare.
+pub(crate) fn start_values(starts: &[StartOutcome], criterion: &Criterion) -> Option<Figure> {
+    let groups = groups(starts, criterion);
+    if groups.iter().all(|group| group.sorted.len() < 2) {
+        return None;
+    }
+    let nats = matches!(criterion, Criterion::D(_));
+    let panels: Vec<Panel> = groups
+        .iter()
+        .map(|group| {
+            let excess: Vec<f64> = group.sorted.iter().map(|start| group.excess(start)).collect();
+            let largest = excess.iter().copied().filter(|e| e.is_finite()).fold(0.0, f64::max);
+            let (factor, label) = match largest {
+                _ if nats => (1.0, "above the best (nats)"),
+                most if most < 1e-4 => (1e6, "above the best (ppm)"),
+                _ => (100.0, "above the best (%)"),
+            };
+            let of = |converged: bool| {
+                let ranked = group.sorted.iter().zip(&excess).enumerate();
+                ranked
+                    .filter(|(_, (start, _))| (start.status == DesignStatus::Converged) == converged)
+                    .map(|(rank, (_, e))| ((rank + 1) as f64, e * factor))
+                    .collect::<Vec<_>>()
+            };
+            let dots = |label: &str, colour, shape, points| {
+                Series::new(label, colour, Mark::Dots { shape, radius: 3.4 }, points)
+            };
+            let mut panel = Panel::new(name(&group.axes), "rank of the start", label).with(dots(
+                "converged",
+                colour::BLUE,
+                Shape::Circle,
+                of(true),
+            ));
+            let others = of(false);
+            if !others.is_empty() {
+                panel = panel.with(dots("not converged", colour::VERMILLION, Shape::Cross, others));
+            }
+            panel.y_includes.push(0.0);
+            panel
+        })
+        .collect();
+    let caption = "One marker for each start of the search, best first. Many at zero: the best motion was found again and again, so it is \
+                   hardly missed by bad luck. Steps: the problem has several local optima; mirrored motions are the same optimum. Only one \
+                   at zero: ask for more starts.";
+    Some(Figure::new("Values of the starts, sorted", panels, caption))
+}

@@ -1,0 +1,115 @@
+//! What can be had as one thing about the experiment changes.
+
+use super::panel::{Mark, Panel, Series, Shape};
+use super::unit::DisplayUnit;
+use super::{Figure, colour};
+use calibrant_design::{Sweep, SweepPoint};
+
+/// Above this ratio of largest to smallest, an axis is logarithmic.
+const WIDE: f64 = 3.0;
+/// Curves within this of each other are drawn as one.
+const SAME: f64 = 1e-3;
+
+/// The sd of each parameter with the best motion against the swept value, and its lower bound where there is one.
+pub(crate) fn sweep_curves(sweep: &Sweep) -> Figure {
+    let mut points: Vec<&SweepPoint> = sweep.points.iter().collect();
+    points.sort_by(|a, b| a.value.total_cmp(&b.value));
+    let sd: Vec<Vec<f64>> = points.iter().map(|point| point.sd(sweep.parameters.len())).collect();
+    let bound = |point: &SweepPoint, p: usize| {
+        let certificate = point.outcome.as_ref().ok()?.certificate.as_ref()?;
+        certificate.sd_lower_bound.get(p).copied().filter(|bound| *bound > 0.0)
+    };
+    let x_label = match sweep.variable.unit() {
+        "" => sweep.variable.name().to_string(),
+        unit => format!("{} ({unit})", sweep.variable.name()),
+    };
+    let kinds = [("bias.", "bias"), ("scale.", "scale factor"), ("matrix.", "cross-axis sensitivity")];
+    let mut bounded = false;
+    let panels: Vec<Panel> = kinds
+        .into_iter()
+        .filter_map(|(prefix, kind)| {
+            let members: Vec<usize> = (0..sweep.parameters.len())
+                .filter(|&p| sweep.parameters[p].name.starts_with(prefix))
+                .collect();
+            let unit = sweep.parameters[*members.first()?].unit;
+            let all =
+                || members.iter().flat_map(|&p| sd.iter().map(move |sd| sd[p])).filter(|v| v.is_finite());
+            let unit = DisplayUnit::suited_to(unit, all());
+            let mut panel = Panel::new(kind, x_label.as_str(), unit.label("sd with the best motion"));
+            for (place, group) in alike(&members, &sd).into_iter().enumerate() {
+                let (colour, shape) = look(place);
+                let names: Vec<&str> =
+                    group.iter().map(|&p| sweep.parameters[p].name.trim_start_matches(prefix)).collect();
+                let label = format!("{kind} {}", names.join(", "));
+                let curve: Vec<(f64, f64)> = points
+                    .iter()
+                    .zip(&sd)
+                    .map(|(point, sd)| (point.value, sd[group[0]] * unit.factor))
+                    .collect();
+                let bounds: Vec<(f64, f64)> = points
+                    .iter()
+                    .filter_map(|point| Some((point.value, bound(point, group[0])? * unit.factor)))
+                    .collect();
+                if !bounds.is_empty() {
+                    bounded = true;
+                    panel = panel.with(Series::dashed("lower bound", colour::BLACK, bounds));
+                }
+                let line = Mark::Line { width: 1.6, dashes: "" };
+                let dots = Mark::Dots { shape, radius: 3.6 };
+                panel = panel
+                    .with(Series::new("", colour, line, curve.clone()))
+                    .with(Series::new(&label, colour, dots, curve));
+            }
+            let ratio = |values: &mut dyn Iterator<Item = f64>| {
+                let (low, high) = values.fold((f64::INFINITY, 0.0_f64), |(l, h), v| (l.min(v), h.max(v)));
+                if low > 0.0 { high / low } else { 0.0 }
+            };
+            panel.log_x = ratio(&mut points.iter().map(|point| point.value)) > WIDE;
+            panel.log_y = ratio(&mut all()) > WIDE;
+            if !panel.log_y {
+                panel.y_includes.push(0.0);
+            }
+            panel.when_empty = "no motion is possible at any of the values".to_string();
+            Some(panel)
+        })
+        .collect();
+    let mut caption = "Each marker is a design of its own. Where a curve falls, changing the value pays; where it is flat, something else holds the \
+                       motion back. Curves that coincide are drawn as one."
+        .to_string();
+    if bounded {
+        caption.push_str(
+            " Dashed: what no motion can beat; where it meets the curve, the design is proved optimal.",
+        );
+    }
+    if panels.iter().any(|panel| panel.log_x || panel.log_y) {
+        caption.push_str(" Axes that span more than a factor of three are logarithmic.");
+    }
+    let columns = panels.len().clamp(2, 3);
+    let title = format!("Standard deviations against {}", sweep.variable.name());
+    Figure::new(title, panels, caption).with_columns(columns)
+}
+
+/// Parameters whose curves coincide.
+fn alike(members: &[usize], sd: &[Vec<f64>]) -> Vec<Vec<usize>> {
+    let mut groups: Vec<Vec<usize>> = Vec::new();
+    for &p in members {
+        let same = |q: usize| sd.iter().all(|sd| sd[p] == sd[q] || (sd[p] / sd[q] - 1.0).abs() < SAME);
+        match groups.iter_mut().find(|group| same(group[0])) {
+            Some(group) => group.push(p),
+            None => groups.push(vec![p]),
+        }
+    }
+    groups
+}
+
+fn look(place: usize) -> (&'static str, Shape) {
+    let looks = [
+        (colour::BLUE, Shape::Circle),
+        (colour::VERMILLION, Shape::Square),
+        (colour::GREEN, Shape::Triangle),
+        (colour::ORANGE, Shape::Cross),
+        (colour::SKY, Shape::Circle),
+        (colour::GREY, Shape::Square),
+    ];
+    looks[place % looks.len()]
+}

@@ -1,0 +1,118 @@
+//! The holds of a static calibration in numbers.
+
+use super::number;
+use super::table::{Cell, Table};
+use calibrant_core::estimate::{HoldCalibration, HoldResult};
+use calibrant_core::sensor::ReadingUnit;
+
+/// Fewer magnitudes left to check tell no scatter along gravity.
+const FEWEST: usize = 3;
+/// Beyond this many standard deviations, a hold that was left out is called an outlier.
+const OUTLYING: f64 = 3.0;
+
+/// What holds for all holds together.
+pub(super) fn hold_summary(holds: &HoldCalibration) -> String {
+    let used = holds.holds.iter().filter(|hold| hold.used).count();
+    let mut table = Table::explained();
+    let mut row = |name: &str, value: String, meaning: &str| table.explain(name, value, meaning);
+    let found =
+        if holds.detected { "Found in the recording by its stillness." } else { "As given by the user." };
+    row("holds used", format!("{used} of {}", holds.holds.len()), found);
+    row(
+        "gravity g",
+        match holds.gravity.sd_mps2 {
+            sd if sd > 0.0 => format!("{} m/s²", number::with_sd(holds.gravity.magnitude_mps2, sd)),
+            _ => format!("{} m/s²", number::significant(holds.gravity.magnitude_mps2, 6)),
+        },
+        "Assumed. An error of g is an error of the same share in all scale factors; its sd is part of theirs.",
+    );
+    match holds.degrees_of_freedom {
+        0 => row(
+            "magnitude residual",
+            "nothing left to check".into(),
+            "No more holds than parameters: gravity in them determines the parameters, and is met by that. Add holds.",
+        ),
+        _ => row(
+            "magnitude residual, rms",
+            format!("{} mm/s²", number::significant(1e3 * holds.magnitude_residual_rms_mps2, 3)),
+            "Corrected magnitude less g over the holds that were used.",
+        ),
+    }
+    if let Some(tilt) = &holds.tilt {
+        row(
+            "tilt of the faces, sd",
+            format!("{}°", number::significant(tilt.sd_rad.to_degrees(), 2)),
+            &format!(
+                "How well each face was met, about each axis: {}. It decides the stated standard deviations of the matrix' cross terms; along gravity a tilt acts by its square only.",
+                tilt.source_in_words()
+            ),
+        );
+    }
+    let (name, nothing) = match holds.tilt {
+        Some(_) => ("scatter along gravity, sd", holds.degrees_of_freedom < FEWEST),
+        None => ("scatter between holds, sd", false),
+    };
+    if nothing {
+        row(
+            name,
+            "too little left to tell it".into(),
+            "The samples' noise and the tilt decide the stated standard deviations of biases and scale factors. Put each face down twice to see more.",
+        );
+    } else {
+        row(
+            name,
+            format!("{} mm/s²", number::significant(1e3 * holds.between_holds_sd_mps2, 3)),
+            if holds.between_holds_dominates {
+                "Exceeds what the samples' noise explains, so it decides the stated standard deviations."
+            } else {
+                "Explained by the samples' noise, which decides the stated standard deviations."
+            },
+        );
+    }
+    row(
+        "condition number",
+        number::significant(holds.condition_number, 3),
+        "How unevenly the orientations determine the parameters; below about 100 is good.",
+    );
+    table.html()
+}
+
+/// One row for each hold.
+pub(super) fn hold_table(holds: &HoldCalibration, unit: ReadingUnit) -> String {
+    let mean = |axis: &str| format!("mean {axis} ({})", unit.symbol());
+    let (x, y, z) = (mean("x"), mean("y"), mean("z"));
+    let columns =
+        ["hold", "start (s)", "end (s)", "samples", &x, &y, &z, "|s| − g (mm/s²)", "studentised", "used"];
+    let mut table = Table::new("", &columns);
+    for (i, result) in holds.holds.iter().enumerate() {
+        let hold = &result.hold;
+        let decimals = if unit == ReadingUnit::Counts { 2 } else { 5 };
+        let mut cells = vec![
+            Cell::Name((i + 1).to_string()),
+            Cell::Number(number::fixed(hold.start_s, 2)),
+            Cell::Number(number::fixed(hold.end_s, 2)),
+            Cell::Number(number::count(hold.samples())),
+        ];
+        cells.extend(hold.mean.iter().map(|&mean| Cell::Number(number::fixed(mean, decimals))));
+        cells.push(Cell::Number(number::fixed(1e3 * result.magnitude_residual_mps2, 2)));
+        cells.push(Cell::Number(number::fixed(result.studentised_residual, 2)));
+        if result.used {
+            cells.push(Cell::Text("yes".to_string()));
+            table.row(cells);
+        } else {
+            cells.push(Cell::Mark(why_not(result)));
+            table.row_left_out(cells);
+        }
+    }
+    table.html()
+}
+
+fn why_not(result: &HoldResult) -> String {
+    if result.reason.is_some() {
+        "no: saturated".to_string()
+    } else if result.studentised_residual.abs() > OUTLYING {
+        "no: outlier".to_string()
+    } else {
+        "no: see the warnings".to_string()
+    }
+}

@@ -1,0 +1,36 @@
+//! Gains and angles between the axes of both sensors: what no choice of the true frame changes.
+
+use crate::number;
+use crate::table::{Cell, Table};
+use calibrant_core::estimate::ImuCalibration;
+use calibrant_core::sensor::{Invariant, InvariantValue};
+use std::f64::consts::FRAC_PI_2;
+
+/// Angles between axes that should be at right angles, and between those that should be the same.
+pub(super) fn axis_table(calibration: &ImuCalibration) -> String {
+    let mut table = Table::new("", &["angle between", "angle ± sd (°)", "misalignment (mrad)"]);
+    for angle in calibration.calibrated().invariants() {
+        let name = match angle.invariant {
+            Invariant::Angle(triad, one, other) => format!("{triad} {one}, {other}"),
+            Invariant::AngleBetween(a, g) if a == g => format!("{a} of both sensors"),
+            _ => continue,
+        };
+        table.row(row(name, &angle));
+    }
+    table.html()
+        + "<p>These do not depend on the choice of the true frame. Misalignment: the distance from a right angle, or from the same (or the opposite) \
+           direction for axes of both sensors. An angle near zero has no sd of its own.</p>"
+}
+
+fn row(name: String, angle: &InvariantValue) -> Vec<Cell> {
+    let right = (angle.value / FRAC_PI_2).round() * FRAC_PI_2;
+    let shown = |value: f64, factor: f64, decimals: usize| match angle.sd {
+        Some(sd) => number::with_sd(factor * value, factor * sd),
+        None => number::fixed(factor * value, decimals),
+    };
+    vec![
+        Cell::Name(name),
+        Cell::Number(shown(angle.value, 1f64.to_degrees(), 3)),
+        Cell::Number(shown(angle.value - right, 1e3, 2)),
+    ]
+}

@@ -1,0 +1,117 @@
+//! Rotations between holds and turns of known angle, in numbers.
+
+use crate::number;
+use crate::table::{Cell, Table};
+use calibrant_core::estimate::{ImuCalibration, RotationResult};
+
+/// What holds for all rotations together.
+pub(super) fn rotation_summary(calibration: &ImuCalibration) -> String {
+    let rotations = &calibration.rotations;
+    let used = rotations.iter().filter(|rotation| rotation.used).count();
+    let mut table = Table::explained();
+    let mut row = |name: &str, value: String, meaning: &str| table.explain(name, value, meaning);
+    row(
+        "rotations used",
+        format!("{used} of {}", rotations.len()),
+        "Each gives two equations for the gyroscope.",
+    );
+    if used > 0 {
+        row(
+            "gravity missed by, rms",
+            number::miss(calibration.rotation_rms_rad()),
+            "Angle between gravity carried through a rotation and gravity found after it, over the rotations that were used.",
+        );
+        row(
+            "the same before",
+            number::miss(calibration.rotation_rms_before_rad()),
+            "With one bias and one gain for all axes, or the datasheet's.",
+        );
+    }
+    let excess = calibration.rotation_excess_sd_rad;
+    row(
+        "beyond the noise, sd per axis",
+        number::miss(excess),
+        if excess > 0.0 {
+            "What the gyroscope's noise does not explain of these errors: a bias that wanders, timing, vibration. It is part of the stated standard deviations."
+        } else {
+            "The gyroscope's noise explains the errors."
+        },
+    );
+    table.html()
+}
+
+/// One row for each rotation.
+pub(super) fn rotation_table(rotations: &[RotationResult]) -> String {
+    let columns = [
+        "holds",
+        "start (s)",
+        "end (s)",
+        "path (°)",
+        "peak (°/s)",
+        "before (°)",
+        "after (°)",
+        "studentised",
+        "used",
+    ];
+    let mut table = Table::new("", &columns);
+    for rotation in rotations {
+        let found = |value: f64, decimals: usize| {
+            let known = rotation.is_integrated();
+            Cell::Number(if known { number::fixed(value, decimals) } else { number::UNKNOWN.to_string() })
+        };
+        let mut cells = vec![
+            Cell::Name(format!("{} → {}", rotation.from_hold + 1, rotation.to_hold + 1)),
+            Cell::Number(number::fixed(rotation.start_s, 2)),
+            Cell::Number(number::fixed(rotation.end_s, 2)),
+            found(rotation.path_rad.to_degrees(), 0),
+            found(rotation.peak_radps.to_degrees(), 0),
+            found(rotation.error_before_rad.to_degrees(), 2),
+            found(rotation.error_rad.to_degrees(), 3),
+            found(rotation.studentised, 2),
+        ];
+        if rotation.used {
+            cells.push(Cell::Text("yes".to_string()));
+            table.row(cells);
+        } else {
+            let reason = rotation.reason.as_deref().unwrap_or("it does not fit");
+            cells.push(Cell::Mark(format!("no: {reason}")));
+            table.row_left_out(cells);
+        }
+    }
+    table.html()
+}
+
+/// One row for each turn of known angle.
+pub(super) fn turn_table(calibration: &ImuCalibration) -> String {
+    let columns = [
+        "turn",
+        "start (s)",
+        "end (s)",
+        "made x, y, z (°)",
+        "shown x, y, z (°)",
+        "difference (°)",
+        "of the angle",
+    ];
+    let mut table = Table::new("", &columns);
+    let checked = calibration.turns_check_the_gains();
+    for (number, turn) in calibration.turns.iter().enumerate() {
+        let axes = |angle: &nalgebra::Vector3<f64>| {
+            angle.iter().map(|a| number::fixed(a.to_degrees(), 2)).collect::<Vec<_>>().join(", ")
+        };
+        let missed = (turn.measured_rad - turn.angle_rad).norm();
+        table.row(vec![
+            Cell::Name((number + 1).to_string()),
+            Cell::Number(number::fixed(turn.start_s, 2)),
+            Cell::Number(number::fixed(turn.end_s, 2)),
+            Cell::Number(axes(&turn.angle_rad)),
+            Cell::Number(axes(&turn.measured_rad)),
+            Cell::Number(if checked { number::fixed(missed.to_degrees(), 3) } else { "exact".into() }),
+            Cell::Number(if checked {
+                number::percent(missed / turn.angle_rad.norm())
+            } else {
+                "–".into()
+            }),
+        ]);
+    }
+    table.html()
+}

@@ -1,0 +1,186 @@
+//! The noise of a sensor at rest: a page of its own, and a section for the pages of calibrations.
+
+use super::About;
+use super::figure::allan_figure;
+use super::html::{Page, escape, facts, verdict_box};
+use super::number;
+use super::table::{Cell, Table};
+use calibrant_core::noise::{AxisNoise, Coefficient, PowerLaw, TriadNoise, coefficient_units};
+use rayon::prelude::*;
+
+/// Samples that scatter more than white noise by this factor are disturbed.
+const DISTURBED: f64 = 1.05;
+/// Samples that scatter less by this factor are correlated.
+const FILTERED: f64 = 0.95;
+
+/// The noise of one or two sensors as one HTML file: what is determined, the Allan deviation plots, tables in SI and in customary units.
+///
+/// Self-contained as [`calibration_report`](super::calibration_report) is.
+#[must_use]
+pub fn noise_report(noise: &[TriadNoise], about: &About) -> String {
+    let title = if about.title.is_empty() { "Noise" } else { &about.title };
+    let opening = || {
+        let mut page = Page::default();
+        page.push(format!("<h1>{}</h1>", escape(title)));
+        page.push(facts(about.facts.iter().map(|(label, value)| (label.as_str(), value.as_str()))));
+        page.push(verdict(noise, about));
+        page
+    };
+    Page::of_parts([&opening, &|| noise_sections(noise)]).finish(title, &about.footer())
+}
+
+/// A section on each sensor: its figure, coefficients, samples.
+pub(super) fn noise_sections(noise: &[TriadNoise]) -> Page {
+    let figures: Vec<String> = noise.par_iter().map(|triad| allan_figure(triad).html()).collect();
+    let mut page = Page::default();
+    noise.iter().zip(figures).for_each(|(triad, figure)| noise_section(&mut page, triad, figure));
+    page
+}
+
+fn noise_section(page: &mut Page, noise: &TriadNoise, figure: String) {
+    let stretch = &noise.stretch;
+    page.section(
+        &format!("Noise of the {}", noise.triad),
+        &format!(
+            "From {} samples, {} to {} s, at {} Hz.",
+            number::count(stretch.samples()),
+            number::fixed(stretch.start_s, 2),
+            number::fixed(stretch.end_s, 2),
+            number::significant(stretch.rate_hz(), 5)
+        ),
+    );
+    page.push(figure);
+    page.subsection("Coefficients");
+    page.push(coefficient_table(noise));
+    page.subsection("White noise of one sample");
+    page.push(sample_table(noise));
+}
+
+/// Name of a coefficient.
+pub fn coefficient_name(noise: &TriadNoise, process: PowerLaw) -> &'static str {
+    use calibrant_core::sensor::Triad;
+    match (process, noise.triad) {
+        (PowerLaw::Quantisation, _) => "quantisation Q",
+        (PowerLaw::White, Triad::Accelerometer) => "velocity random walk N",
+        (PowerLaw::White, Triad::Gyroscope) => "angle random walk N",
+        (PowerLaw::Flicker, _) => "bias instability B",
+        (PowerLaw::RandomWalk, _) => "rate random walk K",
+    }
+}
+
+fn coefficient_table(noise: &TriadNoise) -> String {
+    let mut table = Table::new(
+        "",
+        &["", "value ± sd", "95 % interval, and the same in customary units; or why it is not determined"],
+    );
+    for process in [PowerLaw::White, PowerLaw::Flicker, PowerLaw::RandomWalk, PowerLaw::Quantisation] {
+        for axis in &noise.axes {
+            let name = format!("{} {}", coefficient_name(noise, process), axis.axis);
+            let (value, words) = coefficient_in_words(noise, axis, process);
+            table.explain(&name, value, &words);
+        }
+    }
+    table.html()
+}
+
+/// A coefficient with its unit, and what else is known of it.
+fn coefficient_in_words(noise: &TriadNoise, axis: &AxisNoise, process: PowerLaw) -> (String, String) {
+    let units = coefficient_units(noise.triad, process, noise.unit);
+    let unit = units[0].symbol;
+    match axis.fit.model.coefficient(process) {
+        Coefficient::Determined(found) => {
+            let ends = [found.low, found.high].map(|end| number::significant(end, 3));
+            let mut words = vec![format!("95 %: {} to {}", ends[0], ends[1])];
+            words.extend(units[1..].iter().map(|unit| {
+                let found = found.scaled(unit.factor);
+                format!("{} {}", number::with_sd(found.value, found.sd), unit.symbol)
+            }));
+            if let (PowerLaw::Flicker, Some(tau)) = (process, axis.fit.flat_tau_s) {
+                words.push(format!("clearest at {} s", number::significant(tau, 2)));
+            }
+            (format!("{} {unit}", number::with_sd(found.value, found.sd)), words.join("; "))
+        }
+        Coefficient::NotDetermined { limit, reason } => {
+            let limit = limit.map_or_else(String::new, |limit| {
+                let limits: Vec<String> = units
+                    .iter()
+                    .map(|unit| format!("{} {}", number::significant(unit.factor * limit, 2), unit.symbol))
+                    .collect();
+                format!("95 %: below {}. ", limits.join(" = "))
+            });
+            ("not determined".to_string(), format!("{limit}{}.", capitalised(reason)))
+        }
+    }
+}
+
+fn capitalised(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| format!("{}{}", first.to_uppercase(), letters.as_str()))
+}
+
+/// The white noise of one sample beside what the samples scatter.
+fn sample_table(noise: &TriadNoise) -> String {
+    let unit = noise.unit.symbol();
+    let (white, sd) = (format!("N √rate ({unit})"), format!("sd of samples ({unit})"));
+    let mut table = Table::new("", &["axis", &white, &sd, "ratio", "samples"]);
+    for axis in &noise.axes {
+        let sigma = axis.fit.model.white_noise_per_sample(noise.stretch.rate_hz());
+        let ratio = sigma.map(|sigma| axis.sample_sd / sigma);
+        let shown = |value: Option<f64>| {
+            Cell::Number(
+                value.map_or_else(|| number::UNKNOWN.to_string(), |value| number::significant(value, 3)),
+            )
+        };
+        let what = match ratio {
+            None => number::UNKNOWN,
+            Some(ratio) if ratio > DISTURBED => "disturbed",
+            Some(ratio) if ratio < FILTERED => "correlated",
+            Some(_) => "independent",
+        };
+        table.row(vec![
+            Cell::Name(axis.axis.to_string()),
+            shown(sigma),
+            shown(Some(axis.sample_sd)),
+            shown(ratio),
+            Cell::Text(what.to_string()),
+        ]);
+    }
+    let explanation = "N √rate is the noise that a sample would have if it were independent of the others: the one that says how well a mean of many is known, and \
+                       the one to calibrate with. Samples that scatter less are correlated, as after a filter; those that scatter more are disturbed by something that averages out.";
+    format!("{}<p>{}</p>", table.html(), escape(explanation))
+}
+
+fn verdict(noise: &[TriadNoise], about: &About) -> String {
+    let axes = || noise.iter().flat_map(|triad| &triad.axes);
+    let explained = axes().all(|axis| axis.fit.explains());
+    let drifts = axes().any(|axis| axis.fit.drift.is_significant());
+    let determined = |process: PowerLaw| {
+        axes().filter(|axis| axis.fit.model.coefficient(process).estimate().is_some()).count()
+    };
+    let total = axes().count();
+    let of = |process: PowerLaw, name: &str| match determined(process) {
+        0 => format!("{name}: on no axis"),
+        n if n == total => format!("{name}: on all axes"),
+        n => format!("{name}: on {n} of {total} axes"),
+    };
+    let slow = determined(PowerLaw::Flicker) + determined(PowerLaw::RandomWalk);
+    let doubtful = noise.iter().any(|triad| triad.doubt.is_some());
+    let (class, word) = match () {
+        () if doubtful => ("bad", "✗ This is not the noise of a sensor at rest alone."),
+        () if !explained => ("bad", "✗ The noise is not explained."),
+        () if drifts || determined(PowerLaw::White) < total => ("caution", "! Look closer."),
+        () if slow == 0 => {
+            ("caution", "! White noise is determined; for the slow noises the recording is too short.")
+        }
+        () => ("good", "✓ White noise and slow noise are determined."),
+    };
+    let sentence = format!(
+        "White noise (N): {}; {}; {}.",
+        of(PowerLaw::White, "").trim_start_matches(": "),
+        of(PowerLaw::Flicker, "bias instability (B)"),
+        of(PowerLaw::RandomWalk, "rate random walk (K)")
+    );
+    let doubts = noise.iter().filter_map(|triad| Some(format!("{}: {}", triad.triad, triad.doubt.as_ref()?)));
+    let warnings = doubts.chain(noise.iter().flat_map(|triad| triad.warnings.clone())).collect();
+    verdict_box(class, word, &sentence, &[("Warnings", warnings), ("Findings", about.findings.clone())])
+}

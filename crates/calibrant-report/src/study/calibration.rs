@@ -1,0 +1,158 @@
+//! Calibrations of a population of sensors: the report's chapter 3.
+
+use crate::figure::{
+    DisplayUnit, acceleration_figure, motion_error_figure, p_values, parameter_errors,
+    parameters_against_truth, standardised_errors, state_and_jerk_figure,
+};
+use crate::html::Page;
+use crate::number;
+use crate::parameters::parameter_table;
+use crate::table::{Cell, Table};
+use calibrant_core::estimate::Recovered;
+use calibrant_design::study::{SingleCase, Study};
+
+/// The report's chapter 3: calibrations of many sensors, and one of them in detail (Figures 4 to 6).
+pub(super) fn chapter(page: &mut Page, study: &Study) {
+    page.section(
+        "Calibration of a population",
+        "Each sensor is moved by the same command, recorded and calibrated; truth and estimate are compared.",
+    );
+    page.push(settings(study));
+    page.subsection("One sensor in detail");
+    page.paragraph(&rates("The population's rate", &study.single));
+    single(page, &study.single);
+    page.subsection("The same sensor at the higher rate");
+    page.paragraph(&rates("Recorded faster", &study.fine));
+    fine(page, &study.fine);
+    page.subsection("All sensors");
+    page.paragraph(
+        "If the calibrations are honest, the realised error equals the stated standard deviation, the mean error is near zero, and \
+         95 % of the intervals hold the truth.",
+    );
+    page.push(summary_table(study));
+    page.push(parameters_against_truth(study).html());
+    page.push(parameter_errors(study).html());
+    let figures = [standardised_errors(study), p_values(study)];
+    let figures: String = figures.iter().flatten().map(|figure| figure.html()).collect();
+    page.push(format!("<div class=\"pair\">{figures}</div>"));
+}
+
+fn rates(what: &str, case: &SingleCase) -> String {
+    format!(
+        "{what}, {} Hz: {} samples, {} intervals.",
+        number::tick(case.recording.rate_hz()),
+        number::count(case.recording.len()),
+        case.true_motion.intervals()
+    )
+}
+
+fn single(page: &mut Page, case: &SingleCase) {
+    page.push(parameter_table(&case.calibration, Some(&case.truth)));
+    if let Recovered::Motion(recovered) = &case.calibration.recovered {
+        let title = "Figure 4 of the report: actual, measured and estimated acceleration";
+        let truth = Some(&case.true_motion);
+        page.push(acceleration_figure(title, &case.calibration, recovered, &case.recording, truth).html());
+        if let Some(figure) = motion_error_figure(recovered, &case.recording, truth) {
+            page.push(figure.html());
+        }
+    }
+}
+
+fn fine(page: &mut Page, case: &SingleCase) {
+    page.push(parameter_table(&case.calibration, Some(&case.truth)));
+    if let Recovered::Motion(recovered) = &case.calibration.recovered {
+        let title = "Figure 5 of the report: actual and estimated states and inputs";
+        page.push(state_and_jerk_figure(title, recovered, &case.recording, Some(&case.true_motion)).html());
+    }
+}
+
+/// What the population says: is it good, and why.
+pub(super) fn judge(study: &Study) -> (bool, String) {
+    let all = study.outcomes.len();
+    let converged = study.outcomes.iter().filter(|outcome| outcome.status == "converged").count();
+    let coverage =
+        study.summary.iter().map(|entry| entry.coverage_95).sum::<f64>() / study.summary.len().max(1) as f64;
+    // estimates of one sensor are correlated, so the sensors alone count
+    let chance = 2.0 * (0.95 * 0.05 / all.max(1) as f64).sqrt();
+    let honest = (coverage - 0.95).abs() <= chance;
+    let judged = if all == 0 || study.summary.is_empty() {
+        "There is nothing to judge.".to_string()
+    } else if honest {
+        format!(
+            "95 % intervals hold the truth in {} of the cases, as they should.",
+            number::percent(coverage)
+        )
+    } else {
+        format!(
+            "95 % intervals hold the truth in {} of the cases, beyond what chance explains: the stated standard deviations are too {}.",
+            number::percent(coverage),
+            if coverage < 0.95 { "small" } else { "large" }
+        )
+    };
+    let sentence =
+        format!("{} of {} calibrations converged. {judged}", number::count(converged), number::count(all));
+    (honest && converged == all && all > 0, sentence)
+}
+
+fn settings(study: &Study) -> String {
+    let sensor = &study.sensor;
+    let per_axis = |values: &nalgebra::Vector3<f64>| {
+        let mut texts: Vec<String> =
+            sensor.active_axes().iter().map(|axis| number::short(values[axis.index()])).collect();
+        texts.dedup();
+        texts.join(", ")
+    };
+    let unknown = || number::UNKNOWN.to_string();
+    let mut table = Table::new("", &["setting", "value"]);
+    let mut row =
+        |name: &str, value: String| table.row(vec![Cell::Name(name.to_string()), Cell::Text(value)]);
+    row("sensors", number::count(study.outcomes.len()));
+    row("axes", sensor.axes.to_string());
+    row("unit of the readings", sensor.unit.symbol().to_string());
+    let noise = sensor.noise_counts.as_ref().map(|n| format!("{} counts", per_axis(n)));
+    let noise = noise.or_else(|| sensor.noise_mps2.as_ref().map(|n| format!("{} m/s²", per_axis(n))));
+    row("noise of one sample, sd", noise.unwrap_or_else(unknown));
+    row(
+        "bias, sd over the population",
+        sensor.bias_sd_mps2.as_ref().map_or_else(unknown, |sd| format!("{} m/s²", per_axis(sd))),
+    );
+    row("scale factor, sd over the population", sensor.scale_sd.as_ref().map_or_else(unknown, per_axis));
+    row("trust in the motion", study.trust.to_string());
+    let intervals = study.motion.intervals();
+    let duration = study.motion.times_s()[intervals] - study.motion.times_s()[0];
+    row("motion", format!("{intervals} intervals in {} s", number::tick(duration)));
+    row("sample rate", format!("{} Hz", number::tick(study.rate_hz)));
+    row("seed", study.seed.to_string());
+    table.html()
+}
+
+fn summary_table(study: &Study) -> String {
+    let columns = [
+        "parameter",
+        "unit",
+        "sd as stated",
+        "realised error, rms",
+        "realised / stated",
+        "mean error",
+        "coverage of 95 % intervals",
+    ];
+    let mut table = Table::new("", &columns);
+    for entry in &study.summary {
+        let unit = DisplayUnit::suited(entry.unit, entry.predicted_sd.max(entry.realised_rms));
+        let shown = |value: f64| Cell::Number(number::significant(value * unit.factor, 3));
+        table.row(vec![
+            Cell::Name(entry.name.clone()),
+            Cell::Text(if unit.symbol.is_empty() {
+                number::UNKNOWN.to_string()
+            } else {
+                unit.symbol.to_string()
+            }),
+            shown(entry.predicted_sd),
+            shown(entry.realised_rms),
+            Cell::Number(number::fixed(entry.realised_rms / entry.predicted_sd, 2)),
+            shown(entry.mean_error),
+            Cell::Number(number::percent(entry.coverage_95)),
+        ]);
+    }
+    table.html()
+}

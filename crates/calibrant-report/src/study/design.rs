@@ -1,0 +1,194 @@
+//! Initial against optimal motions over many sensors: the report's chapter 4.
+
+use super::settings::settings;
+use crate::design::{axes, limit_table, times};
+use crate::figure::{
+    DisplayUnit, Drawn, absolute_errors, confidence_ellipses, jerk_and_acceleration, optimal_motions, states,
+    traces, velocity_and_displacement,
+};
+use crate::html::Page;
+use crate::number;
+use crate::table::{Cell, Table};
+use calibrant_design::limit_use;
+use calibrant_design::study::{DesignStudy, Factor, ParameterSummary};
+
+/// Beyond this many standard errors, promise and delivery differ by more than chance.
+const CHANCE: f64 = 3.0;
+
+/// What a chapter is called, and the titles of its figures.
+pub(super) struct Chapter {
+    heading: &'static str,
+    lead: &'static str,
+    motion: &'static str,
+    motions: &'static str,
+    traces: &'static str,
+    errors: &'static str,
+}
+
+/// The report's section 4.2.
+pub(super) const OPTIMAL: Chapter = Chapter {
+    heading: "Initial against optimal motion",
+    lead: "Each sensor goes round the loop of the report's Figure 2: calibrated on a random initial motion, the best motion designed at that \
+           estimate, calibrated again on it.",
+    motion: "Figure 8 of the report: initial against optimal jerk (a) and acceleration (b), first sensor",
+    motions: "Figure 9 of the report: optimal motions on each axis",
+    traces: "Figure 10 of the report: trace of the covariance, sensor by sensor",
+    errors: "Figure 11 of the report: absolute errors of biases (a) and scale factors (b)",
+};
+
+/// The report's section 4.3.
+pub(super) const NOISY: Chapter = Chapter {
+    heading: "The same with process noise",
+    lead: "The arm follows its command only up to noise on the jerk, which is estimated along with the parameters. Motions and figures are those of the \
+           section before.",
+    motion: "As Figure 8, with process noise: initial against optimal jerk (a) and acceleration (b), first sensor",
+    motions: "As Figure 9, with process noise: optimal motions on each axis",
+    traces: "Figure 13 of the report: trace of the covariance with process noise, sensor by sensor",
+    errors: "Figure 14 of the report: absolute errors with process noise, of biases (a) and scale factors (b)",
+};
+
+/// One study with its tables and figures.
+pub(super) fn chapter(page: &mut Page, study: &DesignStudy, chapter: &Chapter) {
+    page.section(chapter.heading, chapter.lead);
+    page.push(settings(study));
+
+    page.subsection("How much is gained");
+    page.paragraph(
+        "Promised: standard deviations that the calibrations state (root mean square over the sensors). Realised: errors of the estimates (the same \
+         mean). Factors are initial over optimal, above 1 is better, ± one standard error from so many sensors. Good: promised and realised \
+         agree within their errors.",
+    );
+    page.push(improvement_table(study));
+    page.push(trace_table(study));
+
+    let design = &study.design;
+    let axes = axes(&study.parameters);
+    let motions =
+        [Drawn::before("initial", &design.initial.motion), Drawn::after("optimal", &design.optimal.motion)];
+    page.push(jerk_and_acceleration(chapter.motion, &motions, axes, &study.limits).html());
+    if let Some(figure) = states(&motions, axes, &study.limits) {
+        page.push(figure.html());
+    }
+    page.push(velocity_and_displacement(&motions, axes, &study.limits).html());
+    page.push(limit_table(&limit_use(&study.limits, axes.len(), &design.optimal.motion), "optimal motion"));
+    if study.motions_shown > 1 {
+        page.push(optimal_motions(chapter.motions, study, axes).html());
+    }
+    page.push(traces(chapter.traces, study).html());
+    page.push(absolute_errors(chapter.errors, study).html());
+    let (initial, optimal) = (("initial", &design.initial), Some(("optimal", &design.optimal)));
+    if let Some(figure) = confidence_ellipses(&study.parameters, initial, optimal) {
+        page.push(figure.html());
+    }
+}
+
+/// What the study says, in one line: is it good, and why.
+pub(super) fn judge(name: &str, study: &DesignStudy) -> (bool, String) {
+    let all = study.outcomes.len();
+    let better = study.outcomes.iter().filter(|o| o.optimal.trace <= o.initial.trace).count();
+    let by_gain = |a: &&calibrant_design::study::Improvement, b: &&calibrant_design::study::Improvement| {
+        a.predicted.value.total_cmp(&b.predicted.value)
+    };
+    let gain = match study.summary.iter().max_by(by_gain) {
+        Some(entry) => format!(
+            " The most is gained for {}: a factor of {} promised, {} realised.",
+            entry.optimal.name,
+            factor(&entry.predicted),
+            factor(&entry.realised)
+        ),
+        None => String::new(),
+    };
+    let kept = study.summary.iter().all(agrees);
+    let kept_words = if kept {
+        "Promised and realised factors agree within chance."
+    } else {
+        "For some parameter, promised and realised factors differ by more than chance explains."
+    };
+    let coverage = coverage(study);
+    let sentence = format!(
+        "{name}: the trace of the covariance is smaller than with the initial motion for {} of {} sensors.{gain} {kept_words} 95 % intervals hold \
+         the truth in {} of the cases.",
+        number::count(better),
+        number::count(all),
+        number::percent(coverage)
+    );
+    let chance = 2.0 * (0.95 * 0.05 / all.max(1) as f64).sqrt();
+    (all > 0 && better == all && kept && (coverage - 0.95).abs() <= chance, sentence)
+}
+
+fn coverage(study: &DesignStudy) -> f64 {
+    study.summary.iter().map(|entry| entry.optimal.coverage_95).sum::<f64>()
+        / study.summary.len().max(1) as f64
+}
+
+fn agrees(entry: &calibrant_design::study::Improvement) -> bool {
+    let error = |factor: &Factor| factor.standard_error.unwrap_or(f64::INFINITY);
+    let both = error(&entry.predicted).hypot(error(&entry.realised));
+    (entry.predicted.value - entry.realised.value).abs() <= CHANCE * both
+}
+
+fn factor(factor: &Factor) -> String {
+    match factor.standard_error {
+        Some(error) if error > 5e-4 * factor.value => number::with_sd(factor.value, error),
+        Some(_) => number::significant(factor.value, 4),
+        None => number::significant(factor.value, 3),
+    }
+}
+
+fn improvement_table(study: &DesignStudy) -> String {
+    let columns = [
+        "parameter",
+        "unit",
+        "promised sd, initial",
+        "promised sd, optimal",
+        "promised factor",
+        "realised error, initial",
+        "realised error, optimal",
+        "realised factor",
+        "coverage of 95 % intervals, optimal",
+    ];
+    let mut table = Table::new("", &columns);
+    for entry in &study.summary {
+        let (before, after) = (&entry.initial, &entry.optimal);
+        let numbers = |s: &ParameterSummary| [s.predicted_sd, s.realised_rms];
+        let unit = DisplayUnit::suited_to(before.unit, numbers(before).into_iter().chain(numbers(after)));
+        let shown = |value: f64| Cell::Number(number::significant(value * unit.factor, 3));
+        let symbol = if unit.symbol.is_empty() { number::UNKNOWN } else { unit.symbol };
+        table.row(vec![
+            Cell::Name(after.name.clone()),
+            Cell::Text(symbol.to_string()),
+            shown(before.predicted_sd),
+            shown(after.predicted_sd),
+            Cell::Number(factor(&entry.predicted)),
+            shown(before.realised_rms),
+            shown(after.realised_rms),
+            Cell::Number(factor(&entry.realised)),
+            Cell::Number(number::percent(after.coverage_95)),
+        ]);
+    }
+    table.html()
+}
+
+fn trace_table(study: &DesignStudy) -> String {
+    let mut table = Table::new("", &["trace of the covariance (SI)", "least", "median", "most"]);
+    for (name, range) in [("initial motion", &study.trace.initial), ("optimal motion", &study.trace.optimal)]
+    {
+        let shown = |value: f64| Cell::Number(number::significant(value, 4));
+        table.row(vec![
+            Cell::Name(name.to_string()),
+            shown(range.least),
+            shown(range.median),
+            shown(range.most),
+        ]);
+    }
+    let ratio = |of: fn(&calibrant_design::study::TraceRange) -> f64| {
+        Cell::Number(times(of(&study.trace.initial) / of(&study.trace.optimal)))
+    };
+    table.row(vec![
+        Cell::Name("initial over optimal".to_string()),
+        ratio(|range| range.least),
+        ratio(|range| range.median),
+        ratio(|range| range.most),
+    ]);
+    table.html()
+}

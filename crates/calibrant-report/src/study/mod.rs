@@ -1,0 +1,71 @@
+//! The report on studies: the source report's chapters 3 and 4, figure by figure.
+
+mod calibration;
+mod design;
+mod settings;
+
+use super::About;
+use super::figure::trace_map;
+use super::html::{Page, escape, facts, list, verdict_box};
+use calibrant_design::study::Studies;
+
+/// Studies as one HTML file: for each that was run its settings, a summary, and the report's figures: 4 to 6 (calibration), 7 (the surface of the
+/// trace), 8 to 11 (initial against optimal motion), 13 and 14 (the same with process noise).
+///
+/// Self-contained as [`calibration_report`](super::calibration_report) is; of a large population, the figures that show sensors one by one show
+/// an evenly spread part, and say so.
+#[must_use]
+pub fn study_report(studies: &Studies, about: &About) -> String {
+    let mut judged = Vec::new();
+    if let Some(study) = &studies.calibration {
+        judged.push(calibration::judge(study));
+    }
+    judged.extend(studies.design.iter().map(|study| design::judge("Optimal motions", study)));
+    judged.extend(studies.noisy.iter().map(|study| design::judge("With process noise", study)));
+    let mut page = headed(about, &judged, &studies.remarks);
+
+    if let Some(study) = &studies.calibration {
+        calibration::chapter(&mut page, study);
+    }
+    if let Some(surface) = &studies.surface {
+        page.section(
+            "What is to be minimised",
+            "Before a motion is designed: how the trace of the covariance depends on the motion, in the simplest case.",
+        );
+        page.push(trace_map(surface));
+    }
+    if let Some(study) = &studies.design {
+        design::chapter(&mut page, study, &design::OPTIMAL);
+    }
+    if let Some(study) = &studies.noisy {
+        design::chapter(&mut page, study, &design::NOISY);
+    }
+    page.finish(title(about), &about.footer())
+}
+
+fn title(about: &About) -> &str {
+    if about.title.is_empty() { "Study" } else { &about.title }
+}
+
+/// A page with title, facts and verdict.
+fn headed(about: &About, judged: &[(bool, String)], remarks: &[String]) -> Page {
+    let mut page = Page::default();
+    page.push(format!("<h1>{}</h1>", escape(title(about))));
+    page.push(facts(about.facts.iter().map(|(label, value)| (label.as_str(), value.as_str()))));
+    let good = !judged.is_empty() && judged.iter().all(|(good, _)| *good);
+    let (class, word) = if good { ("good", "✓ As promised.") } else { ("caution", "! Look closer.") };
+    let lists = [("Not run", remarks.to_vec()), ("Findings", about.findings.clone())];
+    match judged {
+        [(_, sentence)] => page.push(verdict_box(class, word, sentence, &lists)),
+        _ => {
+            let sentences: Vec<String> = judged.iter().map(|(_, sentence)| sentence.clone()).collect();
+            let what = if judged.is_empty() { "Nothing was run." } else { "" };
+            page.push(verdict_box(class, word, what, &lists).replacen(
+                "</p>",
+                &format!("</p>{}", list(&sentences)),
+                1,
+            ));
+        }
+    }
+    page
+}

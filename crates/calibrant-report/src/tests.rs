@@ -1,0 +1,167 @@
+//! What holds for every report.
+
+use super::{About, calibration_report, study_report};
+use calibrant_core::estimate::{Calibration, Recovered};
+use calibrant_core::sensor::Recording;
+use calibrant_core::{estimate, information, motion, sensor, simulate};
+use calibrant_design::{self as design, study};
+use nalgebra::Vector3;
+
+mod design_pages;
+#[path = "../examples/report_gallery/designs.rs"]
+mod designs;
+#[path = "../examples/report_gallery/fakes.rs"]
+mod fakes;
+mod imu_pages;
+mod noise_pages;
+#[path = "../examples/report_gallery/studies.rs"]
+mod studies;
+mod study_pages;
+
+fn about() -> About {
+    About { title: "A test".to_string(), program: "calibrant".to_string(), ..About::default() }
+}
+
+/// One self-contained file without numbers that are none.
+fn assert_sound(html: &str) {
+    assert!(html.starts_with("<!DOCTYPE html>") && html.trim_end().ends_with("</html>"));
+    // references within the page are fine: clip paths
+    let html_without_references = html.replace("url(#", "");
+    for bad in ["http", "NaN", "nan,", "inf ", "\"inf", "url(", "<script", "src=", "@import"] {
+        let html = &html_without_references;
+        assert!(!html.contains(bad), "{bad}: …{}…", excerpt(html, bad));
+    }
+    for tag in ["table", "figure", "svg", "div", "tr", "td", "text"] {
+        let opened = html.matches(&format!("<{tag}>")).count() + html.matches(&format!("<{tag} ")).count();
+        assert_eq!(opened, html.matches(&format!("</{tag}>")).count(), "{tag}");
+    }
+}
+
+fn excerpt<'a>(html: &'a str, needle: &str) -> &'a str {
+    let at = html.find(needle).unwrap_or(0);
+    let start = html.floor_char_boundary(at.saturating_sub(80));
+    &html[start..html.floor_char_boundary((at + 80).min(html.len()))]
+}
+
+fn assert_names_all(html: &str, calibration: &Calibration) {
+    for parameter in &calibration.parameters {
+        assert!(html.contains(&format!("<th scope=\"row\">{}</th>", parameter.name)), "{}", parameter.name);
+        assert!(parameter.unit == "1" || html.contains(&format!("<td>{}</td>", parameter.unit)));
+    }
+}
+
+#[test]
+fn a_motion_calibration_shows_every_parameter_figure_and_axis() {
+    let case = fakes::motion_case(3, 14, 2.0, 1);
+    let about = About { truth: Some(case.truth), true_motion: Some(case.true_motion.clone()), ..about() };
+    let html = calibration_report(&case.calibration, &case.recording, &about);
+    assert_sound(&html);
+    assert_names_all(&html, &case.calibration);
+    for text in [
+        "Figure 4 of the report",
+        "Figure 5 of the report",
+        "axis z",
+        "time (s)",
+        "p-value",
+        "Autocorrelation",
+    ] {
+        assert!(html.contains(text), "{text}");
+    }
+}
+
+#[test]
+fn a_static_calibration_shows_every_parameter_and_hold() {
+    let (calibration, recording) = fakes::hold_case(38, 50);
+    let html = calibration_report(&calibration, &recording, &about());
+    assert_sound(&html);
+    assert_names_all(&html, &calibration);
+    for text in
+        ["<th scope=\"row\">38</th>", "no: outlier", "imu_tk", "Gauge upper", "counts/(m/s²)", "upper half"]
+    {
+        assert!(html.contains(text), "{text}");
+    }
+}
+
+#[test]
+fn a_study_shows_the_figures_of_the_report() {
+    let study = studies::calibrations(fakes::study(50));
+    let html = study_report(&study, &about());
+    assert_sound(&html);
+    for figure in 4..=6 {
+        assert!(html.contains(&format!("Figure {figure} of the report")), "Figure {figure}");
+    }
+}
+
+#[test]
+fn text_of_the_user_is_escaped() {
+    let case = fakes::motion_case(1, 3, 2.0, 1);
+    let hostile = "a<b>&\"c\".csv";
+    let mut calibration = case.calibration;
+    calibration.warnings = vec![hostile.to_string()];
+    let about = About {
+        title: hostile.to_string(),
+        facts: vec![(hostile.to_string(), hostile.to_string())],
+        findings: vec![hostile.to_string()],
+        program: hostile.to_string(),
+        ..About::default()
+    };
+    let html = calibration_report(&calibration, &case.recording, &about);
+    assert_sound(&html);
+    assert!(!html.contains(hostile) && html.matches("a&lt;b&gt;&amp;&quot;c&quot;.csv").count() >= 7);
+}
+
+#[test]
+fn large_inputs_give_small_files() {
+    let case = fakes::motion_case(3, 20, 10_000.0, 1);
+    assert!(case.recording.len() > 1_000_000);
+    let html = calibration_report(&case.calibration, &case.recording, &about());
+    assert_sound(&html);
+    assert!(html.len() < 2_000_000, "{} bytes", html.len());
+    let html = study_report(&studies::calibrations(fakes::study(100_000)), &about());
+    assert_sound(&html);
+    assert!(html.len() < 2_000_000, "{} bytes", html.len());
+}
+
+#[test]
+fn degenerate_results_are_reported_without_panic() {
+    let case = fakes::motion_case(3, 4, 2.0, 1);
+    let empty = Recording { times_s: Vec::new(), readings: Vec::new(), ..case.recording.clone() };
+    let mut calibration = case.calibration.clone();
+    calibration.residuals.clear();
+    assert_sound(&calibration_report(&calibration, &empty, &about()));
+
+    calibration = case.calibration.clone();
+    calibration.covariance.fill(0.0);
+    calibration.residuals.fill(Vector3::zeros());
+    calibration.fit.assumed_noise = None;
+    calibration.fit.noise_estimate = None;
+    calibration.fit.p_value = None;
+    calibration.fit.degrees_of_freedom = 0;
+    calibration.fit.residual_rms = Vector3::zeros();
+    assert_sound(&calibration_report(&calibration, &case.recording, &about()));
+
+    calibration.covariance.fill(f64::NAN);
+    calibration.values.fill(f64::INFINITY);
+    calibration.residuals.fill(Vector3::repeat(f64::NAN));
+    calibration.sensor.matrix.fill(0.0);
+    calibration.fit.chi2 = f64::NAN;
+    calibration.gradient_norm = f64::INFINITY;
+    if let Recovered::Motion(motion) = &mut calibration.recovered {
+        motion.acceleration_sd_mps2.fill(Vector3::repeat(f64::NAN));
+    }
+    assert_sound(&calibration_report(&calibration, &case.recording, &about()));
+
+    let (mut calibration, recording) = fakes::hold_case(3, 20);
+    if let Recovered::Holds(holds) = &mut calibration.recovered {
+        holds.holds[0].force_mps2.fill(0.0);
+        holds.holds[1].studentised_residual = f64::NAN;
+        assert_sound(&calibration_report(&calibration, &recording, &about()));
+    }
+    if let Recovered::Holds(holds) = &mut calibration.recovered {
+        holds.holds.clear();
+    }
+    assert_sound(&calibration_report(&calibration, &recording, &about()));
+
+    assert_sound(&study_report(&studies::calibrations(fakes::study(0)), &about()));
+    assert_sound(&study_report(&studies::calibrations(fakes::study(1)), &about()));
+}

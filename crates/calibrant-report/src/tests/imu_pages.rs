@@ -1,0 +1,132 @@
+//! Pages on a whole IMU.
+
+use super::super::{About, imu_calibration_report, number};
+use super::{about, assert_sound, estimate, motion, sensor};
+use calibrant_core::estimate::CalibrationStatus;
+use calibrant_core::noise::{Stretch, TriadNoise};
+use calibrant_core::sensor::{ImuRecording, Triad};
+
+#[path = "../../examples/report_gallery/imus.rs"]
+mod imus;
+
+#[test]
+fn a_page_shows_both_sensors_the_holds_the_rotations_and_the_turns() {
+    let case = imus::imu_case(14, 1);
+    let gyroscope = case.recording.gyroscope.as_ref().expect("recorded");
+    let stretch = Stretch::between(gyroscope, 0.0, 2.0).expect("long enough");
+    let noise = TriadNoise::of(Triad::Gyroscope, gyroscope, stretch).expect("noisy");
+    let html = imu_calibration_report(&case.calibration, &case.recording, &[noise], &about());
+    assert_sound(&html);
+    let text = html.replace("<th scope=\"row\">", "");
+    for quantity in &case.calibration.quantities {
+        let (name, unit) = (quantity.name(), case.calibration.unit_of(*quantity));
+        let short = name.split_once('.').expect("named after its sensor").1;
+        assert!(text.contains(&format!("{short}</th>")), "{short}");
+        assert!(text.contains(&name) && text.contains(unit), "{name} in {unit}");
+    }
+    let from = imus::DISTURBED + 1;
+    for says in [
+        "from 14 of 14 holds, 12 of 13 rotations between them and 1 turn of known angle",
+        "After a rotation, gravity is met within",
+        "The gains are known to",
+        "known beforehand",
+        "z of both sensors",
+        "ω = C_g (y_g − b_g − Γ f)",
+        "C_g = [[",
+        "Before and after correction",
+        "Gravity in each hold, before and after",
+        "Before: one gain and one offset for all axes: the means of those found.",
+        "gain, less the mean reading at rest.",
+        "what the correction changes",
+        "Magnitude residual of each hold",
+        "The gyroscope at rest",
+        "Gravity after each rotation",
+        "gravity missed by (°)",
+        "after, left out",
+        &format!("{from} → {}</th>", from + 1),
+        "no: it misses gravity by",
+        "Turns of known angle",
+        "Allan deviation of the gyroscope",
+        "Correlation of the estimates",
+    ] {
+        assert!(html.contains(says), "{says}");
+    }
+    // what is to be copied is plain
+    let copied = html.split("<pre>").nth(1).and_then(|rest| rest.split("</pre>").next()).expect("there");
+    assert!(copied.is_ascii() && copied.contains("b_a = [3.31"), "{copied}");
+}
+
+/// One gain and one offset for all axes, by hand: `|mean − b̄|/K̄ − g` in each hold.
+#[test]
+fn the_magnitude_before_is_that_of_plain_readings() {
+    let case = imus::imu_case(14, 1);
+    let (holds, imu) = (&case.calibration.holds, &case.calibration.imu.accelerometer);
+    let readings = &case.recording.accelerometer.as_ref().expect("recorded").readings;
+    let bias = (imu.bias.x + imu.bias.y + imu.bias.z) / 3.0;
+    let gain = imu.matrix.row_iter().map(|row| row.norm()).sum::<f64>() / 3.0;
+    let mut squares = 0.0;
+    for result in &holds.holds {
+        let samples = &readings[result.hold.first..result.hold.end];
+        let mean = samples.iter().sum::<nalgebra::Vector3<f64>>() / samples.len() as f64;
+        let residual = mean.map(|y| (y - bias) / gain).norm() - 9.81;
+        let found = holds.magnitude_residual_before_mps2(&result.hold).expect("regular");
+        assert!((found - residual).abs() < 1e-9, "{found} beside {residual}");
+        squares += residual * residual;
+    }
+    let rms = (squares / holds.holds.len() as f64).sqrt();
+    let found = holds.magnitude_residual_rms_before_mps2().expect("regular");
+    assert!((found / rms - 1.0).abs() < 1e-9 && rms > 0.5, "{found} beside {rms}");
+    let html = imu_calibration_report(&case.calibration, &case.recording, &[], &about());
+    let [before, after] = [found, holds.magnitude_residual_rms_mps2].map(|v| number::significant(v, 3));
+    assert!(html.contains(&format!("{before} → {after} m/s², ")), "{before} → {after}");
+}
+
+#[test]
+fn the_verdict_follows_the_status_the_warnings_and_the_prior() {
+    let case = imus::imu_case(14, 1);
+    let mut calibration = case.calibration;
+    let page = |calibration: &estimate::ImuCalibration| {
+        let html = imu_calibration_report(calibration, &case.recording, &[], &about());
+        assert_sound(&html);
+        html
+    };
+    assert!(page(&calibration).contains("verdict caution"), "a rotation was left out");
+    calibration.warnings.clear();
+    calibration.prior_share.fill(0.0);
+    assert!(page(&calibration).contains("verdict good"));
+    calibration.prior_share[0] = 0.9;
+    assert!(page(&calibration).contains("less than what was known beforehand about accelerometer.bias.x."));
+    calibration.prior_share[0] = 0.0;
+    assert!(!page(&calibration).contains("nown beforehand"));
+    calibration.rotations.iter_mut().for_each(|rotation| rotation.error_before_rad = rotation.error_rad);
+    assert!(page(&calibration).contains("hardly improves the rotations"));
+    calibration.status = CalibrationStatus::Stalled;
+    assert!(page(&calibration).contains("verdict bad"));
+}
+
+#[test]
+fn degenerate_results_and_hostile_words_are_reported_without_harm() {
+    let case = imus::imu_case(14, 1);
+    let mut calibration = case.calibration;
+    for rotation in &mut calibration.rotations {
+        (rotation.used, rotation.path_rad, rotation.reason) = (false, 0.0, Some("a<b>&\"c\"".to_string()));
+    }
+    let html = imu_calibration_report(&calibration, &ImuRecording::default(), &[], &About::default());
+    assert_sound(&html);
+    assert!(
+        html.contains("no: a&lt;b&gt;&amp;&quot;c&quot;") && !html.contains("Gravity after each rotation")
+    );
+
+    calibration.rotations.clear();
+    calibration.turns.clear();
+    calibration.holds.holds.clear();
+    calibration.covariance.fill(f64::NAN);
+    calibration.values.fill(f64::INFINITY);
+    calibration.still.noise.fill(f64::NAN);
+    assert_sound(&imu_calibration_report(&calibration, &case.recording, &[], &about()));
+
+    calibration.imu.gyroscope.matrix.fill(0.0);
+    let html = imu_calibration_report(&calibration, &case.recording, &[], &about());
+    assert_sound(&html);
+    assert!(html.contains("there is no correction"));
+}

@@ -1,0 +1,90 @@
+//! Pages on the noise of a sensor.
+
+use super::super::noise_report;
+use super::{about, assert_sound};
+use calibrant_core::noise::{PowerLaw, Stretch, TriadNoise};
+use calibrant_core::sensor::{ReadingUnit, Recording, Triad};
+use calibrant_core::simulate::{Purpose, simulate_noise, stream};
+use nalgebra::Vector3;
+
+fn noise(triad: Triad, unit: ReadingUnit, drift: f64) -> TriadNoise {
+    let (n, interval) = (6000, 0.01);
+    let mut rng = stream(3, Purpose::Sensor, 0);
+    let mut axis = |walk: f64| {
+        let mut values = simulate_noise(PowerLaw::White, 1e-3, interval, n, &mut rng);
+        let walk = simulate_noise(PowerLaw::RandomWalk, walk, interval, n, &mut rng);
+        values.iter_mut().zip(walk).for_each(|(value, walk)| *value += walk);
+        values
+    };
+    of_axes(triad, unit, &[axis(0.0), axis(5e-3), axis(0.0)], drift)
+}
+
+fn of_axes(triad: Triad, unit: ReadingUnit, axes: &[Vec<f64>; 3], drift: f64) -> TriadNoise {
+    let (n, interval) = (axes[0].len(), 0.01);
+    let recording = Recording {
+        times_s: (0..n).map(|k| k as f64 * interval).collect(),
+        readings: (0..n)
+            .map(|k| Vector3::new(axes[0][k], axes[1][k], axes[2][k] + drift * k as f64))
+            .collect(),
+        axes: 3,
+        unit,
+    };
+    let stretch = Stretch::between(&recording, 0.0, 1e3).expect("long enough");
+    TriadNoise::of(triad, &recording, stretch).expect("noisy")
+}
+
+#[test]
+fn a_page_shows_the_plot_the_coefficients_and_what_is_not_determined() {
+    let accelerometer = noise(Triad::Accelerometer, ReadingUnit::MetrePerSecondSquared, 0.0);
+    let gyroscope = noise(Triad::Gyroscope, ReadingUnit::Counts, 0.0);
+    let html = noise_report(&[accelerometer, gyroscope], &about());
+    assert_sound(&html);
+    for text in [
+        "Allan deviation of the accelerometer",
+        "Allan deviation of the gyroscope",
+        "velocity random walk N z",
+        "rate random walk K y",
+        "µg/√Hz",
+        "counts/√Hz",
+        "not determined",
+        "record for longer",
+        "cluster time τ (s)",
+    ] {
+        assert!(html.contains(text), "{text}");
+    }
+}
+
+#[test]
+fn a_drift_is_told_apart() {
+    // 40 standard deviations of what white noise makes of a slope; a random walk as large as the recording allows makes 10 of them
+    let html = noise_report(&[noise(Triad::Gyroscope, ReadingUnit::RadianPerSecond, 3e-6)], &about());
+    assert_sound(&html);
+    assert!(
+        html.contains("gyroscope z drifts by") && html.contains("linear drift") && html.contains("deg/√h")
+    );
+}
+
+/// What a filter with a resonance adds to short cluster times has the slope of quantisation, and is none.
+#[test]
+fn a_filters_share_is_not_called_quantisation() {
+    let mut rng = stream(4, Purpose::Sensor, 0);
+    // two poles at 0.7 and 60 degrees
+    let mut axis = || {
+        let mut before = [0.0; 2];
+        let white = simulate_noise(PowerLaw::White, 1e-3, 0.01, 6000, &mut rng);
+        let resonance = |x: &f64| {
+            before = [0.79 * x + 0.7 * before[0] - 0.49 * before[1], before[0]];
+            before[0]
+        };
+        white.iter().map(resonance).collect::<Vec<f64>>()
+    };
+    let (triad, unit) = (Triad::Accelerometer, ReadingUnit::MetrePerSecondSquared);
+    let resonant = of_axes(triad, unit, &[axis(), axis(), axis()], 0.0);
+    let page = |noise: &TriadNoise| noise_report(std::slice::from_ref(noise), &about());
+    let filtered = resonant.axes.iter().filter(|axis| axis.fit.filtered).count();
+    assert!(filtered > 0, "{:?}", resonant.warnings);
+    let html = page(&resonant);
+    assert_sound(&html);
+    assert!(html.contains("share of a filter") && html.contains("and no quantisation"));
+    assert!(!page(&noise(triad, unit, 0.0)).contains("share of a filter"));
+}

@@ -1,9 +1,0 @@
-//! The axes that a design is about.
-
-use crate::sensor::{Axis, Parameter};
-
-/// The axes that the parameters are about.
-pub(in crate::report) fn axes(parameters: &[Parameter]) -> &'static [Axis] {
-    let biases = parameters.iter().filter(|parameter| parameter.name.starts_with("bias.")).count();
-    &Axis::ALL[..biases.min(3)]
-}

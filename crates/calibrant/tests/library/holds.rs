@@ -1,0 +1,415 @@
+//! Static multi-position calibration: against a program of others on a real recording, and on recordings made to be difficult.
+
+use calibrant::estimate::{
+    Calibration, CalibrationProblem, CalibrationSettings, CalibrationStatus, HoldCalibration, HoldsSetup,
+    Recovered, Stimulus, calibrate, find_holds,
+};
+use calibrant::io::{ReadOptions, read_recording};
+use calibrant::motion::Gravity;
+use calibrant::sensor::{Correction, Gauge, ReadingUnit, Recording, Sensor, SensorModel, SensorParameters};
+use calibrant::simulate::{HoldsSimulation, Purpose, draw_sensor, simulate_holds, stream};
+use nalgebra::{Matrix3, Rotation3, Vector3};
+use rand::RngExt;
+
+fn sensor(model: SensorModel) -> Sensor {
+    Sensor {
+        model,
+        noise_mps2: Some(Vector3::repeat(0.01)),
+        bias_sd_mps2: Some(Vector3::repeat(0.1)),
+        scale_sd: Some(Vector3::repeat(0.005)),
+        cross_axis_sd: Some(0.01),
+        ..Sensor::triaxial(model)
+    }
+}
+
+fn simulate(poses: usize, seed: u64) -> (SensorParameters, Recording) {
+    let mut rng = stream(seed, Purpose::Sensor, 0);
+    let truth = Gauge::Upper.apply(&draw_sensor(&sensor(SensorModel::Full), &mut rng));
+    let simulation = HoldsSimulation {
+        poses,
+        hold_s: 4.0,
+        turn_s: 1.5,
+        rate_hz: 100.0,
+        gravity_mps2: 9.80665,
+        between_holds_sd_mps2: 1e-3,
+    };
+    let unit = ReadingUnit::MetrePerSecondSquared;
+    let (recording, _) = simulate_holds(&truth, &Vector3::repeat(0.01), unit, &simulation, &mut rng);
+    (truth, recording)
+}
+
+fn run(sensor: &Sensor, recording: &Recording, setup: &HoldsSetup) -> calibrant::Result<Calibration> {
+    let problem = CalibrationProblem { sensor, recording, stimulus: Stimulus::Holds(setup) };
+    calibrate(&problem, &CalibrationSettings::default())
+}
+
+fn holds(calibration: &Calibration) -> &HoldCalibration {
+    match &calibration.recovered {
+        Recovered::Holds(holds) => holds,
+        Recovered::Motion(_) => panic!("holds"),
+    }
+}
+
+/// imu_tk 2016 on the same file (raw counts, g = 9.81744): gains 1/K, biases, T.
+#[test]
+fn xsens_mti_agrees_with_imu_tk_within_two_standard_deviations() {
+    let Some(path) = crate::common::shared_data("xsens-mti-static/xsens_acc.mat") else { return };
+    let options = ReadOptions { unit: None, expected_unit: ReadingUnit::Counts, axes: 3 };
+    let recording = read_recording(&path, &options).expect("readable").recording;
+    let sensor =
+        Sensor { unit: ReadingUnit::Counts, gain: None, offset: None, ..Sensor::triaxial(SensorModel::Full) };
+    let setup =
+        HoldsSetup { gravity: Gravity { magnitude_mps2: 9.81744, sd_mps2: 0.0 }, ..HoldsSetup::default() };
+    let calibration = run(&sensor, &recording, &setup).expect("identifiable");
+    assert_eq!(calibration.status, CalibrationStatus::Converged);
+    let found = holds(&calibration);
+    assert_eq!(found.holds.len(), 38);
+    assert!(found.holds.iter().all(|hold| hold.used));
+    assert!(found.between_holds_dominates);
+    assert!(
+        (found.magnitude_residual_rms_mps2 - 1.0e-3).abs() < 0.05e-3,
+        "about 1 mm/s² over the hold means"
+    );
+
+    let correction = Correction::of(&calibration.sensor).expect("regular");
+    let gains = correction.scale().map(|k| 1.0 / k);
+    let t = correction.misalignment();
+    // standard deviations of a refit on hold means, by others
+    let against = [
+        ("gain x", gains.x, 414.458_874, 0.027),
+        ("gain y", gains.y, 412.010_468, 0.014),
+        ("gain z", gains.z, 414.648_662, 0.016),
+        ("bias x", correction.bias.x, 33_124.182_6, 0.25),
+        ("bias y", correction.bias.y, 33_275.179_4, 0.14),
+        ("bias z", correction.bias.z, 32_364.415_6, 0.15),
+        ("T xy", t[(0, 1)], -0.003_359_30, 1.3e-4),
+        ("T xz", t[(0, 2)], -0.008_906_39, 4.8e-4),
+        ("T yz", t[(1, 2)], -0.021_334_12, 1.2e-4),
+    ];
+    for (name, ours, theirs, sd) in against {
+        assert!((ours - theirs).abs() < 2.0 * sd, "{name}: {ours} against {theirs} ± {sd}");
+    }
+    // and our own standard deviations are those of that refit
+    for (k, sd) in [0.25, 0.14, 0.15, 0.027, 0.014, 0.016].into_iter().enumerate() {
+        assert!(
+            (calibration.sd()[k] / sd - 1.0).abs() < 0.05,
+            "{}: {}",
+            calibration.parameters[k].name,
+            calibration.sd()[k]
+        );
+    }
+}
+
+#[test]
+fn every_gauge_describes_the_same_sensor() {
+    let (_, recording) = simulate(24, 1);
+    let results = [Gauge::Lower, Gauge::Upper, Gauge::Symmetric].map(|gauge| {
+        let setup = HoldsSetup { gauge, ..HoldsSetup::default() };
+        (gauge, run(&sensor(SensorModel::Full), &recording, &setup).expect("identifiable"))
+    });
+    for (_, one) in &results {
+        for (gauge, other) in &results {
+            let converted = gauge.apply(&one.sensor);
+            assert!((converted.matrix - other.sensor.matrix).amax() < 1e-8, "to {gauge:?}");
+            assert!(
+                (converted.bias - other.sensor.bias).amax() < 1e-8,
+                "{}",
+                converted.bias - other.sensor.bias
+            );
+            assert!((one.fit.chi2 - other.fit.chi2).abs() < 1e-6, "the fit does not depend on the gauge");
+        }
+    }
+}
+
+#[test]
+fn scale_bias_is_the_full_model_without_cross_axis_terms() {
+    let (_, recording) = simulate(24, 2);
+    let calibration =
+        run(&sensor(SensorModel::ScaleBias), &recording, &HoldsSetup::default()).expect("identifiable");
+    assert_eq!(calibration.parameters.len(), 6);
+    assert_eq!(calibration.sensor.matrix, Matrix3::from_diagonal(&calibration.sensor.matrix.diagonal()));
+}
+
+#[test]
+fn bad_holds_are_found_and_left_out_with_a_word() {
+    let (truth, clean) = simulate(24, 3);
+    let reference = run(&sensor(SensorModel::Full), &clean, &HoldsSetup::default()).expect("identifiable");
+    let spans: Vec<_> =
+        find_holds(&clean, 1.0).expect("fine").iter().map(|hold| (hold.first, hold.end)).collect();
+    for (size, bad) in [(0.02, vec![5]), (0.5, vec![5, 11, 17]), (-3.0, vec![0, 23])] {
+        let mut recording = clean.clone();
+        for &hold in &bad {
+            // bumped against the table, or magnetised, or leaning on a hand: the magnitude is wrong
+            for reading in &mut recording.readings
+                [spans[hold].0.saturating_sub(30)..(spans[hold].1 + 30).min(clean.len())]
+            {
+                let along = (*reading - truth.bias).normalize();
+                *reading += along * size;
+            }
+        }
+        let calibration =
+            run(&sensor(SensorModel::Full), &recording, &HoldsSetup::default()).expect("identifiable");
+        let left_out: Vec<usize> = (0..24).filter(|&k| !holds(&calibration).holds[k].used).collect();
+        assert_eq!(left_out, bad, "size {size}");
+        for &hold in &bad {
+            let word = format!("hold {} (", hold + 1);
+            assert!(
+                calibration.warnings.iter().any(|warning| warning.starts_with(&word)),
+                "{:?}",
+                calibration.warnings
+            );
+        }
+        for k in 0..9 {
+            let off = (calibration.values[k] - reference.values[k]).abs() / reference.sd()[k];
+            assert!(off < 3.0, "{}: {off} sd away from the clean fit", calibration.parameters[k].name);
+        }
+    }
+}
+
+#[test]
+fn clean_recordings_rarely_lose_a_hold() {
+    let lost: usize = (0..100)
+        .map(|seed| {
+            let (_, recording) = simulate(20, 100 + seed);
+            let calibration =
+                run(&sensor(SensorModel::Full), &recording, &HoldsSetup::default()).expect("identifiable");
+            usize::from(holds(&calibration).holds.iter().any(|hold| !hold.used))
+        })
+        .sum();
+    // one in a hundred recordings by the test's own level, and a little for the robust start
+    assert!(lost <= 4, "{lost} of 100 clean recordings lost a hold");
+}
+
+#[test]
+fn holds_that_do_not_spread_are_named() {
+    // few holds
+    let (_, recording) = simulate(6, 4);
+    let error = run(&sensor(SensorModel::Full), &recording, &HoldsSetup::default())
+        .expect_err("six holds, nine parameters");
+    assert!(error.is_not_identifiable());
+    assert!(error.to_string().contains("6 holds give 6 equations"), "{error}");
+
+    // no holds
+    let (_, mut recording) = simulate(12, 4);
+    for (k, reading) in recording.readings.iter_mut().enumerate() {
+        *reading = Rotation3::from_euler_angles(0.013 * k as f64, 0.007 * k as f64, 0.02 * k as f64)
+            * Vector3::new(0.0, 0.0, 9.81)
+            * (1.0 + 0.1 * (0.1 * k as f64).sin());
+    }
+    let error =
+        run(&sensor(SensorModel::Full), &recording, &HoldsSetup::default()).expect_err("always moving");
+    assert!(error.is_not_identifiable(), "{error}");
+
+    // many holds on one circle: gravity never leaves the x-y plane
+    let mut flat =
+        Recording { times_s: vec![], readings: vec![], axes: 3, unit: ReadingUnit::MetrePerSecondSquared };
+    for k in 0..12 * 400 {
+        let angle = (k / 400) as f64 * 0.5 + if k % 400 < 300 { 0.0 } else { (k % 400 - 300) as f64 * 0.005 };
+        let wiggle = 0.01 * ((k * 7919 % 1000) as f64 / 500.0 - 1.0);
+        flat.times_s.push(k as f64 * 0.01);
+        flat.readings.push(Vector3::new(9.81 * angle.cos() + wiggle, 9.81 * angle.sin() - wiggle, 0.0));
+    }
+    let error = run(&sensor(SensorModel::Full), &flat, &HoldsSetup::default()).expect_err("one circle");
+    assert!(error.is_not_identifiable(), "{error}");
+    let text = error.to_string();
+    assert!(text.contains("do not spread enough") && text.contains("scale.z"), "{text}");
+    assert!(text.contains("on one circle, turned about the sensor's axis z only"), "{text}");
+    // always the same orientation, turned about the vertical
+    flat.readings
+        .iter_mut()
+        .for_each(|reading| *reading = Vector3::new(reading.z, reading.z, 9.81) + *reading * 1e-4);
+    let error = run(&sensor(SensorModel::ScaleBias), &flat, &HoldsSetup::default()).expect_err("one point");
+    assert!(error.to_string().contains("all are in the same orientation"), "{error}");
+}
+
+#[test]
+fn poor_spread_is_a_warning_with_the_missing_side_named() {
+    // the upper half of the sphere only
+    let (_, recording) = simulate(60, 6);
+    let calibration =
+        run(&sensor(SensorModel::Full), &recording, &HoldsSetup::default()).expect("identifiable");
+    let up: Vec<(f64, f64)> = holds(&calibration)
+        .holds
+        .iter()
+        .filter(|hold| hold.force_mps2.z > 4.0)
+        .map(|hold| (hold.hold.start_s, hold.hold.end_s))
+        .collect();
+    let setup = HoldsSetup { intervals_s: Some(up), ..HoldsSetup::default() };
+    let calibration = run(&sensor(SensorModel::Full), &recording, &setup).expect("identifiable");
+    assert!(!holds(&calibration).detected);
+    let words = calibration.warnings.join("\n");
+    assert!(words.contains("the z axis pointing down"), "{words}");
+    assert!(words.contains("do not spread enough"), "{words}");
+}
+
+#[test]
+fn one_hold_more_than_parameters_is_said_so() {
+    let (_, recording) = simulate(10, 3);
+    let setup = HoldsSetup::default();
+    let calibration = run(&sensor(SensorModel::Full), &recording, &setup).expect("determined");
+    let words = calibration.warnings.join("\n");
+    assert_eq!(calibration.fit.degrees_of_freedom, 1);
+    assert!(words.contains("only one hold more than parameters: "), "{words}");
+}
+
+#[test]
+fn given_holds_are_used_as_given_and_checked() {
+    let (_, recording) = simulate(24, 7);
+    let found = find_holds(&recording, 1.0).expect("fine");
+    let intervals: Vec<_> = found.iter().map(|hold| (hold.start_s, hold.end_s)).collect();
+    let setup = HoldsSetup { intervals_s: Some(intervals.clone()), ..HoldsSetup::default() };
+    let given = run(&sensor(SensorModel::Full), &recording, &setup).expect("identifiable");
+    let detected = run(&sensor(SensorModel::Full), &recording, &HoldsSetup::default()).expect("identifiable");
+    assert_eq!(given.values, detected.values);
+    for (intervals, word) in [
+        (vec![(1e6, 2e6)], "hold 1 from 1000000 to 2000000 s has 0 samples"),
+        (vec![(0.5, 3.0), (2.0, 3.5)], "holds 1 and 2 overlap"),
+    ] {
+        let setup = HoldsSetup { intervals_s: Some(intervals), ..HoldsSetup::default() };
+        let error = run(&sensor(SensorModel::Full), &recording, &setup).expect_err("nonsense");
+        assert!(error.to_string().contains(word), "{error}");
+    }
+}
+
+#[test]
+fn the_uncertainty_of_gravity_is_a_common_scale() {
+    let (_, recording) = simulate(24, 8);
+    let at = |sd_mps2| {
+        let setup =
+            HoldsSetup { gravity: Gravity { magnitude_mps2: 9.80665, sd_mps2 }, ..HoldsSetup::default() };
+        run(&sensor(SensorModel::Full), &recording, &setup).expect("identifiable")
+    };
+    let (exact, uncertain) = (at(0.0), at(0.01));
+    for k in 0..9 {
+        let added = (uncertain.covariance[(k, k)] - exact.covariance[(k, k)]).sqrt();
+        let expected = if k < 3 { 0.0 } else { exact.values[k].abs() * 0.01 / 9.80665 };
+        assert!((added - expected).abs() < 1e-9, "{}", exact.parameters[k].name);
+    }
+    assert!(uncertain.correlation()[(3, 4)] > 0.99, "the scale factors share gravity's error");
+}
+
+#[test]
+fn holds_are_found_at_any_noise_and_unit() {
+    for (noise, gain, rate) in [
+        (1e-5, 1.0, 100.0),
+        (0.1, 1.0, 100.0),
+        (0.01, 16_384.0 / 9.81, 50.0),
+        (0.02, 415.0, 400.0),
+        (0.0, 1.0, 100.0),
+    ] {
+        let mut rng = stream(9, Purpose::Sensor, 0);
+        let simulation = HoldsSimulation {
+            poses: 15,
+            hold_s: 3.0,
+            turn_s: 1.0,
+            rate_hz: rate,
+            gravity_mps2: 9.81,
+            between_holds_sd_mps2: 0.0,
+        };
+        let truth = SensorParameters {
+            bias: Vector3::new(10.0, -20.0, 5.0) * gain,
+            matrix: Matrix3::identity() * gain,
+        };
+        let (recording, _) = simulate_holds(
+            &truth,
+            &Vector3::repeat(noise * gain),
+            ReadingUnit::Counts,
+            &simulation,
+            &mut rng,
+        );
+        let found = find_holds(&recording, 1.0).expect("fine");
+        assert_eq!(found.len(), 15, "noise {noise}, gain {gain}, {rate} Hz");
+        for (k, hold) in found.iter().enumerate() {
+            let start = k as f64 * 4.0;
+            assert!(
+                hold.start_s >= start - 0.05 && hold.end_s <= start + 3.05,
+                "{} {}",
+                hold.start_s,
+                hold.end_s
+            );
+            assert!(hold.duration_s() > 2.0);
+        }
+    }
+}
+
+/// At 400 Hz: in whole milliseconds, late by 3 ms on average, three samples in ten lost, or all of it.
+#[test]
+fn holds_are_found_whatever_became_of_the_times() {
+    let simulation = HoldsSimulation {
+        poses: 14,
+        hold_s: 3.0,
+        turn_s: 1.5,
+        rate_hz: 400.0,
+        gravity_mps2: 9.80665,
+        between_holds_sd_mps2: 0.0,
+    };
+    let unit = ReadingUnit::MetrePerSecondSquared;
+    let identity = SensorParameters::identity();
+    for [coarse, late, lost] in
+        [[true, false, false], [false, true, false], [false, false, true], [true, true, true]]
+    {
+        let mut rng = stream(31, Purpose::Sensor, 0);
+        let (even, _) = simulate_holds(&identity, &Vector3::repeat(0.01), unit, &simulation, &mut rng);
+        let arrival = |t: f64, share: f64| if late { t - 0.003 * share.ln() } else { t };
+        let tick = |t: f64| if coarse { (1e3 * t).round() / 1e3 } else { t };
+        let mut times_s: Vec<f64> =
+            even.times_s.iter().map(|t| tick(arrival(*t, rng.random_range(1e-6..1.0)))).collect();
+        times_s.sort_by(f64::total_cmp);
+        let mut recording = Recording { times_s: Vec::new(), readings: Vec::new(), ..even };
+        for (t, reading) in times_s.into_iter().zip(even.readings) {
+            let is_new = recording.times_s.last().is_none_or(|last| t > *last);
+            if is_new && !(lost && rng.random_bool(0.3)) {
+                recording.times_s.push(t);
+                recording.readings.push(reading);
+            }
+        }
+        let found = find_holds(&recording, 1.0).expect("fast enough");
+        let rate = recording.rate_hz();
+        assert_eq!(found.len(), 14, "{coarse} {late} {lost}: {rate} Hz");
+        if !(late && lost) {
+            assert!((rate / 400.0 - 1.0).abs() < 0.02, "{coarse} {late} {lost}: {rate} Hz");
+        }
+        let seconds: f64 = found.iter().map(|hold| hold.duration_s()).sum();
+        assert!(seconds > 0.8 * 14.0 * 3.0, "{coarse} {late} {lost}: {seconds} s");
+    }
+}
+
+#[test]
+fn six_faces_do_not_determine_cross_axis_terms() {
+    let mut rng = stream(12, Purpose::Sensor, 0);
+    let truth = draw_sensor(&sensor(SensorModel::ScaleBias), &mut rng);
+    let mut recording =
+        Recording { times_s: vec![], readings: vec![], axes: 3, unit: ReadingUnit::MetrePerSecondSquared };
+    let faces = [Vector3::x(), -Vector3::x(), Vector3::y(), -Vector3::y(), Vector3::z(), -Vector3::z()];
+    for k in 0..24 * 500 {
+        let (pose, next) = (faces[(k / 500) % 6], faces[(k / 500 + 1) % 6]);
+        // four seconds still, one second of turning
+        let done = ((k % 500) as f64 / 100.0 - 4.0).max(0.0);
+        let force = (pose * (1.0 - done) + next * done + Vector3::new(0.2, 0.1, 0.3) * (done * (1.0 - done)))
+            * 9.80665;
+        let noise =
+            Vector3::from_fn(|axis, _| 0.02 * (((k * 7919 + axis * 104_729) % 1009) as f64 / 1009.0 - 0.5));
+        recording.times_s.push(k as f64 * 0.01);
+        recording.readings.push(truth.reading(&force) + noise);
+    }
+    let error = run(&sensor(SensorModel::Full), &recording, &HoldsSetup::default()).expect_err("faces only");
+    assert!(error.is_not_identifiable(), "{error}");
+    let text = error.to_string();
+    assert!(text.contains("matrix.x") && text.contains("use model = \"scale-bias\""), "{text}");
+    let calibration =
+        run(&sensor(SensorModel::ScaleBias), &recording, &HoldsSetup::default()).expect("identifiable");
+    for k in 0..3 {
+        assert!((calibration.values[3 + k] - truth.matrix[(k, k)]).abs() < 5.0 * calibration.sd()[3 + k]);
+    }
+}
+
+#[test]
+fn a_gyroscope_is_not_calibrated_as_an_accelerometer() {
+    let Some(path) = crate::common::shared_data("xsens-mti-static/xsens_gyro.mat") else { return };
+    let options = ReadOptions { unit: None, expected_unit: ReadingUnit::Counts, axes: 3 };
+    let recording = read_recording(&path, &options).expect("readable").recording;
+    let sensor =
+        Sensor { unit: ReadingUnit::Counts, gain: None, offset: None, ..Sensor::triaxial(SensorModel::Full) };
+    let error = run(&sensor, &recording, &HoldsSetup::default()).expect_err("no gravity in there");
+    assert!(error.is_not_identifiable() || error.is_invalid_recording(), "{error}");
+}

@@ -1,0 +1,123 @@
+//! What must hold whatever the numbers: property tests over random problems.
+
+use crate::common::case::Case;
+use calibrant::estimate::{Calibration, CalibrationProblem, CalibrationSettings, Stimulus, calibrate};
+use calibrant::motion::{InputNoise, JerkControlledMotion, KnownEnds, Trust};
+use calibrant::sensor::SensorModel;
+use nalgebra::Vector3;
+use proptest::prelude::*;
+
+fn trusts() -> impl Strategy<Value = Trust> {
+    prop_oneof![
+        Just(Trust::Known),
+        (1e-4..0.1_f64, 0.0..0.02_f64)
+            .prop_map(|(floor_mps3, ratio)| Trust::Noisy(InputNoise { floor_mps3, ratio })),
+        Just(Trust::Unknown),
+    ]
+}
+
+fn models() -> impl Strategy<Value = SensorModel> {
+    prop_oneof![Just(SensorModel::ScaleBias), Just(SensorModel::Full)]
+}
+
+fn determined(model: SensorModel, trust: Trust) -> bool {
+    !(model == SensorModel::Full && trust == Trust::Unknown)
+}
+
+/// The same recording with the axes in another order.
+fn permuted(case: &Case) -> Case {
+    let turn = |v: &Vector3<f64>| Vector3::new(v.y, v.z, v.x);
+    let mut other = case.clone();
+    other.recording.readings = case.recording.readings.iter().map(turn).collect();
+    let motion = &case.command.motion;
+    let nodes = motion.acceleration_mps2().iter().map(turn).collect();
+    other.command.motion = JerkControlledMotion::new(motion.times_s().to_vec(), nodes).expect("valid");
+    other
+}
+
+/// Only the first `samples` of a recording.
+fn calibrate_first(case: &Case, samples: usize) -> calibrant::Result<Calibration> {
+    let mut recording = case.recording.clone();
+    recording.times_s.truncate(samples);
+    recording.readings.truncate(samples);
+    let problem = CalibrationProblem {
+        sensor: &case.sensor,
+        recording: &recording,
+        stimulus: Stimulus::Motion(&case.command),
+    };
+    calibrate(&problem, &CalibrationSettings::default())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 100, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn permuting_the_axes_permutes_the_answer(model in models(), trust in trusts(), seed in 0..10_000_u64) {
+        prop_assume!(determined(model, trust));
+        let case = Case::new(model, trust, 8, 1.0, 20.0, seed);
+        let (one, other) = (case.calibrate().expect("identifiable"), permuted(&case).calibrate().expect("identifiable"));
+        let sd = one.sd();
+        for axis in 0..3 {
+            let from = (axis + 1) % 3;
+            prop_assert!((one.sensor.bias[from] - other.sensor.bias[axis]).abs() < 1e-5 * sd[from]);
+            for column in 0..3 {
+                let difference = one.sensor.matrix[(from, (column + 1) % 3)] - other.sensor.matrix[(axis, column)];
+                prop_assert!(difference.abs() < 1e-5 * sd[3 + from].max(1e-12), "{difference}");
+            }
+        }
+    }
+
+    #[test]
+    fn scaling_the_readings_scales_the_answer(model in models(), trust in trusts(), seed in 0..10_000_u64, gain in 1e-3..1e5_f64) {
+        prop_assume!(determined(model, trust));
+        let case = Case::new(model, trust, 8, 1.0, 20.0, seed);
+        let mut scaled = case.clone();
+        scaled.recording.readings.iter_mut().for_each(|y| *y *= gain);
+        scaled.sensor.gain = Some(Vector3::repeat(gain));
+        scaled.sensor.noise_mps2 = case.sensor.noise_mps2.map(|noise| noise * gain);
+        let (one, other) = (case.calibrate().expect("identifiable"), scaled.calibrate().expect("identifiable"));
+        for k in 0..one.values.len() {
+            prop_assert!((one.values[k] * gain - other.values[k]).abs() < 1e-5 * other.sd()[k]);
+            prop_assert!((one.sd()[k] * gain / other.sd()[k] - 1.0).abs() < 1e-5);
+        }
+        prop_assert!((one.fit.chi2 / other.fit.chi2 - 1.0).abs() < 1e-6);
+    }
+
+    #[test]
+    fn more_samples_never_lower_the_information(model in models(), seed in 0..10_000_u64, samples in 100..160_usize) {
+        // trust known: the covariance depends on the samples, not on what they read
+        let case = Case::new(model, Trust::Known, 8, 1.0, 20.0, seed);
+        let (fewer, all) = (calibrate_first(&case, samples).expect("identifiable"), case.calibrate().expect("identifiable"));
+        let gained = &fewer.covariance - &all.covariance;
+        let scale = fewer.covariance.amax();
+        prop_assert!(gained.symmetric_eigenvalues().min() > -1e-12 * scale);
+    }
+
+    #[test]
+    fn more_trust_never_widens_the_intervals(seed in 0..10_000_u64, floor in 1e-3..0.3_f64) {
+        let case = Case::new(SensorModel::ScaleBias, Trust::Known, 8, 1.0, 20.0, seed);
+        let at = |trust, ends| case.with_trust(trust, ends).calibrate().expect("identifiable").sd();
+        let known = at(Trust::Known, KnownEnds::Start);
+        let quiet = at(Trust::Noisy(InputNoise { floor_mps3: floor, ratio: 0.0 }), KnownEnds::Both);
+        let noisy = at(Trust::Noisy(InputNoise { floor_mps3: 10.0 * floor, ratio: 0.0 }), KnownEnds::Both);
+        for k in 0..6 {
+            prop_assert!(known[k] < quiet[k] * 1.01 && quiet[k] < noisy[k] * 1.01, "{} {} {}", known[k], quiet[k], noisy[k]);
+        }
+    }
+
+    #[test]
+    fn the_covariance_is_positive_and_finite(model in models(), trust in trusts(), intervals in 1..20_usize, seed in 0..10_000_u64) {
+        prop_assume!(determined(model, trust));
+        let case = Case::new(model, trust, intervals, 1.0, 25.0, seed);
+        match case.calibrate() {
+            Ok(calibration) => {
+                prop_assert!(calibration.covariance.iter().all(|c| c.is_finite()));
+                let correlation = calibration.correlation();
+                prop_assert!(correlation.symmetric_eigenvalues().min() > 0.0);
+                prop_assert!(calibration.values.iter().all(|v| v.is_finite()));
+            }
+            // few intervals cannot move three axes independently
+            Err(error) => prop_assert!(error.is_not_identifiable() && intervals < 4, "{error}"),
+        }
+    }
+}

@@ -1,0 +1,40 @@
+//! Recordings that were not made here.
+
+use crate::validation::bench::{Bench, KINDS};
+use calibrant::estimate::{CovarianceVerdict, Gyroscope, HoldsSetup, ImuSetup};
+use calibrant::sensor::{ImuRecording, ReadingUnit, Recording, Sensor, SensorModel};
+
+/// The recording of imu_tk: half of it calibrates, the other half validates; and by folds.
+#[test]
+fn the_standard_deviations_on_the_xsens_recording_are_to_be_believed() {
+    let Some((recording, gravity)) = crate::common::xsens() else { return };
+    let unit = ReadingUnit::Counts;
+    let bench = Bench {
+        accelerometer: Sensor { unit, gain: None, offset: None, ..Sensor::triaxial(SensorModel::Full) },
+        gyroscope: Gyroscope { unit, g_sensitivity: true, ..Gyroscope::default() },
+        setup: ImuSetup { holds: HoldsSetup { gravity, ..HoldsSetup::default() }, ..ImuSetup::default() },
+    };
+    let whole = bench.calibrate(&recording);
+    let holds = &whole.holds.holds;
+    let middle = 0.5 * (holds[18].hold.end_s + holds[19].hold.start_s);
+    let half = |first: bool| {
+        let of = |of: &Option<Recording>| {
+            let of = of.as_ref().expect("there");
+            let pairs = of.times_s.iter().zip(&of.readings).filter(|(t, _)| (**t < middle) == first);
+            let (times_s, readings) = pairs.map(|(t, y)| (*t, *y)).unzip();
+            Some(Recording { times_s, readings, axes: 3, unit: of.unit })
+        };
+        let (accelerometer, gyroscope) = (of(&recording.accelerometer), of(&recording.gyroscope));
+        ImuRecording { accelerometer, gyroscope, temperature_c: None }
+    };
+    let (one, two) = (half(true), half(false));
+    let found = [bench.fold(&whole, &recording, 5), bench.validate(&bench.calibrate(&one), &two)];
+    for (validation, counts) in found.iter().zip([[38, 38, 33], [19, 19, 18]]) {
+        for (kind, count) in KINDS.into_iter().zip(counts) {
+            let errors = validation.of_kind(kind).expect("there");
+            assert_eq!(errors.counted(), count, "{kind:?}");
+            assert_eq!(errors.verdict, CovarianceVerdict::Believed, "{kind:?}: {}", errors.factor);
+            assert!((0.6..1.4).contains(&errors.factor), "{kind:?}: {}", errors.factor);
+        }
+    }
+}
