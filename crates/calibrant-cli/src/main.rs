@@ -7,6 +7,7 @@ mod compare;
 mod console;
 mod convert;
 mod design;
+mod exit;
 mod init;
 mod inspect;
 mod noise;
@@ -15,9 +16,8 @@ mod reading;
 mod simulate;
 mod study;
 
-use calibrant::Error;
-use calibrant::estimate::CalibrationStatus;
 use clap::{Parser, Subcommand};
+use exit::Exit;
 use std::process::ExitCode;
 
 /// Calibrate inertial sensors: parameters with an honest covariance from a recording, and the best motion to record.
@@ -46,33 +46,6 @@ enum Command {
     Convert(convert::Arguments),
     Apply(apply::Arguments),
     Compare(compare::Arguments),
-}
-
-/// How a command ended: the exit status.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-struct Exit(u8);
-
-impl Exit {
-    const DONE: Exit = Exit(0);
-    const USAGE: Exit = Exit(2);
-    const RECORDING: Exit = Exit(3);
-    const NOT_IDENTIFIABLE: Exit = Exit(4);
-
-    /// The exit status of a calibration: one that did not converge has determined nothing.
-    fn of_status(status: CalibrationStatus) -> Exit {
-        if status == CalibrationStatus::Converged { Exit::DONE } else { Exit::NOT_IDENTIFIABLE }
-    }
-
-    /// The exit status of an error.
-    fn of(error: &Error) -> Exit {
-        if error.is_not_identifiable() || error.is_infeasible() {
-            Exit::NOT_IDENTIFIABLE
-        } else if error.is_invalid_recording() {
-            Exit::RECORDING
-        } else {
-            Exit::USAGE
-        }
-    }
 }
 
 fn main() -> ExitCode {

@@ -1,76 +1,23 @@
 //! `calibrant noise`: Allan deviation and noise of a sensor at rest.
 
+mod arguments;
 mod holds;
 mod read;
 mod table;
 
+pub(crate) use arguments::Arguments;
+
 use crate::reading::{in_file, name};
 use crate::{Exit, console, place};
+use arguments::Gains;
 use calibrant::Error;
 use calibrant::error::Complaint;
-use calibrant::io::{ImuFile, ImuUnit, Input, noise_json, write_atomically, write_noise};
+use calibrant::io::{ImuFile, Input, noise_json, write_atomically, write_noise};
 use calibrant::noise::{Stretch, TriadNoise};
 use calibrant::report::{About, noise_report, number};
 use calibrant::sensor::{Recording, Triad};
 use nalgebra::Vector3;
-use std::path::{Path, PathBuf};
-
-/// Find the noise of a sensor at rest: Allan deviation, random walks, bias instability.
-///
-/// Both sensors of an IMU, or the one that was recorded. The longest hold of the recording is examined, or the interval of --hold. What the recording is too
-/// short to tell is reported as not determined. Writes noise.json and report.html into DIR.
-#[derive(clap::Args)]
-pub(crate) struct Arguments {
-    /// Recording, in any format that `calibrant inspect` knows, or of one sensor alone: columns t x y z.
-    recording: PathBuf,
-    /// The gyroscope's file, where the sensors have a file each (imu_tk).
-    #[arg(long, value_name = "FILE")]
-    gyroscope: Option<PathBuf>,
-    /// Examine this sensor alone; it is also what columns t x y z are readings of (default: the accelerometer's).
-    #[arg(long, value_enum)]
-    sensor: Option<SensorKind>,
-    /// Unit of the readings of the accelerometer, or of --sensor, where the file does not say: m/s2, g, mg, rad/s, deg/s, mdps or counts.
-    #[arg(long, value_parser = crate::reading::any_unit)]
-    unit: Option<ImuUnit>,
-    #[command(flatten)]
-    reading: crate::reading::RecordingOptions,
-    /// Experiment file whose [columns] say what is what.
-    #[arg(long, value_name = "EXPERIMENT")]
-    columns: Option<PathBuf>,
-    /// Nominal gain of the accelerometer, or of --sensor, in counts per m/s² or rad/s (one number or x,y,z): states the noise of readings in counts in SI and customary units.
-    #[arg(long, value_name = "GAIN", value_delimiter = ',', num_args = 1..=3, allow_negative_numbers = true)]
-    gain: Vec<f64>,
-    /// The same of the gyroscope, beside the accelerometer's.
-    #[arg(long, value_name = "GAIN", value_delimiter = ',', num_args = 1..=3, allow_negative_numbers = true)]
-    gyroscope_gain: Vec<f64>,
-    /// Start and end of the interval at rest, s (default: the longest hold that is found).
-    #[arg(long, num_args = 2, value_names = ["START", "END"], allow_negative_numbers = true)]
-    hold: Option<Vec<f64>>,
-    /// Print noise.json on stdout in place of the tables.
-    #[arg(long)]
-    json: bool,
-    /// Directory for noise.json and report.html.
-    #[arg(short, long, value_name = "DIR")]
-    output: Option<PathBuf>,
-}
-
-#[derive(Clone, Copy, clap::ValueEnum)]
-enum SensorKind {
-    Accelerometer,
-    Gyroscope,
-}
-
-impl From<SensorKind> for Triad {
-    fn from(sensor: SensorKind) -> Self {
-        match sensor {
-            SensorKind::Accelerometer => Self::Accelerometer,
-            SensorKind::Gyroscope => Self::Gyroscope,
-        }
-    }
-}
-
-/// Gains by sensor.
-type Gains = Vec<(Triad, Vector3<f64>)>;
+use std::path::Path;
 
 pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     if let Some(directory) = &arguments.output {

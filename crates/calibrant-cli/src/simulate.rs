@@ -1,6 +1,10 @@
 //! `calibrant simulate`: a sensor out of the datasheet and its recording.
 
+mod arguments;
 mod imu;
+mod random;
+
+pub(crate) use arguments::Arguments;
 
 use crate::{Exit, console, place};
 use calibrant::Error;
@@ -12,46 +16,11 @@ use calibrant::io::{
 use calibrant::motion::{JerkControlledMotion, KnownEnds, Limits, Trust};
 use calibrant::sensor::{ReadingUnit, Sensor};
 use calibrant::simulate::{
-    HoldsSimulation, Purpose, Rng, draw_sensor, perturb, sample_times, simulate_holds, simulate_recording,
-    stream,
+    HoldsSimulation, Purpose, draw_sensor, perturb, sample_times, simulate_holds, simulate_recording, stream,
 };
 use nalgebra::Vector3;
-use std::path::{Path, PathBuf};
-
-/// Simulate a sensor drawn from the datasheet, and its recording.
-///
-/// Writes recording.csv and truth.json; for a [motion] also motion.csv, the commanded motion that `calibrate --motion` wants, and with process
-/// noise true_motion.csv, the one that really happened.
-///
-/// An IMU (kind = "imu") is turned by hand between holds.poses orientations; with holds.directions it is put down on these faces and turned by gyroscope.turns, at
-/// the times that are given. Spreads that [sensor] does not give, and the gyroscope's, are those of common MEMS sensors.
-/// With [temperature] it warms by 24 K about the reference from the beginning to the end, and the recording has a column temp_c.
-///
-/// The seed draws the sensor, --recording N what happens in its Nth recording: the same truth.json, independent noise, other random poses or motion. Number all
-/// recordings that are to be independent, those of different experiments too. A validation is rehearsed with two:
-///
-/// calibrant simulate imu.toml -o one; calibrant simulate imu.toml --recording 2 -o two
-///
-/// calibrant calibrate imu.toml one/recording.csv --validate two/recording.csv -o result
-///
-/// calibrant compare one/truth.json result/calibration.json then tells how far the result is from the truth, in its standard deviations.
-#[derive(clap::Args)]
-pub(crate) struct Arguments {
-    /// The experiment file (see `calibrant init`).
-    experiment: PathBuf,
-    /// The commanded motion (nodes: t_s,ax_mps2,ay_mps2,az_mps2); default: the random initial motion.
-    #[arg(long, value_name = "CSV")]
-    motion: Option<PathBuf>,
-    /// Seed of everything random (default: the one in [study], 1).
-    #[arg(long, allow_negative_numbers = true)]
-    seed: Option<u64>,
-    /// Which recording of the sensor that the seed draws: each has its own noise and its own random poses or motion.
-    #[arg(long, value_name = "N", default_value_t = 1, allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(1..))]
-    recording: u32,
-    /// Directory for the results.
-    #[arg(short, long, value_name = "DIR")]
-    output: PathBuf,
-}
+use random::Random;
+use std::path::Path;
 
 pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     place::check_directory(&arguments.output)?;
@@ -83,28 +52,6 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
         arguments.output.join("recording.csv").display()
     ));
     Ok(Exit::DONE)
-}
-
-/// Where everything random comes from.
-#[derive(Clone, Copy)]
-struct Random {
-    seed: u64,
-    /// From 1.
-    recording: u64,
-}
-
-impl Random {
-    fn sensor(self) -> Rng {
-        stream(self.seed, Purpose::Sensor, 0)
-    }
-
-    /// Of what happens in the recording, all of the sensor being drawn: the first goes on in the sensor's stream, so that a seed means what it always did.
-    fn happening(self, after_sensor: Rng) -> Rng {
-        match self.recording {
-            1 => after_sensor,
-            another => stream(self.seed, Purpose::Recording, another),
-        }
-    }
 }
 
 /// A simulation needs numbers where a calibration can do without.

@@ -2,14 +2,14 @@
 
 use super::Arguments;
 use super::imu_noise::LongestHold;
+use super::imu_output::Done;
 use super::many::{Calibrated, Outcome};
 use crate::reading::{in_file, name, take_out_sparks};
 use crate::{Exit, console};
 use calibrant::Error;
 use calibrant::error::Complaint;
 use calibrant::estimate::{
-    CalibrationSettings, ImuCalibration, ImuProblem, ImuSetup, Turn, Validation, calibrate_imu_while,
-    find_clean_imu_holds,
+    CalibrationSettings, ImuProblem, ImuSetup, Turn, calibrate_imu_while, find_clean_imu_holds,
 };
 use calibrant::io::{
     Experiment, HoldsPlan, ImuFile, ImuPlan, ImuReadOptions, ImuUnit, Input, Plan, Section, SectionKind,
@@ -19,14 +19,6 @@ use calibrant::noise::TriadNoise;
 use calibrant::report::number;
 use calibrant::sensor::{ReadingUnit, Recording, Triad};
 use std::path::{Path, PathBuf};
-
-/// An IMU that is calibrated.
-pub(super) struct Done {
-    pub(super) calibration: ImuCalibration,
-    pub(super) validations: Vec<Validation>,
-    pub(super) file: ImuFile,
-    pub(super) inputs: Vec<Input>,
-}
 
 /// What all recordings of a call share.
 struct Job<'a> {
@@ -61,7 +53,7 @@ pub(super) fn run(arguments: &Arguments, experiment: &Experiment, plan: &ImuPlan
             console::findings(&file.findings, &name(files.path), files.gyroscope.map(name).as_deref());
             job.calibrate(*files, file, &arguments.output)
         });
-        let done = done.inspect_err(|_| super::warn_of_earlier_result(&arguments.output))?;
+        let done = done.inspect_err(|_| super::earlier::warn_of_earlier_result(&arguments.output))?;
         for warning in &done.calibration.warnings {
             console::warn(warning);
         }

@@ -1,14 +1,22 @@
 //! What a calibrated IMU is written to, and shown as.
 
 use super::Arguments;
-use super::imu::Done;
 use super::imu_noise::physical;
 use crate::console;
-use calibrant::io::{Input, imu_calibration_json, write_atomically, write_imu_calibration};
+use calibrant::estimate::{ImuCalibration, Validation};
+use calibrant::io::{ImuFile, Input, imu_calibration_json, write_atomically, write_imu_calibration};
 use calibrant::noise::TriadNoise;
 use calibrant::report::{About, imu_calibration_report, number};
 use rayon::prelude::*;
 use std::path::Path;
+
+/// An IMU that is calibrated.
+pub(super) struct Done {
+    pub(super) calibration: ImuCalibration,
+    pub(super) validations: Vec<Validation>,
+    pub(super) file: ImuFile,
+    pub(super) inputs: Vec<Input>,
+}
 
 /// Writes calibration.json and report.html.
 pub(super) fn write(
@@ -20,7 +28,7 @@ pub(super) fn write(
     let json = directory.join("calibration.json");
     let json = || write_imu_calibration(&json, calibration, validations, inputs);
     if arguments.no_report {
-        super::warn_of_earlier_report(directory);
+        super::earlier::warn_of_earlier_report(directory);
         return json();
     }
     let of_inputs = |of: &dyn Fn(&Input) -> String| inputs.iter().map(of).collect::<Vec<_>>().join(" and ");

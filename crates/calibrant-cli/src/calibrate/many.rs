@@ -63,7 +63,7 @@ pub(super) fn run(
                 Ok(calibrated.summary)
             }
             Err(error) => {
-                super::warn_of_earlier_result(&arguments.output.join(folder));
+                super::earlier::warn_of_earlier_result(&arguments.output.join(folder));
                 console::error_in(&error, path);
                 exit = exit.max(Exit::of(&error));
                 row.push("ERROR".into());

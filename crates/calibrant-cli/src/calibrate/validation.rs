@@ -1,6 +1,7 @@
 //! Calibrations on data that were not used for them: `--validate`, `--folds`.
 
-use super::{Arguments, Done, Job};
+use super::Arguments;
+use super::accelerometer::{Done, Job};
 use crate::console;
 use crate::reading::{in_file, name, sparks_taken_out, take_out_sparks};
 use calibrant::Error;

@@ -1,6 +1,8 @@
 //! `calibrant design --evaluate`: is a motion of one's own any good?
 
-use super::{Arguments, Job, exit_of, in_file, write};
+use super::Arguments;
+use super::job::{Job, in_file};
+use super::output::{exit_of, write};
 use crate::{Exit, console};
 use calibrant::design::{Assessment, DesignProblem, LimitKind, LimitUse, assess};
 use calibrant::io::{evaluation_json, read_motion, write_atomically, write_evaluation};

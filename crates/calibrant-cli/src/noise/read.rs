@@ -1,6 +1,6 @@
 //! The recording, whatever its format, and what the user says of it.
 
-use super::{Arguments, Gains};
+use super::arguments::{Arguments, Gains};
 use calibrant::Error;
 use calibrant::error::Complaint;
 use calibrant::io::{ImuFile, ImuReadOptions, ImuUnit, read_imu_pair, read_imu_sensor};

@@ -1,6 +1,7 @@
 //! `calibrant simulate` for a whole IMU: turned by hand, or on a table as the experiment lists it.
 
-use super::{Arguments, Random};
+use super::Arguments;
+use super::random::Random;
 use crate::console;
 use calibrant::Error;
 use calibrant::error::Complaint;

@@ -1,0 +1,125 @@
+//! What the experiment file and the options ask for, as a problem.
+
+use super::arguments::Arguments;
+use crate::console;
+use calibrant::Error;
+use calibrant::design::{Design, DesignProblem, DesignSettings, design};
+use calibrant::error::Complaint;
+use calibrant::io::{EarlierCalibration, Experiment, Prior, read_calibration};
+use calibrant::report::{About, number};
+use std::path::Path;
+
+/// What the experiment file and the options ask for.
+pub(super) struct Job {
+    pub(super) experiment: Experiment,
+    pub(super) earlier: Vec<EarlierCalibration>,
+    pub(super) settings: DesignSettings,
+}
+
+impl Job {
+    pub(super) fn prepare(arguments: &Arguments) -> calibrant::Result<Self> {
+        let mut experiment = Experiment::read(&arguments.experiment)?;
+        if let Some(letter) = arguments.criterion {
+            experiment.design.criterion = letter;
+        }
+        let earlier: Vec<_> =
+            arguments.from.iter().map(|path| read_calibration(path)).collect::<Result<_, _>>()?;
+        warn_of_strangers(&earlier);
+        let otherwise = experiment.design_settings();
+        let settings = DesignSettings {
+            starts: arguments.starts.map_or(otherwise.starts, |starts| starts as usize),
+            seed: arguments.seed.unwrap_or(otherwise.seed),
+            certificate: otherwise.certificate && !arguments.no_certificate,
+            ..otherwise
+        };
+        Ok(Self { experiment, earlier, settings })
+    }
+
+    pub(super) fn problem(&self, file: &Path) -> calibrant::Result<DesignProblem<'_>> {
+        self.experiment.design_problem(&self.earlier).map_err(|error| in_file(error, file))
+    }
+
+    /// What the report says beside the design.
+    pub(super) fn about(&self, arguments: &Arguments, problem: &DesignProblem<'_>, title: String) -> About {
+        let fact = |label: &str, text: String| (label.to_owned(), text);
+        let mut facts = vec![
+            fact("Experiment", arguments.experiment.display().to_string()),
+            fact(
+                "Motion",
+                format!(
+                    "{} of {} s, {} Hz, trust {}",
+                    number::counted(problem.intervals, "interval"),
+                    number::short(problem.interval_s),
+                    number::short(problem.rate_hz),
+                    problem.trust.name()
+                ),
+            ),
+            fact("Starts", format!("{}, seed {}", self.settings.starts, self.settings.seed)),
+        ];
+        for path in &arguments.from {
+            facts.push(fact("Known before", path.display().to_string()));
+        }
+        if self.experiment.calibrate.prior == Prior::Datasheet {
+            facts.push(fact("Prior", "datasheet".into()));
+        }
+        About {
+            title,
+            facts,
+            program: format!("calibrant {}", env!("CARGO_PKG_VERSION")),
+            ..About::default()
+        }
+    }
+
+    /// Solves the problem, with a progress bar over its starts.
+    pub(super) fn design(&self, problem: &DesignProblem<'_>) -> calibrant::Result<Design> {
+        let bar = console::progress((self.settings.starts * problem.sensor.axes) as u64, "starts");
+        let outcome = design(problem, &self.settings, &|done| bar.inc(done));
+        bar.finish_and_clear();
+        outcome
+    }
+}
+
+/// Calibrations whose information adds up should be of one sensor, and not the same one twice.
+fn warn_of_strangers(earlier: &[EarlierCalibration]) {
+    let name = |calibration: &EarlierCalibration| {
+        calibration.file.as_ref().map_or_else(String::new, |file| file.display().to_string())
+    };
+    for (number, calibration) in earlier.iter().enumerate() {
+        let same = |other: &&EarlierCalibration| {
+            other.values == calibration.values && other.covariance == calibration.covariance
+        };
+        if let Some(other) = earlier[..number].iter().find(same) {
+            console::warn(&format!(
+                "{} and {} say the same to the last digit; if they are of one recording, what it knows counts twice: name it once",
+                name(other),
+                name(calibration)
+            ));
+        }
+    }
+    let Some((last, others)) = earlier.split_last() else { return };
+    for other in others {
+        let degrees_of_freedom = last.values.len() as f64;
+        // far beyond chance: mean and variance of χ² are k and 2k
+        let most = degrees_of_freedom + 6.0 * (2.0 * degrees_of_freedom).sqrt();
+        if let Some(chi2) = last.chi2_against(other).filter(|chi2| *chi2 > most) {
+            console::warn(&format!(
+                "{} and {} disagree beyond their uncertainty (χ² {} for {degrees_of_freedom} parameters): are they of the same sensor?",
+                name(other),
+                name(last),
+                number::significant(chi2, 3)
+            ));
+        }
+    }
+}
+
+/// Names the experiment file in an error about its limits, or about a key of it.
+pub(super) fn in_file(error: Error, file: &Path) -> Error {
+    let named = |complaint: Box<Complaint>| {
+        if complaint.file.is_none() { Box::new(complaint.in_file(file)) } else { complaint }
+    };
+    match error {
+        Error::Experiment(complaint) if complaint.key.is_some() => Error::Experiment(named(complaint)),
+        Error::Infeasible(complaint) => Error::Infeasible(named(complaint)),
+        other => other,
+    }
+}

@@ -1,0 +1,50 @@
+//! What a design is written to, and how the command ends.
+
+use super::arguments::Arguments;
+use super::job::Job;
+use crate::{Exit, console};
+use calibrant::design::{Design, DesignProblem, DesignStatus};
+use calibrant::io::{write_atomically, write_dense_motion, write_design, write_motion};
+use calibrant::report::design_report;
+
+/// Writes everything that a design leaves.
+pub(super) fn write(
+    arguments: &Arguments,
+    job: &Job,
+    problem: &DesignProblem<'_>,
+    design: &Design,
+) -> calibrant::Result<()> {
+    let (output, axes) = (&arguments.output, problem.sensor.axes);
+    // first what may be refused
+    if let Some(rate_hz) = arguments.sample_rate {
+        write_dense_motion(&output.join("motion_dense.csv"), &design.optimal.motion, axes, rate_hz)?;
+    }
+    write_design(&output.join("design.json"), design, problem, &job.settings)?;
+    write_motion(&output.join("motion.csv"), &design.optimal.motion, axes)?;
+    let about = job.about(arguments, problem, "Design of a motion".into());
+    let html = design_report(design, &about);
+    write_atomically(&output.join("report.html"), |out| out.write_all(html.as_bytes()))
+}
+
+/// The exit status of a design, with what is to be said of it.
+pub(super) fn exit_of(design: &Design) -> Exit {
+    if design.status != DesignStatus::Converged && design.optimal.covariance.is_some() {
+        console::warn(&format!(
+            "the search ended as \"{}\": the motion is admissible, but a better one may be near (raise --starts, or loosen what is very tight)",
+            design.status.name()
+        ));
+    }
+    for group in &design.optimal.undetermined {
+        console::warn(&format!(
+            "the motion leaves {} undetermined: {} ({})",
+            group.parameters.join(", "),
+            group.reason,
+            group.remedy
+        ));
+    }
+    if design.status == DesignStatus::Converged && design.optimal.covariance.is_some() {
+        Exit::DONE
+    } else {
+        Exit::NOT_IDENTIFIABLE
+    }
+}

@@ -1,0 +1,31 @@
+//! The exit status of a command.
+
+use calibrant::Error;
+use calibrant::estimate::CalibrationStatus;
+
+/// How a command ended: the exit status.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct Exit(pub(crate) u8);
+
+impl Exit {
+    pub(crate) const DONE: Exit = Exit(0);
+    pub(crate) const USAGE: Exit = Exit(2);
+    pub(crate) const RECORDING: Exit = Exit(3);
+    pub(crate) const NOT_IDENTIFIABLE: Exit = Exit(4);
+
+    /// The exit status of a calibration: one that did not converge has determined nothing.
+    pub(crate) fn of_status(status: CalibrationStatus) -> Exit {
+        if status == CalibrationStatus::Converged { Exit::DONE } else { Exit::NOT_IDENTIFIABLE }
+    }
+
+    /// The exit status of an error.
+    pub(crate) fn of(error: &Error) -> Exit {
+        if error.is_not_identifiable() || error.is_infeasible() {
+            Exit::NOT_IDENTIFIABLE
+        } else if error.is_invalid_recording() {
+            Exit::RECORDING
+        } else {
+            Exit::USAGE
+        }
+    }
+}
