@@ -14,7 +14,7 @@ use crate::sensor::Triad;
 /// [`Error::Recording`](crate::Error::Recording) for a recording that is none, or that does not overlap the motion;
 /// [`Error::NotIdentifiable`](crate::Error::NotIdentifiable) names the parameters that the data cannot determine and what would change that;
 /// [`Error::Experiment`](crate::Error::Experiment) where the problem itself lacks something, such as the noise. An iteration that does not
-/// converge is a [`CalibrationStatus`] in the result.
+/// converge is a [`CalibrationStatus`](super::CalibrationStatus) in the result.
 ///
 /// # References
 /// `vamvaka2021`, `burger2017`
