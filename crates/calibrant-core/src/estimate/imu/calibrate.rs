@@ -1,13 +1,13 @@
 //! Calibrates an IMU: outliers are taken out first, and what is known beforehand is compared with the recording.
 
 use crate::error::{Complaint, Error, Result};
-use crate::estimate::earth::unknown_latitude;
 use crate::estimate::imu::checks::known_terms::{self, Contradiction};
 use crate::estimate::imu::problem::{ImuProblem, ImuSetup, WhiteNoise};
 use crate::estimate::imu::result::ImuCalibration;
 use crate::estimate::imu::solver::solve_imu;
 use crate::estimate::result::CalibrationStatus;
 use crate::estimate::settings::CalibrationSettings;
+use crate::estimate::unknown_latitude::unknown_latitude;
 use crate::sensor::Triad;
 
 /// Calibrates an IMU.

@@ -1,5 +1,6 @@
 //! What is estimated of an IMU, and what is known of it beforehand.
 
+use crate::estimate::imu::model::Prior;
 use crate::estimate::imu::problem::{ImuProblem, KnownTerm};
 use crate::sensor::{ImuParameters, ImuQuantity};
 
@@ -15,7 +16,7 @@ pub(crate) fn estimated_quantities(problem: &ImuProblem<'_>) -> Vec<ImuQuantity>
 }
 
 /// Mean and inverse variance of each estimated quantity that is known beforehand.
-pub(crate) fn prior_of(problem: &ImuProblem<'_>, quantities: &[ImuQuantity]) -> Option<(Vec<f64>, Vec<f64>)> {
+pub(crate) fn prior_of(problem: &ImuProblem<'_>, quantities: &[ImuQuantity]) -> Option<Prior> {
     let of = |quantity: &ImuQuantity| problem.setup.known.iter().find(|known| known.quantity == *quantity);
     if quantities.iter().all(|quantity| of(quantity).is_none()) {
         return None;

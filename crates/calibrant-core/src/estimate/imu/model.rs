@@ -1,7 +1,7 @@
 //! The model of an IMU's recording: what the stages of the calibration hand to each other.
 //!
 //! A recording gives means in the holds ([`HoldData`]), rotations between them ([`RotationData`]) and turns of known angle ([`TurnData`]).
-//! [`ImuModel`] holds them with their weights, [`State`] the unknowns. The stages are told in `solver`; none of them is used here.
+//! [`ImuModel`] holds them with their weights, [`State`] the unknowns. `solver` lists the stages; none of them is used here.
 
 use crate::error::{Complaint, Error};
 use crate::estimate::imu::earth_rate::EarthRate;
@@ -211,6 +211,9 @@ pub(crate) struct State {
     pub(crate) forces: Vec<Vector3<f64>>,
 }
 
+/// What is known beforehand: mean and inverse variance of each quantity, 0 where nothing is known.
+pub(crate) type Prior = (Vec<f64>, Vec<f64>);
+
 /// The problem for given weights.
 #[derive(Clone)]
 pub(crate) struct ImuModel<'a> {
@@ -224,8 +227,7 @@ pub(crate) struct ImuModel<'a> {
     pub(crate) gyroscope_noise: GyroscopeNoise,
     /// Standard deviation of a rotation's error beyond this noise, rad per axis.
     pub(crate) excess_rad: f64,
-    /// Mean and inverse variance of each quantity; 0 where nothing is known beforehand.
-    pub(crate) prior: Option<(Vec<f64>, Vec<f64>)>,
+    pub(crate) prior: Option<Prior>,
 }
 
 impl ImuModel<'_> {

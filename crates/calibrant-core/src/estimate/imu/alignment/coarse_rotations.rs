@@ -6,11 +6,11 @@ use crate::estimate::imu::model::{ImuModel, RotationData, State};
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::FRAC_PI_2;
 
-/// Median error of a rotation beyond which something is wrong with units or axes, rad.
-pub(crate) const WRONG: f64 = 0.2;
+/// Units or axes are wrong where the median error of the rotations is beyond this, rad.
+pub(crate) const WRONG_RAD: f64 = 0.2;
 
-/// A rotation is cut down to about so many samples for a first look.
-const SAMPLES: usize = 150;
+/// A coarse rotation has about this many samples.
+const COARSE_SAMPLES: usize = 150;
 
 /// How far gravity misses after the rotations, for one matrix of the gyroscope.
 pub(crate) struct Judged {
@@ -37,7 +37,7 @@ impl CoarseRotations {
     pub(crate) fn of(model: &ImuModel<'_>, state: &State) -> Self {
         let used = model.rotations.iter().filter(|data| data.used);
         let cut_down = |data: &RotationData<'_>| {
-            let step = data.samples.times_s.len().div_ceil(SAMPLES);
+            let step = data.samples.times_s.len().div_ceil(COARSE_SAMPLES);
             let bias = state.imu.at(data.samples.temperature_c()).gyroscope.bias;
             CutDown {
                 turns: data.samples.cut_down(&bias, step),

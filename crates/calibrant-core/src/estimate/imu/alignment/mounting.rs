@@ -8,22 +8,22 @@ use crate::estimate::imu::alignment::coarse_rotations::CoarseRotations;
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use rayon::prelude::*;
 
-/// Fewer rotations fit some attitude by chance: half of them within 0.2 rad for one of some 5000 attitudes happens once in 10⁵ times for twelve.
-const ENOUGH: usize = 12;
+/// Fewer rotations fit some attitude by chance. Half of twelve within 0.2 rad for one of some 5000 attitudes happens once in 10⁵ times.
+const ENOUGH_ROTATIONS: usize = 12;
 
 /// Angle between knots, rad.
-const MESH: f64 = 0.52;
+const MESH_RAD: f64 = 0.52;
 
-/// Knots that are improved,
-const BEST: usize = 8;
+/// Number of knots that are improved.
+const KNOTS_IMPROVED: usize = 8;
 
-/// by turns of these angles, rad,
-const TURNS: [f64; 4] = [0.3, 0.15, 0.07, 0.03];
+/// Knots are improved by turns of these angles, rad.
+const TURNS_RAD: [f64; 4] = [0.3, 0.15, 0.07, 0.03];
 
-/// and by these factors of the gain, where it is not known.
-const FACTORS: [f64; 2] = [0.93, 1.0 / 0.93];
+/// Knots are improved by these factors of the gain, where it is not known.
+const GAIN_FACTORS: [f64; 2] = [0.93, 1.0 / 0.93];
 
-/// Improvements with each angle at most.
+/// Each angle improves a knot at most this many times.
 const ROUNDS: usize = 6;
 
 /// The matrix with the least median error, rad, of all attitudes of these; `None` where the rotations are too few to tell. `is_scaled`: are these gains guesses?
@@ -32,14 +32,14 @@ pub(crate) fn find_mounting(
     gains: &[Matrix3<f64>],
     is_scaled: bool,
 ) -> Option<(f64, Matrix3<f64>)> {
-    if look.len() < ENOUGH {
+    if look.len() < ENOUGH_ROTATIONS {
         return None;
     }
     let judged = |matrix: Matrix3<f64>| Some((look.judge(&matrix)?.median_rad, matrix));
     let by_error = |one: &(f64, Matrix3<f64>), other: &(f64, Matrix3<f64>)| one.0.total_cmp(&other.0);
     // −1, 0 or 1 along each axis
     let digit = |k: i32, place: u32| f64::from(k / 3_i32.pow(place) % 3 - 1);
-    let offsets = (0..27).map(|k| turned_by(MESH * Vector3::new(digit(k, 0), digit(k, 1), digit(k, 2))));
+    let offsets = (0..27).map(|k| turned_by(MESH_RAD * Vector3::new(digit(k, 0), digit(k, 1), digit(k, 2))));
     let offsets: Vec<Matrix3<f64>> = offsets.collect();
     let orders = orders();
     let attitudes: Vec<Matrix3<f64>> =
@@ -48,12 +48,12 @@ pub(crate) fn find_mounting(
         |attitude: &Matrix3<f64>| gains.iter().filter_map(|gain| judged(gain * attitude)).min_by(by_error);
     let mut knots: Vec<(f64, Matrix3<f64>)> = attitudes.par_iter().filter_map(knot).collect();
     knots.sort_by(by_error);
-    knots.truncate(BEST);
+    knots.truncate(KNOTS_IMPROVED);
     let improved = |(mut least, mut matrix): (f64, Matrix3<f64>)| {
-        for angle in TURNS {
+        for angle in TURNS_RAD {
             let turns = [Vector3::x(), Vector3::y(), Vector3::z()].map(|axis| axis * angle);
             let turns = turns.into_iter().flat_map(|turn| [turned_by(turn), turned_by(-turn)]);
-            let scales = FACTORS.into_iter().filter(|_| is_scaled).map(Matrix3::from_diagonal_element);
+            let scales = GAIN_FACTORS.into_iter().filter(|_| is_scaled).map(Matrix3::from_diagonal_element);
             let changes: Vec<Matrix3<f64>> = turns.chain(scales).collect();
             for _ in 0..ROUNDS {
                 let tries = changes.iter().filter_map(|change| judged(matrix * change));

@@ -5,23 +5,24 @@
 //! follow, then all attitudes (`mounting`).
 
 use crate::estimate::imu::alignment::axes::{Axes, axis_names, orders};
-use crate::estimate::imu::alignment::coarse_rotations::{CoarseRotations, Judged, WRONG};
+use crate::estimate::imu::alignment::coarse_rotations::{CoarseRotations, Judged, WRONG_RAD};
 use crate::estimate::imu::alignment::mounting::find_mounting;
 use crate::estimate::imu::model::{ImuModel, State};
 use crate::sensor::{ImuParameters, ReadingUnit};
 use nalgebra::Matrix3;
 use rayon::prelude::*;
 
-/// Rotations that no wrong order of the axes fits by chance: three of four within [`WRONG`] for one of 48 orders happens once in 5000 times.
-const ENOUGH: usize = 4;
+/// No wrong order of the axes fits this many rotations by chance. Three of four within [`WRONG_RAD`] for one of 48 orders happens once in 5000 times.
+const ENOUGH_ROTATIONS: usize = 4;
 
-/// So many rotations that end upside down are no single faults.
-const SEVERAL: usize = 2;
+/// This many rotations that end upside down are no single faults.
+const SEVERAL_UPSIDE_DOWN: usize = 2;
 
-/// Gains that are tried: so many, each smaller by this factor.
-const GAINS: usize = 16;
+/// Number of gains that are tried.
+const GAINS_TRIED: usize = 16;
 
-const FACTOR: f64 = 0.92;
+/// Each gain is the one before times this.
+const GAIN_STEP: f64 = 0.92;
 
 /// A start, and the median error of the rotations with it, rad.
 pub(crate) struct Alignment {
@@ -53,13 +54,15 @@ pub(crate) fn find_alignment(
     };
     // the axis about which the fewer rotations turned may be the one that points the other way
     let fewer_upside_down = |matrix: &Matrix3<f64>, before: usize| {
-        if before < SEVERAL {
+        if before < SEVERAL_UPSIDE_DOWN {
             return None;
         }
         orders()
             .par_iter()
             .filter_map(|order| judged(order * matrix))
-            .filter(|(look, _)| SEVERAL * look.upside_down <= before && look.median_rad <= WRONG)
+            .filter(|(look, _)| {
+                SEVERAL_UPSIDE_DOWN * look.upside_down <= before && look.median_rad <= WRONG_RAD
+            })
             .min_by(|(one, _), (other, _)| {
                 one.upside_down.cmp(&other.upside_down).then(one.median_rad.total_cmp(&other.median_rad))
             })
@@ -71,20 +74,24 @@ pub(crate) fn find_alignment(
     };
     let turned = |gains: &[Matrix3<f64>], is_scaled: bool| {
         let (median_rad, matrix) = find_mounting(&look, gains, is_scaled)?;
-        (median_rad <= WRONG).then(|| Alignment { imu: with(matrix), median_rad, axes: Some(Axes::Turned) })
+        (median_rad <= WRONG_RAD).then(|| Alignment {
+            imu: with(matrix),
+            median_rad,
+            axes: Some(Axes::Turned),
+        })
     };
     if let Some(matrix) = nominal {
         let imu = with(matrix);
         let Judged { median_rad, upside_down } = look.judge(&matrix)?;
         let as_it_is = Alignment { imu, median_rad, axes: None };
         // few rotations fit some order by chance
-        let few = model.rotations.iter().filter(|data| data.used).count() < ENOUGH;
-        if median_rad <= WRONG || (unit != ReadingUnit::Counts && few) {
+        let few = model.rotations.iter().filter(|data| data.used).count() < ENOUGH_ROTATIONS;
+        if median_rad <= WRONG_RAD || (unit != ReadingUnit::Counts && few) {
             return Some(fewer_upside_down(&matrix, upside_down).filter(|_| !few).unwrap_or(as_it_is));
         }
         if unit != ReadingUnit::Counts {
             let (Judged { median_rad, .. }, found) = best(&orders().map(|order| order * matrix))?;
-            if median_rad <= WRONG {
+            if median_rad <= WRONG_RAD {
                 return Some(Alignment {
                     imu: with(found),
                     median_rad,
@@ -95,24 +102,24 @@ pub(crate) fn find_alignment(
         }
     }
     let largest = gain_bound(model, state)?;
-    let gains: Vec<f64> = (0..GAINS).map(|k| 1.1 * largest * FACTOR.powi(k as i32)).collect();
+    let gains: Vec<f64> = (0..GAINS_TRIED).map(|k| 1.1 * largest * GAIN_STEP.powi(k as i32)).collect();
     let scaled = |orders: &[Matrix3<f64>]| -> Vec<Matrix3<f64>> {
         orders.iter().flat_map(|order| gains.iter().map(move |gain| order * *gain)).collect()
     };
     let (mut found, mut matrix) = best(&scaled(&[Matrix3::identity()]))?;
     let mut axes = None;
-    if found.median_rad > WRONG {
+    if found.median_rad > WRONG_RAD {
         let better = best(&scaled(&orders())).filter(|(other, _)| other.median_rad < 0.5 * found.median_rad);
         if let Some(other) = better {
             (found, matrix) = other;
             axes = Some(Axes::InOrder(axis_names(&matrix)));
         }
     }
-    if found.median_rad > WRONG {
+    if found.median_rad > WRONG_RAD {
         let some: Vec<Matrix3<f64>> = gains
             .iter()
             .step_by(2)
-            .take(GAINS / 3)
+            .take(GAINS_TRIED / 3)
             .map(|gain| Matrix3::from_diagonal_element(*gain))
             .collect();
         if let Some(turned) = turned(&some, true) {
@@ -120,7 +127,7 @@ pub(crate) fn find_alignment(
         }
     }
     let Judged { median_rad, upside_down } = found;
-    let upright = if median_rad <= WRONG { fewer_upside_down(&matrix, upside_down) } else { None };
+    let upright = if median_rad <= WRONG_RAD { fewer_upside_down(&matrix, upside_down) } else { None };
     Some(upright.unwrap_or_else(|| Alignment { imu: with(matrix), median_rad, axes }))
 }
 

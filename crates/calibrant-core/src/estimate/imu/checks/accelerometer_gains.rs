@@ -4,25 +4,25 @@ use crate::error::{Complaint, Error, Result};
 use crate::sensor::{Axis, ReadingUnit};
 use nalgebra::Matrix3;
 
-/// Gains of readings in SI that may be: a range that is not the one that was set is half or twice of it.
-const GAINS: std::ops::RangeInclusive<f64> = 0.4..=2.5;
+/// Readings in SI may have these gains. A range that is not the one that was set makes half or twice of it.
+const POSSIBLE_GAINS: std::ops::RangeInclusive<f64> = 0.4..=2.5;
 
-/// Axes of a sensor are at right angles to a few degrees; mistakes are far larger, rad.
+/// Axes of a sensor are at right angles to a few degrees. Mistakes are far larger, rad.
 const CROOKED_RAD: f64 = 0.5;
 
-/// The standard acceleration of gravity, m/s²: what readings in g are multiplied by.
-const G: f64 = 9.806_65;
+/// The standard acceleration of gravity, by which readings in g are multiplied, m/s².
+const STANDARD_GRAVITY_MPS2: f64 = 9.806_65;
 
 /// Refuses an accelerometer that no sensor is: of quite another gain in SI, or with axes far from right angles.
 pub(crate) fn check(unit: ReadingUnit, matrix: &Matrix3<f64>) -> Result<()> {
     let gain = |axis: &Axis| matrix.row(axis.index()).norm();
-    let is_absurd = |axis: &&Axis| unit != ReadingUnit::Counts && !GAINS.contains(&gain(axis));
+    let is_absurd = |axis: &&Axis| unit != ReadingUnit::Counts && !POSSIBLE_GAINS.contains(&gain(axis));
     if let Some(axis) = Axis::ALL.iter().find(is_absurd) {
         let gain = gain(axis);
         let near = |factor: f64| (gain / factor - 1.0).abs() < 0.2;
-        let help = if near(G) {
+        let help = if near(STANDARD_GRAVITY_MPS2) {
             "are the readings in m/s², and stated to be in g?"
-        } else if near(1.0 / G) {
+        } else if near(1.0 / STANDARD_GRAVITY_MPS2) {
             "are the readings in g, and stated to be in m/s²?"
         } else {
             "are the unit of the accelerometer, holds.gravity_mps2 and the times of the holds right?"

@@ -1,13 +1,13 @@
 //! Axes of the gyroscope that show hardly a turn in any rotation.
 
 use crate::error::{Complaint, Error, Result};
-use crate::estimate::imu::alignment::coarse_rotations::WRONG;
+use crate::estimate::imu::alignment::coarse_rotations::WRONG_RAD;
 use crate::estimate::imu::checks::axes_in_words::axes_in_words;
 use crate::estimate::imu::model::{ImuModel, RotationData, State};
 use crate::sensor::Axis;
 
-/// An axis that shows less than this in all rotations does not turn, rad: noise and drift of the bias.
-const HARDLY: f64 = 0.05;
+/// An axis that shows less than this in all rotations does not turn, rad. Noise and the drift of the bias show as much.
+const HARDLY_RAD: f64 = 0.05;
 
 /// Refuses them, but where gravity does not move much either.
 pub(crate) fn check(model: &ImuModel<'_>, state: &State) -> Result<()> {
@@ -25,8 +25,8 @@ pub(crate) fn check(model: &ImuModel<'_>, state: &State) -> Result<()> {
         };
         used().map(angle).fold(0.0, f64::max)
     };
-    let still: Vec<Axis> = Axis::ALL.into_iter().filter(|axis| turned(axis) < HARDLY).collect();
-    if still.is_empty() || moved < WRONG {
+    let still: Vec<Axis> = Axis::ALL.into_iter().filter(|axis| turned(axis) < HARDLY_RAD).collect();
+    if still.is_empty() || moved < WRONG_RAD {
         return Ok(());
     }
     let most = still.iter().map(turned).fold(0.0, f64::max);

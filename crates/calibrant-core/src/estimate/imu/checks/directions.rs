@@ -3,7 +3,7 @@
 use crate::sensor::Axis;
 use nalgebra::{Matrix3, Vector3};
 
-/// Faces by hand, unknown gains and non-orthogonality stay well below this angle, mistakes of a direction are 90° or 180°.
+/// Two directions agree within this, rad. Faces by hand, unknown gains and non-orthogonality stay well below it; mistakes are 90° or 180°.
 pub(crate) const AGREES_RAD: f64 = 0.5;
 
 /// Is this matrix of an accelerometer that of another order of its axes?

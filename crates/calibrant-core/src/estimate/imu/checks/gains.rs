@@ -6,7 +6,7 @@ use crate::estimate::imu::result::ImuCalibration;
 use crate::sensor::{Axis, ReadingUnit, Triad};
 
 /// Gains of readings in SI that are plausible.
-const GAINS: std::ops::RangeInclusive<f64> = 0.8..=1.25;
+const PLAUSIBLE_GAINS: std::ops::RangeInclusive<f64> = 0.8..=1.25;
 
 /// Those that are not.
 pub(crate) fn check(evidence: &Evidence<'_>) -> Diagnostics {
@@ -30,7 +30,7 @@ fn of_gains(calibration: &ImuCalibration, reordered: bool) -> Vec<String> {
         }
         for axis in Axis::ALL {
             let along = matrix[(axis.index(), axis.index())];
-            if !GAINS.contains(&along) {
+            if !PLAUSIBLE_GAINS.contains(&along) {
                 warnings.push(format!(
                     "the {triad} shows {along:.3} of what there is along its axis {axis}, for readings in {} it should be near 1: are unit, sample rate, order and \
                      direction of the axes right, and what was given of turns and faces?",

@@ -4,8 +4,8 @@ use crate::estimate::imu::checks::evidence::{Diagnostics, Evidence};
 use crate::estimate::imu::problem::NoiseSource;
 use crate::sensor::Axis;
 
-/// Scatter within holds over the noise that was given that is not worth a word.
-const NOISE: std::ops::RangeInclusive<f64> = 0.5..=2.0;
+/// The scatter within holds over the noise that was given is no cause for concern in this range.
+const USUAL_RATIOS: std::ops::RangeInclusive<f64> = 0.5..=2.0;
 
 /// Axes that scatter by much more or less in the holds.
 pub(crate) fn check(evidence: &Evidence<'_>) -> Diagnostics {
@@ -15,7 +15,7 @@ pub(crate) fn check(evidence: &Evidence<'_>) -> Diagnostics {
     let (scatter, noise) = (&evidence.gyroscope.scatter, &evidence.model.gyroscope_noise.of_sample);
     let words = |axis: Axis| {
         let ratio = scatter[axis.index()] / noise[axis.index()];
-        (!NOISE.contains(&ratio)).then(|| {
+        (!USUAL_RATIOS.contains(&ratio)).then(|| {
             format!(
                 "the scatter of the gyroscope's axis {axis} within the holds is {ratio:.2} times the noise that was given"
             )

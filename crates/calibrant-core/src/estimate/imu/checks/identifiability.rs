@@ -7,9 +7,10 @@ use crate::information::{self, Undetermined};
 use crate::sensor::{Axis, ImuParameters, ImuQuantity, Quantity, Triad};
 use nalgebra::DMatrix;
 
-/// Entries of the gyroscope's matrix known to less than this share of its gain are not determined.
-const VAGUE: f64 = 0.1;
+/// An entry of the gyroscope's matrix is not determined where it is known to less than this share of its gain.
+const VAGUE_SHARE: f64 = 0.1;
 
+/// What determines the gyroscope's matrix.
 const REMEDY: &str = "turn the sensor between the holds, by 90° and more, about each of its axes, away from the vertical; at least 8 rotations";
 
 /// Refuses a problem that leaves parameters open at this state. `fit`: the problem linearised there.
@@ -161,7 +162,7 @@ fn vague(model: &ImuModel<'_>, state: &State, covariance: &DMatrix<f64>) -> Opti
             ImuQuantity::Of(_, Quantity::Bias(_))
             | ImuQuantity::GSensitivity(..)
             | ImuQuantity::Thermal(..) => false,
-            ImuQuantity::Of(..) => sd(k) > VAGUE && !is_known(k),
+            ImuQuantity::Of(..) => sd(k) > VAGUE_SHARE && !is_known(k),
         })
         .collect();
     let most = entries.iter().map(|&k| sd(k)).fold(0.0, f64::max);

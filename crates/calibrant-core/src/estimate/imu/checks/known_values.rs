@@ -2,8 +2,8 @@
 
 use crate::estimate::imu::checks::evidence::{Diagnostics, Evidence};
 
-/// Standard deviations by which the data may be off what was given before it is told.
-const CONTRADICTED: f64 = 4.5;
+/// The data contradict a value that is off by this many standard deviations.
+const CONTRADICTED_SD: f64 = 4.5;
 
 /// Those that are far off by their own standard deviations.
 pub(crate) fn check(evidence: &Evidence<'_>) -> Diagnostics {
@@ -12,7 +12,7 @@ pub(crate) fn check(evidence: &Evidence<'_>) -> Diagnostics {
     let mut warnings = Vec::new();
     for (k, quantity) in model.quantities.iter().enumerate() {
         let off = (quantity.of(imu) - mean[k]).abs() * weight[k].sqrt();
-        if off > CONTRADICTED {
+        if off > CONTRADICTED_SD {
             warnings.push(format!(
                 "the data contradict what [known] says of {}: {off:.0} standard deviations from {}",
                 quantity.name(),

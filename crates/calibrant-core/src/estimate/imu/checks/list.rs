@@ -7,9 +7,8 @@ use crate::estimate::imu::checks::{
     skewed_spikes, time_offset, turns_of_known_angle,
 };
 
-type Check = fn(&Evidence<'_>) -> Diagnostics;
-
-const CHECKS: [Check; 18] = [
+/// Every check, in order.
+const CHECKS: [fn(&Evidence<'_>) -> Diagnostics; 18] = [
     time_offset::check,
     changes::check,
     holds_left_out::check,

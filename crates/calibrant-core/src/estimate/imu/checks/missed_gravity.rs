@@ -1,14 +1,14 @@
 //! Gravity that half of the rotations miss, whatever the gyroscope's matrix.
 
 use crate::error::{Complaint, Error, Result};
-use crate::estimate::imu::alignment::coarse_rotations::WRONG;
+use crate::estimate::imu::alignment::coarse_rotations::WRONG_RAD;
 use crate::estimate::imu::checks::{axes_without_rotation, gyroscope_unit};
 use crate::estimate::imu::model::{ImuModel, State};
 use crate::estimate::result::HoldCalibration;
 use crate::sensor::ReadingUnit;
 
 /// Holds that scatter by more than this share of gravity are none.
-const MOVING: f64 = 0.005;
+const MOVING_SHARE: f64 = 0.005;
 
 /// Refuses readings that cannot be angular rates in the unit given.
 pub(crate) fn check(
@@ -18,7 +18,7 @@ pub(crate) fn check(
     unit: ReadingUnit,
     holds: &HoldCalibration,
 ) -> Result<()> {
-    if median_rad <= WRONG {
+    if median_rad <= WRONG_RAD {
         return Ok(());
     }
     let degrees = median_rad.to_degrees();
@@ -30,7 +30,7 @@ pub(crate) fn check(
     }
     axes_without_rotation::check(model, state)?;
     let scatter = holds.between_holds_sd_mps2;
-    if scatter > MOVING * model.gravity {
+    if scatter > MOVING_SHARE * model.gravity {
         let message = format!(
             "{message}, and the holds themselves scatter by {:.0} mm/s² beyond their noise",
             1e3 * scatter

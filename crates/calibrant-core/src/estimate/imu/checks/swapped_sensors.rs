@@ -5,11 +5,11 @@ use crate::estimate::holds::{find_holds_in, median};
 use crate::sensor::{ImuRecording, Recording};
 use nalgebra::Vector3;
 
-/// So many stretches of rest that differ are those of an accelerometer in several orientations.
-const SEVERAL: usize = 4;
+/// This many segments of rest that differ are those of an accelerometer in several orientations.
+const SEVERAL_RESTS: usize = 4;
 
-/// They differ if their means scatter by this many standard deviations of a sample.
-const DIFFER: f64 = 10.0;
+/// Segments differ if their means scatter by this many standard deviations of a sample.
+const DIFFER_SD: f64 = 10.0;
 
 /// Says that the gyroscope rests at different values, as an accelerometer does, and the accelerometer at one value at most.
 #[must_use]
@@ -34,10 +34,10 @@ pub(crate) fn with_swapped_sensors(error: Error, recording: &ImuRecording, minim
 
 fn rests_at_several(recording: &Recording, minimum_s: f64) -> bool {
     let Ok(rests) = find_holds_in(recording, minimum_s) else { return false };
-    if rests.len() < SEVERAL {
+    if rests.len() < SEVERAL_RESTS {
         return false;
     }
     let center = Vector3::from_fn(|axis, _| median(rests.iter().map(|rest| rest.mean[axis]).collect()));
     let off = median(rests.iter().map(|rest| (rest.mean - center).norm()).collect());
-    off > DIFFER * median(rests.iter().map(|rest| rest.sd.norm()).collect())
+    off > DIFFER_SD * median(rests.iter().map(|rest| rest.sd.norm()).collect())
 }

@@ -1,14 +1,15 @@
 //! Time offset and clock skew: does the gyroscope show movements later than the accelerometer?
 //!
-//! How they are found is told in `clock`.
+//! `clock` finds them.
 
 use crate::estimate::imu::checks::evidence::{Diagnostics, Evidence};
 use crate::estimate::imu::clock::difference::ClockDifference;
 use crate::sensor::Recording;
 
-/// A lag of fewer sample intervals, or of less than so many s, needs no word.
-const INTERVALS: f64 = 1.5;
+/// An offset of fewer sample intervals does not matter.
+const SHORT_INTERVALS: f64 = 1.5;
 
+/// A shorter offset does not matter, s.
 const SHORT_S: f64 = 0.005;
 
 /// The offset or the skew, where it is certain and matters.
@@ -41,7 +42,7 @@ pub(crate) fn words(
         ));
     }
     let step = accelerometer.rate_hz().min(gyroscope.rate_hz()).recip();
-    let matters = clock.offset_s.abs() > SHORT_S.max(INTERVALS * step);
+    let matters = clock.offset_s.abs() > SHORT_S.max(SHORT_INTERVALS * step);
     (matters && clock.is_certain(clock.offset_s, clock.offset_sd_s)).then(|| {
         format!(
             "the gyroscope shows movements {} than the accelerometer (± {:.1} ms): a latency, or clocks that were set differently; holds and rotations are cut short by it: {}",

@@ -10,28 +10,31 @@ use crate::sensor::{ImuRecording, Recording};
 use nalgebra::Vector3;
 use rayon::prelude::*;
 
-/// Width of a bin in the first search, s; more in a recording of more bins than `MOST`.
+/// Width of a bin in the first search, s. It is more in a recording of more bins than [`MOST_BINS`].
 const BIN_S: f64 = 0.2;
 
-const MOST: f64 = 2000.0;
+/// Largest number of bins.
+const MOST_BINS: f64 = 2000.0;
 
-/// Largest lag, s, and largest growth that are looked for.
-const LARGEST_S: f64 = 30.0;
+/// Largest offset that is looked for, s.
+const LARGEST_OFFSET_S: f64 = 30.0;
 
-const FASTEST: f64 = 0.03;
+/// Largest skew that is looked for.
+const LARGEST_SKEW: f64 = 0.03;
 
-/// Both sensors must move alike to this correlation,
+/// Both sensors must move alike to this correlation.
 const ALIKE: f64 = 0.6;
 
-/// by so much more than as recorded,
+/// The correlation must be larger by this than that as recorded.
 const BETTER: f64 = 0.2;
 
-/// and by so much more than at any lag that is farther off than this, s: holds that follow each other evenly look alike a period later.
+/// The correlation must be larger by this than at any far offset. Holds that follow each other evenly look alike a period later.
 const UNIQUE: f64 = 0.05;
 
+/// An offset is far from the best beyond this, s.
 const FAR_S: f64 = 1.0;
 
-/// The second search is so many times as fine.
+/// The second search is this many times as fine.
 const FINER: f64 = 4.0;
 
 /// How a sensor moves in each bin of the time.
@@ -107,7 +110,7 @@ pub(crate) fn shifted(recording: &ImuRecording) -> Option<String> {
     let ends = |recording: &Recording| Some((*recording.times_s.first()?, *recording.times_s.last()?));
     let (first, last) = ends(recording.accelerometer.as_ref()?)?;
     let (other_first, other_last) = ends(recording.gyroscope.as_ref()?)?;
-    let bin_s = BIN_S.max((last - first).max(other_last - other_first) / MOST);
+    let bin_s = BIN_S.max((last - first).max(other_last - other_first) / MOST_BINS);
     if last - first < FAR_S || other_last - other_first < FAR_S {
         return None;
     }
@@ -118,7 +121,7 @@ pub(crate) fn shifted(recording: &ImuRecording) -> Option<String> {
         let count = (most / step) as i32;
         move || (-count..=count).map(move |k| f64::from(k) * step)
     };
-    let (offsets, skews) = (all(LARGEST_S, bin_s), all(FASTEST, step));
+    let (offsets, skews) = (all(LARGEST_OFFSET_S, bin_s), all(LARGEST_SKEW, step));
     let tries: Vec<(f64, f64)> =
         skews().flat_map(|skew| offsets().map(move |offset_s| (offset_s, skew))).collect();
     let judged = |[one, other]: [&Activity; 2], tries: Vec<(f64, f64)>| -> Vec<(f64, f64, f64)> {

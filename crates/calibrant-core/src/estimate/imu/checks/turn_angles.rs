@@ -4,16 +4,16 @@ use crate::estimate::imu::checks::directions::{AGREES_RAD, direction_in_words};
 use crate::estimate::imu::problem::Turn;
 use nalgebra::Vector3;
 
-/// Readings in SI whose angle is off that of a turn by more than this share show another one.
-pub(crate) const OTHER_TURN: f64 = 0.25;
+/// Readings in SI show another turn where their angle is off by more than this share.
+pub(crate) const OTHER_TURN_SHARE: f64 = 0.25;
 
-/// A factor this close to 180/π is taken for it.
-const DEGREES_OR_RADIANS: f64 = 0.1;
+/// A factor is taken for 180/π where it is as close as this share.
+const NEAR_DEGREES: f64 = 0.1;
 
 /// What a factor between the angle that the gyroscope shows and the one that was given tells, if it is that between degrees and radians.
 pub(crate) fn factor(share: f64) -> Option<&'static str> {
     const DEGREES: f64 = 180.0 / std::f64::consts::PI;
-    let near = |factor: f64| (share / factor - 1.0).abs() < DEGREES_OR_RADIANS;
+    let near = |factor: f64| (share / factor - 1.0).abs() < NEAR_DEGREES;
     if near(DEGREES) {
         return Some(
             "180/π times. Is the angle in radians, where degrees are meant (angle_deg = 360.0 for a whole turn), or are the gyroscope's readings in deg/s and read as rad/s?",
@@ -24,7 +24,7 @@ pub(crate) fn factor(share: f64) -> Option<&'static str> {
 
 /// Is what readings in SI show of a turn another one, by its angle or by its axis? Errors of a few degrees and per cent in both sensors are none.
 pub(crate) fn is_another(shown: &Vector3<f64>, given: &Vector3<f64>) -> bool {
-    (shown.norm() / given.norm() - 1.0).abs() > OTHER_TURN || shown.angle(given) > AGREES_RAD
+    (shown.norm() / given.norm() - 1.0).abs() > OTHER_TURN_SHARE || shown.angle(given) > AGREES_RAD
 }
 
 /// What was given of a turn, and what is shown of it, rad.

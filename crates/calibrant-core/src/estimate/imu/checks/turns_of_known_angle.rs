@@ -1,14 +1,14 @@
 //! Turns of known angle that do not fit the other data.
 
 use crate::estimate::imu::checks::evidence::{Diagnostics, Evidence};
-use crate::estimate::imu::checks::turn_angles::{OTHER_TURN, factor, is_another, shows_another};
+use crate::estimate::imu::checks::turn_angles::{OTHER_TURN_SHARE, factor, is_another, shows_another};
 use crate::estimate::imu::model::{Fit, ImuModel, TurnData};
 use crate::estimate::imu::problem::Turn;
 use crate::estimate::imu::result::ImuCalibration;
 use crate::sensor::ReadingUnit;
 
-/// Standard deviations by which the data may be off what was given before it is told.
-const CONTRADICTED: f64 = 4.5;
+/// The data contradict a turn that is off by this many standard deviations.
+const CONTRADICTED_SD: f64 = 4.5;
 
 /// Turns that show another angle than was given; where there are none, turns that fit badly.
 pub(crate) fn check(evidence: &Evidence<'_>) -> Diagnostics {
@@ -35,7 +35,7 @@ fn of_turns(model: &ImuModel<'_>, fit: &Fit, turns: &[Turn], calibration: &ImuCa
     for (number, (data, turn)) in model.turns.iter().zip(turns).enumerate() {
         let residual = model.turn_residual(data, &fit.state.imu);
         let off = residual.component_mul(&residual).dot(&data.weight).sqrt();
-        if off > CONTRADICTED {
+        if off > CONTRADICTED_SD {
             warnings.push(format!(
                 "{}, {:.1}°, does not fit the other data, by {off:.0} standard deviations: are its times, axis and angle right?",
                 turn.named(number),
@@ -53,7 +53,7 @@ fn same_share(model: &ImuModel<'_>, fit: &Fit) -> Option<f64> {
     let mean = model.turns.iter().map(share).sum::<f64>() / model.turns.len() as f64;
     let follows =
         |data: &TurnData| (shown(data) - mean * data.angle).norm() < 0.1 * mean.abs() * data.angle.norm();
-    (model.turns.len() > 1 && (mean - 1.0).abs() > OTHER_TURN && model.turns.iter().all(follows))
+    (model.turns.len() > 1 && (mean - 1.0).abs() > OTHER_TURN_SHARE && model.turns.iter().all(follows))
         .then_some(mean)
 }
 

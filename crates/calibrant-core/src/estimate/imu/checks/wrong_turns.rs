@@ -12,8 +12,8 @@ use crate::estimate::imu::problem::{Gyroscope, Turn};
 use crate::sensor::{ImuParameters, ReadingUnit};
 use nalgebra::{Matrix3, Vector3};
 
-/// All turns may show this share of their angle: a range that is not the one that was set. It is warned of.
-const SHARES: std::ops::RangeInclusive<f64> = 0.55..=1.8;
+/// All turns may show this share of their angle, where the range is not the one that was set. The fit warns of it.
+const PLAUSIBLE_SHARES: std::ops::RangeInclusive<f64> = 0.55..=1.8;
 
 /// Refuses turns that the gyroscope contradicts; warns where its axes are the accelerometer's in another order. `imu`: the accelerometer, and the gyroscope's bias.
 pub(crate) fn check(
@@ -26,7 +26,7 @@ pub(crate) fn check(
         return Ok(None);
     };
     let share = shown.same_share().filter(|_| gyroscope.unit != ReadingUnit::Counts);
-    if let Some(share) = share.filter(|share| !SHARES.contains(share)) {
+    if let Some(share) = share.filter(|share| !PLAUSIBLE_SHARES.contains(share)) {
         let help = if share < 0.0 {
             "angles are right-handed about the axis: is the sign of the angle of the turns right (gyroscope.turn_angle_deg, angle_deg)? else change the sign of the gyroscope's columns"
         } else {

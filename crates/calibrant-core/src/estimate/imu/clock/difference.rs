@@ -14,29 +14,29 @@ use crate::sensor::Recording;
 use rayon::prelude::*;
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
-/// Fewer rotations do not tell.
+/// Fewer rotations do not show an offset.
 const FEWEST: usize = 6;
 
-/// Lags are looked for beside an arm so many times, from the line through those before,
+/// Offsets are looked for beside an arm this many times, each time from the line through those before.
 const PASSES: usize = 2;
 
-/// and count where they are found in this share of the rotations.
-const FOUND: f64 = 0.4;
+/// Offsets beside an arm count where they are found in this share of the rotations.
+const FOUND_SHARE: f64 = 0.4;
 
-/// Lags this many standard deviations off the line do not count,
-const OUTLYING: f64 = 4.0;
+/// Offsets this many standard deviations off the line do not count.
+const OUTLYING_SD: f64 = 4.0;
 
-/// if most do.
-const AGREEING: f64 = 0.7;
+/// There is no line where fewer than this share of the offsets agree.
+const AGREEING_SHARE: f64 = 0.7;
 
-/// Rounds in which lags are left out.
+/// Rounds in which offsets are left out.
 const ROUNDS: usize = 8;
 
-/// Probability of a lag, or of a growth, this large where there is none.
+/// Probability of an offset, or of a skew, this large where there is none.
 const BY_CHANCE: f64 = 1e-3;
 
-/// Nor does a rate that differs by less than this share, as those of good quartzes do.
-const COMMON: f64 = 5e-5;
+/// The clocks of good quartzes differ by this share.
+const COMMON_SKEW: f64 = 5e-5;
 
 /// By how much the gyroscope's times are later than the accelerometer's: `offset_s + skew (t − at_s)`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -63,7 +63,7 @@ impl ClockDifference {
             let (offset_s, skew) = median_line(&offsets)?;
             let near = |shown: &ComparedRotation<'_>| shown.offset_beside_arm(offset_s + skew * shown.at_s);
             let closer: Vec<TimeOffset> = rotations.par_iter().filter_map(near).collect();
-            if (closer.len() as f64) < FOUND * rotations.len() as f64 {
+            if (closer.len() as f64) < FOUND_SHARE * rotations.len() as f64 {
                 break;
             }
             offsets = closer;
@@ -74,7 +74,7 @@ impl ClockDifference {
         Self::through(&offsets)
     }
 
-    /// The line through lags of which some may be wild.
+    /// The line through lags of which some may be outliers.
     fn through(offsets: &[TimeOffset]) -> Option<Self> {
         let (offset_s, skew) = median_line(offsets)?;
         let mut line =
@@ -83,8 +83,8 @@ impl ClockDifference {
             let off = |offset: &TimeOffset| (offset.offset_s - line.at(offset.at_s)) * offset.weight.sqrt();
             let scale = 1.4826 * median(offsets.iter().map(|offset| off(offset).abs()).collect());
             let kept: Vec<TimeOffset> =
-                offsets.iter().filter(|offset| off(offset).abs() <= OUTLYING * scale).copied().collect();
-            if kept.len() < FEWEST || (kept.len() as f64) < AGREEING * offsets.len() as f64 {
+                offsets.iter().filter(|offset| off(offset).abs() <= OUTLYING_SD * scale).copied().collect();
+            if kept.len() < FEWEST || (kept.len() as f64) < AGREEING_SHARE * offsets.len() as f64 {
                 return None;
             }
             let before = line.degrees_of_freedom;
@@ -136,7 +136,7 @@ impl ClockDifference {
 
     /// The rates of the clocks, where they are certain to differ by more than those of good ones.
     pub(crate) fn rate(&self) -> Option<ClockRate> {
-        let differ = self.skew.abs() > COMMON && self.is_certain(self.skew, self.skew_sd);
+        let differ = self.skew.abs() > COMMON_SKEW && self.is_certain(self.skew, self.skew_sd);
         differ.then_some(ClockRate { faster: self.skew, sd: self.skew_sd })
     }
 }
@@ -156,7 +156,7 @@ fn median_line(offsets: &[TimeOffset]) -> Option<(f64, f64)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::estimate::imu::checks::time_offset::words;
+    use crate::estimate::imu::checks::time_offset;
     use crate::simulate::{Purpose, stream};
     use rand_distr::{Distribution, StandardNormal};
 
@@ -174,14 +174,14 @@ mod tests {
             let mut normal = || -> f64 { StandardNormal.sample(&mut rng) };
             let offset = |k: usize| {
                 let (at_s, weight) = (5.0 * k as f64 + normal(), 22.0 * (1.0 + 0.5 * normal().tanh()));
-                // one in twelve is wild
+                // one in twelve is an outlier
                 let wild = if k % 12 == 7 { 40.0 } else { 1.0 };
                 let scatter = wild * 0.022 / weight.sqrt() * normal();
                 TimeOffset { at_s, offset_s: latency_s + skew * at_s + scatter, weight }
             };
             let offsets: Vec<TimeOffset> = (0..rotations).map(offset).collect();
             let Some(found) = ClockDifference::through(&offsets) else { continue };
-            words += usize::from(words(&found, &slow, &fast).is_some());
+            words += usize::from(time_offset::words(&found, &slow, &fast).is_some());
             squares += ((found.skew - skew) / found.skew_sd).powi(2) / count as f64;
         }
         (words, squares)

@@ -11,27 +11,28 @@ use crate::estimate::imu::model::{RotationData, State};
 use crate::sensor::{Correction, Recording, interpolated};
 use nalgebra::{Matrix3, Vector3};
 
-/// A rotation is compared at times about so far apart, s: in so many steps, or these limits.
+/// A rotation is compared in this many steps.
 const STEPS: f64 = 32.0;
 
+/// A step is no shorter and no longer than these, s.
 const GRID_S: [f64; 2] = [0.02, 0.1];
 
-/// A lag that moved by more than this is refined once more, s,
+/// An offset that moved by more than this is refined once more, s.
 const ROUGH_S: f64 = 0.01;
 
-/// or than this where it is found beside an arm.
+/// The same where it is found beside an arm, s.
 const FINE_S: f64 = 1e-3;
 
-/// Longest step of that search, s.
+/// Longest step of the search beside an arm, s.
 const LONGEST_S: f64 = 0.1;
 
 /// Refinements at most.
 const ROUNDS: usize = 8;
 
-/// Gravity must move by this in a rotation that tells of its lag, rad.
+/// Gravity must move by this in a rotation that shows its offset, rad.
 const MOVES_RAD: f64 = 0.5;
 
-/// What an arm does is not told from less than this, `∫ |A e|² dt` in s⁻³: turns about one axis alone say nothing of the arm along it.
+/// Below this `∫ |A e|² dt`, in s⁻³, nothing is known of an arm. Turns about one axis alone say nothing of the arm along it.
 const NO_ARM: f64 = 0.04;
 
 /// `Φ` falls by this share of `∫ |u|² dt` per s at least, or the root is another one.

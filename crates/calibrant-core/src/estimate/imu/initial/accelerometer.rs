@@ -6,8 +6,8 @@ use crate::motion::Hold;
 use crate::sensor::{Recording, SensorParameters, TriadThermal};
 use nalgebra::{Matrix3, Vector3};
 
-/// Noise of a face's mean, m/s², that none is below: readings without noise have a last digit still.
-const LEAST_MPS2: f64 = 3e-8;
+/// The noise of a face's mean is no less than this, m/s². Readings without noise have a last digit still.
+const LEAST_NOISE_MPS2: f64 = 3e-8;
 
 /// The accelerometer, before the joint problem.
 pub(crate) struct InitialAccelerometer {
@@ -17,7 +17,7 @@ pub(crate) struct InitialAccelerometer {
     /// Variance of a hold's mean that more samples do not lower.
     pub(crate) of_mean: Vector3<f64>,
     pub(crate) holds: HoldCalibration,
-    /// How well the faces were met, where the directions are known.
+    /// How well the sensor was placed on the faces, where the directions are known.
     pub(crate) alignment: Option<FaceAlignment>,
     pub(crate) warnings: Vec<String>,
     /// Its temperature terms, and the recording as it would be at the reference temperature, where they were fitted.
@@ -59,7 +59,7 @@ pub(crate) fn inverse_covariance(
     s: &Matrix3<f64>,
     c: &Matrix3<f64>,
 ) -> Matrix3<f64> {
-    let least = LEAST_MPS2.powi(2) * s.norm_squared() / 3.0;
+    let least = LEAST_NOISE_MPS2.powi(2) * s.norm_squared() / 3.0;
     let variance = variance.map(|variance| variance.max(least));
     (Matrix3::from_diagonal(&variance) + s * c * s.transpose()).try_inverse().unwrap_or_else(Matrix3::zeros)
 }

@@ -19,23 +19,23 @@ use crate::estimate::result::{FaceTilt, TiltSource};
 use nalgebra::{Matrix3, Vector3};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
-/// Tilt of faces whose scatter does not tell it, rad: half a degree, as of known turns.
+/// Tilt of faces whose scatter does not show it, rad: half a degree, as of known turns.
 const ASSUMED_RAD: f64 = 0.5 * std::f64::consts::PI / 180.0;
 
 /// A scatter of fewer degrees of freedom has no variance that could be stated.
 const FEWEST: usize = 3;
 
-/// Faces that scatter by so many times what was given of their tilt contradict it …
+/// Faces contradict the tilt that was given where they scatter by this many times of it.
 const CONTRADICTED: f64 = 2.5;
 
-/// … and so do those that scatter as little in one of so many sessions only.
+/// They contradict it, too, where they scatter so little that chance does so with this probability.
 const TOO_LITTLE: f64 = 1e-3;
 
-/// The two scatters follow each other in at most so many rounds …
+/// The two scatters follow each other in at most this many rounds.
 const ROUNDS: usize = 30;
 
-/// … until they change by less than this share.
-const SETTLED: f64 = 1e-9;
+/// The rounds end where the scatters change by less than this share.
+const CLOSE: f64 = 1e-9;
 
 /// Scatter of the specific force about known directions.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -48,7 +48,7 @@ pub(crate) struct FaceScatter {
     pub(crate) of_square: f64,
 }
 
-/// How the faces were met.
+/// How well the sensor was placed on the faces.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct FaceAlignment {
     pub(crate) scatter: FaceScatter,
@@ -132,7 +132,7 @@ impl Degrees {
     }
 }
 
-/// How the faces were met, and what was fitted with it. `noise`: variance of the direction of a face's mean by its noise, rad²; `fit` gives χ² and what it fitted for a scatter; `None` where it fails, which ends the search.
+/// Finds how well the sensor was placed on the faces, and what was fitted with it. `noise`: variance of the direction of a face's mean by its noise, rad²; `fit` gives χ² and what it fitted for a scatter; `None` where it fails, which ends the search.
 pub(crate) fn align_faces<T>(
     degrees: Degrees,
     given_rad: Option<f64>,
@@ -186,7 +186,7 @@ fn search<T>(
             scatter.along_mps2 =
                 excess(along, |_| guess, |along| fit(&at(along)).map(|(chi2, _)| (chi2.along, ())))?.0;
         }
-        let moved = |now: f64, before: f64| (now - before).abs() > SETTLED * now;
+        let moved = |now: f64, before: f64| (now - before).abs() > CLOSE * now;
         if degrees.along < FEWEST
             || !moved(scatter.tilt_rad, before.tilt_rad) && !moved(scatter.along_mps2, before.along_mps2)
         {

@@ -5,7 +5,7 @@ use crate::sensor::Quantity;
 use nalgebra::{DMatrix, Matrix3, Vector3};
 
 /// Equations along gravity that differ by less than this share are one.
-const RANK: f64 = 1e-6;
+const SAME_SHARE: f64 = 1e-6;
 
 /// What is left of faces along these forces to tell their scatter, `others` further parameters estimated.
 pub(crate) fn face_degrees(forces: &[Vector3<f64>], quantities: &[Quantity], others: usize) -> Degrees {
@@ -17,7 +17,7 @@ pub(crate) fn face_degrees(forces: &[Vector3<f64>], quantities: &[Quantity], oth
     let all = (3 * forces.len()).saturating_sub(quantities.len() + others);
     Degrees {
         faces: forces.len(),
-        along: (forces.len() - rows.rank(RANK)).saturating_sub(others).min(all),
+        along: (forces.len() - rows.rank(SAME_SHARE)).saturating_sub(others).min(all),
         all,
     }
 }

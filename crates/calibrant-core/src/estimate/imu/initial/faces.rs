@@ -25,10 +25,10 @@ use crate::sensor::{ParameterList, Recording, SensorParameters, Triad, TriadTher
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
 /// Faces that scatter by more than this share of gravity were not placed badly: a direction is wrong.
-const SCATTERED: f64 = 0.05;
+const WRONG_SCATTER: f64 = 0.05;
 
 /// A face of fewer samples is a mistake of its times.
-const BRIEF: usize = 10;
+const FEWEST_SAMPLES: usize = 10;
 
 /// Fits the accelerometer to holds of known directions.
 pub(crate) fn from_faces(
@@ -76,7 +76,8 @@ pub(crate) fn from_faces(
     sensor.matrix /= alignment.cosine();
     let mirrored = sensor.matrix.determinant() <= 0.0;
     let shown_rad = alignment.shown_rad.unwrap_or(alignment.scatter.tilt_rad);
-    let is_scattered = shown_rad.max(alignment.scatter.along_mps2 / setup.gravity.magnitude_mps2) > SCATTERED;
+    let is_scattered =
+        shown_rad.max(alignment.scatter.along_mps2 / setup.gravity.magnitude_mps2) > WRONG_SCATTER;
     if mirrored || is_scattered {
         wrong_faces::check(problem, &holds, directions, mirrored)?;
     }
@@ -141,7 +142,7 @@ pub(crate) fn from_faces(
 
 /// What is to be said of a face that is hardly there.
 fn brief(number: usize, hold: &Hold) -> Option<String> {
-    (hold.samples() < BRIEF).then(|| {
+    (hold.samples() < FEWEST_SAMPLES).then(|| {
         let (named, samples) = (hold.named(number), hold.samples());
         format!("{named} has {samples} samples only: are its times right? A face is held for seconds")
     })

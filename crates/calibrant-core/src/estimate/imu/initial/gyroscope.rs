@@ -4,7 +4,7 @@
 
 use crate::estimate::imu::estimated::set_fixed;
 use crate::estimate::imu::initial::accelerometer::{InitialAccelerometer, UsedHolds};
-use crate::estimate::imu::model::HoldData;
+use crate::estimate::imu::model::{HoldData, Prior};
 use crate::estimate::imu::problem::ImuProblem;
 use crate::estimate::imu::stationary::gyroscope::StationaryGyroscope;
 use crate::estimate::imu::temperature::RecordingTemperature;
@@ -30,7 +30,7 @@ pub(crate) fn explained_means<'a>(
     (first, temperature): (&InitialAccelerometer, &RecordingTemperature<'_>),
     used: &'a UsedHolds<'_>,
     gyroscope: &'a StationaryGyroscope,
-    (quantities, prior): (&[ImuQuantity], Option<&(Vec<f64>, Vec<f64>)>),
+    (quantities, prior): (&[ImuQuantity], Option<&Prior>),
 ) -> Means<'a> {
     let thermal = Thermal { accelerometer: first.thermal, ..temperature.start };
     let by = Explanation {
@@ -129,7 +129,7 @@ pub(crate) fn mean_bias(holds: &[HoldData], thermal: &Thermal) -> Vector3<f64> {
 /// The gyroscope's bias terms per axis for the fit of its means: power, expected value and inverse variance (0 where nothing is known).
 fn bias_terms(
     quantities: &[ImuQuantity],
-    prior: Option<&(Vec<f64>, Vec<f64>)>,
+    prior: Option<&Prior>,
     axis: usize,
 ) -> Vec<(ThermalTerm, f64, f64)> {
     quantities

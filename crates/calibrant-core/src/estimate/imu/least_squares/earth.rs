@@ -9,8 +9,8 @@ use crate::sensor::ImuParameters;
 use nalgebra::{DVector, Matrix2xX, Matrix3x2, Vector3};
 use std::ops::AddAssign;
 
-/// A rotation that is left out breaks the chain where it misses gravity by more than this, rad: by as much the heading may be off.
-const BROKEN: f64 = 0.05;
+/// A rotation that is left out breaks the chain where it misses gravity by more than this, rad. The heading may be off by as much.
+const BROKEN_RAD: f64 = 0.05;
 
 impl EarthRate {
     /// Derivative of what a rotation misses gravity by.
@@ -51,7 +51,7 @@ impl EarthRate {
         for (j, force) in forces.iter().enumerate() {
             let carried = seen.last().and_then(|(chain, horizontal)| {
                 let residual = residuals[j - 1].as_ref()?;
-                let is_whole = rotations[j - 1].counts || residual.error.norm() < BROKEN;
+                let is_whole = rotations[j - 1].counts || residual.error.norm() < BROKEN_RAD;
                 let before = horizontal.column(0).into_owned();
                 let turned = forces[j - 1].cross(&before)
                     * (self.vertical_rate() * rotations[j - 1].samples.duration_s());

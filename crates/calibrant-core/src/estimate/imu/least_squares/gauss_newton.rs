@@ -10,7 +10,7 @@
 //! | a rotation | the arc from `f_k` to `Rᵀ (f_i + T ω_i × f_i)`: 2 numbers | `f_i`, `f_k`, gyroscope |
 //! | a turn of known angle | `∫ (y_g − b_g − Γ f − S_g κ f) dt − S_g φ e` | gyroscope |
 //!
-//! `S` and `b` are those at the temperature of the hold, the rotation or the turn. `ω_j = κ f_j + E_j h` is the Earth's rate ([`Earth`]), which is held fixed here and settled beside the weights; `T` is the
+//! `S` and `b` are those at the temperature of the hold, the rotation or the turn. `ω_j = κ f_j + E_j h` is the Earth's rate (`earth_rate`), which is held fixed here and settled beside the weights; `T` is the
 //! duration of the rotation.
 
 use crate::arrowhead::{Arrowhead, Increment, Link};
@@ -23,8 +23,7 @@ use crate::sensor::entries::{AT_REFERENCE, ENTRIES};
 use crate::sensor::{Condition, Triad};
 use nalgebra::{DMatrix, DVector, Matrix3, SMatrix, SVector, Vector3};
 
-/// A step this short, in standard deviations, needs no test: the derivatives of a rotation are exact to second order in the sample step only, so that the last steps
-/// may not lower χ².
+/// A step this short, in standard deviations, needs no test. The derivatives of a rotation are exact to second order in the sample step only, so that the last steps may not lower χ².
 const CLOSE: f64 = 0.1;
 
 impl ImuModel<'_> {

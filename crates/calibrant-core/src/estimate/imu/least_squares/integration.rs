@@ -17,6 +17,7 @@ use crate::estimate::imu::model::{IntegratedRotation, LocalBias, Samples, mean_t
 use crate::sensor::{ImuParameters, ImuQuantity, Quantity, ThermalPart, Triad, times};
 use nalgebra::{Matrix3, Matrix3xX, Quaternion, UnitQuaternion, Vector3};
 
+/// The factor of the coning term.
 const TWELFTH: f64 = 1.0 / 12.0;
 
 impl Samples<'_> {

@@ -1,4 +1,4 @@
-//! The residuals of the model at a state, and χ² of them. They are told in `gauss_newton`.
+//! The residuals of the model at a state, and χ² of them. `gauss_newton` lists them.
 
 use crate::estimate::imu::least_squares::arc::Arc;
 use crate::estimate::imu::model::{GravityResidual, GravityResiduals, ImuModel, RotationData, State};

@@ -10,8 +10,8 @@ use crate::motion::Hold;
 use crate::sensor::{ImuRecording, Recording, Triad};
 use nalgebra::Vector3;
 
-/// A calm stretch of the gyroscope turns if its mean is off the others' median by more than this share of the recording's range.
-const TURNING: f64 = 0.02;
+/// The gyroscope turns in a calm segment whose mean is off the others' median by more than this share of the recording's range.
+const TURNING_SHARE: f64 = 0.02;
 
 /// Finds the holds of at least `minimum_s` in the recording of an IMU: those of its accelerometer, cut down to what is still for its gyroscope too.
 ///
@@ -61,14 +61,14 @@ pub fn find_clean_imu_holds(recording: &ImuRecording, minimum_s: f64) -> Result<
     holds_between(accelerometer, &intervals)
 }
 
-/// Which of its calm stretches does the gyroscope turn in?
+/// Which of its calm segments does the gyroscope turn in?
 fn turning(gyroscope: &Recording, calm: &[Hold]) -> Vec<bool> {
     let [low, high] = gyroscope.extremes();
     if calm.is_empty() {
         return Vec::new();
     }
     let middle = Vector3::from_fn(|axis, _| median(calm.iter().map(|segment| segment.mean[axis]).collect()));
-    let far = TURNING * (high - low).amax();
+    let far = TURNING_SHARE * (high - low).amax();
     calm.iter().map(|segment| (segment.mean - middle).amax() > far).collect()
 }
 

@@ -8,13 +8,13 @@ use crate::estimate::imu::stationary::scatter::restless_from;
 use crate::sensor::{Axis, MeanReading, Recording};
 use nalgebra::Vector3;
 
-/// The gyroscope turns in a hold whose mean is off the median of all by so many median deviations …
+/// The gyroscope turns in a hold whose mean is off the median of all by this many median deviations, and by [`TURNING_SHARE`].
 const DEVIATIONS: f64 = 12.0;
 
-/// … and by this share of the recording's range: a bias that drifts is not.
-const TURNING: f64 = 0.005;
+/// The mean of a hold in which it turns is off by this share of the recording's range. A bias that drifts is not.
+const TURNING_SHARE: f64 = 0.005;
 
-/// Fewer holds do not tell which of them is the exception.
+/// Of fewer holds none is the exception.
 const FEWEST: usize = 4;
 
 /// The rate, root mean square, of each hold in which the gyroscope turns, in the unit of its readings. `drifts`: does its bias follow temperature?
@@ -33,7 +33,7 @@ pub(crate) fn turning_rates(
     let sds: Vec<Vector3<f64>> = scatter.iter().flatten().copied().collect();
     let restless = restless_from(&sds, gyroscope);
     let [low, high] = gyroscope.extremes();
-    let least = if drifts { f64::INFINITY } else { TURNING * (high - low).amax() };
+    let least = if drifts { f64::INFINITY } else { TURNING_SHARE * (high - low).amax() };
     for axis in Axis::ALL {
         let axis = axis.index();
         let middle = median(readings.iter().flatten().map(|still| still.mean[axis]).collect());

@@ -23,7 +23,7 @@ pub(crate) fn usual_scatter(readings: &[Option<MeanReading>], gyroscope: &Record
     MeanReading::pooled_sd(calm.map(|(still, _)| still))
 }
 
-/// It turns, too, in a hold in which it scatters so many times as much as in half of the holds.
+/// The gyroscope turns in a hold in which it scatters this many times as much as in half of the holds.
 const RESTLESS: f64 = 4.0;
 
 /// From which standard deviation of its samples on the gyroscope turns in a hold, by those in all of them, at least one; coarse steps scatter by themselves.

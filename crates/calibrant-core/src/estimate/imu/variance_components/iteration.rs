@@ -13,8 +13,8 @@ use nalgebra::Vector3;
 /// Rounds in which weights and estimate follow each other.
 const ROUNDS: usize = 12;
 
-/// Steps below this many standard deviations end the rounds.
-const RESTS: f64 = 0.1;
+/// The rounds end with a step below this many standard deviations.
+const CLOSE: f64 = 0.1;
 
 pub(crate) fn apply(model: &mut ImuModel<'_>, weighed: &RotationWeights) {
     model.excess_rad = weighed.excess_rad;
@@ -58,7 +58,7 @@ pub(crate) fn variance_components(
         apply(model, &weighed);
         last = weighed;
         // the fit that follows takes a step this short by itself
-        if last.length < RESTS {
+        if last.length < CLOSE {
             break;
         }
         for (&k, step) in places.iter().zip(last.step.iter()) {

@@ -15,8 +15,8 @@ const SIGNIFICANCE: f64 = 0.01;
 /// Rounds of leaving out one rotation, or taking one back; twice their number where there are more.
 const ROUNDS: usize = 200;
 
-/// An excess of the size of a good sensor's, rad.
-const USUAL: f64 = 1e-3;
+/// The excess of a good sensor, rad: a first guess.
+const USUAL_EXCESS_RAD: f64 = 1e-3;
 
 /// The rotations with their weights.
 pub(crate) struct RotationWeights {
@@ -198,7 +198,7 @@ impl Linear<'_> {
     fn excess(&self, used: &[bool]) -> Option<(f64, Solved)> {
         excess(
             (2 * count(used)).saturating_sub(self.size - self.told) as f64,
-            |_| USUAL,
+            |_| USUAL_EXCESS_RAD,
             |excess| {
                 let solved = self.solve(used, excess)?;
                 Some((solved.chi2, solved))

@@ -9,7 +9,7 @@ use crate::estimate::imu::variance_components::rotations::RotationWeights;
 use crate::estimate::settings::CalibrationSettings;
 use nalgebra::Vector3;
 
-/// A fit that is followed by another, in standard deviations.
+/// Tolerance of a fit that another follows, in standard deviations.
 const ROUGH: f64 = 1e-2;
 
 /// The estimate, with the weights that it was made with.
