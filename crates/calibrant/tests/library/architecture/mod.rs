@@ -21,7 +21,7 @@ const LAYERS: &[&[&str]] = &[
     &["calibrant-cli"],
 ];
 
-/// What each module may use.
+/// What each module of calibrant-core may use.
 const MAY_USE: &[(&str, &[&str])] = &[
     ("error", &[]),
     ("arrowhead", &[]),
@@ -32,13 +32,6 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("estimate", &["error", "sensor", "motion", "arrowhead", "root", "information"]),
     ("noise", &["error", "sensor", "motion", "root"]),
     ("simulate", &["error", "sensor", "motion", "noise"]),
-    ("design", &["error", "sensor", "motion", "arrowhead", "information", "simulate"]),
-    ("study", &["error", "sensor", "motion", "information", "simulate", "estimate", "design"]),
-    ("io", &["error", "sensor", "motion", "information", "noise", "simulate", "estimate", "design", "study"]),
-    (
-        "report",
-        &["error", "sensor", "motion", "information", "noise", "simulate", "estimate", "design", "study"],
-    ),
 ];
 
 fn workspace() -> (Vec<Crate>, Modules) {
@@ -106,15 +99,10 @@ fn no_module_uses_one_above_it() {
     }
 }
 
-/// The module of the table that a file of the libraries belongs to.
+/// The module of calibrant-core that a file belongs to.
 fn module_of(file: &str) -> Option<&str> {
-    let (name, inside) = file.split_once("/src/")?;
-    match name {
-        "calibrant" | "calibrant-core" => inside.split(['/', '.']).next().filter(|module| *module != "lib"),
-        "calibrant-cli" | "lapack-over-nalgebra" => None,
-        "calibrant-design" if inside.starts_with("study/") => Some("study"),
-        name => name.strip_prefix("calibrant-"),
-    }
+    let inside = file.strip_prefix("calibrant-core/src/")?;
+    inside.split(['/', '.']).next().filter(|module| *module != "lib")
 }
 
 #[test]
