@@ -3,13 +3,13 @@
 use calibrant::io::{
     CalibratedImuFile, ConventionOptions, ImuFormat, RawUnits, calibrated_imu_texts, parse_calibrated_imu,
 };
-use calibrant::sensor::{ImuCorrection, Triad};
+use calibrant::sensor::{ImuCorrection, SensorKind};
 use nalgebra::Vector3;
 
 /// The bytes as a calibration of this format.
 pub fn check(bytes: &[u8], format: ImuFormat) {
     let options =
-        ConventionOptions { format: Some(format), units: Some(RawUnits::Counts), triad: Some(Triad::Accelerometer) };
+        ConventionOptions { format: Some(format), units: Some(RawUnits::Counts), sensor_kind: Some(SensorKind::Accelerometer) };
     match parse_calibrated_imu(bytes, &options) {
         Ok(file) => is_usable(&file, format),
         Err(error) => assert!(error.is_invalid_experiment() && !error.to_string().is_empty()),

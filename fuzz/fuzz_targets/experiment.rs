@@ -17,9 +17,9 @@ fuzz_target!(|text: &str| {
         }
         Err(error) => {
             assert!(error.is_invalid_experiment());
-            let complaint = error.complaint().expect("a complaint");
-            assert!(!complaint.message.is_empty() && complaint.line >= Some(1) && complaint.column >= Some(1));
-            if let Some((excerpt, range)) = &complaint.excerpt {
+            let input_error = error.input_error().expect("a complaint");
+            assert!(!input_error.message.is_empty() && input_error.line >= Some(1) && input_error.column >= Some(1));
+            if let Some((excerpt, range)) = &input_error.excerpt {
                 assert!(excerpt.get(range.clone()).is_some(), "the range is within the excerpt");
             }
         }

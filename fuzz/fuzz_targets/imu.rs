@@ -2,13 +2,13 @@
 #![no_main]
 
 use calibrant::io::{FileFormat, ImuFile, ImuReadOptions, ImuUnit, TimeUnit, inspect, inspection_json, parse_imu_pair, parse_imu_recording};
-use calibrant::sensor::Triad;
+use calibrant::sensor::SensorKind;
 use libfuzzer_sys::fuzz_target;
 
 fn check(outcome: calibrant::Result<ImuFile>) {
     match outcome {
         Ok(file) => {
-            let sensors: Vec<_> = Triad::ALL.into_iter().filter_map(|triad| file.recording.triad(triad)).collect();
+            let sensors: Vec<_> = SensorKind::ALL.into_iter().filter_map(|sensor_kind| file.recording.sensor(sensor_kind)).collect();
             assert!(!sensors.is_empty() && file.columns.iter().any(|column| column.is_used()));
             for recording in &sensors {
                 assert!(recording.len() >= 2 && recording.readings.len() == recording.len());
@@ -26,20 +26,20 @@ fn check(outcome: calibrant::Result<ImuFile>) {
 }
 
 fuzz_target!(|bytes: &[u8]| {
-    let told = ImuReadOptions {
+    let reported = ImuReadOptions {
         time_unit: Some(TimeUnit::Millisecond),
         accelerometer_unit: Some(ImuUnit::Counts),
         gyroscope_unit: Some(ImuUnit::Counts),
         rate_hz: Some(100.0),
         ..ImuReadOptions::default()
     };
-    for options in [ImuReadOptions::default(), told.clone(), ImuReadOptions { rate_hz: Some(100.0), ..ImuReadOptions::default() }] {
+    for options in [ImuReadOptions::default(), reported.clone(), ImuReadOptions { rate_hz: Some(100.0), ..ImuReadOptions::default() }] {
         check(parse_imu_recording(bytes, &options));
         for format in FileFormat::ALL.into_iter().filter(|format| format.is_text()) {
             check(parse_imu_recording(bytes, &ImuReadOptions { format: Some(format), ..options.clone() }));
         }
     }
     let (first, second) = bytes.split_at(bytes.len() / 2);
-    check(parse_imu_pair(first, second, &told));
-    check(parse_imu_pair(bytes, bytes, &told));
+    check(parse_imu_pair(first, second, &reported));
+    check(parse_imu_pair(bytes, bytes, &reported));
 });

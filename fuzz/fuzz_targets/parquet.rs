@@ -2,7 +2,7 @@
 #![no_main]
 
 use calibrant::io::{ImuReadOptions, parse_imu_recording};
-use calibrant::sensor::Triad;
+use calibrant::sensor::SensorKind;
 use libfuzzer_sys::fuzz_target;
 use std::sync::Once;
 
@@ -14,7 +14,7 @@ fuzz_target!(|bytes: &[u8]| {
     let table = if bytes.starts_with(b"PAR1") { bytes.to_vec() } else { [b"PAR1", bytes, b"PAR1"].concat() };
     match parse_imu_recording(&table, &ImuReadOptions::default()) {
         Ok(file) => {
-            for recording in Triad::ALL.into_iter().filter_map(|triad| file.recording.triad(triad)) {
+            for recording in SensorKind::ALL.into_iter().filter_map(|sensor_kind| file.recording.sensor(sensor_kind)) {
                 let fine = recording.times_s.windows(2).all(|pair| pair[0] < pair[1])
                     && recording.readings.iter().all(|reading| reading.iter().all(|value| value.is_finite()));
                 if !fine {

@@ -1,17 +1,18 @@
 //! `calibrant apply`: a recording corrected, with the correction's standard uncertainty.
 
 use crate::calibration_file::{Reading, in_words};
-use crate::reading::in_file;
-use crate::{Exit, console, place};
+use crate::recording_options::in_file;
+use crate::{Exit, console, output_places};
 use calibrant::Error;
-use calibrant::error::Complaint;
+use calibrant::error::InputError;
 use calibrant::io::{
     ColumnMeaning, ImuFile, ImuReadOptions, read_imu_pair, read_imu_recording, read_imu_sensor,
     write_corrected_recording,
 };
-use calibrant::report::number;
+use calibrant::report::number_format;
 use calibrant::sensor::{
-    CalibratedImu, CorrectedTriad, ImuCorrection, ImuRecording, ReadingUnit, Recording, Triad, WithoutForce,
+    CalibratedImu, CorrectedSensor, ImuCorrection, ImuRecording, ReadingUnit, Recording, SensorKind,
+    WithoutForce,
 };
 use std::path::PathBuf;
 
@@ -29,14 +30,14 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "FILE")]
     gyroscope: Option<PathBuf>,
     #[command(flatten)]
-    file: crate::reading::RecordingOptions,
+    file: crate::recording_options::RecordingOptions,
     /// Experiment file whose [columns] say what is what in the recording.
     #[arg(long, value_name = "EXPERIMENT")]
     columns: Option<PathBuf>,
     #[command(flatten)]
     reading: Reading,
     /// The temperature, °C, where the calibration follows it and the recording does not have it (or another).
-    #[arg(long, value_name = "CELSIUS", allow_negative_numbers = true, value_parser = crate::reading::celsius)]
+    #[arg(long, value_name = "CELSIUS", allow_negative_numbers = true, value_parser = crate::recording_options::celsius)]
     temperature: Option<f64>,
     /// Where to write the corrected recording.
     #[arg(short, long, value_name = "FILE")]
@@ -45,7 +46,10 @@ pub(crate) struct Arguments {
 
 pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     let second = arguments.gyroscope.as_deref().unwrap_or(&arguments.recording);
-    place::check_not_input(&arguments.output, &[&arguments.calibration, &arguments.recording, second])?;
+    output_places::check_not_input(
+        &arguments.output,
+        &[&arguments.calibration, &arguments.recording, second],
+    )?;
     let imu = arguments.reading.read(&arguments.calibration)?.imu;
     let correction = ImuCorrection::of(&imu)?;
     let mut recording = read_for(&imu, arguments)?;
@@ -57,17 +61,17 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
         Some(_) => console::note("--temperature is not used: the calibration does not follow temperature"),
         None => {}
     }
-    let (clean, sparks) = recording.without_sparks();
+    let (clean, spikes) = recording.without_spikes();
     let corrected = correction
         .apply_feeling(&imu, &recording, clean.accelerometer.as_ref())
         .map_err(|error| in_file(error, &arguments.recording))?;
-    for triad in Triad::ALL {
-        match (imu.unit(triad), recording.triad(triad)) {
+    for sensor_kind in SensorKind::ALL {
+        match (imu.unit(sensor_kind), recording.sensor(sensor_kind)) {
             (Some(_), None) => {
-                console::note(&format!("the recording has no {triad}: nothing of it is corrected"))
+                console::note(&format!("the recording has no {sensor_kind}: nothing of it is corrected"))
             }
             (None, Some(_)) => {
-                console::warn(&format!("the calibration has no {triad}: its readings are left out"));
+                console::warn(&format!("the calibration has no {sensor_kind}: its readings are left out"));
             }
             _ => {}
         }
@@ -77,14 +81,14 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     {
         console::warn_beyond(&imu, range);
     }
-    for (triad, sparks) in sparks {
-        let what = match sparks.samples.len() + sparks.cut.len() {
+    for (sensor_kind, spikes) in spikes {
+        let what = match spikes.samples.len() + spikes.cut.len() {
             1 => "1 sample is far off those beside it".to_owned(),
-            count => format!("{} are far off those beside them", number::counted(count, "sample")),
+            count => format!("{} are far off those beside them", number_format::counted(count, "sample")),
         };
         console::warn(&format!(
-            "{triad}: {what} ({} s): corrected as recorded, and no force that the gyroscope feels; a loose contact, or a byte lost on the way?",
-            number::short(sparks.time_s)
+            "{sensor_kind}: {what} ({} s): corrected as recorded, and no force that the gyroscope feels; a loose contact, or a byte lost on the way?",
+            number_format::short(spikes.time_s)
         ));
     }
     if let Some(unknown) = &corrected.without_force {
@@ -92,11 +96,11 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     }
     write_corrected_recording(&arguments.output, &corrected)?;
     console::print(&format!("{}: {}\n", arguments.calibration.display(), in_words(&imu)));
-    for (triad, found) in
-        [(Triad::Accelerometer, &corrected.accelerometer), (Triad::Gyroscope, &corrected.gyroscope)]
+    for (sensor_kind, found) in
+        [(SensorKind::Accelerometer, &corrected.accelerometer), (SensorKind::Gyroscope, &corrected.gyroscope)]
     {
         if let Some(found) = found {
-            console::print(&summary(triad, found));
+            console::print(&summary(sensor_kind, found));
         }
     }
     console::print(&format!("{}\n", arguments.output.display()));
@@ -109,10 +113,10 @@ fn without_force(unknown: &WithoutForce) -> String {
     format!(
         "the accelerometer has no data at {} of the gyroscope, from {} to {} s: their g-sensitivity is corrected with the nearest specific force that is known, and may be off by up to {} rad/s; \
          their standard uncertainty has that in it",
-        number::counted(unknown.samples, "sample"),
-        number::short(start),
-        number::short(end),
-        number::significant(unknown.most_radps, 2)
+        number_format::counted(unknown.samples, "sample"),
+        number_format::short(start),
+        number_format::short(end),
+        number_format::significant(unknown.most_radps, 2)
     )
 }
 
@@ -127,8 +131,8 @@ fn read_for(imu: &CalibratedImu, arguments: &Arguments) -> calibrant::Result<Imu
     let file = read(imu, arguments)?;
     let second = arguments.gyroscope.as_ref().map(|path| path.display().to_string());
     console::findings(&file.findings, &path.display().to_string(), second.as_deref());
-    for triad in Triad::ALL.into_iter().filter(|&triad| imu.unit(triad).is_some()) {
-        check_usable(&file, triad).map_err(|error| in_file(error, path))?;
+    for sensor_kind in SensorKind::ALL.into_iter().filter(|&sensor_kind| imu.unit(sensor_kind).is_some()) {
+        check_usable(&file, sensor_kind).map_err(|error| in_file(error, path))?;
     }
     Ok(file.recording)
 }
@@ -137,54 +141,54 @@ fn read_for(imu: &CalibratedImu, arguments: &Arguments) -> calibrant::Result<Imu
 fn read(imu: &CalibratedImu, arguments: &Arguments) -> calibrant::Result<ImuFile> {
     let options = ImuReadOptions {
         // a sensor that the calibration does not have is left out, whatever its unit
-        counts_unless_stated: Triad::ALL
-            .map(|triad| imu.unit(triad).is_none_or(|unit| unit == ReadingUnit::Counts)),
+        counts_unless_stated: SensorKind::ALL
+            .map(|sensor_kind| imu.unit(sensor_kind).is_none_or(|unit| unit == ReadingUnit::Counts)),
         ..arguments.file.with_columns(arguments.columns.as_deref())?
     };
     let path = &arguments.recording;
     match (&arguments.gyroscope, alone(imu)) {
         (Some(gyroscope), _) => read_imu_pair(path, gyroscope, &options),
-        (None, Some(triad)) => read_imu_sensor(path, triad, &options),
+        (None, Some(sensor_kind)) => read_imu_sensor(path, sensor_kind, &options),
         (None, None) => read_imu_recording(path, &options),
     }
 }
 
 /// The sensor of a calibration of one sensor alone.
-fn alone(imu: &CalibratedImu) -> Option<Triad> {
+fn alone(imu: &CalibratedImu) -> Option<SensorKind> {
     match (imu.accelerometer_unit, imu.gyroscope_unit) {
-        (Some(_), None) => Some(Triad::Accelerometer),
-        (None, Some(_)) => Some(Triad::Gyroscope),
+        (Some(_), None) => Some(SensorKind::Accelerometer),
+        (None, Some(_)) => Some(SensorKind::Gyroscope),
         _ => None,
     }
 }
 
 /// Complains of a sensor that has columns, but none that could be used: it would go missing from the result.
-fn check_usable(file: &ImuFile, triad: Triad) -> calibrant::Result<()> {
-    let is_of = |meaning| matches!(meaning, ColumnMeaning::Reading(of, _) if of == triad);
+fn check_usable(file: &ImuFile, sensor_kind: SensorKind) -> calibrant::Result<()> {
+    let is_of = |meaning| matches!(meaning, ColumnMeaning::Reading(of, _) if of == sensor_kind);
     let unused = file.columns.iter().filter(|column| is_of(column.meaning));
     let why = unused.filter_map(|column| column.unused.as_deref()).next();
-    match why.filter(|_| file.recording.triad(triad).is_none()) {
-        Some(why) => Err(Error::Recording(Box::new(Complaint::new(
-            format!("the {triad} has columns, but they cannot be used: {why}"),
-            format!("export it again, or take the {triad}'s columns out of the file"),
+    match why.filter(|_| file.recording.sensor(sensor_kind).is_none()) {
+        Some(why) => Err(Error::Recording(Box::new(InputError::new(
+            format!("the {sensor_kind} has columns, but they cannot be used: {why}"),
+            format!("export it again, or take the {sensor_kind}'s columns out of the file"),
         )))),
         None => Ok(()),
     }
 }
 
 /// Samples, size and uncertainty of one sensor in a line or two.
-fn summary(triad: Triad, corrected: &CorrectedTriad<'_>) -> String {
-    let unit = triad.stimulus_unit().symbol();
+fn summary(sensor_kind: SensorKind, corrected: &CorrectedSensor<'_>) -> String {
+    let unit = sensor_kind.stimulus_unit().symbol();
     let samples = corrected.values.len();
     let mean = corrected.values.iter().map(|value| value.norm()).sum::<f64>() / samples.max(1) as f64;
     let mut text = format!(
-        "  {triad}: {} samples, mean magnitude {} {unit}\n",
-        number::count(samples),
-        number::significant(mean, 6)
+        "  {sensor_kind}: {} samples, mean magnitude {} {unit}\n",
+        number_format::count(samples),
+        number_format::significant(mean, 6)
     );
     if let Some(sd) = &corrected.sd {
         let largest = |axis: usize| sd.iter().map(|sd| sd[axis]).fold(0.0, f64::max);
-        let largest: Vec<_> = (0..3).map(|axis| number::significant(largest(axis), 2)).collect();
+        let largest: Vec<_> = (0..3).map(|axis| number_format::significant(largest(axis), 2)).collect();
         text.push_str(&format!(
             "  largest standard uncertainty of the correction: {} {unit}\n",
             largest.join(", ")

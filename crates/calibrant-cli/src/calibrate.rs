@@ -2,22 +2,22 @@
 
 mod accelerometer;
 mod arguments;
+mod batch;
 mod earlier;
 mod imu;
 mod imu_noise;
 mod imu_output;
-mod many;
 mod validation;
 
 pub(crate) use arguments::Arguments;
 
-use crate::{Exit, console, place};
+use crate::{Exit, console, output_places};
 use accelerometer::{Job, show};
 use calibrant::io::Experiment;
 use earlier::warn_of_earlier_result;
 
 pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
-    place::check_directory(&arguments.output)?;
+    output_places::check_directory(&arguments.output)?;
     arguments.check_inputs(&[String::new()])?;
     let experiment = Experiment::read(&arguments.experiment)?;
     if let Some(plan) = &experiment.imu {
@@ -26,7 +26,7 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     let job = Job::prepare(arguments, experiment)?;
     let [recording] = arguments.recordings.as_slice() else {
         validation::only_one(arguments)?;
-        return many::run(arguments, &["p-value"], |number, directory| {
+        return batch::run(arguments, &["p-value"], |number, directory| {
             job.one_of_many(&arguments.recordings[number], directory, arguments)
         });
     };

@@ -3,7 +3,7 @@
 use crate::console;
 use calibrant::Result;
 use calibrant::io::{CalibratedImuFile, ConventionOptions, ImuFormat, RawUnits, read_calibrated_imu};
-use calibrant::sensor::{CalibratedImu, Triad};
+use calibrant::sensor::{CalibratedImu, SensorKind};
 use std::path::Path;
 
 /// A format on the command line.
@@ -66,10 +66,10 @@ enum Sensor {
 
 impl Reading {
     /// The sensor that is meant, where one is.
-    pub(crate) fn triad(&self) -> Option<Triad> {
+    pub(crate) fn sensor_kind(&self) -> Option<SensorKind> {
         self.sensor.map(|sensor| match sensor {
-            Sensor::Accelerometer => Triad::Accelerometer,
-            Sensor::Gyroscope => Triad::Gyroscope,
+            Sensor::Accelerometer => SensorKind::Accelerometer,
+            Sensor::Gyroscope => SensorKind::Gyroscope,
         })
     }
 
@@ -81,7 +81,7 @@ impl Reading {
                 Unit::Si => RawUnits::Si,
                 Unit::Counts => RawUnits::Counts,
             }),
-            triad: self.triad(),
+            sensor_kind: self.sensor_kind(),
         };
         let file = read_calibrated_imu(path, &options)?;
         for finding in &file.findings {
@@ -93,9 +93,9 @@ impl Reading {
 
 /// A calibration in a line: its sensors with their units, whether it has a covariance.
 pub(crate) fn in_words(imu: &CalibratedImu) -> String {
-    let mut words: Vec<String> = Triad::ALL
+    let mut words: Vec<String> = SensorKind::ALL
         .into_iter()
-        .filter_map(|triad| Some(format!("{triad} in {}", imu.unit(triad)?.symbol())))
+        .filter_map(|sensor_kind| Some(format!("{sensor_kind} in {}", imu.unit(sensor_kind)?.symbol())))
         .collect();
     if imu.gyroscope_unit.is_some() && imu.parameters.g_sensitivity.iter().any(|&entry| entry != 0.0) {
         words.push("g-sensitivity".into());

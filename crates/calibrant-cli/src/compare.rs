@@ -3,10 +3,10 @@
 use crate::calibration_file::{Reading, in_words};
 use crate::{Exit, console};
 use calibrant::Error;
-use calibrant::error::Complaint;
+use calibrant::error::InputError;
 use calibrant::estimate::{ComparedQuantity, Comparison};
 use calibrant::io::comparison_json;
-use calibrant::report::number;
+use calibrant::report::number_format;
 use calibrant::sensor::InvariantValue;
 use std::path::PathBuf;
 
@@ -38,7 +38,7 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
             in_words(&a),
             in_words(&b)
         );
-        return Err(Error::Experiment(Box::new(Complaint::new(
+        return Err(Error::Experiment(Box::new(InputError::new(
             message,
             "compare calibrations of one sensor",
         ))));
@@ -60,9 +60,9 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
         };
         console::print(&format!(
             "  all parameters together: {verdict}; χ² {} with {} degrees of freedom, p-value {}\n",
-            number::significant(overall.chi2, 5),
-            number::count(overall.degrees_of_freedom),
-            number::probability(overall.p_value)
+            number_format::significant(overall.chi2, 5),
+            number_format::count(overall.degrees_of_freedom),
+            number_format::probability(overall.p_value)
         ));
     }
     for note in &comparison.notes {
@@ -76,8 +76,8 @@ fn row(quantity: &ComparedQuantity) -> Vec<String> {
     let is_angle = quantity.unit_a == "rad";
     let scale = if is_angle { 1f64.to_degrees() } else { 1.0 };
     let value = |value: &InvariantValue| match value.sd {
-        Some(sd) => number::with_sd(scale * value.value, scale * sd),
-        None => number::significant(scale * value.value, 8),
+        Some(sd) => number_format::with_sd(scale * value.value, scale * sd),
+        None => number_format::significant(scale * value.value, 8),
     };
     let unit = match (is_angle, quantity.unit_a == quantity.unit_b) {
         (true, _) => "°".to_owned(),
@@ -94,8 +94,8 @@ fn row(quantity: &ComparedQuantity) -> Vec<String> {
         quantity.invariant.name(),
         value(&quantity.a),
         value(&quantity.b),
-        difference.map_or_else(dash, |difference| number::significant(scale * difference, 3)),
-        in_sd.map_or_else(dash, |in_sd| number::signed(in_sd, 1)),
+        difference.map_or_else(dash, |difference| number_format::significant(scale * difference, 3)),
+        in_sd.map_or_else(dash, |in_sd| number_format::signed(in_sd, 1)),
         unit,
     ]
 }

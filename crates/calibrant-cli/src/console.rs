@@ -11,7 +11,7 @@ pub(crate) use validation::validations;
 use calibrant::Error;
 use calibrant::estimate::{Calibration, HoldCalibration, Recovered};
 use calibrant::io::Finding;
-use calibrant::report::number;
+use calibrant::report::number_format;
 use calibrant::sensor::{CalibratedImu, Thermal};
 use indicatif::{ProgressBar, ProgressStyle};
 use miette::{LabeledSpan, MietteDiagnostic, NamedSource, Report};
@@ -77,17 +77,17 @@ pub(crate) fn beyond(thermal: &Thermal, [coldest, hottest]: [f64; 2]) -> Option<
 
 /// Prints an error to stderr, with the place in the file underlined where it is known.
 pub(crate) fn error(error: &Error) {
-    let _ = match error.complaint() {
-        Some(complaint) if complaint.excerpt.is_some() => {
-            let (text, range) = complaint.excerpt.clone().unwrap_or_default();
-            let mut title = complaint.clone();
+    let _ = match error.input_error() {
+        Some(input_error) if input_error.excerpt.is_some() => {
+            let (text, range) = input_error.excerpt.clone().unwrap_or_default();
+            let mut title = input_error.clone();
             (title.excerpt, title.help) = (None, String::new());
             let mut diagnostic =
                 MietteDiagnostic::new(title.to_string()).with_label(LabeledSpan::at(range, "here"));
-            if !complaint.help.is_empty() {
-                diagnostic = diagnostic.with_help(complaint.help.clone());
+            if !input_error.help.is_empty() {
+                diagnostic = diagnostic.with_help(input_error.help.clone());
             }
-            let name = complaint
+            let name = input_error
                 .file
                 .as_ref()
                 .map_or_else(|| "experiment".into(), |file| file.display().to_string());
@@ -126,10 +126,12 @@ pub(crate) fn parameters(calibration: &Calibration) -> String {
         .map(|(parameter, (value, sd))| {
             vec![
                 parameter.name.clone(),
-                number::with_sd(*value, sd),
+                number_format::with_sd(*value, sd),
                 parameter.unit.to_owned(),
-                parameter.nominal.map_or_else(|| "–".into(), |nominal| number::significant(nominal, 6)),
-                parameter.spread.map_or_else(|| "–".into(), |spread| number::significant(spread, 3)),
+                parameter
+                    .nominal
+                    .map_or_else(|| "–".into(), |nominal| number_format::significant(nominal, 6)),
+                parameter.spread.map_or_else(|| "–".into(), |spread| number_format::significant(spread, 3)),
             ]
         })
         .collect();
@@ -139,14 +141,14 @@ pub(crate) fn parameters(calibration: &Calibration) -> String {
 /// How well the model fits, in a few lines.
 pub(crate) fn fit(calibration: &Calibration) -> String {
     let fit = &calibration.fit;
-    let p = fit.p_value.map_or_else(String::new, |p| format!(", p-value {}", number::probability(p)));
+    let p = fit.p_value.map_or_else(String::new, |p| format!(", p-value {}", number_format::probability(p)));
     let mut text = format!(
         "  {} after {} iteration{}; χ² {} with {} degrees of freedom{p}\n",
         calibration.status.name(),
         calibration.iterations,
         if calibration.iterations == 1 { "" } else { "s" },
-        number::significant(fit.chi2, 5),
-        number::count(fit.degrees_of_freedom),
+        number_format::significant(fit.chi2, 5),
+        number_format::count(fit.degrees_of_freedom),
     );
     if let Some(found) = fit.noise_estimate {
         let axes = calibration
@@ -155,7 +157,7 @@ pub(crate) fn fit(calibration: &Calibration) -> String {
             .len()
             .max(if matches!(calibration.recovered, Recovered::Holds(_)) { 3 } else { 1 });
         let list = |noise: &dyn Fn(usize) -> f64| {
-            (0..axes).map(|axis| number::significant(noise(axis), 3)).collect::<Vec<_>>().join(", ")
+            (0..axes).map(|axis| number_format::significant(noise(axis), 3)).collect::<Vec<_>>().join(", ")
         };
         let assumed = fit
             .assumed_noise
@@ -205,7 +207,7 @@ pub(crate) fn holds(holds: &HoldCalibration) -> String {
     let magnitudes = match holds.degrees_of_freedom {
         0 => "|f| is g exactly: nothing left to check".into(),
         _ => {
-            let rms = number::significant(1e3 * holds.magnitude_residual_rms_mps2, 3);
+            let rms = number_format::significant(1e3 * holds.magnitude_residual_rms_mps2, 3);
             format!("rms of |f| − g {rms} mm/s²")
         }
     };
@@ -213,13 +215,13 @@ pub(crate) fn holds(holds: &HoldCalibration) -> String {
         "  {} holds {}, gravity {} m/s²; {magnitudes}; condition number {}\n",
         holds.holds.len(),
         if holds.detected { "found" } else { "given" },
-        number::with_sd_or_exact(holds.gravity.magnitude_mps2, holds.gravity.sd_mps2),
-        number::significant(holds.condition_number, 3),
+        number_format::with_sd_or_exact(holds.gravity.magnitude_mps2, holds.gravity.sd_mps2),
+        number_format::significant(holds.condition_number, 3),
     ));
     text.push_str(&if holds.between_holds_dominates {
         format!(
             "  standard deviations follow from the scatter between holds ({} mm/s² beyond the noise within them)\n",
-            number::significant(1e3 * holds.between_holds_sd_mps2, 3)
+            number_format::significant(1e3 * holds.between_holds_sd_mps2, 3)
         )
     } else {
         "  standard deviations follow from the noise within holds, which explains the scatter between them\n".into()

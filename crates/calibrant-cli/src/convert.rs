@@ -1,11 +1,11 @@
 //! `calibrant convert`: a calibration in another convention.
 
 use crate::calibration_file::{Format, Reading, in_words};
-use crate::{Exit, console, place};
+use crate::{Exit, console, output_places};
 use calibrant::Error;
-use calibrant::error::Complaint;
+use calibrant::error::InputError;
 use calibrant::io::{ImuFormat, ImuNoise, read_kalibr_noise, read_measured_noise, write_calibrated_imu};
-use calibrant::sensor::{CalibratedImu, Gauge, Triad};
+use calibrant::sensor::{CalibratedImu, Gauge, SensorKind};
 use std::path::{Path, PathBuf};
 
 /// Convert a calibration between conventions: calibrant JSON, Kalibr, imu_tk, imucal, C header.
@@ -35,7 +35,7 @@ pub(crate) struct Arguments {
     #[arg(long)]
     drop_g_sensitivity: bool,
     /// Take biases and gains as they are at this temperature, °C, and leave out what temperature does to them.
-    #[arg(long, value_name = "CELSIUS", allow_negative_numbers = true, value_parser = crate::reading::celsius)]
+    #[arg(long, value_name = "CELSIUS", allow_negative_numbers = true, value_parser = crate::recording_options::celsius)]
     temperature: Option<f64>,
 }
 
@@ -63,16 +63,16 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     let format = match arguments.to {
         Some(format) => format.into(),
         None => ImuFormat::of_extension(&arguments.output).ok_or_else(|| {
-            let complaint = Complaint::new(
+            let input_error = InputError::new(
                 "the extension does not tell the format to write",
                 "say it with --to: calibrant, kalibr, imu_tk, imucal, c",
             );
-            Error::Experiment(Box::new(complaint.in_file(&arguments.output)))
+            Error::Experiment(Box::new(input_error.in_file(&arguments.output)))
         })?,
     };
     let inputs: Vec<&Path> =
         std::iter::once(&arguments.input).chain(&arguments.noise).map(PathBuf::as_path).collect();
-    place::check_not_input(&arguments.output, &inputs)?;
+    output_places::check_not_input(&arguments.output, &inputs)?;
     let mut file = arguments.reading.read(&arguments.input)?;
     let read = format!("{} ({}): {}\n", arguments.input.display(), file.format.title(), in_words(&file.imu));
     if let Some(noise) = densities(&arguments.noise, &file.imu)? {
@@ -89,8 +89,8 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
         }
         file.imu = file.imu.without_g_sensitivity();
     }
-    if let Some(triad) = arguments.reading.triad() {
-        file.imu = only(&file.imu, triad, &arguments.input)?;
+    if let Some(sensor_kind) = arguments.reading.sensor_kind() {
+        file.imu = only(&file.imu, sensor_kind, &arguments.input)?;
     }
     if let Some(temperature_c) = arguments.temperature {
         if file.imu.follows_temperature() {
@@ -136,21 +136,22 @@ fn densities(paths: &[PathBuf], imu: &CalibratedImu) -> calibrant::Result<Option
 }
 
 /// One sensor of the calibration alone.
-fn only(imu: &CalibratedImu, triad: Triad, path: &Path) -> calibrant::Result<CalibratedImu> {
+fn only(imu: &CalibratedImu, sensor_kind: SensorKind, path: &Path) -> calibrant::Result<CalibratedImu> {
     let refuse = |message: &str, help: &str| {
-        Err(Error::Experiment(Box::new(Complaint::new(message, help).in_file(path))))
+        Err(Error::Experiment(Box::new(InputError::new(message, help).in_file(path))))
     };
-    if imu.unit(triad).is_none() {
+    if imu.unit(sensor_kind).is_none() {
         return refuse(
-            &format!("the calibration has no {triad}"),
+            &format!("the calibration has no {sensor_kind}"),
             "choose the other with --sensor, or leave it away",
         );
     }
-    if triad == Triad::Gyroscope && imu.parameters.g_sensitivity.iter().any(|&entry| entry != 0.0) {
+    if sensor_kind == SensorKind::Gyroscope && imu.parameters.g_sensitivity.iter().any(|&entry| entry != 0.0)
+    {
         return refuse(
             "the gyroscope's g-sensitivity takes the accelerometer's readings, and the correction would be another without them",
             "leave it out on purpose with --drop-g-sensitivity",
         );
     }
-    Ok(imu.only(triad))
+    Ok(imu.only(sensor_kind))
 }

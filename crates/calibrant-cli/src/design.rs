@@ -10,14 +10,14 @@ mod table;
 
 pub(crate) use arguments::Arguments;
 
-use crate::{Exit, console, place};
+use crate::{Exit, console, output_places};
 use calibrant::design::DesignProblem;
 use calibrant::io::design_json;
 use job::{Job, in_file};
 use output::{exit_of, write};
 
 pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
-    place::check_directory(&arguments.output)?;
+    output_places::check_directory(&arguments.output)?;
     let job = Job::prepare(arguments)?;
     let problem = job.problem(&arguments.experiment)?;
     match (&arguments.evaluate, &arguments.sweep) {

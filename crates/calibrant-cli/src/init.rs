@@ -2,7 +2,7 @@
 
 use crate::{Exit, console};
 use calibrant::Error;
-use calibrant::error::Complaint;
+use calibrant::error::InputError;
 use calibrant::io::{Experiment, PRESETS, preset, write_atomically};
 use std::path::PathBuf;
 
@@ -21,10 +21,10 @@ pub(crate) struct Arguments {
 }
 
 pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
-    let complain = |message, help| Err(Error::Experiment(Box::new(Complaint::new(message, help))));
+    let reject = |message, help| Err(Error::Experiment(Box::new(InputError::new(message, help))));
     let Some(text) = preset(&arguments.preset) else {
         let names: Vec<_> = PRESETS.iter().map(|(name, _)| *name).collect();
-        return complain(
+        return reject(
             format!("there is no preset `{}`", arguments.preset),
             format!("choose one of {}", names.join(", ")),
         );
@@ -32,7 +32,7 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     match &arguments.output {
         None => console::print(text),
         Some(path) if path.exists() && !arguments.force => {
-            return complain(
+            return reject(
                 format!("{} is there already", path.display()),
                 "choose another name, or add --force".into(),
             );

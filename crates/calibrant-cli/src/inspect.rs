@@ -1,19 +1,19 @@
 //! `calibrant inspect`: what a recording holds, and what a calibration from it may be expected to determine.
 
-use crate::reading::{RecordingOptions, name};
+use crate::recording_options::{RecordingOptions, name};
 use crate::{Exit, console};
 use calibrant::io::{
     FileFormat, HoldsInspection, ImuColumn, ImuFile, Inspection, SensorInspection, inspect, inspection_json,
     read_imu_pair, read_imu_recording,
 };
 use calibrant::motion::Hold;
-use calibrant::report::number::{count, counted, short, significant};
-use calibrant::sensor::{Axis, ReadingUnit, Saturation, Triad};
+use calibrant::report::number_format::{count, counted, short, significant};
+use calibrant::sensor::{Axis, ReadingUnit, Saturation, SensorKind};
 use std::path::{Path, PathBuf};
 
 /// Names of columns are cut to so many characters,
 const LONGEST_NAME: usize = 40;
-/// and of those that are not used none is shown after so many.
+/// At most so many of the columns that are not used are shown.
 const MOST_COLUMNS: usize = 50;
 
 /// Say what a recording of an IMU holds, before anything is calibrated.
@@ -74,9 +74,12 @@ fn text(file: &ImuFile, inspection: &Inspection, arguments: &Arguments) -> Strin
         let most = temperature.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         text.push_str(&format!("  temperature from {} to {} °C\n", short(least), short(most)));
     }
-    let unit = |triad: Triad| file.recording.triad(triad).map_or("", |recording| recording.unit.symbol());
-    let sparks = inspection.sparks.iter().map(|(triad, sparks)| sparks.words(*triad, unit(*triad)));
-    let noticed: Vec<String> = file.findings.iter().map(ToString::to_string).chain(sparks).collect();
+    let unit = |sensor_kind: SensorKind| {
+        file.recording.sensor(sensor_kind).map_or("", |recording| recording.unit.symbol())
+    };
+    let spikes =
+        inspection.spikes.iter().map(|(sensor_kind, spikes)| spikes.words(*sensor_kind, unit(*sensor_kind)));
+    let noticed: Vec<String> = file.findings.iter().map(ToString::to_string).chain(spikes).collect();
     if !noticed.is_empty() {
         text.push_str("\nNoticed\n");
         noticed.iter().for_each(|finding| text.push_str(&format!("  {finding}\n")));
@@ -149,7 +152,7 @@ fn sampling(sensor: &SensorInspection) -> String {
     };
     format!(
         "  {}: {} samples {span}, {} Hz; steps {} to {} ms, jitter {jitter}; {gaps}\n",
-        sensor.triad,
+        sensor.sensor_kind,
         count(sensor.samples),
         significant(sensor.rate_hz, 5),
         significant(1e3 * sensor.steps_s.0, 4),
@@ -162,7 +165,7 @@ fn ranges(sensors: &[SensorInspection]) -> String {
         let cell = |value: f64| significant(value, 5);
         let k = axis.index();
         vec![
-            format!("{} {axis}", sensor.triad),
+            format!("{} {axis}", sensor.sensor_kind),
             cell(sensor.least[k]),
             cell(sensor.mean[k]),
             cell(sensor.most[k]),
@@ -203,10 +206,13 @@ fn holds(found: &HoldsInspection, inspection: &Inspection) -> String {
             ));
         }
     }
-    for (triad, coarse) in &found.coarse {
-        let unit =
-            inspection.sensors.iter().find(|sensor| sensor.triad == *triad).map_or("", |of| of.unit.symbol());
-        text.push_str(&format!("  {}\n", coarse.words(triad.name(), unit)));
+    for (sensor_kind, coarse) in &found.coarse {
+        let unit = inspection
+            .sensors
+            .iter()
+            .find(|sensor| sensor.sensor_kind == *sensor_kind)
+            .map_or("", |of| of.unit.symbol());
+        text.push_str(&format!("  {}\n", coarse.words(sensor_kind.name(), unit)));
     }
     if let Some(coverage) = &found.coverage {
         let missing: Vec<String> = Axis::ALL
@@ -228,9 +234,10 @@ fn holds(found: &HoldsInspection, inspection: &Inspection) -> String {
             }
         ));
     }
-    if let (Some((mean, noise)), Some(gyroscope)) =
-        (&found.gyroscope_at_rest, inspection.sensors.iter().find(|sensor| sensor.triad == Triad::Gyroscope))
-    {
+    if let (Some((mean, noise)), Some(gyroscope)) = (
+        &found.gyroscope_at_rest,
+        inspection.sensors.iter().find(|sensor| sensor.sensor_kind == SensorKind::Gyroscope),
+    ) {
         let list = |v: &nalgebra::Vector3<f64>, digits| {
             v.iter().map(|x| significant(*x, digits)).collect::<Vec<_>>().join(", ")
         };

@@ -11,8 +11,8 @@ mod exit;
 mod init;
 mod inspect;
 mod noise;
-mod place;
-mod reading;
+mod output_places;
+mod recording_options;
 mod simulate;
 mod study;
 

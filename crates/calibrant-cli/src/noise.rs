@@ -7,35 +7,35 @@ mod table;
 
 pub(crate) use arguments::Arguments;
 
-use crate::reading::{in_file, name};
-use crate::{Exit, console, place};
+use crate::recording_options::{in_file, name};
+use crate::{Exit, console, output_places};
 use arguments::Gains;
 use calibrant::Error;
-use calibrant::error::Complaint;
+use calibrant::error::InputError;
 use calibrant::io::{ImuFile, Input, noise_json, write_atomically, write_noise};
-use calibrant::noise::{Stretch, TriadNoise};
-use calibrant::report::{About, noise_report, number};
-use calibrant::sensor::{Recording, Triad};
+use calibrant::noise::{Segment, SensorNoise};
+use calibrant::report::{About, noise_report, number_format};
+use calibrant::sensor::{Recording, SensorKind};
 use nalgebra::Vector3;
 use std::path::Path;
 
 pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     if let Some(directory) = &arguments.output {
-        place::check_directory(directory)?;
+        output_places::check_directory(directory)?;
     }
     let gains = gains(arguments)?;
-    let asked = arguments.sensor.map(Triad::from);
-    let file = read::read(arguments, asked.unwrap_or(Triad::Accelerometer), &gains)?;
+    let asked = arguments.sensor.map(SensorKind::from);
+    let file = read::read(arguments, asked.unwrap_or(SensorKind::Accelerometer), &gains)?;
     let imu = &file.recording;
     let in_file = |error| in_file(error, &arguments.recording);
-    let is_asked = |triad: &Triad| asked.is_none_or(|asked| asked == *triad);
-    let there: Vec<(Triad, &Recording)> = Triad::ALL
+    let is_asked = |sensor_kind: &SensorKind| asked.is_none_or(|asked| asked == *sensor_kind);
+    let there: Vec<(SensorKind, &Recording)> = SensorKind::ALL
         .into_iter()
         .filter(is_asked)
-        .filter_map(|triad| Some((triad, imu.triad(triad)?)))
+        .filter_map(|sensor_kind| Some((sensor_kind, imu.sensor(sensor_kind)?)))
         .collect();
     if there.is_empty() {
-        return Err(in_file(no_sensor(asked.unwrap_or(Triad::Accelerometer))));
+        return Err(in_file(no_sensor(asked.unwrap_or(SensorKind::Accelerometer))));
     }
     let found = holds::holds(imu);
     let (holds, interval) = match arguments.hold.as_deref() {
@@ -46,15 +46,15 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
             (holds, interval)
         }
     };
-    let of_sensor = |&(triad, recording): &(Triad, &Recording)| -> calibrant::Result<TriadNoise> {
-        let stretch = Stretch::between(recording, interval.0, interval.1)?;
-        let mut found = TriadNoise::of(triad, recording, stretch)?;
-        if let Some((_, gain)) = gains.iter().find(|(of, _)| *of == triad) {
+    let of_sensor = |&(sensor_kind, recording): &(SensorKind, &Recording)| -> calibrant::Result<SensorNoise> {
+        let segment = Segment::between(recording, interval.0, interval.1)?;
+        let mut found = SensorNoise::of(sensor_kind, recording, segment)?;
+        if let Some((_, gain)) = gains.iter().find(|(of, _)| *of == sensor_kind) {
             found = found.with_gain(recording, gain)?;
         }
-        let moving = arguments.hold.as_ref().and_then(|_| holds::moves(&holds, &found.stretch));
+        let moving = arguments.hold.as_ref().and_then(|_| holds::moves(&holds, &found.segment));
         if let Some(moving) = moving {
-            found.doubt = Some("the sensor moves in the interval that was given".into());
+            found.caveat = Some("the sensor moves in the interval that was given".into());
             found.warnings.push(moving);
         }
         Ok(found)
@@ -72,20 +72,20 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     let first = &noise[0];
     let examined = match arguments.hold {
         Some(_) => None,
-        None => imu.triad(first.triad).and_then(|it| holds::examined(&holds, &first.stretch, it)),
+        None => imu.sensor(first.sensor_kind).and_then(|it| holds::examined(&holds, &first.segment, it)),
     };
-    let inputs = inputs(arguments, &file, first.triad);
+    let inputs = inputs(arguments, &file, first.sensor_kind);
 
     let second = arguments.gyroscope.as_deref().map(name);
     console::findings(&file.findings, &name(&arguments.recording), second.as_deref());
-    if let Some((triad, error)) = &failed {
-        console::warn(&format!("no noise of the {triad}: {error}"));
+    if let Some((sensor_kind, error)) = &failed {
+        console::warn(&format!("no noise of the {sensor_kind}: {error}"));
     }
     noise.iter().flat_map(|sensor| &sensor.warnings).for_each(|warning| console::warn(warning));
     if arguments.json {
         console::print(&noise_json(&noise, &inputs));
     } else {
-        noise.iter().for_each(|sensor| console::print(&table::of(sensor, examined.as_deref())));
+        noise.iter().for_each(|sensor| console::print(&table::noise_table(sensor, examined.as_deref())));
     }
     if let Some(directory) = &arguments.output {
         write_noise(&directory.join("noise.json"), &noise, &inputs)?;
@@ -100,9 +100,9 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
 }
 
 /// The files, for noise.json: the one, or the accelerometer's and the gyroscope's.
-fn inputs(arguments: &Arguments, file: &ImuFile, of_one: Triad) -> Vec<Input> {
-    let input = |path: &Path, sha256: String, triad: Triad| {
-        let readings = file.recording.triad(triad);
+fn inputs(arguments: &Arguments, file: &ImuFile, of_one: SensorKind) -> Vec<Input> {
+    let input = |path: &Path, sha256: String, sensor_kind: SensorKind| {
+        let readings = file.recording.sensor(sensor_kind);
         Input {
             file: name(path),
             sha256,
@@ -112,8 +112,8 @@ fn inputs(arguments: &Arguments, file: &ImuFile, of_one: Triad) -> Vec<Input> {
     };
     match (&arguments.gyroscope, file.sha256.as_slice()) {
         (Some(gyroscope), [first, second]) => vec![
-            input(&arguments.recording, first.clone(), Triad::Accelerometer),
-            input(gyroscope, second.clone(), Triad::Gyroscope),
+            input(&arguments.recording, first.clone(), SensorKind::Accelerometer),
+            input(gyroscope, second.clone(), SensorKind::Gyroscope),
         ],
         _ => vec![input(&arguments.recording, file.sha256.concat(), of_one)],
     }
@@ -125,7 +125,11 @@ fn about(arguments: &Arguments, file: &ImuFile, inputs: &[Input], examined: Opti
     let paths = std::iter::once(&arguments.recording).chain(&arguments.gyroscope);
     let paths: Vec<String> = paths.map(|path| path.display().to_string()).collect();
     let samples = |input: &Input| {
-        format!("{} at {} Hz", number::count(input.samples), number::significant(input.rate_hz, 5))
+        format!(
+            "{} at {} Hz",
+            number_format::count(input.samples),
+            number_format::significant(input.rate_hz, 5)
+        )
     };
     let hold = match (&arguments.hold, examined) {
         (Some(_), _) => "as given".into(),
@@ -146,25 +150,26 @@ fn about(arguments: &Arguments, file: &ImuFile, inputs: &[Input], examined: Opti
     }
 }
 
-fn no_sensor(triad: Triad) -> Error {
-    let complaint = Complaint::new(format!("the file has no {triad}"), "choose the other with --sensor");
-    Error::Recording(Box::new(complaint))
+fn no_sensor(sensor_kind: SensorKind) -> Error {
+    let input_error =
+        InputError::new(format!("the file has no {sensor_kind}"), "choose the other with --sensor");
+    Error::Recording(Box::new(input_error))
 }
 
 /// --gain is that of --sensor, else of the accelerometer; --gyroscope-gain the gyroscope's.
 fn gains(arguments: &Arguments) -> calibrant::Result<Gains> {
-    let asked = arguments.sensor.map_or(Triad::Accelerometer, Triad::from);
+    let asked = arguments.sensor.map_or(SensorKind::Accelerometer, SensorKind::from);
     let mut gains = Gains::new();
-    for (option, given, triad) in [
+    for (option, given, sensor_kind) in [
         ("--gain", &arguments.gain, asked),
-        ("--gyroscope-gain", &arguments.gyroscope_gain, Triad::Gyroscope),
+        ("--gyroscope-gain", &arguments.gyroscope_gain, SensorKind::Gyroscope),
     ] {
         let Some(gain) = gain(option, given)? else { continue };
-        if gains.iter().any(|(other, _)| *other == triad) {
+        if gains.iter().any(|(other, _)| *other == sensor_kind) {
             let message = "--gain and --gyroscope-gain are both the gyroscope's with --sensor gyroscope";
-            return Err(Error::Experiment(Box::new(Complaint::new(message, "leave one of them away"))));
+            return Err(Error::Experiment(Box::new(InputError::new(message, "leave one of them away"))));
         }
-        gains.push((triad, gain));
+        gains.push((sensor_kind, gain));
     }
     Ok(gains)
 }
@@ -179,7 +184,7 @@ fn gain(option: &str, given: &[f64]) -> calibrant::Result<Option<Vector3<f64>>> 
     if gain.iter().all(|gain| gain.is_finite() && *gain != 0.0) {
         return Ok(Some(gain.abs()));
     }
-    Err(Error::Experiment(Box::new(Complaint::new(
+    Err(Error::Experiment(Box::new(InputError::new(
         format!("{option} is one number or three, none of them zero"),
         format!("counts per m/s² or per rad/s: {option} 415,413,415"),
     ))))

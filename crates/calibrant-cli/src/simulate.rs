@@ -6,10 +6,10 @@ mod random;
 
 pub(crate) use arguments::Arguments;
 
-use crate::{Exit, console, place};
+use crate::{Exit, console, output_places};
 use calibrant::Error;
 use calibrant::design::initial_motion;
-use calibrant::error::Complaint;
+use calibrant::error::InputError;
 use calibrant::io::{
     Experiment, HoldsPlan, MotionPlan, Plan, read_motion, write_motion, write_recording, write_truth,
 };
@@ -23,7 +23,7 @@ use random::Random;
 use std::path::Path;
 
 pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
-    place::check_directory(&arguments.output)?;
+    output_places::check_directory(&arguments.output)?;
     let experiment = Experiment::read(&arguments.experiment)?;
     let seed = arguments.seed.unwrap_or(experiment.study.seed);
     let random = Random { seed, recording: arguments.recording.into() };
@@ -57,9 +57,9 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
 /// A simulation needs numbers where a calibration can do without.
 fn check_simulable(sensor: &Sensor, file: &Path) -> calibrant::Result<()> {
     let missing = |key: &str| {
-        let complaint =
-            Complaint::new(format!("a simulation needs `{key}`"), "add it to the experiment file");
-        Err(Error::Experiment(Box::new(complaint.in_file(file).about_key(format!("sensor.{key}")))))
+        let input_error =
+            InputError::new(format!("a simulation needs `{key}`"), "add it to the experiment file");
+        Err(Error::Experiment(Box::new(input_error.in_file(file).about_key(format!("sensor.{key}")))))
     };
     if sensor.gain.is_none() {
         return missing("gain_counts_per_mps2");
@@ -72,7 +72,7 @@ fn check_simulable(sensor: &Sensor, file: &Path) -> calibrant::Result<()> {
 }
 
 /// Draws of an initial motion, at most.
-const DRAWS: u64 = 100;
+const MOST_DRAWS: u64 = 100;
 
 /// The commanded motion: the given one, or the random initial one of the experiment for this recording, from 1.
 pub(crate) fn commanded_motion(
@@ -87,12 +87,12 @@ pub(crate) fn commanded_motion(
         return read_motion(path, axes);
     }
     // with both ends known and nothing in between, the ends must differ: draw again until they do by a tenth of the peak
-    let first = DRAWS * (recording - 1);
+    let first = MOST_DRAWS * (recording - 1);
     let drawn = |draw| {
         let mut rng = stream(seed, Purpose::Motion, draw);
         initial_motion(plan.intervals, plan.interval_s, axes, limits, &mut rng)
     };
-    for draw in first..first + DRAWS {
+    for draw in first..first + MOST_DRAWS {
         let motion = drawn(draw)?;
         let a = motion.acceleration_mps2();
         let apart = (0..axes).all(|k| {

@@ -3,9 +3,9 @@
 mod plan;
 mod table;
 
-use crate::{Exit, console, place};
+use crate::{Exit, console, output_places};
 use calibrant::Error;
-use calibrant::error::Complaint;
+use calibrant::error::InputError;
 use calibrant::io::{Experiment, Plan, preset, study_json, write_atomically, write_study};
 use calibrant::report::{About, study_report};
 use calibrant::study::run_studies;
@@ -45,13 +45,13 @@ pub(crate) struct Arguments {
 }
 
 pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
-    place::check_directory(&arguments.output)?;
+    output_places::check_directory(&arguments.output)?;
     let experiment = match &arguments.experiment {
         Some(path) => Experiment::read(path)?,
         None => Experiment::parse(preset(DEFAULT).unwrap_or_default(), None)?,
     };
     let Plan::Motion(plan) = &experiment.plan else {
-        return Err(Error::Experiment(Box::new(Complaint::new(
+        return Err(Error::Experiment(Box::new(InputError::new(
             "a study needs a [motion] experiment, this one has [holds]",
             "see `calibrant init report-unknown`; a static recording can be made with `calibrant simulate`",
         ))));
@@ -59,7 +59,7 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     let sensor = &experiment.sensor;
     if sensor.gain.is_none() {
         return Err(Error::Experiment(Box::new(
-            Complaint::new("a study needs `gain_counts_per_mps2`", "add it to the experiment file")
+            InputError::new("a study needs `gain_counts_per_mps2`", "add it to the experiment file")
                 .about_key("sensor.gain_counts_per_mps2"),
         )));
     }

@@ -18,13 +18,13 @@ pub type Result<T> = std::result::Result<T, Error>;
 pub enum Error {
     /// The experiment file, the commanded motion or an option makes no sense (exit status 2).
     #[error("{0}")]
-    Experiment(Box<Complaint>),
+    Experiment(Box<InputError>),
     /// The limits admit no motion (exit status 4).
     #[error("{0}")]
-    Infeasible(Box<Complaint>),
+    Infeasible(Box<InputError>),
     /// The recording cannot be used (exit status 3).
     #[error("{0}")]
-    Recording(Box<Complaint>),
+    Recording(Box<InputError>),
     /// The data cannot determine some of the parameters (exit status 4).
     #[error("{0}")]
     NotIdentifiable(Box<NotIdentifiable>),
@@ -40,7 +40,7 @@ pub enum Error {
 
 /// What is wrong with an input, where, and what to do about it.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Complaint {
+pub struct InputError {
     /// The file, where the input is one.
     pub file: Option<PathBuf>,
     /// Line in the file, counted from 1.
@@ -57,7 +57,7 @@ pub struct Complaint {
     pub excerpt: Option<(String, std::ops::Range<usize>)>,
 }
 
-impl Complaint {
+impl InputError {
     /// A complaint that is not about a place in a file.
     #[must_use]
     pub fn new(message: impl Into<String>, help: impl Into<String>) -> Self {
@@ -93,7 +93,7 @@ impl Complaint {
     }
 }
 
-impl fmt::Display for Complaint {
+impl fmt::Display for InputError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let Some(file) = &self.file {
             write!(f, "{}", file.display())?;
@@ -209,10 +209,10 @@ impl Error {
 
     /// The complaint about an input, where this is one.
     #[must_use]
-    pub fn complaint(&self) -> Option<&Complaint> {
+    pub fn input_error(&self) -> Option<&InputError> {
         match self {
-            Self::Experiment(complaint) | Self::Recording(complaint) | Self::Infeasible(complaint) => {
-                Some(complaint)
+            Self::Experiment(input_error) | Self::Recording(input_error) | Self::Infeasible(input_error) => {
+                Some(input_error)
             }
             _ => None,
         }
@@ -220,14 +220,14 @@ impl Error {
 
     /// The experiment, the commanded motion or an option at fault.
     #[must_use]
-    pub fn experiment(complaint: Complaint) -> Self {
-        Self::Experiment(Box::new(complaint))
+    pub fn experiment(input_error: InputError) -> Self {
+        Self::Experiment(Box::new(input_error))
     }
 
     /// Limits that admit no motion.
     #[must_use]
-    pub fn infeasible(complaint: Complaint) -> Self {
-        Self::Infeasible(Box::new(complaint))
+    pub fn infeasible(input_error: InputError) -> Self {
+        Self::Infeasible(Box::new(input_error))
     }
 
     /// One group of parameters that the data cannot determine.
@@ -238,7 +238,7 @@ impl Error {
 
     /// A recording at fault.
     #[must_use]
-    pub fn recording(complaint: Complaint) -> Self {
-        Self::Recording(Box::new(complaint))
+    pub fn recording(input_error: InputError) -> Self {
+        Self::Recording(Box::new(input_error))
     }
 }

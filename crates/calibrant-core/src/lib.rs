@@ -1,7 +1,7 @@
 //! The mathematics of calibrant: how an inertial sensor is modelled, estimated, examined for noise, and simulated.
 //!
 //! Data flow one way: [`sensor`] and [`motion`] say what is measured. [`arrowhead`] is the one linear-algebra kernel. [`information`] turns its result into a
-//! covariance, and explains what is undetermined. [`noise`] examines a sensor at rest. [`estimate`] calibrates. [`simulate`] makes sensors and recordings.
+//! covariance, and explains what is undetermined. [`power_law_noise`] examines a sensor at rest. [`estimate`] calibrates. [`simulate`] makes sensors and recordings.
 //!
 //! The crate `calibrant` re-exports all of it; depend on that one unless the build time matters.
 

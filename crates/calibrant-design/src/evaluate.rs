@@ -12,7 +12,7 @@ use calibrant_core::motion::{JerkControlledMotion, Trust, sample_times};
 /// As [`MotionInformation::of`](calibrant_core::information::MotionInformation::of). A motion that leaves parameters undetermined is not an error: the result says which.
 pub fn evaluate(problem: &DesignProblem<'_>, motion: &JerkControlledMotion) -> Result<Evaluation> {
     let setting = problem.setting()?;
-    let mut information = setting.of(motion)?;
+    let mut information = setting.information(motion)?;
     if let Some(prior) = &problem.prior {
         information += prior;
     }
@@ -40,7 +40,7 @@ fn reasons(
     let mut view = if problem.trust == Trust::Unknown { View::Ends } else { View::Command };
     if let Trust::Noisy(_) = problem.trust {
         // is the motion itself at fault, or its noise?
-        let mut exact = MotionInformation { trust: Trust::Known, ..setting.clone() }.of(motion)?;
+        let mut exact = MotionInformation { trust: Trust::Known, ..setting.clone() }.information(motion)?;
         if let Some(prior) = &problem.prior {
             exact += prior;
         }

@@ -5,10 +5,10 @@
 //! asked, and a deletion filter names a minimal set of limits that clash: without any one of them there is a motion.
 
 use super::admissible::{LimitKind, worst_violation};
-use super::conic::{ConicProgram, Row};
-use super::region::{Region, Watch};
+use super::admissible_region::{Region, WatchedIntervals};
+use super::conic_program::{ConicProgram, Row};
 use super::{DesignProblem, limit_use};
-use calibrant_core::error::{Complaint, Error, Result};
+use calibrant_core::error::{Error, InputError, Result};
 use calibrant_core::motion::{AxisLimits, JerkControlledMotion, Limits, Rest};
 use calibrant_core::sensor::Axis;
 use nalgebra::Vector3;
@@ -28,8 +28,8 @@ pub fn check_feasible(problem: &DesignProblem<'_>) -> Result<()> {
         if own.start.is_none() && own.end.is_none() {
             continue;
         }
-        if let Some(complaint) = plain_clash(axis, &own, &times) {
-            return Err(Error::infeasible(complaint));
+        if let Some(input_error) = plain_clash(axis, &own, &times) {
+            return Err(Error::infeasible(input_error));
         }
         if interior_motion(&own, &times).is_none() {
             return Err(Error::infeasible(clash(axis, &own, &times)));
@@ -78,8 +78,8 @@ pub(crate) fn inside(
     for &axis in &Axis::ALL[..axes] {
         let own = limits.axis(axis.index());
         let Some(interior) = interior_motion(&own, &times) else {
-            let complaint = plain_clash(axis, &own, &times);
-            return Err(Error::infeasible(complaint.unwrap_or_else(|| clash(axis, &own, &times))));
+            let input_error = plain_clash(axis, &own, &times);
+            return Err(Error::infeasible(input_error.unwrap_or_else(|| clash(axis, &own, &times))));
         };
         slack = slack.min(interior.slack);
         nodes.iter_mut().zip(interior.nodes).for_each(|(node, value)| node[axis.index()] = value);
@@ -165,7 +165,7 @@ fn any(limits: &AxisLimits, times: &[f64]) -> Option<Vec<f64>> {
         let ends = [limits.start, limits.end].into_iter().flatten();
         region.size = ends.fold(1.0, |size: f64, end| size.max(end.abs()));
     }
-    let mut watch = Watch::default();
+    let mut watch = WatchedIntervals::default();
     // watched intervals are few and are found soon
     for _ in 0..=n {
         let mut program = ConicProgram::default();
@@ -215,16 +215,16 @@ fn spare(limits: &AxisLimits, times: &[f64], a: &[f64]) -> f64 {
 }
 
 /// The clashes that need no program.
-fn plain_clash(axis: Axis, limits: &AxisLimits, times: &[f64]) -> Option<Complaint> {
-    let complain = |kind: LimitKind, message: String, help: String| {
-        Some(Complaint::new(message, help).about_key(format!("limits.{}", kind.key())))
+fn plain_clash(axis: Axis, limits: &AxisLimits, times: &[f64]) -> Option<InputError> {
+    let reject = |kind: LimitKind, message: String, help: String| {
+        Some(InputError::new(message, help).about_key(format!("limits.{}", kind.key())))
     };
     let ends = [(LimitKind::StartAcceleration, limits.start), (LimitKind::EndAcceleration, limits.end)];
     for (kind, value) in ends {
         if let (Some(value), Some(limit)) = (value, limits.acceleration)
             && value.abs() > limit
         {
-            return complain(
+            return reject(
                 kind,
                 format!(
                     "the limits admit no motion: the {} of axis {axis}, {value} m/s², lies beyond its largest acceleration of {limit} m/s²",
@@ -238,7 +238,7 @@ fn plain_clash(axis: Axis, limits: &AxisLimits, times: &[f64]) -> Option<Complai
         && times[0] == 0.0
         && start.abs() > limit
     {
-        return complain(
+        return reject(
             LimitKind::StartAcceleration,
             format!(
                 "the limits admit no motion: the first interval of axis {axis} begins at {start} m/s², which is its intercept, beyond the limit of {limit} m/s²"
@@ -249,7 +249,7 @@ fn plain_clash(axis: Axis, limits: &AxisLimits, times: &[f64]) -> Option<Complai
     if let (Some(start), Some(end), Some(jerk)) = (limits.start, limits.end, limits.jerk) {
         let needed = (end - start).abs() / (times[times.len() - 1] - times[0]);
         if needed > jerk {
-            return complain(
+            return reject(
                 LimitKind::EndAcceleration,
                 format!(
                     "the limits admit no motion: to go from {start} to {end} m/s² along axis {axis} takes a jerk of {needed:.4} m/s³, the limit is {jerk} m/s³"
@@ -262,7 +262,7 @@ fn plain_clash(axis: Axis, limits: &AxisLimits, times: &[f64]) -> Option<Complai
 }
 
 /// A minimal set of limits that clash.
-fn clash(axis: Axis, limits: &AxisLimits, times: &[f64]) -> Complaint {
+fn clash(axis: Axis, limits: &AxisLimits, times: &[f64]) -> InputError {
     let mut kept = *limits;
     let mut kinds: Vec<LimitKind> = LimitKind::ALL.into_iter().filter(|&kind| has(limits, kind)).collect();
     for kind in kinds.clone() {
@@ -290,7 +290,7 @@ fn clash(axis: Axis, limits: &AxisLimits, times: &[f64]) -> Complaint {
             "loosen the limits a little".into(),
         ),
     };
-    Complaint::new(message, help)
+    InputError::new(message, help)
 }
 
 fn has(limits: &AxisLimits, kind: LimitKind) -> bool {

@@ -40,12 +40,12 @@ fn an_end_on_its_limit_leaves_room_elsewhere() {
 #[test]
 fn plain_clashes_are_named() {
     let base = AxisLimits { acceleration: Some(10.0), jerk: Some(1.0), ..AxisLimits::default() };
-    let said = |limits: AxisLimits| plain_clash(Axis::Y, &limits, &times(4)).expect("a clash").to_string();
-    let beyond = said(AxisLimits { start: Some(-12.0), ..base });
+    let stated = |limits: AxisLimits| plain_clash(Axis::Y, &limits, &times(4)).expect("a clash").to_string();
+    let beyond = stated(AxisLimits { start: Some(-12.0), ..base });
     assert!(beyond.contains("`limits.start_acceleration_mps2`: the limits admit no motion: the acceleration at the start of axis y, -12 m/s², lies beyond"), "{beyond}");
-    let apart = said(AxisLimits { start: Some(-5.0), end: Some(5.0), ..base });
+    let apart = stated(AxisLimits { start: Some(-5.0), end: Some(5.0), ..base });
     assert!(apart.contains("takes a jerk of 2.5000 m/s³, the limit is 1 m/s³"), "{apart}");
-    let intercept = said(AxisLimits { start: Some(8.0), intercept: Some(5.0), ..base });
+    let intercept = stated(AxisLimits { start: Some(8.0), intercept: Some(5.0), ..base });
     assert!(intercept.contains("begins at 8 m/s², which is its intercept"), "{intercept}");
 }
 
@@ -61,8 +61,8 @@ fn a_minimal_clashing_set_is_named() {
         ..AxisLimits::default()
     };
     assert!(interior_motion(&limits, &times(10)).is_none());
-    let said = clash(Axis::X, &limits, &times(10)).to_string();
-    assert!(said.contains("its limits on jerk, velocity and acceleration at the start clash"), "{said}");
+    let stated = clash(Axis::X, &limits, &times(10)).to_string();
+    assert!(stated.contains("its limits on jerk, velocity and acceleration at the start clash"), "{stated}");
     let freed = AxisLimits { velocity: Some(50.0), ..limits };
     assert!(interior_motion(&freed, &times(20)).is_some());
 }
@@ -78,8 +78,8 @@ fn a_clash_names_durations_without_the_rounding_of_sums() {
         ..AxisLimits::default()
     };
     let times: Vec<f64> = (0..=3).map(|i| f64::from(i) * 0.3).collect();
-    let said = clash(Axis::X, &limits, &times).to_string();
-    assert!(said.starts_with("the limits admit no motion of 0.9 s in intervals of 0.3 s"), "{said}");
+    let stated = clash(Axis::X, &limits, &times).to_string();
+    assert!(stated.starts_with("the limits admit no motion of 0.9 s in intervals of 0.3 s"), "{stated}");
 }
 
 #[test]
@@ -93,8 +93,8 @@ fn clashes_between_the_nodes_are_found() {
         ..AxisLimits::default()
     };
     assert!(interior_motion(&limits, &times(1)).is_none());
-    let said = clash(Axis::X, &limits, &times(1)).to_string();
-    assert!(said.contains("velocity, rest at the end and acceleration at the start clash"), "{said}");
+    let stated = clash(Axis::X, &limits, &times(1)).to_string();
+    assert!(stated.contains("velocity, rest at the end and acceleration at the start clash"), "{stated}");
     let freed = AxisLimits { velocity: Some(1.1), ..limits };
     assert!(interior_motion(&freed, &times(1)).is_some());
 }

@@ -1,4 +1,4 @@
-//! The criterion's own second derivative, where the model of [`super::curvature`] is a poor one.
+//! The criterion's own second derivative, where the model of [`super::criterion_model`] is a poor one.
 //!
 //! Noise in proportion to the jerk takes back what a larger jerk gains: the bend of the information and that of the noise all but cancel, and a
 //! model that knows only one of them makes steps a hundred times too short. So for a noisy motion the Hessian is taken whole, by central
@@ -13,7 +13,7 @@ pub(super) const LARGEST: usize = 90;
 /// Step of the differences, in units of the motion's size.
 const STEP: f64 = 1e-5;
 /// Relative size of an eigenvalue that counts as zero.
-const FLAT: f64 = 1e-9;
+const ZERO_EIGENVALUE: f64 = 1e-9;
 
 impl<const D: usize, const P: usize> Part<D, P> {
     /// The gradient of the criterion; `None` where the motion does not determine the parameters.
@@ -42,7 +42,7 @@ impl<const D: usize, const P: usize> Part<D, P> {
         }
         let eigen = ((&hessian + hessian.transpose()) * 0.5).symmetric_eigen();
         let largest = eigen.eigenvalues.amax();
-        let forms = (0..unknowns).filter(|&k| eigen.eigenvalues[k] > FLAT * largest).map(|k| {
+        let forms = (0..unknowns).filter(|&k| eigen.eigenvalues[k] > ZERO_EIGENVALUE * largest).map(|k| {
             let row = eigen.eigenvectors.column(k) * eigen.eigenvalues[k].sqrt();
             (0..a.len()).map(|i| SVector::from_fn(|d, _| row[i * D + d])).collect()
         });

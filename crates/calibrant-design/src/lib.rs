@@ -1,32 +1,32 @@
 //! Design: the motion whose recording determines the parameters best, and the proof of how good it is.
 
 mod admissible;
-mod assessment;
+mod admissible_region;
 mod certificate;
-mod conic;
-mod curvature;
+mod certificate_words;
+mod conic_program;
+mod criterion_model;
 mod evaluate;
 mod feasibility;
 mod hessian;
-mod initial;
-mod local;
+mod initial_motion;
+mod motion_assessment;
+mod multistart_search;
 mod part;
 mod problem;
-mod region;
+mod random_starts;
 mod result;
-mod search;
+mod sequential_programming;
 mod settings;
 mod solve;
-mod starts;
-mod statement;
 pub mod study;
 mod sweep;
 
 pub use admissible::{LimitKind, LimitUse, ROUNDING, limit_use};
-pub use assessment::{Assessment, OtherSetting, assess};
 pub use evaluate::evaluate;
 pub use feasibility::check_feasible;
-pub use initial::initial_motion;
+pub use initial_motion::initial_motion;
+pub use motion_assessment::{Assessment, OtherSetting, assess};
 pub use problem::DesignProblem;
 pub use result::{AT_BEST, Certificate, Design, DesignStatus, Evaluation, StartOutcome};
 pub use settings::DesignSettings;

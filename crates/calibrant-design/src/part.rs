@@ -1,6 +1,6 @@
 //! The problem of one part of a design: the axes that are seen together.
 
-use super::region::Region;
+use super::admissible_region::Region;
 use calibrant_core::information::{Criterion, PartInformation};
 use nalgebra::{SMatrix, SVector};
 

@@ -1,6 +1,6 @@
 //! What is to be designed.
 
-use calibrant_core::error::{Complaint, Error, Result};
+use calibrant_core::error::{Error, InputError, Result};
 use calibrant_core::information::{Criterion, MotionInformation};
 use calibrant_core::motion::{KnownEnds, Limits, Trust};
 use calibrant_core::sensor::{Axis, Sensor, SensorModel, SensorParameters};
@@ -69,7 +69,7 @@ impl DesignProblem<'_> {
                 || (l.jerk.is_some() && (l.intercept.is_some() || l.start.is_some() || l.end.is_some()));
             if !bounded {
                 return Err(Error::experiment(
-                    Complaint::new(
+                    InputError::new(
                         format!("nothing bounds the acceleration of axis {axis}: the best motion would be infinitely fast"),
                         "set `limits.acceleration_mps2`, or `intercept_mps2` with `jerk_mps3`, or `sensor.range_mps2`",
                     )

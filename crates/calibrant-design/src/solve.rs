@@ -1,6 +1,6 @@
 //! The best motion: feasibility, search, certificate.
 
-use super::search::search;
+use super::multistart_search::search;
 use super::{
     Design, DesignProblem, DesignSettings, certificate, check_feasible, evaluate, feasibility, initial_motion,
 };

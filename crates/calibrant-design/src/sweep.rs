@@ -1,7 +1,7 @@
 //! A sweep: the best that can be had as one thing about the experiment changes.
 
 use super::{Design, DesignProblem, DesignSettings, design};
-use calibrant_core::error::{Complaint, Error, Result};
+use calibrant_core::error::{Error, InputError, Result};
 use calibrant_core::information::Criterion;
 use calibrant_core::motion::Limits;
 use calibrant_core::sensor::{Parameter, Sensor};
@@ -178,9 +178,9 @@ struct Changed {
 
 impl Changed {
     fn of(problem: &DesignProblem<'_>, variable: SweepVariable, asked: f64) -> Result<Self> {
-        let complain = |message: String, help: &str| Err(Error::experiment(Complaint::new(message, help)));
+        let reject = |message: String, help: &str| Err(Error::experiment(InputError::new(message, help)));
         if !(asked.is_finite() && asked > 0.0) {
-            return complain(
+            return reject(
                 format!("cannot sweep {} to {asked}", variable.name()),
                 "values are numbers above 0",
             );
@@ -211,7 +211,7 @@ impl Changed {
         }
         let samples = changed.intervals as f64 * problem.interval_s * changed.rate_hz;
         if !(1.0 - 1e-9..=1e9).contains(&samples) {
-            return complain(
+            return reject(
                 format!(
                     "{} {asked:?} {} makes a recording of {samples:.1e} sample steps",
                     variable.name(),

@@ -1,8 +1,10 @@
 //! `calibration.json`: a calibration with everything needed to use it and to judge it.
 
-use super::fields::{EstimateFields, FitFields, InUnit, MotionFields, axes_of, block, matrix_rows, per_axis};
 use super::holds::HoldsFields;
 use super::json;
+use super::shared_fields::{
+    EstimateFields, FitFields, InUnit, MotionFields, axes_of, block, matrix_rows, per_axis,
+};
 use super::validation::{ValidationFields, validation_fields};
 use calibrant_core::error::Result;
 use calibrant_core::estimate::{Calibration, Recovered, Validation};

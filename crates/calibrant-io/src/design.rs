@@ -1,7 +1,7 @@
 //! `design.json`: a design with everything needed to repeat it, to judge it and to drive the arm.
 
-use super::fields::{InUnit, MotionFields, matrix_rows, per_axis};
 use super::json;
+use super::shared_fields::{InUnit, MotionFields, matrix_rows, per_axis};
 use calibrant_core::error::{Result, UndeterminedGroup};
 use calibrant_core::information::Criterion;
 use calibrant_core::motion::{InputNoise, KnownEnds, Limits, Rest, Trust};
@@ -344,7 +344,7 @@ impl SettingFields {
                 Trust::Noisy(noise) => Some(InputNoiseFields::of(&noise)),
                 Trust::Known | Trust::Unknown => None,
             },
-            guess: list.quantities().iter().map(|quantity| quantity.of(&problem.at)).collect(),
+            guess: list.quantities().iter().map(|quantity| quantity.value(&problem.at)).collect(),
             prior_information: problem.prior.as_ref().map(|prior: &DMatrix<f64>| matrix_rows(prior)),
             starts: settings.starts,
             seed: settings.seed,

@@ -1,6 +1,6 @@
 //! The holds of a calibration in its JSON file.
 
-use super::fields::{InUnit, per_axis};
+use super::shared_fields::{InUnit, per_axis};
 use calibrant_core::estimate::{HoldCalibration, HoldResult};
 use calibrant_core::sensor::ReadingUnit;
 use serde::Serialize;

@@ -2,9 +2,9 @@
 
 use super::calibration::Input;
 use super::convention::{Heading, ImuCore};
-use super::fields::{InUnit, matrix_rows, per_axis};
 use super::holds::HoldsFields;
 use super::json;
+use super::shared_fields::{InUnit, matrix_rows, per_axis};
 use super::validation::{ValidationFields, validation_fields};
 use calibrant_core::error::Result;
 use calibrant_core::estimate::{ImuCalibration, RotationResult, TurnResult, Validation};
@@ -130,7 +130,7 @@ impl<'a> RotationsFields<'a> {
             used,
             error_rms_rad: known(calibration.rotation_rms_rad()),
             error_before_rms_rad: known(calibration.rotation_rms_before_rad()),
-            excess_sd_rad: calibration.rotation_excess_sd_rad,
+            excess_sd_rad: calibration.between_rotations_sd_rad,
             table: calibration.rotations.iter().map(RotationFields::of).collect(),
         }
     }

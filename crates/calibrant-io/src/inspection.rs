@@ -9,7 +9,7 @@ use calibrant_core::estimate::{
 };
 use calibrant_core::motion::Hold;
 use calibrant_core::sensor::{
-    Gauge, ImuRecording, MeanReading, ReadingUnit, Recording, Saturation, Sparks, Triad, missing,
+    Gauge, ImuRecording, MeanReading, ReadingUnit, Recording, Saturation, SensorKind, Spikes, missing,
 };
 use nalgebra::Vector3;
 use serde::Serialize;
@@ -27,7 +27,7 @@ pub struct Inspection {
     /// Each sensor that is there.
     pub sensors: Vec<SensorInspection>,
     /// Samples of a sensor that are none, which holds are looked for without.
-    pub sparks: Vec<(Triad, Sparks)>,
+    pub spikes: Vec<(SensorKind, Spikes)>,
     /// The holds of the accelerometer; `None` without one, and the reason where they could not be looked for.
     pub holds: Option<std::result::Result<HoldsInspection, String>>,
 }
@@ -36,7 +36,7 @@ pub struct Inspection {
 #[derive(Debug, Clone)]
 pub struct SensorInspection {
     /// Which sensor.
-    pub triad: Triad,
+    pub sensor_kind: SensorKind,
     /// Unit of its readings, after the conversion.
     pub unit: ReadingUnit,
     /// Number of samples.
@@ -77,7 +77,7 @@ pub struct HoldsInspection {
     /// Why there may be fewer than there should be, in words: a filter that breaks them up, or sensors that were exchanged.
     pub lost: Option<String>,
     /// Axes whose readings come in steps coarser than their noise.
-    pub coarse: Vec<(Triad, CoarseAxis)>,
+    pub coarse: Vec<(SensorKind, CoarseAxis)>,
     /// Mean of the gyroscope over the holds and scatter of its samples within them, unit of its readings.
     pub gyroscope_at_rest: Option<(Vector3<f64>, Vector3<f64>)>,
 }
@@ -96,20 +96,20 @@ pub struct HoldsInspection {
 #[must_use]
 pub fn inspect(file: &ImuFile) -> Inspection {
     let recording = &file.recording;
-    let sensors = Triad::ALL
+    let sensors = SensorKind::ALL
         .into_iter()
-        .filter_map(|triad| Some(SensorInspection::of(triad, recording.triad(triad)?)))
+        .filter_map(|sensor_kind| Some(SensorInspection::of(sensor_kind, recording.sensor(sensor_kind)?)))
         .collect();
-    let (clean, sparks) = recording.without_sparks();
+    let (clean, spikes) = recording.without_spikes();
     let holds = clean
         .accelerometer
         .as_ref()
         .map(|accelerometer| HoldsInspection::of(&clean, accelerometer).map_err(|error| error.to_string()));
-    Inspection { sensors, sparks, holds }
+    Inspection { sensors, spikes, holds }
 }
 
 impl SensorInspection {
-    fn of(triad: Triad, recording: &Recording) -> Self {
+    fn of(sensor_kind: SensorKind, recording: &Recording) -> Self {
         let rate_hz = recording.rate_hz();
         let usual = 1.0 / rate_hz;
         let (mut steps, mut gaps, mut lost_s) = (Vec::with_capacity(recording.len()), 0, 0.0);
@@ -129,7 +129,7 @@ impl SensorInspection {
         let readings = &recording.readings;
         let [least, most] = recording.extremes();
         Self {
-            triad,
+            sensor_kind,
             unit: recording.unit,
             samples: recording.len(),
             span_s: (recording.times_s[0], recording.times_s[recording.len() - 1]),
@@ -172,7 +172,10 @@ impl HoldsInspection {
                 Ok(_) => None,
             }
             .or_else(|| holds_lost_to_filter(accelerometer, &holds, MINIMUM_HOLD_S)),
-            coarse: Triad::ALL.into_iter().flat_map(|triad| coarse(recording, triad, &sound)).collect(),
+            coarse: SensorKind::ALL
+                .into_iter()
+                .flat_map(|sensor_kind| coarse(recording, sensor_kind, &sound))
+                .collect(),
             expected,
             clipped,
             holds,
@@ -181,9 +184,13 @@ impl HoldsInspection {
 }
 
 /// The coarse axes of a sensor, by its samples in holds.
-fn coarse(recording: &ImuRecording, triad: Triad, holds: &[Hold]) -> Vec<(Triad, CoarseAxis)> {
-    let Some(recording) = recording.triad(triad) else { return Vec::new() };
-    coarse_axes_in(recording, holds).into_iter().map(|found| (triad, found)).collect()
+fn coarse(
+    recording: &ImuRecording,
+    sensor_kind: SensorKind,
+    holds: &[Hold],
+) -> Vec<(SensorKind, CoarseAxis)> {
+    let Some(recording) = recording.sensor(sensor_kind) else { return Vec::new() };
+    coarse_axes_in(recording, holds).into_iter().map(|found| (sensor_kind, found)).collect()
 }
 
 /// Mean of a sensor over the holds, and the scatter of its samples within them.
@@ -215,7 +222,8 @@ struct InspectionFile<'a> {
     findings: Vec<String>,
     sensors: Vec<SensorFields>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    sparks: Vec<SparksFields>,
+    #[serde(rename = "sparks")]
+    spikes: Vec<SpikesFields>,
     temperature_c: Option<[f64; 2]>,
     holds: Option<HoldsFields<'a>>,
     no_holds_because: Option<&'a str>,
@@ -259,7 +267,7 @@ struct SecondFields {
 
 /// Samples that were left out; of the one that is farthest off, what it is.
 #[derive(Serialize)]
-struct SparksFields {
+struct SpikesFields {
     sensor: &'static str,
     samples: usize,
     cut_samples: usize,
@@ -347,7 +355,7 @@ impl<'a> InspectionFile<'a> {
             columns: file.columns.iter().map(ColumnFields::of).collect(),
             findings: file.findings.iter().map(Finding::to_string).collect(),
             sensors: inspection.sensors.iter().map(SensorFields::of).collect(),
-            sparks: inspection.sparks.iter().map(SparksFields::of).collect(),
+            spikes: inspection.spikes.iter().map(SpikesFields::of).collect(),
             temperature_c: file.recording.temperature_c.as_ref().map(range),
             holds: found.and_then(|holds| holds.as_ref().ok()).map(HoldsFields::of),
             no_holds_because: found.and_then(|holds| holds.as_ref().err()).map(String::as_str),
@@ -367,15 +375,15 @@ impl<'a> ColumnFields<'a> {
     }
 }
 
-impl SparksFields {
-    fn of((triad, sparks): &(Triad, Sparks)) -> Self {
+impl SpikesFields {
+    fn of((sensor_kind, spikes): &(SensorKind, Spikes)) -> Self {
         Self {
-            sensor: triad.name(),
-            samples: sparks.samples.len(),
-            cut_samples: sparks.cut.len(),
-            axis: sparks.axis.to_string(),
-            time_s: sparks.time_s,
-            reading: sparks.reading,
+            sensor: sensor_kind.name(),
+            samples: spikes.samples.len(),
+            cut_samples: spikes.cut.len(),
+            axis: spikes.axis.to_string(),
+            time_s: spikes.time_s,
+            reading: spikes.reading,
         }
     }
 }
@@ -383,7 +391,7 @@ impl SparksFields {
 impl SensorFields {
     fn of(sensor: &SensorInspection) -> Self {
         Self {
-            sensor: sensor.triad.name(),
+            sensor: sensor.sensor_kind.name(),
             unit: sensor.unit.symbol(),
             samples: sensor.samples,
             start_s: sensor.span_s.0,
@@ -412,8 +420,8 @@ impl<'a> HoldsFields<'a> {
             sd: list(&hold.sd),
             saturated_axis: clipped.map(|end| end.axis.to_string()),
         };
-        let coarse = |(triad, found): &(Triad, CoarseAxis)| CoarseFields {
-            sensor: triad.name(),
+        let coarse = |(sensor_kind, found): &(SensorKind, CoarseAxis)| CoarseFields {
+            sensor: sensor_kind.name(),
             axis: found.axis.to_string(),
             step: found.step,
             noise: found.noise,

@@ -1,7 +1,7 @@
 //! JSON for people and programs: indented, but with rows of numbers on one line.
 
-use super::output::write_atomically;
-use calibrant_core::error::{Complaint, Result};
+use super::atomic_output::write_atomically;
+use calibrant_core::error::{InputError, Result};
 use serde::Serialize;
 use serde_json::ser::{Formatter, Serializer};
 use std::io::{self, Write};
@@ -28,15 +28,15 @@ pub(super) fn to_json(value: &impl Serialize) -> String {
 }
 
 /// What serde says of a file that should be `what`, without the place at the end of its text: that goes before it.
-pub(super) fn broken(error: &serde_json::Error, what: &str, help: &str) -> Complaint {
+pub(super) fn broken(error: &serde_json::Error, what: &str, help: &str) -> InputError {
     let message = error.to_string();
     let message = message.split(" at line ").next().unwrap_or_default();
     let found = if error.is_data() { format!("not {what}") } else { "not valid JSON".into() };
-    let complaint = Complaint::new(format!("{found}: {message}"), help);
+    let input_error = InputError::new(format!("{found}: {message}"), help);
     if error.line() > 0 {
-        complaint.at_line(error.line()).at_column(error.column().max(1))
+        input_error.at_line(error.line()).at_column(error.column().max(1))
     } else {
-        complaint
+        input_error
     }
 }
 

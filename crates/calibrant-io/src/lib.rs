@@ -20,62 +20,62 @@
 //! complaint names file, line and column and says what to do; what a reader repairs or merely notices is a [`Finding`], never
 //! silent. Everything is written beside its place and then renamed ([`write_atomically`]), so a result is whole or absent.
 
+mod atomic_output;
 mod calibration;
 mod comparison;
 mod convention;
-mod corrected;
-mod delimited;
-mod dense;
+mod corrected_recording;
+mod delimited_text;
+mod dense_motion;
 mod design;
-mod earlier;
+mod earlier_calibration;
 mod evaluation;
 mod experiment;
-mod fields;
+mod experiment_presets;
+mod ferraris_sections;
 mod holds;
 mod imu_calibration;
 mod inspection;
 mod json;
 mod motion;
 mod noise;
-mod output;
-mod preset;
 mod recording;
-mod sections;
+mod shared_fields;
 mod study;
 mod summary;
 mod sweep;
-mod text;
+mod text_decoding;
 mod truth;
 mod validation;
 
+pub use atomic_output::write_atomically;
 pub use calibration::{Input, calibration_json, write_calibration};
 pub use comparison::comparison_json;
 pub use convention::{
     CalibratedImuFile, ConventionOptions, ImuFormat, ImuNoise, RawUnits, WrittenImu, calibrated_imu_texts,
     parse_calibrated_imu, read_calibrated_imu, read_kalibr_noise, read_measured_noise, write_calibrated_imu,
 };
-pub use corrected::write_corrected_recording;
-pub use dense::write_dense_motion;
+pub use corrected_recording::write_corrected_recording;
+pub use dense_motion::write_dense_motion;
 pub use design::{design_json, write_design};
-pub use earlier::{EarlierCalibration, parse_calibration, read_calibration};
+pub use earlier_calibration::{EarlierCalibration, parse_calibration, read_calibration};
 pub use evaluation::{evaluation_json, write_evaluation};
 pub use experiment::{
     CalibrateOptions, CriterionLetter, DesignOptions, Experiment, HoldsPlan, ImuPlan, MotionPlan,
     NoisyVariant, Plan, Prior, ScaleBy, StudyOptions, UnknownVariant, read_columns,
 };
+pub use experiment_presets::{PRESETS, preset};
+pub use ferraris_sections::{Section, SectionKind, parse_sections, read_sections};
 pub use imu_calibration::{imu_calibration_json, write_imu_calibration};
 pub use inspection::{HoldsInspection, Inspection, SensorInspection, inspect, inspection_json};
 pub use motion::{parse_motion, read_motion, write_motion};
 pub use noise::{NoiseLine, noise_json, noise_line, write_noise};
-pub use output::write_atomically;
-pub use preset::{PRESETS, preset};
 pub use recording::{
     ColumnMapping, ColumnMeaning, ColumnUnit, FileFormat, Finding, FindingKind, ImuColumn, ImuFile,
     ImuReadOptions, ImuUnit, ReadOptions, RecordingFile, SecondFile, TimeUnit, parse_imu_pair,
     parse_imu_recording, parse_recording, read_accelerometer, read_imu_pair, read_imu_recording,
     read_imu_sensor, read_recording, write_imu_recording, write_recording,
 };
-pub use sections::{Section, SectionKind, parse_sections, read_sections};
 pub use study::{study_json, write_study};
 pub use summary::{Summary, SummaryRow, calibrations_json, write_summary};
 pub use sweep::{sweep_json, write_sweep, write_sweep_csv};

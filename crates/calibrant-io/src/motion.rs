@@ -1,9 +1,9 @@
 //! `motion.csv`: the nodes of a commanded motion.
 
-use super::delimited::{Delimiter, Line, Lines};
-use super::output::write_atomically;
-use super::text::{self, Checked};
-use calibrant_core::error::{Complaint, Error, Result};
+use super::atomic_output::write_atomically;
+use super::delimited_text::{Delimiter, Line, Lines};
+use super::text_decoding::{self, Checked};
+use calibrant_core::error::{Error, InputError, Result};
 use calibrant_core::motion::JerkControlledMotion;
 use calibrant_core::sensor::Axis;
 use nalgebra::Vector3;
@@ -24,9 +24,9 @@ const NAMES: [&str; 4] = ["t_s", "ax_mps2", "ay_mps2", "az_mps2"];
 /// twice; a row with the wrong number of columns, a value that is missing, no number, not finite or above 1e9; times that do not
 /// increase; fewer than two nodes.
 pub fn read_motion(path: &Path, axes: usize) -> Result<JerkControlledMotion> {
-    let bytes = text::read_bytes(path, LARGEST_FILE, "the motion")
-        .map_err(|complaint| Error::experiment(*complaint))?;
-    parse(&bytes, axes).map_err(|complaint| Error::experiment(complaint.in_file(path)))
+    let bytes = text_decoding::read_bytes(path, LARGEST_FILE, "the motion")
+        .map_err(|input_error| Error::experiment(*input_error))?;
+    parse(&bytes, axes).map_err(|input_error| Error::experiment(input_error.in_file(path)))
 }
 
 /// Reads the bytes of a motion file.
@@ -41,7 +41,7 @@ pub fn read_motion(path: &Path, axes: usize) -> Result<JerkControlledMotion> {
 /// # Ok::<(), calibrant::Error>(())
 /// ```
 pub fn parse_motion(bytes: &[u8], axes: usize) -> Result<JerkControlledMotion> {
-    parse(bytes, axes).map_err(|complaint| Error::experiment(*complaint))
+    parse(bytes, axes).map_err(|input_error| Error::experiment(*input_error))
 }
 
 /// Writes the nodes of a motion; numbers read back to the same bits.
@@ -65,19 +65,19 @@ pub fn write_motion(path: &Path, motion: &JerkControlledMotion, axes: usize) -> 
 
 fn parse(bytes: &[u8], axes: usize) -> Checked<JerkControlledMotion> {
     const HELP: &str = "a motion has the header t_s,ax_mps2,ay_mps2,az_mps2 and a row for each node";
-    let text = text::as_text(bytes)?;
+    let text = text_decoding::as_text(bytes)?;
     if axes != 1 && axes != 3 {
-        return Err(Complaint::new(format!("{axes} axes are not supported"), "1 or 3").into());
+        return Err(InputError::new(format!("{axes} axes are not supported"), "1 or 3").into());
     }
     let mut lines = Lines::of(text).filter(|line| !line.is_void());
-    let Some(header) = lines.next() else { return Err(Complaint::new("the file is empty", HELP).into()) };
+    let Some(header) = lines.next() else { return Err(InputError::new("the file is empty", HELP).into()) };
     let delimiter = Delimiter::of(header.text);
     let slots = read_header(header, delimiter, axes)?;
     let (mut times_s, mut nodes): (Vec<f64>, Vec<Vector3<f64>>) = (Vec::new(), Vec::new());
     for line in lines {
         let [t, x, y, z] = read_row(line, delimiter, &slots)?;
         if let Some(&before) = times_s.last().filter(|before| **before >= t) {
-            return Err(Complaint::new(
+            return Err(InputError::new(
                 format!("node times must increase: {t:?} s comes after {before:?} s"),
                 "sort the rows and remove duplicates",
             )
@@ -89,10 +89,10 @@ fn parse(bytes: &[u8], axes: usize) -> Checked<JerkControlledMotion> {
     }
     if nodes.len() < 2 {
         let message = format!("a motion needs at least two nodes, this one has {}", nodes.len());
-        return Err(Complaint::new(message, HELP).into());
+        return Err(InputError::new(message, HELP).into());
     }
     JerkControlledMotion::new(times_s, nodes).map_err(|error| {
-        error.complaint().cloned().unwrap_or_else(|| Complaint::new(error.to_string(), HELP)).into()
+        error.input_error().cloned().unwrap_or_else(|| InputError::new(error.to_string(), HELP)).into()
     })
 }
 
@@ -106,22 +106,22 @@ fn read_header(line: Line<'_>, delimiter: Delimiter, axes: usize) -> Checked<Vec
         fields.pop();
     }
     for (offset, field) in fields {
-        let complain = |message: String| {
-            Err(Complaint::new(message, help.clone())
+        let reject = |message: String| {
+            Err(InputError::new(message, help.clone())
                 .at_line(line.number)
                 .at_column(line.column(offset))
                 .into())
         };
         let shown = shorten(field);
         if field.parse::<f64>().is_ok() {
-            return complain(format!("there is no header, the first field is {shown}"));
+            return reject(format!("there is no header, the first field is {shown}"));
         }
         match NAMES.iter().position(|name| name.eq_ignore_ascii_case(field)) {
             Some(slot) if slots.contains(&Some(slot)) => {
-                return complain(format!("column `{shown}` is there twice"));
+                return reject(format!("column `{shown}` is there twice"));
             }
             Some(slot) => slots.push(Some(slot)),
-            None => return complain(format!("column `{shown}` is not known")),
+            None => return reject(format!("column `{shown}` is not known")),
         }
     }
     for slot in &mut slots {
@@ -136,7 +136,7 @@ fn read_header(line: Line<'_>, delimiter: Delimiter, axes: usize) -> Checked<Vec
         [one] => format!("column {one} is missing"),
         several => format!("columns {} are missing", several.join(", ")),
     };
-    Err(Complaint::new(message, help).at_line(line.number).into())
+    Err(InputError::new(message, help).at_line(line.number).into())
 }
 
 fn read_row(line: Line<'_>, delimiter: Delimiter, slots: &[Option<usize>]) -> Checked<[f64; 4]> {
@@ -144,18 +144,18 @@ fn read_row(line: Line<'_>, delimiter: Delimiter, slots: &[Option<usize>]) -> Ch
     let (mut fields, mut last_is_empty) = (0, false);
     for (offset, field) in line.fields(delimiter) {
         if let Some(Some(slot)) = slots.get(fields).copied() {
-            let complain = |message: &str, help: &str| {
+            let reject = |message: &str, help: &str| {
                 let what =
                     if slot == 0 { "the time".into() } else { format!("axis {}", Axis::ALL[slot - 1]) };
-                Err(Complaint::new(format!("\"{}\" for {what} {message}", shorten(field)), help)
+                Err(InputError::new(format!("\"{}\" for {what} {message}", shorten(field)), help)
                     .at_line(line.number)
                     .at_column(line.column(offset))
                     .into())
             };
             match field.parse::<f64>() {
-                Err(_) => return complain("is not a number", "numbers look like 9.81 or 1e-3"),
+                Err(_) => return reject("is not a number", "numbers look like 9.81 or 1e-3"),
                 Ok(value) if value.abs() <= LARGEST => values[slot] = value,
-                Ok(_) => return complain("is not a usable number", "times are in s, accelerations in m/s²"),
+                Ok(_) => return reject("is not a usable number", "times are in s, accelerations in m/s²"),
             }
         }
         fields += 1;
@@ -165,7 +165,7 @@ fn read_row(line: Line<'_>, delimiter: Delimiter, slots: &[Option<usize>]) -> Ch
         return Ok(values);
     }
     let message = format!("{fields} columns where the header has {}", slots.len());
-    Err(Complaint::new(message, "every node needs a time and an acceleration for each axis")
+    Err(InputError::new(message, "every node needs a time and an acceleration for each axis")
         .at_line(line.number)
         .into())
 }

@@ -4,9 +4,9 @@ use super::calibration::Input;
 use super::json;
 use calibrant_core::error::Result;
 use calibrant_core::noise::{
-    AllanPoint, AxisNoise, CONFIDENCE, Coefficient, PowerLaw, TriadNoise, coefficient_units,
+    AllanPoint, AxisNoise, CONFIDENCE, Coefficient, PowerLaw, SensorNoise, coefficient_units,
 };
-use calibrant_core::sensor::{ReadingUnit, Triad};
+use calibrant_core::sensor::{ReadingUnit, SensorKind};
 use serde::Serialize;
 use std::path::Path;
 
@@ -20,13 +20,13 @@ pub(super) const NOISE_SCHEMA: u32 = 1;
 ///
 /// # Errors
 /// [`Error::Output`](calibrant_core::Error::Output) where it cannot be written.
-pub fn write_noise(path: &Path, noise: &[TriadNoise], inputs: &[Input]) -> Result<()> {
+pub fn write_noise(path: &Path, noise: &[SensorNoise], inputs: &[Input]) -> Result<()> {
     json::write_json(path, &NoiseFile::of(noise, inputs))
 }
 
 /// The text that [`write_noise`] writes.
 #[must_use]
-pub fn noise_json(noise: &[TriadNoise], inputs: &[Input]) -> String {
+pub fn noise_json(noise: &[SensorNoise], inputs: &[Input]) -> String {
     json::to_json(&NoiseFile::of(noise, inputs))
 }
 
@@ -41,16 +41,16 @@ pub struct NoiseLine {
 
 /// The line to paste into an experiment file, in the unit of the readings; `None` where the white noise is not determined on an axis, or not that of a sensor at rest.
 #[must_use]
-pub fn noise_line(noise: &TriadNoise) -> Option<NoiseLine> {
-    if noise.doubt.is_some() {
+pub fn noise_line(noise: &SensorNoise) -> Option<NoiseLine> {
+    if noise.caveat.is_some() {
         return None;
     }
     let sigma = noise.white_noise_of_readings()?;
     let counts = noise.unit == ReadingUnit::Counts || noise.gain.is_some();
     let unit = if counts { ReadingUnit::Counts } else { noise.unit };
-    let section = match noise.triad {
-        Triad::Accelerometer => "sensor",
-        Triad::Gyroscope => "gyroscope",
+    let section = match noise.sensor_kind {
+        SensorKind::Accelerometer => "sensor",
+        SensorKind::Gyroscope => "gyroscope",
     };
     // TOML reads a float by its point
     let digits = |value: f64| format!("{value:.3e}").parse::<f64>().map(|rounded| format!("{rounded:?}"));
@@ -63,7 +63,7 @@ pub fn noise_line(noise: &TriadNoise) -> Option<NoiseLine> {
 struct NoiseFile<'a> {
     schema: u32,
     confidence: f64,
-    sensors: Vec<TriadFields<'a>>,
+    sensors: Vec<SensorNoiseFields<'a>>,
     input: Option<&'a Input>,
     /// Where the gyroscope has a file of its own.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -71,11 +71,11 @@ struct NoiseFile<'a> {
 }
 
 impl<'a> NoiseFile<'a> {
-    fn of(noise: &'a [TriadNoise], inputs: &'a [Input]) -> Self {
+    fn of(noise: &'a [SensorNoise], inputs: &'a [Input]) -> Self {
         Self {
             schema: NOISE_SCHEMA,
             confidence: CONFIDENCE,
-            sensors: noise.iter().map(TriadFields::of).collect(),
+            sensors: noise.iter().map(SensorNoiseFields::of).collect(),
             input: inputs.first(),
             gyroscope_input: inputs.get(1),
         }
@@ -83,7 +83,7 @@ impl<'a> NoiseFile<'a> {
 }
 
 #[derive(Serialize)]
-struct TriadFields<'a> {
+struct SensorNoiseFields<'a> {
     sensor: &'static str,
     reading_unit: &'static str,
     first_sample: usize,
@@ -95,26 +95,31 @@ struct TriadFields<'a> {
     missing_share: f64,
     axes: Vec<AxisFields<'a>>,
     experiment: Option<NoiseLine>,
-    doubt: Option<&'a str>,
+    #[serde(rename = "doubt")]
+    caveat: Option<&'a str>,
     warnings: &'a [String],
 }
 
-impl<'a> TriadFields<'a> {
-    fn of(noise: &'a TriadNoise) -> Self {
-        let rate = noise.stretch.rate_hz();
+impl<'a> SensorNoiseFields<'a> {
+    fn of(noise: &'a SensorNoise) -> Self {
+        let rate = noise.segment.rate_hz();
         Self {
-            sensor: noise.triad.name(),
+            sensor: noise.sensor_kind.name(),
             reading_unit: noise.unit.symbol(),
-            first_sample: noise.stretch.first,
-            end_sample: noise.stretch.end,
-            start_s: noise.stretch.start_s,
-            end_s: noise.stretch.end_s,
-            interval_s: noise.stretch.interval_s,
-            interval_jitter: noise.stretch.jitter,
-            missing_share: noise.stretch.missing,
-            axes: noise.axes.iter().map(|axis| AxisFields::of(axis, noise.triad, noise.unit, rate)).collect(),
+            first_sample: noise.segment.first,
+            end_sample: noise.segment.end,
+            start_s: noise.segment.start_s,
+            end_s: noise.segment.end_s,
+            interval_s: noise.segment.interval_s,
+            interval_jitter: noise.segment.jitter,
+            missing_share: noise.segment.missing,
+            axes: noise
+                .axes
+                .iter()
+                .map(|axis| AxisFields::of(axis, noise.sensor_kind, noise.unit, rate))
+                .collect(),
             experiment: noise_line(noise),
-            doubt: noise.doubt.as_deref(),
+            caveat: noise.caveat.as_deref(),
             warnings: &noise.warnings,
         }
     }
@@ -137,9 +142,9 @@ struct AxisFields<'a> {
 }
 
 impl<'a> AxisFields<'a> {
-    fn of(axis: &'a AxisNoise, triad: Triad, unit: ReadingUnit, rate_hz: f64) -> Self {
+    fn of(axis: &'a AxisNoise, sensor_kind: SensorKind, unit: ReadingUnit, rate_hz: f64) -> Self {
         let model = &axis.fit.model;
-        let of = |process| CoefficientFields::of(model.coefficient(process), triad, process, unit);
+        let of = |process| CoefficientFields::of(model.coefficient(process), sensor_kind, process, unit);
         let points = &axis.allan.points;
         let column = |f: fn(&AllanPoint) -> f64| points.iter().map(f).collect();
         Self {
@@ -196,8 +201,13 @@ struct CoefficientFields<'a> {
 }
 
 impl<'a> CoefficientFields<'a> {
-    fn of(coefficient: &'a Coefficient, triad: Triad, process: PowerLaw, unit: ReadingUnit) -> Self {
-        let units = coefficient_units(triad, process, unit);
+    fn of(
+        coefficient: &'a Coefficient,
+        sensor_kind: SensorKind,
+        process: PowerLaw,
+        unit: ReadingUnit,
+    ) -> Self {
+        let units = coefficient_units(sensor_kind, process, unit);
         let found = coefficient.estimate();
         let customary = |unit: &calibrant_core::noise::CoefficientUnit| {
             let estimate = found?.scaled(unit.factor);

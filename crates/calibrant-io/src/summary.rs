@@ -1,7 +1,7 @@
 //! `summary.csv`: one row for each of several recordings.
 
+use super::atomic_output::write_atomically;
 use super::json::to_json;
-use super::output::write_atomically;
 use calibrant_core::error::Result;
 use calibrant_core::estimate::{Calibration, CalibrationStatus, ImuCalibration, Recovered};
 use calibrant_core::sensor::Parameter;

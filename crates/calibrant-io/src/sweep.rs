@@ -1,8 +1,8 @@
 //! `sweep.json` and `sweep.csv`: the best designs over the values of one variable.
 
+use super::atomic_output::write_atomically;
 use super::design::{CertificateFields, EvaluationFields, SettingFields};
 use super::json;
-use super::output::write_atomically;
 use super::summary::ending;
 use calibrant_core::error::Result;
 use calibrant_design::{DesignProblem, DesignSettings, Sweep, SweepPoint};

@@ -3,7 +3,7 @@
 use super::json;
 use calibrant_core::error::Result;
 use calibrant_core::sensor::{
-    Gauge, ImuParameters, ImuQuantity, ParameterList, Quantity, ReadingUnit, SensorParameters, Triad,
+    Gauge, ImuParameters, ImuQuantity, ParameterList, Quantity, ReadingUnit, SensorKind, SensorParameters,
 };
 use nalgebra::{Matrix3, Vector3};
 use serde::Serialize;
@@ -51,11 +51,11 @@ pub fn write_imu_truth(
     units: [ReadingUnit; 2],
     truth: &ImuParameters,
 ) -> Result<()> {
-    let unit = |triad: Triad| units[usize::from(triad == Triad::Gyroscope)];
+    let unit = |sensor_kind: SensorKind| units[usize::from(sensor_kind == SensorKind::Gyroscope)];
     let value = |quantity: &ImuQuantity| TrueParameter {
         name: quantity.name(),
-        unit: quantity.unit(unit(quantity.triad())),
-        value: quantity.of(truth),
+        unit: quantity.unit(unit(quantity.sensor_kind())),
+        value: quantity.value(truth),
     };
     let parameters = quantities.iter().map(value).collect();
     let fixed = beside(quantities, truth).iter().map(value).collect();
@@ -68,7 +68,7 @@ pub fn write_imu_truth(
         ),
     };
     let of_accelerometer = quantities.iter().filter_map(|quantity| match quantity {
-        ImuQuantity::Of(Triad::Accelerometer, of) => Some(of),
+        ImuQuantity::Of(SensorKind::Accelerometer, of) => Some(of),
         _ => None,
     });
     let gauge = gauge_of(of_accelerometer, &truth.accelerometer.matrix);
@@ -87,15 +87,17 @@ fn gauge_of<'q>(
 /// The quantities that are not zero and not among these, however they are written down.
 fn beside(quantities: &[ImuQuantity], truth: &ImuParameters) -> Vec<ImuQuantity> {
     let nothing = SensorParameters { bias: Vector3::zeros(), matrix: Matrix3::zeros() };
-    let mut told = ImuParameters { accelerometer: nothing, gyroscope: nothing, ..ImuParameters::identity() };
+    let mut reported =
+        ImuParameters { accelerometer: nothing, gyroscope: nothing, ..ImuParameters::identity() };
     for quantity in quantities {
-        quantity.add_to(&mut told, quantity.of(truth));
+        quantity.add_to(&mut reported, quantity.value(truth));
     }
     let all =
         ImuQuantity::full_list(true, true, true).into_iter().chain(ImuQuantity::all_thermal(true, true));
     // both entries of a symmetric pair are the same up to rounding
-    let rounding = |quantity: &ImuQuantity| 1e-12 * quantity.of(truth).abs();
-    all.filter(|quantity| (quantity.of(&told) - quantity.of(truth)).abs() > rounding(quantity)).collect()
+    let rounding = |quantity: &ImuQuantity| 1e-12 * quantity.value(truth).abs();
+    all.filter(|quantity| (quantity.value(&reported) - quantity.value(truth)).abs() > rounding(quantity))
+        .collect()
 }
 
 #[derive(Serialize)]
@@ -127,7 +129,7 @@ impl TruthFile {
         let parameter = |quantity: &Quantity| TrueParameter {
             name: quantity.name(),
             unit: quantity.unit(unit),
-            value: quantity.of(truth),
+            value: quantity.value(truth),
         };
         Self {
             schema: 1,

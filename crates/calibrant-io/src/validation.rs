@@ -1,8 +1,9 @@
 //! How a calibration fares on data that were not used for it, in its JSON file.
 
-use super::fields::per_axis;
+use super::shared_fields::per_axis;
 use calibrant_core::estimate::{
-    BiasShift, Doubt, LikelyReason, ParameterPart, UnusedError, ValidatedErrors, Validation, ValidationSource,
+    BiasShift, Caveat, LikelyExplanation, ParameterPart, UnusedError, ValidatedErrors, Validation,
+    ValidationSource,
 };
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -27,7 +28,8 @@ pub(super) struct SourceFields {
     #[serde(skip_serializing_if = "Option::is_none")]
     gyroscope_bias_shift: Option<ShiftFields>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    likely_reasons: Vec<ReasonFields>,
+    #[serde(rename = "likely_reasons")]
+    likely_explanations: Vec<ReasonFields>,
     #[serde(flatten)]
     kinds: BTreeMap<&'static str, KindFields>,
 }
@@ -69,7 +71,8 @@ struct KindFields {
     factor_interval_99: [f64; 2],
     verdict: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]
-    doubt: Option<&'static str>,
+    #[serde(rename = "doubt")]
+    caveat: Option<&'static str>,
     #[serde(skip_serializing_if = "Option::is_none")]
     parameters: Option<PartFields>,
     table: Vec<ErrorFields>,
@@ -109,16 +112,17 @@ fn named(validation: &Validation) -> (&'static str, SourceFields) {
     let kinds = validation.kinds.iter().map(|errors| (errors.kind.name(), KindFields::of(errors))).collect();
     let gyroscope_bias_shift = validation.bias_shift.as_ref().map(ShiftFields::of);
     let ratios = validation.noise.iter();
-    let steps =
-        ratios.clone().filter_map(|noise| Some((noise.triad.to_string(), noise.coarse.map(|of| of.step)?)));
+    let steps = ratios
+        .clone()
+        .filter_map(|noise| Some((noise.sensor_kind.to_string(), noise.coarse.map(|of| of.step)?)));
     let none = SourceFields {
         file: None,
         folds: None,
         failed_folds: Vec::new(),
         coarse_step: steps.collect(),
-        noise_ratio: ratios.map(|noise| (noise.triad.to_string(), per_axis(&noise.axes, 3))).collect(),
+        noise_ratio: ratios.map(|noise| (noise.sensor_kind.to_string(), per_axis(&noise.axes, 3))).collect(),
         gyroscope_bias_shift,
-        likely_reasons: validation.reasons.iter().map(ReasonFields::of).collect(),
+        likely_explanations: validation.reasons.iter().map(ReasonFields::of).collect(),
         kinds,
     };
     match &validation.source {
@@ -137,27 +141,30 @@ fn named(validation: &Validation) -> (&'static str, SourceFields) {
 }
 
 impl ReasonFields {
-    fn of(reason: &LikelyReason) -> Self {
+    fn of(reason: &LikelyExplanation) -> Self {
         let numbers = match reason {
-            LikelyReason::Temperature { calibrated_c, here_c } => {
+            LikelyExplanation::Temperature { calibrated_c, here_c } => {
                 vec![("calibrated_mean_c", vec![*calibrated_c]), ("mean_c", vec![*here_c])]
             }
-            LikelyReason::BeyondTemperatures { calibrated_c, here_c } => {
+            LikelyExplanation::BeyondTemperatures { calibrated_c, here_c } => {
                 vec![("calibrated_range_c", calibrated_c.to_vec()), ("range_c", here_c.to_vec())]
             }
-            LikelyReason::AccelerometerBias { shift_mps2, sd_mps2 } => {
+            LikelyExplanation::AccelerometerBias { shift_mps2, sd_mps2 } => {
                 vec![("shift_mps2", per_axis(shift_mps2, 3)), ("shift_sd_mps2", per_axis(sd_mps2, 3))]
             }
-            LikelyReason::AccelerometerGain { change, sd } | LikelyReason::GyroscopeGain { change, sd } => {
+            LikelyExplanation::AccelerometerGain { change, sd }
+            | LikelyExplanation::GyroscopeGain { change, sd } => {
                 vec![("change", per_axis(change, 3)), ("change_sd", per_axis(sd, 3))]
             }
-            LikelyReason::AccelerometerBiasAndGain { shift_mps2, shift_sd_mps2, change, change_sd } => vec![
-                ("shift_mps2", per_axis(shift_mps2, 3)),
-                ("shift_sd_mps2", per_axis(shift_sd_mps2, 3)),
-                ("change", per_axis(change, 3)),
-                ("change_sd", per_axis(change_sd, 3)),
-            ],
-            LikelyReason::AngularUnit { factor } => vec![("factor", vec![*factor])],
+            LikelyExplanation::AccelerometerBiasAndGain { shift_mps2, shift_sd_mps2, change, change_sd } => {
+                vec![
+                    ("shift_mps2", per_axis(shift_mps2, 3)),
+                    ("shift_sd_mps2", per_axis(shift_sd_mps2, 3)),
+                    ("change", per_axis(change, 3)),
+                    ("change_sd", per_axis(change_sd, 3)),
+                ]
+            }
+            LikelyExplanation::AngularUnit { factor } => vec![("factor", vec![*factor])],
         };
         Self { reason: reason.name(), numbers: numbers.into_iter().collect() }
     }
@@ -188,7 +195,7 @@ impl KindFields {
             factor: errors.factor,
             factor_interval_99: [errors.factor_interval.0, errors.factor_interval.1],
             verdict: errors.verdict.name(),
-            doubt: errors.doubt.as_ref().map(Doubt::name),
+            caveat: errors.caveat.as_ref().map(Caveat::name),
             parameters: errors.parameters.as_ref().map(PartFields::of),
             table: errors.errors.iter().map(ErrorFields::of).collect(),
         }

@@ -1,6 +1,6 @@
 //! What the calibration improved, in numbers.
 
-use super::number;
+use super::number_format;
 use super::table::{Cell, Table};
 use calibrant_core::estimate::{HoldCalibration, ImuCalibration};
 
@@ -60,11 +60,11 @@ fn table(rows: &[Improved]) -> String {
     for row in rows {
         let factor = row.before / row.after;
         let factor = if factor.is_finite() {
-            format!(", {}×", number::significant(factor, 3))
+            format!(", {}×", number_format::significant(factor, 3))
         } else {
             String::new()
         };
-        let [before, after] = [row.before, row.after].map(|value| number::significant(value, 3));
+        let [before, after] = [row.before, row.after].map(|value| number_format::significant(value, 3));
         table.row(vec![
             Cell::Name(row.name.to_string()),
             Cell::Number(format!("{before} → {after} {}{factor}", row.unit)),

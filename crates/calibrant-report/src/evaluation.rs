@@ -7,7 +7,7 @@ use super::figure::{
     velocity_and_displacement,
 };
 use super::html::{Page, escape, facts, verdict_box};
-use super::number;
+use super::number_format;
 use super::table::{Cell, Table};
 use calibrant_core::motion::Limits;
 use calibrant_core::sensor::Parameter;
@@ -138,11 +138,12 @@ fn compared(assessment: &Assessment, design: &Design, sentences: &mut Vec<String
         let mut sentence = format!(
             "By criterion {}, its efficiency is {}: what it tells in 100 recordings, the best motion tells in {}",
             assessment.criterion.letter(),
-            number::percent(efficiency),
-            number::significant(100.0 * efficiency, 2)
+            number_format::percent(efficiency),
+            number_format::significant(100.0 * efficiency, 2)
         );
         if let Some(certain) = assessment.certain_efficiency() {
-            sentence.push_str(&format!("; against the lower bound it is {}", number::percent(certain)));
+            sentence
+                .push_str(&format!("; against the lower bound it is {}", number_format::percent(certain)));
         }
         sentences.push(sentence + ".");
         if efficiency > BLIND && most > WORTH_IT {
@@ -159,10 +160,10 @@ fn compared(assessment: &Assessment, design: &Design, sentences: &mut Vec<String
 fn not_alike(other: &OtherSetting) -> String {
     format!(
         "Mind that the motion takes {} s in {}, while the best motion is for the experiment's {} s in {}.",
-        number::short(other.duration_s),
-        number::counted(other.intervals, "interval"),
-        number::short(other.experiment_duration_s),
-        number::counted(other.experiment_intervals, "interval")
+        number_format::short(other.duration_s),
+        number_format::counted(other.intervals, "interval"),
+        number_format::short(other.experiment_duration_s),
+        number_format::counted(other.experiment_intervals, "interval")
     )
 }
 
@@ -170,9 +171,12 @@ fn own_table(parameters: &[Parameter], sd: &[f64]) -> String {
     let mut table = Table::new("", &["parameter", "unit", "sd"]);
     for (parameter, &sd) in parameters.iter().zip(sd) {
         let unit = DisplayUnit::suited_to(parameter.unit, [sd]);
-        let symbol = if unit.symbol.is_empty() { number::UNKNOWN } else { unit.symbol };
-        let shown =
-            if sd.is_finite() { number::significant(sd * unit.factor, 4) } else { "undetermined".into() };
+        let symbol = if unit.symbol.is_empty() { number_format::UNKNOWN } else { unit.symbol };
+        let shown = if sd.is_finite() {
+            number_format::significant(sd * unit.factor, 4)
+        } else {
+            "undetermined".into()
+        };
         table.row(vec![
             Cell::Name(parameter.name.clone()),
             Cell::Text(symbol.to_string()),
@@ -193,8 +197,10 @@ fn criterion_table(assessment: &Assessment) -> String {
     let mut row = |name: &str, value: f64, efficiency: Option<f64>| {
         table.row(vec![
             Cell::Name(name.to_string()),
-            Cell::Number(number::significant(value, 6)),
-            Cell::Number(efficiency.map_or_else(|| number::UNKNOWN.to_string(), number::percent)),
+            Cell::Number(number_format::significant(value, 6)),
+            Cell::Number(
+                efficiency.map_or_else(|| number_format::UNKNOWN.to_string(), number_format::percent),
+            ),
         ]);
     };
     row("your motion", assessment.evaluation.value, None);

@@ -1,7 +1,7 @@
 //! How well the model fits, each number with what it means.
 
 use super::figure::DisplayUnit;
-use super::number;
+use super::number_format;
 use super::table::Table;
 use calibrant_core::estimate::{Calibration, Recovered};
 use calibrant_core::sensor::{Axis, Recording};
@@ -21,20 +21,20 @@ pub(super) fn fit_table(calibration: &Calibration, recording: &Recording) -> Str
     row("iterations", calibration.iterations.to_string(), "Steps of the estimator; a handful is usual.");
     row(
         "gradient norm",
-        number::significant(calibration.gradient_norm, 2),
+        number_format::significant(calibration.gradient_norm, 2),
         "Distance from the optimum in standard deviations of the parameters; good is far below 1.",
     );
     row(
         "χ²",
-        number::significant(fit.chi2, 5),
+        number_format::significant(fit.chi2, 5),
         "Sum of squared residuals over the assumed noise; good is near the degrees of freedom.",
     );
     row(
         "degrees of freedom",
-        number::count(fit.degrees_of_freedom),
+        number_format::count(fit.degrees_of_freedom),
         "Data less unknowns: how much checks the fit. χ² scatters about it by √(2·dof).",
     );
-    let p = fit.p_value.map_or(number::UNKNOWN.to_string(), number::probability);
+    let p = fit.p_value.map_or(number_format::UNKNOWN.to_string(), number_format::probability);
     let meaning = match fit.p_value {
         Some(_) => {
             "Chance of a χ² at least this large if model and noise are right; suspicious below 0.001 and above 0.999."
@@ -46,8 +46,10 @@ pub(super) fn fit_table(calibration: &Calibration, recording: &Recording) -> Str
     let unit =
         DisplayUnit::suited_to(calibration.unit.symbol(), fit.residual_rms.iter().map(|rms| 3.0 * rms));
     let per_axis = |values: &Vector3<f64>| {
-        let values: Vec<String> =
-            axes.iter().map(|axis| number::significant(values[axis.index()] * unit.factor, 3)).collect();
+        let values: Vec<String> = axes
+            .iter()
+            .map(|axis| number_format::significant(values[axis.index()] * unit.factor, 3))
+            .collect();
         format!("{} {}", values.join(", "), unit.symbol)
     };
     let (names, holds) = (axis_names(axes), matches!(calibration.recovered, Recovered::Holds(_)));
@@ -65,7 +67,7 @@ pub(super) fn fit_table(calibration: &Calibration, recording: &Recording) -> Str
         ),
         None => row(
             "assumed noise",
-            number::UNKNOWN.to_string(),
+            number_format::UNKNOWN.to_string(),
             "None was given: the noise was estimated from this fit.",
         ),
     }
@@ -79,11 +81,11 @@ pub(super) fn fit_table(calibration: &Calibration, recording: &Recording) -> Str
     for (test, axis) in fit.whiteness.iter().zip(axes) {
         row(
             &format!("whiteness {axis}, p"),
-            number::probability(test.p_value),
+            number_format::probability(test.p_value),
             &format!(
                 "Ljung–Box test of {} lags (Q = {}); below 0.001 the residuals are not white and the stated sd too small.",
                 test.lags,
-                number::significant(test.statistic, 3)
+                number_format::significant(test.statistic, 3)
             ),
         );
     }

@@ -1,6 +1,6 @@
 //! The holds of a static calibration in numbers.
 
-use super::number;
+use super::number_format;
 use super::table::{Cell, Table};
 use calibrant_core::estimate::{HoldCalibration, HoldResult};
 use calibrant_core::sensor::ReadingUnit;
@@ -21,8 +21,8 @@ pub(super) fn hold_summary(holds: &HoldCalibration) -> String {
     row(
         "gravity g",
         match holds.gravity.sd_mps2 {
-            sd if sd > 0.0 => format!("{} m/s²", number::with_sd(holds.gravity.magnitude_mps2, sd)),
-            _ => format!("{} m/s²", number::significant(holds.gravity.magnitude_mps2, 6)),
+            sd if sd > 0.0 => format!("{} m/s²", number_format::with_sd(holds.gravity.magnitude_mps2, sd)),
+            _ => format!("{} m/s²", number_format::significant(holds.gravity.magnitude_mps2, 6)),
         },
         "Assumed. An error of g is an error of the same share in all scale factors; its sd is part of theirs.",
     );
@@ -34,14 +34,14 @@ pub(super) fn hold_summary(holds: &HoldCalibration) -> String {
         ),
         _ => row(
             "magnitude residual, rms",
-            format!("{} mm/s²", number::significant(1e3 * holds.magnitude_residual_rms_mps2, 3)),
+            format!("{} mm/s²", number_format::significant(1e3 * holds.magnitude_residual_rms_mps2, 3)),
             "Corrected magnitude less g over the holds that were used.",
         ),
     }
     if let Some(tilt) = &holds.tilt {
         row(
             "tilt of the faces, sd",
-            format!("{}°", number::significant(tilt.sd_rad.to_degrees(), 2)),
+            format!("{}°", number_format::significant(tilt.sd_rad.to_degrees(), 2)),
             &format!(
                 "How well each face was met, about each axis: {}. It decides the stated standard deviations of the matrix' cross terms; along gravity a tilt acts by its square only.",
                 tilt.source_in_words()
@@ -61,7 +61,7 @@ pub(super) fn hold_summary(holds: &HoldCalibration) -> String {
     } else {
         row(
             name,
-            format!("{} mm/s²", number::significant(1e3 * holds.between_holds_sd_mps2, 3)),
+            format!("{} mm/s²", number_format::significant(1e3 * holds.between_holds_sd_mps2, 3)),
             if holds.between_holds_dominates {
                 "Exceeds what the samples' noise explains, so it decides the stated standard deviations."
             } else {
@@ -71,7 +71,7 @@ pub(super) fn hold_summary(holds: &HoldCalibration) -> String {
     }
     row(
         "condition number",
-        number::significant(holds.condition_number, 3),
+        number_format::significant(holds.condition_number, 3),
         "How unevenly the orientations determine the parameters; below about 100 is good.",
     );
     table.html()
@@ -89,13 +89,13 @@ pub(super) fn hold_table(holds: &HoldCalibration, unit: ReadingUnit) -> String {
         let decimals = if unit == ReadingUnit::Counts { 2 } else { 5 };
         let mut cells = vec![
             Cell::Name((i + 1).to_string()),
-            Cell::Number(number::fixed(hold.start_s, 2)),
-            Cell::Number(number::fixed(hold.end_s, 2)),
-            Cell::Number(number::count(hold.samples())),
+            Cell::Number(number_format::fixed(hold.start_s, 2)),
+            Cell::Number(number_format::fixed(hold.end_s, 2)),
+            Cell::Number(number_format::count(hold.samples())),
         ];
-        cells.extend(hold.mean.iter().map(|&mean| Cell::Number(number::fixed(mean, decimals))));
-        cells.push(Cell::Number(number::fixed(1e3 * result.magnitude_residual_mps2, 2)));
-        cells.push(Cell::Number(number::fixed(result.studentised_residual, 2)));
+        cells.extend(hold.mean.iter().map(|&mean| Cell::Number(number_format::fixed(mean, decimals))));
+        cells.push(Cell::Number(number_format::fixed(1e3 * result.magnitude_residual_mps2, 2)));
+        cells.push(Cell::Number(number_format::fixed(result.studentised_residual, 2)));
         if result.used {
             cells.push(Cell::Text("yes".to_string()));
             table.row(cells);

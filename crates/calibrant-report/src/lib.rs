@@ -1,9 +1,8 @@
 //! Results as pages to look at: the figures as data, then HTML; no mathematics.
 //!
 //! Each entry point returns one self-contained HTML file. A page is a list of pieces: a verdict, tables whose cells already have
-//! their digits ([`number`]), and figures, which are data (`figure`) until the page is written.
+//! their digits ([`number_format`]), and figures, which are data (`figure`) until the page is written.
 
-mod about;
 mod before_after;
 mod calibration;
 mod design;
@@ -14,8 +13,9 @@ mod holds;
 mod html;
 mod imu;
 mod noise;
-pub mod number;
+pub mod number_format;
 mod parameters;
+mod report_context;
 mod study;
 mod sweep;
 mod table;
@@ -25,12 +25,12 @@ mod verdict;
 #[cfg(test)]
 mod tests;
 
-pub use about::About;
 pub use calibration::calibration_report;
 pub use design::design_report;
 pub use evaluation::evaluation_report;
 pub use imu::{imu_calibration_report, imu_quality, over_the_gain, temperature_in_words};
 pub use noise::{coefficient_name, noise_report};
+pub use report_context::About;
 pub use study::study_report;
 pub use sweep::sweep_report;
 pub use validation::{validation_heading, validation_rows, validation_sentences};

@@ -3,9 +3,9 @@
 use super::About;
 use super::figure::allan_figure;
 use super::html::{Page, escape, facts, verdict_box};
-use super::number;
+use super::number_format;
 use super::table::{Cell, Table};
-use calibrant_core::noise::{AxisNoise, Coefficient, PowerLaw, TriadNoise, coefficient_units};
+use calibrant_core::noise::{AxisNoise, Coefficient, PowerLaw, SensorNoise, coefficient_units};
 use rayon::prelude::*;
 
 /// Samples that scatter more than white noise by this factor are disturbed.
@@ -17,7 +17,7 @@ const FILTERED: f64 = 0.95;
 ///
 /// Self-contained as [`calibration_report`](super::calibration_report) is.
 #[must_use]
-pub fn noise_report(noise: &[TriadNoise], about: &About) -> String {
+pub fn noise_report(noise: &[SensorNoise], about: &About) -> String {
     let title = if about.title.is_empty() { "Noise" } else { &about.title };
     let opening = || {
         let mut page = Page::default();
@@ -30,23 +30,23 @@ pub fn noise_report(noise: &[TriadNoise], about: &About) -> String {
 }
 
 /// A section on each sensor: its figure, coefficients, samples.
-pub(super) fn noise_sections(noise: &[TriadNoise]) -> Page {
-    let figures: Vec<String> = noise.par_iter().map(|triad| allan_figure(triad).html()).collect();
+pub(super) fn noise_sections(noise: &[SensorNoise]) -> Page {
+    let figures: Vec<String> = noise.par_iter().map(|sensor_kind| allan_figure(sensor_kind).html()).collect();
     let mut page = Page::default();
-    noise.iter().zip(figures).for_each(|(triad, figure)| noise_section(&mut page, triad, figure));
+    noise.iter().zip(figures).for_each(|(sensor_kind, figure)| noise_section(&mut page, sensor_kind, figure));
     page
 }
 
-fn noise_section(page: &mut Page, noise: &TriadNoise, figure: String) {
-    let stretch = &noise.stretch;
+fn noise_section(page: &mut Page, noise: &SensorNoise, figure: String) {
+    let segment = &noise.segment;
     page.section(
-        &format!("Noise of the {}", noise.triad),
+        &format!("Noise of the {}", noise.sensor_kind),
         &format!(
             "From {} samples, {} to {} s, at {} Hz.",
-            number::count(stretch.samples()),
-            number::fixed(stretch.start_s, 2),
-            number::fixed(stretch.end_s, 2),
-            number::significant(stretch.rate_hz(), 5)
+            number_format::count(segment.samples()),
+            number_format::fixed(segment.start_s, 2),
+            number_format::fixed(segment.end_s, 2),
+            number_format::significant(segment.rate_hz(), 5)
         ),
     );
     page.push(figure);
@@ -57,18 +57,18 @@ fn noise_section(page: &mut Page, noise: &TriadNoise, figure: String) {
 }
 
 /// Name of a coefficient.
-pub fn coefficient_name(noise: &TriadNoise, process: PowerLaw) -> &'static str {
-    use calibrant_core::sensor::Triad;
-    match (process, noise.triad) {
+pub fn coefficient_name(noise: &SensorNoise, process: PowerLaw) -> &'static str {
+    use calibrant_core::sensor::SensorKind;
+    match (process, noise.sensor_kind) {
         (PowerLaw::Quantisation, _) => "quantisation Q",
-        (PowerLaw::White, Triad::Accelerometer) => "velocity random walk N",
-        (PowerLaw::White, Triad::Gyroscope) => "angle random walk N",
+        (PowerLaw::White, SensorKind::Accelerometer) => "velocity random walk N",
+        (PowerLaw::White, SensorKind::Gyroscope) => "angle random walk N",
         (PowerLaw::Flicker, _) => "bias instability B",
         (PowerLaw::RandomWalk, _) => "rate random walk K",
     }
 }
 
-fn coefficient_table(noise: &TriadNoise) -> String {
+fn coefficient_table(noise: &SensorNoise) -> String {
     let mut table = Table::new(
         "",
         &["", "value ± sd", "95 % interval, and the same in customary units; or why it is not determined"],
@@ -84,27 +84,29 @@ fn coefficient_table(noise: &TriadNoise) -> String {
 }
 
 /// A coefficient with its unit, and what else is known of it.
-fn coefficient_in_words(noise: &TriadNoise, axis: &AxisNoise, process: PowerLaw) -> (String, String) {
-    let units = coefficient_units(noise.triad, process, noise.unit);
+fn coefficient_in_words(noise: &SensorNoise, axis: &AxisNoise, process: PowerLaw) -> (String, String) {
+    let units = coefficient_units(noise.sensor_kind, process, noise.unit);
     let unit = units[0].symbol;
     match axis.fit.model.coefficient(process) {
         Coefficient::Determined(found) => {
-            let ends = [found.low, found.high].map(|end| number::significant(end, 3));
+            let ends = [found.low, found.high].map(|end| number_format::significant(end, 3));
             let mut words = vec![format!("95 %: {} to {}", ends[0], ends[1])];
             words.extend(units[1..].iter().map(|unit| {
                 let found = found.scaled(unit.factor);
-                format!("{} {}", number::with_sd(found.value, found.sd), unit.symbol)
+                format!("{} {}", number_format::with_sd(found.value, found.sd), unit.symbol)
             }));
             if let (PowerLaw::Flicker, Some(tau)) = (process, axis.fit.flat_tau_s) {
-                words.push(format!("clearest at {} s", number::significant(tau, 2)));
+                words.push(format!("clearest at {} s", number_format::significant(tau, 2)));
             }
-            (format!("{} {unit}", number::with_sd(found.value, found.sd)), words.join("; "))
+            (format!("{} {unit}", number_format::with_sd(found.value, found.sd)), words.join("; "))
         }
         Coefficient::NotDetermined { limit, reason } => {
             let limit = limit.map_or_else(String::new, |limit| {
                 let limits: Vec<String> = units
                     .iter()
-                    .map(|unit| format!("{} {}", number::significant(unit.factor * limit, 2), unit.symbol))
+                    .map(|unit| {
+                        format!("{} {}", number_format::significant(unit.factor * limit, 2), unit.symbol)
+                    })
                     .collect();
                 format!("95 %: below {}. ", limits.join(" = "))
             });
@@ -119,20 +121,21 @@ fn capitalised(text: &str) -> String {
 }
 
 /// The white noise of one sample beside what the samples scatter.
-fn sample_table(noise: &TriadNoise) -> String {
+fn sample_table(noise: &SensorNoise) -> String {
     let unit = noise.unit.symbol();
     let (white, sd) = (format!("N √rate ({unit})"), format!("sd of samples ({unit})"));
     let mut table = Table::new("", &["axis", &white, &sd, "ratio", "samples"]);
     for axis in &noise.axes {
-        let sigma = axis.fit.model.white_noise_per_sample(noise.stretch.rate_hz());
+        let sigma = axis.fit.model.white_noise_per_sample(noise.segment.rate_hz());
         let ratio = sigma.map(|sigma| axis.sample_sd / sigma);
         let shown = |value: Option<f64>| {
-            Cell::Number(
-                value.map_or_else(|| number::UNKNOWN.to_string(), |value| number::significant(value, 3)),
-            )
+            Cell::Number(value.map_or_else(
+                || number_format::UNKNOWN.to_string(),
+                |value| number_format::significant(value, 3),
+            ))
         };
         let what = match ratio {
-            None => number::UNKNOWN,
+            None => number_format::UNKNOWN,
             Some(ratio) if ratio > DISTURBED => "disturbed",
             Some(ratio) if ratio < FILTERED => "correlated",
             Some(_) => "independent",
@@ -150,8 +153,8 @@ fn sample_table(noise: &TriadNoise) -> String {
     format!("{}<p>{}</p>", table.html(), escape(explanation))
 }
 
-fn verdict(noise: &[TriadNoise], about: &About) -> String {
-    let axes = || noise.iter().flat_map(|triad| &triad.axes);
+fn verdict(noise: &[SensorNoise], about: &About) -> String {
+    let axes = || noise.iter().flat_map(|sensor_kind| &sensor_kind.axes);
     let explained = axes().all(|axis| axis.fit.explains());
     let drifts = axes().any(|axis| axis.fit.drift.is_significant());
     let determined = |process: PowerLaw| {
@@ -164,7 +167,7 @@ fn verdict(noise: &[TriadNoise], about: &About) -> String {
         n => format!("{name}: on {n} of {total} axes"),
     };
     let slow = determined(PowerLaw::Flicker) + determined(PowerLaw::RandomWalk);
-    let doubtful = noise.iter().any(|triad| triad.doubt.is_some());
+    let doubtful = noise.iter().any(|sensor_kind| sensor_kind.caveat.is_some());
     let (class, word) = match () {
         () if doubtful => ("bad", "✗ This is not the noise of a sensor at rest alone."),
         () if !explained => ("bad", "✗ The noise is not explained."),
@@ -180,7 +183,9 @@ fn verdict(noise: &[TriadNoise], about: &About) -> String {
         of(PowerLaw::Flicker, "bias instability (B)"),
         of(PowerLaw::RandomWalk, "rate random walk (K)")
     );
-    let doubts = noise.iter().filter_map(|triad| Some(format!("{}: {}", triad.triad, triad.doubt.as_ref()?)));
-    let warnings = doubts.chain(noise.iter().flat_map(|triad| triad.warnings.clone())).collect();
+    let caveats = noise.iter().filter_map(|sensor_kind| {
+        Some(format!("{}: {}", sensor_kind.sensor_kind, sensor_kind.caveat.as_ref()?))
+    });
+    let warnings = caveats.chain(noise.iter().flat_map(|sensor_kind| sensor_kind.warnings.clone())).collect();
     verdict_box(class, word, &sentence, &[("Warnings", warnings), ("Findings", about.findings.clone())])
 }

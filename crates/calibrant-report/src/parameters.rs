@@ -1,7 +1,7 @@
 //! The parameters: estimates beside what was known before, and the correction that they make.
 
 use super::table::{Cell, Table};
-use super::{html, number};
+use super::{html, number_format};
 use calibrant_core::estimate::{Calibration, Recovered};
 use calibrant_core::sensor::{Axis, Correction, Quantity, ReadingUnit, Recording, SensorParameters};
 use nalgebra::Matrix3;
@@ -24,19 +24,25 @@ pub(super) fn parameter_table(calibration: &Calibration, truth: Option<&SensorPa
         let mut row = vec![
             Cell::Name(parameter.name.clone()),
             Cell::Text(unit.to_string()),
-            Cell::Number(number::with_sd(value, sd)),
-            Cell::Number(parameter.nominal.map_or(number::UNKNOWN.to_string(), number::short)),
+            Cell::Number(number_format::with_sd(value, sd)),
+            Cell::Number(parameter.nominal.map_or(number_format::UNKNOWN.to_string(), number_format::short)),
         ];
         if with_spread {
             let spread = parameter.spread.filter(|spread| *spread > 0.0);
-            row.push(Cell::Number(spread.map_or(number::UNKNOWN.to_string(), number::short)));
-            row.push(Cell::Number(spread.map_or(number::UNKNOWN.to_string(), |s| number::percent(sd / s))));
+            row.push(Cell::Number(spread.map_or(number_format::UNKNOWN.to_string(), number_format::short)));
+            row.push(Cell::Number(
+                spread.map_or(number_format::UNKNOWN.to_string(), |s| number_format::percent(sd / s)),
+            ));
         }
         if let Some(truth) = truth {
-            let truth = quantity(&parameter.name).map(|quantity| quantity.of(truth));
-            row.push(Cell::Number(truth.map_or(number::UNKNOWN.to_string(), |t| number::rounded_to(t, sd))));
+            let truth = quantity(&parameter.name).map(|quantity| quantity.value(truth));
             row.push(Cell::Number(
-                truth.map_or(number::UNKNOWN.to_string(), |t| number::fixed((value - t) / sd, 2)),
+                truth.map_or(number_format::UNKNOWN.to_string(), |t| number_format::rounded_to(t, sd)),
+            ));
+            row.push(Cell::Number(
+                truth.map_or(number_format::UNKNOWN.to_string(), |t| {
+                    number_format::fixed((value - t) / sd, 2)
+                }),
             ));
         }
         table.row(row);
@@ -60,20 +66,20 @@ pub(super) fn correction(calibration: &Calibration, recording: &Recording) -> St
         let (scale, bias) = (calibration.sensor.matrix[(0, 0)], calibration.sensor.bias.x);
         return format!(
             "<p class=\"formula\">s = (y − {}) / {}</p><p>y in {}, s in m/s².</p>",
-            number::significant(bias, 7),
-            number::significant(scale, 7),
+            number_format::significant(bias, 7),
+            number_format::significant(scale, 7),
             html::escape(unit)
         );
     }
     let Some(correction) = Correction::of(&calibration.sensor) else {
         return "<p>The matrix has no inverse: there is no correction.</p>".to_string();
     };
-    let bias = correction.bias.iter().map(|&b| vec![number::significant(b, 8)]).collect();
+    let bias = correction.bias.iter().map(|&b| vec![number_format::significant(b, 8)]).collect();
     let mut parts =
         vec![matrix(&format!("C{slope}"), rows(&correction.matrix)), matrix(&format!("b ({unit})"), bias)];
     let mut words = "Seven digits are given so that rounding adds nothing; how many of them are known, the table above says.".to_string();
     if let Recovered::Holds(holds) = &calibration.recovered {
-        let gains = correction.scale().iter().map(|k| vec![number::significant(1.0 / k, 8)]).collect();
+        let gains = correction.scale().iter().map(|k| vec![number_format::significant(1.0 / k, 8)]).collect();
         let gain_unit = if calibration.unit == ReadingUnit::Counts { " (counts per m/s²)" } else { "" };
         parts.push(matrix(&format!("gains 1/K{gain_unit}"), gains));
         parts.push(matrix("T", unit_diagonal(&correction.misalignment())));
@@ -112,7 +118,7 @@ pub(super) fn gauge_in_words(gauge: &str) -> &'static str {
 pub(super) fn rows(matrix: &Matrix3<f64>) -> Vec<Vec<String>> {
     let largest = matrix.amax();
     let text = |value: f64| {
-        if value.abs() < 1e-14 * largest { "0".to_string() } else { number::significant(value, 7) }
+        if value.abs() < 1e-14 * largest { "0".to_string() } else { number_format::significant(value, 7) }
     };
     (0..3).map(|row| (0..3).map(|column| text(matrix[(row, column)])).collect()).collect()
 }
@@ -121,7 +127,7 @@ fn unit_diagonal(matrix: &Matrix3<f64>) -> Vec<Vec<String>> {
     let text = |row: usize, column: usize| match matrix[(row, column)] {
         _ if row == column => "1".to_string(),
         value if value.abs() < 1e-14 => "0".to_string(),
-        value => number::fixed(value, 8),
+        value => number_format::fixed(value, 8),
     };
     (0..3).map(|row| (0..3).map(|column| text(row, column)).collect()).collect()
 }

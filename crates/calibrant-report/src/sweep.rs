@@ -4,7 +4,7 @@ use super::About;
 use super::design::{above, status};
 use super::figure::{DisplayUnit, sweep_curves};
 use super::html::{Page, escape, facts, verdict_box};
-use super::number;
+use super::number_format;
 use super::table::{Cell, Table};
 use calibrant_core::information::Criterion;
 use calibrant_design::{DesignStatus, Sweep, SweepPoint};
@@ -78,7 +78,7 @@ fn worth(sweep: &Sweep) -> Option<String> {
     let parameter = &sweep.parameters[p];
     let unit = DisplayUnit::suited_to(parameter.unit, [low[p], high[p]]);
     let shown = |sd: f64| {
-        format!("{} {}", number::significant(sd * unit.factor, 3), unit.symbol).trim_end().to_string()
+        format!("{} {}", number_format::significant(sd * unit.factor, 3), unit.symbol).trim_end().to_string()
     };
     let mut sentence = format!(
         "From {} to {}, the standard deviation of {} goes from {} to {}",
@@ -94,11 +94,11 @@ fn worth(sweep: &Sweep) -> Option<String> {
         sentence.push_str(&match ratio {
             _ if (ratio - 1.0).abs() < 5e-3 => ": it hardly depends on it".to_string(),
             _ if ratio > 1.0 => {
-                format!(": on average, each doubling divides it by {}", number::significant(ratio, 3))
+                format!(": on average, each doubling divides it by {}", number_format::significant(ratio, 3))
             }
             _ => format!(
                 ": on average, each doubling multiplies it by {}",
-                number::significant(1.0 / ratio, 3)
+                number_format::significant(1.0 / ratio, 3)
             ),
         });
     }
@@ -111,7 +111,7 @@ fn worth(sweep: &Sweep) -> Option<String> {
 
 /// The value of a point with its unit.
 fn value(sweep: &Sweep, point: &SweepPoint) -> String {
-    format!("{} {}", number::short(point.value), sweep.variable.unit()).trim_end().to_string()
+    format!("{} {}", number_format::short(point.value), sweep.variable.unit()).trim_end().to_string()
 }
 
 fn table(sweep: &Sweep) -> String {
@@ -136,17 +136,19 @@ fn table(sweep: &Sweep) -> String {
     let mut table = Table::new("", &columns.iter().map(String::as_str).collect::<Vec<_>>());
     for (point, sd) in sweep.points.iter().zip(&sd) {
         let mut cells =
-            vec![Cell::Name(number::short(point.value)), Cell::Number(point.intervals.to_string())];
+            vec![Cell::Name(number_format::short(point.value)), Cell::Number(point.intervals.to_string())];
         cells.extend(
-            sd.iter().zip(&units).map(|(sd, unit)| Cell::Number(number::significant(sd * unit.factor, 4))),
+            sd.iter()
+                .zip(&units)
+                .map(|(sd, unit)| Cell::Number(number_format::significant(sd * unit.factor, 4))),
         );
         match &point.outcome {
             Ok(design) => {
-                cells.push(Cell::Number(number::significant(design.optimal.value, 5)));
+                cells.push(Cell::Number(number_format::significant(design.optimal.value, 5)));
                 cells.push(Cell::Number(match &design.certificate {
-                    Some(certificate) if nats => number::significant(certificate.gap, 2),
+                    Some(certificate) if nats => number_format::significant(certificate.gap, 2),
                     Some(certificate) => above(certificate.gap),
-                    None => number::UNKNOWN.to_string(),
+                    None => number_format::UNKNOWN.to_string(),
                 }));
                 let ended = status(design.status).to_string();
                 let converged = design.status == DesignStatus::Converged;
@@ -154,7 +156,10 @@ fn table(sweep: &Sweep) -> String {
                 table.row(cells);
             }
             Err(_) => {
-                cells.extend([Cell::Number(number::UNKNOWN.into()), Cell::Number(number::UNKNOWN.into())]);
+                cells.extend([
+                    Cell::Number(number_format::UNKNOWN.into()),
+                    Cell::Number(number_format::UNKNOWN.into()),
+                ]);
                 cells.push(Cell::Mark("no design, see above".to_string()));
                 table.row_left_out(cells);
             }

@@ -2,13 +2,13 @@
 
 use super::figure::validation_errors;
 use super::html::{Page, list};
-use super::number;
+use super::number_format;
 use super::table::{Cell, Table};
 use calibrant_core::estimate::{
-    BiasShift, ClockRate, CovarianceVerdict, Doubt, ErrorKind, FailedFold, LikelyReason, NoiseRatio,
+    BiasShift, Caveat, ClockRate, CovarianceVerdict, ErrorKind, FailedFold, LikelyExplanation, NoiseRatio,
     UnusedError, ValidatedErrors, Validation, ValidationSource,
 };
-use calibrant_core::sensor::Triad;
+use calibrant_core::sensor::SensorKind;
 
 /// So many errors that stand out are named; of the rest the number is told.
 const NAMED: usize = 5;
@@ -19,11 +19,13 @@ const ANOTHER: f64 = 30.0;
 #[must_use]
 pub fn validation_sentences(validation: &Validation) -> Vec<String> {
     // in another unit, noise and bias are those of the unit
-    let in_unit = validation.reasons.iter().all(|of| !matches!(of, LikelyReason::AngularUnit { .. }));
+    let in_unit = validation.reasons.iter().all(|of| !matches!(of, LikelyExplanation::AngularUnit { .. }));
     let other = validation.noise.iter().filter(|noise| noise.differs());
-    let mut sentences: Vec<String> =
-        other.filter(|noise| in_unit || noise.triad == Triad::Accelerometer).map(other_noise).collect();
-    sentences.extend(validation.reasons.iter().map(likely_reason));
+    let mut sentences: Vec<String> = other
+        .filter(|noise| in_unit || noise.sensor_kind == SensorKind::Accelerometer)
+        .map(other_noise)
+        .collect();
+    sentences.extend(validation.reasons.iter().map(likely_explanation));
     let explained =
         |errors: &ValidatedErrors| validation.reasons.iter().any(|reason| reason.explains(errors.kind));
     let beyond = |errors: &ValidatedErrors| {
@@ -34,7 +36,7 @@ pub fn validation_sentences(validation: &Validation) -> Vec<String> {
     sentences.extend(validation.bias_shift.as_ref().filter(|_| in_unit && !any_beyond).map(bias));
     for errors in &validation.kinds {
         let cause = match errors {
-            _ if explained(errors) => Cause::Told,
+            _ if explained(errors) => Cause::Reported,
             _ if beyond(errors) => Cause::Another,
             _ if any_beyond => Cause::Beside,
             _ => Cause::Covariance,
@@ -73,24 +75,25 @@ pub fn validation_rows(validation: &Validation) -> ([&'static str; 7], Vec<[Stri
     let header = ["error of", "number", "rms", "predicted", "χ² of n", "p-value", "factor (99 %)"];
     let mut rows = Vec::new();
     for errors in &validation.kinds {
-        let chi2 = |chi2: f64, degrees: usize| format!("{} of {degrees}", number::significant(chi2, 3));
+        let chi2 =
+            |chi2: f64, degrees: usize| format!("{} of {degrees}", number_format::significant(chi2, 3));
         rows.push([
             what(errors.kind).into(),
             errors.counted().to_string(),
             measured(errors.kind, errors.rms),
             measured(errors.kind, errors.predicted_rms),
             chi2(errors.chi2, errors.degrees_of_freedom),
-            number::probability(errors.p_value),
+            number_format::probability(errors.p_value),
             between(errors.factor, errors.factor_interval),
         ]);
         if let Some(part) = errors.parameters {
             rows.push([
                 "– by the parameters".into(),
-                number::UNKNOWN.into(),
-                number::UNKNOWN.into(),
-                number::UNKNOWN.into(),
+                number_format::UNKNOWN.into(),
+                number_format::UNKNOWN.into(),
+                number_format::UNKNOWN.into(),
                 chi2(part.chi2, part.degrees_of_freedom),
-                number::probability(part.p_value),
+                number_format::probability(part.p_value),
                 between(part.factor, part.factor_interval),
             ]);
         }
@@ -134,14 +137,14 @@ fn what(kind: ErrorKind) -> &'static str {
 
 fn measured(kind: ErrorKind, value: f64) -> String {
     match kind {
-        ErrorKind::Magnitude => format!("{} mm/s²", number::significant(1e3 * value, 2)),
-        ErrorKind::Rate => format!("{} °/s", number::significant(value.to_degrees(), 2)),
-        ErrorKind::Rotation => number::miss(value),
+        ErrorKind::Magnitude => format!("{} mm/s²", number_format::significant(1e3 * value, 2)),
+        ErrorKind::Rate => format!("{} °/s", number_format::significant(value.to_degrees(), 2)),
+        ErrorKind::Rotation => number_format::missed_angle(value),
     }
 }
 
 fn between(factor: f64, (low, high): (f64, f64)) -> String {
-    let two = |value: f64| number::significant(value, 2);
+    let two = |value: f64| number_format::significant(value, 2);
     let high = if high < 1e3 { two(high) } else { "∞".into() };
     format!("{} ({} to {high})", two(factor), two(low))
 }
@@ -150,7 +153,7 @@ fn between(factor: f64, (low, high): (f64, f64)) -> String {
 #[derive(Clone, Copy, PartialEq)]
 enum Cause {
     /// A likely reason that was told.
-    Told,
+    Reported,
     /// Something that no covariance explains.
     Another,
     /// The like, as errors of another kind show.
@@ -162,17 +165,19 @@ fn sentence(errors: &ValidatedErrors, cause: Cause) -> String {
     let (kind, count) = (errors.kind, errors.counted());
     let (rms, predicted) = (measured(kind, errors.rms), measured(kind, errors.predicted_rms));
     let misses = match kind {
-        ErrorKind::Magnitude => format!("On {} not used, |f| misses gravity by {rms} rms", of(count, "hold")),
+        ErrorKind::Magnitude => {
+            format!("On {} not used, |f| misses gravity by {rms} rms", count_that_were(count, "hold"))
+        }
         ErrorKind::Rate => {
-            format!("In {} not used, the corrected rate is off by {rms} rms", of(count, "hold"))
+            format!("In {} not used, the corrected rate is off by {rms} rms", count_that_were(count, "hold"))
         }
         ErrorKind::Rotation => {
-            format!("After {} not used, gravity is missed by {rms} rms", of(count, "rotation"))
+            format!("After {} not used, gravity is missed by {rms} rms", count_that_were(count, "rotation"))
         }
     };
-    let two = |value: f64| number::significant(value, 2);
+    let two = |value: f64| number_format::significant(value, 2);
     let (low, high) = errors.factor_interval;
-    let doubt = match (errors.verdict, errors.parameters) {
+    let caveat = match (errors.verdict, errors.parameters) {
         (CovarianceVerdict::Believed, _) => {
             format!("the covariance is to be believed (the factor is between {} and {})", two(low), two(high))
         }
@@ -189,9 +194,9 @@ fn sentence(errors: &ValidatedErrors, cause: Cause) -> String {
             "as predicted (the factor is between {} and {}), but not to be believed: {}",
             two(low),
             two(high),
-            errors.doubt.as_ref().map_or_else(String::new, |doubt| why(doubt, errors))
+            errors.caveat.as_ref().map_or_else(String::new, |caveat| why(caveat, errors))
         ),
-        (CovarianceVerdict::TooSmall, _) if cause == Cause::Told => format!(
+        (CovarianceVerdict::TooSmall, _) if cause == Cause::Reported => format!(
             "{} times what was predicted; the reason that is told above is a likelier one than the covariance",
             two(errors.factor)
         ),
@@ -218,86 +223,86 @@ fn sentence(errors: &ValidatedErrors, cause: Cause) -> String {
             two(high)
         ),
     };
-    let end = if doubt.ends_with('?') { "" } else { "." };
-    format!("{misses}, {predicted} predicted: {doubt}{end}")
+    let end = if caveat.ends_with('?') { "" } else { "." };
+    format!("{misses}, {predicted} predicted: {caveat}{end}")
 }
 
-fn of(count: usize, what: &str) -> String {
-    format!("{} that {}", number::counted(count, what), if count == 1 { "was" } else { "were" })
+fn count_that_were(count: usize, what: &str) -> String {
+    format!("{} that {}", number_format::counted(count, what), if count == 1 { "was" } else { "were" })
 }
 
 /// Why errors as large as predicted confirm nothing.
-fn why(doubt: &Doubt, errors: &ValidatedErrors) -> String {
+fn why(caveat: &Caveat, errors: &ValidatedErrors) -> String {
     let what = match errors.kind {
         ErrorKind::Magnitude | ErrorKind::Rate => "hold",
         ErrorKind::Rotation => "rotation",
     };
     let from_to = |start_s: f64, end_s: f64| {
-        format!("from {} to {} s", number::fixed(start_s, 1), number::fixed(end_s, 1))
+        format!("from {} to {} s", number_format::fixed(start_s, 1), number_format::fixed(end_s, 1))
     };
-    match doubt {
-        Doubt::Change(change) => {
+    match caveat {
+        Caveat::Change(change) => {
             format!("{}, and what is predicted has the scatter in it that this makes", change.headline())
         }
-        Doubt::Clocks(ClockRate { faster, sd }) => format!(
+        Caveat::Clocks(ClockRate { faster, sd }) => format!(
             "the clocks of the sensors go at different rates, by {:.4} ± {:.4} %: gains are wrong by this share in all rotations alike",
             100.0 * faster.abs(),
             100.0 * sd
         ),
-        Doubt::LeftOut { count, start_s, end_s } => format!(
+        Caveat::LeftOut { count, start_s, end_s } => format!(
             "the calibration left out {count} in a row, {}, which is no chance, and speaks for the others only",
             from_to(*start_s, *end_s)
         ),
-        Doubt::InARow { count, start_s, end_s } => format!(
+        Caveat::InARow { count, start_s, end_s } => format!(
             "{} in a row, {}, {} not count, which is no chance: did the sensor change there?",
-            number::counted(*count, what),
+            number_format::counted(*count, what),
             from_to(*start_s, *end_s),
             if *count == 1 { "does" } else { "do" }
         ),
-        Doubt::Several { count } => format!(
+        Caveat::Several { count } => format!(
             "{} of {} do not count, too many for a chance",
-            number::counted(*count, what),
+            number_format::counted(*count, what),
             errors.errors.len()
         ),
     }
 }
 
 fn other_noise(noise: &NoiseRatio) -> String {
-    let ratio = number::significant(noise.overall(), 2);
+    let ratio = number_format::significant(noise.overall(), 2);
     if let Some(coarse) = noise.coarse {
         return format!(
             "The {}'s readings come in steps of {} {} here, coarser than their noise (a wider range, or rounded?): they scatter {ratio} times as in the calibration's recording. What is \
              predicted goes with that, which is no reason to distrust the calibration.",
-            noise.triad,
-            number::significant(coarse.step, 2),
+            noise.sensor_kind,
+            number_format::significant(coarse.step, 2),
             coarse.unit.symbol()
         );
     }
     format!(
         "The {}'s noise is {} times that of the calibration's recording (another range, bandwidth or filter?): what is predicted goes with the noise found here, which is no reason to \
          distrust the calibration.",
-        noise.triad, ratio
+        noise.sensor_kind, ratio
     )
 }
 
-fn likely_reason(reason: &LikelyReason) -> String {
+fn likely_explanation(reason: &LikelyExplanation) -> String {
     let list = |values: &nalgebra::Vector3<f64>, scale: f64| {
-        values.iter().map(|value| number::significant(scale * value, 2)).collect::<Vec<_>>().join(", ")
+        values.iter().map(|value| number_format::significant(scale * value, 2)).collect::<Vec<_>>().join(", ")
     };
     let most = |values: &nalgebra::Vector3<f64>, sd: &nalgebra::Vector3<f64>| {
-        number::significant(values.component_div(sd).amax(), 2)
+        number_format::significant(values.component_div(sd).amax(), 2)
     };
     match reason {
-        LikelyReason::Temperature { calibrated_c, here_c } => format!(
+        LikelyExplanation::Temperature { calibrated_c, here_c } => format!(
             "This recording was made at {} °C in the mean, the calibration at {} °C and without temperature terms: what differs has its likely reason in that. Calibrate over the temperatures of \
              use, with [temperature].",
-            number::fixed(*here_c, 1),
-            number::fixed(*calibrated_c, 1)
+            number_format::fixed(*here_c, 1),
+            number_format::fixed(*calibrated_c, 1)
         ),
-        LikelyReason::BeyondTemperatures { calibrated_c, here_c } => {
+        LikelyExplanation::BeyondTemperatures { calibrated_c, here_c } => {
             let between = |[low, high]: &[f64; 2]| match high - low < 0.1 {
-                true => number::fixed(*low, 1),
-                false => format!("{} to {}", number::fixed(*low, 1), number::fixed(*high, 1)),
+                true => number_format::fixed(*low, 1),
+                false => format!("{} to {}", number_format::fixed(*low, 1), number_format::fixed(*high, 1)),
             };
             format!(
                 "This recording was made at {} °C, the calibration at {} °C: beyond these its temperature terms are extrapolated, and what differs has its likely reason in that. Calibrate over \
@@ -306,30 +311,32 @@ fn likely_reason(reason: &LikelyReason) -> String {
                 between(calibrated_c)
             )
         }
-        LikelyReason::AccelerometerBias { shift_mps2, sd_mps2 } => format!(
+        LikelyExplanation::AccelerometerBias { shift_mps2, sd_mps2 } => format!(
             "The accelerometer's bias has moved by {} mm/s² since the calibration, up to {} standard deviations; that explains how |f| misses gravity. Calibrate it again.",
             list(shift_mps2, 1e3),
             most(shift_mps2, sd_mps2)
         ),
-        LikelyReason::AccelerometerGain { change, sd } => format!(
+        LikelyExplanation::AccelerometerGain { change, sd } => format!(
             "The accelerometer's gains have changed by {} % since the calibration, up to {} standard deviations; that explains how |f| misses gravity. Calibrate it again.",
             list(change, 100.0),
             most(change, sd)
         ),
-        LikelyReason::AccelerometerBiasAndGain { shift_mps2, shift_sd_mps2, change, change_sd } => format!(
-            "Since the calibration the accelerometer's bias has moved by {} mm/s², up to {} standard deviations, and its gains have changed by {} %, up to {}; both together explain how |f| misses \
+        LikelyExplanation::AccelerometerBiasAndGain { shift_mps2, shift_sd_mps2, change, change_sd } => {
+            format!(
+                "Since the calibration the accelerometer's bias has moved by {} mm/s², up to {} standard deviations, and its gains have changed by {} %, up to {}; both together explain how |f| misses \
              gravity. Calibrate it again.",
-            list(shift_mps2, 1e3),
-            most(shift_mps2, shift_sd_mps2),
-            list(change, 100.0),
-            most(change, change_sd)
-        ),
-        LikelyReason::GyroscopeGain { change, sd } => format!(
+                list(shift_mps2, 1e3),
+                most(shift_mps2, shift_sd_mps2),
+                list(change, 100.0),
+                most(change, change_sd)
+            )
+        }
+        LikelyExplanation::GyroscopeGain { change, sd } => format!(
             "The gyroscope's gains have changed by {} % since the calibration (or its clock by as much), up to {} standard deviations; that explains how rotations miss gravity. Calibrate it again.",
             list(change, 100.0),
             most(change, sd)
         ),
-        LikelyReason::AngularUnit { factor } => {
+        LikelyExplanation::AngularUnit { factor } => {
             let (really, stated) = if *factor < 1.0 { ("deg/s", "rad/s") } else { ("rad/s", "deg/s") };
             format!(
                 "The gyroscope's readings are 57.3 times too {}: they are likely in {really}, and stated to be in {stated}. In {really} gravity is carried rightly.",
@@ -343,14 +350,14 @@ fn bias(shift: &BiasShift) -> String {
     if !shift.moved {
         return "The gyroscope's bias is that of the calibration, within its uncertainty.".into();
     }
-    let degrees = |value: f64| number::significant(value.to_degrees(), 2);
+    let degrees = |value: f64| number_format::significant(value.to_degrees(), 2);
     let values: Vec<String> = shift.shift_radps.iter().map(|value| degrees(*value)).collect();
     let most = shift.shift_radps.component_div(&shift.sd_radps).amax();
     format!(
         "The gyroscope's bias has moved by {} °/s since the calibration, up to {} standard deviations: determine it anew where it is used. Rates and rotations are judged \
          with the bias it has moved to.",
         values.join(", "),
-        number::significant(most, 2)
+        number_format::significant(most, 2)
     )
 }
 
@@ -365,10 +372,10 @@ fn stands_out(kind: ErrorKind, error: &UnusedError) -> String {
     };
     format!(
         "{name} ({} to {} s) {missed} {}, {} times what was predicted, and does not count.",
-        number::fixed(error.start_s, 1),
-        number::fixed(error.end_s, 1),
+        number_format::fixed(error.start_s, 1),
+        number_format::fixed(error.end_s, 1),
         measured(kind, error.error.norm()),
-        number::significant(error.in_sd, 2)
+        number_format::significant(error.in_sd, 2)
     )
 }
 
@@ -395,17 +402,17 @@ mod tests {
             factor_interval: (0.9 * factor, 1.1 * factor),
             parameters: None,
             verdict: CovarianceVerdict::TooSmall,
-            doubt: None,
+            caveat: None,
         }
     }
 
     #[test]
     fn a_question_has_no_full_stop_and_an_angle_ends_at_half_a_revolution() {
-        let said = sentence(&errors(100.0, 1.0), Cause::Another);
-        assert!(said.ends_with("or damaged since?"), "{said}");
-        assert!(said.contains("gravity is missed by 57° rms, more than 180° predicted: "), "{said}");
-        let said = sentence(&errors(3.0, 98_966_f64.to_radians()), Cause::Covariance);
-        assert!(said.ends_with("(between 2.7 and 3.3)."), "{said}");
-        assert!(said.contains("gravity is missed by more than 180° rms"), "{said}");
+        let stated = sentence(&errors(100.0, 1.0), Cause::Another);
+        assert!(stated.ends_with("or damaged since?"), "{stated}");
+        assert!(stated.contains("gravity is missed by 57° rms, more than 180° predicted: "), "{stated}");
+        let stated = sentence(&errors(3.0, 98_966_f64.to_radians()), Cause::Covariance);
+        assert!(stated.ends_with("(between 2.7 and 3.3)."), "{stated}");
+        assert!(stated.contains("gravity is missed by more than 180° rms"), "{stated}");
     }
 }

@@ -1,6 +1,6 @@
 //! The headline: can this calibration be used?
 
-use super::{About, html, number};
+use super::{About, html, number_format};
 use calibrant_core::estimate::{Calibration, CalibrationStatus, Recovered};
 
 /// Below this, a probability counts as evidence against the model.
@@ -68,7 +68,7 @@ fn judge(calibration: &Calibration) -> (Grade, String) {
             sentence.push_str(&format!(
                 "; model and assumed noise do not explain the data (χ² p-value {}): the noise is larger than assumed, or the \
                  model misses something",
-                number::probability(p)
+                number_format::probability(p)
             ));
         }
         Some(p) if p > 1.0 - SIGNIFICANT => {
@@ -76,13 +76,13 @@ fn judge(calibration: &Calibration) -> (Grade, String) {
             sentence.push_str(&format!(
                 "; the residuals are smaller than the assumed noise allows (χ² p-value {}): the assumed noise is too large, and \
                  so are the stated standard deviations",
-                number::probability(p)
+                number_format::probability(p)
             ));
         }
         Some(p) => {
             sentence.push_str(&format!(
                 "; model and assumed noise explain the data (χ² p-value {})",
-                number::probability(p)
+                number_format::probability(p)
             ));
         }
         None if fit.degrees_of_freedom == 0 => {

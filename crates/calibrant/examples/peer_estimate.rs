@@ -119,7 +119,7 @@ fn answer(calibration: &Calibration) -> Result<Value, &'static str> {
 
 fn nominal(case: &Case) -> Option<Vec<f64>> {
     let nominal = case.sensor.nominal()?;
-    Some(case.sensor.parameter_list().quantities().iter().map(|quantity| quantity.of(&nominal)).collect())
+    Some(case.sensor.parameter_list().quantities().iter().map(|quantity| quantity.value(&nominal)).collect())
 }
 
 fn names_all_parameters(case: &Case, text: &str) -> bool {

@@ -33,7 +33,7 @@
 //! | the motion to find, and how | [`design::DesignProblem`], [`design::DesignSettings`] |
 //! | the best motion, what it promises, and the proof | [`design::Design`], [`design::Certificate`] |
 //! | a motion of one's own beside it; the best as one thing changes | [`design::Assessment`], [`design::Sweep`] |
-//! | the noise of a sensor at rest, its Allan deviation | [`noise::TriadNoise`], [`noise::AllanDeviation`] |
+//! | the noise of a sensor at rest, its Allan deviation | [`noise::SensorNoise`], [`noise::AllanDeviation`] |
 //! | a population of simulated sensors | [`study::Study`], [`study::DesignStudy`] |
 //!
 //! # An example

@@ -1,13 +1,13 @@
 //! Calibrations of an accelerometer.
 
 use super::arguments::{Arguments, Unit};
+use super::batch;
 use super::earlier::warn_of_earlier_report;
-use super::many;
 use crate::console;
-use crate::place::same_file;
-use crate::reading::{in_file, name, sparks_taken_out};
+use crate::output_places::same_file;
+use crate::recording_options::{in_file, name, spikes_taken_out};
 use calibrant::Error;
-use calibrant::error::Complaint;
+use calibrant::error::InputError;
 use calibrant::estimate::{
     Calibration, CalibrationProblem, CalibrationSettings, HoldsSetup, Recovered, Stimulus, Validation,
     calibrate,
@@ -17,7 +17,7 @@ use calibrant::io::{
     read_accelerometer, read_motion, write_atomically, write_calibration,
 };
 use calibrant::motion::CommandedMotion;
-use calibrant::report::{About, calibration_report, number};
+use calibrant::report::{About, calibration_report, number_format};
 use calibrant::sensor::{ReadingUnit, Recording};
 use std::path::{Path, PathBuf};
 
@@ -50,7 +50,7 @@ impl Job {
         match &experiment.plan {
             Plan::Motion(plan) => {
                 let path = arguments.motion.as_deref().ok_or_else(|| {
-                    Error::Experiment(Box::new(Complaint::new(
+                    Error::Experiment(Box::new(InputError::new(
                         "a [motion] experiment needs the commanded motion",
                         "add --motion FILE with columns t_s,ax_mps2,ay_mps2,az_mps2 at the nodes; trust unknown uses only its first and last row",
                     )))
@@ -58,7 +58,7 @@ impl Job {
                 if let Some(recording) =
                     arguments.recordings.iter().find(|recording| same_file(recording, path))
                 {
-                    return Err(Error::Experiment(Box::new(Complaint::new(
+                    return Err(Error::Experiment(Box::new(InputError::new(
                         format!("{} is both the motion and a recording", recording.display()),
                         "leave it out of the recordings, or keep them in a folder of their own",
                     ))));
@@ -107,10 +107,10 @@ impl Job {
     pub(super) fn run(&self, path: &Path) -> calibrant::Result<Done> {
         let mut file = read_accelerometer(path, &self.read, &self.device)?;
         // once for all that follows: holds, validation, report
-        let sparks = self.holds.as_ref().and_then(|_| sparks_taken_out(&mut file.recording));
+        let spikes = self.holds.as_ref().and_then(|_| spikes_taken_out(&mut file.recording));
         let mut calibration = calibrate(&self.problem(&file.recording), &self.settings)
             .map_err(|error| in_file(error, path))?;
-        calibration.warnings.splice(0..0, sparks);
+        calibration.warnings.splice(0..0, spikes);
         let input = Input {
             file: name(path),
             sha256: file.sha256.clone(),
@@ -130,15 +130,17 @@ impl Job {
     }
 
     /// Calibrates one of several recordings.
-    pub(super) fn one_of_many(&self, path: &Path, directory: &Path, arguments: &Arguments) -> many::Outcome {
+    pub(super) fn one_of_many(&self, path: &Path, directory: &Path, arguments: &Arguments) -> batch::Outcome {
         let done = self.run(path).and_then(|done| self.write(&done, path, directory).map(|()| done));
         match done {
-            Err(error) => many::Outcome { findings: Vec::new(), calibrated: Err(error) },
-            Ok(Done { file, calibration, validations, input }) => many::Outcome {
+            Err(error) => batch::Outcome { findings: Vec::new(), calibrated: Err(error) },
+            Ok(Done { file, calibration, validations, input }) => batch::Outcome {
                 findings: file.findings,
-                calibrated: Ok(many::Calibrated {
+                calibrated: Ok(batch::Calibrated {
                     status: calibration.status,
-                    cells: vec![calibration.fit.p_value.map_or_else(|| "–".into(), number::probability)],
+                    cells: vec![
+                        calibration.fit.p_value.map_or_else(|| "–".into(), number_format::probability),
+                    ],
                     summary: Summary::of(&calibration),
                     json: arguments.json.then(|| calibration_json(&calibration, &validations, &input)),
                     warnings: calibration.warnings,
@@ -169,10 +171,10 @@ impl Job {
                     "Samples".into(),
                     format!(
                         "{} at {} Hz, {} to {} s",
-                        number::count(recording.len()),
-                        number::significant(done.input.rate_hz, 5),
-                        number::significant(recording.times_s.first().copied().unwrap_or(0.0), 6),
-                        number::significant(recording.times_s.last().copied().unwrap_or(0.0), 6)
+                        number_format::count(recording.len()),
+                        number_format::significant(done.input.rate_hz, 5),
+                        number_format::significant(recording.times_s.first().copied().unwrap_or(0.0), 6),
+                        number_format::significant(recording.times_s.last().copied().unwrap_or(0.0), 6)
                     ),
                 ),
                 ("Experiment".into(), self.experiment_file.display().to_string()),

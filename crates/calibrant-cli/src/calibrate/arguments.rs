@@ -1,7 +1,7 @@
 //! The arguments of `calibrant calibrate`.
 
-use crate::place;
-use crate::reading::RecordingOptions;
+use crate::output_places;
+use crate::recording_options::RecordingOptions;
 use std::ffi::OsStr;
 use std::path::PathBuf;
 
@@ -63,7 +63,7 @@ impl Arguments {
             let is_taken = |name: &&OsStr| RESULTS.iter().any(|result| *name == *result);
             let Some(name) = input.file_name().filter(is_taken) else { continue };
             for folder in folders {
-                place::check_not_input(&self.output.join(folder).join(name), &[input])?;
+                output_places::check_not_input(&self.output.join(folder).join(name), &[input])?;
             }
         }
         Ok(())

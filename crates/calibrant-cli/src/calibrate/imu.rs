@@ -1,13 +1,13 @@
 //! `calibrant calibrate` for a whole IMU.
 
 use super::Arguments;
+use super::batch::{Calibrated, Outcome};
 use super::imu_noise::LongestHold;
 use super::imu_output::Done;
-use super::many::{Calibrated, Outcome};
-use crate::reading::{in_file, name, take_out_sparks};
+use crate::recording_options::{in_file, name, take_out_spikes};
 use crate::{Exit, console};
 use calibrant::Error;
-use calibrant::error::Complaint;
+use calibrant::error::InputError;
 use calibrant::estimate::{
     CalibrationSettings, ImuProblem, ImuSetup, Turn, calibrate_imu_while, find_clean_imu_holds,
 };
@@ -15,9 +15,9 @@ use calibrant::io::{
     Experiment, HoldsPlan, ImuFile, ImuPlan, ImuReadOptions, ImuUnit, Input, Plan, Section, SectionKind,
     Summary, imu_calibration_json, read_sections,
 };
-use calibrant::noise::TriadNoise;
-use calibrant::report::number;
-use calibrant::sensor::{ReadingUnit, Recording, Triad};
+use calibrant::noise::SensorNoise;
+use calibrant::report::number_format;
+use calibrant::sensor::{ReadingUnit, Recording, SensorKind};
 use std::path::{Path, PathBuf};
 
 /// What all recordings of a call share.
@@ -68,11 +68,11 @@ pub(super) fn run(arguments: &Arguments, experiment: &Experiment, plan: &ImuPlan
         );
     }
     let columns = ["holds used", "rotations used", "|f|−g mm/s²", "gravity error °"];
-    super::many::run(arguments, &columns, |number, directory| job.one_of_many(recordings[number], directory))
+    super::batch::run(arguments, &columns, |number, directory| job.one_of_many(recordings[number], directory))
 }
 
 fn refuse<T>(what: &str, help: &str) -> calibrant::Result<T> {
-    Err(Error::Experiment(Box::new(Complaint::new(what, help))))
+    Err(Error::Experiment(Box::new(InputError::new(what, help))))
 }
 
 /// The recordings with their gyroscopes' files.
@@ -82,8 +82,8 @@ fn recordings(arguments: &Arguments) -> calibrant::Result<Vec<Files<'_>>> {
         return refuse(
             &format!(
                 "{} of gyroscopes for {}",
-                number::counted(gyroscopes.len(), "file"),
-                number::counted(recordings.len(), "recording")
+                number_format::counted(gyroscopes.len(), "file"),
+                number_format::counted(recordings.len(), "recording")
             ),
             "give --gyroscope FILE once for each recording, in their order, or not at all where the recordings have both sensors",
         );
@@ -105,7 +105,7 @@ impl Job<'_> {
         let Self { arguments, experiment, plan, holds, options } = self;
         let mut setup = setup(arguments, plan, holds, &file)?;
         // once for all that follows: holds, noise, validation, report
-        let sparks = take_out_sparks(&mut file.recording);
+        let spikes = take_out_spikes(&mut file.recording);
         if setup.holds.intervals_s.is_none() {
             // an error is the calibration's to tell
             setup.found = find_clean_imu_holds(&file.recording, setup.holds.minimum_hold_s).ok();
@@ -113,15 +113,15 @@ impl Job<'_> {
         let (accelerometer, gyroscope, recording) = (&experiment.sensor, &plan.gyroscope, &file.recording);
         let problem = ImuProblem { accelerometer, gyroscope, recording, setup: &setup };
         let longest = LongestHold::of(&setup, &file.recording);
-        let noise = &|triad: Triad| longest.as_ref()?.noise(triad, recording);
+        let noise = &|sensor_kind: SensorKind| longest.as_ref()?.noise(sensor_kind, recording);
         let (mut of_accelerometer, mut of_gyroscope, mut white_noise) = (None, None, None);
         let only_for_report = (!arguments.no_report).then_some(&mut of_accelerometer);
         let calibration = rayon::scope(|scope| {
             let find_white_noise = || {
-                of_gyroscope = noise(Triad::Gyroscope);
+                of_gyroscope = noise(SensorKind::Gyroscope);
                 // beside the fit of the rotations, which leaves a processor idle at times
                 if let Some(found) = only_for_report {
-                    scope.spawn(move |_| *found = noise(Triad::Accelerometer));
+                    scope.spawn(move |_| *found = noise(SensorKind::Accelerometer));
                 }
                 white_noise = longest.as_ref()?.white_noise(of_gyroscope.as_ref()?);
                 white_noise
@@ -130,12 +130,12 @@ impl Job<'_> {
         });
         let mut calibration = calibration.map_err(|error| in_file(error, files.path))?;
         let inputs = files.inputs(&file);
-        calibration.warnings.splice(0..0, sparks);
-        calibration.warnings.extend(of_gyroscope.iter().flat_map(TriadNoise::of_outliers));
+        calibration.warnings.splice(0..0, spikes);
+        calibration.warnings.extend(of_gyroscope.iter().flat_map(SensorNoise::of_outliers));
         setup.white_noise = white_noise;
         let problem = ImuProblem { accelerometer, gyroscope, recording, setup: &setup };
         let validations = super::validation::of_imu(arguments, options, &calibration, &problem, &file)?;
-        let noise: Vec<TriadNoise> = of_accelerometer.into_iter().chain(of_gyroscope).collect();
+        let noise: Vec<SensorNoise> = of_accelerometer.into_iter().chain(of_gyroscope).collect();
         let done = Done { calibration, validations, file, inputs };
         super::imu_output::write(arguments, directory, &done, noise)?;
         Ok(done)
@@ -147,10 +147,13 @@ impl Job<'_> {
             Err(error) => return Outcome { findings: Vec::new(), calibrated: Err(error) },
         };
         let findings = file.findings.clone();
-        Outcome { findings, calibrated: self.calibrate(files, file, directory).map(|done| self.told(done)) }
+        Outcome {
+            findings,
+            calibrated: self.calibrate(files, file, directory).map(|done| self.reported(done)),
+        }
     }
 
-    fn told(&self, Done { calibration, validations, inputs, .. }: Done) -> Calibrated {
+    fn reported(&self, Done { calibration, validations, inputs, .. }: Done) -> Calibrated {
         let json = self.arguments.json.then(|| imu_calibration_json(&calibration, &validations, &inputs));
         let magnitude = calibration.holds.magnitude_residual_rms_mps2;
         let cells = vec![
@@ -158,11 +161,11 @@ impl Job<'_> {
             share(calibration.rotations.iter().map(|rotation| rotation.used)),
             match calibration.holds.degrees_of_freedom {
                 0 => "–".into(),
-                _ => number::significant(1e3 * magnitude, 3),
+                _ => number_format::significant(1e3 * magnitude, 3),
             },
             match calibration.rotations.is_empty() {
                 true => "–".into(),
-                false => number::significant(calibration.rotation_rms_rad().to_degrees(), 2),
+                false => number_format::significant(calibration.rotation_rms_rad().to_degrees(), 2),
             },
         ];
         let (status, summary) = (calibration.status, Summary::of_imu(&calibration));
@@ -182,8 +185,8 @@ impl Files<'_> {
     /// What calibration.json says of them.
     fn inputs(self, file: &ImuFile) -> Vec<Input> {
         let paths = std::iter::once(self.path).chain(self.gyroscope);
-        let input = |((path, triad), sha256): ((&Path, Triad), &String)| {
-            let readings = file.recording.triad(triad);
+        let input = |((path, sensor_kind), sha256): ((&Path, SensorKind), &String)| {
+            let readings = file.recording.sensor(sensor_kind);
             Input {
                 file: name(path),
                 sha256: sha256.clone(),
@@ -191,7 +194,7 @@ impl Files<'_> {
                 rate_hz: readings.map_or(0.0, Recording::rate_hz),
             }
         };
-        paths.zip(Triad::ALL).zip(&file.sha256).map(input).collect()
+        paths.zip(SensorKind::ALL).zip(&file.sha256).map(input).collect()
     }
 }
 
@@ -213,21 +216,23 @@ fn contradicted_key(
     read: impl Fn(&ImuReadOptions) -> calibrant::Result<ImuFile>,
 ) -> Option<Error> {
     let by_option = arguments.reading.options();
-    let of_experiment = |triad: &Triad| by_option.unit(*triad).is_none() && options.unit(*triad).is_some();
-    Triad::ALL.into_iter().filter(of_experiment).find_map(|triad| {
+    let of_experiment = |sensor_kind: &SensorKind| {
+        by_option.unit(*sensor_kind).is_none() && options.unit(*sensor_kind).is_some()
+    };
+    SensorKind::ALL.into_iter().filter(of_experiment).find_map(|sensor_kind| {
         // it can be read without that unit only if it states another
-        read(&options.clone().with_unit(triad, None)).ok()?;
-        let key = match (experiment.columns.unit(triad), triad) {
-            (Some(_), _) => format!("columns.{triad}_unit"),
-            (None, Triad::Accelerometer) => "sensor.unit".into(),
-            (None, Triad::Gyroscope) => "gyroscope.unit".into(),
+        read(&options.clone().with_unit(sensor_kind, None)).ok()?;
+        let key = match (experiment.columns.unit(sensor_kind), sensor_kind) {
+            (Some(_), _) => format!("columns.{sensor_kind}_unit"),
+            (None, SensorKind::Accelerometer) => "sensor.unit".into(),
+            (None, SensorKind::Gyroscope) => "gyroscope.unit".into(),
         };
         let message = format!(
-            "`{key}` is {}, but the recording states another unit of the {triad}",
-            options.unit(triad)?.symbol()
+            "`{key}` is {}, but the recording states another unit of the {sensor_kind}",
+            options.unit(sensor_kind)?.symbol()
         );
         let help = "correct it, or name the columns in [columns] to overrule the file; `calibrant inspect` says what it states";
-        Some(Error::Experiment(Box::new(Complaint::new(message, help).in_file(&arguments.experiment))))
+        Some(Error::Experiment(Box::new(InputError::new(message, help).in_file(&arguments.experiment))))
     })
 }
 
@@ -243,8 +248,8 @@ fn setup(
         let sections = read_sections(path)?;
         if let Some(late) = sections.iter().find(|section| section.end > times.len()) {
             let message = format!("a section ends at sample {}, the recording at {}", late.end, times.len());
-            let complaint = Complaint::new(message, "are the list and the recording of one session?");
-            return Err(Error::Experiment(Box::new(complaint.in_file(path))));
+            let input_error = InputError::new(message, "are the list and the recording of one session?");
+            return Err(Error::Experiment(Box::new(input_error.in_file(path))));
         }
         if setup.holds.intervals_s.is_some() {
             console::warn(

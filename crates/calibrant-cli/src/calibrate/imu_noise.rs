@@ -2,8 +2,8 @@
 
 use calibrant::estimate::{ImuCalibration, ImuSetup, WhiteNoise, holds_between};
 use calibrant::motion::Hold;
-use calibrant::noise::{Moments, Stretch, TriadNoise};
-use calibrant::sensor::{ImuRecording, Recording, Triad};
+use calibrant::noise::{Moments, Segment, SensorNoise};
+use calibrant::sensor::{ImuRecording, Recording, SensorKind};
 use nalgebra::Vector3;
 
 /// A hold, or what is left of it between gaps, that is shorter than this says too little of the noise, s.
@@ -29,46 +29,46 @@ impl LongestHold {
         let mut holds = given.or_else(|| setup.found.clone())?;
         let number = Hold::longest(&holds)?;
         let hold = holds.swap_remove(number);
-        let stretch = |triad| long_stretch(recording.triad(triad)?, &hold);
-        let stretch = stretch(Triad::Gyroscope).or_else(|| stretch(Triad::Accelerometer))?;
-        Some(Self { number, moments: Moments::of(stretch.samples()), hold })
+        let segment = |sensor_kind| long_segment(recording.sensor(sensor_kind)?, &hold);
+        let segment = segment(SensorKind::Gyroscope).or_else(|| segment(SensorKind::Accelerometer))?;
+        Some(Self { number, moments: Moments::of(segment.samples()), hold })
     }
 
     /// The noise of a sensor in it; `None` where its samples do not determine it.
-    pub(super) fn noise(&self, triad: Triad, recording: &ImuRecording) -> Option<TriadNoise> {
-        let recording = recording.triad(triad)?;
-        let stretch = long_stretch(recording, &self.hold)?;
-        if stretch.samples() == self.moments.samples() {
-            TriadNoise::with_moments(triad, recording, stretch, &self.moments).ok()
+    pub(super) fn noise(&self, sensor_kind: SensorKind, recording: &ImuRecording) -> Option<SensorNoise> {
+        let recording = recording.sensor(sensor_kind)?;
+        let segment = long_segment(recording, &self.hold)?;
+        if segment.samples() == self.moments.samples() {
+            SensorNoise::with_moments(sensor_kind, recording, segment, &self.moments).ok()
         } else {
-            TriadNoise::of(triad, recording, stretch).ok()
+            SensorNoise::of(sensor_kind, recording, segment).ok()
         }
     }
 
     /// A gyroscope's white noise, where it is determined on all axes and the noise is understood.
-    pub(super) fn white_noise(&self, gyroscope: &TriadNoise) -> Option<WhiteNoise> {
+    pub(super) fn white_noise(&self, gyroscope: &SensorNoise) -> Option<WhiteNoise> {
         let sd = gyroscope
             .white_noise_per_sample()
-            .filter(|_| gyroscope.explains() && gyroscope.doubt.is_none())?;
-        Some(WhiteNoise { sd, hold: self.number, duration_s: gyroscope.stretch.duration_s() })
+            .filter(|_| gyroscope.explains() && gyroscope.caveat.is_none())?;
+        Some(WhiteNoise { sd, hold: self.number, duration_s: gyroscope.segment.duration_s() })
     }
 }
 
 /// The samples of a hold without a gap, where they last long enough.
-fn long_stretch(recording: &Recording, hold: &Hold) -> Option<Stretch> {
-    let stretch = Stretch::between(recording, hold.start_s, hold.end_s).ok()?;
-    (stretch.duration_s() + stretch.interval_s >= LONG_HOLD_S).then_some(stretch)
+fn long_segment(recording: &Recording, hold: &Hold) -> Option<Segment> {
+    let segment = Segment::between(recording, hold.start_s, hold.end_s).ok()?;
+    (segment.duration_s() + segment.interval_s >= LONG_HOLD_S).then_some(segment)
 }
 
 /// The noise of a sensor in m/s² or rad/s.
 pub(super) fn physical(
-    noise: TriadNoise,
+    noise: SensorNoise,
     calibration: &ImuCalibration,
     recording: &ImuRecording,
-) -> calibrant::Result<TriadNoise> {
-    let matrix = calibration.imu.triad(noise.triad).matrix;
+) -> calibrant::Result<SensorNoise> {
+    let matrix = calibration.imu.sensor(noise.sensor_kind).matrix;
     let gain = Vector3::from_fn(|axis, _| matrix.row(axis).norm());
-    match recording.triad(noise.triad) {
+    match recording.sensor(noise.sensor_kind) {
         Some(recording) => noise.with_gain(recording, &gain),
         None => Ok(noise),
     }

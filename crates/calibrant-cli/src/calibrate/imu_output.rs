@@ -5,8 +5,8 @@ use super::imu_noise::physical;
 use crate::console;
 use calibrant::estimate::{ImuCalibration, Validation};
 use calibrant::io::{ImuFile, Input, imu_calibration_json, write_atomically, write_imu_calibration};
-use calibrant::noise::TriadNoise;
-use calibrant::report::{About, imu_calibration_report, number};
+use calibrant::noise::SensorNoise;
+use calibrant::report::{About, imu_calibration_report, number_format};
 use rayon::prelude::*;
 use std::path::Path;
 
@@ -23,7 +23,7 @@ pub(super) fn write(
     arguments: &Arguments,
     directory: &Path,
     Done { calibration, validations, file, inputs }: &Done,
-    noise: Vec<TriadNoise>,
+    noise: Vec<SensorNoise>,
 ) -> calibrant::Result<()> {
     let json = directory.join("calibration.json");
     let json = || write_imu_calibration(&json, calibration, validations, inputs);
@@ -34,7 +34,11 @@ pub(super) fn write(
     let of_inputs = |of: &dyn Fn(&Input) -> String| inputs.iter().map(of).collect::<Vec<_>>().join(" and ");
     let files = of_inputs(&|input| input.file.clone());
     let samples = |input: &Input| {
-        format!("{} at {} Hz", number::count(input.samples), number::significant(input.rate_hz, 5))
+        format!(
+            "{} at {} Hz",
+            number_format::count(input.samples),
+            number_format::significant(input.rate_hz, 5)
+        )
     };
     let about = About {
         title: format!("Calibration of an IMU from {files}"),
@@ -50,7 +54,7 @@ pub(super) fn write(
         program: format!("calibrant {}", env!("CARGO_PKG_VERSION")),
         ..About::default()
     };
-    let physical = |noise: TriadNoise| physical(noise, calibration, &file.recording);
+    let physical = |noise: SensorNoise| physical(noise, calibration, &file.recording);
     let noise = noise.into_par_iter().map(physical).collect::<calibrant::Result<Vec<_>>>()?;
     let report = || {
         let html = imu_calibration_report(calibration, &file.recording, &noise, &about);

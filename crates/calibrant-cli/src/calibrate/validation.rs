@@ -3,9 +3,9 @@
 use super::Arguments;
 use super::accelerometer::{Done, Job};
 use crate::console;
-use crate::reading::{in_file, name, sparks_taken_out, take_out_sparks};
+use crate::recording_options::{in_file, name, spikes_taken_out, take_out_spikes};
 use calibrant::Error;
-use calibrant::error::Complaint;
+use calibrant::error::InputError;
 use calibrant::estimate::{
     CalibrationSettings, HoldCalibration, HoldsSetup, ImuCalibration, ImuProblem, ImuSetup, Recovered,
     Stimulus, Validation, ValidationSource, cross_validate, cross_validate_imu, noise_in_common,
@@ -13,7 +13,7 @@ use calibrant::estimate::{
 };
 use calibrant::io::{ImuFile, ImuReadOptions, read_accelerometer, read_imu_pair, read_imu_recording};
 use calibrant::motion::Hold;
-use calibrant::sensor::{Recording, Temperatures, Triad};
+use calibrant::sensor::{Recording, SensorKind, Temperatures};
 use std::path::Path;
 
 /// Refuses `--validate` and `--folds` with several recordings.
@@ -21,7 +21,7 @@ pub(super) fn only_one(arguments: &Arguments) -> calibrant::Result<()> {
     if arguments.validate.is_none() && arguments.folds.is_none() {
         return Ok(());
     }
-    Err(Error::Experiment(Box::new(Complaint::new(
+    Err(Error::Experiment(Box::new(InputError::new(
         "one calibration is validated at a time, and several recordings are given",
         "give one recording with --validate or --folds",
     ))))
@@ -46,12 +46,12 @@ fn read_other(arguments: &Arguments, path: &Path, options: &ImuReadOptions) -> c
     match read(path, gyroscope, options) {
         Ok(file) if gyroscope.is_none() && file.recording.gyroscope.is_none() => {
             let message = "the recording has no gyroscope";
-            Err(Error::Recording(Box::new(Complaint::new(message, help).in_file(path))))
+            Err(Error::Recording(Box::new(InputError::new(message, help).in_file(path))))
         }
-        Err(Error::Recording(complaint))
-            if gyroscope.is_none() && complaint.help.contains("with --gyroscope,") =>
+        Err(Error::Recording(input_error))
+            if gyroscope.is_none() && input_error.help.contains("with --gyroscope,") =>
         {
-            Err(Error::Recording(Box::new(Complaint { help: help.into(), ..*complaint })))
+            Err(Error::Recording(Box::new(InputError { help: help.into(), ..*input_error })))
         }
         read => read,
     }
@@ -70,13 +70,15 @@ pub(super) fn of_imu(
         let mut other = read_other(arguments, path, options)?;
         let second = arguments.validate_gyroscope.as_deref().map(name);
         console::findings(&other.findings, &name(path), second.as_deref());
-        let sparks = take_out_sparks(&mut other.recording);
-        sparks.iter().for_each(|words| console::warn(&format!("{}: {words}", name(path))));
+        let spikes = take_out_spikes(&mut other.recording);
+        spikes.iter().for_each(|words| console::warn(&format!("{}: {words}", name(path))));
         let gyroscope_path = arguments.validate_gyroscope.as_deref().unwrap_or(path);
-        for (triad, path) in [(Triad::Accelerometer, path.as_path()), (Triad::Gyroscope, gyroscope_path)] {
-            let known = (&*file.sha256.concat(), file.recording.triad(triad));
-            let others = (&*other.sha256.concat(), other.recording.triad(triad));
-            refuse_the_same(triad, known, &calibration.holds, others, path)?;
+        for (sensor_kind, path) in
+            [(SensorKind::Accelerometer, path.as_path()), (SensorKind::Gyroscope, gyroscope_path)]
+        {
+            let known = (&*file.sha256.concat(), file.recording.sensor(sensor_kind));
+            let others = (&*other.sha256.concat(), other.recording.sensor(sensor_kind));
+            refuse_the_same(sensor_kind, known, &calibration.holds, others, path)?;
         }
         let (holds, latitude_deg) = (found(&problem.setup.holds), problem.setup.latitude_deg);
         let setup = ImuSetup { holds, latitude_deg, ..ImuSetup::default() };
@@ -109,11 +111,11 @@ pub(super) fn of_accelerometer(
     if let Some(path) = &arguments.validate {
         let mut other = read_accelerometer(path, &job.read, &job.device)?;
         other.findings.iter().for_each(|finding| console::finding(&name(path), finding));
-        let sparks = job.holds.as_ref().and_then(|_| sparks_taken_out(&mut other.recording));
-        sparks.iter().for_each(|words| console::warn(&format!("{}: {words}", name(path))));
+        let spikes = job.holds.as_ref().and_then(|_| spikes_taken_out(&mut other.recording));
+        spikes.iter().for_each(|words| console::warn(&format!("{}: {words}", name(path))));
         if let Recovered::Holds(holds) = &done.calibration.recovered {
             refuse_the_same(
-                Triad::Accelerometer,
+                SensorKind::Accelerometer,
                 (&done.input.sha256, Some(&done.file.recording)),
                 holds,
                 (&other.sha256, Some(&other.recording)),
@@ -161,7 +163,7 @@ fn on(path: &Path, validation: Validation) -> Validation {
 
 /// Refuses the data of a sensor that were calibrated from: the same file, its readings in another file, whole or cut, in another order, or the recording in disguise.
 fn refuse_the_same(
-    triad: Triad,
+    sensor_kind: SensorKind,
     (one_hash, one): (&str, Option<&Recording>),
     holds: &HoldCalibration,
     (other_hash, other): (&str, Option<&Recording>),
@@ -170,18 +172,18 @@ fn refuse_the_same(
     let refused = |what: &str| {
         let message = format!("{what}; errors on them are smaller than on other data, and validate nothing");
         let help = "give another recording of the sensor, or --folds 5 in place of --validate: blocks of holds, each predicted from the others";
-        Err(Error::Experiment(Box::new(Complaint::new(message, help).in_file(path))))
+        Err(Error::Experiment(Box::new(InputError::new(message, help).in_file(path))))
     };
-    let same = match triad {
-        Triad::Accelerometer => "it has the data that were calibrated from",
-        Triad::Gyroscope => "its gyroscope has the data that were calibrated from",
+    let same = match sensor_kind {
+        SensorKind::Accelerometer => "it has the data that were calibrated from",
+        SensorKind::Gyroscope => "its gyroscope has the data that were calibrated from",
     };
     if one_hash == other_hash {
         return refused(same);
     }
     let Some((one, other)) = one.zip(other) else { return Ok(()) };
     let (long, short) = if one.len() < other.len() { (other, one) } else { (one, other) };
-    if long.readings.windows(short.len().max(1)).any(|stretch| stretch == short.readings) {
+    if long.readings.windows(short.len().max(1)).any(|segment| segment == short.readings) {
         return refused(same);
     }
     let holds: Vec<Hold> = holds.holds.iter().map(|result| result.hold.clone()).collect();

@@ -2,15 +2,15 @@
 
 use super::table;
 use calibrant::estimate::{ImuCalibration, Validation};
-use calibrant::report::{imu_quality, number, over_the_gain, temperature_in_words};
-use calibrant::sensor::Triad;
+use calibrant::report::{imu_quality, number_format, over_the_gain, temperature_in_words};
+use calibrant::sensor::SensorKind;
 
 /// What was used, the parameters of both sensors, and how good they are.
 pub(crate) fn imu_calibration(calibration: &ImuCalibration, validations: &[Validation]) -> String {
     let mut text = used(calibration);
-    for triad in Triad::ALL {
+    for sensor_kind in SensorKind::ALL {
         text.push('\n');
-        text.push_str(&parameters(calibration, triad));
+        text.push_str(&parameters(calibration, sensor_kind));
     }
     if let Some(line) = temperature_in_words(calibration) {
         text.push_str(&format!("\n  {line}\n"));
@@ -21,9 +21,9 @@ pub(crate) fn imu_calibration(calibration: &ImuCalibration, validations: &[Valid
     text.push_str(&format!(
         "  {} after {}; χ² {} with {} degrees of freedom, weights from the data\n",
         calibration.status.name(),
-        number::counted(calibration.iterations, "iteration"),
-        number::significant(calibration.chi2, 4),
-        number::count(calibration.degrees_of_freedom),
+        number_format::counted(calibration.iterations, "iteration"),
+        number_format::significant(calibration.chi2, 4),
+        number_format::count(calibration.degrees_of_freedom),
     ));
     text.push_str(&super::validations(validations));
     text
@@ -32,7 +32,7 @@ pub(crate) fn imu_calibration(calibration: &ImuCalibration, validations: &[Valid
 /// Noise of a gyroscope's sample, and where it comes from.
 fn sample_noise(calibration: &ImuCalibration) -> String {
     let still = &calibration.still;
-    let axes: Vec<String> = still.noise.iter().map(|&sd| number::significant(sd, 3)).collect();
+    let axes: Vec<String> = still.noise.iter().map(|&sd| number_format::significant(sd, 3)).collect();
     format!(
         "noise of a gyroscope sample {} {}, from: {}",
         axes.join(", "),
@@ -47,9 +47,13 @@ fn used(calibration: &ImuCalibration) -> String {
     let count = |used: usize, what: &str, left_out: Vec<String>| {
         let all = used + left_out.len();
         match left_out.len() {
-            0 => format!("  {}, all used\n", number::counted(all, what)),
+            0 => format!("  {}, all used\n", number_format::counted(all, what)),
             _ => {
-                format!("  {}, {used} used; left out: {}\n", number::counted(all, what), left_out.join(", "))
+                format!(
+                    "  {}, {used} used; left out: {}\n",
+                    number_format::counted(all, what),
+                    left_out.join(", ")
+                )
             }
         }
     };
@@ -63,13 +67,16 @@ fn used(calibration: &ImuCalibration) -> String {
         text.push_str(&count(good, "rotation", bad.collect()));
     }
     if !calibration.turns.is_empty() {
-        text.push_str(&format!("  {} of known angle\n", number::counted(calibration.turns.len(), "turn")));
+        text.push_str(&format!(
+            "  {} of known angle\n",
+            number_format::counted(calibration.turns.len(), "turn")
+        ));
     }
     text
 }
 
-fn parameters(calibration: &ImuCalibration, triad: Triad) -> String {
-    let places = calibration.places_of(triad);
+fn parameters(calibration: &ImuCalibration, sensor_kind: SensorKind) -> String {
+    let places = calibration.places_of(sensor_kind);
     let with_prior = places.iter().any(|&k| calibration.known_beforehand(k).is_some());
     let mut header = vec!["parameter", "estimate ± sd", "unit", "over the gain"];
     if with_prior {
@@ -82,7 +89,7 @@ fn parameters(calibration: &ImuCalibration, triad: Triad) -> String {
             let quantity = calibration.quantities[k];
             let mut row = vec![
                 quantity.name(),
-                number::with_sd(calibration.values[k], sd[k]),
+                number_format::with_sd(calibration.values[k], sd[k]),
                 calibration.unit_of(quantity).to_owned(),
                 over_the_gain(calibration, quantity, sd[k]),
             ];

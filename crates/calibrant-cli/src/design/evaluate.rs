@@ -7,7 +7,7 @@ use crate::{Exit, console};
 use calibrant::design::{Assessment, DesignProblem, LimitKind, LimitUse, assess};
 use calibrant::io::{evaluation_json, read_motion, write_atomically, write_evaluation};
 use calibrant::report::evaluation_report;
-use calibrant::report::number::{counted, short, significant};
+use calibrant::report::number_format::{counted, short, significant};
 use std::path::Path;
 
 pub(super) fn run(

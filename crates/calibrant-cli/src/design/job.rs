@@ -4,9 +4,9 @@ use super::arguments::Arguments;
 use crate::console;
 use calibrant::Error;
 use calibrant::design::{Design, DesignProblem, DesignSettings, design};
-use calibrant::error::Complaint;
+use calibrant::error::InputError;
 use calibrant::io::{EarlierCalibration, Experiment, Prior, read_calibration};
-use calibrant::report::{About, number};
+use calibrant::report::{About, number_format};
 use std::path::Path;
 
 /// What the experiment file and the options ask for.
@@ -48,9 +48,9 @@ impl Job {
                 "Motion",
                 format!(
                     "{} of {} s, {} Hz, trust {}",
-                    number::counted(problem.intervals, "interval"),
-                    number::short(problem.interval_s),
-                    number::short(problem.rate_hz),
+                    number_format::counted(problem.intervals, "interval"),
+                    number_format::short(problem.interval_s),
+                    number_format::short(problem.rate_hz),
                     problem.trust.name()
                 ),
             ),
@@ -106,7 +106,7 @@ fn warn_of_strangers(earlier: &[EarlierCalibration]) {
                 "{} and {} disagree beyond their uncertainty (χ² {} for {degrees_of_freedom} parameters): are they of the same sensor?",
                 name(other),
                 name(last),
-                number::significant(chi2, 3)
+                number_format::significant(chi2, 3)
             ));
         }
     }
@@ -114,12 +114,12 @@ fn warn_of_strangers(earlier: &[EarlierCalibration]) {
 
 /// Names the experiment file in an error about its limits, or about a key of it.
 pub(super) fn in_file(error: Error, file: &Path) -> Error {
-    let named = |complaint: Box<Complaint>| {
-        if complaint.file.is_none() { Box::new(complaint.in_file(file)) } else { complaint }
+    let named = |input_error: Box<InputError>| {
+        if input_error.file.is_none() { Box::new(input_error.in_file(file)) } else { input_error }
     };
     match error {
-        Error::Experiment(complaint) if complaint.key.is_some() => Error::Experiment(named(complaint)),
-        Error::Infeasible(complaint) => Error::Infeasible(named(complaint)),
+        Error::Experiment(input_error) if input_error.key.is_some() => Error::Experiment(named(input_error)),
+        Error::Infeasible(input_error) => Error::Infeasible(named(input_error)),
         other => other,
     }
 }

@@ -6,7 +6,7 @@ use super::sweep_request::Request;
 use crate::{Exit, console};
 use calibrant::design::{DesignProblem, DesignStatus, Sweep, sweep};
 use calibrant::io::{sweep_json, write_atomically, write_sweep, write_sweep_csv};
-use calibrant::report::number::{counted, short, significant};
+use calibrant::report::number_format::{counted, short, significant};
 use calibrant::report::sweep_report;
 
 pub(super) fn run(

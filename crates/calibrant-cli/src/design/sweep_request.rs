@@ -82,8 +82,8 @@ mod tests {
             ("duration=5:10:1", "\"1\" is not a number of values from 2 to 1000"),
             ("duration=5:10:3:log", "\"log\" is neither linear nor geometric"),
         ] {
-            let said = parse(bad).expect_err("bad");
-            assert!(said.contains(says), "{said}");
+            let stated = parse(bad).expect_err("bad");
+            assert!(stated.contains(says), "{stated}");
         }
     }
 }

@@ -3,7 +3,7 @@
 use crate::console;
 use calibrant::design::{AT_BEST, Design, LimitUse, limit_use};
 use calibrant::information::Criterion;
-use calibrant::report::number::{counted, short, significant};
+use calibrant::report::number_format::{counted, short, significant};
 
 /// Before, after and the bound, parameter by parameter; the criterion; the starts; what the certificate says.
 pub(crate) fn design(design: &Design) -> String {

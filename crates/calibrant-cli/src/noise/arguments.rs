@@ -1,7 +1,7 @@
 //! The arguments of `calibrant noise`.
 
 use calibrant::io::ImuUnit;
-use calibrant::sensor::Triad;
+use calibrant::sensor::SensorKind;
 use nalgebra::Vector3;
 use std::path::PathBuf;
 
@@ -18,12 +18,12 @@ pub(crate) struct Arguments {
     pub(super) gyroscope: Option<PathBuf>,
     /// Examine this sensor alone; it is also what columns t x y z are readings of (default: the accelerometer's).
     #[arg(long, value_enum)]
-    pub(super) sensor: Option<SensorKind>,
+    pub(super) sensor: Option<SensorChoice>,
     /// Unit of the readings of the accelerometer, or of --sensor, where the file does not say: m/s2, g, mg, rad/s, deg/s, mdps or counts.
-    #[arg(long, value_parser = crate::reading::any_unit)]
+    #[arg(long, value_parser = crate::recording_options::any_unit)]
     pub(super) unit: Option<ImuUnit>,
     #[command(flatten)]
-    pub(super) reading: crate::reading::RecordingOptions,
+    pub(super) reading: crate::recording_options::RecordingOptions,
     /// Experiment file whose [columns] say what is what.
     #[arg(long, value_name = "EXPERIMENT")]
     pub(super) columns: Option<PathBuf>,
@@ -45,19 +45,19 @@ pub(crate) struct Arguments {
 }
 
 #[derive(Clone, Copy, clap::ValueEnum)]
-pub(super) enum SensorKind {
+pub(super) enum SensorChoice {
     Accelerometer,
     Gyroscope,
 }
 
-impl From<SensorKind> for Triad {
-    fn from(sensor: SensorKind) -> Self {
+impl From<SensorChoice> for SensorKind {
+    fn from(sensor: SensorChoice) -> Self {
         match sensor {
-            SensorKind::Accelerometer => Self::Accelerometer,
-            SensorKind::Gyroscope => Self::Gyroscope,
+            SensorChoice::Accelerometer => Self::Accelerometer,
+            SensorChoice::Gyroscope => Self::Gyroscope,
         }
     }
 }
 
 /// Gains by sensor.
-pub(super) type Gains = Vec<(Triad, Vector3<f64>)>;
+pub(super) type Gains = Vec<(SensorKind, Vector3<f64>)>;

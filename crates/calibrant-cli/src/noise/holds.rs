@@ -1,11 +1,11 @@
 //! Where the sensor is at rest: the longest hold, and whether it moves in an interval that was given.
 
 use calibrant::Error;
-use calibrant::error::Complaint;
+use calibrant::error::InputError;
 use calibrant::estimate::{find_holds, find_imu_holds};
 use calibrant::motion::Hold;
-use calibrant::noise::{Stretch, without_outliers};
-use calibrant::sensor::{ImuRecording, Recording, Triad};
+use calibrant::noise::{Segment, without_outliers};
+use calibrant::sensor::{ImuRecording, Recording, SensorKind};
 
 /// Shortest hold that is looked for, s.
 const SHORTEST_HOLD_S: f64 = 1.0;
@@ -16,9 +16,10 @@ const MOST: f64 = 0.9;
 
 /// The holds: where both sensors are still, or the one that was recorded. A gyroscope alone is as calm in a turn at a steady rate.
 ///
-/// A spark does not divide a hold: it is no movement.
+/// A spike does not divide a hold: it is no movement.
 pub(super) fn holds(imu: &ImuRecording) -> calibrant::Result<Vec<Hold>> {
-    let [accelerometer, gyroscope] = Triad::ALL.map(|triad| imu.triad(triad).map(without_outliers));
+    let [accelerometer, gyroscope] =
+        SensorKind::ALL.map(|sensor_kind| imu.sensor(sensor_kind).map(without_outliers));
     match (accelerometer, gyroscope) {
         (None, Some(gyroscope)) => find_holds(&gyroscope, SHORTEST_HOLD_S),
         (accelerometer, gyroscope) => {
@@ -30,7 +31,7 @@ pub(super) fn holds(imu: &ImuRecording) -> calibrant::Result<Vec<Hold>> {
 /// The longest hold.
 pub(super) fn longest(holds: &[Hold]) -> calibrant::Result<&Hold> {
     Hold::longest(holds).map(|number| &holds[number]).ok_or_else(|| {
-        Error::Recording(Box::new(Complaint::new(
+        Error::Recording(Box::new(InputError::new(
             format!("no hold of {SHORTEST_HOLD_S} s or more is found"),
             "noise needs the sensor at rest; if it was, give the interval with --hold START END",
         )))
@@ -38,9 +39,9 @@ pub(super) fn longest(holds: &[Hold]) -> calibrant::Result<&Hold> {
 }
 
 /// What part of the recording was examined, in words; nothing where that is nearly all of it.
-pub(super) fn examined(holds: &[Hold], stretch: &Stretch, recording: &Recording) -> Option<String> {
+pub(super) fn examined(holds: &[Hold], segment: &Segment, recording: &Recording) -> Option<String> {
     let (first, last) = recording.times_s.first().zip(recording.times_s.last())?;
-    let (used_s, recorded_s) = (stretch.duration_s(), last - first);
+    let (used_s, recorded_s) = (segment.duration_s(), last - first);
     (used_s < MOST * recorded_s).then(|| {
         let hold = match holds.len() {
             1 => "the only hold".to_owned(),
@@ -53,7 +54,7 @@ pub(super) fn examined(holds: &[Hold], stretch: &Stretch, recording: &Recording)
 }
 
 /// A warning where the sensor moves in an interval that was given as at rest: where that holds more than one hold, or more than a hold.
-pub(super) fn moves(holds: &[Hold], given: &Stretch) -> Option<String> {
+pub(super) fn moves(holds: &[Hold], given: &Segment) -> Option<String> {
     if holds.is_empty() {
         return None;
     }
@@ -68,7 +69,7 @@ pub(super) fn moves(holds: &[Hold], given: &Stretch) -> Option<String> {
     (moving_s > 0.0).then(|| moving(moving_s, given))
 }
 
-fn moving(moving_s: f64, given: &Stretch) -> String {
+fn moving(moving_s: f64, given: &Segment) -> String {
     format!(
         "the sensor moves in {moving_s:.1} of the {:.1} s given with --hold, or is shaken: what follows is no noise of a sensor at rest (`calibrant inspect` shows how many \
          holds there are; without --hold the longest is taken)",

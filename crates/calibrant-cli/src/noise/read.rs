@@ -2,33 +2,45 @@
 
 use super::arguments::{Arguments, Gains};
 use calibrant::Error;
-use calibrant::error::Complaint;
+use calibrant::error::InputError;
 use calibrant::io::{ImuFile, ImuReadOptions, ImuUnit, read_imu_pair, read_imu_sensor};
-use calibrant::sensor::{ReadingUnit, Triad};
+use calibrant::sensor::{ReadingUnit, SensorKind};
 
-/// Reads the recording: a file of one sensor, one of a whole IMU, or a pair. `triad` is the sensor of a file whose columns do not say.
-pub(super) fn read(arguments: &Arguments, triad: Triad, gains: &Gains) -> calibrant::Result<ImuFile> {
-    let options = options(arguments, triad)?;
+/// Reads the recording: a file of one sensor, one of a whole IMU, or a pair. `sensor_kind` is the sensor of a file whose columns do not say.
+pub(super) fn read(
+    arguments: &Arguments,
+    sensor_kind: SensorKind,
+    gains: &Gains,
+) -> calibrant::Result<ImuFile> {
+    let options = options(arguments, sensor_kind)?;
     let open = |options: &ImuReadOptions| match &arguments.gyroscope {
         Some(gyroscope) => read_imu_pair(&arguments.recording, gyroscope, options),
-        None => read_imu_sensor(&arguments.recording, triad, options),
+        None => read_imu_sensor(&arguments.recording, sensor_kind, options),
     };
     // a gain is one of counts: it answers for the unit where the file does not
-    let counted = || gains.iter().map(|(triad, _)| *triad).filter(|triad| options.unit(*triad).is_none());
+    let counted = || {
+        gains
+            .iter()
+            .map(|(sensor_kind, _)| *sensor_kind)
+            .filter(|sensor_kind| options.unit(*sensor_kind).is_none())
+    };
     if counted().next().is_none() {
         return open(&options);
     }
-    let in_counts =
-        counted().fold(options.clone(), |options, triad| options.with_unit(triad, Some(ImuUnit::Counts)));
+    let in_counts = counted()
+        .fold(options.clone(), |options, sensor_kind| options.with_unit(sensor_kind, Some(ImuUnit::Counts)));
     open(&in_counts).map_err(|error| {
         let stated = open(&options).ok();
-        let other = counted().find_map(|triad| {
-            let unit = stated.as_ref()?.recording.triad(triad)?.unit;
-            (unit != ReadingUnit::Counts).then_some((triad, unit))
+        let other = counted().find_map(|sensor_kind| {
+            let unit = stated.as_ref()?.recording.sensor(sensor_kind)?.unit;
+            (unit != ReadingUnit::Counts).then_some((sensor_kind, unit))
         });
         match other {
-            Some((triad, unit)) => usage(
-                &format!("--gain is one of counts, but the file gives the {triad} in {}", unit.symbol()),
+            Some((sensor_kind, unit)) => usage(
+                &format!(
+                    "--gain is one of counts, but the file gives the {sensor_kind} in {}",
+                    unit.symbol()
+                ),
                 "leave --gain away",
             ),
             None => error,
@@ -37,25 +49,29 @@ pub(super) fn read(arguments: &Arguments, triad: Triad, gains: &Gains) -> calibr
 }
 
 /// The options, with --unit as that of the sensor. The unit of one that --sensor leaves aside is not asked for: it only tells when the IMU is still.
-fn options(arguments: &Arguments, triad: Triad) -> calibrant::Result<ImuReadOptions> {
+fn options(arguments: &Arguments, sensor_kind: SensorKind) -> calibrant::Result<ImuReadOptions> {
     let mut options = arguments.reading.with_columns(arguments.columns.as_deref())?;
     if arguments.sensor.is_some() {
-        options.counts_unless_stated = Triad::ALL.map(|other| other != triad);
+        options.counts_unless_stated = SensorKind::ALL.map(|other| other != sensor_kind);
     }
     let Some(unit) = arguments.unit else { return Ok(options) };
-    if !unit.suits(triad) {
-        let message = format!("--unit {} is no unit of the {triad}", unit.symbol());
-        return Err(usage(&message, &format!("its readings are in {}", ImuUnit::choices(triad))));
+    if !unit.suits(sensor_kind) {
+        let message = format!("--unit {} is no unit of the {sensor_kind}", unit.symbol());
+        return Err(usage(&message, &format!("its readings are in {}", ImuUnit::choices(sensor_kind))));
     }
-    match options.unit(triad).filter(|other| *other != unit) {
+    match options.unit(sensor_kind).filter(|other| *other != unit) {
         Some(other) => Err(usage(
-            &format!("--unit is {}, but the {triad}'s unit is given as {}", unit.symbol(), other.symbol()),
+            &format!(
+                "--unit is {}, but the {sensor_kind}'s unit is given as {}",
+                unit.symbol(),
+                other.symbol()
+            ),
             "leave one of them away",
         )),
-        None => Ok(options.with_unit(triad, Some(unit))),
+        None => Ok(options.with_unit(sensor_kind, Some(unit))),
     }
 }
 
 fn usage(message: &str, help: &str) -> Error {
-    Error::Experiment(Box::new(Complaint::new(message, help)))
+    Error::Experiment(Box::new(InputError::new(message, help)))
 }

@@ -2,19 +2,19 @@
 
 use crate::console;
 use calibrant::io::noise_line;
-use calibrant::noise::{Coefficient, CoefficientUnit, PowerLaw, TriadNoise, coefficient_units};
-use calibrant::report::{coefficient_name, number};
+use calibrant::noise::{Coefficient, CoefficientUnit, PowerLaw, SensorNoise, coefficient_units};
+use calibrant::report::{coefficient_name, number_format};
 
 /// Coefficients, samples, and why something is not determined; `examined` says what part of the recording was.
-pub(super) fn of(noise: &TriadNoise, examined: Option<&str>) -> String {
-    let stretch = &noise.stretch;
+pub(super) fn noise_table(noise: &SensorNoise, examined: Option<&str>) -> String {
+    let segment = &noise.segment;
     let mut text = format!(
         "  {}: {} samples, {:.2} to {:.2} s, {} Hz\n",
-        noise.triad,
-        number::count(stretch.samples()),
-        stretch.start_s,
-        stretch.end_s,
-        number::significant(stretch.rate_hz(), 5)
+        noise.sensor_kind,
+        number_format::count(segment.samples()),
+        segment.start_s,
+        segment.end_s,
+        number_format::significant(segment.rate_hz(), 5)
     );
     if let Some(examined) = examined {
         text.push_str(&format!("  {examined}\n"));
@@ -23,11 +23,11 @@ pub(super) fn of(noise: &TriadNoise, examined: Option<&str>) -> String {
     let mut rows = Vec::new();
     let mut reasons: Vec<(String, String)> = Vec::new();
     for process in [PowerLaw::White, PowerLaw::Flicker, PowerLaw::RandomWalk, PowerLaw::Quantisation] {
-        let units = coefficient_units(noise.triad, process, noise.unit);
+        let units = coefficient_units(noise.sensor_kind, process, noise.unit);
         for axis in &noise.axes {
             let name = format!("{} {}", coefficient_name(noise, process), axis.axis);
             let unit = units[0].symbol.to_owned();
-            let shown = |value: f64| number::significant(value, 3);
+            let shown = |value: f64| number_format::significant(value, 3);
             rows.push(match axis.fit.model.coefficient(process) {
                 Coefficient::Determined(found) => {
                     let mut customary: Vec<String> = units[1..]
@@ -35,10 +35,16 @@ pub(super) fn of(noise: &TriadNoise, examined: Option<&str>) -> String {
                         .map(|unit| format!("{} {}", shown(unit.factor * found.value), unit.symbol))
                         .collect();
                     if let (PowerLaw::Flicker, Some(tau)) = (process, axis.fit.flat_tau_s) {
-                        customary.push(format!("at {} s", number::significant(tau, 2)));
+                        customary.push(format!("at {} s", number_format::significant(tau, 2)));
                     }
                     let interval = format!("{} to {}", shown(found.low), shown(found.high));
-                    vec![name, number::with_sd(found.value, found.sd), interval, unit, customary.join(", ")]
+                    vec![
+                        name,
+                        number_format::with_sd(found.value, found.sd),
+                        interval,
+                        unit,
+                        customary.join(", "),
+                    ]
                 }
                 Coefficient::NotDetermined { limit, reason } => {
                     let what = coefficient_name(noise, process);
@@ -49,13 +55,17 @@ pub(super) fn of(noise: &TriadNoise, examined: Option<&str>) -> String {
                     }
                     let customary: Vec<String> = limit.map_or_else(Vec::new, |limit| {
                         let below = |unit: &CoefficientUnit| {
-                            format!("< {} {}", number::significant(unit.factor * limit, 2), unit.symbol)
+                            format!(
+                                "< {} {}",
+                                number_format::significant(unit.factor * limit, 2),
+                                unit.symbol
+                            )
                         };
                         units[1..].iter().map(below).collect()
                     });
                     let limit = limit.map_or_else(
                         || "–".to_owned(),
-                        |limit| format!("< {}", number::significant(limit, 2)),
+                        |limit| format!("< {}", number_format::significant(limit, 2)),
                     );
                     vec![name, "not determined".to_owned(), limit, unit, customary.join(", ")]
                 }
@@ -67,18 +77,19 @@ pub(super) fn of(noise: &TriadNoise, examined: Option<&str>) -> String {
         text.push_str(&format!("  {names} not determined: {reason}\n"));
     }
     let list = |values: &dyn Fn(usize) -> Option<f64>| {
-        let shown = |k| values(k).map_or_else(|| "–".to_owned(), |value| number::significant(value, 3));
+        let shown =
+            |k| values(k).map_or_else(|| "–".to_owned(), |value| number_format::significant(value, 3));
         (0..noise.axes.len()).map(shown).collect::<Vec<_>>().join(", ")
     };
-    let rate = stretch.rate_hz();
+    let rate = segment.rate_hz();
     text.push_str(&format!(
         "  one sample: white noise N √rate {} {unit}; standard deviation {} {unit}\n",
         list(&|k| noise.axes[k].fit.model.white_noise_per_sample(rate)),
         list(&|k| Some(noise.axes[k].sample_sd)),
         unit = noise.unit.symbol()
     ));
-    text.push_str(&match (noise_line(noise), &noise.doubt) {
-        (_, Some(doubt)) => format!("  nothing for an experiment file: {doubt}\n\n"),
+    text.push_str(&match (noise_line(noise), &noise.caveat) {
+        (_, Some(caveat)) => format!("  nothing for an experiment file: {caveat}\n\n"),
         (None, None) => {
             "  nothing for an experiment file: white noise is not determined on all axes\n\n".to_owned()
         }

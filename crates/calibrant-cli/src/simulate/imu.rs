@@ -4,10 +4,10 @@ use super::Arguments;
 use super::random::Random;
 use crate::console;
 use calibrant::Error;
-use calibrant::error::Complaint;
+use calibrant::error::InputError;
 use calibrant::io::{Experiment, HoldsPlan, ImuPlan, ImuReadOptions, write_imu_recording, write_imu_truth};
 use calibrant::motion::earth_rate;
-use calibrant::sensor::{CalibratedImu, ImuParameters, ImuQuantity, ReadingUnit, Triad, WORKING_C};
+use calibrant::sensor::{CalibratedImu, ImuParameters, ImuQuantity, ReadingUnit, SensorKind, WORKING_C};
 use calibrant::simulate::{
     GyroscopeToDraw, ImuSimulation, MOST_SAMPLES, Rng, TURN_S, TableAction, TableStep, draw_imu, draw_known,
     draw_thermal, simulate_imu, simulate_table,
@@ -28,9 +28,9 @@ pub(super) fn run(
 ) -> calibrant::Result<usize> {
     let sensor = &experiment.sensor;
     let needs = |key: &str| {
-        let complaint =
-            Complaint::new(format!("a simulation of counts needs `{key}`"), "add it to the experiment file");
-        Error::Experiment(Box::new(complaint.in_file(&arguments.experiment).about_key(key)))
+        let input_error =
+            InputError::new(format!("a simulation of counts needs `{key}`"), "add it to the experiment file");
+        Error::Experiment(Box::new(input_error.in_file(&arguments.experiment).about_key(key)))
     };
     let ones = Vector3::repeat(1.0);
     let gain_a = sensor.gain.ok_or_else(|| needs("sensor.gain_counts_per_mps2"))?;
@@ -54,8 +54,8 @@ pub(super) fn run(
         turn_s: TURN_S,
         rate_hz: holds.rate_hz,
         gravity_mps2: holds.gravity.magnitude_mps2,
-        accelerometer_noise: one_for_all(Triad::Accelerometer, &noise_a),
-        gyroscope_noise: one_for_all(Triad::Gyroscope, &noise_g),
+        accelerometer_noise: one_for_all(SensorKind::Accelerometer, &noise_a),
+        gyroscope_noise: one_for_all(SensorKind::Gyroscope, &noise_g),
         accelerometer_unit: sensor.unit,
         gyroscope_unit: plan.gyroscope.unit,
         face_sd_rad: holds.face_sd_rad.unwrap_or(0.0),
@@ -115,9 +115,9 @@ fn warming(plan: &ImuPlan) -> Option<[f64; 2]> {
 }
 
 /// The simulation has one noise for all axes of a sensor: the largest.
-fn one_for_all(triad: Triad, noise: &Vector3<f64>) -> f64 {
+fn one_for_all(sensor_kind: SensorKind, noise: &Vector3<f64>) -> f64 {
     if noise.max() > noise.min() {
-        console::note(&format!("the noise of the {triad} is simulated with that of its noisiest axis"));
+        console::note(&format!("the noise of the {sensor_kind} is simulated with that of its noisiest axis"));
     }
     noise.max()
 }
@@ -135,7 +135,7 @@ fn in_gauge(
         covariance: None,
         frame: String::new(),
     };
-    Ok(imu.in_gauge_of(Triad::Accelerometer, holds.gauge)?.parameters)
+    Ok(imu.in_gauge_of(SensorKind::Accelerometer, holds.gauge)?.parameters)
 }
 
 /// What is done on the table, in order of time; `None` where the IMU is turned by hand.
@@ -168,7 +168,7 @@ fn check_length(steps: &[TableStep], rate_hz: f64) -> calibrant::Result<()> {
     if samples <= MOST_SAMPLES {
         return Ok(());
     }
-    Err(Error::Experiment(Box::new(Complaint::new(
+    Err(Error::Experiment(Box::new(InputError::new(
         format!(
             "{duration_s} s at {rate_hz} Hz are {samples:.1e} samples, at most {MOST_SAMPLES:.0e} fit into memory"
         ),
@@ -180,7 +180,7 @@ fn check_length(steps: &[TableStep], rate_hz: f64) -> calibrant::Result<()> {
 fn check_order(steps: &[TableStep]) -> calibrant::Result<()> {
     match steps.windows(2).find(|pair| pair[1].start_s < pair[0].end_s) {
         None => Ok(()),
-        Some(pair) => Err(Error::Experiment(Box::new(Complaint::new(
+        Some(pair) => Err(Error::Experiment(Box::new(InputError::new(
             format!(
                 "what begins at {} s begins before what is done until {} s is over",
                 pair[1].start_s, pair[0].end_s

@@ -1,7 +1,7 @@
 //! What people see of the experiments.
 
 use crate::console;
-use calibrant::report::number;
+use calibrant::report::number_format;
 use calibrant::study::{DesignStudy, Factor, Improvement, ParameterSummary, Studies, Study};
 
 /// A table for each experiment, and what was left out.
@@ -21,8 +21,8 @@ fn calibration(study: &Study) -> String {
             vec![
                 row.name.clone(),
                 row.unit.to_owned(),
-                number::significant(row.predicted_sd, 3),
-                number::significant(row.realised_rms, 3),
+                number_format::significant(row.predicted_sd, 3),
+                number_format::significant(row.realised_rms, 3),
                 format!("{:.3}", row.realised_rms / row.predicted_sd),
                 percent(row.coverage_95),
             ]
@@ -35,7 +35,7 @@ fn calibration(study: &Study) -> String {
         sensors(study.outcomes.len()),
         study.trust,
         study.motion.intervals(),
-        number::short(study.rate_hz),
+        number_format::short(study.rate_hz),
         study.seed
     );
     title + &console::table(&header, &rows)
@@ -60,13 +60,13 @@ fn design(study: &DesignStudy) -> String {
         sensors(study.outcomes.len()),
         study.trust.name(),
         study.intervals,
-        number::short(study.rate_hz),
+        number_format::short(study.rate_hz),
         study.seed
     );
     let trace = format!(
         "  trace of the covariance, median: {} initial, {} optimal\n",
-        number::significant(study.trace.initial.median, 3),
-        number::significant(study.trace.optimal.median, 3)
+        number_format::significant(study.trace.initial.median, 3),
+        number_format::significant(study.trace.optimal.median, 3)
     );
     title + &console::table(&header, &rows) + &trace
 }
@@ -75,8 +75,8 @@ fn row(improvement: &Improvement) -> Vec<String> {
     let Improvement { initial, optimal, predicted, realised } = improvement;
     let mut cells = vec![initial.name.clone(), initial.unit.to_owned()];
     for ParameterSummary { predicted_sd, realised_rms, coverage_95, .. } in [initial, optimal] {
-        cells.push(number::significant(*predicted_sd, 3));
-        cells.push(number::significant(*realised_rms, 3));
+        cells.push(number_format::significant(*predicted_sd, 3));
+        cells.push(number_format::significant(*realised_rms, 3));
         cells.push(percent(*coverage_95));
     }
     cells.push(factor(predicted));
@@ -87,8 +87,10 @@ fn row(improvement: &Improvement) -> Vec<String> {
 fn factor(factor: &Factor) -> String {
     match factor.standard_error {
         // every sensor may have the same initial motion
-        Some(error) if error > 1e-9 * factor.value => format!("×{}", number::with_sd(factor.value, error)),
-        _ => format!("×{}", number::significant(factor.value, 3)),
+        Some(error) if error > 1e-9 * factor.value => {
+            format!("×{}", number_format::with_sd(factor.value, error))
+        }
+        _ => format!("×{}", number_format::significant(factor.value, 3)),
     }
 }
 
@@ -97,5 +99,5 @@ fn percent(fraction: f64) -> String {
 }
 
 fn sensors(count: usize) -> String {
-    format!("{} sensor{}", number::count(count), if count == 1 { "" } else { "s" })
+    format!("{} sensor{}", number_format::count(count), if count == 1 { "" } else { "s" })
 }

@@ -22,8 +22,8 @@ fn rows(names: &str, unit_mps2: f64) -> String {
 }
 
 /// The mean magnitude that the summary states of a sensor.
-fn mean(said: &str, sensor: &str) -> f64 {
-    let line = said.lines().find(|line| line.trim_start().starts_with(sensor) && line.contains("samples"));
+fn mean(message: &str, sensor: &str) -> f64 {
+    let line = message.lines().find(|line| line.trim_start().starts_with(sensor) && line.contains("samples"));
     let number = line.and_then(|line| line.split("mean magnitude ").nth(1)?.split(' ').next());
     number.expect("a mean").parse().expect("a number")
 }
@@ -107,8 +107,8 @@ fn a_calibration_in_counts_corrects_counts() {
     write("stated.csv", "ax_counts,ay_counts,az_counts,gx_counts,gy_counts,gz_counts");
     write("half.csv", "ax_counts,ay_counts,az_counts,gx,gy,gz");
     // (2179 − 83.3) / 213.7
-    let said = bench.run("apply shimmer.json plain.csv -o plain.out").done().stdout;
-    assert!((mean(&said, "accelerometer") - 9.807).abs() < 0.02, "{said}");
+    let message = bench.run("apply shimmer.json plain.csv -o plain.out").done().stdout;
+    assert!((mean(&message, "accelerometer") - 9.807).abs() < 0.02, "{message}");
     for file in ["stated", "half"] {
         bench.run(&format!("apply shimmer.json {file}.csv -o {file}.out")).done();
         assert_eq!(bench.read(&format!("{file}.out")), bench.read("plain.out"), "{file}");
@@ -131,8 +131,8 @@ fn a_calibration_of_one_sensor_reads_one_sensor() {
     bench.run("convert acc.calib acc.json --sensor accelerometer --unit si").done();
     bench.write("four.mat", "0.0 0.1 0.2 5.3\n0.1 0.1 0.2 5.3\n0.2 0.1 0.2 5.3\n");
     bench.refuses("apply acc.json four.mat -o x.csv", 3, &["four.mat", "--accelerometer-unit"]);
-    let said = bench.run("apply acc.json four.mat --accelerometer-unit m/s2 -o x.csv").done().stdout;
-    assert!((mean(&said, "accelerometer") - 10.0).abs() < 1e-9, "{said}");
+    let message = bench.run("apply acc.json four.mat --accelerometer-unit m/s2 -o x.csv").done().stdout;
+    assert!((mean(&message, "accelerometer") - 10.0).abs() < 1e-9, "{message}");
     // the other sensor's unit does not matter where it is left out
     bench.write("whole.csv", rows("t_s,ax_mps2,ay_mps2,az_mps2,gx,gy,gz", 1.0));
     let done = bench.run("apply acc.json whole.csv -o x.csv").done();

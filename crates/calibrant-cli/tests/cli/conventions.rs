@@ -34,8 +34,8 @@ fn one_file_goes_through_all_formats_and_stays_the_same_imu() {
         "{}",
         done.stdout
     );
-    let said = bench.run("convert imu.json imu.yaml").done().stderr;
-    assert!(said.contains("T_i_b holds the rotation"), "{said}");
+    let message = bench.run("convert imu.json imu.yaml").done().stderr;
+    assert!(message.contains("T_i_b holds the rotation"), "{message}");
     bench.run("convert imu.yaml imu.h").done();
     bench.run("convert imu.h back.json --to imucal").done();
     let json = bench.json("back.json");
@@ -59,8 +59,9 @@ fn what_a_format_cannot_carry_is_refused_or_said() {
         2,
         &["imu_tk's .calib has no place for the gyroscope's g-sensitivity"],
     );
-    let said = bench.run("convert shimmer.json imu.calib --drop-g-sensitivity --gauge upper").done().stderr;
-    assert!(said.contains("warning: the g-sensitivity is left out"), "{said}");
+    let message =
+        bench.run("convert shimmer.json imu.calib --drop-g-sensitivity --gauge upper").done().stderr;
+    assert!(message.contains("warning: the g-sensitivity is left out"), "{message}");
     assert!(bench.read("imu_acc.calib").contains("# readings in: counts"));
     assert!(bench.read("imu_gyro.calib").contains("# sensor: gyroscope"));
     let done = bench.run("convert imu.calib pair.json").done();

@@ -153,7 +153,7 @@ fn faces_whose_directions_the_readings_contradict_are_named() {
     bench.run(given(r#""y", "-y", "z", "-z", "x", "-x""#)).done().says("all directions are turned alike");
 }
 
-/// A spark in the hold whose Allan deviation gives the noise of the gyroscope's samples.
+/// A spike in the hold whose Allan deviation gives the noise of the gyroscope's samples.
 #[test]
 fn an_outlier_of_the_gyroscope_is_not_taken_for_its_noise() {
     let bench = Bench::new();
@@ -163,15 +163,15 @@ fn an_outlier_of_the_gyroscope_is_not_taken_for_its_noise() {
     bench.run("simulate hand.toml --seed 3 -o hand").done();
     let noise = |file: &str| {
         let outcome = bench.run(&format!("calibrate hand.toml {file} --no-report -o out")).done();
-        let said = outcome.stdout.lines().find(|line| line.contains("noise of a gyroscope sample"));
-        let said = said.unwrap_or_default().trim().to_owned();
-        let text = said.trim_start_matches("noise of a gyroscope sample ");
+        let message = outcome.stdout.lines().find(|line| line.contains("noise of a gyroscope sample"));
+        let message = message.unwrap_or_default().trim().to_owned();
+        let text = message.trim_start_matches("noise of a gyroscope sample ");
         let first: f64 = text.split(',').next().and_then(|n| n.parse().ok()).unwrap_or(f64::NAN);
-        (first, said, outcome.stderr)
+        (first, message, outcome.stderr)
     };
-    let (clean, said, _) = noise("hand/recording.csv");
-    assert!(said.contains("Allan deviation of hold"), "{said}");
-    let number = said.split("hold ").nth(1).and_then(|n| n.split(' ').next()).expect("a number");
+    let (clean, message, _) = noise("hand/recording.csv");
+    assert!(message.contains("Allan deviation of hold"), "{message}");
+    let number = message.split("hold ").nth(1).and_then(|n| n.split(' ').next()).expect("a number");
     let number: f64 = number.parse().expect("a number");
     // turns between holds are shorter than half a hold: the middle of this one
     let text = bench.read("hand/recording.csv");
@@ -183,8 +183,8 @@ fn an_outlier_of_the_gyroscope_is_not_taken_for_its_noise() {
     fields[4] = (fields[4].parse::<f64>().expect("a number") + 0.03).to_string();
     lines[at] = fields.join(",");
     bench.write("spark.csv", lines.join("\n") + "\n");
-    let (sparked, said, stderr) = noise("spark.csv");
-    assert!((sparked / clean - 1.0).abs() < 0.01, "{sparked} {clean}: {said}");
+    let (spiked, message, stderr) = noise("spark.csv");
+    assert!((spiked / clean - 1.0).abs() < 0.01, "{spiked} {clean}: {message}");
     assert!(
         stderr.contains("gyroscope: 1 sample far off those beside it was left out")
             && stderr.contains("15 standard deviations"),

@@ -74,23 +74,23 @@ fn seconds_since_1970_are_told_as_they_stand_and_durations_beside_them() {
         _ => format!("{row}\n"),
     };
     bench.write("imu.csv", text.lines().map(later).collect::<String>());
-    let said = bench.run("inspect imu.csv").done().stdout;
+    let message = bench.run("inspect imu.csv").done().stdout;
     // 2100 rows at 50 Hz and the second: 41.98 s + 1 s
     let sampling = "2100 samples from 1700000000.25 s on, over 42.98 s, 50.000 Hz; steps 20.00 to 20.00 ms, jitter none; 1 gap of 1 s";
-    assert!(said.contains(sampling), "{said}");
-    assert!(said.contains("gap of 1.02 s after t = 1700000020.25 s, about 50 samples"), "{said}");
+    assert!(message.contains(sampling), "{message}");
+    assert!(message.contains("gap of 1.02 s after t = 1700000020.25 s, about 50 samples"), "{message}");
 }
 
 #[test]
 fn tabs_and_spaces_may_both_separate_columns() {
     let bench = Bench::new();
     let text = poses("t_ms,ax_mps2,ay_mps2,az_mps2,gx_radps,gy_radps,gz_radps", 9.8).replace(',', "\t");
-    let said = |name: &str, text: String| {
+    let message = |name: &str, text: String| {
         bench.write(name, text);
         let stdout = bench.run(&format!("inspect {name}")).done().stdout;
         stdout.split_once('\n').expect("lines").1.to_owned()
     };
-    let plain = said("tabs.txt", text.clone());
+    let plain = message("tabs.txt", text.clone());
     // the second tab of each line, of the rows alone, and of the header alone
     let mix = |line: &str| {
         let at = line.match_indices('\t').nth(1).expect("columns").0;
@@ -101,7 +101,7 @@ fn tabs_and_spaces_may_both_separate_columns() {
             if (k == 0 && header) || (k > 0 && rows) { mix(line) } else { line.to_owned() }
         };
         let mixed: Vec<String> = text.lines().enumerate().map(line).collect();
-        assert_eq!(said("mixed.txt", mixed.join("\n") + "\n"), plain, "{header} {rows}");
+        assert_eq!(message("mixed.txt", mixed.join("\n") + "\n"), plain, "{header} {rows}");
     }
 }
 
@@ -119,8 +119,8 @@ fn holds_in_which_the_accelerometer_saturates_are_named() {
     bench.write("imu.csv", text.lines().map(cut).collect::<String>());
     let stdout = bench.run("inspect imu.csv").done().stdout;
     // sin(0.7 k) cos(1.9 k) is above 0.3 for k = 3, 5, 8 and 10
-    let said = "the accelerometer's axis x saturates in holds 4, 6, 9, 11: not counted here, and left out of a calibration";
-    assert!(stdout.contains(said), "{stdout}");
+    let message = "the accelerometer's axis x saturates in holds 4, 6, 9, 11: not counted here, and left out of a calibration";
+    assert!(stdout.contains(message), "{stdout}");
     bench.write("inspection.json", bench.run("inspect imu.csv --json").done().stdout);
     let table = &bench.json("inspection.json")["holds"]["table"];
     assert_eq!((table[3]["saturated_axis"].as_str(), table[4]["saturated_axis"].as_str()), (Some("x"), None));

@@ -1,9 +1,9 @@
 //! The program as its users meet it: commands, files, messages, exit status.
 
 mod apply;
+mod batch;
 mod bench;
 mod broken;
-mod change;
 mod commands;
 mod conventions;
 #[path = "../../../calibrant/tests/library/common/data.rs"]
@@ -12,17 +12,17 @@ mod design;
 mod determinism;
 mod examples;
 mod ferraris;
-mod filtered;
+mod headerless_text;
 mod imu;
 mod inspect;
-mod many;
+mod invalid_samples;
+mod low_pass_filtered;
 mod noise;
-mod real;
-mod repaired;
+mod real_recordings;
+mod repaired_recordings;
+mod sensor_change;
 mod simulate;
 mod temperature;
+mod truncated_bag;
 mod undetermined;
-mod unfinished;
-mod unnamed;
 mod validation;
-mod wild;

@@ -69,7 +69,7 @@ fn white_noise_is_found_and_what_is_not_seen_is_said() {
     );
 }
 
-/// A spark among six thousand samples.
+/// A spike among six thousand samples.
 #[test]
 fn an_outlier_is_named_and_left_out() {
     let bench = Bench::new();
@@ -106,9 +106,9 @@ fn disturbed(n: u32, by: impl Fn(usize) -> f64) -> String {
     format!("t_s,ax_mps2,ay_mps2,az_mps2\n{}\n", lines.join("\n"))
 }
 
-/// A spark divided the hold, and 5.5 of 600 s were used; with --hold N was 82 times too large.
+/// A spike divided the hold, and 5.5 of 600 s were used; with --hold N was 82 times too large.
 #[test]
-fn sparks_neither_divide_a_hold_nor_change_its_noise() {
+fn spikes_neither_divide_a_hold_nor_change_its_noise() {
     let bench = Bench::new();
     let expected = 0.1 / 12.0_f64.sqrt() * 0.1;
     for one_in in [600, 100] {

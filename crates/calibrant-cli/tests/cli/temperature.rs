@@ -25,7 +25,8 @@ fn bench() -> (Bench, ImuRecording) {
 }
 
 fn csv(recording: &ImuRecording, with_temperature: bool) -> String {
-    let [a, g] = [&recording.accelerometer, &recording.gyroscope].map(|triad| triad.as_ref().expect("there"));
+    let [a, g] = [&recording.accelerometer, &recording.gyroscope]
+        .map(|sensor_kind| sensor_kind.as_ref().expect("there"));
     let temperature = recording.temperature_c.as_ref().expect("simulated");
     let mut text = String::from("t_s,ax_mps2,ay_mps2,az_mps2,gx_radps,gy_radps,gz_radps");
     text.push_str(if with_temperature { ",temp_c\n" } else { "\n" });
@@ -76,8 +77,8 @@ fn the_temperature_goes_from_the_recording_to_the_corrected_readings() {
         3,
         &["follows temperature, and this recording has no temperature", "--temperature CELSIUS"],
     );
-    let said = bench.run("apply out/calibration.json cold.csv --temperature 60 -o hot.csv").done().stderr;
-    assert!(said.contains("extrapolated to 60.0 °C"), "{said}");
+    let message = bench.run("apply out/calibration.json cold.csv --temperature 60 -o hot.csv").done().stderr;
+    assert!(message.contains("extrapolated to 60.0 °C"), "{message}");
     let hot = rows(&bench, "hot.csv");
     // 60 °C in place of T makes the corrected rate smaller by the slope over the gain
     let gain = json["gyroscope"]["correction"]["matrix"][0][0].as_f64().expect("a number");

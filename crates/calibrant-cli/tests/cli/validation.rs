@@ -113,16 +113,19 @@ fn one_hold_is_too_few_to_tell_and_another_sensor_is_asked_about() {
         let json = bench.json("result/calibration.json");
         (outcome.stdout, json["validation"]["recording"]["magnitude"]["verdict"].clone())
     };
-    let (said, verdict) = validate("one-hold.csv");
-    assert!(said.contains("On 1 hold that was not used") && said.contains("too few to tell"), "{said}");
+    let (message, verdict) = validate("one-hold.csv");
+    assert!(
+        message.contains("On 1 hold that was not used") && message.contains("too few to tell"),
+        "{message}"
+    );
     assert_eq!(verdict, "too_few");
     // bias and gains that are all 5 % larger
-    let (said, _) = validate("other-gain.csv");
-    assert!(said.contains("its gains have changed by 5."), "{said}");
-    assert!(!said.contains("no covariance explains") && !said.contains("multiply"), "{said}");
-    let (said, verdict) = validate("other-axes.csv");
-    assert!(said.contains("which no covariance explains: is it the same sensor"), "{said}");
-    assert!(!said.contains("multiply"), "{said}");
+    let (message, _) = validate("other-gain.csv");
+    assert!(message.contains("its gains have changed by 5."), "{message}");
+    assert!(!message.contains("no covariance explains") && !message.contains("multiply"), "{message}");
+    let (message, verdict) = validate("other-axes.csv");
+    assert!(message.contains("which no covariance explains: is it the same sensor"), "{message}");
+    assert!(!message.contains("multiply"), "{message}");
     assert_eq!(verdict, "too_small");
 }
 
@@ -342,10 +345,10 @@ fn another_recordings_noise_is_said_and_its_gyroscope_is_no_copy() {
     bench.preset("imu", "noisy.toml", &changes);
     bench.run("simulate noisy.toml --seed 5 -o noisy").done();
     assert_eq!(bench.read("one/truth.json"), bench.read("noisy/truth.json"));
-    let said = bench.run(&format!("{calibrate} --validate noisy/recording.csv")).done().stdout;
+    let message = bench.run(&format!("{calibrate} --validate noisy/recording.csv")).done().stdout;
     assert!(
-        said.contains("The gyroscope's noise is 5.0 times that of the calibration's recording"),
-        "{said}"
+        message.contains("The gyroscope's noise is 5.0 times that of the calibration's recording"),
+        "{message}"
     );
     let found = &bench.json("result/calibration.json")["validation"]["recording"];
     for kind in ["magnitude", "rate", "rotation"] {

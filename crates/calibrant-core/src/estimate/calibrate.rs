@@ -4,11 +4,11 @@ use super::{
     Calibration, CalibrationProblem, CalibrationSettings, HoldCalibration, Recovered, Stimulus, holds, motion,
 };
 use crate::error::Result;
-use crate::sensor::Triad;
+use crate::sensor::SensorKind;
 
 /// Calibrates a sensor.
 ///
-/// From holds, sparks and wild readings are taken out first ([`Recording::without_sparks`](crate::sensor::Recording::without_sparks)), and a warning says so.
+/// From holds, spikes and invalid readings are taken out first ([`Recording::without_spikes`](crate::sensor::Recording::without_spikes)), and a warning says so.
 ///
 /// # Errors
 /// [`Error::Recording`](crate::Error::Recording) for a recording that is none, or that does not overlap the motion;
@@ -51,13 +51,13 @@ pub fn calibrate(problem: &CalibrationProblem<'_>, settings: &CalibrationSetting
             motion::calibrate(problem, command, settings)
         }
         Stimulus::Holds(setup) => {
-            let (recording, sparks) = problem.recording.without_sparks(Triad::Accelerometer);
+            let (recording, spikes) = problem.recording.without_spikes(SensorKind::Accelerometer);
             let problem = CalibrationProblem { recording: &recording, ..*problem };
             problem.validate()?;
             let mut calibration = holds::calibrate(&problem, setup, settings, &recording)?;
             let unit = recording.unit.symbol();
-            let said = sparks.map(|sparks| sparks.words(Triad::Accelerometer, unit));
-            calibration.warnings.splice(0..0, said);
+            let stated = spikes.map(|spikes| spikes.words(SensorKind::Accelerometer, unit));
+            calibration.warnings.splice(0..0, stated);
             if let Recovered::Holds(HoldCalibration { change: Some(change), .. }) = &calibration.recovered {
                 calibration.warnings.push(change.warning(None));
             }

@@ -7,7 +7,7 @@
 //! Where both follow temperature, B is referred to the reference of A first; where only one does, it is taken at its reference.
 
 use super::statistics::chi2_p_value;
-use crate::sensor::{CalibratedImu, Gauge, ImuQuantity, Invariant, InvariantValue, Quantity, Triad};
+use crate::sensor::{CalibratedImu, Gauge, ImuQuantity, Invariant, InvariantValue, Quantity, SensorKind};
 use nalgebra::{DMatrix, DVector};
 
 /// Two calibrations side by side.
@@ -77,18 +77,18 @@ impl Comparison {
     #[must_use]
     pub fn of(a: &CalibratedImu, b: &CalibratedImu) -> Self {
         let mut notes = Vec::new();
-        for triad in Triad::ALL {
-            match (a.unit(triad), b.unit(triad)) {
+        for sensor_kind in SensorKind::ALL {
+            match (a.unit(sensor_kind), b.unit(sensor_kind)) {
                 (Some(one), Some(other)) if one != other => notes.push(format!(
-                    "the readings of the {triad} are in {} in A and in {} in B: its biases and gains cannot be compared",
+                    "the readings of the {sensor_kind} are in {} in A and in {} in B: its biases and gains cannot be compared",
                     one.symbol(),
                     other.symbol()
                 )),
-                (Some(_), None) => notes.push(format!("only A has a {triad}")),
-                (None, Some(_)) => notes.push(format!("only B has a {triad}")),
+                (Some(_), None) => notes.push(format!("only A has a {sensor_kind}")),
+                (None, Some(_)) => notes.push(format!("only B has a {sensor_kind}")),
                 (Some(_), Some(_)) => {
-                    for (name, _) in [("A", a), ("B", b)].iter().filter(|(_, imu)| !imu.has_bias(triad)) {
-                        notes.push(format!("{name} does not say the biases of the {triad}: they are not compared"));
+                    for (name, _) in [("A", a), ("B", b)].iter().filter(|(_, imu)| !imu.has_bias(sensor_kind)) {
+                        notes.push(format!("{name} does not say the biases of the {sensor_kind}: they are not compared"));
                     }
                 }
                 (None, None) => {}
@@ -136,7 +136,7 @@ fn brought_together(
         (false, false) => (a.clone(), b.clone()),
         (true, false) => (only("A", a), b.clone()),
         (false, true) => (a.clone(), only("B", b)),
-        (true, true) => match b.referred_to(reference_c(a)) {
+        (true, true) => match b.at_reference_temperature(reference_c(a)) {
             Ok(referred) => {
                 notes.push(format!("both are compared as they are at {} °C", reference_c(a)));
                 (a.clone(), referred)
@@ -156,7 +156,8 @@ fn compared(
     in_b: InvariantValue,
 ) -> ComparedQuantity {
     let invariant = in_a.invariant;
-    let comparable = invariant.in_unit_of().is_none_or(|triad| a.unit(triad) == b.unit(triad));
+    let comparable =
+        invariant.in_unit_of().is_none_or(|sensor_kind| a.unit(sensor_kind) == b.unit(sensor_kind));
     let difference = comparable.then_some(in_b.value - in_a.value);
     let sd = match (in_a.sd, in_b.sd) {
         // close to zero in the one: no first-order sd there, and so none of the difference
@@ -172,18 +173,20 @@ fn compared(
 
 /// Does the covariance of an IMU say anything of an invariant?
 fn covers(imu: &CalibratedImu, invariant: Invariant) -> bool {
-    let has_matrix = |triad: Triad| {
-        let matrix = |quantity: &ImuQuantity| matches!(quantity, ImuQuantity::Of(of, q) if *of == triad && !matches!(q, Quantity::Bias(_)));
+    let has_matrix = |sensor_kind: SensorKind| {
+        let matrix = |quantity: &ImuQuantity| matches!(quantity, ImuQuantity::Of(of, q) if *of == sensor_kind && !matches!(q, Quantity::Bias(_)));
         imu.quantities.iter().any(matrix)
     };
     imu.covariance.is_some()
         && match invariant {
-            Invariant::Bias(triad, axis) => {
-                imu.quantities.contains(&ImuQuantity::Of(triad, Quantity::Bias(axis)))
+            Invariant::Bias(sensor_kind, axis) => {
+                imu.quantities.contains(&ImuQuantity::Of(sensor_kind, Quantity::Bias(axis)))
             }
-            Invariant::Gain(triad, _) | Invariant::Angle(triad, ..) => has_matrix(triad),
-            Invariant::AngleBetween(..) => Triad::ALL.into_iter().any(has_matrix),
-            Invariant::Thermal(triad, term) => imu.quantities.contains(&ImuQuantity::Thermal(triad, term)),
+            Invariant::Gain(sensor_kind, _) | Invariant::Angle(sensor_kind, ..) => has_matrix(sensor_kind),
+            Invariant::AngleBetween(..) => SensorKind::ALL.into_iter().any(has_matrix),
+            Invariant::Thermal(sensor_kind, term) => {
+                imu.quantities.contains(&ImuQuantity::Thermal(sensor_kind, term))
+            }
             Invariant::GSensitivity(_) => {
                 imu.quantities.iter().any(|quantity| matches!(quantity, ImuQuantity::GSensitivity(..)))
             }
@@ -195,12 +198,15 @@ fn overall(a: &CalibratedImu, b: &CalibratedImu, notes: &mut Vec<String>) -> Opt
     if a.covariance.is_none() && b.covariance.is_none() {
         return None;
     }
-    let in_both = |triad: Triad| a.unit(triad).is_some() && a.unit(triad) == b.unit(triad);
+    let in_both =
+        |sensor_kind: SensorKind| a.unit(sensor_kind).is_some() && a.unit(sensor_kind) == b.unit(sensor_kind);
     let known = |quantity: &ImuQuantity| match quantity {
-        ImuQuantity::Of(triad, Quantity::Bias(_)) => a.has_bias(*triad) && b.has_bias(*triad),
+        ImuQuantity::Of(sensor_kind, Quantity::Bias(_)) => {
+            a.has_bias(*sensor_kind) && b.has_bias(*sensor_kind)
+        }
         _ => true,
     };
-    let reference = Triad::ALL.into_iter().find(|&triad| in_both(triad))?;
+    let reference = SensorKind::ALL.into_iter().find(|&sensor_kind| in_both(sensor_kind))?;
     let turned = (a.in_gauge_of(reference, Gauge::Lower), b.in_gauge_of(reference, Gauge::Lower));
     let (a, b) = match turned {
         (Ok(a), Ok(b)) => (a, b),
@@ -212,7 +218,7 @@ fn overall(a: &CalibratedImu, b: &CalibratedImu, notes: &mut Vec<String>) -> Opt
     let mut list: Vec<ImuQuantity> = Vec::new();
     for imu in [&a, &b] {
         let listed = imu.quantities.iter().filter(|_| imu.covariance.is_some());
-        let common = listed.filter(|quantity| in_both(quantity.triad()) && known(quantity));
+        let common = listed.filter(|quantity| in_both(quantity.sensor_kind()) && known(quantity));
         common.for_each(|quantity| {
             if !list.contains(quantity) {
                 list.push(*quantity);
@@ -234,7 +240,7 @@ fn overall(a: &CalibratedImu, b: &CalibratedImu, notes: &mut Vec<String>) -> Opt
     }
     let difference = DVector::from_iterator(
         list.len(),
-        list.iter().map(|quantity| quantity.of(&b.parameters) - quantity.of(&a.parameters)),
+        list.iter().map(|quantity| quantity.value(&b.parameters) - quantity.value(&a.parameters)),
     );
     let (chi2, degrees_of_freedom) = mahalanobis(&sigma, &difference);
     let p_value = chi2_p_value(chi2, degrees_of_freedom)?;
@@ -311,15 +317,16 @@ mod tests {
     #[test]
     fn biases_that_are_not_known_are_not_compared() {
         let mut other = CalibratedImu { covariance: None, ..imu() };
-        for triad in Triad::ALL {
-            let shift = if triad == Triad::Accelerometer { 0.0 } else { 1.0 };
-            ImuQuantity::Of(triad, Quantity::Bias(crate::sensor::Axis::X))
+        for sensor_kind in SensorKind::ALL {
+            let shift = if sensor_kind == SensorKind::Accelerometer { 0.0 } else { 1.0 };
+            ImuQuantity::Of(sensor_kind, Quantity::Bias(crate::sensor::Axis::X))
                 .add_to(&mut other.parameters, shift);
         }
         let far = Comparison::of(&imu(), &other).overall.expect("a covariance");
         assert!(far.chi2 > 1e5, "{far:?}");
-        let of_gyroscope =
-            |quantity: &ImuQuantity| matches!(quantity, ImuQuantity::Of(Triad::Gyroscope, Quantity::Bias(_)));
+        let of_gyroscope = |quantity: &ImuQuantity| {
+            matches!(quantity, ImuQuantity::Of(SensorKind::Gyroscope, Quantity::Bias(_)))
+        };
         other.quantities.retain(|quantity| !of_gyroscope(quantity));
         for comparison in [Comparison::of(&imu(), &other), Comparison::of(&other, &imu())] {
             let overall = comparison.overall.expect("a covariance");
@@ -328,16 +335,16 @@ mod tests {
             let names = comparison.quantities.iter().map(|row| row.invariant.name());
             assert_eq!(names.filter(|name| name.contains("bias")).count(), 3);
             let note = "does not say the biases of the gyroscope: they are not compared";
-            assert!(comparison.notes.iter().any(|said| said.contains(note)), "{:?}", comparison.notes);
+            assert!(comparison.notes.iter().any(|stated| stated.contains(note)), "{:?}", comparison.notes);
         }
     }
 
     #[test]
     fn what_cannot_be_compared_is_said() {
         let exact = CalibratedImu { covariance: None, ..imu() };
-        let said = |a: &CalibratedImu, b: &CalibratedImu| Comparison::of(a, b).notes.join("; ");
-        assert!(said(&imu(), &exact).contains("B has no covariance"));
-        assert!(said(&exact, &exact).contains("neither has a covariance"));
+        let stated = |a: &CalibratedImu, b: &CalibratedImu| Comparison::of(a, b).notes.join("; ");
+        assert!(stated(&imu(), &exact).contains("B has no covariance"));
+        assert!(stated(&exact, &exact).contains("neither has a covariance"));
         assert_eq!(Comparison::of(&exact, &exact).overall, None);
         let counts = CalibratedImu { gyroscope_unit: Some(ReadingUnit::Counts), ..imu() };
         let comparison = Comparison::of(&imu(), &counts);
@@ -345,6 +352,6 @@ mod tests {
         let gain = comparison.quantities.iter().find(|row| row.invariant.name() == "gyroscope.gain.x");
         assert_eq!(gain.expect("shown").difference, None);
         let alone = CalibratedImu { gyroscope_unit: None, ..imu() };
-        assert!(said(&imu(), &alone).contains("only A has a gyroscope"));
+        assert!(stated(&imu(), &alone).contains("only A has a gyroscope"));
     }
 }

@@ -13,23 +13,23 @@
 //! eliminated (Schur complement, [`arrowhead`](crate::arrowhead)). It holds to first order in the noise, for noise that is white,
 //! Gaussian and as large as assumed; the fit's [`FitStatistics`] say whether the data agree.
 
+mod between_hold_variance;
 mod calibrate;
 mod change;
 mod comparison;
 mod earth;
-mod excess;
-mod gravity;
+mod gravity_error;
 mod holds;
 mod imu;
 mod motion;
-mod one_sided;
 mod problem;
 mod quantisation;
+mod quantised_noise;
 mod result;
-mod rounded;
 mod settings;
+mod skewed_spikes;
 pub(crate) mod statistics;
-mod tangents;
+mod tangent_plane;
 mod uncalibrated;
 mod unknown_latitude;
 mod validation;
@@ -42,8 +42,8 @@ pub use holds::{
     holds_between, holds_lost_to_filter,
 };
 pub use imu::{
-    ClockRate, Gyroscope, ImuCalibration, ImuProblem, ImuSetup, KnownTerm, NoiseSource, RotationResult,
-    StillGyroscope, ThermalModel, Turn, TurnResult, WhiteNoise, calibrate_imu, calibrate_imu_while,
+    ClockRate, Gyroscope, GyroscopeInHolds, ImuCalibration, ImuProblem, ImuSetup, KnownTerm, NoiseSource,
+    RotationResult, ThermalModel, Turn, TurnResult, WhiteNoise, calibrate_imu, calibrate_imu_while,
     find_clean_imu_holds, find_imu_holds, swapped_sensors,
 };
 pub use problem::{CalibrationProblem, Stimulus};
@@ -52,7 +52,7 @@ pub use result::*;
 pub use settings::CalibrationSettings;
 pub use uncalibrated::Uncalibrated;
 pub use validation::{
-    BiasShift, CoarseStep, CovarianceVerdict, Doubt, ErrorKind, FailedFold, LikelyReason, NoiseRatio,
+    BiasShift, Caveat, CoarseStep, CovarianceVerdict, ErrorKind, FailedFold, LikelyExplanation, NoiseRatio,
     ParameterPart, UnusedError, ValidatedErrors, Validation, ValidationSource, cross_validate,
     cross_validate_imu, noise_in_common, other_temperature, readings_in_common, validate, validate_imu,
 };

@@ -8,7 +8,7 @@
 //!
 //! is its mean square (`widrow2008`): `q²/12` without noise, a hundredth of a step for `σ = 0.4 q`, nothing that matters from `σ = q/2` on. It does not become less with more samples.
 
-use super::rounded::{Counts, noise_in_steps};
+use super::quantised_noise::{Counts, noise_in_steps};
 use crate::motion::Hold;
 use crate::sensor::{Axis, MeanReading, Recording};
 use nalgebra::Vector3;
@@ -17,9 +17,10 @@ use std::ops::Range;
 
 /// Terms of the series.
 const TERMS: i32 = 100;
-/// Readings that scatter by so many steps in the middle of holds, so many samples each, are fine.
-const FINE: f64 = 3.0;
-const MIDDLE: usize = 64;
+/// Readings that scatter by so many steps are fine.
+const FINE_STEPS: f64 = 3.0;
+/// So many samples in the middle of each hold are looked at.
+const MIDDLE_SAMPLES: usize = 64;
 
 /// An axis whose readings come in steps so coarse that the means of holds are off by more than their noise lets expect.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -84,12 +85,12 @@ fn coarse(recording: &Recording, holds: &[Range<usize>], axis: Axis, step: f64) 
     }
     let longer = |hold: &&Range<usize>| hold.len() > 1;
     let middle = |hold: &Range<usize>| {
-        let first = hold.start + hold.len().saturating_sub(MIDDLE) / 2;
-        MeanReading::of(&recording.readings[first..hold.end.min(first + MIDDLE)])
+        let first = hold.start + hold.len().saturating_sub(MIDDLE_SAMPLES) / 2;
+        MeanReading::of(&recording.readings[first..hold.end.min(first + MIDDLE_SAMPLES)])
     };
     let middles: Vec<MeanReading> = holds.iter().filter(longer).filter_map(middle).collect();
     // most readings are finer by far, and need not be looked at any further
-    if MeanReading::pooled_sd(&middles)[axis.index()] > FINE * step {
+    if MeanReading::pooled_sd(&middles)[axis.index()] > FINE_STEPS * step {
         return None;
     }
     let (mut counts, mut samples, mut squares) = (Vec::new(), 0, 0.0);

@@ -3,14 +3,14 @@
 pub(crate) mod chain_model;
 mod covariance;
 pub mod criterion;
-mod expected;
-mod explanation;
+mod expected_information;
 mod identifiability;
-mod part;
+mod motion_information;
+mod undetermined_explanation;
 
 pub use covariance::covariance;
 pub use criterion::Criterion;
-pub use expected::MotionInformation;
-pub use explanation::{MotionFacts, View, explain};
+pub use expected_information::MotionInformation;
 pub use identifiability::{Undetermined, undetermined};
-pub use part::{InformationDerivative, Linearised, PartInformation};
+pub use motion_information::{InformationDerivative, Linearised, PartInformation};
+pub use undetermined_explanation::{MotionFacts, View, explain};

@@ -68,10 +68,10 @@ mod tests {
 
     #[test]
     fn a_gravity_of_another_planet_is_told() {
-        let told = |magnitude_mps2: f64| Gravity { magnitude_mps2, sd_mps2: 0.0 }.elsewhere().is_some();
-        assert!([9.0, 9.7, 9.9, 1.62].into_iter().all(told));
+        let reported = |magnitude_mps2: f64| Gravity { magnitude_mps2, sd_mps2: 0.0 }.elsewhere().is_some();
+        assert!([9.0, 9.7, 9.9, 1.62].into_iter().all(reported));
         // Huascarán and the Arctic Ocean have the extremes (`hirt2013`)
-        assert!(![9.7639, 9.80665, 9.8337].into_iter().any(told));
+        assert!(![9.7639, 9.80665, 9.8337].into_iter().any(reported));
     }
 
     #[test]

@@ -4,7 +4,7 @@
 //! interval, `α(t) = x_i + u_i t`, is spoken at the boundary. Both describe the same motions: the report's continuity constraint
 //! holds identically in node form.
 
-use crate::error::{Complaint, Error, Result};
+use crate::error::{Error, InputError, Result};
 use nalgebra::Vector3;
 
 /// A motion of piecewise-linear acceleration.
@@ -36,29 +36,29 @@ impl JerkControlledMotion {
     /// [`Error::Experiment`] where there are fewer than two nodes, the lengths differ, a number is not finite, or the times do
     /// not increase; it names the row.
     pub fn new(times_s: Vec<f64>, acceleration_mps2: Vec<Vector3<f64>>) -> Result<Self> {
-        let complain = |message: String, help: &str| Err(Error::experiment(Complaint::new(message, help)));
+        let reject = |message: String, help: &str| Err(Error::experiment(InputError::new(message, help)));
         if times_s.len() != acceleration_mps2.len() {
-            return complain(
+            return reject(
                 format!("{} node times but {} node accelerations", times_s.len(), acceleration_mps2.len()),
                 "give one acceleration for each time",
             );
         }
         if times_s.len() < 2 {
-            return complain(
+            return reject(
                 format!("a motion needs at least two nodes, this one has {}", times_s.len()),
                 "give the acceleration at the start and at the end",
             );
         }
         for (row, (time, node)) in times_s.iter().zip(&acceleration_mps2).enumerate() {
             if !time.is_finite() || node.iter().any(|a| !a.is_finite() || a.abs() > 1e9) {
-                return complain(
+                return reject(
                     format!("node {row} is not a usable number: t = {time}, a = {:?}", node.as_slice()),
                     "accelerations are in m/s²",
                 );
             }
         }
         if let Some(row) = times_s.windows(2).position(|pair| pair[1] <= pair[0]) {
-            return complain(
+            return reject(
                 format!(
                     "node times must increase: node {} is at {} s, node {} at {} s",
                     row,

@@ -1,20 +1,20 @@
 //! Where the sensor is: jerk-controlled motion, how far it is trusted, static holds, gravity and the arm's limits.
 
-mod at_time;
-mod command;
-mod earth;
+mod commanded_motion;
+mod earth_rate;
 mod gravity;
 mod hold;
 mod jerk_controlled;
 mod limits;
-mod sampling;
+mod motion_state;
+mod sample_times;
 
-pub use at_time::MotionState;
-pub use command::{CommandedMotion, InputNoise, KnownEnds, Trust};
-pub use earth::{EARTH_RATE_RADPS, earth_rate};
+pub use commanded_motion::{CommandedMotion, InputNoise, KnownEnds, Trust};
+pub use earth_rate::{EARTH_RATE_RADPS, earth_rate};
 pub use gravity::Gravity;
 pub use hold::Hold;
 pub(crate) use hold::to_ms;
 pub use jerk_controlled::JerkControlledMotion;
 pub use limits::{AxisLimits, Limits, Rest};
-pub use sampling::{IntervalSums, sample_times};
+pub use motion_state::MotionState;
+pub use sample_times::{IntervalSums, sample_times};

@@ -1,8 +1,8 @@
 //! The overlapping Allan deviation.
 
 use super::confidence::CONFIDENCE;
-use super::{PowerLaw, lags};
-use crate::error::{Complaint, Error, Result};
+use super::{PowerLaw, lag_sums};
+use crate::error::{Error, InputError, Result};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 use std::sync::OnceLock;
 
@@ -73,14 +73,14 @@ impl AllanDeviation {
     ) -> Result<Self> {
         let n = readings.len();
         if n < FEWEST {
-            return Err(Error::recording(Complaint::new(
+            return Err(Error::recording(InputError::new(
                 format!("an Allan deviation of {n} samples says nothing"),
                 format!("it takes {FEWEST} at least, and thousands to be of use"),
             )));
         }
         if readings.iter().any(|reading| !reading.is_finite()) || interval_s <= 0.0 || !interval_s.is_finite()
         {
-            return Err(Error::recording(Complaint::new(
+            return Err(Error::recording(InputError::new(
                 "an Allan deviation needs finite readings at a positive interval",
                 "leave out what is missing",
             )));
@@ -230,13 +230,13 @@ fn identify(phase: &[f64], m: usize) -> Option<PowerLaw> {
 fn degrees_of_freedom(process: PowerLaw, n: usize, m: usize) -> f64 {
     let count = (n - 2 * m + 1) as i64;
     let kinks = [0, m as i64, 2 * m as i64];
-    let lags = lags::around(&kinks, 0, count - 1);
+    let lags = lag_sums::around(&kinks, 0, count - 1);
     let at = |lag: i64| process.covariance_of_differences(m, m, lag);
     // both signs: lag zero counts once
     let sum: f64 = lags
         .iter()
-        .zip(lags::weights(&lags))
-        .map(|(&lag, weight)| 2.0 * weight * lags::pairs(count, count, lag) * at(lag).powi(2))
+        .zip(lag_sums::weights(&lags))
+        .map(|(&lag, weight)| 2.0 * weight * lag_sums::pairs(count, count, lag) * at(lag).powi(2))
         .sum::<f64>()
         - count as f64 * at(0).powi(2);
     ((count as f64 * at(0)).powi(2) / sum).max(1.0)

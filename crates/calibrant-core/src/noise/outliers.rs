@@ -1,4 +1,4 @@
-//! Samples far from those beside them: a spark, a lost bit, a knock. They are no noise that averages out as `N/√τ` does.
+//! Samples far from those beside them: a spike, a lost bit, a knock. They are no noise that averages out as `N/√τ` does.
 //!
 //! One outlier of size `a` among n samples looks like white noise of the variance `a²/n`, whatever the noise, and says nothing of the other samples: N with it is neither what a
 //! mean of other samples does, nor what the next recording shows. So outliers are taken out, each replaced by a sample like those about it, and said with what they would have done.
@@ -18,21 +18,21 @@
 use crate::sensor::Recording;
 
 /// Samples about one, itself included, with which it is compared.
-const ABOUT: usize = 9;
+const WINDOW_SAMPLES: usize = 9;
 /// An outlier is off their median by more than so many robust standard deviations of the difference of two successive samples, which a random walk has, too: 11 of white noise.
-const FAR: f64 = 8.0;
+const OUTLIER_DEVIATIONS: f64 = 8.0;
 /// Of a noise of finite variance, as many times as many are between half that distance and the distance as beyond it.
 const HEAVY_TAIL: usize = 3;
 /// Where more than one sample in so many is an outlier, they are too many to be left out.
-const MOST: usize = 50;
+const MOST_OUTLIERS_ONE_IN: usize = 50;
 /// Where those that are far off and not isolated are more than one in so many of those that are isolated, the sensor moves.
 const MOVING: usize = 10;
 /// Median of the absolute deviations of normal noise, times this, is its standard deviation.
 const MAD: f64 = 1.4826;
-/// Another sample stands in from so many samples away,
-const AWAY: usize = 64;
-/// where samples so far apart differ by no more than this factor more than successive ones.
-const WHITE: f64 = 1.1;
+/// A sample at most so far away stands in for an outlier.
+const LARGEST_DISTANCE: usize = 64;
+/// Samples so far apart differ by no more than this factor more than successive ones.
+const WHITE_FACTOR: f64 = 1.1;
 
 /// The outliers of one axis.
 #[derive(Debug, Clone, PartialEq)]
@@ -63,7 +63,7 @@ pub(super) struct Found {
 
 /// Looks for outliers; `None` where there are none, where the sensor moves and where its noise is like that.
 pub(super) fn find(values: &[f64]) -> Option<Found> {
-    let found = FarOff::of(values)?;
+    let found = OutlierCandidates::of(values)?;
     let isolated = found.isolated();
     let farthest = isolated.iter().max_by(|one, other| one.off.total_cmp(&other.off))?;
     let samples: Vec<usize> = isolated.iter().map(|sample| sample.k).collect();
@@ -71,7 +71,7 @@ pub(super) fn find(values: &[f64]) -> Option<Found> {
     if restless * MOVING > samples.len() || found.half_as_far >= HEAVY_TAIL * samples.len() {
         return None;
     }
-    let few = samples.len() <= (values.len() / MOST).max(1);
+    let few = samples.len() <= (values.len() / MOST_OUTLIERS_ONE_IN).max(1);
     Some(Found {
         farthest: farthest.k,
         deviations: farthest.off / found.scale,
@@ -80,13 +80,13 @@ pub(super) fn find(values: &[f64]) -> Option<Found> {
     })
 }
 
-/// The recording without its isolated outliers, wherever they are: what still and moving are told apart by. A spark of 20 m/s² divides a hold of ten minutes.
+/// The recording without its isolated outliers, wherever they are: what still and moving are told apart by. A spike of 20 m/s² divides a hold of ten minutes.
 #[must_use]
 pub fn without_outliers(recording: &Recording) -> Recording {
     let mut without = recording.clone();
     for axis in recording.active_axes().iter().map(|axis| axis.index()) {
         let values: Vec<f64> = recording.readings.iter().map(|reading| reading[axis]).collect();
-        for sample in FarOff::of(&values).iter().flat_map(FarOff::isolated) {
+        for sample in OutlierCandidates::of(&values).iter().flat_map(OutlierCandidates::isolated) {
             without.readings[sample.k][axis] = sample.median;
         }
     }
@@ -94,7 +94,7 @@ pub fn without_outliers(recording: &Recording) -> Recording {
 }
 
 /// What is far off in some values.
-struct FarOff {
+struct OutlierCandidates {
     /// Robust standard deviation of the difference of two successive values.
     scale: f64,
     /// In order.
@@ -112,18 +112,18 @@ struct Sample {
     off: f64,
 }
 
-impl FarOff {
+impl OutlierCandidates {
     /// `None` for a few values, and where nothing is off by half as much.
     fn of(values: &[f64]) -> Option<Self> {
         let n = values.len();
-        if n < ABOUT {
+        if n < WINDOW_SAMPLES {
             return None;
         }
         let steps = || values.windows(2).map(|pair| (pair[1] - pair[0]).abs());
         // of readings coarser than their noise, most are like those beside them
         let finest = steps().filter(|step| *step > 0.0).fold(f64::INFINITY, f64::min);
         let scale = typical_step(values, 1).max(if finest.is_finite() { finest } else { 0.0 });
-        let far = FAR * scale;
+        let far = OUTLIER_DEVIATIONS * scale;
         let mut found = Self { scale, samples: Vec::new(), half_as_far: 0 };
         for k in (0..n).filter(|&k| may_be_off(values, k, far / 2.0)) {
             let median = median_about(values, k);
@@ -140,10 +140,10 @@ impl FarOff {
     /// Those among whose neighbours most are not far off.
     fn isolated(&self) -> Vec<Sample> {
         let within = |k: usize| {
-            let from = self.samples.partition_point(|other| other.k + ABOUT / 2 < k);
-            self.samples[from..].iter().take_while(|other| other.k <= k + ABOUT / 2).count()
+            let from = self.samples.partition_point(|other| other.k + WINDOW_SAMPLES / 2 < k);
+            self.samples[from..].iter().take_while(|other| other.k <= k + WINDOW_SAMPLES / 2).count()
         };
-        self.samples.iter().filter(|sample| within(sample.k) <= ABOUT / 2).copied().collect()
+        self.samples.iter().filter(|sample| within(sample.k) <= WINDOW_SAMPLES / 2).copied().collect()
     }
 }
 
@@ -157,7 +157,7 @@ pub(super) fn typical_step(values: &[f64], apart: usize) -> f64 {
 
 /// No value is off the median of the nine about it by so much unless it is off one of the four nearest: five of the eight others are as far as the median.
 fn may_be_off(values: &[f64], k: usize, by: f64) -> bool {
-    if k < ABOUT / 2 || k + ABOUT / 2 >= values.len() {
+    if k < WINDOW_SAMPLES / 2 || k + WINDOW_SAMPLES / 2 >= values.len() {
         return true;
     }
     let off = |other: usize| (values[other] - values[k]).abs() > by;
@@ -165,17 +165,17 @@ fn may_be_off(values: &[f64], k: usize, by: f64) -> bool {
 }
 
 fn median_about(values: &[f64], k: usize) -> f64 {
-    let first = k.saturating_sub(ABOUT / 2).min(values.len() - ABOUT);
-    let mut about = [0.0; ABOUT];
-    about.copy_from_slice(&values[first..first + ABOUT]);
-    *about.select_nth_unstable_by(ABOUT / 2, f64::total_cmp).1
+    let first = k.saturating_sub(WINDOW_SAMPLES / 2).min(values.len() - WINDOW_SAMPLES);
+    let mut about = [0.0; WINDOW_SAMPLES];
+    about.copy_from_slice(&values[first..first + WINDOW_SAMPLES]);
+    *about.select_nth_unstable_by(WINDOW_SAMPLES / 2, f64::total_cmp).1
 }
 
 /// Near an end, how far a value is off the nearest of the lines through two of the three next to it on the side of the others: one of these may be an outlier.
 fn off_line_at_end(values: &[f64], k: usize) -> f64 {
     let next: fn(usize, usize) -> usize = match k {
-        _ if k < ABOUT / 2 => |k, by| k + by,
-        _ if k + ABOUT / 2 >= values.len() => |k, by| k - by,
+        _ if k < WINDOW_SAMPLES / 2 => |k, by| k + by,
+        _ if k + WINDOW_SAMPLES / 2 >= values.len() => |k, by| k - by,
         _ => return f64::INFINITY,
     };
     let off = |(near, far): (usize, usize)| {
@@ -186,13 +186,15 @@ fn off_line_at_end(values: &[f64], k: usize) -> f64 {
 }
 
 /// The values with others in the place of these.
-fn replaced(values: &[f64], found: &FarOff, isolated: &[Sample]) -> Vec<f64> {
+fn replaced(values: &[f64], found: &OutlierCandidates, isolated: &[Sample]) -> Vec<f64> {
     let n = values.len();
-    let is_white = n > 2 * AWAY && typical_step(values, AWAY) <= WHITE * typical_step(values, 1);
+    let is_white = n > 2 * LARGEST_DISTANCE
+        && typical_step(values, LARGEST_DISTANCE) <= WHITE_FACTOR * typical_step(values, 1);
     let is_good = |k: &usize| *k < n && found.samples.binary_search_by_key(k, |sample| sample.k).is_err();
     let mut without = values.to_vec();
     for sample in isolated {
-        let away = [sample.k + AWAY, sample.k.wrapping_sub(AWAY)].into_iter().find(is_good);
+        let away =
+            [sample.k + LARGEST_DISTANCE, sample.k.wrapping_sub(LARGEST_DISTANCE)].into_iter().find(is_good);
         without[sample.k] = away.filter(|_| is_white).map_or(sample.median, |k| values[k]);
     }
     without

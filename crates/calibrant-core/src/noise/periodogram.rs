@@ -26,7 +26,7 @@ impl Periodogram {
     }
 
     /// Of these values, `n` at most.
-    pub(super) fn of(&self, values: impl Iterator<Item = f64>) -> Vec<f64> {
+    pub(super) fn power(&self, values: impl Iterator<Item = f64>) -> Vec<f64> {
         let (mut padded, mut spectrum) = (self.0.make_input_vec(), self.0.make_output_vec());
         padded.iter_mut().zip(values).for_each(|(place, value)| *place = value);
         // the lengths are those of the plan: it cannot fail
@@ -45,7 +45,7 @@ mod tests {
         let values: Vec<f64> = (0..50).map(|k| f64::from(k * k % 17)).collect();
         let periodogram = Periodogram::of_length(50);
         assert_eq!(periodogram.size(), 64);
-        for (k, power) in periodogram.of(values.iter().copied()).into_iter().enumerate() {
+        for (k, power) in periodogram.power(values.iter().copied()).into_iter().enumerate() {
             let part = |of: fn(f64) -> f64| -> f64 {
                 values.iter().enumerate().map(|(j, y)| y * of(TAU * (j * k) as f64 / 64.0)).sum()
             };

@@ -13,8 +13,8 @@
 //! # Where the noise is in doubt
 //! Where lines are most of the Allan variance at a cluster time that is fitted, and where their tails, known to no more than their size, are more than the standard deviation of N².
 
+use super::allan_regression::Regression;
 use super::periodogram::Periodogram;
-use super::regression::Regression;
 use nalgebra::DVector;
 use std::f64::consts::{LN_2, PI};
 
@@ -70,7 +70,7 @@ impl Lines {
         let mean = values.iter().sum::<f64>() / count;
         let square: f64 = values.iter().map(|value| (value - mean).powi(2)).sum();
         let size = periodogram.size();
-        let powers = periodogram.of(values.iter().map(|value| value - mean));
+        let powers = periodogram.power(values.iter().map(|value| value - mean));
         let last = powers.len() - 1;
         let near = |k: usize, by: usize| k - by..=(k + by).min(last);
         let beyond = (size as f64).ln() + BEYOND_CHANCE;

@@ -29,7 +29,7 @@ impl Whitening {
     }
 
     /// `W M`.
-    pub(super) fn of<C: Dim, S>(
+    pub(super) fn whiten<C: Dim, S>(
         &self,
         mut matrix: Matrix<f64, nalgebra::Dyn, C, S>,
     ) -> Matrix<f64, nalgebra::Dyn, C, S>
@@ -66,11 +66,11 @@ mod tests {
     fn it_whitens() {
         let sigma = DMatrix::from_row_slice(3, 3, &[4e8, 10.0, 3e3, 10.0, 9e-6, 1e-4, 3e3, 1e-4, 1.0]);
         let white = Whitening::of_covariance(&sigma).expect("positive definite");
-        let w = white.of(DMatrix::identity(3, 3));
+        let w = white.whiten(DMatrix::identity(3, 3));
         assert!((&w * &sigma * w.transpose() - DMatrix::identity(3, 3)).amax() < 1e-12);
         assert!((white.transposed(DMatrix::identity(3, 3)) - w.transpose()).amax() < 1e-12 * w.amax());
         let independent = Whitening::of_independent([4.0, 25.0].into_iter());
-        assert_eq!(independent.of(DVector::from_element(2, 10.0)), DVector::from_vec(vec![5.0, 2.0]));
+        assert_eq!(independent.whiten(DVector::from_element(2, 10.0)), DVector::from_vec(vec![5.0, 2.0]));
         assert!(Whitening::of_covariance(&DMatrix::from_row_slice(2, 2, &[1.0, 2.0, 2.0, 1.0])).is_none());
         assert!(Whitening::of_covariance(&DMatrix::zeros(2, 2)).is_none());
     }

@@ -35,7 +35,7 @@ impl ParameterList {
                 Parameter {
                     name: quantity.name(),
                     unit: quantity.unit(sensor.unit),
-                    nominal: nominal.map(|nominal| quantity.of(&nominal)),
+                    nominal: nominal.map(|nominal| quantity.value(&nominal)),
                     spread,
                 }
             })

@@ -8,9 +8,9 @@
 //! reference sensor's matrix: the three entries (or differences of entries) that the gauge sets to zero stay zero, three linear equations for `δ`. This is the exact
 //! Jacobian, and the covariance follows to first order.
 
-use super::entries::{self, EntryMatrix};
-use super::{Axis, CalibratedImu, Gauge, ImuParameters, ImuQuantity, Quantity, SensorModel, Triad};
-use crate::error::{Complaint, Error, Result};
+use super::entry_vector::{self, EntryMatrix};
+use super::{Axis, CalibratedImu, Gauge, ImuParameters, ImuQuantity, Quantity, SensorKind, SensorModel};
+use crate::error::{Error, InputError, Result};
 use nalgebra::{DMatrix, Matrix3, Vector3};
 
 /// `S R` in a gauge, and `R`.
@@ -18,7 +18,7 @@ struct Turned {
     imu: ImuParameters,
     rotation: Matrix3<f64>,
     gauge: Gauge,
-    reference: Triad,
+    reference: SensorKind,
     /// `δ` for the residuals of the form: `−(∂ residuals of S' [δ]× / ∂δ)⁻¹`.
     restoring: Matrix3<f64>,
 }
@@ -80,12 +80,12 @@ impl Gauge {
 }
 
 impl Turned {
-    fn new(imu: &ImuParameters, reference: Triad, gauge: Gauge) -> Result<Self> {
-        let sensor = imu.triad(reference);
-        let complain = |message: String, help: &str| Err(Error::experiment(Complaint::new(message, help)));
+    fn new(imu: &ImuParameters, reference: SensorKind, gauge: Gauge) -> Result<Self> {
+        let sensor = imu.sensor(reference);
+        let reject = |message: String, help: &str| Err(Error::experiment(InputError::new(message, help)));
         let determinant = sensor.matrix.determinant();
         if determinant < 0.0 {
-            return complain(
+            return reject(
                 format!("the axes of the {reference} are left-handed, so no rotation brings it into a gauge"),
                 "one axis has the wrong sign: change the sign of its column in the recording and calibrate again",
             );
@@ -98,7 +98,7 @@ impl Turned {
         };
         let svd = sensor.matrix.try_inverse().map(|inverse| (inverse * target).svd(true, true));
         let Some((Some(u), Some(v_t))) = svd.map(|svd| (svd.u, svd.v_t)) else {
-            return complain(
+            return reject(
                 format!("the matrix S of the {reference} is singular"),
                 "the calibration is of no use: calibrate again",
             );
@@ -109,13 +109,13 @@ impl Turned {
         turned.gyroscope.matrix *= rotation;
         turned.g_sensitivity *= rotation;
         match reference {
-            Triad::Accelerometer => turned.accelerometer.matrix = target,
-            Triad::Gyroscope => turned.gyroscope.matrix = target,
+            SensorKind::Accelerometer => turned.accelerometer.matrix = target,
+            SensorKind::Gyroscope => turned.gyroscope.matrix = target,
         }
         let column = |k: usize| gauge.residuals(&(target * unit(k).cross_matrix()));
         let derivative = Matrix3::from_columns(&[column(0), column(1), column(2)]);
         let Some(inverse) = derivative.try_inverse() else {
-            return complain(
+            return reject(
                 format!("the {} gauge is not unique for the matrix of the {reference}", gauge.name()),
                 "choose another gauge",
             );
@@ -125,7 +125,7 @@ impl Turned {
 
     /// What a small step of the entries becomes.
     fn step(&self, step: &ImuParameters) -> ImuParameters {
-        let dragged = step.triad(self.reference).matrix * self.rotation;
+        let dragged = step.sensor(self.reference).matrix * self.rotation;
         let delta = (self.restoring * self.gauge.residuals(&dragged)).cross_matrix();
         let mut out = *step;
         out.accelerometer.matrix =
@@ -137,7 +137,7 @@ impl Turned {
 
     /// Derivative of the turned entries with respect to the entries.
     fn jacobian(&self) -> EntryMatrix {
-        entries::jacobian(|step| self.step(step))
+        entry_vector::jacobian(|step| self.step(step))
     }
 }
 
@@ -148,8 +148,8 @@ fn unit(k: usize) -> Vector3<f64> {
 impl CalibratedImu {
     /// The sensor whose matrix fixes the true frame: the accelerometer where there is one.
     #[must_use]
-    pub fn reference(&self) -> Triad {
-        if self.accelerometer_unit.is_some() { Triad::Accelerometer } else { Triad::Gyroscope }
+    pub fn reference(&self) -> SensorKind {
+        if self.accelerometer_unit.is_some() { SensorKind::Accelerometer } else { SensorKind::Gyroscope }
     }
 
     /// The same IMU in the true frame of a gauge of the [reference](Self::reference) sensor, its covariance carried along to first order.
@@ -185,15 +185,15 @@ impl CalibratedImu {
     ///
     /// # Errors
     /// As [`in_gauge`](Self::in_gauge).
-    pub fn in_gauge_of(&self, reference: Triad, gauge: Gauge) -> Result<Self> {
+    pub fn in_gauge_of(&self, reference: SensorKind, gauge: Gauge) -> Result<Self> {
         let turned = Turned::new(&self.parameters, reference, gauge)?;
         let quantities = self.turned_quantities(&turned);
-        let covariance = entries::covariance(self).map(|sigma| {
+        let covariance = entry_vector::covariance(self).map(|sigma| {
             let jacobian = turned.jacobian();
             let sigma = jacobian * sigma * jacobian.transpose();
             // the first entry of a quantity tells its value: both entries of a symmetric pair are the same
             let place: Vec<usize> =
-                quantities.iter().map(|&quantity| entries::of_quantity(quantity).imax()).collect();
+                quantities.iter().map(|&quantity| entry_vector::of_quantity(quantity).imax()).collect();
             DMatrix::from_fn(place.len(), place.len(), |i, j| {
                 0.5 * (sigma[(place[i], place[j])] + sigma[(place[j], place[i])])
             })
@@ -212,7 +212,8 @@ impl CalibratedImu {
 
     /// What the covariance speaks of after a turn: all that a listed quantity of the sensor can have become.
     fn turned_quantities(&self, turned: &Turned) -> Vec<ImuQuantity> {
-        let has_matrix = |triad| self.quantities.iter().any(|quantity| quantity.in_matrix_of(triad));
+        let has_matrix =
+            |sensor_kind| self.quantities.iter().any(|quantity| quantity.in_matrix_of(sensor_kind));
         // a diagonal matrix whose diagonal alone is in question stays so
         let still = turned.rotation == Matrix3::identity()
             && self.quantities.iter().all(|quantity| {
@@ -220,32 +221,31 @@ impl CalibratedImu {
                     || matches!(quantity, ImuQuantity::Of(_, Quantity::Scale(_)))
             });
         let mut list = Vec::new();
-        for triad in Triad::ALL {
-            let of = |quantity| ImuQuantity::Of(triad, quantity);
+        for sensor_kind in SensorKind::ALL {
+            let of = |quantity| ImuQuantity::Of(sensor_kind, quantity);
             let listed = |matrix: bool| {
-                let belongs =
-                    move |quantity: &&ImuQuantity| matches!(quantity, ImuQuantity::Of(of, _) if *of == triad);
+                let belongs = move |quantity: &&ImuQuantity| matches!(quantity, ImuQuantity::Of(of, _) if *of == sensor_kind);
                 self.quantities
                     .iter()
                     .filter(belongs)
-                    .filter(move |quantity| quantity.in_matrix_of(triad) == matrix)
+                    .filter(move |quantity| quantity.in_matrix_of(sensor_kind) == matrix)
                     .copied()
                     .collect::<Vec<_>>()
             };
             list.extend(listed(false));
-            if !has_matrix(triad) {
+            if !has_matrix(sensor_kind) {
                 continue;
             }
             if still {
                 list.extend(listed(true));
-            } else if triad == turned.reference {
+            } else if sensor_kind == turned.reference {
                 let form = turned.gauge.parameter_list(SensorModel::Full);
                 let matrix =
                     form.quantities().iter().filter(|quantity| !matches!(quantity, Quantity::Bias(_)));
                 list.extend(matrix.map(|&quantity| of(quantity)));
             } else {
                 let full = ImuQuantity::full_list(true, true, false);
-                list.extend(full.into_iter().filter(|quantity| quantity.in_matrix_of(triad)));
+                list.extend(full.into_iter().filter(|quantity| quantity.in_matrix_of(sensor_kind)));
             }
         }
         if self.quantities.iter().any(|quantity| matches!(quantity, ImuQuantity::GSensitivity(..))) {
@@ -262,7 +262,7 @@ impl CalibratedImu {
 #[cfg(test)]
 pub(super) mod tests {
     use super::*;
-    use crate::sensor::entries::ENTRIES;
+    use crate::sensor::entry_vector::ENTRIES;
     use crate::sensor::{ReadingUnit, SensorParameters, Thermal};
 
     /// An IMU in counts with everything in it.
@@ -318,16 +318,18 @@ pub(super) mod tests {
     #[test]
     fn the_jacobian_is_that_of_differences() {
         let parameters = imu().parameters;
-        for reference in Triad::ALL {
+        for reference in SensorKind::ALL {
             for gauge in [Gauge::Lower, Gauge::Upper, Gauge::Symmetric] {
                 let jacobian = Turned::new(&parameters, reference, gauge).expect("regular").jacobian();
                 for entry in 0..ENTRIES {
                     let h = if entry < 24 { 1e-3 } else { 1e-5 };
                     let at = |step: f64| {
-                        let mut moved = entries::of(&parameters);
+                        let mut moved = entry_vector::from_parameters(&parameters);
                         moved[entry] += step;
-                        entries::of(
-                            &Turned::new(&entries::to_imu(&moved), reference, gauge).expect("regular").imu,
+                        entry_vector::from_parameters(
+                            &Turned::new(&entry_vector::to_imu(&moved), reference, gauge)
+                                .expect("regular")
+                                .imu,
                         )
                     };
                     let difference = (at(h) - at(-h)) / (2.0 * h);
@@ -357,7 +359,7 @@ pub(super) mod tests {
             .parameter_list(SensorModel::ScaleBias)
             .quantities()
             .iter()
-            .map(|&quantity| ImuQuantity::Of(Triad::Accelerometer, quantity))
+            .map(|&quantity| ImuQuantity::Of(SensorKind::Accelerometer, quantity))
             .collect();
         one.covariance = Some(DMatrix::identity(6, 6));
         let turned = one.in_gauge(Gauge::Upper).expect("regular");

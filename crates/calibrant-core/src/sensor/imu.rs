@@ -3,9 +3,9 @@
 //! `y_a = S_a f + b_a + ν_a`, `y_g = S_g ω + b_g + Γ f + ν_g`, true → raw: `f` the specific force in m/s², `ω` the angular rate in rad/s, both in the
 //! true frame. `Γ` is the g-sensitivity, what the gyroscope shows of specific force. `S` and `b` may follow temperature ([`Thermal`]).
 
-use super::sparks::{Sparks, without};
+use super::spikes::{Spikes, without};
 use super::{
-    Axis, Quantity, ReadingUnit, Recording, SensorParameters, Thermal, ThermalPart, ThermalTerm, Triad,
+    Axis, Quantity, ReadingUnit, Recording, SensorKind, SensorParameters, Thermal, ThermalPart, ThermalTerm,
 };
 use nalgebra::{DMatrix, Matrix3, Vector3};
 use std::borrow::Cow;
@@ -24,37 +24,38 @@ pub struct ImuRecording {
 impl ImuRecording {
     /// The recording of one sensor.
     #[must_use]
-    pub fn triad(&self, triad: Triad) -> Option<&Recording> {
-        match triad {
-            Triad::Accelerometer => self.accelerometer.as_ref(),
-            Triad::Gyroscope => self.gyroscope.as_ref(),
+    pub fn sensor(&self, sensor_kind: SensorKind) -> Option<&Recording> {
+        match sensor_kind {
+            SensorKind::Accelerometer => self.accelerometer.as_ref(),
+            SensorKind::Gyroscope => self.gyroscope.as_ref(),
         }
     }
 
-    /// The recording without sparks and wild readings of either sensor ([`Recording::without_sparks`]), and what they were.
+    /// The recording without spikes and invalid readings of either sensor ([`Recording::without_spikes`]), and what they were.
     #[must_use]
-    pub fn without_sparks(&self) -> (Cow<'_, Self>, Vec<(Triad, Sparks)>) {
-        let clean = |triad: Triad| {
-            let (clean, sparks) = self.triad(triad)?.without_sparks(triad);
-            sparks.map(|sparks| (clean.into_owned(), sparks))
+    pub fn without_spikes(&self) -> (Cow<'_, Self>, Vec<(SensorKind, Spikes)>) {
+        let clean = |sensor_kind: SensorKind| {
+            let (clean, spikes) = self.sensor(sensor_kind)?.without_spikes(sensor_kind);
+            spikes.map(|spikes| (clean.into_owned(), spikes))
         };
         let (accelerometer, gyroscope) =
-            rayon::join(|| clean(Triad::Accelerometer), || clean(Triad::Gyroscope));
+            rayon::join(|| clean(SensorKind::Accelerometer), || clean(SensorKind::Gyroscope));
         let mut recording = Cow::Borrowed(self);
         let mut found = Vec::new();
-        for (triad, clean) in Triad::ALL.into_iter().zip([accelerometer, gyroscope]) {
-            let Some((clean, sparks)) = clean else { continue };
+        for (sensor_kind, clean) in SensorKind::ALL.into_iter().zip([accelerometer, gyroscope]) {
+            let Some((clean, spikes)) = clean else { continue };
             let recording = recording.to_mut();
             // there is one temperature for each sample of the accelerometer
-            let of_temperature = triad == Triad::Accelerometer || recording.accelerometer.is_none();
+            let of_temperature =
+                sensor_kind == SensorKind::Accelerometer || recording.accelerometer.is_none();
             if let Some(temperatures) = recording.temperature_c.as_mut().filter(|_| of_temperature) {
-                without(temperatures, &sparks.cut);
+                without(temperatures, &spikes.cut);
             }
-            match triad {
-                Triad::Accelerometer => recording.accelerometer = Some(clean),
-                Triad::Gyroscope => recording.gyroscope = Some(clean),
+            match sensor_kind {
+                SensorKind::Accelerometer => recording.accelerometer = Some(clean),
+                SensorKind::Gyroscope => recording.gyroscope = Some(clean),
             }
-            found.push((triad, sparks));
+            found.push((sensor_kind, spikes));
         }
         (recording, found)
     }
@@ -87,17 +88,17 @@ impl ImuParameters {
 
     /// The parameters of one sensor.
     #[must_use]
-    pub fn triad(&self, triad: Triad) -> &SensorParameters {
-        match triad {
-            Triad::Accelerometer => &self.accelerometer,
-            Triad::Gyroscope => &self.gyroscope,
+    pub fn sensor(&self, sensor_kind: SensorKind) -> &SensorParameters {
+        match sensor_kind {
+            SensorKind::Accelerometer => &self.accelerometer,
+            SensorKind::Gyroscope => &self.gyroscope,
         }
     }
 
-    pub(super) fn triad_mut(&mut self, triad: Triad) -> &mut SensorParameters {
-        match triad {
-            Triad::Accelerometer => &mut self.accelerometer,
-            Triad::Gyroscope => &mut self.gyroscope,
+    pub(super) fn sensor_mut(&mut self, sensor_kind: SensorKind) -> &mut SensorParameters {
+        match sensor_kind {
+            SensorKind::Accelerometer => &mut self.accelerometer,
+            SensorKind::Gyroscope => &mut self.gyroscope,
         }
     }
 }
@@ -106,11 +107,11 @@ impl ImuParameters {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ImuQuantity {
     /// A quantity of one of the sensors; printed `gyroscope.scale.x`.
-    Of(Triad, Quantity),
+    Of(SensorKind, Quantity),
     /// Entry of `Γ`, (row, column): what gyroscope axis `row` shows of the specific force along `column`; printed `gyroscope.g_sensitivity.xy`.
     GSensitivity(Axis, Axis),
     /// A coefficient of what temperature does to one of the sensors; printed `gyroscope.bias_per_k.x`.
-    Thermal(Triad, ThermalTerm),
+    Thermal(SensorKind, ThermalTerm),
 }
 
 /// Where the derivative of a reading is taken.
@@ -131,9 +132,9 @@ impl ImuQuantity {
     #[must_use]
     pub fn name(self) -> String {
         match self {
-            Self::Of(triad, quantity) => format!("{triad}.{}", quantity.name()),
+            Self::Of(sensor_kind, quantity) => format!("{sensor_kind}.{}", quantity.name()),
             Self::GSensitivity(row, column) => format!("gyroscope.g_sensitivity.{row}{column}"),
-            Self::Thermal(triad, term) => format!("{triad}.{}", term.name()),
+            Self::Thermal(sensor_kind, term) => format!("{sensor_kind}.{}", term.name()),
         }
     }
 
@@ -142,8 +143,8 @@ impl ImuQuantity {
     pub fn unit(self, reading: ReadingUnit) -> &'static str {
         match (self, reading) {
             (Self::Of(_, Quantity::Bias(_)), unit) => unit.symbol(),
-            (Self::Of(Triad::Accelerometer, _), ReadingUnit::Counts) => "counts/(m/s²)",
-            (Self::Of(Triad::Gyroscope, _), ReadingUnit::Counts) => "counts/(rad/s)",
+            (Self::Of(SensorKind::Accelerometer, _), ReadingUnit::Counts) => "counts/(m/s²)",
+            (Self::Of(SensorKind::Gyroscope, _), ReadingUnit::Counts) => "counts/(rad/s)",
             (Self::Of(..), _) => "1",
             (Self::GSensitivity(..), ReadingUnit::Counts) => "counts/(m/s²)",
             (Self::GSensitivity(..), _) => "(rad/s)/(m/s²)",
@@ -153,29 +154,29 @@ impl ImuQuantity {
 
     /// The sensor that it belongs to.
     #[must_use]
-    pub fn triad(self) -> Triad {
+    pub fn sensor_kind(self) -> SensorKind {
         match self {
-            Self::Of(triad, _) | Self::Thermal(triad, _) => triad,
-            Self::GSensitivity(..) => Triad::Gyroscope,
+            Self::Of(sensor_kind, _) | Self::Thermal(sensor_kind, _) => sensor_kind,
+            Self::GSensitivity(..) => SensorKind::Gyroscope,
         }
     }
 
     /// Its value in an IMU.
     #[must_use]
-    pub fn of(self, imu: &ImuParameters) -> f64 {
+    pub fn value(self, imu: &ImuParameters) -> f64 {
         match self {
-            Self::Of(triad, quantity) => quantity.of(imu.triad(triad)),
+            Self::Of(sensor_kind, quantity) => quantity.value(imu.sensor(sensor_kind)),
             Self::GSensitivity(row, column) => imu.g_sensitivity[(row.index(), column.index())],
-            Self::Thermal(triad, term) => term.of(imu.thermal.triad(triad)),
+            Self::Thermal(sensor_kind, term) => term.value(imu.thermal.sensor(sensor_kind)),
         }
     }
 
     /// Adds `step` to it.
     pub fn add_to(self, imu: &mut ImuParameters, step: f64) {
         match self {
-            Self::Of(triad, quantity) => quantity.add_to(imu.triad_mut(triad), step),
+            Self::Of(sensor_kind, quantity) => quantity.add_to(imu.sensor_mut(sensor_kind), step),
             Self::GSensitivity(row, column) => imu.g_sensitivity[(row.index(), column.index())] += step,
-            Self::Thermal(triad, term) => term.add_to(imu.thermal.triad_mut(triad), step),
+            Self::Thermal(sensor_kind, term) => term.add_to(imu.thermal.sensor_mut(sensor_kind), step),
         }
     }
 
@@ -196,18 +197,18 @@ impl ImuQuantity {
         let mut derivative = Vector3::zeros();
         match self {
             Self::Of(_, quantity @ Quantity::Bias(_)) => return quantity.derivative(&at.stimulus),
-            Self::Of(triad, quantity) => {
-                let factor = thermal.triad(triad).gain_factor(thermal.tau_k(at.temperature_c));
+            Self::Of(sensor_kind, quantity) => {
+                let factor = thermal.sensor(sensor_kind).gain_factor(thermal.tau_k(at.temperature_c));
                 return quantity.derivative(&at.stimulus).component_mul(&factor);
             }
             Self::GSensitivity(row, column) => derivative[row.index()] = at.force[column.index()],
-            Self::Thermal(triad, term) => {
+            Self::Thermal(sensor_kind, term) => {
                 let axis = term.axis.index();
                 let power = term.power(thermal.tau_k(at.temperature_c));
                 derivative[axis] = match term.part {
                     ThermalPart::Bias => power,
                     ThermalPart::Scale => {
-                        power * at.imu.triad(triad).matrix.row(axis).transpose().dot(&at.stimulus)
+                        power * at.imu.sensor(sensor_kind).matrix.row(axis).transpose().dot(&at.stimulus)
                     }
                 };
             }
@@ -236,18 +237,18 @@ pub struct CalibratedImu {
 impl CalibratedImu {
     /// Unit of a sensor's readings; `None` where it was not calibrated.
     #[must_use]
-    pub fn unit(&self, triad: Triad) -> Option<ReadingUnit> {
-        match triad {
-            Triad::Accelerometer => self.accelerometer_unit,
-            Triad::Gyroscope => self.gyroscope_unit,
+    pub fn unit(&self, sensor_kind: SensorKind) -> Option<ReadingUnit> {
+        match sensor_kind {
+            SensorKind::Accelerometer => self.accelerometer_unit,
+            SensorKind::Gyroscope => self.gyroscope_unit,
         }
     }
 
     /// Are the biases of a sensor known? Kalibr's files, which have no covariance either, do not list them: zeros stand in their place.
     #[must_use]
-    pub fn has_bias(&self, triad: Triad) -> bool {
-        let listed = |quantity: &ImuQuantity| matches!(quantity, ImuQuantity::Of(of, Quantity::Bias(_)) if *of == triad);
-        self.unit(triad).is_some()
+    pub fn has_bias(&self, sensor_kind: SensorKind) -> bool {
+        let listed = |quantity: &ImuQuantity| matches!(quantity, ImuQuantity::Of(of, Quantity::Bias(_)) if *of == sensor_kind);
+        self.unit(sensor_kind).is_some()
             && (self.covariance.is_some() || self.quantities.is_empty() || self.quantities.iter().any(listed))
     }
 
@@ -265,23 +266,23 @@ impl CalibratedImu {
 
     /// One sensor alone; the gyroscope keeps its g-sensitivity.
     #[must_use]
-    pub fn only(&self, triad: Triad) -> Self {
+    pub fn only(&self, sensor_kind: SensorKind) -> Self {
         let kept: Vec<usize> =
-            (0..self.quantities.len()).filter(|&k| self.quantities[k].triad() == triad).collect();
+            (0..self.quantities.len()).filter(|&k| self.quantities[k].sensor_kind() == sensor_kind).collect();
         let mut imu = self.clone();
-        let without = match triad {
-            Triad::Accelerometer => {
+        let without = match sensor_kind {
+            SensorKind::Accelerometer => {
                 imu.parameters.g_sensitivity = Matrix3::zeros();
                 imu.gyroscope_unit = None;
-                Triad::Gyroscope
+                SensorKind::Gyroscope
             }
-            Triad::Gyroscope => {
+            SensorKind::Gyroscope => {
                 imu.accelerometer_unit = None;
-                Triad::Accelerometer
+                SensorKind::Accelerometer
             }
         };
-        *imu.parameters.triad_mut(without) = SensorParameters::identity();
-        *imu.parameters.thermal.triad_mut(without) = Default::default();
+        *imu.parameters.sensor_mut(without) = SensorParameters::identity();
+        *imu.parameters.thermal.sensor_mut(without) = Default::default();
         imu.restrict(&kept);
         imu
     }

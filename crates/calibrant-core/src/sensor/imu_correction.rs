@@ -4,13 +4,13 @@
 //! `df = −C_a (db_a + dS_a f)` and `dω = −C_g (db_g + dS_g ω + dΓ f + Γ df)`; the covariance of the parameters gives that of the correction. The
 //! noise of the reading is not in it. Where biases and gains follow temperature, all of this is at the temperature of each sample.
 
-use super::entries::{self, ENTRIES, EntryMatrix};
-use super::unforced::{Unforced, unknown_force_variance};
+use super::entry_vector::{self, ENTRIES, EntryMatrix};
+use super::missing_specific_force::{MissingForce, unknown_force_variance};
 use super::{
-    CalibratedImu, CorrectedRecording, CorrectedTriad, Correction, HIGHEST_ORDER, ImuParameters, ImuQuantity,
-    ImuRecording, Recording, Temperatures, ThermalPart, Triad, interpolated, times,
+    CalibratedImu, CorrectedRecording, CorrectedSensor, Correction, HIGHEST_ORDER, ImuParameters,
+    ImuQuantity, ImuRecording, Recording, SensorKind, Temperatures, ThermalPart, interpolated, times,
 };
-use crate::error::{Complaint, Error, Result};
+use crate::error::{Error, InputError, Result};
 use nalgebra::{Matrix3, SMatrix, Vector3};
 use std::ptr;
 use std::sync::Arc;
@@ -56,33 +56,33 @@ impl ImuCorrection {
     /// # Errors
     /// [`Error::Experiment`] where a matrix has no inverse, or there is a g-sensitivity without an accelerometer to correct it with.
     pub fn of(imu: &CalibratedImu) -> Result<Self> {
-        let of = |triad: Triad| match imu.unit(triad) {
+        let of = |sensor_kind: SensorKind| match imu.unit(sensor_kind) {
             None => Ok(None),
-            Some(_) => match Correction::of(imu.parameters.triad(triad)) {
+            Some(_) => match Correction::of(imu.parameters.sensor(sensor_kind)) {
                 Some(correction) if correction.matrix.iter().all(|entry| entry.is_finite()) => {
                     Ok(Some(correction))
                 }
-                _ => Err(Error::experiment(Complaint::new(
-                    format!("the matrix S of the {triad} is singular, so that it reports nothing"),
+                _ => Err(Error::experiment(InputError::new(
+                    format!("the matrix S of the {sensor_kind} is singular, so that it reports nothing"),
                     "calibrate again",
                 ))),
             },
         };
-        let (accelerometer, gyroscope) = (of(Triad::Accelerometer)?, of(Triad::Gyroscope)?);
+        let (accelerometer, gyroscope) = (of(SensorKind::Accelerometer)?, of(SensorKind::Gyroscope)?);
         let g_sensitivity = if gyroscope.is_some() { imu.parameters.g_sensitivity } else { Matrix3::zeros() };
         if g_sensitivity != Matrix3::zeros() && accelerometer.is_none() {
-            return Err(Error::experiment(Complaint::new(
+            return Err(Error::experiment(InputError::new(
                 "the gyroscope's g-sensitivity cannot be corrected without an accelerometer",
                 "convert the whole IMU, or set the g-sensitivity to zero",
             )));
         }
-        let covariance = entries::covariance(imu).map(Arc::new);
-        let known = Triad::ALL.map(|triad| {
+        let covariance = entry_vector::covariance(imu).map(Arc::new);
+        let known = SensorKind::ALL.map(|sensor_kind| {
             covariance.is_some()
                 && imu
                     .quantities
                     .iter()
-                    .any(|quantity| matches!(quantity, ImuQuantity::Of(of, _) | ImuQuantity::Thermal(of, _) if *of == triad))
+                    .any(|quantity| matches!(quantity, ImuQuantity::Of(of, _) | ImuQuantity::Thermal(of, _) if *of == sensor_kind))
         });
         let temperature_c = imu.parameters.thermal.reference_c;
         Ok(Self {
@@ -106,16 +106,18 @@ impl ImuCorrection {
         }
         let imu = self.imu.at(temperature_c);
         let tau_k = self.imu.thermal.tau_k(temperature_c);
-        let of = |triad: Triad| match self.imu.thermal.triad(triad).gain_factor(tau_k).min() > 0.0 {
-            true => Ok(Correction::of(imu.triad(triad))),
-            false => Err(Error::recording(Complaint::new(
-                format!("at {temperature_c} °C the polynomial of the {triad}'s gain is not positive"),
+        let of = |sensor_kind: SensorKind| match self.imu.thermal.sensor(sensor_kind).gain_factor(tau_k).min()
+            > 0.0
+        {
+            true => Ok(Correction::of(imu.sensor(sensor_kind))),
+            false => Err(Error::recording(InputError::new(
+                format!("at {temperature_c} °C the polynomial of the {sensor_kind}'s gain is not positive"),
                 "this is too far from the temperatures of the calibration",
             ))),
         };
         Ok(Self {
-            accelerometer: self.accelerometer.map_or(Ok(None), |_| of(Triad::Accelerometer))?,
-            gyroscope: self.gyroscope.map_or(Ok(None), |_| of(Triad::Gyroscope))?,
+            accelerometer: self.accelerometer.map_or(Ok(None), |_| of(SensorKind::Accelerometer))?,
+            gyroscope: self.gyroscope.map_or(Ok(None), |_| of(SensorKind::Gyroscope))?,
             temperature_c,
             ..self.clone()
         })
@@ -124,7 +126,7 @@ impl ImuCorrection {
     /// Does the correction depend on temperature, in its values or in what is known of them?
     #[must_use]
     pub fn follows_temperature(&self) -> bool {
-        !self.imu.thermal.is_none() || self.covers(entries::AT_REFERENCE..ENTRIES)
+        !self.imu.thermal.is_none() || self.covers(entry_vector::AT_REFERENCE..ENTRIES)
     }
 
     /// Corrected specific force, m/s²; `None` without an accelerometer.
@@ -146,7 +148,7 @@ impl ImuCorrection {
     pub fn force_sd(&self, force: &Vector3<f64>) -> Option<Vector3<f64>> {
         let (correction, covariance) = (self.accelerometer?, self.covariance.as_deref()?);
         let of_reading = if self.follows_temperature() {
-            let errors = self.all_errors(Triad::Accelerometer, force);
+            let errors = self.all_errors(SensorKind::Accelerometer, force);
             errors * covariance * errors.transpose()
         } else {
             let errors = own_errors(force, &Vector3::repeat(1.0));
@@ -165,20 +167,21 @@ impl ImuCorrection {
             let own = own_errors(rate, &Vector3::repeat(1.0));
             own * covariance.fixed_view::<12, 12>(12, 12) * own.transpose()
         } else {
-            let mut errors = self.all_errors(Triad::Gyroscope, rate);
+            let mut errors = self.all_errors(SensorKind::Gyroscope, rate);
             if let Some(accelerometer) = self.accelerometer {
-                errors -=
-                    self.g_sensitivity * accelerometer.matrix * self.all_errors(Triad::Accelerometer, force);
+                errors -= self.g_sensitivity
+                    * accelerometer.matrix
+                    * self.all_errors(SensorKind::Accelerometer, force);
             }
             for row in 0..3 {
                 for column in 0..3 {
-                    errors[(row, entries::g_sensitivity(row, column))] = force[column];
+                    errors[(row, entry_vector::g_sensitivity(row, column))] = force[column];
                 }
             }
             if self.follows_temperature() {
                 errors * covariance * errors.transpose()
             } else {
-                const N: usize = entries::AT_REFERENCE;
+                const N: usize = entry_vector::AT_REFERENCE;
                 let errors = errors.fixed_view::<3, N>(0, 0);
                 errors * covariance.fixed_view::<N, N>(0, 0) * errors.transpose()
             }
@@ -188,19 +191,21 @@ impl ImuCorrection {
     }
 
     /// Derivative of a sensor's reading with respect to all entries but the g-sensitivity, at a stimulus and the temperature of this correction.
-    fn all_errors(&self, triad: Triad, stimulus: &Vector3<f64>) -> SMatrix<f64, 3, ENTRIES> {
+    fn all_errors(&self, sensor_kind: SensorKind, stimulus: &Vector3<f64>) -> SMatrix<f64, 3, ENTRIES> {
         let thermal = &self.imu.thermal;
         let tau_k = thermal.tau_k(self.temperature_c);
-        let factor = thermal.triad(triad).gain_factor(tau_k);
-        let response = self.imu.triad(triad).matrix * stimulus;
+        let factor = thermal.sensor(sensor_kind).gain_factor(tau_k);
+        let response = self.imu.sensor(sensor_kind).matrix * stimulus;
         let mut errors = SMatrix::<f64, 3, ENTRIES>::zeros();
-        errors.fixed_columns_mut::<12>(entries::bias(triad, 0)).copy_from(&own_errors(stimulus, &factor));
+        errors
+            .fixed_columns_mut::<12>(entry_vector::bias(sensor_kind, 0))
+            .copy_from(&own_errors(stimulus, &factor));
         for row in 0..3 {
             let mut power = 1.0;
             for order in 1..=HIGHEST_ORDER {
                 power *= tau_k;
-                errors[(row, entries::thermal(triad, ThermalPart::Bias, order, row))] = power;
-                errors[(row, entries::thermal(triad, ThermalPart::Scale, order, row))] =
+                errors[(row, entry_vector::thermal(sensor_kind, ThermalPart::Bias, order, row))] = power;
+                errors[(row, entry_vector::thermal(sensor_kind, ThermalPart::Scale, order, row))] =
                     power * response[row];
             }
         }
@@ -208,7 +213,7 @@ impl ImuCorrection {
     }
 
     fn covers_g_sensitivity(&self) -> bool {
-        self.covers(entries::g_sensitivity(0, 0)..entries::AT_REFERENCE)
+        self.covers(entry_vector::g_sensitivity(0, 0)..entry_vector::AT_REFERENCE)
     }
 
     /// Says the covariance anything of these entries?
@@ -232,7 +237,7 @@ impl ImuCorrection {
         self.apply_feeling(imu, recording, recording.accelerometer.as_ref())
     }
 
-    /// The same where the accelerometer has sparks: `felt` are its readings without ([`Recording::without_sparks`]), which are the force that the gyroscope feels.
+    /// The same where the accelerometer has spikes: `felt` are its readings without ([`Recording::without_spikes`]), which are the force that the gyroscope feels.
     ///
     /// # Errors
     /// As [`apply`](Self::apply).
@@ -242,13 +247,13 @@ impl ImuCorrection {
         recording: &'a ImuRecording,
         felt: Option<&Recording>,
     ) -> Result<CorrectedRecording<'a>> {
-        for triad in Triad::ALL {
-            if let (Some(unit), Some(readings)) = (imu.unit(triad), recording.triad(triad))
+        for sensor_kind in SensorKind::ALL {
+            if let (Some(unit), Some(readings)) = (imu.unit(sensor_kind), recording.sensor(sensor_kind))
                 && unit != readings.unit
             {
-                return Err(Error::recording(Complaint::new(
+                return Err(Error::recording(InputError::new(
                     format!(
-                        "the readings of the {triad} are in {}, the calibration is of readings in {}",
+                        "the readings of the {sensor_kind} are in {}, the calibration is of readings in {}",
                         readings.unit.symbol(),
                         unit.symbol()
                     ),
@@ -258,7 +263,7 @@ impl ImuCorrection {
         }
         let temperatures = if self.follows_temperature() {
             Some(Temperatures::of(recording)?.ok_or_else(|| {
-                Error::recording(Complaint::new(
+                Error::recording(InputError::new(
                     "the calibration follows temperature, and this recording has no temperature",
                     "say the temperature with --temperature CELSIUS, or, where a column of the recording has it, which one with --columns EXPERIMENT",
                 ))
@@ -276,13 +281,13 @@ impl ImuCorrection {
             Some(readings) => {
                 let needed = self.g_sensitivity != Matrix3::zeros() || self.covers_g_sensitivity();
                 if needed && accelerometer.is_none() {
-                    return Err(Error::recording(Complaint::new(
+                    return Err(Error::recording(InputError::new(
                         "the gyroscope's g-sensitivity is corrected with the specific force, and this recording has no accelerometer",
                         "give the recording of both sensors",
                     )));
                 }
                 let felt = felt.filter(|_| needed);
-                let found = Unforced::of(readings, felt);
+                let found = MissingForce::of(readings, felt);
                 without_force = found.summary(readings, &self.by_unknown_force());
                 let same = |felt: &&Recording| {
                     !recording.accelerometer.as_ref().is_some_and(|of| ptr::eq(of, *felt))
@@ -300,7 +305,7 @@ impl ImuCorrection {
         &self,
         readings: &'a Recording,
         temperatures: Option<&Temperatures<'_>>,
-    ) -> Result<CorrectedTriad<'a>> {
+    ) -> Result<CorrectedSensor<'a>> {
         self.corrected(readings, temperatures, |here, k| {
             let force = here.force(&readings.readings[k])?;
             Some((force, here.force_sd(&force)))
@@ -310,10 +315,10 @@ impl ImuCorrection {
     fn correct_rates<'a>(
         &self,
         readings: &'a Recording,
-        forces: Option<&CorrectedTriad<'_>>,
+        forces: Option<&CorrectedSensor<'_>>,
         temperatures: Option<&Temperatures<'_>>,
-        unforced: &Unforced,
-    ) -> Result<CorrectedTriad<'a>> {
+        missing_force: &MissingForce,
+    ) -> Result<CorrectedSensor<'a>> {
         let force_at = |k: usize| match forces {
             None => Vector3::zeros(),
             Some(forces) => interpolated(forces.times_s, |k| forces.values[k], readings.times_s[k], k)
@@ -323,7 +328,7 @@ impl ImuCorrection {
             let force = force_at(k);
             let rate = here.rate(&readings.readings[k], &force)?;
             let sd = here.rate_sd(&rate, &force);
-            let sd = match unforced.has(k) {
+            let sd = match missing_force.has(k) {
                 true => sd.map(|sd| {
                     let unknown = unknown_force_variance(&here.by_unknown_force(), &force);
                     (sd.component_mul(&sd) + unknown).map(sqrt)
@@ -345,7 +350,7 @@ impl ImuCorrection {
         readings: &'a Recording,
         temperatures: Option<&Temperatures<'_>>,
         correct: impl Fn(&Self, usize) -> Option<(Vector3<f64>, Option<Vector3<f64>>)>,
-    ) -> Result<CorrectedTriad<'a>> {
+    ) -> Result<CorrectedSensor<'a>> {
         let mut values = Vec::with_capacity(readings.len());
         let mut sd = Some(Vec::new());
         for k in 0..readings.readings.len() {
@@ -361,19 +366,19 @@ impl ImuCorrection {
                 });
             }
         }
-        Ok(CorrectedTriad { times_s: &readings.times_s, values, sd })
+        Ok(CorrectedSensor { times_s: &readings.times_s, values, sd })
     }
 }
 
 /// Derivative of a reading with respect to bias and matrix of its sensor (12 entries), at a stimulus and a factor on each gain.
 fn own_errors(stimulus: &Vector3<f64>, gain_factor: &Vector3<f64>) -> SMatrix<f64, 3, 12> {
     // the places are those of either sensor, less its first
-    let own = Triad::Accelerometer;
+    let own = SensorKind::Accelerometer;
     let mut errors = SMatrix::zeros();
     for row in 0..3 {
-        errors[(row, entries::bias(own, row))] = 1.0;
+        errors[(row, entry_vector::bias(own, row))] = 1.0;
         for column in 0..3 {
-            errors[(row, entries::matrix(own, row, column))] = gain_factor[row] * stimulus[column];
+            errors[(row, entry_vector::matrix(own, row, column))] = gain_factor[row] * stimulus[column];
         }
     }
     errors
@@ -389,7 +394,7 @@ mod tests {
     use super::*;
     use crate::sensor::ReadingUnit;
     use crate::sensor::gauge_change::tests::imu;
-    use crate::sensor::referred::tests::warm;
+    use crate::sensor::reference_temperature::tests::warm;
 
     fn readings(imu: &CalibratedImu) -> (Vector3<f64>, Vector3<f64>) {
         let (force, rate) = (Vector3::new(1.0, -5.0, 8.0), Vector3::new(0.4, -1.2, 0.3));
@@ -464,15 +469,15 @@ mod tests {
     fn the_force_is_interpolated_at_the_gyroscopes_times() {
         let imu = imu();
         let (y_a, y_g) = readings(&imu);
-        let triad = |times_s: Vec<f64>, reading| Recording {
+        let sensor_kind = |times_s: Vec<f64>, reading| Recording {
             readings: vec![reading; times_s.len()],
             times_s,
             axes: 3,
             unit: ReadingUnit::Counts,
         };
         let mut recording = ImuRecording {
-            accelerometer: Some(triad(vec![0.0, 1.0, 2.0], y_a)),
-            gyroscope: Some(triad(vec![-1.0, 0.5, 1.0, 7.0], y_g)),
+            accelerometer: Some(sensor_kind(vec![0.0, 1.0, 2.0], y_a)),
+            gyroscope: Some(sensor_kind(vec![-1.0, 0.5, 1.0, 7.0], y_g)),
             temperature_c: None,
         };
         let correction = ImuCorrection::of(&imu).expect("regular");

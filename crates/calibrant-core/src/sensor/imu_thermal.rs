@@ -1,6 +1,6 @@
 //! What an IMU is at a temperature, and the list of its temperature terms.
 
-use super::{Axis, HIGHEST_ORDER, ImuParameters, ImuQuantity, Thermal, ThermalPart, ThermalTerm, Triad};
+use super::{Axis, HIGHEST_ORDER, ImuParameters, ImuQuantity, SensorKind, Thermal, ThermalPart, ThermalTerm};
 use nalgebra::Matrix3;
 
 impl ImuParameters {
@@ -24,8 +24,8 @@ impl ImuParameters {
         }
         let tau_k = self.thermal.tau_k(temperature_c);
         let mut imu = Self { thermal: Thermal::none(), ..*self };
-        for triad in Triad::ALL {
-            let (thermal, sensor) = (self.thermal.triad(triad), imu.triad_mut(triad));
+        for sensor_kind in SensorKind::ALL {
+            let (thermal, sensor) = (self.thermal.sensor(sensor_kind), imu.sensor_mut(sensor_kind));
             sensor.bias += thermal.bias_change(tau_k);
             sensor.matrix = Matrix3::from_diagonal(&thermal.gain_factor(tau_k)) * sensor.matrix;
         }
@@ -36,11 +36,13 @@ impl ImuParameters {
 impl ImuQuantity {
     /// The temperature terms of one sensor up to these orders: of the bias first, then of the scale, order by order.
     #[must_use]
-    pub fn thermal_list(triad: Triad, bias_order: usize, scale_order: usize) -> Vec<Self> {
+    pub fn thermal_list(sensor_kind: SensorKind, bias_order: usize, scale_order: usize) -> Vec<Self> {
         let mut list = Vec::new();
         for (part, order) in [(ThermalPart::Bias, bias_order), (ThermalPart::Scale, scale_order)] {
             for order in 1..=order.min(HIGHEST_ORDER) {
-                list.extend(Axis::ALL.map(|axis| Self::Thermal(triad, ThermalTerm { part, axis, order })));
+                list.extend(
+                    Axis::ALL.map(|axis| Self::Thermal(sensor_kind, ThermalTerm { part, axis, order })),
+                );
             }
         }
         list
@@ -49,10 +51,10 @@ impl ImuQuantity {
     /// Every temperature term of the sensors that are there.
     #[must_use]
     pub fn all_thermal(accelerometer: bool, gyroscope: bool) -> Vec<Self> {
-        [(Triad::Accelerometer, accelerometer), (Triad::Gyroscope, gyroscope)]
+        [(SensorKind::Accelerometer, accelerometer), (SensorKind::Gyroscope, gyroscope)]
             .into_iter()
             .filter(|(_, there)| *there)
-            .flat_map(|(triad, _)| Self::thermal_list(triad, HIGHEST_ORDER, HIGHEST_ORDER))
+            .flat_map(|(sensor_kind, _)| Self::thermal_list(sensor_kind, HIGHEST_ORDER, HIGHEST_ORDER))
             .collect()
     }
 }
@@ -65,7 +67,7 @@ mod tests {
 
     #[test]
     fn names_and_units_say_the_power() {
-        let list = ImuQuantity::thermal_list(Triad::Gyroscope, 2, 1);
+        let list = ImuQuantity::thermal_list(SensorKind::Gyroscope, 2, 1);
         let names: Vec<String> = list.iter().map(|quantity| quantity.name()).collect();
         assert_eq!(names[0], "gyroscope.bias_per_k.x");
         assert_eq!(names[4], "gyroscope.bias_per_k2.y");
@@ -84,15 +86,19 @@ mod tests {
         }
         let (stimulus, force, temperature_c) =
             (Vector3::new(0.4, -1.2, 0.3), Vector3::new(1.0, -5.0, 8.0), 29.5);
-        let reading = |imu: &ImuParameters, triad: Triad| {
-            let felt = if triad == Triad::Gyroscope { imu.g_sensitivity * force } else { Vector3::zeros() };
-            imu.at(temperature_c).triad(triad).reading(&stimulus) + felt
+        let reading = |imu: &ImuParameters, sensor_kind: SensorKind| {
+            let felt = if sensor_kind == SensorKind::Gyroscope {
+                imu.g_sensitivity * force
+            } else {
+                Vector3::zeros()
+            };
+            imu.at(temperature_c).sensor(sensor_kind).reading(&stimulus) + felt
         };
         for quantity in all {
             let moved = |by: f64| {
                 let mut moved = imu;
                 quantity.add_to(&mut moved, by);
-                reading(&moved, quantity.triad())
+                reading(&moved, quantity.sensor_kind())
             };
             let difference = (moved(1e-4) - moved(-1e-4)) / 2e-4;
             let at = Condition { imu: &imu, stimulus, force, temperature_c };
@@ -106,7 +112,7 @@ mod tests {
             let mut imu = ImuParameters::identity();
             quantity.add_to(&mut imu, 1.0 + k as f64);
             let found: Vec<f64> =
-                ImuQuantity::all_thermal(true, true).iter().map(|other| other.of(&imu)).collect();
+                ImuQuantity::all_thermal(true, true).iter().map(|other| other.value(&imu)).collect();
             assert_eq!(found.iter().sum::<f64>(), 1.0 + k as f64);
             assert_eq!(found[k], 1.0 + k as f64, "{}", quantity.name());
         }

@@ -29,11 +29,11 @@ impl MeanReading {
 
     /// Standard deviation of one sample about the mean of its stretch, pooled over the stretches; zero where none has two.
     #[must_use]
-    pub fn pooled_sd<'a>(stretches: impl IntoIterator<Item = &'a Self>) -> Vector3<f64> {
+    pub fn pooled_sd<'a>(segments: impl IntoIterator<Item = &'a Self>) -> Vector3<f64> {
         let (mut squares, mut degrees) = (Vector3::zeros(), 0);
-        for stretch in stretches {
-            squares += stretch.squares;
-            degrees += stretch.samples.saturating_sub(1);
+        for segment in segments {
+            squares += segment.squares;
+            degrees += segment.samples.saturating_sub(1);
         }
         (squares / degrees.max(1) as f64).map(f64::sqrt)
     }

@@ -71,7 +71,7 @@ impl Quantity {
 
     /// Its value in a sensor.
     #[must_use]
-    pub fn of(self, sensor: &SensorParameters) -> f64 {
+    pub fn value(self, sensor: &SensorParameters) -> f64 {
         match self {
             Self::Bias(axis) => sensor.bias[axis.index()],
             Self::Scale(axis) => sensor.matrix[(axis.index(), axis.index())],

@@ -1,7 +1,7 @@
 //! Readings of a sensor over time.
 
 use super::extremes::{greater, lesser};
-use super::rate::rate_hz;
+use super::sample_rate::rate_hz;
 use super::{Axis, ReadingUnit};
 use nalgebra::Vector3;
 
@@ -20,7 +20,7 @@ pub struct Recording {
 
 /// A step of so many usual ones is a gap,
 const GAP: f64 = 5.0;
-/// unless nothing moves in so short a time, s.
+/// A shorter gap is none, s: nothing moves in so short a time.
 const MOVED_S: f64 = 0.05;
 
 impl Recording {

@@ -5,14 +5,14 @@ use std::fmt;
 
 /// One of the two sensors of an IMU.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Triad {
+pub enum SensorKind {
     /// Specific force.
     Accelerometer,
     /// Angular rate.
     Gyroscope,
 }
 
-impl Triad {
+impl SensorKind {
     /// Both.
     pub const ALL: [Self; 2] = [Self::Accelerometer, Self::Gyroscope];
 
@@ -35,7 +35,7 @@ impl Triad {
     }
 }
 
-impl fmt::Display for Triad {
+impl fmt::Display for SensorKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.name())
     }

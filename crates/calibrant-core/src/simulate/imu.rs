@@ -1,6 +1,6 @@
 //! Recordings of an IMU that is held still in several orientations and turned by hand in between.
 
-use super::stimuli::Stimuli;
+use super::imu_stimuli::Stimuli;
 use super::{ImuSimulation, Rng};
 use crate::sensor::{ImuParameters, ImuRecording};
 use nalgebra::{UnitQuaternion, Vector3};

@@ -3,27 +3,27 @@
 //! Every item of work (a sensor, a motion) has a ChaCha stream of its own under the common seed, so that results do not depend on the
 //! number of threads or on the order in which items are made.
 
-mod draw_imu;
-mod faces;
+mod drawn_imu;
 mod holds;
 mod imu;
 mod imu_setup;
+mod imu_stimuli;
 mod initial_motion;
-mod noise;
 mod population;
+mod power_law_noise;
 mod recording;
-mod stimuli;
+mod table_recording;
 
 pub use crate::motion::sample_times;
-pub use draw_imu::{GyroscopeToDraw, draw_imu, draw_known, draw_thermal};
-pub use faces::{TableAction, TableStep, simulate_table};
+pub use drawn_imu::{GyroscopeToDraw, draw_imu, draw_known, draw_thermal};
 pub use holds::{HoldsSimulation, simulate_holds};
 pub use imu::{MOST_SAMPLES, simulate_imu};
 pub use imu_setup::{ImuSimulation, TURN_S};
 pub use initial_motion::initial_motion;
-pub use noise::simulate_noise;
 pub use population::draw_sensor;
+pub use power_law_noise::simulate_noise;
 pub use recording::{perturb, simulate_recording};
+pub use table_recording::{TableAction, TableStep, simulate_table};
 
 use rand::SeedableRng;
 pub use rand_chacha::ChaCha8Rng as Rng;

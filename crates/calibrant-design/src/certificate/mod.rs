@@ -19,12 +19,12 @@
 //! Where nothing but the ends is known, `C_KK = c/(a_N − a_0)²` with a constant c, and the ends can only be so far apart.
 
 mod axis_chain;
-mod conic;
+mod bound_tightening;
+mod bounds;
+mod dual_bound;
+mod moment_relaxation;
 mod motion_variance;
 mod polynomial;
-mod reach;
-mod relaxation;
-mod tighten;
 mod variances;
 
 pub(crate) use axis_chain::{AxisChain, States};

@@ -1,7 +1,7 @@
 //! The largest motion variance that any admissible motion of one axis can have.
 
-use super::reach::Reach;
-use super::relaxation::Segment;
+use super::bounds::StateBounds;
+use super::moment_relaxation::ChainPart;
 use super::{AxisChain, States};
 use calibrant_core::motion::Rest;
 
@@ -31,7 +31,7 @@ pub(crate) enum BoundKind {
     /// Moment relaxations of stretches of the chain that may each start and end anywhere.
     Stretches,
     /// Every node at its largest acceleration at once.
-    Reach,
+    StateBounds,
     /// Every node as far from the middle of the motion as the largest jerk takes it.
     Jerk,
 }
@@ -55,7 +55,7 @@ impl BoundKind {
             Self::Stretches => {
                 "the motion is long, so its stretches were bounded one by one as if each could start and end anywhere: loose where they cannot"
             }
-            Self::Reach => {
+            Self::StateBounds => {
                 "every node was taken at its largest acceleration at once, which no motion may be able to do: can be loose by a factor"
             }
             Self::Jerk => {
@@ -83,7 +83,7 @@ const MOST_WITH_STATES_AND_MEAN: usize = 30;
 const MOST_TIGHTENED: usize = 30;
 /// Intervals of a stretch, and most different stretches that are relaxed.
 const STRETCH: usize = 8;
-const MOST_STRETCHES: usize = 12;
+const MOST_SEGMENTS: usize = 12;
 
 /// Bounds the motion variance; `None` where nothing bounds the acceleration.
 pub(crate) fn motion_variance_bound(chain: &AxisChain) -> Option<MotionVarianceBound> {
@@ -97,26 +97,26 @@ pub(super) fn bound_within(
     most_order: u8,
 ) -> Option<MotionVarianceBound> {
     let (n, l) = (chain.sums.len(), &chain.limits);
-    let mut reach = Reach::of(chain);
-    if !reach.sum_of_squares(chain, 0..n).is_finite() {
+    let mut bounds = StateBounds::of(chain);
+    if !bounds.sum_of_squares(chain, 0..n).is_finite() {
         return None;
     }
     let displacement = l.displacement.is_some();
     let velocity = displacement || l.velocity.is_some() || l.rest == Rest::Both;
     if n <= MOST_TIGHTENED && (velocity || l.intercept.is_some()) {
-        reach = reach.tightened(chain, &INSIDE);
+        bounds = bounds.tightened(chain, &INSIDE);
     }
-    let value = reach.sum_of_squares(chain, 0..n);
-    let cheap = MotionVarianceBound { value, kind: BoundKind::Reach, solved: true, correction: 0.0 };
+    let value = bounds.sum_of_squares(chain, 0..n);
+    let cheap = MotionVarianceBound { value, kind: BoundKind::StateBounds, solved: true, correction: 0.0 };
     let most = if velocity { MOST_WITH_STATES } else { MOST_WITHOUT_STATES };
     let mut best = cheap;
     let mut consider = |bound: Option<MotionVarianceBound>| {
         best =
             bound.into_iter().fold(best.clone(), |best, new| if new.value < best.value { new } else { best });
     };
-    consider(by_jerk(chain, &reach));
+    consider(by_jerk(chain, &bounds));
     if n > most {
-        consider(stretches(chain, &reach, States { velocity, displacement, sum: false }, max_iterations));
+        consider(segments(chain, &bounds, States { velocity, displacement, sum: false }, max_iterations));
         return Some(best);
     }
     // the running sum is one more state: with velocity and displacement only to second order, and not where rest at the end makes the mean small
@@ -126,9 +126,17 @@ pub(super) fn bound_within(
     let with_order = |sum: bool, order: u8| {
         let states = States { velocity, displacement, sum };
         let width = if velocity && !sum && order == 2 && (3..=MOST_WIDE).contains(&n) { 2 } else { 1 };
-        let segment =
-            Segment { chain, reach: &reach, range: 0..n, width, states, open: false, inside: &INSIDE, order };
-        relax(&segment, max_iterations, BoundKind::Chain { mean: sum, states: velocity })
+        let part = ChainPart {
+            chain,
+            bounds: &bounds,
+            range: 0..n,
+            width,
+            states,
+            open: false,
+            inside: &INSIDE,
+            order,
+        };
+        relax(&part, max_iterations, BoundKind::Chain { mean: sum, states: velocity })
     };
     if with_mean {
         consider(with_order(true, 2));
@@ -142,24 +150,24 @@ pub(super) fn bound_within(
 /// What the jerk alone admits: `V ≤ Σ (α − c)² + (mass − M) c² + 2 |shift| |c|` for every c, here the acceleration in the middle of the motion.
 ///
 /// The relaxations divide by the largest acceleration, beside which a small jerk is lost in the solver's tolerance; this bound is not.
-fn by_jerk(chain: &AxisChain, reach: &Reach) -> Option<MotionVarianceBound> {
+fn by_jerk(chain: &AxisChain, bounds: &StateBounds) -> Option<MotionVarianceBound> {
     let (n, jerk) = (chain.sums.len(), chain.limits.jerk?);
     let samples: f64 = chain.sums.iter().map(|sum| sum.samples).sum();
     let apart =
         (0..=n).map(|i| jerk * chain.interval_s * (i as f64 - n as f64 / 2.0).abs()).collect::<Vec<_>>();
-    let middle = reach.a[n / 2].max(reach.a[n.div_ceil(2)]);
-    let spread = Reach { a: apart, ..reach.clone() }.sum_of_squares(chain, 0..n);
+    let middle = bounds.a[n / 2].max(bounds.a[n.div_ceil(2)]);
+    let spread = StateBounds { a: apart, ..bounds.clone() }.sum_of_squares(chain, 0..n);
     let value = spread + (chain.mass - samples).max(0.0) * middle * middle + 2.0 * chain.shift.abs() * middle;
     let kind = BoundKind::Jerk;
     value.is_finite().then_some(MotionVarianceBound { value, kind, solved: true, correction: 0.0 })
 }
 
-fn relax(segment: &Segment<'_>, max_iterations: u32, kind: BoundKind) -> Option<MotionVarianceBound> {
-    let scale = segment.reach.sum_of_squares(segment.chain, segment.range.clone());
+fn relax(part: &ChainPart<'_>, max_iterations: u32, kind: BoundKind) -> Option<MotionVarianceBound> {
+    let scale = part.bounds.sum_of_squares(part.chain, part.range.clone());
     if scale == 0.0 {
         return None;
     }
-    let bound = segment.relax(scale)?.bound(max_iterations)?;
+    let bound = part.relax(scale)?.bound(max_iterations)?;
     Some(MotionVarianceBound {
         value: (bound.value * scale).max(0.0),
         kind,
@@ -169,16 +177,16 @@ fn relax(segment: &Segment<'_>, max_iterations: u32, kind: BoundKind) -> Option<
 }
 
 /// The sum of the bounds of stretches; equal stretches are relaxed once.
-fn stretches(
+fn segments(
     chain: &AxisChain,
-    reach: &Reach,
+    bounds: &StateBounds,
     states: States,
     max_iterations: u32,
 ) -> Option<MotionVarianceBound> {
     let n = chain.sums.len();
     // the same bounds everywhere make stretches equal, but for the report's intercept, which counts from t = 0
-    let uniform = reach.everywhere();
-    let (reach, moves) = if chain.limits.intercept.is_some() { (reach, true) } else { (&uniform, false) };
+    let uniform = bounds.everywhere();
+    let (bounds, moves) = if chain.limits.intercept.is_some() { (bounds, true) } else { (&uniform, false) };
     let mut total =
         MotionVarianceBound { value: 0.0, kind: BoundKind::Stretches, solved: true, correction: 0.0 };
     let mut known: Vec<(std::ops::Range<usize>, MotionVarianceBound)> = Vec::new();
@@ -190,15 +198,15 @@ fn stretches(
             part.clone()
         } else {
             let cheap = MotionVarianceBound {
-                value: reach.sum_of_squares(chain, range.clone()),
-                kind: BoundKind::Reach,
+                value: bounds.sum_of_squares(chain, range.clone()),
+                kind: BoundKind::StateBounds,
                 solved: true,
                 correction: 0.0,
             };
-            let relaxed = if known.len() < MOST_STRETCHES {
-                let segment = Segment {
+            let relaxed = if known.len() < MOST_SEGMENTS {
+                let part = ChainPart {
                     chain,
-                    reach,
+                    bounds,
                     range: range.clone(),
                     width: 1,
                     states,
@@ -206,7 +214,7 @@ fn stretches(
                     inside: &INSIDE,
                     order: 2,
                 };
-                relax(&segment, max_iterations, BoundKind::Stretches)
+                relax(&part, max_iterations, BoundKind::Stretches)
             } else {
                 None
             };

@@ -94,7 +94,7 @@ impl Polynomial {
     }
 
     /// Largest value that `|self|` can take where every variable is in [−1, 1]: the sum of the coefficients' sizes.
-    pub(super) fn reach(&self) -> f64 {
+    pub(super) fn bounds(&self) -> f64 {
         self.terms.values().map(|coefficient| coefficient.abs()).sum()
     }
 }
@@ -121,6 +121,6 @@ mod tests {
         let product = x.plus(1.0, &y).times(&x.plus(-1.0, &y));
         let terms: Vec<_> = product.terms().collect();
         assert_eq!(terms, [(&pad([0, 2]), -4.0), (&pad([2, 0]), 1.0)], "(x + 2y)(x − 2y)");
-        assert_eq!(x.plus(1.0, &y).reach(), 3.0);
+        assert_eq!(x.plus(1.0, &y).bounds(), 3.0);
     }
 }

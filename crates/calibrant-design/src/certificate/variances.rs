@@ -1,8 +1,8 @@
 //! From bounds on the motion to bounds on variances and on the criterion.
 
 use super::AxisChain;
+use super::bounds::StateBounds;
 use super::motion_variance::{MotionVarianceBound, motion_variance_bound};
-use super::reach::Reach;
 use crate::{Certificate, DesignProblem};
 use calibrant_core::error::Result;
 use calibrant_core::information::{Criterion, covariance};
@@ -23,9 +23,13 @@ pub(crate) fn certify(problem: &DesignProblem<'_>, value: f64) -> Result<Option<
     let mut bounds = Bounds {
         problem,
         noise: setting.noise,
-        sums: IntervalSums::of(&rest, problem.rate_hz),
-        still: setting.of(&rest)?,
-        ramp: if problem.trust == Trust::Unknown { Some(setting.of(&ramp(problem)?)?) } else { None },
+        sums: IntervalSums::all(&rest, problem.rate_hz),
+        still: setting.information(&rest)?,
+        ramp: if problem.trust == Trust::Unknown {
+            Some(setting.information(&ramp(problem)?)?)
+        } else {
+            None
+        },
         known: Vec::new(),
         reasons: Vec::new(),
     };
@@ -101,13 +105,13 @@ impl Bounds<'_> {
         let bias =
             all.iter().position(|other| matches!(other, Quantity::Bias(axis) if axis.index() == row))?;
         let (own, cross, on_bias) = (prior(place, place), prior(place, bias), prior(bias, bias));
-        let reach = Reach::of(&self.chain(column, 0.0, f64::INFINITY));
+        let bounds = StateBounds::of(&self.chain(column, 0.0, f64::INFINITY));
         // what earlier information on the bias adds where the bias follows from the scale factor and a known acceleration
         let anchored = |a: f64| own + 2.0 * a * cross.abs() + a * a * on_bias;
 
         let mut information = f64::INFINITY;
         if let (Some(ramp), SensorModel::ScaleBias) = (&self.ramp, self.problem.sensor.model) {
-            let apart = self.ends_apart(column, &reach);
+            let apart = self.ends_apart(column, &bounds);
             let per_unit = if self.problem.prior.is_none() {
                 let block = DMatrix::from_fn(2, 2, |i, j| ramp[([bias, place][i], [bias, place][j])]);
                 1.0 / covariance(&block).map_or(0.0, |c| c[(1, 1)])
@@ -115,7 +119,7 @@ impl Bounds<'_> {
                 ramp[(place, place)]
             };
             information =
-                per_unit * apart * apart / 4.0 + anchored(reach.a[0].max(reach.a[reach.a.len() - 1]));
+                per_unit * apart * apart / 4.0 + anchored(bounds.a[0].max(bounds.a[bounds.a.len() - 1]));
             self.explain("scale factors: the two ends of the motion, which is all that is known of it, can be no further apart than the limits allow; exact where the ends are free to be so");
         } else {
             let noise = self.noise[row] * self.noise[row];
@@ -140,7 +144,7 @@ impl Bounds<'_> {
                 self.explain(&format!("scale factors: {known}{}{shared}{solver}", bound.kind.explanation()));
             }
             if let (Trust::Noisy(input), KnownEnds::Start) = (self.problem.trust, self.problem.known_ends) {
-                let from_increments = self.increments(input, row, column) + anchored(reach.a[0]);
+                let from_increments = self.increments(input, row, column) + anchored(bounds.a[0]);
                 if from_increments < information {
                     information = from_increments;
                     self.reasons.retain(|reason| !reason.starts_with("scale factors"));
@@ -188,12 +192,12 @@ impl Bounds<'_> {
     }
 
     /// Largest `|a_N − a_0|`.
-    fn ends_apart(&self, axis: usize, reach: &Reach) -> f64 {
+    fn ends_apart(&self, axis: usize, bounds: &StateBounds) -> f64 {
         let l = self.problem.effective_limits().axis(axis);
         let n = self.problem.intervals;
         let apart = match (l.start, l.end) {
             (Some(start), Some(end)) => (end - start).abs(),
-            _ => reach.a[0] + reach.a[n],
+            _ => bounds.a[0] + bounds.a[n],
         };
         apart.min(l.jerk.unwrap_or(f64::INFINITY) * self.problem.interval_s * n as f64)
     }
@@ -206,8 +210,8 @@ impl Bounds<'_> {
         let full = problem.sensor.model == SensorModel::Full;
         let Some(inverse) = problem.at.matrix.try_inverse() else { return f64::INFINITY };
         let limits = problem.effective_limits().axis(column);
-        let reach = Reach::of(&self.chain(column, 0.0, f64::INFINITY));
-        reach
+        let bounds = StateBounds::of(&self.chain(column, 0.0, f64::INFINITY));
+        bounds
             .a
             .windows(2)
             .map(|a| {

@@ -1,6 +1,6 @@
 //! Sensors that are moved by the same command and calibrated once.
 
-use super::record::record;
+use super::simulated_recording::record;
 use super::summary::summarise;
 use super::{SensorOutcome, SingleCase, Study};
 use crate::DesignSettings;
@@ -66,7 +66,7 @@ pub fn run_study(
             let case = simulate_case(problem, settings, problem.rate_hz, index)?;
             progress(1);
             Ok(SensorOutcome {
-                truth: list.quantities().iter().map(|quantity| quantity.of(&case.truth)).collect(),
+                truth: list.quantities().iter().map(|quantity| quantity.value(&case.truth)).collect(),
                 sd: case.calibration.sd(),
                 values: case.calibration.values,
                 p_value: case.calibration.fit.p_value,

@@ -1,6 +1,6 @@
 //! The report's loop (Figure 2) over many sensors: calibrate, design at the estimate, calibrate again.
 
-use super::record::record;
+use super::simulated_recording::record;
 use super::summary::{compare, traces};
 use super::{DesignOutcome, DesignStudy, MotionOutcome, StudySettings};
 use crate::{Design, DesignProblem, DesignSettings, design, evaluate};
@@ -65,8 +65,8 @@ impl<'a> DesignStudyProblem<'a> {
             return Some("nothing is known of the motion but its ends, so none can be commanded".into());
         }
         let problem = self.design_at(self.sensor.nominal().unwrap_or_else(SensorParameters::identity), None);
-        problem.check().err().map(|error| match error.complaint() {
-            Some(complaint) => complaint.message.clone(),
+        problem.check().err().map(|error| match error.input_error() {
+            Some(input_error) => input_error.message.clone(),
             None => error.to_string(),
         })
     }
@@ -158,7 +158,7 @@ fn go_round(
     let after = calibrate_on(problem, settings, &truth, &design.optimal.motion, &mut rng)?;
     let list = sensor.parameter_list();
     let outcome = DesignOutcome {
-        truth: list.quantities().iter().map(|quantity| quantity.of(&truth)).collect(),
+        truth: list.quantities().iter().map(|quantity| quantity.value(&truth)).collect(),
         initial: outcome(before, first, design.initial.value),
         optimal: outcome(after, design.optimal.motion.clone(), design.optimal.value),
         design_status: design.status,

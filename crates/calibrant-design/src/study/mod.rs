@@ -8,18 +8,18 @@
 //!
 //! [`run_studies`] runs what is asked for of these, one after the other.
 
+mod all_studies;
 mod calibration;
 mod design_loop;
 mod improvement;
-mod record;
 mod result;
+mod simulated_recording;
 mod summary;
 mod surface;
-mod together;
 
+pub use all_studies::{Studies, StudiesProblem, run_studies};
 pub use calibration::{StudyProblem, StudySettings, run_study};
 pub use design_loop::{DesignStudyProblem, run_design_study};
 pub use improvement::*;
 pub use result::*;
 pub use surface::{SurfaceSettings, TraceSurface, trace_surface};
-pub use together::{Studies, StudiesProblem, run_studies};

@@ -1,7 +1,7 @@
 //! Numbers in a C header: written as constants, and read back by name.
 
-use crate::text::Checked;
-use calibrant_core::error::Complaint;
+use crate::text_decoding::Checked;
+use calibrant_core::error::InputError;
 use nalgebra::{Matrix3, Vector3};
 
 pub(super) const HELP: &str = "give a header that calibrant wrote, as it wrote it";
@@ -29,9 +29,9 @@ fn read_constant(text: &str, name: &str, count: usize) -> Checked<Option<Vec<f64
     let Some(start) = text.find(name) else { return Ok(None) };
     let name = name.trim_end_matches("[3]");
     let line = 1 + text[..start].matches('\n').count();
-    let complain = |message: String| Err(Box::new(Complaint::new(message, HELP).at_line(line)));
+    let reject = |message: String| Err(Box::new(InputError::new(message, HELP).at_line(line)));
     let Some((value, _)) = text[start..].split_once('=').and_then(|(_, rest)| rest.split_once(';')) else {
-        return complain(format!("`{name}` has no value"));
+        return reject(format!("`{name}` has no value"));
     };
     let mut numbers = Vec::with_capacity(count);
     for word in value
@@ -40,11 +40,11 @@ fn read_constant(text: &str, name: &str, count: usize) -> Checked<Option<Vec<f64
     {
         match word.parse::<f64>() {
             Ok(number) if number.is_finite() => numbers.push(number),
-            _ => return complain(format!("`{name}`: not a number: {word}")),
+            _ => return reject(format!("`{name}`: not a number: {word}")),
         }
     }
     if numbers.len() != count {
-        return complain(format!("`{name}` has {} numbers, not {count}", numbers.len()));
+        return reject(format!("`{name}` has {} numbers, not {count}", numbers.len()));
     }
     Ok(Some(numbers))
 }

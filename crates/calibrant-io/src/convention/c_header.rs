@@ -6,28 +6,32 @@
 
 use super::arrays::vector3;
 use super::c_constants::{HELP, matrix, numbers, vector};
-use super::words::{complaint, written_by};
+use super::words::{input_error, written_by};
 use super::{CalibratedImuFile, ImuFormat, c_temperature};
-use crate::text::Checked;
+use crate::text_decoding::Checked;
 use calibrant_core::sensor::{
-    CalibratedImu, ImuCorrection, ImuParameters, ImuQuantity, ReadingUnit, SensorParameters, Triad,
+    CalibratedImu, ImuCorrection, ImuParameters, ImuQuantity, ReadingUnit, SensorKind, SensorParameters,
 };
 use nalgebra::Matrix3;
 use std::fmt::Write;
 
 pub(super) fn write(file: &CalibratedImuFile) -> Checked<String> {
     let imu = &file.imu;
-    let correction = ImuCorrection::of(imu).map_err(|error| complaint(error.to_string(), ""))?;
+    let correction = ImuCorrection::of(imu).map_err(|error| input_error(error.to_string(), ""))?;
     let mut out = format!(
         "/* Correction of an IMU, raw to true; {}.\n *\n * frame: {}\n",
         written_by(),
         comment(&imu.frame)
     );
-    for triad in Triad::ALL {
-        if let Some(unit) = imu.unit(triad) {
-            let si = triad.stimulus_unit().symbol();
-            let _ =
-                writeln!(out, " * {triad}: readings in {}, corrected in {}", ascii(unit.symbol()), ascii(si));
+    for sensor_kind in SensorKind::ALL {
+        if let Some(unit) = imu.unit(sensor_kind) {
+            let si = sensor_kind.stimulus_unit().symbol();
+            let _ = writeln!(
+                out,
+                " * {sensor_kind}: readings in {}, corrected in {}",
+                ascii(unit.symbol()),
+                ascii(si)
+            );
         }
     }
     out.push_str(&c_temperature::head(imu));
@@ -40,29 +44,32 @@ pub(super) fn write(file: &CalibratedImuFile) -> Checked<String> {
          #ifndef CALIBRANT_REAL\n#define CALIBRANT_REAL double\n#endif\n",
     );
     out.push_str(&c_temperature::reference(imu));
-    for (triad, of) in
-        [(Triad::Accelerometer, correction.accelerometer), (Triad::Gyroscope, correction.gyroscope)]
+    for (sensor_kind, of) in
+        [(SensorKind::Accelerometer, correction.accelerometer), (SensorKind::Gyroscope, correction.gyroscope)]
     {
-        let (Some(of), Some(unit)) = (of, imu.unit(triad)) else { continue };
-        let (unit, si) = (ascii(unit.symbol()), ascii(triad.stimulus_unit().symbol()));
-        let _ = writeln!(out, "\n/* Bias of the {triad}, {unit}. */");
-        let _ =
-            writeln!(out, "static const CALIBRANT_REAL calibrant_{triad}_bias[3] = {};", vector(&of.bias));
+        let (Some(of), Some(unit)) = (of, imu.unit(sensor_kind)) else { continue };
+        let (unit, si) = (ascii(unit.symbol()), ascii(sensor_kind.stimulus_unit().symbol()));
+        let _ = writeln!(out, "\n/* Bias of the {sensor_kind}, {unit}. */");
+        let _ = writeln!(
+            out,
+            "static const CALIBRANT_REAL calibrant_{sensor_kind}_bias[3] = {};",
+            vector(&of.bias)
+        );
         let _ = writeln!(out, "\n/* Matrix of its correction, ({si}) per ({unit}). */");
         let _ = writeln!(
             out,
-            "static const CALIBRANT_REAL calibrant_{triad}_matrix[3][3] = {};",
+            "static const CALIBRANT_REAL calibrant_{sensor_kind}_matrix[3][3] = {};",
             matrix(&of.matrix)
         );
-        let terms = imu.parameters.thermal.triad(triad);
-        out.push_str(&c_temperature::coefficients(triad, terms, &unit));
+        let terms = imu.parameters.thermal.sensor(sensor_kind);
+        out.push_str(&c_temperature::coefficients(sensor_kind, terms, &unit));
         let function = |at_reference: &str| match terms.is_none() {
             true => at_reference.to_owned(),
-            false => c_temperature::with_temperature(triad, at_reference),
+            false => c_temperature::with_temperature(sensor_kind, at_reference),
         };
-        match triad {
-            Triad::Accelerometer => out.push_str(&function(ACCELEROMETER)),
-            Triad::Gyroscope => {
+        match sensor_kind {
+            SensorKind::Accelerometer => out.push_str(&function(ACCELEROMETER)),
+            SensorKind::Gyroscope => {
                 let _ = writeln!(out, "\n/* What it shows of specific force, ({unit}) per (m/s^2). */");
                 let _ = writeln!(
                     out,
@@ -121,18 +128,24 @@ fn comment(text: &str) -> String {
 pub(super) fn read(text: &str) -> Checked<CalibratedImuFile> {
     let mut parameters = ImuParameters::identity();
     let mut units = [None, None];
-    for (triad, unit) in Triad::ALL.into_iter().zip(&mut units) {
-        let Some(correction) = numbers(text, &format!("calibrant_{triad}_matrix"), 9)? else { continue };
-        let name = format!("calibrant_{triad}_bias");
-        let bias = numbers(text, &name, 3)?.ok_or_else(|| complaint(format!("`{name}` is missing"), HELP))?;
+    for (sensor_kind, unit) in SensorKind::ALL.into_iter().zip(&mut units) {
+        let Some(correction) = numbers(text, &format!("calibrant_{sensor_kind}_matrix"), 9)? else {
+            continue;
+        };
+        let name = format!("calibrant_{sensor_kind}_bias");
+        let bias =
+            numbers(text, &name, 3)?.ok_or_else(|| input_error(format!("`{name}` is missing"), HELP))?;
         let Some(matrix) = Matrix3::from_row_slice(&correction).try_inverse() else {
-            return Err(complaint(format!("the matrix of the {triad} is singular"), "calibrate again"));
+            return Err(input_error(
+                format!("the matrix of the {sensor_kind} is singular"),
+                "calibrate again",
+            ));
         };
         let sensor = SensorParameters { bias: vector3(&bias, &name)?, matrix };
-        *unit = Some(unit_of(text, triad)?);
-        match triad {
-            Triad::Accelerometer => parameters.accelerometer = sensor,
-            Triad::Gyroscope => {
+        *unit = Some(unit_of(text, sensor_kind)?);
+        match sensor_kind {
+            SensorKind::Accelerometer => parameters.accelerometer = sensor,
+            SensorKind::Gyroscope => {
                 parameters.gyroscope = sensor;
                 if let Some(entries) = numbers(text, "calibrant_gyroscope_g_sensitivity", 9)? {
                     parameters.g_sensitivity = Matrix3::from_row_slice(&entries);
@@ -141,7 +154,7 @@ pub(super) fn read(text: &str) -> Checked<CalibratedImuFile> {
         }
     }
     if units == [None, None] {
-        return Err(complaint(
+        return Err(input_error(
             "there is no `calibrant_accelerometer_matrix` and no `calibrant_gyroscope_matrix` in it",
             HELP,
         ));
@@ -150,7 +163,7 @@ pub(super) fn read(text: &str) -> Checked<CalibratedImuFile> {
     parameters.thermal = c_temperature::read(text)?;
     let mut quantities = ImuQuantity::full_list(units[0].is_some(), units[1].is_some(), g_sensitivity);
     let terms = ImuQuantity::all_thermal(units[0].is_some(), units[1].is_some());
-    quantities.extend(terms.into_iter().filter(|term| term.of(&parameters) != 0.0));
+    quantities.extend(terms.into_iter().filter(|term| term.value(&parameters) != 0.0));
     let frame = text.lines().find_map(|line| line.strip_prefix(" * frame: ")).unwrap_or("not said");
     let imu = CalibratedImu {
         parameters,
@@ -169,13 +182,14 @@ pub(super) fn read(text: &str) -> Checked<CalibratedImuFile> {
     })
 }
 
-fn unit_of(text: &str, triad: Triad) -> Checked<ReadingUnit> {
-    let before = format!(" * {triad}: readings in ");
-    let said = text.lines().find_map(|line| line.strip_prefix(&before)?.split(',').next());
-    let said =
-        said.ok_or_else(|| complaint(format!("the comment with the unit of the {triad} is missing"), HELP))?;
-    [triad.stimulus_unit(), ReadingUnit::Counts]
+fn unit_of(text: &str, sensor_kind: SensorKind) -> Checked<ReadingUnit> {
+    let before = format!(" * {sensor_kind}: readings in ");
+    let stated = text.lines().find_map(|line| line.strip_prefix(&before)?.split(',').next());
+    let stated = stated.ok_or_else(|| {
+        input_error(format!("the comment with the unit of the {sensor_kind} is missing"), HELP)
+    })?;
+    [sensor_kind.stimulus_unit(), ReadingUnit::Counts]
         .into_iter()
-        .find(|unit| ascii(unit.symbol()) == said.trim())
-        .ok_or_else(|| complaint(format!("the unit of the {triad} is \"{}\"", said.trim()), HELP))
+        .find(|unit| ascii(unit.symbol()) == stated.trim())
+        .ok_or_else(|| input_error(format!("the unit of the {sensor_kind} is \"{}\"", stated.trim()), HELP))
 }

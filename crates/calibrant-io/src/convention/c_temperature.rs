@@ -2,9 +2,9 @@
 
 use super::arrays::vector3;
 use super::c_constants::{HELP, number, numbers, vector};
-use super::words::complaint;
-use crate::text::Checked;
-use calibrant_core::sensor::{CalibratedImu, HIGHEST_ORDER, Thermal, Triad, TriadThermal};
+use super::words::input_error;
+use crate::text_decoding::Checked;
+use calibrant_core::sensor::{CalibratedImu, HIGHEST_ORDER, SensorKind, SensorThermal, Thermal};
 use nalgebra::Vector3;
 use std::fmt::Write;
 
@@ -33,13 +33,13 @@ pub(super) fn reference(imu: &CalibratedImu) -> String {
     )
 }
 
-fn name(triad: Triad, part: &str, order: usize) -> String {
+fn name(sensor_kind: SensorKind, part: &str, order: usize) -> String {
     let power = if order > 1 { order.to_string() } else { String::new() };
-    format!("calibrant_{triad}_{part}_per_k{power}")
+    format!("calibrant_{sensor_kind}_{part}_per_k{power}")
 }
 
 /// The coefficients of a sensor; empty where it does not follow temperature.
-pub(super) fn coefficients(triad: Triad, terms: &TriadThermal, unit: &str) -> String {
+pub(super) fn coefficients(sensor_kind: SensorKind, terms: &SensorThermal, unit: &str) -> String {
     let mut out = String::new();
     if terms.is_none() {
         return out;
@@ -51,7 +51,7 @@ pub(super) fn coefficients(triad: Triad, terms: &TriadThermal, unit: &str) -> St
             let _ = writeln!(
                 out,
                 "static const CALIBRANT_REAL {}[3] = {};",
-                name(triad, part, m + 1),
+                name(sensor_kind, part, m + 1),
                 vector(value)
             );
         }
@@ -60,17 +60,17 @@ pub(super) fn coefficients(triad: Triad, terms: &TriadThermal, unit: &str) -> St
 }
 
 /// The correction of a sensor that follows temperature: that of one that does not, with the temperature as its second argument.
-pub(super) fn with_temperature(triad: Triad, function: &str) -> String {
+pub(super) fn with_temperature(sensor_kind: SensorKind, function: &str) -> String {
     let change = format!(
         "    for (i = 0; i < 3; i++)\n        y[i] = (y[i] - tau * ({b1}[i] + tau * {b2}[i]))\n             / ((CALIBRANT_REAL)1 + tau * ({k1}[i] + tau * {k2}[i]));\n",
-        b1 = name(triad, "bias", 1),
-        b2 = name(triad, "bias", 2),
-        k1 = name(triad, "scale", 1),
-        k2 = name(triad, "scale", 2),
+        b1 = name(sensor_kind, "bias", 1),
+        b2 = name(sensor_kind, "bias", 2),
+        k1 = name(sensor_kind, "scale", 1),
+        k2 = name(sensor_kind, "scale", 2),
     );
-    let result = match triad {
-        Triad::Accelerometer => "    for (i = 0; i < 3; i++)\n        force[i] =",
-        Triad::Gyroscope => "    for (i = 0; i < 3; i++)\n        rate[i] =",
+    let result = match sensor_kind {
+        SensorKind::Accelerometer => "    for (i = 0; i < 3; i++)\n        force[i] =",
+        SensorKind::Gyroscope => "    for (i = 0; i < 3; i++)\n        rate[i] =",
     };
     function
         .replacen(
@@ -98,12 +98,13 @@ pub(super) fn read(text: &str) -> Checked<Thermal> {
         let (low, high) = line.strip_prefix(RANGE)?.strip_suffix(" degrees Celsius")?.split_once(" to ")?;
         Some([low.parse().ok()?, high.parse().ok()?])
     });
-    for (triad, terms) in
-        [(Triad::Accelerometer, &mut thermal.accelerometer), (Triad::Gyroscope, &mut thermal.gyroscope)]
-    {
+    for (sensor_kind, terms) in [
+        (SensorKind::Accelerometer, &mut thermal.accelerometer),
+        (SensorKind::Gyroscope, &mut thermal.gyroscope),
+    ] {
         for (part, values) in [("bias", &mut terms.bias), ("scale", &mut terms.scale)] {
             for order in 1..=HIGHEST_ORDER {
-                let name = name(triad, part, order);
+                let name = name(sensor_kind, part, order);
                 values[order - 1] = match numbers(text, &name, 3)? {
                     Some(found) => vector3(&found, &name)?,
                     None => Vector3::zeros(),
@@ -112,7 +113,7 @@ pub(super) fn read(text: &str) -> Checked<Thermal> {
         }
     }
     if thermal.is_none() {
-        return Err(complaint(format!("`{REFERENCE}` is there, and no temperature term"), HELP));
+        return Err(input_error(format!("`{REFERENCE}` is there, and no temperature term"), HELP));
     }
     Ok(thermal)
 }

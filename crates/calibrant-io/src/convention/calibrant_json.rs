@@ -5,12 +5,12 @@
 //! fewest digits that read back to the same bits. Schema 1, `calibration.json` of one accelerometer, is read as well, and `truth.json` of a simulation.
 
 use super::arrays::missing;
-use super::core::ImuCore;
 use super::imu_noise::ImuNoise;
-use super::words::complaint;
+use super::json_core::ImuCore;
+use super::words::input_error;
 use super::{CalibratedImuFile, ImuFormat, schema_one, truth};
 use crate::json;
-use crate::text::Checked;
+use crate::text_decoding::Checked;
 use serde::{Deserialize, Serialize};
 
 const KIND: &str = "calibrated IMU";
@@ -81,13 +81,13 @@ pub(super) fn read(text: &str) -> Checked<CalibratedImuFile> {
         Some(schema) if schema == 2 => (),
         Some(schema) => {
             let message = format!("schema {schema} of a calibration is not known to this version");
-            return Err(complaint(message, "1 and 2 are; use a newer calibrant"));
+            return Err(input_error(message, "1 and 2 are; use a newer calibrant"));
         }
         None => return Err(missing("schema")),
     }
     if let Some(status) = header.status.filter(|status| status != "converged") {
         let message = format!("this calibration did not converge: its status is \"{status}\"");
-        return Err(complaint(message, "calibrate again; its report says what is wrong"));
+        return Err(input_error(message, "calibrate again; its report says what is wrong"));
     }
     let core: ImuCore = serde_json::from_str(text).map_err(|error| broken(&error))?;
     let (imu, inputs) = core.into_imu()?;

@@ -1,7 +1,7 @@
 //! The formats: their names, and how a file is recognised.
 
-use super::words::complaint;
-use crate::text::Checked;
+use super::words::input_error;
+use crate::text_decoding::Checked;
 use std::path::Path;
 
 /// A format of calibrations.
@@ -69,7 +69,7 @@ impl ImuFormat {
     pub(super) fn of_content(text: &str) -> Checked<Self> {
         let first = text.lines().map(str::trim).find(|line| !line.is_empty() && !line.starts_with('#'));
         let Some(first) = first.or_else(|| text.lines().map(str::trim).find(|line| !line.is_empty())) else {
-            return Err(complaint("the file is empty", "give a calibration"));
+            return Err(input_error("the file is empty", "give a calibration"));
         };
         let has = |word: &str| text.contains(word);
         if first.starts_with(['{', '[']) {
@@ -86,7 +86,7 @@ impl ImuFormat {
         if numbers && !first.is_empty() {
             return Ok(Self::ImuTk);
         }
-        Err(complaint(
+        Err(input_error(
             "this is no calibration in a format that is known",
             "name its format with --from: calibrant, kalibr, imu_tk, imucal, c",
         ))

@@ -1,8 +1,8 @@
 //! Noise densities that stand beside a calibration.
 
-use super::words::complaint;
-use crate::text::Checked;
-use calibrant_core::sensor::Triad;
+use super::words::input_error;
+use crate::text_decoding::Checked;
+use calibrant_core::sensor::SensorKind;
 
 /// Rates are the same to this part: clocks of two sensors differ by less, and the noise of a sample by half of it.
 const SAME_RATE: f64 = 0.01;
@@ -31,7 +31,7 @@ impl ImuNoise {
     pub(super) fn checked(self) -> Checked<Self> {
         for (name, value) in self.fields() {
             if value.is_some_and(|value| !(value.is_finite() && value > 0.0)) {
-                return Err(complaint(
+                return Err(input_error(
                     format!("`{name}` is not a positive number"),
                     "correct it or remove it",
                 ));
@@ -58,13 +58,13 @@ impl ImuNoise {
     pub(super) fn of_rates(&self) -> Option<String> {
         let rate = self.update_rate_hz?;
         let is_other = |measured: &f64| (measured / rate - 1.0).abs() > SAME_RATE;
-        let (triad, measured) = Triad::ALL
+        let (sensor_kind, measured) = SensorKind::ALL
             .into_iter()
             .zip(self.measured_at_hz)
-            .find_map(|(triad, measured)| Some((triad, measured.filter(is_other)?)))?;
+            .find_map(|(sensor_kind, measured)| Some((sensor_kind, measured.filter(is_other)?)))?;
         Some(format!(
-            "update_rate is one number: {rate} Hz is written, but the {triad} has {measured} Hz. Kalibr takes the noise of a sample for the density times √update_rate, {:.2} times that of the \
-             {triad}: bring both sensors to one rate",
+            "update_rate is one number: {rate} Hz is written, but the {sensor_kind} has {measured} Hz. Kalibr takes the noise of a sample for the density times √update_rate, {:.2} times that of the \
+             {sensor_kind}: bring both sensors to one rate",
             (rate / measured).sqrt()
         ))
     }

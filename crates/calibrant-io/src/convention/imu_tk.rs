@@ -8,13 +8,13 @@
 //! # References
 //! `tedaldi2014`, `imu_tk`
 
-use super::words::{complaint, written_by};
+use super::words::{input_error, written_by};
 use super::{CalibratedImuFile, ConventionOptions, ImuFormat};
-use crate::delimited::Lines;
-use crate::text::Checked;
-use calibrant_core::error::Complaint;
+use crate::delimited_text::Lines;
+use crate::text_decoding::Checked;
+use calibrant_core::error::InputError;
 use calibrant_core::sensor::{
-    CalibratedImu, Correction, ImuParameters, ImuQuantity, ReadingUnit, SensorParameters, Triad,
+    CalibratedImu, Correction, ImuParameters, ImuQuantity, ReadingUnit, SensorKind, SensorParameters,
 };
 use nalgebra::{Matrix3, Vector3};
 use std::path::{Path, PathBuf};
@@ -27,16 +27,16 @@ pub(super) fn pair_instead_of(path: &Path) -> Option<[PathBuf; 2]> {
     if path.extension()? != "calib" || path.exists() {
         return None;
     }
-    let pair = Triad::ALL.map(|triad| name_of(path, triad));
+    let pair = SensorKind::ALL.map(|sensor_kind| name_of(path, sensor_kind));
     pair.iter().all(|path| path.exists()).then_some(pair)
 }
 
 /// `NAME_acc.calib` and `NAME_gyro.calib` for `NAME.calib`: how imu_tk's programs name their files.
-pub(super) fn name_of(path: &Path, triad: Triad) -> PathBuf {
+pub(super) fn name_of(path: &Path, sensor_kind: SensorKind) -> PathBuf {
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-    let ending = match triad {
-        Triad::Accelerometer => "acc",
-        Triad::Gyroscope => "gyro",
+    let ending = match sensor_kind {
+        SensorKind::Accelerometer => "acc",
+        SensorKind::Gyroscope => "gyro",
     };
     let extension =
         path.extension().map_or_else(String::new, |extension| format!(".{}", extension.to_string_lossy()));
@@ -44,12 +44,12 @@ pub(super) fn name_of(path: &Path, triad: Triad) -> PathBuf {
 }
 
 /// The sensor that a file's name tells: `…_acc.calib`, `…_gyro.calib`.
-pub(super) fn triad_of_name(path: &Path) -> Option<Triad> {
+pub(super) fn sensor_kind_of_name(path: &Path) -> Option<SensorKind> {
     let stem = path.file_stem()?.to_str()?.to_ascii_lowercase();
     let (accelerometer, gyroscope) = (stem.contains("acc"), stem.contains("gyr"));
     match (accelerometer, gyroscope) {
-        (true, false) => Some(Triad::Accelerometer),
-        (false, true) => Some(Triad::Gyroscope),
+        (true, false) => Some(SensorKind::Accelerometer),
+        (false, true) => Some(SensorKind::Gyroscope),
         _ => None,
     }
 }
@@ -71,14 +71,17 @@ pub(super) fn joined(accelerometer: CalibratedImuFile, gyroscope: CalibratedImuF
 
 pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<CalibratedImuFile> {
     let mut numbers = Vec::with_capacity(COUNT);
-    let (mut triad, mut unit, mut frame) = (None, None, None);
+    let (mut sensor_kind, mut unit, mut frame) = (None, None, None);
     let mut last = 1;
     for line in Lines::of(text) {
         last = line.number;
         if let Some(comment) = line.text.trim().strip_prefix('#') {
             if let Some((key, value)) = comment.split_once(':') {
                 match key.trim() {
-                    "sensor" => triad = Triad::ALL.into_iter().find(|triad| triad.name() == value.trim()),
+                    "sensor" => {
+                        sensor_kind =
+                            SensorKind::ALL.into_iter().find(|sensor_kind| sensor_kind.name() == value.trim())
+                    }
                     "readings in" => unit = Some(value.trim().to_owned()),
                     "frame" => frame = Some(value.trim().to_owned()),
                     _ => {}
@@ -90,52 +93,57 @@ pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<Calibrate
         for word in line.text.split_ascii_whitespace() {
             let at = from + line.text[from..].find(word).unwrap_or(0);
             from = at + word.len();
-            let complain = |message: String| {
-                Err(Box::new(Complaint::new(message, HELP).at_line(line.number).at_column(line.column(at))))
+            let reject = |message: String| {
+                Err(Box::new(InputError::new(message, HELP).at_line(line.number).at_column(line.column(at))))
             };
             if numbers.len() == COUNT {
-                return complain(format!("there is more than {COUNT} numbers: {word}"));
+                return reject(format!("there is more than {COUNT} numbers: {word}"));
             }
             match word.parse::<f64>() {
                 Ok(value) if value.is_finite() => numbers.push(value),
-                _ => return complain(format!("not a number: {word}")),
+                _ => return reject(format!("not a number: {word}")),
             }
         }
     }
     if numbers.len() < COUNT {
         let message = format!("the file has {} of {COUNT} numbers", numbers.len());
-        return Err(Box::new(Complaint::new(message, HELP).at_line(last)));
+        return Err(Box::new(InputError::new(message, HELP).at_line(last)));
     }
-    if let (Some(said), Some(given)) = (triad, options.triad)
-        && said != given
+    if let (Some(stated), Some(given)) = (sensor_kind, options.sensor_kind)
+        && stated != given
     {
-        return Err(complaint(
-            format!("the file says that it is of the {said}, and it was given as that of the {given}"),
+        return Err(input_error(
+            format!("the file says that it is of the {stated}, and it was given as that of the {given}"),
             "are the two files exchanged, or is --sensor wrong?",
         ));
     }
-    let Some(triad) = triad.or(options.triad) else {
-        return Err(complaint(
+    let Some(sensor_kind) = sensor_kind.or(options.sensor_kind) else {
+        return Err(input_error(
             "is this the accelerometer's or the gyroscope's? The file does not say",
             "say --sensor accelerometer or --sensor gyroscope, or give the pair NAME_acc.calib and NAME_gyro.calib as NAME.calib",
         ));
     };
-    let said = unit.as_deref().map(|said| {
-        [triad.stimulus_unit(), ReadingUnit::Counts].into_iter().find(|unit| unit.symbol() == said)
+    let stated = unit.as_deref().map(|stated| {
+        [sensor_kind.stimulus_unit(), ReadingUnit::Counts].into_iter().find(|unit| unit.symbol() == stated)
     });
-    let unit = match said {
+    let unit = match stated {
         Some(Some(unit)) => unit,
         Some(None) => {
-            return Err(complaint("its unit of readings is not known", "m/s², rad/s or counts"));
+            return Err(input_error("its unit of readings is not known", "m/s², rad/s or counts"));
         }
         None => match options.units {
-            Some(units) => units.of(triad),
+            Some(units) => units.unit(sensor_kind),
             None => {
                 let scale = numbers[9].abs();
-                let [likely, option] =
-                    if scale < 0.1 { ["counts", "counts"] } else { [triad.stimulus_unit().symbol(), "si"] };
-                return Err(complaint(
-                    format!("in which unit are the readings of the {triad}? imu_tk's file does not say"),
+                let [likely, option] = if scale < 0.1 {
+                    ["counts", "counts"]
+                } else {
+                    [sensor_kind.stimulus_unit().symbol(), "si"]
+                };
+                return Err(input_error(
+                    format!(
+                        "in which unit are the readings of the {sensor_kind}? imu_tk's file does not say"
+                    ),
                     &format!(
                         "say --unit si or --unit counts; a scale of {scale} looks like {likely}: --unit {option}"
                     ),
@@ -145,11 +153,11 @@ pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<Calibrate
     };
     let matrix = |first: usize| Matrix3::from_row_slice(&numbers[first..first + 9]);
     let Some(inverse) = (matrix(0) * matrix(9)).try_inverse() else {
-        return Err(complaint(format!("the matrix of the {triad} is singular"), "calibrate again"));
+        return Err(input_error(format!("the matrix of the {sensor_kind} is singular"), "calibrate again"));
     };
     let sensor = SensorParameters { bias: Vector3::from_column_slice(&numbers[18..]), matrix: inverse };
     let mut parameters = ImuParameters::identity();
-    let accelerometer = triad == Triad::Accelerometer;
+    let accelerometer = sensor_kind == SensorKind::Accelerometer;
     if accelerometer {
         parameters.accelerometer = sensor;
     } else {
@@ -172,24 +180,27 @@ pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<Calibrate
     })
 }
 
-pub(super) fn write(file: &CalibratedImuFile) -> Checked<Vec<(Triad, String)>> {
+pub(super) fn write(file: &CalibratedImuFile) -> Checked<Vec<(SensorKind, String)>> {
     let imu = &file.imu;
     if imu.gyroscope_unit.is_some() && imu.parameters.g_sensitivity != Matrix3::zeros() {
-        return Err(complaint(
+        return Err(input_error(
             "imu_tk's .calib has no place for the gyroscope's g-sensitivity, and the correction would be another without it",
             "choose another format, write the accelerometer alone with --sensor accelerometer, or leave it out on purpose with --drop-g-sensitivity",
         ));
     }
-    let there = Triad::ALL.into_iter().filter_map(|triad| Some((triad, imu.unit(triad)?)));
-    there.map(|(triad, unit)| Ok((triad, text(imu, triad, unit)?))).collect()
+    let there =
+        SensorKind::ALL.into_iter().filter_map(|sensor_kind| Some((sensor_kind, imu.unit(sensor_kind)?)));
+    there.map(|(sensor_kind, unit)| Ok((sensor_kind, text(imu, sensor_kind, unit)?))).collect()
 }
 
-fn text(imu: &CalibratedImu, triad: Triad, unit: ReadingUnit) -> Checked<String> {
+fn text(imu: &CalibratedImu, sensor_kind: SensorKind, unit: ReadingUnit) -> Checked<String> {
     let correction =
-        Correction::of(imu.parameters.triad(triad)).filter(|c| c.scale().iter().all(|&k| k != 0.0));
+        Correction::of(imu.parameters.sensor(sensor_kind)).filter(|c| c.scale().iter().all(|&k| k != 0.0));
     let Some(correction) = correction else {
-        return Err(complaint(
-            format!("the correction of the {triad} has a zero on its diagonal, and imu_tk's T has none"),
+        return Err(input_error(
+            format!(
+                "the correction of the {sensor_kind} has a zero on its diagonal, and imu_tk's T has none"
+            ),
             "turn the frame with --gauge upper",
         ));
     };
@@ -203,12 +214,12 @@ fn text(imu: &CalibratedImu, triad: Triad, unit: ReadingUnit) -> Checked<String>
     };
     let bias: String = correction.bias.iter().map(|&value| row(&[value])).collect();
     Ok(format!(
-        "{}{}{bias}\n# {}; raw to true: s = T K (y - b), above T, K and b\n# sensor: {triad}\n# readings in: {}\n# corrected in: {}\n# frame: {}\n",
+        "{}{}{bias}\n# {}; raw to true: s = T K (y - b), above T, K and b\n# sensor: {sensor_kind}\n# readings in: {}\n# corrected in: {}\n# frame: {}\n",
         matrix(&correction.misalignment()),
         matrix(&Matrix3::from_diagonal(&correction.scale())),
         written_by(),
         unit.symbol(),
-        triad.stimulus_unit().symbol(),
+        sensor_kind.stimulus_unit().symbol(),
         imu.frame.replace(['\n', '\r'], " ").trim(),
     ))
 }

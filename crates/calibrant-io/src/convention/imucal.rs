@@ -10,12 +10,12 @@
 //! `ferraris1995`, `imucal`
 
 use super::arrays::{matrix3, rows, vector3};
-use super::words::{complaint, written_by};
+use super::words::{input_error, written_by};
 use super::{CalibratedImuFile, ConventionOptions, ImuFormat, RawUnits};
 use crate::json;
-use crate::text::Checked;
+use crate::text_decoding::Checked;
 use calibrant_core::sensor::{
-    CalibratedImu, ImuParameters, ImuQuantity, ReadingUnit, SensorParameters, Thermal, Triad,
+    CalibratedImu, ImuParameters, ImuQuantity, ReadingUnit, SensorKind, SensorParameters, Thermal,
 };
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
@@ -47,38 +47,38 @@ struct Fields {
 }
 
 /// What a unit is in SI; `None` for counts.
-fn factor(unit: &str, triad: Triad) -> Option<Option<f64>> {
-    match (triad, unit.trim()) {
+fn factor(unit: &str, sensor_kind: SensorKind) -> Option<Option<f64>> {
+    match (sensor_kind, unit.trim()) {
         (_, "a.u." | "counts" | "raw" | "LSB") => Some(None),
-        (Triad::Accelerometer, "m/s^2" | "m/s²" | "m/s**2" | "m/s2") => Some(Some(1.0)),
-        (Triad::Accelerometer, "g") => Some(Some(G)),
-        (Triad::Gyroscope, "rad/s") => Some(Some(1.0)),
-        (Triad::Gyroscope, "deg/s" | "dps" | "°/s") => Some(Some(DEGREE)),
+        (SensorKind::Accelerometer, "m/s^2" | "m/s²" | "m/s**2" | "m/s2") => Some(Some(1.0)),
+        (SensorKind::Accelerometer, "g") => Some(Some(G)),
+        (SensorKind::Gyroscope, "rad/s") => Some(Some(1.0)),
+        (SensorKind::Gyroscope, "deg/s" | "dps" | "°/s") => Some(Some(DEGREE)),
         _ => None,
     }
 }
 
 /// The unit of the readings, and what one of them is in it (1 for counts).
 fn unit_of_readings(
-    said: Option<&String>,
+    stated: Option<&String>,
     field: &str,
-    triad: Triad,
+    sensor_kind: SensorKind,
     given: Option<RawUnits>,
 ) -> Checked<(ReadingUnit, f64)> {
-    let Some(said) = said else {
+    let Some(stated) = stated else {
         let Some(given) = given else {
-            return Err(complaint(
-                format!("in which unit are the readings of the {triad}? `{field}` is null"),
+            return Err(input_error(
+                format!("in which unit are the readings of the {sensor_kind}? `{field}` is null"),
                 "say --unit si or --unit counts",
             ));
         };
-        return Ok((given.of(triad), 1.0));
+        return Ok((given.unit(sensor_kind), 1.0));
     };
-    match factor(said, triad) {
-        Some(Some(factor)) => Ok((triad.stimulus_unit(), factor)),
+    match factor(stated, sensor_kind) {
+        Some(Some(factor)) => Ok((sensor_kind.stimulus_unit(), factor)),
         Some(None) => Ok((ReadingUnit::Counts, 1.0)),
-        None => Err(complaint(
-            format!("`{field}` is \"{said}\", which is not known"),
+        None => Err(input_error(
+            format!("`{field}` is \"{stated}\", which is not known"),
             "known are m/s^2, g, deg/s, rad/s and a.u. for counts",
         )),
     }
@@ -90,18 +90,18 @@ pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<Calibrate
     match fields.cal_type.as_deref() {
         Some("Ferraris" | "Turntable") => (),
         Some(other) => {
-            return Err(complaint(
+            return Err(input_error(
                 format!("cal_type \"{other}\" is not known"),
                 "Ferraris and Turntable are",
             ));
         }
-        None => return Err(complaint("`cal_type` is missing", HELP)),
+        None => return Err(input_error("`cal_type` is missing", HELP)),
     }
     let mut findings = Vec::new();
     match fields.format_version.as_deref() {
         Some("2.0.0") => (),
         Some(other) => {
-            return Err(complaint(
+            return Err(input_error(
                 format!("format version {other} is not known"),
                 "2.0.0 is, and files without one",
             ));
@@ -112,17 +112,17 @@ pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<Calibrate
     }
     let matrix = |rows: &Option<Vec<Vec<f64>>>, name: &str| match rows {
         Some(rows) => matrix3(rows, name),
-        None => Err(complaint(format!("`{name}` is missing"), HELP)),
+        None => Err(input_error(format!("`{name}` is missing"), HELP)),
     };
     let vector = |values: &Option<Vec<f64>>, name: &str| match values {
         Some(values) => vector3(values, name),
-        None => Err(complaint(format!("`{name}` is missing"), HELP)),
+        None => Err(input_error(format!("`{name}` is missing"), HELP)),
     };
-    let corrected = |said: &Option<String>, name: &str, triad: Triad| match said {
-        None => Err(complaint(format!("`{name}` is missing"), HELP)),
-        Some(said) => factor(said, triad).flatten().ok_or_else(|| {
-            complaint(
-                format!("`{name}` is \"{said}\", which is not known"),
+    let corrected = |stated: &Option<String>, name: &str, sensor_kind: SensorKind| match stated {
+        None => Err(input_error(format!("`{name}` is missing"), HELP)),
+        Some(stated) => factor(stated, sensor_kind).flatten().ok_or_else(|| {
+            input_error(
+                format!("`{name}` is \"{stated}\", which is not known"),
                 "known are m/s^2, g, deg/s and rad/s",
             )
         }),
@@ -130,13 +130,17 @@ pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<Calibrate
     let (acc_unit, acc) = unit_of_readings(
         fields.from_acc_unit.as_ref(),
         "from_acc_unit",
-        Triad::Accelerometer,
+        SensorKind::Accelerometer,
         options.units,
     )?;
-    let (gyr_unit, gyr) =
-        unit_of_readings(fields.from_gyr_unit.as_ref(), "from_gyr_unit", Triad::Gyroscope, options.units)?;
-    let force = corrected(&fields.acc_unit, "acc_unit", Triad::Accelerometer)?;
-    let rate = corrected(&fields.gyr_unit, "gyr_unit", Triad::Gyroscope)?;
+    let (gyr_unit, gyr) = unit_of_readings(
+        fields.from_gyr_unit.as_ref(),
+        "from_gyr_unit",
+        SensorKind::Gyroscope,
+        options.units,
+    )?;
+    let force = corrected(&fields.acc_unit, "acc_unit", SensorKind::Accelerometer)?;
+    let rate = corrected(&fields.gyr_unit, "gyr_unit", SensorKind::Gyroscope)?;
     let parameters = ImuParameters {
         accelerometer: SensorParameters {
             bias: vector(&fields.b_a, "b_a")? * acc,
@@ -171,8 +175,9 @@ fn factors(s: &Matrix3<f64>) -> (Matrix3<f64>, Matrix3<f64>) {
 pub(super) fn write(file: &CalibratedImuFile) -> Checked<String> {
     let imu = &file.imu;
     let (Some(acc_unit), Some(gyr_unit)) = (imu.accelerometer_unit, imu.gyroscope_unit) else {
-        let absent = if imu.accelerometer_unit.is_some() { Triad::Gyroscope } else { Triad::Accelerometer };
-        return Err(complaint(
+        let absent =
+            if imu.accelerometer_unit.is_some() { SensorKind::Gyroscope } else { SensorKind::Accelerometer };
+        return Err(input_error(
             format!("imucal's JSON wants both sensors, and there is no {absent}"),
             "choose another format",
         ));

@@ -14,12 +14,12 @@
 use super::arrays::{matrix3, vector3};
 use super::file::LARGEST;
 use super::imu_noise::ImuNoise;
-use super::words::{complaint, written_by};
+use super::words::{input_error, written_by};
 use super::{CalibratedImuFile, ConventionOptions, ImuFormat, RawUnits};
-use crate::text::{self, Checked};
-use calibrant_core::error::{Complaint, Error, Result};
+use crate::text_decoding::{self, Checked};
+use calibrant_core::error::{Error, InputError, Result};
 use calibrant_core::sensor::{
-    CalibratedImu, Gauge, ImuParameters, ImuQuantity, Quantity, ReadingUnit, SensorParameters, Triad,
+    CalibratedImu, Gauge, ImuParameters, ImuQuantity, Quantity, ReadingUnit, SensorKind, SensorParameters,
 };
 use nalgebra::{Matrix3, Vector3};
 use serde::Deserialize;
@@ -77,14 +77,14 @@ fn parse(text: &str) -> Checked<Imu> {
     let broken = |error: serde_saphyr::Error| {
         let error = error.without_snippet();
         let message = error.to_string();
-        let mut complaint = Complaint::new(format!("not Kalibr's imu.yaml: {}", message.trim()), HELP);
+        let mut input_error = InputError::new(format!("not Kalibr's imu.yaml: {}", message.trim()), HELP);
         if let Some(place) = error.location() {
             let message = message.split(" at line ").next().unwrap_or(&message).trim().to_owned();
-            complaint.message = format!("not Kalibr's imu.yaml: {message}");
+            input_error.message = format!("not Kalibr's imu.yaml: {message}");
             let number = |n: u64| usize::try_from(n).unwrap_or(1).max(1);
-            complaint = complaint.at_line(number(place.line())).at_column(number(place.column()));
+            input_error = input_error.at_line(number(place.line())).at_column(number(place.column()));
         }
-        Box::new(complaint)
+        Box::new(input_error)
     };
     let keys: BTreeMap<String, IgnoredAny> = serde_saphyr::from_str(text).map_err(broken)?;
     let is_imu = |key: &&String| {
@@ -95,15 +95,15 @@ fn parse(text: &str) -> Checked<Imu> {
         [] => serde_saphyr::from_str(text).map_err(broken),
         [one] => {
             if keys.len() > 1 {
-                return Err(complaint(
+                return Err(input_error(
                     format!("there are other keys beside {one}"),
                     "leave only the IMU in the file",
                 ));
             }
             let mut imus: BTreeMap<String, Imu> = serde_saphyr::from_str(text).map_err(broken)?;
-            imus.remove(*one).ok_or_else(|| complaint("the file is empty", HELP))
+            imus.remove(*one).ok_or_else(|| input_error("the file is empty", HELP))
         }
-        [one, other, ..] => Err(complaint(
+        [one, other, ..] => Err(input_error(
             format!("the file has {one} and {other}, and one is read"),
             "leave the one that you mean in the file",
         )),
@@ -132,12 +132,12 @@ impl Imu {
 /// [`Error::Experiment`] with the file: not readable, no YAML, no noise in it, a number that is not positive.
 pub fn read_kalibr_noise(path: &Path) -> Result<ImuNoise> {
     let read = || -> Checked<ImuNoise> {
-        let bytes = text::read_bytes(path, LARGEST, "the imu.yaml")?;
-        parse(text::as_text(&bytes)?)?
+        let bytes = text_decoding::read_bytes(path, LARGEST, "the imu.yaml")?;
+        parse(text_decoding::as_text(&bytes)?)?
             .noise()?
-            .ok_or_else(|| complaint("there are no noise densities in it", HELP))
+            .ok_or_else(|| input_error("there are no noise densities in it", HELP))
     };
-    read().map_err(|complaint| Error::experiment(complaint.in_file(path)))
+    read().map_err(|input_error| Error::experiment(input_error.in_file(path)))
 }
 
 pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<CalibratedImuFile> {
@@ -145,7 +145,7 @@ pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<Calibrate
     let noise = imu.noise()?;
     let Some(accelerometers) = &imu.accelerometers else {
         let model = imu.model.as_deref().unwrap_or("calibrated");
-        return Err(complaint(
+        return Err(input_error(
             format!("there is no calibration in it: model {model}, and no `accelerometers: M`"),
             "run Kalibr with --imu-models scale-misalignment",
         ));
@@ -153,7 +153,7 @@ pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<Calibrate
     let mut findings = Vec::new();
     let needed = |rows: &Option<Vec<Vec<f64>>>, field: &str| match rows {
         Some(rows) => matrix3(rows, field),
-        None => Err(complaint(format!("`{field}` is missing"), HELP)),
+        None => Err(input_error(format!("`{field}` is missing"), HELP)),
     };
     let c_i_b = match &imu.t_i_b {
         None => Matrix3::identity(),
@@ -165,33 +165,35 @@ pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<Calibrate
     };
     let m_a = needed(&accelerometers.m, "accelerometers.M")?;
     let beside = imu.calibrant.as_ref();
-    let unit = |triad: Triad, said: Option<&String>| unit_of(triad, said, options.units);
+    let unit = |sensor_kind: SensorKind, stated: Option<&String>| unit_of(sensor_kind, stated, options.units);
     let bias =
-        |said: Option<&Vec<f64>>, field: &str| said.map_or(Ok(Vector3::zeros()), |b| vector3(b, field));
-    let said_biases = [
+        |stated: Option<&Vec<f64>>, field: &str| stated.map_or(Ok(Vector3::zeros()), |b| vector3(b, field));
+    let stated_biases = [
         beside.and_then(|beside| beside.accelerometer_bias.as_ref()),
         beside.and_then(|beside| beside.gyroscope_bias.as_ref()),
     ];
     let mut parameters = ImuParameters::identity();
-    parameters.accelerometer =
-        SensorParameters { bias: bias(said_biases[0], "calibrant.accelerometer_bias")?, matrix: m_a * c_i_b };
+    parameters.accelerometer = SensorParameters {
+        bias: bias(stated_biases[0], "calibrant.accelerometer_bias")?,
+        matrix: m_a * c_i_b,
+    };
     let accelerometer_unit =
-        Some(unit(Triad::Accelerometer, beside.and_then(|beside| beside.accelerometer_unit.as_ref()))?);
+        Some(unit(SensorKind::Accelerometer, beside.and_then(|beside| beside.accelerometer_unit.as_ref()))?);
     let gyroscope_unit = match &imu.gyroscopes {
         None => None,
         Some(gyroscopes) => {
             let c_gyro_i = optional(&gyroscopes.c_gyro_i, "gyroscopes.C_gyro_i", Matrix3::identity())?;
             rotation(&c_gyro_i, "gyroscopes.C_gyro_i")?;
             parameters.gyroscope = SensorParameters {
-                bias: bias(said_biases[1], "calibrant.gyroscope_bias")?,
+                bias: bias(stated_biases[1], "calibrant.gyroscope_bias")?,
                 matrix: needed(&gyroscopes.m, "gyroscopes.M")? * c_gyro_i * c_i_b,
             };
             parameters.g_sensitivity =
                 optional(&gyroscopes.a, "gyroscopes.A", Matrix3::zeros())? * c_gyro_i * c_i_b;
-            Some(unit(Triad::Gyroscope, beside.and_then(|beside| beside.gyroscope_unit.as_ref()))?)
+            Some(unit(SensorKind::Gyroscope, beside.and_then(|beside| beside.gyroscope_unit.as_ref()))?)
         }
     };
-    if said_biases[0].is_none() || gyroscope_unit.is_some() && said_biases[1].is_none() {
+    if stated_biases[0].is_none() || gyroscope_unit.is_some() && stated_biases[1].is_none() {
         findings.push(
             "Kalibr does not write biases (it estimates them as curves in time): they are zero here".into(),
         );
@@ -210,7 +212,7 @@ pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<Calibrate
     let g_sensitivity = parameters.g_sensitivity != Matrix3::zeros();
     let mut quantities = ImuQuantity::full_list(true, gyroscope, g_sensitivity);
     quantities.retain(|quantity| match quantity {
-        ImuQuantity::Of(triad, Quantity::Bias(_)) => said_biases[*triad as usize].is_some(),
+        ImuQuantity::Of(sensor_kind, Quantity::Bias(_)) => stated_biases[*sensor_kind as usize].is_some(),
         _ => true,
     });
     let imu =
@@ -218,14 +220,21 @@ pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<Calibrate
     Ok(CalibratedImuFile { imu, noise, inputs: Vec::new(), format: ImuFormat::Kalibr, findings })
 }
 
-fn unit_of(triad: Triad, said: Option<&String>, given: Option<RawUnits>) -> Checked<ReadingUnit> {
-    match said {
-        None => Ok(given.map_or(triad.stimulus_unit(), |units| units.of(triad))),
-        Some(said) => [triad.stimulus_unit(), ReadingUnit::Counts]
+fn unit_of(
+    sensor_kind: SensorKind,
+    stated: Option<&String>,
+    given: Option<RawUnits>,
+) -> Checked<ReadingUnit> {
+    match stated {
+        None => Ok(given.map_or(sensor_kind.stimulus_unit(), |units| units.unit(sensor_kind))),
+        Some(stated) => [sensor_kind.stimulus_unit(), ReadingUnit::Counts]
             .into_iter()
-            .find(|unit| unit.symbol() == said)
+            .find(|unit| unit.symbol() == stated)
             .ok_or_else(|| {
-                complaint(format!("`calibrant.{triad}_unit` is \"{said}\""), "m/s², rad/s or counts")
+                input_error(
+                    format!("`calibrant.{sensor_kind}_unit` is \"{stated}\""),
+                    "m/s², rad/s or counts",
+                )
             }),
     }
 }
@@ -233,7 +242,7 @@ fn unit_of(triad: Triad, said: Option<&String>, given: Option<RawUnits>) -> Chec
 /// The rotation of `T_i_b`; its translation is a lever arm, which the correction of a reading does not need.
 fn pose(rows: &[Vec<f64>], findings: &mut Vec<String>) -> Checked<Matrix3<f64>> {
     if rows.len() != 4 || rows.iter().any(|row| row.len() != 4) {
-        return Err(complaint("`T_i_b` is not 4 × 4", HELP));
+        return Err(input_error("`T_i_b` is not 4 × 4", HELP));
     }
     let c_i_b = Matrix3::from_fn(|row, column| rows[row][column]);
     rotation(&c_i_b, "T_i_b")?;
@@ -245,14 +254,14 @@ fn pose(rows: &[Vec<f64>], findings: &mut Vec<String>) -> Checked<Matrix3<f64>> 
 
 fn rotation(c: &Matrix3<f64>, field: &str) -> Checked<()> {
     let is_one = (c * c.transpose() - Matrix3::identity()).amax() < 1e-6 && c.determinant() > 0.0;
-    if is_one { Ok(()) } else { Err(complaint(format!("`{field}` is not a rotation"), HELP)) }
+    if is_one { Ok(()) } else { Err(input_error(format!("`{field}` is not a rotation"), HELP)) }
 }
 
 /// `L` and `Q` of `S = L Q`: lower triangular with positive diagonal, and a rotation.
-fn factors(s: &Matrix3<f64>, triad: Triad) -> Checked<(Matrix3<f64>, Matrix3<f64>)> {
+fn factors(s: &Matrix3<f64>, sensor_kind: SensorKind) -> Checked<(Matrix3<f64>, Matrix3<f64>)> {
     if s.determinant() < 0.0 {
-        return Err(complaint(
-            format!("the axes of the {triad} are left-handed, which Kalibr's model cannot say"),
+        return Err(input_error(
+            format!("the axes of the {sensor_kind} are left-handed, which Kalibr's model cannot say"),
             "one axis has the wrong sign: change the sign of its column in the recording and calibrate again",
         ));
     }
@@ -263,19 +272,19 @@ fn factors(s: &Matrix3<f64>, triad: Triad) -> Checked<(Matrix3<f64>, Matrix3<f64
     let l = Matrix3::from_fn(|row, column| if column > row { 0.0 } else { l[(row, column)] });
     let q = l.try_inverse().map(|inverse| inverse * s);
     q.map(|q| (l, q))
-        .ok_or_else(|| complaint(format!("the matrix of the {triad} is singular"), "calibrate again"))
+        .ok_or_else(|| input_error(format!("the matrix of the {sensor_kind} is singular"), "calibrate again"))
 }
 
 pub(super) fn write(file: &CalibratedImuFile, warnings: &mut Vec<String>) -> Checked<String> {
     let imu = &file.imu;
     let Some(accelerometer_unit) = imu.accelerometer_unit else {
-        return Err(complaint(
+        return Err(input_error(
             "Kalibr's imu.yaml has no place for a gyroscope alone: its frame is the accelerometer's",
             "choose another format",
         ));
     };
     let noise = file.noise.clone().unwrap_or_default();
-    let (m_a, c_i_b) = factors(&imu.parameters.accelerometer.matrix, Triad::Accelerometer)?;
+    let (m_a, c_i_b) = factors(&imu.parameters.accelerometer.matrix, SensorKind::Accelerometer)?;
     let mut out = format!("# {}: true to raw, y_a = M_a C_i_b f + b_a\nimu0:\n  T_i_b:\n", written_by());
     for row in 0..3 {
         let entries: Vec<f64> = c_i_b.row(row).iter().copied().chain([0.0]).collect();
@@ -298,7 +307,7 @@ pub(super) fn write(file: &CalibratedImuFile, warnings: &mut Vec<String>) -> Che
     out.push_str("  accelerometers:\n");
     matrix(&mut out, "M", &m_a);
     if let Some(gyroscope_unit) = imu.gyroscope_unit {
-        let (m_g, c_gyro_b) = factors(&imu.parameters.gyroscope.matrix, Triad::Gyroscope)?;
+        let (m_g, c_gyro_b) = factors(&imu.parameters.gyroscope.matrix, SensorKind::Gyroscope)?;
         out.push_str("  gyroscopes:\n");
         matrix(&mut out, "A", &(imu.parameters.g_sensitivity * c_gyro_b.transpose()));
         matrix(&mut out, "C_gyro_i", &(c_gyro_b * c_i_b.transpose()));
@@ -335,13 +344,14 @@ pub(super) fn write(file: &CalibratedImuFile, warnings: &mut Vec<String>) -> Che
 
 fn beside(out: &mut String, imu: &CalibratedImu, gyroscope_unit: Option<ReadingUnit>) {
     out.push_str("  calibrant: # not read by Kalibr\n");
-    for (triad, unit) in [(Triad::Accelerometer, imu.accelerometer_unit), (Triad::Gyroscope, gyroscope_unit)]
+    for (sensor_kind, unit) in
+        [(SensorKind::Accelerometer, imu.accelerometer_unit), (SensorKind::Gyroscope, gyroscope_unit)]
     {
         if let Some(unit) = unit {
-            put(out, format_args!("    {triad}_unit: {}\n", unit.symbol()));
-            if imu.has_bias(triad) {
-                let bias: Vec<f64> = imu.parameters.triad(triad).bias.iter().copied().collect();
-                line(out, &format!("    {triad}_bias: "), &bias);
+            put(out, format_args!("    {sensor_kind}_unit: {}\n", unit.symbol()));
+            if imu.has_bias(sensor_kind) {
+                let bias: Vec<f64> = imu.parameters.sensor(sensor_kind).bias.iter().copied().collect();
+                line(out, &format!("    {sensor_kind}_bias: "), &bias);
             }
         }
     }

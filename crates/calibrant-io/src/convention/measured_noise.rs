@@ -2,12 +2,12 @@
 
 use super::ImuNoise;
 use super::file::LARGEST;
-use super::words::complaint;
+use super::words::input_error;
 use crate::json;
 use crate::noise::NOISE_SCHEMA;
-use crate::text::{self, Checked};
+use crate::text_decoding::{self, Checked};
 use calibrant_core::error::{Error, Result};
-use calibrant_core::sensor::{CalibratedImu, Triad};
+use calibrant_core::sensor::{CalibratedImu, SensorKind};
 use serde::Deserialize;
 use std::path::Path;
 
@@ -30,7 +30,8 @@ struct Sensor {
     first_sample: Option<usize>,
     end_sample: Option<usize>,
     axes: Vec<Axis>,
-    doubt: Option<String>,
+    #[serde(rename = "doubt")]
+    caveat: Option<String>,
 }
 
 #[derive(Deserialize)]
@@ -53,12 +54,12 @@ struct Coefficient {
 /// [`Error::Experiment`] with the file: not readable, no `noise.json`, noise that is not that of a sensor at rest, a number that is not positive, counts of a sensor whose calibration is of SI readings.
 pub fn read_measured_noise(path: &Path, imu: &CalibratedImu) -> Result<ImuNoise> {
     let read = || -> Checked<ImuNoise> {
-        let bytes = text::read_bytes(path, LARGEST, "noise.json")?;
-        let file: NoiseFile = serde_json::from_str(text::as_text(&bytes)?)
+        let bytes = text_decoding::read_bytes(path, LARGEST, "noise.json")?;
+        let file: NoiseFile = serde_json::from_str(text_decoding::as_text(&bytes)?)
             .map_err(|error| json::broken(&error, "the noise of a sensor", HELP))?;
         if let Some(schema) = file.schema.filter(|schema| *schema > NOISE_SCHEMA) {
             let message = format!("it is of version {schema}, and this program knows up to {NOISE_SCHEMA}");
-            return Err(complaint(message, "convert with the program that wrote it"));
+            return Err(input_error(message, "convert with the program that wrote it"));
         }
         let mut noise = ImuNoise::default();
         for sensor in &file.sensors {
@@ -66,34 +67,36 @@ pub fn read_measured_noise(path: &Path, imu: &CalibratedImu) -> Result<ImuNoise>
         }
         noise.checked()
     };
-    read().map_err(|complaint| Error::experiment(complaint.in_file(path)))
+    read().map_err(|input_error| Error::experiment(input_error.in_file(path)))
 }
 
 fn take(noise: &mut ImuNoise, sensor: &Sensor, imu: &CalibratedImu) -> Checked<()> {
-    let Some(triad) = Triad::ALL.into_iter().find(|triad| triad.name() == sensor.sensor) else {
-        return Err(complaint(format!("no sensor is called \"{}\"", sensor.sensor), HELP));
+    let Some(sensor_kind) =
+        SensorKind::ALL.into_iter().find(|sensor_kind| sensor_kind.name() == sensor.sensor)
+    else {
+        return Err(input_error(format!("no sensor is called \"{}\"", sensor.sensor), HELP));
     };
-    let Some(unit) = imu.unit(triad) else { return Ok(()) };
-    if let Some(doubt) = &sensor.doubt {
-        let message = format!("the noise of the {triad} is not that of a sensor at rest: {doubt}");
-        return Err(complaint(
+    let Some(unit) = imu.unit(sensor_kind) else { return Ok(()) };
+    if let Some(caveat) = &sensor.caveat {
+        let message = format!("the noise of the {sensor_kind} is not that of a sensor at rest: {caveat}");
+        return Err(input_error(
             message,
             "run `calibrant noise` on a recording at rest, where nothing vibrates; or write the densities into the file by hand",
         ));
     }
-    let is_physical = sensor.reading_unit == triad.stimulus_unit().symbol();
+    let is_physical = sensor.reading_unit == sensor_kind.stimulus_unit().symbol();
     if !is_physical && unit.symbol() != sensor.reading_unit {
         let message = format!(
-            "the noise of the {triad} is in {}, the calibration in {}",
+            "the noise of the {sensor_kind} is in {}, the calibration in {}",
             sensor.reading_unit,
             unit.symbol()
         );
-        return Err(complaint(
+        return Err(input_error(
             message,
             "run `calibrant noise` on the same readings, or give it their --gain",
         ));
     }
-    let matrix = &imu.parameters.triad(triad).matrix;
+    let matrix = &imu.parameters.sensor(sensor_kind).matrix;
     let gain = |name: &str| {
         let row = ["x", "y", "z"].iter().position(|axis| *axis == name)?;
         Some(if is_physical { 1.0 } else { matrix.row(row).norm() })
@@ -104,14 +107,14 @@ fn take(noise: &mut ImuNoise, sensor: &Sensor, imu: &CalibratedImu) -> Checked<(
         densities?.into_iter().reduce(f64::max)
     };
     let (density, walk) = (largest(|axis| &axis.random_walk), largest(|axis| &axis.rate_random_walk));
-    match triad {
-        Triad::Accelerometer => {
+    match sensor_kind {
+        SensorKind::Accelerometer => {
             (noise.accelerometer_density, noise.accelerometer_random_walk) = (density, walk)
         }
-        Triad::Gyroscope => (noise.gyroscope_density, noise.gyroscope_random_walk) = (density, walk),
+        SensorKind::Gyroscope => (noise.gyroscope_density, noise.gyroscope_random_walk) = (density, walk),
     }
     noise.update_rate_hz = Some(sensor.rate_hz());
-    noise.measured_at_hz[triad as usize] = noise.update_rate_hz;
+    noise.measured_at_hz[sensor_kind as usize] = noise.update_rate_hz;
     Ok(())
 }
 

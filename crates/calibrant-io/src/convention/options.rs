@@ -1,7 +1,7 @@
 //! How a calibration is read.
 
 use super::format::ImuFormat;
-use calibrant_core::sensor::{ReadingUnit, Triad};
+use calibrant_core::sensor::{ReadingUnit, SensorKind};
 
 /// What the readings are, where a file does not say it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -15,9 +15,9 @@ pub enum RawUnits {
 impl RawUnits {
     /// The unit of a sensor's readings.
     #[must_use]
-    pub fn of(self, triad: Triad) -> ReadingUnit {
+    pub fn unit(self, sensor_kind: SensorKind) -> ReadingUnit {
         match self {
-            Self::Si => triad.stimulus_unit(),
+            Self::Si => sensor_kind.stimulus_unit(),
             Self::Counts => ReadingUnit::Counts,
         }
     }
@@ -31,5 +31,5 @@ pub struct ConventionOptions {
     /// Unit of the readings, for files that do not say.
     pub units: Option<RawUnits>,
     /// The sensor, for files of one sensor that do not say which.
-    pub triad: Option<Triad>,
+    pub sensor_kind: Option<SensorKind>,
 }

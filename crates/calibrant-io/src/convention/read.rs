@@ -2,10 +2,10 @@
 
 use super::file::{CalibratedImuFile, LARGEST};
 use super::options::ConventionOptions;
-use super::{ImuFormat, c_header, calibrant_json, check, imu_tk, imucal, kalibr};
-use crate::text::{self, Checked};
+use super::{ImuFormat, c_header, calibrant_json, imu_tk, imucal, kalibr, usable_calibration};
+use crate::text_decoding::{self, Checked};
 use calibrant_core::error::{Error, Result};
-use calibrant_core::sensor::Triad;
+use calibrant_core::sensor::SensorKind;
 use std::path::{Path, PathBuf};
 
 /// Reads a calibration of an IMU in any of the formats.
@@ -17,24 +17,28 @@ use std::path::{Path, PathBuf};
 /// that are missing or no numbers; a matrix that is singular; a unit or a sensor that the file does not say and the options do not either.
 pub fn read_calibrated_imu(path: &Path, options: &ConventionOptions) -> Result<CalibratedImuFile> {
     if let Some(pair) = imu_tk::pair_instead_of(path) {
-        let read = |path: &PathBuf, triad| {
+        let read = |path: &PathBuf, sensor_kind| {
             read_one(
                 path,
-                &ConventionOptions { format: Some(ImuFormat::ImuTk), triad: Some(triad), ..*options },
+                &ConventionOptions {
+                    format: Some(ImuFormat::ImuTk),
+                    sensor_kind: Some(sensor_kind),
+                    ..*options
+                },
             )
         };
         let (accelerometer, gyroscope) =
-            (read(&pair[0], Triad::Accelerometer)?, read(&pair[1], Triad::Gyroscope)?);
+            (read(&pair[0], SensorKind::Accelerometer)?, read(&pair[1], SensorKind::Gyroscope)?);
         return Ok(imu_tk::joined(accelerometer, gyroscope));
     }
-    let triad = options.triad.or_else(|| imu_tk::triad_of_name(path));
-    read_one(path, &ConventionOptions { triad, ..*options })
+    let sensor_kind = options.sensor_kind.or_else(|| imu_tk::sensor_kind_of_name(path));
+    read_one(path, &ConventionOptions { sensor_kind, ..*options })
 }
 
 fn read_one(path: &Path, options: &ConventionOptions) -> Result<CalibratedImuFile> {
-    let bytes = text::read_bytes(path, LARGEST, "the calibration")
-        .map_err(|complaint| Error::experiment(*complaint))?;
-    parse(&bytes, options).map_err(|complaint| Error::experiment(complaint.in_file(path)))
+    let bytes = text_decoding::read_bytes(path, LARGEST, "the calibration")
+        .map_err(|input_error| Error::experiment(*input_error))?;
+    parse(&bytes, options).map_err(|input_error| Error::experiment(input_error.in_file(path)))
 }
 
 /// Reads the bytes of a calibration of an IMU.
@@ -46,20 +50,20 @@ fn read_one(path: &Path, options: &ConventionOptions) -> Result<CalibratedImuFil
 /// An accelerometer as imu_tk writes it: misalignment, scale, bias.
 /// ```
 /// use calibrant::io::{ConventionOptions, RawUnits, parse_calibrated_imu};
-/// use calibrant::sensor::Triad;
+/// use calibrant::sensor::SensorKind;
 ///
 /// let text = "1 0 0\n0 1 0\n0 0 1\n\n0.0024 0 0\n0 0.0024 0\n0 0 0.0024\n\n33124\n33275\n32364\n";
-/// let options = ConventionOptions { units: Some(RawUnits::Counts), triad: Some(Triad::Accelerometer), ..Default::default() };
+/// let options = ConventionOptions { units: Some(RawUnits::Counts), sensor_kind: Some(SensorKind::Accelerometer), ..Default::default() };
 /// let file = parse_calibrated_imu(text.as_bytes(), &options)?;
 /// assert!((file.imu.parameters.accelerometer.matrix[(0, 0)] - 1.0 / 0.0024).abs() < 1e-9, "counts per m/s²");
 /// # Ok::<(), calibrant::Error>(())
 /// ```
 pub fn parse_calibrated_imu(bytes: &[u8], options: &ConventionOptions) -> Result<CalibratedImuFile> {
-    parse(bytes, options).map_err(|complaint| Error::experiment(*complaint))
+    parse(bytes, options).map_err(|input_error| Error::experiment(*input_error))
 }
 
 fn parse(bytes: &[u8], options: &ConventionOptions) -> Checked<CalibratedImuFile> {
-    let text = text::as_text(bytes)?;
+    let text = text_decoding::as_text(bytes)?;
     let format = match options.format {
         Some(format) => format,
         None => ImuFormat::of_content(text)?,
@@ -71,15 +75,15 @@ fn parse(bytes: &[u8], options: &ConventionOptions) -> Checked<CalibratedImuFile
         ImuFormat::Imucal => imucal::read(text, options)?,
         ImuFormat::CHeader => c_header::read(text)?,
     };
-    check::usable(&file.imu)?;
-    for triad in Triad::ALL {
-        let given = options.units.map(|units| units.of(triad));
-        if let (Some(said), Some(given)) = (file.imu.unit(triad), given)
-            && said != given
+    usable_calibration::usable(&file.imu)?;
+    for sensor_kind in SensorKind::ALL {
+        let given = options.units.map(|units| units.unit(sensor_kind));
+        if let (Some(stated), Some(given)) = (file.imu.unit(sensor_kind), given)
+            && stated != given
         {
             file.findings.push(format!(
-                "the readings of the {triad} are in {}, as the file says: the unit {} is given for files that do not say it",
-                said.symbol(),
+                "the readings of the {sensor_kind} are in {}, as the file says: the unit {} is given for files that do not say it",
+                stated.symbol(),
                 given.symbol()
             ));
         }

@@ -1,13 +1,13 @@
 //! calibrant JSON, schema 1: `calibration.json` of one accelerometer, read as an IMU that has no gyroscope.
 
-use super::core::{check_direction, quantity_of};
-use super::words::complaint;
+use super::json_core::{check_direction, quantity_of};
+use super::words::input_error;
 use super::{CalibratedImuFile, ImuFormat};
 use crate::calibration::Input;
-use crate::earlier;
+use crate::earlier_calibration;
 use crate::json;
-use crate::text::Checked;
-use calibrant_core::sensor::{CalibratedImu, ImuParameters, Quantity, ReadingUnit, Triad};
+use crate::text_decoding::Checked;
+use calibrant_core::sensor::{CalibratedImu, ImuParameters, Quantity, ReadingUnit, SensorKind};
 use nalgebra::Matrix3;
 use serde::Deserialize;
 
@@ -26,18 +26,18 @@ struct Convention {
 }
 
 pub(super) fn read(text: &str) -> Checked<CalibratedImuFile> {
-    let earlier = earlier::parse(text.as_bytes())?;
+    let earlier = earlier_calibration::parse(text.as_bytes())?;
     let beside: Beside = serde_json::from_str(text).map_err(|error| {
         json::broken(&error, "a calibration.json", "give one that `calibrant calibrate` wrote")
     })?;
     let direction = beside.convention.as_ref().and_then(|convention| convention.direction.as_deref());
-    direction.iter().try_for_each(|said| check_direction("convention.direction", said))?;
+    direction.iter().try_for_each(|stated| check_direction("convention.direction", stated))?;
     let (gauge, frame) =
         beside.convention.map_or((None, None), |convention| (convention.gauge, convention.frame));
     let names: Vec<_> =
-        earlier.parameters.iter().map(|(name, _)| format!("{}.{name}", Triad::Accelerometer)).collect();
+        earlier.parameters.iter().map(|(name, _)| format!("{}.{name}", SensorKind::Accelerometer)).collect();
     if !names.iter().any(|name| name.ends_with("bias.z")) {
-        return Err(complaint(
+        return Err(input_error(
             "this is the calibration of a sensor with one axis; an IMU has three",
             "use its parameters from the file itself",
         ));
@@ -63,13 +63,13 @@ pub(super) fn read(text: &str) -> Checked<CalibratedImuFile> {
     let symmetric = (gauge.as_deref() == Some("symmetric")).then_some(&names);
     for ((name, (plain, found)), value) in names.iter().zip(&earlier.parameters).zip(&earlier.values) {
         let quantity = quantity_of(name, &imu, symmetric).ok_or_else(|| {
-            complaint(
+            input_error(
                 format!("\"{plain}\" is no parameter of an accelerometer"),
                 "give one that calibrant wrote",
             )
         })?;
         if quantity.unit(unit) != found || imu.quantities.contains(&quantity) {
-            return Err(complaint(
+            return Err(input_error(
                 format!("{plain} is in {found} or stands twice; {} is expected once", quantity.unit(unit)),
                 "give a file that calibrant wrote",
             ));
@@ -82,7 +82,7 @@ pub(super) fn read(text: &str) -> Checked<CalibratedImuFile> {
         .iter()
         .filter(|q| matches!(q, calibrant_core::sensor::ImuQuantity::Of(_, Quantity::Scale(_))));
     if scales.count() != 3 {
-        return Err(complaint(
+        return Err(input_error(
             "it does not have the three scale factors",
             "give a file that calibrant wrote",
         ));

@@ -3,9 +3,9 @@
 //! Of each sensor's bias, the fields in its unit are there; what is not there is zero.
 
 use super::arrays::{missing, vector3};
-use super::words::complaint;
-use crate::text::Checked;
-use calibrant_core::sensor::{CalibratedImu, ReadingUnit, Thermal, Triad, TriadThermal};
+use super::words::input_error;
+use crate::text_decoding::Checked;
+use calibrant_core::sensor::{CalibratedImu, ReadingUnit, SensorKind, SensorThermal, Thermal};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
@@ -47,13 +47,14 @@ impl TemperatureCore {
     /// The fields of an IMU that follows temperature.
     pub(super) fn of(imu: &CalibratedImu) -> Option<Self> {
         let thermal = &imu.parameters.thermal;
-        let terms = |triad| imu.unit(triad).map(|unit| TermsCore::of(unit, thermal.triad(triad)));
+        let terms =
+            |sensor_kind| imu.unit(sensor_kind).map(|unit| TermsCore::of(unit, thermal.sensor(sensor_kind)));
         imu.follows_temperature().then(|| Self {
             formula: Some(FORMULA.into()),
             reference_c: Some(thermal.reference_c),
             range_c: thermal.range_c.map(|range| range.to_vec()),
-            accelerometer: terms(Triad::Accelerometer),
-            gyroscope: terms(Triad::Gyroscope),
+            accelerometer: terms(SensorKind::Accelerometer),
+            gyroscope: terms(SensorKind::Gyroscope),
         })
     }
 
@@ -66,7 +67,7 @@ impl TemperatureCore {
             None => None,
             Some([low, high]) => Some([*low, *high]),
             Some(_) => {
-                return Err(complaint(
+                return Err(input_error(
                     "`temperature.range_c` is not two numbers",
                     "give the least and the greatest temperature",
                 ));
@@ -74,16 +75,16 @@ impl TemperatureCore {
         };
         let mut thermal = Thermal { reference_c, range_c, ..Thermal::none() };
         let there = [
-            (Triad::Accelerometer, self.accelerometer, units[0], &mut thermal.accelerometer),
-            (Triad::Gyroscope, self.gyroscope, units[1], &mut thermal.gyroscope),
+            (SensorKind::Accelerometer, self.accelerometer, units[0], &mut thermal.accelerometer),
+            (SensorKind::Gyroscope, self.gyroscope, units[1], &mut thermal.gyroscope),
         ];
-        for (triad, terms, unit, into) in there {
+        for (sensor_kind, terms, unit, into) in there {
             *into = match (terms, unit) {
-                (None, _) => TriadThermal::default(),
-                (Some(terms), Some(unit)) => terms.into_terms(triad, unit)?,
+                (None, _) => SensorThermal::default(),
+                (Some(terms), Some(unit)) => terms.into_terms(sensor_kind, unit)?,
                 (Some(_), None) => {
-                    return Err(complaint(
-                        format!("`temperature.{triad}` is there, and no {triad}"),
+                    return Err(input_error(
+                        format!("`temperature.{sensor_kind}` is there, and no {sensor_kind}"),
                         "correct the one or the other",
                     ));
                 }
@@ -94,7 +95,7 @@ impl TemperatureCore {
 }
 
 impl TermsCore {
-    fn of(unit: ReadingUnit, terms: &TriadThermal) -> Self {
+    fn of(unit: ReadingUnit, terms: &SensorThermal) -> Self {
         let list = |vector: &Vector3<f64>| Some(vector.iter().copied().collect());
         let mut fields = Self {
             scale_per_k: list(&terms.scale[0]),
@@ -114,23 +115,23 @@ impl TermsCore {
         }
     }
 
-    fn into_terms(mut self, triad: Triad, unit: ReadingUnit) -> Checked<TriadThermal> {
+    fn into_terms(mut self, sensor_kind: SensorKind, unit: ReadingUnit) -> Checked<SensorThermal> {
         let vector = |values: Option<Vec<f64>>, name: &str| match values {
-            Some(values) => vector3(&values, &format!("temperature.{triad}.{name}")),
+            Some(values) => vector3(&values, &format!("temperature.{sensor_kind}.{name}")),
             None => Ok(Vector3::zeros()),
         };
         let [first, second] = self.bias(unit).map(Option::take);
         let others = [ReadingUnit::MetrePerSecondSquared, ReadingUnit::RadianPerSecond, ReadingUnit::Counts];
         if others.into_iter().any(|other| self.bias(other).iter().any(|field| field.is_some())) {
-            return Err(complaint(
+            return Err(input_error(
                 format!(
-                    "`temperature.{triad}` has a bias in another unit than its sensor, {}",
+                    "`temperature.{sensor_kind}` has a bias in another unit than its sensor, {}",
                     unit.symbol()
                 ),
                 "give it in the unit of the readings",
             ));
         }
-        Ok(TriadThermal {
+        Ok(SensorThermal {
             bias: [vector(first, "bias_per_k")?, vector(second, "bias_per_k2")?],
             scale: [
                 vector(self.scale_per_k.take(), "scale_per_k")?,

@@ -1,12 +1,12 @@
 //! `truth.json` of a simulated sensor, read as a calibration without a covariance: its values are exact.
 
-use super::core::{check_direction, quantity_of};
-use super::words::complaint;
+use super::json_core::{check_direction, quantity_of};
+use super::words::input_error;
 use super::{CalibratedImuFile, ImuFormat};
 use crate::json;
-use crate::text::Checked;
+use crate::text_decoding::Checked;
 use calibrant_core::sensor::{
-    Axis, CalibratedImu, Gauge, ImuParameters, ImuQuantity, Quantity, ReadingUnit, Triad,
+    Axis, CalibratedImu, Gauge, ImuParameters, ImuQuantity, Quantity, ReadingUnit, SensorKind,
 };
 use nalgebra::Matrix3;
 use serde::Deserialize;
@@ -36,31 +36,34 @@ struct Value {
 impl Value {
     /// Its name among those of an IMU: one accelerometer's have no sensor.
     fn full_name(&self) -> String {
-        let of_imu = Triad::ALL.iter().any(|triad| self.name.starts_with(&format!("{triad}.")));
-        if of_imu { self.name.clone() } else { format!("{}.{}", Triad::Accelerometer, self.name) }
+        let of_imu =
+            SensorKind::ALL.iter().any(|sensor_kind| self.name.starts_with(&format!("{sensor_kind}.")));
+        if of_imu { self.name.clone() } else { format!("{}.{}", SensorKind::Accelerometer, self.name) }
     }
 }
 
 pub(super) fn read(text: &str) -> Checked<CalibratedImuFile> {
     let file: File = serde_json::from_str(text).map_err(|error| json::broken(&error, KIND, HELP))?;
-    file.convention.iter().try_for_each(|said| check_direction("convention", said))?;
-    let missing = |field: &str| complaint(format!("in {KIND} the field `{field}` is missing"), HELP);
+    file.convention.iter().try_for_each(|stated| check_direction("convention", stated))?;
+    let missing = |field: &str| input_error(format!("in {KIND} the field `{field}` is missing"), HELP);
     let listed = file.parameters.ok_or_else(|| missing("parameters"))?;
     let known = |gauge: &String| Gauge::ALL.iter().any(|of| of.name() == gauge.as_str());
     if let Some(gauge) = file.gauge.as_ref().filter(|gauge| !known(gauge)) {
-        return Err(complaint(format!("the gauge \"{gauge}\" is none that is known"), HELP));
+        return Err(input_error(format!("the gauge \"{gauge}\" is none that is known"), HELP));
     }
     let names: Vec<String> = listed.iter().map(Value::full_name).collect();
-    let of = |triad: Triad| listed.iter().zip(&names).filter(move |(_, name)| name.starts_with(triad.name()));
-    let unit = |triad: Triad| {
-        of(triad).next()?;
-        let counts = of(triad).any(|(value, _)| value.unit.starts_with(ReadingUnit::Counts.symbol()));
-        Some(if counts { ReadingUnit::Counts } else { triad.stimulus_unit() })
+    let of = |sensor_kind: SensorKind| {
+        listed.iter().zip(&names).filter(move |(_, name)| name.starts_with(sensor_kind.name()))
+    };
+    let unit = |sensor_kind: SensorKind| {
+        of(sensor_kind).next()?;
+        let counts = of(sensor_kind).any(|(value, _)| value.unit.starts_with(ReadingUnit::Counts.symbol()));
+        Some(if counts { ReadingUnit::Counts } else { sensor_kind.stimulus_unit() })
     };
     let mut imu = CalibratedImu {
         parameters: ImuParameters::identity(),
-        accelerometer_unit: unit(Triad::Accelerometer),
-        gyroscope_unit: unit(Triad::Gyroscope),
+        accelerometer_unit: unit(SensorKind::Accelerometer),
+        gyroscope_unit: unit(SensorKind::Gyroscope),
         quantities: Vec::new(),
         covariance: None,
         frame: match &file.gauge {
@@ -82,25 +85,29 @@ pub(super) fn read(text: &str) -> Checked<CalibratedImuFile> {
     for (i, value) in listed.iter().chain(&file.fixed).enumerate() {
         let name = value.full_name();
         let quantity = quantity_of(&name, &imu, symmetric)
-            .ok_or_else(|| complaint(format!("\"{}\" is no parameter of a sensor", value.name), HELP))?;
-        let wanted = quantity.unit(imu.unit(quantity.triad()).unwrap_or(quantity.triad().stimulus_unit()));
+            .ok_or_else(|| input_error(format!("\"{}\" is no parameter of a sensor", value.name), HELP))?;
+        let wanted =
+            quantity.unit(imu.unit(quantity.sensor_kind()).unwrap_or(quantity.sensor_kind().stimulus_unit()));
         if value.unit != wanted {
             let message = format!("{name} is in \"{}\", and {wanted} is expected", value.unit);
-            return Err(complaint(message, HELP));
+            return Err(input_error(message, HELP));
         }
         if imu.quantities.contains(&quantity) {
-            return Err(complaint(format!("{name} stands twice"), HELP));
+            return Err(input_error(format!("{name} stands twice"), HELP));
         }
         quantity.add_to(&mut imu.parameters, value.value);
         if i < estimated {
             imu.quantities.push(quantity);
         }
     }
-    for triad in Triad::ALL.into_iter().filter(|&triad| imu.unit(triad).is_some()) {
-        let scale = |axis: &Axis| ImuQuantity::Of(triad, Quantity::Scale(*axis)).of(&imu.parameters) != 0.0;
+    for sensor_kind in SensorKind::ALL.into_iter().filter(|&sensor_kind| imu.unit(sensor_kind).is_some()) {
+        let scale =
+            |axis: &Axis| ImuQuantity::Of(sensor_kind, Quantity::Scale(*axis)).value(&imu.parameters) != 0.0;
         if !Axis::ALL.iter().all(scale) {
-            return Err(complaint(
-                format!("the truth has fewer than three scale factors of the {triad}: it has not three axes"),
+            return Err(input_error(
+                format!(
+                    "the truth has fewer than three scale factors of the {sensor_kind}: it has not three axes"
+                ),
                 "use its parameters from the file itself",
             ));
         }

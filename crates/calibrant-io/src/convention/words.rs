@@ -1,6 +1,6 @@
 //! Words that all formats share.
 
-use calibrant_core::error::Complaint;
+use calibrant_core::error::InputError;
 
 /// Program and version, for the first line of a file.
 pub(super) fn written_by() -> String {
@@ -8,6 +8,6 @@ pub(super) fn written_by() -> String {
 }
 
 /// A complaint without a place.
-pub(super) fn complaint(message: impl Into<String>, help: &str) -> Box<Complaint> {
-    Box::new(Complaint::new(message, help))
+pub(super) fn input_error(message: impl Into<String>, help: &str) -> Box<InputError> {
+    Box::new(InputError::new(message, help))
 }

@@ -1,12 +1,12 @@
 //! Writes a calibration in any format.
 
 use super::file::{CalibratedImuFile, WrittenImu};
-use super::words::complaint;
-use super::{ImuFormat, c_header, calibrant_json, check, imu_tk, imucal, kalibr};
-use crate::output::write_atomically;
-use crate::text::Checked;
+use super::words::input_error;
+use super::{ImuFormat, c_header, calibrant_json, imu_tk, imucal, kalibr, usable_calibration};
+use crate::atomic_output::write_atomically;
+use crate::text_decoding::Checked;
 use calibrant_core::error::{Error, Result};
-use calibrant_core::sensor::Triad;
+use calibrant_core::sensor::SensorKind;
 use std::path::Path;
 
 /// Writes a calibration of an IMU in a format.
@@ -16,11 +16,11 @@ use std::path::Path;
 /// # Errors
 /// [`Error::Experiment`] where the format cannot carry the correction, with the reason; [`Error::Output`] where a file cannot be written.
 pub fn write_calibrated_imu(path: &Path, file: &CalibratedImuFile, format: ImuFormat) -> Result<WrittenImu> {
-    let (texts, warnings) = text_of(file, format).map_err(|complaint| Error::experiment(*complaint))?;
+    let (texts, warnings) = text_of(file, format).map_err(|input_error| Error::experiment(*input_error))?;
     let mut files = Vec::new();
-    for (triad, text) in &texts {
-        let place = match triad {
-            Some(triad) if texts.len() > 1 => imu_tk::name_of(path, *triad),
+    for (sensor_kind, text) in &texts {
+        let place = match sensor_kind {
+            Some(sensor_kind) if texts.len() > 1 => imu_tk::name_of(path, *sensor_kind),
             _ => path.to_path_buf(),
         };
         write_atomically(&place, |out| out.write_all(text.as_bytes()))?;
@@ -36,14 +36,14 @@ pub fn write_calibrated_imu(path: &Path, file: &CalibratedImuFile, format: ImuFo
 pub fn calibrated_imu_texts(
     file: &CalibratedImuFile,
     format: ImuFormat,
-) -> Result<Vec<(Option<Triad>, String)>> {
-    text_of(file, format).map(|(texts, _)| texts).map_err(|complaint| Error::experiment(*complaint))
+) -> Result<Vec<(Option<SensorKind>, String)>> {
+    text_of(file, format).map(|(texts, _)| texts).map_err(|input_error| Error::experiment(*input_error))
 }
 
-type Texts = (Vec<(Option<Triad>, String)>, Vec<String>);
+type Texts = (Vec<(Option<SensorKind>, String)>, Vec<String>);
 
 fn text_of(file: &CalibratedImuFile, format: ImuFormat) -> Checked<Texts> {
-    check::usable(&file.imu)?;
+    usable_calibration::usable(&file.imu)?;
     let mut warnings = Vec::new();
     if format != ImuFormat::CalibrantJson && file.imu.covariance.is_some() {
         warnings.push(format!(
@@ -52,7 +52,7 @@ fn text_of(file: &CalibratedImuFile, format: ImuFormat) -> Checked<Texts> {
         ));
     }
     if file.imu.follows_temperature() && !matches!(format, ImuFormat::CalibrantJson | ImuFormat::CHeader) {
-        return Err(complaint(
+        return Err(input_error(
             format!(
                 "{} has no place for what temperature does to bias and gain, and the correction would be another without it",
                 format.title()
@@ -65,7 +65,7 @@ fn text_of(file: &CalibratedImuFile, format: ImuFormat) -> Checked<Texts> {
         ImuFormat::CalibrantJson => one(calibrant_json::write(file)),
         ImuFormat::Kalibr => one(kalibr::write(file, &mut warnings)?),
         ImuFormat::ImuTk => {
-            imu_tk::write(file)?.into_iter().map(|(triad, text)| (Some(triad), text)).collect()
+            imu_tk::write(file)?.into_iter().map(|(sensor_kind, text)| (Some(sensor_kind), text)).collect()
         }
         ImuFormat::Imucal => one(imucal::write(file)?),
         ImuFormat::CHeader => one(c_header::write(file)?),

@@ -1,7 +1,7 @@
 //! `[calibrate]`: how a recording is evaluated.
 
-use super::document::Section;
 use super::spreads::need_spreads;
+use super::toml_document::Section;
 use calibrant_core::error::Result;
 use calibrant_core::sensor::Sensor;
 

@@ -1,10 +1,10 @@
 //! `[columns]`: what a recording's file does not say itself.
 
-use super::bounds::Bounds;
-use super::document::{Entry, Section};
+use super::number_range::Bounds;
+use super::toml_document::{Entry, Section};
 use crate::{ColumnMapping, FileFormat, ImuReadOptions, ImuUnit, TimeUnit};
 use calibrant_core::error::Result;
-use calibrant_core::sensor::Triad;
+use calibrant_core::sensor::SensorKind;
 
 const RATE: Bounds = Bounds::from(1e-6, 1e9, "Hz");
 
@@ -21,19 +21,19 @@ pub(super) fn read(section: &Section<'_>) -> Result<ImuReadOptions> {
         ("samples", TimeUnit::Sample),
     ];
     let name = |key: &str| section.get(key).map(|entry| column(&entry)).transpose();
-    let triad = |key: &str| section.get(key).map(|entry| three(&entry)).transpose();
+    let sensor_kind = |key: &str| section.get(key).map(|entry| three(&entry)).transpose();
     let columns = ColumnMapping {
         time: name("time")?,
-        accelerometer: triad("accelerometer")?,
-        gyroscope: triad("gyroscope")?,
+        accelerometer: sensor_kind("accelerometer")?,
+        gyroscope: sensor_kind("gyroscope")?,
         temperature: name("temperature")?,
     };
     no_column_twice(section, &columns)?;
     Ok(ImuReadOptions {
         format: section.get("format").map(|entry| entry.word(&formats)).transpose()?,
         time_unit: section.get("time_unit").map(|entry| entry.word(&times)).transpose()?,
-        accelerometer_unit: unit(section, "accelerometer_unit", Triad::Accelerometer)?,
-        gyroscope_unit: unit(section, "gyroscope_unit", Triad::Gyroscope)?,
+        accelerometer_unit: unit(section, "accelerometer_unit", SensorKind::Accelerometer)?,
+        gyroscope_unit: unit(section, "gyroscope_unit", SensorKind::Gyroscope)?,
         rate_hz: section.get("rate_hz").map(|entry| entry.number(&RATE)).transpose()?,
         topic: name("topic")?,
         columns,
@@ -44,7 +44,7 @@ pub(super) fn read(section: &Section<'_>) -> Result<ImuReadOptions> {
 fn column(entry: &Entry<'_>) -> Result<String> {
     const HELP: &str = "the name as it is in the file, in quotes; without a header, its number from \"1\"";
     match entry.text() {
-        Some("") => Err(entry.complain("this name is empty", HELP)),
+        Some("") => Err(entry.reject("this name is empty", HELP)),
         Some(name) => Ok(name.to_owned()),
         None => Err(entry.wrong_type("a string", HELP)),
     }
@@ -54,32 +54,35 @@ fn three(entry: &Entry<'_>) -> Result<[String; 3]> {
     const HELP: &str = "the columns of x, y and z: [\"acc_x\", \"acc_y\", \"acc_z\"]";
     let names = entry.items(HELP)?.iter().map(column).collect::<Result<Vec<_>>>()?;
     let count = names.len();
-    names.try_into().map_err(|_| entry.complain(format!("{count} columns for 3 axes"), HELP))
+    names.try_into().map_err(|_| entry.reject(format!("{count} columns for 3 axes"), HELP))
 }
 
-fn unit(section: &Section<'_>, key: &str, triad: Triad) -> Result<Option<ImuUnit>> {
+fn unit(section: &Section<'_>, key: &str, sensor_kind: SensorKind) -> Result<Option<ImuUnit>> {
     let Some(entry) = section.get(key) else { return Ok(None) };
-    if let Some(unit) = entry.text().and_then(ImuUnit::parse).filter(|unit| unit.suits(triad)) {
+    if let Some(unit) = entry.text().and_then(ImuUnit::parse).filter(|unit| unit.suits(sensor_kind)) {
         return Ok(Some(unit));
     }
-    let words: Vec<(&str, ImuUnit)> =
-        ImuUnit::ALL.into_iter().filter(|unit| unit.suits(triad)).map(|unit| (unit.symbol(), unit)).collect();
+    let words: Vec<(&str, ImuUnit)> = ImuUnit::ALL
+        .into_iter()
+        .filter(|unit| unit.suits(sensor_kind))
+        .map(|unit| (unit.symbol(), unit))
+        .collect();
     entry.word(&words).map(Some)
 }
 
 fn no_column_twice(section: &Section<'_>, columns: &ColumnMapping) -> Result<()> {
     let mut seen: Vec<&str> = Vec::new();
-    let triads = Triad::ALL
-        .into_iter()
-        .flat_map(|triad| columns.triad(triad).into_iter().flatten().map(move |name| (triad.name(), name)));
+    let sensor_kinds = SensorKind::ALL.into_iter().flat_map(|sensor_kind| {
+        columns.sensor(sensor_kind).into_iter().flatten().map(move |name| (sensor_kind.name(), name))
+    });
     let singles = [("time", &columns.time), ("temperature", &columns.temperature)];
     let singles = singles.into_iter().filter_map(|(key, name)| Some((key, name.as_ref()?)));
-    for (key, name) in singles.chain(triads) {
+    for (key, name) in singles.chain(sensor_kinds) {
         if seen.contains(&name.as_str()) {
             let message = format!("the column `{name}` is named twice");
             return Err(section.get(key).map_or_else(
-                || section.complain(&message, "", key),
-                |entry| entry.complain(message.clone(), "each column holds one thing"),
+                || section.reject(&message, "", key),
+                |entry| entry.reject(message.clone(), "each column holds one thing"),
             ));
         }
         seen.push(name);

@@ -1,9 +1,9 @@
 //! `[design]`: what an optimal motion minimises, and how hard it is looked for.
 
-use super::bounds::Bounds;
-use super::document::Section;
-use super::keys;
+use super::known_keys;
+use super::number_range::Bounds;
 use super::spreads::need_spreads;
+use super::toml_document::Section;
 use calibrant_core::error::Result;
 use calibrant_core::sensor::{ParameterList, Sensor};
 
@@ -131,13 +131,13 @@ fn read_weights(section: &Section<'_>, list: &ParameterList) -> Result<Vec<(Stri
     for (name, value) in Section::open(&entry, "design.weights")?.entries() {
         if value.is_table() {
             let help = "write for example \"scale.x\" = 1.0";
-            return Err(value.complain("the name of a parameter has a dot and so needs quotes", help));
+            return Err(value.reject("the name of a parameter has a dot and so needs quotes", help));
         }
         if list.position(name).is_none() {
-            let near = keys::nearest(name, names.iter().map(String::as_str));
+            let near = known_keys::nearest(name, names.iter().map(String::as_str));
             let hint = near.map_or(String::new(), |near| format!("did you mean \"{near}\"? "));
-            return Err(value.complain(
-                format!("this sensor has no parameter \"{}\"", keys::shorten(name)),
+            return Err(value.reject(
+                format!("this sensor has no parameter \"{}\"", known_keys::shorten(name)),
                 format!("{hint}its parameters are {}", names.join(", ")),
             ));
         }

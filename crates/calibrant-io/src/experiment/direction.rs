@@ -1,7 +1,7 @@
 //! A direction in an experiment file.
 
-use super::bounds::Bounds;
-use super::document::Entry;
+use super::number_range::Bounds;
+use super::toml_document::Entry;
 use calibrant_core::error::Result;
 use calibrant_core::sensor::Axis;
 use nalgebra::Vector3;
@@ -16,13 +16,13 @@ pub(super) fn direction(entry: &Entry<'_>) -> Result<Vector3<f64>> {
         let name = name.strip_prefix('+').unwrap_or(name);
         return match Axis::ALL.iter().position(|axis| axis.to_string() == name) {
             Some(axis) => Ok(Vector3::from_fn(|k, _| if k == axis { sign } else { 0.0 })),
-            None => Err(entry.complain(format!("\"{text}\" is no direction"), HELP)),
+            None => Err(entry.reject(format!("\"{text}\" is no direction"), HELP)),
         };
     }
     let items = entry.items(HELP)?;
     let [x, y, z] = items.as_slice() else {
-        return Err(entry.complain(format!("a direction has three numbers, this has {}", items.len()), HELP));
+        return Err(entry.reject(format!("a direction has three numbers, this has {}", items.len()), HELP));
     };
     let vector = Vector3::new(x.number(&COMPONENT)?, y.number(&COMPONENT)?, z.number(&COMPONENT)?);
-    vector.try_normalize(1e-9).ok_or_else(|| entry.complain("a direction of no length", HELP))
+    vector.try_normalize(1e-9).ok_or_else(|| entry.reject("a direction of no length", HELP))
 }

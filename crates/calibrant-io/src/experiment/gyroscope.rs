@@ -1,9 +1,9 @@
 //! `[gyroscope]` and `[known]`: the second sensor of an IMU, its turns, and what is known beforehand.
 
 use super::HoldsPlan;
-use super::bounds::Bounds;
 use super::direction::direction;
-use super::document::{Entry, Section};
+use super::number_range::Bounds;
+use super::toml_document::{Entry, Section};
 use crate::ImuUnit;
 use calibrant_core::error::Result;
 use calibrant_core::estimate::{Gyroscope, HoldsSetup, ImuSetup, KnownTerm, ThermalModel, Turn};
@@ -86,13 +86,13 @@ pub(super) fn read(
     if unit != ReadingUnit::Counts
         && let Some(entry) = counts.iter().find_map(|key| section.get(key))
     {
-        return Err(entry.complain(
+        return Err(entry.reject(
             "readings in rad/s or deg/s have no counts",
             "write unit = \"counts\" in [gyroscope], or leave this key away",
         ));
     }
     if let (ReadingUnit::Counts, Some(entry)) = (unit, section.get("noise_radps")) {
-        return Err(entry.complain("the readings are counts", "noise_counts = …"));
+        return Err(entry.reject("the readings are counts", "noise_counts = …"));
     }
     let per_axis = |key: &str, bounds: &Bounds| -> Result<Option<Vector3<f64>>> {
         section.get(key).map(|entry| entry.per_axis(3, bounds)).transpose()
@@ -126,7 +126,7 @@ pub(super) fn read(
 /// The angle of a turn, rad.
 fn turned_by(entry: &Entry<'_>) -> Result<f64> {
     match entry.number(&ANGLE)?.to_radians() {
-        0.0 => Err(entry.complain("a turn by nothing", "its angle in degrees, right-handed about its axis")),
+        0.0 => Err(entry.reject("a turn by nothing", "its angle in degrees, right-handed about its axis")),
         angle_rad => Ok(angle_rad),
     }
 }
@@ -140,7 +140,7 @@ fn turns(entry: &Entry<'_>) -> Result<Vec<Turn>> {
         let (start_s, end_s) = (number("start_s", &TIME)?, number("end_s", &TIME)?);
         if end_s <= start_s {
             let message = format!("the turn ends at {end_s} s, not after its start at {start_s} s");
-            return Err(item.complain(message, HELP));
+            return Err(item.reject(message, HELP));
         }
         let angle = turn.need("angle_deg", HELP)?;
         let angle_rad = turned_by(&angle)?;
@@ -152,7 +152,7 @@ fn turns(entry: &Entry<'_>) -> Result<Vec<Turn>> {
                 [&turns[before], &turn].map(|turn| format!("{} to {} s", turn.start_s, turn.end_s));
             let message =
                 format!("turn {} ({other}) is turn {} ({one}) once more", turns.len() + 1, before + 1);
-            return Err(item.complain(message, "give each turn once: it would count twice"));
+            return Err(item.reject(message, "give each turn once: it would count twice"));
         }
         turns.push(turn);
     }
@@ -168,15 +168,15 @@ fn read_known(section: &Section<'_>, thermal: &ThermalModel) -> Result<Vec<Known
             const HELP: &str = "a number fixes it; { value = 0.0, sd = 0.01 } is a prior";
             let Some(&quantity) = all.iter().find(|quantity| quantity.name() == name) else {
                 let names: Vec<String> = all.iter().map(|quantity| quantity.name()).collect();
-                let near = super::keys::nearest(name, names.iter().map(String::as_str));
+                let near = super::known_keys::nearest(name, names.iter().map(String::as_str));
                 let help = near.map_or_else(
                     || "names are gyroscope.bias.x, accelerometer.scale.y, gyroscope.matrix.xy, …".into(),
                     |near| format!("did you mean \"{near}\"?"),
                 );
-                return Err(entry.complain(format!("no quantity is named \"{name}\""), help));
+                return Err(entry.reject(format!("no quantity is named \"{name}\""), help));
             };
             if matches!(quantity, ImuQuantity::Thermal(..)) && !thermal.quantities().contains(&quantity) {
-                return Err(entry.complain(
+                return Err(entry.reject(
                     format!("\"{name}\" is known, and no such term is asked for"),
                     "raise its order in [temperature]: gyroscope_bias = 1, for example",
                 ));

@@ -1,9 +1,9 @@
 //! `[holds]`: static calibration in several poses.
 
-use super::bounds::Bounds;
 use super::direction::direction;
-use super::document::{Entry, Section};
 use super::motion::RATE_HZ;
+use super::number_range::Bounds;
+use super::toml_document::{Entry, Section};
 use calibrant_core::error::Result;
 use calibrant_core::motion::Gravity;
 use calibrant_core::sensor::Gauge;
@@ -64,11 +64,11 @@ pub(super) fn read(section: &Section<'_>, is_imu: bool) -> Result<HoldsPlan> {
         let message = format!(
             "poses × (hold_s + {TURN_S} s for a turn) × rate_hz is {samples:.1e} samples, at most {MOST_SAMPLES:.0e} fit into memory"
         );
-        return Err(section.complain(&message, "lower one of the three", ""));
+        return Err(section.reject(&message, "lower one of the three", ""));
     }
     if hold_s * rate_hz < 1.0 - 1e-9 {
         let message = format!("a hold of {hold_s} s at {rate_hz} Hz has less than one sample step");
-        return Err(section.complain(&message, "raise rate_hz or hold_s", ""));
+        return Err(section.reject(&message, "raise rate_hz or hold_s", ""));
     }
     let intervals_s = section.get("intervals_s").map(|entry| read_intervals(&entry)).transpose()?;
     let directions =
@@ -96,12 +96,12 @@ fn read_gravity(section: &Section<'_>, is_imu: bool) -> Result<(Gravity, String)
         (section.get("gravity_mps2"), section.get("latitude_deg"), section.get("height_m"));
     match (given, latitude, height) {
         (Some(_), Some(entry), _) if !is_imu => {
-            Err(entry.complain("gravity is given twice", format!("{HELP}, not both")))
+            Err(entry.reject("gravity is given twice", format!("{HELP}, not both")))
         }
         (Some(_), _, Some(entry)) => {
             let help =
                 if is_imu { "; latitude_deg alone may stand beside it, for the Earth's rate" } else { "" };
-            Err(entry.complain("gravity is given twice", format!("{HELP}, not both{help}")))
+            Err(entry.reject("gravity is given twice", format!("{HELP}, not both{help}")))
         }
         (Some(entry), _, None) => {
             let gravity = Gravity { magnitude_mps2: entry.number(&GRAVITY)?, sd_mps2: sd.unwrap_or(0.0) };
@@ -131,7 +131,7 @@ fn read_directions(entry: &Entry<'_>, intervals: Option<&[(f64, f64)]>) -> Resul
         return Ok(directions);
     }
     let message = format!("{} directions for {} holds", directions.len(), intervals.map_or(0, <[_]>::len));
-    Err(entry.complain(message, HELP))
+    Err(entry.reject(message, HELP))
 }
 
 fn read_intervals(entry: &Entry<'_>) -> Result<Vec<(f64, f64)>> {
@@ -139,24 +139,22 @@ fn read_intervals(entry: &Entry<'_>) -> Result<Vec<(f64, f64)>> {
     let mut intervals: Vec<(f64, f64)> = Vec::new();
     let items = entry.items(HELP)?;
     if items.is_empty() {
-        return Err(
-            entry.complain("no hold is given", format!("{HELP}; without this key they are looked for"))
-        );
+        return Err(entry.reject("no hold is given", format!("{HELP}; without this key they are looked for")));
     }
     for item in items {
         let pair = item.items(HELP)?;
         let [start, end] = pair.as_slice() else {
-            return Err(item.complain(format!("a hold has two numbers, this has {}", pair.len()), HELP));
+            return Err(item.reject(format!("a hold has two numbers, this has {}", pair.len()), HELP));
         };
         let (start, end) = (start.number(&TIME)?, end.number(&TIME)?);
         if end <= start {
             return Err(
-                item.complain(format!("the hold ends at {end} s, not after its start at {start} s"), HELP)
+                item.reject(format!("the hold ends at {end} s, not after its start at {start} s"), HELP)
             );
         }
         if let Some(&(_, before)) = intervals.last().filter(|(_, before)| *before > start) {
             let message = format!("the hold starts at {start} s, before the one above ends at {before} s");
-            return Err(item.complain(message, "sort the holds by time; they must not overlap"));
+            return Err(item.reject(message, "sort the holds by time; they must not overlap"));
         }
         intervals.push((start, end));
     }

@@ -1,8 +1,8 @@
 //! `[limits]`: what the arm can do.
 
-use super::bounds::Bounds;
-use super::document::Section;
-use super::keys;
+use super::known_keys;
+use super::number_range::Bounds;
+use super::toml_document::Section;
 use calibrant_core::error::Result;
 use calibrant_core::motion::{Limits, Rest};
 use nalgebra::Vector3;
@@ -16,7 +16,7 @@ const DISPLACEMENT: Bounds = Bounds::above(0.0, 1e9, "m");
 
 /// Reads the limits of an experiment that varies another, which take the place of all of its limits; `None` where the section has none.
 pub(super) fn read_instead(section: &Section<'_>, axes: usize) -> Result<Option<Limits>> {
-    let any = section.entries().any(|(key, _)| keys::of("limits").contains(&key));
+    let any = section.entries().any(|(key, _)| known_keys::allowed("limits").contains(&key));
     any.then(|| read(section, axes)).transpose()
 }
 

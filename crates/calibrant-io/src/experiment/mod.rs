@@ -3,17 +3,16 @@
 //! Unknown keys, wrong types and values out of range are errors that point at line and column; an unknown key is answered with
 //! the nearest known one. [`presets`](super::preset()) are commented examples of every key.
 
-mod bounds;
 mod calibrate;
 mod columns;
 mod design;
 mod direction;
-mod document;
 mod gyroscope;
 mod holds;
-mod keys;
+mod known_keys;
 mod limits;
 mod motion;
+mod number_range;
 mod plan;
 mod problem;
 mod read;
@@ -21,6 +20,7 @@ mod sensor;
 mod spreads;
 mod study;
 mod temperature;
+mod toml_document;
 
 pub use calibrate::{CalibrateOptions, Prior};
 pub use design::{CriterionLetter, DesignOptions, ScaleBy};

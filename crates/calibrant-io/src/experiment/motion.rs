@@ -1,7 +1,7 @@
 //! `[motion]`: a commanded motion, its intervals and how far it is trusted.
 
-use super::bounds::Bounds;
-use super::document::Section;
+use super::number_range::Bounds;
+use super::toml_document::Section;
 use calibrant_core::error::Result;
 use calibrant_core::motion::{InputNoise, KnownEnds, Trust};
 
@@ -61,20 +61,20 @@ pub(super) fn read_grid(section: &Section<'_>, base: Option<&MotionPlan>) -> Res
 
 /// Complains of a rate, under this key, at which a motion has too many samples or none.
 pub(super) fn check_samples(section: &Section<'_>, key: &str, duration_s: f64, rate_hz: f64) -> Result<()> {
-    let complain = |message: String, help: String| match section.get(key) {
-        Some(entry) => entry.complain(message, help),
-        None => section.complain(&message, &help, key),
+    let reject = |message: String, help: String| match section.get(key) {
+        Some(entry) => entry.reject(message, help),
+        None => section.reject(&message, &help, key),
     };
     let samples = duration_s * rate_hz;
     if samples > MOST_SAMPLES {
-        return Err(complain(
+        return Err(reject(
             format!("intervals × interval_s × rate_hz is {samples:.3e} samples"),
             format!("at most {MOST_SAMPLES:.0e}: lower the rate, or shorten the motion"),
         ));
     }
     // a little tolerance: 10 × 0.1 s × 1 Hz is one sample step, whatever the rounding says
     if samples < 1.0 - 1e-9 {
-        return Err(complain(
+        return Err(reject(
             format!("the motion lasts {duration_s} s, less than one sample step of {} s", 1.0 / rate_hz),
             "raise the rate, or lengthen the motion".into(),
         ));
@@ -112,7 +112,7 @@ fn read_trust(section: &Section<'_>) -> Result<(Trust, KnownEnds)> {
             Ok((Trust::Noisy(noise), known_ends.unwrap_or(KnownEnds::Start)))
         }
         Word::Unknown => match (ends, known_ends) {
-            (Some(entry), Some(KnownEnds::Start)) => Err(entry.complain(
+            (Some(entry), Some(KnownEnds::Start)) => Err(entry.reject(
                 "trust \"unknown\" needs the acceleration at both ends of the motion",
                 "known_ends = \"both\", or leave the key away",
             )),

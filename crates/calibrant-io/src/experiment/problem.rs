@@ -2,7 +2,7 @@
 
 use super::{CriterionLetter, Experiment, Plan, Prior, ScaleBy};
 use crate::EarlierCalibration;
-use calibrant_core::error::{Complaint, Error, Result};
+use calibrant_core::error::{Error, InputError, Result};
 use calibrant_core::information::criterion::{
     AOptimality, COptimality, Criterion, DOptimality, EOptimality, IOptimality, MOptimality,
 };
@@ -18,8 +18,8 @@ impl Experiment {
     /// # Errors
     /// [`Error::Experiment`] where c has no weight, I no range or no correction (`S` singular), or a spread is missing.
     pub fn criterion(&self, at: &SensorParameters) -> Result<Criterion> {
-        let complain = |key: &str, message: &str, help: &str| {
-            Error::experiment(Complaint::new(message, help).about_key(format!("design.{key}")))
+        let reject = |key: &str, message: &str, help: &str| {
+            Error::experiment(InputError::new(message, help).about_key(format!("design.{key}")))
         };
         let list = self.sensor.parameter_list();
         let scale = match self.design.scale_by {
@@ -29,11 +29,7 @@ impl Experiment {
                 let spreads: Option<Vec<f64>> =
                     described.iter().map(|parameter| parameter.spread.filter(|sd| *sd > 0.0)).collect();
                 DVector::from_vec(spreads.ok_or_else(|| {
-                    complain(
-                        "scale_by",
-                        "the datasheet spread of a parameter is missing",
-                        "add it to [sensor]",
-                    )
+                    reject("scale_by", "the datasheet spread of a parameter is missing", "add it to [sensor]")
                 })?)
             }
         };
@@ -51,20 +47,20 @@ impl Experiment {
                 }
                 if weights.amax() == 0.0 {
                     let help = "weights = { \"scale.x\" = 1.0 } in [design]";
-                    return Err(complain("weights", "criterion c needs a weight above 0", help));
+                    return Err(reject("weights", "criterion c needs a weight above 0", help));
                 }
                 Criterion::C(COptimality { weights })
             }
             CriterionLetter::I => {
                 let range = self.design.range_mps2.ok_or_else(|| {
-                    complain(
+                    reject(
                         "range_mps2",
                         "criterion I needs the operating range",
                         "range_mps2 = 20.0 in [design]",
                     )
                 })?;
                 Criterion::I(IOptimality::new(&list, at, range).ok_or_else(|| {
-                    complain(
+                    reject(
                         "criterion",
                         "the matrix S cannot be inverted, so there is no corrected reading",
                         "check the sensor's gain, or the calibration that the design begins with",
@@ -83,7 +79,7 @@ impl Experiment {
     /// or as [`criterion`](Self::criterion).
     pub fn design_problem(&self, earlier: &[EarlierCalibration]) -> Result<DesignProblem<'_>> {
         let Plan::Motion(plan) = &self.plan else {
-            return Err(Error::experiment(Complaint::new(
+            return Err(Error::experiment(InputError::new(
                 "a design needs a [motion] experiment, this one has [holds]",
                 "see `calibrant init report`",
             )));
@@ -99,11 +95,11 @@ impl Experiment {
             datasheets += usize::from(calibration.has_datasheet_prior);
         }
         let at = at.ok_or_else(|| {
-            let complaint = Complaint::new(
+            let input_error = InputError::new(
                 "the sensor's nominal gain and offset are not known, so a design has nothing to begin with",
                 "give gain_counts_per_mps2 and offset_counts in [sensor], or an earlier calibration (--from calibration.json)",
             );
-            Error::experiment(complaint.about_key("sensor.gain_counts_per_mps2"))
+            Error::experiment(input_error.about_key("sensor.gain_counts_per_mps2"))
         })?;
         let wanted = usize::from(self.calibrate.prior == Prior::Datasheet);
         if wanted != datasheets && (wanted == 1 || datasheets > 1) {

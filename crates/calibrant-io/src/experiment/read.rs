@@ -1,12 +1,12 @@
 //! Reads an experiment file, section by section.
 
-use super::document::{Document, Section};
+use super::toml_document::{Document, Section};
 use super::{
     CalibrateOptions, DesignOptions, ImuPlan, Plan, StudyOptions, calibrate, columns, design, gyroscope,
     holds, limits, motion, sensor, study,
 };
-use crate::{ImuReadOptions, text};
-use calibrant_core::error::{Complaint, Error, Result};
+use crate::{ImuReadOptions, text_decoding};
+use calibrant_core::error::{Error, InputError, Result};
 use calibrant_core::motion::Limits;
 use calibrant_core::sensor::{ReadingUnit, Sensor};
 use std::path::Path;
@@ -53,16 +53,18 @@ pub fn read_columns(path: &Path) -> Result<ImuReadOptions> {
         None => ImuReadOptions::default(),
     };
     if columns == ImuReadOptions::default() {
-        let complaint = Complaint::new("there is no [columns] section", "add one, or leave --columns away");
-        return Err(Error::experiment(complaint.in_file(path)));
+        let input_error =
+            InputError::new("there is no [columns] section", "add one, or leave --columns away");
+        return Err(Error::experiment(input_error.in_file(path)));
     }
     Ok(columns)
 }
 
 fn read_text(path: &Path) -> Result<String> {
-    let bytes = text::read_bytes(path, LARGEST, "the experiment file")
-        .map_err(|complaint| Error::experiment(*complaint))?;
-    let text = text::as_text(&bytes).map_err(|complaint| Error::experiment(complaint.in_file(path)))?;
+    let bytes = text_decoding::read_bytes(path, LARGEST, "the experiment file")
+        .map_err(|input_error| Error::experiment(*input_error))?;
+    let text =
+        text_decoding::as_text(&bytes).map_err(|input_error| Error::experiment(input_error.in_file(path)))?;
     Ok(text.to_owned())
 }
 
@@ -95,7 +97,7 @@ impl Experiment {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let document = Document { text, file };
         if text.len() as u64 > LARGEST {
-            return Err(Error::experiment(document.complain(
+            return Err(Error::experiment(document.reject(
                 0..0,
                 "the experiment file is larger than 1 MiB".into(),
                 "this is hardly the file that you mean".into(),
@@ -106,9 +108,7 @@ impl Experiment {
         let schema = root.need("schema", "the first line of an experiment file is schema = 1")?;
         let version = schema.whole(0, u64::MAX)?;
         if version != 1 {
-            return Err(
-                schema.complain(format!("schema {version} is not known to this version"), "schema = 1")
-            );
+            return Err(schema.reject(format!("schema {version} is not known to this version"), "schema = 1"));
         }
         let need =
             |name| root.section(name)?.ok_or_else(|| root.missing(name, "the sensor's datasheet: [sensor]"));
@@ -153,7 +153,7 @@ fn read_imu(root: &Section<'_>, plan: &Plan) -> Result<Option<ImuPlan>> {
     let known = root.get("known").map(|entry| Section::open(&entry, "known")).transpose()?;
     let temperature = root.section("temperature")?;
     if let Some(section) = temperature.as_ref().filter(|_| !is_imu) {
-        return Err(section.complain(
+        return Err(section.reject(
             "[temperature] is read for an IMU only",
             "kind = \"imu\" in [sensor]",
             "",
@@ -162,21 +162,21 @@ fn read_imu(root: &Section<'_>, plan: &Plan) -> Result<Option<ImuPlan>> {
     match (root.section("gyroscope")?, is_imu) {
         (Some(section), true) => match plan {
             Plan::Holds(_) => gyroscope::read(&section, known.as_ref(), temperature.as_ref()).map(Some),
-            Plan::Motion(_) => Err(section.complain(
+            Plan::Motion(_) => Err(section.reject(
                 "an IMU is calibrated from holds and what lies between them",
                 "[holds] in place of [motion], or kind = \"accelerometer\"",
                 "",
             )),
         },
         (Some(section), false) => {
-            Err(section.complain("only an IMU has a gyroscope", "kind = \"imu\" in [sensor]", ""))
+            Err(section.reject("only an IMU has a gyroscope", "kind = \"imu\" in [sensor]", ""))
         }
         (None, true) => {
             Err(root.missing("gyroscope", "kind = \"imu\" needs [gyroscope]: its unit, at least"))
         }
         (None, false) => match known {
             Some(section) => {
-                Err(section.complain("[known] is read for an IMU only", "kind = \"imu\" in [sensor]", ""))
+                Err(section.reject("[known] is read for an IMU only", "kind = \"imu\" in [sensor]", ""))
             }
             None => Ok(None),
         },
@@ -197,14 +197,14 @@ fn read_plan(root: &Section<'_>, sensor: &Sensor) -> Result<Plan> {
                 // [sensor] is there: it was read
                 return Err(root.section("sensor")?.map_or_else(
                     || root.missing(key, help),
-                    |section| section.complain("this key is required with [motion]", help, key),
+                    |section| section.reject("this key is required with [motion]", help, key),
                 ));
             }
             Ok(Plan::Motion(motion::read(&section)?))
         }
         (None, Some(section)) => {
             if sensor.axes != 3 {
-                return Err(section.complain(
+                return Err(section.reject(
                     "[holds] needs a sensor of three axes",
                     "axes = 3, or [motion]",
                     "",
@@ -212,12 +212,12 @@ fn read_plan(root: &Section<'_>, sensor: &Sensor) -> Result<Plan> {
             }
             Ok(Plan::Holds(holds::read(&section, is_imu(root)?)?))
         }
-        (Some(_), Some(section)) => Err(section.complain(
+        (Some(_), Some(section)) => Err(section.reject(
             "[motion] and [holds] are both there",
             "an experiment is one or the other: take one of them out",
             "",
         )),
-        (None, None) => Err(root.complain(
+        (None, None) => Err(root.reject(
             "neither [motion] nor [holds] is there",
             "say how the sensor is moved: [motion] for a commanded motion, [holds] for still poses",
             "",

@@ -1,7 +1,7 @@
 //! `[sensor]`: the datasheet.
 
-use super::bounds::Bounds;
-use super::document::Section;
+use super::number_range::Bounds;
+use super::toml_document::Section;
 use calibrant_core::error::Result;
 use calibrant_core::sensor::{ReadingUnit, Sensor, SensorModel};
 use nalgebra::Vector3;
@@ -20,7 +20,7 @@ pub(super) fn read(section: &Section<'_>) -> Result<Sensor> {
     let kind = section.need("kind", "kind = \"accelerometer\"")?;
     match kind.text() {
         Some("gyroscope" | "magnetometer") => {
-            return Err(kind.complain(
+            return Err(kind.reject(
                 "an accelerometer can be calibrated, alone or with a gyroscope",
                 "kind = \"accelerometer\", or \"imu\" for both",
             ));
@@ -36,12 +36,12 @@ pub(super) fn read(section: &Section<'_>) -> Result<Sensor> {
         } else {
             "axes = 3, or axes = 1 for a sensor of one axis"
         };
-        return Err(entry.complain(format!("{axes} axes are not supported"), help));
+        return Err(entry.reject(format!("{axes} axes are not supported"), help));
     }
     let entry = section.need("model", "model = \"scale-bias\" or \"full\"")?;
     let model = entry.word(&[("scale-bias", SensorModel::ScaleBias), ("full", SensorModel::Full)])?;
     if axes == 1 && model == SensorModel::Full {
-        return Err(entry.complain("a sensor of one axis has no cross-axis terms", "model = \"scale-bias\""));
+        return Err(entry.reject("a sensor of one axis has no cross-axis terms", "model = \"scale-bias\""));
     }
     let unit = match section.get("unit") {
         None => ReadingUnit::MetrePerSecondSquared,
@@ -55,14 +55,14 @@ pub(super) fn read(section: &Section<'_>) -> Result<Sensor> {
     if unit == ReadingUnit::MetrePerSecondSquared {
         for key in ["gain_counts_per_mps2", "offset_counts", "noise_counts"] {
             if let Some(entry) = section.get(key) {
-                return Err(entry.complain(
+                return Err(entry.reject(
                     "readings in m/s² have no counts",
                     "write unit = \"counts\" in [sensor], or leave this key away",
                 ));
             }
         }
     } else if let (Some(entry), Some(_)) = (section.get("noise_counts"), section.get("noise_mps2")) {
-        return Err(entry.complain("the noise is given twice, in counts and in m/s²", "keep one of the two"));
+        return Err(entry.reject("the noise is given twice, in counts and in m/s²", "keep one of the two"));
     }
     let (gain, offset) = match unit {
         ReadingUnit::MetrePerSecondSquared | ReadingUnit::RadianPerSecond => {

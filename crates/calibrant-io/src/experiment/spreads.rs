@@ -1,6 +1,6 @@
 //! Complains where the datasheet is asked for and gives no spreads.
 
-use super::document::Section;
+use super::toml_document::Section;
 use calibrant_core::error::Result;
 use calibrant_core::sensor::{ReadingUnit, Sensor, SensorModel};
 
@@ -32,5 +32,5 @@ pub(super) fn need_spreads(section: &Section<'_>, key: &str, sensor: &Sensor) ->
     let help = "add what is missing, or write \"none\"";
     Err(section
         .get(key)
-        .map_or_else(|| section.complain(&message, help, key), |entry| entry.complain(&message, help)))
+        .map_or_else(|| section.reject(&message, help, key), |entry| entry.reject(&message, help)))
 }

@@ -1,8 +1,8 @@
 //! `[study]`: which experiments over many sensors are run.
 
-use super::bounds::Bounds;
-use super::document::Section;
 use super::motion::{self, MotionPlan};
+use super::number_range::Bounds;
+use super::toml_document::Section;
 use super::{Plan, limits};
 use calibrant_core::error::Result;
 use calibrant_core::motion::{InputNoise, KnownEnds, Limits, Trust};
@@ -78,7 +78,7 @@ pub(super) fn read(section: &Section<'_>, plan: &Plan, axes: usize) -> Result<St
     let Plan::Motion(plan) = plan else {
         return match surface.or(unknown).or(noisy) {
             Some(variant) => {
-                Err(variant.complain("this needs a [motion]", "take it out, or describe a motion", ""))
+                Err(variant.reject("this needs a [motion]", "take it out, or describe a motion", ""))
             }
             None => Ok(options),
         };

@@ -1,7 +1,7 @@
 //! `[temperature]`: which biases and gains of an IMU follow temperature, and by which polynomials.
 
-use super::bounds::Bounds;
-use super::document::Section;
+use super::number_range::Bounds;
+use super::toml_document::Section;
 use calibrant_core::error::Result;
 use calibrant_core::estimate::ThermalModel;
 use calibrant_core::sensor::{HIGHEST_ORDER, WORKING_C};

@@ -1,11 +1,11 @@
 //! Which column holds what: from the header, or from the contract for text without one.
 
 use super::ReadOptions;
-use super::finding::{Finding, FindingKind};
-use super::row::Layout;
-use crate::delimited::{Delimiter, Line};
-use crate::text::Checked;
-use calibrant_core::error::Complaint;
+use super::reader_finding::{Finding, FindingKind};
+use super::row_parser::Layout;
+use crate::delimited_text::{Delimiter, Line};
+use crate::text_decoding::Checked;
+use calibrant_core::error::InputError;
 use calibrant_core::sensor::{Axis, ReadingUnit};
 
 /// Standard gravity, m/s²: what a reading of 1 g means.
@@ -50,7 +50,7 @@ impl Columns {
     ) -> Checked<Self> {
         let needed = options.axes + 1;
         if columns < needed {
-            return Err(Complaint::new(
+            return Err(InputError::new(
                 format!("{columns} column{} where {needed} are needed", if columns == 1 { "" } else { "s" }),
                 format!(
                     "without a header the columns are {}",
@@ -84,8 +84,8 @@ impl Columns {
         findings: &mut Vec<Finding>,
     ) -> Checked<Self> {
         let names: Vec<String> = fields.iter().map(|field| field.to_lowercase()).collect();
-        let complain =
-            |message: String, help: &str| Err(Complaint::new(message, help).at_line(line.number).into());
+        let reject =
+            |message: String, help: &str| Err(InputError::new(message, help).at_line(line.number).into());
         let mut slots: Vec<Option<usize>> = vec![None; names.len()];
         let mut suffix: Option<Suffix> = None;
         for (column, name) in names.iter().enumerate() {
@@ -99,14 +99,11 @@ impl Columns {
             if slots.contains(&Some(slot)) {
                 let what =
                     if slot == 0 { "the time".into() } else { format!("axis {}", Axis::ALL[slot - 1]) };
-                return complain(
-                    format!("{what} has two columns, the second is `{name}`"),
-                    "keep one of them",
-                );
+                return reject(format!("{what} has two columns, the second is `{name}`"), "keep one of them");
             }
             match (suffix, found) {
                 (Some(before), Some(found)) if before != found => {
-                    return complain(
+                    return reject(
                         format!("the axes have different units: `{name}` after one in {}", before.symbol()),
                         "all axes need the same suffix",
                     );
@@ -129,7 +126,7 @@ impl Columns {
                 missing.join(", "),
                 list(&names, 20)
             );
-            return complain(message, UNITS);
+            return reject(message, UNITS);
         }
         let ignored: Vec<String> = names
             .iter()
@@ -213,7 +210,7 @@ fn resolve_unit(
     };
     match options.unit {
         Some(given) if given != unit || suffix == Suffix::G => {
-            return Err(Complaint::new(
+            return Err(InputError::new(
                 format!("the header says {}, but the unit was given as {}", suffix.symbol(), given.symbol()),
                 "leave --unit away: the header decides (readings in g are converted to m/s²)",
             )

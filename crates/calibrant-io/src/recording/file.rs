@@ -1,6 +1,6 @@
 //! A recording of an accelerometer, as it stands in a file.
 
-use super::finding::Finding;
+use super::reader_finding::Finding;
 use calibrant_core::sensor::Recording;
 
 /// A recording as it was read.

@@ -12,22 +12,21 @@
 //! the answer unnoticed is an error.
 
 mod checksum;
+mod chunked_reader;
 mod columns;
 mod file;
-mod finding;
 mod imu;
+mod lost_sign;
 mod options;
-mod pieces;
-mod quality;
 mod read;
-mod row;
-mod rows;
-mod signed;
+mod reader_finding;
+mod recording_quality;
+mod recording_writer;
+mod row_parser;
+mod row_reader;
 mod size;
-mod write;
 
 pub use file::RecordingFile;
-pub use finding::{Finding, FindingKind};
 pub use imu::{
     ColumnMapping, ColumnMeaning, ColumnUnit, FileFormat, ImuColumn, ImuFile, ImuReadOptions, ImuUnit,
     SecondFile, TimeUnit, parse_imu_pair, parse_imu_recording, read_accelerometer, read_imu_pair,
@@ -35,4 +34,5 @@ pub use imu::{
 };
 pub use options::ReadOptions;
 pub use read::{parse_recording, read_recording};
-pub use write::{write_imu_recording, write_recording};
+pub use reader_finding::{Finding, FindingKind};
+pub use recording_writer::{write_imu_recording, write_recording};

@@ -2,13 +2,13 @@
 
 use super::checksum::hex_sha256;
 use super::columns::Columns;
-use super::finding::{Finding, count};
-use super::rows::Rows;
+use super::reader_finding::{Finding, count};
+use super::row_reader::Rows;
 use super::size::{LARGEST, estimated_rows};
-use super::{ReadOptions, RecordingFile, quality, signed};
-use crate::delimited::Lines;
-use crate::text::{self, Checked};
-use calibrant_core::error::{Complaint, Error, Result};
+use super::{ReadOptions, RecordingFile, lost_sign, recording_quality};
+use crate::delimited_text::Lines;
+use crate::text_decoding::{self, Checked};
+use calibrant_core::error::{Error, InputError, Result};
 use calibrant_core::sensor::Recording;
 use std::path::Path;
 
@@ -17,12 +17,12 @@ use std::path::Path;
 /// # Errors
 /// [`Error::Recording`] with file, line and column: a file that cannot be read or is not text; columns missing, or units that
 /// contradict each other; a row with too few or too many columns, or something that is not a number; |t| above 1e12, or |reading|
-/// in more than one row of 50 (fewer are wild samples; none above 1e300);
+/// in more than one row of 50 (fewer are invalid samples; none above 1e300);
 /// a time that goes backwards; fewer than two samples.
 pub fn read_recording(path: &Path, options: &ReadOptions) -> Result<RecordingFile> {
-    let bytes =
-        text::read_bytes(path, LARGEST, "the recording").map_err(|complaint| Error::recording(*complaint))?;
-    parse(&bytes, options).map_err(|complaint| Error::recording(complaint.in_file(path)))
+    let bytes = text_decoding::read_bytes(path, LARGEST, "the recording")
+        .map_err(|input_error| Error::recording(*input_error))?;
+    parse(&bytes, options).map_err(|input_error| Error::recording(input_error.in_file(path)))
 }
 
 /// Reads the bytes of a recording.
@@ -42,18 +42,18 @@ pub fn read_recording(path: &Path, options: &ReadOptions) -> Result<RecordingFil
 /// # Ok::<(), calibrant::Error>(())
 /// ```
 pub fn parse_recording(bytes: &[u8], options: &ReadOptions) -> Result<RecordingFile> {
-    parse(bytes, options).map_err(|complaint| Error::recording(*complaint))
+    parse(bytes, options).map_err(|input_error| Error::recording(*input_error))
 }
 
 pub(super) fn parse(bytes: &[u8], options: &ReadOptions) -> Checked<RecordingFile> {
-    let text = text::as_text(bytes)?;
+    let text = text_decoding::as_text(bytes)?;
     if options.axes != 1 && options.axes != 3 {
-        return Err(Complaint::new(format!("{} axes are not supported", options.axes), "1 or 3").into());
+        return Err(InputError::new(format!("{} axes are not supported", options.axes), "1 or 3").into());
     }
     let mut findings = Vec::new();
     let mut lines = Lines::of(text);
     let Some(first) = lines.by_ref().find(|line| !line.is_void()) else {
-        return Err(Complaint::new(
+        return Err(InputError::new(
             if text.trim().is_empty() { "the file is empty" } else { "the file has only comments" },
             "a recording has a header t_s,ax,ay,az and a row for each sample",
         )
@@ -72,24 +72,24 @@ pub(super) fn parse(bytes: &[u8], options: &ReadOptions) -> Checked<RecordingFil
         last = line.number;
         rows.take(line)?;
     }
-    rows.check_wild()?;
+    rows.check_invalid()?;
     rows.report(&mut findings);
     if rows.times_s.len() < 2 {
         return Err(too_short(&rows, last, &findings).into());
     }
     let Rows { times_s, readings, lines, .. } = rows;
     let recording = Recording { times_s, readings, axes: options.axes, unit: columns.unit };
-    signed::check(&recording, "")?;
-    quality::examine(&recording, &lines, &mut findings);
+    lost_sign::check(&recording, "")?;
+    recording_quality::examine(&recording, &lines, &mut findings);
     Ok(RecordingFile { recording, findings, sha256: hex_sha256(bytes), lines: last })
 }
 
-pub(super) fn too_short(rows: &Rows<'_>, last: usize, findings: &[Finding]) -> Complaint {
+pub(super) fn too_short(rows: &Rows<'_>, last: usize, findings: &[Finding]) -> InputError {
     let message = match rows.rows() {
         0 => "there is a header but no sample below it".to_owned(),
         n => format!("only {} in {}", count(rows.times_s.len(), "usable sample"), count(n, "row")),
     };
     let mut help = vec!["a recording needs two samples at least".to_owned()];
     help.extend(findings.iter().map(ToString::to_string));
-    Complaint::new(message, help.join("; ")).at_line(last)
+    InputError::new(message, help.join("; ")).at_line(last)
 }

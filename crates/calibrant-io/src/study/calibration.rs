@@ -1,6 +1,6 @@
 //! Truth and estimate of a population of simulated sensors.
 
-use crate::fields::{FitFields, MotionFields, axes_of, values_of};
+use crate::shared_fields::{FitFields, MotionFields, axes_of, values_of};
 use calibrant_core::estimate::Recovered;
 use calibrant_core::sensor::{Parameter, ParameterList};
 use calibrant_design::study::{ParameterSummary, SensorOutcome, SingleCase, Study};

@@ -2,7 +2,7 @@
 
 use super::calibration::{ParameterFields, SummaryFields};
 use crate::design::{CertificateFields, EvaluationFields, InputNoiseFields, LimitsFields};
-use crate::fields::{MotionFields, axes_of};
+use crate::shared_fields::{MotionFields, axes_of};
 use calibrant_core::motion::{KnownEnds, Trust};
 use calibrant_design::study::{DesignOutcome, DesignStudy, Factor, Improvement, MotionOutcome, TraceRange};
 use serde::Serialize;

@@ -38,7 +38,7 @@ pub(crate) fn design_study(sensors: usize, trust: Trust) -> DesignStudy {
         .map(|index| {
             let mut rng = stream(5, Purpose::Sensor, index);
             let truth = draw_sensor(&sensor, &mut rng);
-            let truth: Vec<f64> = list.quantities().iter().map(|quantity| quantity.of(&truth)).collect();
+            let truth: Vec<f64> = list.quantities().iter().map(|quantity| quantity.value(&truth)).collect();
             let random = initial_motion(10, 1.0, 3, &limits, &mut stream(5, Purpose::Motion, index));
             let initial = design::evaluate(&problem, &random.expect("valid")).expect("valid");
             let optimal = designs::swing(&problem, [2.0, if index % 3 == 0 { -2.0 } else { 2.0 }, 2.0]);

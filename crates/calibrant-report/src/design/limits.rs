@@ -1,6 +1,6 @@
 //! The limits and how far a motion uses them.
 
-use crate::number;
+use crate::number_format;
 use crate::table::{Cell, Table};
 use calibrant_design::{LimitKind, LimitUse};
 
@@ -55,15 +55,15 @@ fn line(found: &LimitUse) -> [String; 6] {
     let share = (found.value / found.limit).abs();
     let used = match () {
         () if found.is_violated() => {
-            format!("broken by {} {}", number::significant(found.excess(), 3), found.kind.unit())
+            format!("broken by {} {}", number_format::significant(found.excess(), 3), found.kind.unit())
         }
         () if prescribed => "kept".to_string(),
         () if share >= ACTIVE => "100 %: holds the motion back".to_string(),
-        () => number::percent(share),
+        () => number_format::percent(share),
     };
     let allowed = match found.kind {
-        _ if prescribed => number::short(found.limit),
-        _ => format!("± {}", number::short(found.limit)),
+        _ if prescribed => number_format::short(found.limit),
+        _ => format!("± {}", number_format::short(found.limit)),
     };
     let value = match found.kind {
         _ if prescribed && !found.is_violated() => found.limit,
@@ -74,8 +74,8 @@ fn line(found: &LimitUse) -> [String; 6] {
         found.kind.name().to_string(),
         found.kind.unit().to_string(),
         allowed,
-        number::significant(value, 4),
-        number::fixed(found.time_s, 2),
+        number_format::significant(value, 4),
+        number_format::fixed(found.time_s, 2),
         used,
     ]
 }

@@ -2,13 +2,13 @@
 
 mod axes;
 mod limits;
-mod promised;
+mod predicted_sd;
 pub(super) mod starts;
 mod verdict;
 
 pub(super) use axes::axes;
 pub(super) use limits::limit_table;
-pub(super) use promised::{above, promised_table, times};
+pub(super) use predicted_sd::{above, promised_table, times};
 pub(super) use starts::status;
 pub(super) use verdict::{undetermined_items, violation};
 
@@ -19,7 +19,7 @@ use super::figure::{
 };
 use super::html::{Page, escape, facts};
 use calibrant_design::{Design, limit_use};
-use promised::criterion_table;
+use predicted_sd::criterion_table;
 use verdict::verdict;
 
 /// A design as one HTML file: the certificate in words, what the motion promises beside the initial one, the motions with their limits,

@@ -1,6 +1,6 @@
 //! The starts of the search in numbers.
 
-use crate::number;
+use crate::number_format;
 use crate::table::{Cell, Table};
 use calibrant_core::information::Criterion;
 use calibrant_core::sensor::Axis;
@@ -52,8 +52,8 @@ pub(crate) fn name(axes: &[Axis]) -> String {
 /// One sentence for each group: how many starts reached its best value.
 pub(crate) fn sentences(starts: &[StartOutcome], criterion: &Criterion) -> Vec<String> {
     let within = match criterion {
-        Criterion::D(_) => format!("{} nats", number::significant(AT_BEST, 1)),
-        _ => format!("{} %", number::short(100.0 * AT_BEST)),
+        Criterion::D(_) => format!("{} nats", number_format::significant(AT_BEST, 1)),
+        _ => format!("{} %", number_format::short(100.0 * AT_BEST)),
     };
     groups(starts, criterion)
         .iter()
@@ -63,7 +63,7 @@ pub(crate) fn sentences(starts: &[StartOutcome], criterion: &Criterion) -> Vec<S
                 "{}: {} of {} start{} ended within {within} of the best value.",
                 capitalised(&name(&group.axes)),
                 group.reached(),
-                number::count(all),
+                number_format::count(all),
                 if all == 1 { "" } else { "s" }
             )
         })
@@ -94,10 +94,10 @@ pub(crate) fn start_table(starts: &[StartOutcome], criterion: &Criterion) -> Str
         for (rank, start) in group.sorted.iter().enumerate() {
             let excess = group.excess(start);
             let excess = match criterion {
-                Criterion::D(_) => number::significant(excess, 2),
+                Criterion::D(_) => number_format::significant(excess, 2),
                 _ if excess == 0.0 => "0 %".to_string(),
-                _ if excess <= AT_BEST => format!("< {} %", number::short(100.0 * AT_BEST)),
-                _ => number::percent(excess),
+                _ if excess <= AT_BEST => format!("< {} %", number_format::short(100.0 * AT_BEST)),
+                _ => number_format::percent(excess),
             };
             let cells = vec![
                 Cell::Name((rank + 1).to_string()),
@@ -107,8 +107,8 @@ pub(crate) fn start_table(starts: &[StartOutcome], criterion: &Criterion) -> Str
                 } else {
                     start.number.to_string()
                 }),
-                Cell::Number(number::significant(start.initial_value, 5)),
-                Cell::Number(number::significant(start.value, 8)),
+                Cell::Number(number_format::significant(start.initial_value, 5)),
+                Cell::Number(number_format::significant(start.value, 8)),
                 Cell::Number(excess),
                 Cell::Number(start.iterations.to_string()),
             ];
@@ -122,7 +122,7 @@ pub(crate) fn start_table(starts: &[StartOutcome], criterion: &Criterion) -> Str
     if starts.len() > MOST_UNFOLDED {
         format!(
             "<details><summary>All {} starts, best first</summary>{html}</details>",
-            number::count(starts.len())
+            number_format::count(starts.len())
         )
     } else {
         html

@@ -1,11 +1,11 @@
 //! The headline: how good is this motion, and how do we know?
 
 use super::axes;
-use super::promised::{above, times};
+use super::predicted_sd::{above, times};
 use crate::About;
 use crate::figure::DisplayUnit;
 use crate::html::verdict_box;
-use crate::number;
+use crate::number_format;
 use calibrant_core::information::Criterion;
 use calibrant_core::motion::Limits;
 use calibrant_core::sensor::Parameter;
@@ -52,7 +52,7 @@ fn judge(design: &Design, broken: &[String]) -> (&'static str, String, Vec<Strin
         _ if design.status != DesignStatus::Converged => ("caution", "! Not converged.".into(), sentences),
         Some(excess) if excess < 5e-5 => ("good", "✓ Proved optimal.".into(), sentences),
         Some(excess) if excess <= NEAR => {
-            ("good", format!("✓ Proved optimal to within {}.", number::percent(excess)), sentences)
+            ("good", format!("✓ Proved optimal to within {}.", number_format::percent(excess)), sentences)
         }
         _ => ("good", "✓ Converged.".into(), sentences),
     }
@@ -86,13 +86,14 @@ fn bound(design: &Design, certificate: &Certificate, sentences: &mut Vec<String>
         sentences.push(format!(
             "No admissible motion can bring criterion {} below {}; this one is at most {} above it.",
             design.criterion.letter(),
-            number::significant(certificate.lower_bound, 5),
+            number_format::significant(certificate.lower_bound, 5),
             gap(&design.criterion, certificate.gap)
         ));
         return if matches!(design.criterion, Criterion::D(_)) { f64::INFINITY } else { certificate.gap };
     };
     let unit = DisplayUnit::suited(parameter.unit, sd);
-    let shown = |value: f64| format!("{} {}", number::significant(value * unit.factor, 4), unit.symbol);
+    let shown =
+        |value: f64| format!("{} {}", number_format::significant(value * unit.factor, 4), unit.symbol);
     sentences.push(format!(
         "No motion within the limits can give {} a standard deviation below {}; this one gives {}, {}.",
         parameter.name,
@@ -100,8 +101,8 @@ fn bound(design: &Design, certificate: &Certificate, sentences: &mut Vec<String>
         shown(sd).trim_end(),
         match sd / least - 1.0 {
             excess if excess < 5e-5 => "less than 0.01 % above that".to_string(),
-            excess if excess < 1.0 => format!("{} above that", number::percent(excess)),
-            excess => format!("{} times that", number::significant(1.0 + excess, 2)),
+            excess if excess < 1.0 => format!("{} above that", number_format::percent(excess)),
+            excess => format!("{} times that", number_format::significant(1.0 + excess, 2)),
         }
     ));
     if excess.len() > 1 {
@@ -119,7 +120,7 @@ fn bound(design: &Design, certificate: &Certificate, sentences: &mut Vec<String>
 
 fn gap(criterion: &Criterion, gap: f64) -> String {
     match criterion {
-        Criterion::D(_) => format!("{} nats", number::significant(gap, 2)),
+        Criterion::D(_) => format!("{} nats", number_format::significant(gap, 2)),
         _ => above(gap),
     }
 }
@@ -191,8 +192,8 @@ pub(crate) fn violation(found: &LimitUse) -> String {
         "{} of axis {}: {} {unit} at {} s, allowed {} {unit}",
         found.kind.name(),
         found.axis,
-        number::significant(found.value, 4),
-        number::short(found.time_s),
-        number::short(found.limit)
+        number_format::significant(found.value, 4),
+        number_format::short(found.time_s),
+        number_format::short(found.limit)
     )
 }

@@ -3,7 +3,7 @@
 use super::panel::{Mark, Panel, Series, Shape};
 use super::unit::DisplayUnit;
 use super::{Figure, colour};
-use calibrant_core::noise::{AxisNoise, PowerLaw, TriadNoise};
+use calibrant_core::noise::{AxisNoise, PowerLaw, SensorNoise};
 
 /// Points of a fitted line.
 const LINE: usize = 60;
@@ -11,7 +11,7 @@ const LINE: usize = 60;
 const FILTER: &str = "share of a filter";
 
 /// Allan deviation of each axis with its 95 % bounds, the fitted model and the processes that it consists of.
-pub(crate) fn allan_figure(noise: &TriadNoise) -> Figure {
+pub(crate) fn allan_figure(noise: &SensorNoise) -> Figure {
     let highest = noise.axes.iter().flat_map(|axis| &axis.allan.points).map(|point| point.deviation);
     let unit = DisplayUnit::suited_to(noise.unit.symbol(), highest);
     let mut panels: Vec<Panel> = noise.axes.iter().map(|axis| panel(axis, unit)).collect();
@@ -43,7 +43,7 @@ pub(crate) fn allan_figure(noise: &TriadNoise) -> Figure {
         any(|axis| axis.fit.drift.is_significant()),
         "A linear drift (slope +1) is drawn apart: it is no noise, and the fit is to what remains without it.",
     );
-    Figure::new(format!("Allan deviation of the {}", noise.triad), panels, caption).with_columns(2)
+    Figure::new(format!("Allan deviation of the {}", noise.sensor_kind), panels, caption).with_columns(2)
 }
 
 fn panel(axis: &AxisNoise, unit: DisplayUnit) -> Panel {

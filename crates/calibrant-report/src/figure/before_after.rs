@@ -1,7 +1,7 @@
 //! The readings before and after the correction.
 
 use super::panel::{Mark, Panel, Series, Shape};
-use super::thin::{is_thinned, thinned, thinned_dots};
+use super::point_thinning::{is_thinned, thinned, thinned_dots};
 use super::unit::DisplayUnit;
 use super::{Figure, colour};
 use calibrant_core::estimate::{HoldCalibration, ImuCalibration};

@@ -3,7 +3,7 @@
 //! A table rather than a plot: its letters keep their size on a phone, and its numbers can be read aloud and copied.
 
 use crate::html::escape;
-use crate::number;
+use crate::number_format;
 use calibrant_core::sensor::Parameter;
 use nalgebra::DMatrix;
 
@@ -59,12 +59,12 @@ pub(crate) fn correlation_map_of(names: &[&str], covariance: &DMatrix<f64>) -> S
 
 fn cell(r: f64, diagonal: bool, short: bool) -> String {
     if !r.is_finite() {
-        return format!("<td>{}</td>", number::UNKNOWN);
+        return format!("<td>{}</td>", number_format::UNKNOWN);
     }
     if diagonal {
         return "<td style=\"background:#e8ebee\">1</td>".to_string();
     }
-    let text = match number::fixed(r, if short { 1 } else { 2 }) {
+    let text = match number_format::fixed(r, if short { 1 } else { 2 }) {
         text if short && r.abs() < 0.95 => text.replacen("0.", ".", 1),
         text => text,
     };

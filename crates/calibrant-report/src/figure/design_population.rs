@@ -2,10 +2,10 @@
 
 use super::motion::{TIME, nodes};
 use super::panel::{Mark, Panel, Series, Shape};
-use super::thin::every;
+use super::point_thinning::every;
 use super::unit::DisplayUnit;
 use super::{Figure, colour};
-use crate::number;
+use crate::number_format;
 use calibrant_core::motion::JerkControlledMotion;
 use calibrant_core::sensor::Axis;
 use calibrant_design::study::{DesignOutcome, DesignStudy, MotionOutcome};
@@ -105,7 +105,7 @@ pub(crate) fn traces(title: &str, study: &DesignStudy) -> Figure {
     };
     let label = match exponent as i32 {
         0 => "trace of C".to_string(),
-        exponent => format!("trace of C (10{})", number::superscript(exponent)),
+        exponent => format!("trace of C (10{})", number_format::superscript(exponent)),
     };
     let mut panel = Panel::new("", "sensor", label)
         .with(dots("initial motion", colour::BLUE, Shape::Circle, points(initial)))
@@ -115,9 +115,9 @@ pub(crate) fn traces(title: &str, study: &DesignStudy) -> Figure {
     let caption = format!(
         "Sum of the variances of all biases and scale factors, in SI units, as each calibration states it; mind the logarithmic axis. What to \
          see: whatever the initial motion was (from {} to {}), the optimal ones end on one level (median {}).{}",
-        number::significant(trace.initial.least, 2),
-        number::significant(trace.initial.most, 2),
-        number::significant(trace.optimal.median, 3),
+        number_format::significant(trace.initial.least, 2),
+        number_format::significant(trace.initial.most, 2),
+        number_format::significant(trace.optimal.median, 3),
         subset(study.outcomes.len(), sensors.len())
     );
     Figure::new(title, vec![panel], caption)
@@ -179,5 +179,5 @@ fn subset(all: usize, drawn: usize) -> String {
     if drawn == all {
         return String::new();
     }
-    format!(" Of {} sensors, {drawn} spread evenly over the list are drawn.", number::count(all))
+    format!(" Of {} sensors, {drawn} spread evenly over the list are drawn.", number_format::count(all))
 }

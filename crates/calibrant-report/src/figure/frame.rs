@@ -1,7 +1,7 @@
 //! A figure: panels in a frame, with title, legend and caption.
 
-use super::draw;
 use super::panel::{Panel, Series};
+use super::svg;
 use crate::html::escape;
 use rayon::prelude::*;
 
@@ -27,7 +27,7 @@ impl Figure {
 
     /// The figure as HTML.
     pub(crate) fn html(&self) -> String {
-        let panels: Vec<String> = self.panels.par_iter().map(draw::svg).collect();
+        let panels: Vec<String> = self.panels.par_iter().map(svg::svg).collect();
         framed(&self.title, &self.legend(), &panels.concat(), self.columns, &self.caption)
     }
 
@@ -39,12 +39,12 @@ impl Figure {
             }
         }
         let mut entries: Vec<String> =
-            seen.iter().map(|series| entry(&draw::key(series), &series.label)).collect();
+            seen.iter().map(|series| entry(&svg::key(series), &series.label)).collect();
         let mut shades: Vec<&str> = Vec::new();
         for shade in self.panels.iter().flat_map(|panel| &panel.shades) {
             if !shade.label.is_empty() && !shades.contains(&shade.label) {
                 shades.push(shade.label);
-                entries.push(entry(&draw::shade_key(shade.colour), shade.label));
+                entries.push(entry(&svg::shade_key(shade.colour), shade.label));
             }
         }
         format!("<ul class=\"legend\">{}</ul>", entries.concat())

@@ -1,7 +1,7 @@
 //! Static calibration: the recording with its holds, and how well each hold fits.
 
 use super::panel::{Mark, Panel, Series, Shade, Shape};
-use super::thin::{is_thinned, thinned};
+use super::point_thinning::{is_thinned, thinned};
 use super::unit::DisplayUnit;
 use super::{Figure, colour};
 use calibrant_core::estimate::HoldCalibration;

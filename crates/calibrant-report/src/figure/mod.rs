@@ -2,7 +2,7 @@
 //!
 //! A [`Figure`] becomes one `<figure>`: panels beside each other where there is room and below each other where there is
 //! not, each its own SVG that scales with its column, so that letters stay legible on a phone. The legend is made from the
-//! series themselves. [`draw`] is the only place that knows the plotting library.
+//! series themselves. [`svg`] is the only place that knows the plotting library.
 
 mod allan;
 mod before_after;
@@ -10,23 +10,23 @@ mod clipping;
 mod colour;
 mod correlation;
 mod design_population;
-mod draw;
 mod ellipse;
 mod frame;
+mod gyroscope_at_rest;
 mod holds;
 mod motion;
 mod motion_pair;
 mod panel;
+mod point_thinning;
 mod population;
 mod residuals;
 mod rotations;
 mod sphere;
 mod starts;
-mod still;
 mod surface;
+mod svg;
 mod sweep;
 mod temperature;
-mod thin;
 mod unit;
 mod validation;
 
@@ -37,6 +37,7 @@ pub(super) use correlation::{correlation_map, correlation_map_of};
 pub(super) use design_population::{absolute_errors, optimal_motions, traces};
 pub(super) use ellipse::confidence_ellipses;
 pub(super) use frame::{Figure, drawn};
+pub(super) use gyroscope_at_rest::still_gyroscope;
 pub(super) use holds::{hold_residuals, recording_overview};
 pub(super) use motion::{acceleration_figure, motion_error_figure, state_and_jerk_figure};
 pub(super) use motion_pair::{Drawn, jerk_and_acceleration, states, velocity_and_displacement};
@@ -45,7 +46,6 @@ pub(super) use residuals::{autocorrelations, histograms, residuals_over_time};
 pub(super) use rotations::rotation_errors;
 pub(super) use sphere::hold_directions;
 pub(super) use starts::start_values;
-pub(super) use still::still_gyroscope;
 pub(super) use surface::trace_map;
 pub(super) use sweep::sweep_curves;
 pub(super) use temperature::bias_over_temperature;

@@ -2,7 +2,7 @@
 
 use super::motion::{TIME, nodes, steps};
 use super::panel::{Mark, Panel, Series};
-use super::thin::thinned;
+use super::point_thinning::thinned;
 use super::{Figure, colour};
 use crate::design::starts::name;
 use calibrant_core::motion::{AxisLimits, JerkControlledMotion, Limits};

@@ -1,8 +1,8 @@
 //! A population of sensors: the report's Figure 6 and what it hides.
 
 use super::panel::{Mark, Panel, Series, Shape};
+use super::point_thinning::every;
 use super::residuals::{Histogram, bin_count};
-use super::thin::every;
 use super::unit::DisplayUnit;
 use super::{Figure, colour};
 use calibrant_core::sensor::Parameter;
@@ -204,7 +204,10 @@ fn axis_dots(position: usize, suffix: &str, points: Vec<(f64, f64)>) -> Series {
 fn subset(study: &Study, drawn: usize) -> String {
     let all = study.outcomes.len();
     if drawn < all {
-        format!(" Of {} sensors, {drawn} spread evenly over the list are drawn.", crate::number::count(all))
+        format!(
+            " Of {} sensors, {drawn} spread evenly over the list are drawn.",
+            crate::number_format::count(all)
+        )
     } else {
         String::new()
     }

@@ -1,7 +1,7 @@
 //! Residuals: over time, as a histogram, and their autocorrelation.
 
 use super::panel::{Mark, Panel, Series, Shape};
-use super::thin::{is_thinned, thinned};
+use super::point_thinning::{is_thinned, thinned};
 use super::unit::DisplayUnit;
 use super::{Figure, colour};
 use calibrant_core::estimate::Calibration;

@@ -120,8 +120,8 @@ fn direction(hold: &HoldResult) -> Option<Vector3<f64>> {
 
 /// Lambert's azimuthal equal-area projection about ±z, the equator at [`RADIUS`]; y points up.
 fn projected(direction: &Vector3<f64>) -> (f64, f64) {
-    let stretch = RADIUS / (1.0 + direction.z.abs()).sqrt();
-    (direction.x * stretch, -direction.y * stretch)
+    let segment = RADIUS / (1.0 + direction.z.abs()).sqrt();
+    (direction.x * segment, -direction.y * segment)
 }
 
 fn dot(x: f64, y: f64) -> String {

@@ -4,7 +4,7 @@
 
 use super::frame::framed;
 use crate::html::escape;
-use crate::number;
+use crate::number_format;
 use calibrant_design::study::TraceSurface;
 
 /// Left edge, top edge and side of the map, in a drawing of `WIDTH` by `HEIGHT`.
@@ -37,9 +37,9 @@ pub(crate) fn trace_map(surface: &TraceSurface) -> String {
          where the jerks are largest: the optimum lies on the limits. Edges of the bands are contours. The report estimates at each \
          point, draws a surface in space, and does not say which logarithm it takes; the trace needs no estimation, as it follows from \
          the motion alone.",
-        number::short(settings.interval_s),
-        number::short(settings.rate_hz),
-        number::short(settings.start_mps2),
+        number_format::short(settings.interval_s),
+        number_format::short(settings.rate_hz),
+        number_format::short(settings.start_mps2),
     );
     let title = "Figure 7 of the report: logarithm of the trace over the two jerks";
     framed(title, &legend, &drawing(surface), 1, &caption)
@@ -66,7 +66,7 @@ fn drawing(surface: &TraceSurface) -> String {
         let y = TOP + SIDE - (j + 1) as f64 * cell;
         let row: Vec<Option<usize>> = (0..count)
             .map(|i| surface.log10_trace.get(i).and_then(|column| column.get(j)).copied().flatten())
-            .map(|value| value.map(|value| bands.of(value)))
+            .map(|value| value.map(|value| bands.index(value)))
             .collect();
         let mut start = 0;
         for i in 1..=count {
@@ -107,7 +107,7 @@ fn axes(surface: &TraceSurface) -> String {
     for step in 0..5 {
         let share = f64::from(step) / 4.0;
         let (value, offset) =
-            (number::tick(most * (2.0 * share - 1.0)), inset + (SIDE - 2.0 * inset) * share);
+            (number_format::tick(most * (2.0 * share - 1.0)), inset + (SIDE - 2.0 * inset) * share);
         let (x, y) = (LEFT + offset, bottom - offset);
         svg.push_str(&format!(
             "<path d=\"M{x:.1} {bottom}v5M{LEFT} {y:.1}h-5\" stroke=\"#424a53\"/>\
@@ -146,7 +146,7 @@ fn bar(bands: &Bands) -> String {
             left + width,
             left + width + 9.0,
             y + 4.5,
-            number::fixed(bands.low + edge as f64 * bands.step, bands.decimals)
+            number_format::fixed(bands.low + edge as f64 * bands.step, bands.decimals)
         ));
     }
     svg.push_str(&format!(
@@ -193,7 +193,7 @@ impl Bands {
         Self { low: start * step, step, count, decimals }
     }
 
-    fn of(&self, value: f64) -> usize {
+    fn index(&self, value: f64) -> usize {
         (((value - self.low) / self.step).floor().max(0.0) as usize).min(self.count - 1)
     }
 
@@ -234,7 +234,7 @@ mod tests {
             let bands = Bands::over(low, high);
             assert!(bands.count <= 19 && bands.low <= low + 1e-12, "{low} {high}: {} bands", bands.count);
             assert!(bands.low + bands.step * bands.count as f64 >= high - 1e-12);
-            assert_eq!(bands.of(low), 0);
+            assert_eq!(bands.index(low), 0);
         }
         assert_eq!(viridis(0.0), "#440154");
         assert_eq!(viridis(1.0), "#fde725");

@@ -1,6 +1,6 @@
 //! Gains and angles between the axes of both sensors: what no choice of the true frame changes.
 
-use crate::number;
+use crate::number_format;
 use crate::table::{Cell, Table};
 use calibrant_core::estimate::ImuCalibration;
 use calibrant_core::sensor::{Invariant, InvariantValue};
@@ -11,7 +11,7 @@ pub(super) fn axis_table(calibration: &ImuCalibration) -> String {
     let mut table = Table::new("", &["angle between", "angle ± sd (°)", "misalignment (mrad)"]);
     for angle in calibration.calibrated().invariants() {
         let name = match angle.invariant {
-            Invariant::Angle(triad, one, other) => format!("{triad} {one}, {other}"),
+            Invariant::Angle(sensor_kind, one, other) => format!("{sensor_kind} {one}, {other}"),
             Invariant::AngleBetween(a, g) if a == g => format!("{a} of both sensors"),
             _ => continue,
         };
@@ -25,8 +25,8 @@ pub(super) fn axis_table(calibration: &ImuCalibration) -> String {
 fn row(name: String, angle: &InvariantValue) -> Vec<Cell> {
     let right = (angle.value / FRAC_PI_2).round() * FRAC_PI_2;
     let shown = |value: f64, factor: f64, decimals: usize| match angle.sd {
-        Some(sd) => number::with_sd(factor * value, factor * sd),
-        None => number::fixed(factor * value, decimals),
+        Some(sd) => number_format::with_sd(factor * value, factor * sd),
+        None => number_format::fixed(factor * value, decimals),
     };
     vec![
         Cell::Name(name),

@@ -1,7 +1,7 @@
 //! The corrections of both sensors, to look at and to copy.
 
 use crate::html::escape;
-use crate::number;
+use crate::number_format;
 use crate::parameters::{gauge_in_words, matrix, rows};
 use calibrant_core::estimate::ImuCalibration;
 use calibrant_core::sensor::{Correction, ReadingUnit};
@@ -20,7 +20,7 @@ pub(super) fn correction(calibration: &ImuCalibration) -> String {
         _ => String::new(),
     };
     let (a, g) = (calibration.accelerometer_unit, calibration.gyroscope_unit);
-    let column = |v: &Vector3<f64>| v.iter().map(|&b| vec![number::significant(b, 8)]).collect();
+    let column = |v: &Vector3<f64>| v.iter().map(|&b| vec![number_format::significant(b, 8)]).collect();
     let felt = imu.g_sensitivity != Matrix3::zeros();
     let mut parts = vec![
         matrix(&format!("C_a{}", unit(a, "m/s²")), rows(&accelerometer.matrix)),
@@ -40,7 +40,7 @@ pub(super) fn correction(calibration: &ImuCalibration) -> String {
         format!(
             "<p>This is the correction at T₀ = {} °C. At another temperature T, replace b by b(T) and C by C(T) = C diag(1/(1 + k₁ τ + k₂ τ²)), with τ = T − T₀, b(T) = b + b₁ τ + b₂ τ² \
              and the coefficients above; <code>calibrant apply</code> and the C header of <code>calibrant convert</code> do so.</p>",
-            number::significant(thermal.reference_c, 3)
+            number_format::significant(thermal.reference_c, 3)
         )
     };
     let frame = if calibration.frame_is_known() {

@@ -1,6 +1,6 @@
 //! How the joint estimation ended.
 
-use crate::number;
+use crate::number_format;
 use crate::table::Table;
 use calibrant_core::estimate::ImuCalibration;
 use nalgebra::Vector3;
@@ -14,22 +14,22 @@ pub(super) fn fit_table(calibration: &ImuCalibration) -> String {
     row("iterations", calibration.iterations.to_string(), "Steps of the joint problem; a handful is usual.");
     row(
         "gradient norm",
-        number::significant(calibration.gradient_norm, 2),
+        number_format::significant(calibration.gradient_norm, 2),
         "Distance from the optimum in standard deviations of the parameters; good is far below 1.",
     );
     row(
         "χ²",
-        number::significant(calibration.chi2, 4),
+        number_format::significant(calibration.chi2, 4),
         "Sum of weighted squared residuals. The weights come from these data, so it is near the degrees of freedom and tests nothing.",
     );
     row(
         "degrees of freedom",
-        number::count(calibration.degrees_of_freedom),
+        number_format::count(calibration.degrees_of_freedom),
         "Data less unknowns: how much checks the fit.",
     );
     let unit = calibration.gyroscope_unit.symbol();
     let axes = |values: &Vector3<f64>| {
-        let values: Vec<String> = values.iter().map(|&value| number::significant(value, 3)).collect();
+        let values: Vec<String> = values.iter().map(|&value| number_format::significant(value, 3)).collect();
         format!("{} {unit}", values.join(", "))
     };
     row(

@@ -23,8 +23,8 @@ use super::noise::noise_sections;
 use super::validation::validation_section;
 use super::{About, before_after};
 use calibrant_core::estimate::{ImuCalibration, Validation};
-use calibrant_core::noise::TriadNoise;
-use calibrant_core::sensor::{ImuRecording, Triad};
+use calibrant_core::noise::SensorNoise;
+use calibrant_core::sensor::{ImuRecording, SensorKind};
 
 /// A whole IMU as one HTML file: verdict, parameters and corrections of both sensors, holds, rotations, turns, correlations, and its noise where
 /// it was determined.
@@ -34,7 +34,7 @@ use calibrant_core::sensor::{ImuRecording, Triad};
 pub fn imu_calibration_report(
     calibration: &ImuCalibration,
     recording: &ImuRecording,
-    noise: &[TriadNoise],
+    noise: &[SensorNoise],
     about: &About,
 ) -> String {
     let title = if about.title.is_empty() { "Calibration of an IMU" } else { &about.title };
@@ -71,9 +71,9 @@ fn parameters(calibration: &ImuCalibration) -> Page {
         "Readings are y = S f + b of the accelerometer and y = S ω + b + Γ f of the gyroscope, with f the specific force and ω the angular rate: biases are \
          the entries of b, scale factors and matrix entries those of S, g-sensitivities those of Γ. In files, their names begin with that of the sensor: gyroscope.bias.x.",
     );
-    for triad in Triad::ALL {
-        page.subsection(capitalised(triad));
-        page.push(parameters::parameter_table(calibration, triad));
+    for sensor_kind in SensorKind::ALL {
+        page.subsection(capitalised(sensor_kind));
+        page.push(parameters::parameter_table(calibration, sensor_kind));
     }
     if let Some(line) = temperature_in_words(calibration) {
         page.push(format!("<p>{}</p>", escape(&line)));
@@ -154,9 +154,9 @@ fn fit(calibration: &ImuCalibration, validations: &[Validation]) -> Page {
     page
 }
 
-fn capitalised(triad: Triad) -> &'static str {
-    match triad {
-        Triad::Accelerometer => "Accelerometer",
-        Triad::Gyroscope => "Gyroscope",
+fn capitalised(sensor_kind: SensorKind) -> &'static str {
+    match sensor_kind {
+        SensorKind::Accelerometer => "Accelerometer",
+        SensorKind::Gyroscope => "Gyroscope",
     }
 }

@@ -1,10 +1,10 @@
 //! The parameters of one sensor of an IMU, and what they amount to.
 
 use crate::figure::DisplayUnit;
-use crate::number;
+use crate::number_format;
 use crate::table::{Cell, Table};
 use calibrant_core::estimate::ImuCalibration;
-use calibrant_core::sensor::{ImuQuantity, Quantity, ReadingUnit, ThermalPart, ThermalTerm, Triad};
+use calibrant_core::sensor::{ImuQuantity, Quantity, ReadingUnit, SensorKind, ThermalPart, ThermalTerm};
 
 /// Shares from here on are given in %, smaller ones in ppm.
 const PER_CENT: f64 = 1e-3;
@@ -12,28 +12,28 @@ const PER_CENT: f64 = 1e-3;
 const STANDARD_GRAVITY: f64 = 9.806_65;
 
 /// Name without that of the sensor, estimate and sd, unit; what it amounts to; how much of it was known beforehand, where anything was.
-pub(super) fn parameter_table(calibration: &ImuCalibration, triad: Triad) -> String {
-    let places = calibration.places_of(triad);
+pub(super) fn parameter_table(calibration: &ImuCalibration, sensor_kind: SensorKind) -> String {
+    let places = calibration.places_of(sensor_kind);
     let with_prior = places.iter().any(|&k| calibration.known_beforehand(k).is_some());
     let mut columns = vec!["parameter", "estimate ± sd", "unit", "over the gain"];
     if with_prior {
         columns.push("known beforehand");
     }
     let mut table = Table::new("", &columns);
-    let (sd, prefix) = (calibration.sd(), format!("{triad}."));
+    let (sd, prefix) = (calibration.sd(), format!("{sensor_kind}."));
     for k in places {
         let quantity = calibration.quantities[k];
         let unit = calibration.unit_of(quantity);
         let mut row = vec![
             Cell::Name(quantity.name().trim_start_matches(&prefix).to_string()),
-            Cell::Number(number::with_sd(calibration.values[k], sd[k])),
+            Cell::Number(number_format::with_sd(calibration.values[k], sd[k])),
             Cell::Text(if unit == "1" { "–" } else { unit }.to_string()),
             Cell::Number(over_the_gain(calibration, quantity, sd[k])),
         ];
         if with_prior {
             row.push(match calibration.known_beforehand(k) {
-                Some(share) => Cell::Mark(number::percent(share)),
-                None => Cell::Text(number::UNKNOWN.to_string()),
+                Some(share) => Cell::Mark(number_format::percent(share)),
+                None => Cell::Text(number_format::UNKNOWN.to_string()),
             });
         }
         table.row(row);
@@ -51,11 +51,11 @@ pub(super) fn parameter_table(calibration: &ImuCalibration, triad: Triad) -> Str
 /// diagonal as a share. Of readings in counts, biases and scale factors have only their sd so, since counts say nothing by themselves.
 #[must_use]
 pub fn over_the_gain(calibration: &ImuCalibration, quantity: ImuQuantity, sd: f64) -> String {
-    let triad = quantity.triad();
+    let sensor_kind = quantity.sensor_kind();
     let imu = &calibration.imu;
     let (axis, of) = match quantity {
         ImuQuantity::GSensitivity(row, _) => (row, None),
-        ImuQuantity::Thermal(_, term) => return over_temperature(calibration, triad, term, sd),
+        ImuQuantity::Thermal(_, term) => return over_temperature(calibration, sensor_kind, term, sd),
         ImuQuantity::Of(_, of) => (
             match of {
                 Quantity::Bias(axis) | Quantity::Scale(axis) => axis,
@@ -64,15 +64,15 @@ pub fn over_the_gain(calibration: &ImuCalibration, quantity: ImuQuantity, sd: f6
             Some(of),
         ),
     };
-    let gain = imu.triad(triad).matrix.row(axis.index()).norm();
-    let value = quantity.of(imu);
-    let counts = match triad {
-        Triad::Accelerometer => calibration.accelerometer_unit,
-        Triad::Gyroscope => calibration.gyroscope_unit,
+    let gain = imu.sensor(sensor_kind).matrix.row(axis.index()).norm();
+    let value = quantity.value(imu);
+    let counts = match sensor_kind {
+        SensorKind::Accelerometer => calibration.accelerometer_unit,
+        SensorKind::Gyroscope => calibration.gyroscope_unit,
     } == ReadingUnit::Counts;
     let (unit, value) = match of {
         None => ("(rad/s)/(m/s²)", Some(value / gain)),
-        Some(Quantity::Bias(_)) => (triad.stimulus_unit().symbol(), (!counts).then_some(value / gain)),
+        Some(Quantity::Bias(_)) => (sensor_kind.stimulus_unit().symbol(), (!counts).then_some(value / gain)),
         Some(Quantity::Scale(_)) => ("1", (!counts).then_some(value - 1.0)),
         Some(_) => ("1", Some(value / gain)),
     };
@@ -80,14 +80,19 @@ pub fn over_the_gain(calibration: &ImuCalibration, quantity: ImuQuantity, sd: f6
 }
 
 /// The same of a temperature term: in the unit of the stimulus, or as a share of the gain, per K or K².
-fn over_temperature(calibration: &ImuCalibration, triad: Triad, term: ThermalTerm, sd: f64) -> String {
+fn over_temperature(
+    calibration: &ImuCalibration,
+    sensor_kind: SensorKind,
+    term: ThermalTerm,
+    sd: f64,
+) -> String {
     let imu = &calibration.imu;
-    let value = term.of(imu.thermal.triad(triad));
+    let value = term.value(imu.thermal.sensor(sensor_kind));
     let per = if term.order == 1 { "/K" } else { "/K²" };
     match term.part {
         ThermalPart::Bias => {
-            let gain = imu.triad(triad).matrix.row(term.axis.index()).norm();
-            in_display_unit(triad.stimulus_unit().symbol(), per, Some(value / gain), sd / gain)
+            let gain = imu.sensor(sensor_kind).matrix.row(term.axis.index()).norm();
+            in_display_unit(sensor_kind.stimulus_unit().symbol(), per, Some(value / gain), sd / gain)
         }
         ThermalPart::Scale => in_display_unit("1", per, Some(value), sd),
     }
@@ -102,8 +107,8 @@ fn in_display_unit(unit: &'static str, per: &str, value: Option<f64>, sd: f64) -
         _ => DisplayUnit::suited(unit, largest),
     };
     let text = match value {
-        Some(value) => number::with_sd(suited.factor * value, suited.factor * sd),
-        None => format!("± {}", number::significant(suited.factor * sd, 2)),
+        Some(value) => number_format::with_sd(suited.factor * value, suited.factor * sd),
+        None => format!("± {}", number_format::significant(suited.factor * sd, 2)),
     };
     if suited.symbol.is_empty() { text } else { format!("{text} {}{per}", suited.symbol) }
 }

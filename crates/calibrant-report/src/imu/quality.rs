@@ -1,17 +1,17 @@
 //! How good the calibration of an IMU is, in one sentence.
 
-use crate::number;
+use crate::number_format;
 use calibrant_core::estimate::ImuCalibration;
 
-/// How well gravity is met after rotations, known turns and in holds: `after a rotation, gravity is met within 0.12° rms (3.4° before); …`.
+/// How well gravity is met after rotations, known turns and in holds: `after a rotation, gravity is agreement within 0.12° rms (3.4° before); …`.
 #[must_use]
 pub fn imu_quality(calibration: &ImuCalibration) -> String {
     let mut parts = Vec::new();
     if calibration.rotations.iter().any(|rotation| rotation.used) {
         parts.push(format!(
             "after a rotation, gravity is {} ({} before)",
-            met(calibration.rotation_rms_rad()),
-            number::miss(calibration.rotation_rms_before_rad())
+            agreement(calibration.rotation_rms_rad()),
+            number_format::missed_angle(calibration.rotation_rms_before_rad())
         ));
     }
     if !calibration.turns.is_empty() && !calibration.turns_check_the_gains() {
@@ -20,7 +20,7 @@ pub fn imu_quality(calibration: &ImuCalibration) -> String {
         let squares =
             calibration.turns.iter().map(|turn| (turn.measured_rad - turn.angle_rad).norm_squared());
         let rms = (squares.sum::<f64>() / calibration.turns.len() as f64).sqrt();
-        parts.push(format!("known turns are {}", met(rms)));
+        parts.push(format!("known turns are {}", agreement(rms)));
     }
     if let Some(tilt) = &calibration.holds.tilt {
         parts.push(match tilt.sd_rad {
@@ -28,7 +28,7 @@ pub fn imu_quality(calibration: &ImuCalibration) -> String {
                 "the faces scatter no more than noise explains: no tilt shows".into()
             }
             sd => {
-                let sd = number::significant(sd.to_degrees(), 2);
+                let sd = number_format::significant(sd.to_degrees(), 2);
                 format!("the faces were met within {sd}° about each axis, {}", tilt.source_in_words())
             }
         });
@@ -37,25 +37,25 @@ pub fn imu_quality(calibration: &ImuCalibration) -> String {
         0 => "gravity in the holds determines the accelerometer: nothing is left to check it with".into(),
         _ => format!(
             "held still, the corrected magnitude is that of gravity within {} mm/s² rms",
-            number::significant(1e3 * calibration.holds.magnitude_residual_rms_mps2, 2)
+            number_format::significant(1e3 * calibration.holds.magnitude_residual_rms_mps2, 2)
         ),
     });
     parts.join("; ")
 }
 
-/// `met within 0.12° rms`, or that it is not met at all.
-fn met(rms_rad: f64) -> String {
+/// `agreement within 0.12° rms`, or that it is not met at all.
+fn agreement(rms_rad: f64) -> String {
     let how = if rms_rad > std::f64::consts::PI { "missed by" } else { "met within" };
-    format!("{how} {} rms", number::miss(rms_rad))
+    format!("{how} {} rms", number_format::missed_angle(rms_rad))
 }
 
 #[cfg(test)]
 mod tests {
-    use super::met;
+    use super::agreement;
 
     #[test]
     fn what_is_not_met_is_not_called_met() {
-        assert_eq!(met(0.12_f64.to_radians()), "met within 0.12° rms");
-        assert_eq!(met(98_966_f64.to_radians()), "missed by more than 180° rms");
+        assert_eq!(agreement(0.12_f64.to_radians()), "met within 0.12° rms");
+        assert_eq!(agreement(98_966_f64.to_radians()), "missed by more than 180° rms");
     }
 }

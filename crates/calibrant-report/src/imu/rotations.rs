@@ -1,6 +1,6 @@
 //! Rotations between holds and turns of known angle, in numbers.
 
-use crate::number;
+use crate::number_format;
 use crate::table::{Cell, Table};
 use calibrant_core::estimate::{ImuCalibration, RotationResult};
 
@@ -18,19 +18,19 @@ pub(super) fn rotation_summary(calibration: &ImuCalibration) -> String {
     if used > 0 {
         row(
             "gravity missed by, rms",
-            number::miss(calibration.rotation_rms_rad()),
+            number_format::missed_angle(calibration.rotation_rms_rad()),
             "Angle between gravity carried through a rotation and gravity found after it, over the rotations that were used.",
         );
         row(
             "the same before",
-            number::miss(calibration.rotation_rms_before_rad()),
+            number_format::missed_angle(calibration.rotation_rms_before_rad()),
             "With one bias and one gain for all axes, or the datasheet's.",
         );
     }
-    let excess = calibration.rotation_excess_sd_rad;
+    let excess = calibration.between_rotations_sd_rad;
     row(
         "beyond the noise, sd per axis",
-        number::miss(excess),
+        number_format::missed_angle(excess),
         if excess > 0.0 {
             "What the gyroscope's noise does not explain of these errors: a bias that wanders, timing, vibration. It is part of the stated standard deviations."
         } else {
@@ -57,12 +57,16 @@ pub(super) fn rotation_table(rotations: &[RotationResult]) -> String {
     for rotation in rotations {
         let found = |value: f64, decimals: usize| {
             let known = rotation.is_integrated();
-            Cell::Number(if known { number::fixed(value, decimals) } else { number::UNKNOWN.to_string() })
+            Cell::Number(if known {
+                number_format::fixed(value, decimals)
+            } else {
+                number_format::UNKNOWN.to_string()
+            })
         };
         let mut cells = vec![
             Cell::Name(format!("{} → {}", rotation.from_hold + 1, rotation.to_hold + 1)),
-            Cell::Number(number::fixed(rotation.start_s, 2)),
-            Cell::Number(number::fixed(rotation.end_s, 2)),
+            Cell::Number(number_format::fixed(rotation.start_s, 2)),
+            Cell::Number(number_format::fixed(rotation.end_s, 2)),
             found(rotation.path_rad.to_degrees(), 0),
             found(rotation.peak_radps.to_degrees(), 0),
             found(rotation.error_before_rad.to_degrees(), 2),
@@ -96,18 +100,18 @@ pub(super) fn turn_table(calibration: &ImuCalibration) -> String {
     let checked = calibration.turns_check_the_gains();
     for (number, turn) in calibration.turns.iter().enumerate() {
         let axes = |angle: &nalgebra::Vector3<f64>| {
-            angle.iter().map(|a| number::fixed(a.to_degrees(), 2)).collect::<Vec<_>>().join(", ")
+            angle.iter().map(|a| number_format::fixed(a.to_degrees(), 2)).collect::<Vec<_>>().join(", ")
         };
         let missed = (turn.measured_rad - turn.angle_rad).norm();
         table.row(vec![
             Cell::Name((number + 1).to_string()),
-            Cell::Number(number::fixed(turn.start_s, 2)),
-            Cell::Number(number::fixed(turn.end_s, 2)),
+            Cell::Number(number_format::fixed(turn.start_s, 2)),
+            Cell::Number(number_format::fixed(turn.end_s, 2)),
             Cell::Number(axes(&turn.angle_rad)),
             Cell::Number(axes(&turn.measured_rad)),
-            Cell::Number(if checked { number::fixed(missed.to_degrees(), 3) } else { "exact".into() }),
+            Cell::Number(if checked { number_format::fixed(missed.to_degrees(), 3) } else { "exact".into() }),
             Cell::Number(if checked {
-                number::percent(missed / turn.angle_rad.norm())
+                number_format::percent(missed / turn.angle_rad.norm())
             } else {
                 "–".into()
             }),

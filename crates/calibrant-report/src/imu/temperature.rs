@@ -1,6 +1,6 @@
 //! What temperature does, in words.
 
-use crate::number;
+use crate::number_format;
 use calibrant_core::estimate::ImuCalibration;
 
 /// The reference temperature, the polynomials and the temperatures of the holds; `None` where nothing follows temperature.
@@ -8,7 +8,7 @@ use calibrant_core::estimate::ImuCalibration;
 pub fn temperature_in_words(calibration: &ImuCalibration) -> Option<String> {
     calibration.hold_temperatures_c.as_ref()?;
     let thermal = &calibration.imu.thermal;
-    let celsius = |t: f64| number::significant(t, 3);
+    let celsius = |t: f64| number_format::significant(t, 3);
     let range = thermal.range_c.map_or_else(String::new, |[low, high]| {
         format!("; the holds were at {} to {} °C", celsius(low), celsius(high))
     });

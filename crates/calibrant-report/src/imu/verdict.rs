@@ -1,9 +1,9 @@
 //! The headline: can this calibration be used?
 
 use super::quality::imu_quality;
-use crate::{About, html, number};
+use crate::{About, html, number_format};
 use calibrant_core::estimate::{CalibrationStatus, ImuCalibration};
-use calibrant_core::sensor::{Invariant, Triad};
+use calibrant_core::sensor::{Invariant, SensorKind};
 
 /// Beyond this share, a parameter is what was known beforehand rather than what the data say.
 const MOSTLY_PRIOR: f64 = 0.5;
@@ -32,17 +32,17 @@ fn sentence(calibration: &ImuCalibration) -> String {
     let mut from = vec![format!(
         "{} of {}",
         holds.iter().filter(|hold| hold.used).count(),
-        number::counted(holds.len(), "hold")
+        number_format::counted(holds.len(), "hold")
     )];
     if !rotations.is_empty() {
         from.push(format!(
             "{} of {} between them",
             rotations.iter().filter(|rotation| rotation.used).count(),
-            number::counted(rotations.len(), "rotation")
+            number_format::counted(rotations.len(), "rotation")
         ));
     }
     if !calibration.turns.is_empty() {
-        from.push(number::counted(calibration.turns.len(), "turn") + " of known angle");
+        from.push(number_format::counted(calibration.turns.len(), "turn") + " of known angle");
     }
     let last = from.pop().unwrap_or_default();
     let from = if from.is_empty() { last } else { format!("{} and {last}", from.join(", ")) };
@@ -59,15 +59,15 @@ fn sentence(calibration: &ImuCalibration) -> String {
 /// How well the gains of each sensor are known, on the worst axis.
 fn gains(calibration: &ImuCalibration) -> String {
     let invariants = calibration.calibrated().invariants();
-    let known: Vec<String> = Triad::ALL
+    let known: Vec<String> = SensorKind::ALL
         .iter()
-        .map(|&triad| {
+        .map(|&sensor_kind| {
             let worst = invariants
                 .iter()
-                .filter(|found| matches!(found.invariant, Invariant::Gain(of, _) if of == triad))
+                .filter(|found| matches!(found.invariant, Invariant::Gain(of, _) if of == sensor_kind))
                 .map(|found| found.sd.unwrap_or(0.0) / found.value)
                 .fold(0.0, f64::max);
-            format!("{} ({triad})", number::percent(worst))
+            format!("{} ({sensor_kind})", number_format::percent(worst))
         })
         .collect();
     format!("The gains are known to {}, one standard deviation on the worst axis", known.join(" and "))

@@ -5,7 +5,7 @@ use crate::figure::{
     parameters_against_truth, standardised_errors, state_and_jerk_figure,
 };
 use crate::html::Page;
-use crate::number;
+use crate::number_format;
 use crate::parameters::parameter_table;
 use crate::table::{Cell, Table};
 use calibrant_core::estimate::Recovered;
@@ -40,8 +40,8 @@ pub(super) fn chapter(page: &mut Page, study: &Study) {
 fn rates(what: &str, case: &SingleCase) -> String {
     format!(
         "{what}, {} Hz: {} samples, {} intervals.",
-        number::tick(case.recording.rate_hz()),
-        number::count(case.recording.len()),
+        number_format::tick(case.recording.rate_hz()),
+        number_format::count(case.recording.len()),
         case.true_motion.intervals()
     )
 }
@@ -80,17 +80,20 @@ pub(super) fn judge(study: &Study) -> (bool, String) {
     } else if honest {
         format!(
             "95 % intervals hold the truth in {} of the cases, as they should.",
-            number::percent(coverage)
+            number_format::percent(coverage)
         )
     } else {
         format!(
             "95 % intervals hold the truth in {} of the cases, beyond what chance explains: the stated standard deviations are too {}.",
-            number::percent(coverage),
+            number_format::percent(coverage),
             if coverage < 0.95 { "small" } else { "large" }
         )
     };
-    let sentence =
-        format!("{} of {} calibrations converged. {judged}", number::count(converged), number::count(all));
+    let sentence = format!(
+        "{} of {} calibrations converged. {judged}",
+        number_format::count(converged),
+        number_format::count(all)
+    );
     (honest && converged == all && all > 0, sentence)
 }
 
@@ -98,15 +101,15 @@ fn settings(study: &Study) -> String {
     let sensor = &study.sensor;
     let per_axis = |values: &nalgebra::Vector3<f64>| {
         let mut texts: Vec<String> =
-            sensor.active_axes().iter().map(|axis| number::short(values[axis.index()])).collect();
+            sensor.active_axes().iter().map(|axis| number_format::short(values[axis.index()])).collect();
         texts.dedup();
         texts.join(", ")
     };
-    let unknown = || number::UNKNOWN.to_string();
+    let unknown = || number_format::UNKNOWN.to_string();
     let mut table = Table::new("", &["setting", "value"]);
     let mut row =
         |name: &str, value: String| table.row(vec![Cell::Name(name.to_string()), Cell::Text(value)]);
-    row("sensors", number::count(study.outcomes.len()));
+    row("sensors", number_format::count(study.outcomes.len()));
     row("axes", sensor.axes.to_string());
     row("unit of the readings", sensor.unit.symbol().to_string());
     let noise = sensor.noise_counts.as_ref().map(|n| format!("{} counts", per_axis(n)));
@@ -120,8 +123,8 @@ fn settings(study: &Study) -> String {
     row("trust in the motion", study.trust.to_string());
     let intervals = study.motion.intervals();
     let duration = study.motion.times_s()[intervals] - study.motion.times_s()[0];
-    row("motion", format!("{intervals} intervals in {} s", number::tick(duration)));
-    row("sample rate", format!("{} Hz", number::tick(study.rate_hz)));
+    row("motion", format!("{intervals} intervals in {} s", number_format::tick(duration)));
+    row("sample rate", format!("{} Hz", number_format::tick(study.rate_hz)));
     row("seed", study.seed.to_string());
     table.html()
 }
@@ -139,19 +142,19 @@ fn summary_table(study: &Study) -> String {
     let mut table = Table::new("", &columns);
     for entry in &study.summary {
         let unit = DisplayUnit::suited(entry.unit, entry.predicted_sd.max(entry.realised_rms));
-        let shown = |value: f64| Cell::Number(number::significant(value * unit.factor, 3));
+        let shown = |value: f64| Cell::Number(number_format::significant(value * unit.factor, 3));
         table.row(vec![
             Cell::Name(entry.name.clone()),
             Cell::Text(if unit.symbol.is_empty() {
-                number::UNKNOWN.to_string()
+                number_format::UNKNOWN.to_string()
             } else {
                 unit.symbol.to_string()
             }),
             shown(entry.predicted_sd),
             shown(entry.realised_rms),
-            Cell::Number(number::fixed(entry.realised_rms / entry.predicted_sd, 2)),
+            Cell::Number(number_format::fixed(entry.realised_rms / entry.predicted_sd, 2)),
             shown(entry.mean_error),
-            Cell::Number(number::percent(entry.coverage_95)),
+            Cell::Number(number_format::percent(entry.coverage_95)),
         ]);
     }
     table.html()

@@ -7,7 +7,7 @@ use crate::figure::{
     traces, velocity_and_displacement,
 };
 use crate::html::Page;
-use crate::number;
+use crate::number_format;
 use crate::table::{Cell, Table};
 use calibrant_design::limit_use;
 use calibrant_design::study::{DesignStudy, Factor, ParameterSummary};
@@ -108,9 +108,9 @@ pub(super) fn judge(name: &str, study: &DesignStudy) -> (bool, String) {
     let sentence = format!(
         "{name}: the trace of the covariance is smaller than with the initial motion for {} of {} sensors.{gain} {kept_words} 95 % intervals hold \
          the truth in {} of the cases.",
-        number::count(better),
-        number::count(all),
-        number::percent(coverage)
+        number_format::count(better),
+        number_format::count(all),
+        number_format::percent(coverage)
     );
     let chance = 2.0 * (0.95 * 0.05 / all.max(1) as f64).sqrt();
     (all > 0 && better == all && kept && (coverage - 0.95).abs() <= chance, sentence)
@@ -129,9 +129,9 @@ fn agrees(entry: &calibrant_design::study::Improvement) -> bool {
 
 fn factor(factor: &Factor) -> String {
     match factor.standard_error {
-        Some(error) if error > 5e-4 * factor.value => number::with_sd(factor.value, error),
-        Some(_) => number::significant(factor.value, 4),
-        None => number::significant(factor.value, 3),
+        Some(error) if error > 5e-4 * factor.value => number_format::with_sd(factor.value, error),
+        Some(_) => number_format::significant(factor.value, 4),
+        None => number_format::significant(factor.value, 3),
     }
 }
 
@@ -152,8 +152,8 @@ fn improvement_table(study: &DesignStudy) -> String {
         let (before, after) = (&entry.initial, &entry.optimal);
         let numbers = |s: &ParameterSummary| [s.predicted_sd, s.realised_rms];
         let unit = DisplayUnit::suited_to(before.unit, numbers(before).into_iter().chain(numbers(after)));
-        let shown = |value: f64| Cell::Number(number::significant(value * unit.factor, 3));
-        let symbol = if unit.symbol.is_empty() { number::UNKNOWN } else { unit.symbol };
+        let shown = |value: f64| Cell::Number(number_format::significant(value * unit.factor, 3));
+        let symbol = if unit.symbol.is_empty() { number_format::UNKNOWN } else { unit.symbol };
         table.row(vec![
             Cell::Name(after.name.clone()),
             Cell::Text(symbol.to_string()),
@@ -163,7 +163,7 @@ fn improvement_table(study: &DesignStudy) -> String {
             shown(before.realised_rms),
             shown(after.realised_rms),
             Cell::Number(factor(&entry.realised)),
-            Cell::Number(number::percent(after.coverage_95)),
+            Cell::Number(number_format::percent(after.coverage_95)),
         ]);
     }
     table.html()
@@ -173,7 +173,7 @@ fn trace_table(study: &DesignStudy) -> String {
     let mut table = Table::new("", &["trace of the covariance (SI)", "least", "median", "most"]);
     for (name, range) in [("initial motion", &study.trace.initial), ("optimal motion", &study.trace.optimal)]
     {
-        let shown = |value: f64| Cell::Number(number::significant(value, 4));
+        let shown = |value: f64| Cell::Number(number_format::significant(value, 4));
         table.row(vec![
             Cell::Name(name.to_string()),
             shown(range.least),

@@ -1,6 +1,6 @@
 //! What a study of initial against optimal motions was asked for.
 
-use crate::number;
+use crate::number_format;
 use crate::table::{Cell, Table};
 use calibrant_core::motion::{KnownEnds, Rest, Trust};
 use calibrant_core::sensor::Axis;
@@ -13,14 +13,14 @@ pub(super) fn settings(study: &DesignStudy) -> String {
     let mut table = Table::new("", &["setting", "value"]);
     let mut row =
         |name: &str, value: String| table.row(vec![Cell::Name(name.to_string()), Cell::Text(value)]);
-    row("sensors", number::count(study.outcomes.len()));
+    row("sensors", number_format::count(study.outcomes.len()));
     row(
         "motion",
         format!(
             "{} intervals of {} s, sampled at {} Hz",
             study.intervals,
-            number::short(study.interval_s),
-            number::short(study.rate_hz)
+            number_format::short(study.interval_s),
+            number_format::short(study.rate_hz)
         ),
     );
     row("trust in the motion", trust(study));
@@ -55,8 +55,8 @@ fn trust(study: &DesignStudy) -> String {
         Trust::Known => "known: the arm does exactly what is commanded".to_string(),
         Trust::Noisy(noise) => format!(
             "noisy: noise of sd {} m/s³ + {} |u| on the jerk; {ends}",
-            number::short(noise.floor_mps3),
-            number::short(noise.ratio)
+            number_format::short(noise.floor_mps3),
+            number_format::short(noise.ratio)
         ),
         Trust::Unknown => format!("unknown: only {ends}"),
     }
@@ -64,7 +64,8 @@ fn trust(study: &DesignStudy) -> String {
 
 fn limits(study: &DesignStudy, axes: &[Axis]) -> String {
     let per_axis = |values: &Vector3<f64>| {
-        let mut texts: Vec<String> = axes.iter().map(|axis| number::short(values[axis.index()])).collect();
+        let mut texts: Vec<String> =
+            axes.iter().map(|axis| number_format::short(values[axis.index()])).collect();
         if texts.windows(2).all(|pair| pair[0] == pair[1]) {
             texts.truncate(1);
         }

@@ -1,7 +1,7 @@
 //! What holds for the pages about designs.
 
 use super::{about, assert_sound, designs};
-use crate::{About, design_report, evaluation_report, number, sweep_report};
+use crate::{About, design_report, evaluation_report, number_format, sweep_report};
 use calibrant_core::motion::{JerkControlledMotion, Limits};
 use calibrant_core::sensor::{Sensor, SensorModel};
 use calibrant_design::{Certificate, Design, DesignStatus, StartOutcome, Sweep, assess};
@@ -22,7 +22,7 @@ fn a_design_shows_every_number_of_the_result() {
         assert!(html.contains(&format!("<th scope=\"row\">{}</th>", parameter.name)), "{}", parameter.name);
         for sd in [old, new] {
             assert!(
-                html.contains(&format!(">{}<", number::significant(sd * 1e6, 4))),
+                html.contains(&format!(">{}<", number_format::significant(sd * 1e6, 4))),
                 "{}: {sd}",
                 parameter.name
             );
@@ -30,10 +30,10 @@ fn a_design_shows_every_number_of_the_result() {
     }
     let certificate = design.certificate.as_ref().expect("made up");
     for value in [design.initial.value, design.optimal.value, certificate.lower_bound] {
-        assert!(html.contains(&number::significant(value, 6)), "{value}");
+        assert!(html.contains(&number_format::significant(value, 6)), "{value}");
     }
     for start in &design.starts {
-        assert!(html.contains(&number::significant(start.value, 8)));
+        assert!(html.contains(&number_format::significant(start.value, 8)));
     }
     for text in [
         "Figure 8 of the report",
@@ -153,10 +153,10 @@ fn an_evaluation_compares_with_the_optimum_and_names_what_is_broken() {
     assert_sound(&html);
     let gain = assessment.evaluation.sd()[4] / assessment.optimum.as_ref().expect("given").optimal.sd()[4];
     assert!(
-        gain > 2.0 && html.contains(&format!("scale.y {} times smaller", number::fixed(gain, 2))),
+        gain > 2.0 && html.contains(&format!("scale.y {} times smaller", number_format::fixed(gain, 2))),
         "{gain}"
     );
-    let efficiency = number::percent(assessment.efficiency().expect("both determined"));
+    let efficiency = number_format::percent(assessment.efficiency().expect("both determined"));
     assert!(html.contains("a better motion is worth it") && html.contains(&efficiency));
 
     // twice as wide breaks the displacement, and there may be nothing to compare with
@@ -186,9 +186,9 @@ fn a_sweep_shows_every_value_and_why_some_have_no_design() {
     let html = sweep_report(&sweep, &about());
     assert_sound(&html);
     for point in &sweep.points {
-        assert!(html.contains(&format!("<th scope=\"row\">{}</th>", number::short(point.value))));
+        assert!(html.contains(&format!("<th scope=\"row\">{}</th>", number_format::short(point.value))));
         for sd in point.sd(sweep.parameters.len()).into_iter().filter(|sd| sd.is_finite()) {
-            assert!(html.contains(&number::significant(sd * 1e6, 4)), "{sd}");
+            assert!(html.contains(&number_format::significant(sd * 1e6, 4)), "{sd}");
         }
     }
     for text in

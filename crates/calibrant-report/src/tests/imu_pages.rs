@@ -1,10 +1,10 @@
 //! Pages on a whole IMU.
 
-use super::super::{About, imu_calibration_report, number};
+use super::super::{About, imu_calibration_report, number_format};
 use super::{about, assert_sound, estimate, motion, sensor};
 use calibrant_core::estimate::CalibrationStatus;
-use calibrant_core::noise::{Stretch, TriadNoise};
-use calibrant_core::sensor::{ImuRecording, Triad};
+use calibrant_core::noise::{Segment, SensorNoise};
+use calibrant_core::sensor::{ImuRecording, SensorKind};
 
 #[path = "../../examples/report_gallery/imus.rs"]
 mod imus;
@@ -13,8 +13,8 @@ mod imus;
 fn a_page_shows_both_sensors_the_holds_the_rotations_and_the_turns() {
     let case = imus::imu_case(14, 1);
     let gyroscope = case.recording.gyroscope.as_ref().expect("recorded");
-    let stretch = Stretch::between(gyroscope, 0.0, 2.0).expect("long enough");
-    let noise = TriadNoise::of(Triad::Gyroscope, gyroscope, stretch).expect("noisy");
+    let segment = Segment::between(gyroscope, 0.0, 2.0).expect("long enough");
+    let noise = SensorNoise::of(SensorKind::Gyroscope, gyroscope, segment).expect("noisy");
     let html = imu_calibration_report(&case.calibration, &case.recording, &[noise], &about());
     assert_sound(&html);
     let text = html.replace("<th scope=\"row\">", "");
@@ -77,7 +77,8 @@ fn the_magnitude_before_is_that_of_plain_readings() {
     let found = holds.magnitude_residual_rms_before_mps2().expect("regular");
     assert!((found / rms - 1.0).abs() < 1e-9 && rms > 0.5, "{found} beside {rms}");
     let html = imu_calibration_report(&case.calibration, &case.recording, &[], &about());
-    let [before, after] = [found, holds.magnitude_residual_rms_mps2].map(|v| number::significant(v, 3));
+    let [before, after] =
+        [found, holds.magnitude_residual_rms_mps2].map(|v| number_format::significant(v, 3));
     assert!(html.contains(&format!("{before} → {after} m/s², ")), "{before} → {after}");
 }
 

@@ -2,12 +2,12 @@
 
 use super::super::noise_report;
 use super::{about, assert_sound};
-use calibrant_core::noise::{PowerLaw, Stretch, TriadNoise};
-use calibrant_core::sensor::{ReadingUnit, Recording, Triad};
+use calibrant_core::noise::{PowerLaw, Segment, SensorNoise};
+use calibrant_core::sensor::{ReadingUnit, Recording, SensorKind};
 use calibrant_core::simulate::{Purpose, simulate_noise, stream};
 use nalgebra::Vector3;
 
-fn noise(triad: Triad, unit: ReadingUnit, drift: f64) -> TriadNoise {
+fn noise(sensor_kind: SensorKind, unit: ReadingUnit, drift: f64) -> SensorNoise {
     let (n, interval) = (6000, 0.01);
     let mut rng = stream(3, Purpose::Sensor, 0);
     let mut axis = |walk: f64| {
@@ -16,10 +16,10 @@ fn noise(triad: Triad, unit: ReadingUnit, drift: f64) -> TriadNoise {
         values.iter_mut().zip(walk).for_each(|(value, walk)| *value += walk);
         values
     };
-    of_axes(triad, unit, &[axis(0.0), axis(5e-3), axis(0.0)], drift)
+    of_axes(sensor_kind, unit, &[axis(0.0), axis(5e-3), axis(0.0)], drift)
 }
 
-fn of_axes(triad: Triad, unit: ReadingUnit, axes: &[Vec<f64>; 3], drift: f64) -> TriadNoise {
+fn of_axes(sensor_kind: SensorKind, unit: ReadingUnit, axes: &[Vec<f64>; 3], drift: f64) -> SensorNoise {
     let (n, interval) = (axes[0].len(), 0.01);
     let recording = Recording {
         times_s: (0..n).map(|k| k as f64 * interval).collect(),
@@ -29,14 +29,14 @@ fn of_axes(triad: Triad, unit: ReadingUnit, axes: &[Vec<f64>; 3], drift: f64) ->
         axes: 3,
         unit,
     };
-    let stretch = Stretch::between(&recording, 0.0, 1e3).expect("long enough");
-    TriadNoise::of(triad, &recording, stretch).expect("noisy")
+    let segment = Segment::between(&recording, 0.0, 1e3).expect("long enough");
+    SensorNoise::of(sensor_kind, &recording, segment).expect("noisy")
 }
 
 #[test]
 fn a_page_shows_the_plot_the_coefficients_and_what_is_not_determined() {
-    let accelerometer = noise(Triad::Accelerometer, ReadingUnit::MetrePerSecondSquared, 0.0);
-    let gyroscope = noise(Triad::Gyroscope, ReadingUnit::Counts, 0.0);
+    let accelerometer = noise(SensorKind::Accelerometer, ReadingUnit::MetrePerSecondSquared, 0.0);
+    let gyroscope = noise(SensorKind::Gyroscope, ReadingUnit::Counts, 0.0);
     let html = noise_report(&[accelerometer, gyroscope], &about());
     assert_sound(&html);
     for text in [
@@ -57,7 +57,7 @@ fn a_page_shows_the_plot_the_coefficients_and_what_is_not_determined() {
 #[test]
 fn a_drift_is_told_apart() {
     // 40 standard deviations of what white noise makes of a slope; a random walk as large as the recording allows makes 10 of them
-    let html = noise_report(&[noise(Triad::Gyroscope, ReadingUnit::RadianPerSecond, 3e-6)], &about());
+    let html = noise_report(&[noise(SensorKind::Gyroscope, ReadingUnit::RadianPerSecond, 3e-6)], &about());
     assert_sound(&html);
     assert!(
         html.contains("gyroscope z drifts by") && html.contains("linear drift") && html.contains("deg/√h")
@@ -78,13 +78,13 @@ fn a_filters_share_is_not_called_quantisation() {
         };
         white.iter().map(resonance).collect::<Vec<f64>>()
     };
-    let (triad, unit) = (Triad::Accelerometer, ReadingUnit::MetrePerSecondSquared);
-    let resonant = of_axes(triad, unit, &[axis(), axis(), axis()], 0.0);
-    let page = |noise: &TriadNoise| noise_report(std::slice::from_ref(noise), &about());
+    let (sensor_kind, unit) = (SensorKind::Accelerometer, ReadingUnit::MetrePerSecondSquared);
+    let resonant = of_axes(sensor_kind, unit, &[axis(), axis(), axis()], 0.0);
+    let page = |noise: &SensorNoise| noise_report(std::slice::from_ref(noise), &about());
     let filtered = resonant.axes.iter().filter(|axis| axis.fit.filtered).count();
     assert!(filtered > 0, "{:?}", resonant.warnings);
     let html = page(&resonant);
     assert_sound(&html);
     assert!(html.contains("share of a filter") && html.contains("and no quantisation"));
-    assert!(!page(&noise(triad, unit, 0.0)).contains("share of a filter"));
+    assert!(!page(&noise(sensor_kind, unit, 0.0)).contains("share of a filter"));
 }

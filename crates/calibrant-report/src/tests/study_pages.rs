@@ -1,7 +1,7 @@
 //! What holds for the pages about studies of optimal motions.
 
 use super::{about, assert_sound, studies};
-use crate::{number, study_report};
+use crate::{number_format, study_report};
 use calibrant_core::motion::Trust;
 use calibrant_design::study::Studies;
 
@@ -16,10 +16,14 @@ fn a_study_of_everything_shows_the_figures_of_chapters_three_and_four() {
     for study in [&everything.design, &everything.noisy].into_iter().flatten() {
         for entry in &study.summary {
             let error = entry.realised.standard_error.expect("many sensors");
-            assert!(html.contains(&number::with_sd(entry.realised.value, error)), "{}", entry.initial.name);
+            assert!(
+                html.contains(&number_format::with_sd(entry.realised.value, error)),
+                "{}",
+                entry.initial.name
+            );
         }
         for trace in [study.trace.initial.most, study.trace.optimal.median] {
-            assert!(html.contains(&number::significant(trace, 4)), "{trace}");
+            assert!(html.contains(&number_format::significant(trace, 4)), "{trace}");
         }
     }
     for text in [

@@ -85,11 +85,11 @@ fn every_criterion_has_the_derivative_of_finite_differences_for_every_trust_and_
     for setting in settings() {
         let prior = prior(&setting);
         let value = |criterion: &Criterion, nodes: &[Vector3<f64>]| {
-            let information = setting.of(&motion(nodes)).expect("determined") + &prior;
+            let information = setting.information(&motion(nodes)).expect("determined") + &prior;
             criterion.value(&covariance(&information).expect("regular"))
         };
         let at = nodes();
-        let information = setting.of(&motion(&at)).expect("determined") + &prior;
+        let information = setting.information(&motion(&at)).expect("determined") + &prior;
         let c = covariance(&information).expect("regular");
         for criterion in criteria(prior.nrows(), setting.model) {
             // dΦ = −⟨C (∂Φ/∂C) C, dF⟩

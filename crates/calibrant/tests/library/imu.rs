@@ -154,7 +154,7 @@ fn intervals_of_2000_simulated_imus_cover_the_truth() {
             assert_eq!(calibration.status, CalibrationStatus::Converged, "{number}");
             let sd = calibration.sd();
             let pairs = calibration.quantities.iter().zip(calibration.values.iter().zip(sd));
-            pairs.map(|(quantity, (value, sd))| (value - quantity.of(&truth)) / sd).collect()
+            pairs.map(|(quantity, (value, sd))| (value - quantity.value(&truth)) / sd).collect()
         })
         .collect();
     let quantities = inside[0].len();

@@ -208,7 +208,7 @@ fn a_known_bias_is_kept_and_a_prior_shares() {
     };
     let known = |name: &str, sd: Option<f64>| KnownTerm {
         quantity: quantity(name),
-        value: quantity(name).of(&truth),
+        value: quantity(name).value(&truth),
         sd,
     };
     let setup = ImuSetup {
@@ -229,14 +229,17 @@ fn a_known_bias_is_kept_and_a_prior_shares() {
     let setup = ImuSetup { known: vec![fixed], ..ImuSetup::default() };
     let calibration = run_imu(&recording, &Gyroscope::default(), &setup, unit).expect("determined");
     assert_eq!(calibration.imu.gyroscope.matrix.m11, 0.9);
-    let said = calibration.warnings.join("; ");
-    assert!(said.contains("the recording contradicts what [known] says of gyroscope.scale.x: 0.9"), "{said}");
+    let message = calibration.warnings.join("; ");
+    assert!(
+        message.contains("the recording contradicts what [known] says of gyroscope.scale.x: 0.9"),
+        "{message}"
+    );
     let prior = KnownTerm { quantity: quantity("gyroscope.bias.x"), value: 0.1, sd: Some(1e-4) };
     let setup = ImuSetup { known: vec![prior], ..ImuSetup::default() };
     let calibration = run_imu(&recording, &Gyroscope::default(), &setup, unit).expect("determined");
-    let said = calibration.warnings.join("; ");
-    assert!(said.contains("the data contradict what [known] says of gyroscope.bias.x"), "{said}");
-    assert!(said.contains("degrees of freedom: the data contradict"), "{said}");
+    let message = calibration.warnings.join("; ");
+    assert!(message.contains("the data contradict what [known] says of gyroscope.bias.x"), "{message}");
+    assert!(message.contains("degrees of freedom: the data contradict"), "{message}");
 
     // far off, it is refused whatever the fit with it would come to; with a third of that it converges, and is said
     for (name, absurd) in [
@@ -250,16 +253,16 @@ fn a_known_bias_is_kept_and_a_prior_shares() {
         for share in [1.0 / 3.0, 1.0, 2.5, 10.0, 1e4, 1e9] {
             for sd in [None, Some(1e-9)] {
                 let fixed = quantity(name);
-                let known = KnownTerm { quantity: fixed, value: fixed.of(&truth) + share * absurd, sd };
+                let known = KnownTerm { quantity: fixed, value: fixed.value(&truth) + share * absurd, sd };
                 let setup = ImuSetup { known: vec![known], ..ImuSetup::default() };
                 let found = run_imu(&recording, &Gyroscope::default(), &setup, unit);
                 let says =
                     format!("the recording contradicts what [known] says of {name}: {:?}", known.value);
-                let said = match &found {
+                let message = match &found {
                     Ok(calibration) => calibration.warnings.join("; "),
                     Err(error) => error.to_string(),
                 };
-                assert!(said.contains(&says), "{said}");
+                assert!(message.contains(&says), "{message}");
                 match found {
                     Ok(calibration) => assert!(
                         share < 1.0 && calibration.status == CalibrationStatus::Converged,
@@ -287,10 +290,10 @@ fn a_turn_that_was_not_made_is_named() {
     let setup = ImuSetup { turns: vec![turn], ..ImuSetup::default() };
     let unit = ReadingUnit::MetrePerSecondSquared;
     let calibration = run_imu(&recording, &Gyroscope::default(), &setup, unit).expect("determined");
-    let said = calibration.warnings.join("; ");
+    let message = calibration.warnings.join("; ");
     assert!(
-        said.contains("turn 1 (10.0 to 14.0 s) is given as 360.0° about x, and the gyroscope shows"),
-        "{said}"
+        message.contains("turn 1 (10.0 to 14.0 s) is given as 360.0° about x, and the gyroscope shows"),
+        "{message}"
     );
 }
 

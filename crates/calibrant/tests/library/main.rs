@@ -1,27 +1,27 @@
 //! What the library promises, checked from outside: one binary, so that it is linked once.
 
 mod architecture;
-mod change;
-mod clocks;
+mod clock_skew;
 mod common;
+mod contradicted_inputs;
 mod derivatives;
 mod design;
-mod earth;
+mod earth_rate;
 mod estimate;
-mod faces;
 mod files;
-mod given;
 mod holds;
 mod imu;
 mod imu_recordings;
 mod invariants;
+mod known_faces;
+mod large_rotation_errors;
+mod mounting;
 mod noise;
-mod resolution;
+mod quantisation;
 mod saturation;
-mod sparks;
+mod sensor_change;
+mod spikes;
 mod statistics;
 mod study;
-mod thermal;
-mod tilted;
-mod upside_down;
+mod temperature_terms;
 mod validation;

@@ -48,7 +48,7 @@ fn coverage(count: u64, limit: f64) -> (Vec<f64>, Vec<f64>) {
             let calibration = run(&recording, &gyroscope, &ImuSetup::default()).expect("determined");
             assert_eq!(calibration.status, CalibrationStatus::Converged, "{number}");
             let pairs = calibration.quantities.iter().zip(calibration.values.iter().zip(calibration.sd()));
-            pairs.map(|(quantity, (value, sd))| (value - quantity.of(&truth)) / sd).collect()
+            pairs.map(|(quantity, (value, sd))| (value - quantity.value(&truth)) / sd).collect()
         })
         .collect();
     let of = |f: &dyn Fn(f64) -> f64| -> Vec<f64> {
@@ -90,12 +90,12 @@ fn holds_and_rotations_in_which_the_accelerometer_saturates_are_left_out_and_nam
     for (number, result) in (1..).zip(&calibration.holds.holds) {
         let cut = is_cut(&whole, (result.hold.start_s, result.hold.end_s), limit);
         assert_eq!(!result.used, cut, "hold {number}");
-        let said = calibration.warnings.iter().any(|warning| {
+        let message = calibration.warnings.iter().any(|warning| {
             warning.starts_with(&format!("hold {number} ("))
                 && warning.contains("was left out: axis x of the accelerometer saturates in it, at ")
                 && warning.contains("7.84 m/s²; record with a larger range, or tilt that axis")
         });
-        assert_eq!(said, cut, "hold {number}: {:?}", calibration.warnings);
+        assert_eq!(message, cut, "hold {number}: {:?}", calibration.warnings);
         left_out += usize::from(cut);
     }
     assert!((2..15).contains(&left_out), "{left_out}: the test needs both kinds");
@@ -122,9 +122,12 @@ fn too_few_holds_that_are_not_cut_off_are_an_error_that_says_so() {
     clip(&mut recording, 3.0);
     let error = run(&recording, &Gyroscope::default(), &ImuSetup::default()).expect_err("too few holds");
     assert!(error.is_not_identifiable(), "{error}");
-    let said = error.to_string();
-    assert!(said.contains("were left out since the accelerometer saturates in them, axis x at"), "{said}");
-    assert!(said.contains("record with a larger range"), "{said}");
+    let message = error.to_string();
+    assert!(
+        message.contains("were left out since the accelerometer saturates in them, axis x at"),
+        "{message}"
+    );
+    assert!(message.contains("record with a larger range"), "{message}");
 
     // the accelerometer alone
     let sensor = Sensor::triaxial(SensorModel::Full);
@@ -268,7 +271,7 @@ fn the_accelerometer_alone_leaves_them_out_as_well() {
         .iter()
         .zip(calibration.sd().into_iter().zip(setup.gauge.parameter_list(SensorModel::Full).quantities()))
     {
-        let off = (value - quantity.of(&truth.accelerometer)) / sd;
+        let off = (value - quantity.value(&truth.accelerometer)) / sd;
         assert!(off.abs() < 4.0, "{}: {off:.1} standard deviations", quantity.name());
     }
     assert!(holds.between_holds_sd_mps2 < 2e-3, "{}", holds.between_holds_sd_mps2);

@@ -237,7 +237,7 @@ fn static_holds_deliver_the_promised_covariance() {
                     .quantities()
                     .iter()
                     .zip(&calibration.values)
-                    .map(|(q, v)| v - Quantity::of(*q, &truth));
+                    .map(|(q, v)| v - Quantity::value(*q, &truth));
                 (errors.collect(), calibration.sd(), found)
             })
             .collect();

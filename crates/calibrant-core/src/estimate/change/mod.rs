@@ -3,11 +3,11 @@
 //! A knock, a mounting that slips or a sensor that warms up leaves estimates that are a mean of before and after. Their standard deviations come from the scatter, which the change itself makes
 //! larger, so that nothing looks wrong; and each part of such a recording is predicted by the rest of it as well as that scatter promises. Only the order of time tells (`score`).
 
+mod left_out_run;
 mod result;
-mod run;
-mod score;
+mod score_test;
 mod words;
 
+pub(in crate::estimate) use left_out_run::longest_run;
 pub use result::{Change, Changed, Course};
-pub(in crate::estimate) use run::longest_run;
-pub(in crate::estimate) use score::Series;
+pub(in crate::estimate) use score_test::Series;

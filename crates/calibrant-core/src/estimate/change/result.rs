@@ -1,13 +1,13 @@
 //! A change of a sensor within a recording: of what, when and by how much.
 
-use crate::sensor::Triad;
+use crate::sensor::SensorKind;
 use nalgebra::Vector3;
 
 /// A sensor that is not the same throughout a recording.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Change {
     /// The sensor.
-    pub triad: Triad,
+    pub sensor_kind: SensorKind,
     /// What of it changes.
     pub of: Changed,
     /// What explains the residuals nearly as well in its place.

@@ -1,7 +1,7 @@
 //! A change in words, for whoever has to find its reason.
 
 use super::{Change, Changed, Course};
-use crate::sensor::{Axis, Triad};
+use crate::sensor::{Axis, SensorKind};
 use nalgebra::Vector3;
 
 /// A recording that is warmer or colder by this is another one, K.
@@ -39,10 +39,10 @@ impl Change {
     #[must_use]
     pub fn headline(&self) -> String {
         match self.course {
-            Course::Drift => format!("the {} drifts through the recording", self.triad),
+            Course::Drift => format!("the {} drifts through the recording", self.sensor_kind),
             Course::Episode { first, last, start_s, end_s } => format!(
                 "the {} changes at about {start_s:.0} s and back at about {end_s:.0} s (hold {} to hold {})",
-                self.triad,
+                self.sensor_kind,
                 first + 1,
                 last + 1
             ),
@@ -51,7 +51,7 @@ impl Change {
                     true => format!("in hold {}", after + 1),
                     false => format!("between hold {} and hold {}", before + 1, after + 1),
                 };
-                format!("the {} changes at about {time_s:.0} s ({place})", self.triad)
+                format!("the {} changes at about {time_s:.0} s ({place})", self.sensor_kind)
             }
         }
     }
@@ -67,9 +67,9 @@ impl Change {
             Course::Drift => format!("change{ending} from begin to end by"),
             Course::Episode { .. } => format!("differ{ending} in between by"),
         };
-        let (scale, unit) = match (self.of, self.triad) {
-            (Changed::Bias, Triad::Accelerometer) => (1e3, "mm/s²"),
-            (Changed::Bias, Triad::Gyroscope) => (1_f64.to_degrees(), "°/s"),
+        let (scale, unit) = match (self.of, self.sensor_kind) {
+            (Changed::Bias, SensorKind::Accelerometer) => (1e3, "mm/s²"),
+            (Changed::Bias, SensorKind::Gyroscope) => (1_f64.to_degrees(), "°/s"),
             (Changed::Gain, _) => (100.0, "%"),
             (Changed::Axes, _) => (1_f64.to_degrees(), "°"),
         };

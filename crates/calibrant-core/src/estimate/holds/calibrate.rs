@@ -1,27 +1,27 @@
 //! From a recording with holds to the calibration: find the holds, fit, put the result together.
 
-use super::clipped::{clipped_holds, reason as clipped_reason, with_clipped};
-use super::detect::{beyond, find_holds_in, holds_between};
-use super::filtered::{holds_lost_to_filter, with_filter};
-use super::paused::with_pauses;
+use super::hold_detection::{beyond, find_holds_in, holds_between};
+use super::holds_with_pauses::with_pauses;
+use super::low_pass_filtered::{holds_lost_to_filter, with_filter};
 use super::residuals::magnitude_rms;
-use super::robust::{self, Robust};
+use super::robust_weights::{self, Robust};
+use super::saturated_holds::{clipped_holds, reason as clipped_reason, with_clipped};
 use super::setup::HoldsSetup;
 use super::words::coarse_words;
-use super::{changing, verdict};
-use crate::error::{Complaint, Error, Result};
-use crate::estimate::gravity::gravity_slope;
-use crate::estimate::one_sided::one_sided;
+use super::{accelerometer_change, verdict};
+use crate::error::{Error, InputError, Result};
+use crate::estimate::gravity_error::gravity_slope;
 use crate::estimate::quantisation::of_means;
+use crate::estimate::skewed_spikes::skewed_spikes;
 use crate::estimate::{
     Calibration, CalibrationProblem, CalibrationSettings, FitStatistics, HoldCalibration, HoldResult,
     Recovered, Uncalibrated, coarse_axes_in, statistics,
 };
 use crate::motion::Hold;
-use crate::sensor::{ImuParameters, ImuQuantity, Recording, SensorModel, SensorParameters, Triad};
+use crate::sensor::{ImuParameters, ImuQuantity, Recording, SensorKind, SensorModel, SensorParameters};
 use nalgebra::{Matrix3, Vector3};
 
-/// Calibrates from holds, sparks taken out. `as_read` is the recording before anything was corrected in it, of the same samples: it tells which holds are clipped.
+/// Calibrates from holds, spikes taken out. `as_read` is the recording before anything was corrected in it, of the same samples: it tells which holds are clipped.
 pub(in crate::estimate) fn calibrate(
     problem: &CalibrationProblem<'_>,
     setup: &HoldsSetup,
@@ -29,7 +29,7 @@ pub(in crate::estimate) fn calibrate(
     as_read: &Recording,
 ) -> Result<Calibration> {
     if problem.sensor.axes != 3 {
-        return Err(Error::experiment(Complaint::new(
+        return Err(Error::experiment(InputError::new(
             "a static calibration needs three axes: only the magnitude of gravity is known, not its direction",
             "set sensor.axes = 3",
         )));
@@ -42,12 +42,13 @@ pub(in crate::estimate) fn calibrate(
     let sound: Vec<usize> = (0..holds.len()).filter(|&j| clipped[j].is_none()).collect();
     let coarse = coarse_axes_in(as_read, sound.iter().map(|&j| &holds[j]));
     let of_mean = of_means(&coarse);
-    let one_sided = one_sided(problem.recording, Triad::Accelerometer, sound.iter().map(|&j| &holds[j]));
+    let skewed_spikes =
+        skewed_spikes(problem.recording, SensorKind::Accelerometer, sound.iter().map(|&j| &holds[j]));
     let found = setup.intervals_s.is_none().then_some((problem.recording, setup.minimum_hold_s));
     let lost = found.and_then(|(recording, minimum_s)| holds_lost_to_filter(recording, &holds, minimum_s));
     let robust = match problem.sensor.model {
-        SensorModel::ScaleBias => robust::fit::<6>(problem, setup, settings, &holds, sound, of_mean),
-        SensorModel::Full => robust::fit::<9>(problem, setup, settings, &holds, sound, of_mean),
+        SensorModel::ScaleBias => robust_weights::fit::<6>(problem, setup, settings, &holds, sound, of_mean),
+        SensorModel::Full => robust_weights::fit::<9>(problem, setup, settings, &holds, sound, of_mean),
     }
     .map_err(|error| with_clipped(error, &clipped, as_read))
     .map_err(|error| match found {
@@ -60,7 +61,7 @@ pub(in crate::estimate) fn calibrate(
     let mut calibration = assemble(problem, setup, holds, reasons, robust);
     calibration.warnings.extend(lost);
     calibration.warnings.extend(coarse_words(&coarse, as_read));
-    calibration.warnings.extend(one_sided);
+    calibration.warnings.extend(skewed_spikes);
     calibration.warnings.extend(beyond(as_read, setup.intervals_s.as_deref().unwrap_or_default()));
     Ok(Calibration { datasheet_prior: settings.datasheet_prior, ..calibration })
 }
@@ -78,7 +79,7 @@ fn assemble(
     let g = setup.gravity;
     let mut covariance = robust.covariance.clone();
     let quantities: Vec<ImuQuantity> =
-        list.quantities().iter().map(|of| ImuQuantity::Of(Triad::Accelerometer, *of)).collect();
+        list.quantities().iter().map(|of| ImuQuantity::Of(SensorKind::Accelerometer, *of)).collect();
     let imu = ImuParameters { accelerometer: sensor, ..ImuParameters::identity() };
     let slope = gravity_slope(&quantities, &imu, &g);
     covariance += &slope * slope.transpose() * (g.sd_mps2 * g.sd_mps2);
@@ -104,7 +105,7 @@ fn assemble(
         residual_rms += residual.component_mul(&residual) / count as f64;
     }
     let magnitude_rms = magnitude_rms(&results);
-    let change = changing::change(&results, &robust.magnitudes, setup.gravity.magnitude_mps2);
+    let change = accelerometer_change::change(&results, &robust.magnitudes, setup.gravity.magnitude_mps2);
     let degrees_of_freedom = robust.degrees_of_freedom;
     let fit = FitStatistics {
         chi2: robust.chi2,
@@ -128,7 +129,7 @@ fn assemble(
         iterations: robust.iterations,
         gradient_norm: robust.gradient_norm,
         parameters: list.describe(problem.sensor, &nominal),
-        values: list.quantities().iter().map(|quantity| quantity.of(&sensor)).collect(),
+        values: list.quantities().iter().map(|quantity| quantity.value(&sensor)).collect(),
         covariance,
         sensor,
         unit: problem.sensor.unit,

@@ -1,7 +1,7 @@
 //! Gauss–Newton on the directions and the parameters, for given weights of the holds.
 
 use crate::arrowhead::{Arrowhead, Increment, Link};
-use crate::estimate::tangents::tangents;
+use crate::estimate::tangent_plane::tangents;
 use crate::estimate::{CalibrationSettings, CalibrationStatus};
 use crate::motion::Hold;
 use crate::sensor::{ParameterList, SensorParameters};
@@ -60,7 +60,7 @@ impl<const P: usize> Directions<'_, P> {
     }
 
     fn values(&self, sensor: &SensorParameters) -> SVector<f64, P> {
-        SVector::from_fn(|k, _| self.list.quantities()[k].of(sensor))
+        SVector::from_fn(|k, _| self.list.quantities()[k].value(sensor))
     }
 
     /// Derivative of the reading with respect to the parameters, 3 × P.

@@ -21,34 +21,34 @@
 //! point of Student's t, Bonferroni-corrected for the number of holds. Holds left out are listed with their residual. A hold in which the sensor stops at the end of
 //! its range is left out before that (`clipped`).
 
+mod accelerometer_change;
 mod calibrate;
-mod changing;
-mod clipped;
-mod coverage;
-mod detect;
-mod expected;
-mod filtered;
+mod expected_accuracy;
 mod fit;
-mod paused;
+mod hold_detection;
+mod holds_with_pauses;
+mod low_pass_filtered;
+mod orientation_coverage;
 mod residuals;
-mod robust;
+mod robust_weights;
+mod saturated_holds;
 mod setup;
 mod verdict;
 mod words;
 
 pub(super) use calibrate::calibrate;
-pub(super) use clipped::{reason as clipped_reason, with_clipped};
 pub(super) use residuals::magnitude_rms;
-pub(super) use robust::{critical, sphere};
+pub(super) use robust_weights::{critical, sphere};
+pub(super) use saturated_holds::{reason as clipped_reason, with_clipped};
 pub(super) use verdict::left_out;
 pub(super) use words::coarse_words;
 
-pub use clipped::clipped_holds;
-pub use coverage::{Coverage, coverage};
-pub(super) use detect::{as_recorded, beyond, find_holds_in, median};
-pub use detect::{find_holds, holds_between};
-pub use expected::{ExpectedCalibration, expected_calibration};
-pub use filtered::holds_lost_to_filter;
-pub(super) use filtered::with_filter;
-pub(super) use paused::with_pauses;
+pub use expected_accuracy::{ExpectedCalibration, expected_calibration};
+pub(super) use hold_detection::{as_recorded, beyond, find_holds_in, median};
+pub use hold_detection::{find_holds, holds_between};
+pub(super) use holds_with_pauses::with_pauses;
+pub use low_pass_filtered::holds_lost_to_filter;
+pub(super) use low_pass_filtered::with_filter;
+pub use orientation_coverage::{Coverage, coverage};
+pub use saturated_holds::clipped_holds;
 pub use setup::HoldsSetup;

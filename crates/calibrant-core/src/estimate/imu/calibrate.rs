@@ -1,6 +1,6 @@
 //! Calibrates an IMU: outliers are taken out first, and what is known beforehand is compared with the recording.
 
-use crate::error::{Complaint, Error, Result};
+use crate::error::{Error, InputError, Result};
 use crate::estimate::imu::checks::known_terms::{self, Contradiction};
 use crate::estimate::imu::problem::{ImuProblem, ImuSetup, WhiteNoise};
 use crate::estimate::imu::result::ImuCalibration;
@@ -8,7 +8,7 @@ use crate::estimate::imu::solver::solve_imu;
 use crate::estimate::result::CalibrationStatus;
 use crate::estimate::settings::CalibrationSettings;
 use crate::estimate::unknown_latitude::unknown_latitude;
-use crate::sensor::Triad;
+use crate::sensor::SensorKind;
 
 /// Calibrates an IMU.
 ///
@@ -22,8 +22,8 @@ pub fn calibrate_imu(problem: &ImuProblem<'_>, settings: &CalibrationSettings) -
 
 /// The same where the gyroscope's white noise is still to be found: `white_noise` finds it while the accelerometer is fitted, which does not wait for it.
 ///
-/// What it gives counts in place of [`ImuSetup::white_noise`]. Where no holds were found before ([`ImuSetup::found`]), sparks and wild readings are taken out first
-/// ([`ImuRecording::without_sparks`](crate::sensor::ImuRecording::without_sparks)), and warnings say so.
+/// What it gives counts in place of [`ImuSetup::white_noise`]. Where no holds were found before ([`ImuSetup::found`]), spikes and invalid readings are taken out first
+/// ([`ImuRecording::without_spikes`](crate::sensor::ImuRecording::without_spikes)), and warnings say so.
 ///
 /// # Errors
 /// As [`calibrate_imu`].
@@ -46,11 +46,13 @@ fn without_outliers(
     settings: &CalibrationSettings,
     white_noise: impl FnOnce() -> Option<WhiteNoise> + Send,
 ) -> Result<ImuCalibration> {
-    let (recording, outliers) = problem.recording.without_sparks();
+    let (recording, outliers) = problem.recording.without_spikes();
     let mut calibration = of_clean(&ImuProblem { recording: &recording, ..*problem }, settings, white_noise)?;
-    let unit = |triad: Triad| problem.recording.triad(triad).map_or("", |of| of.unit.symbol());
-    let said = outliers.iter().map(|(triad, outliers)| outliers.words(*triad, unit(*triad)));
-    calibration.warnings.splice(0..0, said);
+    let unit =
+        |sensor_kind: SensorKind| problem.recording.sensor(sensor_kind).map_or("", |of| of.unit.symbol());
+    let stated =
+        outliers.iter().map(|(sensor_kind, outliers)| outliers.words(*sensor_kind, unit(*sensor_kind)));
+    calibration.warnings.splice(0..0, stated);
     Ok(calibration)
 }
 
@@ -81,15 +83,15 @@ fn of_clean(
     }
     let contradictions = contradictions(problem, settings, found_noise);
     let absurd = contradictions.iter().any(|term| term.is_absurd);
-    let said = contradictions.into_iter().map(|term| term.words);
+    let stated = contradictions.into_iter().map(|term| term.words);
     match outcome {
         Ok(mut found) if !absurd => {
-            found.warnings.splice(0..0, said);
+            found.warnings.splice(0..0, stated);
             Ok(found)
         }
-        Err(error) if said.len() == 0 => Err(error),
-        _ => Err(Error::experiment(Complaint::new(
-            said.collect::<Vec<_>>().join("; "),
+        Err(error) if stated.len() == 0 => Err(error),
+        _ => Err(Error::experiment(InputError::new(
+            stated.collect::<Vec<_>>().join("; "),
             "correct the value in [known], its unit too, or leave it out and let the recording tell",
         ))),
     }

@@ -4,7 +4,7 @@
 //! the Earth add to it.
 
 use crate::error::Result;
-use crate::estimate::gravity::gravity_slope;
+use crate::estimate::gravity_error::gravity_slope;
 use crate::estimate::imu::model::{Fit, ImuModel, singular};
 use crate::estimate::imu::variance_components::rotations::RotationWeights;
 use crate::estimate::imu::variance_components::solution::Solution;

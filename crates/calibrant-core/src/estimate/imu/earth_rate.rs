@@ -12,7 +12,7 @@
 //! A rate about the vertical looks like a g-sensitivity `S κ`. So where entries of `Γ` are estimated, what the readings tell is `Γ + S κ` of these, which stands for `Γ` in the linear problem: `κ` then
 //! moves the readings only by the entries that are fixed, and what is known of `Γ` beforehand. `Γ` itself is had again by taking `S κ` off. Other variables would leave `κ` to rounding.
 //!
-//! How the directions are carried is in `least_squares/earth.rs`.
+//! How the directions are carried is in `least_squares/earth_rate.rs`.
 //!
 //! In a rotation that lasts `T` the Earth turns gravity by `T E h` in the frame of the start. That is the angle `−T E h` for the gyroscope, to first order in `ΩT`, 1e-4. Turns of known angle know `κ` alone.
 

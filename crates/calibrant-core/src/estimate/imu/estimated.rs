@@ -34,7 +34,7 @@ pub(crate) fn prior_of(problem: &ImuProblem<'_>, quantities: &[ImuQuantity]) -> 
 /// Sets the quantities that are fixed beforehand.
 pub(crate) fn set_fixed(imu: &mut ImuParameters, known: &[KnownTerm]) {
     for known in known.iter().filter(|known| known.sd.is_none()) {
-        let now = known.quantity.of(imu);
+        let now = known.quantity.value(imu);
         known.quantity.add_to(imu, known.value - now);
     }
 }

@@ -3,12 +3,12 @@
 //! A recording gives means in the holds ([`HoldData`]), rotations between them ([`RotationData`]) and turns of known angle ([`TurnData`]).
 //! [`ImuModel`] holds them with their weights, [`State`] the unknowns. `solver` lists the stages; none of them is used here.
 
-use crate::error::{Complaint, Error};
+use crate::error::{Error, InputError};
 use crate::estimate::imu::earth_rate::EarthRate;
 use crate::estimate::quantisation::{CoarseAxis, of_means};
 use crate::estimate::result::CalibrationStatus;
-use crate::estimate::tangents::tangents;
-use crate::sensor::{ImuParameters, ImuQuantity, Triad};
+use crate::estimate::tangent_plane::tangents;
+use crate::sensor::{ImuParameters, ImuQuantity, SensorKind};
 use nalgebra::{DMatrix, DVector, Matrix2, Matrix2x3, Matrix2xX, Matrix3, Vector2, Vector3};
 
 /// The readings of a rotation.
@@ -226,7 +226,7 @@ pub(crate) struct ImuModel<'a> {
     /// Noise of the gyroscope's samples, and of its coarse steps.
     pub(crate) gyroscope_noise: GyroscopeNoise,
     /// Standard deviation of a rotation's error beyond this noise, rad per axis.
-    pub(crate) excess_rad: f64,
+    pub(crate) between_rotations_sd_rad: f64,
     pub(crate) prior: Option<Prior>,
 }
 
@@ -238,7 +238,9 @@ impl ImuModel<'_> {
 
     /// Places of the gyroscope's quantities.
     pub(crate) fn gyroscope_places(&self) -> Vec<usize> {
-        (0..self.quantities.len()).filter(|&k| self.quantities[k].triad() == Triad::Gyroscope).collect()
+        (0..self.quantities.len())
+            .filter(|&k| self.quantities[k].sensor_kind() == SensorKind::Gyroscope)
+            .collect()
     }
 
     /// What the gyroscope of an IMU at its temperature reads in a hold.
@@ -276,7 +278,7 @@ pub(crate) struct Fit {
 
 /// An estimated matrix is or becomes singular.
 pub(crate) fn singular() -> Error {
-    Error::recording(Complaint::new(
+    Error::recording(InputError::new(
         "the fit of the rotations breaks down: an estimated matrix becomes singular",
         "check the units of both sensors and that the files belong together",
     ))

@@ -3,7 +3,7 @@
 use crate::estimate::earth::UNKNOWN_SD_RADPS;
 use crate::estimate::holds::HoldsSetup;
 use crate::motion::{Hold, earth_rate, to_ms};
-use crate::sensor::{ImuQuantity, ImuRecording, ParameterList, ReadingUnit, Sensor, SensorModel, Triad};
+use crate::sensor::{ImuQuantity, ImuRecording, ParameterList, ReadingUnit, Sensor, SensorKind, SensorModel};
 use nalgebra::Vector3;
 
 /// An IMU, a recording of it, and what is known beforehand.
@@ -53,7 +53,7 @@ pub struct ImuSetup {
     pub holds: HoldsSetup,
     /// Geographic latitude, degrees, southern ones negative: the Earth's turn about the vertical is then part of the model. Where it is not known, it is estimated as far as the recording tells it, and part of the uncertainty, of the g-sensitivity above all.
     pub latitude_deg: Option<f64>,
-    /// The holds that [`find_imu_holds`](crate::estimate::find_imu_holds) found in this recording, where none are given and that was done before, with sparks taken out before that ([`ImuRecording::without_sparks`]: they are not looked for again); `None` to find them.
+    /// The holds that [`find_imu_holds`](crate::estimate::find_imu_holds) found in this recording, where none are given and that was done before, with spikes taken out before that ([`ImuRecording::without_spikes`]: they are not looked for again); `None` to find them.
     pub found: Option<Vec<Hold>>,
     /// Direction of the specific force in each of the given holds (up), unit vectors in the true frame; `None` where only its magnitude is known.
     pub directions: Option<Vec<Vector3<f64>>>,
@@ -95,8 +95,11 @@ impl ImuSetup {
         };
         let of_gyroscope = ParameterList::new(3, gyroscope.model);
         let mut quantities = Vec::new();
-        for (triad, list) in [(Triad::Accelerometer, of_accelerometer), (Triad::Gyroscope, of_gyroscope)] {
-            quantities.extend(list.quantities().iter().map(|quantity| ImuQuantity::Of(triad, *quantity)));
+        for (sensor_kind, list) in
+            [(SensorKind::Accelerometer, of_accelerometer), (SensorKind::Gyroscope, of_gyroscope)]
+        {
+            quantities
+                .extend(list.quantities().iter().map(|quantity| ImuQuantity::Of(sensor_kind, *quantity)));
         }
         if gyroscope.g_sensitivity {
             quantities.extend(ImuQuantity::full_list(false, false, true));
@@ -216,11 +219,15 @@ impl ThermalModel {
     #[must_use]
     pub fn quantities(&self) -> Vec<ImuQuantity> {
         let mut list = ImuQuantity::thermal_list(
-            Triad::Accelerometer,
+            SensorKind::Accelerometer,
             self.accelerometer_bias,
             self.accelerometer_scale,
         );
-        list.extend(ImuQuantity::thermal_list(Triad::Gyroscope, self.gyroscope_bias, self.gyroscope_scale));
+        list.extend(ImuQuantity::thermal_list(
+            SensorKind::Gyroscope,
+            self.gyroscope_bias,
+            self.gyroscope_scale,
+        ));
         list
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::estimate::imu::earth_rate::EarthRate;
 use crate::estimate::imu::model::{GravityResidual, GyroscopeNoise, HoldData, ImuModel, State};
-use crate::estimate::imu::rotations::felt_force::felt_forces;
+use crate::estimate::imu::rotations::felt_force::interpolated_forces;
 use crate::estimate::imu::rotations::spans::{Integrable, rotation_spans};
 use crate::estimate::imu::stationary::scatter::{mean_in_hold, usual_scatter};
 use crate::estimate::imu::variance_components::between_holds::set_gyroscope_means;
@@ -148,7 +148,9 @@ impl GravityPropagation<'_> {
                 || self.imu.g_sensitivity.amax() > 0.0;
         let mean_c = temperatures_c.iter().sum::<f64>() / temperatures_c.len().max(1) as f64;
         let felt = with_forces
-            .then(|| felt_forces(self.accelerometer, self.gyroscope, &self.imu.at(mean_c).accelerometer))
+            .then(|| {
+                interpolated_forces(self.accelerometer, self.gyroscope, &self.imu.at(mean_c).accelerometer)
+            })
             .flatten();
         let spans = rotation_spans(self.gyroscope, holds);
         let integrable = Integrable::of(self.gyroscope, with_forces.then_some(self.accelerometer));
@@ -161,7 +163,7 @@ impl GravityPropagation<'_> {
             rotations,
             turns: Vec::new(),
             gyroscope_noise: *noise,
-            excess_rad: 0.0,
+            between_rotations_sd_rad: 0.0,
             prior: None,
         };
         let forces =

@@ -1,39 +1,39 @@
 //! Both recordings of an IMU: of three axes, in the units that are expected, and sound.
 
-use crate::error::{Complaint, Error, Result};
+use crate::error::{Error, InputError, Result};
 use crate::estimate::imu::problem::ImuProblem;
 use crate::estimate::problem::{CalibrationProblem, Stimulus, sound};
-use crate::sensor::{Axis, Recording, Triad};
+use crate::sensor::{Axis, Recording, SensorKind};
 
 /// Both recordings, of three axes and the units that are expected.
 pub(in crate::estimate) fn recordings<'a>(
     problem: &ImuProblem<'a>,
 ) -> Result<(&'a Recording, &'a Recording)> {
-    let need = |triad: Triad| {
-        problem.recording.triad(triad).filter(|recording| recording.len() > 1).ok_or_else(|| {
-            Error::recording(Complaint::new(
-                format!("the recording has no {triad}"),
+    let need = |sensor_kind: SensorKind| {
+        problem.recording.sensor(sensor_kind).filter(|recording| recording.len() > 1).ok_or_else(|| {
+            Error::recording(InputError::new(
+                format!("the recording has no {sensor_kind}"),
                 "an IMU needs both sensors; kind = \"accelerometer\" calibrates that one alone",
             ))
         })
     };
-    let moves = |triad: Triad| {
-        let recording = need(triad)?;
+    let moves = |sensor_kind: SensorKind| {
+        let recording = need(sensor_kind)?;
         match Axis::ALL.into_iter().find(|&axis| recording.constant(axis).is_some()) {
             None => Ok(recording),
-            Some(axis) => Err(Error::recording(Complaint::new(
-                format!("axis {axis} of the {triad} never changes"),
+            Some(axis) => Err(Error::recording(InputError::new(
+                format!("axis {axis} of the {sensor_kind} never changes"),
                 "is it connected, and are the columns right?",
             ))),
         }
     };
-    let (accelerometer, gyroscope) = (moves(Triad::Accelerometer)?, moves(Triad::Gyroscope)?);
+    let (accelerometer, gyroscope) = (moves(SensorKind::Accelerometer)?, moves(SensorKind::Gyroscope)?);
     let stimulus = Stimulus::Holds(&problem.setup.holds);
     let alone = CalibrationProblem { sensor: problem.accelerometer, recording: accelerometer, stimulus };
     let (one, other) = rayon::join(|| alone.validate(), || sound(gyroscope));
     one.and(other)?;
     if gyroscope.unit != problem.gyroscope.unit {
-        return Err(Error::recording(Complaint::new(
+        return Err(Error::recording(InputError::new(
             format!(
                 "the gyroscope's readings are in {}, the experiment expects {}",
                 gyroscope.unit.symbol(),

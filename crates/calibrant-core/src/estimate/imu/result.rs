@@ -5,7 +5,7 @@ use crate::estimate::imu::clock::rate::ClockRate;
 use crate::estimate::imu::problem::NoiseSource;
 use crate::estimate::result::{CalibrationStatus, HoldCalibration};
 use crate::estimate::uncalibrated::Uncalibrated;
-use crate::sensor::{CalibratedImu, Gauge, ImuParameters, ImuQuantity, ReadingUnit, SensorModel, Triad};
+use crate::sensor::{CalibratedImu, Gauge, ImuParameters, ImuQuantity, ReadingUnit, SensorKind, SensorModel};
 use nalgebra::{DMatrix, DVector, Vector3};
 
 /// A calibrated IMU: parameters, their one covariance, and everything needed to judge them.
@@ -44,13 +44,13 @@ pub struct ImuCalibration {
     /// The holds.
     pub holds: HoldCalibration,
     /// What the gyroscope showed in the holds.
-    pub still: StillGyroscope,
+    pub still: GyroscopeInHolds,
     /// The gyroscope before its calibration.
     pub gyroscope_before: Uncalibrated,
     /// The rotations between holds, in order of time.
     pub rotations: Vec<RotationResult>,
     /// Error of a rotation beyond what the gyroscope's noise explains, per axis, rad.
-    pub rotation_excess_sd_rad: f64,
+    pub between_rotations_sd_rad: f64,
     /// The turns of known angle.
     pub turns: Vec<TurnResult>,
     /// Mean temperature of each of the holds, °C, where something follows temperature.
@@ -65,7 +65,7 @@ pub struct ImuCalibration {
 
 /// The gyroscope in the holds.
 #[derive(Debug, Clone, PartialEq)]
-pub struct StillGyroscope {
+pub struct GyroscopeInHolds {
     /// Standard deviation of one sample's noise, in the unit of the readings.
     pub noise: Vector3<f64>,
     /// Where it comes from.
@@ -154,16 +154,16 @@ impl ImuCalibration {
 
     /// Places of one sensor's quantities in the list.
     #[must_use]
-    pub fn places_of(&self, triad: Triad) -> Vec<usize> {
-        (0..self.quantities.len()).filter(|&k| self.quantities[k].triad() == triad).collect()
+    pub fn places_of(&self, sensor_kind: SensorKind) -> Vec<usize> {
+        (0..self.quantities.len()).filter(|&k| self.quantities[k].sensor_kind() == sensor_kind).collect()
     }
 
     /// Unit of a quantity.
     #[must_use]
     pub fn unit_of(&self, quantity: ImuQuantity) -> &'static str {
-        quantity.unit(match quantity.triad() {
-            Triad::Accelerometer => self.accelerometer_unit,
-            Triad::Gyroscope => self.gyroscope_unit,
+        quantity.unit(match quantity.sensor_kind() {
+            SensorKind::Accelerometer => self.accelerometer_unit,
+            SensorKind::Gyroscope => self.gyroscope_unit,
         })
     }
 
@@ -184,7 +184,7 @@ impl ImuCalibration {
     pub fn turns_check_the_gains(&self) -> bool {
         let of_matrix = |place: &usize| {
             let quantity = self.quantities[*place];
-            matches!(quantity, ImuQuantity::Of(Triad::Gyroscope, _)) && !quantity.is_of_bias()
+            matches!(quantity, ImuQuantity::Of(SensorKind::Gyroscope, _)) && !quantity.is_of_bias()
         };
         let known = |place: &usize| self.prior_share.get(*place).is_some_and(|share| *share > 0.0);
         let entries = (0..self.quantities.len()).filter(of_matrix).filter(|place| !known(place)).count();
@@ -215,7 +215,7 @@ impl ImuCalibration {
     pub fn frame_is_known(&self) -> bool {
         let gauge = self.holds.gauge.parameter_list(SensorModel::Full);
         self.quantities.iter().any(|quantity| {
-            matches!(quantity, ImuQuantity::Of(Triad::Accelerometer, of) if !gauge.quantities().contains(of))
+            matches!(quantity, ImuQuantity::Of(SensorKind::Accelerometer, of) if !gauge.quantities().contains(of))
         })
     }
 

@@ -68,7 +68,7 @@ fn stages(
         turns: movement.turns(problem, &gyroscope.noise, (&initial.imu, &temperature))?,
         holds: initial.holds,
         gyroscope_noise: gyroscope.noise,
-        excess_rad: 0.0,
+        between_rotations_sd_rad: 0.0,
         prior,
         quantities,
     };

@@ -1,12 +1,12 @@
 //! The temperatures of a recording of which something follows them, and whether they differ enough.
 
-use crate::error::{Complaint, Error, NotIdentifiable, Result, UndeterminedGroup};
+use crate::error::{Error, InputError, NotIdentifiable, Result, UndeterminedGroup};
 use crate::estimate::imu::estimated::set_fixed;
 use crate::estimate::imu::problem::ImuProblem;
 use crate::motion::Hold;
 use crate::sensor::{
-    ImuParameters, ImuQuantity, ImuRecording, Recording, SensorParameters, Temperatures, Thermal,
-    ThermalTerm, Triad,
+    ImuParameters, ImuQuantity, ImuRecording, Recording, SensorKind, SensorParameters, Temperatures, Thermal,
+    ThermalTerm,
 };
 
 /// Temperatures of holds count as different from here on, K: closer ones are noise and rounding of a thermometer.
@@ -15,7 +15,7 @@ const LEVEL_K: f64 = 0.5;
 /// The temperatures of a recording of which something follows them.
 pub(in crate::estimate) fn needed_temperatures(recording: &ImuRecording) -> Result<Temperatures<'_>> {
     Temperatures::of(recording)?.ok_or_else(|| {
-        Error::recording(Complaint::new(
+        Error::recording(InputError::new(
             "the calibration is to follow temperature, and the recording has none",
             "name its column with temperature = \"…\" in [columns], or take [temperature] out of the experiment",
         ))
@@ -84,7 +84,9 @@ impl<'a> RecordingTemperature<'a> {
         // the terms of one polynomial, which need one temperature more than there are
         let siblings = |quantity: &ImuQuantity| {
             let family = |quantity: &ImuQuantity| match quantity {
-                ImuQuantity::Thermal(triad, ThermalTerm { part, axis, .. }) => Some((*triad, *part, *axis)),
+                ImuQuantity::Thermal(sensor_kind, ThermalTerm { part, axis, .. }) => {
+                    Some((*sensor_kind, *part, *axis))
+                }
                 _ => None,
             };
             unknown.iter().filter(|other| family(other) == family(quantity)).count()
@@ -118,14 +120,14 @@ impl<'a> RecordingTemperature<'a> {
 /// The readings of a sensor as they would be at the reference temperature.
 pub(crate) fn at_reference(
     recording: &Recording,
-    triad: Triad,
+    sensor_kind: SensorKind,
     sensor: &SensorParameters,
     thermal: &Thermal,
     temperature: &RecordingTemperature<'_>,
 ) -> Recording {
     let mut adjusted = recording.clone();
     let Some(temperatures) = temperature.temperatures else { return adjusted };
-    let terms = thermal.triad(triad);
+    let terms = thermal.sensor(sensor_kind);
     for (reading, &time_s) in adjusted.readings.iter_mut().zip(&recording.times_s) {
         let tau_k = thermal.tau_k(temperatures.at(time_s));
         let excess = *reading - sensor.bias - terms.bias_change(tau_k);

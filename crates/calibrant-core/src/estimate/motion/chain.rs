@@ -2,7 +2,7 @@
 
 use super::context::Context;
 use super::fit::{Chain, Fit, State};
-use super::pairs::PairSums;
+use super::sample_pairs::PairSums;
 use super::undetermined::{View, explain, explain_node};
 use super::{CalibrationStatus, DMatrix, Trust, Vector3};
 use crate::arrowhead::Arrowhead;
@@ -197,13 +197,13 @@ fn summarise<const D: usize, const P: usize>(
         let v_step = reading_covariance(&s, &at.node1_node0, &end, &start, &border);
         let m = &chain.moments[i];
         leverage += v_start * m.m00 + v_step * (2.0 * m.m01) + v_end * m.m11;
-        for (sum, pair) in shortfall.iter_mut().zip(pairs.of(i)) {
+        for (sum, pair) in shortfall.iter_mut().zip(pairs.interval(i)) {
             let w = &pair.within;
             *sum += v_start * w.m11 + v_step * (w.m12 + w.m21) + v_end * w.m22;
         }
         if let (Some((node, v_before)), Some((_, nodes))) = (&before, &at.before) {
             let v_far = reading_covariance(&s, nodes, &end, node, &border);
-            for (sum, pair) in shortfall.iter_mut().zip(pairs.of(i)) {
+            for (sum, pair) in shortfall.iter_mut().zip(pairs.interval(i)) {
                 let a = &pair.across;
                 *sum += v_before * a.m11 + v_far * a.m12 + v_start * a.m21 + v_step * a.m22;
             }

@@ -1,10 +1,10 @@
 //! What every chain of a problem shares, and the chains that it is divided into.
 
 use super::fit::Chain;
-use super::moments::{Positions, moments, reference};
-use super::pairs::PairSums;
+use super::interval_moments::{Positions, moments, reference};
+use super::sample_pairs::PairSums;
 use super::{CalibrationProblem, CalibrationSettings, CommandedMotion, Trust, Vector3};
-use crate::error::{Complaint, Error, Result};
+use crate::error::{Error, InputError, Result};
 use crate::motion::KnownEnds;
 use nalgebra::SVector;
 
@@ -47,7 +47,7 @@ impl<'a> Context<'a> {
             noise: Vector3::repeat(1.0),
         };
         if command.trust == Trust::Unknown && command.known_ends != KnownEnds::Both {
-            return Err(Error::experiment(Complaint::new(
+            return Err(Error::experiment(InputError::new(
                 "trust `unknown` needs the acceleration at both ends",
                 "set known_ends = \"both\"",
             )));
@@ -66,14 +66,17 @@ impl<'a> Context<'a> {
             ),
         };
         let noise = sensor.noise(&gain).ok_or_else(|| {
-            Error::experiment(Complaint::new("the noise of a sample is not given", "set `sensor.noise_mps2`"))
+            Error::experiment(InputError::new(
+                "the noise of a sample is not given",
+                "set `sensor.noise_mps2`",
+            ))
         })?;
         match sensor
             .active_axes()
             .iter()
             .find(|axis| !(noise[axis.index()] > 0.0 && noise[axis.index()].is_finite()))
         {
-            Some(axis) => Err(Error::experiment(Complaint::new(
+            Some(axis) => Err(Error::experiment(InputError::new(
                 format!("the noise of axis {axis} is {}, not a positive number", noise[axis.index()]),
                 "set `sensor.noise_mps2` (or `noise_counts`) to the standard deviation of one sample",
             ))),

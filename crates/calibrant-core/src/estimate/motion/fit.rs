@@ -7,7 +7,7 @@
 //! Each iteration linearises at the present (p, a), factors the arrowhead and steps. Only the border is damped: for given
 //! parameters the motion is a linear problem and needs none.
 
-use super::moments::Moments;
+use super::interval_moments::Moments;
 use crate::arrowhead::{Arrowhead, Increment, Link, Undetermined};
 use crate::estimate::{CalibrationSettings, CalibrationStatus};
 use crate::information::chain_model as model;

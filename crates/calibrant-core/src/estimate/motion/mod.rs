@@ -6,8 +6,8 @@
 mod chain;
 mod context;
 mod fit;
-mod moments;
-mod pairs;
+mod interval_moments;
+mod sample_pairs;
 mod undetermined;
 mod verdict;
 
@@ -15,7 +15,7 @@ use super::{
     Calibration, CalibrationProblem, CalibrationSettings, CalibrationStatus, FitStatistics, Recovered,
     RecoveredMotion, statistics,
 };
-use crate::error::{Complaint, Error, NotIdentifiable, Result};
+use crate::error::{Error, InputError, NotIdentifiable, Result};
 use crate::information::chain_model::FULL_SLOTS;
 use crate::motion::{CommandedMotion, JerkControlledMotion, Trust};
 use crate::sensor::{Axis, SensorModel, SensorParameters};
@@ -49,7 +49,7 @@ fn samples_within(problem: &CalibrationProblem<'_>, motion: &JerkControlledMotio
     let first = times.partition_point(|&t| t < start - slack);
     let end = times.partition_point(|&t| t <= stop + slack);
     if first >= end {
-        return Err(Error::recording(Complaint::new(
+        return Err(Error::recording(InputError::new(
             format!(
                 "no sample lies within the motion: the recording spans {} to {} s, the motion {start} to {stop} s",
                 times[0],
@@ -90,7 +90,7 @@ fn assemble(context: &Context<'_>, solved: Solved, first_sample: usize) -> Resul
     let bias = solved.bias;
     let motion =
         JerkControlledMotion::new(context.command.motion.times_s().to_vec(), solved.nodes).map_err(|_| {
-            Error::recording(Complaint::new(
+            Error::recording(InputError::new(
                 "the estimated motion is not finite",
                 "check the recording's unit",
             ))
@@ -98,7 +98,7 @@ fn assemble(context: &Context<'_>, solved: Solved, first_sample: usize) -> Resul
     let fitted: Vec<_> = motion.acceleration_mps2().iter().map(|a| sensor.reading(a)).collect();
     let mut residuals = Vec::with_capacity(context.readings.len());
     for i in 0..context.positions.intervals() {
-        let samples = context.positions.of(i);
+        let samples = context.positions.interval_samples(i);
         let lambda = &context.positions.lambda[samples.clone()];
         residuals.extend(
             lambda

@@ -100,7 +100,7 @@ fn uncovered(context: &Context<'_>) -> Option<String> {
     let motion = &context.command.motion;
     let tau = motion.times_s();
     let empty: f64 = (0..motion.intervals())
-        .filter(|&i| context.positions.of(i).is_empty())
+        .filter(|&i| context.positions.interval_samples(i).is_empty())
         .map(|i| motion.interval_s(i))
         .sum();
     let whole = tau[motion.intervals()] - tau[0];

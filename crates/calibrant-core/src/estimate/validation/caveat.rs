@@ -4,7 +4,7 @@ use crate::estimate::{Change, ClockRate};
 
 /// Why errors that are as large as predicted are no reason to believe the covariance.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Doubt {
+pub enum Caveat {
     /// A sensor changes within the recording that was calibrated from.
     Change(Change),
     /// The clocks of the sensors go at different rates in the recording that was calibrated from.
@@ -34,7 +34,7 @@ pub enum Doubt {
     },
 }
 
-impl Doubt {
+impl Caveat {
     /// As written in results: `change`, `clocks`, `left_out`, `in_a_row`, `several`.
     #[must_use]
     pub fn name(&self) -> &'static str {

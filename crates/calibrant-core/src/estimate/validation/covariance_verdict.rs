@@ -17,7 +17,7 @@ pub enum CovarianceVerdict {
     LargerThanNeeded,
     /// They are too few to tell: neither contradicted nor confirmed within a factor of about three.
     TooFew,
-    /// Those that count are as large as predicted, and confirm nothing: see [`ValidatedErrors::doubt`](super::ValidatedErrors::doubt).
+    /// Those that count are as large as predicted, and confirm nothing: see [`ValidatedErrors::caveat`](super::ValidatedErrors::caveat).
     Doubtful,
 }
 

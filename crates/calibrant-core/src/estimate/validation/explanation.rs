@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 
 /// A likely reason of errors that are larger than predicted, other than a covariance that is too small.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum LikelyReason {
+pub enum LikelyExplanation {
     /// The calibration has no temperature terms, and the recording is warmer or colder.
     Temperature {
         /// Mean temperature of the recording that was calibrated from, °C.
@@ -59,7 +59,7 @@ pub enum LikelyReason {
     },
 }
 
-impl LikelyReason {
+impl LikelyExplanation {
     /// As written in results: `temperature`, `beyond_temperatures`, `accelerometer_bias`, `accelerometer_gain`, `accelerometer_bias_and_gain`, `gyroscope_gain`, `angular_unit`.
     #[must_use]
     pub fn name(&self) -> &'static str {

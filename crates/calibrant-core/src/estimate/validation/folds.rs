@@ -4,7 +4,7 @@
 //! samples from the hold before it to the hold after it are cut out, so that no rotation leads across.
 
 use super::result::FailedFold;
-use crate::error::{Complaint, Error, Result};
+use crate::error::{Error, InputError, Result};
 use crate::motion::Hold;
 use crate::sensor::Recording;
 use std::ops::Range;
@@ -23,7 +23,7 @@ pub(super) struct Block {
 pub(super) fn blocks(holds: &[&Hold], folds: usize) -> Result<Vec<Block>> {
     let count = holds.len();
     if folds < 2 || folds > count {
-        return Err(Error::experiment(Complaint::new(
+        return Err(Error::experiment(InputError::new(
             format!("{folds} folds cannot be made of {count} used holds"),
             format!("choose between 2 and {count}"),
         )));
@@ -75,7 +75,7 @@ pub(super) fn sorted<T>(
         }
     }
     match failed.first() {
-        Some(first) if done.is_empty() => Err(Error::recording(Complaint::new(
+        Some(first) if done.is_empty() => Err(Error::recording(InputError::new(
             format!(
                 "none of the {} folds can be predicted from the others; without holds {} to {}: {}",
                 blocks.len(),

@@ -1,6 +1,6 @@
 //! What a validation begins with: holds, temperatures, and a calibration that corrects something.
 
-use crate::error::{Complaint, Error, Result};
+use crate::error::{Error, InputError, Result};
 use crate::estimate::imu::needed_temperatures;
 use crate::estimate::{
     Calibration, CalibrationProblem, HoldCalibration, HoldsSetup, ImuCalibration, ImuProblem, Recovered,
@@ -20,7 +20,7 @@ pub(super) fn temperatures<'a>(
 /// The holds, of which there are some.
 pub(super) fn at_least_one(holds: Vec<Hold>, setup: &HoldsSetup) -> Result<Vec<Hold>> {
     if holds.is_empty() {
-        return Err(Error::recording(Complaint::new(
+        return Err(Error::recording(InputError::new(
             format!("it has no holds of at least {} s", setup.minimum_hold_s),
             "a validation needs the sensor held still in several orientations",
         )));
@@ -35,7 +35,7 @@ pub(super) fn of_holds<'a>(
 ) -> Result<(&'a HoldsSetup, &'a HoldCalibration)> {
     match (&problem.stimulus, &calibration.recovered) {
         (Stimulus::Holds(setup), Recovered::Holds(found)) => Ok((setup, found)),
-        _ => Err(Error::experiment(Complaint::new(
+        _ => Err(Error::experiment(InputError::new(
             "only a calibration from holds can be validated: a commanded motion gives no errors of which anything is known",
             "record the sensor held still in several orientations, and use [holds]",
         ))),
@@ -43,7 +43,7 @@ pub(super) fn of_holds<'a>(
 }
 
 pub(super) fn singular() -> Error {
-    Error::recording(Complaint::new(
+    Error::recording(InputError::new(
         "the calibration has a singular matrix, so that it corrects nothing",
         "calibrate again",
     ))

@@ -1,19 +1,19 @@
 //! All errors of a validation, judged kind by kind.
 
-use super::claim::Claim;
-use super::doubt::Doubts;
-use super::item::Group;
-use super::predict::Errors;
+use super::caveats_of_calibration::Caveats;
+use super::predicted_error::Group;
+use super::prediction::Prediction;
+use super::prediction_errors::Errors;
 use super::result::{Validation, ValidationSource};
-use super::statistics::{Behind, Degrees, judge};
+use super::statistics::{Degrees, ErrorContext, judge};
 use super::unused_error::ErrorKind;
 
 /// The errors of one or more claims, those of the last of which tells how much is behind the scatter that was estimated.
 pub(super) fn judged(
     source: ValidationSource,
     errors: Vec<Errors>,
-    claim: &Claim,
-    doubts: &Doubts,
+    prediction: &Prediction,
+    caveats: &Caveats,
 ) -> Validation {
     let (bias_shift, noise) = match errors.as_slice() {
         [one] => (one.shift, one.noise.clone()),
@@ -26,13 +26,16 @@ pub(super) fn judged(
         rotations.push(errors.rotations);
     }
     let folds = matches!(source, ValidationSource::Folds { .. });
-    let behind = |of: &[Degrees]| Behind { scatter_degrees: of.to_vec(), folds, free_shift: false, doubts };
-    let of_rates =
-        Behind { free_shift: bias_shift.is_some_and(|shift| shift.moved), ..behind(&claim.still_degrees) };
+    let behind =
+        |of: &[Degrees]| ErrorContext { scatter_degrees: of.to_vec(), folds, free_shift: false, caveats };
+    let of_rates = ErrorContext {
+        free_shift: bias_shift.is_some_and(|shift| shift.moved),
+        ..behind(&prediction.still_degrees)
+    };
     let kinds = [
-        judge(ErrorKind::Magnitude, &magnitudes, &behind(&[claim.holds_degrees])),
+        judge(ErrorKind::Magnitude, &magnitudes, &behind(&[prediction.holds_degrees])),
         judge(ErrorKind::Rate, &rates, &of_rates),
-        judge(ErrorKind::Rotation, &rotations, &behind(&[claim.rotation_degrees])),
+        judge(ErrorKind::Rotation, &rotations, &behind(&[prediction.rotation_degrees])),
     ];
     Validation {
         source,

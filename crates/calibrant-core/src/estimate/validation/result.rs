@@ -1,9 +1,9 @@
 //! What a validation gives.
 
-use super::caveat::Doubt;
+use super::caveat::Caveat;
 use super::covariance_verdict::CovarianceVerdict;
-use super::explanation::LikelyReason;
-use super::noise::NoiseRatio;
+use super::explanation::LikelyExplanation;
+use super::noise_comparison::NoiseRatio;
 use super::unused_error::{ErrorKind, UnusedError};
 use nalgebra::Vector3;
 
@@ -19,7 +19,7 @@ pub struct Validation {
     /// The noise of each sensor beside that of the calibration's recording; empty for folds. What is predicted goes with the noise that is found.
     pub noise: Vec<NoiseRatio>,
     /// What may be the reason of errors that are larger than predicted, other than the covariance; empty for folds.
-    pub reasons: Vec<LikelyReason>,
+    pub reasons: Vec<LikelyExplanation>,
 }
 
 /// Data that were not used.
@@ -75,7 +75,7 @@ pub struct ValidatedErrors {
     /// What follows.
     pub verdict: CovarianceVerdict,
     /// Why errors as large as predicted confirm nothing; `None` where nothing speaks against them.
-    pub doubt: Option<Doubt>,
+    pub caveat: Option<Caveat>,
 }
 
 /// What the errors say of the parameters alone: their common part along the directions in which the parameters would move them.

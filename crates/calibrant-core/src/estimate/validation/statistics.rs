@@ -1,12 +1,12 @@
 //! Errors beside their prediction: χ², the factor between them, and the errors that stand out.
 
+use super::caveats_of_calibration::Caveats;
+use super::chi_square_ratio::{Ratio, falls_to};
 use super::covariance_verdict::CovarianceVerdict;
-use super::doubt::Doubts;
-use super::item::{Group, Item};
-use super::ratio::{Ratio, falls_to};
+use super::predicted_error::{Group, Item};
 use super::result::{ParameterPart, ValidatedErrors};
 use super::unused_error::{ErrorKind, UnusedError};
-use super::whitened::Whitened;
+use super::whitened_errors::Whitened;
 use nalgebra::DVector;
 
 /// An error stands out when one as large as it would be seen in fewer than this share of validations.
@@ -15,7 +15,7 @@ const OUTLYING: f64 = 0.01;
 const SEEN: f64 = 0.1;
 
 /// What is known of the errors of a kind beside themselves.
-pub(super) struct Behind<'a> {
+pub(super) struct ErrorContext<'a> {
     /// Behind each scatter that is part of their prediction.
     pub(super) scatter_degrees: Vec<Degrees>,
     /// Are they of folds?
@@ -23,7 +23,7 @@ pub(super) struct Behind<'a> {
     /// Is a shift that all have in common free?
     pub(super) free_shift: bool,
     /// What the calibration itself gives reason to doubt.
-    pub(super) doubts: &'a Doubts,
+    pub(super) caveats: &'a Caveats,
 }
 
 /// Degrees of freedom behind a scatter that is part of a prediction.
@@ -58,7 +58,7 @@ pub(super) fn degrees_behind<'a>(
 }
 
 /// Judges the errors of one kind. Errors that stand out are put aside, one at a time, a fifth of them at most. `None` where there is no error.
-pub(super) fn judge(kind: ErrorKind, groups: &[Group], behind: &Behind<'_>) -> Option<ValidatedErrors> {
+pub(super) fn judge(kind: ErrorKind, groups: &[Group], behind: &ErrorContext<'_>) -> Option<ValidatedErrors> {
     let lengths: Vec<usize> = groups.iter().map(|group| group.items.len()).collect();
     let count: usize = lengths.iter().sum();
     let width = groups.iter().find_map(|group| group.items.first())?.error.len();
@@ -121,8 +121,9 @@ pub(super) fn judge(kind: ErrorKind, groups: &[Group], behind: &Behind<'_>) -> O
     {
         verdict = CovarianceVerdict::TooSmall;
     }
-    let doubt = behind.doubts.about(kind, &errors);
-    if doubt.is_some() && matches!(verdict, CovarianceVerdict::Believed | CovarianceVerdict::LargerThanNeeded)
+    let caveat = behind.caveats.about(kind, &errors);
+    if caveat.is_some()
+        && matches!(verdict, CovarianceVerdict::Believed | CovarianceVerdict::LargerThanNeeded)
     {
         verdict = CovarianceVerdict::Doubtful;
     }
@@ -137,7 +138,7 @@ pub(super) fn judge(kind: ErrorKind, groups: &[Group], behind: &Behind<'_>) -> O
         factor_interval,
         parameters,
         verdict,
-        doubt,
+        caveat,
         errors,
     })
 }

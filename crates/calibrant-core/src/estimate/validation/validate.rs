@@ -1,19 +1,20 @@
 //! Tries a calibration on another recording of its sensor.
 
-use super::claim::Claim;
-use super::doubt::Doubts;
+use super::caveats_of_calibration::Caveats;
+use super::explanations;
 use super::inputs::{at_least_one, of_holds, singular, temperatures};
 use super::judgement::judged;
-use super::predict::{Errors, Unused};
+use super::prediction::Prediction;
+use super::prediction_errors::{Errors, Unused};
 use super::result::{Validation, ValidationSource};
-use super::{reason, scatter};
-use crate::error::{Complaint, Error, Result};
+use super::scatter_comparison;
+use crate::error::{Error, InputError, Result};
 use crate::estimate::holds::median;
 use crate::estimate::imu::recordings;
 use crate::estimate::{
     Calibration, CalibrationProblem, ImuCalibration, ImuProblem, find_holds, find_imu_holds, holds_between,
 };
-use crate::sensor::Triad;
+use crate::sensor::SensorKind;
 
 /// A magnitude this far from gravity on half of the holds is not that of the sensor that was calibrated.
 const ANOTHER_SENSOR: f64 = 0.1;
@@ -41,13 +42,13 @@ pub fn validate_imu(calibration: &ImuCalibration, problem: &ImuProblem<'_>) -> R
         ..Unused::of_accelerometer(accelerometer, &holds)
     };
     if holds.iter().all(|hold| gyroscope.between(hold.start_s, hold.end_s).len() < 2) {
-        return Err(Error::recording(Complaint::new(
+        return Err(Error::recording(InputError::new(
             "the gyroscope has no samples in the holds of the accelerometer",
             "both need the same clock: are these files of one recording?",
         )));
     }
-    let claim = Claim::of_imu(calibration, problem.setup);
-    on_another(&claim, unused, &Doubts::of_imu(calibration))
+    let prediction = Prediction::of_imu(calibration, problem.setup);
+    on_another(&prediction, unused, &Caveats::of_imu(calibration))
 }
 
 /// Tries the calibration of an accelerometer from holds on another recording of it.
@@ -63,54 +64,55 @@ pub fn validate(calibration: &Calibration, problem: &CalibrationProblem<'_>) -> 
     };
     let holds = at_least_one(holds, setup)?;
     let list = setup.gauge.parameter_list(problem.sensor.model);
-    let claim = Claim::of_accelerometer(calibration, found, &list, &setup.gravity);
+    let prediction = Prediction::of_accelerometer(calibration, found, &list, &setup.gravity);
     let unused = Unused::of_accelerometer(problem.recording, &holds);
-    on_another(&claim, unused, &Doubts::of_holds(found))
+    on_another(&prediction, unused, &Caveats::of_holds(found))
 }
 
-fn on_another(claim: &Claim, unused: Unused<'_>, doubts: &Doubts) -> Result<Validation> {
+fn on_another(prediction: &Prediction, unused: Unused<'_>, caveats: &Caveats) -> Result<Validation> {
     let unused = Unused { another: true, ..unused };
     if unused.holds.is_empty() {
-        return Err(Error::recording(Complaint::new(
+        return Err(Error::recording(InputError::new(
             "the accelerometer saturates in each of its holds",
             "record with a larger range",
         )));
     }
-    let mut errors = unused.errors(claim).ok_or_else(singular)?;
-    let open = scatter::as_shown(claim, &errors);
-    let claim = open.as_ref().unwrap_or(claim);
+    let mut errors = unused.errors(prediction).ok_or_else(singular)?;
+    let open = scatter_comparison::as_shown(prediction, &errors);
+    let prediction = open.as_ref().unwrap_or(prediction);
     if open.is_some() {
-        errors = unused.errors(claim).ok_or_else(singular)?;
+        errors = unused.errors(prediction).ok_or_else(singular)?;
     }
     let median = median(errors.magnitudes.items.iter().map(|item| item.error[0].abs()).collect());
-    if median > ANOTHER_SENSOR * claim.gravity_mps2 {
-        return Err(Error::recording(Complaint::new(
+    if median > ANOTHER_SENSOR * prediction.gravity_mps2 {
+        return Err(Error::recording(InputError::new(
             format!("with this calibration, its holds miss the magnitude of gravity by {median:.2} m/s²"),
-            other_unit(&errors, claim).unwrap_or("is it a recording of the same sensor, in the same units?"),
+            other_unit(&errors, prediction)
+                .unwrap_or("is it a recording of the same sensor, in the same units?"),
         )));
     }
     let source = ValidationSource::Recording { name: String::new() };
-    let mut validation = judged(source, vec![errors], claim, doubts);
+    let mut validation = judged(source, vec![errors], prediction, caveats);
     for noise in &mut validation.noise {
-        let recording = match noise.triad {
-            Triad::Accelerometer => Some(unused.accelerometer),
-            Triad::Gyroscope => unused.gyroscope,
+        let recording = match noise.sensor_kind {
+            SensorKind::Accelerometer => Some(unused.accelerometer),
+            SensorKind::Gyroscope => unused.gyroscope,
         };
         let holds = unused.holds.iter().map(|(_, hold)| *hold);
         *noise = recording.map_or(*noise, |recording| noise.with_steps(recording, holds));
     }
-    validation.reasons = reason::reasons(&validation, claim, &unused);
+    validation.reasons = explanations::likely_explanations(&validation, prediction, &unused);
     Ok(validation)
 }
 
 /// What to ask where magnitudes are off by g or by 1/g: readings in g taken for m/s², or the other way round.
-fn other_unit(errors: &Errors, claim: &Claim) -> Option<&'static str> {
-    let magnitudes = errors.magnitudes.items.iter().map(|item| item.error[0] + claim.gravity_mps2);
-    let ratio = median(magnitudes.collect()) / claim.gravity_mps2;
+fn other_unit(errors: &Errors, prediction: &Prediction) -> Option<&'static str> {
+    let magnitudes = errors.magnitudes.items.iter().map(|item| item.error[0] + prediction.gravity_mps2);
+    let ratio = median(magnitudes.collect()) / prediction.gravity_mps2;
     let near = |expected: f64| (ratio / expected).ln().abs() < OTHER_UNIT;
-    if near(1.0 / claim.gravity_mps2) {
+    if near(1.0 / prediction.gravity_mps2) {
         Some("they are 9.8 times too small: are the readings in g, and stated to be in m/s²?")
-    } else if near(claim.gravity_mps2) {
+    } else if near(prediction.gravity_mps2) {
         Some("they are 9.8 times too large: are the readings in m/s², and stated to be in g?")
     } else {
         None

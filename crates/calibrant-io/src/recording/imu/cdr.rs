@@ -9,7 +9,7 @@
 //! ```
 //! Every number is aligned to its size, counted from the end of the encapsulation.
 
-use calibrant_core::sensor::Triad;
+use calibrant_core::sensor::SensorKind;
 use nalgebra::Vector3;
 
 /// What of a message is of interest.
@@ -23,10 +23,10 @@ pub(super) struct ImuMessage {
 
 impl ImuMessage {
     /// The reading of a sensor; `None` where its covariance says that it is not there.
-    pub(super) fn triad(&self, triad: Triad) -> Option<Vector3<f64>> {
-        match triad {
-            Triad::Accelerometer => self.linear_acceleration,
-            Triad::Gyroscope => self.angular_velocity,
+    pub(super) fn sensor(&self, sensor_kind: SensorKind) -> Option<Vector3<f64>> {
+        match sensor_kind {
+            SensorKind::Accelerometer => self.linear_acceleration,
+            SensorKind::Gyroscope => self.angular_velocity,
         }
     }
 }

@@ -1,7 +1,7 @@
 //! The columns of a file: what each means, and why it is used or not.
 
 use super::unit::ColumnUnit;
-use calibrant_core::sensor::{Axis, Triad};
+use calibrant_core::sensor::{Axis, SensorKind};
 use std::fmt;
 
 /// What a column holds.
@@ -12,7 +12,7 @@ pub enum ColumnMeaning {
     /// A number that counts samples, lost ones included.
     Counter,
     /// Readings of one axis.
-    Reading(Triad, Axis),
+    Reading(SensorKind, Axis),
     /// Temperature of the sensor.
     Temperature,
     /// Acceleration from which a filter has taken gravity: no reading of a sensor.
@@ -34,7 +34,7 @@ impl fmt::Display for ColumnMeaning {
         match self {
             Self::Time => f.write_str("time"),
             Self::Counter => f.write_str("sample counter"),
-            Self::Reading(triad, axis) => write!(f, "{triad} {axis}"),
+            Self::Reading(sensor_kind, axis) => write!(f, "{sensor_kind} {axis}"),
             Self::Temperature => f.write_str("temperature"),
             Self::GravityRemoved => f.write_str("acceleration without gravity"),
             Self::Orientation => f.write_str("orientation"),

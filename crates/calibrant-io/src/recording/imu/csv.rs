@@ -1,24 +1,26 @@
 //! Delimited text whose header says what is what, or whose columns `[columns]` names.
 
 use super::column::{ColumnMeaning, ImuColumn};
-use super::draft::Draft;
+use super::file_layout::Draft;
 use super::format::FileFormat;
-use super::head::Head;
+use super::text_header::Head;
 use super::unit::{ColumnUnit, ImuUnit};
-use super::{imu_tk, naming};
+use super::{column_names, imu_tk};
 use crate::recording::columns::is_axis;
-use calibrant_core::sensor::Triad;
+use calibrant_core::sensor::SensorKind;
 
 /// The columns; `asked` is the sensor that the user says is among them, whose name they need not have then.
-pub(super) fn draft(head: &Head<'_>, asked: Option<Triad>) -> Draft {
+pub(super) fn draft(head: &Head<'_>, asked: Option<SensorKind>) -> Draft {
     let columns = if head.names.is_empty() {
         let other = |column: usize| ImuColumn::new(&(column + 1).to_string(), ColumnMeaning::Other, None);
         (0..head.fields()).map(other).collect()
     } else {
-        let named: Vec<_> = head.names.iter().map(|name| naming::column(name)).collect();
+        let named: Vec<_> = head.names.iter().map(|name| column_names::column(name)).collect();
         match asked {
-            Some(triad) if !named.iter().any(is_reading) => imu_tk::named(head, triad),
-            Some(Triad::Gyroscope) if is_unnamed(&named) => named.into_iter().map(of_gyroscope).collect(),
+            Some(sensor_kind) if !named.iter().any(is_reading) => imu_tk::named(head, sensor_kind),
+            Some(SensorKind::Gyroscope) if is_unnamed(&named) => {
+                named.into_iter().map(of_gyroscope).collect()
+            }
             _ => named,
         }
     };
@@ -45,7 +47,7 @@ fn is_unnamed(columns: &[ImuColumn]) -> bool {
 fn of_gyroscope(column: ImuColumn) -> ImuColumn {
     match column.meaning {
         ColumnMeaning::Reading(_, axis) => {
-            ImuColumn { meaning: ColumnMeaning::Reading(Triad::Gyroscope, axis), ..column }
+            ImuColumn { meaning: ColumnMeaning::Reading(SensorKind::Gyroscope, axis), ..column }
         }
         _ => column,
     }

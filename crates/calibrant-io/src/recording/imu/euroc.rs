@@ -1,12 +1,12 @@
 //! `imu0/data.csv` of the EuRoC MAV dataset: `#timestamp [ns],w_RS_S_x [rad s^-1],…,a_RS_S_x [m s^-2],…`.
 
 use super::column::{ColumnMeaning, ImuColumn};
-use super::draft::Draft;
+use super::column_names;
+use super::file_layout::Draft;
 use super::format::FileFormat;
-use super::head::Head;
-use super::naming;
+use super::text_header::Head;
 use super::unit::{ColumnUnit, ImuUnit, TimeUnit};
-use calibrant_core::sensor::{Axis, Triad};
+use calibrant_core::sensor::{Axis, SensorKind};
 
 pub(super) fn draft(head: &Head<'_>) -> Draft {
     let columns = if head.names.is_empty() {
@@ -17,7 +17,7 @@ pub(super) fn draft(head: &Head<'_>) -> Draft {
     } else {
         head.names
             .iter()
-            .map(|name| naming::column(name.trim_start_matches('#').trim_ascii_start()))
+            .map(|name| column_names::column(name.trim_start_matches('#').trim_ascii_start()))
             .collect()
     };
     Draft::new(FileFormat::Euroc, columns)
@@ -26,8 +26,8 @@ pub(super) fn draft(head: &Head<'_>) -> Draft {
 fn of_order(column: usize) -> ColumnMeaning {
     match column {
         0 => ColumnMeaning::Time,
-        1..=3 => ColumnMeaning::Reading(Triad::Gyroscope, Axis::ALL[column - 1]),
-        4..=6 => ColumnMeaning::Reading(Triad::Accelerometer, Axis::ALL[column - 4]),
+        1..=3 => ColumnMeaning::Reading(SensorKind::Gyroscope, Axis::ALL[column - 1]),
+        4..=6 => ColumnMeaning::Reading(SensorKind::Accelerometer, Axis::ALL[column - 4]),
         _ => ColumnMeaning::Other,
     }
 }
@@ -35,8 +35,10 @@ fn of_order(column: usize) -> ColumnMeaning {
 fn unit(meaning: ColumnMeaning) -> Option<ColumnUnit> {
     match meaning {
         ColumnMeaning::Time => Some(ColumnUnit::Time(TimeUnit::Nanosecond)),
-        ColumnMeaning::Reading(Triad::Gyroscope, _) => Some(ColumnUnit::Reading(ImuUnit::RadianPerSecond)),
-        ColumnMeaning::Reading(Triad::Accelerometer, _) => {
+        ColumnMeaning::Reading(SensorKind::Gyroscope, _) => {
+            Some(ColumnUnit::Reading(ImuUnit::RadianPerSecond))
+        }
+        ColumnMeaning::Reading(SensorKind::Accelerometer, _) => {
             Some(ColumnUnit::Reading(ImuUnit::MetrePerSecondSquared))
         }
         _ => None,

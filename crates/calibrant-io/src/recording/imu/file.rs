@@ -2,7 +2,7 @@
 
 use super::column::ImuColumn;
 use super::format::FileFormat;
-use crate::recording::finding::Finding;
+use crate::recording::reader_finding::Finding;
 use calibrant_core::sensor::ImuRecording;
 
 /// A recording of an IMU as it was read.

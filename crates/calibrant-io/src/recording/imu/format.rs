@@ -1,8 +1,8 @@
 //! The formats, and how each is recognised by what is in the file.
 
-use super::head::Head;
-use crate::text::Checked;
-use calibrant_core::error::Complaint;
+use super::text_header::Head;
+use crate::text_decoding::Checked;
+use calibrant_core::error::InputError;
 
 /// What to do where the format that was given is not that of the content.
 pub(super) const LEAVE_AWAY: &str = "leave --format away: the format is recognised by the content";
@@ -112,7 +112,7 @@ impl FileFormat {
             return Ok(Self::MtManager);
         }
         if xsens {
-            return Err(Complaint::new(
+            return Err(InputError::new(
                 "the columns are those of an MT Manager and of a Movella DOT export, whose units differ (rad/s and 0.1 ms; deg/s and µs), and \
                  nothing above the header tells which it is",
                 "say --format mt-manager or movella-dot",

@@ -1,34 +1,34 @@
 //! Text of imu_tk: `t x y z` without a header, seconds and readings; accelerometer and gyroscope each in a file of their own.
 
 use super::column::{ColumnMeaning, ImuColumn};
-use super::draft::Draft;
+use super::file_layout::Draft;
 use super::format::{FileFormat, LEAVE_AWAY};
-use super::head::Head;
+use super::text_header::Head;
 use super::unit::{ColumnUnit, TimeUnit};
-use super::{naming, unnamed};
-use crate::text::Checked;
-use calibrant_core::error::Complaint;
-use calibrant_core::sensor::{Axis, Triad};
+use super::{column_names, headerless_text};
+use crate::text_decoding::Checked;
+use calibrant_core::error::InputError;
+use calibrant_core::sensor::{Axis, SensorKind};
 
-/// The columns of one of the two files; `triad` is its sensor, where that is known.
-pub(super) fn draft(head: &Head<'_>, triad: Option<Triad>) -> Checked<Draft> {
+/// The columns of one of the two files; `sensor_kind` is its sensor, where that is known.
+pub(super) fn draft(head: &Head<'_>, sensor_kind: Option<SensorKind>) -> Checked<Draft> {
     let columns = head.fields();
     if columns < 4 {
         let message = format!("{columns} column{} where 4 are needed", if columns == 1 { "" } else { "s" });
-        return Err(Complaint::new(message, "imu_tk's columns are t x y z").at_line(head.line()).into());
+        return Err(InputError::new(message, "imu_tk's columns are t x y z").at_line(head.line()).into());
     }
-    if !head.names.is_empty() && triad.is_none() {
-        return Err(Complaint::new("imu_tk's files have no header, and this one has", LEAVE_AWAY)
+    if !head.names.is_empty() && sensor_kind.is_none() {
+        return Err(InputError::new("imu_tk's files have no header, and this one has", LEAVE_AWAY)
             .at_line(head.line())
             .into());
     }
-    let Some(triad) = triad else {
-        return Err(Complaint::new(
+    let Some(sensor_kind) = sensor_kind else {
+        return Err(InputError::new(
             "imu_tk keeps each sensor in a file of its own, t x y z: this one does not say which it is",
             format!(
                 "give the accelerometer's file as the recording, the gyroscope's with --gyroscope, and their units with --accelerometer-unit and --gyroscope-unit; \
                  or {}",
-                unnamed::in_columns(head).unwrap_or_default()
+                headerless_text::in_columns(head).unwrap_or_default()
             ),
         )
         .at_line(head.line())
@@ -37,7 +37,7 @@ pub(super) fn draft(head: &Head<'_>, triad: Option<Triad>) -> Checked<Draft> {
     let of_order = |column: usize| match column {
         0 => ImuColumn::new("1", ColumnMeaning::Time, Some(ColumnUnit::Time(TimeUnit::Second))),
         1..=3 => {
-            let meaning = ColumnMeaning::Reading(triad, Axis::ALL[column - 1]);
+            let meaning = ColumnMeaning::Reading(sensor_kind, Axis::ALL[column - 1]);
             ImuColumn::new(&(column + 1).to_string(), meaning, None)
         }
         _ => ImuColumn::new(&(column + 1).to_string(), ColumnMeaning::Other, None),
@@ -46,12 +46,12 @@ pub(super) fn draft(head: &Head<'_>, triad: Option<Triad>) -> Checked<Draft> {
 }
 
 /// The columns of a file with a header that holds this sensor: `t_s,x,y,z` as well as names that say which sensor it is.
-pub(super) fn named(head: &Head<'_>, triad: Triad) -> Vec<ImuColumn> {
+pub(super) fn named(head: &Head<'_>, sensor_kind: SensorKind) -> Vec<ImuColumn> {
     let column = |name: &&str| {
         let axis = ["x", "y", "z"].iter().position(|axis| name.eq_ignore_ascii_case(axis));
         axis.map_or_else(
-            || naming::column(name),
-            |k| ImuColumn::new(name, ColumnMeaning::Reading(triad, Axis::ALL[k]), None),
+            || column_names::column(name),
+            |k| ImuColumn::new(name, ColumnMeaning::Reading(sensor_kind, Axis::ALL[k]), None),
         )
     };
     head.names.iter().map(column).collect()

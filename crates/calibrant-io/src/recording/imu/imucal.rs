@@ -1,20 +1,20 @@
 //! CSV of imucal and NilsPod: `n_samples,gyr_x,gyr_y,gyr_z,acc_x,acc_y,acc_z`. Neither units nor the sample rate are in the file.
 
-use super::draft::Draft;
+use super::column_names;
+use super::file_layout::Draft;
 use super::format::{FileFormat, LEAVE_AWAY};
-use super::head::Head;
-use super::naming;
-use crate::text::Checked;
-use calibrant_core::error::Complaint;
+use super::text_header::Head;
+use crate::text_decoding::Checked;
+use calibrant_core::error::InputError;
 
 pub(super) fn draft(head: &Head<'_>) -> Checked<Draft> {
     let names = head.lower_names();
     if !names.iter().any(|name| name == "gyr_x" || name == "acc_x") {
-        return Err(Complaint::new(
+        return Err(InputError::new(
             "the format was given as imucal, but this file has no column acc_x or gyr_x",
             LEAVE_AWAY,
         )
         .into());
     }
-    Ok(Draft::new(FileFormat::Imucal, head.names.iter().map(|name| naming::column(name)).collect()))
+    Ok(Draft::new(FileFormat::Imucal, head.names.iter().map(|name| column_names::column(name)).collect()))
 }

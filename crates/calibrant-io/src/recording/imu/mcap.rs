@@ -1,23 +1,23 @@
 //! ROS 2 bags in MCAP containers: messages `sensor_msgs/msg/Imu` in CDR.
 //!
-//! Angular velocity is in rad/s, linear acceleration in m/s² and with gravity by the message's definition ([`readings`](super::readings) looks
+//! Angular velocity is in rad/s, linear acceleration in m/s² and with gravity by the message's definition ([`readings`](super::reading_unit) looks
 //! whether it is). Times are `header.stamp`, when the sample was taken, and not when the recorder got it. A covariance that begins with −1 says
 //! that a sensor is not there.
 
 use super::cdr::{self, ImuMessage};
 use super::column::{ColumnMeaning, ImuColumn};
-use super::draft::Draft;
+use super::column_values::{SLOTS, Samples, TIME, slots_of};
+use super::file_layout::Draft;
 use super::format::FileFormat;
-use super::mcap_end::Cut;
+use super::mcap_footer::Cut;
 use super::mcap_records::chunks_end;
 use super::options::ImuReadOptions;
-use super::samples::{SLOTS, Samples, TIME, slots_of};
 use super::unit::{ColumnUnit, ImuUnit, TimeUnit};
 use crate::recording::columns::list;
-use crate::recording::finding::{Finding, count};
-use crate::text::Checked;
-use calibrant_core::error::Complaint;
-use calibrant_core::sensor::{Axis, Triad};
+use crate::recording::reader_finding::{Finding, count};
+use crate::text_decoding::Checked;
+use calibrant_core::error::InputError;
+use calibrant_core::sensor::{Axis, SensorKind};
 use mcap::records::Record;
 use mcap::sans_io::{LinearReadEvent, LinearReader, LinearReaderOptions};
 use mcap::{MAGIC, McapError};
@@ -51,7 +51,7 @@ pub(super) fn read(bytes: &[u8], options: &ImuReadOptions) -> Checked<(Draft, Sa
     let cut = Cut::of(bytes);
     let bag = Bag::read(bytes, cut.is_some())?;
     if let Some(cut) = cut.as_ref().filter(|_| !bag.has_messages()) {
-        return Err(cut.complaint().into());
+        return Err(cut.input_error().into());
     }
     let messages = bag.messages(options.topic.as_deref())?;
     let origin = messages.first().map_or(0, |message| message.stamp_ns);
@@ -62,20 +62,21 @@ pub(super) fn read(bytes: &[u8], options: &ImuReadOptions) -> Checked<(Draft, Sa
         ColumnMeaning::Time,
         Some(ColumnUnit::Time(TimeUnit::Nanosecond)),
     )];
-    for (triad, name, unit) in [
-        (Triad::Gyroscope, "angular_velocity", ImuUnit::RadianPerSecond),
-        (Triad::Accelerometer, "linear_acceleration", ImuUnit::MetrePerSecondSquared),
+    for (sensor_kind, name, unit) in [
+        (SensorKind::Gyroscope, "angular_velocity", ImuUnit::RadianPerSecond),
+        (SensorKind::Accelerometer, "linear_acceleration", ImuUnit::MetrePerSecondSquared),
     ] {
-        let absent = messages.iter().all(|message| message.triad(triad).is_none());
+        let absent = messages.iter().all(|message| message.sensor(sensor_kind).is_none());
         for axis in Axis::ALL {
-            let meaning = ColumnMeaning::Reading(triad, axis);
+            let meaning = ColumnMeaning::Reading(sensor_kind, axis);
             let mut column =
                 ImuColumn::new(&format!("{name}.{axis}"), meaning, Some(ColumnUnit::Reading(unit)));
             if absent {
                 column.unused = Some("its covariance begins with −1: the IMU does not have it".into());
             } else {
-                let value = |message: &ImuMessage| message.triad(triad).map_or(f64::NAN, |y| y[axis.index()]);
-                columns[slots_of(triad)[axis.index()]] = messages.iter().map(value).collect();
+                let value =
+                    |message: &ImuMessage| message.sensor(sensor_kind).map_or(f64::NAN, |y| y[axis.index()]);
+                columns[slots_of(sensor_kind)[axis.index()]] = messages.iter().map(value).collect();
             }
             described.push(column);
         }
@@ -138,7 +139,7 @@ impl Bag {
                         "messages of `{}` are encoded as `{}`",
                         channel.topic, channel.message_encoding
                     );
-                    return Err(Complaint::new(message, "only CDR is read").into());
+                    return Err(InputError::new(message, "only CDR is read").into());
                 }
                 let new = || Channel { topic: channel.topic.clone(), schema, messages: Vec::new() };
                 self.channels.entry(channel.id).or_insert_with(new);
@@ -151,7 +152,7 @@ impl Bag {
                 let number = channel.messages.len() + 1;
                 let message = cdr::imu(&data).map_err(|why| {
                     let message = format!("message {number} of `{}` cannot be read: {why}", channel.topic);
-                    Complaint::new(message, "was it recorded as sensor_msgs/msg/Imu by ROS 2?")
+                    InputError::new(message, "was it recorded as sensor_msgs/msg/Imu by ROS 2?")
                 })?;
                 channel.messages.push(message);
             }
@@ -173,7 +174,7 @@ impl Bag {
             return topics.remove(topic).filter(|messages| !messages.is_empty()).ok_or_else(|| {
                 let has = if known.is_empty() { "none".to_owned() } else { known };
                 let message = format!("there are no messages of sensor_msgs/msg/Imu on `{topic}`; the topics of such messages: {has}");
-                Complaint::new(message, "names count letter by letter, the slash too").into()
+                InputError::new(message, "names count letter by letter, the slash too").into()
             });
         }
         topics.retain(|_, messages| !messages.is_empty());
@@ -182,7 +183,7 @@ impl Bag {
                 .iter()
                 .map(|(topic, messages)| format!("{topic} ({})", count(messages.len(), "message")));
             let message = format!("there is more than one IMU: {}", each.collect::<Vec<_>>().join(", "));
-            return Err(Complaint::new(message, "say --topic, or topic in [columns]").into());
+            return Err(InputError::new(message, "say --topic, or topic in [columns]").into());
         }
         topics.into_values().next().ok_or_else(|| {
             let others: Vec<String> = self
@@ -195,7 +196,7 @@ impl Bag {
             } else {
                 format!("the bag has no messages of sensor_msgs/msg/Imu; its topics are {}", named(others))
             };
-            Complaint::new(message, "record the topic of the IMU").into()
+            InputError::new(message, "record the topic of the IMU").into()
         })
     }
 }
@@ -225,12 +226,12 @@ fn texts_end(opcode: u8, data: &[u8]) -> bool {
     }
 }
 
-fn damaged(error: &McapError) -> Complaint {
+fn damaged(error: &McapError) -> InputError {
     match error {
-        McapError::UnsupportedCompression(name) => Complaint::new(
+        McapError::UnsupportedCompression(name) => InputError::new(
             format!("the bag is compressed with {name}, which is not read"),
             "write it again with zstd: `mcap compress --compression zstd`",
         ),
-        error => Complaint::new(format!("the MCAP container is damaged: {error}"), "try `mcap recover`"),
+        error => InputError::new(format!("the MCAP container is damaged: {error}"), "try `mcap recover`"),
     }
 }

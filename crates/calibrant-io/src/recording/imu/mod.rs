@@ -10,51 +10,51 @@
 //! | MCAP, Parquet | their first bytes | `header.stamp`; by name or type | m/s², rad/s; by name, or asked for |
 //! | CSV | none of these | by name, or `[columns]` | by name, or asked for |
 //!
-//! All of them go the same way: [`head`] finds the header, a format's own file says what its columns mean ([`draft`]), [`samples`] reads the rows,
-//! [`clock`] makes times and [`readings`] units of them, [`assemble`] puts the recording together. A unit that the file does not state is
+//! All of them go the same way: [`text_header`] finds the header, a format's own file says what its columns mean ([`file_layout`]), [`column_values`] reads the rows,
+//! [`sample_clock`] makes times and [`reading_unit`] units of them, [`recording_assembly`] puts the recording together. A unit that the file does not state is
 //! asked for, with what its values suggest; it is never guessed.
 
-mod accelerometer;
-mod assemble;
+mod accelerometer_only;
 #[cfg(feature = "mcap")]
 mod cdr;
-mod clock;
 mod column;
+mod column_names;
+mod column_values;
 mod csv;
-mod draft;
 mod euroc;
 mod file;
+mod file_layout;
 mod format;
-mod head;
+mod headerless_text;
 mod imu_tk;
 mod imucal;
 #[cfg(feature = "mcap")]
 mod mcap;
 #[cfg(feature = "mcap")]
-mod mcap_end;
+mod mcap_footer;
 mod mcap_records;
 mod movella_dot;
 mod mt_manager;
-mod naming;
 mod options;
-mod packets;
-mod pair;
+mod packet_times;
 #[cfg(feature = "parquet")]
 mod parquet;
 mod parquet_pages;
 mod read;
-mod readings;
-mod samples;
-mod source;
+mod reading_unit;
+mod recording_assembly;
+mod sample_clock;
+mod text_header;
+mod text_source;
+mod two_files;
 mod unit;
-mod unnamed;
 mod xsens;
 #[cfg(feature = "mcap")]
-pub use accelerometer::read_accelerometer;
+pub use accelerometer_only::read_accelerometer;
 pub use column::{ColumnMeaning, ImuColumn};
 pub use file::{ImuFile, SecondFile};
 pub use format::FileFormat;
 pub use options::{ColumnMapping, ImuReadOptions};
-pub use pair::{parse_imu_pair, read_imu_pair};
 pub use read::{parse_imu_recording, read_imu_recording, read_imu_sensor};
+pub use two_files::{parse_imu_pair, read_imu_pair};
 pub use unit::{ColumnUnit, ImuUnit, TimeUnit};

@@ -1,9 +1,9 @@
 //! CSV exports of the Movella DOT app: acceleration in m/s², rate in **deg/s**, `SampleTimeFine` in µs modulo 2³², `OutputRate:,60Hz` above the
 //! header in some versions.
 
-use super::draft::Draft;
+use super::file_layout::Draft;
 use super::format::FileFormat;
-use super::head::Head;
+use super::text_header::Head;
 use super::unit::{ImuUnit, TimeUnit};
 use super::xsens;
 

@@ -1,9 +1,9 @@
 //! Text exports of Xsens/Movella MT Manager: acceleration in m/s², rate in rad/s, `SampleTimeFine` in 0.1 ms (often empty), `PacketCounter`
 //! modulo 2¹⁶, `// Update Rate: 100.0Hz` above the header in some versions.
 
-use super::draft::Draft;
+use super::file_layout::Draft;
 use super::format::FileFormat;
-use super::head::Head;
+use super::text_header::Head;
 use super::unit::{ImuUnit, TimeUnit};
 use super::xsens;
 

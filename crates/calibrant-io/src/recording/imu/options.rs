@@ -2,7 +2,7 @@
 
 use super::format::FileFormat;
 use super::unit::{ImuUnit, TimeUnit};
-use calibrant_core::sensor::Triad;
+use calibrant_core::sensor::SensorKind;
 
 /// How a recording of an IMU is read: everything that the file does not say itself. `[columns]` of an experiment file says the same.
 ///
@@ -48,19 +48,19 @@ pub struct ImuReadOptions {
 impl ImuReadOptions {
     /// The unit that is given for a sensor.
     #[must_use]
-    pub fn unit(&self, triad: Triad) -> Option<ImuUnit> {
-        match triad {
-            Triad::Accelerometer => self.accelerometer_unit,
-            Triad::Gyroscope => self.gyroscope_unit,
+    pub fn unit(&self, sensor_kind: SensorKind) -> Option<ImuUnit> {
+        match sensor_kind {
+            SensorKind::Accelerometer => self.accelerometer_unit,
+            SensorKind::Gyroscope => self.gyroscope_unit,
         }
     }
 
     /// These options with this unit of a sensor.
     #[must_use]
-    pub fn with_unit(self, triad: Triad, unit: Option<ImuUnit>) -> Self {
-        match triad {
-            Triad::Accelerometer => Self { accelerometer_unit: unit, ..self },
-            Triad::Gyroscope => Self { gyroscope_unit: unit, ..self },
+    pub fn with_unit(self, sensor_kind: SensorKind, unit: Option<ImuUnit>) -> Self {
+        match sensor_kind {
+            SensorKind::Accelerometer => Self { accelerometer_unit: unit, ..self },
+            SensorKind::Gyroscope => Self { gyroscope_unit: unit, ..self },
         }
     }
 
@@ -105,10 +105,10 @@ impl ColumnMapping {
 
     /// The columns of a sensor.
     #[must_use]
-    pub fn triad(&self, triad: Triad) -> Option<&[String; 3]> {
-        match triad {
-            Triad::Accelerometer => self.accelerometer.as_ref(),
-            Triad::Gyroscope => self.gyroscope.as_ref(),
+    pub fn sensor(&self, sensor_kind: SensorKind) -> Option<&[String; 3]> {
+        match sensor_kind {
+            SensorKind::Accelerometer => self.accelerometer.as_ref(),
+            SensorKind::Gyroscope => self.gyroscope.as_ref(),
         }
     }
 }

@@ -1,15 +1,15 @@
 //! Parquet files: columns named as in CSV; numbers of any width, times as numbers or time stamps.
 
 use super::column::{ColumnMeaning, ImuColumn};
-use super::draft::Draft;
+use super::column_names;
+use super::column_values::{SLOTS, Samples, TIME};
+use super::file_layout::Draft;
 use super::format::FileFormat;
-use super::naming;
 use super::parquet_pages::Pages;
-use super::samples::{SLOTS, Samples, TIME};
 use super::unit::{ColumnUnit, TimeUnit};
-use crate::text::Checked;
+use crate::text_decoding::Checked;
 use bytes::Bytes;
-use calibrant_core::error::Complaint;
+use calibrant_core::error::InputError;
 use parquet::basic::{Compression, LogicalType, TimeUnit as StampUnit};
 use parquet::column::reader::{ColumnReader, ColumnReaderImpl, get_column_reader};
 use parquet::data_type::DataType;
@@ -52,7 +52,7 @@ fn describe(column: &ColumnDescriptor) -> ImuColumn {
         described.unused = Some("a list, not a number for each row".into());
         return described;
     }
-    let mut described = naming::column(&name);
+    let mut described = column_names::column(&name);
     let unit = match column.logical_type_ref() {
         Some(LogicalType::Timestamp(stamp)) => match stamp.unit {
             StampUnit::MILLIS => TimeUnit::Millisecond,
@@ -85,7 +85,7 @@ pub(super) fn samples(file: &Opened, slots: &[Option<usize>]) -> Checked<Samples
             for group in 0..file.reader.num_row_groups() {
                 let group = file.reader.get_row_group(group).map_err(|error| damaged(&error))?;
                 if group.metadata().column(at).compression() == Compression::LZO {
-                    return Err(Complaint::new(
+                    return Err(InputError::new(
                         "the file is compressed with LZO, which is not read",
                         "write it again with zstd, snappy or no compression",
                     )
@@ -126,7 +126,7 @@ impl Column<'_> {
             }
             _ => {
                 let message = format!("column `{}` does not hold numbers", self.name);
-                Err(Complaint::new(
+                Err(InputError::new(
                     message,
                     "is it the right column? numbers are float, double, int32 or int64",
                 )
@@ -158,7 +158,7 @@ impl Column<'_> {
             }
             if self.values.len() + rows > self.most {
                 let message = format!("column `{}` claims more rows than the file can hold", self.name);
-                return Err(Complaint::new(message, "was it written to its end?").into());
+                return Err(InputError::new(message, "was it written to its end?").into());
             }
             // where every value is there, there are no levels
             let all = values == rows;
@@ -174,13 +174,13 @@ impl Column<'_> {
     }
 }
 
-fn damaged(error: &ParquetError) -> Complaint {
-    Complaint::new(format!("the Parquet file is damaged: {error}"), "was it written to its end?")
+fn damaged(error: &ParquetError) -> InputError {
+    InputError::new(format!("the Parquet file is damaged: {error}"), "was it written to its end?")
 }
 
 /// A damaged file must not end the program, even where the crate that reads it panics.
 fn guarded<T>(read: impl FnOnce() -> Checked<T>) -> Checked<T> {
     catch_unwind(AssertUnwindSafe(read)).unwrap_or_else(|_| {
-        Err(Complaint::new("the Parquet file is damaged", "was it written to its end?").into())
+        Err(InputError::new("the Parquet file is damaged", "was it written to its end?").into())
     })
 }

@@ -1,24 +1,24 @@
 //! Reads a recording of an IMU in any format: the header, the meaning of the columns, the rows, the recording.
 
-use super::assemble::assemble;
-use super::draft::Draft;
+use super::column_values::Samples;
 use super::file::ImuFile;
+use super::file_layout::Draft;
 use super::format::{FileFormat, LEAVE_AWAY};
-use super::head::Head;
 #[cfg(feature = "mcap")]
 use super::mcap;
 use super::options::ImuReadOptions;
 #[cfg(feature = "parquet")]
 use super::parquet;
-use super::samples::Samples;
-use super::source::{self, Source};
+use super::recording_assembly::assemble;
+use super::text_header::Head;
+use super::text_source::{self, Source};
 use super::unit::TimeUnit;
-use super::{csv, euroc, imu_tk, imucal, movella_dot, mt_manager, unnamed};
+use super::{csv, euroc, headerless_text, imu_tk, imucal, movella_dot, mt_manager};
 use crate::recording::checksum::hex_sha256;
-use crate::recording::row::Layout;
-use crate::text::Checked;
-use calibrant_core::error::{Complaint, Error, Result};
-use calibrant_core::sensor::Triad;
+use crate::recording::row_parser::Layout;
+use crate::text_decoding::Checked;
+use calibrant_core::error::{Error, InputError, Result};
+use calibrant_core::sensor::SensorKind;
 use std::path::Path;
 
 /// Reads a recording of an IMU in any known format.
@@ -37,17 +37,17 @@ pub fn read_imu_recording(path: &Path, options: &ImuReadOptions) -> Result<ImuFi
 ///
 /// # Errors
 /// As [`read_imu_recording`]. That the file has the other sensor only is none.
-pub fn read_imu_sensor(path: &Path, triad: Triad, options: &ImuReadOptions) -> Result<ImuFile> {
-    read(path, options, Some(triad))
+pub fn read_imu_sensor(path: &Path, sensor_kind: SensorKind, options: &ImuReadOptions) -> Result<ImuFile> {
+    read(path, options, Some(sensor_kind))
 }
 
-fn read(path: &Path, options: &ImuReadOptions, asked: Option<Triad>) -> Result<ImuFile> {
-    let in_file = |complaint: Box<Complaint>| Error::recording(complaint.in_file(path));
-    let beginning = source::beginning(path).map_err(in_file)?;
+fn read(path: &Path, options: &ImuReadOptions, asked: Option<SensorKind>) -> Result<ImuFile> {
+    let in_file = |input_error: Box<InputError>| Error::recording(input_error.in_file(path));
+    let beginning = text_source::beginning(path).map_err(in_file)?;
     if FileFormat::of_magic(&beginning.bytes).is_some() {
         return parse(&beginning.bytes, options).map_err(in_file);
     }
-    source::of_file(beginning, |source| parse_text(source, options, asked)).map_err(in_file)
+    text_source::of_file(beginning, |source| parse_text(source, options, asked)).map_err(in_file)
 }
 
 /// Reads the bytes of a recording of an IMU.
@@ -68,7 +68,7 @@ fn read(path: &Path, options: &ImuReadOptions, asked: Option<Triad>) -> Result<I
 /// # Ok::<(), calibrant::Error>(())
 /// ```
 pub fn parse_imu_recording(bytes: &[u8], options: &ImuReadOptions) -> Result<ImuFile> {
-    parse(bytes, options).map_err(|complaint| Error::recording(*complaint))
+    parse(bytes, options).map_err(|input_error| Error::recording(*input_error))
 }
 
 pub(super) fn parse(bytes: &[u8], options: &ImuReadOptions) -> Checked<ImuFile> {
@@ -76,16 +76,16 @@ pub(super) fn parse(bytes: &[u8], options: &ImuReadOptions) -> Checked<ImuFile> 
         if let Some(given) = options.format.filter(|given| *given != format) {
             let message =
                 format!("the format was given as {}, but this is {}", given.name(), format.description());
-            return Err(Complaint::new(message, LEAVE_AWAY).into());
+            return Err(InputError::new(message, LEAVE_AWAY).into());
         }
         let (file, sha256) = rayon::join(|| binary(format, bytes, options), || hex_sha256(bytes));
         return Ok(ImuFile { sha256: vec![sha256], ..file? });
     }
-    source::of_bytes(bytes, |source| parse_text(source, options, None))
+    text_source::of_bytes(bytes, |source| parse_text(source, options, None))
 }
 
 /// Reads a text; `asked` is the sensor that the user says is in it.
-fn parse_text(source: Source<'_>, options: &ImuReadOptions, asked: Option<Triad>) -> Checked<ImuFile> {
+fn parse_text(source: Source<'_>, options: &ImuReadOptions, asked: Option<SensorKind>) -> Checked<ImuFile> {
     let head = Head::find(source.text)?;
     let format = match options.format {
         Some(format) => format,
@@ -98,7 +98,7 @@ fn parse_text(source: Source<'_>, options: &ImuReadOptions, asked: Option<Triad>
         FileFormat::Imucal => imucal::draft(&head)?,
         FileFormat::ImuTk => imu_tk::draft(&head, asked)?,
         FileFormat::Csv if head.names.is_empty() && options.columns.is_empty() => {
-            return Err(unnamed::question(&head).into());
+            return Err(headerless_text::question(&head).into());
         }
         FileFormat::Csv => csv::draft(&head, asked),
         FileFormat::Mcap | FileFormat::Parquet => return Err(not_binary(format).into()),
@@ -109,7 +109,7 @@ fn parse_text(source: Source<'_>, options: &ImuReadOptions, asked: Option<Triad>
 #[cfg(feature = "mcap")]
 fn read_mcap(bytes: &[u8], options: &ImuReadOptions) -> Checked<ImuFile> {
     if !options.columns.is_empty() {
-        return Err(Complaint::new(
+        return Err(InputError::new(
             "[columns] names columns, but the messages of a bag say what they hold",
             "take time, accelerometer, gyroscope and temperature out of [columns]; topic may stay",
         )
@@ -117,11 +117,11 @@ fn read_mcap(bytes: &[u8], options: &ImuReadOptions) -> Checked<ImuFile> {
     }
     let (mut draft, samples, cut) = mcap::read(bytes, options)?;
     draft.slots()?;
-    let mut file = finish(draft, samples, options).map_err(|mut complaint| {
+    let mut file = finish(draft, samples, options).map_err(|mut input_error| {
         if let Some(cut) = &cut {
-            complaint.help = format!("{}; {cut}", complaint.help);
+            input_error.help = format!("{}; {cut}", input_error.help);
         }
-        complaint
+        input_error
     })?;
     file.findings.extend(cut);
     Ok(file)
@@ -148,9 +148,9 @@ fn read_parquet(_: &[u8], _: &ImuReadOptions) -> Checked<ImuFile> {
 }
 
 #[cfg(not(all(feature = "mcap", feature = "parquet")))]
-fn without(feature: &str) -> Box<Complaint> {
+fn without(feature: &str) -> Box<InputError> {
     let message = format!("this build of calibrant does not read {feature} files");
-    Complaint::new(message, format!("build it with the feature `{feature}`")).into()
+    InputError::new(message, format!("build it with the feature `{feature}`")).into()
 }
 
 fn binary(format: FileFormat, bytes: &[u8], options: &ImuReadOptions) -> Checked<ImuFile> {
@@ -173,7 +173,7 @@ pub(super) fn rows(
     options: &ImuReadOptions,
 ) -> Checked<ImuFile> {
     let line = head.line();
-    let at_header = |complaint: Box<Complaint>| Box::new(complaint.at_line(line));
+    let at_header = |input_error: Box<InputError>| Box::new(input_error.at_line(line));
     draft.map(options).map_err(at_header)?;
     draft.set_time_unit(options).map_err(at_header)?;
     let slots = draft.slots().map_err(at_header)?;
@@ -204,6 +204,6 @@ fn finish(mut draft: Draft, mut samples: Samples, options: &ImuReadOptions) -> C
     })
 }
 
-fn not_binary(format: FileFormat) -> Complaint {
-    Complaint::new(format!("the format was given as {}, but this is text", format.name()), LEAVE_AWAY)
+fn not_binary(format: FileFormat) -> InputError {
+    InputError::new(format!("the format was given as {}, but this is text", format.name()), LEAVE_AWAY)
 }

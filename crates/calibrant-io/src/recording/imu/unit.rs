@@ -1,7 +1,7 @@
 //! The units in which files give readings and times.
 
 use crate::recording::columns::STANDARD_GRAVITY_MPS2;
-use calibrant_core::sensor::{ReadingUnit, Triad};
+use calibrant_core::sensor::{ReadingUnit, SensorKind};
 
 /// Unit of an accelerometer's or a gyroscope's readings as a file gives them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -78,13 +78,13 @@ impl ImuUnit {
 
     /// Can this sensor's readings have it?
     #[must_use]
-    pub fn suits(self, triad: Triad) -> bool {
+    pub fn suits(self, sensor_kind: SensorKind) -> bool {
         match self {
             Self::MetrePerSecondSquared | Self::StandardGravity | Self::MilliGravity => {
-                triad == Triad::Accelerometer
+                sensor_kind == SensorKind::Accelerometer
             }
             Self::RadianPerSecond | Self::DegreePerSecond | Self::MilliDegreePerSecond => {
-                triad == Triad::Gyroscope
+                sensor_kind == SensorKind::Gyroscope
             }
             Self::Counts => true,
         }
@@ -92,10 +92,10 @@ impl ImuUnit {
 
     /// The units that this sensor's readings can have, in words: `m/s², g, mg or counts`.
     #[must_use]
-    pub fn choices(triad: Triad) -> &'static str {
-        match triad {
-            Triad::Accelerometer => "m/s², g, mg or counts",
-            Triad::Gyroscope => "rad/s, deg/s, mdps or counts",
+    pub fn choices(sensor_kind: SensorKind) -> &'static str {
+        match sensor_kind {
+            SensorKind::Accelerometer => "m/s², g, mg or counts",
+            SensorKind::Gyroscope => "rad/s, deg/s, mdps or counts",
         }
     }
 

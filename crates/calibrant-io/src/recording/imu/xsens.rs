@@ -3,7 +3,7 @@
 
 use super::column::{ColumnMeaning, ImuColumn};
 use super::unit::{ColumnUnit, ImuUnit, TimeUnit};
-use calibrant_core::sensor::{Axis, Triad};
+use calibrant_core::sensor::{Axis, SensorKind};
 
 /// Columns of these names.
 pub(super) fn columns(names: &[&str], gyroscope: ImuUnit, ticks: TimeUnit) -> Vec<ImuColumn> {
@@ -14,10 +14,10 @@ pub(super) fn columns(names: &[&str], gyroscope: ImuUnit, ticks: TimeUnit) -> Ve
             let unit = match meaning {
                 ColumnMeaning::Time => Some(ColumnUnit::Time(ticks)),
                 ColumnMeaning::Counter => Some(ColumnUnit::Time(TimeUnit::Sample)),
-                ColumnMeaning::Reading(Triad::Accelerometer, _) | ColumnMeaning::GravityRemoved => {
+                ColumnMeaning::Reading(SensorKind::Accelerometer, _) | ColumnMeaning::GravityRemoved => {
                     Some(ColumnUnit::Reading(ImuUnit::MetrePerSecondSquared))
                 }
-                ColumnMeaning::Reading(Triad::Gyroscope, _) => Some(ColumnUnit::Reading(gyroscope)),
+                ColumnMeaning::Reading(SensorKind::Gyroscope, _) => Some(ColumnUnit::Reading(gyroscope)),
                 ColumnMeaning::Temperature => Some(ColumnUnit::Celsius),
                 _ => None,
             };
@@ -28,11 +28,11 @@ pub(super) fn columns(names: &[&str], gyroscope: ImuUnit, ticks: TimeUnit) -> Ve
 
 fn meaning(name: &str) -> ColumnMeaning {
     let name = name.to_lowercase();
-    let axis = |triad, letter: &str| {
+    let axis = |sensor_kind, letter: &str| {
         ["x", "y", "z"]
             .iter()
             .position(|axis| *axis == letter)
-            .map_or(ColumnMeaning::Other, |k| ColumnMeaning::Reading(triad, Axis::ALL[k]))
+            .map_or(ColumnMeaning::Other, |k| ColumnMeaning::Reading(sensor_kind, Axis::ALL[k]))
     };
     let starts = |prefixes: &[&str]| prefixes.iter().any(|prefix| name.starts_with(prefix));
     match name.as_str() {
@@ -41,8 +41,8 @@ fn meaning(name: &str) -> ColumnMeaning {
         "temperature" => ColumnMeaning::Temperature,
         "roll" | "pitch" | "yaw" => ColumnMeaning::Orientation,
         "year" | "month" | "day" | "hour" | "minute" | "second" => ColumnMeaning::Calendar,
-        name if name.starts_with("acc_") => axis(Triad::Accelerometer, &name[4..]),
-        name if name.starts_with("gyr_") => axis(Triad::Gyroscope, &name[4..]),
+        name if name.starts_with("acc_") => axis(SensorKind::Accelerometer, &name[4..]),
+        name if name.starts_with("gyr_") => axis(SensorKind::Gyroscope, &name[4..]),
         _ if starts(&["freeacc"]) => ColumnMeaning::GravityRemoved,
         _ if starts(&["mat[", "quat_", "euler_", "roll_", "pitch_", "yaw_"]) => ColumnMeaning::Orientation,
         _ if starts(&["velinc_", "oriinc_", "dv[", "dq_"]) => ColumnMeaning::Increment,

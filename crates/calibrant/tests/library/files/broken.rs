@@ -19,11 +19,11 @@ fn recordings() {
         let path = directory.path().join("recording.csv");
         std::fs::write(&path, bytes).expect("written");
         let named = read_recording(&path, &OPTIONS).expect_err(expected).to_string();
-        let complaint = error.complaint().expect("a complaint");
+        let input_error = error.input_error().expect("a complaint");
         let place: String =
-            [complaint.line, complaint.column].iter().flatten().map(|n| format!(":{n}")).collect();
+            [input_error.line, input_error.column].iter().flatten().map(|n| format!(":{n}")).collect();
         assert!(named.starts_with(&format!("{}{place}: ", path.display())), "{named}");
-        assert!(named.contains(&complaint.message), "{named}");
+        assert!(named.contains(&input_error.message), "{named}");
     }
 }
 

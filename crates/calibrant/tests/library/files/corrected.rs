@@ -55,15 +55,15 @@ fn both_sensors_columns_are_the_solved_model_and_their_sd_that_of_drawn_calibrat
         vec![0.0, 0.013, 0.02],
         vec![Vector3::new(1.5, -0.4, 0.8), Vector3::new(-2.5, 3.0, 0.1), Vector3::new(0.0, 0.1, -4.0)],
     );
-    let triad = |times_s: &Vec<f64>, readings: &Vec<Vector3<f64>>, unit: ReadingUnit| Recording {
+    let sensor_kind = |times_s: &Vec<f64>, readings: &Vec<Vector3<f64>>, unit: ReadingUnit| Recording {
         times_s: times_s.clone(),
         readings: readings.clone(),
         axes: 3,
         unit,
     };
     let recording = ImuRecording {
-        accelerometer: Some(triad(&times, &readings_a, SI[0])),
-        gyroscope: Some(triad(&times_g, &readings_g, SI[1])),
+        accelerometer: Some(sensor_kind(&times, &readings_a, SI[0])),
+        gyroscope: Some(sensor_kind(&times_g, &readings_g, SI[1])),
         temperature_c: None,
     };
     let corrected = ImuCorrection::of(&imu).expect("regular").apply(&imu, &recording).expect("both");

@@ -11,7 +11,7 @@ const GOOD: &str = r#"{ "schema": 1, "status": "converged",
   "covariance": [[4e-4, 1e-6], [1e-6, 1e-6]] }"#;
 
 /// What is said of GOOD with one thing replaced.
-fn said(from: &str, to: &str) -> String {
+fn message(from: &str, to: &str) -> String {
     assert!(GOOD.contains(from), "{from}");
     parse_calibration(GOOD.replacen(from, to, 1).as_bytes()).expect_err("broken").to_string()
 }
@@ -60,7 +60,7 @@ fn broken_calibrations_are_refused_with_their_reason() {
         ("[[4e-4", "[[-4e-4", "the covariance is not positive definite"),
         ("[[4e-4", "[[1e999", "number out of range"),
     ] {
-        let found = said(from, to);
+        let found = message(from, to);
         assert!(found.contains(says), "{to}: {found}");
         assert!(!found.contains("NaN"), "{found}");
     }
@@ -78,15 +78,15 @@ fn broken_calibrations_are_refused_with_their_reason() {
 #[test]
 fn another_sensor_is_refused() {
     let found = parse_calibration(GOOD.as_bytes()).expect("good");
-    let said = |axes, unit| {
+    let message = |axes, unit| {
         let list = ParameterList::new(axes, SensorModel::ScaleBias);
         found.sensor_of(&list, unit).expect_err("another sensor").to_string()
     };
     assert!(
-        said(3, ReadingUnit::MetrePerSecondSquared)
+        message(3, ReadingUnit::MetrePerSecondSquared)
             .contains("its parameters are bias.x, scale.x, those of the experiment bias.x, bias.y")
     );
-    assert!(said(1, ReadingUnit::Counts).contains("bias.x is in m/s² here, in the experiment in counts"));
+    assert!(message(1, ReadingUnit::Counts).contains("bias.x is in m/s² here, in the experiment in counts"));
     let flat = GOOD.replace("\"value\": 1.01", "\"value\": 0.0");
     let list = ParameterList::new(1, SensorModel::ScaleBias);
     let error = parse_calibration(flat.as_bytes())

@@ -203,25 +203,25 @@ fn files_are_read_with_byte_order_mark_and_refused_when_no_text() {
     };
     let text = preset("report").expect("known").replace('\n', "\r\n");
     assert!(read(&[b"\xef\xbb\xbf", text.as_bytes()].concat()).is_ok());
-    let said = |bytes: &[u8]| {
+    let message = |bytes: &[u8]| {
         let error = read(bytes).expect_err("refused");
         assert!(error.is_invalid_experiment());
         error.to_string().replace(&path.display().to_string(), "FILE")
     };
     assert_eq!(
-        said(b"schema = 1\n\xff"),
+        message(b"schema = 1\n\xff"),
         "FILE:2: not UTF-8 text: byte 0xff at offset 11 (save it as UTF-8 (or plain ASCII))"
     );
     assert_eq!(
-        said(b"a\0b"),
+        message(b"a\0b"),
         "FILE: this is binary data, not text: NUL byte at offset 1 (export the data as text)"
     );
     assert_eq!(
-        said(&[b'#'; 1_100_000]),
+        message(&[b'#'; 1_100_000]),
         "FILE: the experiment file is larger than 1 MiB (this is hardly the file that you mean)"
     );
     assert_eq!(
-        said(text.replace("axes = 3", "axes = 5").as_bytes()),
+        message(text.replace("axes = 3", "axes = 5").as_bytes()),
         "FILE:8:8: `sensor.axes`: 5 axes are not supported (axes = 3, or axes = 1 for a sensor of one axis)"
     );
     std::fs::remove_file(&path).expect("removed");

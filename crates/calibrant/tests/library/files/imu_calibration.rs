@@ -7,7 +7,7 @@ use calibrant::io::{
     ConventionOptions, ImuFormat, Input, calibrated_imu_texts, imu_calibration_json, parse_calibrated_imu,
     read_calibrated_imu, write_imu_calibration,
 };
-use calibrant::sensor::{Axis, ImuQuantity, Quantity, Triad};
+use calibrant::sensor::{Axis, ImuQuantity, Quantity, SensorKind};
 use calibrant::{estimate, motion, sensor};
 use serde_json::Value;
 
@@ -89,7 +89,8 @@ fn it_says_what_the_true_frame_is() {
         frame,
         "fixed by the accelerometer's gauge: its matrix is upper triangular with a positive diagonal"
     );
-    calibration.quantities[8] = ImuQuantity::Of(Triad::Accelerometer, Quantity::CrossAxis(Axis::Y, Axis::X));
+    calibration.quantities[8] =
+        ImuQuantity::Of(SensorKind::Accelerometer, Quantity::CrossAxis(Axis::Y, Axis::X));
     assert_eq!(calibration.calibrated().frame, "that of the known directions of the holds");
 }
 

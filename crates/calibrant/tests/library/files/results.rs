@@ -66,16 +66,16 @@ fn what_cannot_be_written_says_why_and_leaves_nothing() {
     let directory = tempfile::tempdir().expect("a directory");
     let file = directory.path().join("file");
     std::fs::write(&file, "x").expect("written");
-    let said = |path: &Path| {
+    let message = |path: &Path| {
         let error = write_atomically(path, |out| writeln!(out, "1")).expect_err("refused");
         assert!(matches!(&error, Error::Output { path: named, .. } if named == path));
         error.to_string()
     };
-    assert!(said(directory.path()).ends_with("a directory of this name is in the way"));
+    assert!(message(directory.path()).ends_with("a directory of this name is in the way"));
     assert!(
-        said(&file.join("below.json")).contains("cannot create directory"),
+        message(&file.join("below.json")).contains("cannot create directory"),
         "{}",
-        said(&file.join("below.json"))
+        message(&file.join("below.json"))
     );
     let failing = write_atomically(&file, |out| {
         writeln!(out, "half")?;
@@ -121,7 +121,7 @@ fn calibration(
         status: CalibrationStatus::Converged,
         iterations: 3,
         gradient_norm: f64::NAN,
-        values: list.quantities().iter().map(|quantity| quantity.of(&parameters)).collect(),
+        values: list.quantities().iter().map(|quantity| quantity.value(&parameters)).collect(),
         parameters: described,
         covariance: DMatrix::identity(p, p) * 0.25,
         sensor: parameters,

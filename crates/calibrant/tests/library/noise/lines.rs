@@ -1,7 +1,7 @@
 //! White noise beside a vibration: N is that of the noise, or in doubt.
 
 use super::{INTERVAL_S, examine, simulate};
-use calibrant::noise::{Moments, PowerLaw, TriadNoise};
+use calibrant::noise::{Moments, PowerLaw, SensorNoise};
 use rayon::prelude::*;
 use std::f64::consts::TAU;
 
@@ -10,7 +10,7 @@ const DENSITY: f64 = 0.02;
 const SIGMA: f64 = 0.2;
 
 /// White noise, behind a pole at 0.7 or not, with a sine of this frequency and this part of the variance of the white noise before the filter.
-fn beside_a_sine(moments: &Moments, filtered: bool, hertz: f64, share: f64, seed: u64) -> TriadNoise {
+fn beside_a_sine(moments: &Moments, filtered: bool, hertz: f64, share: f64, seed: u64) -> SensorNoise {
     let n = moments.samples();
     let white = simulate(&[(PowerLaw::White, DENSITY)], n + 100, 40_000 + seed);
     let (pole, amplitude) = (if filtered { 0.7 } else { 0.0 }, SIGMA * (2.0 * share).sqrt());
@@ -30,9 +30,9 @@ fn beside_a_sine(moments: &Moments, filtered: bool, hertz: f64, share: f64, seed
 }
 
 /// In how many the noise is not in doubt, and in how many of these the interval of N covers.
-fn kept_and_covered(runs: &[TriadNoise]) -> (usize, usize) {
-    let kept = runs.iter().filter(|noise| noise.doubt.is_none());
-    let covers = |noise: &&TriadNoise| {
+fn kept_and_covered(runs: &[SensorNoise]) -> (usize, usize) {
+    let kept = runs.iter().filter(|noise| noise.caveat.is_none());
+    let covers = |noise: &&SensorNoise| {
         let n = noise.axes[0].fit.model.random_walk.estimate();
         n.is_some_and(|n| n.low <= DENSITY && DENSITY <= n.high)
     };
@@ -53,7 +53,7 @@ fn beside_a_line_far_from_the_cluster_times_that_matter_the_interval_covers() {
         ] {
             for share in shares {
                 let run = |seed: u64| beside_a_sine(&moments, filtered, hertz, share, seed);
-                let runs: Vec<TriadNoise> = (0..100).into_par_iter().map(run).collect();
+                let runs: Vec<SensorNoise> = (0..100).into_par_iter().map(run).collect();
                 let (kept, covered) = kept_and_covered(&runs);
                 println!("{n} samples, filtered {filtered}, {hertz} Hz, {share}: {covered} of {kept}");
                 // 95 are expected, less 2.5 standard deviations
@@ -71,8 +71,11 @@ fn beside_a_line_that_is_most_of_what_is_seen_the_noise_is_in_doubt() {
     for (hertz, share) in [(0.6, 0.05), (1.0, 0.045), (3.0, 0.2), (25.3, 1.0), (49.0, 5.0)] {
         for seed in 0..10 {
             let noise = beside_a_sine(&moments, false, hertz, share, seed);
-            let doubt = noise.doubt.unwrap_or_default();
-            assert!(doubt.starts_with("axis x has a line at ") && doubt.contains(" Hz"), "{hertz}: {doubt}");
+            let caveat = noise.caveat.unwrap_or_default();
+            assert!(
+                caveat.starts_with("axis x has a line at ") && caveat.contains(" Hz"),
+                "{hertz}: {caveat}"
+            );
         }
     }
     let mut white = simulate(&[(PowerLaw::White, DENSITY)], n, 3);
@@ -82,7 +85,7 @@ fn beside_a_line_that_is_most_of_what_is_seen_the_noise_is_in_doubt() {
         phase += TAU * 33.7 * INTERVAL_S + step;
         *value += SIGMA * phase.sin();
     }
-    assert!(examine(&white, &moments).doubt.expect("it wanders").contains("a line at 33."));
+    assert!(examine(&white, &moments).caveat.expect("it wanders").contains("a line at 33."));
 }
 
 #[test]
@@ -92,9 +95,9 @@ fn a_line_is_named_with_what_it_would_do_to_n() {
     assert!((line.frequency_hz - 45.4).abs() < 5e-3 && (line.share - 0.05 / 1.05).abs() < 5e-3, "{line:?}");
     // the variance of white noise is N² √rate: of all cluster times together
     assert!(line.left_out && (line.of_white - 0.05).abs() < 5e-3, "{line:?}");
-    let said: Vec<&String> =
-        noise.warnings.iter().filter(|said| said.contains("a line at 45.4 Hz has ")).collect();
-    assert!(said.len() == 1 && said[0].contains("with it N would be 2."), "{:?}", noise.warnings);
+    let message: Vec<&String> =
+        noise.warnings.iter().filter(|message| message.contains("a line at 45.4 Hz has ")).collect();
+    assert!(message.len() == 1 && message[0].contains("with it N would be 2."), "{:?}", noise.warnings);
     let none = beside_a_sine(&Moments::of(20_000), false, 45.4, 0.0, 1);
     assert_eq!((&none.axes[0].fit.vibration, none.warnings.len()), (&None, 0));
 }

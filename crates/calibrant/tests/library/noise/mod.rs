@@ -6,8 +6,8 @@ mod lines;
 use crate::common::shared_data;
 use calibrant::estimate::find_holds;
 use calibrant::io::{ReadOptions, read_recording};
-use calibrant::noise::{Coefficient, Moments, NoiseFit, PowerLaw, Stretch, TriadNoise};
-use calibrant::sensor::{ReadingUnit, Recording, Triad};
+use calibrant::noise::{Coefficient, Moments, NoiseFit, PowerLaw, Segment, SensorNoise};
+use calibrant::sensor::{ReadingUnit, Recording, SensorKind};
 use calibrant::simulate::{Purpose, simulate_noise, stream};
 use nalgebra::Vector3;
 use rand::RngExt;
@@ -208,10 +208,10 @@ fn a_random_walk_is_no_linear_drift() {
     }
 }
 
-/// One spark of 20 m/s² made N four times too large.
+/// One spike of 20 m/s² made N four times too large.
 #[test]
 fn an_outlier_is_left_out_and_named() {
-    let record = |spark: f64| {
+    let record = |spike: f64| {
         let axis: Vec<Vec<f64>> =
             (0..3).map(|k| simulate(&[(PowerLaw::White, 5e-4)], 60_000, 40 + k)).collect();
         let mut recording = Recording {
@@ -220,28 +220,29 @@ fn an_outlier_is_left_out_and_named() {
             axes: 3,
             unit: ReadingUnit::MetrePerSecondSquared,
         };
-        recording.readings[31_234].x += spark;
-        let stretch = Stretch::between(&recording, 0.0, 600.0).expect("long enough");
-        TriadNoise::of(Triad::Accelerometer, &recording, stretch).expect("noisy")
+        recording.readings[31_234].x += spike;
+        let segment = Segment::between(&recording, 0.0, 600.0).expect("long enough");
+        SensorNoise::of(SensorKind::Accelerometer, &recording, segment).expect("noisy")
     };
-    let (clean, sparked) = (record(0.0), record(20.0));
+    let (clean, spiked) = (record(0.0), record(20.0));
     assert!(clean.axes.iter().all(|axis| axis.outliers.is_none()));
-    let [clean_n, n] = [&clean, &sparked].map(|noise| noise.white_noise_per_sample().expect("determined").x);
+    let [clean_n, n] = [&clean, &spiked].map(|noise| noise.white_noise_per_sample().expect("determined").x);
     assert!((n / clean_n - 1.0).abs() < 1e-3, "{n} {clean_n}");
-    let outliers = sparked.axes[0].outliers.as_ref().expect("found");
+    let outliers = spiked.axes[0].outliers.as_ref().expect("found");
     assert_eq!(outliers.samples, [31_234]);
     // 20 m/s² in one of n samples: their variance is more by 400/n
     let expected = (400.0 / 60_000.0 + clean_n.powi(2)).sqrt();
     let with_them = outliers.white_with_them.expect("determined");
     assert!((with_them / expected - 1.0).abs() < 0.2, "{with_them} {expected}");
-    let said: Vec<&String> = sparked.warnings.iter().filter(|said| !clean.warnings.contains(said)).collect();
-    assert_eq!(said.len(), 1, "{said:?}");
+    let message: Vec<&String> =
+        spiked.warnings.iter().filter(|message| !clean.warnings.contains(message)).collect();
+    assert_eq!(message.len(), 1, "{message:?}");
     for text in [
         "accelerometer x: 1 of 60000 samples is an outlier (the farthest 20",
         "m/s² at 312.340 s",
         "with it N would be",
     ] {
-        assert!(said[0].contains(text), "{text}: {}", said[0]);
+        assert!(message[0].contains(text), "{text}: {}", message[0]);
     }
 }
 
@@ -255,10 +256,10 @@ fn readings_that_never_change_are_refused() {
 
 #[test]
 fn the_first_hold_of_the_mti_determines_white_noise_and_not_bias_instability() {
-    for (name, triad, least, most) in [
+    for (name, sensor_kind, least, most) in [
         // counts/√Hz; gains are about 414 counts/(m/s²) and 4770 counts/(rad/s)
-        ("xsens-mti-static/xsens_acc.mat", Triad::Accelerometer, 0.3, 1.5),
-        ("xsens-mti-static/xsens_gyro.mat", Triad::Gyroscope, 1.0, 6.0),
+        ("xsens-mti-static/xsens_acc.mat", SensorKind::Accelerometer, 0.3, 1.5),
+        ("xsens-mti-static/xsens_gyro.mat", SensorKind::Gyroscope, 1.0, 6.0),
     ] {
         let Some(path) = shared_data(name) else { return };
         let options = ReadOptions { unit: None, expected_unit: ReadingUnit::Counts, axes: 3 };
@@ -266,10 +267,10 @@ fn the_first_hold_of_the_mti_determines_white_noise_and_not_bias_instability() {
         let holds = find_holds(&recording, 1.0).expect("sampled fast enough");
         let hold = holds.iter().max_by(|a, b| a.duration_s().total_cmp(&b.duration_s())).expect("a hold");
         assert!(hold.duration_s() > 45.0, "{hold:?}");
-        let stretch = Stretch::between(&recording, hold.start_s, hold.end_s).expect("long enough");
-        let noise = TriadNoise::of(triad, &recording, stretch).expect("noisy");
+        let segment = Segment::between(&recording, hold.start_s, hold.end_s).expect("long enough");
+        let noise = SensorNoise::of(sensor_kind, &recording, segment).expect("noisy");
         for axis in &noise.axes {
-            println!("{triad} {}: sd {} {:#?}", axis.axis, axis.sample_sd, axis.fit);
+            println!("{sensor_kind} {}: sd {} {:#?}", axis.axis, axis.sample_sd, axis.fit);
             let n = axis.fit.model.random_walk.estimate().expect("determined");
             assert!(least < n.value && n.value < most, "{n:?}");
             assert!(axis.fit.model.bias_instability.estimate().is_none());
@@ -279,50 +280,50 @@ fn the_first_hold_of_the_mti_determines_white_noise_and_not_bias_instability() {
 }
 
 /// The noise of an accelerometer of one axis by all of these samples.
-fn examine(values: &[f64], moments: &Moments) -> TriadNoise {
+fn examine(values: &[f64], moments: &Moments) -> SensorNoise {
     let recording = Recording {
         times_s: (0..values.len()).map(|k| k as f64 * INTERVAL_S).collect(),
         readings: values.iter().map(|&y| Vector3::new(y, 0.0, 0.0)).collect(),
         axes: 1,
         unit: ReadingUnit::MetrePerSecondSquared,
     };
-    let stretch = Stretch::between(&recording, 0.0, 1e9).expect("long enough");
-    TriadNoise::with_moments(Triad::Accelerometer, &recording, stretch, moments).expect("noisy")
+    let segment = Segment::between(&recording, 0.0, 1e9).expect("long enough");
+    SensorNoise::with_moments(SensorKind::Accelerometer, &recording, segment, moments).expect("noisy")
 }
 
-/// Sparks of up to 20 m/s² in one of so many samples: N was 82 times too large at one in 600.
+/// Spikes of up to 20 m/s² in one of so many samples: N was 82 times too large at one in 600.
 #[test]
-fn without_sparks_the_interval_of_white_noise_covers() {
+fn without_spikes_the_interval_of_white_noise_covers() {
     let (n, runs) = (20_000, 200_u64);
     let moments = Moments::of(n);
     let truth = [(PowerLaw::White, 2e-3), (PowerLaw::RandomWalk, 1e-4)];
     let of = |one_in: usize, seed: u64| {
         let mut rng = stream(seed, Purpose::Sensor, 1);
         let mut values = simulate(&truth, n, 500 + seed);
-        let mut sparks = rand::seq::index::sample(&mut rng, n, n / one_in).into_vec();
-        sparks.sort_unstable();
-        for &k in &sparks {
+        let mut spikes = rand::seq::index::sample(&mut rng, n, n / one_in).into_vec();
+        spikes.sort_unstable();
+        for &k in &spikes {
             values[k] += rng.random_range(1.0..20.0) * if rng.random_range(0..2) == 0 { 1.0 } else { -1.0 };
         }
         let mut noise = examine(&values, &moments);
         let axis = noise.axes.remove(0);
-        assert_eq!(axis.outliers.map_or(Vec::new(), |outliers| outliers.samples), sparks, "one in {one_in}");
-        assert_eq!(noise.doubt, None);
+        assert_eq!(axis.outliers.map_or(Vec::new(), |outliers| outliers.samples), spikes, "one in {one_in}");
+        assert_eq!(noise.caveat, None);
         axis.fit
     };
     for one_in in [usize::MAX, 2000, 600, 200, 100] {
         let fits: Vec<NoiseFit> = (0..runs).into_par_iter().map(|seed| of(one_in, seed)).collect();
         let white = tally(&fits, PowerLaw::White, 2e-3);
         println!("one in {one_in}: {white:?}");
-        // 190 are expected, less 4 standard deviations; 186 without sparks, whose mean is off by no more than 2e-4
+        // 190 are expected, less 4 standard deviations; 186 without spikes, whose mean is off by no more than 2e-4
         assert!(white.determined == 200 && white.covered >= 178, "one in {one_in}: {white:?}");
         assert!((white.mean - 1.0).abs() < 1.5e-3, "one in {one_in}: {white:?}");
     }
 }
 
-/// What is no spark stays: noise with heavy tails, a burst, too many.
+/// What is no spike stays: noise with heavy tails, a burst, too many.
 #[test]
-fn too_many_sparks_are_called_so_and_heavy_tails_are_not() {
+fn too_many_spikes_are_called_so_and_heavy_tails_are_not() {
     let n = 20_000;
     let moments = Moments::of(n);
     let examine = |values: &[f64]| examine(values, &moments);
@@ -331,10 +332,10 @@ fn too_many_sparks_are_called_so_and_heavy_tails_are_not() {
         let mut values = white.clone();
         values.iter_mut().skip(7).step_by(one_in).for_each(|y| *y += 20.0);
         let noise = examine(&values);
-        assert_eq!(noise.doubt.as_deref(), Some("there are too many sparks"), "one in {one_in}");
+        assert_eq!(noise.caveat.as_deref(), Some("there are too many sparks"), "one in {one_in}");
         assert_eq!(noise.warnings.len(), 1, "{:?}", noise.warnings);
-        let said = format!("accelerometer x: {} of 20000 samples are sparks", (n - 7).div_ceil(one_in));
-        assert!(noise.warnings[0].contains(&said), "{:?}", noise.warnings);
+        let message = format!("accelerometer x: {} of 20000 samples are sparks", (n - 7).div_ceil(one_in));
+        assert!(noise.warnings[0].contains(&message), "{:?}", noise.warnings);
     }
     // Student's t of three and five degrees of freedom
     for seed in 0..20 {
@@ -360,21 +361,21 @@ fn too_many_sparks_are_called_so_and_heavy_tails_are_not() {
     assert!(examine(&values).axes[0].outliers.is_none());
 }
 
-/// Sparks of a few standard deviations are too near for outliers, and made N 1.9 times too large.
+/// Spikes of a few standard deviations are too near for outliers, and made N 1.9 times too large.
 #[test]
-fn sparks_nearby_are_doubted_and_heavy_tails_widen_the_interval() {
+fn spikes_nearby_are_doubted_and_heavy_tails_widen_the_interval() {
     let n = 20_000;
     let moments = Moments::of(n);
     let white = |seed: u64| simulate(&[(PowerLaw::White, 0.02)], n, 7000 + seed);
-    let doubt = |change: &dyn Fn(usize) -> f64, seed: u64| {
+    let caveat = |change: &dyn Fn(usize) -> f64, seed: u64| {
         let values: Vec<f64> = white(seed).iter().enumerate().map(|(k, y)| y + change(k)).collect();
-        examine(&values, &moments).doubt.unwrap_or_default()
+        examine(&values, &moments).caveat.unwrap_or_default()
     };
     // the standard deviation of a sample is 0.2
     for seed in 0..20 {
-        assert_eq!(doubt(&|_| 0.0, seed), "");
-        let sparks = doubt(&|k| if k % 25 == 3 { 1.6 } else { 0.0 }, seed);
-        assert!(sparks.contains("sparks"), "{seed}: {sparks}");
+        assert_eq!(caveat(&|_| 0.0, seed), "");
+        let spikes = caveat(&|k| if k % 25 == 3 { 1.6 } else { 0.0 }, seed);
+        assert!(spikes.contains("sparks"), "{seed}: {spikes}");
     }
     // Laplace's distribution has an excess kurtosis of 3: the variance of a variance is 5/2 of Gauss's
     let laplace = |seed: u64| {

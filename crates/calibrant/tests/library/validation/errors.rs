@@ -142,9 +142,10 @@ fn repeated(gyroscope_noise: f64) {
     let (one, other) = (simulate_imu(&truth, &quiet, &mut rng), simulate_imu(&truth, &quiet, &mut rng));
     let noisy = |recording: &ImuRecording, rng: &mut Rng| {
         let mut recording = recording.clone();
-        for (triad, sd) in [(&mut recording.accelerometer, 0.01), (&mut recording.gyroscope, gyroscope_noise)]
+        for (sensor_kind, sd) in
+            [(&mut recording.accelerometer, 0.01), (&mut recording.gyroscope, gyroscope_noise)]
         {
-            for y in &mut triad.as_mut().expect("there").readings {
+            for y in &mut sensor_kind.as_mut().expect("there").readings {
                 *y += Vector3::from_fn(|_, _| sd * normal(rng));
             }
         }
@@ -159,7 +160,7 @@ fn repeated(gyroscope_noise: f64) {
             // there is none
             calibration.holds.between_holds_sd_mps2 = 0.0;
             calibration.still.between_holds_sd = Vector3::zeros();
-            calibration.rotation_excess_sd_rad = 0.0;
+            calibration.between_rotations_sd_rad = 0.0;
             bench.validate(&calibration, &noisy(&other, &mut rng))
         })
         .collect();

@@ -1,11 +1,11 @@
 //! Calibrations on data that were not used for them.
 
 mod bench;
+mod duplicate_recording;
 mod errors;
+mod explanations;
 mod ferraris;
-mod levels;
 mod noise;
 mod real;
-mod reasons;
-mod refused;
-mod same;
+mod refused_inputs;
+mod significance_levels;

@@ -4,7 +4,7 @@ use crate::common::{draw_imu, normal};
 use crate::validation::bench::{KINDS, bench, mean, share, simulate};
 use calibrant::estimate::{CovarianceVerdict, ErrorKind, ImuCalibration, Validation};
 use calibrant::report::validation_sentences;
-use calibrant::sensor::{ImuParameters, ImuRecording, Recording, Triad};
+use calibrant::sensor::{ImuParameters, ImuRecording, Recording, SensorKind};
 use calibrant::simulate::{ImuSimulation, Purpose, simulate_imu, stream};
 use nalgebra::Vector3;
 use rayon::prelude::*;
@@ -65,12 +65,17 @@ fn other_noise_is_no_reason_to_distrust_an_honest_calibration() {
         for &scatter in scatters {
             let found = tried(on, scatter, count, |_, _| ());
             for validation in &found {
-                let ratio = |triad: Triad| {
-                    validation.noise.iter().find(|noise| noise.triad == triad).expect("there").overall()
+                let ratio = |sensor_kind: SensorKind| {
+                    validation
+                        .noise
+                        .iter()
+                        .find(|noise| noise.sensor_kind == sensor_kind)
+                        .expect("there")
+                        .overall()
                 };
                 // 24 holds of 246 samples tell a standard deviation to 1 %, three axes to 0.5 %
-                assert!((ratio(Triad::Accelerometer) / on.accelerometer - 1.0).abs() < 0.03);
-                assert!((ratio(Triad::Gyroscope) / on.gyroscope - 1.0).abs() < 0.03);
+                assert!((ratio(SensorKind::Accelerometer) / on.accelerometer - 1.0).abs() < 0.03);
+                assert!((ratio(SensorKind::Gyroscope) / on.gyroscope - 1.0).abs() < 0.03);
             }
             assert!(moved(&found) < 0.01 + room(0.01), "{on:?} {scatter}: {}", moved(&found));
             for kind in KINDS {
@@ -277,9 +282,12 @@ fn coarser_steps_are_no_noise() {
         {
             let found = noise.coarse.expect("coarse");
             assert!((found.step / (steps * sd) - 1.0).abs() < 1e-6, "{found:?}");
-            let says = format!("The {}'s readings come in steps of ", noise.triad);
-            let said = sentences.iter().find(|sentence| sentence.starts_with(&says));
-            assert!(said.is_some_and(|said| said.contains(&format!(" {symbol} here, "))), "{sentences:#?}");
+            let says = format!("The {}'s readings come in steps of ", noise.sensor_kind);
+            let message = sentences.iter().find(|sentence| sentence.starts_with(&says));
+            assert!(
+                message.is_some_and(|message| message.contains(&format!(" {symbol} here, "))),
+                "{sentences:#?}"
+            );
         }
         assert!(sentences.iter().all(|sentence| !sentence.contains("'s noise is")), "{sentences:#?}");
     }

@@ -22,11 +22,11 @@ pub(crate) struct Judged {
 
 /// The rotations cut down.
 pub(crate) struct CoarseRotations {
-    rotations: Vec<CutDown>,
+    rotations: Vec<ThinnedRotation>,
 }
 
 /// A rotation cut down, with gravity before and after it.
-struct CutDown {
+struct ThinnedRotation {
     turns: Vec<Vector3<f64>>,
     from: Vector3<f64>,
     to: Vector3<f64>,
@@ -39,7 +39,7 @@ impl CoarseRotations {
         let cut_down = |data: &RotationData<'_>| {
             let step = data.samples.times_s.len().div_ceil(COARSE_SAMPLES);
             let bias = state.imu.at(data.samples.temperature_c()).gyroscope.bias;
-            CutDown {
+            ThinnedRotation {
                 turns: data.samples.cut_down(&bias, step),
                 from: state.forces[data.from],
                 to: state.forces[data.from + 1],
@@ -56,7 +56,7 @@ impl CoarseRotations {
     /// Looks at a matrix of the gyroscope; `None` where it is singular, or there are no rotations.
     pub(crate) fn judge(&self, matrix: &Matrix3<f64>) -> Option<Judged> {
         let correction = matrix.try_inverse()?;
-        let error = |rotation: &CutDown| {
+        let error = |rotation: &ThinnedRotation| {
             propagated_back(&rotation.turns, &correction, &rotation.from).angle(&rotation.to)
         };
         let errors: Vec<f64> = self.rotations.iter().map(error).collect();

@@ -11,7 +11,7 @@ use crate::estimate::imu::problem::ImuProblem;
 use crate::estimate::imu::temperature::RecordingTemperature;
 use crate::estimate::result::HoldCalibration;
 use crate::estimate::uncalibrated::Uncalibrated;
-use crate::sensor::{Correction, ImuParameters, Triad};
+use crate::sensor::{Correction, ImuParameters, SensorKind};
 
 /// The holds of a solution.
 pub(crate) fn hold_results(
@@ -28,7 +28,7 @@ pub(crate) fn hold_results(
     correct(&mut holds, &state.imu, temperature)?;
     // of faces the fit of these knows it
     if first.alignment.is_none() {
-        let of_accelerometer = |k: &usize| model.quantities[*k].triad() == Triad::Accelerometer;
+        let of_accelerometer = |k: &usize| model.quantities[*k].sensor_kind() == SensorKind::Accelerometer;
         let known = |k: &usize| model.prior.as_ref().is_some_and(|(_, weight)| weight[*k] > 0.0);
         let unknown = (0..model.quantities.len()).filter(of_accelerometer).filter(|k| !known(k)).count();
         holds.degrees_of_freedom = model.holds.len().saturating_sub(unknown);

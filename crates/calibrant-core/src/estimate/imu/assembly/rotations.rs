@@ -1,6 +1,6 @@
 //! The rotations in the result.
 
-use crate::estimate::imu::least_squares::rates::Path;
+use crate::estimate::imu::least_squares::angular_rate::Path;
 use crate::estimate::imu::model::{GravityResidual, ImuModel, LocalBias, State};
 use crate::estimate::imu::result::RotationResult;
 use crate::estimate::imu::rotations::movement::Movement;

@@ -2,7 +2,7 @@
 
 use crate::error::Result;
 use crate::estimate::imu::model::{GyroscopeNoise, HoldData, ImuModel, State, singular};
-use crate::estimate::imu::result::StillGyroscope;
+use crate::estimate::imu::result::GyroscopeInHolds;
 use crate::estimate::imu::stationary::gyroscope::StationaryGyroscope;
 use crate::sensor::{Correction, ImuParameters};
 use nalgebra::Vector3;
@@ -14,9 +14,9 @@ pub(crate) fn stationary_result(
     gyroscope: &StationaryGyroscope,
     before: &ImuParameters,
     vertical_rate: f64,
-) -> Result<StillGyroscope> {
+) -> Result<GyroscopeInHolds> {
     let rms = |imu: &ImuParameters| rate_rms(model, &state.forces, imu, vertical_rate).ok_or_else(singular);
-    Ok(StillGyroscope {
+    Ok(GyroscopeInHolds {
         noise: model.gyroscope_noise.of_sample,
         noise_source: gyroscope.noise_source,
         within_holds_sd: GyroscopeNoise::of(gyroscope.scatter, &gyroscope.coarse).of_sample,

@@ -6,13 +6,13 @@ use nalgebra::{Matrix3, Rotation3, Vector3};
 
 /// How its axes lie, where they were found by the rotations.
 pub(crate) fn check(evidence: &Evidence<'_>) -> Diagnostics {
-    let said = evidence.axes.map(|axes| match axes {
+    let stated = evidence.axes.map(|axes| match axes {
         Axes::InOrder([x, y, z]) => format!(
             "the gyroscope's axes are not the accelerometer's: along x, y and z of the accelerometer lie {x}, {y} and {z} of the gyroscope"
         ),
         Axes::Turned => mounting_in_words(&evidence.calibration.imu.gyroscope.matrix),
     });
-    said.into_iter().collect()
+    stated.into_iter().collect()
 }
 
 /// By how much and about what the gyroscope is turned, in words.

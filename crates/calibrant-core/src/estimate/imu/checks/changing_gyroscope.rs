@@ -4,7 +4,7 @@ use crate::estimate::change::{Change, Changed, Series};
 use crate::estimate::imu::model::{Fit, GravityResidual, ImuModel};
 use crate::estimate::result::HoldCalibration;
 use crate::motion::Hold;
-use crate::sensor::{Axis, Condition, ImuQuantity, MeanReading, Quantity, Triad};
+use crate::sensor::{Axis, Condition, ImuQuantity, MeanReading, Quantity, SensorKind};
 use nalgebra::{DMatrix, DVector, Matrix2, Matrix2x3, Matrix3, Vector2, Vector3};
 
 /// The gyroscope of a fitted problem.
@@ -47,7 +47,7 @@ impl Changing<'_> {
             let time_s = 0.5 * (self.hold(last).end_s + self.hold(first).start_s);
             (self.numbers[last], self.numbers[first], time_s)
         };
-        Some(Change::of(Triad::Gyroscope, found, step))
+        Some(Change::of(SensorKind::Gyroscope, found, step))
     }
 
     /// What the holds leave unexplained of the mean rate of an axis.
@@ -103,7 +103,8 @@ impl Changing<'_> {
         let mut parameters = DMatrix::zeros(rows, matrix.len());
         let (mut gain, mut axes) = (DMatrix::zeros(rows, 3), DMatrix::zeros(rows, 3));
         for (number, (_, residual)) in seen.iter().enumerate() {
-            let variance = residual.covariance + Matrix2::identity() * (model.excess_rad.powi(2) + 1e-18);
+            let variance =
+                residual.covariance + Matrix2::identity() * (model.between_rotations_sd_rad.powi(2) + 1e-18);
             let white = variance.cholesky()?.l().try_inverse()?;
             let put = |into: &mut DMatrix<f64>, column: usize, value: Vector2<f64>| {
                 into.fixed_view_mut::<2, 1>(2 * number, column).copy_from(&value);
@@ -141,15 +142,17 @@ impl Changing<'_> {
             let time_s = 0.5 * (self.hold(last).start_s + self.hold(first).end_s);
             (self.numbers[last], self.numbers[first], time_s)
         };
-        Some(Change::of(Triad::Gyroscope, series.change(1)?, step))
+        Some(Change::of(SensorKind::Gyroscope, series.change(1)?, step))
     }
 }
 
 /// How an entry of the gyroscope's matrix `M` changes with shares of its rows, and with a turn `ω` of its axes, `M [ω]×`; `None` for what is no entry of it.
 fn entry(quantity: ImuQuantity, matrix: &Matrix3<f64>) -> Option<(Vector3<f64>, Vector3<f64>)> {
     let (row, column) = match quantity {
-        ImuQuantity::Of(Triad::Gyroscope, Quantity::Scale(axis)) => (axis.index(), axis.index()),
-        ImuQuantity::Of(Triad::Gyroscope, Quantity::CrossAxis(row, column)) => (row.index(), column.index()),
+        ImuQuantity::Of(SensorKind::Gyroscope, Quantity::Scale(axis)) => (axis.index(), axis.index()),
+        ImuQuantity::Of(SensorKind::Gyroscope, Quantity::CrossAxis(row, column)) => {
+            (row.index(), column.index())
+        }
         _ => return None,
     };
     let turn = |axis: usize| (matrix * Vector3::ith(axis, 1.0).cross_matrix())[(row, column)];

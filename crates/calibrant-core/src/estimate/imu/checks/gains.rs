@@ -3,7 +3,7 @@
 use crate::estimate::imu::checks::directions::turned_frame;
 use crate::estimate::imu::checks::evidence::{Diagnostics, Evidence};
 use crate::estimate::imu::result::ImuCalibration;
-use crate::sensor::{Axis, ReadingUnit, Triad};
+use crate::sensor::{Axis, ReadingUnit, SensorKind};
 
 /// Gains of readings in SI that are plausible.
 const PLAUSIBLE_GAINS: std::ops::RangeInclusive<f64> = 0.8..=1.25;
@@ -16,14 +16,14 @@ pub(crate) fn check(evidence: &Evidence<'_>) -> Diagnostics {
 /// Readings in SI have gains near one, each axis along its own.
 fn of_gains(calibration: &ImuCalibration, reordered: bool) -> Vec<String> {
     let mut warnings = Vec::new();
-    for (triad, unit) in [
-        (Triad::Accelerometer, calibration.accelerometer_unit),
-        (Triad::Gyroscope, calibration.gyroscope_unit),
+    for (sensor_kind, unit) in [
+        (SensorKind::Accelerometer, calibration.accelerometer_unit),
+        (SensorKind::Gyroscope, calibration.gyroscope_unit),
     ] {
-        if unit == ReadingUnit::Counts || (triad == Triad::Gyroscope && reordered) {
+        if unit == ReadingUnit::Counts || (sensor_kind == SensorKind::Gyroscope && reordered) {
             continue;
         }
-        let matrix = &calibration.imu.triad(triad).matrix;
+        let matrix = &calibration.imu.sensor(sensor_kind).matrix;
         if calibration.frame_is_known() && turned_frame(matrix) {
             // the faces and turns say it better
             continue;
@@ -32,7 +32,7 @@ fn of_gains(calibration: &ImuCalibration, reordered: bool) -> Vec<String> {
             let along = matrix[(axis.index(), axis.index())];
             if !PLAUSIBLE_GAINS.contains(&along) {
                 warnings.push(format!(
-                    "the {triad} shows {along:.3} of what there is along its axis {axis}, for readings in {} it should be near 1: are unit, sample rate, order and \
+                    "the {sensor_kind} shows {along:.3} of what there is along its axis {axis}, for readings in {} it should be near 1: are unit, sample rate, order and \
                      direction of the axes right, and what was given of turns and faces?",
                     unit.symbol()
                 ));

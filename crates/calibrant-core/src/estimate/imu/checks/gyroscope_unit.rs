@@ -1,6 +1,6 @@
 //! A gyroscope in deg/s whose readings are taken for rad/s.
 
-use crate::error::{Complaint, Error, Result};
+use crate::error::{Error, InputError, Result};
 use crate::estimate::imu::alignment::coarse_rotations::CoarseRotations;
 use crate::estimate::imu::model::{ImuModel, State};
 
@@ -12,7 +12,7 @@ pub(crate) fn check(model: &ImuModel<'_>, state: &State, median_rad: f64) -> Res
         return Ok(());
     }
     let degrees = median_rad.to_degrees();
-    Err(Error::recording(Complaint::new(
+    Err(Error::recording(InputError::new(
         format!(
             "the gyroscope's readings are in deg/s, not rad/s: so read, the rotations miss gravity by {degrees:.0}°"
         ),

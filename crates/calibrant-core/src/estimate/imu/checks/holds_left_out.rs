@@ -6,7 +6,7 @@ use crate::estimate::imu::checks::evidence::{Diagnostics, Evidence};
 /// By the parameters of the whole IMU, in place of what the static fit said of the same holds.
 pub(crate) fn check(evidence: &Evidence<'_>) -> Diagnostics {
     let first = evidence.accelerometer;
-    let said_before = left_out(&first.holds);
-    let of_accelerometer = first.warnings.iter().filter(|said| !said_before.contains(said));
+    let stated_before = left_out(&first.holds);
+    let of_accelerometer = first.warnings.iter().filter(|stated| !stated_before.contains(stated));
     left_out(&evidence.calibration.holds).into_iter().chain(of_accelerometer.cloned()).collect()
 }

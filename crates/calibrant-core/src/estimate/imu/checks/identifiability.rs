@@ -4,7 +4,7 @@ use crate::error::{Error, NotIdentifiable, Result, UndeterminedGroup};
 use crate::estimate::imu::checks::axes_in_words::axes_in_words;
 use crate::estimate::imu::model::{Fit, ImuModel, State, TurnData};
 use crate::information::{self, Undetermined};
-use crate::sensor::{Axis, ImuParameters, ImuQuantity, Quantity, Triad};
+use crate::sensor::{Axis, ImuParameters, ImuQuantity, Quantity, SensorKind};
 use nalgebra::DMatrix;
 
 /// An entry of the gyroscope's matrix is not determined where it is known to less than this share of its gain.
@@ -64,7 +64,7 @@ pub(crate) fn undetermined(model: &ImuModel<'_>, groups: &[Undetermined]) -> Not
         found.parameters.iter().any(|&k| matches!(model.quantities[k], ImuQuantity::Thermal(..)))
     };
     let of_accelerometer = |found: &Undetermined| {
-        found.parameters.iter().all(|&k| model.quantities[k].triad() == Triad::Accelerometer)
+        found.parameters.iter().all(|&k| model.quantities[k].sensor_kind() == SensorKind::Accelerometer)
     };
     NotIdentifiable {
         groups: if groups.is_empty() {
@@ -106,7 +106,7 @@ pub(crate) fn with_obstacles(error: Error, obstacles: &[String]) -> Error {
 /// The axes, in words, whose scale factor of the gyroscope is among these quantities, where not all three are.
 fn axes_of(model: &ImuModel<'_>, places: &[usize]) -> Option<String> {
     let is_scale = |axis: &Axis| {
-        let scale = ImuQuantity::Of(Triad::Gyroscope, Quantity::Scale(*axis));
+        let scale = ImuQuantity::Of(SensorKind::Gyroscope, Quantity::Scale(*axis));
         places.iter().any(|&k| model.quantities[k] == scale)
     };
     let axes: Vec<Axis> = Axis::ALL.into_iter().filter(is_scale).collect();

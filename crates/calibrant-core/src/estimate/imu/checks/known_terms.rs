@@ -3,11 +3,11 @@
 //! A term that is far off leaves no problem that is nearly linear, and where the fit with it ends, if it ends, hangs on the last digits. So what is absurd is told by the fit
 //! without it alone, and is an error whatever the fit with it came to.
 
-use crate::error::{Complaint, Error, Result};
+use crate::error::{Error, InputError, Result};
 use crate::estimate::imu::problem::KnownTerm;
 use crate::estimate::imu::result::ImuCalibration;
 use crate::estimate::result::CalibrationStatus;
-use crate::sensor::{Condition, ImuQuantity, Triad};
+use crate::sensor::{Condition, ImuQuantity, SensorKind};
 use nalgebra::Vector3;
 
 /// Combined standard deviations beyond which a term contradicts the recording.
@@ -36,7 +36,7 @@ pub(crate) fn check(known: &KnownTerm) -> Result<()> {
         return Ok(());
     }
     let sd = known.sd.map_or_else(String::new, |sd| format!(" ± {sd:?}"));
-    Err(Error::experiment(Complaint::new(
+    Err(Error::experiment(InputError::new(
         format!("{} cannot be known as {:?}{sd}", known.quantity.name(), known.value),
         format!("a prior has a standard deviation of {LEAST_SD:e} or more; without one the value is fixed"),
     )))
@@ -50,7 +50,7 @@ pub(crate) fn contradicted(known: &[KnownTerm], without: &ImuCalibration) -> Vec
     let sds = without.sd();
     let contradiction = |known: &KnownTerm| {
         let place = without.quantities.iter().position(|quantity| *quantity == known.quantity)?;
-        let (found, sd) = (known.quantity.of(&without.imu), sds[place]);
+        let (found, sd) = (known.quantity.value(&without.imu), sds[place]);
         let off = (found - known.value).abs();
         // the estimate is the mean of both, weighted
         let variance = known.sd.unwrap_or(0.0).powi(2);
@@ -71,9 +71,9 @@ pub(crate) fn contradicted(known: &[KnownTerm], without: &ImuCalibration) -> Vec
 /// By which share of the readings of gravity, or of a slow turn, one unit of a quantity moves them at most.
 fn share(quantity: ImuQuantity, calibration: &ImuCalibration, gravity: f64) -> f64 {
     let imu = &calibration.imu;
-    let size = match quantity.triad() {
-        Triad::Accelerometer => gravity,
-        Triad::Gyroscope => SLOW_RADPS,
+    let size = match quantity.sensor_kind() {
+        SensorKind::Accelerometer => gravity,
+        SensorKind::Gyroscope => SLOW_RADPS,
     };
     // without temperatures nothing follows them
     let temperatures = calibration.hold_temperatures_c.as_deref().unwrap_or(&[0.0]);
@@ -84,5 +84,5 @@ fn share(quantity: ImuQuantity, calibration: &ImuCalibration, gravity: f64) -> f
     };
     let most =
         (0..3).flat_map(|axis| temperatures.iter().map(move |t| (axis, *t))).map(moved).fold(0.0, f64::max);
-    most / (size * imu.triad(quantity.triad()).matrix.determinant().abs().cbrt())
+    most / (size * imu.sensor(quantity.sensor_kind()).matrix.determinant().abs().cbrt())
 }

@@ -11,7 +11,7 @@ pub(crate) fn check(evidence: &Evidence<'_>) -> Diagnostics {
     let Some((mean, weight)) = &model.prior else { return Vec::new() };
     let mut warnings = Vec::new();
     for (k, quantity) in model.quantities.iter().enumerate() {
-        let off = (quantity.of(imu) - mean[k]).abs() * weight[k].sqrt();
+        let off = (quantity.value(imu) - mean[k]).abs() * weight[k].sqrt();
         if off > CONTRADICTED_SD {
             warnings.push(format!(
                 "the data contradict what [known] says of {}: {off:.0} standard deviations from {}",

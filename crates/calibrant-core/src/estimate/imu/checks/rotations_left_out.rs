@@ -3,7 +3,7 @@
 use crate::estimate::change::{Changed, longest_run};
 use crate::estimate::imu::checks::evidence::{Diagnostics, Evidence};
 use crate::estimate::imu::result::{ImuCalibration, RotationResult};
-use crate::sensor::Triad;
+use crate::sensor::SensorKind;
 
 /// Each with its reason, and those that were left out one after another.
 pub(crate) fn check(evidence: &Evidence<'_>) -> Diagnostics {
@@ -31,7 +31,7 @@ fn rotations_in_a_row(calibration: &ImuCalibration) -> Option<String> {
     let explained = calibration
         .changes
         .iter()
-        .any(|change| change.of != Changed::Bias || change.triad == Triad::Accelerometer);
+        .any(|change| change.of != Changed::Bias || change.sensor_kind == SensorKind::Accelerometer);
     (!explained).then(|| {
         format!(
             "the {} rotations from {:.1} to {:.1} s were left out one after another, which is no chance: did the gyroscope saturate there, or one of the sensors change?",

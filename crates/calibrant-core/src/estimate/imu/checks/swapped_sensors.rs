@@ -23,9 +23,9 @@ pub fn swapped_sensors(recording: &ImuRecording, minimum_s: f64) -> Option<&'sta
 /// The same error, which came of the holds, with this question.
 pub(crate) fn with_swapped_sensors(error: Error, recording: &ImuRecording, minimum_s: f64) -> Error {
     match (error, swapped_sensors(recording, minimum_s)) {
-        (Error::NotIdentifiable(undetermined), Some(said)) => {
+        (Error::NotIdentifiable(undetermined), Some(stated)) => {
             let mut groups = undetermined.groups;
-            groups.iter_mut().for_each(|group| group.reason = format!("{}; {said}", group.reason));
+            groups.iter_mut().for_each(|group| group.reason = format!("{}; {stated}", group.reason));
             Error::NotIdentifiable(Box::new(NotIdentifiable { groups }))
         }
         (error, _) => error,

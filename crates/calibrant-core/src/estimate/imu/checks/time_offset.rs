@@ -18,8 +18,8 @@ pub(crate) fn check(evidence: &Evidence<'_>) -> Diagnostics {
     let (Some(accelerometer), Some(gyroscope)) = (&recording.accelerometer, &recording.gyroscope) else {
         return Vec::new();
     };
-    let said = evidence.clock.as_ref().and_then(|clock| words(clock, accelerometer, gyroscope));
-    said.into_iter().collect()
+    let stated = evidence.clock.as_ref().and_then(|clock| words(clock, accelerometer, gyroscope));
+    stated.into_iter().collect()
 }
 
 /// What to say of it, where it is certain and matters.

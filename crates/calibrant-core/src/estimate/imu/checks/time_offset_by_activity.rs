@@ -3,7 +3,7 @@
 //! An accelerometer that is turned reads another part of gravity from moment to moment, `|ḟ| = |ω × f|`, so that how fast it changes and the rate of the gyroscope rise and fall together. The lag and the
 //! growth at which they do most are searched for, to a fraction of a second: where the clocks are so far apart no fit may be left to tell (`time_offset`).
 
-use crate::error::{Complaint, Error, NotIdentifiable};
+use crate::error::{Error, InputError, NotIdentifiable};
 use crate::estimate::holds::median;
 use crate::estimate::imu::checks::time_offset::{late, repair};
 use crate::sensor::{ImuRecording, Recording};
@@ -38,14 +38,14 @@ const FAR_S: f64 = 1.0;
 const FINER: f64 = 4.0;
 
 /// How a sensor moves in each bin of the time.
-struct Activity {
+struct MotionActivity {
     from_s: f64,
     bin_s: f64,
     /// Less their mean.
     values: Vec<f64>,
 }
 
-impl Activity {
+impl MotionActivity {
     /// `of`: how it moves, from the mean readings of a bin before, the bin itself and one after.
     fn of(recording: &Recording, bin_s: f64, of: impl Fn([&Vector3<f64>; 3]) -> f64) -> Option<Self> {
         let from_s = *recording.times_s.first()?;
@@ -115,7 +115,7 @@ pub(crate) fn shifted(recording: &ImuRecording) -> Option<String> {
         return None;
     }
     let at_s = 0.5 * (first + last);
-    let [accelerometer, gyroscope] = Activity::of_both(recording, bin_s)?;
+    let [accelerometer, gyroscope] = MotionActivity::of_both(recording, bin_s)?;
     let step = 2.0 * bin_s / (last - first);
     let all = |most: f64, step: f64| {
         let count = (most / step) as i32;
@@ -124,7 +124,7 @@ pub(crate) fn shifted(recording: &ImuRecording) -> Option<String> {
     let (offsets, skews) = (all(LARGEST_OFFSET_S, bin_s), all(LARGEST_SKEW, step));
     let tries: Vec<(f64, f64)> =
         skews().flat_map(|skew| offsets().map(move |offset_s| (offset_s, skew))).collect();
-    let judged = |[one, other]: [&Activity; 2], tries: Vec<(f64, f64)>| -> Vec<(f64, f64, f64)> {
+    let judged = |[one, other]: [&MotionActivity; 2], tries: Vec<(f64, f64)>| -> Vec<(f64, f64, f64)> {
         let alike =
             |(offset_s, skew): (f64, f64)| (one.correlation(other, at_s, offset_s, skew), offset_s, skew);
         tries.into_par_iter().map(alike).collect()
@@ -136,7 +136,7 @@ pub(crate) fn shifted(recording: &ImuRecording) -> Option<String> {
     let is_far = |other: &&(f64, f64, f64)| (other.1 - offset_s).abs() > FAR_S;
     let is_unique = roughly.iter().filter(is_far).all(|other| other.0 < most - UNIQUE);
     let fine = bin_s / FINER;
-    let [accelerometer, gyroscope] = Activity::of_both(recording, fine)?;
+    let [accelerometer, gyroscope] = MotionActivity::of_both(recording, fine)?;
     let as_recorded = accelerometer.correlation(&gyroscope, at_s, 0.0, 0.0);
     let (offsets, skews) = (all(bin_s, fine), all(step, step / FINER));
     let near = skews().flat_map(|by| offsets().map(move |more_s| (offset_s + more_s, skew + by))).collect();
@@ -166,14 +166,14 @@ pub(crate) fn shifted(recording: &ImuRecording) -> Option<String> {
 pub(crate) fn with_time_offset(error: Error, recording: &ImuRecording) -> Error {
     let both = recording.accelerometer.is_some() && recording.gyroscope.is_some();
     match error {
-        Error::Recording(complaint) if both => match shifted(recording) {
-            Some(said) => Error::recording(Complaint { help: said, ..*complaint }),
-            None => Error::Recording(complaint),
+        Error::Recording(input_error) if both => match shifted(recording) {
+            Some(stated) => Error::recording(InputError { help: stated, ..*input_error }),
+            None => Error::Recording(input_error),
         },
         Error::NotIdentifiable(undetermined) if both => {
             let mut groups = undetermined.groups;
-            if let Some(said) = shifted(recording) {
-                groups.iter_mut().for_each(|group| group.reason = format!("{}; {said}", group.reason));
+            if let Some(stated) = shifted(recording) {
+                groups.iter_mut().for_each(|group| group.reason = format!("{}; {stated}", group.reason));
             }
             Error::NotIdentifiable(Box::new(NotIdentifiable { groups }))
         }

@@ -3,7 +3,7 @@
 //! Where up is in the readings needs no direction: they lie on a sphere about the bias, distorted by errors of a few per cent. A turn of all
 //! directions together is the mounting of the sensor and no mistake, so the turn that most faces agree with counts.
 
-use crate::error::{Complaint, Error, Result};
+use crate::error::{Error, InputError, Result};
 use crate::estimate::holds::sphere;
 use crate::estimate::imu::checks::directions::{AGREES_RAD, direction_in_words, turned_frame};
 use crate::estimate::imu::problem::ImuProblem;
@@ -21,9 +21,9 @@ pub(crate) fn check(
     given: &[Vector3<f64>],
     mirrored: bool,
 ) -> Result<()> {
-    match complaint(problem, holds, given) {
-        Some(complaint) => Err(Error::experiment(complaint)),
-        None if mirrored => Err(Error::experiment(Complaint::new(
+    match input_error(problem, holds, given) {
+        Some(input_error) => Err(Error::experiment(input_error)),
+        None if mirrored => Err(Error::experiment(InputError::new(
             "the readings of the accelerometer are the mirror image of the directions of the holds",
             "is a direction of the wrong sign, or are two swapped? else change the sign of the column of an axis that reads with the opposite sign",
         ))),
@@ -71,7 +71,7 @@ fn difference(j: usize, hold: &Hold, given: &Vector3<f64>, shown: &Vector3<f64>)
     )
 }
 
-fn complaint(problem: &ImuProblem<'_>, holds: &[Hold], given: &[Vector3<f64>]) -> Option<Complaint> {
+fn input_error(problem: &ImuProblem<'_>, holds: &[Hold], given: &[Vector3<f64>]) -> Option<InputError> {
     let gravity = problem.setup.holds.gravity.magnitude_mps2;
     // the offset of counts is often not the datasheet's
     let guess = match problem.accelerometer.unit {
@@ -98,7 +98,7 @@ fn complaint(problem: &ImuProblem<'_>, holds: &[Hold], given: &[Vector3<f64>]) -
         "correct the directions (the axis that is up in each hold, in the order of the holds) or the times of the holds; where an axis of the accelerometer reads with the \
          opposite sign, change the sign of its column"
     };
-    Some(Complaint::new(all.join("; "), help))
+    Some(InputError::new(all.join("; "), help))
 }
 
 struct Faces<'a> {

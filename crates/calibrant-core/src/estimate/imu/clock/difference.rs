@@ -175,8 +175,8 @@ mod tests {
             let offset = |k: usize| {
                 let (at_s, weight) = (5.0 * k as f64 + normal(), 22.0 * (1.0 + 0.5 * normal().tanh()));
                 // one in twelve is an outlier
-                let wild = if k % 12 == 7 { 40.0 } else { 1.0 };
-                let scatter = wild * 0.022 / weight.sqrt() * normal();
+                let invalid = if k % 12 == 7 { 40.0 } else { 1.0 };
+                let scatter = invalid * 0.022 / weight.sqrt() * normal();
                 TimeOffset { at_s, offset_s: latency_s + skew * at_s + scatter, weight }
             };
             let offsets: Vec<TimeOffset> = (0..rotations).map(offset).collect();

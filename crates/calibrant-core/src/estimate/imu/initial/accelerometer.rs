@@ -3,7 +3,7 @@
 use crate::estimate::imu::initial::face_alignment::{FaceAlignment, FaceScatter};
 use crate::estimate::result::HoldCalibration;
 use crate::motion::Hold;
-use crate::sensor::{Recording, SensorParameters, TriadThermal};
+use crate::sensor::{Recording, SensorParameters, SensorThermal};
 use nalgebra::{Matrix3, Vector3};
 
 /// The noise of a face's mean is no less than this, m/s². Readings without noise have a last digit still.
@@ -21,7 +21,7 @@ pub(crate) struct InitialAccelerometer {
     pub(crate) alignment: Option<FaceAlignment>,
     pub(crate) warnings: Vec<String>,
     /// Its temperature terms, and the recording as it would be at the reference temperature, where they were fitted.
-    pub(crate) thermal: TriadThermal,
+    pub(crate) thermal: SensorThermal,
     pub(crate) adjusted: Option<Recording>,
 }
 

@@ -2,7 +2,7 @@
 
 use crate::error::Result;
 use crate::estimate::imu::initial::accelerometer::InitialAccelerometer;
-use crate::estimate::imu::initial::faces::from_faces;
+use crate::estimate::imu::initial::known_faces::from_faces;
 use crate::estimate::imu::initial::temperature_terms::with_temperature_terms;
 use crate::estimate::imu::initial::unknown_directions::from_unknown_directions;
 use crate::estimate::imu::problem::ImuProblem;

@@ -14,7 +14,7 @@
 //!
 //! which is `S/(ν − 2)` for large tilts, and leaves six faces that scatter as their noise does a `τ²` of `v`.
 
-use crate::estimate::excess::excess;
+use crate::estimate::between_hold_variance::excess;
 use crate::estimate::result::{FaceTilt, TiltSource};
 use nalgebra::{Matrix3, Vector3};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
@@ -23,15 +23,15 @@ use statrs::distribution::{ChiSquared, ContinuousCDF};
 const ASSUMED_RAD: f64 = 0.5 * std::f64::consts::PI / 180.0;
 
 /// A scatter of fewer degrees of freedom has no variance that could be stated.
-const FEWEST: usize = 3;
+const FEWEST_DEGREES: usize = 3;
 
-/// Faces contradict the tilt that was given where they scatter by this many times of it.
+/// Faces that scatter by so many times the given tilt contradict it.
 const CONTRADICTED: f64 = 2.5;
 
-/// They contradict it, too, where they scatter so little that chance does so with this probability.
+/// Faces contradict the given tilt, too, if only this share of sessions scatters as little.
 const TOO_LITTLE: f64 = 1e-3;
 
-/// The two scatters follow each other in at most this many rounds.
+/// At most so many rounds, in which the two scatters follow each other.
 const ROUNDS: usize = 30;
 
 /// The rounds end where the scatters change by less than this share.
@@ -102,7 +102,7 @@ impl Degrees {
     fn source(self, given_rad: Option<f64>) -> TiltSource {
         match given_rad {
             Some(_) => TiltSource::Given,
-            None if self.across() >= FEWEST => TiltSource::Recording,
+            None if self.across() >= FEWEST_DEGREES => TiltSource::Recording,
             None => TiltSource::Assumed,
         }
     }
@@ -110,7 +110,7 @@ impl Degrees {
     /// `tilt2`: mean of τ² over what the recording leaves open, where it tells it.
     fn alignment(self, scatter: FaceScatter, source: TiltSource, tilt2: Option<f64>) -> FaceAlignment {
         let factor = |degrees: usize| {
-            let degrees = degrees.max(FEWEST) as f64;
+            let degrees = degrees.max(FEWEST_DEGREES) as f64;
             degrees / (degrees - 2.0)
         };
         let (of_square, degrees_of_freedom) = match tilt2 {
@@ -142,8 +142,8 @@ pub(crate) fn align_faces<T>(
     let Some(given_rad) = given_rad else {
         let (found, chi2, fitted) = search(degrees, None, gravity, &mut fit)?;
         let source = degrees.source(None);
-        let is_told = source == TiltSource::Recording;
-        let tilt2 = is_told.then(|| mean_square(degrees, &found, &chi2, noise));
+        let is_reported = source == TiltSource::Recording;
+        let tilt2 = is_reported.then(|| mean_square(degrees, &found, &chi2, noise));
         return Some((degrees.alignment(found, source, tilt2), fitted));
     };
     // how they scatter, whatever was given of it
@@ -165,21 +165,21 @@ fn search<T>(
     gravity: f64,
     fit: &mut impl FnMut(&FaceScatter) -> Option<(Chi2, T)>,
 ) -> Option<(FaceScatter, Chi2, T)> {
-    let told = degrees.source(given_rad) == TiltSource::Recording;
+    let determined = degrees.source(given_rad) == TiltSource::Recording;
     let mut scatter = FaceScatter::of(given_rad.unwrap_or(ASSUMED_RAD), 0.0, degrees.faces);
     // where noise decides, all three components of a face share the parameters alike; where tilts do, what it shows along tells what it can alone
     let scattered = (fit(&FaceScatter::default())?.0.all / degrees.all.max(1) as f64).max(1.0);
     let shared = (degrees.all as f64 / 3.0 - degrees.along as f64).max(0.0);
     for _ in 0..ROUNDS {
         let before = scatter;
-        if told {
+        if determined {
             let at = |tilt_rad: f64| FaceScatter::of(tilt_rad, scatter.along_mps2, degrees.faces);
             let all = degrees.all as f64;
             let (tilt_rad, ()) =
                 excess(all, |_| ASSUMED_RAD, |tilt| fit(&at(tilt)).map(|(chi2, _)| (chi2.all, ())))?;
             scatter = at(tilt_rad);
         }
-        if degrees.along >= FEWEST {
+        if degrees.along >= FEWEST_DEGREES {
             let at = |along_mps2: f64| FaceScatter { along_mps2, ..scatter };
             let guess = gravity * ASSUMED_RAD.powi(2);
             let along = degrees.along as f64 + shared / scattered;
@@ -187,7 +187,7 @@ fn search<T>(
                 excess(along, |_| guess, |along| fit(&at(along)).map(|(chi2, _)| (chi2.along, ())))?.0;
         }
         let moved = |now: f64, before: f64| (now - before).abs() > CLOSE * now;
-        if degrees.along < FEWEST
+        if degrees.along < FEWEST_DEGREES
             || !moved(scatter.tilt_rad, before.tilt_rad) && !moved(scatter.along_mps2, before.along_mps2)
         {
             break;

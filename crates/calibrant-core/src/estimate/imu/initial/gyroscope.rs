@@ -12,7 +12,9 @@ use crate::estimate::imu::variance_components::between_holds::{
     Explanation, Means, between_sd, set_gyroscope_means,
 };
 use crate::estimate::result::HoldResult;
-use crate::sensor::{ImuParameters, ImuQuantity, ReadingUnit, SensorParameters, Thermal, ThermalTerm, Triad};
+use crate::sensor::{
+    ImuParameters, ImuQuantity, ReadingUnit, SensorKind, SensorParameters, Thermal, ThermalTerm,
+};
 use nalgebra::{Matrix3, Vector3};
 
 /// Where the least squares begin.
@@ -135,7 +137,7 @@ fn bias_terms(
     quantities
         .iter()
         .enumerate()
-        .filter(|(_, quantity)| quantity.triad() == Triad::Gyroscope && quantity.is_of_bias())
+        .filter(|(_, quantity)| quantity.sensor_kind() == SensorKind::Gyroscope && quantity.is_of_bias())
         .filter_map(|(k, quantity)| match quantity {
             ImuQuantity::Thermal(_, term) if term.axis.index() == axis => {
                 let (mean, weight) = prior.map_or((0.0, 0.0), |(mean, weight)| (mean[k], weight[k]));

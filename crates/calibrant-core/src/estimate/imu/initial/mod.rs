@@ -4,7 +4,7 @@ pub(crate) mod accelerometer;
 pub(crate) mod accelerometer_alone;
 pub(crate) mod face_alignment;
 pub(crate) mod face_statistics;
-pub(crate) mod faces;
 pub(crate) mod gyroscope;
+pub(crate) mod known_faces;
 pub(crate) mod temperature_terms;
 pub(crate) mod unknown_directions;

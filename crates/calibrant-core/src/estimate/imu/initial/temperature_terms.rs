@@ -5,7 +5,7 @@
 //! freedom less these terms). The static fit is then made with the recording as it would be at the reference temperature: it tells the bad holds.
 
 use crate::error::Result;
-use crate::estimate::excess::excess;
+use crate::estimate::between_hold_variance::excess;
 use crate::estimate::holds::{critical, left_out, magnitude_rms};
 use crate::estimate::imu::checks::identifiability;
 use crate::estimate::imu::earth_rate::EarthRate;
@@ -19,7 +19,7 @@ use crate::estimate::imu::temperature::{RecordingTemperature, at_reference};
 use crate::estimate::result::HoldCalibration;
 use crate::estimate::settings::CalibrationSettings;
 use crate::motion::Hold;
-use crate::sensor::{ImuParameters, ImuQuantity, Quantity, Recording, Triad};
+use crate::sensor::{ImuParameters, ImuQuantity, Quantity, Recording, SensorKind};
 use nalgebra::{Matrix3, Vector3};
 
 /// Rounds of terms and bad holds in turn.
@@ -34,7 +34,8 @@ pub(crate) fn with_temperature_terms(
     settings: &CalibrationSettings,
     refit: impl Fn(&Recording, Vec<(f64, f64)>) -> Result<InitialAccelerometer>,
 ) -> Result<InitialAccelerometer> {
-    let follows = problem.setup.thermal.quantities().iter().any(|q| q.triad() == Triad::Accelerometer);
+    let follows =
+        problem.setup.thermal.quantities().iter().any(|q| q.sensor_kind() == SensorKind::Accelerometer);
     if !follows {
         return Ok(first);
     }
@@ -44,11 +45,16 @@ pub(crate) fn with_temperature_terms(
     let mut first = first;
     let mut used: Vec<bool> = first.holds.holds.iter().map(|result| result.reason.is_none()).collect();
     for _ in 0..ROUNDS {
-        let alone = Alone::new(problem, &first, &raw, &used, temperature);
+        let alone = AccelerometerOnly::new(problem, &first, &raw, &used, temperature);
         let (state, scatter) = alone.fit(settings)?;
         let thermal = state.imu.thermal;
-        let adjusted =
-            at_reference(recording, Triad::Accelerometer, &state.imu.accelerometer, &thermal, temperature);
+        let adjusted = at_reference(
+            recording,
+            SensorKind::Accelerometer,
+            &state.imu.accelerometer,
+            &thermal,
+            temperature,
+        );
         let mut next = refit(&adjusted, intervals.clone())?;
         let left_out_before = left_out(&next.holds);
         reconsider(&mut next.holds, alone.degrees(), alone.terms());
@@ -100,7 +106,7 @@ enum Scatter {
 }
 
 /// The accelerometer alone, with what follows temperature.
-struct Alone<'a> {
+struct AccelerometerOnly<'a> {
     first: &'a InitialAccelerometer,
     face_sd_rad: Option<f64>,
     raw: Vec<&'a Hold>,
@@ -108,7 +114,7 @@ struct Alone<'a> {
     start: State,
 }
 
-impl<'a> Alone<'a> {
+impl<'a> AccelerometerOnly<'a> {
     fn new(
         problem: &ImuProblem<'_>,
         first: &'a InitialAccelerometer,
@@ -119,7 +125,7 @@ impl<'a> Alone<'a> {
         let chosen: Vec<usize> = (0..raw.len()).filter(|&j| used[j]).collect();
         let known = problem.setup.directions.is_some();
         let mut quantities = estimated_quantities(problem);
-        quantities.retain(|quantity| quantity.triad() == Triad::Accelerometer);
+        quantities.retain(|quantity| quantity.sensor_kind() == SensorKind::Accelerometer);
         let forces: Vec<Vector3<f64>> = chosen.iter().map(|&j| first.holds.holds[j].force_mps2).collect();
         let holds = chosen
             .iter()
@@ -151,7 +157,7 @@ impl<'a> Alone<'a> {
                 rotations: Vec::new(),
                 turns: Vec::new(),
                 gyroscope_noise: GyroscopeNoise::none(),
-                excess_rad: 0.0,
+                between_rotations_sd_rad: 0.0,
                 prior: prior_of(problem, &quantities),
                 quantities,
             },

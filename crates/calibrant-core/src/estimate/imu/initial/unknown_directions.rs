@@ -1,6 +1,6 @@
 //! The accelerometer from holds whose directions are not known: its static calibration.
 
-use crate::error::{Complaint, Error, Result};
+use crate::error::{Error, InputError, Result};
 use crate::estimate::holds::{self, HoldsSetup, holds_lost_to_filter, with_filter, with_pauses};
 use crate::estimate::imu::checks::swapped_sensors::with_swapped_sensors;
 use crate::estimate::imu::initial::accelerometer::InitialAccelerometer;
@@ -10,7 +10,7 @@ use crate::estimate::problem::{CalibrationProblem, Stimulus};
 use crate::estimate::quantisation::{coarse_axes_in, of_means};
 use crate::estimate::result::Recovered;
 use crate::estimate::settings::CalibrationSettings;
-use crate::sensor::{Recording, TriadThermal};
+use crate::sensor::{Recording, SensorThermal};
 use nalgebra::Vector3;
 use std::borrow::Cow;
 
@@ -45,13 +45,13 @@ pub(crate) fn from_unknown_directions(
         first.warnings.extend(holds_lost_to_filter(as_read, &found, minimum_s));
     }
     let Recovered::Holds(mut holds) = first.recovered else {
-        return Err(Error::experiment(Complaint::new("an IMU is calibrated from holds", "use [holds]")));
+        return Err(Error::experiment(InputError::new("an IMU is calibrated from holds", "use [holds]")));
     };
     holds.detected = detected;
     let within = first.fit.noise_estimate.unwrap_or_else(Vector3::zeros);
     let sound = holds.holds.iter().filter(|result| result.reason.is_none());
     let of_mean = of_means(&coarse_axes_in(as_read, sound.map(|result| &result.hold)));
-    let (thermal, adjusted) = (TriadThermal::default(), None);
+    let (thermal, adjusted) = (SensorThermal::default(), None);
     let warnings = first.warnings;
     Ok(InitialAccelerometer {
         sensor: first.sensor,

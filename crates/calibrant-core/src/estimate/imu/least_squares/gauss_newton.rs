@@ -18,19 +18,19 @@ use crate::error::Result;
 use crate::estimate::imu::model::{Fit, GravityResidual, GravityResiduals, ImuModel, State, singular};
 use crate::estimate::result::CalibrationStatus;
 use crate::estimate::settings::CalibrationSettings;
-use crate::estimate::tangents::tangents;
-use crate::sensor::entries::{AT_REFERENCE, ENTRIES};
-use crate::sensor::{Condition, Triad};
+use crate::estimate::tangent_plane::tangents;
+use crate::sensor::entry_vector::{AT_REFERENCE, ENTRIES};
+use crate::sensor::{Condition, SensorKind};
 use nalgebra::{DMatrix, DVector, Matrix3, SMatrix, SVector, Vector3};
 
 /// A step this short, in standard deviations, needs no test. The derivatives of a rotation are exact to second order in the sample step only, so that the last steps may not lower χ².
 const CLOSE: f64 = 0.1;
 
 impl ImuModel<'_> {
-    fn sensitivity<const P: usize>(&self, triad: Triad, at: &Condition<'_>) -> SMatrix<f64, 3, P> {
+    fn sensitivity<const P: usize>(&self, sensor_kind: SensorKind, at: &Condition<'_>) -> SMatrix<f64, 3, P> {
         let mut matrix = SMatrix::<f64, 3, P>::zeros();
         for (k, quantity) in self.quantities.iter().enumerate() {
-            if quantity.triad() == triad {
+            if quantity.sensor_kind() == sensor_kind {
                 matrix.set_column(k, &quantity.derivative(at));
             }
         }
@@ -47,13 +47,13 @@ impl ImuModel<'_> {
         if let Some((mean, weight)) = &self.prior {
             for (k, quantity) in self.quantities.iter().enumerate() {
                 border[(k, k)] += weight[k];
-                rhs[k] += (mean[k] - quantity.of(imu)) * weight[k];
+                rhs[k] += (mean[k] - quantity.value(imu)) * weight[k];
             }
         }
         for turn in &self.turns {
             let (stimulus, force, temperature_c) = (self.turned(turn), turn.force, turn.temperature_c);
             let mut j: SMatrix<f64, 3, P> =
-                self.sensitivity(Triad::Gyroscope, &Condition { imu, stimulus, force, temperature_c });
+                self.sensitivity(SensorKind::Gyroscope, &Condition { imu, stimulus, force, temperature_c });
             for (k, quantity) in self.quantities.iter().enumerate() {
                 if quantity.is_of_bias() {
                     j.column_mut(k).scale_mut(turn.duration_s);
@@ -97,12 +97,12 @@ impl ImuModel<'_> {
             let temperature_c = hold.temperature_c;
             let felt = Condition { imu: &state.imu, stimulus: *force, force: *force, temperature_c };
             let imu = state.imu.at(temperature_c);
-            let g = self.sensitivity(Triad::Accelerometer, &felt);
+            let g = self.sensitivity(SensorKind::Accelerometer, &felt);
             let r = hold.accelerometer - imu.accelerometer.reading(force);
             add(imu.accelerometer.matrix, g, r, hold.accelerometer_weight);
             if let Some((mean, weight)) = &hold.gyroscope {
                 let stimulus = self.earth.rate(j, force);
-                let g = self.sensitivity(Triad::Gyroscope, &Condition { stimulus, ..felt });
+                let g = self.sensitivity(SensorKind::Gyroscope, &Condition { stimulus, ..felt });
                 let by_force = imu.g_sensitivity + imu.gyroscope.matrix * self.earth.vertical_rate();
                 add(by_force, g, mean - self.at_rest(j, &imu, force), Matrix3::from_diagonal(weight));
             }
@@ -175,11 +175,11 @@ impl ImuModel<'_> {
             last_norm = norm;
             let trial = system.border_step(damping).and_then(|step| self.take(&state, &system, &step));
             let accepted = trial.and_then(|trial| {
-                let trial_misses = self.gravity_residuals(&trial)?;
-                let trial_chi2 = self.chi2(&trial, &trial_misses);
+                let trial_residuals = self.gravity_residuals(&trial)?;
+                let trial_chi2 = self.chi2(&trial, &trial_residuals);
                 (trial_chi2 <= chi2 * (1.0 + 1e-9) || norm < CLOSE).then_some((
                     trial,
-                    trial_misses,
+                    trial_residuals,
                     trial_chi2,
                 ))
             });

@@ -12,9 +12,9 @@
 //! # References
 //! `iserles1999`, `tedaldi2014`
 
-use crate::estimate::imu::least_squares::rates::Rates;
+use crate::estimate::imu::least_squares::angular_rate::Rates;
 use crate::estimate::imu::model::{IntegratedRotation, LocalBias, Samples, mean_temperature_c};
-use crate::sensor::{ImuParameters, ImuQuantity, Quantity, ThermalPart, Triad, times};
+use crate::sensor::{ImuParameters, ImuQuantity, Quantity, SensorKind, ThermalPart, times};
 use nalgebra::{Matrix3, Matrix3xX, Quaternion, UnitQuaternion, Vector3};
 
 /// The factor of the coning term.
@@ -210,10 +210,9 @@ impl IntegratedRotation {
             -(left * self.correction.column(axis))
         };
         match quantity {
-            ImuQuantity::Of(Triad::Accelerometer, _) | ImuQuantity::Thermal(Triad::Accelerometer, _) => {
-                Vector3::zeros()
-            }
-            ImuQuantity::Thermal(Triad::Gyroscope, term) => {
+            ImuQuantity::Of(SensorKind::Accelerometer, _)
+            | ImuQuantity::Thermal(SensorKind::Accelerometer, _) => Vector3::zeros(),
+            ImuQuantity::Thermal(SensorKind::Gyroscope, term) => {
                 let axis = term.axis.index();
                 match term.part {
                     ThermalPart::Bias => {
@@ -227,7 +226,7 @@ impl IntegratedRotation {
                     }
                 }
             }
-            ImuQuantity::Of(Triad::Gyroscope, quantity) => match quantity {
+            ImuQuantity::Of(SensorKind::Gyroscope, quantity) => match quantity {
                 Quantity::Bias(axis) => bias(axis.index(), [1.0; 2]),
                 Quantity::Scale(axis) => entry(axis.index(), axis.index()),
                 Quantity::CrossAxis(row, column) => entry(row.index(), column.index()),
@@ -350,21 +349,21 @@ mod tests {
         };
         let samples = Samples { drift: [end(28.0, 0.4), end(37.0, 0.7)], ..coning.samples() };
         let mut at = imu();
-        for quantity in ImuQuantity::thermal_list(Triad::Gyroscope, 2, 2) {
+        for quantity in ImuQuantity::thermal_list(SensorKind::Gyroscope, 2, 2) {
             quantity.add_to(&mut at, 1e-4);
         }
         let rotation = samples.integrate(&at, &Vector3::zeros()).expect("regular");
         let mut quantities: Vec<ImuQuantity> = ParameterList::new(3, SensorModel::Full)
             .quantities()
             .iter()
-            .map(|quantity| ImuQuantity::Of(Triad::Gyroscope, *quantity))
+            .map(|quantity| ImuQuantity::Of(SensorKind::Gyroscope, *quantity))
             .collect();
         quantities.extend(
             Axis::ALL
                 .iter()
                 .flat_map(|row| Axis::ALL.iter().map(|column| ImuQuantity::GSensitivity(*row, *column))),
         );
-        quantities.extend(ImuQuantity::thermal_list(Triad::Gyroscope, 2, 2));
+        quantities.extend(ImuQuantity::thermal_list(SensorKind::Gyroscope, 2, 2));
         for quantity in quantities {
             let step = 1e-5;
             let moved = |by: f64| {

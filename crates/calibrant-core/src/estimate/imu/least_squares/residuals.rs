@@ -1,9 +1,9 @@
 //! The residuals of the model at a state, and χ² of them. `gauss_newton` lists them.
 
-use crate::estimate::imu::least_squares::arc::Arc;
+use crate::estimate::imu::least_squares::sphere_logarithm::Arc;
 use crate::estimate::imu::model::{GravityResidual, GravityResiduals, ImuModel, RotationData, State};
-use crate::estimate::tangents::tangents;
-use crate::sensor::Triad;
+use crate::estimate::tangent_plane::tangents;
+use crate::sensor::SensorKind;
 use nalgebra::{Matrix2, Matrix2xX, Matrix3, Vector3};
 use rayon::prelude::*;
 
@@ -19,7 +19,7 @@ impl ImuModel<'_> {
         let by_turn = arc.by_missing * back * (from / self.gravity).cross_matrix();
         let mut by_parameters = Matrix2xX::zeros(self.quantities.len());
         for (k, quantity) in self.quantities.iter().enumerate() {
-            if quantity.triad() == Triad::Gyroscope {
+            if quantity.sensor_kind() == SensorKind::Gyroscope {
                 by_parameters.set_column(k, &(by_turn * rotation.derivative(*quantity, &state.imu)));
             }
         }
@@ -40,7 +40,8 @@ impl ImuModel<'_> {
 
     /// Weight of a rotation.
     pub(crate) fn rotation_weight(&self, residual: &GravityResidual) -> Matrix2<f64> {
-        let variance = residual.covariance + Matrix2::identity() * (self.excess_rad.powi(2) + 1e-18);
+        let variance =
+            residual.covariance + Matrix2::identity() * (self.between_rotations_sd_rad.powi(2) + 1e-18);
         variance.try_inverse().unwrap_or_else(Matrix2::zeros)
     }
 
@@ -81,7 +82,7 @@ impl ImuModel<'_> {
             self.turns.iter().map(|turn| weighted(self.turn_residual(turn, imu), &turn.weight)).sum();
         let prior = self.prior.as_ref().map_or(0.0, |(mean, weight)| {
             let off = self.quantities.iter().zip(mean.iter().zip(weight));
-            off.map(|(quantity, (mean, weight))| (mean - quantity.of(imu)).powi(2) * weight).sum()
+            off.map(|(quantity, (mean, weight))| (mean - quantity.value(imu)).powi(2) * weight).sum()
         });
         holds + rotations + turns + prior
     }

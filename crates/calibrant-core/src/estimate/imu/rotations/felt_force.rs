@@ -8,7 +8,7 @@ use rayon::prelude::*;
 const PIECE: usize = 4096;
 
 /// The specific force at the gyroscope's sample times.
-pub(crate) fn felt_forces(
+pub(crate) fn interpolated_forces(
     accelerometer: &Recording,
     gyroscope: &Recording,
     sensor: &SensorParameters,

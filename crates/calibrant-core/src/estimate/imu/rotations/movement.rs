@@ -3,7 +3,7 @@
 use crate::error::Result;
 use crate::estimate::imu::model::{GyroscopeNoise, HoldData, RotationData, TurnData};
 use crate::estimate::imu::problem::ImuProblem;
-use crate::estimate::imu::rotations::felt_force::felt_forces;
+use crate::estimate::imu::rotations::felt_force::interpolated_forces;
 use crate::estimate::imu::rotations::spans::{Integrable, Span, rotation_spans};
 use crate::estimate::imu::rotations::turns::turn_data;
 use crate::estimate::imu::temperature::RecordingTemperature;
@@ -32,7 +32,7 @@ impl<'a> Movement<'a> {
         let setup = problem.setup;
         let feels = problem.gyroscope.g_sensitivity;
         let needs_forces = feels || !setup.turns.is_empty();
-        let forces = needs_forces.then(|| felt_forces(accelerometer, gyroscope, sensor)).flatten();
+        let forces = needs_forces.then(|| interpolated_forces(accelerometer, gyroscope, sensor)).flatten();
         let spans = match setup.directions {
             // the sensor was put down anew on each face: what it went through in between says less than the turns
             Some(_) if !setup.turns.is_empty() => Vec::new(),

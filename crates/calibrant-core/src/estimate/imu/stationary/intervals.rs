@@ -4,10 +4,10 @@
 //! gyroscope's mean in them is no bias. Where the gyroscope is calm is found in its own readings, in the same way. A calm segment whose mean is
 //! far from the others' is a turn at a steady rate.
 
-use crate::error::{Complaint, Error, Result};
+use crate::error::{Error, InputError, Result};
 use crate::estimate::holds::{as_recorded, find_holds_in, holds_between, median};
 use crate::motion::Hold;
-use crate::sensor::{ImuRecording, Recording, Triad};
+use crate::sensor::{ImuRecording, Recording, SensorKind};
 use nalgebra::Vector3;
 
 /// The gyroscope turns in a calm segment whose mean is off the others' median by more than this share of the recording's range.
@@ -15,25 +15,25 @@ const TURNING_SHARE: f64 = 0.02;
 
 /// Finds the holds of at least `minimum_s` in the recording of an IMU: those of its accelerometer, cut down to what is still for its gyroscope too.
 ///
-/// Sparks neither divide a hold nor count in its mean. A hold in which the gyroscope is nowhere calm for long enough, or was not recorded, stays as the accelerometer has it.
+/// Spikes neither divide a hold nor count in its mean. A hold in which the gyroscope is nowhere calm for long enough, or was not recorded, stays as the accelerometer has it.
 ///
 /// # Errors
 /// [`Error::Recording`] where there is no accelerometer, or its rate is too low for holds this short.
 pub fn find_imu_holds(recording: &ImuRecording, minimum_s: f64) -> Result<Vec<Hold>> {
-    let (clean, sparks) = recording.without_sparks();
+    let (clean, spikes) = recording.without_spikes();
     let holds = find_clean_imu_holds(&clean, minimum_s)?;
-    let of_accelerometer = sparks.iter().find(|(triad, _)| *triad == Triad::Accelerometer);
-    Ok(as_recorded(holds, of_accelerometer.map(|(_, sparks)| sparks)))
+    let of_accelerometer = spikes.iter().find(|(sensor_kind, _)| *sensor_kind == SensorKind::Accelerometer);
+    Ok(as_recorded(holds, of_accelerometer.map(|(_, spikes)| spikes)))
 }
 
-/// The same in a recording from which sparks were taken out before ([`ImuRecording::without_sparks`]): they are not looked for again.
+/// The same in a recording from which spikes were taken out before ([`ImuRecording::without_spikes`]): they are not looked for again.
 ///
 /// # Errors
 /// As [`find_imu_holds`].
 pub fn find_clean_imu_holds(recording: &ImuRecording, minimum_s: f64) -> Result<Vec<Hold>> {
     let Some(accelerometer) = &recording.accelerometer else {
-        return Err(Error::recording(Complaint::new(
-            format!("the recording has no {}", Triad::Accelerometer),
+        return Err(Error::recording(InputError::new(
+            format!("the recording has no {}", SensorKind::Accelerometer),
             "holds are found with it",
         )));
     };

@@ -2,9 +2,9 @@
 //!
 //! Each mean is explained by a constant, by the specific force where asked for, by powers of the temperature and by the Earth's rate.
 
-use crate::estimate::excess::excess;
+use crate::estimate::between_hold_variance::excess;
 use crate::estimate::imu::model::{GyroscopeNoise, HoldData};
-use crate::sensor::{MeanReading, ThermalTerm, TriadThermal};
+use crate::sensor::{MeanReading, SensorThermal, ThermalTerm};
 use nalgebra::{DMatrix, DVector, Matrix3xX, Vector3};
 use rayon::prelude::*;
 
@@ -28,14 +28,14 @@ pub(crate) struct Explanation<'a> {
     /// `τ` of each hold, K.
     pub(crate) tau_k: Vec<f64>,
     /// Terms that are fixed.
-    pub(crate) fixed: TriadThermal,
+    pub(crate) fixed: SensorThermal,
     /// Terms of each axis that are estimated: what they are expected to be, and its inverse variance (0 where nothing is known).
     pub(crate) terms: [Vec<(ThermalTerm, f64, f64)>; 3],
 }
 
 /// The scatter between holds that makes χ² equal its degrees of freedom (Paule and Mandel), per axis; each mean is explained by a constant, by the
 /// specific force where asked for, by powers of the temperature, which are returned as well, and by the Earth's rate.
-pub(crate) fn between_sd(means: &Means<'_>) -> (Vector3<f64>, TriadThermal) {
+pub(crate) fn between_sd(means: &Means<'_>) -> (Vector3<f64>, SensorThermal) {
     let by = &means.by;
     let (mut between, mut thermal) = (Vector3::zeros(), by.fixed);
     let fit = |axis: usize| Regression::new(means, axis).fit();

@@ -51,7 +51,7 @@ fn rest(model: &ImuModel<'_>, state: &State) -> Rest {
     if let Some((mean, weight)) = &model.prior {
         for (i, &k) in places.iter().enumerate() {
             let (off, taken) =
-                (mean[k] - model.quantities[k].of(imu), model.earth.taken_off(model.quantities[k], imu));
+                (mean[k] - model.quantities[k].value(imu), model.earth.taken_off(model.quantities[k], imu));
             f[(i, i)] += weight[k];
             g[i] += weight[k] * off;
             if taken != 0.0 {
@@ -67,14 +67,14 @@ fn rest(model: &ImuModel<'_>, state: &State) -> Rest {
         f[(places.len() + k, places.len() + k)] += 1.0;
         g[places.len() + k] -= unknown;
     }
-    let told = (0..size)
-        .filter(|&i| f[(i, i)] > 0.0 && places.get(i).is_none_or(|&k| is_told(model, k, imu)))
+    let determined = (0..size)
+        .filter(|&i| f[(i, i)] > 0.0 && places.get(i).is_none_or(|&k| is_reported(model, k, imu)))
         .count();
-    Rest { information: f, rhs: g, told }
+    Rest { information: f, rhs: g, determined }
 }
 
 /// Do the data beside the rotations tell a quantity? What the Earth's rate in the holds says of gains is nothing beside these.
-fn is_told(model: &ImuModel<'_>, place: usize, imu: &ImuParameters) -> bool {
+fn is_reported(model: &ImuModel<'_>, place: usize, imu: &ImuParameters) -> bool {
     let quantity = model.quantities[place];
     let of_turn = |turn: &TurnData| {
         let (force, temperature_c) = (turn.force, turn.temperature_c);

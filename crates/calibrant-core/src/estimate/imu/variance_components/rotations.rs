@@ -4,7 +4,7 @@
 //! model lacks) is estimated from the scatter itself: the excess `σ_r` for which χ² of the rotations equals its degrees of freedom (Paule and Mandel), in the
 //! problem linearised at the present estimate, directions fixed (they are known ten times better than a rotation can tell). The Earth's rate is among its unknowns, after the gyroscope's quantities.
 
-use crate::estimate::excess::excess;
+use crate::estimate::between_hold_variance::excess;
 use crate::estimate::imu::model::{GravityResidual, ImuModel, State};
 use nalgebra::{DMatrix, DVector, Matrix2, Matrix2xX, Vector2};
 use std::f64::consts::FRAC_PI_2;
@@ -21,7 +21,7 @@ const USUAL_EXCESS_RAD: f64 = 1e-3;
 /// The rotations with their weights.
 pub(crate) struct RotationWeights {
     /// `σ_r`, rad.
-    pub(crate) excess_rad: f64,
+    pub(crate) between_rotations_sd_rad: f64,
     pub(crate) used: Vec<bool>,
     /// Error of each rotation, its own influence removed, in standard deviations: `χ²` of two degrees of freedom.
     pub(crate) studentised: Vec<f64>,
@@ -37,7 +37,7 @@ impl RotationWeights {
     /// No rotation at all.
     pub(crate) fn none(rotations: usize) -> Self {
         Self {
-            excess_rad: 0.0,
+            between_rotations_sd_rad: 0.0,
             used: vec![false; rotations],
             studentised: vec![f64::INFINITY; rotations],
             step: DVector::zeros(0),
@@ -55,7 +55,7 @@ struct Linear<'a> {
     size: usize,
     rest: DMatrix<f64>,
     rest_rhs: DVector<f64>,
-    told: usize,
+    determined: usize,
 }
 
 /// What the data beside the rotations say of the unknowns.
@@ -63,7 +63,7 @@ pub(crate) struct Rest {
     pub(crate) information: DMatrix<f64>,
     pub(crate) rhs: DVector<f64>,
     /// Number of unknowns that they tell: these take nothing of the rotations.
-    pub(crate) told: usize,
+    pub(crate) determined: usize,
 }
 
 /// Weighs the rotations of a problem, given their misses (`None` for those that cannot be used).
@@ -94,7 +94,7 @@ pub(crate) fn weigh_rotations<'a>(
         size,
         rest: rest.information,
         rest_rhs: rest.rhs,
-        told: rest.told,
+        determined: rest.determined,
     };
     let is_there: Vec<bool> = residuals.iter().map(Option::is_some).collect();
     let all = count(&is_there);
@@ -124,7 +124,7 @@ pub(crate) fn weigh_rotations<'a>(
             (_, Some(i)) if rounds < most => used[i] = true,
             _ => {
                 return Some(RotationWeights {
-                    excess_rad: excess,
+                    between_rotations_sd_rad: excess,
                     used,
                     studentised,
                     length: solved.length,
@@ -197,7 +197,7 @@ impl Linear<'_> {
     /// The excess that makes χ² equal its degrees of freedom, zero where the noise explains the scatter.
     fn excess(&self, used: &[bool]) -> Option<(f64, Solved)> {
         excess(
-            (2 * count(used)).saturating_sub(self.size - self.told) as f64,
+            (2 * count(used)).saturating_sub(self.size - self.determined) as f64,
             |_| USUAL_EXCESS_RAD,
             |excess| {
                 let solved = self.solve(used, excess)?;

@@ -33,7 +33,8 @@ pub(crate) fn solve(
     let rough = CalibrationSettings { tolerance: ROUGH, ..settings.clone() };
     let close = model.fit(state, residuals, &rough).ok_or_else(singular)?;
     let weighed = reweigh(model, &close.state, &close.residuals)?;
-    let moved = (weighed.excess_rad - model.excess_rad).abs() > 0.01 * model.excess_rad;
+    let moved = (weighed.between_rotations_sd_rad - model.between_rotations_sd_rad).abs()
+        > 0.01 * model.between_rotations_sd_rad;
     if moved || weighed.used != before.used {
         apply(model, &weighed);
     }

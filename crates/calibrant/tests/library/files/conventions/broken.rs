@@ -4,23 +4,23 @@ use super::{COUNTS, SI, alone, file, imu};
 use calibrant::io::{
     ConventionOptions, ImuFormat, RawUnits, calibrated_imu_texts, parse_calibrated_imu, read_calibrated_imu,
 };
-use calibrant::sensor::{Gauge, Triad};
+use calibrant::sensor::{Gauge, SensorKind};
 use proptest::prelude::*;
 
 fn text(format: ImuFormat) -> String {
     let imu = match format {
-        ImuFormat::ImuTk => alone(&imu(COUNTS, false), Triad::Accelerometer),
+        ImuFormat::ImuTk => alone(&imu(COUNTS, false), SensorKind::Accelerometer),
         _ => imu(SI, true).in_gauge(Gauge::Lower).expect("regular"),
     };
     calibrated_imu_texts(&file(imu), format).expect("carried").remove(0).1
 }
 
-fn said_of(text: &str, options: &ConventionOptions) -> String {
+fn message_of(text: &str, options: &ConventionOptions) -> String {
     let error = parse_calibrated_imu(text.as_bytes(), options).expect_err("broken");
     assert!(error.is_invalid_experiment());
-    let said = error.to_string();
-    assert!(!said.contains("NaN"), "{said}");
-    said
+    let message = error.to_string();
+    assert!(!message.contains("NaN"), "{message}");
+    message
 }
 
 /// Each case: what is replaced in a good file, by what, and what is said then.
@@ -28,8 +28,8 @@ fn check(format: ImuFormat, cases: &[(&str, &str, &str)]) {
     let good = text(format);
     for (from, to, says) in cases {
         assert!(good.contains(from), "{from}: {good}");
-        let said = said_of(&good.replacen(from, to, 1), &ConventionOptions::default());
-        assert!(said.contains(says), "{from} → {to}: {said}");
+        let message = message_of(&good.replacen(from, to, 1), &ConventionOptions::default());
+        assert!(message.contains(says), "{from} → {to}: {message}");
     }
 }
 
@@ -98,14 +98,15 @@ fn calibrant_json() {
         let comma = tail.find(',').expect("a row");
         let bracket = tail[..comma].rfind('[').expect("a row") + 1;
         let broken = format!("{head}{}{to}{}", &tail[..bracket], &tail[comma..]);
-        let said = said_of(&broken, &ConventionOptions::default());
-        assert!(said.contains(says), "{to}: {said}");
+        let message = message_of(&broken, &ConventionOptions::default());
+        assert!(message.contains(says), "{to}: {message}");
     }
     // one axis is no IMU
     let uniaxial = r#"{ "schema": 1, "status": "converged", "covariance": [[4e-4]],
         "parameters": [{ "name": "bias.x", "unit": "m/s²", "value": 0.1, "sd": 0.02 }] }"#;
     assert!(
-        said_of(uniaxial, &ConventionOptions::default()).contains("a sensor with one axis; an IMU has three")
+        message_of(uniaxial, &ConventionOptions::default())
+            .contains("a sensor with one axis; an IMU has three")
     );
 }
 
@@ -138,8 +139,8 @@ fn kalibr() {
             ("imu0:\n", "imu0:\n  update_rate: -3\n", "`update_rate` is not a positive number"),
         ],
     );
-    let said = said_of("imu0:\n  accelerometers:\n    M: [1, 2\n", &ConventionOptions::default());
-    assert!(said.starts_with("line "), "with its place: {said}");
+    let message = message_of("imu0:\n  accelerometers:\n    M: [1, 2\n", &ConventionOptions::default());
+    assert!(message.starts_with("line "), "with its place: {message}");
 }
 
 #[test]
@@ -158,12 +159,15 @@ fn imu_tk() {
         ],
     );
     let asked = "1 0 0\n0 1 0\n0 0 1\n0.0024 0 0\n0 0.0024 0\n0 0 0.0024\n1\n2\n3\n";
-    let triad = Some(Triad::Accelerometer);
-    let said = said_of(asked, &ConventionOptions { triad, ..Default::default() });
-    assert!(said.contains("a scale of 0.0024 looks like counts: --unit counts"), "{said}");
+    let sensor_kind = Some(SensorKind::Accelerometer);
+    let message = message_of(asked, &ConventionOptions { sensor_kind, ..Default::default() });
+    assert!(message.contains("a scale of 0.0024 looks like counts: --unit counts"), "{message}");
     let zero = asked.replace("0.0024", "0");
-    let said = said_of(&zero, &ConventionOptions { triad, units: Some(RawUnits::Si), ..Default::default() });
-    assert!(said.contains("the matrix of the accelerometer is singular"), "{said}");
+    let message = message_of(
+        &zero,
+        &ConventionOptions { sensor_kind, units: Some(RawUnits::Si), ..Default::default() },
+    );
+    assert!(message.contains("the matrix of the accelerometer is singular"), "{message}");
 }
 
 #[test]
@@ -234,8 +238,8 @@ fn c_header() {
             ("readings in m/s^2", "readings in g", "the unit of the accelerometer is \"g\""),
         ],
     );
-    let said = said_of("#ifndef OTHER_H\n#define OTHER_H\n#endif\n", &ConventionOptions::default());
-    assert!(said.contains("there is no `calibrant_accelerometer_matrix`"), "{said}");
+    let message = message_of("#ifndef OTHER_H\n#define OTHER_H\n#endif\n", &ConventionOptions::default());
+    assert!(message.contains("there is no `calibrant_accelerometer_matrix`"), "{message}");
 }
 
 #[test]
@@ -249,8 +253,8 @@ fn what_is_no_calibration_is_not_recognised() {
         ("[]", "not a calibration of calibrant"),
         ("\u{0}\u{1}", "binary data"),
     ] {
-        let said = said_of(text, &ConventionOptions::default());
-        assert!(said.contains(says), "{text:?}: {said}");
+        let message = message_of(text, &ConventionOptions::default());
+        assert!(message.contains(says), "{text:?}: {message}");
     }
     let error = read_calibrated_imu(std::path::Path::new("no/such.calib"), &ConventionOptions::default());
     assert!(error.expect_err("absent").to_string().starts_with("no/such.calib: cannot read the calibration"));
@@ -266,7 +270,7 @@ fn every_beginning_of_a_file_is_refused_or_whole_and_nothing_panics() {
                 let options = ConventionOptions {
                     format: Some(from),
                     units: Some(RawUnits::Si),
-                    triad: Some(Triad::Gyroscope),
+                    sensor_kind: Some(SensorKind::Gyroscope),
                 };
                 let _ = parse_calibrated_imu(&text.as_bytes()[..end], &options);
             }

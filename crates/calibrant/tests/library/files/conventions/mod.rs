@@ -10,7 +10,8 @@ use calibrant::io::{
     CalibratedImuFile, ConventionOptions, ImuFormat, Input, calibrated_imu_texts, parse_calibrated_imu,
 };
 use calibrant::sensor::{
-    CalibratedImu, ImuCorrection, ImuParameters, ImuQuantity, ReadingUnit, SensorParameters, Thermal, Triad,
+    CalibratedImu, ImuCorrection, ImuParameters, ImuQuantity, ReadingUnit, SensorKind, SensorParameters,
+    Thermal,
 };
 use nalgebra::{DMatrix, Matrix3, Vector3};
 use rand::{RngExt, SeedableRng};
@@ -118,18 +119,22 @@ pub(crate) fn largest_difference(
 }
 
 /// The IMU with one of its sensors only.
-pub(crate) fn alone(imu: &CalibratedImu, triad: Triad) -> CalibratedImu {
+pub(crate) fn alone(imu: &CalibratedImu, sensor_kind: SensorKind) -> CalibratedImu {
     let mut alone = CalibratedImu {
-        accelerometer_unit: imu.accelerometer_unit.filter(|_| triad == Triad::Accelerometer),
-        gyroscope_unit: imu.gyroscope_unit.filter(|_| triad == Triad::Gyroscope),
-        quantities: ImuQuantity::full_list(triad == Triad::Accelerometer, triad == Triad::Gyroscope, false),
+        accelerometer_unit: imu.accelerometer_unit.filter(|_| sensor_kind == SensorKind::Accelerometer),
+        gyroscope_unit: imu.gyroscope_unit.filter(|_| sensor_kind == SensorKind::Gyroscope),
+        quantities: ImuQuantity::full_list(
+            sensor_kind == SensorKind::Accelerometer,
+            sensor_kind == SensorKind::Gyroscope,
+            false,
+        ),
         covariance: None,
         ..imu.clone()
     };
     alone.parameters.g_sensitivity = Matrix3::zeros();
-    match triad {
-        Triad::Accelerometer => alone.parameters.gyroscope = SensorParameters::identity(),
-        Triad::Gyroscope => alone.parameters.accelerometer = SensorParameters::identity(),
+    match sensor_kind {
+        SensorKind::Accelerometer => alone.parameters.gyroscope = SensorParameters::identity(),
+        SensorKind::Gyroscope => alone.parameters.accelerometer = SensorParameters::identity(),
     }
     alone
 }

@@ -6,7 +6,7 @@ use calibrant::io::{
     CalibratedImuFile, ConventionOptions, ImuFormat, ImuNoise, RawUnits, calibration_json,
     parse_calibrated_imu, read_calibrated_imu, read_kalibr_noise, write_calibrated_imu,
 };
-use calibrant::sensor::{Gauge, ImuQuantity, ReadingUnit, Triad};
+use calibrant::sensor::{Gauge, ImuQuantity, ReadingUnit, SensorKind};
 use proptest::prelude::*;
 
 #[test]
@@ -22,9 +22,13 @@ fn the_correction_of_a_thousand_readings_stays_through_every_convention() {
                 for after in there_and_back(&file(before.clone()), format) {
                     let difference = largest_difference(&before, &after.imu, &readings);
                     assert!(difference < 1e-12, "{} {unit:?}: {difference:e}", format.name());
-                    for triad in Triad::ALL {
-                        let kept = after.imu.unit(triad);
-                        assert!(kept.is_none() || kept == before.unit(triad), "{} {triad}", format.name());
+                    for sensor_kind in SensorKind::ALL {
+                        let kept = after.imu.unit(sensor_kind);
+                        assert!(
+                            kept.is_none() || kept == before.unit(sensor_kind),
+                            "{} {sensor_kind}",
+                            format.name()
+                        );
                     }
                     let frame = after.imu.frame.replace("* /", "*/");
                     assert_eq!(frame.trim(), before.frame.trim(), "{}", format.name());
@@ -64,8 +68,8 @@ fn calibrant_json_keeps_everything_to_the_bit() {
             assert_eq!(there_and_back(&file, ImuFormat::CalibrantJson), [file]);
         }
     }
-    for triad in Triad::ALL {
-        let file = file(alone(&imu(SI, false), triad));
+    for sensor_kind in SensorKind::ALL {
+        let file = file(alone(&imu(SI, false), sensor_kind));
         assert_eq!(there_and_back(&file, ImuFormat::CalibrantJson), [file]);
     }
 }
@@ -125,8 +129,8 @@ fn imu_tk_has_one_file_for_each_sensor_and_is_read_as_a_pair() {
     assert!(after.imu.accelerometer_unit.is_some() && after.imu.gyroscope_unit.is_some());
     assert!(largest_difference(&before, &after.imu, &readings(&before, 1000, 3)) < 1e-12);
     // one sensor keeps the name, and the name tells the sensor where the file does not
-    let one =
-        write_calibrated_imu(&path, &file(alone(&before, Triad::Gyroscope)), ImuFormat::ImuTk).expect("one");
+    let one = write_calibrated_imu(&path, &file(alone(&before, SensorKind::Gyroscope)), ImuFormat::ImuTk)
+        .expect("one");
     assert_eq!(one.files, [path]);
     let plain = "1 0 0\n0 1 0\n0 0 1\n\n0.0002 0 0\n0 0.0002 0\n0 0 0.0002\n\n32777\n32459\n32511\n";
     let named = directory.path().join("test_imu_gyro.calib");
@@ -152,7 +156,7 @@ fn imu_tks_published_result_is_that_of_its_file() {
     );
     let options = ConventionOptions {
         units: Some(RawUnits::Counts),
-        triad: Some(Triad::Accelerometer),
+        sensor_kind: Some(SensorKind::Accelerometer),
         ..Default::default()
     };
     let file = parse_calibrated_imu(text.as_bytes(), &options).expect("imu_tk's own");
@@ -214,7 +218,7 @@ fn kalibrs_own_file_is_read() {
     // that the biases are not known is not lost: neither on the way nor through another format
     for format in [ImuFormat::Kalibr, ImuFormat::CalibrantJson] {
         let after = there_and_back(&file, format).remove(0).imu;
-        assert!(Triad::ALL.into_iter().all(|triad| !after.has_bias(triad)), "{format:?}");
+        assert!(SensorKind::ALL.into_iter().all(|sensor_kind| !after.has_bias(sensor_kind)), "{format:?}");
         assert_eq!(after.quantities.len(), 27, "{format:?}");
     }
     // the plain file that Kalibr reads has noise alone

@@ -15,8 +15,8 @@ fn warm(unit: [ReadingUnit; 2]) -> CalibratedImu {
     imu.parameters.thermal.reference_c = 31.5;
     imu.parameters.thermal.range_c = Some([-12.25, 58.0]);
     for (k, quantity) in ImuQuantity::all_thermal(true, true).into_iter().enumerate() {
-        let ImuQuantity::Thermal(triad, term) = quantity else { continue };
-        let gain = imu.parameters.triad(triad).matrix[(0, 0)];
+        let ImuQuantity::Thermal(sensor_kind, term) = quantity else { continue };
+        let gain = imu.parameters.sensor(sensor_kind).matrix[(0, 0)];
         let size = if term.part == ThermalPart::Bias { 1e-3 * gain } else { 1e-4 };
         quantity
             .add_to(&mut imu.parameters, size * (k as f64 % 7.0 - 3.3) / 20f64.powi(term.order as i32 - 1));
@@ -121,9 +121,9 @@ fn the_c_header_takes_the_temperature() {
 fn formats_without_a_place_for_it_refuse_it_and_take_one_temperature() {
     let imu = warm(SI).without_g_sensitivity();
     for format in [ImuFormat::Kalibr, ImuFormat::ImuTk, ImuFormat::Imucal] {
-        let said = calibrated_imu_texts(&file(imu.clone()), format).expect_err("refused").to_string();
-        assert!(said.contains("no place for what temperature does"), "{said}");
-        assert!(said.contains("--temperature CELSIUS"), "{said}");
+        let message = calibrated_imu_texts(&file(imu.clone()), format).expect_err("refused").to_string();
+        assert!(message.contains("no place for what temperature does"), "{message}");
+        assert!(message.contains("--temperature CELSIUS"), "{message}");
         let there = imu.at(48.0).expect("positive gains");
         for after in there_and_back(&file(there.clone()), format) {
             assert!(largest_difference(&there, &after.imu, &readings(&there, 100, 6)) < 1e-12);
@@ -134,7 +134,7 @@ fn formats_without_a_place_for_it_refuse_it_and_take_one_temperature() {
 #[test]
 fn contradictions_are_refused() {
     let text = calibrated_imu_texts(&file(warm(SI)), ImuFormat::CalibrantJson).expect("written").remove(0).1;
-    let said = |from: &str, to: &str| {
+    let message = |from: &str, to: &str| {
         assert!(text.contains(from), "{from}: {text}");
         let text = text.replacen(from, to, 1);
         parse_calibrated_imu(text.as_bytes(), &ConventionOptions::default()).expect_err(to).to_string()
@@ -155,7 +155,7 @@ fn contradictions_are_refused() {
         ),
         ("\"bias_mps2_per_k\": [-", "\"bias_mps2_per_k\": [-9", "accelerometer.bias_per_k.x is"),
     ] {
-        let said = said(from, to);
-        assert!(said.contains(says), "{to}: {said}");
+        let message = message(from, to);
+        assert!(message.contains(says), "{to}: {message}");
     }
 }

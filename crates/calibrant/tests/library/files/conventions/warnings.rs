@@ -2,7 +2,7 @@
 
 use super::{COUNTS, SI, alone, file, imu};
 use calibrant::io::{ImuFormat, calibrated_imu_texts, write_calibrated_imu};
-use calibrant::sensor::{Gauge, Triad};
+use calibrant::sensor::{Gauge, SensorKind};
 
 fn warnings(imu: calibrant::sensor::CalibratedImu, format: ImuFormat) -> String {
     let directory = tempfile::tempdir().expect("a directory");
@@ -18,46 +18,49 @@ fn refusal(imu: calibrant::sensor::CalibratedImu, format: ImuFormat) -> String {
 fn what_is_lost_is_said() {
     assert_eq!(warnings(imu(SI, true), ImuFormat::CalibrantJson), "");
     for format in [ImuFormat::Kalibr, ImuFormat::Imucal, ImuFormat::CHeader] {
-        let said = warnings(imu(SI, true), format);
-        assert!(said.contains(&format!("{} has no place for the covariance", format.title())), "{said}");
+        let message = warnings(imu(SI, true), format);
+        assert!(
+            message.contains(&format!("{} has no place for the covariance", format.title())),
+            "{message}"
+        );
     }
-    let said = warnings(imu(COUNTS, true), ImuFormat::Kalibr);
+    let message = warnings(imu(COUNTS, true), ImuFormat::Kalibr);
     for says in [
         "the true frame is not Kalibr's: T_i_b holds the rotation",
         "no place for biases: they are under the key `calibrant`",
         "this calibration is of counts",
         "Kalibr needs accelerometer_noise_density, accelerometer_random_walk",
     ] {
-        assert!(said.contains(says), "{says}: {said}");
+        assert!(message.contains(says), "{says}: {message}");
     }
     let lower = imu(SI, true).in_gauge(Gauge::Lower).expect("regular");
     assert!(!warnings(lower, ImuFormat::Kalibr).contains("T_i_b"));
-    let said = warnings(alone(&imu(SI, false), Triad::Accelerometer), ImuFormat::Kalibr);
-    assert!(said.contains("want a gyroscope"), "{said}");
+    let message = warnings(alone(&imu(SI, false), SensorKind::Accelerometer), ImuFormat::Kalibr);
+    assert!(message.contains("want a gyroscope"), "{message}");
 }
 
 #[test]
 fn what_would_change_the_correction_is_refused() {
-    let said = refusal(imu(SI, true), ImuFormat::ImuTk);
-    assert!(said.contains("no place for the gyroscope's g-sensitivity"), "{said}");
-    assert!(said.contains("--drop-g-sensitivity"), "{said}");
-    let said = refusal(alone(&imu(SI, false), Triad::Gyroscope), ImuFormat::Kalibr);
-    assert!(said.contains("no place for a gyroscope alone"), "{said}");
-    let said = refusal(alone(&imu(SI, false), Triad::Accelerometer), ImuFormat::Imucal);
-    assert!(said.contains("wants both sensors, and there is no gyroscope"), "{said}");
+    let message = refusal(imu(SI, true), ImuFormat::ImuTk);
+    assert!(message.contains("no place for the gyroscope's g-sensitivity"), "{message}");
+    assert!(message.contains("--drop-g-sensitivity"), "{message}");
+    let message = refusal(alone(&imu(SI, false), SensorKind::Gyroscope), ImuFormat::Kalibr);
+    assert!(message.contains("no place for a gyroscope alone"), "{message}");
+    let message = refusal(alone(&imu(SI, false), SensorKind::Accelerometer), ImuFormat::Imucal);
+    assert!(message.contains("wants both sensors, and there is no gyroscope"), "{message}");
     let mut left = imu(SI, true);
     left.parameters.accelerometer.matrix.row_mut(0).neg_mut();
-    let said = refusal(left, ImuFormat::Kalibr);
-    assert!(said.contains("the axes of the accelerometer are left-handed"), "{said}");
+    let message = refusal(left, ImuFormat::Kalibr);
+    assert!(message.contains("the axes of the accelerometer are left-handed"), "{message}");
     let mut flat = imu(SI, true);
     flat.parameters.gyroscope.matrix.row_mut(1).fill(0.0);
     for format in ImuFormat::ALL {
-        let said = refusal(flat.clone(), format);
-        assert!(said.contains("the matrix of the gyroscope is singular"), "{said}");
+        let message = refusal(flat.clone(), format);
+        assert!(message.contains("the matrix of the gyroscope is singular"), "{message}");
     }
-    let mut turned = alone(&imu(SI, false), Triad::Accelerometer);
+    let mut turned = alone(&imu(SI, false), SensorKind::Accelerometer);
     turned.parameters.accelerometer.matrix =
         nalgebra::Matrix3::new(0.0, 1.0, 0.0, -1.0, 0.0, 0.0, 0.0, 0.0, 1.0);
-    let said = refusal(turned, ImuFormat::ImuTk);
-    assert!(said.contains("a zero on its diagonal"), "{said}");
+    let message = refusal(turned, ImuFormat::ImuTk);
+    assert!(message.contains("a zero on its diagonal"), "{message}");
 }

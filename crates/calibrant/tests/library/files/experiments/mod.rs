@@ -77,12 +77,12 @@ fn refuse(good: &str, cases: &[Case]) {
         let error = Experiment::parse(&text, None).expect_err(expected);
         assert_eq!(error.to_string(), *expected);
         assert!(error.is_invalid_experiment() && !error.is_invalid_recording());
-        let complaint = error.complaint().expect("a complaint");
-        let (excerpt, range) = complaint.excerpt.as_ref().expect("the text");
+        let input_error = error.input_error().expect("a complaint");
+        let (excerpt, range) = input_error.excerpt.as_ref().expect("the text");
         assert_eq!(*excerpt, text);
         let before = &text[..range.start];
-        assert_eq!(complaint.line, Some(before.matches('\n').count() + 1), "{error}");
+        assert_eq!(input_error.line, Some(before.matches('\n').count() + 1), "{error}");
         let column = before.rsplit('\n').next().map_or(0, |line| line.chars().count()) + 1;
-        assert_eq!(complaint.column, Some(column), "{error}");
+        assert_eq!(input_error.column, Some(column), "{error}");
     }
 }

@@ -36,9 +36,9 @@ type Case = (&'static str, fn() -> ImuReadOptions, &'static str);
 fn every_complaint_says_what_is_wrong_and_what_to_do() {
     let mut wrong = Vec::new();
     for (text, options, expected) in CASES {
-        let said = refused(text, &options());
-        if said != *expected {
-            wrong.push(format!("{text:?}\n  {said:?}"));
+        let message = refused(text, &options());
+        if message != *expected {
+            wrong.push(format!("{text:?}\n  {message:?}"));
         }
     }
     assert!(wrong.is_empty(), "{} of {} say something else:\n{}", wrong.len(), CASES.len(), wrong.join("\n"));

@@ -62,8 +62,8 @@ fn mt_manager_reads_the_same_with_every_delimiter_and_comment() {
     }
     let given = ImuReadOptions { rate_hz: Some(50.0), ..PLAIN };
     assert_eq!(gyroscope(&mt("//  DeviceId: 00B42D4B\n", "\t"), &given), expected);
-    let told = ImuReadOptions { format: Some(FileFormat::MtManager), ..given };
-    assert_eq!(gyroscope(&mt("", "\t"), &told), expected);
+    let reported = ImuReadOptions { format: Some(FileFormat::MtManager), ..given };
+    assert_eq!(gyroscope(&mt("", "\t"), &reported), expected);
 }
 
 #[test]
@@ -127,8 +127,8 @@ const EUROC_ROWS: &str = "1403636579758555392,-0.099134701513277898,0.1473057888
 
 #[test]
 fn euroc_keeps_every_nanosecond() {
-    let told = ImuReadOptions { format: Some(FileFormat::Euroc), ..PLAIN };
-    for (text, options) in [(EUROC.to_owned() + EUROC_ROWS, &PLAIN), (EUROC_ROWS.to_owned(), &told)] {
+    let reported = ImuReadOptions { format: Some(FileFormat::Euroc), ..PLAIN };
+    for (text, options) in [(EUROC.to_owned() + EUROC_ROWS, &PLAIN), (EUROC_ROWS.to_owned(), &reported)] {
         let file = read(&text, options);
         assert_eq!(file.format, FileFormat::Euroc);
         let (accelerometer, gyroscope) = (

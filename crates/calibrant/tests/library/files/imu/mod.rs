@@ -1,15 +1,15 @@
 //! Recordings of a whole IMU: every format, every question, every complaint.
 
-mod alone;
-mod bag;
+mod accelerometer_only;
 mod broken;
 mod good;
+mod invalid_samples;
 mod packets;
 mod parquet;
 mod pieces;
 mod real;
+mod ros_bag;
 mod separate_rows;
-mod wild;
 
 use calibrant::io::{ImuFile, ImuReadOptions, ImuUnit, parse_imu_recording};
 

@@ -49,11 +49,13 @@ fn times_of_packets_are_asked_about_and_a_given_rate_takes_their_place() {
         assert!(
             findings(&read)
                 .iter()
-                .any(|said| said.contains("they follow from the rows and 100 Hz, as given")),
+                .any(|message| message.contains("they follow from the rows and 100 Hz, as given")),
             "{name}"
         );
         assert!(
-            !findings(&read).iter().any(|said| said.contains("not used") || said.contains("dropped")),
+            !findings(&read)
+                .iter()
+                .any(|message| message.contains("not used") || message.contains("dropped")),
             "{name}: {:?}",
             findings(&read)
         );
@@ -72,7 +74,7 @@ fn pauses_jitter_lost_and_repeated_rows_are_no_packets() {
     ] {
         let read = read(&text, &given());
         assert!(
-            findings(&read).iter().any(|said| said.contains("the rate that was given is not used")),
+            findings(&read).iter().any(|message| message.contains("the rate that was given is not used")),
             "{name}"
         );
     }

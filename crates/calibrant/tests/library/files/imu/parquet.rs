@@ -157,14 +157,14 @@ fn tables_that_cannot_be_used_say_why() {
         (b"PAR1".to_vec(), "the Parquet file is damaged: "),
         (b"PAR1 and then nothing of the kindPAR1".to_vec(), "the Parquet file is damaged: "),
     ] {
-        let said = parse_imu_recording(&bytes, &plain).expect_err("refused").to_string();
-        assert!(said.starts_with(expected), "{said}");
+        let message = parse_imu_recording(&bytes, &plain).expect_err("refused").to_string();
+        assert!(message.starts_with(expected), "{message}");
     }
-    let told = ImuReadOptions {
+    let reported = ImuReadOptions {
         time_unit: Some(TimeUnit::Millisecond),
         ..units(ImuUnit::Counts, ImuUnit::DegreePerSecond)
     };
-    assert_eq!(read(&unitless, &told).recording.gyroscope.expect("there").times_s, [0.0, 0.01]);
+    assert_eq!(read(&unitless, &reported).recording.gyroscope.expect("there").times_s, [0.0, 0.01]);
 }
 
 #[test]
@@ -197,16 +197,19 @@ fn a_dictionary_that_promises_more_values_than_it_has_bytes_is_refused() {
     let is_header = |b: &[u8]| b[..3] == [0x15, 0x04, 0x15] && b[4] == 0x15 && b[6..] == [0x4c, 0x15, 0x06];
     let at = bytes.windows(9).position(is_header).expect("a dictionary of three values");
     bytes[at + 8] = 0x0e; // 7, which take 28 bytes at least
-    let said = parse_imu_recording(&bytes, &ImuReadOptions::default()).expect_err("refused").to_string();
-    assert!(said.contains("damaged") && said.contains("a dictionary of 7 values has 24 bytes"), "{said}");
+    let message = parse_imu_recording(&bytes, &ImuReadOptions::default()).expect_err("refused").to_string();
+    assert!(
+        message.contains("damaged") && message.contains("a dictionary of 7 values has 24 bytes"),
+        "{message}"
+    );
 }
 
 #[test]
-fn one_absurd_number_of_a_table_is_a_wild_sample() {
-    let table = |wild: usize| {
+fn one_absurd_number_of_a_table_is_a_invalid_sample() {
+    let table = |invalid: usize| {
         let values = |axis: usize| (0..200).map(|k| ((7 * k + axis) % 101) as f32).collect::<Vec<_>>();
         let mut x = values(0);
-        x[20..20 + wild].fill(1e38);
+        x[20..20 + invalid].fill(1e38);
         let times = (0..200).map(|k| 10 * k).collect();
         write(
             "required int64 t_ms; required float gx_radps; required float gy_radps; required float gz_radps;",
@@ -219,12 +222,13 @@ fn one_absurd_number_of_a_table_is_a_wild_sample() {
             Compression::UNCOMPRESSED,
         )
     };
-    let read = |wild| parse_imu_recording(&table(wild), &ImuReadOptions::default());
+    let read = |invalid| parse_imu_recording(&table(invalid), &ImuReadOptions::default());
     let recording = read(1).expect("read").recording.gyroscope.expect("there");
     assert_eq!(recording.readings[20].x, f64::from(1e38_f32));
-    let said = read(5).expect_err("refused").to_string();
+    let message = read(5).expect_err("refused").to_string();
     assert!(
-        said.starts_with("the value 9.99999968028569") && said.contains("e37 in row 21 is out of range"),
-        "{said}"
+        message.starts_with("the value 9.99999968028569")
+            && message.contains("e37 in row 21 is out of range"),
+        "{message}"
     );
 }

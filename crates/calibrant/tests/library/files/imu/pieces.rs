@@ -92,8 +92,8 @@ fn what_is_no_text_is_found_where_it_is() {
         let mut bytes = text.clone().into_bytes();
         bytes[at] = byte;
         let [file, at_once] = both(&bytes).map(|read| read.expect_err("no text"));
-        let said = format!("at offset {at}");
-        assert!(file.contains(&said) && at_once.contains(&said), "{file}\n{at_once}");
+        let message = format!("at offset {at}");
+        assert!(file.contains(&message) && at_once.contains(&message), "{file}\n{at_once}");
         if byte == 0xff {
             let line = format!("{}", 1 + bytes[..at].iter().filter(|&&byte| byte == b'\n').count());
             assert!(file.contains(&line) && at_once.contains(&line), "{file}\n{at_once}");

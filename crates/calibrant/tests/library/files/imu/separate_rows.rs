@@ -2,7 +2,7 @@
 
 use super::findings;
 use calibrant::io::{FindingKind, ImuFile, ImuReadOptions, parse_imu_recording};
-use calibrant::sensor::{Recording, Triad};
+use calibrant::sensor::{Recording, SensorKind};
 
 const HEADER: &str = "t_s,ax_mps2,ay_mps2,az_mps2,gx_radps,gy_radps,gz_radps,temp_c\n";
 
@@ -20,8 +20,8 @@ fn gyroscope(t: f64) -> String {
 }
 
 /// The rows that have all cells of a sensor: times and readings as they stand in the text.
-fn series(rows: &[String], triad: Triad) -> (Vec<f64>, Vec<[f64; 3]>) {
-    let first = if triad == Triad::Accelerometer { 1 } else { 4 };
+fn series(rows: &[String], sensor_kind: SensorKind) -> (Vec<f64>, Vec<[f64; 3]>) {
+    let first = if sensor_kind == SensorKind::Accelerometer { 1 } else { 4 };
     let cells = rows.iter().map(|row| row.trim_end().split(',').collect::<Vec<_>>());
     let whole = cells.filter(|cells| cells[first..first + 3].iter().all(|cell| !cell.is_empty()));
     let number = |cell: &str| cell.parse::<f64>().expect("a number");
@@ -69,8 +69,12 @@ fn each_sensor_has_its_own_series() {
         ("a thermometer too", by_time([a(100.0), g(100.0), (0..8).map(thermometer).collect()].concat())),
     ] {
         let file = read(&rows);
-        for triad in Triad::ALL {
-            assert_is(file.recording.triad(triad), series(&rows, triad), &format!("{what}, {triad}"));
+        for sensor_kind in SensorKind::ALL {
+            assert_is(
+                file.recording.sensor(sensor_kind),
+                series(&rows, sensor_kind),
+                &format!("{what}, {sensor_kind}"),
+            );
         }
         let twice = |finding: &&calibrant::io::Finding| {
             [FindingKind::DuplicateRow, FindingKind::DuplicateTime].contains(&finding.kind)

@@ -1,0 +1,40 @@
+//! A sensor that changes within a recording: what every output says of it.
+
+use crate::bench::Bench;
+
+#[test]
+fn an_accelerometer_that_changes_is_told_on_the_console_in_the_json_and_in_the_report() {
+    let bench = Bench::new();
+    bench.preset("static-poses", "poses.toml", &[("poses = 24 ", "poses = 32 ")]);
+    bench.run("simulate poses.toml -o honest").done();
+    let text = bench.read("honest/recording.csv");
+    let rows = text.lines().count();
+    let knocked = text.lines().enumerate().map(|(row, line)| {
+        let mut fields: Vec<String> = line.split(',').map(str::to_owned).collect();
+        if row > rows / 2 {
+            fields[1] = format!("{}", fields[1].parse::<f64>().expect("a number") + 0.05);
+        }
+        fields.join(",") + "\n"
+    });
+    bench.write("knocked.csv", knocked.collect::<String>());
+    for (file, changes) in [("honest/recording.csv", false), ("knocked.csv", true)] {
+        let outcome = bench.run(&format!("calibrate poses.toml {file} --folds 4 -o result")).done();
+        let message = "the accelerometer changes at about";
+        assert_eq!(outcome.stderr.contains(message), changes, "{}", outcome.stderr);
+        assert_eq!(
+            outcome.stdout.contains("but not to be believed: the accelerometer"),
+            changes,
+            "{}",
+            outcome.stdout
+        );
+        assert_eq!(outcome.stdout.contains("is to be believed"), !changes, "{}", outcome.stdout);
+        let json = bench.json("result/calibration.json");
+        let warnings = json["warnings"].as_array().expect("a list").iter();
+        let warned = warnings.filter_map(|warning| warning.as_str()).any(|warning| warning.contains(message));
+        assert_eq!(warned, changes, "{}", json["warnings"]);
+        let errors = &json["validation"]["folds"]["magnitude"];
+        let verdict = if changes { ("doubtful", "\"change\"") } else { ("believed", "null") };
+        assert_eq!((errors["verdict"].as_str(), &*errors["doubt"].to_string()), (Some(verdict.0), verdict.1));
+        assert_eq!(bench.read("result/report.html").contains(message), changes);
+    }
+}

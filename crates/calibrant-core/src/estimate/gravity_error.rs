@@ -1,0 +1,63 @@
+//! What an error of the assumed gravity does to the parameters.
+
+use crate::motion::Gravity;
+use crate::sensor::{ImuParameters, ImuQuantity, Quantity, SensorKind};
+use nalgebra::DVector;
+
+/// Change of each quantity with the gravity that is assumed, `∂p/∂g = −p/g`: a common factor of the accelerometer's matrix and of the g-sensitivity. Biases, the
+/// gyroscope's matrix, and what temperature does (shares of the gain, biases) do not depend on it. Times gravity's uncertainty it is a column of the covariance's root.
+pub(super) fn gravity_slope(
+    quantities: &[ImuQuantity],
+    imu: &ImuParameters,
+    gravity: &Gravity,
+) -> DVector<f64> {
+    DVector::from_iterator(
+        quantities.len(),
+        quantities.iter().map(|quantity| match quantity {
+            ImuQuantity::Of(SensorKind::Accelerometer, Quantity::Bias(_))
+            | ImuQuantity::Of(SensorKind::Gyroscope, _)
+            | ImuQuantity::Thermal(..) => 0.0,
+            ImuQuantity::Of(SensorKind::Accelerometer, _) | ImuQuantity::GSensitivity(..) => {
+                -quantity.value(imu) / gravity.magnitude_mps2
+            }
+        }),
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::{Matrix3, Vector3};
+
+    /// With gravity a little larger, forces are, and moved parameters give the same readings at every temperature.
+    #[test]
+    fn readings_stay_when_gravity_and_parameters_move_together() {
+        let quantities = [
+            ImuQuantity::full_list(true, true, true),
+            ImuQuantity::thermal_list(SensorKind::Accelerometer, 2, 2),
+            ImuQuantity::thermal_list(SensorKind::Gyroscope, 2, 2),
+        ]
+        .concat();
+        let mut imu = ImuParameters::identity();
+        imu.g_sensitivity = Matrix3::repeat(1e-3);
+        for (k, quantity) in quantities.iter().enumerate() {
+            quantity.add_to(&mut imu, 1e-3 * (k as f64 + 1.0).sin());
+        }
+        let gravity = Gravity { magnitude_mps2: 9.8, sd_mps2: 0.0 };
+        let share = 1e-6;
+        let mut moved = imu;
+        let slope = gravity_slope(&quantities, &imu, &gravity);
+        for (quantity, slope) in quantities.iter().zip(slope.iter()) {
+            quantity.add_to(&mut moved, slope * share * gravity.magnitude_mps2);
+        }
+        let (force, rate) = (Vector3::new(3.0, -5.0, 7.0), Vector3::new(0.3, 0.2, -0.1));
+        for temperature_c in [5.0, 60.0] {
+            let read = |imu: &ImuParameters, force: Vector3<f64>| {
+                let imu = imu.at(temperature_c);
+                (imu.accelerometer.reading(&force), imu.gyroscope.reading(&rate) + imu.g_sensitivity * force)
+            };
+            let (one, other) = (read(&imu, force), read(&moved, force * (1.0 + share)));
+            assert!((one.0 - other.0).amax() < 1e-9 && (one.1 - other.1).amax() < 1e-9, "{one:?} {other:?}");
+        }
+    }
+}

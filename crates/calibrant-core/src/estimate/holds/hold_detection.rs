@@ -1,0 +1,295 @@
+//! Finds the holds in a recording by itself.
+//!
+//! The variance within a sliding window is, on a logarithmic scale, sharply peaked where the sensor is still (its noise, whatever that is)
+//! and spread over decades where it moves. The lowest peak gives the noise; the emptiest place above it separates still from
+//! moving. No threshold in absolute units is needed, and holds of any noise level are found, hands that tremble included.
+
+use crate::error::{Error, InputError, Result};
+use crate::motion::{Hold, to_ms};
+use crate::sensor::{MeanReading, Recording, SensorKind, Spikes, gap_s, greater, lesser};
+use nalgebra::Vector3;
+use std::f64::consts::LOG10_2;
+
+/// The window is half the shortest hold, but no longer than this, s: turns between holds must show.
+const LONGEST_WINDOW_S: f64 = 0.5;
+/// Width of a bin of log₁₀ variance.
+const BIN: f64 = 0.05;
+/// Where the separation between still and moving is looked for, in decades of variance above the peak of stillness.
+const VALLEY: (f64, f64) = (0.4, 1.2);
+/// A peak this high relative to the highest counts as stillness if it is the lowest.
+const PEAK: f64 = 0.2;
+/// A given hold may reach beyond the recording by this share of it, as times that were rounded do.
+const ROUNDED_TIME_SHARE: f64 = 0.02;
+/// The mean of a stretch may wander this many standard deviations of a sample within a hold.
+const WANDER: f64 = 2.0;
+
+/// The holds of a recording, at least `minimum_s` long, in order of time.
+///
+/// Spikes neither divide a hold nor count in its mean; invalid readings in a row end it as a gap does ([`Recording::without_spikes`]).
+///
+/// # Errors
+/// [`Error::Recording`] where the sample rate is too low for the shortest hold.
+///
+/// # Examples
+/// ```
+/// use calibrant::estimate::find_holds;
+/// use calibrant::sensor::{ReadingUnit, SensorParameters};
+/// use calibrant::simulate::{HoldsSimulation, Purpose, simulate_holds, stream};
+/// use nalgebra::Vector3;
+///
+/// let setup = HoldsSimulation { poses: 12, hold_s: 4.0, turn_s: 1.5, rate_hz: 100.0, gravity_mps2: 9.81, between_holds_sd_mps2: 0.0 };
+/// let sensor = SensorParameters::identity();
+/// let unit = ReadingUnit::MetrePerSecondSquared;
+/// let (recording, _) = simulate_holds(&sensor, &Vector3::repeat(0.01), unit, &setup, &mut stream(1, Purpose::Sensor, 0));
+/// assert_eq!(find_holds(&recording, 1.0)?.len(), 12);
+/// # Ok::<(), calibrant::Error>(())
+/// ```
+pub fn find_holds(recording: &Recording, minimum_s: f64) -> Result<Vec<Hold>> {
+    let (clean, spikes) = recording.without_spikes(SensorKind::Accelerometer);
+    Ok(as_recorded(find_holds_in(&clean, minimum_s)?, spikes.as_ref()))
+}
+
+/// The same holds in the recording as it was before anything was cut out of it.
+pub(in crate::estimate) fn as_recorded(mut holds: Vec<Hold>, spikes: Option<&Spikes>) -> Vec<Hold> {
+    if let Some(spikes) = spikes {
+        for hold in &mut holds {
+            (hold.first, hold.end) = (spikes.place(hold.first), spikes.place(hold.end - 1) + 1);
+        }
+    }
+    holds
+}
+
+/// [`find_holds`] in a recording without spikes.
+pub(in crate::estimate) fn find_holds_in(recording: &Recording, minimum_s: f64) -> Result<Vec<Hold>> {
+    let rate = recording.rate_hz();
+    if minimum_s * rate < 8.0 {
+        return Err(Error::recording(InputError::new(
+            format!(
+                "the samples are {:.3} s apart: a hold of {minimum_s} s has fewer than 8 of them",
+                1.0 / rate
+            ),
+            "is the time column in seconds? if so, give the holds yourself (holds.intervals_s), or raise holds.minimum_hold_s",
+        )));
+    }
+    let (segments, window) = still_segments(recording, minimum_s, rate);
+    let long = segments.into_iter().filter(|(from, to)| (to - from) as f64 >= minimum_s * rate);
+    Ok(long.filter_map(|(from, to)| steady(recording, from + window / 2, to - window / 2, window)).collect())
+}
+
+/// The stretches, of any length, whose windows are all still: first sample and one past the last. And the number of samples in a window.
+pub(super) fn still_segments(
+    recording: &Recording,
+    minimum_s: f64,
+    rate_hz: f64,
+) -> (Vec<(usize, usize)>, usize) {
+    let window = (((minimum_s / 2.0).min(LONGEST_WINDOW_S) * rate_hz).round() as usize).max(5);
+    let mut segments = Vec::new();
+    if recording.len() < 2 * window {
+        return (segments, window);
+    }
+    let mean = recording.readings.iter().sum::<Vector3<f64>>() / recording.len() as f64;
+    let variance = window_variance(recording, &mean, window, gap_s(rate_hz));
+    let Some(threshold) = threshold(&variance, resolution(recording, &mean)) else {
+        return (segments, window);
+    };
+    let mut k = 0;
+    while k < variance.len() {
+        if variance[k] > threshold {
+            k += 1;
+            continue;
+        }
+        let start = k;
+        while k < variance.len() && variance[k] <= threshold {
+            k += 1;
+        }
+        // the still windows reach from sample `start` to `k − 1 + window`; a sample is part of a hold if the window around it is still
+        segments.push((start, k - 1 + window));
+    }
+    (segments, window)
+}
+
+/// Sum over the axes of the variance within each window of so many samples, whose mean is about this one; infinite for windows that span a gap.
+fn window_variance(recording: &Recording, mean: &Vector3<f64>, window: usize, gap_s: f64) -> Vec<f64> {
+    let n = recording.len();
+    let (mut sum, mut squares) = (Vector3::zeros(), 0.0);
+    let mut gaps = 0_usize;
+    // of a sample in the mean of a window: a division for each would take longer than all else
+    let share = 1.0 / window as f64;
+    let gap = |k: usize| usize::from(recording.times_s[k + 1] - recording.times_s[k] > gap_s);
+    let mut variance = Vec::with_capacity(n - window + 1);
+    for k in 0..n {
+        let y = recording.readings[k] - mean;
+        sum += y;
+        squares += y.norm_squared();
+        if k > 0 {
+            gaps += gap(k - 1);
+        }
+        if k >= window {
+            let old = recording.readings[k - window] - mean;
+            sum -= old;
+            squares -= old.norm_squared();
+            gaps -= gap(k - window);
+        }
+        if k + 1 >= window {
+            let v = (squares - sum.norm_squared() * share) * share;
+            variance.push(if gaps > 0 { f64::INFINITY } else { v.max(0.0) });
+        }
+        // begin anew now and then, so that rounding does not pile up
+        if k % 4096 == 4095 {
+            (sum, squares) = (Vector3::zeros(), 0.0);
+            for reading in &recording.readings[(k + 1).saturating_sub(window)..=k] {
+                sum += reading - mean;
+                squares += (reading - mean).norm_squared();
+            }
+        }
+    }
+    variance
+}
+
+/// The variance below which a recording cannot tell: that of its quantisation, `q²/12` per axis with the smallest step `q` between samples,
+/// and a millionth of its range, below which the running sums round.
+fn resolution(recording: &Recording, mean: &Vector3<f64>) -> f64 {
+    let range = recording.readings.iter().map(|y| (y - mean).norm_squared()).fold(0.0, greater);
+    let mut steps = Vector3::repeat(f64::INFINITY);
+    for pair in recording.readings.windows(2) {
+        let step = (pair[1] - pair[0]).abs();
+        // no branch: that would be taken at random
+        steps =
+            steps.zip_map(&step, |least, step| lesser(least, if step > 0.0 { step } else { f64::INFINITY }));
+    }
+    let quantisation: f64 = steps.iter().filter(|step| step.is_finite()).map(|step| step * step / 12.0).sum();
+    // in a recording without noise the smallest step is a movement
+    (quantisation.min(1e-4 * range) + 1e-12 * range).max(f64::MIN_POSITIVE)
+}
+
+/// The variance that separates still from moving; `None` where nothing is still. Variances below `floor` are all the same.
+fn threshold(variance: &[f64], floor: f64) -> Option<f64> {
+    let finite = || variance.iter().copied().filter(|v| v.is_finite());
+    let (least, largest) = finite().fold((f64::INFINITY, 0.0), |(a, b), v| (lesser(a, v), greater(b, v)));
+    if least > largest {
+        return None;
+    }
+    // the logarithm to base 2 is the faster one
+    let decade = |v: f64| v.max(floor).log2() * LOG10_2;
+    let lowest = decade(least);
+    let bins = ((decade(largest) - lowest) / BIN).ceil() as usize + 1;
+    let mut histogram = vec![0.0; bins];
+    for v in finite() {
+        histogram[((decade(v) - lowest) / BIN) as usize] += 1.0;
+    }
+    let density = smooth(&histogram);
+    let highest = density.iter().copied().fold(0.0, f64::max);
+    let peak = (0..bins).find(|&k| {
+        density[k] >= PEAK * highest
+            && density[k] >= *density.get(k + 1).unwrap_or(&0.0)
+            && (k == 0 || density[k] >= density[k - 1])
+    })?;
+    let bin = |decades: f64| ((peak as f64 + decades / BIN) as usize).min(bins);
+    let (from, to) = (bin(VALLEY.0), bin(VALLEY.1));
+    let valley = (from..to).min_by(|&a, &b| density[a].total_cmp(&density[b])).unwrap_or(from);
+    Some(10.0_f64.powf(lowest + (valley as f64 + 0.5) * BIN))
+}
+
+/// Binomial smoothing, about 0.1 decade wide.
+fn smooth(histogram: &[f64]) -> Vec<f64> {
+    let at = |k: isize| if k < 0 { 0.0 } else { histogram.get(k as usize).copied().unwrap_or(0.0) };
+    (0..histogram.len() as isize)
+        .map(|k| (at(k - 2) + 4.0 * at(k - 1) + 6.0 * at(k) + 4.0 * at(k + 1) + at(k + 2)) / 16.0)
+        .collect()
+}
+
+/// The hold from `first` to `end`, its ends cut off where the mean wanders; `None` if it wanders throughout (a slow rotation).
+fn steady(recording: &Recording, first: usize, end: usize, window: usize) -> Option<Hold> {
+    let block = (window / 2).max(2).min(end - first);
+    let starts: Vec<usize> = (first..=end - block).step_by(block).collect();
+    let blocks: Vec<Hold> = starts.iter().map(|&k| summarise(recording, k, (k + block).min(end))).collect();
+    let center = Vector3::from_fn(|axis, _| median(blocks.iter().map(|block| block.mean[axis]).collect()));
+    let spread = Vector3::from_fn(|axis, _| median(blocks.iter().map(|block| block.sd[axis]).collect()));
+    let limit = WANDER * spread.norm();
+    let calm = |block: &&Hold| (block.mean - center).norm() <= limit.max(1e-9 * center.norm());
+    let from = blocks.iter().find(calm)?.first;
+    let to = blocks.iter().rev().find(calm)?.end;
+    let restless =
+        blocks.iter().filter(|block| block.first >= from && block.end <= to && !calm(block)).count();
+    if restless * 10 > blocks.len() {
+        return None;
+    }
+    let to = if to + block > end { end } else { to };
+    (to > from + window / 2).then(|| summarise(recording, from, to))
+}
+
+/// The median of at least one value: of an even number, the larger of the middle two.
+pub(in crate::estimate) fn median(mut values: Vec<f64>) -> f64 {
+    let middle = values.len() / 2;
+    *values.select_nth_unstable_by(middle, f64::total_cmp).1
+}
+
+/// Mean and standard deviation of the samples `first..end`.
+fn summarise(recording: &Recording, first: usize, end: usize) -> Hold {
+    let segment = MeanReading::of(&recording.readings[first..end]).unwrap_or_default();
+    Hold {
+        first,
+        end,
+        start_s: recording.times_s[first],
+        end_s: recording.times_s[end - 1],
+        mean: segment.mean,
+        sd: MeanReading::pooled_sd([&segment]),
+    }
+}
+
+/// Says which of the holds that are given reach beyond the recording, whose samples are all that counts of them.
+pub(in crate::estimate) fn beyond(recording: &Recording, intervals_s: &[(f64, f64)]) -> Vec<String> {
+    let (Some(&first), Some(&last), [_, ..]) =
+        (recording.times_s.first(), recording.times_s.last(), intervals_s)
+    else {
+        return Vec::new();
+    };
+    let step = 1.0 / recording.rate_hz();
+    let outside = |(_, (start, end)): &(usize, &(f64, f64))| {
+        let missing = (first - start).max(0.0) + (end - last).max(0.0);
+        missing > (ROUNDED_TIME_SHARE * (end - start)).max(2.0 * step)
+    };
+    let words = |(k, (start, end)): (usize, &(f64, f64))| {
+        format!(
+            "hold {} is given from {start} to {end} s, and the recording goes from {first} to {last} s: only {:.1} s of it count; correct holds.intervals_s",
+            k + 1,
+            end.min(last) - start.max(first)
+        )
+    };
+    intervals_s.iter().enumerate().filter(outside).map(words).collect()
+}
+
+/// The holds between these (start, end) times in s.
+///
+/// # Errors
+/// [`Error::Recording`] names an interval with fewer than two samples, or that overlaps another.
+pub fn holds_between(recording: &Recording, intervals_s: &[(f64, f64)]) -> Result<Vec<Hold>> {
+    let mut holds: Vec<Hold> = Vec::with_capacity(intervals_s.len());
+    for (k, &(start, stop)) in intervals_s.iter().enumerate() {
+        let first = recording.times_s.partition_point(|&t| t < start);
+        let end = recording.times_s.partition_point(|&t| t <= stop);
+        if end < first + 2 {
+            return Err(Error::recording(InputError::new(
+                format!(
+                    "hold {} from {} to {} s has {} samples; the recording spans {} to {} s",
+                    k + 1,
+                    to_ms(start),
+                    to_ms(stop),
+                    end.saturating_sub(first),
+                    to_ms(recording.times_s[0]),
+                    to_ms(recording.times_s[recording.len() - 1])
+                ),
+                "correct holds.intervals_s",
+            )));
+        }
+        if let Some(other) = holds.iter().position(|hold| first < hold.end && hold.first < end) {
+            return Err(Error::recording(InputError::new(
+                format!("holds {} and {} overlap", other + 1, k + 1),
+                "correct holds.intervals_s: no sample may count twice",
+            )));
+        }
+        holds.push(summarise(recording, first, end));
+    }
+    holds.sort_by_key(|hold| hold.first);
+    Ok(holds)
+}

@@ -1,0 +1,92 @@
+//! Holds that a low-pass filter hides.
+//!
+//! Behind a filter far below the sample rate neighbouring samples have nearly the same noise. The variance of a short window then depends on where the slow noise happens to go, half of a
+//! hold looks calmer than the rest, and the hold falls to pieces that are too short. What tells of it is the structure function of the samples, `D(k) = E (y_{i+k} − y_i)²`: white noise has
+//! `D(4)/D(1) = 1`, a pole ρ has `1 + ρ + ρ² + ρ³`, which is 3 at ρ = 0.81, and a steady movement 16.
+
+use super::hold_detection::still_segments;
+use crate::error::{Error, NotIdentifiable};
+use crate::motion::Hold;
+use crate::sensor::Recording;
+use std::ops::Range;
+
+/// From here on `D(4)/D(1)` is that of a filter,
+const FILTERED: f64 = 3.0;
+/// From this `D(4)/D(1)` on, where there is no hold at all, it is that of a movement.
+const MOVING: f64 = 6.0;
+/// The ratio is taken from at most so many samples.
+const MOST_SAMPLES: usize = 4096;
+/// Pieces between the holds that need no word: a sensor may pause in a turn.
+const PAUSES: usize = 2;
+
+/// Says that neighbouring samples are alike as behind a slow filter, where stretches that look still were too short to be holds: a likely reason, and what to do. `None` where it is not so.
+///
+/// The `holds` are those that [`find_holds`](super::find_holds) or [`find_imu_holds`](crate::estimate::find_imu_holds) found in the recording.
+#[must_use]
+pub fn holds_lost_to_filter(recording: &Recording, holds: &[Hold], minimum_s: f64) -> Option<String> {
+    let pieces = pieces(recording, holds, minimum_s)?;
+    (pieces > PAUSES).then(|| {
+        let found = match holds.len() {
+            1 => "besides 1 hold".to_owned(),
+            count => format!("besides {count} holds"),
+        };
+        format!("{found}, {pieces} stretches look still, but each for less than {minimum_s} s or not throughout: {REASON}: {HELP}")
+    })
+}
+
+/// The same error, which came of too few holds, with this reason where it is one.
+pub(in crate::estimate) fn with_filter(
+    error: Error,
+    recording: &Recording,
+    holds: &[Hold],
+    minimum_s: f64,
+) -> Error {
+    let Error::NotIdentifiable(undetermined) = error else { return error };
+    if pieces(recording, holds, minimum_s).is_none_or(|pieces| pieces == 0) {
+        return Error::NotIdentifiable(undetermined);
+    }
+    let mut groups = undetermined.groups;
+    for group in &mut groups {
+        group.reason = format!("{}; {REASON}", group.reason);
+        group.remedy = format!("{HELP}; {}", group.remedy);
+    }
+    Error::NotIdentifiable(Box::new(NotIdentifiable { groups }))
+}
+
+/// Why the holds are broken up.
+const REASON: &str = "neighbouring samples are strongly correlated, as behind a low-pass filter far below the sample rate, which breaks holds up";
+/// What to do about it.
+const HELP: &str = "give holds.intervals_s, hold longer, or record with a wider bandwidth";
+
+/// How many stretches look still and are no holds; `None` where samples are not as behind a filter.
+fn pieces(recording: &Recording, holds: &[Hold], minimum_s: f64) -> Option<usize> {
+    let of_holds = holds.iter().map(|hold| hold.first..hold.end);
+    if !holds.is_empty() && smoothness(recording, of_holds)? < FILTERED {
+        return None;
+    }
+    let (segments, _) = still_segments(recording, minimum_s, recording.rate_hz());
+    if holds.is_empty()
+        && !(FILTERED..MOVING).contains(&smoothness(recording, segments.iter().map(|&(from, to)| from..to))?)
+    {
+        return None;
+    }
+    let is_in = |from: usize, to: usize| holds.iter().any(|hold| hold.first < to && from < hold.end);
+    Some(segments.iter().filter(|(from, to)| !is_in(*from, *to)).count())
+}
+
+/// `D(4)/D(1)` of the samples in these ranges, or of the first of them; `None` where there is no noise.
+fn smoothness(recording: &Recording, ranges: impl Iterator<Item = Range<usize>>) -> Option<f64> {
+    let (mut near, mut far, mut count) = (0.0, 0.0, 0);
+    for range in ranges {
+        let readings = recording.readings.get(range)?;
+        for about in readings.windows(5) {
+            near += (about[1] - about[0]).norm_squared();
+            far += (about[4] - about[0]).norm_squared();
+        }
+        count += readings.len();
+        if count > MOST_SAMPLES {
+            break;
+        }
+    }
+    (near > 0.0).then(|| far / near)
+}

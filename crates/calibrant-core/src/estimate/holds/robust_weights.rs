@@ -1,0 +1,477 @@
+//! Weights of the holds: scatter within and between holds, and the holds that must be left out.
+
+use super::HoldsSetup;
+use super::fit::{Directions, Fit};
+use super::verdict::explain;
+use crate::error::{Error, InputError, NotIdentifiable, Result};
+use crate::estimate::between_hold_variance::excess;
+use crate::estimate::change::longest_run;
+use crate::estimate::{CalibrationProblem, CalibrationSettings, CalibrationStatus};
+use crate::information;
+use crate::motion::Hold;
+use crate::sensor::{ParameterList, SensorParameters};
+use nalgebra::{DMatrix, DVector, Matrix3, SVector, Vector3, Vector4};
+use statrs::distribution::{ContinuousCDF, StudentsT};
+
+/// A hold is left out when a residual as large as its own would be seen in fewer than this share of recordings.
+const SIGNIFICANCE: f64 = 0.01;
+/// Most rounds of the robust fit.
+const ROUNDS: usize = 20;
+/// Its weights rest when none changes by more than this.
+const WEIGHT_TOLERANCE: f64 = 1e-3;
+/// Tukey's constant: 95 % efficiency at the normal distribution.
+const BIWEIGHT: f64 = 4.685;
+
+/// What the robust fit gives. Vectors have one entry for each hold, used or not.
+pub(super) struct Robust {
+    pub(super) sensor: SensorParameters,
+    pub(super) forces: Vec<Vector3<f64>>,
+    pub(super) magnitudes: Vec<Magnitude>,
+    pub(super) studentised: Vec<f64>,
+    pub(super) used: Vec<bool>,
+    pub(super) covariance: DMatrix<f64>,
+    pub(super) chi2: f64,
+    pub(super) degrees_of_freedom: usize,
+    /// Pooled scatter of samples within holds, unit of the readings.
+    pub(super) within_sd: Vector3<f64>,
+    /// `σ_b`, m/s².
+    pub(super) between_holds_sd: f64,
+    pub(super) condition_number: f64,
+    /// The combination that is determined worst: parameter names and their shares.
+    pub(super) weakest: Vec<String>,
+    pub(super) status: CalibrationStatus,
+    pub(super) iterations: usize,
+    pub(super) gradient_norm: f64,
+}
+
+/// The magnitude of a corrected hold less gravity.
+pub(super) struct Magnitude {
+    /// m/s²
+    pub(super) error: f64,
+    /// Its variance by noise and scatter of the hold itself.
+    pub(super) own: f64,
+    /// Direction of the corrected force.
+    pub(super) along: Vector3<f64>,
+    /// Derivative of the magnitude that the fit leaves with respect to the parameters, up to its sign.
+    pub(super) by_parameters: DVector<f64>,
+}
+
+/// A fit with its weights.
+struct Weighted<const P: usize> {
+    fit: Fit<P>,
+    covariance: DMatrix<f64>,
+    between: f64,
+    /// The sensor whose gains turned `between` into the unit of the readings.
+    gains_of: SensorParameters,
+}
+
+/// The holds with what weighs them.
+struct Problem<'a, const P: usize> {
+    holds: &'a [Hold],
+    /// Places of those that may be used.
+    sound: Vec<usize>,
+    list: ParameterList,
+    gravity: f64,
+    within: Vector3<f64>,
+    /// Variance of a mean that more samples do not lower: that of coarse steps.
+    of_mean: Vector3<f64>,
+    prior: Option<(SVector<f64, P>, SVector<f64, P>)>,
+    settings: &'a CalibrationSettings,
+}
+
+/// Fits, finds the scatter between holds, leaves bad holds out. `sound`: places of the holds that may be used; `of_mean`: variance of a mean that more samples do not lower.
+pub(super) fn fit<const P: usize>(
+    problem: &CalibrationProblem<'_>,
+    setup: &HoldsSetup,
+    settings: &CalibrationSettings,
+    holds: &[Hold],
+    sound: Vec<usize>,
+    of_mean: Vector3<f64>,
+) -> Result<Robust> {
+    let list = setup.gauge.parameter_list(problem.sensor.model);
+    let usable: Vec<Hold> = sound.iter().map(|&j| holds[j].clone()).collect();
+    let start = match problem.sensor.nominal() {
+        Some(nominal) if usable.len() >= 2 => nominal,
+        _ => sphere(&usable, setup.gravity.magnitude_mps2)
+            .ok_or_else(|| Error::NotIdentifiable(Box::new(too_few(&usable, &list))))?,
+    };
+    let within = pooled_sd(&usable, &start, setup.gravity.magnitude_mps2);
+    let prior = settings.datasheet_prior.then(|| prior(problem, &list)).flatten();
+    let problem = Problem::<P> {
+        holds,
+        sound,
+        list,
+        gravity: setup.gravity.magnitude_mps2,
+        within,
+        of_mean,
+        prior,
+        settings,
+    };
+    problem.information(&start)?;
+    problem.run(&start)
+}
+
+/// The sensor that the holds look like, their scatter, and the information that they would give on its parameters.
+pub(super) fn expect<const P: usize>(
+    holds: &[Hold],
+    list: ParameterList,
+    gravity: f64,
+) -> Result<(SensorParameters, Vector3<f64>, DMatrix<f64>)> {
+    let settings = CalibrationSettings::default();
+    let start =
+        sphere(holds, gravity).ok_or_else(|| Error::NotIdentifiable(Box::new(too_few(holds, &list))))?;
+    let within = pooled_sd(holds, &start, gravity);
+    let (sound, of_mean) = ((0..holds.len()).collect(), Vector3::zeros());
+    let problem =
+        Problem::<P> { holds, sound, list, gravity, within, of_mean, prior: None, settings: &settings };
+    let information = problem.information(&start)?;
+    Ok((start, within, information))
+}
+
+fn prior<const P: usize>(
+    problem: &CalibrationProblem<'_>,
+    list: &ParameterList,
+) -> Option<(SVector<f64, P>, SVector<f64, P>)> {
+    let parameters = list.describe(problem.sensor, &problem.sensor.nominal()?);
+    Some((
+        SVector::from_fn(|k, _| parameters[k].nominal.unwrap_or(0.0)),
+        SVector::from_fn(|k, _| parameters[k].spread.map_or(0.0, |spread| spread.powi(-2))),
+    ))
+}
+
+fn too_few(holds: &[Hold], list: &ParameterList) -> NotIdentifiable {
+    NotIdentifiable { groups: vec![explain(holds, list, &[], 0)] }
+}
+
+/// Centre and radius of the sphere through the means, by linear least squares on `|y|² = 2 c·y + const`.
+pub(in crate::estimate) fn sphere(holds: &[Hold], gravity: f64) -> Option<SensorParameters> {
+    if holds.len() < 4 {
+        return None;
+    }
+    let center = holds.iter().map(|hold| hold.mean).sum::<Vector3<f64>>() / holds.len() as f64;
+    let size = holds.iter().map(|hold| (hold.mean - center).norm()).fold(0.0, f64::max);
+    if size <= 0.0 {
+        return None;
+    }
+    let rows: Vec<Vector4<f64>> = holds.iter().map(|hold| ((hold.mean - center) / size).push(1.0)).collect();
+    let normal: nalgebra::Matrix4<f64> = rows.iter().map(|row| row * row.transpose()).sum();
+    let rhs: Vector4<f64> = rows.iter().map(|row| row * row.xyz().norm_squared()).sum();
+    let eigenvalues = normal.symmetric_eigenvalues();
+    if eigenvalues.min() <= 1e-8 * eigenvalues.max() {
+        return None;
+    }
+    let solution = normal.cholesky()?.solve(&rhs);
+    let c = solution.xyz() / 2.0;
+    let radius = (solution.w + c.norm_squared()).sqrt();
+    (radius.is_finite() && radius > 0.0).then(|| SensorParameters {
+        bias: center + c * size,
+        matrix: Matrix3::identity() * (radius * size / gravity),
+    })
+}
+
+/// Standard deviation of samples within holds, pooled over the holds, not below the rounding of the readings.
+fn pooled_sd(holds: &[Hold], start: &SensorParameters, gravity: f64) -> Vector3<f64> {
+    let pooled = Hold::pooled_sd(holds);
+    Vector3::from_fn(|axis, _| pooled[axis].max(1e-9 * gravity * start.matrix[(axis, axis)].abs()))
+}
+
+impl<const P: usize> Problem<'_, P> {
+    /// Variance of a hold's mean, per axis.
+    fn variance(&self, hold: &Hold, between: f64, sensor: &SensorParameters) -> Vector3<f64> {
+        Vector3::from_fn(|axis, _| {
+            // the gain of a reading is the norm of its row of S, whatever the gauge
+            self.within[axis].powi(2) / hold.samples() as f64
+                + self.of_mean[axis]
+                + between.powi(2) * sensor.matrix.row(axis).norm_squared()
+        })
+    }
+
+    fn directions(
+        &self,
+        chosen: &[usize],
+        weight: &dyn Fn(usize) -> f64,
+        between: f64,
+        at: &SensorParameters,
+    ) -> Directions<'_, P> {
+        Directions {
+            list: &self.list,
+            holds: chosen.iter().map(|&j| &self.holds[j]).collect(),
+            weights: chosen
+                .iter()
+                .map(|&j| self.variance(&self.holds[j], between, at).map(|v| weight(j) / v))
+                .collect(),
+            gravity: self.gravity,
+            prior: self.prior,
+        }
+    }
+
+    /// The information that the holds give on a sensor's parameters; an error where it does not determine them all.
+    fn information(&self, start: &SensorParameters) -> Result<DMatrix<f64>> {
+        let holds: Vec<Hold> = self.sound.iter().map(|&j| self.holds[j].clone()).collect();
+        let none = CalibrationSettings { max_iterations: 0, ..self.settings.clone() };
+        let fit = self
+            .directions(&self.sound, &|_| 1.0, 0.0, start)
+            .fit(start, &none)
+            .ok_or_else(|| Error::NotIdentifiable(Box::new(too_few(&holds, &self.list))))?;
+        let information = DMatrix::from_fn(P, P, |i, j| fit.information[(i, j)]);
+        let groups = information::undetermined(&information, &DVector::from_fn(P, |i, _| fit.unreduced[i]));
+        if groups.is_empty() {
+            return match hardly_determined(&information) {
+                tangled if tangled.is_empty() => Ok(information),
+                tangled => {
+                    let group = explain(&holds, &self.list, &tangled, 1);
+                    Err(Error::NotIdentifiable(Box::new(NotIdentifiable { groups: vec![group] })))
+                }
+            };
+        }
+        let groups = groups
+            .iter()
+            .map(|group| explain(&holds, &self.list, &group.parameters, group.free_combinations))
+            .collect();
+        Err(Error::NotIdentifiable(Box::new(NotIdentifiable { groups })))
+    }
+
+    fn run(&self, start: &SensorParameters) -> Result<Robust> {
+        let mut used = self.first_guess(start);
+        let mut weighted = self.weigh(&used, start)?;
+        // one change at a time: leave out the worst hold that is too bad, take back the best that is not
+        for _ in 0..3 * self.sound.len() {
+            let studentised = self.studentise(&used, &weighted, &self.magnitudes(&weighted));
+            let count = used.iter().filter(|used| **used).count();
+            let limit = critical(self.sound.len(), count.saturating_sub(P));
+            let worst = (0..used.len())
+                .filter(|&j| used[j] && studentised[j].abs() > limit)
+                .max_by(|&a, &b| studentised[a].abs().total_cmp(&studentised[b].abs()));
+            let best = (self.sound.iter().copied())
+                .filter(|&j| !used[j] && studentised[j].abs() <= limit)
+                .min_by(|&a, &b| studentised[a].abs().total_cmp(&studentised[b].abs()));
+            match (worst, best) {
+                (Some(j), _) if count > P + 2 => used[j] = false,
+                (_, Some(j)) => used[j] = true,
+                _ => break,
+            }
+            weighted = self.weigh(&used, &weighted.fit.sensor)?;
+        }
+        self.plausible(&used, &weighted)?;
+        Ok(self.summarise(used, weighted))
+    }
+
+    /// Do the holds look like gravity at all?
+    fn plausible(&self, used: &[bool], weighted: &Weighted<P>) -> Result<()> {
+        let residuals = self.magnitude_residuals(&weighted.fit.sensor);
+        let count = used.iter().filter(|used| **used).count();
+        let squares: f64 = residuals.iter().zip(used).filter(|(_, used)| **used).map(|(e, _)| e * e).sum();
+        let rms = (squares / count as f64).sqrt();
+        let all = self.sound.len();
+        let shares = 3 * count >= 2 * all;
+        if shares && rms < 0.02 * self.gravity && rms.is_finite() {
+            return Ok(());
+        }
+        let in_a_row = longest_run(self.sound.iter().map(|&j| !used[j])).map_or_else(String::new, |run| {
+            let (first, last) = (&self.holds[self.sound[run.start]], &self.holds[self.sound[run.end - 1]]);
+            let (start_s, end_s) = (first.start_s, last.end_s);
+            format!("; those from {start_s:.1} to {end_s:.1} s do not: did the sensor change there?")
+        });
+        Err(Error::recording(InputError::new(
+            format!(
+                "the holds do not look like gravity: {count} of {all} fit, with magnitudes that scatter by {:.0} mm/s²{in_a_row}",
+                1e3 * rms
+            ),
+            "is this an accelerometer, still in each hold, in the unit that was given? Give the holds yourself with holds.intervals_s otherwise",
+        )))
+    }
+
+    /// Holds that a robust fit does not find far off.
+    fn first_guess(&self, start: &SensorParameters) -> Vec<bool> {
+        let all = &self.sound;
+        let mut weights = vec![1.0; self.holds.len()];
+        let mut sensor = *start;
+        let chosen = |of: &dyn Fn(usize) -> bool| -> Vec<bool> {
+            (0..self.holds.len()).map(|j| all.contains(&j) && of(j)).collect()
+        };
+        let every = || chosen(&|_| true);
+        if all.len() < P + 3 {
+            return every();
+        }
+        let mut scale = 0.0;
+        for round in 0..ROUNDS {
+            let directions = self.directions(all, &|j| weights[j], 0.0, &sensor);
+            // the weights move on: after the first round a step or two are enough
+            let max_iterations = if round == 0 { self.settings.max_iterations } else { 2 };
+            let settings = CalibrationSettings { max_iterations, ..self.settings.clone() };
+            let Some(fit) = directions.fit(&sensor, &settings) else { return every() };
+            sensor = fit.sensor;
+            let residuals = self.magnitude_residuals(&sensor);
+            let mut sizes: Vec<f64> = all.iter().map(|&j| residuals[j].abs()).collect();
+            let middle = sizes.len() / 2;
+            let mad = *sizes.select_nth_unstable_by(middle, f64::total_cmp).1;
+            let correction = (all.len() as f64 / (all.len() - P) as f64).sqrt();
+            scale = (1.4826 * mad * correction).max(1e-12 * self.gravity);
+            let mut change = 0.0_f64;
+            for (weight, e) in weights.iter_mut().zip(&residuals) {
+                let x = e / (BIWEIGHT * scale);
+                let before = std::mem::replace(weight, (1.0 - x * x).max(0.0).powi(2).max(1e-9));
+                change = change.max((*weight - before).abs());
+            }
+            if change < WEIGHT_TOLERANCE {
+                break;
+            }
+        }
+        let residuals = self.magnitude_residuals(&sensor);
+        let good = chosen(&|j| residuals[j].abs() <= 6.0 * scale);
+        if good.iter().filter(|good| **good).count() >= P + 2 { good } else { every() }
+    }
+
+    /// `|C (ȳ − b)| − g` of every hold.
+    fn magnitude_residuals(&self, sensor: &SensorParameters) -> Vec<f64> {
+        let inverse = sensor.matrix.try_inverse().unwrap_or_else(Matrix3::identity);
+        self.holds.iter().map(|hold| (inverse * (hold.mean - sensor.bias)).norm() - self.gravity).collect()
+    }
+
+    /// Fits the used holds with the scatter between holds that makes χ² equal its degrees of freedom.
+    fn weigh(&self, used: &[bool], start: &SensorParameters) -> Result<Weighted<P>> {
+        let chosen: Vec<usize> = (0..used.len()).filter(|&j| used[j]).collect();
+        let degrees = chosen.len().saturating_sub(P) as f64;
+        let at = |between: f64, gains_of: &SensorParameters, from: &SensorParameters| {
+            self.directions(&chosen, &|_| 1.0, between, gains_of).fit(from, self.settings)
+        };
+        let singular = || {
+            Error::recording(InputError::new(
+                "the fit of the holds breaks down: the estimated matrix becomes singular",
+                "check the unit of the recording and that the holds are what they should be",
+            ))
+        };
+        let rms = |fit: &Fit<P>| {
+            let residuals = self.magnitude_residuals(&fit.sensor);
+            let squares: f64 = chosen.iter().map(|&j| residuals[j].powi(2)).sum();
+            (squares / chosen.len() as f64).sqrt().max(1e-12 * self.gravity)
+        };
+        // the gains are those of the fit without a scatter between holds, in which they are of no account
+        let (mut gains_of, mut from) = (None, *start);
+        let (between, fit) = excess(degrees, rms, |between| {
+            let fit = at(between, gains_of.as_ref().unwrap_or(start), &from)?;
+            gains_of.get_or_insert(fit.sensor);
+            from = fit.sensor;
+            Some((fit.chi2, fit))
+        })
+        .ok_or_else(singular)?;
+        let gains_of = gains_of.unwrap_or(*start);
+        let information = DMatrix::from_fn(P, P, |i, j| fit.information[(i, j)]);
+        let covariance = information::covariance(&information).ok_or_else(singular)?;
+        Ok(Weighted { fit, covariance, between, gains_of })
+    }
+
+    fn magnitudes(&self, weighted: &Weighted<P>) -> Vec<Magnitude> {
+        let sensor = &weighted.fit.sensor;
+        let inverse = sensor.matrix.try_inverse().unwrap_or_else(Matrix3::identity);
+        let directions = self.directions(&[], &|_| 1.0, 0.0, sensor);
+        let of_hold = |hold: &Hold| {
+            let s = inverse * (hold.mean - sensor.bias);
+            let magnitude = s.norm();
+            let along = s / magnitude;
+            let row = inverse.tr_mul(&along); // uᵀ C
+            let v = self.variance(hold, weighted.between, &weighted.gains_of);
+            let j = directions.sensitivity(&(along * self.gravity)).tr_mul(&row);
+            Magnitude {
+                error: magnitude - self.gravity,
+                own: row.component_mul(&row).dot(&v),
+                along,
+                by_parameters: DVector::from_fn(P, |k, _| j[k]),
+            }
+        };
+        self.holds.iter().map(of_hold).collect()
+    }
+
+    /// Residual of each hold in standard deviations expected of it, its own influence removed.
+    fn studentise(&self, used: &[bool], weighted: &Weighted<P>, magnitudes: &[Magnitude]) -> Vec<f64> {
+        let count = used.iter().filter(|used| **used).count();
+        let degrees = count.saturating_sub(P) as f64;
+        let scatter = if degrees > 0.0 { (weighted.fit.chi2 / degrees).max(f64::MIN_POSITIVE) } else { 1.0 };
+        magnitudes
+            .iter()
+            .zip(used)
+            .map(|(Magnitude { error, own, by_parameters, .. }, &used)| {
+                let from_parameters = (&weighted.covariance * by_parameters).dot(by_parameters);
+                if !used {
+                    return error / (own + from_parameters).sqrt();
+                }
+                let left = (own - from_parameters).max(1e-6 * own);
+                let internal = error / left.sqrt() / scatter.sqrt();
+                if degrees < 2.0 {
+                    return internal;
+                }
+                // external: the scatter estimated without this hold
+                internal * ((degrees - 1.0) / (degrees - internal * internal).max(1e-3 * degrees)).sqrt()
+            })
+            .collect()
+    }
+
+    fn summarise(&self, used: Vec<bool>, weighted: Weighted<P>) -> Robust {
+        let Weighted { fit, covariance, between, .. } = &weighted;
+        let scaled = DMatrix::from_fn(P, P, |i, j| {
+            fit.information[(i, j)] / (fit.information[(i, i)] * fit.information[(j, j)]).sqrt()
+        });
+        let eigen = scaled.symmetric_eigen();
+        let weakest = eigen.eigenvalues.imin();
+        let direction = eigen.eigenvectors.column(weakest);
+        let names = self.list.names();
+        let shares: Vec<String> =
+            (0..P).filter(|&k| direction[k].powi(2) > 0.1).map(|k| names[k].clone()).collect();
+        let every = self.directions(&(0..self.holds.len()).collect::<Vec<_>>(), &|_| 1.0, 0.0, &fit.sensor);
+        // the directions of the fit for the holds that were used, those of the correction for the others
+        let mut forces =
+            every.forces(&fit.sensor).unwrap_or_else(|| vec![Vector3::zeros(); self.holds.len()]);
+        for (j, force) in (0..used.len()).filter(|&j| used[j]).zip(&fit.forces) {
+            forces[j] = *force;
+        }
+        let magnitudes = self.magnitudes(&weighted);
+        Robust {
+            sensor: fit.sensor,
+            forces,
+            studentised: self.studentise(&used, &weighted, &magnitudes),
+            magnitudes,
+            condition_number: eigen.eigenvalues.max() / eigen.eigenvalues.min().max(f64::MIN_POSITIVE),
+            weakest: shares,
+            covariance: covariance.clone(),
+            chi2: fit.chi2,
+            degrees_of_freedom: used.iter().filter(|used| **used).count().saturating_sub(P),
+            within_sd: self.within,
+            between_holds_sd: *between,
+            status: fit.status,
+            iterations: fit.iterations,
+            gradient_norm: fit.gradient_norm,
+            used,
+        }
+    }
+}
+
+/// A condition number at which the data no longer determine a combination: the noise in the directions of the holds then decides it.
+const LARGEST_CONDITION: f64 = 1e5;
+
+/// Parameters that make up the combinations whose information, scaled, is a vanishing part of the best.
+fn hardly_determined(information: &DMatrix<f64>) -> Vec<usize> {
+    let size = information.nrows();
+    let scaled = DMatrix::from_fn(size, size, |i, j| {
+        information[(i, j)] / (information[(i, i)] * information[(j, j)]).sqrt()
+    });
+    let eigen = scaled.symmetric_eigen();
+    let floor = eigen.eigenvalues.max() / LARGEST_CONDITION;
+    (0..size)
+        .filter(|&k| {
+            let share: f64 = (0..size)
+                .filter(|&e| eigen.eigenvalues[e] < floor)
+                .map(|e| eigen.eigenvectors[(k, e)].powi(2))
+                .sum();
+            share > 0.1
+        })
+        .collect()
+}
+
+/// Largest studentised residual that chance explains, among so many holds.
+pub(in crate::estimate) fn critical(holds: usize, degrees_of_freedom: usize) -> f64 {
+    if degrees_of_freedom < 2 {
+        return f64::INFINITY;
+    }
+    StudentsT::new(0.0, 1.0, (degrees_of_freedom - 1) as f64)
+        .map_or(f64::INFINITY, |t| t.inverse_cdf(1.0 - SIGNIFICANCE / (2.0 * holds as f64)))
+}

@@ -1,0 +1,93 @@
+//! Holds in which the accelerometer stopped at the end of its range: their means say nothing.
+//!
+//! Where it does, the mean is off by what was cut away, always to the same side, and the scatter within the hold is too small. So these holds are known to be bad
+//! beforehand, whatever their residuals.
+
+use crate::error::{Error, NotIdentifiable};
+use crate::motion::Hold;
+use crate::sensor::{Recording, Saturation};
+
+/// The end of the range that each of these holds of a recording touches; `None` where it touches none.
+///
+/// # Examples
+/// ```
+/// use calibrant::estimate::{clipped_holds, holds_between};
+/// use calibrant::sensor::{ReadingUnit, Recording};
+/// use nalgebra::Vector3;
+///
+/// // two holds; in the second, x would show 9.8 m/s²
+/// let reading = |k: usize| {
+///     let noise = 1e-3 * (k * k % 17) as f64;
+///     let force = if k < 50 { Vector3::new(0.0, 9.8, 0.0) } else { Vector3::new(9.8, 0.0, 0.0) };
+///     let all = force + Vector3::repeat(noise);
+///     Vector3::new(all.x.min(8.0), all.y, all.z)
+/// };
+/// let recording = Recording {
+///     times_s: (0..100).map(f64::from).collect(),
+///     readings: (0..100).map(reading).collect(),
+///     axes: 3,
+///     unit: ReadingUnit::MetrePerSecondSquared,
+/// };
+/// let holds = holds_between(&recording, &[(0.0, 49.0), (50.0, 99.0)])?;
+/// let clipped = clipped_holds(&recording, &holds);
+/// assert!(clipped[0].is_none());
+/// assert_eq!(clipped[1].map(|end| (end.axis.to_string(), end.value)), Some(("x".to_owned(), 8.0)));
+/// # Ok::<(), calibrant::Error>(())
+/// ```
+#[must_use]
+pub fn clipped_holds(recording: &Recording, holds: &[Hold]) -> Vec<Option<Saturation>> {
+    let ends = recording.saturations();
+    let touched = |hold: &Hold| {
+        let readings = recording.readings.get(hold.first..hold.end)?;
+        ends.iter().find(|end| end.is_reached(readings)).copied()
+    };
+    holds.iter().map(touched).collect()
+}
+
+/// Why a hold is left out, in words.
+pub(in crate::estimate) fn reason(end: &Saturation, recording: &Recording) -> String {
+    format!(
+        "axis {} of the accelerometer saturates in it, at {} {}; record with a larger range, or tilt that axis away from the vertical there",
+        end.axis,
+        end.value,
+        recording.unit.symbol()
+    )
+}
+
+/// The same error, which came of the other holds; it says how many are missing since they are clipped.
+pub(in crate::estimate) fn with_clipped(
+    error: Error,
+    clipped: &[Option<Saturation>],
+    recording: &Recording,
+) -> Error {
+    let ends: Vec<&Saturation> = clipped.iter().flatten().collect();
+    let Some(first) = ends.first() else { return error };
+    let numbers: Vec<String> =
+        (1..).zip(clipped).filter(|(_, end)| end.is_some()).map(|(number, _)| number.to_string()).collect();
+    let stated = format!(
+        "{} of {} holds ({}) were left out since the accelerometer saturates in them, axis {} at {} {} for one",
+        ends.len(),
+        clipped.len(),
+        numbers.join(", "),
+        first.axis,
+        first.value,
+        recording.unit.symbol()
+    );
+    let help = "record with a larger range, or tilt that axis away from the vertical";
+    match error {
+        Error::NotIdentifiable(undetermined) => {
+            let mut groups = undetermined.groups;
+            for group in &mut groups {
+                group.reason = format!("{}; {stated}", group.reason);
+                group.remedy = format!("{help}; {}", group.remedy);
+            }
+            Error::NotIdentifiable(Box::new(NotIdentifiable { groups }))
+        }
+        Error::Recording(mut input_error) => {
+            input_error.message = format!("{}; {stated}", input_error.message);
+            input_error.help = format!("{help}; {}", input_error.help);
+            Error::Recording(input_error)
+        }
+        other => other,
+    }
+}

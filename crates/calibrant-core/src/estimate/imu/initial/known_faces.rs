@@ -1,0 +1,278 @@
+//! The accelerometer from holds whose directions are known: six faces on a table, a turntable, a robot.
+//!
+//! `ȳ_j = S f_j + b + ε_j` with known `f_j`: linear least squares, and no gauge, since the directions are the true frame. `ε_j` is the noise of the mean and how
+//! well the sensor was placed (`face_alignment`).
+
+use crate::error::{Error, InputError, NotIdentifiable, Result, UndeterminedGroup};
+use crate::estimate::holds::{
+    clipped_holds, clipped_reason, coarse_words, holds_between, left_out, magnitude_rms, with_clipped,
+};
+use crate::estimate::imu::checks::accelerometer_gains;
+use crate::estimate::imu::checks::wrong_faces::{self, turned_faces};
+use crate::estimate::imu::initial::accelerometer::{
+    InitialAccelerometer, inverse_covariance, noise_variance,
+};
+use crate::estimate::imu::initial::face_alignment::{Chi2, FaceAlignment, FaceScatter, align_faces};
+use crate::estimate::imu::initial::face_statistics::{chi2_of_face, face_degrees, noise_rad2};
+use crate::estimate::imu::problem::ImuProblem;
+use crate::estimate::quantisation::{coarse_axes_in, of_means};
+use crate::estimate::result::{HoldCalibration, HoldResult};
+use crate::estimate::skewed_spikes::skewed_spikes;
+use crate::estimate::uncalibrated::Uncalibrated;
+use crate::information;
+use crate::motion::Hold;
+use crate::sensor::{ParameterList, Recording, SensorKind, SensorParameters, SensorThermal};
+use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
+
+/// Faces that scatter by more than this share of gravity were not placed badly: a direction is wrong.
+const WRONG_SCATTER: f64 = 0.05;
+
+/// A face of fewer samples is a mistake of its times.
+const FEWEST_SAMPLES: usize = 10;
+
+/// Fits the accelerometer to holds of known directions.
+pub(crate) fn from_faces(
+    problem: &ImuProblem<'_>,
+    recording: &Recording,
+    directions: &[Vector3<f64>],
+) -> Result<InitialAccelerometer> {
+    let setup = &problem.setup.holds;
+    let intervals = setup.intervals_s.as_deref().unwrap_or_default();
+    if intervals.len() != directions.len() {
+        return Err(Error::experiment(InputError::new(
+            format!("{} holds are given, and {} directions", intervals.len(), directions.len()),
+            "each hold of holds.intervals_s needs one direction, in the same order",
+        )));
+    }
+    if intervals.windows(2).any(|pair| pair[1].0 < pair[0].0) {
+        return Err(Error::experiment(InputError::new(
+            "the holds are not in order of time, and each has its direction",
+            "sort holds.intervals_s together with the directions",
+        )));
+    }
+    let holds = holds_between(recording, intervals)?;
+    let forces: Vec<Vector3<f64>> =
+        directions.iter().map(|direction| direction.normalize() * setup.gravity.magnitude_mps2).collect();
+    let list = ParameterList::new(3, problem.accelerometer.model);
+    let as_read = problem.recording.accelerometer.as_ref().unwrap_or(recording);
+    let clipped = clipped_holds(as_read, &holds);
+    let sound = (0..holds.len()).filter(|&j| clipped[j].is_none());
+    let (usable, along): (Vec<Hold>, Vec<Vector3<f64>>) =
+        sound.map(|j| (holds[j].clone(), forces[j])).unzip();
+    let coarse = coarse_axes_in(as_read, &usable);
+    let (within, of_mean) = (Hold::pooled_sd(&usable), of_means(&coarse));
+    let linear = Linear { holds: &usable, forces: &along, list: &list, within, of_mean };
+    let given_rad = problem.setup.face_sd_rad;
+    let (mut sensor, alignment, condition) = match linear.solve(given_rad) {
+        Ok(solved) => solved,
+        Err(error) => {
+            if !matches!(error, Error::NotIdentifiable(_)) {
+                wrong_faces::check(problem, &holds, directions, false)?;
+            }
+            return Err(with_clipped(error, &clipped, as_read));
+        }
+    };
+    let of_tilt = alignment.contradiction().or_else(|| alignment.tilt.assumed(usable.len()));
+    sensor.matrix /= alignment.cosine();
+    let mirrored = sensor.matrix.determinant() <= 0.0;
+    let shown_rad = alignment.shown_rad.unwrap_or(alignment.scatter.tilt_rad);
+    let is_scattered =
+        shown_rad.max(alignment.scatter.along_mps2 / setup.gravity.magnitude_mps2) > WRONG_SCATTER;
+    if mirrored || is_scattered {
+        wrong_faces::check(problem, &holds, directions, mirrored)?;
+    }
+    accelerometer_gains::check(problem.accelerometer.unit, &sensor.matrix)?;
+    let turned = turned_faces(problem, &holds, &forces, &sensor.matrix);
+    let correction = sensor.matrix.try_inverse().unwrap_or_else(Matrix3::identity);
+    let results: Vec<HoldResult> = holds
+        .iter()
+        .zip(&forces)
+        .zip(&clipped)
+        .map(|((hold, force), clipped)| {
+            let off = (correction * (hold.mean - sensor.bias)).norm() - setup.gravity.magnitude_mps2;
+            let along = sensor.matrix * force.normalize();
+            let weight = linear.weight(hold, force, &sensor.matrix, &alignment.scatter);
+            HoldResult {
+                hold: hold.clone(),
+                force_mps2: *force,
+                magnitude_residual_mps2: off,
+                studentised_residual: off * along.dot(&(weight * along)).sqrt(),
+                used: clipped.is_none(),
+                reason: clipped.map(|end| clipped_reason(&end, as_read)),
+            }
+        })
+        .collect();
+    let brief: Vec<String> = holds.iter().enumerate().filter_map(|(k, hold)| brief(k, hold)).collect();
+    let scattered = is_scattered
+        .then(|| scattered(&results, &sensor, &correction, (shown_rad, alignment.scatter.along_mps2)));
+    let holds = HoldCalibration {
+        magnitude_residual_rms_mps2: magnitude_rms(&results),
+        degrees_of_freedom: alignment.along_degrees,
+        holds: results,
+        gravity: setup.gravity,
+        gauge: setup.gauge,
+        between_holds_sd_mps2: alignment.scatter.along_mps2,
+        between_holds_dominates: alignment.scatter.along_mps2 > 0.0,
+        tilt: Some(alignment.tilt),
+        condition_number: condition,
+        detected: false,
+        before: Uncalibrated::accelerometer(problem.accelerometer, &sensor),
+        change: None,
+    };
+    Ok(InitialAccelerometer {
+        sensor,
+        alignment: Some(alignment),
+        within,
+        of_mean,
+        warnings: turned
+            .into_iter()
+            .chain(setup.gravity.elsewhere())
+            .chain(left_out(&holds))
+            .chain(brief)
+            .chain(scattered)
+            .chain(of_tilt)
+            .chain(coarse_words(&coarse, as_read))
+            .chain(skewed_spikes(recording, SensorKind::Accelerometer, &usable))
+            .collect(),
+        holds,
+        thermal: SensorThermal::default(),
+        adjusted: None,
+    })
+}
+
+/// What is to be said of a face that is hardly there.
+fn brief(number: usize, hold: &Hold) -> Option<String> {
+    (hold.samples() < FEWEST_SAMPLES).then(|| {
+        let (named, samples) = (hold.named(number), hold.samples());
+        format!("{named} has {samples} samples only: are its times right? A face is held for seconds")
+    })
+}
+
+/// The faces that fit least, of faces that scatter too much: both of an axis, where only these tell its direction.
+fn scattered(
+    results: &[HoldResult],
+    sensor: &SensorParameters,
+    correction: &Matrix3<f64>,
+    (tilt_rad, along_mps2): (f64, f64),
+) -> String {
+    let used = || results.iter().enumerate().filter(|(_, result)| result.used);
+    let off: Vec<f64> = results
+        .iter()
+        .map(|result| (correction * (result.hold.mean - sensor.bias)).angle(&result.force_mps2))
+        .collect();
+    let most = used().map(|(k, _)| off[k]).fold(0.0, f64::max);
+    let worst: Vec<String> =
+        used().filter(|(k, _)| off[*k] > 0.8 * most).map(|(k, result)| result.hold.named(k)).collect();
+    format!(
+        "the faces scatter by {:.1}° and {:.2} m/s² along gravity beyond their noise; by {:.1}° and least of all fits {}: are directions and times of the holds right?",
+        tilt_rad.to_degrees(),
+        along_mps2,
+        most.to_degrees(),
+        worst.join(", or ")
+    )
+}
+
+struct Linear<'a> {
+    holds: &'a [Hold],
+    forces: &'a [Vector3<f64>],
+    list: &'a ParameterList,
+    within: Vector3<f64>,
+    of_mean: Vector3<f64>,
+}
+
+impl Linear<'_> {
+    /// The sensor, how the faces were met, and the condition number of the scaled information.
+    fn solve(&self, given_rad: Option<f64>) -> Result<(SensorParameters, FaceAlignment, f64)> {
+        let (one, none) = (Matrix3::identity(), FaceScatter::default());
+        let (f, _) = self.normal(&one, &none);
+        let groups = information::undetermined(&f, &f.diagonal());
+        if !groups.is_empty() {
+            return Err(Error::NotIdentifiable(Box::new(self.undetermined(&groups))));
+        }
+        let size = self.list.len();
+        let scaled = DMatrix::from_fn(size, size, |i, j| f[(i, j)] / (f[(i, i)] * f[(j, j)]).sqrt());
+        let eigenvalues = scaled.symmetric_eigenvalues();
+        let condition = eigenvalues.max() / eigenvalues.min().max(f64::MIN_POSITIVE);
+        let singular = || {
+            Error::recording(InputError::new(
+                "the fit of the faces breaks down",
+                "check the directions of the holds and the unit of the recording",
+            ))
+        };
+        let rough = self.fit(&one, &none).ok_or_else(singular)?.matrix;
+        let degrees = face_degrees(self.forces, self.list.quantities(), 0);
+        let gravity = self.forces.first().map_or(0.0, Vector3::norm);
+        let weights =
+            self.holds.iter().zip(self.forces).map(|(hold, force)| self.weight(hold, force, &rough, &none));
+        let noise = noise_rad2(weights, &rough, gravity);
+        let (alignment, sensor) = align_faces(degrees, given_rad, (gravity, noise), |scatter| {
+            let sensor = self.fit(&rough, scatter)?;
+            Some((self.chi2(&sensor, &rough, scatter)?, sensor))
+        })
+        .ok_or_else(singular)?;
+        Ok((sensor, alignment, condition))
+    }
+
+    fn weight(
+        &self,
+        hold: &Hold,
+        force: &Vector3<f64>,
+        s: &Matrix3<f64>,
+        scatter: &FaceScatter,
+    ) -> Matrix3<f64> {
+        inverse_covariance(&noise_variance(hold, &self.within, &self.of_mean), s, &scatter.covariance(force))
+    }
+
+    fn normal(&self, s: &Matrix3<f64>, scatter: &FaceScatter) -> (DMatrix<f64>, DVector<f64>) {
+        let size = self.list.len();
+        let (mut f, mut g) = (DMatrix::zeros(size, size), DVector::zeros(size));
+        for (hold, force) in self.holds.iter().zip(self.forces) {
+            let weight = self.weight(hold, force, s, scatter);
+            let columns: Vec<Vector3<f64>> =
+                self.list.quantities().iter().map(|quantity| quantity.derivative(force)).collect();
+            for i in 0..size {
+                let weighted = weight * columns[i];
+                g[i] += weighted.dot(&hold.mean);
+                for j in 0..size {
+                    f[(i, j)] += weighted.dot(&columns[j]);
+                }
+            }
+        }
+        (f, g)
+    }
+
+    fn fit(&self, s: &Matrix3<f64>, scatter: &FaceScatter) -> Option<SensorParameters> {
+        let (f, g) = self.normal(s, scatter);
+        let values = information::covariance(&f)? * g;
+        let mut sensor = SensorParameters { bias: Vector3::zeros(), matrix: Matrix3::zeros() };
+        for (quantity, value) in self.list.quantities().iter().zip(values.iter()) {
+            quantity.add_to(&mut sensor, *value);
+        }
+        Some(sensor)
+    }
+
+    fn chi2(&self, sensor: &SensorParameters, s: &Matrix3<f64>, scatter: &FaceScatter) -> Option<Chi2> {
+        let of = |(hold, force): (&Hold, &Vector3<f64>)| {
+            let weight = self.weight(hold, force, s, scatter);
+            chi2_of_face(&(hold.mean - sensor.reading(force)), s, force, &weight)
+        };
+        self.holds.iter().zip(self.forces).map(of).try_fold(Chi2 { along: 0.0, all: 0.0 }, |sum, of| {
+            let of = of?;
+            Some(Chi2 { along: sum.along + of.along, all: sum.all + of.all })
+        })
+    }
+
+    fn undetermined(&self, groups: &[information::Undetermined]) -> NotIdentifiable {
+        let names = self.list.names();
+        let groups = groups
+            .iter()
+            .map(|group| UndeterminedGroup {
+                parameters: group.parameters.iter().map(|&k| format!("accelerometer.{}", names[k])).collect(),
+                free_combinations: group.free_combinations,
+                reason: format!("the {} directions do not span all axes, up and down", self.holds.len()),
+                remedy: "hold each axis up and down: six faces".into(),
+            })
+            .collect();
+        NotIdentifiable { groups }
+    }
+}

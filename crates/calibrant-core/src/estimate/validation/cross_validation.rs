@@ -1,0 +1,198 @@
+//! A calibration tried on its own holds, each block predicted by a calibration without it.
+
+use super::caveats_of_calibration::Caveats;
+use super::folds::{Block, blocks, sorted};
+use super::inputs::{of_holds, singular, temperatures};
+use super::judgement::judged;
+use super::prediction::Prediction;
+use super::prediction_errors::{Errors, Unused};
+use super::{Validation, ValidationSource};
+use crate::error::{Error, InputError, Result};
+use crate::estimate::imu::recordings;
+use crate::estimate::{
+    Calibration, CalibrationProblem, CalibrationSettings, CalibrationStatus, HoldCalibration, HoldsSetup,
+    ImuCalibration, ImuProblem, ImuSetup, Stimulus, calibrate, calibrate_imu,
+};
+use crate::motion::Hold;
+use crate::sensor::ImuRecording;
+use rayon::prelude::*;
+
+/// Leaves out each of so many contiguous blocks of the holds that the calibration of an IMU used, and predicts it from the others.
+///
+/// # Errors
+/// [`Error::Experiment`](crate::Error::Experiment) for a number of folds below 2 or above that of the used holds, where the directions of the holds are known;
+/// [`Error::Recording`](crate::Error::Recording) where no block can be predicted from the others (it says why). A single block that cannot is in the result.
+pub fn cross_validate_imu(
+    calibration: &ImuCalibration,
+    problem: &ImuProblem<'_>,
+    settings: &CalibrationSettings,
+    folds: usize,
+) -> Result<Validation> {
+    cross_validated_imu(calibration, problem, settings, folds, &|_| ())
+}
+
+/// The same; the tests tamper with what each calibration claims.
+fn cross_validated_imu(
+    calibration: &ImuCalibration,
+    problem: &ImuProblem<'_>,
+    settings: &CalibrationSettings,
+    folds: usize,
+    tamper: &(dyn Fn(&mut ImuCalibration) + Sync),
+) -> Result<Validation> {
+    if problem.setup.directions.is_some() {
+        return Err(Error::experiment(InputError::new(
+            "folds say nothing where the directions of the holds are known: a face that is left out shows how well the sensor was placed on it",
+            "validate on another recording, with holds in any orientation",
+        )));
+    }
+    let (accelerometer, gyroscope) = recordings(problem)?;
+    let train = |block: &Block| {
+        let setup = without(block, problem.setup);
+        let recording = ImuRecording { gyroscope: Some(block.cut(gyroscope)), ..problem.recording.clone() };
+        let problem = ImuProblem { recording: &recording, setup: &setup, ..*problem };
+        let mut trained = calibrate_imu(&problem, settings)?;
+        converged(trained.status)?;
+        tamper(&mut trained);
+        // noise is that of all holds
+        let still_noise = calibration.still.noise;
+        Ok(Prediction { still_noise, ..Prediction::of_imu(&trained, &setup) })
+    };
+    let all: Vec<Hold> = calibration.holds.holds.iter().map(|result| result.hold.clone()).collect();
+    let data = Unused {
+        gyroscope: Some(gyroscope),
+        temperatures: temperatures(calibration, problem)?,
+        ..Unused::of_accelerometer(accelerometer, &all)
+    };
+    crossed(&calibration.holds, folds, &data, &Caveats::of_imu(calibration), &train)
+}
+
+/// Leaves out each of so many contiguous blocks of the holds that the calibration of an accelerometer used, and predicts it from the others.
+///
+/// # Errors
+/// As [`cross_validate_imu`]; [`Error::Experiment`](crate::Error::Experiment) for a calibration that is not from holds.
+pub fn cross_validate(
+    calibration: &Calibration,
+    problem: &CalibrationProblem<'_>,
+    settings: &CalibrationSettings,
+    folds: usize,
+) -> Result<Validation> {
+    let (setup, found) = of_holds(calibration, problem)?;
+    let list = setup.gauge.parameter_list(problem.sensor.model);
+    let train = |block: &Block| {
+        let setup = HoldsSetup { intervals_s: Some(block.others.clone()), ..setup.clone() };
+        let problem = CalibrationProblem { stimulus: Stimulus::Holds(&setup), ..*problem };
+        let trained = calibrate(&problem, settings)?;
+        converged(trained.status)?;
+        let (_, found) = of_holds(&trained, &problem)?;
+        Ok(Prediction::of_accelerometer(&trained, found, &list, &setup.gravity))
+    };
+    let all: Vec<Hold> = found.holds.iter().map(|result| result.hold.clone()).collect();
+    let data = Unused::of_accelerometer(problem.recording, &all);
+    crossed(found, folds, &data, &Caveats::of_holds(found), &train)
+}
+
+/// The errors of each block by the claim without it.
+fn crossed(
+    found: &HoldCalibration,
+    folds: usize,
+    data: &Unused<'_>,
+    caveats: &Caveats,
+    train: &(dyn Fn(&Block) -> Result<Prediction> + Sync),
+) -> Result<Validation> {
+    let used: Vec<(usize, &Hold)> =
+        data.holds.iter().copied().filter(|(number, _)| found.holds[*number].used).collect();
+    let holds: Vec<&Hold> = used.iter().map(|(_, hold)| *hold).collect();
+    let blocks = blocks(&holds, folds)?;
+    let outcomes: Vec<Result<(Prediction, Errors)>> = blocks
+        .par_iter()
+        .enumerate()
+        .map(|(fold, block)| {
+            let prediction = train(block)?;
+            let unused = Unused { holds: used[block.places.clone()].to_vec(), fold, ..data.clone() };
+            let errors = unused.errors(&prediction).ok_or_else(singular)?;
+            Ok((prediction, errors))
+        })
+        .collect();
+    let numbers: Vec<usize> = used.iter().map(|(number, _)| *number).collect();
+    let (done, failed) = sorted(&blocks, &numbers, outcomes)?;
+    let (predictions, errors): (Vec<Prediction>, Vec<Errors>) = done.into_iter().unzip();
+    let Some(prediction) = predictions.last() else { return Err(singular()) };
+    Ok(judged(ValidationSource::Folds { folds, failed }, errors, prediction, caveats))
+}
+
+/// What is known of the recording, without a block of its holds.
+fn without(block: &Block, setup: &ImuSetup) -> ImuSetup {
+    let mut setup = setup.clone();
+    setup.holds.intervals_s = Some(block.others.clone());
+    setup.turns.retain(|turn| !block.touches(turn.start_s, turn.end_s));
+    setup
+}
+
+fn converged(status: CalibrationStatus) -> Result<()> {
+    if status == CalibrationStatus::Converged {
+        return Ok(());
+    }
+    Err(Error::recording(InputError::new(format!("the estimation did not converge ({})", status.name()), "")))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::estimate::{CovarianceVerdict, ErrorKind, Gyroscope};
+    use crate::sensor::{ImuParameters, Sensor, SensorModel};
+    use crate::simulate::{ImuSimulation, Purpose, simulate_imu, stream};
+    use nalgebra::Vector3;
+
+    /// Gyroscope's and accelerometer's noise twice as large as the calibrations of the folds believe.
+    #[test]
+    fn standard_deviations_that_are_half_of_what_they_should_be_are_found_by_folds() {
+        let (accelerometer, gyroscope) = (Sensor::triaxial(SensorModel::Full), Gyroscope::default());
+        let mut found = [0; 2];
+        let count = 20;
+        for number in 0..count {
+            let mut rng = stream(31, Purpose::Sensor, number);
+            let simulation = ImuSimulation { poses: 36, ..ImuSimulation::default() };
+            let mut recording = simulate_imu(&ImuParameters::identity(), &simulation, &mut rng);
+            // a disturbance of each hold
+            let noise = simulate_imu(&ImuParameters::identity(), &simulation, &mut rng);
+            let (Some(one), Some(other)) = (&mut recording.accelerometer, &noise.accelerometer) else {
+                continue;
+            };
+            let pushes: Vec<Vector3<f64>> =
+                (0..36).map(|k| other.readings[k * 450] - other.readings[k * 450 + 1]).collect();
+            for (t, y) in one.times_s.iter().zip(&mut one.readings) {
+                *y += pushes[(t / 4.5) as usize] * 0.2;
+            }
+            let intervals: Vec<(f64, f64)> =
+                (0..36).map(|k| 4.5 * f64::from(k)).map(|t| (t + 0.02, t + 2.48)).collect();
+            let setup = ImuSetup {
+                holds: HoldsSetup { intervals_s: Some(intervals), ..HoldsSetup::default() },
+                ..ImuSetup::default()
+            };
+            let problem = ImuProblem {
+                accelerometer: &accelerometer,
+                gyroscope: &gyroscope,
+                recording: &recording,
+                setup: &setup,
+            };
+            let settings = CalibrationSettings::default();
+            let whole = calibrate_imu(&problem, &settings).expect("determined");
+            let halved = |calibration: &mut ImuCalibration| {
+                calibration.covariance *= 0.25;
+                calibration.holds.between_holds_sd_mps2 *= 0.5;
+            };
+            for (k, validation) in [
+                cross_validated_imu(&whole, &problem, &settings, 6, &|_| ()),
+                cross_validated_imu(&whole, &problem, &settings, 6, &halved),
+            ]
+            .into_iter()
+            .enumerate()
+            {
+                let validation = validation.expect("determined");
+                let errors = validation.of_kind(ErrorKind::Magnitude).expect("holds");
+                found[k] += u64::from(errors.verdict == CovarianceVerdict::TooSmall);
+            }
+        }
+        assert!(found[0] <= 1 && found[1] >= count - 1, "{found:?} of {count}");
+    }
+}

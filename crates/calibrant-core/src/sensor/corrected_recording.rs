@@ -1,0 +1,26 @@
+//! A recording after its correction.
+
+use super::WithoutForce;
+use nalgebra::Vector3;
+
+/// A corrected recording of an IMU.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct CorrectedRecording<'a> {
+    /// Specific force, m/s².
+    pub accelerometer: Option<CorrectedSensor<'a>>,
+    /// Angular rate, rad/s.
+    pub gyroscope: Option<CorrectedSensor<'a>>,
+    /// Where the accelerometer has no data to correct the g-sensitivity with; `None` where it has some at every sample of the gyroscope, or they are not needed.
+    pub without_force: Option<WithoutForce>,
+}
+
+/// Corrected readings of one sensor over time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CorrectedSensor<'a> {
+    /// Sample times, s: those of the recording.
+    pub times_s: &'a [f64],
+    /// Corrected readings, in the sensor's SI unit.
+    pub values: Vec<Vector3<f64>>,
+    /// Standard uncertainty of the correction at each; `None` where the calibration has no covariance of this sensor.
+    pub sd: Option<Vec<Vector3<f64>>>,
+}

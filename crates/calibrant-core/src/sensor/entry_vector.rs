@@ -1,0 +1,201 @@
+//! The entries of an IMU's model as one vector: biases, matrices, g-sensitivity and temperature terms, whichever of them were estimated.
+//!
+//! `b_a` (3), `S_a` row by row (9), `b_g` (3), `S_g` (9), `Γ` (9); then for each sensor `b_1`, `b_2`, `k_1`, `k_2` (3 each). Derivatives of what is computed from an IMU are taken with respect to these, and a
+//! covariance of any list of quantities becomes one of the entries.
+
+use super::{
+    Axis, CalibratedImu, HIGHEST_ORDER, ImuParameters, ImuQuantity, Quantity, SensorKind, SensorParameters,
+    SensorThermal, Thermal, ThermalPart,
+};
+use nalgebra::{DMatrix, Matrix3, SMatrix, SVector, Vector3};
+
+/// Number of entries.
+pub(crate) const ENTRIES: usize = AT_REFERENCE + 2 * THERMAL_OF_SENSOR;
+
+/// Number of those that do not speak of temperature; they come first.
+pub(crate) const AT_REFERENCE: usize = 33;
+
+/// Number of temperature terms of one sensor.
+const THERMAL_OF_SENSOR: usize = 2 * 3 * HIGHEST_ORDER;
+
+/// A value for each entry.
+pub(super) type EntryVector = SVector<f64, ENTRIES>;
+
+/// A matrix over the entries.
+pub(super) type EntryMatrix = SMatrix<f64, ENTRIES, ENTRIES>;
+
+/// Place of the bias of an axis.
+pub(super) fn bias(sensor_kind: SensorKind, axis: usize) -> usize {
+    first(sensor_kind) + axis
+}
+
+/// Place of an entry of a sensor's matrix.
+pub(super) fn matrix(sensor_kind: SensorKind, row: usize, column: usize) -> usize {
+    first(sensor_kind) + 3 + 3 * row + column
+}
+
+/// Place of an entry of `Γ`.
+pub(super) fn g_sensitivity(row: usize, column: usize) -> usize {
+    24 + 3 * row + column
+}
+
+/// Place of a temperature term.
+pub(super) fn thermal(sensor_kind: SensorKind, part: ThermalPart, order: usize, axis: usize) -> usize {
+    let of_sensor = match sensor_kind {
+        SensorKind::Accelerometer => 0,
+        SensorKind::Gyroscope => THERMAL_OF_SENSOR,
+    };
+    let of_part = match part {
+        ThermalPart::Bias => 0,
+        ThermalPart::Scale => 3 * HIGHEST_ORDER,
+    };
+    AT_REFERENCE + of_sensor + of_part + 3 * (order - 1) + axis
+}
+
+fn first(sensor_kind: SensorKind) -> usize {
+    match sensor_kind {
+        SensorKind::Accelerometer => 0,
+        SensorKind::Gyroscope => 12,
+    }
+}
+
+/// The entries of an IMU.
+pub(super) fn from_parameters(imu: &ImuParameters) -> EntryVector {
+    let mut entries = EntryVector::zeros();
+    for sensor_kind in SensorKind::ALL {
+        let sensor = imu.sensor(sensor_kind);
+        for row in 0..3 {
+            entries[bias(sensor_kind, row)] = sensor.bias[row];
+            for column in 0..3 {
+                entries[matrix(sensor_kind, row, column)] = sensor.matrix[(row, column)];
+            }
+        }
+    }
+    for row in 0..3 {
+        for column in 0..3 {
+            entries[g_sensitivity(row, column)] = imu.g_sensitivity[(row, column)];
+        }
+    }
+    for sensor_kind in SensorKind::ALL {
+        let terms = imu.thermal.sensor(sensor_kind);
+        for order in 1..=HIGHEST_ORDER {
+            for axis in 0..3 {
+                entries[thermal(sensor_kind, ThermalPart::Bias, order, axis)] = terms.bias[order - 1][axis];
+                entries[thermal(sensor_kind, ThermalPart::Scale, order, axis)] = terms.scale[order - 1][axis];
+            }
+        }
+    }
+    entries
+}
+
+/// An IMU of these entries: the inverse of [`of`], which does not know the reference temperature.
+pub(super) fn to_imu(entries: &EntryVector) -> ImuParameters {
+    let sensor = |sensor_kind| SensorParameters {
+        bias: Vector3::from_fn(|row, _| entries[bias(sensor_kind, row)]),
+        matrix: Matrix3::from_fn(|row, column| entries[matrix(sensor_kind, row, column)]),
+    };
+    let sensor_thermal = |sensor_kind| {
+        let of = |part| {
+            std::array::from_fn(|m| {
+                Vector3::from_fn(|axis, _| entries[thermal(sensor_kind, part, m + 1, axis)])
+            })
+        };
+        SensorThermal { bias: of(ThermalPart::Bias), scale: of(ThermalPart::Scale) }
+    };
+    ImuParameters {
+        accelerometer: sensor(SensorKind::Accelerometer),
+        gyroscope: sensor(SensorKind::Gyroscope),
+        g_sensitivity: Matrix3::from_fn(|row, column| entries[g_sensitivity(row, column)]),
+        thermal: Thermal {
+            accelerometer: sensor_thermal(SensorKind::Accelerometer),
+            gyroscope: sensor_thermal(SensorKind::Gyroscope),
+            ..Thermal::none()
+        },
+    }
+}
+
+/// What one unit of a quantity adds to the entries.
+pub(super) fn of_quantity(quantity: ImuQuantity) -> EntryVector {
+    let mut imu = to_imu(&EntryVector::zeros());
+    quantity.add_to(&mut imu, 1.0);
+    from_parameters(&imu)
+}
+
+/// A quantity for each entry, though in another order.
+pub(super) fn all_quantities() -> Vec<ImuQuantity> {
+    let mut all = ImuQuantity::full_list(true, true, true);
+    all.extend(ImuQuantity::all_thermal(true, true));
+    all
+}
+
+/// Covariance of the entries of an IMU, zero where they are known exactly; `None` where the IMU has no covariance.
+pub(super) fn covariance(imu: &CalibratedImu) -> Option<EntryMatrix> {
+    let sigma = imu.covariance.as_ref()?;
+    let embedding: Vec<_> = imu.quantities.iter().map(|&quantity| of_quantity(quantity)).collect();
+    let embedding = DMatrix::from_fn(ENTRIES, embedding.len(), |entry, k| embedding[k][entry]);
+    let entries = &embedding * sigma * embedding.transpose();
+    Some(EntryMatrix::from_fn(|i, j| 0.5 * (entries[(i, j)] + entries[(j, i)])))
+}
+
+impl ImuQuantity {
+    /// Every quantity of a full model, in the order of a result: bias, scale factors and cross-axis sensitivities of each sensor that is there, then
+    /// the g-sensitivity.
+    #[must_use]
+    pub fn full_list(accelerometer: bool, gyroscope: bool, g_sensitivity: bool) -> Vec<Self> {
+        let mut list = Vec::new();
+        for (sensor_kind, there) in
+            [(SensorKind::Accelerometer, accelerometer), (SensorKind::Gyroscope, gyroscope)]
+        {
+            if there {
+                list.extend(Axis::ALL.map(|axis| Self::Of(sensor_kind, Quantity::Bias(axis))));
+                list.extend(Axis::ALL.map(|axis| Self::Of(sensor_kind, Quantity::Scale(axis))));
+                let pairs = Axis::ALL.into_iter().flat_map(|row| Axis::ALL.map(|column| (row, column)));
+                list.extend(
+                    pairs
+                        .filter(|(row, column)| row != column)
+                        .map(|(row, column)| Self::Of(sensor_kind, Quantity::CrossAxis(row, column))),
+                );
+            }
+        }
+        if g_sensitivity {
+            let pairs = Axis::ALL.into_iter().flat_map(|row| Axis::ALL.map(|column| (row, column)));
+            list.extend(pairs.map(|(row, column)| Self::GSensitivity(row, column)));
+        }
+        list
+    }
+
+    /// Is it an entry of a matrix (its diagonal or another), not a bias?
+    #[must_use]
+    pub(super) fn in_matrix_of(self, sensor_kind: SensorKind) -> bool {
+        matches!(self, Self::Of(of, quantity) if of == sensor_kind && !matches!(quantity, Quantity::Bias(_)))
+    }
+}
+
+/// Derivative of the entries of an IMU after a change with respect to those before, of which `linear` is the effect of a small step.
+pub(super) fn jacobian(linear: impl Fn(&ImuParameters) -> ImuParameters) -> EntryMatrix {
+    let mut jacobian = EntryMatrix::zeros();
+    for entry in 0..ENTRIES {
+        let mut step = EntryVector::zeros();
+        step[entry] = 1.0;
+        jacobian.set_column(entry, &from_parameters(&linear(&to_imu(&step))));
+    }
+    jacobian
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn entries_go_there_and_back_and_every_quantity_has_its_place() {
+        let entries = EntryVector::from_fn(|k, _| k as f64 + 1.0);
+        assert_eq!(from_parameters(&to_imu(&entries)), entries);
+        let imu = to_imu(&entries);
+        let all = all_quantities();
+        for quantity in &all {
+            assert_eq!(of_quantity(*quantity).dot(&entries), quantity.value(&imu), "{}", quantity.name());
+        }
+        assert_eq!(ImuQuantity::full_list(true, true, true).len(), AT_REFERENCE);
+        assert_eq!(all.len(), ENTRIES);
+    }
+}

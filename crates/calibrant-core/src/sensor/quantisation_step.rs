@@ -1,0 +1,73 @@
+//! The step in which a sensor's readings come.
+
+use super::{Recording, lesser};
+use nalgebra::Vector3;
+
+/// Steps up to so many times the smallest one are looked at: larger ones say little.
+const LARGEST_MULTIPLE: f64 = 8.0;
+/// They are multiples of it if this share of them is within a fifth of one; where readings are not rounded, two in five are by chance.
+const MULTIPLES: f64 = 0.95;
+/// A step is a multiple of the smallest within this share of it.
+const MULTIPLE_TOLERANCE: f64 = 0.2;
+/// Fewer steps tell nothing.
+const FEWEST_STEPS: usize = 8;
+/// More changes than this tell no more: steps that matter are seen in every few of them.
+const MOST_STEPS: usize = 8192;
+
+impl Recording {
+    /// The step of which the readings of each axis are multiples, in their unit; 0 where there is none.
+    ///
+    /// It is the smallest change from one sample to the next, if the other small changes are multiples of it; of a long recording, some thousands spread evenly over it are looked at.
+    #[must_use]
+    pub fn resolution(&self) -> Vector3<f64> {
+        let every = (self.len() / MOST_STEPS).max(1);
+        let changes = || {
+            let pairs = self.readings.windows(2).step_by(every);
+            // no branch: that would be taken at random
+            pairs.map(|pair| {
+                (pair[1] - pair[0]).abs().map(|step| if step > 0.0 { step } else { f64::INFINITY })
+            })
+        };
+        let smallest =
+            changes().fold(Vector3::repeat(f64::INFINITY), |least, step| least.zip_map(&step, lesser));
+        let (mut near, mut multiples) = ([0_usize; 3], [0_usize; 3]);
+        for step in changes() {
+            for axis in 0..3 {
+                let ratio = step[axis] / smallest[axis];
+                if ratio < LARGEST_MULTIPLE {
+                    near[axis] += 1;
+                    multiples[axis] +=
+                        usize::from((ratio - f64::from((ratio + 0.5) as i32)).abs() < MULTIPLE_TOLERANCE);
+                }
+            }
+        }
+        Vector3::from_fn(|axis, _| {
+            let enough =
+                near[axis] >= FEWEST_STEPS && multiples[axis] as f64 >= MULTIPLES * near[axis] as f64;
+            if enough { smallest[axis] } else { 0.0 }
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sensor::ReadingUnit;
+
+    #[test]
+    fn readings_that_are_rounded_have_a_step_and_others_have_none() {
+        let wave =
+            |k: usize, axis: f64| (0.37 * (k as f64).powf(1.1) + axis).sin() + 0.2 * (1.7 * k as f64).cos();
+        let rounded = |y: f64, step: f64| (y / step).round() * step;
+        let readings =
+            |k| Vector3::new(rounded(wave(k, 0.0), 0.01), wave(k, 1.0), rounded(wave(k, 2.0), 1.0 / 16.4));
+        let recording = Recording {
+            times_s: (0..2000).map(f64::from).collect(),
+            readings: (0..2000).map(readings).collect(),
+            axes: 3,
+            unit: ReadingUnit::RadianPerSecond,
+        };
+        let found = recording.resolution();
+        assert!((found - Vector3::new(0.01, 0.0, 1.0 / 16.4)).amax() < 1e-12, "{found}");
+    }
+}

@@ -1,0 +1,297 @@
+//! A calibration referred to another temperature: the same polynomials about another `T₀`, the covariance with them.
+//!
+//! With `d = T₀' − T₀`: `b' = b + b_1 d + b_2 d²`, `b_1' = b_1 + 2 b_2 d`, `b_2' = b_2`; and with `c = 1 + k_1 d + k_2 d²`: `S' = diag(c) S`,
+//! `k_1' = (k_1 + 2 k_2 d)/c`, `k_2' = k_2/c`. Readings stay the same at every temperature.
+
+use super::entry_vector::{self, EntryMatrix};
+use super::{
+    Axis, CalibratedImu, Gauge, ImuParameters, ImuQuantity, Quantity, SensorKind, Thermal, ThermalPart,
+};
+use crate::error::{Error, InputError, Result};
+use nalgebra::{DMatrix, Matrix3, Vector3};
+
+/// A matrix is symmetric where no entry differs from its counterpart by more than this share of the largest.
+const SYMMETRIC: f64 = 1e-12;
+
+/// The parameters about another reference, and how they depend on those before.
+struct Referred {
+    before: ImuParameters,
+    after: ImuParameters,
+    change_k: f64,
+}
+
+impl Referred {
+    fn new(imu: &ImuParameters, reference_c: f64) -> Result<Self> {
+        let change_k = imu.thermal.tau_k(reference_c);
+        let mut after = *imu;
+        after.thermal.reference_c = reference_c;
+        for sensor_kind in SensorKind::ALL {
+            let factor = imu.thermal.sensor(sensor_kind).gain_factor(change_k);
+            if !(factor.min() > 0.0 && factor.iter().all(|c| c.is_finite())) {
+                return Err(Error::experiment(InputError::new(
+                    format!("at {reference_c} °C the polynomial of the {sensor_kind}'s gain is not positive"),
+                    "choose a temperature within the range of the calibration",
+                )));
+            }
+            let sensor = after.sensor_mut(sensor_kind);
+            sensor.bias += imu.thermal.sensor(sensor_kind).bias_change(change_k);
+            sensor.matrix = Matrix3::from_diagonal(&factor) * sensor.matrix;
+            let terms = after.thermal.sensor_mut(sensor_kind);
+            let second = terms.bias[1];
+            terms.bias[0] += second * (2.0 * change_k);
+            let second = terms.scale[1];
+            terms.scale[0] = (terms.scale[0] + second * (2.0 * change_k)).component_div(&factor);
+            terms.scale[1] = second.component_div(&factor);
+        }
+        Ok(Self { before: *imu, after, change_k })
+    }
+
+    /// What a small step of the entries becomes.
+    fn step(&self, step: &ImuParameters) -> ImuParameters {
+        let d = self.change_k;
+        let mut out = *step;
+        for sensor_kind in SensorKind::ALL {
+            let (terms, by) = (self.before.thermal.sensor(sensor_kind), step.thermal.sensor(sensor_kind));
+            let factor = terms.gain_factor(d);
+            let by_factor = by.scale[0] * d + by.scale[1] * (d * d);
+            let sensor = out.sensor_mut(sensor_kind);
+            sensor.bias += by.bias_change(d);
+            sensor.matrix = Matrix3::from_diagonal(&factor) * step.sensor(sensor_kind).matrix
+                + Matrix3::from_diagonal(&by_factor) * self.before.sensor(sensor_kind).matrix;
+            let after = *self.after.thermal.sensor(sensor_kind);
+            let quotient = |by_term: Vector3<f64>, term: Vector3<f64>| {
+                (by_term - term.component_mul(&by_factor)).component_div(&factor)
+            };
+            let changed = out.thermal.sensor_mut(sensor_kind);
+            changed.bias[0] = by.bias[0] + by.bias[1] * (2.0 * d);
+            changed.scale[0] = quotient(by.scale[0] + by.scale[1] * (2.0 * d), after.scale[0]);
+            changed.scale[1] = quotient(by.scale[1], after.scale[1]);
+        }
+        out
+    }
+
+    /// Derivative of the entries after with respect to those before.
+    fn jacobian(&self) -> EntryMatrix {
+        entry_vector::jacobian(|step| self.step(step))
+    }
+}
+
+impl CalibratedImu {
+    /// Does temperature do anything to it, in its values or in what its covariance speaks of?
+    #[must_use]
+    pub fn follows_temperature(&self) -> bool {
+        let thermal = |quantity: &ImuQuantity| matches!(quantity, ImuQuantity::Thermal(..));
+        !self.parameters.thermal.is_none() || self.quantities.iter().any(thermal)
+    }
+
+    /// The same IMU with its temperature terms about another reference, its covariance carried along to first order.
+    ///
+    /// # Errors
+    /// [`Error::Experiment`] where the polynomial of a gain is not positive there.
+    ///
+    /// # Examples
+    /// ```
+    /// use calibrant::sensor::{CalibratedImu, ImuParameters, ImuQuantity, ReadingUnit};
+    /// let mut parameters = ImuParameters::identity();
+    /// parameters.thermal.reference_c = 20.0;
+    /// parameters.thermal.accelerometer.bias = [[0.01, 0.0, 0.0].into(), [0.001, 0.0, 0.0].into()];
+    /// let imu = CalibratedImu {
+    ///     parameters,
+    ///     accelerometer_unit: Some(ReadingUnit::MetrePerSecondSquared),
+    ///     gyroscope_unit: None,
+    ///     quantities: vec![],
+    ///     covariance: None,
+    ///     frame: String::new(),
+    /// };
+    /// let warm = imu.at_reference_temperature(30.0)?.parameters;
+    /// assert!((warm.accelerometer.bias.x - 0.2).abs() < 1e-15);
+    /// assert!((warm.thermal.accelerometer.bias[0].x - 0.03).abs() < 1e-15);
+    /// # Ok::<(), calibrant::Error>(())
+    /// ```
+    pub fn at_reference_temperature(&self, reference_c: f64) -> Result<Self> {
+        if self.parameters.thermal.reference_c == reference_c {
+            return Ok(self.clone());
+        }
+        let referred = Referred::new(&self.parameters, reference_c)?;
+        let jacobian = referred.jacobian();
+        let quantities = self.referred_quantities(&jacobian);
+        let covariance = entry_vector::covariance(self).map(|sigma| {
+            let sigma = jacobian * sigma * jacobian.transpose();
+            let place: Vec<usize> =
+                quantities.iter().map(|&quantity| entry_vector::of_quantity(quantity).imax()).collect();
+            DMatrix::from_fn(place.len(), place.len(), |i, j| {
+                0.5 * (sigma[(place[i], place[j])] + sigma[(place[j], place[i])])
+            })
+        });
+        let frame = self.referred_frame(&referred.after);
+        Ok(Self { parameters: referred.after, quantities, covariance, frame, ..*self })
+    }
+
+    /// The true frame in words. One that a symmetric matrix fixes stays where it is, but gains that follow temperature leave the matrix symmetric only at the
+    /// reference at which it was: that is then said.
+    fn referred_frame(&self, after: &ImuParameters) -> String {
+        let symmetric = |imu: &ImuParameters| {
+            let matrix = imu.sensor(self.reference()).matrix;
+            (matrix - matrix.transpose()).amax() <= SYMMETRIC * matrix.amax()
+        };
+        let at = format!(" at {} °C", self.parameters.thermal.reference_c);
+        let no_longer = symmetric(&self.parameters) && !symmetric(after);
+        if no_longer && self.frame.contains(Gauge::Symmetric.name()) && !self.frame.ends_with(&at) {
+            return self.frame.clone() + &at;
+        }
+        self.frame.clone()
+    }
+
+    /// The IMU as it is at one temperature, °C, nothing following temperature any more.
+    ///
+    /// # Errors
+    /// As [`at_reference_temperature`](Self::at_reference_temperature).
+    pub fn at(&self, temperature_c: f64) -> Result<Self> {
+        let mut imu = self.at_reference_temperature(temperature_c)?;
+        let kept: Vec<usize> = (0..imu.quantities.len())
+            .filter(|&k| !matches!(imu.quantities[k], ImuQuantity::Thermal(..)))
+            .collect();
+        imu.parameters.thermal = Thermal::none();
+        imu.restrict(&kept);
+        Ok(imu)
+    }
+
+    /// What the covariance speaks of after the change: all that an uncertain term adds to.
+    fn referred_quantities(&self, jacobian: &EntryMatrix) -> Vec<ImuQuantity> {
+        let rescaled = |sensor_kind: SensorKind| {
+            let scale = |quantity: &ImuQuantity| matches!(quantity, ImuQuantity::Thermal(of, term) if *of == sensor_kind && term.part == ThermalPart::Scale);
+            !self.parameters.thermal.sensor(sensor_kind).scale.iter().all(|k| *k == Vector3::zeros())
+                || self.quantities.iter().any(scale)
+        };
+        let mut list = Vec::new();
+        let mut add = |quantity: ImuQuantity| {
+            if !list.contains(&quantity) {
+                list.push(quantity);
+            }
+        };
+        for &quantity in &self.quantities {
+            match quantity {
+                // gains that differ leave no symmetric matrix
+                ImuQuantity::Of(sensor_kind, Quantity::Symmetric(row, column)) if rescaled(sensor_kind) => {
+                    let entry = |row: Axis, column: Axis| {
+                        ImuQuantity::Of(sensor_kind, Quantity::CrossAxis(row, column))
+                    };
+                    [entry(row, column), entry(column, row)].into_iter().for_each(&mut add);
+                }
+                _ => add(quantity),
+            }
+        }
+        let all = entry_vector::all_quantities();
+        for &quantity in
+            self.quantities.iter().filter(|quantity| matches!(quantity, ImuQuantity::Thermal(..)))
+        {
+            let moved = jacobian * entry_vector::of_quantity(quantity);
+            all.iter()
+                .filter(|&&other| moved[entry_vector::of_quantity(other).imax()] != 0.0)
+                .for_each(|&other| add(other));
+        }
+        list
+    }
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use super::*;
+    use crate::sensor::entry_vector::ENTRIES;
+    use crate::sensor::gauge_change::tests::imu;
+
+    /// The IMU of the gauge tests with terms of every kind.
+    pub(in crate::sensor) fn warm() -> CalibratedImu {
+        let mut imu = imu();
+        for (k, quantity) in ImuQuantity::all_thermal(true, true).into_iter().enumerate() {
+            let size = match quantity {
+                ImuQuantity::Thermal(_, term) if term.part == ThermalPart::Scale => 1e-4,
+                _ => 2.0,
+            };
+            quantity.add_to(&mut imu.parameters, size * (k as f64 % 5.0 - 2.3) / (1.0 + k as f64 % 3.0));
+        }
+        imu.quantities.extend(ImuQuantity::all_thermal(true, true));
+        let n = imu.quantities.len();
+        let root = DMatrix::from_fn(n, n, |i, j| {
+            let size = if i < entry_vector::AT_REFERENCE { 1.0 } else { 1e-4 };
+            size * (0.01 * ((7 * i + 3 * j) % 11) as f64 + f64::from(u8::from(i == j)))
+        });
+        imu.covariance = Some(&root * root.transpose());
+        imu
+    }
+
+    #[test]
+    fn readings_do_not_know_the_reference() {
+        let before = warm();
+        let after = before.at_reference_temperature(43.0).expect("positive gains");
+        for temperature in [-10.0, 25.0, 61.5] {
+            let (a, b) = (before.parameters.at(temperature), after.parameters.at(temperature));
+            for sensor_kind in SensorKind::ALL {
+                let (a, b) = (a.sensor(sensor_kind), b.sensor(sensor_kind));
+                assert!((a.bias - b.bias).amax() < 1e-10 * a.bias.amax(), "{temperature}");
+                assert!((a.matrix - b.matrix).amax() < 1e-12 * a.matrix.amax(), "{temperature}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_jacobian_is_that_of_differences() {
+        let parameters = warm().parameters;
+        let jacobian = Referred::new(&parameters, 43.0).expect("positive gains").jacobian();
+        for entry in 0..ENTRIES {
+            let h = if entry < 24 { 1e-2 } else { 1e-6 };
+            let at = |step: f64| {
+                let mut moved = entry_vector::from_parameters(&parameters);
+                moved[entry] += step;
+                entry_vector::from_parameters(
+                    &Referred::new(&entry_vector::to_imu(&moved), 43.0).expect("positive gains").after,
+                )
+            };
+            let difference = (at(h) - at(-h)) / (2.0 * h);
+            let error = (difference - jacobian.column(entry)).amax();
+            assert!(error < 1e-5 * difference.amax().max(1e-2), "{entry}: {error:e}");
+        }
+    }
+
+    #[test]
+    fn there_and_back_is_the_same_and_uncertain_terms_make_uncertain_values() {
+        let before = warm();
+        let back = before
+            .at_reference_temperature(43.0)
+            .and_then(|imu| imu.at_reference_temperature(25.0))
+            .expect("positive gains");
+        let (one, two) = (before.covariance.clone().expect("there"), back.covariance.expect("kept"));
+        assert_eq!(before.quantities, back.quantities);
+        assert!((&one - &two).amax() < 1e-10 * one.amax());
+
+        let term = ImuQuantity::thermal_list(SensorKind::Gyroscope, 1, 0)[0];
+        let alone = CalibratedImu {
+            quantities: vec![term],
+            covariance: Some(DMatrix::identity(1, 1) * 1e-6),
+            ..before
+        };
+        let hot = alone.at(35.0).expect("positive gains");
+        let names: Vec<String> = hot.quantities.iter().map(|quantity| quantity.name()).collect();
+        assert_eq!(names, ["gyroscope.bias.x"]);
+        assert!((hot.covariance.expect("kept")[(0, 0)] - 1e-4).abs() < 1e-15, "1e-3 per K over 10 K");
+    }
+
+    #[test]
+    fn a_symmetric_matrix_is_so_at_its_reference_only() {
+        let symmetric = warm().in_gauge(Gauge::Symmetric).expect("right-handed");
+        let at = |imu: &CalibratedImu, t: f64| imu.at_reference_temperature(t).expect("positive gains");
+        let matrix = at(&symmetric, 43.0).parameters.accelerometer.matrix;
+        assert!((matrix - matrix.transpose()).amax() > 1e-6 * matrix.amax(), "{matrix}");
+        let stated = format!("{} at 25 °C", symmetric.frame);
+        let (warmer, back) = (at(&symmetric, 43.0), at(&at(&symmetric, 43.0), 25.0));
+        for imu in [&warmer, &at(&warmer, 50.0), &back, &at(&back, 43.0)] {
+            assert_eq!(imu.frame, stated);
+        }
+        // a triangle stays one, and so does a symmetric matrix whose gains stay
+        let upper = warm().in_gauge(Gauge::Upper).expect("right-handed");
+        assert_eq!(at(&upper, 43.0).frame, upper.frame);
+        let mut steady = symmetric;
+        steady.parameters.thermal.accelerometer.scale = [Vector3::zeros(); 2];
+        assert_eq!(at(&steady, 43.0).frame, steady.frame);
+    }
+}

@@ -1,0 +1,181 @@
+//! How bias and gain follow temperature: polynomials about a reference.
+//!
+//! With `τ = T − T₀` in K: `b(T) = b + Σ_m b_m τ^m` and `S(T) = diag(1 + Σ_m k_m τ^m) S`. The gain of each sense element drifts, its direction does not;
+//! `k_m` in 1/K^m, as datasheets give it. A change of the true frame, `S → S R`, leaves both as they are. The g-sensitivity `Γ` does not follow temperature.
+
+use super::{Axis, ReadingUnit, SensorKind};
+use nalgebra::Vector3;
+
+/// Highest power of τ.
+pub const HIGHEST_ORDER: usize = 2;
+
+/// The reference temperature where nothing follows temperature, °C.
+const ROOM_C: f64 = 25.0;
+
+/// What temperature does to an IMU.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Thermal {
+    /// The reference `T₀`, °C: the temperature at which biases and matrices are given.
+    pub reference_c: f64,
+    /// Least and greatest temperature at which the terms were determined, °C, where it is known; beyond it they extrapolate.
+    pub range_c: Option<[f64; 2]>,
+    /// Terms of the accelerometer.
+    pub accelerometer: SensorThermal,
+    /// Terms of the gyroscope.
+    pub gyroscope: SensorThermal,
+}
+
+/// What temperature does to one sensor; entry `m − 1` is of the power `τ^m`.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct SensorThermal {
+    /// `b_m`, in the unit of the readings per K^m.
+    pub bias: [Vector3<f64>; HIGHEST_ORDER],
+    /// `k_m`, in 1/K^m.
+    pub scale: [Vector3<f64>; HIGHEST_ORDER],
+}
+
+/// What follows temperature.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ThermalPart {
+    /// The bias.
+    Bias,
+    /// The gain, as a share of itself.
+    Scale,
+}
+
+/// One coefficient of a sensor's polynomials.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ThermalTerm {
+    /// What follows temperature.
+    pub part: ThermalPart,
+    /// The axis of the sensor.
+    pub axis: Axis,
+    /// The power of τ, from 1 to [`HIGHEST_ORDER`].
+    pub order: usize,
+}
+
+impl ThermalTerm {
+    /// `bias_per_k.x`, `scale_per_k2.z`.
+    #[must_use]
+    pub fn name(self) -> String {
+        let part = match self.part {
+            ThermalPart::Bias => "bias",
+            ThermalPart::Scale => "scale",
+        };
+        let power = if self.order > 1 { self.order.to_string() } else { String::new() };
+        format!("{part}_per_k{power}.{}", self.axis)
+    }
+
+    /// Its unit, for readings in this unit.
+    #[must_use]
+    pub fn unit(self, reading: ReadingUnit) -> &'static str {
+        match (self.part, reading, self.order) {
+            (ThermalPart::Bias, ReadingUnit::MetrePerSecondSquared, 1) => "m/s²/K",
+            (ThermalPart::Bias, ReadingUnit::MetrePerSecondSquared, _) => "m/s²/K²",
+            (ThermalPart::Bias, ReadingUnit::RadianPerSecond, 1) => "rad/s/K",
+            (ThermalPart::Bias, ReadingUnit::RadianPerSecond, _) => "rad/s/K²",
+            (ThermalPart::Bias, ReadingUnit::Counts, 1) => "counts/K",
+            (ThermalPart::Bias, ReadingUnit::Counts, _) => "counts/K²",
+            (ThermalPart::Scale, _, 1) => "1/K",
+            (ThermalPart::Scale, ..) => "1/K²",
+        }
+    }
+
+    /// `τ^m`.
+    #[must_use]
+    pub fn power(self, tau_k: f64) -> f64 {
+        tau_k.powi(self.order as i32)
+    }
+
+    /// Its value in a sensor.
+    #[must_use]
+    pub fn value(self, thermal: &SensorThermal) -> f64 {
+        match self.part {
+            ThermalPart::Bias => thermal.bias[self.order - 1][self.axis.index()],
+            ThermalPart::Scale => thermal.scale[self.order - 1][self.axis.index()],
+        }
+    }
+
+    /// Adds `step` to it.
+    pub fn add_to(self, thermal: &mut SensorThermal, step: f64) {
+        match self.part {
+            ThermalPart::Bias => thermal.bias[self.order - 1][self.axis.index()] += step,
+            ThermalPart::Scale => thermal.scale[self.order - 1][self.axis.index()] += step,
+        }
+    }
+}
+
+impl SensorThermal {
+    /// Does nothing follow temperature?
+    #[must_use]
+    pub fn is_none(&self) -> bool {
+        *self == Self::default()
+    }
+
+    /// `Σ_m b_m τ^m`, in the unit of the readings.
+    #[must_use]
+    pub fn bias_change(&self, tau_k: f64) -> Vector3<f64> {
+        polynomial(&self.bias, tau_k)
+    }
+
+    /// `1 + Σ_m k_m τ^m` of each axis.
+    #[must_use]
+    pub fn gain_factor(&self, tau_k: f64) -> Vector3<f64> {
+        Vector3::repeat(1.0) + polynomial(&self.scale, tau_k)
+    }
+}
+
+/// `Σ_m c_m τ^m`, m from 1.
+fn polynomial(coefficients: &[Vector3<f64>; HIGHEST_ORDER], tau_k: f64) -> Vector3<f64> {
+    coefficients.iter().rev().fold(Vector3::zeros(), |sum, coefficient| (sum + coefficient) * tau_k)
+}
+
+impl Thermal {
+    /// Nothing follows temperature.
+    #[must_use]
+    pub fn none() -> Self {
+        Self {
+            reference_c: ROOM_C,
+            range_c: None,
+            accelerometer: SensorThermal::default(),
+            gyroscope: SensorThermal::default(),
+        }
+    }
+
+    /// Does nothing follow temperature?
+    #[must_use]
+    pub fn is_none(&self) -> bool {
+        self.accelerometer.is_none() && self.gyroscope.is_none()
+    }
+
+    /// The terms of one sensor.
+    #[must_use]
+    pub fn sensor(&self, sensor_kind: SensorKind) -> &SensorThermal {
+        match sensor_kind {
+            SensorKind::Accelerometer => &self.accelerometer,
+            SensorKind::Gyroscope => &self.gyroscope,
+        }
+    }
+
+    pub(super) fn sensor_mut(&mut self, sensor_kind: SensorKind) -> &mut SensorThermal {
+        match sensor_kind {
+            SensorKind::Accelerometer => &mut self.accelerometer,
+            SensorKind::Gyroscope => &mut self.gyroscope,
+        }
+    }
+
+    /// Is a temperature so far outside the range that the polynomials extrapolate: by more than a tenth of the range, or 1 K where that is more?
+    #[must_use]
+    pub fn extrapolates_to(&self, temperature_c: f64) -> bool {
+        self.range_c.is_some_and(|[low, high]| {
+            let margin = (0.1 * (high - low)).max(1.0);
+            temperature_c < low - margin || temperature_c > high + margin
+        })
+    }
+
+    /// `τ = T − T₀`, K.
+    #[must_use]
+    pub fn tau_k(&self, temperature_c: f64) -> f64 {
+        temperature_c - self.reference_c
+    }
+}

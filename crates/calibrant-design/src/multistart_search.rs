@@ -1,0 +1,212 @@
+//! The search: many starts, in parallel, and the best motion of each axis.
+//!
+//! Half of the starts are random motions and corners of the admissible region; the others are kicked out of the best optimum so far. They run in rounds, so
+//! that the result does not depend on the number of threads, and end early once many starts agree on the best.
+//!
+//! Axes of a scale-bias sensor share nothing, so each is designed by itself, and those that have the same problem are designed once, with the starts of
+//! all of them. Among motions that are equally good each axis takes the one most like its initial motion: optima come in pairs, `a` and `−a`,
+//! and often more.
+
+use super::admissible_region::Region;
+use super::part::{Nodes, Part};
+use super::sequential_programming::LocalOptimum;
+use super::{DesignProblem, DesignSettings, DesignStatus, StartOutcome};
+use calibrant_core::error::Result;
+use calibrant_core::information::PartInformation;
+use calibrant_core::motion::{JerkControlledMotion, Limits};
+use calibrant_core::sensor::{Axis, SensorModel};
+use calibrant_core::simulate::{Purpose, stream};
+use nalgebra::{SMatrix, SVector, Vector3};
+use rayon::prelude::*;
+
+/// What the search found.
+pub(super) struct Found {
+    pub(super) nodes: Vec<Vector3<f64>>,
+    pub(super) starts: Vec<StartOutcome>,
+    pub(super) status: DesignStatus,
+}
+
+/// Values that differ by less than this, relatively, are equal.
+const EQUAL: f64 = 1e-9;
+/// So many starts that end at the best value, relatively as close as this, need no more beside them.
+const AGREED: usize = 10;
+const AGREEMENT: f64 = 1e-7;
+
+/// Searches the best motion. `initial` is the first start of every axis, `inside` an admissible motion at a relative distance `slack` from every limit.
+pub(super) fn search(
+    problem: &DesignProblem<'_>,
+    settings: &DesignSettings,
+    limits: &Limits,
+    initial: &JerkControlledMotion,
+    (inside, slack): (&JerkControlledMotion, f64),
+    progress: &(dyn Fn(u64) + Sync),
+) -> Result<Found> {
+    let setting = problem.setting()?;
+    let mut found = Found {
+        nodes: vec![Vector3::zeros(); problem.intervals + 1],
+        starts: Vec::new(),
+        status: DesignStatus::Converged,
+    };
+    if problem.sensor.model == SensorModel::Full {
+        let part = part(problem, setting.full(initial), limits, inside, slack);
+        found.take(&part, &[problem.sensor.active_axes().to_vec()], initial, settings, progress);
+        return Ok(found);
+    }
+    let mut classes: Vec<(Part<1, 2>, Vec<Vec<Axis>>)> = Vec::new();
+    for &axis in problem.sensor.active_axes() {
+        let own = part(problem, setting.single(axis.index(), initial), limits, inside, slack);
+        match classes.iter_mut().find(|(other, _)| other.is_like(&own)) {
+            Some((_, axes)) => axes.push(vec![axis]),
+            None => classes.push((own, vec![vec![axis]])),
+        }
+    }
+    for (part, axes) in &classes {
+        found.take(part, axes, initial, settings, progress);
+    }
+    Ok(found)
+}
+
+fn part<const D: usize, const P: usize>(
+    problem: &DesignProblem<'_>,
+    information: PartInformation<D, P>,
+    limits: &Limits,
+    inside: &JerkControlledMotion,
+    slack: f64,
+) -> Part<D, P> {
+    let slots = information.slots;
+    Part {
+        regions: information.axes.map(|axis| Region::new(limits.axis(axis), &information.tau)),
+        criterion: problem.criterion.restricted(&slots),
+        prior: problem
+            .prior
+            .as_ref()
+            .map_or_else(SMatrix::zeros, |prior| SMatrix::from_fn(|i, j| prior[(slots[i], slots[j])])),
+        inside: information.nodes(inside),
+        slack,
+        information,
+    }
+}
+
+impl<const D: usize, const P: usize> Part<D, P> {
+    /// Is it the same problem, for another axis?
+    fn is_like(&self, other: &Self) -> bool {
+        self.regions.iter().zip(&other.regions).all(|(one, two)| one.limits == two.limits)
+            && self.criterion == other.criterion
+            && self.prior == other.prior
+            && self.inside == other.inside
+            && self.information.is_like(&other.information)
+    }
+
+    /// How much a motion resembles another: their scalar product.
+    fn resemblance(a: &[SVector<f64, D>], b: &[SVector<f64, D>]) -> f64 {
+        a.iter().zip(b).map(|(a, b)| a.dot(b)).sum()
+    }
+
+    /// The best outcome for the axes that begin at `own`: among equals, and their mirror images, the one most like it.
+    fn choose(
+        &self,
+        outcomes: &[LocalOptimum<D>],
+        own: &[SVector<f64, D>],
+    ) -> Option<(Nodes<D>, DesignStatus)> {
+        let best = outcomes.iter().min_by(|a, b| a.value.total_cmp(&b.value))?;
+        let mut choice: Option<(Nodes<D>, DesignStatus)> = None;
+        let mut likeness = f64::NEG_INFINITY;
+        let equal = best.value + EQUAL * best.value.abs().min(1.0);
+        for outcome in outcomes.iter().filter(|outcome| outcome.value <= equal) {
+            let mirrored: Nodes<D> = outcome.nodes.iter().map(|node| -node).collect();
+            let symmetric = self
+                .regions
+                .iter()
+                .all(|region| region.limits.start.is_none() && region.limits.end.is_none())
+                && self.value(&mirrored) <= equal;
+            for nodes in std::iter::once(&outcome.nodes).chain(symmetric.then_some(&mirrored)) {
+                let own = Self::resemblance(nodes, own);
+                if own > likeness {
+                    likeness = own;
+                    choice = Some((nodes.clone(), outcome.status));
+                }
+            }
+        }
+        // a start that ended there and converged says that it is an optimum
+        let close = best.value + AGREEMENT * best.value.abs();
+        let converged =
+            |outcome: &LocalOptimum<D>| outcome.value <= close && outcome.status == DesignStatus::Converged;
+        if outcomes.iter().any(converged) {
+            return choice.map(|(nodes, _)| (nodes, DesignStatus::Converged));
+        }
+        choice
+    }
+}
+
+impl Found {
+    /// Do enough starts end at the best value?
+    fn agreed<const D: usize>(outcomes: &[LocalOptimum<D>], best: f64) -> bool {
+        let close = |outcome: &&LocalOptimum<D>| outcome.value <= best + AGREEMENT * best.abs();
+        outcomes.iter().filter(close).count() >= AGREED
+    }
+
+    /// Runs the starts of a part and takes the best motion for each of its `groups` of axes.
+    fn take<const D: usize, const P: usize>(
+        &mut self,
+        part: &Part<D, P>,
+        groups: &[Vec<Axis>],
+        initial: &JerkControlledMotion,
+        settings: &DesignSettings,
+        progress: &(dyn Fn(u64) + Sync),
+    ) {
+        let own = |axes: &[Axis]| -> Nodes<D> {
+            initial.acceleration_mps2().iter().map(|a| SVector::from_fn(|k, _| a[axes[k].index()])).collect()
+        };
+        let first = groups[0][0].index() as u64;
+        let count = settings.starts * D * groups.len();
+        let mut outcomes: Vec<LocalOptimum<D>> = Vec::with_capacity(count);
+        // half of the starts at random, then rounds of kicks from the best so far
+        let half = count.div_ceil(2);
+        let rounds = [count.div_ceil(3), half, count * 2 / 3, count * 5 / 6, count];
+        for end in rounds {
+            let best = outcomes.iter().min_by(|a, b| a.value.total_cmp(&b.value));
+            if best.is_some_and(|best| Self::agreed(&outcomes, best.value)) {
+                progress((count - outcomes.len()) as u64);
+                break;
+            }
+            let best = best.filter(|_| outcomes.len() >= half).map(|best| best.nodes.clone());
+            let round: Vec<_> = (outcomes.len()..end.max(outcomes.len()))
+                .into_par_iter()
+                .map(|number| {
+                    let mut rng = stream(settings.seed, Purpose::Start, 3 * number as u64 + first);
+                    let start = match &best {
+                        _ if number < groups.len() => part.stretched_if_better(own(&groups[number])),
+                        None => part.start(number, &mut rng).unwrap_or_else(|| own(&groups[0])),
+                        Some(best) => part.kicked(best, &mut rng).unwrap_or_else(|| own(&groups[0])),
+                    };
+                    let outcome = part.improve(start, settings);
+                    progress(1);
+                    outcome
+                })
+                .collect();
+            outcomes.extend(round);
+        }
+        let axes: Vec<Axis> = groups.iter().flatten().copied().collect();
+        for (number, outcome) in outcomes.iter().enumerate() {
+            self.starts.push(StartOutcome {
+                axes: axes.clone(),
+                number,
+                initial_value: outcome.initial_value,
+                value: outcome.value,
+                iterations: outcome.iterations,
+                status: outcome.status,
+            });
+        }
+        for group in groups {
+            let Some((nodes, status)) = part.choose(&outcomes, &own(group)) else { continue };
+            for (whole, node) in self.nodes.iter_mut().zip(&nodes) {
+                for (k, axis) in group.iter().enumerate() {
+                    whole[axis.index()] = node[k];
+                }
+            }
+            if status != DesignStatus::Converged {
+                self.status = status;
+            }
+        }
+    }
+}

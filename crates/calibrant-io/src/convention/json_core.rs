@@ -1,0 +1,367 @@
+//! The fields that describe a calibrated IMU in a JSON file of ours, whatever else the file says: direction, frame, gauge, each sensor with its unit, the
+//! quantities by name with their covariance, and the recordings they came from.
+//!
+//! Numbers carry their unit in the field's name. Values stand twice, in the sensors' matrices, which are complete, and in the list of parameters, which is
+//! what the covariance speaks of; a file where they contradict each other is refused.
+
+use super::super::calibration::Input;
+use super::arrays::{Rows, matrix3, missing, rows, vector3};
+use super::temperature::TemperatureCore;
+use super::words::input_error;
+use crate::shared_fields::matrix_rows;
+use crate::text_decoding::Checked;
+use calibrant_core::sensor::{
+    CalibratedImu, Correction, Gauge, ImuParameters, ImuQuantity, Quantity, ReadingUnit, SensorKind,
+    SensorParameters,
+};
+use nalgebra::{DMatrix, Matrix3};
+use serde::{Deserialize, Serialize};
+
+/// To be flattened into a file. Everything is optional when it is read, so that what is missing can be named.
+#[derive(Debug, Serialize, Deserialize)]
+pub(crate) struct ImuCore {
+    direction: Option<String>,
+    frame: Option<String>,
+    gauge: Option<String>,
+    accelerometer: Option<SensorCore>,
+    gyroscope: Option<SensorCore>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    temperature: Option<TemperatureCore>,
+    parameters: Option<Vec<ParameterCore>>,
+    covariance_of: Option<String>,
+    covariance: Option<Vec<Vec<Option<f64>>>>,
+    inputs: Option<Vec<Input>>,
+}
+
+const DIRECTION: &str =
+    "true to raw: y_a = S_a f + b_a, y_g = S_g w + b_g + G f; matrix is S, g_sensitivity is G";
+
+/// One sensor. Of each quantity, the field in its unit is there.
+#[derive(Debug, Default, Serialize, Deserialize)]
+#[serde(default)]
+struct SensorCore {
+    reading_unit: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    bias_mps2: Option<Vec<f64>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    bias_radps: Option<Vec<f64>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    bias_counts: Option<Vec<f64>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    matrix: Option<Rows>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    matrix_counts_per_mps2: Option<Rows>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    matrix_counts_per_radps: Option<Rows>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    g_sensitivity_radps_per_mps2: Option<Rows>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    g_sensitivity_counts_per_mps2: Option<Rows>,
+    #[serde(skip_serializing_if = "Option::is_none", skip_deserializing)]
+    correction: Option<CorrectionCore>,
+}
+
+/// Raw → true, for readers of the file; it is not read back.
+#[derive(Debug, Serialize)]
+struct CorrectionCore {
+    direction: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    matrix: Option<Rows>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    matrix_mps2_per_count: Option<Rows>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    matrix_radps_per_count: Option<Rows>,
+}
+
+#[derive(Debug, Serialize, Deserialize)]
+struct ParameterCore {
+    name: Option<String>,
+    unit: Option<String>,
+    value: Option<f64>,
+    sd: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none", skip_deserializing)]
+    prior_share: Option<f64>,
+}
+
+impl ImuCore {
+    /// The fields of a calibrated IMU.
+    pub(crate) fn of(imu: &CalibratedImu, inputs: &[Input]) -> Self {
+        let sd = |k: usize| imu.covariance.as_ref().map(|sigma| sigma[(k, k)].max(0.0).sqrt());
+        let parameter = |(k, &quantity): (usize, &ImuQuantity)| ParameterCore {
+            name: Some(quantity.name()),
+            unit: Some(quantity.unit(unit_of(imu, quantity.sensor_kind())).into()),
+            value: Some(quantity.value(&imu.parameters)),
+            sd: sd(k),
+            prior_share: None,
+        };
+        let optional = |rows: Rows| rows.into_iter().map(|row| row.into_iter().map(Some).collect()).collect();
+        let sensor_kind = |sensor_kind| {
+            imu.unit(sensor_kind).map(|unit| SensorCore::of(sensor_kind, unit, &imu.parameters))
+        };
+        Self {
+            direction: Some(DIRECTION.into()),
+            frame: Some(imu.frame.clone()),
+            gauge: gauge_of(imu).map(|gauge| gauge.name().into()),
+            accelerometer: sensor_kind(SensorKind::Accelerometer),
+            gyroscope: sensor_kind(SensorKind::Gyroscope),
+            temperature: TemperatureCore::of(imu),
+            parameters: Some(imu.quantities.iter().enumerate().map(parameter).collect()),
+            covariance_of: Some(
+                "the parameters in their order; entry (i, j) in the unit of parameter i times that of parameter j".into(),
+            ),
+            covariance: imu.covariance.as_ref().map(|sigma| optional(matrix_rows(sigma))),
+            inputs: Some(inputs.to_vec()),
+        }
+    }
+
+    /// The same, saying of each parameter what share of its information came from what was known beforehand.
+    pub(crate) fn with_prior_share(mut self, prior_share: &[f64]) -> Self {
+        for (parameter, share) in self.parameters.iter_mut().flatten().zip(prior_share) {
+            parameter.prior_share = Some(*share);
+        }
+        self
+    }
+
+    /// The IMU that the fields describe, and its recordings.
+    pub(crate) fn into_imu(self) -> Checked<(CalibratedImu, Vec<Input>)> {
+        let missing = |field: &str| missing(field);
+        check_direction("direction", &self.direction.ok_or_else(|| missing("direction"))?)?;
+        let mut parameters = ImuParameters::identity();
+        let mut units = [None, None];
+        for (sensor_kind, fields) in
+            [(SensorKind::Accelerometer, self.accelerometer), (SensorKind::Gyroscope, self.gyroscope)]
+        {
+            let Some(fields) = fields else { continue };
+            let (unit, sensor, g_sensitivity) = fields.into_sensor(sensor_kind)?;
+            match sensor_kind {
+                SensorKind::Accelerometer => (units[0], parameters.accelerometer) = (Some(unit), sensor),
+                SensorKind::Gyroscope => {
+                    (units[1], parameters.gyroscope) = (Some(unit), sensor);
+                    parameters.g_sensitivity = g_sensitivity;
+                }
+            }
+        }
+        if let Some(temperature) = self.temperature {
+            parameters.thermal = temperature.into_thermal(units)?;
+        }
+        let mut imu = CalibratedImu {
+            parameters,
+            accelerometer_unit: units[0],
+            gyroscope_unit: units[1],
+            quantities: Vec::new(),
+            covariance: None,
+            frame: self.frame.ok_or_else(|| missing("frame"))?,
+        };
+        let listed = self.parameters.ok_or_else(|| missing("parameters"))?;
+        let names: Vec<_> = listed.iter().filter_map(|parameter| parameter.name.clone()).collect();
+        let symmetric = self.gauge.as_deref() == Some(Gauge::Symmetric.name());
+        for (i, parameter) in listed.into_iter().enumerate() {
+            let quantity = parameter.into_quantity(i, &imu, symmetric.then_some(&names))?;
+            if imu.quantities.contains(&quantity) {
+                return Err(input_error(
+                    format!("{} stands twice in `parameters`", quantity.name()),
+                    "remove one",
+                ));
+            }
+            imu.quantities.push(quantity);
+        }
+        imu.covariance =
+            self.covariance.map(|rows| covariance_of(&rows, imu.quantities.len())).transpose()?;
+        if let Some(gauge) = self.gauge {
+            let matrix = imu.parameters.sensor(imu.reference()).matrix;
+            if !Gauge::ALL.into_iter().any(|known| known.name() == gauge && known.is_form_of(&matrix)) {
+                return Err(input_error(
+                    format!(
+                        "`gauge` is \"{gauge}\", but the matrix of the {} has not this form",
+                        imu.reference()
+                    ),
+                    "correct the one or the other",
+                ));
+            }
+        }
+        Ok((imu, self.inputs.unwrap_or_default()))
+    }
+}
+
+impl SensorCore {
+    fn of(sensor_kind: SensorKind, unit: ReadingUnit, imu: &ImuParameters) -> Self {
+        let sensor = imu.sensor(sensor_kind);
+        let (bias, matrix) = (Some(sensor.bias.iter().copied().collect()), Some(rows(&sensor.matrix)));
+        let g_sensitivity = (sensor_kind == SensorKind::Gyroscope).then(|| rows(&imu.g_sensitivity));
+        let mut fields = Self { reading_unit: unit.symbol().into(), ..Self::default() };
+        match unit {
+            ReadingUnit::MetrePerSecondSquared => fields.bias_mps2 = bias,
+            ReadingUnit::RadianPerSecond => fields.bias_radps = bias,
+            ReadingUnit::Counts => fields.bias_counts = bias,
+        }
+        match (unit, sensor_kind) {
+            (ReadingUnit::Counts, SensorKind::Accelerometer) => fields.matrix_counts_per_mps2 = matrix,
+            (ReadingUnit::Counts, SensorKind::Gyroscope) => fields.matrix_counts_per_radps = matrix,
+            _ => fields.matrix = matrix,
+        }
+        match unit {
+            ReadingUnit::Counts => fields.g_sensitivity_counts_per_mps2 = g_sensitivity,
+            _ => fields.g_sensitivity_radps_per_mps2 = g_sensitivity,
+        }
+        fields.correction =
+            Correction::of(sensor).map(|correction| CorrectionCore::of(sensor_kind, unit, &correction));
+        fields
+    }
+
+    fn into_sensor(self, sensor_kind: SensorKind) -> Checked<(ReadingUnit, SensorParameters, Matrix3<f64>)> {
+        let unit = [sensor_kind.stimulus_unit(), ReadingUnit::Counts]
+            .into_iter()
+            .find(|unit| unit.symbol() == self.reading_unit)
+            .ok_or_else(|| {
+                input_error(
+                    format!("`{sensor_kind}.reading_unit` is \"{}\"", self.reading_unit),
+                    &format!("write \"{}\" or \"counts\"", sensor_kind.stimulus_unit().symbol()),
+                )
+            })?;
+        let (bias_name, bias) = match unit {
+            ReadingUnit::MetrePerSecondSquared => ("bias_mps2", self.bias_mps2),
+            ReadingUnit::RadianPerSecond => ("bias_radps", self.bias_radps),
+            ReadingUnit::Counts => ("bias_counts", self.bias_counts),
+        };
+        let (matrix_name, matrix) = match (unit, sensor_kind) {
+            (ReadingUnit::Counts, SensorKind::Accelerometer) => {
+                ("matrix_counts_per_mps2", self.matrix_counts_per_mps2)
+            }
+            (ReadingUnit::Counts, SensorKind::Gyroscope) => {
+                ("matrix_counts_per_radps", self.matrix_counts_per_radps)
+            }
+            _ => ("matrix", self.matrix),
+        };
+        let (g_name, g_sensitivity) = match unit {
+            ReadingUnit::Counts => ("g_sensitivity_counts_per_mps2", self.g_sensitivity_counts_per_mps2),
+            _ => ("g_sensitivity_radps_per_mps2", self.g_sensitivity_radps_per_mps2),
+        };
+        let field = |name: &str| format!("{sensor_kind}.{name}");
+        let bias = bias.ok_or_else(|| missing(&field(bias_name)))?;
+        let matrix = matrix.ok_or_else(|| missing(&field(matrix_name)))?;
+        let sensor = SensorParameters {
+            bias: vector3(&bias, &field(bias_name))?,
+            matrix: matrix3(&matrix, &field(matrix_name))?,
+        };
+        // a gyroscope without it has none
+        let g_sensitivity = match (sensor_kind, g_sensitivity) {
+            (SensorKind::Gyroscope, Some(rows)) => matrix3(&rows, &field(g_name))?,
+            _ => Matrix3::zeros(),
+        };
+        Ok((unit, sensor, g_sensitivity))
+    }
+}
+
+impl CorrectionCore {
+    fn of(sensor_kind: SensorKind, unit: ReadingUnit, correction: &Correction) -> Self {
+        let matrix = Some(rows(&correction.matrix));
+        let direction = match sensor_kind {
+            SensorKind::Accelerometer => "raw to true: f = C (y_a - b_a); matrix is C, the inverse of S",
+            SensorKind::Gyroscope => "raw to true: w = C (y_g - b_g - G f); matrix is C, the inverse of S",
+        };
+        let mut fields =
+            Self { direction, matrix: None, matrix_mps2_per_count: None, matrix_radps_per_count: None };
+        match (unit, sensor_kind) {
+            (ReadingUnit::Counts, SensorKind::Accelerometer) => fields.matrix_mps2_per_count = matrix,
+            (ReadingUnit::Counts, SensorKind::Gyroscope) => fields.matrix_radps_per_count = matrix,
+            _ => fields.matrix = matrix,
+        }
+        fields
+    }
+}
+
+impl ParameterCore {
+    /// The quantity of this name; its unit and value must be those of the IMU.
+    fn into_quantity(
+        self,
+        i: usize,
+        imu: &CalibratedImu,
+        symmetric: Option<&Vec<String>>,
+    ) -> Checked<ImuQuantity> {
+        let field = |field: &str| missing(&format!("parameters[{i}].{field}"));
+        let name = self.name.ok_or_else(|| field("name"))?;
+        let unit = self.unit.ok_or_else(|| field("unit"))?;
+        let value = self.value.ok_or_else(|| field("value"))?;
+        let quantity = quantity_of(&name, imu, symmetric).ok_or_else(|| {
+            input_error(
+                format!("\"{name}\" is no parameter of this IMU"),
+                "names are accelerometer.bias.x, …",
+            )
+        })?;
+        let wanted = quantity.unit(unit_of(imu, quantity.sensor_kind()));
+        if unit != wanted {
+            return Err(input_error(
+                format!("{name} is in {unit}, its sensor says {wanted}"),
+                "correct one of them",
+            ));
+        }
+        let in_matrix = quantity.value(&imu.parameters);
+        if (value - in_matrix).abs() > 1e-9 * value.abs().max(in_matrix.abs()) {
+            return Err(input_error(
+                format!("{name} is {value} in `parameters` and {in_matrix} in its sensor"),
+                "correct one of them",
+            ));
+        }
+        Ok(quantity)
+    }
+}
+
+/// The quantity of a name. Where the gauge is symmetric (then with all names of the list), one of the reference's off the diagonal is that of the pair.
+pub(super) fn quantity_of(
+    name: &str,
+    imu: &CalibratedImu,
+    symmetric: Option<&Vec<String>>,
+) -> Option<ImuQuantity> {
+    let (accelerometer, gyroscope) = (imu.accelerometer_unit.is_some(), imu.gyroscope_unit.is_some());
+    let found = ImuQuantity::full_list(accelerometer, gyroscope, true)
+        .into_iter()
+        .chain(ImuQuantity::all_thermal(accelerometer, gyroscope))
+        .find(|quantity| quantity.name() == name)?;
+    imu.unit(found.sensor_kind())?;
+    match (found, symmetric) {
+        (ImuQuantity::Of(sensor_kind, Quantity::CrossAxis(row, column)), Some(names))
+            if sensor_kind == imu.reference() =>
+        {
+            let mirrored = ImuQuantity::Of(sensor_kind, Quantity::CrossAxis(column, row)).name();
+            let pair = ImuQuantity::Of(sensor_kind, Quantity::Symmetric(row, column));
+            Some(if names.contains(&mirrored) { found } else { pair })
+        }
+        _ => Some(found),
+    }
+}
+
+/// The gauge that an IMU is in, where it is in one and not diagonal.
+pub(super) fn gauge_of(imu: &CalibratedImu) -> Option<Gauge> {
+    let pair = |quantity: &ImuQuantity| matches!(quantity, ImuQuantity::Of(_, Quantity::Symmetric(..)));
+    if imu.quantities.iter().any(pair) {
+        return Some(Gauge::Symmetric);
+    }
+    Gauge::of(&imu.parameters.sensor(imu.reference()).matrix)
+}
+
+/// The covariance of so many parameters; what is no number becomes one that [`check`](super::usable_calibration) refuses.
+pub(super) fn covariance_of(rows: &[Vec<Option<f64>>], size: usize) -> Checked<DMatrix<f64>> {
+    if rows.len() != size || rows.iter().any(|row| row.len() != size) {
+        let message = format!("the covariance is not {size} × {size}, one row for each parameter");
+        return Err(input_error(message, "calibrate again, or remove the covariance"));
+    }
+    Ok(DMatrix::from_fn(size, size, |i, j| rows[i][j].unwrap_or(f64::NAN)))
+}
+
+fn unit_of(imu: &CalibratedImu, sensor_kind: SensorKind) -> ReadingUnit {
+    imu.unit(sensor_kind).unwrap_or(sensor_kind.stimulus_unit())
+}
+
+/// Complains of a field that says another direction than that of our own files.
+pub(super) fn check_direction(field: &str, stated: &str) -> Checked<()> {
+    if stated.starts_with("true to raw") {
+        return Ok(());
+    }
+    Err(input_error(
+        format!(
+            "`{field}` must be true to raw in this format, not {:?}",
+            stated.chars().take(40).collect::<String>()
+        ),
+        "write y = S s + b, the reading of a true value; or give imu_tk's .calib, which is raw to true",
+    ))
+}

@@ -1,0 +1,82 @@
+//! A corrected recording as CSV.
+
+use super::atomic_output::write_atomically;
+use calibrant_core::error::Result;
+use calibrant_core::sensor::{Axis, CorrectedRecording, CorrectedSensor, SensorKind};
+use std::io::{self, Write};
+use std::path::Path;
+
+/// Writes a corrected recording as CSV: `t_s,ax_mps2,ay_mps2,az_mps2,ax_sd_mps2,…,gx_radps,…,gx_sd_radps,…`.
+///
+/// A sensor that is not there has no columns, nor has an uncertainty that is not known. `sd` is the standard uncertainty of the correction, which is the same
+/// error in every sample: it does not average out; the noise of the sample is not in it. Where the sensors' times differ by more than a thousandth of the sample interval, every
+/// time has a row, and a sensor without a sample there empty fields. Numbers have the fewest digits that read back to the same bits.
+///
+/// # Errors
+/// [`Error::Output`](calibrant_core::Error::Output) where it cannot be written.
+pub fn write_corrected_recording(path: &Path, recording: &CorrectedRecording<'_>) -> Result<()> {
+    let sensor_kinds: Vec<_> = [
+        (SensorKind::Accelerometer, &recording.accelerometer),
+        (SensorKind::Gyroscope, &recording.gyroscope),
+    ]
+    .into_iter()
+    .filter_map(|(sensor_kind, corrected)| Some((sensor_kind, corrected.as_ref()?)))
+    .collect();
+    let same_s = SAME * sensor_kinds.iter().map(|(_, of)| step(of.times_s)).fold(f64::INFINITY, f64::min);
+    write_atomically(path, |out| {
+        write!(out, "t_s")?;
+        for (sensor_kind, corrected) in &sensor_kinds {
+            header(out, *sensor_kind, corrected)?;
+        }
+        writeln!(out)?;
+        let mut next = vec![0; sensor_kinds.len()];
+        loop {
+            let times = sensor_kinds
+                .iter()
+                .zip(&next)
+                .filter_map(|((_, corrected), &k)| corrected.times_s.get(k).copied());
+            let Some(time) = times.reduce(f64::min) else { return Ok(()) };
+            write!(out, "{time:?}")?;
+            for ((_, corrected), k) in sensor_kinds.iter().zip(&mut next) {
+                let here = corrected.times_s.get(*k).is_some_and(|t| t - time <= same_s);
+                row(out, corrected, here.then_some(*k))?;
+                *k += usize::from(here);
+            }
+            writeln!(out)?;
+        }
+    })
+}
+
+/// Times closer than this share of the sample interval are one time: those of two files may differ in the last digit.
+const SAME: f64 = 1e-3;
+
+/// The mean step of sample times; 0 for fewer than two.
+fn step(times_s: &[f64]) -> f64 {
+    match times_s {
+        [first, .., last] => (last - first) / (times_s.len() - 1) as f64,
+        _ => 0.0,
+    }
+}
+
+fn header(out: &mut dyn Write, sensor_kind: SensorKind, corrected: &CorrectedSensor<'_>) -> io::Result<()> {
+    let (letter, unit) = (&sensor_kind.name()[..1], sensor_kind.stimulus_unit().suffix());
+    for axis in Axis::ALL {
+        write!(out, ",{letter}{axis}_{unit}")?;
+    }
+    if corrected.sd.is_some() {
+        for axis in Axis::ALL {
+            write!(out, ",{letter}{axis}_sd_{unit}")?;
+        }
+    }
+    Ok(())
+}
+
+fn row(out: &mut dyn Write, corrected: &CorrectedSensor<'_>, sample: Option<usize>) -> io::Result<()> {
+    for vectors in [Some(&corrected.values), corrected.sd.as_ref()].into_iter().flatten() {
+        match sample.and_then(|k| vectors.get(k)) {
+            Some(values) => values.iter().try_for_each(|value| write!(out, ",{value:?}"))?,
+            None => write!(out, ",,,")?,
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,190 @@
+//! The keys that an experiment file may have: one list, which decides what is unknown and what is suggested.
+
+/// Each section and its keys; the first is the top of the file.
+const KEYS: &[(&str, &[&str])] = &[
+    (
+        "",
+        &[
+            "schema",
+            "sensor",
+            "motion",
+            "holds",
+            "gyroscope",
+            "known",
+            "temperature",
+            "columns",
+            "calibrate",
+            "limits",
+            "design",
+            "study",
+        ],
+    ),
+    (
+        "sensor",
+        &[
+            "kind",
+            "axes",
+            "model",
+            "unit",
+            "gain_counts_per_mps2",
+            "offset_counts",
+            "noise_mps2",
+            "noise_counts",
+            "bias_sd_mps2",
+            "scale_sd",
+            "cross_axis_sd",
+            "range_mps2",
+        ],
+    ),
+    ("motion", &["intervals", "interval_s", "rate_hz", "trust", "known_ends", "input_noise"]),
+    ("motion.input_noise", &["floor_mps3", "ratio"]),
+    (
+        "holds",
+        &[
+            "gravity_mps2",
+            "gravity_sd_mps2",
+            "latitude_deg",
+            "height_m",
+            "gauge",
+            "intervals_s",
+            "directions",
+            "face_sd_deg",
+            "minimum_hold_s",
+            "poses",
+            "hold_s",
+            "rate_hz",
+        ],
+    ),
+    (
+        "gyroscope",
+        &[
+            "unit",
+            "model",
+            "gain_counts_per_radps",
+            "noise_radps",
+            "noise_counts",
+            "g_sensitivity",
+            "turns",
+            "turn_angle_deg",
+            "turn_sd_deg",
+        ],
+    ),
+    ("gyroscope.turns", &["start_s", "end_s", "axis", "angle_deg", "angle_sd_deg"]),
+    ("known.term", &["value", "sd"]),
+    (
+        "temperature",
+        &["reference_c", "accelerometer_bias", "accelerometer_scale", "gyroscope_bias", "gyroscope_scale"],
+    ),
+    (
+        "columns",
+        &[
+            "format",
+            "time",
+            "time_unit",
+            "rate_hz",
+            "accelerometer",
+            "accelerometer_unit",
+            "gyroscope",
+            "gyroscope_unit",
+            "temperature",
+            "topic",
+        ],
+    ),
+    ("calibrate", &["prior"]),
+    (
+        "limits",
+        &[
+            "acceleration_mps2",
+            "jerk_mps3",
+            "intercept_mps2",
+            "velocity_mps",
+            "displacement_m",
+            "rest",
+            "start_acceleration_mps2",
+            "end_acceleration_mps2",
+        ],
+    ),
+    ("design", &["criterion", "weights", "range_mps2", "scale_by", "starts", "seed", "certificate"]),
+    ("study", &["sensors", "seed", "motions", "starts", "surface", "unknown", "noisy"]),
+    ("study.surface", &["jerk_mps3", "points", "start_acceleration_mps2", "interval_s", "rate_hz"]),
+    (
+        "study.unknown",
+        &[
+            "sensors",
+            "intervals",
+            "interval_s",
+            "rate_hz",
+            "detail_rate_hz",
+            "acceleration_mps2",
+            "jerk_mps3",
+            "intercept_mps2",
+            "velocity_mps",
+            "displacement_m",
+            "rest",
+            "start_acceleration_mps2",
+            "end_acceleration_mps2",
+        ],
+    ),
+    (
+        "study.noisy",
+        &[
+            "input_noise",
+            "acceleration_mps2",
+            "jerk_mps3",
+            "intercept_mps2",
+            "velocity_mps",
+            "displacement_m",
+            "rest",
+            "start_acceleration_mps2",
+            "end_acceleration_mps2",
+        ],
+    ),
+    ("study.noisy.input_noise", &["floor_mps3", "ratio"]),
+];
+
+/// The keys of a section.
+pub(super) fn allowed(section: &str) -> &'static [&'static str] {
+    KEYS.iter().find(|(name, _)| *name == section).map_or(&[], |(_, keys)| keys)
+}
+
+/// What to say of an unknown key: the section where it belongs, the nearest key, or all there are.
+pub(super) fn suggest(section: &str, unknown: &str) -> String {
+    let unknown = shorten(unknown);
+    let near = nearest(&unknown, allowed(section).iter().copied());
+    if let Some(key) = near.filter(|key| strsim::damerau_levenshtein(key, &unknown) <= 2) {
+        return format!("did you mean `{key}`?");
+    }
+    if let Some((home, _)) =
+        KEYS.iter().find(|(name, keys)| *name != section && keys.contains(&unknown.as_str()))
+    {
+        return if home.is_empty() {
+            format!("`{unknown}` belongs at the top of the file, before the first [section]")
+        } else {
+            format!("`{unknown}` belongs in [{home}]")
+        };
+    }
+    match near {
+        Some(key) => format!("did you mean `{key}`?"),
+        None => format!("the keys here are {}", allowed(section).join(", ")),
+    }
+}
+
+/// The word most like this one, if any is.
+pub(super) fn nearest<'w>(unknown: &str, words: impl Iterator<Item = &'w str>) -> Option<&'w str> {
+    const ALIKE: f64 = 0.75; // Jaro–Winkler: 1 is equal, 0 nothing in common
+    let unknown = shorten(unknown).to_lowercase();
+    words
+        .map(|word| (strsim::jaro_winkler(&word.to_lowercase(), &unknown), word))
+        .filter(|(alike, _)| *alike >= ALIKE)
+        .max_by(|one, other| one.0.total_cmp(&other.0))
+        .map(|(_, word)| word)
+}
+
+/// The beginning of a text that may be very long.
+pub(super) fn shorten(text: &str) -> String {
+    const LONGEST: usize = 60;
+    if text.chars().count() <= LONGEST {
+        return text.to_owned();
+    }
+    text.chars().take(LONGEST).chain(['…']).collect()
+}

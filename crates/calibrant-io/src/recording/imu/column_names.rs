@@ -1,0 +1,173 @@
+//! What the name of a column says: which sensor, which axis, which unit.
+//!
+//! | meaning | names | units, as an ending or in brackets |
+//! |---|---|---|
+//! | time | `t`, `time`, `timestamp`, `stamp` | `_s`, `_ms`, `_us`, `_ns` |
+//! | counter | `n_samples`, `sample`, `index`, `counter`, `packetcounter` | |
+//! | accelerometer | `ax`, `acc_x`, `accel_x`, `accelerometer_x`, `acceleration_x`, `linear_acceleration_x` | `_mps2`, `_g`, `_mg`, `_counts` |
+//! | gyroscope | `gx`, `wx`, `gyr_x`, `gyro_x`, `gyroscope_x`, `omega_x`, `angular_velocity_x` | `_radps`, `_degps`, `_mdps`, `_counts` |
+//! | temperature | `temp`, `temperature` | `_c` |
+//!
+//! Capitals, and whether words are joined by `_`, `.`, `-` or a space, do not matter. `linear_acceleration` is ROS' name of an accelerometer's
+//! reading and Android's of one without gravity: the magnitude tells.
+
+use super::column::{ColumnMeaning, ImuColumn};
+use super::unit::{ColumnUnit, ImuUnit, TimeUnit};
+use calibrant_core::sensor::{Axis, SensorKind};
+
+const TIME: &[&str] = &["t", "time", "timestamp", "stamp", "timestamps", "sampletime", "headerstamp"];
+const COUNTER: &[&str] =
+    &["nsamples", "sample", "samples", "samplenumber", "sampleindex", "index", "counter", "packetcounter"];
+const ACCELEROMETER: &[&str] =
+    &["a", "acc", "accel", "accelerometer", "acceleration", "linearacceleration", "arss", "rawacc", "accraw"];
+const GYROSCOPE: &[&str] = &[
+    "g",
+    "w",
+    "gyr",
+    "gyro",
+    "gyroscope",
+    "omega",
+    "angularvelocity",
+    "angularrate",
+    "wrss",
+    "rawgyro",
+    "rate",
+];
+const GRAVITY_REMOVED: &[&str] = &["freeacc", "useracceleration", "useracc", "linacc", "linaccel", "lia"];
+const TEMPERATURE: &[&str] = &["temp", "temperature", "imutemp", "sensortemp"];
+const MAGNETOMETER: &[&str] = &["m", "mag", "magnetometer", "magneticfield"];
+const ORIENTATION: &[&str] = &["quat", "q", "orientation", "euler"];
+
+/// The column of this name.
+pub(super) fn column(name: &str) -> ImuColumn {
+    let (base, unit) = split_unit(name);
+    let meaning = meaning(&base);
+    // an ending that is no unit of such a column belongs to the name
+    let unit = match (meaning, unit.as_deref()) {
+        (ColumnMeaning::Time, Some(unit)) => TimeUnit::parse(unit).map(ColumnUnit::Time),
+        (ColumnMeaning::Counter, _) => Some(ColumnUnit::Time(TimeUnit::Sample)),
+        (ColumnMeaning::Reading(sensor_kind, _), Some(unit)) => {
+            ImuUnit::parse(unit).filter(|unit| unit.suits(sensor_kind)).map(ColumnUnit::Reading)
+        }
+        (ColumnMeaning::Temperature, Some(unit)) => is_celsius(unit).then_some(ColumnUnit::Celsius),
+        _ => None,
+    };
+    let mut column = ImuColumn::new(name, meaning, unit);
+    if meaning == ColumnMeaning::Temperature && unit.is_none() {
+        column.unused = Some("its name does not say °C: `temp_c` does, and [columns] temperature too".into());
+    }
+    column
+}
+
+fn is_celsius(unit: &str) -> bool {
+    ["c", "°c", "degc", "deg c", "celsius"].contains(&unit)
+}
+
+/// Name in lower case without its unit, and the unit: in brackets, or after the last `_`.
+fn split_unit(name: &str) -> (String, Option<String>) {
+    let lower = name.trim().to_lowercase();
+    for (open, close) in [('[', ']'), ('(', ')')] {
+        if let Some((base, rest)) = lower.split_once(open)
+            && let Some(unit) = rest.strip_suffix(close)
+            && !base.trim().is_empty()
+        {
+            return (base.trim().to_owned(), Some(unit.trim().to_owned()));
+        }
+    }
+    // longest ending first: `_rad_s` before `_s`
+    for (at, _) in lower.match_indices(['_', ' ']) {
+        let (base, ending) = (&lower[..at], &lower[at + 1..]);
+        let is_time = TimeUnit::parse(ending).is_some_and(|unit| unit != TimeUnit::Sample);
+        let known = ImuUnit::parse(ending).is_some() || is_time || is_celsius(ending);
+        if known && !base.is_empty() {
+            return (base.to_owned(), Some(ending.to_owned()));
+        }
+    }
+    (lower, None)
+}
+
+fn meaning(base: &str) -> ColumnMeaning {
+    let plain: String = base.chars().filter(|c| c.is_alphanumeric()).collect();
+    if TIME.contains(&plain.as_str()) {
+        return ColumnMeaning::Time;
+    }
+    if COUNTER.contains(&plain.as_str()) {
+        return ColumnMeaning::Counter;
+    }
+    if TEMPERATURE.contains(&plain.as_str()) {
+        return ColumnMeaning::Temperature;
+    }
+    // `g_x` may be gravity, and `a_x` is no worse than `ax`; `gx` alone is a gyroscope's
+    let ends = [("x", Axis::X), ("y", Axis::Y), ("z", Axis::Z)];
+    let Some((stem, axis)) =
+        ends.into_iter().find_map(|(end, axis)| plain.strip_suffix(end).map(|stem| (stem, axis)))
+    else {
+        return if ORIENTATION.iter().any(|word| plain == format!("{word}w")) || is_angle(&plain) {
+            ColumnMeaning::Orientation
+        } else {
+            ColumnMeaning::Other
+        };
+    };
+    let is_gravity = stem == "g" && base.len() != plain.len();
+    if ACCELEROMETER.contains(&stem) {
+        ColumnMeaning::Reading(SensorKind::Accelerometer, axis)
+    } else if GYROSCOPE.contains(&stem) && !is_gravity {
+        ColumnMeaning::Reading(SensorKind::Gyroscope, axis)
+    } else if GRAVITY_REMOVED.contains(&stem) {
+        ColumnMeaning::GravityRemoved
+    } else if MAGNETOMETER.contains(&stem) {
+        ColumnMeaning::Magnetometer
+    } else if ORIENTATION.contains(&stem) {
+        ColumnMeaning::Orientation
+    } else {
+        ColumnMeaning::Other
+    }
+}
+
+fn is_angle(plain: &str) -> bool {
+    ["roll", "pitch", "yaw", "heading"].contains(&plain)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_say_sensor_axis_and_unit() {
+        let reading = |sensor_kind, axis, unit: Option<ImuUnit>| {
+            (ColumnMeaning::Reading(sensor_kind, axis), unit.map(ColumnUnit::Reading))
+        };
+        let (a, g) = (SensorKind::Accelerometer, SensorKind::Gyroscope);
+        for (name, expected) in [
+            ("ax", reading(a, Axis::X, None)),
+            ("Acc_Y", reading(a, Axis::Y, None)),
+            ("az_mps2", reading(a, Axis::Z, Some(ImuUnit::MetrePerSecondSquared))),
+            ("accel x (m/s^2)", reading(a, Axis::X, Some(ImuUnit::MetrePerSecondSquared))),
+            ("linear_acceleration.x", reading(a, Axis::X, None)),
+            ("ax_g", reading(a, Axis::X, Some(ImuUnit::StandardGravity))),
+            ("ax_counts", reading(a, Axis::X, Some(ImuUnit::Counts))),
+            ("ax_m_s2", reading(a, Axis::X, Some(ImuUnit::MetrePerSecondSquared))),
+            ("a_RS_S_y [m s^-2]", reading(a, Axis::Y, Some(ImuUnit::MetrePerSecondSquared))),
+            ("gx_radps", reading(g, Axis::X, Some(ImuUnit::RadianPerSecond))),
+            ("gyro_z_rad_s", reading(g, Axis::Z, Some(ImuUnit::RadianPerSecond))),
+            ("GyroX [deg/s]", reading(g, Axis::X, Some(ImuUnit::DegreePerSecond))),
+            ("wy_dps", reading(g, Axis::Y, Some(ImuUnit::DegreePerSecond))),
+            ("w_RS_S_x [rad s^-1]", reading(g, Axis::X, Some(ImuUnit::RadianPerSecond))),
+            ("g_x", (ColumnMeaning::Other, None)),
+            ("gravity_x", (ColumnMeaning::Other, None)),
+            ("userAcceleration.x", (ColumnMeaning::GravityRemoved, None)),
+            ("orientation.w", (ColumnMeaning::Orientation, None)),
+            ("timestamp [ns]", (ColumnMeaning::Time, Some(ColumnUnit::Time(TimeUnit::Nanosecond)))),
+            ("t_us", (ColumnMeaning::Time, Some(ColumnUnit::Time(TimeUnit::Microsecond)))),
+            ("time", (ColumnMeaning::Time, None)),
+            ("n_samples", (ColumnMeaning::Counter, Some(ColumnUnit::Time(TimeUnit::Sample)))),
+            ("temp_c", (ColumnMeaning::Temperature, Some(ColumnUnit::Celsius))),
+            ("Temperature (°C)", (ColumnMeaning::Temperature, Some(ColumnUnit::Celsius))),
+            ("temp", (ColumnMeaning::Temperature, None)),
+            ("label", (ColumnMeaning::Other, None)),
+        ] {
+            let column = column(name);
+            assert_eq!((column.meaning, column.unit), expected, "{name}");
+        }
+    }
+}

@@ -1,0 +1,195 @@
+//! The values of a file's used columns, as they are in the file, whatever its format.
+
+use super::column::ColumnMeaning;
+use crate::delimited_text::Line;
+use crate::recording::row_parser::{Layout, RowReader, Sense};
+use crate::recording::row_reader::LineMap;
+use crate::text_decoding::Checked;
+use calibrant_core::error::InputError;
+use calibrant_core::sensor::{Axis, SensorKind};
+use nalgebra::Vector3;
+
+/// Number of slots: time, three axes of each sensor, temperature, counter.
+pub(super) const SLOTS: usize = 9;
+pub(super) const TIME: usize = 0;
+pub(super) const TEMPERATURE: usize = 7;
+pub(super) const COUNTER: usize = 8;
+
+/// Where the values of a column of this meaning go.
+pub(super) fn slot_of(meaning: ColumnMeaning) -> Option<usize> {
+    match meaning {
+        ColumnMeaning::Time => Some(TIME),
+        ColumnMeaning::Reading(sensor_kind, axis) => Some(slots_of(sensor_kind)[axis.index()]),
+        ColumnMeaning::Temperature => Some(TEMPERATURE),
+        ColumnMeaning::Counter => Some(COUNTER),
+        _ => None,
+    }
+}
+
+/// The slots of a sensor's axes.
+pub(super) fn slots_of(sensor_kind: SensorKind) -> [usize; 3] {
+    let first = match sensor_kind {
+        SensorKind::Accelerometer => 1,
+        SensorKind::Gyroscope => 4,
+    };
+    Axis::ALL.map(|axis| first + axis.index())
+}
+
+/// The values of a file; lists are empty where there is no column, and values NaN where they are missing.
+#[derive(Default)]
+pub(super) struct Samples {
+    /// In the ticks of the file's clock.
+    pub(super) times: Vec<f64>,
+    pub(super) counts: Vec<f64>,
+    pub(super) temperatures: Vec<f64>,
+    sensor_kinds: [Vec<Vector3<f64>>; 2],
+    /// Number of rows.
+    pub(super) rows: usize,
+    /// Lines of the rows; empty for a file that has none.
+    pub(super) lines: LineMap,
+    /// What was taken from each time, in its ticks, so that they are exact.
+    pub(super) origin: i64,
+    /// The time that the times were made to count from, ns.
+    pub(super) counted_from_ns: Option<i128>,
+    /// Line that was cut off, where the last one was.
+    pub(super) truncated: Option<usize>,
+    /// Last line of the text.
+    pub(super) last_line: Option<usize>,
+}
+
+impl Samples {
+    /// The readings of a sensor.
+    pub(super) fn sensor(&self, sensor_kind: SensorKind) -> &[Vector3<f64>] {
+        &self.sensor_kinds[sensor_kind as usize]
+    }
+
+    /// The readings of a sensor, which are not there afterwards.
+    pub(super) fn take_sensor(&mut self, sensor_kind: SensorKind) -> Vec<Vector3<f64>> {
+        std::mem::take(&mut self.sensor_kinds[sensor_kind as usize])
+    }
+
+    /// Has a row a value of this sensor?
+    pub(super) fn holds(&self, sensor_kind: SensorKind, row: usize) -> bool {
+        self.sensor(sensor_kind).get(row).is_some_and(|reading| reading.iter().any(|value| !value.is_nan()))
+    }
+
+    /// Has a row the values of another, the time apart?
+    pub(super) fn repeats(&self, row: usize, other: usize) -> bool {
+        let same = |one: f64, other: f64| one == other || (one.is_nan() && other.is_nan());
+        let scalars = [&self.counts, &self.temperatures];
+        scalars.iter().all(|values| values.is_empty() || same(values[row], values[other]))
+            && self.sensor_kinds.iter().filter(|sensor_kind| !sensor_kind.is_empty()).all(|readings| {
+                readings[row].iter().zip(&readings[other]).all(|(&one, &other)| same(one, other))
+            })
+    }
+
+    /// Values that were read elsewhere, a list for each slot: all of the same length, or empty.
+    pub(super) fn from_columns(columns: [Vec<f64>; SLOTS], origin: i64) -> Checked<Self> {
+        let rows = columns.iter().map(Vec::len).max().unwrap_or(0);
+        if columns.iter().any(|column| !column.is_empty() && column.len() != rows) {
+            return Err(InputError::new(
+                "the columns have different lengths",
+                "was the file written to its end?",
+            )
+            .into());
+        }
+        let (mut invalid, mut first) = (0, None);
+        for (slot, column) in columns.iter().enumerate() {
+            // NaN is a missing value
+            for (row, &value) in column.iter().enumerate().filter(|(_, value)| !value.is_nan()) {
+                match Sense::of(value, slot) {
+                    Sense::Some => continue,
+                    Sense::None if slot == TIME && value.is_finite() => continue,
+                    Sense::None => return Err(out_of_range(value, row)),
+                    Sense::Invalid => invalid += 1,
+                }
+                first = first.or(Some((value, row)));
+            }
+        }
+        if let Some((value, row)) = first.filter(|_| Sense::is_lost(invalid, rows)) {
+            return Err(out_of_range(value, row));
+        }
+        let sensor_kinds = SensorKind::ALL.map(|sensor_kind| {
+            let [x, y, z] = slots_of(sensor_kind).map(|slot| columns[slot].as_slice());
+            x.iter().zip(y).zip(z).map(|((&x, &y), &z)| Vector3::new(x, y, z)).collect()
+        });
+        let [times, .., temperatures, counts] = columns;
+        Ok(Self { times, counts, temperatures, sensor_kinds, rows, origin, ..Self::default() })
+    }
+}
+
+fn out_of_range(value: f64, row: usize) -> Box<InputError> {
+    let message = format!("the value {value:e} in row {} is out of range", row + 1);
+    InputError::new(message, "is the unit right? is the file damaged?").into()
+}
+
+/// Reads the rows of a text.
+pub(super) struct SampleReader<'l> {
+    reader: RowReader<'l>,
+    samples: Samples,
+    /// Has the layout a column for this slot?
+    has: [bool; SLOTS],
+    sensor_kinds: [bool; 2],
+}
+
+impl<'l> SampleReader<'l> {
+    /// No rows yet; `capacity` is a guess of how many there will be.
+    pub(super) fn new(layout: &'l Layout, capacity: usize) -> Self {
+        let has = std::array::from_fn(|slot| layout.slots.contains(&Some(slot)));
+        let sensor_kinds =
+            SensorKind::ALL.map(|sensor_kind| slots_of(sensor_kind).iter().any(|&slot| has[slot]));
+        let mut samples = Samples::default();
+        let room = |is_used: bool| if is_used { capacity } else { 0 };
+        samples.times.reserve(room(has[TIME]));
+        samples
+            .sensor_kinds
+            .iter_mut()
+            .zip(sensor_kinds)
+            .for_each(|(sensor_kind, is_used)| sensor_kind.reserve(room(is_used)));
+        Self { reader: RowReader::new(layout), samples, has, sensor_kinds }
+    }
+
+    /// Takes some more lines, which are those of this text or the last of them.
+    pub(super) fn take<'t>(&mut self, lines: impl Iterator<Item = Line<'t>>, text: &str) -> Checked<()> {
+        self.reader.look_at_the_end(text);
+        let samples = &mut self.samples;
+        let mut values = [f64::NAN; SLOTS];
+        for line in lines {
+            samples.last_line = Some(line.number);
+            if !self.reader.read(line, &mut values)? {
+                continue;
+            }
+            samples.lines.push(samples.rows, line.number);
+            samples.rows += 1;
+            if self.has[TIME] {
+                samples.times.push(values[TIME]);
+            }
+            for sensor_kind in
+                SensorKind::ALL.into_iter().filter(|&sensor_kind| self.sensor_kinds[sensor_kind as usize])
+            {
+                let [x, y, z] = slots_of(sensor_kind).map(|slot| values[slot]);
+                samples.sensor_kinds[sensor_kind as usize].push(Vector3::new(x, y, z));
+            }
+            if self.has[TEMPERATURE] {
+                samples.temperatures.push(values[TEMPERATURE]);
+            }
+            if self.has[COUNTER] {
+                samples.counts.push(values[COUNTER]);
+            }
+        }
+        Ok(())
+    }
+
+    /// Number of the last line so far.
+    pub(super) fn last_line(&self) -> Option<usize> {
+        self.samples.last_line
+    }
+
+    /// The values of all rows, which must not be invalid in many of them.
+    pub(super) fn finish(mut self) -> Checked<Samples> {
+        self.reader.check_invalid()?;
+        self.samples.origin = self.reader.origin.unwrap_or(0);
+        self.samples.truncated = self.reader.truncated;
+        Ok(self.samples)
+    }
+}

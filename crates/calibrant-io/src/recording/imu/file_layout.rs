@@ -1,0 +1,254 @@
+//! What is known of a file before its rows are read: its columns, what they mean, and where the times come from.
+
+use super::column::{ColumnMeaning, ImuColumn};
+use super::column_values::{COUNTER, TEMPERATURE, TIME, slot_of};
+use super::format::FileFormat;
+use super::options::ImuReadOptions;
+use super::unit::{ColumnUnit, TimeUnit};
+use crate::recording::columns::list;
+use crate::text_decoding::Checked;
+use calibrant_core::error::InputError;
+use calibrant_core::sensor::{Axis, SensorKind};
+
+/// What is known of a file before its rows are read.
+pub(super) struct Draft {
+    pub(super) format: FileFormat,
+    pub(super) columns: Vec<ImuColumn>,
+    /// The time column begins anew at this number of ticks.
+    pub(super) time_wraps_at: Option<f64>,
+    /// The counter begins anew at this number.
+    pub(super) counter_wraps_at: Option<f64>,
+    /// Sample rate that the file states, Hz, and where.
+    pub(super) rate_hz: Option<(f64, &'static str)>,
+}
+
+impl Draft {
+    pub(super) fn new(format: FileFormat, columns: Vec<ImuColumn>) -> Self {
+        Self { format, columns, time_wraps_at: None, counter_wraps_at: None, rate_hz: None }
+    }
+
+    /// Leaves the other sensor's columns aside.
+    pub(super) fn keep_only(&mut self, sensor_kind: SensorKind) {
+        for column in &mut self.columns {
+            if matches!(column.meaning, ColumnMeaning::Reading(other, _) if other != sensor_kind) {
+                column.unused = Some(format!("the file was given for its {sensor_kind}"));
+            }
+        }
+    }
+
+    /// Puts in what the user says of the columns.
+    pub(super) fn map(&mut self, options: &ImuReadOptions) -> Checked<()> {
+        let mapping = &options.columns;
+        if let Some(name) = &mapping.time {
+            self.unuse(
+                &[ColumnMeaning::Time, ColumnMeaning::Counter],
+                "another column is named in [columns]",
+            );
+            let unit = options.time_unit.map(ColumnUnit::Time);
+            let meaning = match options.time_unit {
+                Some(TimeUnit::Sample) => ColumnMeaning::Counter,
+                _ => ColumnMeaning::Time,
+            };
+            self.assign(name, meaning, unit)?;
+            (self.time_wraps_at, self.counter_wraps_at) = (None, None);
+        }
+        for sensor_kind in SensorKind::ALL {
+            let Some(names) = mapping.sensor(sensor_kind) else { continue };
+            let meanings = Axis::ALL.map(|axis| ColumnMeaning::Reading(sensor_kind, axis));
+            self.unuse(&meanings, "other columns are named in [columns]");
+            for (name, meaning) in names.iter().zip(meanings) {
+                self.assign(name, meaning, options.unit(sensor_kind).map(ColumnUnit::Reading))?;
+            }
+        }
+        if let Some(name) = &mapping.temperature {
+            self.unuse(&[ColumnMeaning::Temperature], "another column is named in [columns]");
+            self.assign(name, ColumnMeaning::Temperature, Some(ColumnUnit::Celsius))?;
+        }
+        Ok(())
+    }
+
+    fn unuse(&mut self, meanings: &[ColumnMeaning], why: &str) {
+        for column in self.columns.iter_mut().filter(|column| meanings.contains(&column.meaning)) {
+            (column.meaning, column.unused) = (ColumnMeaning::Other, Some(why.to_owned()));
+        }
+    }
+
+    fn assign(&mut self, name: &str, meaning: ColumnMeaning, unit: Option<ColumnUnit>) -> Checked<()> {
+        let mut found = self.columns.iter_mut().filter(|column| column.name == name);
+        let (Some(column), other) = (found.next(), found.next()) else {
+            let names: Vec<String> = self.columns.iter().map(|column| column.name.clone()).collect();
+            let message = format!(
+                "[columns] names `{name}`, which the file does not have; it has {}",
+                list(&names, 20)
+            );
+            return Err(InputError::new(message, "names count letter by letter, capitals too").into());
+        };
+        if other.is_some() {
+            let message = format!("[columns] names `{name}`, which the file has twice");
+            return Err(InputError::new(message, "rename one of them in the file").into());
+        }
+        // what is given counts, before what the name says
+        let unit = unit
+            .or(super::column_names::column(name).unit.filter(|_| column.meaning == meaning))
+            .or(column.unit);
+        (column.meaning, column.unit, column.unused) = (meaning, unit, None);
+        Ok(())
+    }
+
+    /// Puts in the unit of the time where neither the name nor the mapping says.
+    pub(super) fn set_time_unit(&mut self, options: &ImuReadOptions) -> Checked<()> {
+        let Some(given) = options.time_unit.filter(|_| options.columns.time.is_none()) else { return Ok(()) };
+        for column in self.columns.iter_mut().filter(|column| column.meaning == ColumnMeaning::Time) {
+            match column.unit {
+                Some(ColumnUnit::Time(stated)) if stated != given => {
+                    let message = format!(
+                        "column `{}` is in {}, but the time's unit was given as {}",
+                        column.name,
+                        stated.symbol(),
+                        given.symbol()
+                    );
+                    return Err(InputError::new(message, "leave --time-unit away").into());
+                }
+                Some(_) => (),
+                None if given == TimeUnit::Sample => {
+                    (column.meaning, column.unit) = (ColumnMeaning::Counter, Some(ColumnUnit::Time(given)));
+                }
+                None => column.unit = Some(ColumnUnit::Time(given)),
+            }
+        }
+        Ok(())
+    }
+
+    /// The slot of each column's values, `None` where it is not used; complains where a sensor has no columns, lacks an axis or has one twice.
+    pub(super) fn slots(&mut self) -> Checked<Vec<Option<usize>>> {
+        self.one_time();
+        let mut slots: Vec<Option<usize>> = vec![None; self.columns.len()];
+        for (k, column) in self.columns.iter().enumerate().filter(|(_, column)| column.is_used()) {
+            let Some(slot) = slot_of(column.meaning) else { continue };
+            if let Some(other) = slots.iter().position(|taken| *taken == Some(slot)) {
+                let message = format!(
+                    "two columns hold the {}: `{}` and `{}`",
+                    column.meaning, self.columns[other].name, column.name
+                );
+                let help = match self.columns[other].name == column.name {
+                    true => "rename one of them in the file",
+                    false => "say which in [columns] of an experiment file",
+                };
+                return Err(InputError::new(message, help).into());
+            }
+            slots[k] = Some(slot);
+        }
+        let has = |slot| slots.contains(&Some(slot));
+        for sensor_kind in SensorKind::ALL {
+            let missing: Vec<String> = Axis::ALL
+                .into_iter()
+                .filter(|&axis| !slot_of(ColumnMeaning::Reading(sensor_kind, axis)).is_some_and(has))
+                .map(|axis| axis.to_string())
+                .collect();
+            if !missing.is_empty() && missing.len() < 3 {
+                let message = format!("the {sensor_kind} has no column for axis {}", missing.join(", "));
+                return Err(InputError::new(
+                    message,
+                    "three axes are needed; or leave its columns out altogether",
+                )
+                .into());
+            }
+        }
+        let readings =
+            (0..slots.len()).any(|k| slots[k].is_some_and(|s| ![TIME, COUNTER, TEMPERATURE].contains(&s)));
+        let of = |meaning| self.columns.iter().find(|column| column.meaning == meaning);
+        let accelerometer =
+            slot_of(ColumnMeaning::Reading(SensorKind::Accelerometer, Axis::X)).is_some_and(has);
+        if let Some(column) = of(ColumnMeaning::GravityRemoved).filter(|_| !accelerometer) {
+            return Err(InputError::new(
+                format!(
+                    "gravity has been removed from the acceleration (column `{}`): what the sensor read cannot be got back, and gravity is what calibrates it",
+                    column.name
+                ),
+                "export the accelerometer's own readings (Acc_X, Acc_Y, Acc_Z)",
+            )
+            .into());
+        }
+        if !readings {
+            return Err(self.nothing_to_read().into());
+        }
+        Ok(slots)
+    }
+
+    fn nothing_to_read(&self) -> InputError {
+        let names = |meaning| {
+            let named: Vec<String> = self
+                .columns
+                .iter()
+                .filter(|column| column.meaning == meaning)
+                .map(|column| column.name.clone())
+                .collect();
+            named
+        };
+        let orientation = names(ColumnMeaning::Orientation);
+        if !orientation.is_empty() {
+            return InputError::new(
+                format!(
+                    "the file holds orientation only ({}): no reading of a sensor",
+                    list(&orientation, 3)
+                ),
+                "export accelerometer and gyroscope (Acc_X, …, Gyr_X, …): orientation is computed from them, and they do not follow from it",
+            );
+        }
+        let increments = names(ColumnMeaning::Increment);
+        if !increments.is_empty() {
+            return InputError::new(
+                format!("the file holds increments only ({}), not readings", list(&increments, 3)),
+                "export accelerometer and gyroscope (Acc_X, …, Gyr_X, …)",
+            );
+        }
+        let all: Vec<String> = self.columns.iter().map(|column| column.name.clone()).collect();
+        let message = format!(
+            "no column is known to be an accelerometer's or a gyroscope's; the columns are {}",
+            list(&all, 20)
+        );
+        InputError::new(
+            message,
+            "name them like t_s,ax_mps2,ay_mps2,az_mps2,gx_radps,gy_radps,gz_radps, or say which is which in [columns] of an experiment file",
+        )
+    }
+
+    /// Of several times, the one whose unit is known; of time and counter, both.
+    fn one_time(&mut self) {
+        let is_time = |column: &ImuColumn| column.meaning == ColumnMeaning::Time && column.is_used();
+        let times = self.columns.iter().filter(|column| is_time(column)).count();
+        let known = self.columns.iter().filter(|column| is_time(column) && column.unit.is_some()).count();
+        if times > 1 && known == 1 {
+            for column in self.columns.iter_mut().filter(|column| is_time(column) && column.unit.is_none()) {
+                column.unused = Some("another time column says its unit".into());
+            }
+        }
+    }
+
+    /// The used column of this meaning.
+    pub(super) fn column(&self, meaning: ColumnMeaning) -> Option<&ImuColumn> {
+        self.columns.iter().find(|column| column.meaning == meaning && column.is_used())
+    }
+
+    /// Says why columns of this meaning are not used after all.
+    pub(super) fn leave_aside(&mut self, meaning: ColumnMeaning, why: &str) {
+        for column in self.columns.iter_mut().filter(|column| column.meaning == meaning && column.is_used()) {
+            column.unused = Some(why.to_owned());
+        }
+    }
+
+    /// Says the unit of the columns of this meaning.
+    pub(super) fn set_unit(&mut self, meaning: ColumnMeaning, unit: ColumnUnit) {
+        for column in self.columns.iter_mut().filter(|column| column.meaning == meaning && column.is_used()) {
+            column.unit = Some(unit);
+        }
+    }
+
+    /// Unit of the time column, where there is one and it is known.
+    pub(super) fn time_unit(&self) -> Option<TimeUnit> {
+        match self.column(ColumnMeaning::Time)?.unit {
+            Some(ColumnUnit::Time(unit)) => Some(unit),
+            _ => None,
+        }
+    }
+}

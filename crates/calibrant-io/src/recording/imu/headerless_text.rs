@@ -1,0 +1,58 @@
+//! A text without a header: what is asked, and what answers it in `[columns]`.
+
+use super::text_header::Head;
+use super::unit::ImuUnit;
+use calibrant_core::error::InputError;
+
+/// The question what the columns hold.
+pub(super) fn question(head: &Head<'_>) -> InputError {
+    let columns = head.fields();
+    let message = format!("{columns} columns without a header: nothing says what they hold");
+    let help = format!(
+        "begin the file with a line like t_s,ax_mps2,ay_mps2,az_mps2,gx_radps,gy_radps,gz_radps{}",
+        in_columns(head).map_or_else(String::new, |stated| format!("; or {stated}"))
+    );
+    InputError::new(message, help).at_line(head.line())
+}
+
+/// What `[columns]` needs for the usual order of so many columns, with the units that the first row suggests; `None` where there are too few.
+pub(super) fn in_columns(head: &Head<'_>) -> Option<String> {
+    let values: Vec<f64> = head.first_row.map_or_else(Vec::new, |row| {
+        row.fields(head.delimiter).map(|(_, field)| field.parse().unwrap_or(f64::NAN)).collect()
+    });
+    let (time, first, has_gyroscope) = match head.fields() {
+        0..=2 => return None,
+        3 => (false, 0, false),
+        4 | 5 => (true, 1, false),
+        6 => (false, 0, true),
+        _ => (true, 1, true),
+    };
+    let unit = accelerometer_unit(values.get(first..first + 3).unwrap_or_default());
+    let mut keys = match time {
+        true => vec!["time = \"1\"".to_owned(), "time_unit = \"s\"".to_owned()],
+        false => vec!["rate_hz = 100".to_owned()],
+    };
+    let mut sensor = |name: &str, first: usize, unit: ImuUnit| {
+        let columns: Vec<String> = (first..first + 3).map(|column| format!("\"{}\"", column + 1)).collect();
+        keys.push(format!("{name} = [{}]", columns.join(", ")));
+        keys.push(format!("{name}_unit = \"{}\"", unit.symbol()));
+    };
+    sensor("accelerometer", first, unit);
+    if has_gyroscope {
+        let unit = if unit == ImuUnit::Counts { unit } else { ImuUnit::RadianPerSecond };
+        sensor("gyroscope", first + 3, unit);
+    }
+    Some(format!(
+        "say what they hold in [columns] of an experiment file (of a file of its own for --columns), a line each, such as {}",
+        keys.join(", ")
+    ))
+}
+
+/// The unit that gravity suggests.
+fn accelerometer_unit(reading: &[f64]) -> ImuUnit {
+    match reading.iter().map(|value| value * value).sum::<f64>().sqrt() {
+        magnitude if magnitude > 200.0 => ImuUnit::Counts,
+        magnitude if (0.5..2.0).contains(&magnitude) => ImuUnit::StandardGravity,
+        _ => ImuUnit::MetrePerSecondSquared,
+    }
+}

@@ -1,0 +1,82 @@
+//! The end of an MCAP container: a recorder that was killed, or a copy that broke off, leaves none.
+//!
+//! A whole container ends with a record `DataEnd` below the messages, an index, a record `Footer` and the magic bytes once more.
+
+use super::mcap_records::{HEAD, raw_records};
+use crate::recording::reader_finding::{Finding, FindingKind, count, short};
+use calibrant_core::error::InputError;
+use mcap::MAGIC;
+use mcap::records::op;
+
+/// A container without its end.
+pub(super) struct Cut {
+    /// Number of bytes that are there.
+    length: usize,
+    /// Opcode and place of the record that is not whole; `None` where the file ends between two.
+    within: Option<(u8, usize)>,
+    /// Is everything there but the index?
+    is_after_data: bool,
+}
+
+impl Cut {
+    /// What a container lacks; `None` of one that is whole.
+    pub(super) fn of(bytes: &[u8]) -> Option<Self> {
+        let (mut at, mut is_after_data) = (MAGIC.len(), false);
+        for record in raw_records(bytes.get(at..)?) {
+            if !record.is_whole() {
+                return Some(Self { length: bytes.len(), within: Some((record.opcode, at)), is_after_data });
+            }
+            at += HEAD + record.content.len();
+            is_after_data |= record.opcode == op::DATA_END;
+            if record.opcode == op::FOOTER && bytes[at..].starts_with(MAGIC) {
+                return None;
+            }
+        }
+        Some(Self { length: bytes.len(), within: None, is_after_data })
+    }
+
+    /// The warning where messages could be read: how many, and for how long, s.
+    pub(super) fn finding(&self, messages: usize, duration_s: f64) -> Finding {
+        let lost = match self.is_after_data {
+            true => "no message is missing, only the index is",
+            false => "what was recorded after them is not in the file",
+        };
+        let message = format!(
+            "{}: {} were read, the last one {} s after the first; {lost}; `mcap recover` makes a whole file of it",
+            self.sentence(),
+            count(messages, "message"),
+            short(duration_s)
+        );
+        Finding::new(FindingKind::Unfinished, None, message)
+    }
+
+    /// The complaint where none could.
+    pub(super) fn input_error(&self) -> InputError {
+        let message = format!("{}, before any message of an IMU", self.sentence());
+        InputError::new(
+            message,
+            "is it a whole copy? was the recorder stopped before it had written anything?",
+        )
+    }
+
+    fn sentence(&self) -> String {
+        let length = self.length;
+        match self.within {
+            Some((opcode, at)) => {
+                format!(
+                    "the bag was cut off at byte {length}, within the {} that begins at byte {at}",
+                    name(opcode)
+                )
+            }
+            None => format!("the bag was cut off: it ends at byte {length}, without an end of its container"),
+        }
+    }
+}
+
+fn name(opcode: u8) -> &'static str {
+    match opcode {
+        op::MESSAGE => "message",
+        op::CHUNK => "chunk of messages",
+        _ => "record",
+    }
+}

@@ -1,0 +1,75 @@
+//! Times that are those of packets, not of samples: a radio sends several at once, a logger's clock has coarse steps.
+//!
+//! Rows that repeat a time would be dropped, and with them most of the recording; a rotation integrated over the steps between packets is another one. So such times are asked about, and a
+//! sample rate that is given takes their place.
+
+use super::column_values::Samples;
+use crate::recording::reader_finding::{count, short};
+use calibrant_core::error::InputError;
+use calibrant_core::sensor::SensorKind;
+
+/// Fewer samples are not judged.
+const FEWEST: usize = 100;
+/// One row in so many with the time of the one before is too many.
+const SAME: usize = 10;
+/// Steps this much shorter than their mean are those within a packet, if most are
+const WITHIN: f64 = 1.0 / 3.0;
+/// and one in so many is longer than the mean: a logger that pauses has long stretches between.
+const LONGEST_PACKET: usize = 50;
+
+/// Samples that come in packets.
+pub(super) struct Packets {
+    samples: usize,
+    same: usize,
+    rate_hz: f64,
+}
+
+impl Packets {
+    /// `None` where a sensor's times are those of its samples. Rows that repeat all of the one before are none.
+    pub(super) fn of(times: &[f64], samples: &Samples, sensor_kind: SensorKind) -> Option<Self> {
+        let holds = |row: &usize| !times[*row].is_nan() && samples.holds(sensor_kind, *row);
+        let (mut found, mut same, mut before) = (Vec::with_capacity(times.len()), 0, None);
+        for row in (0..times.len()).filter(holds) {
+            if let Some(other) = before.replace(row)
+                && times[row] == times[other]
+            {
+                if samples.repeats(row, other) {
+                    continue;
+                }
+                same += 1;
+            }
+            found.push(times[row]);
+        }
+        let (first, last) = (found.first()?, found.last()?);
+        let mean = (last - first) / (found.len() - 1).max(1) as f64;
+        let (mut within, mut between) = (0, 0);
+        for [one, next] in found.array_windows() {
+            within += usize::from(next - one < WITHIN * mean);
+            between += usize::from(next - one > mean);
+        }
+        let burst = 2 * within > found.len() && LONGEST_PACKET * between > found.len();
+        (found.len() >= FEWEST && mean > 0.0 && (burst || SAME * same > found.len())).then(|| Self {
+            samples: found.len(),
+            same,
+            rate_hz: 1.0 / mean,
+        })
+    }
+
+    /// What to say of them.
+    pub(super) fn question(&self, sensor_kind: SensorKind) -> InputError {
+        let what = match SAME * self.same > self.samples {
+            true => format!(
+                "{} of {} have the time of the one before: the steps of the clock are coarser than those of the samples, or these come in packets",
+                self.same,
+                count(self.samples, "sample")
+            ),
+            false => "the samples come in packets: most follow each other in less than a third of the mean step, and then there is none for long".to_owned(),
+        };
+        let help = format!(
+            "if the sensor samples evenly, say its rate, --rate-hz, or rate_hz in [columns] (about {} Hz by the times): the rows are then taken at equal steps, and lost samples do not \
+             show; otherwise give a file with the time of each sample",
+            short(self.rate_hz)
+        );
+        InputError::new(format!("{sensor_kind}: {what}"), help)
+    }
+}

@@ -1,0 +1,142 @@
+//! The unit of a sensor's readings: stated by the file, given by the user, or asked for. What contradicts gravity is not believed.
+
+use super::column::ColumnMeaning;
+use super::file_layout::Draft;
+use super::options::ImuReadOptions;
+use super::unit::{ColumnUnit, ImuUnit};
+use crate::recording::reader_finding::short;
+use crate::text_decoding::Checked;
+use calibrant_core::error::InputError;
+use calibrant_core::sensor::{Axis, Recording, SensorKind};
+
+/// A gyroscope that turns faster than this is hardly in rad/s.
+const FAST_RADPS: f64 = 40.0;
+/// Nor is one that turns faster than this in deg/s.
+const FAST_DEGPS: f64 = 8000.0;
+/// Whole numbers larger than this are hardly anything but counts.
+const COUNTS: f64 = 2500.0;
+/// A sensor that reads less than this, m/s², half of the time has had gravity removed.
+const NO_GRAVITY_MPS2: f64 = 3.0;
+/// Magnitudes that are 1 within this share are in g.
+const ONE: f64 = 0.15;
+
+/// The unit of a sensor's columns: what the file says; else what the user says; else counts, if that is agreed; else `None`.
+pub(super) fn stated_unit(
+    draft: &Draft,
+    options: &ImuReadOptions,
+    sensor_kind: SensorKind,
+) -> Checked<Option<ImuUnit>> {
+    let columns: Vec<_> = Axis::ALL
+        .iter()
+        .filter_map(|&axis| draft.column(ColumnMeaning::Reading(sensor_kind, axis)))
+        .collect();
+    let unit = |k: usize| match columns[k].unit {
+        Some(ColumnUnit::Reading(unit)) => Some(unit),
+        _ => None,
+    };
+    let symbol = |unit: Option<ImuUnit>| unit.map_or("no stated unit", ImuUnit::symbol);
+    if let Some(other) = (1..columns.len()).find(|&k| unit(k) != unit(0)) {
+        let message = format!(
+            "the axes of the {sensor_kind} have different units: `{}` has {}, `{}` has {}",
+            columns[0].name,
+            symbol(unit(0)),
+            columns[other].name,
+            symbol(unit(other))
+        );
+        return Err(InputError::new(message, "all three need the same").into());
+    }
+    let stated = if columns.is_empty() { None } else { unit(0) };
+    let given = options.unit(sensor_kind);
+    if let Some(given) = given.filter(|given| !given.suits(sensor_kind)) {
+        let message = format!("{} is no unit of the {sensor_kind}", given.symbol());
+        return Err(InputError::new(message, format!("say {}", ImuUnit::choices(sensor_kind))).into());
+    }
+    match (stated, given) {
+        (Some(stated), Some(given)) if stated != given => {
+            let message = format!(
+                "the {sensor_kind}'s columns are in {}, but the unit was given as {}",
+                stated.symbol(),
+                given.symbol()
+            );
+            let help = format!(
+                "leave --{sensor_kind}-unit away: the file decides (name the columns in [columns] to overrule it)"
+            );
+            Err(InputError::new(message, help).into())
+        }
+        (stated, given) => {
+            let agreed = options.counts_unless_stated[sensor_kind as usize].then_some(ImuUnit::Counts);
+            Ok(stated.or(given).or(agreed))
+        }
+    }
+}
+
+/// What is asked where the unit is not known: the question, and what the readings suggest.
+pub(super) fn question(sensor_kind: SensorKind, recording: &Recording) -> String {
+    let largest = recording.readings.iter().map(|y| y.amax()).fold(0.0, f64::max);
+    let whole = recording.readings.iter().all(|y| y.iter().all(|value| value.fract() == 0.0));
+    let median = median_magnitude(recording);
+    let hint = match sensor_kind {
+        _ if whole && largest > COUNTS => "suggest counts",
+        SensorKind::Gyroscope if largest > FAST_DEGPS => "suggest mdps",
+        SensorKind::Gyroscope if largest > FAST_RADPS => "suggest deg/s",
+        SensorKind::Gyroscope => "may be rad/s, or deg/s of slow turns",
+        SensorKind::Accelerometer if (9.0..=10.6).contains(&median) => "suggest m/s²",
+        SensorKind::Accelerometer if (1.0 - ONE..=1.0 + ONE).contains(&median) => "suggest g",
+        SensorKind::Accelerometer if (1e3 * (1.0 - ONE)..=1e3 * (1.0 + ONE)).contains(&median) => {
+            "suggest mg"
+        }
+        SensorKind::Accelerometer => "do not tell",
+    };
+    let of = match sensor_kind {
+        SensorKind::Accelerometer => format!("magnitudes around {}", short(round(median))),
+        SensorKind::Gyroscope => format!("magnitudes up to {}", short(round(largest))),
+    };
+    format!("the {sensor_kind}'s columns have no unit: {of} {hint}")
+}
+
+/// Three significant digits.
+fn round(value: f64) -> f64 {
+    format!("{value:.2e}").parse().unwrap_or(value)
+}
+
+fn median_magnitude(recording: &Recording) -> f64 {
+    let mut magnitudes: Vec<f64> = recording.readings.iter().map(|y| y.norm()).collect();
+    let middle = magnitudes.len() / 2;
+    if magnitudes.is_empty() { 0.0 } else { *magnitudes.select_nth_unstable_by(middle, f64::total_cmp).1 }
+}
+
+/// Complains of an accelerometer in m/s² that does not read gravity: one in g, or from which gravity was removed.
+pub(super) fn check_gravity(recording: &Recording, stated: ImuUnit) -> Checked<()> {
+    if stated == ImuUnit::Counts {
+        return Ok(());
+    }
+    let factor = stated.reading().1;
+    let median = median_magnitude(recording);
+    let (shown, unit) = (short(round(median / factor)), stated.symbol());
+    if stated == ImuUnit::MetrePerSecondSquared && (median - 1.0).abs() <= ONE {
+        let near = |y: &nalgebra::Vector3<f64>| (y.norm() - 1.0).abs() <= ONE;
+        let share = recording.readings.iter().filter(|y| near(y)).count() as f64 / recording.len() as f64;
+        if share > 0.7 {
+            return Err(InputError::new(
+                format!("the accelerometer is said to be in {unit}, but its magnitude is {shown} most of the time: is it in g?"),
+                "correct the unit: a column's name may end in _g, and accelerometer_unit = \"g\" in [columns] counts where the columns are named there",
+            )
+            .into());
+        }
+    }
+    if median < NO_GRAVITY_MPS2 {
+        return Err(InputError::new(
+            format!("gravity has been removed from the accelerometer: its magnitude is {shown} {unit} half of the time or less"),
+            "export the sensor's own readings; is it really an acceleration, in the unit that is stated?",
+        )
+        .into());
+    }
+    if median > 100.0 * crate::recording::columns::STANDARD_GRAVITY_MPS2 {
+        return Err(InputError::new(
+            format!("the accelerometer is said to be in {unit}, but its magnitude is {shown} half of the time or more: is it in mg, or are these counts?"),
+            "correct the unit",
+        )
+        .into());
+    }
+    Ok(())
+}

@@ -1,0 +1,350 @@
+//! From the values of a file to a recording: times, units, what is missing or twice, and what is noticed on the way.
+
+use super::column::ColumnMeaning;
+use super::column_values::Samples;
+use super::file_layout::Draft;
+use super::options::ImuReadOptions;
+use super::packet_times::Packets;
+use super::reading_unit::{check_gravity, question, stated_unit};
+use super::sample_clock::{self, at};
+use super::unit::{ColumnUnit, ImuUnit};
+use crate::recording::lost_sign;
+use crate::recording::reader_finding::{Finding, FindingKind, Tally, count, short};
+use crate::recording::recording_quality;
+use crate::recording::row_reader::{LineMap, backwards, report_duplicates, report_truncated};
+use crate::text_decoding::Checked;
+use calibrant_core::error::InputError;
+use calibrant_core::sensor::{
+    ImuRecording, ReadingUnit, Recording, SensorKind, Temperatures, WORKING_C, interpolated,
+};
+use nalgebra::Vector3;
+use std::iter::once;
+
+/// A recording put together, and what was noticed.
+pub(super) struct Assembled {
+    pub(super) recording: ImuRecording,
+    pub(super) findings: Vec<Finding>,
+}
+
+/// Puts the recording together; the draft learns which of its columns turned out to be of no use.
+pub(super) fn assemble(
+    draft: &mut Draft,
+    samples: &mut Samples,
+    options: &ImuReadOptions,
+) -> Checked<Assembled> {
+    let mut findings = Vec::new();
+    if samples.rows == 0 {
+        let input_error = InputError::new("there is a header but no sample below it", TWO);
+        return Err(samples.last_line.map_or(input_error.clone(), |line| input_error.at_line(line)).into());
+    }
+    let sensor_kinds = with_values(draft, samples)?;
+    let units = sensor_kinds
+        .iter()
+        .map(|&sensor_kind| stated_unit(draft, options, sensor_kind))
+        .collect::<Checked<Vec<_>>>()?;
+    let has_unused_rate = options.rate_hz.is_some() && sample_clock::are_recorded(samples);
+    let times = sample_clock::times(draft, samples, options, &mut findings);
+    // the questions are asked all at once
+    let mut times = match times {
+        Ok(times) => times,
+        Err(input_error) if units.contains(&None) => {
+            return Err(ask(Some(*input_error), samples, &sensor_kinds, &units).into());
+        }
+        Err(input_error) => return Err(input_error),
+    };
+    if units.contains(&None) {
+        return Err(ask(None, samples, &sensor_kinds, &units).into());
+    }
+    let mut of_rows = Vec::new();
+    let mut kept = increasing(&times, &sensor_kinds, samples, &mut of_rows)?;
+    let packets = |&sensor_kind: &SensorKind| Some((sensor_kind, Packets::of(&times, samples, sensor_kind)?));
+    if let Some((sensor_kind, packets)) = sensor_kinds.iter().find_map(packets) {
+        let alike = |row: usize| sensor_kinds.iter().all(|&sensor_kind| samples.holds(sensor_kind, row));
+        let Some(rate) = options.rate_hz.filter(|_| (0..samples.rows).all(alike)) else {
+            return Err(packets.question(sensor_kind).into());
+        };
+        times = sample_clock::of_rows(samples.rows, rate, &mut findings);
+        (kept, of_rows) = (Kept { rows: times.len(), dropped: Vec::new() }, Vec::new());
+    } else if has_unused_rate {
+        findings.push(sample_clock::rate_not_used());
+    }
+    findings.append(&mut of_rows);
+    let mut recording = ImuRecording::default();
+    let mut maps: Vec<LineMap> = Vec::new();
+    for (&sensor_kind, unit) in sensor_kinds.iter().zip(units.iter().flatten()) {
+        let (readings, lines) = readings(sensor_kind, *unit, &times, &kept, samples, &mut findings)?;
+        lost_sign::check(&readings, &format!("{sensor_kind} "))?;
+        if sensor_kind == SensorKind::Accelerometer {
+            check_gravity(&readings, *unit)?;
+            recording.accelerometer = Some(readings);
+        } else {
+            recording.gyroscope = Some(readings);
+        }
+        for axis in calibrant_core::sensor::Axis::ALL {
+            draft.set_unit(ColumnMeaning::Reading(sensor_kind, axis), ColumnUnit::Reading(*unit));
+        }
+        maps.push(lines);
+    }
+    report_truncated(samples.truncated, &mut findings);
+    recording.temperature_c = temperature(draft, &times, &kept, samples, &recording, &mut findings);
+    examine(&recording, &sensor_kinds, &maps, &mut findings);
+    Ok(Assembled { recording, findings })
+}
+
+/// A sensor warms up within minutes: what happens to its temperature in a shorter time than this is little.
+const LONG_WITHOUT_TEMPERATURE_S: f64 = 30.0;
+const TWO: &str = "a recording needs two samples at least";
+
+/// The sensors that have columns with values in them.
+fn with_values(draft: &mut Draft, samples: &Samples) -> Checked<Vec<SensorKind>> {
+    let mut sensor_kinds = Vec::new();
+    let mut empty = Vec::new();
+    for sensor_kind in SensorKind::ALL {
+        let readings = samples.sensor(sensor_kind);
+        if readings.is_empty() {
+            continue;
+        }
+        if (0..3).any(|axis| readings.iter().all(|reading| reading[axis].is_nan())) {
+            empty.push(sensor_kind.name());
+            for axis in calibrant_core::sensor::Axis::ALL {
+                draft.leave_aside(ColumnMeaning::Reading(sensor_kind, axis), "an axis has no values");
+            }
+        } else {
+            sensor_kinds.push(sensor_kind);
+        }
+    }
+    if sensor_kinds.is_empty() {
+        let message = format!("the columns of the {} are empty", empty.join(" and the "));
+        return Err(InputError::new(message, "were they recorded, and exported?").into());
+    }
+    Ok(sensor_kinds)
+}
+
+/// One complaint that asks everything.
+fn ask(
+    clock: Option<InputError>,
+    samples: &Samples,
+    sensor_kinds: &[SensorKind],
+    units: &[Option<ImuUnit>],
+) -> InputError {
+    let (mut questions, mut answers) = (Vec::new(), Vec::new());
+    for (&sensor_kind, _) in sensor_kinds.iter().zip(units).filter(|(_, unit)| unit.is_none()) {
+        let raw = raw(sensor_kind, samples);
+        questions.push(question(sensor_kind, &raw));
+        answers.push(format!(
+            "--{sensor_kind}-unit {} ({sensor_kind}_unit in [columns])",
+            ImuUnit::choices(sensor_kind)
+        ));
+    }
+    if let Some(clock) = clock {
+        questions.push(clock.message);
+        answers.push(clock.help.trim_start_matches("say ").to_owned());
+    }
+    InputError::new(questions.join("; "), format!("say {}", answers.join("; ")))
+}
+
+/// The readings of a sensor as they are in the file.
+fn raw(sensor_kind: SensorKind, samples: &Samples) -> Recording {
+    let is_whole = |reading: &&Vector3<f64>| reading.iter().all(|value| value.is_finite());
+    let readings: Vec<Vector3<f64>> = samples.sensor(sensor_kind).iter().filter(is_whole).copied().collect();
+    Recording { times_s: vec![0.0; readings.len()], readings, axes: 3, unit: ReadingUnit::Counts }
+}
+
+/// The rows of a file but for some.
+struct Kept {
+    rows: usize,
+    /// In order.
+    dropped: Vec<usize>,
+}
+
+impl Kept {
+    fn len(&self) -> usize {
+        self.rows - self.dropped.len()
+    }
+
+    fn rows(&self) -> impl Iterator<Item = usize> + '_ {
+        let mut dropped = self.dropped.iter().peekable();
+        (0..self.rows).filter(move |row| dropped.next_if_eq(&row).is_none())
+    }
+}
+
+/// The rows in which the times of a sensor increase; where sensors have rows of their own, each has its times. Rows that repeat the time before are dropped; one
+/// that goes back is an error.
+fn increasing(
+    times: &[f64],
+    sensor_kinds: &[SensorKind],
+    samples: &Samples,
+    findings: &mut Vec<Finding>,
+) -> Checked<Kept> {
+    let mut kept = Kept { rows: times.len(), dropped: Vec::new() };
+    let mut last: [Option<usize>; 2] = [None; 2];
+    let (mut untimed, mut same_rows, mut same_times) = (Tally::default(), Tally::default(), Tally::default());
+    for (row, &t) in times.iter().enumerate() {
+        if t.is_nan() {
+            untimed.add(samples.lines.line(row));
+            kept.dropped.push(row);
+            continue;
+        }
+        let held =
+            [0, 1].map(|k| sensor_kinds.get(k).is_some_and(|&sensor_kind| samples.holds(sensor_kind, row)));
+        let is_empty = !held.contains(&true);
+        if is_empty && samples.temperatures.get(row).is_some_and(|value| value.is_finite()) {
+            continue; // a row of the thermometer
+        }
+        let (mut is_new, mut repeated) = (false, None);
+        for (before, held) in last.iter_mut().zip(held) {
+            if !(held || is_empty) {
+                continue;
+            }
+            match *before {
+                Some(other) if t < times[other] => {
+                    return Err(at(backwards(times[other], t), samples, row).into());
+                }
+                Some(other) if t == times[other] => repeated = Some(other),
+                _ => (*before, is_new) = (Some(row), true),
+            }
+        }
+        if let Some(other) = repeated.filter(|_| !is_new) {
+            if samples.repeats(row, other) { &mut same_rows } else { &mut same_times }
+                .add(samples.lines.line(row));
+            kept.dropped.push(row);
+        }
+    }
+    untimed.report(FindingKind::Missing, findings, |n| format!("{} without a time dropped", count(n, "row")));
+    report_duplicates(&same_rows, &same_times, findings);
+    Ok(kept)
+}
+
+/// The readings of a sensor, in its unit after the conversion; samples that lack a value are dropped.
+fn readings(
+    sensor_kind: SensorKind,
+    unit: ImuUnit,
+    times: &[f64],
+    kept: &Kept,
+    samples: &mut Samples,
+    findings: &mut Vec<Finding>,
+) -> Checked<(Recording, LineMap)> {
+    let (unit, factor) = unit.reading();
+    let mut readings = samples.take_sensor(sensor_kind);
+    let mut times_s = Vec::with_capacity(kept.len());
+    let mut lines = LineMap::default();
+    let (mut absent, mut missing, mut same_times) = (Tally::default(), Tally::default(), Tally::default());
+    for row in kept.rows() {
+        let reading = readings[row];
+        if reading.x.is_nan() || reading.y.is_nan() || reading.z.is_nan() {
+            let is_absent = reading.iter().all(|value| value.is_nan());
+            if is_absent { &mut absent } else { &mut missing }.add(samples.lines.line(row));
+            continue;
+        }
+        if times_s.last() == Some(&times[row]) {
+            same_times.add(samples.lines.line(row)); // the row is kept for the other sensor
+            continue;
+        }
+        if let Some(line) = samples.lines.line(row) {
+            lines.push(times_s.len(), line);
+        }
+        readings[times_s.len()] = reading * factor;
+        times_s.push(times[row]);
+    }
+    readings.truncate(times_s.len());
+    let recording = Recording { times_s, readings, axes: 3, unit };
+    absent.report(FindingKind::Missing, findings, |n| {
+        format!("{} without a reading of the {sensor_kind}", count(n, "row"))
+    });
+    missing.report(FindingKind::Missing, findings, |n| {
+        format!("{} of the {sensor_kind} with a missing or NaN value dropped", count(n, "sample"))
+    });
+    same_times.report(FindingKind::DuplicateTime, findings, |n| {
+        format!("{} of the {sensor_kind} with the time of the one before dropped", count(n, "sample"))
+    });
+    if recording.len() < 2 {
+        let message = format!(
+            "only {} of the {sensor_kind} in {}",
+            count(recording.len(), "usable sample"),
+            count(samples.rows, "row")
+        );
+        let mut help = vec![TWO.to_owned()];
+        let dropped = findings.iter().filter(|finding| finding.kind != FindingKind::Clock);
+        help.extend(dropped.map(ToString::to_string));
+        let input_error = InputError::new(message, help.join("; "));
+        return Err(samples.last_line.map_or(input_error.clone(), |line| input_error.at_line(line)).into());
+    }
+    Ok((recording, lines))
+}
+
+/// Temperatures at the sample times of the first sensor: straight lines between the rows that have one.
+fn temperature(
+    draft: &mut Draft,
+    times: &[f64],
+    kept: &Kept,
+    samples: &Samples,
+    recording: &ImuRecording,
+    findings: &mut Vec<Finding>,
+) -> Option<Vec<f64>> {
+    let values = &samples.temperatures;
+    if values.is_empty() {
+        return None;
+    }
+    let mut known: Vec<(f64, f64)> =
+        kept.rows().filter(|&row| values[row].is_finite()).map(|row| (times[row], values[row])).collect();
+    // sensors with rows of their own have times of their own
+    known.sort_by(|one, other| one.0.total_cmp(&other.0));
+    if known.is_empty() {
+        draft.leave_aside(ColumnMeaning::Temperature, "it has no values");
+        return None;
+    }
+    let at = &recording.accelerometer.as_ref().or(recording.gyroscope.as_ref())?.times_s;
+    let missing = kept.len() - known.len();
+    if missing > 0 {
+        let all = || kept.rows().map(|row| times[row]);
+        let ends = (all().fold(f64::INFINITY, f64::min), all().fold(f64::NEG_INFINITY, f64::max));
+        let known_at = known.iter().map(|(t, _)| *t);
+        let with_ends: Vec<f64> = once(ends.0).chain(known_at).chain(once(ends.1)).collect();
+        let longest_s = with_ends.windows(2).map(|t| t[1] - t[0]).fold(0.0, f64::max);
+        let message = format!(
+            "the temperature is missing in {missing} of {}, for up to {} s: it is interpolated between those that have it, and kept constant before the first and after the last",
+            count(kept.len(), "row"),
+            short(longest_s)
+        );
+        let doubtful = longest_s > LONG_WITHOUT_TEMPERATURE_S;
+        let kind = if doubtful { FindingKind::DoubtfulTemperature } else { FindingKind::Temperature };
+        findings.push(Finding::new(kind, None, message));
+    }
+    if let Some((_, value)) = known.iter().find(|(_, value)| !WORKING_C.contains(value)) {
+        let message = format!("the temperature is {}: {}", short(*value), Temperatures::question(*value));
+        findings.push(Finding::new(FindingKind::DoubtfulTemperature, None, message));
+    }
+    let (times_s, values_c): (Vec<f64>, Vec<f64>) = known.into_iter().unzip();
+    at.iter().enumerate().map(|(k, &t)| interpolated(&times_s, |known| values_c[known], t, k)).collect()
+}
+
+/// Looks for gaps, irregular sampling, axes that are not connected, clipped readings.
+fn examine(
+    recording: &ImuRecording,
+    sensor_kinds: &[SensorKind],
+    lines: &[LineMap],
+    findings: &mut Vec<Finding>,
+) {
+    let sensors: Vec<_> = sensor_kinds
+        .iter()
+        .filter_map(|&sensor_kind| Some((sensor_kind, recording.sensor(sensor_kind)?)))
+        .zip(lines)
+        .collect();
+    let shared = sensors.windows(2).all(|pair| pair[0].0.1.times_s == pair[1].0.1.times_s);
+    for (k, ((sensor_kind, sensor), lines)) in sensors.iter().enumerate() {
+        if k == 0 || !shared {
+            let rate = sensor.rate_hz();
+            if k == 0 {
+                recording_quality::clock(rate, findings);
+            }
+            let from = findings.len();
+            recording_quality::sampling(sensor, rate, lines, findings);
+            if !shared {
+                findings[from..]
+                    .iter_mut()
+                    .for_each(|finding| finding.message = format!("{sensor_kind}: {}", finding.message));
+            }
+        }
+        recording_quality::readings(sensor, &format!("{sensor_kind} "), lines, findings);
+    }
+}

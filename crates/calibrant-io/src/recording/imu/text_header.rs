@@ -1,0 +1,190 @@
+//! What is above the rows of a text: comments, lines of `key: value`, and the header.
+
+use crate::delimited_text::{Delimiter, Line, Lines};
+use crate::text_decoding::Checked;
+use calibrant_core::error::InputError;
+
+/// The beginning of a text, up to its first row.
+pub(super) struct Head<'t> {
+    /// Comments and lines of `key: value`.
+    pub(super) preamble: Vec<Line<'t>>,
+    /// Line with the names of the columns.
+    header: Option<Line<'t>>,
+    /// First row, where there is no header or where it is a comment.
+    pub(super) first_row: Option<Line<'t>>,
+    pub(super) delimiter: Delimiter,
+    /// The names of the columns; empty where there is no header.
+    pub(super) names: Vec<&'t str>,
+    /// What follows the header, or the first row.
+    pub(super) rest: Lines<'t>,
+}
+
+impl<'t> Head<'t> {
+    /// Finds the header.
+    pub(super) fn find(text: &'t str) -> Checked<Self> {
+        let mut preamble = Vec::new();
+        let mut rest = Lines::of(text);
+        // the lines above the header of a DOT export are no comments
+        let mut is_dot = false;
+        for line in rest.by_ref() {
+            let plain = line.text.trim_ascii();
+            if plain.is_empty() {
+                continue;
+            }
+            if plain.starts_with('{') {
+                return Err(no_json(text).at_line(line.number).into());
+            }
+            is_dot |= is_separator(plain) || plain.starts_with("DeviceTag");
+            let is_euroc =
+                plain.strip_prefix('#').is_some_and(|name| name.trim_start().starts_with("timestamp"));
+            if (line.is_void() && !is_euroc) || is_separator(plain) || is_key(plain) {
+                preamble.push(line);
+                continue;
+            }
+            line.check_ends()?;
+            let delimiter = delimiter_of(line.text);
+            let names = fields(line, delimiter);
+            if is_dot && !is_xsens(&names) && (names.len() < 4 || delimiter == Delimiter::Whitespace) {
+                preamble.push(line);
+                continue;
+            }
+            return Ok(Self::at(line, preamble, rest));
+        }
+        Err(InputError::new(
+            match preamble.iter().any(|line| !line.is_void()) {
+                _ if text.trim().is_empty() => "the file is empty",
+                true => "there is no header with the names of the columns",
+                false => "the file has only comments",
+            },
+            "a recording has a header, such as t_s,ax_mps2,ay_mps2,az_mps2,gx_radps,gy_radps,gz_radps, and a row for each sample",
+        )
+        .into())
+    }
+
+    fn at(line: Line<'t>, preamble: Vec<Line<'t>>, rest: Lines<'t>) -> Self {
+        let delimiter = mixed(line, &rest).unwrap_or_else(|| delimiter_of(line.text));
+        let names = fields(line, delimiter);
+        if !names.iter().any(is_number) && names.iter().any(|name| !name.is_empty()) {
+            return Self { preamble, header: Some(line), first_row: None, delimiter, names, rest };
+        }
+        // a comment above the first row that has a name for each of its columns
+        let commented = preamble.last().copied().filter(|comment| comment.is_void()).and_then(|comment| {
+            let plain = comment.text.trim_ascii().trim_start_matches(['#', '%', '/']).trim_ascii();
+            let found = fields(Line { text: plain, ..comment }, delimiter);
+            (found.len() == names.len() && names.len() > 3 && !found.iter().any(is_number))
+                .then_some((comment, found))
+        });
+        match commented {
+            Some((comment, names)) => {
+                Self { preamble, header: Some(comment), first_row: Some(line), delimiter, names, rest }
+            }
+            None => {
+                Self { preamble, header: None, first_row: Some(line), delimiter, names: Vec::new(), rest }
+            }
+        }
+    }
+
+    /// Number of the line with the names, or of the first row.
+    pub(super) fn line(&self) -> usize {
+        self.header.or(self.first_row).map_or(1, |line| line.number)
+    }
+
+    /// Number of columns.
+    pub(super) fn fields(&self) -> usize {
+        match self.first_row {
+            Some(line) => fields(line, self.delimiter).len(),
+            None => self.names.len(),
+        }
+    }
+
+    /// The names of the columns in lower case.
+    pub(super) fn lower_names(&self) -> Vec<String> {
+        self.names.iter().map(|name| name.to_lowercase()).collect()
+    }
+
+    /// What follows `key:` in the lines above the header.
+    pub(super) fn value(&self, key: &str) -> Option<&'t str> {
+        self.preamble.iter().find_map(|line| {
+            let plain = line.text.trim_ascii().trim_start_matches(['/', '#', '%']).trim_ascii();
+            let rest = plain.strip_prefix(key)?.trim_ascii_start().strip_prefix(':')?;
+            Some(rest.trim_matches([' ', '\t', ',', ';', '"']))
+        })
+    }
+
+    /// The number, such as `100.0` of `100.0Hz`, that follows `key:` in the lines above the header.
+    pub(super) fn number(&self, key: &str) -> Option<f64> {
+        let value = self.value(key)?;
+        let end = value.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(value.len());
+        value[..end].parse().ok().filter(|number: &f64| number.is_finite() && *number > 0.0)
+    }
+
+    /// Is there a line `sep=,` (for Excel)?
+    pub(super) fn has_separator_line(&self) -> bool {
+        self.preamble.iter().any(|line| is_separator(line.text.trim_ascii()))
+    }
+}
+
+/// Fields of a line, without the empty one after a delimiter at its end.
+fn fields(line: Line<'_>, delimiter: Delimiter) -> Vec<&str> {
+    let mut fields: Vec<&str> = line.fields(delimiter).map(|(_, field)| field).collect();
+    if fields.len() > 1 && fields.last().is_some_and(|field| field.is_empty()) {
+        fields.pop();
+    }
+    fields
+}
+
+/// What separates the fields of this line. Where names are separated by single spaces, two spaces in a row have an empty field between them.
+fn delimiter_of(line: &str) -> Delimiter {
+    match Delimiter::of(line) {
+        Delimiter::Whitespace if line.starts_with("PacketCounter ") && !line.contains("  ") => {
+            Delimiter::Character(b' ')
+        }
+        delimiter => delimiter,
+    }
+}
+
+/// White space, where tabs and spaces both separate the numbers below this line, or in it.
+fn mixed(line: Line<'_>, rest: &Lines<'_>) -> Option<Delimiter> {
+    let tab = Delimiter::Character(b'\t');
+    if delimiter_of(line.text) != tab {
+        return None;
+    }
+    let words = |line: Line<'_>| fields(line, Delimiter::Whitespace).len();
+    let row = rest.clone().find(|line| !line.is_void()).unwrap_or(line);
+    let are_numbers = fields(row, Delimiter::Whitespace).iter().all(is_number);
+    let is_mixed = [line, row].into_iter().any(|line| fields(line, tab).len() < words(line));
+    (are_numbers && is_mixed && words(line) == words(row)).then_some(Delimiter::Whitespace)
+}
+
+/// The complaint about JSON in place of a recording.
+fn no_json(text: &str) -> InputError {
+    match text.contains("\"parameters\"") || text.contains("\"K_a\"") {
+        true => InputError::new(
+            "this is JSON, a calibration as it seems, not a recording",
+            "`calibrant convert` and `compare` read calibrations, `apply` corrects a recording by one",
+        ),
+        false => InputError::new(
+            "this is JSON, not a recording",
+            "a recording is a table: a header such as t_s,ax_mps2,ay_mps2,az_mps2,gx_radps,gy_radps,gz_radps, and a row for each sample",
+        ),
+    }
+}
+
+fn is_number(field: &&str) -> bool {
+    field.parse::<f64>().is_ok()
+}
+
+/// `sep=,`, the line that tells Excel the delimiter.
+fn is_separator(line: &str) -> bool {
+    line.len() == 5 && line.starts_with("sep=")
+}
+
+/// `key:` or `key:,value`, as above the header of a DOT export.
+fn is_key(line: &str) -> bool {
+    let first = line.split([',', ';', '\t']).next().unwrap_or_default().trim_matches([' ', '"']);
+    first.ends_with(':') && first.len() > 1
+}
+
+fn is_xsens(names: &[&str]) -> bool {
+    names.iter().any(|name| ["PacketCounter", "SampleTimeFine", "Acc_X", "Gyr_X"].contains(name))
+}

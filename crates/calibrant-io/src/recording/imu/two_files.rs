@@ -1,0 +1,195 @@
+//! A recording whose sensors have a file each.
+
+use super::column::{ColumnMeaning, ImuColumn};
+use super::file_layout::Draft;
+use super::read::rows;
+use super::sample_clock::COUNTED;
+use super::text_header::Head;
+use super::text_source::{self, Source};
+use super::{ColumnMapping, FileFormat, ImuFile, ImuReadOptions, SecondFile, imu_tk};
+use crate::recording::reader_finding::{Finding, FindingKind, moment, short};
+use crate::text_decoding::Checked;
+use calibrant_core::error::{Error, InputError, Result};
+use calibrant_core::sensor::{ImuRecording, Recording, SensorKind};
+use std::path::Path;
+
+/// What both files have in common of the longer one's time, where nothing is to be said of it.
+const COVERED: f64 = 0.9;
+
+/// Reads a recording whose accelerometer and gyroscope are in a file each, as imu_tk's are: `t x y z`.
+///
+/// A file with a header serves as well: `t_s,x,y,z`, or any that has the sensor's columns by name. The sensors share a clock; their sample times may differ.
+///
+/// # Errors
+/// As [`read_imu_recording`](crate::read_imu_recording), for each file.
+pub fn read_imu_pair(accelerometer: &Path, gyroscope: &Path, options: &ImuReadOptions) -> Result<ImuFile> {
+    let one = |path: &Path, sensor_kind: SensorKind| {
+        let in_file = |input_error: Box<InputError>| Error::recording(input_error.in_file(path));
+        let beginning = text_source::beginning(path).map_err(in_file)?;
+        text_source::of_file(beginning, |source| parse_one(source, options, sensor_kind)).map_err(in_file)
+    };
+    // one beside the other: this is what a calibration waits for
+    let (accelerometer, gyroscope) = rayon::join(
+        || one(accelerometer, SensorKind::Accelerometer),
+        || one(gyroscope, SensorKind::Gyroscope),
+    );
+    both(accelerometer, gyroscope)
+}
+
+/// Reads the bytes of a pair of files, accelerometer and gyroscope.
+///
+/// # Errors
+/// As [`read_imu_pair`], without the names of the files.
+///
+/// # Examples
+/// ```
+/// use calibrant::io::{ImuReadOptions, ImuUnit, parse_imu_pair};
+/// let options = ImuReadOptions {
+///     accelerometer_unit: Some(ImuUnit::Counts),
+///     gyroscope_unit: Some(ImuUnit::Counts),
+///     ..ImuReadOptions::default()
+/// };
+/// let file = parse_imu_pair(b"0.00 33108 33329 36429\n0.01 33096 33336 36437\n", b"0.00 32786 32429 32499\n0.01 32797 32410 32531\n", &options)?;
+/// assert_eq!(file.recording.gyroscope.expect("there").readings[1].y, 32410.0);
+/// # Ok::<(), calibrant::Error>(())
+/// ```
+pub fn parse_imu_pair(accelerometer: &[u8], gyroscope: &[u8], options: &ImuReadOptions) -> Result<ImuFile> {
+    let one = |bytes: &[u8], sensor_kind: SensorKind| {
+        text_source::of_bytes(bytes, |source| parse_one(source, options, sensor_kind)).map_err(
+            |input_error| {
+                let message = format!("{sensor_kind}: {}", input_error.message);
+                Error::recording(InputError { message, ..*input_error })
+            },
+        )
+    };
+    both(one(accelerometer, SensorKind::Accelerometer), one(gyroscope, SensorKind::Gyroscope))
+}
+
+/// The pair; where both files leave a question open, both questions at once.
+fn both(accelerometer: Result<ImuFile>, gyroscope: Result<ImuFile>) -> Result<ImuFile> {
+    const SAY: &str = "say ";
+    let is_question = |input_error: &InputError| input_error.help.starts_with(SAY);
+    match (accelerometer, gyroscope) {
+        (Err(Error::Recording(one)), Err(Error::Recording(other)))
+            if is_question(&one) && is_question(&other) =>
+        {
+            let mut answers: Vec<&str> = one.help.split("; ").collect();
+            let more = other.help.trim_start_matches(SAY).split("; ");
+            answers.extend(more.filter(|answer| !one.help.contains(answer)));
+            let help = answers.join("; ");
+            let second = InputError { help: String::new(), ..(*other).clone() };
+            Err(Error::recording(InputError { message: format!("{}; {second}", one.message), help, ..*one }))
+        }
+        (accelerometer, gyroscope) => Ok(joined(accelerometer?, gyroscope?)),
+    }
+}
+
+/// One file of a pair.
+fn parse_one(source: Source<'_>, options: &ImuReadOptions, sensor_kind: SensorKind) -> Checked<ImuFile> {
+    let head = Head::find(source.text)?;
+    let mut draft = if head.names.is_empty() {
+        imu_tk::draft(&head, Some(sensor_kind))?
+    } else {
+        Draft::new(FileFormat::Csv, imu_tk::named(&head, sensor_kind))
+    };
+    draft.keep_only(sensor_kind);
+    // the other sensor's unit, or the columns of one file that holds both, are not meant
+    let options = ImuReadOptions { columns: ColumnMapping::default(), ..options.clone() };
+    rows(draft, head, source, &options)
+}
+
+/// The other sensor's columns of a file that was given for one sensor.
+fn left_aside(file: &ImuFile, sensor_kind: SensorKind) -> Option<Finding> {
+    let is_other =
+        |column: &&ImuColumn| matches!(column.meaning, ColumnMeaning::Reading(of, _) if of != sensor_kind);
+    let names: Vec<&str> = file.columns.iter().filter(is_other).map(|column| column.name.as_str()).collect();
+    let other = match sensor_kind {
+        SensorKind::Accelerometer => SensorKind::Gyroscope,
+        SensorKind::Gyroscope => SensorKind::Accelerometer,
+    };
+    (!names.is_empty()).then(|| {
+        let message = format!(
+            "its own columns of the {other}, {}, are left aside: the {other} is that of the other file",
+            names.join(", ")
+        );
+        Finding::new(FindingKind::IgnoredColumns, None, message)
+    })
+}
+
+/// Says where one of a pair of files covers much less of the time than the other, or nothing of it.
+fn shorter_than_other(first: &ImuRecording, second: &ImuRecording) -> Option<Finding> {
+    let span = |recording: &Recording| Some((*recording.times_s.first()?, *recording.times_s.last()?));
+    let (accelerometer, gyroscope) =
+        (span(first.accelerometer.as_ref()?)?, span(second.gyroscope.as_ref()?)?);
+    let common = accelerometer.1.min(gyroscope.1) - accelerometer.0.max(gyroscope.0);
+    let lengths = [accelerometer, gyroscope].map(|(start, end)| end - start);
+    let is_gyroscope = lengths[1] < lengths[0];
+    let (shorter, longer) = if is_gyroscope {
+        (SensorKind::Gyroscope, SensorKind::Accelerometer)
+    } else {
+        (SensorKind::Accelerometer, SensorKind::Gyroscope)
+    };
+    let of = |sensor_kind: SensorKind| {
+        if sensor_kind == SensorKind::Gyroscope { gyroscope } else { accelerometer }
+    };
+    if common >= COVERED * lengths[0].max(lengths[1]) {
+        return None;
+    }
+    let words = |(start, end): (f64, f64)| format!("from {} to {} s", moment(start), moment(end));
+    let (kind, shared) = match common > 0.0 {
+        true => (FindingKind::ShorterThanOther, format!("{} s of both", short(common))),
+        false => (
+            FindingKind::NoCommonTime,
+            "no time of both; are they of one recording, and their times of one clock?".to_owned(),
+        ),
+    };
+    let message = format!(
+        "{shorter}: it was recorded {}, the {longer} {}: {shared}",
+        words(of(shorter)),
+        words(of(longer))
+    );
+    Some(Finding { in_second_file: is_gyroscope, ..Finding::new(kind, None, message) })
+}
+
+/// Two files as one recording.
+fn joined(first: ImuFile, mut second: ImuFile) -> ImuFile {
+    on_one_clock(&first, &mut second);
+    let named = |sensor_kind: SensorKind, file: &ImuFile| -> Vec<Finding> {
+        let named = |mut finding: Finding| {
+            if !finding.message.starts_with(sensor_kind.name()) {
+                finding.message = format!("{sensor_kind}: {}", finding.message);
+            }
+            finding
+        };
+        file.findings.iter().cloned().chain(left_aside(file, sensor_kind)).map(named).collect()
+    };
+    let of_second = named(SensorKind::Gyroscope, &second).into_iter();
+    let mut findings = named(SensorKind::Accelerometer, &first);
+    findings.extend(of_second.map(|finding| Finding { in_second_file: true, ..finding }));
+    findings.extend(shorter_than_other(&first.recording, &second.recording));
+    let of_gyroscope = SecondFile { format: second.format, rows: second.rows, columns: second.columns.len() };
+    ImuFile {
+        recording: ImuRecording {
+            accelerometer: first.recording.accelerometer,
+            gyroscope: second.recording.gyroscope,
+            temperature_c: first.recording.temperature_c,
+        },
+        columns: first.columns.into_iter().chain(second.columns).collect(),
+        findings,
+        sha256: [first.sha256, second.sha256].concat(),
+        second: Some(of_gyroscope),
+        ..first
+    }
+}
+
+/// Times that count from the first of each file count from that of the accelerometer's.
+fn on_one_clock(first: &ImuFile, second: &mut ImuFile) {
+    let (Some(of_first), Some(of_second)) = (first.counted_from_ns, second.counted_from_ns) else { return };
+    let later_s = of_second.saturating_sub(of_first) as f64 / 1e9;
+    if let Some(gyroscope) = &mut second.recording.gyroscope {
+        gyroscope.times_s.iter_mut().for_each(|t| *t += later_s);
+    }
+    second
+        .findings
+        .retain(|finding| !(finding.kind == FindingKind::Clock && finding.message.starts_with(COUNTED)));
+}

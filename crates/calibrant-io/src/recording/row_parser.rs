@@ -1,0 +1,265 @@
+//! One row of a recording: its fields as numbers, each in its slot, or a complaint that points at the field.
+
+use crate::delimited_text::{Delimiter, Line, last_number_is_cut};
+use crate::text_decoding::Checked;
+use calibrant_core::error::InputError;
+use std::ops::RangeInclusive;
+
+/// Largest time and reading that make sense, in any unit.
+const LARGEST: f64 = 1e12;
+/// A few readings up to this are invalid samples, which are found where their neighbours are known; conversion to SI does not overflow below it.
+const LARGEST_INVALID: f64 = 1e300;
+/// Readings that make no sense in more than one row of so many are no invalid samples.
+const MOST_INVALID: usize = 50;
+/// Slots of readings in every layout.
+const READINGS: RangeInclusive<usize> = 1..=6;
+
+/// Does a value make sense in this slot? A reading that does not may still be an invalid sample.
+pub(super) enum Sense {
+    Some,
+    Invalid,
+    None,
+}
+
+impl Sense {
+    /// That of a value that is there.
+    pub(super) fn of(value: f64, slot: usize) -> Self {
+        match value.abs() {
+            size if size <= LARGEST => Self::Some,
+            size if size <= LARGEST_INVALID && READINGS.contains(&slot) => Self::Invalid,
+            _ => Self::None,
+        }
+    }
+
+    /// Are there too many invalid samples for this number of rows?
+    pub(super) fn is_lost(invalid: usize, rows: usize) -> bool {
+        invalid > rows / MOST_INVALID
+    }
+}
+/// Whole numbers above this are not exact as `f64`.
+const EXACT: u64 = 1 << 53;
+
+/// What the columns of a text are for.
+pub(super) struct Layout {
+    pub(super) delimiter: Delimiter,
+    /// For each column the slot of its values, `None` where it is not needed. Slot 0 is the time.
+    pub(super) slots: Vec<Option<usize>>,
+    /// Names, for complaints; empty where there is no header.
+    pub(super) names: Vec<String>,
+    /// Is the line that they were found in a header (and not the first row)?
+    pub(super) has_header: bool,
+    /// Are times whole ticks of a clock? They may then be larger than seconds can be.
+    pub(super) ticks: bool,
+}
+
+impl Layout {
+    /// Name of a column, for complaints.
+    pub(super) fn name(&self, column: usize) -> String {
+        self.names
+            .get(column)
+            .map_or_else(|| format!("column {}", column + 1), |name| format!("column `{name}`"))
+    }
+}
+
+/// Reads rows, and knows when the last one was cut off.
+pub(super) struct RowReader<'l> {
+    layout: &'l Layout,
+    rows: usize,
+    width: Width,
+    /// Line that was cut off, where the last one was.
+    pub(super) truncated: Option<usize>,
+    /// Is the last line known to be cut off?
+    last_is_cut: bool,
+    /// What was taken from ticks that are too large to be exact as `f64`.
+    pub(super) origin: Option<i64>,
+    /// Number of invalid readings, and what is to be said of the first if they are too many.
+    invalid: (usize, Option<Box<InputError>>),
+}
+
+/// What is wrong with a row.
+struct RowError {
+    input_error: Box<InputError>,
+    /// Would it be right had the line not been cut off?
+    cut: bool,
+}
+
+/// Length of the rows, where all have the same: what is shorter was cut off.
+#[derive(Clone, Copy)]
+enum Width {
+    Unknown,
+    Fixed(usize),
+    Varies,
+}
+
+impl<'l> RowReader<'l> {
+    pub(super) fn new(layout: &'l Layout) -> Self {
+        Self {
+            layout,
+            rows: 0,
+            width: Width::Unknown,
+            truncated: None,
+            last_is_cut: false,
+            origin: None,
+            invalid: (0, None),
+        }
+    }
+
+    /// Looks at the end of the text that the next lines are from.
+    pub(super) fn look_at_the_end(&mut self, text: &str) {
+        self.last_is_cut = last_number_is_cut(text, self.layout.delimiter);
+    }
+
+    /// Number of rows, dropped ones included.
+    pub(super) fn rows(&self) -> usize {
+        self.rows
+    }
+
+    /// Reads the values of a line, each into its slot: NaN where one is missing or has no column. Not where the line is void or was cut off: `false`.
+    pub(super) fn read<const N: usize>(&mut self, line: Line<'_>, values: &mut [f64; N]) -> Checked<bool> {
+        if line.is_void() {
+            return Ok(false);
+        }
+        self.rows += 1;
+        let read = self.values(line, values);
+        if read.is_err() {
+            line.check_ends()?;
+        }
+        match read {
+            // the last line may end anywhere when a logger was switched off
+            _ if !line.terminated && self.rows > 1 && self.is_cut(line) => {
+                self.truncated = Some(line.number);
+                return Ok(false);
+            }
+            Err(error) if !line.terminated && self.rows > 1 && error.cut => {
+                self.truncated = Some(line.number);
+                return Ok(false);
+            }
+            done => done.map_err(|error| error.input_error)?,
+        }
+        self.width = match self.width {
+            Width::Unknown => Width::Fixed(line.text.len()),
+            Width::Fixed(width) if width != line.text.len() => Width::Varies,
+            width => width,
+        };
+        Ok(true)
+    }
+
+    /// Complains of the first invalid reading where they are too many to be a few bad samples; after the last row.
+    pub(super) fn check_invalid(&mut self) -> Checked<()> {
+        match self.invalid.1.take() {
+            Some(input_error) if Sense::is_lost(self.invalid.0, self.rows) => Err(input_error),
+            _ => Ok(()),
+        }
+    }
+
+    /// Is this line, the last one, known to be cut off, or shorter than all rows before, which have the same length (numbers in columns)?
+    fn is_cut(&self, line: Line<'_>) -> bool {
+        self.last_is_cut
+            || (self.layout.delimiter == Delimiter::Whitespace
+                && matches!(self.width, Width::Fixed(width) if self.rows > 3 && line.text.len() < width))
+    }
+
+    fn values<const N: usize>(&mut self, line: Line<'_>, values: &mut [f64; N]) -> Result<(), RowError> {
+        let layout = self.layout;
+        values.fill(f64::NAN);
+        let mut fields = 0;
+        let mut last_is_empty = false;
+        let mut row = line.fields(layout.delimiter);
+        while let Some((offset, field, plain)) = row.next_number() {
+            if let Some(Some(slot)) = layout.slots.get(fields).copied() {
+                let is_tick = slot == 0 && layout.ticks;
+                match if is_tick { self.tick(field) } else { plain.or_else(|| number(field)) } {
+                    Some(value) if value.is_nan() => (),
+                    Some(value) if is_tick && value.is_finite() => values[slot] = value,
+                    Some(value) => match Sense::of(value, slot) {
+                        Sense::Some => values[slot] = value,
+                        Sense::Invalid => {
+                            values[slot] = value;
+                            self.invalid.0 += 1;
+                            if self.invalid.1.is_none() {
+                                self.invalid.1 =
+                                    Some(self.out_of_range(field, fields, line, offset).input_error);
+                            }
+                        }
+                        Sense::None => return Err(self.out_of_range(field, fields, line, offset)),
+                    },
+                    None => return Err(self.not_a_number(field, fields, line, offset)),
+                }
+            }
+            fields += 1;
+            last_is_empty = field.is_empty();
+        }
+        let columns = layout.slots.len();
+        // a delimiter at the end of the line is no column
+        if fields == columns || (fields == columns + 1 && last_is_empty) {
+            return Ok(());
+        }
+        let help = if fields < columns {
+            "was the line cut off, or written while the file was read?"
+        } else {
+            "numbers need a decimal point, not a comma; columns need one delimiter"
+        };
+        let before = if layout.has_header { "the header" } else { "the first row" };
+        let message = format!("{fields} columns where {before} has {columns}");
+        Err(RowError {
+            input_error: InputError::new(message, help).at_line(line.number).into(),
+            cut: fields < columns,
+        })
+    }
+
+    /// Ticks of a clock, less the first where they are too large to be exact.
+    fn tick(&mut self, field: &str) -> Option<f64> {
+        let Ok(ticks) = field.parse::<i64>() else {
+            let origin = self.origin.unwrap_or(0);
+            return number(field).map(|value| if origin == 0 { value } else { value - origin as f64 });
+        };
+        let origin = *self.origin.get_or_insert(if ticks.unsigned_abs() > EXACT { ticks } else { 0 });
+        Some((i128::from(ticks) - i128::from(origin)) as f64)
+    }
+
+    fn out_of_range(&self, field: &str, column: usize, line: Line<'_>, offset: usize) -> RowError {
+        let is_time = self.layout.slots.get(column) == Some(&Some(0));
+        let help = match (is_time, self.layout.ticks) {
+            (true, false) => "times are in seconds",
+            (true, true) => "times are whole numbers",
+            (false, _) => "is the unit right? is the file damaged?",
+        };
+        let message = format!("{} in {} is out of range", quote(field), self.layout.name(column));
+        let input_error = InputError::new(message, help).at_line(line.number).at_column(line.column(offset));
+        RowError { input_error: input_error.into(), cut: false }
+    }
+
+    fn not_a_number(&self, field: &str, column: usize, line: Line<'_>, offset: usize) -> RowError {
+        let is_name = |name: &String| field.eq_ignore_ascii_case(name);
+        let help = if field.contains(',') {
+            "numbers need a decimal point, not a comma"
+        } else if self.rows > 1 && self.layout.names.get(column).is_some_and(is_name) {
+            "a second header: are these files put together? keep one of them"
+        } else {
+            "numbers look like 9.81 or 1e-3; a missing value is an empty field or NaN"
+        };
+        let message = format!("{} in {} is not a number", quote(field), self.layout.name(column));
+        let input_error = InputError::new(message, help).at_line(line.number).at_column(line.column(offset));
+        RowError {
+            input_error: input_error.into(),
+            cut: offset + field.len() >= line.text.trim_ascii_end().len(),
+        }
+    }
+}
+
+/// A field as a number; NaN where it is missing, `None` where it is something else.
+fn number(field: &str) -> Option<f64> {
+    if let Ok(value) = field.parse() {
+        return Some(value);
+    }
+    let missing = field.is_empty()
+        || ["na", "n/a", "null", "none", "nan(ind)", "-nan(ind)", "1.#qnan", "-1.#ind"]
+            .iter()
+            .any(|word| field.eq_ignore_ascii_case(word));
+    missing.then_some(f64::NAN)
+}
+
+fn quote(field: &str) -> String {
+    let shown: String = field.chars().take(40).collect();
+    format!("\"{}\"{}", shown.escape_debug(), if shown.len() < field.len() { "…" } else { "" })
+}

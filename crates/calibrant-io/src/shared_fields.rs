@@ -1,0 +1,171 @@
+//! Parts of the JSON files that several of them share.
+
+use calibrant_core::estimate::{Calibration, FitStatistics, Whiteness};
+use calibrant_core::motion::JerkControlledMotion;
+use calibrant_core::sensor::{Axis, Parameter, ParameterList, ReadingUnit, SensorParameters};
+use nalgebra::{DMatrix, Matrix3, Vector3};
+use serde::ser::SerializeMap;
+use serde::{Serialize, Serializer};
+
+/// A field whose name ends in the unit of the readings: `residual_rms_mps2` or `residual_rms_counts`. To be flattened.
+pub(super) struct InUnit<T> {
+    name: &'static str,
+    ending: &'static str,
+    value: T,
+}
+
+impl<T> InUnit<T> {
+    /// A value in the unit of the readings.
+    pub(super) fn new(name: &'static str, unit: ReadingUnit, value: T) -> Self {
+        Self { name, ending: unit.suffix(), value }
+    }
+
+    /// A value in the unit of the readings per m/s²; a pure number where they are in m/s².
+    pub(super) fn gain(name: &'static str, unit: ReadingUnit, value: T) -> Self {
+        Self { name, ending: if unit == ReadingUnit::Counts { "counts_per_mps2" } else { "" }, value }
+    }
+
+    /// A value in m/s² per unit of the readings; a pure number where they are in m/s².
+    pub(super) fn inverse_gain(name: &'static str, unit: ReadingUnit, value: T) -> Self {
+        Self { name, ending: if unit == ReadingUnit::Counts { "mps2_per_count" } else { "" }, value }
+    }
+}
+
+impl<T: Serialize> Serialize for InUnit<T> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let separator = if self.ending.is_empty() { "" } else { "_" };
+        let mut map = serializer.serialize_map(Some(1))?;
+        map.serialize_entry(&format!("{}{separator}{}", self.name, self.ending), &self.value)?;
+        map.end()
+    }
+}
+
+/// The first entries of a vector, one for each axis.
+pub(super) fn per_axis(vector: &Vector3<f64>, axes: usize) -> Vec<f64> {
+    vector.iter().take(axes).copied().collect()
+}
+
+/// A row for each vector.
+pub(super) fn rows(vectors: &[Vector3<f64>], axes: usize) -> Vec<Vec<f64>> {
+    vectors.iter().map(|vector| per_axis(vector, axes)).collect()
+}
+
+/// The upper left block of a 3×3 matrix, row by row.
+pub(super) fn block(matrix: &Matrix3<f64>, axes: usize) -> Vec<Vec<f64>> {
+    (0..axes).map(|row| (0..axes).map(|column| matrix[(row, column)]).collect()).collect()
+}
+
+/// A matrix, row by row.
+pub(super) fn matrix_rows(matrix: &DMatrix<f64>) -> Vec<Vec<f64>> {
+    matrix.row_iter().map(|row| row.iter().copied().collect()).collect()
+}
+
+/// Number of axes that a list of parameters speaks of: that of its biases.
+pub(super) fn axes_of(parameters: &[Parameter]) -> usize {
+    parameters.iter().filter(|parameter| parameter.name.starts_with("bias.")).count().clamp(1, 3)
+}
+
+/// True values of parameters, found by name.
+pub(super) fn values_of(
+    parameters: &[Parameter],
+    list: &ParameterList,
+    sensor: &SensorParameters,
+) -> Vec<Option<f64>> {
+    let value =
+        |parameter: &Parameter| Some(list.quantities()[list.position(&parameter.name)?].value(sensor));
+    parameters.iter().map(value).collect()
+}
+
+/// An estimated parameter.
+#[derive(Serialize)]
+pub(super) struct EstimateFields {
+    name: String,
+    unit: &'static str,
+    value: f64,
+    sd: f64,
+    nominal: Option<f64>,
+    spread_sd: Option<f64>,
+}
+
+impl EstimateFields {
+    pub(super) fn all(calibration: &Calibration) -> Vec<Self> {
+        let fields = |((parameter, &value), sd): ((&Parameter, &f64), f64)| Self {
+            name: parameter.name.clone(),
+            unit: parameter.unit,
+            value,
+            sd,
+            nominal: parameter.nominal,
+            spread_sd: parameter.spread,
+        };
+        calibration.parameters.iter().zip(&calibration.values).zip(calibration.sd()).map(fields).collect()
+    }
+}
+
+/// Nodes of a motion and what follows from them.
+#[derive(Serialize)]
+pub(super) struct MotionFields {
+    times_s: Vec<f64>,
+    acceleration_mps2: Vec<Vec<f64>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    acceleration_sd_mps2: Option<Vec<Vec<f64>>>,
+    jerk_mps3: Vec<Vec<f64>>,
+    velocity_mps: Vec<Vec<f64>>,
+    displacement_m: Vec<Vec<f64>>,
+}
+
+impl MotionFields {
+    pub(super) fn of(motion: &JerkControlledMotion, axes: usize, sd: Option<&[Vector3<f64>]>) -> Self {
+        Self {
+            times_s: motion.times_s().to_vec(),
+            acceleration_mps2: rows(motion.acceleration_mps2(), axes),
+            acceleration_sd_mps2: sd.map(|sd| rows(sd, axes)),
+            jerk_mps3: rows(&motion.jerk_mps3(), axes),
+            velocity_mps: rows(&motion.velocity_mps(), axes),
+            displacement_m: rows(&motion.displacement_m(), axes),
+        }
+    }
+}
+
+/// How well the model fits.
+#[derive(Serialize)]
+pub(super) struct FitFields {
+    chi2: f64,
+    degrees_of_freedom: usize,
+    p_value: Option<f64>,
+    #[serde(flatten)]
+    residual_rms: InUnit<Vec<f64>>,
+    #[serde(flatten)]
+    assumed_noise: InUnit<Option<Vec<f64>>>,
+    #[serde(flatten)]
+    noise_estimate: InUnit<Option<Vec<f64>>>,
+    whiteness: Vec<WhitenessFields>,
+}
+
+#[derive(Serialize)]
+struct WhitenessFields {
+    axis: String,
+    statistic: f64,
+    lags: usize,
+    p_value: f64,
+}
+
+impl FitFields {
+    pub(super) fn of(fit: &FitStatistics, unit: ReadingUnit, axes: usize) -> Self {
+        let whiteness = |(axis, test): (&Axis, &Whiteness)| WhitenessFields {
+            axis: axis.to_string(),
+            statistic: test.statistic,
+            lags: test.lags,
+            p_value: test.p_value,
+        };
+        let optional = |noise: &Option<Vector3<f64>>| noise.as_ref().map(|noise| per_axis(noise, axes));
+        Self {
+            chi2: fit.chi2,
+            degrees_of_freedom: fit.degrees_of_freedom,
+            p_value: fit.p_value,
+            residual_rms: InUnit::new("residual_rms", unit, per_axis(&fit.residual_rms, axes)),
+            assumed_noise: InUnit::new("assumed_noise", unit, optional(&fit.assumed_noise)),
+            noise_estimate: InUnit::new("noise_estimate", unit, optional(&fit.noise_estimate)),
+            whiteness: Axis::ALL.iter().zip(&fit.whiteness).map(whiteness).collect(),
+        }
+    }
+}

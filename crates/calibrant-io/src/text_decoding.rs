@@ -1,0 +1,128 @@
+//! Bytes of a file to text: size, encoding and binary content, each with a complaint that says what the file really is.
+
+use calibrant_core::error::InputError;
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+/// What a check gives: the thing, or a complaint that does not yet know whether an experiment or a recording is at fault.
+pub(super) type Checked<T> = std::result::Result<T, Box<InputError>>;
+
+/// Reads a file whole, unless it is larger than `limit` bytes or plainly binary.
+///
+/// Reads in pieces and looks for NUL bytes on the way, so that a device or a disk image does not fill the memory.
+pub(super) fn read_bytes(path: &Path, limit: u64, what: &str) -> Checked<Vec<u8>> {
+    const PIECE: u64 = 1 << 20;
+    let in_file = |input_error: InputError| Box::new(input_error.in_file(path));
+    let mut file = open(path, what)?;
+    // what a file says of its length is not to be trusted far
+    let expected = file.metadata().map_or(0, |metadata| metadata.len()).min(64 * PIECE);
+    let mut bytes = Vec::with_capacity(expected as usize + 1);
+    loop {
+        let before = bytes.len();
+        let read = file.by_ref().take(PIECE).read_to_end(&mut bytes);
+        read.map_err(|error| in_file(unreadable(what, &error)))?;
+        if bytes.len() == before {
+            return Ok(bytes);
+        }
+        if bytes.len() as u64 > limit {
+            return Err(in_file(too_large(what, limit)));
+        }
+        if bytes[before..].contains(&0) {
+            as_text(&bytes).map_err(|input_error| input_error.in_file(path))?;
+        }
+    }
+}
+
+/// Opens a file to be read.
+pub(super) fn open(path: &Path, what: &str) -> Checked<File> {
+    let input_error = if path.is_dir() {
+        InputError::new(format!("this is a directory, not {what}"), "name a file in it")
+    } else {
+        match File::open(path) {
+            Ok(file) => return Ok(file),
+            Err(error) => unreadable(what, &error),
+        }
+    };
+    Err(input_error.in_file(path).into())
+}
+
+pub(super) fn unreadable(what: &str, error: &std::io::Error) -> InputError {
+    let help = match error.kind() {
+        std::io::ErrorKind::NotFound => "check the name and the working directory",
+        std::io::ErrorKind::PermissionDenied => "check who may read it",
+        _ => "check the file and its disk",
+    };
+    InputError::new(format!("cannot read {what}: {error}"), help)
+}
+
+pub(super) fn too_large(what: &str, limit: u64) -> InputError {
+    InputError::new(
+        format!("{what} is larger than {} MiB", limit >> 20),
+        "this is hardly the file that you mean",
+    )
+}
+
+/// The bytes as text, without the byte order mark.
+pub(super) fn as_text(bytes: &[u8]) -> Checked<&str> {
+    if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
+        return Err(
+            InputError::new("the text is encoded in UTF-16", "save it as UTF-8 (or plain ASCII)").into()
+        );
+    }
+    if bytes.starts_with(b"#ROSBAG V") {
+        return Err(InputError::new(
+            "this is a bag of ROS 1, which is not read",
+            "convert it to MCAP: `rosbags-convert --src FILE.bag --dst DIR --dst-storage mcap`, and give the .mcap file in DIR",
+        )
+        .into());
+    }
+    if let Some((program, unpack)) = packed_by(bytes) {
+        let message = format!("this file is compressed with {program}");
+        return Err(InputError::new(message, format!("unpack it first: {unpack}")).into());
+    }
+    let text = bytes.strip_prefix(&[0xef, 0xbb, 0xbf]).unwrap_or(bytes);
+    as_text_at(text, (bytes.len() - text.len()) as u64, 0)
+}
+
+/// What compressed these bytes, by how they begin, and how they are unpacked.
+fn packed_by(bytes: &[u8]) -> Option<(&'static str, &'static str)> {
+    let begins: [(&[u8], _, _); 5] = [
+        (b"\x1f\x8b", "gzip", "gunzip FILE"),
+        (b"\x28\xb5\x2f\xfd", "zstd", "unzstd FILE"),
+        (b"\xfd7zXZ\0", "xz", "unxz FILE"),
+        (b"PK\x03\x04", "zip", "unzip FILE; a workbook of a spreadsheet program is to be saved as CSV"),
+        (b"BZh", "bzip2", "bunzip2 FILE"),
+    ];
+    let (begin, program, unpack) = begins.into_iter().find(|(begin, ..)| bytes.starts_with(begin))?;
+    // the letters of bzip2 could begin a text: a digit and the first block follow
+    let block = [&b"\x31\x41\x59\x26\x53\x59"[..], b"\x17\x72\x45\x38\x50\x90"];
+    let is_text = begin == b"BZh" && !block.iter().any(|block| bytes.get(4..10) == Some(*block));
+    (!is_text).then_some((program, unpack))
+}
+
+/// Bytes from within a text as text; they begin after so many bytes and lines.
+pub(super) fn as_text_at(bytes: &[u8], before: u64, lines: usize) -> Checked<&str> {
+    if let Some(at) = memchr::memchr(0, bytes) {
+        let offset = before + at as u64;
+        return Err(InputError::new(
+            format!("this is binary data, not text: NUL byte at offset {offset}"),
+            "export the data as text",
+        )
+        .into());
+    }
+    std::str::from_utf8(bytes).map_err(|error| {
+        let at = error.valid_up_to();
+        let line = lines + 1 + bytes[..at].iter().filter(|&&byte| byte == b'\n').count();
+        InputError::new(
+            format!(
+                "not UTF-8 text: byte 0x{:02x} at offset {}",
+                bytes.get(at).copied().unwrap_or(0),
+                before + at as u64
+            ),
+            "save it as UTF-8 (or plain ASCII)",
+        )
+        .at_line(line)
+        .into()
+    })
+}
