@@ -15,6 +15,8 @@
 //! asked for, with what its values suggest; it is never guessed.
 
 mod accelerometer_only;
+#[cfg(any(feature = "mcap", feature = "parquet"))]
+mod binary_columns;
 #[cfg(feature = "mcap")]
 mod cdr;
 mod column;
@@ -32,6 +34,7 @@ mod imucal;
 mod mcap;
 #[cfg(feature = "mcap")]
 mod mcap_footer;
+#[cfg(feature = "mcap")]
 mod mcap_records;
 mod movella_dot;
 mod mt_manager;
@@ -39,6 +42,7 @@ mod options;
 mod packet_times;
 #[cfg(feature = "parquet")]
 mod parquet;
+#[cfg(feature = "parquet")]
 mod parquet_pages;
 mod read;
 mod reading_unit;
@@ -49,7 +53,7 @@ mod text_source;
 mod two_files;
 mod unit;
 mod xsens;
-#[cfg(feature = "mcap")]
+
 pub use accelerometer_only::read_accelerometer;
 pub use column::{ColumnMeaning, ImuColumn};
 pub use file::{ImuFile, SecondFile};

@@ -1,0 +1,49 @@
+//! Columns of numbers from a file that is not text: an MCAP bag or Parquet.
+
+use super::column_values::{SLOTS, Samples, TIME, slots_of};
+use crate::recording::row_parser::Sense;
+use crate::text_decoding::Checked;
+use calibrant_core::error::InputError;
+use calibrant_core::sensor::SensorKind;
+use nalgebra::Vector3;
+
+impl Samples {
+    /// Values that were read elsewhere, a list for each slot: all of the same length, or empty.
+    pub(super) fn from_columns(columns: [Vec<f64>; SLOTS], origin: i64) -> Checked<Self> {
+        let rows = columns.iter().map(Vec::len).max().unwrap_or(0);
+        if columns.iter().any(|column| !column.is_empty() && column.len() != rows) {
+            return Err(InputError::new(
+                "the columns have different lengths",
+                "was the file written to its end?",
+            )
+            .into());
+        }
+        let (mut invalid, mut first) = (0, None);
+        for (slot, column) in columns.iter().enumerate() {
+            // NaN is a missing value
+            for (row, &value) in column.iter().enumerate().filter(|(_, value)| !value.is_nan()) {
+                match Sense::of(value, slot) {
+                    Sense::Some => continue,
+                    Sense::None if slot == TIME && value.is_finite() => continue,
+                    Sense::None => return Err(out_of_range(value, row)),
+                    Sense::Invalid => invalid += 1,
+                }
+                first = first.or(Some((value, row)));
+            }
+        }
+        if let Some((value, row)) = first.filter(|_| Sense::is_lost(invalid, rows)) {
+            return Err(out_of_range(value, row));
+        }
+        let sensor_kinds = SensorKind::ALL.map(|sensor_kind| {
+            let [x, y, z] = slots_of(sensor_kind).map(|slot| columns[slot].as_slice());
+            x.iter().zip(y).zip(z).map(|((&x, &y), &z)| Vector3::new(x, y, z)).collect()
+        });
+        let [times, .., temperatures, counts] = columns;
+        Ok(Self { times, counts, temperatures, sensor_kinds, rows, origin, ..Self::default() })
+    }
+}
+
+fn out_of_range(value: f64, row: usize) -> Box<InputError> {
+    let message = format!("the value {value:e} in row {} is out of range", row + 1);
+    InputError::new(message, "is the unit right? is the file damaged?").into()
+}
