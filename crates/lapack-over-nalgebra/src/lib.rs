@@ -7,7 +7,7 @@
 //! `use lapack_over_nalgebra as _;` in the crate that uses Clarabel: nothing is called by name, the linker finds the symbols.
 //! A program that links another BLAS must not link this crate: the symbols would be there twice.
 //!
-//! # What is there
+//! # Contents
 //! The safe routines, on column-major slices with a leading dimension, are in one file per kind; [`symbols`] is the thin unsafe
 //! layer that turns Fortran's pointers into slices. Only what Clarabel asks for: `f64`; the economy size of the singular value
 //! decomposition (`jobz`, `jobu`, `jobvt` = `S` or `N`); everything else answers with LAPACK's `info < 0`.

@@ -44,7 +44,7 @@
 //! cluster times are not used, and are named (`model_selection`). N is then the noise before the filter: that
 //! of means of many samples.
 //!
-//! # What is taken out first
+//! # What is removed first
 //! No process above explains [`Outliers`]: up to one in fifty samples that are far from those beside them. No
 //! process explains lines in the spectrum either ([`Vibration`]). Both are removed and named.
 //!

@@ -6,7 +6,7 @@
 //! next recording. So each outlier is replaced by a sample like those about it, and its effect on N is
 //! reported.
 //!
-//! # What is one
+//! # What an outlier is
 //! - *Far off*: from the median of the nine samples about it. At an end of the recording, all nine are on one
 //!   side, and smooth noise is far from their median. There it is also far from lines through the next three
 //!   samples. With a share `p` of outliers anywhere, five of nine are outliers with the probability `126 p⁵`,
@@ -17,7 +17,7 @@
 //!   So at most a quarter of the samples beyond half a distance are beyond the distance. Outliers are fewer
 //!   between half the distance and the distance than beyond it.
 //!
-//! # What is put in its place
+//! # The replacement
 //! The replacement is another sample, as far away as the noise is still white. It varies as the lost one did,
 //! and N neither gains nor loses. A median would vary less, and repeat its neighbours' errors. Where the
 //! readings wander or are filtered, no sample far away is like it, and the median is used.

@@ -5,7 +5,7 @@
 //! divides a hold, shifts its mean, and turns a gyroscope that does not turn. So spikes are removed before
 //! the search for holds. The line between the samples beside it replaces each.
 //!
-//! # What is one
+//! # What a spike is
 //! In a hold, a spike is far from the median of the nine samples about it (Hampel, `hampel1974`). The
 //! threshold is [`STILL_DEVIATIONS`] robust standard deviations of the difference of two successive samples.
 //! The sensor must be stationary for [`STILL_S`] on both sides. A knock while the sensor is put down is as
