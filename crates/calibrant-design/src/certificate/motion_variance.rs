@@ -87,7 +87,8 @@ const MOST_WITH_STATES_AND_MEAN: usize = 30;
 const MOST_TIGHTENED: usize = 30;
 /// Number of intervals of a segment.
 const STRETCH: usize = 8;
-/// Largest number of different segments that are relaxed.
+/// the running sum is one more state: only to second order beside velocity and displacement; rest at the end
+/// makes the mean small and needs none
 const MOST_SEGMENTS: usize = 12;
 
 /// Bounds the motion variance; `None` where nothing bounds the acceleration.
