@@ -87,8 +87,8 @@ const MOST_WITH_STATES_AND_MEAN: usize = 30;
 const MOST_TIGHTENED: usize = 30;
 /// Number of intervals of a segment.
 const STRETCH: usize = 8;
-/// the running sum is one more state: only to second order beside velocity and displacement; rest at the end
-/// makes the mean small and needs none
+/// the running sum is one more state: only to second order beside velocity and displacement; not where rest
+/// at the end makes the mean small
 const MOST_SEGMENTS: usize = 12;
 
 /// Bounds the motion variance; `None` where nothing bounds the acceleration.
