@@ -29,8 +29,8 @@ pub struct GyroscopeToDraw {
     pub gain: Vector3<f64>,
     /// Draws the temperature terms among these quantities. `gains` are the nominal gains of accelerometer and
     /// gyroscope, in the unit of the readings. Over 25 K a bias moves by some 25 mm/s² or 0.15 °/s, and a
-    /// gain by 0.1 %. That is typical of a MEMS IMU of the middle class. A second-order term is a twentieth
-    /// of that per K².
+    /// gain changes by 0.1 %, as is typical of a middle-class MEMS IMU. A second-order term is a twentieth of
+    /// that per K².
     pub g_sensitivity: bool,
 }
 
