@@ -156,8 +156,7 @@ impl PowerLaw {
     }
 }
 
-/// Autocovariances of the phase of flicker noise at the lags that are needed repeatedly: each takes a
-/// logarithm.
+/// Covariances of differences between clusters from those of the phase.
 fn second_differences<const N: usize>(
     j: usize,
     k: usize,
@@ -177,7 +176,7 @@ fn second_differences<const N: usize>(
     sums.map(|sum| sum / (j * k))
 }
 
-/// Autocovariances of the phase of flicker noise at the shifts that are needed repeatedly: each takes a
+/// Autocovariances of the phase of flicker noise at the lags that are needed repeatedly: each takes a
 /// logarithm.
 pub(super) struct FlickerTable(Vec<f64>);
 

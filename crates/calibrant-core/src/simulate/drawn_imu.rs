@@ -27,10 +27,7 @@ pub struct GyroscopeToDraw {
     pub model: SensorModel,
     /// Nominal gain in the unit of the readings per rad/s; 1 for readings in rad/s.
     pub gain: Vector3<f64>,
-    /// Draws the temperature terms among these quantities. `gains` are the nominal gains of accelerometer and
-    /// gyroscope, in the unit of the readings. Over 25 K a bias moves by some 25 mm/s² or 0.15 °/s, and a
-    /// gain changes by 0.1 %, as is typical of a middle-class MEMS IMU. A second-order term is a twentieth of
-    /// that per K².
+    /// Has it g-sensitivity?
     pub g_sensitivity: bool,
 }
 
@@ -66,8 +63,9 @@ pub fn draw_imu(accelerometer: &Sensor, gyroscope: &GyroscopeToDraw, rng: &mut R
 }
 
 /// Draws the temperature terms among these quantities. `gains` are the nominal gains of accelerometer and
-/// gyroscope, in the unit of the readings. Over 25 K a bias moves by some 25 mm/s² or 0.15 °/s and a gain by
-/// 0.1 %, as in a MEMS IMU of the middle class. A second-order term is a twentieth of that per K².
+/// gyroscope, in the unit of the readings. Over 25 K a bias moves by some 25 mm/s² or 0.15 °/s, and a gain
+/// changes by 0.1 %. A MEMS IMU of the middle class is about as sensitive. A second-order term is a twentieth
+/// of that per K².
 pub fn draw_thermal(
     imu: &mut ImuParameters,
     quantities: &[ImuQuantity],

@@ -87,8 +87,7 @@ const MOST_WITH_STATES_AND_MEAN: usize = 30;
 const MOST_TIGHTENED: usize = 30;
 /// Number of intervals of a segment.
 const STRETCH: usize = 8;
-/// the running sum is one more state: only to second order beside velocity and displacement; not where rest
-/// at the end makes the mean small
+/// Largest number of different segments that are relaxed.
 const MOST_SEGMENTS: usize = 12;
 
 /// Bounds the motion variance; `None` where nothing bounds the acceleration.
@@ -126,8 +125,8 @@ pub(super) fn bound_within(
         consider(segments(chain, &bounds, States { velocity, displacement, sum: false }, max_iterations));
         return Some(best);
     }
-    // the running sum is one more state: only to second order beside velocity and displacement, and not where
-    // rest at the end makes the mean small
+    // the running sum is one more state; beside velocity and displacement only to second order. Rest at the
+    // end makes the mean small, so that it is not needed there
     let with_mean = chain.mass.is_finite()
         && n <= if velocity { MOST_WITH_STATES_AND_MEAN } else { MOST_WITH_MEAN }
         && !(velocity && l.rest == Rest::Both);
