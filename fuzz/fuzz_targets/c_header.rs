@@ -1,4 +1,4 @@
-//! The C header: see `convention`.
+//! Fuzz target: the C header; see `convention`.
 #![no_main]
 
 #[path = "convention.rs"]

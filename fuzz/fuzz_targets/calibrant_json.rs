@@ -1,4 +1,4 @@
-//! calibrant JSON, both schemas: see `convention`.
+//! Fuzz target: calibrant JSON, both schemas; see `convention`.
 #![no_main]
 
 #[path = "convention.rs"]

@@ -1,4 +1,5 @@
-//! A calibration in a format is refused in words, or its correction is finite and it can be written again.
+//! The check of the fuzz targets for formats of calibrations. A calibration is refused with an error, or its
+//! correction is finite and it can be written again.
 
 use calibrant::io::{
     CalibratedImuFile, ConventionOptions, ImuFormat, RawUnits, calibrated_imu_texts, parse_calibrated_imu,
@@ -14,7 +15,7 @@ pub fn check(bytes: &[u8], format: ImuFormat) {
         Ok(file) => is_usable(&file, format),
         Err(error) => assert!(error.is_invalid_experiment() && !error.to_string().is_empty()),
     }
-    // by content
+    // the content decides the format
     if let Err(error) = parse_calibrated_imu(bytes, &ConventionOptions::default()) {
         assert!(error.is_invalid_experiment() && !error.to_string().is_empty());
     }
@@ -28,13 +29,13 @@ fn is_usable(file: &CalibratedImuFile, format: ImuFormat) {
     if let Some(sd) = correction.force_sd(&force) {
         assert!(sd.iter().all(|sd| *sd >= 0.0));
     }
-    // what is in the texts may be any word, what is in the numbers not
+    // texts may hold any word, numbers may not
     let mut file = file.clone();
     file.imu.frame.clear();
     file.inputs.clear();
     match calibrated_imu_texts(&file, format) {
         Ok(texts) => assert!(texts.iter().all(|(_, text)| !text.contains("NaN") && !text.contains("inf,"))),
-        // what Kalibr's model cannot say it cannot write either
+        // what Kalibr's model cannot express, it cannot write either
         Err(error) => assert!(!error.to_string().is_empty()),
     }
 }

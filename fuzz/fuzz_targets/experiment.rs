@@ -1,4 +1,4 @@
-//! An experiment file is refused in words that point at it, or gives numbers that are finite.
+//! Fuzz target: an experiment file is refused with an error that points at it, or gives finite numbers.
 #![no_main]
 
 use calibrant::io::{Experiment, Plan};

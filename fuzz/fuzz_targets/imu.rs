@@ -1,4 +1,5 @@
-//! A recording of an IMU in any text format is refused in words, or its samples are finite and its times increase.
+//! Fuzz target: a recording of an IMU in any text format is refused with an error, or its samples are finite
+//! and its times increase.
 #![no_main]
 
 use calibrant::io::{FileFormat, ImuFile, ImuReadOptions, ImuUnit, TimeUnit, inspect, inspection_json, parse_imu_pair, parse_imu_recording};

@@ -1,4 +1,4 @@
-//! imu_tk's .calib: see `convention`.
+//! Fuzz target: imu_tk's .calib; see `convention`.
 #![no_main]
 
 #[path = "convention.rs"]

@@ -1,4 +1,4 @@
-//! imucal's JSON: see `convention`.
+//! Fuzz target: imucal's JSON; see `convention`.
 #![no_main]
 
 #[path = "convention.rs"]

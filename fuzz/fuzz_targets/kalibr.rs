@@ -1,4 +1,4 @@
-//! Kalibr's imu.yaml: see `convention`.
+//! Fuzz target: Kalibr's imu.yaml; see `convention`.
 #![no_main]
 
 #[path = "convention.rs"]

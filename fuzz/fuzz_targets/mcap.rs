@@ -1,4 +1,4 @@
-//! A ROS 2 bag is refused in words, or its samples are finite and its times increase.
+//! Fuzz target: a ROS 2 bag is refused with an error, or its samples are finite and its times increase.
 #![no_main]
 
 use calibrant::io::{ImuReadOptions, parse_imu_recording};

@@ -1,4 +1,4 @@
-//! A motion is refused in words, or what follows from it is finite.
+//! Fuzz target: a motion is refused with an error, or the quantities that follow from it are finite.
 #![no_main]
 
 use calibrant::io::parse_motion;

@@ -1,4 +1,4 @@
-//! A Parquet file is refused in words, or its samples are finite and its times increase.
+//! Fuzz target: a Parquet file is refused with an error, or its samples are finite and its times increase.
 #![no_main]
 
 use calibrant::io::{ImuReadOptions, parse_imu_recording};
@@ -9,7 +9,8 @@ use std::sync::Once;
 static QUIET: Once = Once::new();
 
 fuzz_target!(|bytes: &[u8]| {
-    // a panic of the crate that reads the format is caught and becomes a refusal; libFuzzer's hook would abort before that
+    // the reader catches a panic of the crate that reads the format, and refuses the file; libFuzzer's hook
+    // would abort before that
     QUIET.call_once(|| std::panic::set_hook(Box::new(|_| ())));
     let table = if bytes.starts_with(b"PAR1") { bytes.to_vec() } else { [b"PAR1", bytes, b"PAR1"].concat() };
     match parse_imu_recording(&table, &ImuReadOptions::default()) {

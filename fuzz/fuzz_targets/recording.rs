@@ -1,4 +1,4 @@
-//! A recording is refused in words, or its samples are finite and its times increase.
+//! Fuzz target: a recording is refused with an error, or its samples are finite and its times increase.
 #![no_main]
 
 use calibrant::io::{ReadOptions, parse_recording};

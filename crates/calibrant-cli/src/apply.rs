@@ -1,4 +1,4 @@
-//! `calibrant apply`: a recording corrected, with the correction's standard uncertainty.
+//! `calibrant apply`: corrects a recording, and writes the correction's standard uncertainty.
 
 use crate::calibration_file::{Reading, in_words};
 use crate::recording_options::in_file;
@@ -107,7 +107,7 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     Ok(Exit::DONE)
 }
 
-/// What the gyroscope's g-sensitivity was corrected with where the accelerometer has no data.
+/// The warning about a g-sensitivity that was corrected where the accelerometer has no data.
 fn without_force(unknown: &WithoutForce) -> String {
     let (start, end) = unknown.span_s;
     format!(
@@ -125,7 +125,7 @@ fn range(values: &[f64]) -> Option<[f64; 2]> {
     values.iter().map(|&t| [t, t]).reduce(|[low, high], [t, _]| [low.min(t), high.max(t)])
 }
 
-/// The recording that a calibration is applied to.
+/// Reads the recording to which a calibration is applied.
 fn read_for(imu: &CalibratedImu, arguments: &Arguments) -> calibrant::Result<ImuRecording> {
     let path = &arguments.recording;
     let file = read(imu, arguments)?;
@@ -137,10 +137,11 @@ fn read_for(imu: &CalibratedImu, arguments: &Arguments) -> calibrant::Result<Imu
     Ok(file.recording)
 }
 
-/// Reads the file. A unit that it does not state is asked for, but of a calibration in counts: what that corrects is counts.
+/// Reads the file. The user must give a unit that it does not state, unless the calibration is in counts: it
+/// corrects counts.
 fn read(imu: &CalibratedImu, arguments: &Arguments) -> calibrant::Result<ImuFile> {
     let options = ImuReadOptions {
-        // a sensor that the calibration does not have is left out, whatever its unit
+        // a sensor that the calibration does not have is ignored, whatever its unit
         counts_unless_stated: SensorKind::ALL
             .map(|sensor_kind| imu.unit(sensor_kind).is_none_or(|unit| unit == ReadingUnit::Counts)),
         ..arguments.file.with_columns(arguments.columns.as_deref())?
@@ -162,7 +163,8 @@ fn alone(imu: &CalibratedImu) -> Option<SensorKind> {
     }
 }
 
-/// Complains of a sensor that has columns, but none that could be used: it would go missing from the result.
+/// Returns an error for a sensor that has columns, but none that can be used: it would be missing from the
+/// result.
 fn check_usable(file: &ImuFile, sensor_kind: SensorKind) -> calibrant::Result<()> {
     let is_of = |meaning| matches!(meaning, ColumnMeaning::Reading(of, _) if of == sensor_kind);
     let unused = file.columns.iter().filter(|column| is_of(column.meaning));

@@ -1,4 +1,4 @@
-//! A calibration that a command reads, in whatever format: the options that all of them share.
+//! The options of all commands that read a calibration, in whatever format.
 
 use crate::console;
 use calibrant::Result;
@@ -65,7 +65,7 @@ enum Sensor {
 }
 
 impl Reading {
-    /// The sensor that is meant, where one is.
+    /// The sensor that the options name.
     pub(crate) fn sensor_kind(&self) -> Option<SensorKind> {
         self.sensor.map(|sensor| match sensor {
             Sensor::Accelerometer => SensorKind::Accelerometer,
@@ -73,7 +73,7 @@ impl Reading {
         })
     }
 
-    /// Reads a calibration; what its reader found is told.
+    /// Reads a calibration, and prints what its reader found.
     pub(crate) fn read(&self, path: &Path) -> Result<CalibratedImuFile> {
         let options = ConventionOptions {
             format: self.from.map(ImuFormat::from),

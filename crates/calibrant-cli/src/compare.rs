@@ -84,7 +84,7 @@ fn row(quantity: &ComparedQuantity) -> Vec<String> {
         (false, true) => quantity.unit_a.to_owned(),
         (false, false) => format!("{} | {}", quantity.unit_a, quantity.unit_b),
     };
-    // what rounding alone makes is no difference
+    // a difference that rounding alone makes does not count
     let rounding = 1e-12 * quantity.a.value.abs().max(quantity.b.value.abs());
     let equal = quantity.difference.is_some_and(|difference| difference.abs() <= rounding);
     let [difference, in_sd] =

@@ -1,4 +1,4 @@
-//! What people see: tables on stdout, errors, notes and progress on stderr.
+//! Console output: tables on stdout, errors, notes and progress on stderr.
 
 mod imu;
 mod table;
@@ -40,13 +40,14 @@ pub(crate) fn warn(text: &str) {
     let _ = writeln!(std::io::stderr(), "warning: {text}");
 }
 
-/// Says what was noticed in a recording: a note, or a warning where results become doubtful.
+/// Prints a finding about a recording: a note, or a warning where results become doubtful.
 pub(crate) fn finding(file: &str, finding: &Finding) {
     let say = if finding.is_warning() { warn } else { note };
     say(&format!("{file}: {finding}"));
 }
 
-/// Findings of a recording, each with the name of the file that it is about: that of the gyroscope, where it has one.
+/// Prints the findings of a recording, each with the name of its file: that of the gyroscope, where it has
+/// one.
 pub(crate) fn findings(findings: &[Finding], file: &str, gyroscope: Option<&str>) {
     for found in findings {
         let name = if found.in_second_file { gyroscope.unwrap_or(file) } else { file };
@@ -98,7 +99,7 @@ pub(crate) fn error(error: &Error) {
     };
 }
 
-/// Prints an error about this recording to stderr: one that does not name it gets its name.
+/// Prints an error about this recording to stderr. An error without a file's name gets its name.
 pub(crate) fn error_in(found: &Error, recording: &Path) {
     if found.is_not_identifiable() {
         let _ = writeln!(std::io::stderr(), "error: {}: {found}", recording.display());

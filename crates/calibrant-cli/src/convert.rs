@@ -1,4 +1,4 @@
-//! `calibrant convert`: a calibration in another convention.
+//! `calibrant convert`: writes a calibration in another convention.
 
 use crate::calibration_file::{Format, Reading, in_words};
 use crate::{Exit, console, output_places};

@@ -1,4 +1,4 @@
-//! `calibrant design`: the motion whose recording determines the parameters best.
+//! `calibrant design`: finds the motion whose recording determines the parameters best.
 
 mod arguments;
 mod evaluate;

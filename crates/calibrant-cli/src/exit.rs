@@ -3,17 +3,21 @@
 use calibrant::Error;
 use calibrant::estimate::CalibrationStatus;
 
-/// How a command ended: the exit status.
+/// The exit status with which a command ended.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Exit(pub(crate) u8);
 
 impl Exit {
+    /// The command did its work.
     pub(crate) const DONE: Exit = Exit(0);
+    /// Bad usage or experiment file, or a result that cannot be written.
     pub(crate) const USAGE: Exit = Exit(2);
+    /// The recording is bad.
     pub(crate) const RECORDING: Exit = Exit(3);
+    /// The data or the motion do not determine the parameters.
     pub(crate) const NOT_IDENTIFIABLE: Exit = Exit(4);
 
-    /// The exit status of a calibration: one that did not converge has determined nothing.
+    /// The exit status of a calibration. One that did not converge has determined nothing.
     pub(crate) fn of_status(status: CalibrationStatus) -> Exit {
         if status == CalibrationStatus::Converged { Exit::DONE } else { Exit::NOT_IDENTIFIABLE }
     }

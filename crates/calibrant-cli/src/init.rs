@@ -1,4 +1,4 @@
-//! `calibrant init`: a commented experiment file to start from.
+//! `calibrant init`: writes a commented experiment file to start from.
 
 use crate::{Exit, console};
 use calibrant::Error;

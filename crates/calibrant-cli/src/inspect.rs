@@ -1,4 +1,4 @@
-//! `calibrant inspect`: what a recording holds, and what a calibration from it may be expected to determine.
+//! `calibrant inspect`: shows what a recording contains, and what a calibration from it can determine.
 
 use crate::recording_options::{RecordingOptions, name};
 use crate::{Exit, console};
@@ -11,9 +11,9 @@ use calibrant::report::number_format::{count, counted, short, significant};
 use calibrant::sensor::{Axis, ReadingUnit, Saturation, SensorKind};
 use std::path::{Path, PathBuf};
 
-/// Names of columns are cut to so many characters,
+/// Names of columns are cut to this number of characters.
 const LONGEST_NAME: usize = 40;
-/// At most so many of the columns that are not used are shown.
+/// Largest number of unused columns that are shown.
 const MOST_COLUMNS: usize = 50;
 
 /// Say what a recording of an IMU holds, before anything is calibrated.
@@ -130,7 +130,7 @@ fn columns(columns: &[ImuColumn]) -> String {
 
 fn sampling(sensor: &SensorInspection) -> String {
     let (start, end) = sensor.span_s;
-    // seconds since 1970 have too many digits to tell how long a recording is
+    // seconds since 1970 have too many digits to show how long a recording is
     let span = match end.abs() < 1e5 {
         true => format!("from {} to {} s", short(start), short(end)),
         false => format!("from {start} s on, over {} s", short(end - start)),

@@ -75,8 +75,9 @@ fn main() -> ExitCode {
     ExitCode::from(exit.0)
 }
 
-/// Lets the memory of lists of samples be used again. glibc gives large blocks back to the system as soon as they are free, and takes the next anew, page by page; it keeps
-/// them once one of nearly 32 MB has come and gone, untouched. No other library minds.
+/// Keeps the memory of lists of samples for further use. The allocator of glibc returns large blocks to the
+/// system as soon as they are free, and takes the next anew, page by page. It keeps them once one of nearly
+/// 32 MB, untouched, has been allocated and freed. No other library needs this.
 fn keep_large_blocks() {
     drop(std::hint::black_box(Vec::<u8>::with_capacity(31 << 20)));
 }

@@ -1,4 +1,4 @@
-//! `calibrant noise`: Allan deviation and noise of a sensor at rest.
+//! `calibrant noise`: determines the Allan deviation and noise of a sensor at rest.
 
 mod arguments;
 mod holds;
@@ -64,7 +64,7 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     for sensor in &there {
         match of_sensor(sensor) {
             Ok(found) => noise.push(found),
-            // of two sensors, the other still has its noise
+            // with two sensors, the other still has its noise
             Err(error) if there.len() > 1 && failed.is_none() => failed = Some((sensor.0, error)),
             Err(error) => return Err(in_file(error)),
         }
@@ -99,7 +99,7 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     Ok(Exit::DONE)
 }
 
-/// The files, for noise.json: the one, or the accelerometer's and the gyroscope's.
+/// The files, for noise.json: a single one, or the accelerometer's and the gyroscope's.
 fn inputs(arguments: &Arguments, file: &ImuFile, of_one: SensorKind) -> Vec<Input> {
     let input = |path: &Path, sha256: String, sensor_kind: SensorKind| {
         let readings = file.recording.sensor(sensor_kind);
@@ -156,7 +156,7 @@ fn no_sensor(sensor_kind: SensorKind) -> Error {
     Error::Recording(Box::new(input_error))
 }
 
-/// --gain is that of --sensor, else of the accelerometer; --gyroscope-gain the gyroscope's.
+/// --gain is that of --sensor, else of the accelerometer; --gyroscope-gain is the gyroscope's.
 fn gains(arguments: &Arguments) -> calibrant::Result<Gains> {
     let asked = arguments.sensor.map_or(SensorKind::Accelerometer, SensorKind::from);
     let mut gains = Gains::new();

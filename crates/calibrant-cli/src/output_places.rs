@@ -1,11 +1,11 @@
-//! Where results go: looked at before the work is done.
+//! Checks of the places for results, before the work is done.
 
 use calibrant::error::InputError;
 use calibrant::{Error, Result};
 use std::io;
 use std::path::Path;
 
-/// Complains where DIR is no directory and cannot become one, because a file is in the way.
+/// Returns an error where DIR is no directory and cannot become one, because a file is in the way.
 pub(crate) fn check_directory(directory: &Path) -> Result<()> {
     let Some(place) = directory.ancestors().find(|place| place.exists()) else { return Ok(()) };
     if place.is_dir() {
@@ -16,7 +16,7 @@ pub(crate) fn check_directory(directory: &Path) -> Result<()> {
     Err(Error::Output { path: directory.to_path_buf(), source })
 }
 
-/// Refuses to write where one of these was read.
+/// Refuses to write to a file that was read.
 pub(crate) fn check_not_input(output: &Path, inputs: &[&Path]) -> Result<()> {
     if inputs.iter().any(|input| same_file(input, output)) {
         let input_error = InputError::new(

@@ -1,4 +1,5 @@
-//! What every command that reads a recording needs: the options that say what its file does not say itself, and its name in errors.
+//! The options of all commands that read a recording: what its file does not state itself. Also its name in
+//! errors.
 
 use calibrant::Error;
 use calibrant::io::{FileFormat, ImuReadOptions, ImuUnit, TimeUnit, read_columns};
@@ -29,7 +30,7 @@ pub(crate) struct RecordingOptions {
 }
 
 impl RecordingOptions {
-    /// As the readers take them.
+    /// The options in the form of the readers.
     pub(crate) fn options(&self) -> ImuReadOptions {
         ImuReadOptions {
             format: self.format,
@@ -42,7 +43,7 @@ impl RecordingOptions {
         }
     }
 
-    /// The same, and what `[columns]` of an experiment file says where these say nothing.
+    /// The same options, completed from `[columns]` of an experiment file.
     pub(crate) fn with_columns(&self, experiment: Option<&Path>) -> calibrant::Result<ImuReadOptions> {
         let given = self.options();
         let Some(experiment) = experiment else { return Ok(given) };
@@ -68,7 +69,7 @@ fn gyroscope_unit(text: &str) -> Result<ImuUnit, String> {
     unit(text, SensorKind::Gyroscope)
 }
 
-/// A unit of readings, whichever sensor's.
+/// A unit of readings, of either sensor.
 pub(crate) fn any_unit(text: &str) -> Result<ImuUnit, String> {
     ImuUnit::parse(text).ok_or_else(|| {
         let [accelerometer, gyroscope] = SensorKind::ALL.map(ImuUnit::choices);
@@ -87,7 +88,7 @@ pub(crate) fn celsius(text: &str) -> Result<f64, String> {
     value.ok_or_else(|| format!("a sensor's temperature in °C, from {low} to {high}"))
 }
 
-/// Takes spikes and invalid readings out of a recording; a warning for each sensor that has some.
+/// Removes spikes and invalid readings from a recording; returns a warning for each sensor that has some.
 pub(crate) fn take_out_spikes(recording: &mut ImuRecording) -> Vec<String> {
     let (clean, spikes) = recording.without_spikes();
     let unit = |sensor_kind: SensorKind| recording.sensor(sensor_kind).map_or("", |of| of.unit.symbol());

@@ -1,4 +1,4 @@
-//! `calibrant simulate`: a sensor out of the datasheet and its recording.
+//! `calibrant simulate`: draws a sensor from the datasheet and simulates its recording.
 
 mod arguments;
 mod imu;
@@ -54,7 +54,7 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     Ok(Exit::DONE)
 }
 
-/// A simulation needs numbers where a calibration can do without.
+/// Returns an error where a simulation needs a number that a calibration can do without.
 fn check_simulable(sensor: &Sensor, file: &Path) -> calibrant::Result<()> {
     let missing = |key: &str| {
         let input_error =
@@ -71,10 +71,10 @@ fn check_simulable(sensor: &Sensor, file: &Path) -> calibrant::Result<()> {
     }
 }
 
-/// Draws of an initial motion, at most.
+/// Largest number of draws of an initial motion.
 const MOST_DRAWS: u64 = 100;
 
-/// The commanded motion: the given one, or the random initial one of the experiment for this recording, from 1.
+/// The commanded motion: the given one, or the experiment's random initial one for this recording (from 1).
 pub(crate) fn commanded_motion(
     motion: Option<&Path>,
     plan: &MotionPlan,
@@ -86,7 +86,8 @@ pub(crate) fn commanded_motion(
     if let Some(path) = motion {
         return read_motion(path, axes);
     }
-    // with both ends known and nothing in between, the ends must differ: draw again until they do by a tenth of the peak
+    // with both ends known and nothing in between, the ends must differ: draw again until they differ by a
+    // tenth of the peak
     let first = MOST_DRAWS * (recording - 1);
     let drawn = |draw| {
         let mut rng = stream(seed, Purpose::Motion, draw);

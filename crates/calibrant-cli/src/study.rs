@@ -1,4 +1,4 @@
-//! `calibrant study`: many simulated sensors, truth beside estimate.
+//! `calibrant study`: simulates many sensors, and compares truth and estimate.
 
 mod plan;
 mod table;

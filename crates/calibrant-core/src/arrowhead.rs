@@ -1,13 +1,15 @@
-//! The one linear-algebra kernel: a block chain with a border, factored in time and memory linear in its length.
+//! The linear-algebra kernel: it factors a block chain with a border in time and memory linear in its length.
+//! It knows nothing of sensors and uses only nalgebra.
 //!
-//! Gauss–Newton on a chain of nodes `a_0 … a_N` (blocks of size D) and a border of parameters `p` (size P) leads to normal
-//! equations that are block tridiagonal in `a` and bordered by `p`: an arrowhead. Two kinds of information make them up: the
-//! data of each interval, a [`Link`] between its two nodes and the border, and what is known of each increment
-//! `a_{i+1} − a_i` beforehand, an [`Increment`] of variance `q`.
+//! Gauss–Newton on a chain of nodes `a_0 … a_N` (blocks of size D) and a border of parameters `p` (size P)
+//! gives an arrowhead. Its normal equations are block tridiagonal in `a` and bordered by `p`. Two kinds of
+//! information make them up. The data of each interval are a [`Link`] between its two nodes and the border.
+//! The prior on each increment `a_{i+1} − a_i` is an [`Increment`] of variance `q`.
 //!
 //! # One kernel for every degree of trust
-//! Written with the weight `1/q` the normal matrix breaks down as `q → 0` (the increment is known exactly: a constraint), and
-//! loses the data to rounding long before. So the chain is eliminated from its end to its start in **increment coordinates**:
+//! With the weight `1/q`, the normal matrix breaks down as `q → 0`, where the increment is known exactly (a
+//! constraint). Rounding destroys the data long before. So the chain is eliminated from its end to its start
+//! in **increment coordinates**:
 //!
 //! `δa_{i+1} = t ∘ δa_i + ρ + l ∘ w`, cost of `w`: `½ wᵀ diag(d) w`
 //!
@@ -18,14 +20,15 @@
 //! | unknown, `q = ∞` | 0 | 1 | 0 |
 //! | ends in a node that is itself known | 0 | 0 | 1 |
 //!
-//! Eliminating `w` has the pivot `diag(d) + diag(l) H diag(l)`, where `H` is the information that the data right of node i have
-//! on node i+1. It is at least one wherever anything is known beforehand, so nothing is divided by a vanishing `q`, and the
-//! report's problems (5), (6) and (3) are the rows `q = 0`, `0 < q < ∞` and `q = ∞` of one table.
+//! Eliminating `w` has the pivot `diag(d) + diag(l) H diag(l)`. Here `H` is the information that the data
+//! right of node i have on node i+1. The pivot is at least one wherever there is a prior, so nothing is
+//! divided by a vanishing `q`. The report's problems (5), (6) and (3) are the rows `q = 0`, `0 < q < ∞` and
+//! `q = ∞` of one table.
 //!
 //! # Cost
-//! `O(N D (D + P)²)` flops; one gain of `D (2D + P + 1)` numbers is kept for each interval. Links are asked for one at a time, so
-//! that the caller need not store them. What is left after the elimination, the Schur complement `F` on the border, is the Fisher
-//! information of the parameters with the motion marginalised.
+//! The elimination takes `O(N D (D + P)²)` flops. It keeps one gain of `D (2D + P + 1)` numbers for each
+//! interval. It asks for links one at a time, so the caller need not store them. What is left is the Schur
+//! complement `F` on the border: the Fisher information of the parameters with the motion marginalised.
 
 use nalgebra::{SMatrix, SVector};
 
@@ -52,7 +55,7 @@ pub struct Link<const D: usize, const P: usize> {
     pub gp: SVector<f64, P>,
 }
 
-/// What is known beforehand of `a_{i+1} − a_i`, per coordinate.
+/// The prior on `a_{i+1} − a_i`, per coordinate.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Increment<const D: usize> {
     /// Variance `q`: 0 where the increment is known exactly, infinite where nothing is known.
@@ -64,7 +67,7 @@ pub struct Increment<const D: usize> {
 }
 
 impl<const D: usize> Increment<D> {
-    /// Nothing is known of the increment.
+    /// An increment without a prior.
     #[must_use]
     pub fn unknown() -> Self {
         Self { variance: SVector::repeat(f64::INFINITY), residual: SVector::zeros(), fixed: [false; D] }
@@ -124,10 +127,11 @@ impl<const D: usize, const P: usize> Arrowhead<D, P> {
     ) -> Result<Self, Undetermined> {
         let mut gains = Vec::with_capacity(intervals);
         let (mut information, mut border_rhs) = (border, rhs);
-        // what the intervals right of the present node say of it
+        // what the intervals right of the present node contribute to it
         let (mut h, mut b, mut g) =
             (SMatrix::<f64, D, D>::zeros(), SMatrix::<f64, D, P>::zeros(), SVector::<f64, D>::zeros());
-        let mut unreduced = SVector::<f64, D>::zeros(); // the same before anything was eliminated: the scale of rounding
+        // the node's information before any elimination: the scale of rounding
+        let mut unreduced = SVector::<f64, D>::zeros();
         for i in (0..intervals).rev() {
             let here = link(i);
             let known = increment(i);
@@ -185,7 +189,8 @@ impl<const D: usize, const P: usize> Arrowhead<D, P> {
         Ok(Self { intervals, gains, information, rhs: border_rhs })
     }
 
-    /// The system of a chain whose increments are all known exactly: the parameters' own equations, nothing to eliminate.
+    /// The system of a chain whose increments are all known exactly. Only the parameters' own equations are
+    /// left; nothing is eliminated.
     #[must_use]
     pub fn rigid(intervals: usize, information: SMatrix<f64, P, P>, rhs: SVector<f64, P>) -> Self {
         Self { intervals, gains: Vec::new(), information, rhs }
@@ -208,8 +213,8 @@ impl<const D: usize, const P: usize> Arrowhead<D, P> {
         Some(cholesky.solve(&self.rhs.component_mul(&scale)).component_mul(&scale))
     }
 
-    /// Norm of the border's gradient in the metric of its covariance, `√(gᵀ F⁻¹ g)`: the length of the full step in standard
-    /// deviations. Infinite where `F` is not positive definite.
+    /// Norm of the border's gradient in the metric of its covariance, `√(gᵀ F⁻¹ g)`. It is the length of the
+    /// full step in standard deviations. Infinite where `F` is not positive definite.
     #[must_use]
     pub fn gradient_norm(&self) -> f64 {
         self.border_step(0.0).map_or(f64::INFINITY, |step| step.dot(&self.rhs).max(0.0).sqrt())
@@ -294,7 +299,7 @@ fn subtract_symmetric_product<const D: usize, const P: usize>(
     }
 }
 
-/// Covariance of a node with the border (D × P), and of a later node with it (D × D).
+/// Covariance of a node with the border (D × P), and covariance of a later node with that node (D × D).
 pub type Before<const D: usize, const P: usize> = (SMatrix<f64, D, P>, SMatrix<f64, D, D>);
 
 /// Joint covariance of an interval's two nodes with each other and with the border.
@@ -310,7 +315,8 @@ pub struct IntervalCovariance<const D: usize, const P: usize> {
     pub node0_border: SMatrix<f64, D, P>,
     /// Last node with border.
     pub node1_border: SMatrix<f64, D, P>,
-    /// The node before the first: its covariance with the border, and that of the last node with it.
+    /// The node before the first: its covariance with the border, and the covariance of the last node with
+    /// it.
     pub before: Option<Before<D, P>>,
 }
 
@@ -329,8 +335,8 @@ impl<const D: usize, const P: usize> IntervalCovariance<D, P> {
     }
 }
 
-/// Inverse of a pivot, or the coordinate on which there is no information. `l`, `d` tell which coordinates have no prior; `scale` is the
-/// information on the node before elimination.
+/// Inverse of a pivot, or the coordinate on which there is no information. `l` and `d` show which coordinates
+/// have no prior. `scale` is the information on the node before elimination.
 fn invert<const D: usize>(
     pivot: &SMatrix<f64, D, D>,
     d: &SVector<f64, D>,

@@ -1,7 +1,9 @@
-//! The one error of the library, and the questions that a caller asks of it.
+//! The one error type of the library, and the questions that a caller asks of it. It depends on no other
+//! module's behaviour.
 //!
-//! An [`Error`] says what is wrong, where, and what to do about it. It is for input that makes no sense; an iteration that
-//! does not converge is a [`CalibrationStatus`](crate::estimate::CalibrationStatus) in a complete result.
+//! An [`Error`] says what is wrong, where, and what to do about it. It is for input that makes no sense. An
+//! iteration that does not converge is a [`CalibrationStatus`](crate::estimate::CalibrationStatus) in a
+//! complete result.
 
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -11,8 +13,9 @@ pub type Result<T> = std::result::Result<T, Error>;
 
 /// Everything that can go wrong.
 ///
-/// Ask it with [`is_invalid_experiment`](Error::is_invalid_experiment), [`is_invalid_recording`](Error::is_invalid_recording),
-/// [`is_not_identifiable`](Error::is_not_identifiable) and [`is_infeasible`](Error::is_infeasible) rather than by matching: variants may be added.
+/// Ask it with [`is_invalid_experiment`](Error::is_invalid_experiment),
+/// [`is_invalid_recording`](Error::is_invalid_recording), [`is_not_identifiable`](Error::is_not_identifiable)
+/// and [`is_infeasible`](Error::is_infeasible). Do not match on it: variants may be added.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
@@ -58,34 +61,34 @@ pub struct InputError {
 }
 
 impl InputError {
-    /// A complaint that is not about a place in a file.
+    /// An input error that is not about a place in a file.
     #[must_use]
     pub fn new(message: impl Into<String>, help: impl Into<String>) -> Self {
         Self { message: message.into(), help: help.into(), ..Self::default() }
     }
 
-    /// The same complaint, about this file.
+    /// The same error, in this file.
     #[must_use]
     pub fn in_file(mut self, file: &Path) -> Self {
         self.file = Some(file.to_path_buf());
         self
     }
 
-    /// The same complaint, at this line (from 1).
+    /// The same error, at this line (from 1).
     #[must_use]
     pub fn at_line(mut self, line: usize) -> Self {
         self.line = Some(line);
         self
     }
 
-    /// The same complaint, at this column (from 1).
+    /// The same error, at this column (from 1).
     #[must_use]
     pub fn at_column(mut self, column: usize) -> Self {
         self.column = Some(column);
         self
     }
 
-    /// The same complaint, about this key of an experiment file.
+    /// The same error, about this key of an experiment file.
     #[must_use]
     pub fn about_key(mut self, key: impl Into<String>) -> Self {
         self.key = Some(key.into());
@@ -125,11 +128,11 @@ impl fmt::Display for InputError {
 /// The parameters that a recording cannot determine, in the user's words.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct NotIdentifiable {
-    /// One entry for each group of parameters that cannot be told apart.
+    /// One entry for each group of parameters that the data cannot separate.
     pub groups: Vec<UndeterminedGroup>,
 }
 
-/// Parameters that cannot be told apart, why, and what would fix it.
+/// Parameters that the data cannot separate, why, and what would fix it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct UndeterminedGroup {
     /// Names of the parameters that are involved.
@@ -165,7 +168,7 @@ impl fmt::Display for NotIdentifiable {
 }
 
 impl UndeterminedGroup {
-    /// What of the parameters is not known; `None` where there is none.
+    /// What the data leave unknown of the parameters; `None` where nothing is unknown.
     #[must_use]
     pub fn what(&self) -> Option<String> {
         match self.parameters.as_slice() {
@@ -207,7 +210,7 @@ impl Error {
         matches!(self, Self::Infeasible(_))
     }
 
-    /// The complaint about an input, where this is one.
+    /// The input error, where this is one.
     #[must_use]
     pub fn input_error(&self) -> Option<&InputError> {
         match self {

@@ -1,6 +1,6 @@
 //! Roots of functions of one number.
 
-/// Most evaluations.
+/// Largest number of evaluations.
 const MOST: usize = 200;
 
 /// A place with the function's value there.
@@ -8,11 +8,13 @@ pub(crate) type Point = (f64, f64);
 
 /// The root between two places where a function has values of different sign (a value of zero is a root).
 ///
-/// Inverse quadratic interpolation where three points allow it, bisection elsewhere (`chandrupatla1997`); begun by regula falsi, which is exact for straight lines.
-/// Ends where the value is no more than `small`, or where the root is known to `width`. Of the places seen, the one with the smallest value.
+/// The method is inverse quadratic interpolation where three points allow it, and bisection elsewhere
+/// (`chandrupatla1997`). It begins with regula falsi, which is exact for straight lines. It ends where the
+/// value is no more than `small`, or where the root is known to `width`. It returns the place with the
+/// smallest value that it has seen.
 ///
 /// # Errors
-/// That of the function, at once.
+/// An error of the function ends the search at once.
 pub(crate) fn root<E>(
     ends: [Point; 2],
     small: f64,

@@ -1,12 +1,14 @@
-//! Does a motion keep the limits, at all times and not only at its nodes?
+//! The exact check of a motion against the limits, at all times and not only at its nodes.
 //!
-//! Acceleration is linear between nodes, so its extremes are there. Velocity is quadratic: it may peak where the acceleration passes zero. Displacement
-//! is cubic: it may peak where the velocity does. Both places are roots of polynomials of degree one and two, so the check is exact.
+//! Acceleration is linear between nodes, so its extremes are there. Velocity is quadratic: it may peak where
+//! the acceleration passes zero. Displacement is cubic: it may peak where the velocity passes zero. Both
+//! places are roots of polynomials of degree one and two, so the check is exact.
 
 use calibrant_core::motion::{AxisLimits, JerkControlledMotion, Limits, Rest};
 use calibrant_core::sensor::Axis;
 
-/// A limit may be exceeded by this much, relatively, before it counts as violated: numbers in files are rounded.
+/// A limit may be exceeded by this much, relatively, before it counts as violated. The reason is that numbers
+/// in files are rounded.
 pub const ROUNDING: f64 = 1e-6;
 
 /// Which limit.
@@ -31,7 +33,7 @@ pub enum LimitKind {
 }
 
 impl LimitKind {
-    /// All of them.
+    /// All limits.
     pub const ALL: [Self; 8] = [
         Self::Acceleration,
         Self::Jerk,
@@ -85,7 +87,7 @@ impl LimitKind {
     }
 }
 
-/// How far a motion goes towards one limit of one axis, and beyond.
+/// How far a motion goes towards one limit of one axis, and beyond it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LimitUse {
     /// The axis.
@@ -96,15 +98,16 @@ pub struct LimitUse {
     pub time_s: f64,
     /// The motion's value then, with its sign, in the limit's unit.
     pub value: f64,
-    /// The limit; for rest zero, for a prescribed acceleration that.
+    /// The limit: zero for rest, the prescribed value for a prescribed acceleration.
     pub limit: f64,
-    /// How far beyond the limit, relative to it: 0 where it is kept. For rest relative to the largest velocity allowed (or else reached), for a prescribed
-    /// acceleration relative to the largest one allowed (or else reached).
+    /// How far beyond the limit, relative to it: 0 where it is kept. For rest it is relative to the largest
+    /// velocity allowed (or else reached). For a prescribed acceleration it is relative to the largest
+    /// acceleration allowed (or else reached).
     pub violation: f64,
 }
 
 impl LimitUse {
-    /// Is it broken by more than [`ROUNDING`]?
+    /// Does the motion break it by more than [`ROUNDING`]?
     #[must_use]
     pub fn is_violated(&self) -> bool {
         self.violation > ROUNDING
@@ -122,7 +125,7 @@ impl LimitUse {
     }
 }
 
-/// How far a motion goes towards each limit that there is, axis by axis, at its worst time.
+/// How far a motion goes towards each given limit, axis by axis, at its worst time.
 ///
 /// # Examples
 /// ```
@@ -150,12 +153,13 @@ pub fn limit_use(limits: &Limits, axes: usize, motion: &JerkControlledMotion) ->
         .collect()
 }
 
-/// The worst relative violation of one axis' limits by node accelerations `a`; 0 where all are kept.
+/// The worst relative violation of one axis' limits by node accelerations `a`; 0 where the motion keeps them
+/// all.
 pub(crate) fn worst_violation(limits: &AxisLimits, times: &[f64], a: &[f64]) -> f64 {
     axis_use(limits, times, a).into_iter().fold(0.0, |worst, found| found.violation.max(worst))
 }
 
-/// Where a quantity is largest in magnitude: (time, value).
+/// The largest magnitude of a quantity: (time, value).
 #[derive(Clone, Copy)]
 struct Peak(f64, f64);
 
@@ -235,7 +239,7 @@ fn axis_use(limits: &AxisLimits, times: &[f64], a: &[f64]) -> Vec<LimitUse> {
     found
 }
 
-/// Real roots of `a s² + b s + c`, without cancellation; a root at infinity is left out.
+/// Real roots of `a s² + b s + c`, without cancellation. A root at infinity is not among them.
 fn roots(a: f64, b: f64, c: f64) -> impl Iterator<Item = f64> {
     let discriminant = b * b - 4.0 * a * c;
     let q = -0.5 * (b + discriminant.max(0.0).sqrt().copysign(b));

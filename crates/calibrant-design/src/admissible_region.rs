@@ -1,8 +1,9 @@
 //! The admissible motions of one axis, as rows of a convex program.
 //!
-//! All limits are linear in the nodes' accelerations, and sparse once velocity and displacement at the nodes are variables too. Between the nodes the
-//! velocity is a quadratic and the displacement a cubic of the place λ in the interval. That such a polynomial keeps a limit for all
-//! `λ ∈ [0, 1]` is a convex condition on its Bernstein coefficients `β`, exactly:
+//! All limits are linear in the nodes' accelerations, and sparse once velocity and displacement at the nodes
+//! are variables too. Between the nodes the velocity is a quadratic and the displacement a cubic of the place
+//! λ in the interval. Such a polynomial must keep a limit for all `λ ∈ [0, 1]`. That is a convex condition on
+//! its Bernstein coefficients `β`, exactly:
 //!
 //! - quadratic `≥ 0`: there is `x ≤ β_1` with `[[β_0, x], [x, β_2]] ⪰ 0`;
 //! - cubic `≥ 0`: it is `(1 − λ) A + λ B` with A, B sums of squares: `[[β_0, x], [x, y]] ⪰ 0`, `[[z, w], [w, β_3]] ⪰ 0`,
@@ -26,14 +27,14 @@ pub(super) struct Region {
     pub(super) size: f64,
 }
 
-/// Intervals in which the inside needs watching.
+/// Intervals whose inside needs extra conditions.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct WatchedIntervals {
     velocity: Vec<bool>,
     displacement: Vec<bool>,
 }
 
-/// Relative breach of a limit inside an interval that puts it under watch.
+/// Relative breach of a limit inside an interval from which on the interval is watched.
 const BREACH: f64 = 1e-9;
 
 impl Region {
@@ -55,7 +56,7 @@ impl Region {
         self.tau.len() - 1
     }
 
-    /// Do limits count that velocity or displacement enter?
+    /// Do limits on velocity or displacement count?
     pub(super) fn has_states(&self) -> bool {
         self.limits.velocity.is_some() || self.limits.displacement.is_some() || self.limits.rest == Rest::Both
     }
@@ -136,7 +137,8 @@ impl Region {
         }
     }
 
-    /// Puts the intervals under watch in which the motion `a` breaks a limit between the nodes; tells whether there was a new one.
+    /// Watches the intervals in which the motion `a` breaks a limit between the nodes. Returns whether there
+    /// was a new one.
     pub(super) fn update_watch(&self, a: &[f64], watch: &mut WatchedIntervals) -> bool {
         let n = self.intervals();
         watch.velocity.resize(n, false);
@@ -191,7 +193,8 @@ impl Region {
         worst
     }
 
-    /// Restores the equalities to rounding: prescribed ends, and rest at the end by an equal change of all inner nodes.
+    /// Restores the equalities to rounding: prescribed ends, and rest at the end by an equal change of all
+    /// inner nodes.
     pub(super) fn settle(&self, a: &mut [f64]) {
         let (n, l) = (self.intervals(), &self.limits);
         for (node, value) in [(0, l.start), (n, l.end)] {
@@ -206,8 +209,9 @@ impl Region {
         }
     }
 
-    /// The admissible motion next to one that is so up to the accuracy of the convex solver: equalities are restored exactly, then the motion is shrunk
-    /// towards `inside`, an admissible motion that keeps a relative distance `slack` from every limit.
+    /// The admissible motion next to one that is admissible only to the accuracy of the convex solver. It
+    /// restores the equalities exactly, then shrinks the motion towards `inside`. That is an admissible
+    /// motion at a relative distance `slack` from every limit.
     pub(super) fn restore(&self, a: &mut [f64], inside: &[f64], slack: f64) {
         for _ in 0..2 {
             self.settle(a);

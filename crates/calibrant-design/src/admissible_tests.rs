@@ -1,4 +1,4 @@
-//! The exact check against ten thousand random times.
+//! Tests of the exact check against ten thousand random times.
 
 use super::*;
 use calibrant_core::simulate::{Purpose, stream};

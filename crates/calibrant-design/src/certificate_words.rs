@@ -1,12 +1,13 @@
-//! What a design's certificate means, for someone who sees one for the first time.
+//! A design's certificate in words, for a reader who sees one for the first time.
 
 use super::{AT_BEST, Certificate, Design, DesignStatus};
 use calibrant_core::information::Criterion;
 
 impl Design {
-    /// How good the motion is, and how that is known, in one or two sentences.
+    /// How good the motion is, and how that was found, in one or two sentences.
     ///
-    /// With a certificate: what no admissible motion can beat, and how close this one is. Without: how many starts agree.
+    /// With a certificate: the value that no admissible motion can beat, and how close this one is. Without
+    /// one: how many starts agree.
     #[must_use]
     pub fn statement(&self) -> String {
         if self.optimal.covariance.is_none() {
@@ -47,7 +48,7 @@ impl Design {
         format!("{criterion}. {}", self.certified_sd(certificate)).trim_end().to_owned()
     }
 
-    /// The parameter that is furthest above its bound, and so what can be said of all.
+    /// A statement on all standard deviations, from the parameter that is furthest above its bound.
     fn certified_sd(&self, certificate: &Certificate) -> String {
         let sd = self.optimal.sd();
         let excess = |k: usize| sd[k] / certificate.sd_lower_bound[k] - 1.0;
@@ -84,7 +85,7 @@ impl Design {
     }
 }
 
-/// Four significant digits, powers of ten for the small and the large.
+/// Four significant digits, with powers of ten for small and large numbers.
 fn short(value: f64) -> String {
     if value == 0.0 {
         return "0".into();
@@ -148,7 +149,7 @@ mod tests {
             (percent(0.0), percent(0.0032), percent(0.25)),
             ("0.01 %".into(), "0.32 %".into(), "25 %".into())
         );
-        // a loose bound is a matter of factors: 51489740 % tells nobody anything
+        // a loose bound is a matter of factors: a reader cannot use 51489740 %
         assert_eq!(
             (times(2.04), times(14.2), times(514_898.4)),
             ("2.0 times that".into(), "14 times that".into(), "5.149 × 10⁵ times that".into())

@@ -1,6 +1,7 @@
-//! A convex program in the words of this module, handed to Clarabel.
+//! A convex program in this crate's terms, which Clarabel solves. No other file knows Clarabel's form.
 //!
-//! `minimise ½ xᵀ P x + qᵀ x` subject to `row(x) = constant + Σ terms · x` being zero, not negative, in a second-order cone or positive semidefinite.
+//! `minimise ½ xᵀ P x + qᵀ x` subject to conditions on rows `row(x) = constant + Σ terms · x`. A row is zero,
+//! not negative, in a second-order cone or part of a positive semidefinite matrix.
 
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SolverStatus, SupportedConeT};
@@ -10,7 +11,7 @@ use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SolverStatus, S
 pub(crate) struct Row {
     /// Coefficients by variable; a variable may occur more than once.
     pub(crate) terms: Vec<(usize, f64)>,
-    /// The rest.
+    /// The constant term.
     pub(crate) constant: f64,
 }
 
@@ -44,7 +45,7 @@ pub(crate) struct ConicProgram {
     zero: Vec<Row>,
     nonnegative: Vec<Row>,
     second_order: Vec<[Row; 3]>,
-    /// Upper triangles, column by column, off-diagonal entries not scaled.
+    /// Upper triangles, column by column. Off-diagonal entries are not scaled.
     semidefinite: Vec<(usize, Vec<Row>)>,
 }
 

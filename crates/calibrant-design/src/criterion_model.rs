@@ -1,9 +1,11 @@
-//! Second-order models of the criteria in the information.
+//! Second-order models of the criteria as functions of the information.
 //!
-//! With `F → F + dF`, each criterion falls like `Φ − ⟨Ω, dF⟩ + ½ Σ_m ⟨Ω_m, dF⟩²`. For `Φ = wᵀ C w`, `c = C w`, `C = L Lᵀ` the exact second-order term
-//! is `‖Lᵀ dF c‖²`. Its part along `n ∝ L⁻¹ c` is `(cᵀ dF c)²/Φ`: the bend of `1/x`, which says that doubling the information halves the
-//! variance and no more. It makes Newton's method creep from a poor start, and is left out: `1/Φ` is the model then, which is concave and grows in
-//! proportion to the information. What remains is the loss through correlation, the part that keeps the mean of a motion near zero.
+//! With `F → F + dF`, each criterion falls like `Φ − ⟨Ω, dF⟩ + ½ Σ_m ⟨Ω_m, dF⟩²`. For `Φ = wᵀ C w`,
+//! `c = C w`, `C = L Lᵀ` the exact second-order term is `‖Lᵀ dF c‖²`. Its part along `n ∝ L⁻¹ c` is
+//! `(cᵀ dF c)²/Φ`. This is the bend of `1/x`: doubling the information halves the variance and no more. It
+//! makes Newton's method slow from a poor start, so the model omits it. The model is then `1/Φ`, which is
+//! concave and grows in proportion to the information. What remains is the loss through correlation. That
+//! part keeps the mean of a motion near zero.
 
 use calibrant_core::information::Criterion;
 use nalgebra::{DMatrix, DVector};
@@ -62,7 +64,8 @@ fn linear(c: &DMatrix<f64>, weights: &[DVector<f64>]) -> Curvature {
     for w in weights {
         let cw = c * w;
         first += &cw * cw.transpose();
-        // Householder reflection that takes n = L⁻¹ c/‖·‖ = Lᵀ w/‖·‖ to the first axis: its other rows span what is orthogonal to n
+        // Householder reflection that takes n = L⁻¹ c/‖·‖ = Lᵀ w/‖·‖ to the first axis: its other rows span
+        // the space orthogonal to n
         let n = l.tr_mul(w).normalize();
         let mut v = n.clone();
         v[0] += if n[0] < 0.0 { -1.0 } else { 1.0 };
@@ -124,7 +127,8 @@ mod tests {
         (&step + step.transpose()) * 1e-3
     }
 
-    /// The model of a transformed criterion has the second derivative of finite differences: `1/f` for each piece of the form `wᵀCw`, `det^{1/p}` for D.
+    /// The model of a transformed criterion has the second derivative of finite differences. The
+    /// transformation is `1/f` for each piece of the form `wᵀCw`, and `det^{1/p}` for D.
     #[test]
     fn the_models_are_those_of_the_transformed_criteria() {
         let scale = DVector::from_fn(6, |i, _| 1.0 + i as f64 * 0.2);

@@ -1,4 +1,4 @@
-//! What a given motion will tell.
+//! The evaluation of a given motion: the covariance that a recording of it will give.
 
 use super::{DesignProblem, Evaluation};
 use calibrant_core::error::{Result, UndeterminedGroup};
@@ -9,7 +9,8 @@ use calibrant_core::motion::{JerkControlledMotion, Trust, sample_times};
 /// Predicts the covariance of a calibration from a recording of `motion`. Intervals and limits of the problem are not used.
 ///
 /// # Errors
-/// As [`MotionInformation::of`](calibrant_core::information::MotionInformation::of). A motion that leaves parameters undetermined is not an error: the result says which.
+/// As [`MotionInformation::of`](calibrant_core::information::MotionInformation::of). A motion that leaves
+/// parameters undetermined is not an error: the result names them.
 pub fn evaluate(problem: &DesignProblem<'_>, motion: &JerkControlledMotion) -> Result<Evaluation> {
     let setting = problem.setting()?;
     let mut information = setting.information(motion)?;

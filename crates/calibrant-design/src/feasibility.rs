@@ -1,8 +1,10 @@
-//! Do the limits admit a motion at all? If not, which of them clash?
+//! Feasibility: do the limits admit a motion at all, and if not, which of them clash?
 //!
-//! Limits are symmetric, so without prescribed ends standing still is admissible, and there is nothing to look for. With them three clashes are plain
-//! (an end beyond the acceleration limit, or beyond the intercept limit at t = 0; ends too far apart for the jerk limit). For the rest a convex program is
-//! asked, and a deletion filter names a minimal set of limits that clash: without any one of them there is a motion.
+//! Limits are symmetric, so without prescribed ends standing still is admissible, and there is nothing to
+//! check. With prescribed ends three clashes are plain. An end is beyond the acceleration limit, or beyond
+//! the intercept limit at t = 0. Or the ends are too far apart for the jerk limit. A convex program decides
+//! the rest. A deletion filter then names a minimal set of limits that clash: without any one of them there
+//! is a motion.
 
 use super::admissible::{LimitKind, worst_violation};
 use super::admissible_region::{Region, WatchedIntervals};
@@ -16,7 +18,7 @@ use nalgebra::Vector3;
 /// Relative distance from the limits below which there is no room to move.
 const ROOM: f64 = 1e-9;
 
-/// Complains where the limits admit no motion.
+/// Returns an error where the limits admit no motion.
 ///
 /// # Errors
 /// [`Error::Infeasible`] names the axis and the limits that clash.
@@ -43,13 +45,16 @@ pub fn check_feasible(problem: &DesignProblem<'_>) -> Result<()> {
 pub(crate) struct Interior {
     /// Accelerations at the nodes of one axis.
     pub(crate) nodes: Vec<f64>,
-    /// Every limit is kept with this share of it to spare, at all times, but for the prescribed values themselves.
+    /// The motion keeps every limit with this share of it to spare, at all times. Prescribed values are the
+    /// exception.
     pub(crate) slack: f64,
 }
 
-/// The admissible motion of one axis that keeps the largest common share of every limit to spare; `None` where the limits admit none, or leave no room.
+/// The admissible motion of one axis that keeps the largest common share of every limit to spare. `None`
+/// where the limits admit none, or leave no room.
 ///
-/// Velocity and displacement are bounded by their Bézier control points, which is safe between the nodes; where these find nothing, exactly.
+/// Control points (Bézier) bound velocity and displacement, which is safe between the nodes. Where that finds
+/// nothing, the bounds are exact.
 pub(crate) fn interior_motion(limits: &AxisLimits, times: &[f64]) -> Option<Interior> {
     if limits.start.is_none() && limits.end.is_none() {
         return Some(Interior { nodes: vec![0.0; times.len()], slack: 1.0 });
@@ -65,7 +70,7 @@ pub(crate) fn interior_motion(limits: &AxisLimits, times: &[f64]) -> Option<Inte
 /// An admissible motion on all axes away from the limits, and its relative distance from all of them.
 ///
 /// # Errors
-/// As [`check_feasible`], with fewer words.
+/// As [`check_feasible`], with a shorter message.
 pub(crate) fn inside(
     limits: &Limits,
     axes: usize,
@@ -87,7 +92,7 @@ pub(crate) fn inside(
     Ok((JerkControlledMotion::uniform(interval_s, nodes)?, slack))
 }
 
-/// The motion with the largest common slack, velocity and displacement bounded by control points.
+/// The motion with the largest common slack. Control points bound velocity and displacement.
 fn widest(limits: &AxisLimits, times: &[f64]) -> Option<Vec<f64>> {
     let n = times.len() - 1;
     let size = Region::new(*limits, times).size;
@@ -100,7 +105,7 @@ fn widest(limits: &AxisLimits, times: &[f64]) -> Option<Vec<f64>> {
     let velocity = program.add_variables(n + 1);
     let displacement = program.add_variables(n + 1);
     program.add_linear(slack, -1.0);
-    // bounded, though nothing else may be
+    // a bound, as nothing else may bound it
     program.nonnegative(Row::new(1.0, [(slack, -1.0)]));
     let a = |i: usize| Row::new(0.0, [(nodes + i, size)]);
     let dt = times[1] - times[0];
@@ -181,7 +186,8 @@ fn any(limits: &AxisLimits, times: &[f64]) -> Option<Vec<f64>> {
     None
 }
 
-/// The smallest share of any limit that a motion has to spare, prescribed values left out; negative where one is broken.
+/// The smallest share of any limit that a motion has to spare; negative where one is broken. Prescribed
+/// values do not count.
 fn spare(limits: &AxisLimits, times: &[f64], a: &[f64]) -> f64 {
     let n = times.len() - 1;
     // the peaks of everything but acceleration and intercept are those of the whole motion
@@ -267,7 +273,7 @@ fn clash(axis: Axis, limits: &AxisLimits, times: &[f64]) -> InputError {
     let mut kinds: Vec<LimitKind> = LimitKind::ALL.into_iter().filter(|&kind| has(limits, kind)).collect();
     for kind in kinds.clone() {
         let less = without(&kept, kind);
-        // what is left still clashes: this one has no part in it
+        // the remaining limits still clash: this one has no part in it
         if any(&less, times).is_none() {
             kept = less;
             kinds.retain(|&other| other != kind);

@@ -1,4 +1,4 @@
-//! Prescribed ends: what they admit, and what clashes.
+//! Tests of prescribed ends: what they admit, and what clashes.
 
 use super::*;
 

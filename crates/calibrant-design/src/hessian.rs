@@ -1,14 +1,15 @@
-//! The criterion's own second derivative, where the model of [`super::criterion_model`] is a poor one.
+//! The exact second derivative of the criterion, where the model of [`super::criterion_model`] is a poor one.
 //!
-//! Noise in proportion to the jerk takes back what a larger jerk gains: the bend of the information and that of the noise all but cancel, and a
-//! model that knows only one of them makes steps a hundred times too short. So for a noisy motion the Hessian is taken whole, by central
-//! differences of the exact gradient, and its positive part is the model's bend. That costs a gradient for each node, and so is done
-//! for motions of up to [`LARGEST`] unknowns; longer ones take the model, more slowly.
+//! Noise in proportion to the jerk takes back what a larger jerk gains: the bend of the information and that
+//! of the noise nearly cancel. A model with only one of them makes steps a hundred times too short. So for a
+//! noisy motion the Hessian comes from central differences of the exact gradient, and its positive part is
+//! the model's bend. That costs a gradient for each node. So it is done for motions of up to [`LARGEST`]
+//! unknowns; longer ones use the model, more slowly.
 
 use super::part::{Nodes, Part};
 use nalgebra::{DMatrix, DVector, SMatrix, SVector};
 
-/// Most unknowns for which the Hessian is formed.
+/// Largest number of unknowns for which the Hessian is formed.
 pub(super) const LARGEST: usize = 90;
 /// Step of the differences, in units of the motion's size.
 const STEP: f64 = 1e-5;
@@ -26,7 +27,7 @@ impl<const D: usize, const P: usize> Part<D, P> {
         Some(total.into_iter().map(|slope| -slope).collect())
     }
 
-    /// Forms of which half the sum of squares is the positive part of the criterion's second-order term.
+    /// Forms whose squares add up to twice the positive part of the criterion's second-order term.
     pub(super) fn positive_curvature(&self, a: &[SVector<f64, D>]) -> Option<Vec<Nodes<D>>> {
         let unknowns = a.len() * D;
         let flat = |nodes: Nodes<D>| DVector::from_fn(unknowns, |at, _| nodes[at / D][at % D]);

@@ -1,4 +1,4 @@
-//! The initial motion, with ends that are prescribed.
+//! The initial motion of a design, with prescribed ends where there are any.
 
 use super::admissible::worst_violation;
 use super::feasibility::inside;
@@ -7,8 +7,9 @@ use calibrant_core::motion::{JerkControlledMotion, Limits, Rest};
 use calibrant_core::simulate::{Rng, initial_motion as free_initial_motion};
 use nalgebra::Vector3;
 
-/// The motion that experience would choose, as [`simulate::initial_motion`](calibrant_core::simulate::initial_motion) has it. On axes whose ends are prescribed:
-/// the motion furthest from all limits, plus as much of the random one as the limits admit.
+/// The motion that experience would choose, as
+/// [`simulate::initial_motion`](calibrant_core::simulate::initial_motion) has it. On axes with prescribed
+/// ends it is the motion furthest from all limits, plus as much of the random one as the limits admit.
 ///
 /// # Errors
 /// [`Error::Infeasible`](calibrant_core::Error::Infeasible) where the prescribed ends leave no room; else as
@@ -49,7 +50,7 @@ pub fn initial_motion(
     JerkControlledMotion::uniform(interval_s, nodes)
 }
 
-/// A motion less a line, so that it begins or ends with zero, and less its mean where it must end at rest.
+/// A motion less a line, so that it begins or ends with zero. Where it must end at rest, also less its mean.
 fn without_ends(mut a: Vec<f64>, start: bool, end: bool, rest: bool) -> Vec<f64> {
     let n = a.len() - 1;
     let first = if start { a[0] } else { 0.0 };

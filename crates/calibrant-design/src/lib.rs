@@ -1,4 +1,5 @@
-//! Design: the motion whose recording determines the parameters best, and the proof of how good it is.
+//! Design: it finds the motion whose recording determines the parameters best, and bounds how far that is
+//! from the optimum. It simulates studies of both.
 
 mod admissible;
 mod admissible_region;

@@ -1,4 +1,4 @@
-//! Is a motion of one's own any good? Beside the best one, the bound and the limits.
+//! The assessment of a user's own motion beside the best one, the bound and the limits.
 
 use super::{Design, DesignProblem, Evaluation, LimitUse, evaluate, limit_use};
 use calibrant_core::error::Result;
@@ -6,20 +6,21 @@ use calibrant_core::information::Criterion;
 use calibrant_core::motion::JerkControlledMotion;
 use calibrant_core::sensor::Parameter;
 
-/// A motion, what it tells, and how that compares.
+/// A motion, the information that it gives, and how that compares.
 #[derive(Debug, Clone)]
 pub struct Assessment {
-    /// What is minimised.
+    /// The criterion that is minimised.
     pub criterion: Criterion,
     /// Name, unit, nominal value and spread of each parameter.
     pub parameters: Vec<Parameter>,
-    /// What a recording of the motion will tell.
+    /// The information that a recording of the motion will give.
     pub evaluation: Evaluation,
     /// How far the motion goes towards each limit, and beyond, at all times.
     pub limits: Vec<LimitUse>,
-    /// The best motion found for the experiment; or why there is none, in words.
+    /// The best motion found for the experiment, or the reason in words why there is none.
     pub optimum: std::result::Result<Design, String>,
-    /// Duration and number of intervals of the motion where they are not those of the experiment, which the optimum is for.
+    /// Duration and number of intervals of the motion where they differ from those of the experiment. The
+    /// optimum is for those of the experiment.
     pub other_setting: Option<OtherSetting>,
 }
 
@@ -37,15 +38,17 @@ pub struct OtherSetting {
 }
 
 impl Assessment {
-    /// Efficiency against the best motion found: the share of the recordings that the best motion would need for the same value of the criterion. 1 is as
-    /// good, ½ needs twice as many. For D per parameter, `exp((Φ_best − Φ)/p)`; `None` where either does not determine the parameters.
+    /// Efficiency against the best motion found: the share of the recordings that the best motion would need
+    /// for the same value of the criterion. 1 is as good, ½ needs twice as many. For D per parameter,
+    /// `exp((Φ_best − Φ)/p)`. `None` where either does not determine the parameters.
     #[must_use]
     pub fn efficiency(&self) -> Option<f64> {
         let design = self.optimum.as_ref().ok()?;
         self.against(design.optimal.value)
     }
 
-    /// Efficiency against the lower bound: no admissible motion of the experiment's setting makes it less than this.
+    /// Efficiency against the lower bound. No admissible motion with the experiment's duration and intervals
+    /// makes it less than this.
     #[must_use]
     pub fn certain_efficiency(&self) -> Option<f64> {
         let certificate = self.optimum.as_ref().ok()?.certificate.as_ref()?;

@@ -1,11 +1,12 @@
-//! The search: many starts, in parallel, and the best motion of each axis.
+//! The multistart search: many starts, in parallel, and the best motion of each axis.
 //!
-//! Half of the starts are random motions and corners of the admissible region; the others are kicked out of the best optimum so far. They run in rounds, so
-//! that the result does not depend on the number of threads, and end early once many starts agree on the best.
+//! Half of the starts are random motions and corners of the admissible region; the others are kicks from the
+//! best optimum so far. They run in rounds, so that the result does not depend on the number of threads. They
+//! end early once many starts agree on the best.
 //!
-//! Axes of a scale-bias sensor share nothing, so each is designed by itself, and those that have the same problem are designed once, with the starts of
-//! all of them. Among motions that are equally good each axis takes the one most like its initial motion: optima come in pairs, `a` and `−a`,
-//! and often more.
+//! Axes of a scale-bias sensor share nothing, so each has its own design. Axes with the same problem are
+//! designed once, with the starts of all of them. Among equally good motions each axis takes the one most
+//! like its initial motion: optima come in pairs, `a` and `−a`, and often more.
 
 use super::admissible_region::Region;
 use super::part::{Nodes, Part};
@@ -19,7 +20,7 @@ use calibrant_core::simulate::{Purpose, stream};
 use nalgebra::{SMatrix, SVector, Vector3};
 use rayon::prelude::*;
 
-/// What the search found.
+/// The result of the search.
 pub(super) struct Found {
     pub(super) nodes: Vec<Vector3<f64>>,
     pub(super) starts: Vec<StartOutcome>,
@@ -28,11 +29,13 @@ pub(super) struct Found {
 
 /// Values that differ by less than this, relatively, are equal.
 const EQUAL: f64 = 1e-9;
-/// So many starts that end at the best value, relatively as close as this, need no more beside them.
+/// Number of starts at the best value that end the search.
 const AGREED: usize = 10;
+/// Relative difference within which a start is at the best value.
 const AGREEMENT: f64 = 1e-7;
 
-/// Searches the best motion. `initial` is the first start of every axis, `inside` an admissible motion at a relative distance `slack` from every limit.
+/// Searches the best motion. `initial` is the first start of every axis. `inside` is an admissible motion at
+/// a relative distance `slack` from every limit.
 pub(super) fn search(
     problem: &DesignProblem<'_>,
     settings: &DesignSettings,
@@ -102,7 +105,8 @@ impl<const D: usize, const P: usize> Part<D, P> {
         a.iter().zip(b).map(|(a, b)| a.dot(b)).sum()
     }
 
-    /// The best outcome for the axes that begin at `own`: among equals, and their mirror images, the one most like it.
+    /// The best outcome for the axes that begin at `own`: among equals, and their mirror images, the one most
+    /// like it.
     fn choose(
         &self,
         outcomes: &[LocalOptimum<D>],
@@ -127,7 +131,7 @@ impl<const D: usize, const P: usize> Part<D, P> {
                 }
             }
         }
-        // a start that ended there and converged says that it is an optimum
+        // a start that ended there and converged shows that it is an optimum
         let close = best.value + AGREEMENT * best.value.abs();
         let converged =
             |outcome: &LocalOptimum<D>| outcome.value <= close && outcome.status == DesignStatus::Converged;

@@ -1,10 +1,10 @@
-//! The problem of one part of a design: the axes that are seen together.
+//! The problem of one part of a design: the axes that are designed together.
 
 use super::admissible_region::Region;
 use calibrant_core::information::{Criterion, PartInformation};
 use nalgebra::{SMatrix, SVector};
 
-/// The problem of one part: D axes that are seen together.
+/// The problem of one part: D axes that are designed together.
 pub(super) struct Part<const D: usize, const P: usize> {
     pub(super) information: PartInformation<D, P>,
     pub(super) regions: [Region; D],

@@ -1,4 +1,4 @@
-//! What is to be designed.
+//! The design problem: sensor, motion grid, limits and criterion.
 
 use calibrant_core::error::{Error, InputError, Result};
 use calibrant_core::information::{Criterion, MotionInformation};
@@ -23,11 +23,11 @@ pub struct DesignProblem<'a> {
     pub rate_hz: f64,
     /// How far the motion will be trusted.
     pub trust: Trust,
-    /// Which ends of it will be known.
+    /// Which ends of the motion will be known.
     pub known_ends: KnownEnds,
-    /// What the arm can do.
+    /// The limits of the arm.
     pub limits: &'a Limits,
-    /// What is minimised.
+    /// The criterion that is minimised.
     pub criterion: Criterion,
     /// Information that is there already: a prior, or earlier recordings (p × p, in the order of the parameter list).
     pub prior: Option<DMatrix<f64>>,
@@ -40,7 +40,7 @@ impl DesignProblem<'_> {
         self.limits.within_range(self.sensor.range_mps2)
     }
 
-    /// The setting of the experiment.
+    /// The conditions of the experiment.
     ///
     /// # Errors
     /// As [`MotionInformation::new`].
@@ -48,7 +48,8 @@ impl DesignProblem<'_> {
         MotionInformation::new(self.sensor, self.at, self.trust, self.known_ends, self.rate_hz)
     }
 
-    /// Groups of axes that share nothing and so can be designed one after the other: every axis of a scale-bias sensor, all axes of a full one.
+    /// Groups of axes that share nothing, and so can be designed one after the other. They are every axis of
+    /// a scale-bias sensor, and all axes of a full one.
     #[must_use]
     pub fn parts(&self) -> Vec<Vec<Axis>> {
         let axes = self.sensor.active_axes();

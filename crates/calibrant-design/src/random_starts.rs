@@ -1,8 +1,10 @@
-//! Where the search begins.
+//! Random starts of the search, and kicks from an optimum.
 //!
-//! The information is convex in the motion, so good motions lie at corners of the admissible region. Every other start is a modest random motion, from
-//! which the search grows along the directions that tell most; the others are corners, the admissible motions that go furthest along a wave of random
-//! frequency and phase. Kicks go most of the way from the best motion so far to a random corner: shorter ones come back.
+//! The information is convex in the motion, so good motions lie at corners of the admissible region. Every
+//! other start is a modest random motion, from which the search grows along the directions of most
+//! information. The others are corners: the admissible motions that go furthest along a wave of random
+//! frequency and phase. Kicks go most of the way from the best motion so far to a random corner: shorter ones
+//! come back.
 
 use super::admissible_region::WatchedIntervals;
 use super::conic_program::ConicProgram;
@@ -11,18 +13,20 @@ use calibrant_core::simulate::Rng;
 use nalgebra::SVector;
 use rand::RngExt;
 
-/// Far beyond every limit.
+/// A factor far beyond every limit.
 const STRETCH: f64 = 1e6;
-/// How often a corner that leaves parameters undetermined is moved aside, and how far.
+/// Number of attempts to move a corner aside that leaves parameters undetermined.
 const ATTEMPTS: usize = 5;
+/// Part of the way by which such a corner is moved aside.
 const ASIDE: f64 = 0.3;
 /// A modest motion's share of the limits.
 const MODEST: f64 = 0.1;
-/// What part of the way to a corner a kick goes.
+/// The part of the way to a corner that a kick goes.
 const KICK: std::ops::Range<f64> = 0.4..0.9;
 
 impl<const D: usize, const P: usize> Part<D, P> {
-    /// An admissible motion, stretched until it touches a limit on every axis where that helps: with noise in proportion to the jerk it may not.
+    /// An admissible motion, enlarged until it touches a limit on every axis where that helps. With noise in
+    /// proportion to the jerk it may not help.
     pub(super) fn stretched_if_better(&self, nodes: Nodes<D>) -> Nodes<D> {
         let stretched = self.stretched(nodes.clone());
         if self.value(&stretched) < self.value(&nodes) { stretched } else { nodes }
@@ -40,7 +44,8 @@ impl<const D: usize, const P: usize> Part<D, P> {
         self.restored(nodes)
     }
 
-    /// Start `number`, moved a little towards a corner where it leaves parameters undetermined; `None` where the convex solver fails.
+    /// Start `number`, moved slightly towards a corner where it leaves parameters undetermined. `None` where
+    /// the convex solver fails.
     pub(super) fn start(&self, number: usize, rng: &mut Rng) -> Option<Nodes<D>> {
         let mut start = if number.is_multiple_of(2) { self.modest(rng) } else { self.corner(wave, rng)? };
         for _ in 0..ATTEMPTS {

@@ -1,4 +1,4 @@
-//! What a design gives.
+//! The result of a design: motions, predicted covariances, starts and certificate.
 
 use calibrant_core::error::UndeterminedGroup;
 use calibrant_core::information::Criterion;
@@ -8,16 +8,16 @@ use nalgebra::DMatrix;
 
 /// A start that ends within this of the best (relatively; for criterion D in nats) has reached it.
 ///
-/// Far below a percent: criterion A in SI units is nearly the variance of the biases alone, and motions whose scale factors differ by a third differ by a
-/// thousandth in it.
+/// Far below a percent: criterion A in SI units is nearly the variance of the biases alone. Motions whose
+/// scale factors differ by a third differ by a thousandth in it.
 pub const AT_BEST: f64 = 1e-5;
 
-/// The best motion found, beside the initial one, and how close to the best possible it is.
+/// The best motion found, beside the initial one, and its distance from the bound.
 #[derive(Debug, Clone)]
 pub struct Design {
     /// How the search ended.
     pub status: DesignStatus,
-    /// What was minimised.
+    /// The criterion that was minimised.
     pub criterion: Criterion,
     /// Name, unit, nominal value and spread of each parameter.
     pub parameters: Vec<Parameter>,
@@ -31,7 +31,7 @@ pub struct Design {
     pub iterations: usize,
     /// The limits that the motion keeps at all times, the sensor's range among them.
     pub limits: Limits,
-    /// The lower bound, where one was asked for and found.
+    /// The lower bound, where it was wanted and found.
     pub certificate: Option<Certificate>,
 }
 
@@ -55,14 +55,14 @@ impl Design {
     }
 }
 
-/// What a recording of a motion will tell.
+/// The information that a recording of a motion will give.
 #[derive(Debug, Clone)]
 pub struct Evaluation {
     /// The motion.
     pub motion: JerkControlledMotion,
     /// Value of the criterion; infinite where the motion does not determine the parameters.
     pub value: f64,
-    /// Information on the parameters, what was there before included.
+    /// Information on the parameters, with the information that was there before.
     pub information: DMatrix<f64>,
     /// Predicted covariance; `None` where the motion does not determine the parameters.
     pub covariance: Option<DMatrix<f64>>,
@@ -126,7 +126,7 @@ pub struct StartOutcome {
 pub struct Certificate {
     /// The bound.
     pub lower_bound: f64,
-    /// How far the design is from it at most: `value/bound − 1`, for criterion D the difference in nats.
+    /// How far the design is from the bound: `value/bound − 1`, for criterion D the difference in nats.
     pub gap: f64,
     /// Smallest standard deviation that any admissible motion can give each parameter.
     pub sd_lower_bound: Vec<f64>,

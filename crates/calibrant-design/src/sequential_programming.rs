@@ -1,9 +1,11 @@
-//! One start: sequential convex programming.
+//! One start of the search: sequential convex programming from a motion to a local optimum.
 //!
-//! The information is matrix convex in the motion, so its linearisation is a lower bound that touches it, and every criterion of the linearised
-//! information is a convex upper bound of the criterion. Each iteration minimises a model of that bound, of first order in the motion's curvature and of
-//! second order in the criterion's ([`super::criterion_model`]), over the admissible motions, and goes there, or as far towards it as the criterion falls. All
-//! limits are convex, so every iterate is admissible.
+//! The information is matrix convex in the motion, so its linearisation is a lower bound that touches it.
+//! Every criterion of the linearised information is then a convex upper bound of the criterion. Each
+//! iteration minimises a model of that bound over the admissible motions. The model is of first order in the
+//! motion's curvature and of second order in the criterion's ([`super::criterion_model`]). The iteration goes
+//! to the minimum, or as far towards it as the criterion falls. All limits are convex, so every iterate is
+//! admissible.
 //!
 //! E has no second-order model: its convex bound is minimised exactly, `maximise t: F_lin ⪰ t diag(s)⁻²`.
 //!
@@ -18,7 +20,7 @@ use super::{DesignSettings, DesignStatus, hessian};
 use calibrant_core::information::{Criterion, Linearised, covariance};
 use nalgebra::{DMatrix, SMatrix, SVector};
 
-/// Where a start ended.
+/// The end of one start.
 #[derive(Debug, Clone)]
 pub(super) struct LocalOptimum<const D: usize> {
     pub(super) nodes: Nodes<D>,
@@ -30,11 +32,12 @@ pub(super) struct LocalOptimum<const D: usize> {
 
 /// The model's decrease, relative to the most that the gradient could promise, below which a start has converged.
 const CONVERGED: f64 = 1e-9;
-/// The same where rounding keeps the criterion from falling further.
+/// The same threshold where rounding keeps the criterion from falling further.
 const EXHAUSTED: f64 = 1e-5;
-/// How much less of the model's bend is taken after each full step: the bend bounds the criterion from above, often far above.
+/// Factor on the model's bend after each full step: the bend bounds the criterion from above, often far
+/// above.
 const BOLDER: f64 = 0.25;
-/// The least of it.
+/// The least factor on the bend.
 const LEAST_BEND: f64 = 1e-3;
 /// Relative size of an eigenvalue that adds nothing to the rank.
 const RANK: f64 = 1e-12;
@@ -76,7 +79,7 @@ impl<const D: usize, const P: usize> Part<D, P> {
             };
             let mut found = self.step(&a, &model, &mut watch, &mut weights);
             if found.is_none() && model.matrix.take().is_some() {
-                // matrix entries of too different size: the slope alone still tells where to go
+                // matrix entries of too different size: the slope alone still gives the direction
                 found = self.step(&a, &model, &mut watch, &mut weights);
             }
             let Some((step, promise)) = found else {
@@ -189,7 +192,8 @@ impl<const D: usize, const P: usize> Part<D, P> {
         Some(model)
     }
 
-    /// The admissible motion that minimises the model, and the decrease that it promises relative to the most that the gradient could.
+    /// The admissible motion that minimises the model. Also its predicted decrease, relative to the most that
+    /// the gradient could promise.
     fn step(
         &self,
         a: &[SVector<f64, D>],
@@ -223,7 +227,7 @@ impl<const D: usize, const P: usize> Part<D, P> {
         None
     }
 
-    /// Every axis restored into its region.
+    /// The motion with every axis restored into its region.
     pub(super) fn restored(&self, mut nodes: Nodes<D>) -> Nodes<D> {
         for k in 0..D {
             let mut own: Vec<f64> = nodes.iter().map(|node| node[k]).collect();
@@ -283,7 +287,7 @@ impl<const D: usize, const P: usize> Part<D, P> {
             program.zero(along(bend, scale.sqrt()).plus(&Row::new(0.0, [(z + k, -1.0)])));
         }
         if let (false, Some((floor, ratio))) = (model.noise.is_empty(), self.information.input_noise()) {
-            // s ≥ |u| in units of size/Δτ: the noise that a larger jerk brings, Δτ² (floor + ratio s)²
+            // s ≥ |u| in units of size/Δτ: a larger jerk brings the noise Δτ² (floor + ratio s)²
             for (i, noise) in model.noise.iter().enumerate() {
                 let dt = self.information.interval_s(i);
                 for k in 0..D {
@@ -375,7 +379,7 @@ struct Model<const D: usize> {
     pieces: Vec<(f64, Nodes<D>)>,
     /// Half the sum of the squares of these forms is the bend.
     bends: Vec<Nodes<D>>,
-    /// What the criterion gains per variance of each increment; empty unless this is modelled apart.
+    /// Gain of the criterion per variance of each increment; empty unless this is modelled apart.
     noise: Vec<SVector<f64, D>>,
     /// For E: value and slope of each entry of the scaled information, upper triangle.
     matrix: Option<Vec<(f64, Nodes<D>)>>,

@@ -1,15 +1,15 @@
-//! How a design is looked for.
+//! The settings of a design: number of starts, seed, certificate, iterations.
 
-/// How a design is looked for.
+/// The settings of a design.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DesignSettings {
-    /// Most starts for each axis: the search ends earlier once ten end at the same best value.
+    /// Largest number of starts for each axis. The search ends earlier once ten end at the same best value.
     pub starts: usize,
     /// Seed of the random starts and of the initial motion.
     pub seed: u64,
     /// Is a lower bound wanted that no admissible motion can beat?
     pub certificate: bool,
-    /// Most iterations of one start.
+    /// Largest number of iterations of one start.
     pub max_iterations: usize,
 }
 

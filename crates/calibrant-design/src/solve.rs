@@ -1,4 +1,4 @@
-//! The best motion: feasibility, search, certificate.
+//! The design of the best motion: feasibility, search, certificate, in this order.
 
 use super::multistart_search::search;
 use super::{

@@ -1,4 +1,4 @@
-//! A sweep: the best that can be had as one thing about the experiment changes.
+//! A sweep: the best design as one quantity of the experiment changes.
 
 use super::{Design, DesignProblem, DesignSettings, design};
 use calibrant_core::error::{Error, InputError, Result};
@@ -7,10 +7,10 @@ use calibrant_core::motion::Limits;
 use calibrant_core::sensor::{Parameter, Sensor};
 use nalgebra::Vector3;
 
-/// What a sweep changes.
+/// The quantity that a sweep changes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SweepVariable {
-    /// Duration of the motion, s: the intervals keep theirs, their number changes.
+    /// Duration of the motion, s. The intervals keep their duration, their number changes.
     Duration,
     /// Largest acceleration, m/s², of all axes.
     Acceleration,
@@ -29,7 +29,7 @@ pub enum SweepVariable {
 }
 
 impl SweepVariable {
-    /// All of them.
+    /// All quantities.
     pub const ALL: [Self; 8] = [
         Self::Duration,
         Self::Acceleration,
@@ -97,26 +97,26 @@ impl SweepVariable {
 /// The best designs over the values of one variable.
 #[derive(Debug, Clone)]
 pub struct Sweep {
-    /// What changes.
+    /// The quantity that changes.
     pub variable: SweepVariable,
-    /// What every design minimises.
+    /// The criterion that every design minimises.
     pub criterion: Criterion,
     /// Name, unit, nominal value and spread of each parameter.
     pub parameters: Vec<Parameter>,
-    /// The values, in the order asked for.
+    /// The values, in the requested order.
     pub points: Vec<SweepPoint>,
 }
 
 /// One value of a sweep.
 #[derive(Debug, Clone)]
 pub struct SweepPoint {
-    /// The value that was asked for, in the variable's unit.
+    /// The requested value, in the variable's unit.
     pub asked: f64,
-    /// The value that it became: a duration is a whole number of intervals.
+    /// The value that was used: a duration is a whole number of intervals.
     pub value: f64,
     /// Number of intervals.
     pub intervals: usize,
-    /// The best design there; or why there is none, in words (the limits clash, for example).
+    /// The best design there, or the reason in words why there is none (the limits clash, for example).
     pub outcome: std::result::Result<Design, String>,
 }
 
@@ -128,9 +128,11 @@ impl SweepPoint {
     }
 }
 
-/// Designs the motion for each of these values. `progress` is called with the number of the value, from 0, and what [`design`] says of its progress.
+/// Designs the motion for each of these values. `progress` is called with the number of the value, from 0,
+/// and the progress of [`design`].
 ///
-/// A value whose limits admit no motion, or that determines nothing, does not stop the others: its point says why.
+/// A value whose limits admit no motion, or that determines nothing, does not stop the others: its point says
+/// why.
 ///
 /// # Errors
 /// As [`design`], where it is for another reason; [`Error::Experiment`] for a value that makes no sense.
@@ -167,7 +169,7 @@ pub fn sweep(
     })
 }
 
-/// A problem with one thing changed.
+/// A problem with one quantity changed.
 struct Changed {
     sensor: Sensor,
     limits: Limits,

@@ -1,4 +1,4 @@
-//! Results are written beside their place and then renamed, so that they are whole or absent.
+//! Atomic output: it writes a result beside its place and then renames it. So a result is whole or absent.
 
 use calibrant_core::error::{Error, Result};
 use std::io::{self, BufWriter, Write};
@@ -6,10 +6,11 @@ use std::path::Path;
 
 /// Writes a file through `fill`: into a temporary file in the same directory, which then takes the name.
 ///
-/// Directories that are missing are created. A link is followed; what is no regular file (`/dev/stdout`, a pipe) is written directly.
+/// Creates missing directories. Follows a link. Writes directly to what is no regular file (`/dev/stdout`, a
+/// pipe).
 ///
 /// # Errors
-/// [`Error::Output`] with the path and what the system said; the file, where there was one before, is untouched then.
+/// [`Error::Output`] with the path and the system's message. An earlier file of that name is then untouched.
 ///
 /// # Examples
 /// ```
@@ -50,7 +51,7 @@ fn write(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io
     builder.prefix(".calibrant-").suffix(".tmp");
     #[cfg(unix)]
     {
-        // as any other file that a program creates: the user's mask decides
+        // permissions as of any other file that a program creates: the user's mask decides
         use std::os::unix::fs::PermissionsExt;
         builder.permissions(std::fs::Permissions::from_mode(0o666));
     }

@@ -1,4 +1,5 @@
-//! `calibration.json`: a calibration with everything needed to use it and to judge it.
+//! `calibration.json` of an accelerometer: writes a calibration with everything needed to use it and to judge
+//! it.
 
 use super::holds::HoldsFields;
 use super::json;
@@ -12,10 +13,10 @@ use calibrant_core::sensor::{Correction, ReadingUnit};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
-/// The recording that a calibration came from.
+/// The recording from which a calibration came.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Input {
-    /// Name of the file, without its directory (so that the result does not depend on where it lay).
+    /// Name of the file, without its directory, so that the result does not depend on the directory.
     pub file: String,
     /// SHA-256 of the file, hexadecimal.
     pub sha256: String,
@@ -27,8 +28,9 @@ pub struct Input {
 
 /// Writes `calibration.json`.
 ///
-/// `validations`: how it fares on data that were not used for it. The same calibration gives the same bytes. Arrays over axes have 1 or 3 entries; entry (i, j) of the covariance is in the unit
-/// of parameter i times that of parameter j; fields in the unit of the readings end in `_mps2` or `_counts`.
+/// `validations` are the errors of the calibration on data that it did not use. The same calibration gives
+/// the same bytes. Arrays over axes have 1 or 3 entries. Entry (i, j) of the covariance is in the unit of
+/// parameter i times that of parameter j. Fields in the unit of the readings end in `_mps2` or `_counts`.
 ///
 /// # Errors
 /// [`Error::Output`](calibrant_core::Error::Output) where it cannot be written.
@@ -107,7 +109,7 @@ struct RecoveredMotionFields {
     fields: MotionFields,
 }
 
-/// What the numbers mean: direction, frame, and the calibration in the other direction, ready to be used.
+/// The meaning of the numbers: direction, frame, and the calibration in the other direction, ready to use.
 #[derive(Serialize)]
 struct Convention {
     direction: &'static str,
@@ -146,7 +148,7 @@ impl Convention {
     }
 }
 
-/// Raw to true; for holds also as imu_tk has it.
+/// The correction raw → true; for holds also in imu_tk's form.
 #[derive(Serialize)]
 struct CorrectionFields {
     direction: &'static str,

@@ -1,4 +1,4 @@
-//! A comparison of two calibrations as JSON.
+//! Writes a comparison of two calibrations as JSON.
 
 use super::json;
 use calibrant_core::estimate::{ComparedQuantity, Comparison};
@@ -33,7 +33,7 @@ struct Overall {
     p_value: f64,
 }
 
-/// The text of a comparison as JSON; `a` and `b` name the files. Angles are in rad.
+/// The text of a comparison as JSON. `a` and `b` name the files. Angles are in rad.
 #[must_use]
 pub fn comparison_json(comparison: &Comparison, a: &str, b: &str) -> String {
     let row = |row: &ComparedQuantity| Row {

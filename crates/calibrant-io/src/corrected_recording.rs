@@ -1,4 +1,4 @@
-//! A corrected recording as CSV.
+//! Writes a corrected recording as CSV.
 
 use super::atomic_output::write_atomically;
 use calibrant_core::error::Result;
@@ -8,9 +8,11 @@ use std::path::Path;
 
 /// Writes a corrected recording as CSV: `t_s,ax_mps2,ay_mps2,az_mps2,ax_sd_mps2,…,gx_radps,…,gx_sd_radps,…`.
 ///
-/// A sensor that is not there has no columns, nor has an uncertainty that is not known. `sd` is the standard uncertainty of the correction, which is the same
-/// error in every sample: it does not average out; the noise of the sample is not in it. Where the sensors' times differ by more than a thousandth of the sample interval, every
-/// time has a row, and a sensor without a sample there empty fields. Numbers have the fewest digits that read back to the same bits.
+/// A sensor that is not there has no columns, nor has an uncertainty that is not known. `sd` is the standard
+/// uncertainty of the correction. It is the same error in every sample and does not average out. It does not
+/// contain the noise of the sample. Where the sensors' times differ by more than a thousandth of the sample
+/// interval, every time has a row. The fields of a sensor without a sample there are empty. Numbers have the
+/// fewest digits that read back to the same bits.
 ///
 /// # Errors
 /// [`Error::Output`](calibrant_core::Error::Output) where it cannot be written.
@@ -47,7 +49,8 @@ pub fn write_corrected_recording(path: &Path, recording: &CorrectedRecording<'_>
     })
 }
 
-/// Times closer than this share of the sample interval are one time: those of two files may differ in the last digit.
+/// Times closer than this share of the sample interval count as one: those of two files may differ in the
+/// last digit.
 const SAME: f64 = 1e-3;
 
 /// The mean step of sample times; 0 for fewer than two.

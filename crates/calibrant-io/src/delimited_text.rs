@@ -1,4 +1,4 @@
-//! Lines and fields of delimited text: what separates them, quotes, comments, line ends of every system.
+//! Delimited text: splits it into lines and fields, with quotes, comments and the line ends of every system.
 
 use super::text_decoding::Checked;
 use calibrant_core::error::InputError;
@@ -23,7 +23,7 @@ impl<'t> Line<'t> {
     /// Are there line ends of another kind in it (CR of an old Mac)? Then it is many lines.
     ///
     /// # Errors
-    /// How many, and what to do.
+    /// Their number, and the remedy.
     pub(super) fn check_ends(&self) -> Checked<()> {
         let ends = memchr::memchr_iter(b'\r', self.text.trim_ascii_end().as_bytes()).count();
         if ends == 0 {
@@ -52,7 +52,7 @@ pub(super) struct Lines<'t> {
     rest: &'t str,
     end: u8,
     number: usize,
-    /// Does the text end the last of them otherwise?
+    /// Does the text end its last line otherwise?
     ends: bool,
 }
 
@@ -65,7 +65,7 @@ impl<'t> Lines<'t> {
         Self { rest, end, number: 0, ends: rest.len() < text.len() }
     }
 
-    /// Lines that end with LF and come after so many others.
+    /// Lines that end with LF and follow this number of other lines.
     pub(super) fn after(number: usize, text: &'t str) -> Self {
         Self { rest: text, end: b'\n', number, ends: false }
     }
@@ -88,7 +88,7 @@ impl<'t> Iterator for Lines<'t> {
     }
 }
 
-/// What separates fields.
+/// The separator of fields.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Delimiter {
     /// This character: two in a row have an empty field between them.
@@ -106,7 +106,8 @@ impl Delimiter {
         }
     }
 
-    /// What separates the fields of this line: the first that occurs of `;`, tab and `,`; otherwise white space.
+    /// The separator of the fields of this line: the first that occurs of `;`, tab and `,`; otherwise white
+    /// space.
     pub(super) fn of(line: &str) -> Self {
         if line.contains(';') {
             Self::Character(b';')
@@ -120,10 +121,12 @@ impl Delimiter {
     }
 }
 
-/// Was the last line of a text cut off within its last number? It has no line end then, and fewer digits than that number has in any of the lines before: `9.8` below `9.80665`.
+/// Was the last line of a text cut off within its last number? It has no line end then, and fewer digits than
+/// that number has in any of the lines before: `9.8` below `9.80665`.
 pub(super) fn last_number_is_cut(text: &str, delimiter: Delimiter) -> bool {
-    /// Lines that are looked at, and how many of them must have a number.
+    /// Number of lines that are examined.
     const LOOKED_AT: usize = 64;
+    /// Number of these lines that must have a number.
     const NEEDED: usize = 8;
     if text.ends_with(['\n', '\r']) {
         return false;
@@ -139,7 +142,7 @@ pub(super) fn last_number_is_cut(text: &str, delimiter: Delimiter) -> bool {
     others.len() >= NEEDED && others.iter().all(|other| last < *other)
 }
 
-/// The fields of a line: where each begins (byte), and its text without surrounding blanks and quotes.
+/// The fields of a line: the first byte of each, and its text without surrounding blanks and quotes.
 pub(super) struct Fields<'t> {
     line: &'t str,
     at: usize,
@@ -160,7 +163,8 @@ impl<'t> Iterator for Fields<'t> {
 }
 
 impl<'t> Fields<'t> {
-    /// The next field, and the number that it is where nothing else stands in it: its end is then that of the number, and need not be looked for.
+    /// The next field, and its number where the field holds nothing else. The end of the field is then that
+    /// of the number and need not be sought.
     pub(super) fn next_number(&mut self) -> Option<(usize, &'t str, Option<f64>)> {
         let bytes = self.line.as_bytes();
         let start = self.start();
@@ -177,7 +181,7 @@ impl<'t> Fields<'t> {
         self.next().map(|(start, field)| (start, field, None))
     }
 
-    /// Where the next field begins, blanks apart.
+    /// The start of the next field, without blanks.
     fn start(&self) -> usize {
         let bytes = self.line.as_bytes()[self.at..].iter();
         let blanks = match self.delimiter {
@@ -221,7 +225,7 @@ impl<'t> Fields<'t> {
     }
 }
 
-/// White space within a line; most bytes are told by the first comparison.
+/// White space within a line. The first comparison decides for most bytes.
 fn is_space(byte: u8) -> bool {
     byte <= b' ' && byte.is_ascii_whitespace()
 }

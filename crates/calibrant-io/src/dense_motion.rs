@@ -1,4 +1,4 @@
-//! `motion_dense.csv`: a motion at a constant rate, for the arm's controller.
+//! Writes `motion_dense.csv`: a motion at a constant rate, for the arm's controller.
 
 use super::atomic_output::write_atomically;
 use calibrant_core::error::{Error, InputError, Result};
@@ -6,18 +6,20 @@ use calibrant_core::motion::{JerkControlledMotion, sample_times};
 use nalgebra::Vector3;
 use std::path::Path;
 
-/// Most rows that are written.
+/// Largest number of rows.
 const MOST_ROWS: f64 = 1e7;
-/// Rows that are computed at once.
+/// Number of rows that are computed at once.
 const BATCH: usize = 4096;
 
-/// Writes time, position, velocity, acceleration and jerk of a motion at `rate_hz`: exact polynomials between the nodes, not an interpolation of
-/// samples. Position and velocity count from rest at the origin.
+/// Writes time, position, velocity, acceleration and jerk of a motion at `rate_hz`. They are exact
+/// polynomials between the nodes, not an interpolation of samples. Position and velocity count from rest at
+/// the origin.
 ///
 /// Columns: `t_s`, then for each axis `px_m`, `vx_mps`, `ax_mps2`, `jx_mps3`. The start is the first row; the end is the last where the rate fits the duration.
 ///
 /// # Errors
-/// [`Error::Experiment`] for a rate that is not above 0, or more than 1e7 rows; [`Error::Output`] where the file cannot be written.
+/// [`Error::Experiment`] for a rate that is not above 0, or more than 1e7 rows. [`Error::Output`] where the
+/// file cannot be written.
 pub fn write_dense_motion(
     path: &Path,
     motion: &JerkControlledMotion,

@@ -1,4 +1,4 @@
-//! `design.json`: a design with everything needed to repeat it, to judge it and to drive the arm.
+//! Writes `design.json`: a design with everything needed to repeat it, to judge it and to drive the arm.
 
 use super::json;
 use super::shared_fields::{InUnit, MotionFields, matrix_rows, per_axis};
@@ -15,8 +15,9 @@ use std::path::Path;
 
 /// Writes `design.json`.
 ///
-/// The same design gives the same bytes. Arrays over axes have 1 or 3 entries; entry (i, j) of a covariance is in the unit of parameter i times that of
-/// parameter j; `null` where the motion does not determine the parameters.
+/// The same design gives the same bytes. Arrays over axes have 1 or 3 entries. Entry (i, j) of a covariance
+/// is in the unit of parameter i times that of parameter j. It is `null` where the motion does not determine
+/// the parameters.
 ///
 /// # Errors
 /// [`Error::Output`](calibrant_core::Error::Output) where it cannot be written.
@@ -71,7 +72,7 @@ impl<'a> DesignFile<'a> {
     }
 }
 
-/// A motion and what it tells.
+/// A motion and the information that it gives.
 #[derive(Serialize)]
 pub(super) struct EvaluationFields<'a> {
     criterion: CriterionFields,
@@ -126,7 +127,7 @@ struct PredictedFields<'a> {
     sd: f64,
 }
 
-/// Parameters that cannot be told apart.
+/// Parameters that the data cannot separate.
 #[derive(Serialize)]
 struct UndeterminedFields<'a> {
     parameters: &'a [String],
@@ -178,7 +179,7 @@ impl<'a> CertificateFields<'a> {
     }
 }
 
-/// The limits, the sensor's range among them; only those that there are.
+/// The given limits, with the sensor's range among them.
 #[derive(Serialize)]
 pub(super) struct LimitsFields {
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -218,7 +219,7 @@ impl LimitsFields {
     }
 }
 
-/// How far a motion goes towards a limit; value and limit are in the unit that the limit's key ends in.
+/// How far a motion goes towards a limit. Value and limit are in the unit in which the limit's key ends.
 #[derive(Serialize)]
 pub(super) struct LimitUseFields {
     axis: String,
@@ -284,7 +285,7 @@ impl SolverFields {
     }
 }
 
-/// The experiment that was designed for.
+/// The conditions of the experiment that was designed for.
 #[derive(Serialize)]
 pub(super) struct SettingFields {
     axes: usize,

@@ -1,4 +1,5 @@
-//! `calibration.json` as it is read back: what is known of a sensor before the next motion is designed.
+//! Reads `calibration.json` of an earlier calibration. It is the prior knowledge of a sensor for the next
+//! design.
 
 use super::json;
 use super::text_decoding::{self, Checked};
@@ -9,10 +10,10 @@ use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
 
-/// Largest calibration file, bytes; the residuals are not in it, the motion is.
+/// Largest calibration file, bytes. The file holds the motion, but not the residuals.
 const LARGEST: u64 = 1 << 30;
 
-/// What an earlier calibration says of the parameters.
+/// The parameters of an earlier calibration.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EarlierCalibration {
     /// The file, where it came from one.
@@ -31,9 +32,10 @@ pub struct EarlierCalibration {
 /// Reads a `calibration.json` that [`write_calibration`](super::write_calibration) wrote.
 ///
 /// # Errors
-/// [`Error::Experiment`] with the file, and line and column where the JSON itself is broken: a file that cannot be read or is not JSON; another schema, or
-/// no calibration at all; a field that is missing; a calibration that did not converge; a value or a covariance that is not finite; a covariance of the
-/// wrong size, not symmetric or not positive definite.
+/// [`Error::Experiment`] with the file, and line and column where the JSON itself is broken. The file cannot
+/// be read or is not JSON. It has another schema, or no calibration at all. A field is missing. The
+/// calibration did not converge. A value or a covariance is not finite. The covariance has the wrong size, is
+/// not symmetric or not positive definite.
 pub fn read_calibration(path: &Path) -> Result<EarlierCalibration> {
     let bytes = text_decoding::read_bytes(path, LARGEST, "the calibration")
         .map_err(|input_error| Error::experiment(*input_error))?;
@@ -62,14 +64,15 @@ pub fn parse_calibration(bytes: &[u8]) -> Result<EarlierCalibration> {
 }
 
 impl EarlierCalibration {
-    /// The information in it: the inverse of the covariance.
+    /// Its information: the inverse of the covariance.
     #[must_use]
     pub fn information(&self) -> &DMatrix<f64> {
         &self.information
     }
 
-    /// How far its estimates are from those of another calibration of the same parameters: squared, in units of their joint covariance, χ² of as many degrees of
-    /// freedom as there are parameters if both are of one sensor. `None` where the parameters are not the same.
+    /// The squared distance of its estimates from those of another calibration, in units of their joint
+    /// covariance. If both are of one sensor, it is χ² with one degree of freedom for each parameter. `None`
+    /// where the parameters are not the same.
     #[must_use]
     pub fn chi2_against(&self, other: &Self) -> Option<f64> {
         if self.parameters != other.parameters {
@@ -81,10 +84,10 @@ impl EarlierCalibration {
         Some(between.dot(&(information * &between)))
     }
 
-    /// The sensor that it found, whose parameters must be those of `list`.
+    /// The sensor of the calibration, whose parameters must be those of `list`.
     ///
     /// # Errors
-    /// [`Error::Experiment`] where the parameters are not the same, or their units.
+    /// [`Error::Experiment`] where the parameters or their units are not the same.
     pub fn sensor_of(&self, list: &ParameterList, unit: ReadingUnit) -> Result<SensorParameters> {
         let reject = |message: String, help: &str| {
             let input_error = InputError::new(message, help);
@@ -115,7 +118,7 @@ impl EarlierCalibration {
                 );
             }
         }
-        // axes that the sensor has not are perfect ones
+        // axes that the sensor does not have count as perfect
         let axes = list.quantities().iter().filter(|quantity| matches!(quantity, Quantity::Bias(_))).count();
         let absent = Vector3::from_fn(|k, _| if k < axes { 0.0 } else { 1.0 });
         let mut sensor = SensorParameters { bias: Vector3::zeros(), matrix: Matrix3::from_diagonal(&absent) };
@@ -132,7 +135,7 @@ impl EarlierCalibration {
     }
 }
 
-/// The fields that are read; everything is optional here, so that what is missing can be named.
+/// The fields that are read. All are optional, so that the reader can name what is missing.
 #[derive(Deserialize)]
 struct File {
     schema: Option<serde_json::Value>,
@@ -151,6 +154,7 @@ struct ParameterFields {
 }
 
 pub(super) fn parse(bytes: &[u8]) -> Checked<EarlierCalibration> {
+    /// The remedy for a broken file.
     const AGAIN: &str = "give a calibration.json that `calibrant calibrate` wrote";
     let reject = |message: String| Err(Box::new(InputError::new(message, AGAIN)));
     let text = text_decoding::as_text(bytes)?;

@@ -1,4 +1,4 @@
-//! `evaluation.json`: a motion of the user's own, beside the best one and the limits.
+//! Writes `evaluation.json`: a motion of the user's own, beside the best one and the limits.
 
 use super::design::{CertificateFields, EvaluationFields, LimitUseFields, SettingFields};
 use super::json;

@@ -1,4 +1,4 @@
-//! Commented experiment files to start from.
+//! The presets: commented experiment files to start from.
 
 /// The presets: name, and the text of the experiment file.
 pub const PRESETS: &[(&str, &str)] = &[

@@ -1,4 +1,5 @@
-//! A list of the sections of a Ferraris session, as imucal writes it: `{"x_p": {"start": 540, "end": 1271}, …, "x_rot": …}`, by sample.
+//! Reads a list of the sections of a Ferraris session, as imucal writes it:
+//! `{"x_p": {"start": 540, "end": 1271}, …, "x_rot": …}`, by sample.
 
 use super::motion::shorten;
 use super::text_decoding::{self, Checked};
@@ -11,7 +12,9 @@ use std::path::Path;
 
 /// Largest list, bytes.
 const LARGEST: u64 = 1 << 20;
+/// The remedy for a broken list.
 const EXAMPLE: &str = "write {\"x_p\": {\"start\": 540, \"end\": 1271}, …}, in samples";
+/// The names of sections, for messages.
 const NAMES: &str = "x_p, x_a, y_p, … (an axis up, or down) and x_rot, y_rot, z_rot";
 
 /// One section: from sample `start` up to, not including, sample `end`.
@@ -19,7 +22,7 @@ const NAMES: &str = "x_p, x_a, y_p, … (an axis up, or down) and x_rot, y_rot, 
 pub struct Section {
     /// Its name: `x_p`, `x_rot`.
     pub name: String,
-    /// What was done in it.
+    /// The action in it.
     pub kind: SectionKind,
     /// First sample.
     pub start: usize,
@@ -27,7 +30,7 @@ pub struct Section {
     pub end: usize,
 }
 
-/// What was done in a section.
+/// The action in a section.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum SectionKind {
     /// Held still, the specific force along this direction.
@@ -39,7 +42,8 @@ pub enum SectionKind {
 /// Reads a list of sections, in order of time.
 ///
 /// # Errors
-/// [`Error::Experiment`] with the file: one that cannot be read or is no such list, a name that is not known, a section without samples.
+/// [`Error::Experiment`] with the file: it cannot be read or is no such list, a name is not known, or a
+/// section has no samples.
 pub fn read_sections(path: &Path) -> Result<Vec<Section>> {
     let bytes = text_decoding::read_bytes(path, LARGEST, "the list of sections")
         .map_err(|input_error| Error::experiment(*input_error))?;
@@ -113,7 +117,7 @@ fn parse(bytes: &[u8]) -> Checked<Vec<Section>> {
     Ok(sections)
 }
 
-/// The names of a list with what belongs to each; one that is there twice is in it twice.
+/// The entries of a list by name. A name that occurs twice is in it twice.
 struct List(Vec<(String, Value)>);
 
 impl<'de> Deserialize<'de> for List {

@@ -1,4 +1,4 @@
-//! The holds of a calibration in its JSON file.
+//! The fields of the holds of a calibration in its JSON file.
 
 use super::shared_fields::{InUnit, per_axis};
 use calibrant_core::estimate::{HoldCalibration, HoldResult};
@@ -10,7 +10,7 @@ use serde::Serialize;
 pub(super) struct HoldsFields {
     gravity_mps2: f64,
     gravity_sd_mps2: f64,
-    /// By which the Earth's turn about the vertical is part of the model.
+    /// With a latitude, the model contains Earth's rate about the vertical.
     #[serde(skip_serializing_if = "Option::is_none")]
     latitude_deg: Option<f64>,
     gauge: &'static str,
@@ -19,7 +19,7 @@ pub(super) struct HoldsFields {
     between_holds_dominates: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
     faces: Option<FacesFields>,
-    /// With 0, the magnitudes are met exactly and check nothing.
+    /// With 0, the fit to the magnitudes is exact and checks nothing.
     degrees_of_freedom: usize,
     magnitude_residual_rms_mps2: f64,
     magnitude_residual_rms_before_mps2: Option<f64>,
@@ -28,12 +28,12 @@ pub(super) struct HoldsFields {
     table: Vec<HoldFields>,
 }
 
-/// How well the directions of the holds were met.
+/// The face alignment of the holds.
 #[derive(Serialize)]
 struct FacesFields {
     tilt_sd_rad: f64,
     source: &'static str,
-    /// Equations that told it by their scatter.
+    /// Equations whose scatter determined it.
     degrees_of_freedom: usize,
 }
 
@@ -53,7 +53,7 @@ struct HoldFields {
     magnitude_residual_before_mps2: Option<f64>,
     studentised_residual: f64,
     used: bool,
-    /// Why it was left out.
+    /// The reason why it was not used.
     #[serde(skip_serializing_if = "Option::is_none")]
     reason: Option<String>,
 }

@@ -1,4 +1,5 @@
-//! `calibration.json` of a whole IMU: calibrant JSON of schema 2, which every reader of calibrations takes, and what the estimator has to say beside it.
+//! Writes `calibration.json` of a whole IMU: calibrant JSON of schema 2, and the further results of the
+//! estimator. Every reader of calibrations takes it.
 
 use super::calibration::Input;
 use super::convention::{Heading, ImuCore};
@@ -13,8 +14,9 @@ use std::path::Path;
 
 /// Writes `calibration.json` of a whole IMU, which [`read_calibrated_imu`](super::read_calibrated_imu) reads.
 ///
-/// The same calibration gives the same bytes. Angles are in rad; of a rotation that could not be integrated they are `null`. Holds of a rotation are
-/// indices into the table of holds, from 0. `validations`: how it fares on data that were not used for it; `inputs`: one for each file of the recording.
+/// The same calibration gives the same bytes. Angles are in rad; of a rotation that could not be integrated
+/// they are `null`. Holds of a rotation are indices into the table of holds, from 0. `validations` are the
+/// errors on data that the calibration did not use. `inputs` has one entry for each file of the recording.
 ///
 /// # Errors
 /// [`Error::Output`](calibrant_core::Error::Output) where it cannot be written.

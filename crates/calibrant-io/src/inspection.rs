@@ -1,4 +1,5 @@
-//! What a recording holds and what may be expected of it, before it is calibrated; as data and as JSON.
+//! Inspection of a recording before its calibration: what it contains and what to expect of it, as data and
+//! as JSON.
 
 use super::json;
 use super::recording::{Finding, ImuColumn, ImuFile};
@@ -14,21 +15,22 @@ use calibrant_core::sensor::{
 use nalgebra::Vector3;
 use serde::Serialize;
 
-/// A step of the time is a gap from this many usual steps on.
+/// A time step is a gap from this many usual steps on.
 const GAP: f64 = 5.0;
-/// Gravity that is assumed, m/s²: its place changes a prediction by less than one per cent.
+/// Gravity that is assumed, m/s²: the location changes a prediction by less than one per cent.
 const GRAVITY_MPS2: f64 = 9.806_65;
-/// Shortest stillness that counts as a hold, s.
+/// Shortest stationary interval that counts as a hold, s.
 const MINIMUM_HOLD_S: f64 = 1.0;
 
-/// What a recording holds.
+/// The content of a recording.
 #[derive(Debug, Clone)]
 pub struct Inspection {
     /// Each sensor that is there.
     pub sensors: Vec<SensorInspection>,
-    /// Samples of a sensor that are none, which holds are looked for without.
+    /// Spikes and invalid samples of a sensor. The search for holds does not use them.
     pub spikes: Vec<(SensorKind, Spikes)>,
-    /// The holds of the accelerometer; `None` without one, and the reason where they could not be looked for.
+    /// The holds of the accelerometer. `None` without an accelerometer; the reason where the search was
+    /// impossible.
     pub holds: Option<std::result::Result<HoldsInspection, String>>,
 }
 
@@ -45,15 +47,16 @@ pub struct SensorInspection {
     pub span_s: (f64, f64),
     /// The inverse of the usual step, Hz.
     pub rate_hz: f64,
-    /// Shortest and longest step, gaps left out, s.
+    /// Shortest and longest step without gaps, s.
     pub steps_s: (f64, f64),
-    /// Standard deviation of the steps, gaps left out, s.
+    /// Standard deviation of the steps without gaps, s.
     pub jitter_s: f64,
     /// Number of gaps: steps of more than five usual ones.
     pub gaps: usize,
     /// Time that is lost in gaps, s.
     pub lost_s: f64,
-    /// The share of the samples that is missing one by one between the gaps; 0 where it is too little to be told.
+    /// Share of the samples that are missing one by one between the gaps; 0 where it is too small to
+    /// determine.
     pub missing: f64,
     /// Least, mean and largest reading per axis.
     pub least: Vector3<f64>,
@@ -63,26 +66,30 @@ pub struct SensorInspection {
     pub most: Vector3<f64>,
 }
 
-/// The holds of a recording and what they are good for.
+/// The holds of a recording and their use for a calibration.
 #[derive(Debug, Clone)]
 pub struct HoldsInspection {
     /// The holds, in order of time.
     pub holds: Vec<Hold>,
-    /// The end of its range at which the accelerometer stops in each of them, where it does: such a hold counts for nothing.
+    /// The end of its range at which the accelerometer stops in each hold, where it does: such a hold is not
+    /// used.
     pub clipped: Vec<Option<Saturation>>,
-    /// How their directions cover the sphere; `None` where there is none, or none is known without the sensor's offset.
+    /// The coverage of the sphere by their directions. `None` where there is no hold, or no direction is
+    /// known without the sensor's offset.
     pub coverage: Option<Coverage>,
-    /// What they will determine of the accelerometer; the reason where that is not all of it.
+    /// The parameters of the accelerometer that they will determine, or the reason why they do not determine
+    /// all of them.
     pub expected: std::result::Result<ExpectedCalibration, String>,
-    /// Why there may be fewer than there should be, in words: a filter that breaks them up, or sensors that were exchanged.
+    /// The reason, in words, why there may be fewer holds than there should be: a filter that breaks them up,
+    /// or swapped sensors.
     pub lost: Option<String>,
-    /// Axes whose readings come in steps coarser than their noise.
+    /// Axes with a quantisation step coarser than their noise.
     pub coarse: Vec<(SensorKind, CoarseAxis)>,
     /// Mean of the gyroscope over the holds and scatter of its samples within them, unit of its readings.
     pub gyroscope_at_rest: Option<(Vector3<f64>, Vector3<f64>)>,
 }
 
-/// Looks at a recording: sampling, ranges, holds, coverage, expected quality.
+/// Examines a recording: sampling, ranges, holds, coverage, expected quality.
 ///
 /// # Examples
 /// ```
@@ -160,7 +167,7 @@ impl HoldsInspection {
             .map_err(|error| error.to_string());
         let offset = match &expected {
             Ok(expected) => Some(expected.like.bias),
-            // readings in counts have an offset that is not known without the calibration
+            // readings in counts have an offset that is unknown without the calibration
             Err(_) => (accelerometer.unit != ReadingUnit::Counts).then(Vector3::zeros),
         };
         let directions = offset.map(|offset| sound.iter().map(|hold| hold.mean - offset).collect::<Vec<_>>());
@@ -212,7 +219,7 @@ pub fn inspection_json(file: &ImuFile, inspection: &Inspection) -> String {
 struct InspectionFile<'a> {
     schema: u32,
     format: &'static str,
-    /// Of each file, with spaces between.
+    /// The hash of each file, with spaces between.
     sha256: String,
     rows: usize,
     /// The gyroscope's file of a pair.
@@ -257,7 +264,7 @@ struct SensorFields {
     most: Vec<f64>,
 }
 
-/// Of the gyroscope's file of a pair; `columns` is how many of the last columns are its.
+/// The gyroscope's file of a pair; `columns` is the number of its columns, which come last.
 #[derive(Serialize)]
 struct SecondFields {
     format: &'static str,
@@ -265,7 +272,7 @@ struct SecondFields {
     columns: usize,
 }
 
-/// Samples that were left out; of the one that is farthest off, what it is.
+/// Samples that were removed, and the one that is farthest off.
 #[derive(Serialize)]
 struct SpikesFields {
     sensor: &'static str,
@@ -292,7 +299,7 @@ struct HoldsFields<'a> {
     lost: Option<&'a str>,
 }
 
-/// An axis whose steps are coarser than its noise, in the unit of the readings.
+/// An axis whose quantisation step is coarser than its noise, in the unit of the readings.
 #[derive(Serialize)]
 struct CoarseFields {
     sensor: &'static str,
@@ -326,7 +333,7 @@ struct ExpectedParameter {
     name: String,
     unit: &'static str,
     sd: f64,
-    /// Of biases in m/s², of others relative to the gain.
+    /// Standard deviation of biases in m/s², of others relative to the gain.
     sd_in_si: f64,
 }
 

@@ -7,8 +7,8 @@ use serde_json::ser::{Formatter, Serializer};
 use std::io::{self, Write};
 use std::path::Path;
 
-/// Writes a value as a JSON file. Deterministic: fields in their order, numbers with the fewest digits that read back to the
-/// same bits, no time of day. What is not a number is `null`.
+/// Writes a value as a JSON file. It is deterministic: fields in their order, numbers with the fewest digits
+/// that read back to the same bits, no time of day. A value that is not a number is `null`.
 pub(super) fn write_json(path: &Path, value: &impl Serialize) -> Result<()> {
     write_atomically(path, |out| {
         value.serialize(&mut Serializer::with_formatter(&mut *out, Rows::default()))?;
@@ -27,7 +27,8 @@ pub(super) fn to_json(value: &impl Serialize) -> String {
     String::from_utf8(out).unwrap_or_default()
 }
 
-/// What serde says of a file that should be `what`, without the place at the end of its text: that goes before it.
+/// The error for serde's message on a file that should be `what`. The place moves from the end of its text to
+/// the front.
 pub(super) fn broken(error: &serde_json::Error, what: &str, help: &str) -> InputError {
     let message = error.to_string();
     let message = message.split(" at line ").next().unwrap_or_default();
@@ -42,7 +43,8 @@ pub(super) fn broken(error: &serde_json::Error, what: &str, help: &str) -> Input
 
 /// Objects, and arrays of objects or arrays, take a line for each entry; arrays of scalars take one line.
 ///
-/// Whether an array's entry is a scalar is known only when it begins, so the separator before it waits until then.
+/// The kind of an array's entry is known only when the entry begins, so the separator before it waits until
+/// then.
 #[derive(Default)]
 struct Rows {
     depth: usize,

@@ -1,4 +1,4 @@
-//! Files: the experiment, recordings and motions that come in, results that go out. The only code that touches files.
+//! Files: it reads experiments, recordings and motions, and writes results. Only this crate touches files.
 //!
 //! | file | in | out |
 //! |---|---|---|
@@ -16,9 +16,10 @@
 //! | `truth.json` of a simulation | [`read_calibrated_imu`], as a calibration without a covariance | [`write_truth`], [`write_imu_truth`] |
 //! | `study.json`, `summary.csv` | | [`write_study`], [`write_summary`] |
 //!
-//! Everything is SI inside; conversions happen here. No input makes the readers panic, and no NaN or infinity passes them. Every
-//! complaint names file, line and column and says what to do; what a reader repairs or merely notices is a [`Finding`], never
-//! silent. Everything is written beside its place and then renamed ([`write_atomically`]), so a result is whole or absent.
+//! Everything is SI inside; conversions happen here. No input makes the readers panic, and no NaN or infinity
+//! passes them. Every error names file, line and column and gives a remedy. A reader repairs or notices
+//! nothing silently: it returns a [`Finding`]. Every result is written beside its place and then renamed
+//! ([`write_atomically`]), so it is whole or absent.
 
 mod atomic_output;
 mod calibration;

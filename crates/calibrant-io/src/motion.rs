@@ -1,4 +1,4 @@
-//! `motion.csv`: the nodes of a commanded motion.
+//! Reads and writes `motion.csv`: the nodes of a commanded motion.
 
 use super::atomic_output::write_atomically;
 use super::delimited_text::{Delimiter, Line, Lines};
@@ -11,8 +11,9 @@ use std::path::Path;
 
 /// Largest motion file, bytes.
 const LARGEST_FILE: u64 = 1 << 30;
-/// Largest time (s) and acceleration (m/s²) that make sense.
+/// Largest plausible time (s) and acceleration (m/s²).
 const LARGEST: f64 = 1e9;
+/// The names of the columns.
 const NAMES: [&str; 4] = ["t_s", "ax_mps2", "ay_mps2", "az_mps2"];
 
 /// Reads the nodes of a motion: header `t_s,ax_mps2,ay_mps2,az_mps2`, one row for each node.
@@ -20,9 +21,9 @@ const NAMES: [&str; 4] = ["t_s", "ax_mps2", "ay_mps2", "az_mps2"];
 /// For one axis only `ax_mps2` is read (`ay_mps2` and `az_mps2` may be there). Delimiters and comments as in recordings.
 ///
 /// # Errors
-/// [`Error::Experiment`] with file, line and column: a file that cannot be read or is not text; a column missing, unknown or
-/// twice; a row with the wrong number of columns, a value that is missing, no number, not finite or above 1e9; times that do not
-/// increase; fewer than two nodes.
+/// [`Error::Experiment`] with file, line and column. The file cannot be read or is not text. A column is
+/// missing, unknown or there twice. A row has the wrong number of columns, or a value that is missing, no
+/// number, not finite or above 1e9. Times do not increase. There are fewer than two nodes.
 pub fn read_motion(path: &Path, axes: usize) -> Result<JerkControlledMotion> {
     let bytes = text_decoding::read_bytes(path, LARGEST_FILE, "the motion")
         .map_err(|input_error| Error::experiment(*input_error))?;
@@ -96,7 +97,7 @@ fn parse(bytes: &[u8], axes: usize) -> Checked<JerkControlledMotion> {
     })
 }
 
-/// What each column holds: 0 the time, 1 to 3 an axis; `None` for an axis that the sensor has not.
+/// The content of each column: 0 the time, 1 to 3 an axis; `None` for an axis that the sensor does not have.
 fn read_header(line: Line<'_>, delimiter: Delimiter, axes: usize) -> Checked<Vec<Option<usize>>> {
     let needed = &NAMES[..=axes];
     let help = format!("the header is {}", needed.join(","));

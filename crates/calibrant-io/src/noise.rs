@@ -1,4 +1,4 @@
-//! `noise.json`: the noise of a sensor at rest, its Allan deviation and its coefficients.
+//! Writes `noise.json`: the noise of a sensor at rest, its Allan deviation and its coefficients.
 
 use super::calibration::Input;
 use super::json;
@@ -10,13 +10,14 @@ use calibrant_core::sensor::{ReadingUnit, SensorKind};
 use serde::Serialize;
 use std::path::Path;
 
-/// The version of `noise.json`. Fields that are only added leave it.
+/// The version of `noise.json`. Added fields do not change it.
 pub(super) const NOISE_SCHEMA: u32 = 1;
 
-/// Writes `noise.json`: the noise of one sensor or of both, and the recording that it came from, or the accelerometer's and the gyroscope's.
+/// Writes `noise.json`: the noise of one sensor or of both, and the recording from which it came. Two files
+/// are the accelerometer's and the gyroscope's.
 ///
-/// Coefficients carry their unit beside them, in the unit of the readings and in customary ones; a coefficient that is not determined has a
-/// `reason` and, where the recording gives one, an `upper_limit`.
+/// Coefficients carry their unit beside them, in the unit of the readings and in customary ones. A
+/// coefficient that is not determined has a `reason` and, where the recording gives one, an `upper_limit`.
 ///
 /// # Errors
 /// [`Error::Output`](calibrant_core::Error::Output) where it cannot be written.
@@ -39,7 +40,8 @@ pub struct NoiseLine {
     pub line: String,
 }
 
-/// The line to paste into an experiment file, in the unit of the readings; `None` where the white noise is not determined on an axis, or not that of a sensor at rest.
+/// The line to paste into an experiment file, in the unit of the readings. `None` where the white noise is
+/// not determined on an axis, or is not that of a sensor at rest.
 #[must_use]
 pub fn noise_line(noise: &SensorNoise) -> Option<NoiseLine> {
     if noise.caveat.is_some() {
@@ -52,7 +54,7 @@ pub fn noise_line(noise: &SensorNoise) -> Option<NoiseLine> {
         SensorKind::Accelerometer => "sensor",
         SensorKind::Gyroscope => "gyroscope",
     };
-    // TOML reads a float by its point
+    // TOML recognises a float by its point
     let digits = |value: f64| format!("{value:.3e}").parse::<f64>().map(|rounded| format!("{rounded:?}"));
     let values: Vec<String> =
         noise.axes.iter().filter_map(|axis| digits(sigma[axis.axis.index()]).ok()).collect();
@@ -65,7 +67,7 @@ struct NoiseFile<'a> {
     confidence: f64,
     sensors: Vec<SensorNoiseFields<'a>>,
     input: Option<&'a Input>,
-    /// Where the gyroscope has a file of its own.
+    /// The gyroscope's file, where it has one of its own.
     #[serde(skip_serializing_if = "Option::is_none")]
     gyroscope_input: Option<&'a Input>,
 }
@@ -259,9 +261,9 @@ struct FitFields {
 #[derive(Serialize)]
 struct VibrationFields {
     frequency_hz: f64,
-    /// Of the variance of the samples.
+    /// Share of the variance of the samples.
     share: f64,
-    /// Of N², were they left in.
+    /// Share of N² if they were not subtracted.
     of_white: f64,
     left_out: bool,
 }

@@ -1,4 +1,4 @@
-//! Parts of the JSON files that several of them share.
+//! Fields that several of the JSON files share.
 
 use calibrant_core::estimate::{Calibration, FitStatistics, Whiteness};
 use calibrant_core::motion::JerkControlledMotion;
@@ -60,7 +60,7 @@ pub(super) fn matrix_rows(matrix: &DMatrix<f64>) -> Vec<Vec<f64>> {
     matrix.row_iter().map(|row| row.iter().copied().collect()).collect()
 }
 
-/// Number of axes that a list of parameters speaks of: that of its biases.
+/// Number of axes of a list of parameters: that of its biases.
 pub(super) fn axes_of(parameters: &[Parameter]) -> usize {
     parameters.iter().filter(|parameter| parameter.name.starts_with("bias.")).count().clamp(1, 3)
 }
@@ -126,7 +126,7 @@ impl MotionFields {
     }
 }
 
-/// How well the model fits.
+/// The quality of the fit.
 #[derive(Serialize)]
 pub(super) struct FitFields {
     chi2: f64,

@@ -1,4 +1,4 @@
-//! `summary.csv`: one row for each of several recordings.
+//! Writes `summary.csv`: one row for each of several recordings.
 
 use super::atomic_output::write_atomically;
 use super::json::to_json;
@@ -8,18 +8,19 @@ use calibrant_core::sensor::Parameter;
 use std::io;
 use std::path::Path;
 
-/// A recording and what came of it.
+/// A recording and its result.
 #[derive(Debug, Clone)]
 pub struct SummaryRow {
-    /// Where its results are: the name of the recording's file, with a number where names repeat.
+    /// The place of its results: the name of the recording's file, with a number where names repeat.
     pub file: String,
     /// The recording, as it was given.
     pub recording: String,
-    /// Its calibration, or why there is none.
+    /// Its calibration, or the reason why there is none.
     pub outcome: std::result::Result<Summary, String>,
 }
 
-/// The calibrations of several recordings as one JSON array, in their order: of each its file, and either the text of its calibration.json or its error.
+/// The calibrations of several recordings as one JSON array, in their order. Each entry has its file, and
+/// either the text of its calibration.json or its error.
 ///
 /// # Examples
 /// ```
@@ -45,11 +46,11 @@ pub fn calibrations_json<'a>(
     format!("[\n{}\n]\n", recordings.into_iter().map(entry).collect::<Vec<_>>().join(",\n"))
 }
 
-/// What is kept of a calibration where there are thousands.
+/// The part of a calibration that is kept where there are thousands.
 #[derive(Debug, Clone)]
 pub struct Summary {
     status: CalibrationStatus,
-    /// How good it is: name, with the unit at its end, and number.
+    /// Its quality: name, with the unit at its end, and number.
     quality: Vec<(&'static str, String)>,
     parameters: Vec<Estimate>,
 }
@@ -64,7 +65,8 @@ struct Estimate {
 }
 
 impl Summary {
-    /// Of an accelerometer: the number of warnings, χ², degrees of freedom, p-value, from holds the root mean square of `|f| − g`, and the parameters.
+    /// The summary of an accelerometer: the number of warnings, χ², degrees of freedom, p-value and the
+    /// parameters. From holds also the root mean square of `|f| − g`.
     #[must_use]
     pub fn of(calibration: &Calibration) -> Self {
         let fit = &calibration.fit;
@@ -91,14 +93,14 @@ impl Summary {
         }
     }
 
-    /// Of an IMU: the number of warnings, holds and rotations, how many were used of them, root mean square of `|f| − g` in the holds and of the angles by which gravity misses after
-    /// the rotations, and the parameters.
+    /// The summary of an IMU: the number of warnings, holds and rotations, and how many of them were used.
+    /// Also the root mean square of `|f| − g` in the holds, and of the rotation errors, and the parameters.
     #[must_use]
     pub fn of_imu(calibration: &ImuCalibration) -> Self {
         let (holds, rotations) = (&calibration.holds.holds, &calibration.rotations);
         let good_holds = holds.iter().filter(|hold| hold.used).count();
         let good_rotations = rotations.iter().filter(|rotation| rotation.used).count();
-        // holds that only just determine the accelerometer leave nothing
+        // holds that only just determine the accelerometer leave no residual
         let checked = calibration.holds.degrees_of_freedom > 0;
         let magnitude = checked.then_some(calibration.holds.magnitude_residual_rms_mps2);
         let angle = (good_rotations > 0).then(|| calibration.rotation_rms_rad());
@@ -126,7 +128,8 @@ impl Summary {
     }
 }
 
-/// Writes `summary.csv`: file, recording, status, error, what tells how good the calibration is ([`Summary`]), then value and standard deviation of each parameter.
+/// Writes `summary.csv`: file, recording, status, error, the quality of the calibration ([`Summary`]), then
+/// value and standard deviation of each parameter.
 ///
 /// Units are in the header (`bias.x_mps2`, `bias.x_sd_mps2`; nothing for pure numbers). A recording without a calibration has status
 /// `error`, the reason, and empty fields.

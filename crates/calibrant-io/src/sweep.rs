@@ -1,4 +1,4 @@
-//! `sweep.json` and `sweep.csv`: the best designs over the values of one variable.
+//! Writes `sweep.json` and `sweep.csv`: the best designs over the values of one variable.
 
 use super::atomic_output::write_atomically;
 use super::design::{CertificateFields, EvaluationFields, SettingFields};
@@ -28,7 +28,7 @@ pub fn sweep_json(sweep: &Sweep, problem: &DesignProblem<'_>, settings: &DesignS
     json::to_json(&SweepFile::of(sweep, problem, settings))
 }
 
-/// Writes `sweep.csv`: a row for each value; the units are in the names, `sd` of a pure number has none.
+/// Writes `sweep.csv`: a row for each value. The units are in the names; `sd` of a pure number has none.
 ///
 /// # Errors
 /// [`Error::Output`](calibrant_core::Error::Output) where it cannot be written.

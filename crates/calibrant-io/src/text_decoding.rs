@@ -1,21 +1,23 @@
-//! Bytes of a file to text: size, encoding and binary content, each with a complaint that says what the file really is.
+//! Decodes the bytes of a file to text: size, encoding and binary content, each with an error that names the
+//! file's real kind.
 
 use calibrant_core::error::InputError;
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
-/// What a check gives: the thing, or a complaint that does not yet know whether an experiment or a recording is at fault.
+/// The result of a check. Its error does not yet know whether an experiment or a recording is at fault.
 pub(super) type Checked<T> = std::result::Result<T, Box<InputError>>;
 
 /// Reads a file whole, unless it is larger than `limit` bytes or plainly binary.
 ///
-/// Reads in pieces and looks for NUL bytes on the way, so that a device or a disk image does not fill the memory.
+/// It reads in pieces and looks for NUL bytes, so that a device or a disk image does not fill the memory.
 pub(super) fn read_bytes(path: &Path, limit: u64, what: &str) -> Checked<Vec<u8>> {
+    /// Bytes that are read at once.
     const PIECE: u64 = 1 << 20;
     let in_file = |input_error: InputError| Box::new(input_error.in_file(path));
     let mut file = open(path, what)?;
-    // what a file says of its length is not to be trusted far
+    // the length that a file states is not trusted far
     let expected = file.metadata().map_or(0, |metadata| metadata.len()).min(64 * PIECE);
     let mut bytes = Vec::with_capacity(expected as usize + 1);
     loop {
@@ -85,7 +87,7 @@ pub(super) fn as_text(bytes: &[u8]) -> Checked<&str> {
     as_text_at(text, (bytes.len() - text.len()) as u64, 0)
 }
 
-/// What compressed these bytes, by how they begin, and how they are unpacked.
+/// The program that compressed these bytes, from their beginning, and how to unpack them.
 fn packed_by(bytes: &[u8]) -> Option<(&'static str, &'static str)> {
     let begins: [(&[u8], _, _); 5] = [
         (b"\x1f\x8b", "gzip", "gunzip FILE"),
@@ -101,7 +103,7 @@ fn packed_by(bytes: &[u8]) -> Option<(&'static str, &'static str)> {
     (!is_text).then_some((program, unpack))
 }
 
-/// Bytes from within a text as text; they begin after so many bytes and lines.
+/// Bytes from within a text as text. They follow this number of bytes and lines.
 pub(super) fn as_text_at(bytes: &[u8], before: u64, lines: usize) -> Checked<&str> {
     if let Some(at) = memchr::memchr(0, bytes) {
         let offset = before + at as u64;

@@ -1,4 +1,4 @@
-//! `truth.json`: the parameters that a simulated recording was made with.
+//! Writes `truth.json`: the true parameters of a simulated recording.
 
 use super::json;
 use calibrant_core::error::Result;
@@ -39,8 +39,9 @@ pub fn truth_json(seed: u64, list: &ParameterList, unit: ReadingUnit, truth: &Se
     json::to_json(&TruthFile::of(seed, list, unit, truth))
 }
 
-/// Writes `truth.json` of an IMU: the seed, the reference temperature where one is followed, and the true value of each of these quantities, and of what else differs from
-/// an ideal IMU under `fixed`, so that the file has all of it; `units` are those of accelerometer and gyroscope.
+/// Writes `truth.json` of an IMU: the seed, the reference temperature where one is followed, and the true
+/// value of each of these quantities. Everything else that differs from an ideal IMU is under `fixed`, so
+/// that the file is complete. `units` are those of accelerometer and gyroscope.
 ///
 /// # Errors
 /// [`Error::Output`](calibrant_core::Error::Output) where it cannot be written.
@@ -108,11 +109,11 @@ struct TruthFile {
     /// The form of the accelerometer's matrix, where it has one.
     #[serde(skip_serializing_if = "Option::is_none")]
     gauge: Option<&'static str>,
-    /// °C; of an IMU that follows temperature.
+    /// The reference temperature of an IMU that follows temperature, °C.
     #[serde(skip_serializing_if = "Option::is_none")]
     reference_c: Option<f64>,
     parameters: Vec<TrueParameter>,
-    /// What a calibration of the experiment takes as given.
+    /// The values that a calibration of the experiment takes as given.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     fixed: Vec<TrueParameter>,
 }

@@ -1,4 +1,4 @@
-//! How a calibration fares on data that were not used for it, in its JSON file.
+//! The fields of a calibration's validation in its JSON file: its errors on data that it did not use.
 
 use super::shared_fields::per_axis;
 use calibrant_core::estimate::{
@@ -8,10 +8,10 @@ use calibrant_core::estimate::{
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// `validation`: what it was tried on (`recording`, `folds`) and what came of it.
+/// `validation`: its data (`recording`, `folds`) and the results.
 pub(super) type ValidationFields = BTreeMap<&'static str, SourceFields>;
 
-/// One of them; the kinds of errors by their names.
+/// The result on one kind of data; the kinds of errors by their names.
 #[derive(Serialize)]
 pub(super) struct SourceFields {
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -22,7 +22,7 @@ pub(super) struct SourceFields {
     failed_folds: Vec<FailedFields>,
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     noise_ratio: BTreeMap<String, Vec<f64>>,
-    /// In the unit of the readings.
+    /// The quantisation step in the unit of the readings.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     coarse_step: BTreeMap<String, f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -34,7 +34,7 @@ pub(super) struct SourceFields {
     kinds: BTreeMap<&'static str, KindFields>,
 }
 
-/// A likely reason, and its numbers by their names.
+/// A likely explanation, and its numbers by their names.
 #[derive(Serialize)]
 struct ReasonFields {
     reason: &'static str,
@@ -84,7 +84,7 @@ struct PartFields {
     degrees_of_freedom: usize,
     p_value: f64,
     factor: f64,
-    /// `null` above where the data leave it open.
+    /// An entry is `null` where the data leave the bound open.
     factor_interval_99: [Option<f64>; 2],
 }
 

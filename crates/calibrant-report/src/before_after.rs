@@ -1,10 +1,10 @@
-//! What the calibration improved, in numbers.
+//! The improvement by a calibration, in numbers: errors before and after it.
 
 use super::number_format;
 use super::table::{Cell, Table};
 use calibrant_core::estimate::{HoldCalibration, ImuCalibration};
 
-/// One error: its name, what it is before and after, in which unit, and what it means.
+/// One error: its name, its value before and after, its unit, and its meaning.
 struct Improved {
     name: &'static str,
     before: f64,
@@ -13,12 +13,12 @@ struct Improved {
     meaning: &'static str,
 }
 
-/// The magnitude in holds of a static calibration; nothing where it cannot be told.
+/// The magnitude in holds of a static calibration; empty where nothing is left to check it.
 pub(super) fn of_holds(holds: &HoldCalibration) -> String {
     table(&magnitude(holds).into_iter().collect::<Vec<_>>())
 }
 
-/// The same of an IMU, its gyroscope at rest, and gravity after rotations.
+/// The same of an IMU, with its gyroscope at rest and gravity after rotations.
 pub(super) fn of_imu(calibration: &ImuCalibration) -> String {
     let mut rows: Vec<Improved> = magnitude(&calibration.holds).into_iter().collect();
     rows.push(Improved {
@@ -40,7 +40,7 @@ pub(super) fn of_imu(calibration: &ImuCalibration) -> String {
     table(&rows)
 }
 
-/// Nothing where the holds are met exactly, as no more of them than parameters are.
+/// `None` where the fit to the holds is exact, with no more of them than parameters.
 fn magnitude(holds: &HoldCalibration) -> Option<Improved> {
     (holds.degrees_of_freedom > 0).then_some(())?;
     Some(Improved {

@@ -1,4 +1,4 @@
-//! The report on one calibration.
+//! The report page on one calibration of an accelerometer.
 
 use super::figure::{
     acceleration_figure, autocorrelations, correlation_map, force_before_and_after, histograms,
@@ -20,7 +20,7 @@ use calibrant_core::sensor::Recording;
 /// The file needs nothing else: no network, no script. It suits a wide screen, a phone and A4 paper. Long recordings are
 /// thinned for the plots, so that the file stays below about 2 MB whatever their length.
 ///
-/// `recording` is the one that was calibrated from.
+/// `recording` is the calibrated recording.
 #[must_use]
 pub fn calibration_report(calibration: &Calibration, recording: &Recording, about: &About) -> String {
     let mut page = Page::default();

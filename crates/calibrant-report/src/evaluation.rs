@@ -1,4 +1,4 @@
-//! The report on a motion of one's own: what it tells, beside the best one and the limits.
+//! The report page on a user's own motion: its predicted results beside the best motion and the limits.
 
 use super::About;
 use super::design::{axes, limit_table, promised_table, times, undetermined_items, violation};
@@ -14,15 +14,16 @@ use calibrant_core::sensor::Parameter;
 use calibrant_design::{Assessment, Design, LimitKind, LimitUse, OtherSetting};
 use nalgebra::Vector3;
 
-/// A motion whose standard deviations are all within this factor of the best is as good as it gets.
+/// A motion is as good as the best if all its standard deviations are within this factor.
 const AS_GOOD: f64 = 1.05;
 /// An efficiency above this hides what single parameters would gain.
 const BLIND: f64 = 0.8;
 /// Beyond this factor, the better motion is worth the effort.
 const WORTH_IT: f64 = 1.5;
 
-/// A motion of one's own as one HTML file: is it any good, what it promises beside the best motion found, which limits it breaks, what it leaves
-/// undetermined.
+/// A user's own motion as one HTML file. It shows whether the motion is good, and its predicted standard
+/// deviations beside those of the best motion found. It lists the limits that the motion breaks and the
+/// parameters that it leaves undetermined.
 ///
 /// Self-contained as [`calibration_report`](super::calibration_report) is.
 #[must_use]
@@ -115,7 +116,7 @@ fn verdict(assessment: &Assessment, about: &About) -> String {
     verdict_box(class, word, &sentences.join(" "), &remarks)
 }
 
-/// Says how the motion compares; returns the largest factor that the best motion gains.
+/// States how the motion compares; returns the largest factor that the best motion gains.
 fn compared(assessment: &Assessment, design: &Design, sentences: &mut Vec<String>) -> Option<f64> {
     let factors =
         assessment.evaluation.sd().into_iter().zip(design.optimal.sd()).map(|(own, best)| own / best);
@@ -213,7 +214,7 @@ fn criterion_table(assessment: &Assessment) -> String {
     table.html()
 }
 
-/// The limits as they are drawn, from how far they are used.
+/// The limits to draw, from how far they are used.
 fn drawn_limits(uses: &[LimitUse]) -> Limits {
     let mut limits = Limits::default();
     for found in uses {

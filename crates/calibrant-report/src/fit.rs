@@ -1,4 +1,4 @@
-//! How well the model fits, each number with what it means.
+//! The table of the fit: how well the model fits, each number with its meaning.
 
 use super::figure::DisplayUnit;
 use super::number_format;

@@ -1,16 +1,16 @@
-//! The holds of a static calibration in numbers.
+//! Tables of the holds of a static calibration.
 
 use super::number_format;
 use super::table::{Cell, Table};
 use calibrant_core::estimate::{HoldCalibration, HoldResult};
 use calibrant_core::sensor::ReadingUnit;
 
-/// Fewer magnitudes left to check tell no scatter along gravity.
+/// Fewer magnitudes left to check show no scatter along gravity.
 const FEWEST: usize = 3;
-/// Beyond this many standard deviations, a hold that was left out is called an outlier.
+/// Beyond this many standard deviations, a hold that was not used is called an outlier.
 const OUTLYING: f64 = 3.0;
 
-/// What holds for all holds together.
+/// What is common to all holds.
 pub(super) fn hold_summary(holds: &HoldCalibration) -> String {
     let used = holds.holds.iter().filter(|hold| hold.used).count();
     let mut table = Table::explained();

@@ -34,7 +34,7 @@ enum Piece {
 }
 
 impl Page {
-    /// Several parts, made side by side, one below the other.
+    /// Several parts, made in parallel, one below the other.
     pub(super) fn of_parts<const N: usize>(parts: [&(dyn Fn() -> Self + Sync); N]) -> Self {
         let pages: Vec<Self> = parts.par_iter().map(|part| part()).collect();
         Self { pieces: pages.into_iter().flat_map(|page| page.pieces).collect() }
@@ -45,7 +45,7 @@ impl Page {
         self.pieces.push(Piece::Html(html.into()));
     }
 
-    /// Starts a section: a numbered heading and one sentence on what it is for.
+    /// Starts a section: a numbered heading and one sentence on its purpose.
     pub(super) fn section(&mut self, heading: &str, lead: &str) {
         self.pieces.push(Piece::Heading(escape(heading)));
         if !lead.is_empty() {
@@ -97,7 +97,8 @@ pub(super) fn list(items: &[String]) -> String {
     format!("<ul>{items}</ul>")
 }
 
-/// The verdict in a prominent box of this class (`good`, `caution`, `bad`): a word, a sentence, and headed lists that qualify it.
+/// The verdict in a prominent box of this class (`good`, `caution`, `bad`): a word, a sentence, and headed
+/// lists that qualify it.
 pub(super) fn verdict_box(
     class: &str,
     word: &str,

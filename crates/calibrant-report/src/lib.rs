@@ -1,7 +1,8 @@
-//! Results as pages to look at: the figures as data, then HTML; no mathematics.
+//! Results as HTML pages for people: the figures as data, then HTML; no mathematics.
 //!
-//! Each entry point returns one self-contained HTML file. A page is a list of pieces: a verdict, tables whose cells already have
-//! their digits ([`number_format`]), and figures, which are data (`figure`) until the page is written.
+//! Each entry point returns one self-contained HTML file. A page is a list of pieces: a verdict, tables, and
+//! figures. Cells of tables already have their digits ([`number_format`]). Figures are data (`figure`) until
+//! the page is written.
 
 mod before_after;
 mod calibration;

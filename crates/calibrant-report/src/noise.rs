@@ -8,9 +8,9 @@ use super::table::{Cell, Table};
 use calibrant_core::noise::{AxisNoise, Coefficient, PowerLaw, SensorNoise, coefficient_units};
 use rayon::prelude::*;
 
-/// Samples that scatter more than white noise by this factor are disturbed.
+/// Samples are disturbed if they scatter more than white noise by this factor.
 const DISTURBED: f64 = 1.05;
-/// Samples that scatter less by this factor are correlated.
+/// Samples are correlated if they scatter less than white noise by this factor.
 const FILTERED: f64 = 0.95;
 
 /// The noise of one or two sensors as one HTML file: what is determined, the Allan deviation plots, tables in SI and in customary units.
@@ -83,7 +83,7 @@ fn coefficient_table(noise: &SensorNoise) -> String {
     table.html()
 }
 
-/// A coefficient with its unit, and what else is known of it.
+/// A coefficient with its unit, and its interval or its reason.
 fn coefficient_in_words(noise: &SensorNoise, axis: &AxisNoise, process: PowerLaw) -> (String, String) {
     let units = coefficient_units(noise.sensor_kind, process, noise.unit);
     let unit = units[0].symbol;
@@ -120,7 +120,7 @@ fn capitalised(text: &str) -> String {
     letters.next().map_or_else(String::new, |first| format!("{}{}", first.to_uppercase(), letters.as_str()))
 }
 
-/// The white noise of one sample beside what the samples scatter.
+/// The white noise of one sample beside the scatter of the samples.
 fn sample_table(noise: &SensorNoise) -> String {
     let unit = noise.unit.symbol();
     let (white, sd) = (format!("N √rate ({unit})"), format!("sd of samples ({unit})"));

@@ -1,11 +1,11 @@
-//! Numbers as people read them: a value has the digits that its uncertainty leaves it.
+//! Numbers for people: a value has the digits that its uncertainty leaves it.
 
 /// The minus sign of typeset numbers.
 const MINUS: char = '−';
 
 /// `value ± sd`, both rounded to two significant digits of `sd`: `0.08312 ± 0.00021`.
 ///
-/// A common power of ten is taken out where both are small: `(1.2 ± 0.3) × 10⁻⁵`.
+/// A common power of ten is factored out where both are small: `(1.2 ± 0.3) × 10⁻⁵`.
 pub fn with_sd(value: f64, sd: f64) -> String {
     if !value.is_finite() {
         return UNKNOWN.to_string();
@@ -31,7 +31,7 @@ pub fn with_sd(value: f64, sd: f64) -> String {
     format!("{} ± {}", rounded_to(value, sd), uncertainty(sd))
 }
 
-/// As [`with_sd`]; a value of no uncertainty stands alone.
+/// As [`with_sd`]; a value without uncertainty stands alone.
 pub fn with_sd_or_exact(value: f64, sd: f64) -> String {
     if sd > 0.0 { with_sd(value, sd) } else { without_trailing_zeros(&significant(value, 8)) }
 }
@@ -46,7 +46,7 @@ pub(super) fn uncertainty(sd: f64) -> String {
     if sd > 0.0 && sd < 1e-5 { significant(sd, 2) } else { fixed(sd, decimals_for(sd, 2)) }
 }
 
-/// What stands for a number that is not known or not finite.
+/// The text for a number that is not known or not finite.
 pub(super) const UNKNOWN: &str = "–";
 
 /// A number to this many significant digits; powers of ten for the very small and the very large.
@@ -65,7 +65,7 @@ pub fn significant(value: f64, digits: usize) -> String {
     fixed(value, decimals_for(value, digits))
 }
 
-/// So many of something: `1 interval`, `10 intervals`.
+/// A count with its noun: `1 interval`, `10 intervals`.
 pub fn counted(count: usize, what: &str) -> String {
     format!("{count} {what}{}", if count == 1 { "" } else { "s" })
 }
@@ -83,7 +83,7 @@ pub(super) fn tick(value: f64) -> String {
     without_trailing_zeros(&significant(value, 6))
 }
 
-/// A number with its sign, + or −, and so many decimals; what they round to zero has none.
+/// A number with its sign, + or −, and this number of decimals. A number that rounds to zero has no sign.
 pub fn signed(value: f64, decimals: usize) -> String {
     let text = format!("{value:+.decimals$}");
     if text.chars().any(|digit| ('1'..='9').contains(&digit)) {
@@ -118,7 +118,7 @@ pub(super) fn percent(fraction: f64) -> String {
     format!("{} %", fixed(value, digits))
 }
 
-/// An angle by which something misses, in degrees to two digits; beyond half a revolution a larger one says nothing more.
+/// An error angle in degrees to two digits; beyond half a revolution a larger one means nothing more.
 pub(super) fn missed_angle(angle_rad: f64) -> String {
     if angle_rad > std::f64::consts::PI {
         return "more than 180°".into();

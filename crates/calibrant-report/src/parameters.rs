@@ -1,4 +1,4 @@
-//! The parameters: estimates beside what was known before, and the correction that they make.
+//! The table of an accelerometer's parameters, with their nominal values, and the correction that they make.
 
 use super::table::{Cell, Table};
 use super::{html, number_format};

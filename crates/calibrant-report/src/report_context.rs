@@ -1,10 +1,10 @@
-//! What a report says beside the result itself.
+//! The context of a report: everything that it states beside the result itself.
 
 use calibrant_core::estimate::Validation;
 use calibrant_core::motion::JerkControlledMotion;
 use calibrant_core::sensor::SensorParameters;
 
-/// Where a result comes from, and what else is known of it.
+/// The origin of a result, and further knowledge of it.
 ///
 /// All texts are plain text; the report escapes them.
 ///
@@ -23,11 +23,13 @@ use calibrant_core::sensor::SensorParameters;
 pub struct About {
     /// Title of the page.
     pub title: String,
-    /// Label and value of what the reader needs to find the input again: file name, sha256, samples, rate, experiment, options.
+    /// Label and value of what the reader needs to find the input again: file name, sha256, samples, rate,
+    /// experiment, options.
     pub facts: Vec<(String, String)>,
-    /// What was found in the recording, in words: gaps, repeated times, saturated readings. Shown beside the warnings.
+    /// Findings about the recording, in words: gaps, repeated times, saturated readings. The page shows them
+    /// beside the warnings.
     pub findings: Vec<String>,
-    /// How the calibration fares on data that were not used for it, where it was tried.
+    /// The errors of the calibration on data that it did not use, where there is a validation.
     pub validations: Vec<Validation>,
     /// True parameters, where the recording was simulated.
     pub truth: Option<SensorParameters>,
@@ -38,7 +40,7 @@ pub struct About {
 }
 
 impl About {
-    /// The program. How long it took is not said: equal inputs give equal pages.
+    /// The program, without its run time: equal inputs give equal pages.
     pub(super) fn made(&self) -> String {
         format!("{}.", if self.program.is_empty() { "calibrant" } else { &self.program })
     }

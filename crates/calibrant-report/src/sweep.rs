@@ -1,4 +1,4 @@
-//! The report on a sweep: what can be had as one thing about the experiment changes.
+//! The report page on a sweep: the best designs as one quantity of the experiment changes.
 
 use super::About;
 use super::design::{above, status};
@@ -9,7 +9,7 @@ use super::table::{Cell, Table};
 use calibrant_core::information::Criterion;
 use calibrant_design::{DesignStatus, Sweep, SweepPoint};
 
-/// A sweep as one HTML file: what the change is worth in a sentence, the curves, a table of all values.
+/// A sweep as one HTML file: the gain by the change in a sentence, the curves, a table of all values.
 ///
 /// Self-contained as [`calibration_report`](super::calibration_report) is.
 #[must_use]
@@ -65,7 +65,7 @@ fn verdict(sweep: &Sweep, about: &About) -> String {
     )
 }
 
-/// What the change is worth: the parameter that profits most, from the least value to the most.
+/// The gain by the change: the parameter that profits most, from the least value to the most.
 fn worth(sweep: &Sweep) -> Option<String> {
     let mut points: Vec<&SweepPoint> = sweep.points.iter().filter(|point| point.outcome.is_ok()).collect();
     points.sort_by(|a, b| a.value.total_cmp(&b.value));

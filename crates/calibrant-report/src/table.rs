@@ -1,4 +1,4 @@
-//! Tables: a header, rows of cells, numbers to the right.
+//! Tables as HTML: a header, rows of cells, numbers to the right.
 
 use super::html::escape;
 
@@ -7,7 +7,7 @@ use super::html::escape;
 pub(super) enum Cell {
     /// The name of the row.
     Name(String),
-    /// A number, or what stands for one: right-aligned, never broken.
+    /// A number, or its replacement: right-aligned, never broken.
     Number(String),
     /// A short text.
     Text(String),
@@ -32,12 +32,12 @@ impl Table {
         Self { caption: caption.to_string(), columns, rows: Vec::new() }
     }
 
-    /// A table of numbers, each with what it means.
+    /// A table of numbers, each with its meaning.
     pub(super) fn explained() -> Self {
         Self::new("", &["", "value", "what it means"])
     }
 
-    /// Appends a number with what it means.
+    /// Appends a number with its meaning.
     pub(super) fn explain(&mut self, name: &str, value: String, meaning: &str) {
         self.row(vec![Cell::Name(name.to_string()), Cell::Number(value), Cell::Words(meaning.to_string())]);
     }
@@ -47,7 +47,7 @@ impl Table {
         self.rows.push((false, cells));
     }
 
-    /// Appends a row that was left out of the computation.
+    /// Appends a row that the computation did not use.
     pub(super) fn row_left_out(&mut self, cells: Vec<Cell>) {
         self.rows.push((true, cells));
     }

@@ -1,4 +1,4 @@
-//! What holds for every report.
+//! Tests of what holds for every report page.
 
 use super::{About, calibration_report, study_report};
 use calibrant_core::estimate::{Calibration, Recovered};
@@ -22,7 +22,7 @@ fn about() -> About {
     About { title: "A test".to_string(), program: "calibrant".to_string(), ..About::default() }
 }
 
-/// One self-contained file without numbers that are none.
+/// Asserts one self-contained file whose numbers are all finite.
 fn assert_sound(html: &str) {
     assert!(html.starts_with("<!DOCTYPE html>") && html.trim_end().ends_with("</html>"));
     // references within the page are fine: clip paths

@@ -1,4 +1,4 @@
-//! How a calibration fares on data that were not used for it.
+//! Validation in a report: the errors of a calibration on data that it did not use, in sentences and tables.
 
 use super::figure::validation_errors;
 use super::html::{Page, list};
@@ -10,12 +10,12 @@ use calibrant_core::estimate::{
 };
 use calibrant_core::sensor::SensorKind;
 
-/// So many errors that stand out are named; of the rest the number is told.
+/// Number of errors that are named one by one; the others are counted.
 const NAMED: usize = 5;
-/// Beyond this factor, it is not the covariance that is wrong.
+/// Beyond this factor, the covariance is not the reason.
 const ANOTHER: f64 = 30.0;
 
-/// What a validation says, a sentence for each kind of error: is the covariance to be believed?
+/// The result of a validation, a sentence for each kind of error: do the errors agree with the covariance?
 #[must_use]
 pub fn validation_sentences(validation: &Validation) -> Vec<String> {
     // in another unit, noise and bias are those of the unit
@@ -32,7 +32,7 @@ pub fn validation_sentences(validation: &Validation) -> Vec<String> {
         errors.verdict == CovarianceVerdict::TooSmall && errors.factor > ANOTHER && !explained(errors)
     };
     let any_beyond = validation.kinds.iter().any(beyond);
-    // of another sensor, or in another order of the axes, it is no bias that has moved
+    // with another sensor, or another order of the axes, the bias has not moved
     sentences.extend(validation.bias_shift.as_ref().filter(|_| in_unit && !any_beyond).map(bias));
     for errors in &validation.kinds {
         let cause = match errors {
@@ -57,7 +57,7 @@ pub fn validation_sentences(validation: &Validation) -> Vec<String> {
     sentences
 }
 
-/// What it was tried on: `on other.csv`, `5 folds`.
+/// The data of the validation: `on other.csv`, `5 folds`.
 #[must_use]
 pub fn validation_heading(validation: &Validation) -> String {
     match &validation.source {
@@ -149,14 +149,14 @@ fn between(factor: f64, (low, high): (f64, f64)) -> String {
     format!("{} ({} to {high})", two(factor), two(low))
 }
 
-/// Where errors larger than predicted come from.
+/// The cause of errors larger than predicted.
 #[derive(Clone, Copy, PartialEq)]
 enum Cause {
-    /// A likely reason that was told.
+    /// A likely explanation that the report has already named.
     Reported,
-    /// Something that no covariance explains.
+    /// A cause that no covariance explains.
     Another,
-    /// The like, as errors of another kind show.
+    /// The same cause as for errors of another kind.
     Beside,
     Covariance,
 }

@@ -1,11 +1,11 @@
-//! The headline: can this calibration be used?
+//! The verdict on an accelerometer's calibration: can it be used?
 
 use super::{About, html, number_format};
 use calibrant_core::estimate::{Calibration, CalibrationStatus, Recovered};
 
 /// Below this, a probability counts as evidence against the model.
 const SIGNIFICANT: f64 = 0.001;
-/// A parameter known no better than this share of its datasheet spread was hardly determined.
+/// A parameter with a larger share of its datasheet spread left was determined only poorly.
 const HARDLY_DETERMINED: f64 = 0.5;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -107,7 +107,7 @@ fn judge(calibration: &Calibration) -> (Grade, String) {
     (grade, sentence)
 }
 
-/// Parameters known little better than the datasheet; those known worse have a warning of their own.
+/// Parameters known little better than from the datasheet; those known worse have a warning of their own.
 fn hardly_determined(calibration: &Calibration) -> Option<String> {
     let names: Vec<&str> = calibration
         .parameters

@@ -1,4 +1,5 @@
-//! The kernel: elimination of a bordered chain, as scale-bias (D = 1, P = 2) and full (D = 3, P = 12) need it.
+//! Benchmark of the arrowhead kernel: elimination of a bordered chain, for scale-bias (D = 1, P = 2) and full
+//! (D = 3, P = 12).
 
 use calibrant::arrowhead::{Arrowhead, Increment, Link};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};

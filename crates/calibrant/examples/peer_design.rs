@@ -1,9 +1,11 @@
-//! Writes design problems with calibrant's answers and times as JSON, for programs that solve the same problems another way:
-//! `cargo run --release --example peer_design -- FILE`. `peers/casadi/design.py` is one of them; `scripts/peers` runs both.
-//! With a second file, the problems are read from there (`peers/casadi/random_designs.py` makes some) and come back with answers.
+//! Writes design problems with calibrant's answers and times as JSON:
+//! `cargo run --release --example peer_design -- FILE`. Other programs solve the same problems in another
+//! way. `peers/casadi/design.py` is one of them; `scripts/peers` runs both. A second file gives the problems
+//! (`peers/casadi/random_designs.py` makes some), which come back with answers.
 //!
-//! The reference cases D1 to D4 with one axis and three, and every criterion on a scale-bias and on a full sensor. Times are of the whole `design()`
-//! call with 20 starts on one thread, without the certificate, which is asked for separately.
+//! The problems are the reference cases D1 to D4 with one axis and three, and every criterion on a scale-bias
+//! and on a full sensor. Times are of the whole `design()` call with 20 starts on one thread. They exclude
+//! the certificate, whose time is measured by itself.
 
 use calibrant::design::{Design, DesignProblem, DesignSettings, design};
 use calibrant::information::Criterion;
@@ -63,7 +65,8 @@ fn cases() -> Vec<Value> {
     cases
 }
 
-/// Limits and trust of a reference case; criterion A is of plain parameters, D, E and M are of parameters over their datasheet spread.
+/// Limits and trust of a reference case. Criterion A is of plain parameters; D, E and M are of parameters
+/// over their datasheet spread.
 fn case(name: &str, axes: usize, model: &str, letter: &str) -> Value {
     let limit = |on: bool, value: f64| if on { json!(value) } else { Value::Null };
     let (d2, d3, d4) = (name == "D2", name == "D3", name == "D4");
@@ -107,7 +110,7 @@ fn case(name: &str, axes: usize, model: &str, letter: &str) -> Value {
     })
 }
 
-/// What calibrant makes of a problem.
+/// The answer of calibrant to a problem.
 fn answer(case: &Value) -> Result<Value, Failure> {
     let sensor = sensor(case)?;
     let limits = limits(&case["limits"])?;
@@ -154,7 +157,7 @@ fn settings(starts: usize, certificate: bool) -> DesignSettings {
     DesignSettings { starts, certificate, ..DesignSettings::default() }
 }
 
-/// The design, and the fastest of three times: they are of the wall, and other work on the machine does not count.
+/// The design, and the fastest of three wall times: the fastest suffers least from other work on the machine.
 fn timed(problem: &DesignProblem<'_>, starts: usize) -> Result<(Design, f64), Failure> {
     let mut fastest = f64::INFINITY;
     let mut best = None;
@@ -166,7 +169,7 @@ fn timed(problem: &DesignProblem<'_>, starts: usize) -> Result<(Design, f64), Fa
     Ok((best.ok_or("no design")?, fastest))
 }
 
-/// Time of the design with as few starts as reach the reference, up to 20.
+/// Time of the design with the fewest starts that reach the reference, up to 20.
 fn until_reference(problem: &DesignProblem<'_>, reference: f64) -> Result<Option<f64>, Failure> {
     for starts in 1..=STARTS {
         let (best, seconds) = timed(problem, starts)?;
@@ -205,7 +208,7 @@ fn limits(value: &Value) -> Result<Limits, Failure> {
     })
 }
 
-/// Bias and matrix; axes that the sensor does not have are perfect.
+/// Bias and matrix. Axes that the sensor does not have are perfect.
 fn nominal(value: &Value) -> Result<SensorParameters, Failure> {
     let mut at = SensorParameters { bias: Vector3::zeros(), matrix: Matrix3::identity() };
     for (row, bias) in list(&value["bias"])?.iter().enumerate() {

@@ -1,8 +1,10 @@
-//! Writes seeded calibration problems with calibrant's answers and times as JSON, for programs that solve the same problems
-//! another way: `cargo run --release --example peer_estimate -- FILE`. `peers/casadi/estimate.py` is one of them; `scripts/peers` runs both.
+//! Writes seeded calibration problems with calibrant's answers and times as JSON:
+//! `cargo run --release --example peer_estimate -- FILE`. Other programs solve the same problems in another
+//! way. `peers/casadi/estimate.py` is one of them; `scripts/peers` runs both.
 //!
-//! Every trust and model at N = 14 intervals of 5 s sampled at 2 Hz (M = 141), the size of the report's experiments, and beside them
-//! motions with intervals of exactly known increment (σ_u = 0). Times are of the whole `calibrate()` call on one thread.
+//! The problems have every trust and model at N = 14 intervals of 5 s, sampled at 2 Hz (M = 141). That is the
+//! size of the report's experiments. Beside them are motions with intervals of exactly known increment (σ_u =
+//! 0). Times are of the whole `calibrate()` call on one thread.
 
 #[allow(unreachable_pub)]
 #[path = "../tests/library/common/mod.rs"]
@@ -24,7 +26,7 @@ const SEEDS: u64 = 5;
 const WARM_UP: usize = 100;
 const REPETITIONS: usize = 400;
 const NOISE: InputNoise = InputNoise { floor_mps3: 0.01, ratio: 0.01 };
-/// No floor: an interval that is commanded zero jerk has exactly zero jerk.
+/// No floor: an interval with zero commanded jerk has exactly zero jerk.
 const RATIO_ONLY: InputNoise = InputNoise { floor_mps3: 0.0, ratio: 0.01 };
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -41,7 +43,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             let case =
                 Case::with_motion(model, Trust::Noisy(RATIO_ONLY), with_plateaus(seed)?, RATE_HZ, seed);
             cases.push(record("noisy, plateaus", model_name, seed, &case)?);
-            // both ends known: the commanded end is then where the motion really ended
+            // both ends known: the commanded end is then the true end of the motion
             let mut both = Case::with_motion(model, Trust::Known, with_plateaus(seed)?, RATE_HZ, seed);
             both.command.trust = Trust::Noisy(RATIO_ONLY);
             both.command.known_ends = KnownEnds::Both;
@@ -67,7 +69,7 @@ fn with_plateaus(seed: u64) -> calibrant::Result<JerkControlledMotion> {
     JerkControlledMotion::uniform(INTERVAL_S, nodes)
 }
 
-/// The problem, and what calibrant makes of it.
+/// The problem, and the answer of calibrant.
 fn record(trust: &str, model: &str, seed: u64, case: &Case) -> Result<Value, Box<dyn std::error::Error>> {
     let motion = &case.command.motion;
     let jerk_sd: Option<Vec<Vector3<f64>>> = match case.command.trust {

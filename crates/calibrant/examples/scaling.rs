@@ -1,9 +1,10 @@
-//! Time, iterations and memory of one calibration against the number of intervals N and samples M:
-//! `cargo run --release --example scaling`. Every size runs in a process of its own, so that its peak memory is its own.
+//! Measures time, iterations and memory of one calibration against the number of intervals N and samples M:
+//! `cargo run --release --example scaling`. Every size runs in a process of its own, so that its peak memory
+//! is its own.
 //!
-//! The time is the median of several calibrations (the whole `calibrate()` call, one thread). Memory is the peak of the resident
-//! set (`VmHWM`, Linux) less what was resident before the calibration, relative to the size of its input: 32 bytes for each sample and
-//! each node.
+//! The time is the median of several calibrations (the whole `calibrate()` call, one thread). Memory is the
+//! peak of the resident set (`VmHWM`, Linux) less the resident set before the calibration. It is relative to
+//! the size of its input: 32 bytes for each sample and each node.
 
 use calibrant::estimate::{CalibrationProblem, CalibrationSettings, Stimulus, calibrate};
 use calibrant::motion::{CommandedMotion, InputNoise, JerkControlledMotion, KnownEnds, Trust};
@@ -17,7 +18,8 @@ use std::time::{Duration, Instant};
 
 type Failure = Box<dyn std::error::Error>;
 
-/// N and samples per interval: ten for each interval, and then more and more samples in the report's 14 intervals.
+/// N and samples per interval: ten for each interval, then more and more samples in the report's 14
+/// intervals.
 const SIZES: [(usize, usize); 8] =
     [(100, 10), (1_000, 10), (10_000, 10), (100_000, 10), (14, 72), (14, 715), (14, 7_143), (14, 71_429)];
 

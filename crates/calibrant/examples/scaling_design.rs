@@ -1,4 +1,5 @@
-//! Time of a design per iteration against its number of intervals: `cargo run --release --example scaling_design`.
+//! Measures the time of a design per iteration against its number of intervals:
+//! `cargo run --release --example scaling_design`.
 
 use calibrant::design::{DesignProblem, DesignSettings, design};
 use calibrant::information::Criterion;

@@ -3,7 +3,7 @@
 use crate::Triangle;
 use nalgebra::{DMatrixView, DMatrixViewMut, Dyn};
 
-/// Factors one triangle of A in place: `A = Uᵀ U` or `A = L Lᵀ`; the other triangle is not touched.
+/// Factors one triangle of A in place: `A = Uᵀ U` or `A = L Lᵀ`. It does not touch the other triangle.
 ///
 /// # Errors
 /// The order, from 1, of the leading minor that is not positive definite.

@@ -3,10 +3,10 @@
 use crate::Triangle;
 use nalgebra::{DMatrix, SymmetricEigen};
 
-/// Sweeps allowed for each row: QR takes about two.
+/// Largest number of sweeps for each row: QR takes about two.
 const SWEEPS: usize = 60;
 
-/// Eigenvalues in ascending order, and the eigenvectors in the same order where they are asked for.
+/// Eigenvalues in ascending order, and the eigenvectors in the same order where they are wanted.
 pub(crate) fn syevr(
     triangle: Triangle,
     n: usize,

@@ -1,16 +1,20 @@
-//! The eight BLAS and LAPACK symbols that Clarabel's semidefinite cone calls, over nalgebra: no C, no Fortran.
+//! The eight BLAS and LAPACK symbols that Clarabel's semidefinite cone calls, built on nalgebra: no C, no
+//! Fortran.
 //!
-//! Clarabel with its feature `sdp` calls `dgemm dsyrk dsyr2k dpotrf dpotrs dsyevr dgesdd dgesvd` by their Fortran names. Its
-//! matrices have some tens of rows, so that a system BLAS would gain nothing and cost every user a C or Fortran tool chain.
+//! Clarabel with its feature `sdp` calls `dgemm dsyrk dsyr2k dpotrf dpotrs dsyevr dgesdd dgesvd` by their
+//! Fortran names. Its matrices have some tens of rows. A system BLAS would gain nothing and cost every user a
+//! C or Fortran tool chain.
 //!
 //! # Use
-//! `use lapack_over_nalgebra as _;` in the crate that uses Clarabel: nothing is called by name, the linker finds the symbols.
-//! A program that links another BLAS must not link this crate: the symbols would be there twice.
+//! Write `use lapack_over_nalgebra as _;` in the crate that uses Clarabel: nothing is called by name, the
+//! linker finds the symbols. A program that links another BLAS must not link this crate: the symbols would be
+//! there twice.
 //!
-//! # What is there
-//! The safe routines, on column-major slices with a leading dimension, are in one file per kind; [`symbols`] is the thin unsafe
-//! layer that turns Fortran's pointers into slices. Only what Clarabel asks for: `f64`; the economy size of the singular value
-//! decomposition (`jobz`, `jobu`, `jobvt` = `S` or `N`); everything else answers with LAPACK's `info < 0`.
+//! # Contents
+//! The safe routines, on column-major slices with a leading dimension, are in one file per kind. [`symbols`]
+//! is the thin unsafe layer that turns Fortran's pointers into slices. The crate has only what Clarabel
+//! needs: `f64`, and the economy size of the singular value decomposition (`jobz`, `jobu`, `jobvt` = `S` or
+//! `N`). Everything else returns LAPACK's `info < 0`.
 //!
 //! # References
 //! `anderson1999` (LAPACK Users' Guide)

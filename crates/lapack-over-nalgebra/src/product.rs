@@ -1,4 +1,5 @@
-//! Products: `dgemm`, `dsyrk`, `dsyr2k`; loops of our own, since nalgebra's products want operands with contiguous columns.
+//! Matrix products `dgemm`, `dsyrk`, `dsyr2k`. They are loops of our own, since nalgebra's products need
+//! operands with contiguous columns.
 
 use crate::Triangle;
 

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DMatrixView, Dyn, SVD};
 
-/// Sweeps allowed for each singular value: QR takes about two.
+/// Largest number of sweeps for each singular value: QR takes about two.
 const SWEEPS: usize = 60;
 
 /// `A = U diag(s) Vᵀ` with s descending, U of m × min(m, n), Vᵀ of min(m, n) × n.

@@ -1,8 +1,9 @@
 //! The Fortran symbols: pointers become slices, and nothing else happens here.
 //!
 //! # Safety
-//! All as LAPACK asks: every pointer is valid for the length that its dimensions and leading dimension imply, arrays that are written
-//! to overlap no other argument, dimensions are not negative. A workspace query (`lwork = −1`) answers 1: no workspace is used.
+//! The rules are LAPACK's. Every pointer is valid for the length that its dimensions and leading dimension
+//! imply. Arrays that are written to overlap no other argument. Dimensions are not negative. A workspace
+//! query (`lwork = −1`) returns 1: no workspace is used.
 
 #![allow(clippy::missing_safety_doc, reason = "one contract for all, in the module's documentation")]
 #![allow(clippy::too_many_arguments, reason = "Fortran's signatures")]
@@ -220,7 +221,7 @@ pub unsafe extern "C" fn dsyevr_(
     }
 }
 
-/// What both singular value decompositions do once they know what is wanted.
+/// The common part of both singular value decompositions.
 unsafe fn decompose(
     (m, n): (usize, usize),
     a: *mut f64,

@@ -1,13 +1,16 @@
-//! Each routine, called as Fortran calls it, against its definition: with padded leading dimensions, both triangles, transposes.
+//! Tests of each routine against its definition, called as Fortran calls it: with padded leading dimensions,
+//! both triangles, transposes.
 
 #![allow(clippy::borrow_as_ptr, reason = "Fortran passes everything by reference")]
 use lapack_over_nalgebra::symbols::*;
 use nalgebra::DMatrix;
 use std::ffi::{c_char, c_int};
 
+/// LAPACK's letter for an operand that is not transposed.
 const N: c_char = b'N' as c_char;
+/// LAPACK's letter for a transposed operand.
 const T: c_char = b'T' as c_char;
-/// What padding holds: no routine may read it or write it.
+/// The value of padding: no routine may read it or write it.
 const PADDING: f64 = f64::NAN;
 
 /// Reproducible numbers in [−1, 1).
@@ -185,7 +188,7 @@ fn dpotrf_names_the_minor_that_is_not_positive_definite() {
     }
 }
 
-/// Calls `dsyevr` twice as LAPACK wants it: a workspace query, then the work.
+/// Calls `dsyevr` twice as LAPACK requires: a workspace query, then the work.
 fn syevr(
     a: &DMatrix<f64>,
     (jobz, range, uplo): (u8, u8, u8),

@@ -2,8 +2,9 @@
 //!
 //! usage: imu-calib-peer ACCELEROMETER GYROSCOPE
 //!
-//! The crate reads no recordings, takes readings in m/s² and rad/s, and starts its iterations from a perfect sensor: the rows are parsed here by the standard library,
-//! and the counts divided by nominal gains of an Xsens MTi. (calibrant finds the gains by itself.)
+//! The crate reads no recordings, takes readings in m/s² and rad/s, and starts its iterations from a perfect
+//! sensor. So the standard library parses the rows here, and the counts are divided by nominal gains of an
+//! Xsens MTi. (calibrant finds the gains by itself.)
 
 use imu_calib::estimate::{RecordingConfig, Sample, calibrate_recording};
 use std::error::Error;

@@ -1,11 +1,11 @@
-//! The calibration of a whole IMU on stdout.
+//! The table of a whole IMU's calibration on stdout.
 
 use super::table;
 use calibrant::estimate::{ImuCalibration, Validation};
 use calibrant::report::{imu_quality, number_format, over_the_gain, temperature_in_words};
 use calibrant::sensor::SensorKind;
 
-/// What was used, the parameters of both sensors, and how good they are.
+/// The data that were used, the parameters of both sensors, and their quality.
 pub(crate) fn imu_calibration(calibration: &ImuCalibration, validations: &[Validation]) -> String {
     let mut text = used(calibration);
     for sensor_kind in SensorKind::ALL {
@@ -29,7 +29,7 @@ pub(crate) fn imu_calibration(calibration: &ImuCalibration, validations: &[Valid
     text
 }
 
-/// Noise of a gyroscope's sample, and where it comes from.
+/// Noise of a gyroscope's sample, and its source.
 fn sample_noise(calibration: &ImuCalibration) -> String {
     let still = &calibration.still;
     let axes: Vec<String> = still.noise.iter().map(|&sd| number_format::significant(sd, 3)).collect();
@@ -41,7 +41,7 @@ fn sample_noise(calibration: &ImuCalibration) -> String {
     )
 }
 
-/// Holds, rotations and turns, and which of them were left out.
+/// Holds, rotations and turns, and which of them were not used.
 fn used(calibration: &ImuCalibration) -> String {
     let (holds, rotations) = (&calibration.holds.holds, &calibration.rotations);
     let count = |used: usize, what: &str, left_out: Vec<String>| {

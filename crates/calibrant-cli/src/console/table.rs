@@ -1,4 +1,4 @@
-//! Tables on the console.
+//! Tables on the console, with aligned columns.
 
 /// Rows of cells as a table with aligned columns: the first left, the others right.
 pub(crate) fn table(header: &[&str], rows: &[Vec<String>]) -> String {

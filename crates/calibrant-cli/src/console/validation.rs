@@ -1,4 +1,4 @@
-//! How a calibration fares on data that were not used for it, on stdout.
+//! Validation on stdout: the errors of a calibration on data that it did not use.
 
 use super::table;
 use calibrant::estimate::Validation;

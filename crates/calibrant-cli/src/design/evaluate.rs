@@ -1,4 +1,4 @@
-//! `calibrant design --evaluate`: is a motion of one's own any good?
+//! `calibrant design --evaluate`: judges a user's own motion.
 
 use super::Arguments;
 use super::job::{Job, in_file};
@@ -17,7 +17,7 @@ pub(super) fn run(
     path: &Path,
 ) -> calibrant::Result<Exit> {
     let motion = read_motion(path, problem.sensor.axes)?;
-    // what is wrong with the motion itself is said before the search
+    // errors of the motion itself come before the search
     calibrant::design::evaluate(problem, &motion)?;
     let optimum = match job.design(problem) {
         Ok(design) => {
@@ -126,7 +126,7 @@ fn text(assessment: &Assessment, path: &Path) -> String {
     text
 }
 
-/// What an efficiency means.
+/// The meaning of an efficiency.
 fn recordings(efficiency: f64) -> String {
     if efficiency > 1.0 + 1e-6 {
         "it is better than the best motion within the limits".into()

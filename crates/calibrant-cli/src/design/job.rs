@@ -1,4 +1,4 @@
-//! What the experiment file and the options ask for, as a problem.
+//! The design problem that the experiment file and the options describe.
 
 use super::arguments::Arguments;
 use crate::console;
@@ -9,7 +9,7 @@ use calibrant::io::{EarlierCalibration, Experiment, Prior, read_calibration};
 use calibrant::report::{About, number_format};
 use std::path::Path;
 
-/// What the experiment file and the options ask for.
+/// The experiment, the options and what follows from them.
 pub(super) struct Job {
     pub(super) experiment: Experiment,
     pub(super) earlier: Vec<EarlierCalibration>,
@@ -39,7 +39,7 @@ impl Job {
         self.experiment.design_problem(&self.earlier).map_err(|error| in_file(error, file))
     }
 
-    /// What the report says beside the design.
+    /// The context of the report on the design.
     pub(super) fn about(&self, arguments: &Arguments, problem: &DesignProblem<'_>, title: String) -> About {
         let fact = |label: &str, text: String| (label.to_owned(), text);
         let mut facts = vec![
@@ -79,7 +79,7 @@ impl Job {
     }
 }
 
-/// Calibrations whose information adds up should be of one sensor, and not the same one twice.
+/// Warns where calibrations whose information adds up are of different sensors, or the same one twice.
 fn warn_of_strangers(earlier: &[EarlierCalibration]) {
     let name = |calibration: &EarlierCalibration| {
         calibration.file.as_ref().map_or_else(String::new, |file| file.display().to_string())

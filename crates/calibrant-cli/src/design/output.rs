@@ -1,4 +1,4 @@
-//! What a design is written to, and how the command ends.
+//! The output files of a design, and the exit status.
 
 use super::arguments::Arguments;
 use super::job::Job;
@@ -7,7 +7,7 @@ use calibrant::design::{Design, DesignProblem, DesignStatus};
 use calibrant::io::{write_atomically, write_dense_motion, write_design, write_motion};
 use calibrant::report::design_report;
 
-/// Writes everything that a design leaves.
+/// Writes all results of a design.
 pub(super) fn write(
     arguments: &Arguments,
     job: &Job,
@@ -15,7 +15,7 @@ pub(super) fn write(
     design: &Design,
 ) -> calibrant::Result<()> {
     let (output, axes) = (&arguments.output, problem.sensor.axes);
-    // first what may be refused
+    // outputs that may be refused come first
     if let Some(rate_hz) = arguments.sample_rate {
         write_dense_motion(&output.join("motion_dense.csv"), &design.optimal.motion, axes, rate_hz)?;
     }
@@ -26,7 +26,7 @@ pub(super) fn write(
     write_atomically(&output.join("report.html"), |out| out.write_all(html.as_bytes()))
 }
 
-/// The exit status of a design, with what is to be said of it.
+/// The exit status of a design, with its warnings.
 pub(super) fn exit_of(design: &Design) -> Exit {
     if design.status != DesignStatus::Converged && design.optimal.covariance.is_some() {
         console::warn(&format!(

@@ -1,4 +1,4 @@
-//! `calibrant design --sweep`: what the best motion can do as one thing about the experiment changes.
+//! `calibrant design --sweep`: designs the best motion as one quantity of the experiment changes.
 
 use super::Arguments;
 use super::job::{Job, in_file};
@@ -48,7 +48,7 @@ pub(super) fn run(
     Ok(if converged && swept.points.iter().any(good) { Exit::DONE } else { Exit::NOT_IDENTIFIABLE })
 }
 
-/// Notes and warnings about single values.
+/// Prints notes and warnings about single values.
 fn say(swept: &Sweep) {
     let (name, unit) = (swept.variable.name(), swept.variable.unit());
     for point in &swept.points {

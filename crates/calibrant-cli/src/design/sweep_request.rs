@@ -1,11 +1,11 @@
-//! What `calibrant design --sweep` asks for.
+//! Parses the request of `calibrant design --sweep`.
 
 use calibrant::design::SweepVariable;
 
-/// Most values of a sweep.
+/// Largest number of values of a sweep.
 const MOST: usize = 1000;
 
-/// What is swept, and over which values.
+/// The quantity of a sweep, and its values.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Request {
     pub(super) variable: SweepVariable,

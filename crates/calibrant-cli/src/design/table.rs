@@ -1,11 +1,12 @@
-//! A design as people read it.
+//! The table of a design on the console.
 
 use crate::console;
 use calibrant::design::{AT_BEST, Design, LimitUse, limit_use};
 use calibrant::information::Criterion;
 use calibrant::report::number_format::{counted, short, significant};
 
-/// Before, after and the bound, parameter by parameter; the criterion; the starts; what the certificate says.
+/// Before, after and the bound, parameter by parameter; the criterion; the starts; the words of the
+/// certificate.
 pub(crate) fn design(design: &Design) -> String {
     let (before, after) = (design.initial.sd(), design.optimal.sd());
     let bound = design.certificate.as_ref().map(|certificate| &certificate.sd_lower_bound);
@@ -64,7 +65,7 @@ fn starts(design: &Design) -> String {
     )
 }
 
-/// The limits that a motion reaches to a thousandth.
+/// The limits that a motion reaches within a thousandth.
 fn reached(uses: &[LimitUse]) -> String {
     let mut names: Vec<&str> = uses
         .iter()

@@ -1,4 +1,4 @@
-//! Where the sensor is at rest: the longest hold, and whether it moves in an interval that was given.
+//! Finds where the sensor is at rest: the longest hold, or whether it moves in a given interval.
 
 use calibrant::Error;
 use calibrant::error::InputError;
@@ -7,14 +7,15 @@ use calibrant::motion::Hold;
 use calibrant::noise::{Segment, without_outliers};
 use calibrant::sensor::{ImuRecording, Recording, SensorKind};
 
-/// Shortest hold that is looked for, s.
+/// Shortest hold of the search, s.
 const SHORTEST_HOLD_S: f64 = 1.0;
-/// The finder of holds may cut off this much of a hold at each end, s.
+/// The hold detector may cut off this much of a hold at each end, s.
 const TRIMMED_S: f64 = 0.5;
 /// Where less than this share of a recording is examined, the table says so.
 const MOST: f64 = 0.9;
 
-/// The holds: where both sensors are still, or the one that was recorded. A gyroscope alone is as calm in a turn at a steady rate.
+/// The holds, in which both sensors are stationary, or the one that was recorded. A gyroscope alone is as
+/// calm in a turn at a steady rate.
 ///
 /// A spike does not divide a hold: it is no movement.
 pub(super) fn holds(imu: &ImuRecording) -> calibrant::Result<Vec<Hold>> {
@@ -38,7 +39,7 @@ pub(super) fn longest(holds: &[Hold]) -> calibrant::Result<&Hold> {
     })
 }
 
-/// What part of the recording was examined, in words; nothing where that is nearly all of it.
+/// The part of the recording that was examined, in words; nothing where that is nearly all of it.
 pub(super) fn examined(holds: &[Hold], segment: &Segment, recording: &Recording) -> Option<String> {
     let (first, last) = recording.times_s.first().zip(recording.times_s.last())?;
     let (used_s, recorded_s) = (segment.duration_s(), last - first);
@@ -53,7 +54,8 @@ pub(super) fn examined(holds: &[Hold], segment: &Segment, recording: &Recording)
     })
 }
 
-/// A warning where the sensor moves in an interval that was given as at rest: where that holds more than one hold, or more than a hold.
+/// A warning where the sensor moves in an interval that was given as at rest. The interval contains more than
+/// one hold, or is longer than a hold.
 pub(super) fn moves(holds: &[Hold], given: &Segment) -> Option<String> {
     if holds.is_empty() {
         return None;

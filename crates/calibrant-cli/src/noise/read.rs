@@ -1,4 +1,4 @@
-//! The recording, whatever its format, and what the user says of it.
+//! Reads the recording for `calibrant noise`, whatever its format, with the user's options.
 
 use super::arguments::{Arguments, Gains};
 use calibrant::Error;
@@ -6,7 +6,8 @@ use calibrant::error::InputError;
 use calibrant::io::{ImuFile, ImuReadOptions, ImuUnit, read_imu_pair, read_imu_sensor};
 use calibrant::sensor::{ReadingUnit, SensorKind};
 
-/// Reads the recording: a file of one sensor, one of a whole IMU, or a pair. `sensor_kind` is the sensor of a file whose columns do not say.
+/// Reads the recording: a file of one sensor, one of a whole IMU, or a pair. `sensor_kind` is the sensor of a
+/// file whose columns do not name it.
 pub(super) fn read(
     arguments: &Arguments,
     sensor_kind: SensorKind,
@@ -17,7 +18,7 @@ pub(super) fn read(
         Some(gyroscope) => read_imu_pair(&arguments.recording, gyroscope, options),
         None => read_imu_sensor(&arguments.recording, sensor_kind, options),
     };
-    // a gain is one of counts: it answers for the unit where the file does not
+    // a gain is one of counts: it gives the unit where the file does not
     let counted = || {
         gains
             .iter()
@@ -48,7 +49,8 @@ pub(super) fn read(
     })
 }
 
-/// The options, with --unit as that of the sensor. The unit of one that --sensor leaves aside is not asked for: it only tells when the IMU is still.
+/// The options, with --unit as that of the sensor. The unit of a sensor that --sensor excludes is not needed:
+/// it only shows when the IMU is stationary.
 fn options(arguments: &Arguments, sensor_kind: SensorKind) -> calibrant::Result<ImuReadOptions> {
     let mut options = arguments.reading.with_columns(arguments.columns.as_deref())?;
     if arguments.sensor.is_some() {

@@ -1,11 +1,12 @@
-//! The noise of a sensor on stdout.
+//! The table of a sensor's noise on stdout.
 
 use crate::console;
 use calibrant::io::noise_line;
 use calibrant::noise::{Coefficient, CoefficientUnit, PowerLaw, SensorNoise, coefficient_units};
 use calibrant::report::{coefficient_name, number_format};
 
-/// Coefficients, samples, and why something is not determined; `examined` says what part of the recording was.
+/// Coefficients, samples, and why something is not determined. `examined` names the part of the recording
+/// that was used.
 pub(super) fn noise_table(noise: &SensorNoise, examined: Option<&str>) -> String {
     let segment = &noise.segment;
     let mut text = format!(

@@ -16,7 +16,8 @@ use nalgebra::Vector3;
 
 /// An IMU that follows temperature warms by this much over its recording, K.
 const WARMING_K: f64 = 24.0;
-/// Its temperature in the middle where no reference is given, °C: a calibration takes the mean over the holds, to the degree.
+/// Its temperature in the middle where no reference is given, °C. A calibration takes the mean over the
+/// holds, to the degree.
 const MIDDLE_C: f64 = 32.0;
 
 pub(super) fn run(
@@ -64,7 +65,7 @@ pub(super) fn run(
     };
     let units = [sensor.unit, plan.gyroscope.unit];
     let on_table = table(holds, plan);
-    // on a table the faces are the true frame, by hand the accelerometer's gauge fixes it
+    // on a table the faces fix the true frame; by hand the accelerometer's gauge does
     let mut truth = match &on_table {
         Some(steps) => {
             check_order(steps)?;
@@ -73,7 +74,7 @@ pub(super) fn run(
         }
         None => in_gauge(&drawn, units, holds)?,
     };
-    // what a calibration of this experiment finds, and what is fixed in it
+    // the quantities that a calibration of this experiment finds, and those that it fixes
     let quantities = plan.setup(holds).quantities(sensor.model, &plan.gyroscope);
     if let Some([from, to]) = setup.temperature_c {
         truth.thermal.reference_c = plan.thermal.reference_c.unwrap_or(0.5 * (from + to));
@@ -96,10 +97,11 @@ pub(super) fn run(
     Ok(recording.accelerometer.map_or(0, |recording| recording.len()))
 }
 
-/// Gives what is known beforehand its value, in the true frame of the calibration. As there, a prior of what is not estimated does nothing.
+/// Gives known quantities their value, in the true frame of the calibration. As there, a prior of a quantity
+/// that is not estimated does nothing.
 fn set_known(truth: &mut ImuParameters, estimated: &[ImuQuantity], plan: &ImuPlan, rng: &mut Rng) {
     for known in &plan.known {
-        // a term of temperature does nothing where nothing is to follow it
+        // a temperature term does nothing where nothing follows temperature
         let does_nothing = matches!(known.quantity, ImuQuantity::Thermal(..)) && plan.thermal.is_none();
         if !does_nothing && (known.sd.is_none() || estimated.contains(&known.quantity)) {
             draw_known(truth, known.quantity, known.value, known.sd, rng);
@@ -107,7 +109,8 @@ fn set_known(truth: &mut ImuParameters, estimated: &[ImuQuantity], plan: &ImuPla
     }
 }
 
-/// Temperature at the beginning and at the end of the recording, °C, about the reference, where something is to follow it: the IMU warms up.
+/// Temperature at the beginning and at the end of the recording, °C, about the reference: the IMU warms up.
+/// `None` where nothing follows temperature.
 fn warming(plan: &ImuPlan) -> Option<[f64; 2]> {
     let middle = plan.thermal.reference_c.unwrap_or(MIDDLE_C);
     let within = |celsius: f64| celsius.clamp(*WORKING_C.start(), *WORKING_C.end());
@@ -138,7 +141,7 @@ fn in_gauge(
     Ok(imu.in_gauge_of(SensorKind::Accelerometer, holds.gauge)?.parameters)
 }
 
-/// What is done on the table, in order of time; `None` where the IMU is turned by hand.
+/// The steps on the table, in order of time; `None` where the IMU is turned by hand.
 fn table(holds: &HoldsPlan, plan: &ImuPlan) -> Option<Vec<TableStep>> {
     let (intervals, directions) = (holds.intervals_s.as_ref()?, holds.directions.as_ref()?);
     let faces = intervals.iter().zip(directions).map(|(&(start_s, end_s), &direction)| TableStep {
@@ -160,7 +163,7 @@ fn table(holds: &HoldsPlan, plan: &ImuPlan) -> Option<Vec<TableStep>> {
     Some(steps)
 }
 
-/// All of it fits into memory.
+/// Checks that the recording fits into memory.
 fn check_length(steps: &[TableStep], rate_hz: f64) -> calibrant::Result<()> {
     let from_s = steps.iter().map(|step| step.start_s).fold(0.0, f64::min);
     let duration_s = steps.iter().map(|step| step.end_s).fold(0.0, f64::max) - from_s;
@@ -176,7 +179,7 @@ fn check_length(steps: &[TableStep], rate_hz: f64) -> calibrant::Result<()> {
     ))))
 }
 
-/// Holds and turns follow each other.
+/// Checks that holds and turns follow each other.
 fn check_order(steps: &[TableStep]) -> calibrant::Result<()> {
     match steps.windows(2).find(|pair| pair[1].start_s < pair[0].end_s) {
         None => Ok(()),

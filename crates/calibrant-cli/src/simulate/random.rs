@@ -1,12 +1,12 @@
-//! Where everything random of a simulation comes from.
+//! The random streams of a simulation.
 
 use calibrant::simulate::{Purpose, Rng, stream};
 
-/// Where everything random comes from.
+/// The source of everything random.
 #[derive(Clone, Copy)]
 pub(super) struct Random {
     pub(super) seed: u64,
-    /// From 1.
+    /// Number of the recording, from 1.
     pub(super) recording: u64,
 }
 
@@ -15,7 +15,8 @@ impl Random {
         stream(self.seed, Purpose::Sensor, 0)
     }
 
-    /// Of what happens in the recording, all of the sensor being drawn: the first goes on in the sensor's stream, so that a seed means what it always did.
+    /// The stream of what happens in the recording, after the sensor has been drawn. The first recording
+    /// continues the sensor's stream, so that a seed keeps its meaning.
     pub(super) fn happening(self, after_sensor: Rng) -> Rng {
         match self.recording {
             1 => after_sensor,

@@ -1,4 +1,4 @@
-//! Which experiments an experiment file and the options ask for.
+//! The studies that an experiment file and the options ask for.
 
 use crate::simulate::commanded_motion;
 use calibrant::design::limit_use;
@@ -9,7 +9,7 @@ use calibrant::sensor::SensorParameters;
 use calibrant::study::{DesignStudyProblem, StudiesProblem, StudyProblem, StudySettings};
 use std::path::Path;
 
-/// What the command line says beyond the file.
+/// The options of the command line beyond the file.
 pub(super) struct Choice<'a> {
     pub(super) motion: Option<&'a Path>,
     pub(super) sensors: Option<usize>,
@@ -17,7 +17,7 @@ pub(super) struct Choice<'a> {
     pub(super) starts: Option<usize>,
 }
 
-/// What the experiments need and do not make themselves.
+/// Inputs that the studies need and do not make themselves.
 pub(super) struct Material<'a> {
     experiment: &'a Experiment,
     plan: &'a MotionPlan,
@@ -99,7 +99,7 @@ impl<'a> Material<'a> {
         })
     }
 
-    /// The experiments.
+    /// The studies as one problem.
     pub(super) fn problem(&self) -> StudiesProblem<'_> {
         let sensor = &self.experiment.sensor;
         let [design, noisy] = self.designs.clone();
@@ -118,7 +118,7 @@ impl<'a> Material<'a> {
     }
 }
 
-/// Says where a given motion breaks the limits that the best one keeps, which makes the comparison unfair.
+/// Warns where a given motion breaks the limits that the best one keeps, which makes the comparison unfair.
 fn beyond_limits(experiment: &Experiment, motion: &JerkControlledMotion) -> Option<String> {
     let limits = experiment.limits.within_range(experiment.sensor.range_mps2);
     let broken: Vec<String> = limit_use(&limits, experiment.sensor.axes, motion)
@@ -139,7 +139,7 @@ fn calibration(
     (command, plan.rate_hz, sensors)
 }
 
-/// How the experiments are run.
+/// The settings of the studies.
 pub(super) fn settings(experiment: &Experiment, choice: &Choice<'_>) -> StudySettings {
     let mut design = experiment.design_settings();
     design.starts = choice.starts.or(experiment.study.starts).unwrap_or(design.starts);

@@ -1,10 +1,10 @@
-//! What people see of the experiments.
+//! The tables of the studies on the console.
 
 use crate::console;
 use calibrant::report::number_format;
 use calibrant::study::{DesignStudy, Factor, Improvement, ParameterSummary, Studies, Study};
 
-/// A table for each experiment, and what was left out.
+/// A table for each study, and the studies that were not run.
 pub(super) fn studies(studies: &Studies) -> String {
     let mut parts = Vec::new();
     parts.extend(studies.calibration.as_ref().map(calibration));

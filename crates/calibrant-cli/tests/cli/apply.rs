@@ -1,4 +1,4 @@
-//! `calibrant apply`: what is read wrongly or not at all is said, and units are asked for.
+//! Tests of `calibrant apply`: it reports what it reads wrongly or not at all, and asks for units.
 
 use crate::bench::Bench;
 
@@ -21,7 +21,7 @@ fn rows(names: &str, unit_mps2: f64) -> String {
     format!("{names}\n{}", (0..4).map(row).collect::<String>())
 }
 
-/// The mean magnitude that the summary states of a sensor.
+/// The mean magnitude that the summary gives for a sensor.
 fn mean(message: &str, sensor: &str) -> f64 {
     let line = message.lines().find(|line| line.trim_start().starts_with(sensor) && line.contains("samples"));
     let number = line.and_then(|line| line.split("mean magnitude ").nth(1)?.split(' ').next());
@@ -52,7 +52,7 @@ fn a_sensor_that_cannot_be_read_is_not_left_out() {
         &["the gyroscope's columns are in rad/s, but the unit was given as deg/s"],
     );
     bench.refuses("apply truth.json good.csv --gyroscope none.mat -o x.csv", 3, &["none.mat"]);
-    // without its columns there is none, which is said
+    // without its columns there is no gyroscope, and the program says so
     let alone = "t_s,ax_mps2,ay_mps2,az_mps2\n0,0,0,9.8\n0.1,0,0,9.8\n0.2,0,0,9.8\n";
     bench.write("alone.csv", alone);
     bench
@@ -94,7 +94,7 @@ fn a_unit_that_the_file_does_not_state_is_asked_for() {
     );
 }
 
-/// Of a calibration in counts, the readings are counts unless the file says otherwise.
+/// For a calibration in counts, the readings are counts unless the file states another unit.
 #[test]
 fn a_calibration_in_counts_corrects_counts() {
     let bench = Bench::new();
@@ -113,7 +113,7 @@ fn a_calibration_in_counts_corrects_counts() {
         bench.run(&format!("apply shimmer.json {file}.csv -o {file}.out")).done();
         assert_eq!(bench.read(&format!("{file}.out")), bench.read("plain.out"), "{file}");
     }
-    // what is wrong with the file is said, not that a unit were missing
+    // the message names the fault of the file, not a missing unit
     let bad = bench.read("plain.csv").replace(",-6,", ",oops,");
     bench.write("bad.csv", bad);
     bench.refuses("apply shimmer.json bad.csv -o x.csv", 3, &["bad.csv", "oops"]);
@@ -123,7 +123,7 @@ fn a_calibration_in_counts_corrects_counts() {
     bench.refuses("apply shimmer.json si.csv -o x.csv", 3, &["si.csv: the readings of the accelerometer"]);
 }
 
-/// A calibration of one sensor corrects it in a file of its own as in one of a whole IMU.
+/// A calibration of one sensor corrects it in a file of its own, and in one of a whole IMU.
 #[test]
 fn a_calibration_of_one_sensor_reads_one_sensor() {
     let bench = imu();
@@ -133,7 +133,7 @@ fn a_calibration_of_one_sensor_reads_one_sensor() {
     bench.refuses("apply acc.json four.mat -o x.csv", 3, &["four.mat", "--accelerometer-unit"]);
     let message = bench.run("apply acc.json four.mat --accelerometer-unit m/s2 -o x.csv").done().stdout;
     assert!((mean(&message, "accelerometer") - 10.0).abs() < 1e-9, "{message}");
-    // the other sensor's unit does not matter where it is left out
+    // the other sensor's unit does not matter where that sensor is ignored
     bench.write("whole.csv", rows("t_s,ax_mps2,ay_mps2,az_mps2,gx,gy,gz", 1.0));
     let done = bench.run("apply acc.json whole.csv -o x.csv").done();
     done.says("the calibration has no gyroscope: its readings are left out");
@@ -190,7 +190,7 @@ fn times_that_differ_in_the_last_digit_share_a_row() {
     }
 }
 
-/// Where the accelerometer ends before the gyroscope, the force that the gyroscope feels is not known.
+/// Where the accelerometer ends before the gyroscope, the force on the gyroscope is not known.
 #[test]
 fn a_force_that_is_not_known_is_said() {
     let bench = imu();
@@ -226,7 +226,7 @@ fn a_bag_of_ros_1_is_called_so() {
     bench.refuses("inspect imu.bag", 3, &["imu.bag: this is a bag of ROS 1", "rosbags-convert"]);
 }
 
-/// A truth.json that is not as `simulate` writes it.
+/// A truth.json that `simulate` would not write.
 #[test]
 fn what_is_wrong_with_a_truth_is_named() {
     let bench = imu();

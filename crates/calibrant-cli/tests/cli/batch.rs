@@ -1,8 +1,8 @@
-//! Several recordings in one call: none stops the others, none overwrites another.
+//! Tests of several recordings in one call: none stops the others, none overwrites another.
 
 use crate::bench::Bench;
 
-/// An experiment, its motion, and recordings of as many sensors as names.
+/// An experiment, its motion, and recordings of one sensor for each name.
 fn bench(recordings: &[&str]) -> Bench {
     let bench = Bench::new();
     bench.preset("report", "experiment.toml", &[]);

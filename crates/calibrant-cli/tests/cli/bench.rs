@@ -1,4 +1,4 @@
-//! A directory in which the program runs, and what came of a run.
+//! The bench of the command-line tests: a directory in which the program runs, and the result of a run.
 
 use serde_json::Value;
 use std::collections::BTreeSet;
@@ -81,7 +81,7 @@ impl Bench {
         found
     }
 
-    /// A run that must fail with this exit status, say all of these, and write nothing at all.
+    /// A run that must fail with this exit status, print all of these texts, and write nothing at all.
     pub(crate) fn refuses(&self, arguments: &str, status: i32, says: &[&str]) {
         let before = self.files();
         let outcome = self.run(arguments);
@@ -102,7 +102,7 @@ pub(crate) struct Outcome {
 }
 
 impl Outcome {
-    /// The run, which must have been a success.
+    /// The run, which must have succeeded.
     pub(crate) fn done(self) -> Self {
         assert_eq!(self.status, 0, "{}\n{}", self.command, self.stderr);
         self

@@ -1,6 +1,6 @@
-//! Broken input at the command line: exit status, message with its place, and nothing written.
+//! Tests of broken input at the command line: exit status, message with its place, and nothing written.
 //!
-//! The reader's complaints are tested word for word beside the library; here they must reach the user.
+//! The tests of the library check the reader's messages word for word; here they must reach the user.
 
 mod experiments;
 mod motions;

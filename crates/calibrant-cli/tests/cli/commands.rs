@@ -1,4 +1,4 @@
-//! Every command from its start to the files it leaves.
+//! Tests of every command from its start to the files that it writes.
 
 use crate::bench::{Bench, assert_close_to_truth, names};
 use serde_json::Value;

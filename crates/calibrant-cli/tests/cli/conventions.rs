@@ -1,4 +1,4 @@
-//! `convert`, `apply` and `compare`: from one program's file to another's, and what is said on the way.
+//! Tests of `convert`, `apply` and `compare`: from one program's file to another's, with messages on the way.
 
 use crate::bench::Bench;
 use serde_json::Value;
@@ -111,7 +111,7 @@ fn a_gauge_change_carries_the_covariance_and_compare_sees_one_sensor() {
     assert!(done.stderr.contains("B does not say the biases of the accelerometer"), "{}", done.stderr);
     assert!(done.stdout.contains("χ² 0") && !done.stdout.contains("bias"), "{}", done.stdout);
     assert!(done.stdout.contains(" 6 degrees of freedom"), "{}", done.stdout);
-    // another bias is seen
+    // another bias shows
     let text = bench.read("lower.json");
     let bias = lower["accelerometer"]["bias_mps2"][0].as_f64().expect("a number");
     bench.write("moved.json", text.replace(&format!("{bias:?}"), &format!("{:?}", bias + 1.0)));
@@ -132,7 +132,7 @@ fn apply_writes_true_values_with_their_uncertainty() {
     assert!((first[1].hypot(first[2]).hypot(first[3]) - 9.80665).abs() < 0.05, "{first:?}");
     assert!(first[4] > 0.0 && first[4] < 0.1, "{first:?}");
     assert_eq!(text.lines().count(), bench.read("sim/recording.csv").lines().count());
-    // without a covariance there is no uncertainty, and it is said
+    // without a covariance there is no uncertainty, and the program says so
     bench.run("convert out/calibration.json imu.h").done();
     let done = bench.run("apply imu.h sim/recording.csv -o plain.csv").done();
     assert!(done.stdout.contains("its uncertainty is not known"), "{}", done.stdout);
@@ -146,7 +146,7 @@ fn apply_writes_true_values_with_their_uncertainty() {
     );
 }
 
-/// Two files of imu_tk that were taken for each other, and calibrations of different sensors.
+/// Two files of imu_tk that were swapped, and calibrations of different sensors.
 #[test]
 fn sensors_that_are_not_those_expected_are_refused() {
     let bench = Bench::new();
@@ -167,7 +167,7 @@ fn sensors_that_are_not_those_expected_are_refused() {
     }
 }
 
-/// What is read is not replaced by the result.
+/// A result does not replace a file that was read.
 #[test]
 fn a_result_does_not_replace_what_it_is_made_from() {
     let bench = calibrated();

@@ -1,4 +1,4 @@
-//! `calibrant design`: from an experiment to a motion, its files and what is said of it.
+//! Tests of `calibrant design`: from an experiment to a motion, its files and messages.
 
 use crate::bench::{Bench, names};
 use serde_json::Value;
@@ -79,7 +79,7 @@ fn a_design_leaves_a_motion_and_everything_needed_to_judge_it() {
     let last: Vec<f64> =
         dense.lines().last().expect("rows").split(',').map(|n| n.parse().expect("a number")).collect();
     assert!(last[2].abs() < 1e-9, "at rest at the end: {last:?}");
-    // the motion goes on to the next commands
+    // the next commands read the motion
     bench.run("simulate arm.toml --motion d/motion.csv -o s").done();
     bench.run("calibrate arm.toml s/recording.csv --motion d/motion.csv -o c").done();
     let (found, promised) = (bench.json("c/calibration.json"), &design);
@@ -125,7 +125,8 @@ fn what_is_known_already_counts() {
     let outcome = bench.run(&format!("design arm.toml {QUICK} {twice} -o twice")).done();
     outcome.says("warning: c/calibration.json and c/calibration.json say the same to the last digit");
     let bias = |name: &str| sd(&bench.json(&format!("{name}/design.json")), "bias.x");
-    // the bias is known as well from any recording of this length, so information adds up: 1, 2 and 3 recordings
+    // the bias is known equally from any recording of this length, so information adds up: 1, 2 and 3
+    // recordings
     for (name, recordings) in [("after", 2.0_f64), ("twice", 3.0)] {
         assert!((bias("alone") / bias(name) / recordings.sqrt() - 1.0).abs() < 0.01, "{name}");
     }
@@ -219,7 +220,7 @@ fn too_few_intervals_for_a_full_sensor_are_named() {
     let outcome = bench.run(&format!("design full.toml {QUICK} -o d"));
     assert_eq!(outcome.status, 4, "{outcome:?}");
     outcome.says("the motion has 3 nodes, too few for the accelerations along x, y and z to be independent of each other (use at least 3 intervals)");
-    // there is no best to be near to
+    // there is no best motion to be near to
     assert!(!outcome.stderr.contains("a better one may be near"), "{outcome:?}");
     assert!(!outcome.stdout.contains("of the best"), "{outcome:?}");
 }
@@ -270,7 +271,7 @@ fn limits_that_clash_are_named_before_the_search() {
             "acceleration at the start clash",
         ],
     );
-    // a sweep goes on where the limits admit something
+    // a sweep continues where the limits admit a motion
     let outcome = bench.run(&format!("design clash.toml {QUICK} --sweep jerk=1,20 -o sweep")).done();
     outcome.says("warning: jerk 1 m/s³: the limits admit no motion");
     with("start_acceleration_mps2 = 0.0\nend_acceleration_mps2 = [0.0, 1.0, -1.0]");

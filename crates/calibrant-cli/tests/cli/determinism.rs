@@ -1,4 +1,5 @@
-//! The same input and seed give the same bytes, whatever the number of threads and the place of the files.
+//! Tests of determinism: the same input and seed give the same bytes, whatever the number of threads and the
+//! place of the files.
 
 use crate::bench::Bench;
 use std::collections::BTreeSet;
@@ -32,7 +33,7 @@ fn a_calibration_does_not_depend_on_threads_or_folders() {
     }
 }
 
-/// No id is twice in a page, and what refers to one finds it.
+/// No id is twice in a page, and every reference finds its id.
 fn assert_ids_differ(page: &str) {
     let after = |begin: &str, end: char| -> Vec<String> {
         let pieces = page.split(begin).skip(1);

@@ -1,4 +1,4 @@
-//! The commands in the READMEs of `examples/` run, and print what is said there.
+//! Tests of the READMEs of `examples/`: their commands run, and print the output shown there.
 
 use crate::bench::Bench;
 use std::path::{Path, PathBuf};
@@ -35,8 +35,9 @@ fn blocks(text: &str) -> Vec<(&str, Vec<&str>)> {
     blocks
 }
 
-/// Runs a README: lines of `sh` blocks that begin with `calibrant` (a comment may give another exit status than 0), and the lines of
-/// the `text` block below them, which the last command must have printed in this order; `…` stands for lines left out.
+/// Runs a README: the lines of `sh` blocks that begin with `calibrant`. A comment may give another exit
+/// status than 0. The last command must have printed the lines of the `text` block below, in this order; `…`
+/// stands for omitted lines.
 fn follow(name: &str, commands: usize) {
     let folder: PathBuf = [env!("CARGO_MANIFEST_DIR"), "../../examples", name].iter().collect();
     let bench = Bench::new();

@@ -1,8 +1,9 @@
-//! Known faces and turns: how well they were met, and what cannot be.
+//! Tests of known faces and turns: the face alignment, and inputs that are impossible.
 
 use crate::bench::{Bench, assert_close_to_truth};
 
-/// What a hand does to a Ferraris session: sections exchanged, columns in another order, another unit. What cannot be is refused, another mounting is told.
+/// Mistakes of a user in a Ferraris session: swapped sections, columns in another order, another unit. The
+/// program refuses what is impossible, and reports another mounting.
 #[test]
 fn a_ferraris_session_that_cannot_be_is_refused_and_another_mounting_is_told() {
     let bench = Bench::new();
@@ -38,7 +39,7 @@ fn a_ferraris_session_that_cannot_be_is_refused_and_another_mounting_is_told() {
         &["is given as 360.0° about x, and the gyroscope shows", "correct axis, angle or times"],
     );
     bench.write("sections.json", list);
-    // a turn is never met exactly, and gravity is that of the Earth
+    // no turn is exact, and gravity is that of the Earth
     let ferraris = include_str!("../../../../examples/06_whole_imu/ferraris.toml");
     bench.write("exact.toml", ferraris.replacen("turn_sd_deg = 0.5", "turn_sd_deg = 0.0", 1));
     let with = |file: &str| run("ok.csv").replacen("ferraris.toml", file, 1);
@@ -89,7 +90,7 @@ fn a_ferraris_session_that_cannot_be_is_refused_and_another_mounting_is_told() {
     bench.run(&one).done().says("along x, y and z of the accelerometer lie z, x and y of the gyroscope");
 }
 
-/// Faces are simulated as well as they are met, and told so.
+/// Faces are simulated with the face alignment of the experiment, and the calibration reports it.
 #[test]
 fn how_well_the_faces_were_met_is_told() {
     let bench = Bench::new();
@@ -125,7 +126,8 @@ fn how_well_the_faces_were_met_is_told() {
     );
 }
 
-/// The preset is for files of imucal, and simulated recordings are none: the way from one to the other is said, and leads there.
+/// The preset is for files of imucal, and simulated recordings are not. The program names the way from one to
+/// the other, and the way works.
 #[test]
 fn a_recording_simulated_for_files_of_another_format_is_told_how_to_be_calibrated() {
     let bench = Bench::new();

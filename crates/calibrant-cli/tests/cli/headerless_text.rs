@@ -1,8 +1,9 @@
-//! Files without a header: what is asked, and that the advice leads to a result at once.
+//! Tests of files without a header: the questions, and that the advice gives a result at once.
 
 use crate::bench::{Bench, Outcome};
 
-/// Twenty-four holds by hand and the turns between them, a row for each sample without a header: `columns` of t, the accelerometer and the gyroscope, in units `gain` times finer than SI.
+/// Twenty-four holds by hand and the turns between them, a row for each sample without a header. `columns`
+/// selects from t, the accelerometer and the gyroscope, in units `gain` times finer than SI.
 fn rows(bench: &Bench, columns: &[usize], gain: f64) -> String {
     let recording = bench.read("made/recording.csv");
     let cell = |cells: &[&str], column: usize| match cells[column].parse::<f64>().expect("a number") {

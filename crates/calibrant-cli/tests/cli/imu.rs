@@ -1,4 +1,4 @@
-//! A whole IMU: simulated, calibrated, and held against its truth.
+//! Tests of a whole IMU: simulated, calibrated, and compared with its truth.
 
 use crate::bench::{Bench, assert_close_to_truth, names};
 use serde_json::Value;
@@ -16,7 +16,7 @@ fn a_simulated_imu_is_found_again_and_its_noise_in_a_long_hold() {
     let noise = calibration["still_gyroscope"]["noise_per_sample_radps"].as_array().expect("axes").clone();
     // 1200 samples give the white noise to 4 % at best
     assert!(noise.iter().all(|sd| (sd.as_f64().expect("a number") / 2e-3 - 1.0).abs() < 0.15), "{noise:?}");
-    // given noise counts
+    // a given noise takes precedence
     let given = bench.read("imu.toml").replacen("# noise_radps = 2e-3 ", "noise_radps = 2e-3 ", 1);
     bench.write("given.toml", given);
     let outcome = bench.run("calibrate given.toml sim/recording.csv -o given").done();
@@ -63,7 +63,7 @@ fn counts_are_simulated_with_gains_alone_and_turns_do_not_overlap() {
     );
 }
 
-/// Far from what is drawn without: 0.1 m/s² around 0, 0.02 rad/s around 0, 1 % around 1.
+/// Values far from those that are drawn otherwise: 0.1 m/s² around 0, 0.02 rad/s around 0, 1 % around 1.
 #[test]
 fn what_the_experiment_knows_is_true_of_the_simulated_imu() {
     let bench = Bench::new();
@@ -136,7 +136,7 @@ fn faces_whose_directions_the_readings_contradict_are_named() {
     };
     let second = "hold 2 (19.0 to 24.0 s) is given with x up, and the accelerometer shows -x up";
     bench.refuses(given(r#""x", "x", "y", "-y", "z", "-z""#), 2, &[second, "correct the directions"]);
-    // whatever is given of how well they were met
+    // whatever face alignment is given
     let met = table.replacen("[holds]", "[holds]\nface_sd_deg = 0.1", 1);
     bench.write("met.toml", met.replacen(r#""x", "-x""#, r#""x", "x""#, 1));
     bench.refuses("calibrate met.toml table/recording.csv -o out", 2, &[second]);
@@ -149,7 +149,7 @@ fn faces_whose_directions_the_readings_contradict_are_named() {
     // a direction that is off by 20°: with two faces for each axis, either may be the one
     let tilted = bench.run(given(r#"[0.94, 0.34, 0.0], "-x", "y", "-y", "z", "-z""#));
     tilted.says("least of all fits hold 1 (1.0 to 6.0 s), or hold 2 (19.0 to 24.0 s)");
-    // all faces turned together: the sensor sits otherwise in its housing, and it is said
+    // all faces turned together: the sensor sits otherwise in its housing, and the program says so
     bench.run(given(r#""y", "-y", "z", "-z", "x", "-x""#)).done().says("all directions are turned alike");
 }
 
@@ -224,7 +224,7 @@ fn turns_that_are_missing_and_values_that_are_absurd_are_named() {
         &["turn 2 (7 to 11 s) is turn 1 (7 to 11 s) once more", "give each turn once"],
     );
 
-    // the gyroscope tells which turn was made
+    // the gyroscope shows which turn was made
     bench.write(
         "sign.toml",
         table.replacen("axis = \"x\", angle_deg = 360.0", "axis = \"x\", angle_deg = -360.0", 1),
@@ -238,7 +238,7 @@ fn turns_that_are_missing_and_values_that_are_absurd_are_named() {
     let first = "turn 1 (7.0 to 11.0 s) is given as 360.0° about y, and the gyroscope shows 360° about x";
     bench.refuses("calibrate axis.toml table/recording.csv -o out", 2, &[first]);
 
-    // what is wrong of all turns is not each turn's fault
+    // a fault of all turns is not the fault of each
     bench.write(
         "double.toml",
         table
@@ -301,7 +301,7 @@ fn turns_that_are_missing_and_values_that_are_absurd_are_named() {
     let outcome = bench.run(known("\"accelerometer.bias.x\" = 0.5")).done();
     outcome.says("warning: the recording contradicts what [known] says of accelerometer.bias.x");
 
-    // a gyroscope that shows no turn about two axes
+    // a gyroscope that senses no turn about two axes
     let dead: Vec<String> = bench
         .read("hand/recording.csv")
         .lines()
@@ -375,12 +375,13 @@ fn turns_give_the_gain_of_a_gyroscope_in_counts() {
     for axis in ["x", "y", "z"] {
         let name = format!("gyroscope.scale.{axis}");
         let ratio = value(&found, &name) / (GAIN * value(&truth, &name));
-        // the angles are met within 0.1° of 360°
+        // the angles are within 0.1° of 360°
         assert!((ratio - 1.0).abs() < 1e-3, "{name}: {ratio}");
     }
 }
 
-/// The key of the experiment file that the recording contradicts is named, not an option that was not given.
+/// The message names the key of the experiment file that the recording contradicts, not an option that was
+/// not given.
 #[test]
 fn a_unit_that_the_recording_contradicts_is_named_by_its_key() {
     let bench = Bench::new();
@@ -395,7 +396,7 @@ fn a_unit_that_the_recording_contradicts_is_named_by_its_key() {
         let says = format!("{experiment}.toml: `{key}` is deg/s, but the recording states another unit");
         bench.refuses(&command, 2, &[&says]);
     }
-    // an option is named as one; and what is wrong otherwise is said
+    // an option is named as one; other faults get their own message
     bench.refuses(
         "calibrate gyroscope.toml sim/recording.csv --gyroscope-unit deg/s -o out",
         3,

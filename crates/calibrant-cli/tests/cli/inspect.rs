@@ -1,4 +1,4 @@
-//! `calibrant inspect`.
+//! Tests of `calibrant inspect`.
 
 use crate::bench::Bench;
 use crate::data::shared_data;
@@ -177,7 +177,8 @@ fn the_pair_of_imu_tk_promises_what_a_calibration_then_finds() {
     let json = bench.json("inspection.json");
     let expected = &json["holds"]["expected"];
     assert_eq!(expected["parameters"].as_array().map(Vec::len), Some(9));
-    // the calibration's own standard deviations follow from the scatter between holds: larger, but not by orders of magnitude
+    // the calibration's own standard deviations follow from the scatter between holds: larger, but not by
+    // orders of magnitude
     bench.preset("static-poses-counts", "experiment.toml", &[]);
     bench.run("calibrate experiment.toml acc.mat -o result").done();
     let found = bench.json("result/calibration.json");

@@ -1,4 +1,4 @@
-//! Numbers that no sensor gives, in a recording of a whole IMU.
+//! Tests of invalid samples, numbers that no sensor gives, in a recording of a whole IMU.
 
 use crate::bench::Bench;
 
@@ -31,7 +31,7 @@ fn an_absurd_number_is_left_out_and_named_whatever_its_size() {
         .run("apply out/calibration.json wild.csv -o true.csv")
         .done()
         .says("gyroscope: 1 sample is far off those beside it");
-    // its own uncertainty overflows, which is not certainty
+    // its own uncertainty overflows, which does not mean certainty
     let corrected = bench.read("true.csv");
     let row: Vec<&str> = corrected.lines().nth(5000).expect("a row").split(',').collect();
     assert_eq!((row[0], &row[10..]), ("49.99", &["inf"; 3][..]), "{row:?}");

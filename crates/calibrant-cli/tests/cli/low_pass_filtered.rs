@@ -1,4 +1,4 @@
-//! Sensors behind a slow low-pass filter, whose holds fall to pieces.
+//! Tests of sensors behind a slow low-pass filter, which divides their holds.
 
 use crate::bench::Bench;
 
@@ -23,7 +23,7 @@ fn filtered(recording: &str, pole: f64) -> String {
 
 const FILTER: &str =
     "neighbouring samples are strongly correlated, as behind a low-pass filter far below the sample rate";
-/// What to do about it.
+/// The remedy.
 const HELP: &str = "give holds.intervals_s, hold longer, or record with a wider bandwidth";
 
 #[test]
@@ -52,7 +52,7 @@ fn holds_that_a_filter_breaks_up_are_told_with_what_to_do() {
             outcome.says(&format!("besides {found} holds, {} stretches look still", 24 - found));
         }
     }
-    // the holds are there: given, they calibrate the sensor
+    // the holds are there: where they are given, they calibrate the sensor
     calibrate("plain.csv").done();
     let holds = bench.json("out/calibration.json")["holds"]["table"].clone();
     let intervals: Vec<String> = holds

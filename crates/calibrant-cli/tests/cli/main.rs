@@ -1,4 +1,4 @@
-//! The program as its users meet it: commands, files, messages, exit status.
+//! Tests of the program as its users see it: commands, files, messages, exit status.
 
 mod apply;
 mod batch;

@@ -1,4 +1,4 @@
-//! `calibrant noise`.
+//! Tests of `calibrant noise`.
 
 mod both_sensors;
 
@@ -91,7 +91,7 @@ fn an_outlier_is_named_and_left_out() {
     outcome.says("was left out; with it N would be");
 }
 
-/// A recording of so many samples with something added to x in some samples.
+/// A recording of this number of samples with an addition to x in some samples.
 fn disturbed(n: u32, by: impl Fn(usize) -> f64) -> String {
     let still = recording("t_s,ax_mps2,ay_mps2,az_mps2", n, 0.1);
     let line = |(k, line): (usize, &str)| match by(k) {
@@ -106,7 +106,7 @@ fn disturbed(n: u32, by: impl Fn(usize) -> f64) -> String {
     format!("t_s,ax_mps2,ay_mps2,az_mps2\n{}\n", lines.join("\n"))
 }
 
-/// A spike divided the hold, and 5.5 of 600 s were used; with --hold N was 82 times too large.
+/// A spike divided the hold, and 5.5 of 600 s were used. With --hold N was 82 times too large.
 #[test]
 fn spikes_neither_divide_a_hold_nor_change_its_noise() {
     let bench = Bench::new();
@@ -129,7 +129,7 @@ fn spikes_neither_divide_a_hold_nor_change_its_noise() {
             outcome.says("samples are outliers");
         }
     }
-    // more than one in fifty are said to be what they are, and N is not for use
+    // more than one in fifty are reported for what they are, and N is not usable
     bench.write("many.csv", disturbed(12_000, |k| if k % 40 == 7 { 20.0 } else { 0.0 }));
     let outcome = bench.run("noise many.csv --hold 0 120 -o result").done();
     outcome.says("accelerometer x: 300 of 12000 samples are sparks");
@@ -170,7 +170,7 @@ fn noise_of_a_sensor_that_moves_is_not_for_use() {
             2,
             &["the noise of the accelerometer is not that of a sensor at rest: the sensor moves"],
         );
-        // without --hold the part that is used is said
+        // without --hold the message names the part that is used
         let outcome = bench.run(&format!("noise {name}.csv -o {name}")).done();
         assert!(
             outcome.stdout.contains("of the 120.0 s recorded, the longest of 2 holds"),
@@ -182,8 +182,8 @@ fn noise_of_a_sensor_that_moves_is_not_for_use() {
     }
 }
 
-/// Fifteen seconds at rest, thirty of a turn about the vertical at a steady rate, five at rest: the accelerometer alone sees one hold, the gyroscope's longest
-/// calm is the turn.
+/// Fifteen seconds at rest, thirty of a turn about the vertical at a steady rate, five at rest. The
+/// accelerometer alone sees one hold. The gyroscope's longest calm is the turn.
 #[test]
 fn a_turn_at_a_steady_rate_is_no_hold_of_an_imu() {
     let forces = recording("", 5000, 1.0);
@@ -204,7 +204,7 @@ fn a_turn_at_a_steady_rate_is_no_hold_of_an_imu() {
         let place = |name: &str| json["sensors"][0][name].as_u64().expect("a number");
         let (first, end) = (place("first_sample"), place("end_sample"));
         assert!(first < 50 && (1450..1520).contains(&end), "{sensor}: {first} to {end}");
-        // what is given counts, and that it moves is said, in the results too
+        // a given interval is used; a warning reports the movement, in the results too
         let outcome = bench.run(&format!("noise imu.csv --sensor {sensor} --hold 12 40 --json")).done();
         outcome.says("warning: the sensor moves in 25.");
         outcome.says("of the 28.0 s given with --hold");
@@ -260,7 +260,8 @@ fn counts_stay_counts_without_a_gain() {
         "{}",
         outcome.stdout
     );
-    // uniform numbers of 20 counts: 5.77 counts, which is what the experiment file of these counts wants with a gain, too
+    // uniform numbers of 20 counts: 5.77 counts, which the experiment file of these counts needs with a gain,
+    // too
     let line = outcome.stdout.lines().find_map(|line| line.split("in [gyroscope]: noise_counts = ").nth(1));
     let values = line.expect("a line").trim_matches(['[', ']']).split(", ");
     let values: Vec<f64> = values.map(|value| value.parse().expect("a number")).collect();
@@ -335,7 +336,7 @@ fn a_unit_that_the_file_does_not_say_is_asked_for() {
     ] {
         bench.refuses(&format!("noise {arguments} -o result"), 3, &["columns have no unit", hint, option]);
     }
-    // whatever answers, the answer is the same
+    // whatever gives the unit, the result is the same
     let n = |arguments: &str| {
         let outcome = bench.run(&format!("noise {arguments} --json")).done();
         let json: Value = serde_json::from_str(&outcome.stdout).expect("JSON");
@@ -364,7 +365,7 @@ fn a_unit_that_the_file_does_not_say_is_asked_for() {
         assert!((found / (factor * expected) - 1.0).abs() < 0.05, "{arguments}: {found}");
         assert_eq!(its, unit, "{arguments}");
     }
-    // an answer that gravity contradicts, that is none, or that contradicts another
+    // an answer that gravity contradicts, that is no unit, or that contradicts another
     let refused = [
         ("said-si.csv", 3, "said to be in m/s², but its magnitude is 0.999 most of the time: is it in g?"),
         ("g.csv --unit mps2", 3, "is it in g?"),
@@ -388,7 +389,7 @@ fn a_unit_that_the_file_does_not_say_is_asked_for() {
     });
 }
 
-/// No unit is in imu_tk's files, and these are counts: N was given as 0.37 m/s²/√Hz.
+/// No unit is in imu_tk's files, and these are counts: once N was given as 0.37 m/s²/√Hz.
 #[test]
 fn the_units_of_the_mti_are_asked_for() {
     for (sensor, name) in [("accelerometer", "xsens_acc.mat"), ("gyroscope", "xsens_gyro.mat")] {
@@ -417,20 +418,22 @@ fn the_mti_at_rest() {
         outcome.stdout
     );
     let sensor = &bench.json("result/noise.json")["sensors"][0];
-    // a line with 1.7 % of the variance of x, where its samples' filter leaves little else: N is that of longer cluster times
+    // a line with 1.7 % of the variance of x, whose samples' filter leaves little else: N is that of longer
+    // cluster times
     assert!(outcome.stderr.contains("accelerometer x: a line at 45.4 Hz has 1.7 %"), "{}", outcome.stderr);
     assert!(outcome.stdout.contains("in [sensor]: noise_counts = ") && sensor["doubt"].is_null());
     let line = &sensor["axes"][0]["vibration"];
     assert!(line["left_out"] == true && line["of_white"].as_f64().expect("known") < 0.01, "{line}");
     for axis in sensor["axes"].as_array().expect("axes") {
         let n = axis["random_walk"]["value"].as_f64().expect("determined");
-        // its samples are filtered: 8 to 9.5e-4 where the filter is taken for the end of the white noise
+        // its samples are filtered: 8 to 9.5e-4 if the filter passes for the end of the white noise
         assert!((8e-4..1.05e-3).contains(&n), "{n} m/s²/√Hz");
         assert_eq!(axis["bias_instability"]["determined"], false);
     }
 }
 
-/// Kalibr's number is the white noise of one sample over the root of the rate, in SI whatever the readings are.
+/// Kalibr's number is the white noise of one sample over the root of the rate, in SI whatever the unit of the
+/// readings.
 #[test]
 fn what_was_measured_goes_into_an_imu_yaml() {
     let bench = Bench::new();

@@ -1,4 +1,4 @@
-//! A recording that was not made here: the static one that comes with imu_tk.
+//! Tests of a real recording: the static one that comes with imu_tk.
 
 use crate::bench::{Bench, names};
 use crate::data::shared_data;
@@ -15,7 +15,7 @@ fn the_recording_of_imu_tk_is_calibrated_from_its_38_holds() {
     assert_eq!(calibration["holds"]["table"].as_array().map(Vec::len), Some(38));
     assert_eq!(calibration["input"]["samples"], 51_175);
     assert_eq!(calibration["status"], "converged");
-    // imu_tk of 2016 on the same file; it takes a fixed number of samples of each hold, hence not the same digits
+    // imu_tk of 2016 on the same file; it takes a fixed number of samples of each hold, so the digits differ
     let expected = [33124.18, 33275.18, 32364.42];
     assert_eq!(names(&calibration["parameters"])[..3], ["bias.x", "bias.y", "bias.z"]);
     for (k, bias) in expected.iter().enumerate() {

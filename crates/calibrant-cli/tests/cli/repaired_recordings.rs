@@ -1,8 +1,8 @@
-//! Recordings with small faults: used, and every repair is told with its line.
+//! Tests of recordings with small faults: they are used, and a finding names every repair and its line.
 
 use crate::bench::Bench;
 
-/// The first line that was changed (from 1), and the new text, of a recording.
+/// A change of a recording: the first line that was changed (from 1), and the new text.
 type Edit = fn(&mut Vec<String>);
 
 const CASES: &[(&str, Edit, &str)] = &[

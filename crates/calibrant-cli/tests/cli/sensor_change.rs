@@ -1,4 +1,4 @@
-//! A sensor that changes within a recording: what every output says of it.
+//! Tests of a sensor that changes within a recording: every output reports it.
 
 use crate::bench::Bench;
 

@@ -1,4 +1,4 @@
-//! Several recordings of one simulated sensor.
+//! Tests of several recordings of one simulated sensor.
 
 use crate::bench::Bench;
 
@@ -54,7 +54,7 @@ fn recordings_of_one_seed_are_of_one_sensor() {
     assert!(outcome.stdout.contains("seed 1, recording 2: said/recording.csv"), "{outcome:?}");
 }
 
-/// What is commanded stays as it is where it is given.
+/// A given motion does not change.
 #[test]
 fn a_given_motion_is_recorded_again() {
     let bench = Bench::new();
@@ -67,7 +67,8 @@ fn a_given_motion_is_recorded_again() {
     }
 }
 
-/// The readings of a hold about their mean, all axes of all sensors, hold by hold, one of `hold` samples in each `period`.
+/// The readings of a hold about their mean: all axes of all sensors, hold by hold, `hold` samples in each
+/// `period`.
 fn noise(bench: &Bench, file: &str, holds: usize, period: usize, hold: usize) -> Vec<f64> {
     let text = bench.read(file);
     let rows: Vec<Vec<f64>> = text
@@ -119,7 +120,7 @@ fn recordings_of_one_seed_have_independent_noise() {
     }
 }
 
-/// Two commands and a third.
+/// Two commands and a third one.
 #[test]
 fn a_validation_is_rehearsed_with_the_second_recording_of_the_sensor() {
     let bench = Bench::new();
@@ -141,7 +142,8 @@ fn a_validation_is_rehearsed_with_the_second_recording_of_the_sensor() {
             for kind in kinds {
                 let errors = &json["validation"]["recording"][kind];
                 let verdict = errors["verdict"].as_str().expect("a verdict");
-                // three turns and six faces are few: not every seed can tell, and 1 of 200 says larger than needed
+                // three turns and six faces are few: not every seed is conclusive, and 1 of 200 finds a
+                // covariance larger than needed
                 let honest =
                     if experiment == "table" { verdict != "too_small" } else { verdict == "believed" };
                 assert!(honest, "{experiment}, seed {seed}, {kind}: {errors}");
@@ -150,7 +152,7 @@ fn a_validation_is_rehearsed_with_the_second_recording_of_the_sensor() {
     }
 }
 
-/// Numbers of the first samples, which are of a hold, from one of the columns on: the mean of each.
+/// The mean of the first samples, which belong to a hold, in each column.
 fn means(bench: &Bench, file: &str) -> Vec<(String, f64)> {
     let text = bench.read(file);
     let header = text.lines().next().expect("a header").split(',');
@@ -190,7 +192,7 @@ fn a_result_is_compared_with_the_truth_which_is_a_calibration_as_any_other() {
         let (truth, result) = (bench.json("one/truth.json"), bench.json("result/calibration.json"));
         let mut biases = 0;
         for row in found["quantities"].as_array().expect("a table") {
-            // biases are the same in any frame; one accelerometer's have no sensor in their names
+            // biases are the same in any frame; a single accelerometer's names have no sensor
             let name = row["name"].as_str().expect("a name");
             let of = |file: &serde_json::Value| {
                 let list = file["parameters"].as_array().expect("a list").clone();
@@ -209,7 +211,7 @@ fn a_result_is_compared_with_the_truth_which_is_a_calibration_as_any_other() {
         let expected = [("poses", 3), ("symmetric-poses", 3), ("fixed", 5)];
         let expected = expected.iter().find(|(of, _)| *of == experiment).map_or(6, |(_, biases)| *biases);
         assert_eq!(biases, expected, "{experiment}: {found}");
-        // nothing of it is lost in another file, and it corrects the recording
+        // another format keeps all of it, and it corrects the recording
         bench.run("convert one/truth.json other.json").done();
         let same = compare("one/truth.json", "other.json");
         for row in same["quantities"].as_array().expect("a table") {
@@ -230,7 +232,7 @@ fn a_result_is_compared_with_the_truth_which_is_a_calibration_as_any_other() {
     let outcome = bench.run("compare one/truth.json result/calibration.json").done();
     outcome.says("one/truth.json: the truth of a simulation, seed 7: its values are exact");
     outcome.says("A has no covariance: its values count as exact");
-    // what a truth is not
+    // broken truth files
     bench.preset("report", "line.toml", &[("axes = 3", "axes = 1")]);
     bench.run("simulate line.toml -o line").done();
     bench.refuses(

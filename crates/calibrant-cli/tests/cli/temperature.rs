@@ -1,4 +1,4 @@
-//! An IMU that follows temperature, from its recording to corrected readings and other formats.
+//! Tests of an IMU that follows temperature, from its recording to corrected readings and other formats.
 
 use crate::bench::Bench;
 use calibrant::sensor::{ImuParameters, ImuRecording};
@@ -71,7 +71,7 @@ fn the_temperature_goes_from_the_recording_to_the_corrected_readings() {
     let times = &recording.accelerometer.as_ref().expect("there").times_s;
     let celsius = recording.temperature_c.as_ref().expect("simulated");
     assert_eq!(warm.len(), times.len());
-    // without the temperature, and with one for all
+    // without the temperature, and with one for all samples
     bench.refuses(
         "apply out/calibration.json cold.csv -o x.csv",
         3,
@@ -109,7 +109,7 @@ fn header_place(bench: &Bench, name: &str, column: &str) -> usize {
     header.split(',').position(|word| word == column).expect(column)
 }
 
-/// What a simulation of the experiment was made with is what a calibration of it finds.
+/// A calibration finds the parameters of the simulated recording.
 #[test]
 fn what_is_simulated_over_temperature_is_found_again() {
     let orders = [
@@ -201,7 +201,7 @@ fn kelvin_are_asked_about_and_a_long_time_without_temperature_is_a_warning() {
     let outcome = bench.run("calibrate imu.toml half.csv -o out").done();
     outcome.says("warning: half.csv: the temperature is missing in ");
     outcome.says("kept constant before the first and after the last");
-    // a slow thermometer is none
+    // a thermometer with so few values counts as missing
     rewrite("slow.csv", &|k, celsius| if k % 100 == 1 { celsius.to_string() } else { String::new() });
     let outcome = bench.run("calibrate imu.toml slow.csv -o out").done();
     outcome.says("note: slow.csv: the temperature is missing in ");
@@ -216,7 +216,7 @@ fn kelvin_are_asked_about_and_a_long_time_without_temperature_is_a_warning() {
     }
 }
 
-/// A recording beyond the temperatures of the calibration is named, believed or not.
+/// A recording beyond the temperatures of the calibration is named, whatever the verdict.
 #[test]
 fn a_validation_beyond_the_calibrations_temperatures_is_said() {
     let (bench, _) = bench();

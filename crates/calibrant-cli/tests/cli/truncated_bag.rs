@@ -1,8 +1,9 @@
-//! A bag without its end: read, and every command says what is missing.
+//! Tests of a bag without its end: it is read, and every command names the missing part.
 
 use crate::bench::Bench;
 
-/// A ROS 2 bag of the rows of a `recording.csv`, written from the specifications of MCAP and CDR: a schema, a channel and messages, no chunks and no index.
+/// A ROS 2 bag of the rows of a `recording.csv`, written from the specifications of MCAP and CDR. It has a
+/// schema, a channel and messages, no chunks and no index.
 fn bag(recording: &str) -> Vec<u8> {
     fn text(bytes: &mut Vec<u8>, text: &str) {
         bytes.extend((text.len() as u32).to_le_bytes());

@@ -1,8 +1,8 @@
-//! What the data cannot determine is named: exit status 4, and nothing is written.
+//! Tests of undetermined parameters: the program names them, exits with status 4, and writes nothing.
 
 use crate::bench::Bench;
 
-/// A motion that leaves one axis as it is: the column of a `motion.csv` at this value throughout.
+/// A motion that leaves one axis at rest: the column of a `motion.csv` has this value throughout.
 fn with_column(motion: &str, column: usize, value: impl Fn(usize) -> Option<&'static str>) -> String {
     let rows = motion.lines().enumerate().map(|(row, line)| {
         let mut fields: Vec<&str> = line.split(',').collect();

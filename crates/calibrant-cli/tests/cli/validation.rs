@@ -1,4 +1,4 @@
-//! Calibrations on data that were not used for them.
+//! Tests of validation: calibrations on data that they did not use.
 
 use crate::bench::Bench;
 use crate::data::shared_data;
@@ -84,11 +84,11 @@ fn an_accelerometer_is_validated_by_folds_and_on_another_recording() {
     }
 }
 
-/// One hold tells hardly anything, and a factor of hundreds something else than the size of the covariance.
+/// One hold is not conclusive, and a factor of hundreds shows something else than the size of the covariance.
 #[test]
 fn one_hold_is_too_few_to_tell_and_another_sensor_is_asked_about() {
     let bench = poses();
-    // calibrated from the second half, tried on the first
+    // calibrated from the second half, validated on the first
     let text = bench.read("recording.csv");
     let (header, rows) = text.split_once('\n').expect("a header");
     let rows: Vec<[f64; 4]> = rows
@@ -253,11 +253,11 @@ fn the_imu_of_imu_tk_is_validated_by_folds_and_its_file_is_still_read() {
     bench.run("convert result/calibration.json imu.h").done();
 }
 
-/// Two sessions of one sensor on a turntable: the seed draws the sensor, the rate the noise.
+/// Two sessions of one sensor on a turntable: the seed draws the sensor, the rate changes the noise.
 #[test]
 fn a_calibration_from_faces_and_turns_is_validated_on_another_session() {
     let bench = Bench::new();
-    // on an Earth that does not turn: six holds are too few to tell how its rate about the north scatters
+    // on an Earth that does not turn: six holds are too few to show how its rate about the north scatters
     let placed = ("latitude_deg = 52.0\nheight_m = 30.0", "gravity_mps2 = 9.8127");
     let table = include_str!("../../../../examples/06_whole_imu/table.toml").replacen(placed.0, placed.1, 1);
     assert!(table.contains(placed.1));
@@ -280,7 +280,7 @@ fn a_calibration_from_faces_and_turns_is_validated_on_another_session() {
         assert!(errors["counted"].as_u64().is_some_and(|counted| counted > 3), "{errors}");
     }
     assert!(bench.read("result/report.html").contains("On recording.csv"));
-    // a face that is left out tells of the placing
+    // a face that is not used shows the face alignment
     bench.refuses(
         "calibrate table.toml one/recording.csv --folds 3 -o folds",
         2,
@@ -339,7 +339,8 @@ fn another_recordings_noise_is_said_and_its_gyroscope_is_no_copy() {
     ] {
         bench.refuses(&format!("{calibrate} --validate {name}"), 2, &[says, "--folds 5"]);
     }
-    // the same sensor, its gyroscope five times as noisy: the seed draws the sensor, the rate the noise
+    // the same sensor, its gyroscope five times as noisy: the seed draws the sensor, the rate changes the
+    // noise
     let changes =
         [("# noise_radps = 2e-3 ", "noise_radps = 1e-2 "), ("gauge = ", "rate_hz = 80.0\ngauge = ")];
     bench.preset("imu", "noisy.toml", &changes);

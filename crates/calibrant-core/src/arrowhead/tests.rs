@@ -1,8 +1,9 @@
-//! The kernel against the dense solution.
+//! Tests of the arrowhead kernel against the dense solution.
 
 use super::*;
 use nalgebra::{DMatrix, DVector, Matrix2, Matrix3, Vector2};
 
+/// Number of intervals of the test chain.
 const N: usize = 6;
 
 /// Jacobians with respect to first node, last node and border, and residuals.

@@ -1,12 +1,15 @@
-//! The sensor model on a chain of node accelerations, one reading or three.
+//! The sensor model on a chain of node accelerations, for one reading or three: its products in the normal
+//! equations. The estimation and the information share it.
 //!
-//! `y = S a + b` is linear in the parameters for given `a`. Sorted by reading, `p = (b_1, S_11 … S_1D, b_2, S_21 …)`, its sensitivity is block diagonal:
-//! reading r depends on its own D + 1 parameters only, through `ã = (1, a)`. So P = D (D + 1): 2 for one axis, 12 for three, and everything
-//! that normal equations need of the parameters is an outer product of `ã`.
+//! `y = S a + b` is linear in the parameters for given `a`. Sorted by reading,
+//! `p = (b_1, S_11 … S_1D, b_2, S_21 …)`, its sensitivity is block diagonal. Reading r depends on its own D +
+//! 1 parameters only, through `ã = (1, a)`. So P = D (D + 1): 2 for one axis, 12 for three. All terms of the
+//! normal equations in the parameters are outer products of `ã`.
 
 use nalgebra::{SMatrix, SVector};
 
-/// Places in the parameter list of the full chain's parameters, which are sorted by reading: bias, then row of `S`.
+/// Places in the parameter list of the full chain's parameters. They are sorted by reading: bias, then row of
+/// `S`.
 pub(crate) const FULL_SLOTS: [usize; 12] = [0, 3, 6, 7, 1, 8, 4, 9, 2, 10, 11, 5];
 
 /// Entry k of `ã = (1, a)`.
@@ -98,13 +101,14 @@ pub(crate) fn gradient<const D: usize, const P: usize>(
     gradient
 }
 
-/// A node of the chain as a fit leaves it: its acceleration and the covariance of that with the parameters.
+/// A node of the chain after a fit: its acceleration, and the covariance of that with the parameters.
 pub(crate) struct FittedNode<const D: usize, const P: usize> {
     pub(crate) a: SVector<f64, D>,
     pub(crate) with_parameters: SMatrix<f64, D, P>,
 }
 
-/// Covariance of the fitted readings at two nodes, reading by reading, from the covariance of the nodes (`one` with `other`) and of the parameters.
+/// Covariance of the fitted readings at two nodes, reading by reading. It follows from the covariance of the
+/// nodes (`one` with `other`) and of the parameters.
 pub(crate) fn reading_covariance<const D: usize, const P: usize>(
     s: &SMatrix<f64, D, D>,
     nodes: &SMatrix<f64, D, D>,
@@ -147,7 +151,7 @@ mod tests {
         P::from_fn(|i, _| (i as f64 + 1.0).sin())
     }
 
-    /// G(a) by differences; the model is linear, so they are exact to rounding.
+    /// G(a) by differences. The model is linear, so they are exact to rounding.
     fn sensitivity(a: &Vector3<f64>) -> SMatrix<f64, 3, 12> {
         let p = parameters();
         SMatrix::from_fn(|row, k| {

@@ -1,4 +1,4 @@
-//! Covariance: the inverse of the information.
+//! The covariance of parameters: the inverse of their information.
 
 use nalgebra::DMatrix;
 
@@ -7,10 +7,12 @@ use nalgebra::DMatrix;
 /// # Shapes and units
 /// p × p; entry (i, j) of `F` in 1/(unit of θᵢ · unit of θⱼ), of `C` in unit of θᵢ · unit of θⱼ.
 ///
-/// Returns `None` where `F` is not positive definite: ask [`undetermined`](super::undetermined) which parameters are at fault.
+/// Returns `None` where `F` is not positive definite: then [`undetermined`](super::undetermined) names the
+/// parameters at fault.
 ///
 /// # Numerics
-/// Cholesky of `F` scaled to unit diagonal, so that the units of the parameters do not matter.
+/// It takes the Cholesky factor of `F` scaled to unit diagonal, so that the units of the parameters do not
+/// matter.
 ///
 /// # Examples
 /// ```

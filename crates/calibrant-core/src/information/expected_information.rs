@@ -1,7 +1,9 @@
-//! The information on all parameters, put together from the axes that are seen together.
+//! The expected information on all parameters: it assembles the blocks of the axes that are estimated
+//! together.
 //!
-//! The axes of a scale-bias sensor share no parameter, so its information is block diagonal, one block for each; a full sensor is one block. What a block
-//! is, and how it changes with the motion: [`PartInformation`].
+//! The axes of a scale-bias sensor share no parameter, so its information is block diagonal, one block for
+//! each axis. A full sensor is one block. [`PartInformation`] computes a block and its change with the
+//! motion.
 
 use super::chain_model::FULL_SLOTS;
 use super::motion_information::PartInformation;
@@ -10,7 +12,7 @@ use crate::motion::{IntervalSums, JerkControlledMotion, KnownEnds, Trust};
 use crate::sensor::{Sensor, SensorModel, SensorParameters};
 use nalgebra::{DMatrix, SMatrix, SVector, Vector3};
 
-/// The setting of an experiment, but for its motion.
+/// The conditions of an experiment, without its motion.
 #[derive(Debug, Clone)]
 pub struct MotionInformation {
     /// Number of axes, 1 or 3.
@@ -23,14 +25,14 @@ pub struct MotionInformation {
     pub noise: Vector3<f64>,
     /// How far the motion will be trusted.
     pub trust: Trust,
-    /// Which ends of it are known.
+    /// Which ends of the motion are known.
     pub known_ends: KnownEnds,
     /// Sample rate, Hz.
     pub rate_hz: f64,
 }
 
 impl MotionInformation {
-    /// The setting of a recording of `sensor`, taken at the parameters `at`.
+    /// The conditions of a recording of `sensor`, with the information taken at the parameters `at`.
     ///
     /// # Errors
     /// [`Error::Experiment`] where the noise of a sample is not known, or trust is `unknown` without both ends.
@@ -140,7 +142,7 @@ impl MotionInformation {
     }
 }
 
-/// A block-diagonal matrix out of blocks and their places.
+/// A block-diagonal matrix from blocks and their places.
 fn place<const P: usize>(blocks: &[SMatrix<f64, P, P>], slots: &[Vec<usize>]) -> DMatrix<f64> {
     let size = blocks.len() * P;
     let mut whole = DMatrix::zeros(size, size);

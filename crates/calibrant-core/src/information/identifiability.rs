@@ -1,8 +1,8 @@
-//! Which combinations of parameters carry no information.
+//! Identifiability: which combinations of parameters carry no information.
 
 use nalgebra::{DMatrix, DVector};
 
-/// Parameters that are tangled in combinations on which there is no information.
+/// Parameters that are involved in combinations on which there is no information.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Undetermined {
     /// Positions of the parameters involved, ascending.
@@ -11,24 +11,25 @@ pub struct Undetermined {
     pub free_combinations: usize,
 }
 
-/// Relative size of an eigenvalue that counts as zero: rounding of the elimination, with a margin.
+/// Relative size of an eigenvalue that counts as zero: the rounding error of the elimination, with a margin.
 const RANK_TOLERANCE: f64 = 5e-15;
-/// A smallest eigenvalue above this is beyond doubt.
+/// A smallest eigenvalue above this is certainly not zero.
 const SAFE: f64 = 1e-9;
 /// Share of a null direction above which a parameter counts as involved.
 const INVOLVED: f64 = 1e-6;
 
 /// Groups of parameters that the information `F` leaves undetermined; empty where `F` has full rank.
 ///
-/// The null space of `F`, scaled by `reference`, is split into groups that share no parameter: with projector `Π` on it,
-/// parameter i is involved where `Π_ii > 0`, and i, j belong together where `Π_ij ≠ 0`.
+/// The null space of `F`, scaled by `reference`, is split into groups that share no parameter. With the
+/// projector `Π` on it, parameter i is involved where `Π_ii > 0`. Parameters i and j belong together where
+/// `Π_ij ≠ 0`.
 ///
 /// # Shapes and units
-/// `information`: p × p. `reference`: the diagonal of the information before anything was marginalised (the scale of its rounding
-/// errors), same units as the diagonal of `information`.
+/// `information`: p × p. `reference`: the diagonal of the information before anything was marginalised, in
+/// the same units. It is the scale of the rounding errors.
 ///
 /// # Examples
-/// An axis that stands still at 2 m/s²: bias and scale factor cannot be told apart.
+/// An axis that stands still at 2 m/s²: only one combination of bias and scale factor is determined.
 /// ```
 /// use calibrant::information::undetermined;
 /// use nalgebra::DMatrix;

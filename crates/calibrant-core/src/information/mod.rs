@@ -1,4 +1,5 @@
-//! Fisher information and covariance of the parameters, the criteria of optimality, and what the data leave undetermined.
+//! Fisher information and covariance of the parameters, criteria of optimality, and undetermined parameters.
+//! It uses the sensor, the motion and the arrowhead.
 
 pub(crate) mod chain_model;
 mod covariance;

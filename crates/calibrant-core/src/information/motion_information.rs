@@ -1,21 +1,24 @@
-//! What a recording of a motion will tell of the parameters, and how that changes with the motion.
+//! The information that a recording of a motion will give on the parameters, and its derivative with respect
+//! to the motion.
 //!
-//! With the residuals zero, as they are on average, the normal equations of the estimation problem give the Fisher information of the parameters, the
-//! motion marginalised: with `G(a)` the sensitivity of the readings to the parameters, `A` the response of the estimated motion to a change of
-//! the parameters, `R = G + S A` what of it the readings still show, and `W_i = A_{i+1} − A_i`,
+//! The residuals are zero on average. The normal equations of the estimation problem then give the Fisher
+//! information of the parameters, with the motion marginalised. `G(a)` is the sensitivity of the readings to
+//! the parameters. `A` is the response of the estimated motion to a change of the parameters. `R = G + S A`
+//! is what remains of that change in the readings. With `W_i = A_{i+1} − A_i`,
 //!
 //! `F = min over A:  Σ_k R_kᵀ Σ_ν⁻¹ R_k + Σ_i W_iᵀ Q_i⁻¹ W_i`
 //!
-//! (a minimum of matrices: `A` minimises in every direction at once). For trust `known` `A = 0`; for `noisy`, `Q_i = diag(σ_u(u_i)² Δτ_i²)`;
-//! for `unknown`, `Q_i = ∞` and the ends are fixed.
+//! (a minimum of matrices: `A` minimises in every direction at once). For trust `known`, `A = 0`. For
+//! `noisy`, `Q_i = diag(σ_u(u_i)² Δτ_i²)`. For `unknown`, `Q_i = ∞` and the ends are fixed.
 //!
 //! # Derivative
-//! `A` minimises, so it may be held (envelope theorem): for a symmetric `Ω`,
+//! `A` minimises, so the derivative may keep it constant (envelope theorem). For a symmetric `Ω`,
 //!
 //! `d⟨Ω, F⟩ = 2 Σ_k ⟨Σ_ν⁻¹ R_k Ω, dG_k⟩ − Σ_i ⟨ψ_i Ω ψ_iᵀ, dQ_i⟩`, `ψ_i = Q_i⁻¹ W_i`
 //!
-//! The costate `ψ` is the force of the readings after interval i on its increment, found without dividing by `Q`. `F` is matrix convex in the
-//! motion for given `Q` (quadratic over linear) and falls with `Q`: linearising it gives a lower bound, which is what the design's solver lives on.
+//! The costate `ψ` is the force of the readings after interval i on its increment, found without dividing by
+//! `Q`. `F` is matrix convex in the motion for given `Q` (quadratic over linear) and falls with `Q`. So its
+//! linearisation gives a lower bound, on which the solver of the design is built.
 //!
 //! # Cost
 //! `O(N)` for the factorisation, and again for each derivative.
@@ -26,7 +29,8 @@ use crate::error::{Error, Result, UndeterminedGroup};
 use crate::motion::{IntervalSums, JerkControlledMotion, KnownEnds, Trust};
 use nalgebra::{DMatrix, SMatrix, SVector, Vector3};
 
-/// The setting of axes that are seen together: one axis (P = 2), or all three of a full sensor (P = 12, sorted by reading).
+/// The conditions of axes that are estimated together: one axis (P = 2), or all three of a full sensor (P =
+/// 12, sorted by reading).
 #[derive(Debug, Clone)]
 pub struct PartInformation<const D: usize, const P: usize> {
     /// The axes.
@@ -43,12 +47,12 @@ pub struct PartInformation<const D: usize, const P: usize> {
     pub(super) known_ends: KnownEnds,
 }
 
-/// The information at a motion, with what its derivative needs.
+/// The information at a motion, and the terms that its derivative needs.
 #[derive(Debug, Clone)]
 pub struct Linearised<const D: usize, const P: usize> {
     /// Information `F`.
     pub information: SMatrix<f64, P, P>,
-    /// What the readings at each node show of the parameters, `R`.
+    /// The remaining sensitivity `R` of the readings at each node to the parameters.
     residual: Vec<SMatrix<f64, D, P>>,
     /// Costate `ψ` of each interval; empty unless the motion is noisy.
     costate: Vec<SMatrix<f64, D, P>>,
@@ -57,7 +61,7 @@ pub struct Linearised<const D: usize, const P: usize> {
 /// Derivative of `⟨Ω, F⟩`.
 #[derive(Debug, Clone)]
 pub struct InformationDerivative<const D: usize> {
-    /// With respect to the nodes' accelerations, the variances of the increments held.
+    /// With respect to the nodes' accelerations, at constant variances of the increments.
     pub nodes: Vec<SVector<f64, D>>,
     /// With respect to the variances of the increments; zero unless the motion is noisy. Never positive for `Ω ⪰ 0`.
     pub variances: Vec<SVector<f64, D>>,
@@ -76,7 +80,7 @@ impl<const D: usize, const P: usize> PartInformation<D, P> {
         self.tau[i + 1] - self.tau[i]
     }
 
-    /// Does a motion tell the same here as there?
+    /// Does a motion give the same information under both conditions?
     #[must_use]
     pub fn is_like(&self, other: &Self) -> bool {
         (&self.tau, &self.sums, &self.weight, &self.s) == (&other.tau, &other.sums, &other.weight, &other.s)
@@ -177,7 +181,8 @@ impl<const D: usize, const P: usize> PartInformation<D, P> {
         Some(Linearised { information: system.information, residual, costate })
     }
 
-    /// The force of the readings at and after each interval's end on its increment, less what holds a known end.
+    /// The force of the readings at and after each interval's end on its increment, less the force that fixes
+    /// a known end.
     fn costate(
         &self,
         residual: &[SMatrix<f64, D, P>],
@@ -192,7 +197,7 @@ impl<const D: usize, const P: usize> PartInformation<D, P> {
             force -= sw * (residual[i] * (m.m00 + m.m01) + residual[i + 1] * (m.m01 + m.m11));
         }
         if self.known_ends == KnownEnds::Both {
-            // Σ W = 0: the force that holds the end makes Σ Q ψ vanish
+            // Σ W = 0: the force that fixes the end makes Σ Q ψ vanish
             for k in 0..D {
                 let total: f64 = increments.iter().map(|increment| increment.variance[k]).sum();
                 if total > 0.0 {
@@ -215,7 +220,7 @@ impl<const D: usize, const P: usize> PartInformation<D, P> {
     pub fn derivative(&self, at: &Linearised<D, P>, omega: &SMatrix<f64, P, P>) -> InformationDerivative<D> {
         let mut nodes = vec![SVector::zeros(); at.residual.len()];
         let felt: Vec<SMatrix<f64, D, P>> = at.residual.iter().map(|r| r * omega).collect();
-        // reading r shows acceleration k through its parameter S_rk
+        // reading r depends on acceleration k through its parameter S_rk
         let pull = |felt: &SMatrix<f64, D, P>| {
             SVector::<f64, D>::from_fn(|k, _| {
                 (0..D).map(|r| 2.0 * self.weight[r] * felt[(r, r * (D + 1) + 1 + k)]).sum()
@@ -234,7 +239,8 @@ impl<const D: usize, const P: usize> PartInformation<D, P> {
         InformationDerivative { nodes, variances }
     }
 
-    /// The same with respect to the nodes alone, the variances following the jerk: `q = (floor + ratio |u|)² Δτ²`.
+    /// The same with respect to the nodes alone. The variances follow the jerk:
+    /// `q = (floor + ratio |u|)² Δτ²`.
     #[must_use]
     pub fn total(
         &self,
@@ -256,7 +262,7 @@ impl<const D: usize, const P: usize> PartInformation<D, P> {
         total
     }
 
-    /// What is known of each increment beforehand.
+    /// The prior on each increment.
     fn increments(&self, a: &[SVector<f64, D>]) -> Vec<Increment<D>> {
         let rounding = 64.0 * f64::EPSILON * a.iter().map(SVector::amax).fold(0.0, f64::max);
         let mut increments: Vec<_> = (0..self.intervals())
@@ -274,7 +280,7 @@ impl<const D: usize, const P: usize> PartInformation<D, P> {
             })
             .collect();
         if self.known_ends == KnownEnds::Both && self.trust != Trust::Known {
-            // where the last increments are known exactly, so are the nodes before them
+            // where the last increments are known exactly, the nodes before them are known, too
             for k in 0..D {
                 for increment in increments.iter_mut().rev() {
                     increment.fixed[k] = true;
@@ -288,7 +294,7 @@ impl<const D: usize, const P: usize> PartInformation<D, P> {
     }
 }
 
-/// `G(a)`: reading r shows `(1, a)` through its own parameters.
+/// `G(a)`: reading r depends on `(1, a)` through its own parameters.
 fn sensitivity<const D: usize, const P: usize>(a: &SVector<f64, D>) -> SMatrix<f64, D, P> {
     let mut g = SMatrix::zeros();
     for row in 0..D {

@@ -1,22 +1,22 @@
-//! Why a motion does not tell parameters apart, in the user's words.
+//! The explanation of why a motion does not determine some parameters, in the user's words.
 
 use super::Undetermined;
 use crate::error::UndeterminedGroup;
 use crate::sensor::{Axis, ParameterList, Quantity, SensorModel};
 use nalgebra::Vector3;
 
-/// What was looked at when the information was found wanting.
+/// The part of the motion that was examined when the information was found too small.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum View {
     /// The motion as commanded.
     Command,
     /// Its two ends alone.
     Ends,
-    /// The motion with its process noise; as commanded, it would do.
+    /// The motion with its process noise. Without that noise the commanded motion would suffice.
     Noise,
 }
 
-/// What the reasons are found in.
+/// The facts about a motion in which the reasons are sought.
 #[derive(Debug, Clone, Copy)]
 pub struct MotionFacts<'a> {
     /// The sensor's model.
@@ -25,11 +25,12 @@ pub struct MotionFacts<'a> {
     pub nodes: &'a [Vector3<f64>],
     /// Number of samples within the motion.
     pub samples: usize,
-    /// What of the motion was looked at.
+    /// The part of the motion that was examined.
     pub view: View,
 }
 
-/// Says why these groups of parameters cannot be told apart. `slots` are the places of their parameters in the list.
+/// Explains why the data cannot separate the parameters of each of these groups. `slots` are the places of
+/// their parameters in the list.
 #[must_use]
 pub fn explain(
     list: &ParameterList,
@@ -125,12 +126,12 @@ fn reason(facts: MotionFacts<'_>, quantities: &[Quantity]) -> (String, String) {
     }
 }
 
-/// A number to four decimals, without zeros behind.
+/// A number to four decimals, without trailing zeros.
 fn short(value: f64) -> f64 {
     (value * 1e4).round() / 1e4
 }
 
-/// `x, y and z`
+/// The axes as words: `x, y and z`.
 fn words(axes: &[Axis]) -> String {
     match axes.split_last() {
         Some((last, [])) => last.to_string(),

@@ -1,16 +1,17 @@
-//! How far a commanded motion is trusted.
+//! The commanded motion and how far it is trusted (`[motion] trust`). Plain data: no estimation here.
 
 use super::JerkControlledMotion;
 use nalgebra::Vector3;
 
-/// How far the commanded motion is trusted: the report's problems (5), (6) and (3) are one problem with three answers to this.
+/// How far the commanded motion is trusted. The report's problems (5), (6) and (3) are one problem with three
+/// answers to this question.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Trust {
     /// The arm did exactly what was commanded: linear least squares, the report's (5).
     Known,
     /// Commanded plus process noise on the jerk, the report's (6).
     Noisy(InputNoise),
-    /// Nothing is known but the acceleration at both ends, the report's (3).
+    /// Only the acceleration at both ends is known, the report's (3).
     Unknown,
 }
 
@@ -55,10 +56,10 @@ pub enum KnownEnds {
 /// A motion as it was commanded, and how far it is trusted.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CommandedMotion {
-    /// What was commanded; trust `unknown` uses only its first and last node.
+    /// What was commanded. Trust `unknown` uses only its first and last node.
     pub motion: JerkControlledMotion,
     /// How far it is trusted.
     pub trust: Trust,
-    /// Which ends are known; trust `unknown` needs both, trust `known` needs no answer.
+    /// Which ends are known. Trust `unknown` needs both, trust `known` needs no answer.
     pub known_ends: KnownEnds,
 }

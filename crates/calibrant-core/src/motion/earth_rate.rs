@@ -1,11 +1,12 @@
-//! The rate at which the Earth turns.
+//! Earth's rate, and its components at a latitude.
 
 use nalgebra::Vector3;
 
-/// Angular rate of the Earth, rad/s (`nga2014`).
+/// Earth's rate, rad/s (`nga2014`).
 pub const EARTH_RATE_RADPS: f64 = 7.292_115e-5;
 
-/// The Earth's angular rate at a geographic latitude, `Ω (cos φ, 0, sin φ)` with x to the north and z up, rad/s. South of the equator the latitude is negative, and so is the rate about the vertical.
+/// Earth's rate at a geographic latitude, `Ω (cos φ, 0, sin φ)` with x to the north and z up, rad/s. South of
+/// the equator the latitude is negative, and so is the rate about the vertical.
 ///
 /// # Examples
 /// ```

@@ -1,4 +1,4 @@
-//! The magnitude of gravity, with its uncertainty.
+//! The magnitude of gravity and its uncertainty: stated, or from latitude and height.
 
 /// Gravity where a static calibration was recorded.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -9,12 +9,12 @@ pub struct Gravity {
     pub sd_mps2: f64,
 }
 
-/// On the surface of the Earth: from the Andes to the Arctic Ocean, m/s².
+/// Gravity on the surface of the Earth: from the Andes to the Arctic Ocean, m/s².
 const ON_EARTH: std::ops::RangeInclusive<f64> = 9.76..=9.84;
 
 impl Gravity {
-    /// Standard uncertainty of [`from_latitude`](Self::from_latitude), m/s²: the root mean square of gravity anomalies over land,
-    /// about 35 mGal.
+    /// Standard uncertainty of [`from_latitude`](Self::from_latitude), m/s². It is the root mean square of
+    /// gravity anomalies over land, about 35 mGal.
     pub const ANOMALY_SD_MPS2: f64 = 3.5e-4;
 
     /// Normal gravity of the WGS 84 ellipsoid by Somigliana's formula, with the free-air correction to second order in height.
@@ -22,7 +22,8 @@ impl Gravity {
     /// `γ(φ) = γ_e (1 + k sin²φ)/√(1 − e² sin²φ)`, `γ(φ, h) = γ(φ) [1 − 2 (1 + f + m − 2 f sin²φ) h/a + 3 h²/a²]`.
     ///
     /// # Shapes and units
-    /// Geodetic latitude in degrees, height above the ellipsoid (in practice: above the sea) in m.
+    /// The latitude is geodetic, in degrees. The height is above the ellipsoid (in practice: above the sea),
+    /// in m.
     ///
     /// # References
     /// `nga2014`
@@ -48,7 +49,8 @@ impl Gravity {
         Self { magnitude_mps2, sd_mps2: Self::ANOMALY_SD_MPS2 }
     }
 
-    /// What is to be said of a gravity that the Earth has nowhere. No recording contradicts it, since all gains are off by the same share.
+    /// The finding about a gravity that the Earth has nowhere. No recording contradicts it, since all gains
+    /// are off by the same share.
     pub(crate) fn elsewhere(&self) -> Option<String> {
         let words = || {
             format!(

@@ -1,8 +1,8 @@
-//! A hold: the sensor kept still in one orientation.
+//! A hold: an interval in which the sensor is kept still in one orientation, reduced to its mean reading.
 
 use nalgebra::Vector3;
 
-/// A stretch of a recording in which the sensor is still, reduced to its mean.
+/// An interval of a recording in which the sensor is stationary, reduced to its mean.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Hold {
     /// First sample (index into the recording).
@@ -19,7 +19,7 @@ pub struct Hold {
     pub sd: Vector3<f64>,
 }
 
-/// A time to the ms: those of samples have all the digits that a division leaves.
+/// A time rounded to the ms. Times of samples have all the digits that a division leaves.
 pub(crate) fn to_ms(time_s: f64) -> f64 {
     (time_s * 1e3).round() / 1e3
 }
@@ -31,7 +31,7 @@ impl Hold {
         self.end - self.first
     }
 
-    /// Standard deviation of single readings within holds, pooled over them.
+    /// Standard deviation of single readings within holds, pooled over the holds.
     pub(crate) fn pooled_sd<'a>(holds: impl IntoIterator<Item = &'a Self>) -> Vector3<f64> {
         let (mut squares, mut degrees) = (Vector3::zeros(), 0.0_f64);
         for hold in holds {
@@ -42,12 +42,12 @@ impl Hold {
         (squares / degrees.max(1.0)).map(f64::sqrt)
     }
 
-    /// What it is called in a sentence, by its number from 0 and its times: `hold 3 (12.0 to 15.5 s)`.
+    /// The name of the hold in a sentence, by its number from 0 and its times: `hold 3 (12.0 to 15.5 s)`.
     pub(crate) fn named(&self, number: usize) -> String {
         format!("hold {} ({:.1} to {:.1} s)", number + 1, self.start_s, self.end_s)
     }
 
-    /// Number (from 0) of the hold that lasts longest; `None` where there is none.
+    /// Number (from 0) of the hold that lasts longest; `None` where there is no hold.
     ///
     /// # Examples
     /// ```

@@ -1,8 +1,9 @@
-//! Jerk-controlled motion: acceleration that is continuous and linear between nodes.
+//! Jerk-controlled motion: acceleration that is continuous and linear between nodes. This file holds the
+//! nodes and converts them to jerk, velocity and displacement.
 //!
-//! Node form, `a_i` at breakpoint `τ_i`, is what everything computes with; the report's form (x, u), intercept and jerk of each
-//! interval, `α(t) = x_i + u_i t`, is spoken at the boundary. Both describe the same motions: the report's continuity constraint
-//! holds identically in node form.
+//! All computations use the node form, `a_i` at breakpoint `τ_i`. Only the boundary uses the report's form
+//! (x, u): intercept and jerk of each interval, `α(t) = x_i + u_i t`. Both describe the same motions: the
+//! report's continuity constraint holds identically in node form.
 
 use crate::error::{Error, InputError, Result};
 use nalgebra::Vector3;
@@ -33,8 +34,8 @@ impl JerkControlledMotion {
     /// A motion through these nodes.
     ///
     /// # Errors
-    /// [`Error::Experiment`] where there are fewer than two nodes, the lengths differ, a number is not finite, or the times do
-    /// not increase; it names the row.
+    /// [`Error::Experiment`] where there are fewer than two nodes, the lengths differ, a number is not
+    /// finite, or the times do not increase. The error names the row.
     pub fn new(times_s: Vec<f64>, acceleration_mps2: Vec<Vector3<f64>>) -> Result<Self> {
         let reject = |message: String, help: &str| Err(Error::experiment(InputError::new(message, help)));
         if times_s.len() != acceleration_mps2.len() {
@@ -113,7 +114,8 @@ impl JerkControlledMotion {
             .collect()
     }
 
-    /// Intercept `x_i = a_i − u_i τ_i` of each interval, m/s²: the report's state, the line's value at t = 0.
+    /// Intercept `x_i = a_i − u_i τ_i` of each interval, m/s²: the report's state. It is the line's value at
+    /// t = 0.
     #[must_use]
     pub fn intercept_mps2(&self) -> Vec<Vector3<f64>> {
         let jerk = self.jerk_mps3();
@@ -145,14 +147,15 @@ impl JerkControlledMotion {
         displacement
     }
 
-    /// Interval that holds time t, and where in it: λ from 0 to 1. Times outside are clamped to the ends.
+    /// The interval that contains time t, and the place λ in it, from 0 to 1. Times outside the motion are
+    /// clamped to its ends.
     #[must_use]
     pub fn locate(&self, t: f64) -> (usize, f64) {
         let i = self.times_s.partition_point(|&tau| tau <= t).clamp(1, self.intervals()) - 1;
         (i, ((t - self.times_s[i]) / self.interval_s(i)).clamp(0.0, 1.0))
     }
 
-    /// Acceleration at time t, m/s²; outside the motion, that of the nearer end.
+    /// Acceleration at time t, m/s². Outside the motion it is the acceleration of the nearer end.
     #[must_use]
     pub fn acceleration_at(&self, t: f64) -> Vector3<f64> {
         let (i, lambda) = self.locate(t);

@@ -1,11 +1,11 @@
-//! The arm's limits.
+//! The arm's limits (`[limits]`): acceleration, jerk, velocity, displacement and rest. Plain data, per axis.
 
 use nalgebra::Vector3;
 
 /// Where the arm is at rest.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Rest {
-    /// Nowhere in particular.
+    /// No rest is prescribed.
     #[default]
     None,
     /// At the start.
@@ -36,7 +36,7 @@ pub struct Limits {
 }
 
 impl Limits {
-    /// The same, with accelerations that a sensor of this range can report.
+    /// The same limits, with accelerations that a sensor of this range can report.
     #[must_use]
     pub fn within_range(&self, range_mps2: Option<Vector3<f64>>) -> Self {
         let acceleration_mps2 = match (self.acceleration_mps2, range_mps2) {
@@ -63,7 +63,8 @@ impl Limits {
     }
 }
 
-/// The limits of one axis, SI; they hold at all times. Velocity and displacement count from rest at the origin.
+/// The limits of one axis, SI; they hold at all times. Velocity and displacement count from rest at the
+/// origin.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct AxisLimits {
     /// Largest acceleration.

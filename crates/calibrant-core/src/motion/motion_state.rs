@@ -1,4 +1,4 @@
-//! The state of a motion at any time: exact polynomials between the nodes.
+//! The state of a motion at any time, from exact polynomials between the nodes.
 //!
 //! Inside interval i, `s` after its start: `a = a_i + u_i s`, `v = v_i + a_i s + u_i s²/2`, `d = d_i + v_i s + a_i s²/2 + u_i s³/6`.
 
@@ -14,12 +14,12 @@ pub struct MotionState {
     pub velocity_mps: Vector3<f64>,
     /// Acceleration, m/s².
     pub acceleration_mps2: Vector3<f64>,
-    /// Jerk, m/s³; at a node that of the interval that begins there.
+    /// Jerk, m/s³. At a node it is the jerk of the interval that begins there.
     pub jerk_mps3: Vector3<f64>,
 }
 
 impl JerkControlledMotion {
-    /// The state at each of these times; times outside the motion are clamped to its ends.
+    /// The state at each of these times. Times outside the motion are clamped to its ends.
     ///
     /// # Examples
     /// ```
@@ -60,7 +60,7 @@ impl JerkControlledMotion {
         self.states_at(&[t])[0].displacement_m
     }
 
-    /// Jerk at time t, m/s³; at a node that of the interval that begins there.
+    /// Jerk at time t, m/s³. At a node it is the jerk of the interval that begins there.
     #[must_use]
     pub fn jerk_at(&self, t: f64) -> Vector3<f64> {
         self.states_at(&[t])[0].jerk_mps3

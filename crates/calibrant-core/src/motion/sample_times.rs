@@ -1,4 +1,4 @@
-//! Where the samples of a recording lie on a motion.
+//! The times of a recording's samples on a motion, and the sums over them that the information needs.
 
 use super::JerkControlledMotion;
 
@@ -11,7 +11,8 @@ pub fn sample_times(motion: &JerkControlledMotion, rate_hz: f64) -> Vec<f64> {
     (0..=last).map(|j| start + j as f64 / rate_hz).collect()
 }
 
-/// Sums over the samples of one interval of their place λ in it, 0 to 1: all that a recording's information knows of its samples.
+/// Sums over the samples of one interval of their place λ in it, 0 to 1. The information of a recording
+/// depends on its samples only through these sums.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct IntervalSums {
     /// Number of samples.

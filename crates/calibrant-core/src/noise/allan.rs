@@ -1,4 +1,4 @@
-//! The overlapping Allan deviation.
+//! The overlapping Allan deviation of readings, with its confidence bounds.
 
 use super::confidence::CONFIDENCE;
 use super::{PowerLaw, lag_sums};
@@ -14,7 +14,7 @@ const FEWEST: usize = 9;
 /// The overlapping Allan deviation of one axis at cluster times spread evenly on a logarithmic scale.
 ///
 /// # Examples
-/// A case that can be worked by hand: `d = (y₂ − y₁, …)`, `σ² = ½ mean d²`.
+/// A case by hand: `d = (y₂ − y₁, …)`, `σ² = ½ mean d²`.
 /// ```
 /// use calibrant::noise::AllanDeviation;
 ///
@@ -30,7 +30,7 @@ pub struct AllanDeviation {
     pub interval_s: f64,
     /// Number of samples.
     pub samples: usize,
-    /// In order of cluster time, from one sample to a third of the recording.
+    /// The points in order of cluster time, from one sample to a third of the recording.
     pub points: Vec<AllanPoint>,
 }
 
@@ -43,8 +43,9 @@ pub struct AllanPoint {
     pub tau_s: f64,
     /// σ(τ), in the unit of the readings.
     pub deviation: f64,
-    /// The process that dominates there, by the lag-1 autocorrelation of the cluster means. Slopes of a sum of processes only rise with the cluster
-    /// time, so it is never one of a lower slope than before; with fewer than 30 clusters it is that of the cluster time before.
+    /// The process that dominates there, by the lag-1 autocorrelation of the cluster means. Slopes of a sum
+    /// of processes only rise with the cluster time, so the slope is never lower than before. With fewer than
+    /// 30 clusters it is the process of the previous cluster time.
     pub process: PowerLaw,
     /// Equivalent degrees of freedom of σ² under this process.
     pub degrees_of_freedom: f64,
@@ -55,7 +56,8 @@ pub struct AllanPoint {
 }
 
 impl AllanDeviation {
-    /// Of readings at equal intervals. O(n) for each of about 12 cluster times in a decade.
+    /// The Allan deviation of readings at equal intervals. It takes O(n) time for each of about 12 cluster
+    /// times in a decade.
     ///
     /// The bounds are `σ̂² edf/χ²` with the quantiles of the χ² distribution (IEEE 952, `riley2008`).
     ///
@@ -65,7 +67,7 @@ impl AllanDeviation {
         Self::with_confidence(readings, interval_s, &Confidence::of(readings.len()))
     }
 
-    /// The same with the [`Confidence`] of their number at hand.
+    /// The same with the [`Confidence`] for their number already computed.
     pub(super) fn with_confidence(
         readings: &[f64],
         interval_s: f64,
@@ -98,7 +100,7 @@ impl AllanDeviation {
         Ok(Self { interval_s, samples: n, points })
     }
 
-    /// Where it is lowest.
+    /// The point of the lowest deviation.
     #[must_use]
     pub fn minimum(&self) -> Option<&AllanPoint> {
         self.points.iter().min_by(|a, b| a.deviation.total_cmp(&b.deviation))
@@ -114,7 +116,8 @@ impl AllanPoint {
     }
 }
 
-/// How uncertain the Allan deviation of so many samples is at each cluster time, under each process: worked out once for all axes, where it is asked for.
+/// The uncertainty of the Allan deviation of a given number of samples, at each cluster time and under each
+/// process. It is computed once for all axes, when it is first needed.
 #[derive(Debug, Clone)]
 pub(super) struct Confidence {
     clusters: Vec<Cluster>,
@@ -126,7 +129,7 @@ struct Cluster {
     spreads: [OnceLock<Spread>; PowerLaw::ALL.len()],
 }
 
-/// Degrees of freedom of a variance, and the confidence bounds of its root over that.
+/// Degrees of freedom of a variance, and the confidence bounds of its root, relative to the root.
 #[derive(Debug, Clone, Copy)]
 struct Spread {
     degrees_of_freedom: f64,
@@ -156,7 +159,8 @@ impl Cluster {
     }
 }
 
-/// Running sums of the readings less their mean, from zero on: the phase `x`, free of the digits that the mean would take.
+/// Running sums of the readings less their mean, from zero on: the phase `x`. Subtracting the mean saves the
+/// digits that it would take.
 pub(super) fn phase(readings: &[f64]) -> Vec<f64> {
     let mean = readings.iter().sum::<f64>() / readings.len() as f64;
     let mut phase = Vec::with_capacity(readings.len() + 1);
@@ -178,7 +182,7 @@ pub(super) struct Differences {
 
 impl Differences {
     pub(super) fn of(phase: &[f64], m: usize) -> Self {
-        // side by side, as a sum is long in coming
+        // in parallel, as the processor needs several cycles for a sum
         const LANES: usize = 4;
         let count = phase.len() - 2 * m;
         let (before, at, after) = (&phase[..count], &phase[m..m + count], &phase[2 * m..]);
@@ -200,7 +204,7 @@ impl Differences {
         self.squares / self.count
     }
 
-    /// About their mean, which a linear drift shifts.
+    /// Variance of the differences about their mean, which a linear drift shifts.
     pub(super) fn variance(&self) -> f64 {
         self.mean_square() - (self.sum / self.count).powi(2)
     }
@@ -225,8 +229,8 @@ fn identify(phase: &[f64], m: usize) -> Option<PowerLaw> {
     PowerLaw::identify(&means)
 }
 
-/// Equivalent degrees of freedom of the overlapping Allan variance of `n` samples at clusters of `m`: `M² C(0)² / Σ_h (M − |h|) C(h)²`, with `C` the
-/// autocovariance of the differences (`greenhall2003`).
+/// Equivalent degrees of freedom of the overlapping Allan variance of `n` samples at clusters of `m`:
+/// `M² C(0)² / Σ_h (M − |h|) C(h)²`. `C` is the autocovariance of the differences (`greenhall2003`).
 fn degrees_of_freedom(process: PowerLaw, n: usize, m: usize) -> f64 {
     let count = (n - 2 * m + 1) as i64;
     let kinks = [0, m as i64, 2 * m as i64];

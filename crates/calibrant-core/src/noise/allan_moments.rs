@@ -1,4 +1,5 @@
-//! Mean and covariance of the drift-free Allan variances of each process.
+//! Mean and covariance of the drift-free Allan variances of each process: the moments that the regression
+//! uses.
 
 use super::allan::{Confidence, Differences};
 use super::periodogram::Periodogram;
@@ -9,27 +10,29 @@ use rayon::prelude::*;
 
 /// Number of processes.
 pub(super) const PROCESSES: usize = PowerLaw::ALL.len();
-/// Number of pairs of them.
+/// Number of pairs of processes.
 const PAIRS: usize = PROCESSES * (PROCESSES + 1) / 2;
 
-/// Mean and covariance of the drift-free Allan variances `ν_m` (see [the module](crate::noise)) of `n` samples at `m = 1, 2, 4, … ≤ n/3`, under each process
-/// with a coefficient and a sample interval of 1. They depend on `n` alone: compute them once for recordings of one length.
+/// Mean and covariance of the drift-free Allan variances `ν_m` (see [the module](crate::noise)) of `n`
+/// samples at `m = 1, 2, 4, … ≤ n/3`. They hold under each process with a coefficient and a sample interval
+/// of 1. They depend on `n` alone: compute them once for recordings of one length.
 ///
-/// With `C_a(h)` the covariance of differences `d_j(s)`, `d_k(s + h)` under process `a`, and `⟨·⟩` the mean over all pairs of differences,
+/// `C_a(h)` is the covariance of differences `d_j(s)`, `d_k(s + h)` under process `a`. `⟨·⟩` is the mean over
+/// all pairs of differences. Then
 ///
 /// ```text
 /// E ν_j = ½ Σ_a θ_a (C_a(0) − ⟨C_a⟩),    V^{ab}_{jk} = ½ ( ⟨C_a C_b⟩ − ⟨ρ_a ρ_b⟩ − ⟨κ_a κ_b⟩ + ⟨C_a⟩⟨C_b⟩ )
 /// ```
 ///
-/// where `ρ(s)`, `κ(t)` are the means of `C(t − s)` over `t` and over `s`: the covariance of quadratic forms of Gaussian variables, `2 tr(P Σ P Σ)`, with `P` the
-/// projector that subtracts the mean.
+/// where `ρ(s)`, `κ(t)` are the means of `C(t − s)` over `t` and over `s`. This is the covariance of
+/// quadratic forms of Gaussian variables, `2 tr(P Σ P Σ)`, with the projector `P` that subtracts the mean.
 #[derive(Debug, Clone)]
 pub struct Moments {
     samples: usize,
     scales: Vec<usize>,
     /// `mean[(j, a)]`.
     mean: DMatrix<f64>,
-    /// For each pair `a ≤ b`, in the order of [`pair`].
+    /// One matrix for each pair `a ≤ b`, in the order of [`pair`].
     covariance: Vec<DMatrix<f64>>,
     confidence: Confidence,
     periodogram: Periodogram,
@@ -56,7 +59,8 @@ impl Moments {
     /// The moments for recordings of `n` samples, at least three.
     ///
     /// # Numerics
-    /// Sums over lags take all lags where a covariance has a kink and ever fewer away from there: O(log² n) time for each pair of cluster times.
+    /// Sums over lags take all lags where a covariance has a kink, and ever fewer away from there. That takes
+    /// O(log² n) time for each pair of cluster times.
     #[must_use]
     pub fn of(n: usize) -> Self {
         let scales: Vec<usize> = (0..).map(|k| 1 << k).take_while(|m| 3 * m <= n).collect();
@@ -89,12 +93,12 @@ impl Moments {
         self.samples
     }
 
-    /// How uncertain an Allan deviation of so many samples is.
+    /// The uncertainty of an Allan deviation of this number of samples.
     pub(super) fn confidence(&self) -> &Confidence {
         &self.confidence
     }
 
-    /// The transform of so many values.
+    /// The Fourier transform for this number of values.
     pub(super) fn periodogram(&self) -> &Periodogram {
         &self.periodogram
     }
@@ -214,9 +218,9 @@ fn mean_products(count: i64, edge: i64, means: impl Fn(i64) -> [f64; PROCESSES])
 struct Integral<'a> {
     lags: &'a [i64],
     curves: &'a [[f64; PROCESSES]],
-    /// Sum over the lags before each, half of its own value included.
+    /// Sum over the lags before each, with half of its own value.
     sums: Vec<[f64; PROCESSES]>,
-    /// From each to the next.
+    /// Slope from each lag to the next.
     slopes: Vec<[f64; PROCESSES]>,
 }
 
@@ -291,7 +295,7 @@ mod tests {
                     let found = moments.covariance[pair(p, q)][(j, k)];
                     let sd = |p: usize, s: usize| moments.covariance[pair(p, p)][(s, s)].sqrt();
                     let size = (sd(p, j) * sd(p, k) * sd(q, j) * sd(q, k)).sqrt();
-                    // one per cent of a standard deviation, where a scale has hardly more lags than are summed
+                    // one per cent of a standard deviation where a scale has few more lags than the sum takes
                     assert!(
                         (found - covariance).abs() < 2e-2 * size,
                         "{a:?} {b:?} {j} {k}: {found} {covariance} {size}"

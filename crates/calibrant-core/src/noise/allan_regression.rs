@@ -1,4 +1,4 @@
-//! The regression of Allan variances on some of the processes, and what it says of each coefficient.
+//! The regression of Allan variances on some of the processes, and the coefficients that follow from it.
 
 use super::allan_moments::PROCESSES;
 use super::whitening::Whitening;
@@ -7,26 +7,33 @@ use nalgebra::{DMatrix, DVector};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 use std::cell::OnceCell;
 
-/// A coefficient is determined if its square is this many standard deviations above zero, those that it would have if it were zero.
+/// A coefficient is determined if its square is this many standard deviations above zero. The standard
+/// deviation is that of a coefficient that is zero.
 pub(super) const SIGNIFICANT: f64 = 3.0;
-/// Below this many it is left out, for each process; in between it is kept beside the others, so that their uncertainty includes it, but not determined.
-/// Quantisation has no place in between: kept for nothing, it would take a share of the white noise at the cluster times that say most about that.
+/// Below this number of standard deviations a process is not used. In between, it stays in the fit without
+/// being determined, so that the uncertainty of the others includes it. Quantisation has nothing in between.
+/// It would take a share of the white noise at the cluster times that determine white noise best.
 const NEGLIGIBLE: [f64; PROCESSES] = [SIGNIFICANT, 2.0, 2.0, 2.0];
-/// Bias instability and rate random walk are told apart if χ² with the one is less by this than with the other in its place.
+/// Bias instability and rate random walk are separable if χ² differs by at least this when one replaces the
+/// other.
 const TOLD_APART: f64 = 3.0;
 /// Below this probability the processes do not explain the Allan deviation.
 pub(super) const MISFIT: f64 = 1e-3;
-/// Of the limit of a coefficient that is not determined: probability that it is exceeded.
+/// Probability that a coefficient that is not determined exceeds its limit.
 const LIMIT_TAIL: f64 = 0.05;
+/// Largest number of rounds of the iteration.
 const ITERATIONS: usize = 50;
-/// A change this small, in standard deviations of a coefficient, is none.
+/// The iteration ends at a change below this, in standard deviations of a coefficient.
 const SETTLED: f64 = 1e-6;
-/// Extrapolations by more than so many changes are left.
+/// Extrapolations by more changes than this are not used.
 const FARTHEST: f64 = 4.0;
+/// Index of quantisation noise among the processes.
 const QUANTISATION: usize = PowerLaw::Quantisation as usize;
+/// Index of white noise among the processes.
 const WHITE: usize = PowerLaw::White as usize;
 
-/// Generalised least squares of the Allan variances on the variances of some of the processes, a sample interval being 1.
+/// Generalised least squares of the Allan variances on the variances of some of the processes, for a sample
+/// interval of 1.
 pub(super) struct Regression<'a> {
     moments: &'a Moments,
     observed: &'a DVector<f64>,
@@ -41,14 +48,14 @@ pub(super) struct Regression<'a> {
     pub(super) chi2: f64,
     /// Is the share of quantisation that of a filter, of either sign (see [the module](crate::noise))?
     pub(super) filtered: bool,
-    /// What [`rival`](Self::rival) found: it is asked for again and again.
+    /// The result of [`rival`](Self::rival), which is needed repeatedly.
     rivals: [OnceCell<Option<usize>>; PROCESSES],
-    /// What [`beside_filter`](Self::beside_filter) found.
+    /// The result of [`beside_filter`](Self::beside_filter).
     beside_filter: OnceCell<(f64, f64)>,
 }
 
 impl<'a> Regression<'a> {
-    /// Leaves out the least significant process until none is negligible.
+    /// Removes the least significant process until none is negligible.
     pub(super) fn reduced(
         moments: &'a Moments,
         observed: &'a DVector<f64>,
@@ -66,7 +73,7 @@ impl<'a> Regression<'a> {
             let least = (0..active.len()).min_by(|&i, &j| excess(i).total_cmp(&excess(j)));
             match least {
                 Some(i) if active.len() > 1 && excess(i) < 0.0 => drop(active.remove(i)),
-                // of two that cannot be told apart, one stands for both
+                // of two that cannot be separated, one stands for both
                 _ => match regression.weaker_rival(&significance) {
                     Some(i) => drop(active.remove(i)),
                     None => return regression,
@@ -85,7 +92,7 @@ impl<'a> Regression<'a> {
         let size = observed.len() - first;
         let values = observed.rows(first, size);
         let design = moments.mean().view((first, 0), (size, PROCESSES)).select_columns(active);
-        // to begin with, each variance is as uncertain as white noise makes it, for itself
+        // to begin with, each variance has the uncertainty of white noise, without correlation
         let unit = moments.covariance(&[0.0, 1.0, 0.0, 0.0], first);
         let mut white = Whitening::of_independent((0..size).map(|j| {
             let relative = unit[(j, j)] / moments.mean()[(first + j, 1)].powi(2);
@@ -93,7 +100,7 @@ impl<'a> Regression<'a> {
         }));
         let mut theta = [0.0; PROCESSES];
         let mut gain = DMatrix::zeros(active.len(), size);
-        // what the variances were weighted by; the change and the estimate of the round before
+        // the variances from which the weights came; the change and the estimate of the round before
         let (mut weighted_by, mut before): (Option<DVector<f64>>, _) = (None, None);
         for _ in 0..ITERATIONS {
             let whitened = white.whiten(design.clone());
@@ -127,7 +134,7 @@ impl<'a> Regression<'a> {
         Self { moments, observed, first, active, theta, gain, chi2, rivals, beside_filter, filtered }
     }
 
-    /// Variance of the estimate of active process `i`, as a function of what its `θ` would be.
+    /// Variance of the estimate of active process `i`, as a function of its assumed `θ`.
     fn variance(&self, i: usize) -> impl Fn(f64) -> f64 + use<> {
         let variance = self.moments.variance_of_sum(&self.gain.row(i).transpose(), self.first);
         let (theta, place) = (positive(self.theta), self.active[i]);
@@ -138,7 +145,8 @@ impl<'a> Regression<'a> {
         }
     }
 
-    /// How many standard deviations a filter's share is above zero beside the processes; `None` where quantisation is one of them.
+    /// The filter's share beside the processes in standard deviations above zero; `None` where quantisation
+    /// is one of the processes.
     pub(super) fn filter_significance(&self) -> Option<f64> {
         self.beside_filter().map(|(significance, _)| significance)
     }
@@ -174,7 +182,7 @@ impl<'a> Regression<'a> {
         self.theta[QUANTISATION] / self.theta[WHITE]
     }
 
-    /// What part of N² these Allan variances would add to it; zero without white noise.
+    /// The share of N² that these Allan variances would add to it; zero without white noise.
     pub(super) fn part_of_white(&self, variances: &DVector<f64>) -> f64 {
         let scales = variances.rows(self.first, variances.len() - self.first);
         self.white().map_or(0.0, |i| self.gain.row(i).transpose().dot(&scales) / self.theta[WHITE])
@@ -227,7 +235,7 @@ impl<'a> Regression<'a> {
             let sd = variance(theta).sqrt();
             let (low, high) = variance_interval::bounds(theta, variance);
             let (value, high) = (to_coefficient(theta), to_coefficient(high));
-            // a filter that does not show has taken from N what N beside its share has more
+            // a filter that does not show takes from N the difference to the N of a fit with its share
             let unseen = self.beside_filter().filter(|_| a == WHITE);
             let taken = unseen.map_or(0.0, |(_, beside)| to_coefficient(beside.max(theta)) - value);
             return Coefficient::Determined(Estimate {
@@ -241,7 +249,7 @@ impl<'a> Regression<'a> {
             Some(i) if self.is_filter(i) => f64::INFINITY,
             Some(i) => self.limit(i),
             None => {
-                // in place of a process that it cannot be told from, or beside all
+                // with the process from which it cannot be separated, or with all
                 let mut with: Vec<usize> =
                     self.active.iter().copied().filter(|&b| self.rival(b) != Some(a)).collect();
                 with.push(a);
@@ -254,7 +262,7 @@ impl<'a> Regression<'a> {
         Coefficient::NotDetermined { limit, reason: self.reason(process, interval_s) }
     }
 
-    /// Is active process `i` determined? One that is alone always is.
+    /// Is active process `i` determined? A single process always is.
     fn is_determined(&self, i: usize) -> bool {
         let alone = self.active.len() == 1 + usize::from(self.filtered);
         !self.is_filter(i)
@@ -267,13 +275,16 @@ impl<'a> Regression<'a> {
         self.filtered && self.active[i] == QUANTISATION
     }
 
-    /// The other of bias instability and rate random walk, where it explains as much in place of the one.
+    /// The other of bias instability and rate random walk, where it explains as much in place of the given
+    /// one.
     fn rival(&self, process: usize) -> Option<usize> {
         *self.rivals[process].get_or_init(|| self.find_rival(process))
     }
 
     fn find_rival(&self, process: usize) -> Option<usize> {
+        /// Index of flicker noise among the processes.
         const FLICKER: usize = PowerLaw::Flicker as usize;
+        /// Index of the random walk among the processes.
         const WALK: usize = PowerLaw::RandomWalk as usize;
         let other = match process {
             FLICKER => WALK,
@@ -292,7 +303,7 @@ impl<'a> Regression<'a> {
 
     /// Upper limit of the square of the coefficient of active process `i`.
     fn limit(&self, i: usize) -> f64 {
-        // an estimate below zero is as good as one at the standard deviation that a coefficient of zero has
+        // an estimate below zero counts as one at the standard deviation of a coefficient of zero
         let variance = self.variance(i);
         let seen = self.theta[self.active[i]].max(variance(0.0).sqrt());
         variance_interval::upper(seen, &variance, LIMIT_TAIL)
@@ -342,9 +353,10 @@ impl<'a> Regression<'a> {
     }
 }
 
-/// How far back towards the estimate before: what makes the change, were it linear in the weights, the shortest (`anderson1965`, of two rounds).
+/// The weight of the previous estimate in the extrapolation. It makes the change shortest if the change is
+/// linear in the weights (`anderson1965`, of two rounds).
 ///
-/// Without it every round halves the change, and it takes twenty.
+/// Without it every round halves the change, and the iteration takes twenty rounds.
 fn extrapolation(change: &DVector<f64>, before: &DVector<f64>) -> f64 {
     let turned = change - before;
     let back = change.dot(&turned) / turned.norm_squared();

@@ -1,4 +1,5 @@
-//! A coefficient of the noise: what the recording says of it, or why it says nothing.
+//! A coefficient of the noise: its estimate with an interval, or the reason why the recording does not
+//! determine it.
 
 /// An estimate with its uncertainty.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,7 +34,7 @@ pub enum Coefficient {
     Determined(Estimate),
     /// The recording does not determine it.
     NotDetermined {
-        /// The coefficient is below this with 95 % confidence, where the recording says as much.
+        /// The coefficient is below this with 95 % confidence, where the recording sets a limit.
         limit: Option<f64>,
         /// Why it is not determined, and what would help.
         reason: String,

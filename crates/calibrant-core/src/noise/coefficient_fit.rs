@@ -1,4 +1,4 @@
-//! The coefficients that explain an Allan deviation.
+//! The fit of the noise coefficients to the Allan deviation of one axis.
 
 use super::allan_regression::MISFIT;
 use super::heavy_tails::Tails;
@@ -15,11 +15,12 @@ const FEWEST: usize = 96;
 pub struct NoiseFit {
     /// The coefficients.
     pub model: NoiseModel,
-    /// A linear drift beside the noise; it was subtracted before the coefficients were estimated.
+    /// A linear drift beside the noise. It was subtracted before the coefficients were estimated.
     pub drift: Drift,
-    /// Shortest cluster time that was fitted, s: shorter ones are not explained by any sum of the processes.
+    /// Shortest cluster time that was fitted, s. No sum of the processes explains shorter ones.
     pub shortest_tau_s: f64,
-    /// Do the samples show a filter? Its share of the Allan variance, `−3 D τ₀²/τ²`, was then fitted beside the processes, in the place of quantisation.
+    /// Do the samples show a filter? Its share of the Allan variance, `−3 D τ₀²/τ²`, was then fitted beside
+    /// the processes, in the place of quantisation.
     pub filtered: bool,
     /// Longest cluster time that was fitted, s.
     pub longest_tau_s: f64,
@@ -31,7 +32,8 @@ pub struct NoiseFit {
     pub degrees_of_freedom: usize,
     /// Probability of a χ² at least as high; `None` without degrees of freedom.
     pub p_value: Option<f64>,
-    /// Lines in the spectrum that are worth a word: a vibration, a hum. The coefficients are those of the noise beside them.
+    /// Lines in the spectrum that are large enough to report: a vibration, a hum. The coefficients are those
+    /// of the noise beside them.
     pub vibration: Option<Vibration>,
 }
 

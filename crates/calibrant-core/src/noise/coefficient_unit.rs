@@ -1,10 +1,11 @@
-//! Units of the coefficients: SI, and those of datasheets.
+//! Units of the noise coefficients: SI, and the customary ones of datasheets.
 
 use super::PowerLaw;
 use crate::sensor::{ReadingUnit, SensorKind};
 
 /// Standard gravity, m/s²: what 1 g means in a datasheet.
 const STANDARD_GRAVITY_MPS2: f64 = 9.80665;
+/// Seconds in an hour.
 const HOUR_S: f64 = 3600.0;
 
 /// A unit of a coefficient.
@@ -16,7 +17,8 @@ pub struct CoefficientUnit {
     pub factor: f64,
 }
 
-/// Units of a coefficient for readings in this unit: first that of the readings with seconds, then the customary ones.
+/// Units of a coefficient for readings in this unit. First comes that of the readings with seconds, then the
+/// customary ones.
 ///
 /// # Examples
 /// ```

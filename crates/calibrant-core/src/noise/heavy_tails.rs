@@ -1,31 +1,33 @@
-//! How far the tails of the noise reach: the variance of an estimate of a variance is that of Gaussian noise only for Gaussian noise.
+//! Heavy tails of the noise. They widen the interval of N, which assumes Gaussian noise otherwise.
 //!
-//! For independent samples of excess kurtosis κ every Allan variance varies by the same factor more, `var(N̂²)/N⁴` by `κ/n`: each sample has the weight `1/(m n)` in the variance at
-//! `m`, which is `N²/m`. Differences of successive samples have half of κ, and hardly anything of slow noise.
+//! For independent samples of excess kurtosis κ every Allan variance varies more by the same term,
+//! `var(N̂²)/N⁴` by `κ/n`. Each sample has the weight `1/(m n)` in the variance at `m`, which is `N²/m`.
+//! Differences of successive samples have half of κ, and little of slow noise.
 
 use super::outliers::typical_step;
 use super::{Coefficient, Estimate};
 
-/// Below this excess kurtosis, which Gaussian noise of a few thousand samples does not reach, nothing is made of it.
+/// Below this excess kurtosis nothing is changed. Gaussian noise of a few thousand samples does not reach it.
 const HEAVY: f64 = 0.5;
-/// Samples far off make most of the noise where differences of samples have this many times their robust standard deviation: Student's t of three degrees of freedom has 1.4.
+/// Samples far off make most of the noise from this ratio on: standard deviation of differences over their
+/// robust one. Student's t of three degrees of freedom has 1.4.
 const FAR_OFF: f64 = 1.6;
-/// Steps of the resolution coarser than this part of a standard deviation make a median jump.
+/// From this step on, in standard deviations, the quantisation makes a median jump.
 const COARSE: f64 = 0.3;
-/// Standard deviations of half a 95 % interval.
+/// Half a 95 % interval in standard deviations.
 const HALF_INTERVAL: f64 = 1.96;
 
 /// The tails of some values.
 pub(super) struct Tails {
     samples: usize,
-    /// Excess kurtosis of the samples, as their differences show it.
+    /// Excess kurtosis of the samples, from their differences.
     excess: f64,
     /// Standard deviation of differences over their robust one.
     reach: f64,
 }
 
 impl Tails {
-    /// Of values at equal intervals, at least two of them different.
+    /// The tails of values at equal intervals, at least two of them different.
     pub(super) fn of(values: &[f64]) -> Self {
         let sizes: Vec<f64> = values.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
         let count = sizes.len() as f64;

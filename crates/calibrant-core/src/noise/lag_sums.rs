@@ -1,11 +1,11 @@
-//! Sums over all lags of covariances that are smooth but for a few lags, from a few hundred of them.
+//! Sums of smooth covariances over all lags, from a few hundred of the lags. Only kinks need every lag.
 
-/// Every lag within this of a kink is summed.
+/// Every lag within this distance of a kink is summed.
 const NEAR_LAGS: i64 = 16;
 /// Beyond, the step from lag to lag is this share of the distance to the nearest kink.
 const STEP: f64 = 0.08;
 
-/// Whole numbers from `first` to `last`: all those near the kinks, ever fewer away from them.
+/// Whole numbers from `first` to `last`: all those near the kinks, and ever fewer away from them.
 pub(super) fn around(kinks: &[i64], first: i64, last: i64) -> Vec<i64> {
     let mut kinks = kinks.to_vec();
     kinks.sort_unstable();
@@ -26,7 +26,8 @@ pub(super) fn around(kinks: &[i64], first: i64, last: i64) -> Vec<i64> {
     lags
 }
 
-/// Weights under which a sum over some of the lags is the sum over all, the summand being linear in between.
+/// Weights that turn a sum over some of the lags into the sum over all, for a summand that is linear in
+/// between.
 pub(super) fn weights(lags: &[i64]) -> Vec<f64> {
     let mut weights = vec![0.0; lags.len()];
     if let (Some(first), Some(last)) = (lags.first(), lags.last()) {

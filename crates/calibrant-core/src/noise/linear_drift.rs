@@ -1,10 +1,11 @@
-//! A linear drift: no noise, but it looks like one at long cluster times.
+//! Linear drift of the readings. It is no noise, but it looks like noise at long cluster times.
 
 use super::{NoiseModel, PowerLaw};
 use std::f64::consts::PI;
 
-/// A drift counts as seen beyond this many standard deviations of the most that noise within its limits does: up to 2 % of random walks are, where K is as large as shows, and
-/// fewer where it is smaller (`tests/noise.rs`).
+/// A drift is significant beyond this many standard deviations of the largest noise within its limits. Up to
+/// 2 % of random walks exceed it where K is as large as shows, and fewer where K is smaller
+/// (`tests/noise.rs`).
 const SIGNIFICANT: f64 = 2.0;
 
 /// The slope of a straight line through the readings.
@@ -12,11 +13,13 @@ const SIGNIFICANT: f64 = 2.0;
 pub struct Drift {
     /// Slope, in the unit of the readings per second.
     pub per_s: f64,
-    /// Its standard deviation if the noise is as determined.
+    /// Its standard deviation if the noise is as estimated.
     pub sd: f64,
-    /// The same if one of the processes is as large as the upper end of its interval, or as its limit where it is not determined: the largest of these.
+    /// Its standard deviation if one of the processes is at the upper end of its interval, or at its limit.
+    /// This is the largest over the processes.
     ///
-    /// A random walk that is not seen in the Allan deviation, from which the drift was subtracted, still has a slope of its own.
+    /// The drift was subtracted from the Allan deviation. A random walk that does not show there still has a
+    /// slope of its own.
     pub most_sd: f64,
 }
 
@@ -50,13 +53,13 @@ impl Drift {
         Self { per_s, sd: variance(&noise.squares).sqrt(), most_sd: most.sqrt() }
     }
 
-    /// Is it more than the noise explains, whatever it is within its limits?
+    /// Is it more than any noise within its limits explains?
     #[must_use]
     pub fn is_significant(&self) -> bool {
         self.per_s.abs() > SIGNIFICANT * self.most_sd
     }
 
-    /// What it adds to the Allan deviation at cluster time `τ`: `R τ/√2`.
+    /// Its contribution to the Allan deviation at cluster time `τ`: `R τ/√2`.
     #[must_use]
     pub fn allan_deviation(&self, tau_s: f64) -> f64 {
         self.per_s.abs() * tau_s / std::f64::consts::SQRT_2

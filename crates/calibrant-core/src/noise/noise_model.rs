@@ -1,4 +1,4 @@
-//! The coefficients of one axis.
+//! The noise model: the four coefficients of one axis, and the Allan deviation that they give.
 
 use super::{Coefficient, PowerLaw};
 
@@ -13,7 +13,8 @@ pub struct NoiseModel {
     pub bias_instability: Coefficient,
     /// Rate random walk K, u/√s.
     pub rate_random_walk: Coefficient,
-    /// Squares of all coefficients as they were fitted, also of those that are seen but not determined; that of quantisation is below zero where it is a filter's share.
+    /// Squares of all fitted coefficients, also of those that are not determined. That of quantisation is
+    /// below zero where it is a filter's share.
     pub(super) squares: [f64; 4],
 }
 
@@ -35,7 +36,7 @@ impl NoiseModel {
         (self.squares[process as usize].max(0.0) * process.allan_variance(tau_s)).sqrt()
     }
 
-    /// The fitted Allan deviation: that of all processes together, and of a filter where the fit has one.
+    /// The fitted Allan deviation: all processes together, and the filter where the fit has one.
     #[must_use]
     pub fn deviation(&self, tau_s: f64) -> f64 {
         let variance = |process: &PowerLaw| self.squares[*process as usize] * process.allan_variance(tau_s);

@@ -1,67 +1,78 @@
-//! Samples far from those beside them: a spike, a lost bit, a knock. They are no noise that averages out as `N/√τ` does.
+//! Outliers of a sensor at rest: samples far from those beside them, such as a spike, a lost bit, a knock.
+//! They do not average out as `N/√τ` does.
 //!
-//! One outlier of size `a` among n samples looks like white noise of the variance `a²/n`, whatever the noise, and says nothing of the other samples: N with it is neither what a
-//! mean of other samples does, nor what the next recording shows. So outliers are taken out, each replaced by a sample like those about it, and said with what they would have done.
+//! One outlier of size `a` among n samples looks like white noise of the variance `a²/n`, whatever the noise
+//! is. It shows nothing about the other samples. With it, N predicts neither a mean of other samples nor the
+//! next recording. So each outlier is replaced by a sample like those about it, and its effect on N is
+//! reported.
 //!
-//! # What is one
-//! - *Far off*: from the median of the nine samples about it, and at an end of the recording, where these are all on one side, from lines through the next three as well: smooth noise is far from a
-//!   median there. With a share `p` of outliers anywhere, five of nine are outliers with the probability `126 p⁵`, which is 4·10⁻⁷ at 2 %: up to
-//!   there the median is one of the others.
-//! - *Isolated*: most of these nine are not far off. A sensor that is shaken is far off throughout; one that moves slowly takes the median along.
-//! - *Of another kind than the noise*: a noise of finite variance has a density that falls faster than `x⁻³`, so beyond any distance there is at most a quarter of what there is beyond half of
-//!   it. Outliers are fewer between half the distance and the distance than beyond it.
+//! # What an outlier is
+//! - *Far off*: from the median of the nine samples about it. At an end of the recording, all nine are on one
+//!   side, and smooth noise is far from their median. There it is also far from lines through the next three
+//!   samples. With a share `p` of outliers anywhere, five of nine are outliers with the probability `126 p⁵`,
+//!   which is 4·10⁻⁷ at 2 %. Up to that share the median is not an outlier.
+//! - *Isolated*: most of these nine are not far off. A sensor that is shaken is far off throughout. The
+//!   median follows a sensor that moves slowly.
+//! - *Of another kind than the noise*: noise of finite variance has a density that falls faster than `x⁻³`.
+//!   So at most a quarter of the samples beyond half a distance are beyond the distance. Outliers are fewer
+//!   between half the distance and the distance than beyond it.
 //!
-//! # What is put in its place
-//! Another sample as far away as noise is still white: it varies as the lost one did, and N neither gains nor loses. A median would vary less, and lend its neighbours' errors twice. Where the
-//! readings wander or are filtered, no sample far away is like it, and the median stands in.
+//! # The replacement
+//! The replacement is another sample, as far away as the noise is still white. It varies as the lost one did,
+//! and N neither gains nor loses. A median would vary less, and repeat its neighbours' errors. Where the
+//! readings wander or are filtered, no sample far away is like it, and the median is used.
 
 use crate::sensor::Recording;
 
-/// Samples about one, itself included, with which it is compared.
+/// Number of samples, the examined one included, whose median is compared with it.
 const WINDOW_SAMPLES: usize = 9;
-/// An outlier is off their median by more than so many robust standard deviations of the difference of two successive samples, which a random walk has, too: 11 of white noise.
+/// Threshold for an outlier in robust standard deviations of the difference of two successive samples. It is
+/// 11 of white noise; a random walk has such differences, too.
 const OUTLIER_DEVIATIONS: f64 = 8.0;
-/// Of a noise of finite variance, as many times as many are between half that distance and the distance as beyond it.
+/// For noise of finite variance: ratio of samples between half that distance and the distance to samples
+/// beyond it.
 const HEAVY_TAIL: usize = 3;
-/// Where more than one sample in so many is an outlier, they are too many to be left out.
+/// Where more than one sample in this number is an outlier, none is removed.
 const MOST_OUTLIERS_ONE_IN: usize = 50;
-/// Where those that are far off and not isolated are more than one in so many of those that are isolated, the sensor moves.
+/// The sensor moves where more than one sample is far off without isolation for this number of isolated ones.
 const MOVING: usize = 10;
-/// Median of the absolute deviations of normal noise, times this, is its standard deviation.
+/// Standard deviation of normal noise over the median of its absolute deviations.
 const MAD: f64 = 1.4826;
-/// A sample at most so far away stands in for an outlier.
+/// Largest distance, in samples, of the sample that replaces an outlier.
 const LARGEST_DISTANCE: usize = 64;
-/// Samples so far apart differ by no more than this factor more than successive ones.
+/// At that distance, samples differ by at most this factor more than successive ones.
 const WHITE_FACTOR: f64 = 1.1;
 
 /// The outliers of one axis.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Outliers {
-    /// Which samples of the stretch, from 0.
+    /// Which samples of the segment, from 0.
     pub samples: Vec<usize>,
-    /// Time of the one that is farthest off, s.
+    /// Time of the farthest outlier, s.
     pub time_s: f64,
     /// Its reading, in the unit of the readings.
     pub largest: f64,
-    /// How far it is off the samples about it, in robust standard deviations of the difference of two samples.
+    /// Its distance from the samples about it, in robust standard deviations of the difference of two
+    /// samples.
     pub deviations: f64,
-    /// Were they left out of the noise? Not where they are more than one in fifty samples.
+    /// Were they removed from the noise? Not where they are more than one in fifty samples.
     pub left_out: bool,
     /// `N √f_s` with the outliers, in the unit of the readings; `None` where it would not be determined.
     pub white_with_them: Option<f64>,
 }
 
-/// Outliers by the samples about them.
+/// Outliers, found from the samples about them.
 pub(super) struct Found {
     pub(super) samples: Vec<usize>,
-    /// The one that is farthest off, and how far.
+    /// The outlier that is farthest off.
     pub(super) farthest: usize,
     pub(super) deviations: f64,
-    /// The values with outliers replaced; `None` where they are too many.
+    /// The values with outliers replaced; `None` where there are too many.
     pub(super) without: Option<Vec<f64>>,
 }
 
-/// Looks for outliers; `None` where there are none, where the sensor moves and where its noise is like that.
+/// Looks for outliers. `None` where there are none, where the sensor moves, and where its noise has such
+/// tails.
 pub(super) fn find(values: &[f64]) -> Option<Found> {
     let found = OutlierCandidates::of(values)?;
     let isolated = found.isolated();
@@ -80,7 +91,8 @@ pub(super) fn find(values: &[f64]) -> Option<Found> {
     })
 }
 
-/// The recording without its isolated outliers, wherever they are: what still and moving are told apart by. A spike of 20 m/s² divides a hold of ten minutes.
+/// The recording without its isolated outliers, wherever they are. The search for holds uses it: a spike of
+/// 20 m/s² divides a hold of ten minutes.
 #[must_use]
 pub fn without_outliers(recording: &Recording) -> Recording {
     let mut without = recording.clone();
@@ -93,13 +105,13 @@ pub fn without_outliers(recording: &Recording) -> Recording {
     without
 }
 
-/// What is far off in some values.
+/// The values that are far off.
 struct OutlierCandidates {
     /// Robust standard deviation of the difference of two successive values.
     scale: f64,
-    /// In order.
+    /// The values that are far off, in order.
     samples: Vec<Sample>,
-    /// How many are off by less, but by more than half of that.
+    /// Number of values that are off by less, but by more than half of that.
     half_as_far: usize,
 }
 
@@ -107,7 +119,7 @@ struct OutlierCandidates {
 #[derive(Clone, Copy)]
 struct Sample {
     k: usize,
-    /// The median about it, and the distance from that.
+    /// The median about it, and its distance from the median.
     median: f64,
     off: f64,
 }
@@ -120,7 +132,7 @@ impl OutlierCandidates {
             return None;
         }
         let steps = || values.windows(2).map(|pair| (pair[1] - pair[0]).abs());
-        // of readings coarser than their noise, most are like those beside them
+        // readings coarser than their noise mostly equal their neighbours
         let finest = steps().filter(|step| *step > 0.0).fold(f64::INFINITY, f64::min);
         let scale = typical_step(values, 1).max(if finest.is_finite() { finest } else { 0.0 });
         let far = OUTLIER_DEVIATIONS * scale;
@@ -137,7 +149,7 @@ impl OutlierCandidates {
         (!found.samples.is_empty()).then_some(found)
     }
 
-    /// Those among whose neighbours most are not far off.
+    /// The values that are far off while most of their neighbours are not.
     fn isolated(&self) -> Vec<Sample> {
         let within = |k: usize| {
             let from = self.samples.partition_point(|other| other.k + WINDOW_SAMPLES / 2 < k);
@@ -147,7 +159,7 @@ impl OutlierCandidates {
     }
 }
 
-/// Robust standard deviation of the difference of values so many samples apart.
+/// Robust standard deviation of the difference of values at this distance.
 pub(super) fn typical_step(values: &[f64], apart: usize) -> f64 {
     let mut sizes: Vec<f64> =
         values.iter().zip(&values[apart..]).map(|(one, other)| (other - one).abs()).collect();
@@ -155,7 +167,8 @@ pub(super) fn typical_step(values: &[f64], apart: usize) -> f64 {
     MAD * *sizes.select_nth_unstable_by(middle, f64::total_cmp).1
 }
 
-/// No value is off the median of the nine about it by so much unless it is off one of the four nearest: five of the eight others are as far as the median.
+/// A quick bound. A value this far from the median of the nine about it is also this far from one of the four
+/// nearest. Five of the eight others are as far as the median.
 fn may_be_off(values: &[f64], k: usize, by: f64) -> bool {
     if k < WINDOW_SAMPLES / 2 || k + WINDOW_SAMPLES / 2 >= values.len() {
         return true;
@@ -171,7 +184,8 @@ fn median_about(values: &[f64], k: usize) -> f64 {
     *about.select_nth_unstable_by(WINDOW_SAMPLES / 2, f64::total_cmp).1
 }
 
-/// Near an end, how far a value is off the nearest of the lines through two of the three next to it on the side of the others: one of these may be an outlier.
+/// Near an end, the distance of a value from the nearest line through two of the three values next to it. One
+/// of these three may be an outlier.
 fn off_line_at_end(values: &[f64], k: usize) -> f64 {
     let next: fn(usize, usize) -> usize = match k {
         _ if k < WINDOW_SAMPLES / 2 => |k, by| k + by,
@@ -185,7 +199,7 @@ fn off_line_at_end(values: &[f64], k: usize) -> f64 {
     [(1, 2), (1, 3), (2, 3)].map(off).into_iter().fold(f64::INFINITY, f64::min)
 }
 
-/// The values with others in the place of these.
+/// The values with replacements at these places.
 fn replaced(values: &[f64], found: &OutlierCandidates, isolated: &[Sample]) -> Vec<f64> {
     let n = values.len();
     let is_white = n > 2 * LARGEST_DISTANCE
@@ -210,7 +224,7 @@ mod tests {
         simulate_noise(process, coefficient, 0.01, 20_000, &mut stream(seed, Purpose::Sensor, 0))
     }
 
-    /// The filter that saves most medians lets pass all that it must.
+    /// The filter that saves most medians passes every value that it must.
     #[test]
     fn every_value_that_is_far_off_is_looked_at() {
         let mut values = noise(PowerLaw::White, 1.0, 3);
@@ -276,7 +290,7 @@ mod tests {
         let without = found.without.expect("few");
         let left = without.iter().zip(&clean).map(|(one, other)| (one - other).abs());
         assert!(left.fold(0.0, f64::max) < 80.0);
-        // a tenth of the time the sensor is shaken
+        // the sensor is shaken for a tenth of the time
         let shaken: Vec<f64> = values
             .iter()
             .enumerate()

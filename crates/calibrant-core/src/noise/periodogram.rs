@@ -1,10 +1,11 @@
-//! How much of the values is at each frequency.
+//! The periodogram: the power of values at each frequency.
 
 use realfft::{RealFftPlanner, RealToComplex};
 use std::fmt;
 use std::sync::Arc;
 
-/// `|Σ y e^{−2πi jk/n}|²` for `k = 0 … n/2`, of values that zeros make `n`, a power of two. What does not depend on the values is found once.
+/// `|Σ y e^{−2πi jk/n}|²` for `k = 0 … n/2`, of values that zeros extend to `n`, a power of two. The plan
+/// does not depend on the values and is made once.
 #[derive(Clone)]
 pub(super) struct Periodogram(Arc<dyn RealToComplex<f64>>);
 
@@ -15,7 +16,7 @@ impl fmt::Debug for Periodogram {
 }
 
 impl Periodogram {
-    /// For so many values.
+    /// The plan for this number of values.
     pub(super) fn of_length(count: usize) -> Self {
         Self(RealFftPlanner::new().plan_fft_forward(count.next_power_of_two()))
     }
@@ -25,7 +26,7 @@ impl Periodogram {
         self.0.len()
     }
 
-    /// Of these values, `n` at most.
+    /// The power of these values, at most `n`.
     pub(super) fn power(&self, values: impl Iterator<Item = f64>) -> Vec<f64> {
         let (mut padded, mut spectrum) = (self.0.make_input_vec(), self.0.make_output_vec());
         padded.iter_mut().zip(values).for_each(|(place, value)| *place = value);

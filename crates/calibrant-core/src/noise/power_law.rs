@@ -1,4 +1,4 @@
-//! The random processes whose sum is the noise of a sensor at rest.
+//! The random processes whose sum is the noise of a sensor at rest: their Allan variances and covariances.
 
 use std::f64::consts::{LN_2, PI};
 
@@ -24,11 +24,12 @@ pub enum PowerLaw {
     RandomWalk,
 }
 
-/// Beyond this many of the longer cluster, the flicker covariance is its asymptote: the exact expression loses its digits there.
+/// Beyond this multiple of the longer cluster, the flicker covariance is its asymptote: the exact expression
+/// loses its digits there.
 const FAR: f64 = 50.0;
 
 impl PowerLaw {
-    /// All, in the order of their slopes.
+    /// All processes, in the order of their slopes.
     pub const ALL: [Self; 4] = [Self::Quantisation, Self::White, Self::Flicker, Self::RandomWalk];
 
     /// Slope of the Allan deviation on logarithmic axes.
@@ -54,15 +55,18 @@ impl PowerLaw {
         }
     }
 
-    /// Power of the sample interval by which the square of the coefficient is multiplied to have it for an interval of 1.
+    /// Power of the sample interval. The square of the coefficient times this is the square for an interval
+    /// of 1.
     pub(super) fn interval_power(self) -> i32 {
         [-2, -1, 0, 1][self as usize]
     }
 
-    /// Generalised autocovariance of the summed readings `x` at a lag of whole samples, for a coefficient and a sample interval of 1.
+    /// Generalised autocovariance of the summed readings `x` at a lag of whole samples, for a coefficient and
+    /// a sample interval of 1.
     ///
-    /// Generalised: up to even polynomials of degree two, which differences of clusters do not see. Each is the exact one of its sequence:
-    /// white `y`, a sum of white steps, and for flicker noise the fractional sum of order ½ of white noise (`kasdin1995`), whose generalised autocovariance is
+    /// Generalised: up to even polynomials of degree two, which differences of clusters remove. Each is exact
+    /// for its sequence. The sequences are white `y`, a sum of white steps, and the fractional sum of order ½
+    /// of white noise for flicker noise (`kasdin1995`). Its generalised autocovariance is
     /// `−(2/π) Σ_{i ≤ |h|} 1/(2i − 1)`; summed twice it is `(4h² − 1)/(8π) ψ(|h| + ½)`.
     fn phase_covariance(self, lag: f64) -> f64 {
         let h = lag.abs();
@@ -74,14 +78,15 @@ impl PowerLaw {
         }
     }
 
-    /// `E d_j(s) d_k(s + lag)` of differences between adjacent clusters of `j` and of `k` samples that begin at `s` and `s + lag`, for a coefficient and
-    /// a sample interval of 1.
+    /// `E d_j(s) d_k(s + lag)` for a coefficient and a sample interval of 1. The differences are between
+    /// adjacent clusters of `j` and of `k` samples that begin at `s` and `s + lag`.
     pub(super) fn covariance_of_differences(self, j: usize, k: usize, lag: i64) -> f64 {
         let sum = || second_differences(j, k, lag, |h| [self.phase_covariance(h)]);
         self.far_apart(j, k, lag).unwrap_or_else(|| sum()[0])
     }
 
-    /// The same for all processes, the flicker noise's from a table: it alone is not zero where clusters do not meet.
+    /// The same for all processes. The flicker noise's comes from a table: it alone is not zero where
+    /// clusters do not touch.
     pub(super) fn covariances_of_differences(
         j: usize,
         k: usize,
@@ -100,22 +105,24 @@ impl PowerLaw {
         })
     }
 
-    /// What is known of it where the clusters are far apart.
+    /// The covariance of clusters that are far apart, where a simple form holds.
     fn far_apart(self, j: usize, k: usize, lag: i64) -> Option<f64> {
         let (j, k, h) = (j as f64, k as f64, lag as f64);
         if self == Self::Flicker {
             let apart = h + k - j;
             return (apart.abs() > FAR * j.max(k)).then(|| -j * k / (PI * apart * apart));
         }
-        // clusters that do not meet
+        // clusters that do not touch
         (h > 2.0 * j || h < -2.0 * k).then_some(0.0)
     }
 
-    /// The process that dominates the difference of adjacent clusters, by the lag-1 autocorrelation of the cluster means (`riley2004`).
+    /// The process that dominates the difference of adjacent clusters, by the lag-1 autocorrelation of the
+    /// cluster means (`riley2004`).
     ///
-    /// `None` for fewer than 30 clusters: too few to tell.
+    /// `None` for fewer than 30 clusters: too few to decide.
     #[must_use]
     pub fn identify(means: &[f64]) -> Option<Self> {
+        /// Fewest clusters.
         const FEWEST: usize = 30;
         let mut values = means.to_vec();
         let mut differences = 0.0;
@@ -156,6 +163,7 @@ fn second_differences<const N: usize>(
     lag: i64,
     phase_covariances: impl Fn(f64) -> [f64; N],
 ) -> [f64; N] {
+    /// Weights of a second difference.
     const SECOND_DIFFERENCE: [f64; 3] = [1.0, -2.0, 1.0];
     let (j, k, h) = (j as f64, k as f64, lag as f64);
     let mut sums = [0.0; N];
@@ -168,7 +176,8 @@ fn second_differences<const N: usize>(
     sums.map(|sum| sum / (j * k))
 }
 
-/// Autocovariances of the phase of flicker noise at the lags that are asked for again and again: each takes a logarithm.
+/// Autocovariances of the phase of flicker noise at the lags that are needed repeatedly: each takes a
+/// logarithm.
 pub(super) struct FlickerTable(Vec<f64>);
 
 impl FlickerTable {
@@ -192,6 +201,7 @@ fn flicker_phase_covariance(h: f64) -> f64 {
 
 /// `ψ(h + ½)` of a whole number `h ≥ 0`.
 fn digamma_of_half_integer(h: f64) -> f64 {
+    /// From this argument on, the asymptotic series is exact to rounding.
     const ASYMPTOTIC: f64 = 12.0;
     if h >= ASYMPTOTIC {
         let square = 1.0 / (h * h);

@@ -1,4 +1,4 @@
-//! The stretch of a recording whose noise is examined: at rest, at equal intervals.
+//! The segment of a recording whose noise is examined: at rest, at equal intervals, without a gap.
 
 use crate::error::{Error, InputError, Result};
 use crate::sensor::{Recording, missing, rate_hz};
@@ -6,8 +6,9 @@ use std::ops::Range;
 
 /// A time step is a gap from this many usual steps on,
 const GAP: f64 = 5.0;
-/// where no more than this share of the samples is missing between gaps; else each that is missing is one.
+/// Largest share of missing samples between gaps. Above it, each missing sample is a gap.
 const MISSING: f64 = 0.1;
+/// Number of usual steps from which on a single missing sample is a gap.
 const STEP: f64 = 1.5;
 /// Fewest samples.
 const FEWEST: usize = 96;
@@ -27,20 +28,23 @@ pub struct Segment {
     pub interval_s: f64,
     /// Largest deviation of a time step from the mean, relative to it.
     pub jitter: f64,
-    /// Share of the samples that is missing; 0 where it is too little to be told.
+    /// Share of the samples that is missing; 0 where it is too small to determine.
     pub missing: f64,
-    /// Parts that gaps make of the interval that was asked for; this is the longest.
+    /// Number of parts into which gaps divide the requested interval. This is the longest part.
     pub parts: usize,
 }
 
 impl Segment {
-    /// The longest stretch without a gap between these times in s.
+    /// The longest segment without a gap between these times in s.
     ///
-    /// Missing samples shift all that follow against the clusters, so a gap ends a stretch: one of five samples, or of one where more than 10 % are missing. The samples beside fewer missing ones are taken
-    /// as if they followed one another, `interval_s` being their mean distance; N is then that of what was recorded. Jitter of the sample times averages out and is only reported.
+    /// Missing samples shift all later ones against the clusters, so a gap ends a segment. A gap is five
+    /// missing samples, or one where more than 10 % are missing. Around fewer missing samples, the remaining
+    /// ones count as successive, with `interval_s` as their mean distance. N is then that of the recorded
+    /// samples. Jitter of the sample times averages out and is only reported.
     ///
     /// # Errors
-    /// [`Error::Experiment`] for times that are none, in the wrong order, or of which the recording has nothing; [`Error::Recording`] where it has fewer than 96 samples.
+    /// [`Error::Experiment`] for times that are not numbers, in the wrong order, or outside the recording.
+    /// [`Error::Recording`] where the recording has fewer than 96 samples there.
     pub fn between(recording: &Recording, start_s: f64, end_s: f64) -> Result<Self> {
         check(recording, start_s, end_s)?;
         let Range { start: first, end } = recording.between(start_s, end_s);

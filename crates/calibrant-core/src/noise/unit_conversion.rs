@@ -1,4 +1,5 @@
-//! The same noise in another unit: everything but times and statistics is proportional to the readings.
+//! The conversion of noise results to another unit: everything but times and statistics is proportional to
+//! the readings.
 
 use super::{AllanDeviation, AxisNoise, Coefficient, Drift, NoiseFit, NoiseModel, Outliers};
 

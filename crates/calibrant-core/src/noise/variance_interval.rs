@@ -5,8 +5,9 @@ use crate::root::root;
 use statrs::distribution::{ContinuousCDF, Gamma};
 use std::convert::Infallible;
 
-/// The values of a variance `θ` under which an estimate at least as high, or at least as low, as `estimate` has half the probability that is left
-/// outside; `variance(θ)` is the variance of the estimate if `θ` is true.
+/// The bounds are values of a variance `θ`. Under each, an estimate at least as high, or at least as low, as
+/// `estimate` has half the probability outside the interval. `variance(θ)` is the variance of the estimate if
+/// `θ` is true.
 ///
 /// With `variance(θ) = 2 θ²/ν` these are the bounds `ν θ̂/χ²` of the χ² distribution with ν degrees of freedom.
 pub(super) fn bounds(estimate: f64, variance: impl Fn(f64) -> f64) -> (f64, f64) {
@@ -20,7 +21,8 @@ pub(super) fn upper(estimate: f64, variance: &impl Fn(f64) -> f64, tail: f64) ->
     crossing(estimate, variance, tail, 1.0, 1e6)
 }
 
-/// Where in `estimate · (from … to)` the probability of a lower estimate falls through `p`; the end where it does not.
+/// The place in `estimate · (from … to)` where the probability of a lower estimate falls through `p`; the end
+/// where it does not.
 fn crossing(estimate: f64, variance: &impl Fn(f64) -> f64, p: f64, from: f64, to: f64) -> f64 {
     let excess = |theta: f64| lower_probability(estimate, theta, variance(theta)) - p;
     let (first, last) = (excess(estimate * from), excess(estimate * to));
@@ -38,7 +40,8 @@ fn crossing(estimate: f64, variance: &impl Fn(f64) -> f64, p: f64, from: f64, to
     estimate * logarithm.exp()
 }
 
-/// Probability of an estimate below this one, the estimate following a gamma distribution of this mean and variance.
+/// Probability of an estimate below this one. The estimate follows a gamma distribution of this mean and
+/// variance.
 fn lower_probability(estimate: f64, mean: f64, variance: f64) -> f64 {
     Gamma::new(mean * mean / variance, mean / variance).map_or(f64::NAN, |gamma| gamma.cdf(estimate))
 }

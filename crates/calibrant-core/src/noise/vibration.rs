@@ -1,17 +1,24 @@
-//! A vibration or a hum: a line in the spectrum, which no sum of the processes has. In the Allan deviation it looks like noise at some cluster times and like a filter at others.
+//! Vibration or hum: a line in the spectrum, which no sum of the processes has. In the Allan deviation it
+//! looks like noise at some cluster times and like a filter at others.
 //!
-//! A line is a peak of the periodogram over the median about it. Ordinates of noise are exponential: one in `e^x` is `x` times their mean, which is the median over `ln 2`. What the bins
-//! about it have beyond that mean is its variance `p`, half the square of the amplitude of a sine; a frequency that wanders has it in several. It adds
+//! A line is a peak of the periodogram over the median about it. Ordinates of noise are exponential: one in
+//! `e^x` is `x` times their mean, which is the median over `ln 2`. The excess of the bins about the peak over
+//! that mean is the line's variance `p`, half the square of the amplitude of a sine. A frequency that wanders
+//! spreads it over several bins. A line adds
 //!
 //! ```text
 //! 2 p sin⁴(π f m)/(m² sin²(π f))
 //! ```
 //!
-//! to the Allan variance of clusters of `m` samples, at the frequency `f` in cycles per sample, and that is taken off before the fit. Leakage of a sine and a phase that walks at random both have tails
-//! that fall like `1/k²` in the distance of `k` bins: what is beyond `2k` bins is what is between `k` and `2k`, and is taken off with the rest.
+//! to the Allan variance of clusters of `m` samples, at the frequency `f` in cycles per sample. That is
+//! subtracted before the fit. Leakage of a sine and a phase that walks at random both have tails that fall
+//! like `1/k²` at the distance of `k` bins. The tail beyond `2k` bins is then as large as that between `k`
+//! and `2k`, and is subtracted, too.
 //!
-//! # Where the noise is in doubt
-//! Where lines are most of the Allan variance at a cluster time that is fitted, and where their tails, known to no more than their size, are more than the standard deviation of N².
+//! # Where the noise is doubtful
+//! The noise is doubtful where lines are most of the Allan variance at a fitted cluster time. It is also
+//! doubtful where the tails of the lines, of which only the size is known, exceed the standard deviation of
+//! N².
 
 use super::allan_regression::Regression;
 use super::periodogram::Periodogram;
@@ -20,48 +27,49 @@ use std::f64::consts::{LN_2, PI};
 
 /// Logarithm of the inverse probability of such a peak by chance, over all frequencies.
 const BEYOND_CHANCE: f64 = 14.0;
-/// A peak is the highest of so many bins on each side.
+/// A peak is the highest of this number of bins on each side.
 const ABOUT: usize = 32;
-/// Its noise is the median of up to so many, and no more than half of its own number: closer to zero slow noise is too steep.
+/// The noise about a peak is the median of up to this number of bins on each side. It is at most half of the
+/// peak's own number: closer to zero, slow noise is too steep.
 const WIDELY: usize = 256;
-/// Bins on each side that are a line's,
+/// Bins on each side that belong to a line.
 const LINE: usize = 16;
-/// of which those beyond so many are its tail.
+/// The bins of a line beyond this distance are its tail.
 const TAIL: usize = 8;
-/// Lines are most of a fitted Allan variance from this part on.
+/// From this part of a fitted Allan variance on, lines are most of it.
 const MOST: f64 = 0.5;
-/// From this part of an Allan variance on, fitted or not, too little is left to be known.
+/// From this part of an Allan variance on, fitted or not, too little noise is left to be known.
 const ALL: f64 = 0.97;
-/// Lines are worth a word if they have this part of the variance of the samples.
+/// Lines are reported if they have this part of the variance of the samples.
 const SHARE: f64 = 0.01;
 
-/// Lines in the spectrum of an axis that are worth a word.
+/// Lines in the spectrum of an axis that are large enough to report.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Vibration {
-    /// Frequency of the strongest, Hz.
+    /// Frequency of the strongest line, Hz.
     pub frequency_hz: f64,
-    /// Part of the variance of the samples that all have.
+    /// Part of the variance of the samples that all lines have.
     pub share: f64,
-    /// Part of N² that they would add, were they left in.
+    /// Part of N² that they would add if they were not subtracted.
     pub of_white: f64,
-    /// Can they be taken off so well that the noise is not in doubt?
+    /// Can they be subtracted so well that the noise is not doubtful?
     pub left_out: bool,
 }
 
-/// What the lines in the spectrum of some values add to their Allan variances.
+/// The contribution of the lines in the spectrum of some values to their Allan variances.
 pub(super) struct Lines {
-    /// Frequency, in cycles per sample, of the strongest.
+    /// Frequency of the strongest line, in cycles per sample.
     frequency: f64,
     /// Part of the variance of the values.
     share: f64,
-    /// At each scale.
+    /// Their contribution at each scale.
     adds: DVector<f64>,
-    /// What of that is beyond the bins of the lines.
+    /// The part of that beyond the bins of the lines.
     tails: DVector<f64>,
 }
 
 impl Lines {
-    /// Those that are beyond chance; `None` without any.
+    /// The lines that are beyond chance; `None` without any.
     pub(super) fn of(values: &[f64], scales: &[usize], periodogram: &Periodogram) -> Option<Self> {
         if values.len() < 8 * ABOUT {
             return None;
@@ -86,7 +94,8 @@ impl Lines {
                 others.map(|other| powers[other])
             };
             let middle = about().count() / 2;
-            // most peaks are noise: so many are above the median that a line would need, which is cheaper to see than the median
+            // most peaks are noise: counting the bins below the bound of a line is cheaper than taking the
+            // median
             let least = powers[k] / beyond * LN_2;
             if about().filter(|power| *power <= least).count() <= middle {
                 continue;
@@ -117,17 +126,18 @@ impl Lines {
         Some(Self { frequency: strongest.0, share, adds, tails })
     }
 
-    /// The Allan variances without them; as they are where next to nothing would be left.
+    /// The Allan variances without the lines. They stay as they are where next to nothing would be left.
     pub(super) fn taken_off(&self, observed: &DVector<f64>) -> DVector<f64> {
         if self.most_of(observed, 0) < ALL { observed - &self.adds } else { observed.clone() }
     }
 
-    /// Their largest part of the Allan variances from a scale on.
+    /// The largest part of the Allan variances that lines have, from a scale on.
     fn most_of(&self, observed: &DVector<f64>, first: usize) -> f64 {
         self.adds.iter().zip(observed).skip(first).map(|(adds, all)| adds / all).fold(0.0, f64::max)
     }
 
-    /// What is to be said of them after the fit to what is left of these Allan variances; nothing where they hardly matter.
+    /// The report on the lines after the fit to these Allan variances without them. `None` where they do not
+    /// matter.
     pub(super) fn vibration(
         &self,
         observed: &DVector<f64>,
@@ -145,7 +155,8 @@ impl Lines {
     }
 }
 
-/// What bins of these frequencies and variances add to the Allan variance of clusters of `m` samples.
+/// The contribution of bins of these frequencies and variances to the Allan variance of clusters of `m`
+/// samples.
 fn allan_variance(bins: &[(f64, f64)], m: f64) -> f64 {
     let of_bin = |&(f, p): &(f64, f64)| 2.0 * p * (PI * f * m).sin().powi(4) / (m * (PI * f).sin()).powi(2);
     bins.iter().map(of_bin).sum()
@@ -186,7 +197,7 @@ mod tests {
                 assert!((found.share - 0.08 / 1.08).abs() < 4.5 * 0.0057, "{}", found.share);
                 // far too small to matter
                 assert!(lines(&hum(0.01, 1.0)).is_none(), "{seed}");
-                // what it adds is the Allan variance of the sine alone
+                // the contribution is the Allan variance of the sine alone
                 let (found, mut x) = (lines(&hum(1.0, 0.01)).expect("seen"), vec![0.0]);
                 for k in 0..10_000 {
                     x.push(x[k] + (TAU * frequency * k as f64 + 1.0).sin());

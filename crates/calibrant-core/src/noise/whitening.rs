@@ -1,8 +1,9 @@
-//! What makes correlated errors independent, of unit variance.
+//! Whitening: the transformation that makes correlated errors independent, of unit variance.
 
 use nalgebra::{DMatrix, DVector, Dim, Matrix, RawStorage, StorageMut};
 
-/// `W = L⁻¹ D⁻¹` with the covariance `Σ = D L Lᵀ D`, so that `W Σ Wᵀ = I` and `Wᵀ W = Σ⁻¹`; `D` holds the standard deviations, as variances span many decades.
+/// `W = L⁻¹ D⁻¹` with the covariance `Σ = D L Lᵀ D`, so that `W Σ Wᵀ = I` and `Wᵀ W = Σ⁻¹`. `D` holds the
+/// standard deviations, as variances span many decades.
 pub(super) struct Whitening {
     lower: DMatrix<f64>,
     /// Inverses of the standard deviations.
@@ -10,14 +11,14 @@ pub(super) struct Whitening {
 }
 
 impl Whitening {
-    /// For independent errors of these variances.
+    /// The whitening of independent errors of these variances.
     pub(super) fn of_independent(variances: impl ExactSizeIterator<Item = f64>) -> Self {
         let size = variances.len();
         let scale = DVector::from_iterator(size, variances.map(|variance| variance.sqrt().recip()));
         Self { lower: DMatrix::identity(size, size), scale }
     }
 
-    /// `None` where the matrix is not positive definite.
+    /// The whitening of errors of this covariance; `None` where the matrix is not positive definite.
     pub(super) fn of_covariance(covariance: &DMatrix<f64>) -> Option<Self> {
         let scale = covariance.diagonal().map(|variance| variance.sqrt().recip());
         if scale.iter().any(|scale| !scale.is_finite()) {

@@ -1,4 +1,4 @@
-//! The sensor's axes.
+//! The axes of a sensor: x, y, z.
 
 use std::fmt;
 

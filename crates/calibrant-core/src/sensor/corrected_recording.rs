@@ -1,4 +1,4 @@
-//! A recording after its correction.
+//! The data type of a recording after its correction: corrected values, with their standard uncertainty.
 
 use super::WithoutForce;
 use nalgebra::Vector3;
@@ -10,7 +10,8 @@ pub struct CorrectedRecording<'a> {
     pub accelerometer: Option<CorrectedSensor<'a>>,
     /// Angular rate, rad/s.
     pub gyroscope: Option<CorrectedSensor<'a>>,
-    /// Where the accelerometer has no data to correct the g-sensitivity with; `None` where it has some at every sample of the gyroscope, or they are not needed.
+    /// Where the correction of the g-sensitivity lacks a specific force. `None` where the accelerometer has
+    /// data at every sample of the gyroscope, or where the correction does not need them.
     pub without_force: Option<WithoutForce>,
 }
 
@@ -21,6 +22,7 @@ pub struct CorrectedSensor<'a> {
     pub times_s: &'a [f64],
     /// Corrected readings, in the sensor's SI unit.
     pub values: Vec<Vector3<f64>>,
-    /// Standard uncertainty of the correction at each; `None` where the calibration has no covariance of this sensor.
+    /// Standard uncertainty of the correction at each sample; `None` where the calibration has no covariance
+    /// of this sensor.
     pub sd: Option<Vec<Vector3<f64>>>,
 }

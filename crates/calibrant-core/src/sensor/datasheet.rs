@@ -1,12 +1,14 @@
-//! What is known of a sensor before it is calibrated.
+//! The datasheet of an accelerometer: what is known before a calibration. It gives the nominal parameters and
+//! their spread.
 
 use super::{Axis, ParameterList, ReadingUnit, SensorModel, SensorParameters};
 use nalgebra::{Matrix3, Vector3};
 
 /// An accelerometer's datasheet: its model, the unit of its readings, its noise and the spread of its errors.
 ///
-/// Spreads and noise are in SI; [`Sensor::noise`] and [`ParameterList::describe`] convert them to the unit of the readings with the
-/// nominal gain. Where the readings are counts and no nominal gain is known, it comes from the data.
+/// Spreads and noise are in SI. [`Sensor::noise`] and [`ParameterList::describe`] convert them to the unit of
+/// the readings with the nominal gain. Where the readings are counts and no nominal gain is known, the gain
+/// comes from the data.
 ///
 /// # Examples
 /// ```
@@ -30,20 +32,21 @@ pub struct Sensor {
     pub offset: Option<Vector3<f64>>,
     /// Standard deviation of the white noise of one sample, per axis, in m/s²; `None` where it is not known.
     pub noise_mps2: Option<Vector3<f64>>,
-    /// The same in counts; only for readings in counts, where it takes precedence.
+    /// The noise of one sample in counts. It is only for readings in counts, where it takes precedence.
     pub noise_counts: Option<Vector3<f64>>,
     /// Datasheet spread (standard deviation over the population) of the bias, per axis, in m/s².
     pub bias_sd_mps2: Option<Vector3<f64>>,
     /// Datasheet spread of the scale factors, relative, per axis.
     pub scale_sd: Option<Vector3<f64>>,
-    /// Datasheet spread of the cross-axis sensitivities (the off-diagonal entries relative to the gain; radians for small angles).
+    /// Datasheet spread of the cross-axis sensitivities: the off-diagonal entries relative to the gain
+    /// (radians for small angles).
     pub cross_axis_sd: Option<f64>,
     /// Largest stimulus that the sensor can report, per axis, m/s²: a limit of every motion.
     pub range_mps2: Option<Vector3<f64>>,
 }
 
 impl Sensor {
-    /// A triaxial sensor with readings in m/s², nominally perfect, nothing else known.
+    /// A triaxial sensor with readings in m/s², nominally perfect. Nothing else of it is known.
     #[must_use]
     pub fn triaxial(model: SensorModel) -> Self {
         Self {

@@ -1,8 +1,8 @@
-//! Parameters as people see them, with what the datasheet says of them.
+//! Parameters as tables show them: name, unit, nominal value and datasheet spread.
 
 use super::{Axis, ParameterList, Quantity, Sensor, SensorParameters};
 
-/// One parameter as people see it.
+/// One parameter as tables show it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Parameter {
     /// Name, as in [`Quantity::name`].
@@ -16,8 +16,9 @@ pub struct Parameter {
 }
 
 impl ParameterList {
-    /// Name, unit, nominal value and datasheet spread of each parameter; the gains of `like` turn relative spreads into those of the readings
-    /// (the nominal sensor, or the estimate where no nominal gain is known).
+    /// Name, unit, nominal value and datasheet spread of each parameter. The gains of `like` turn relative
+    /// spreads into spreads of the readings. `like` is the nominal sensor, or the estimate where no nominal
+    /// gain is known.
     #[must_use]
     pub fn describe(&self, sensor: &Sensor, like: &SensorParameters) -> Vec<Parameter> {
         let nominal = sensor.nominal();

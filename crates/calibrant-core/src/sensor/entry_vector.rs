@@ -1,7 +1,9 @@
-//! The entries of an IMU's model as one vector: biases, matrices, g-sensitivity and temperature terms, whichever of them were estimated.
+//! The entries of an IMU's model as one vector: biases, matrices, g-sensitivity and temperature terms. It is
+//! the coordinate system of all changes of frame and reference.
 //!
-//! `b_a` (3), `S_a` row by row (9), `b_g` (3), `S_g` (9), `Γ` (9); then for each sensor `b_1`, `b_2`, `k_1`, `k_2` (3 each). Derivatives of what is computed from an IMU are taken with respect to these, and a
-//! covariance of any list of quantities becomes one of the entries.
+//! The order is `b_a` (3), `S_a` row by row (9), `b_g` (3), `S_g` (9), `Γ` (9). Then come `b_1`, `b_2`,
+//! `k_1`, `k_2` (3 each) of each sensor. Derivatives of results that depend on an IMU are taken with respect
+//! to these entries. A covariance of any list of quantities becomes a covariance of the entries.
 
 use super::{
     Axis, CalibratedImu, HIGHEST_ORDER, ImuParameters, ImuQuantity, Quantity, SensorKind, SensorParameters,
@@ -12,7 +14,7 @@ use nalgebra::{DMatrix, Matrix3, SMatrix, SVector, Vector3};
 /// Number of entries.
 pub(crate) const ENTRIES: usize = AT_REFERENCE + 2 * THERMAL_OF_SENSOR;
 
-/// Number of those that do not speak of temperature; they come first.
+/// Number of entries that are not temperature terms; they come first.
 pub(crate) const AT_REFERENCE: usize = 33;
 
 /// Number of temperature terms of one sensor.
@@ -88,7 +90,8 @@ pub(super) fn from_parameters(imu: &ImuParameters) -> EntryVector {
     entries
 }
 
-/// An IMU of these entries: the inverse of [`of`], which does not know the reference temperature.
+/// An IMU with these entries: the inverse of [`from_parameters`](Self::from_parameters). The reference
+/// temperature is not among the entries.
 pub(super) fn to_imu(entries: &EntryVector) -> ImuParameters {
     let sensor = |sensor_kind| SensorParameters {
         bias: Vector3::from_fn(|row, _| entries[bias(sensor_kind, row)]),
@@ -128,7 +131,8 @@ pub(super) fn all_quantities() -> Vec<ImuQuantity> {
     all
 }
 
-/// Covariance of the entries of an IMU, zero where they are known exactly; `None` where the IMU has no covariance.
+/// Covariance of the entries of an IMU, zero where they are known exactly; `None` where the IMU has no
+/// covariance.
 pub(super) fn covariance(imu: &CalibratedImu) -> Option<EntryMatrix> {
     let sigma = imu.covariance.as_ref()?;
     let embedding: Vec<_> = imu.quantities.iter().map(|&quantity| of_quantity(quantity)).collect();
@@ -138,8 +142,8 @@ pub(super) fn covariance(imu: &CalibratedImu) -> Option<EntryMatrix> {
 }
 
 impl ImuQuantity {
-    /// Every quantity of a full model, in the order of a result: bias, scale factors and cross-axis sensitivities of each sensor that is there, then
-    /// the g-sensitivity.
+    /// Every quantity of a full model, in the order of a result. Each sensor that is there has its bias,
+    /// scale factors and cross-axis sensitivities. The g-sensitivity follows.
     #[must_use]
     pub fn full_list(accelerometer: bool, gyroscope: bool, g_sensitivity: bool) -> Vec<Self> {
         let mut list = Vec::new();
@@ -164,14 +168,15 @@ impl ImuQuantity {
         list
     }
 
-    /// Is it an entry of a matrix (its diagonal or another), not a bias?
+    /// Is it an entry of the matrix of this sensor, on the diagonal or off it? A bias is not.
     #[must_use]
     pub(super) fn in_matrix_of(self, sensor_kind: SensorKind) -> bool {
         matches!(self, Self::Of(of, quantity) if of == sensor_kind && !matches!(quantity, Quantity::Bias(_)))
     }
 }
 
-/// Derivative of the entries of an IMU after a change with respect to those before, of which `linear` is the effect of a small step.
+/// Derivative of the entries of an IMU after a change with respect to the entries before. `linear` gives the
+/// effect of a small step.
 pub(super) fn jacobian(linear: impl Fn(&ImuParameters) -> ImuParameters) -> EntryMatrix {
     let mut jacobian = EntryMatrix::zeros();
     for entry in 0..ENTRIES {

@@ -1,6 +1,7 @@
 //! The lesser and the greater of two numbers.
 
-/// The lesser of two numbers, the first if they cannot be compared. For what is done with every sample: `f64::min` minds NaN and takes thrice as long.
+/// The lesser of two numbers, the first if they cannot be compared. It serves loops over all samples:
+/// `f64::min` handles NaN and takes thrice as long.
 #[inline]
 #[must_use]
 pub fn lesser(one: f64, other: f64) -> f64 {

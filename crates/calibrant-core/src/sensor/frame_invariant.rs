@@ -1,8 +1,10 @@
-//! What two calibrations of one sensor must agree on, whatever their true frames: lengths of the sensitivity axes, angles between them, biases.
+//! Frame invariants of a calibration: lengths of the sensitive axes, angles between them, biases. Two
+//! calibrations of one sensor must agree on them, whatever their true frames.
 //!
-//! Row i of `S` is the sensitivity axis of sensor axis i: `y_i = S_i · s + b_i`. Another true frame turns all rows of both sensors together (`S R`), so that
-//! their lengths (the gains), the angles between them and the biases stay. An angle between axes of which one is `u` and the other `v` is
-//! `atan2(|u × v|, u · v)`, exact for small angles too; its derivative is `−(v̂ − û cos θ) · du / (|u| sin θ)`, likewise for `v`.
+//! Row i of `S` is the sensitive axis of sensor axis i: `y_i = S_i · s + b_i`. Another true frame turns all
+//! rows of both sensors together (`S R`). So the lengths of the rows (the gains), the angles between them and
+//! the biases stay. The angle between the axes `u` and `v` is `atan2(|u × v|, u · v)`, exact for small angles
+//! too. Its derivative is `−(v̂ − û cos θ) · du / (|u| sin θ)`, likewise for `v`.
 
 use super::entry_vector::{self, EntryMatrix, EntryVector};
 use super::{
@@ -15,13 +17,13 @@ use nalgebra::Vector3;
 pub enum Invariant {
     /// Bias of an axis, in the unit of the readings.
     Bias(SensorKind, Axis),
-    /// Length of a sensitivity axis: the gain, in the unit of the readings per unit of the stimulus.
+    /// Length of a sensitive axis: the gain, in the unit of the readings per unit of the stimulus.
     Gain(SensorKind, Axis),
     /// Angle between two axes of one sensor, rad.
     Angle(SensorKind, Axis, Axis),
     /// Angle between an axis of the accelerometer and one of the gyroscope, rad.
     AngleBetween(Axis, Axis),
-    /// Length of a row of `Γ`: the most that a gyroscope axis shows of 1 m/s².
+    /// Length of a row of `Γ`: the most that a gyroscope axis reads from 1 m/s².
     GSensitivity(Axis),
     /// What temperature does to bias or gain of an axis.
     Thermal(SensorKind, ThermalTerm),
@@ -34,13 +36,13 @@ pub struct InvariantValue {
     pub invariant: Invariant,
     /// Its value.
     pub value: f64,
-    /// Its standard deviation to first order. `None` without a covariance, and where a length or an angle is so close to zero that the
-    /// first order says nothing (below three of its standard deviations: it cannot be negative).
+    /// Its standard deviation to first order. `None` without a covariance. `None` also where a length or an
+    /// angle is below three of its standard deviations: the first order does not hold there.
     pub sd: Option<f64>,
 }
 
 impl Invariant {
-    /// All that an IMU with these sensors has at its reference temperature, in the order of a table.
+    /// All invariants of an IMU with these sensors at its reference temperature, in the order of a table.
     #[must_use]
     pub fn list(accelerometer: bool, gyroscope: bool) -> Vec<Self> {
         use Axis::{X, Y, Z};
@@ -173,7 +175,7 @@ impl Invariant {
 }
 
 impl CalibratedImu {
-    /// Everything about it that is known and does not depend on the true frame, with standard deviations where it has a covariance.
+    /// All invariants of the IMU that are known, with standard deviations where it has a covariance.
     ///
     /// # Examples
     /// ```
@@ -254,7 +256,7 @@ mod tests {
 
     #[test]
     fn they_are_the_same_in_every_gauge_and_so_are_their_standard_deviations() {
-        // the gauge gives up what the covariance said of the rotation, which no invariant sees
+        // the gauge removes the uncertainty of the rotation from the covariance; no invariant depends on it
         let before = imu().invariants();
         for gauge in [Gauge::Lower, Gauge::Upper, Gauge::Symmetric] {
             let after = imu().in_gauge(gauge).expect("regular").invariants();

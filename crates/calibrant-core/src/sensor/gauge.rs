@@ -1,8 +1,8 @@
-//! Gauge of a static calibration, and the correction in the direction raw → true.
+//! The gauge of a static calibration, which fixes its true frame, and the correction raw → true.
 //!
-//! Without a reference for the sensor's orientation the true frame is arbitrary: `S` and `S R` describe the same sensor for
-//! every rotation `R`. A gauge picks one. The correction is `s = S⁻¹ (y − b)`; `S` and `S⁻¹` are triangular (or symmetric)
-//! together, so one gauge names both directions.
+//! Without a reference for the sensor's orientation the true frame is arbitrary: `S` and `S R` describe the
+//! same sensor for every rotation `R`. A gauge picks one. The correction is `s = S⁻¹ (y − b)`. `S` and `S⁻¹`
+//! are triangular (or symmetric) together, so one gauge names both directions.
 
 use super::{Axis, Quantity, SensorModel, SensorParameters};
 use nalgebra::{Matrix3, Vector3};
@@ -51,9 +51,9 @@ impl Gauge {
 
     /// The same sensor in this gauge: `S R` for the rotation `R` that makes it so, with a positive diagonal. The bias does not change.
     ///
-    /// Lower: `S = L Q` by Gram–Schmidt on the rows of `S` (the Cholesky factor of `S Sᵀ`). Upper: the same from the last row up.
-    /// Symmetric: the square root of `S Sᵀ`. A matrix of negative determinant (a left-handed sensor) keeps its magnitude:
-    /// gravity alone cannot tell handedness.
+    /// Lower: `S = L Q` by Gram–Schmidt on the rows of `S` (the Cholesky factor of `S Sᵀ`). Upper: the same
+    /// from the last row up. Symmetric: the square root of `S Sᵀ`. A matrix of negative determinant (a
+    /// left-handed sensor) keeps its magnitude: gravity alone does not determine handedness.
     #[must_use]
     pub fn apply(self, sensor: &SensorParameters) -> SensorParameters {
         let s = &sensor.matrix;
@@ -85,7 +85,7 @@ fn lower_factor(s: &Matrix3<f64>) -> Matrix3<f64> {
     l
 }
 
-/// The correction, raw → true: `s = matrix · (y − bias)`, with its parts as imu_tk has them: `s = T K (y − b)`.
+/// The correction, raw → true: `s = matrix · (y − bias)`. Its parts follow imu_tk: `s = T K (y − b)`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Correction {
     /// `C = S⁻¹`, in m/s² per unit of the readings.
@@ -94,7 +94,8 @@ pub struct Correction {
     pub bias: Vector3<f64>,
 }
 
-/// `M v`, written out for what is done with every sample: general products of matrices cost several times as much.
+/// `M v`, written out because it runs for every sample: general products of matrices cost several times as
+/// much.
 #[inline]
 pub(crate) fn times(m: &Matrix3<f64>, v: &Vector3<f64>) -> Vector3<f64> {
     Vector3::new(

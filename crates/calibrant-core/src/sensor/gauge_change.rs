@@ -1,12 +1,14 @@
-//! Another true frame for a whole IMU: both sensors turned together, the covariance with them.
+//! The change of the true frame of a whole IMU: it turns both sensors and their covariance together.
 //!
-//! `S` and `S R` describe the same sensor in two true frames. A gauge (see [`Gauge`]) picks the frame by the form of one sensor's matrix, the
-//! accelerometer's where there is one; the other sensor and the g-sensitivity take the same rotation: `S_a' = S_a R`, `S_g' = S_g R`, `Γ' = Γ R`.
-//! Biases do not change, nor what temperature does to biases and gains: `D S` becomes `D S R`.
+//! `S` and `S R` describe the same sensor in two true frames. A gauge (see [`Gauge`]) picks the frame by the
+//! form of one sensor's matrix, the accelerometer's where there is one. The other sensor and the
+//! g-sensitivity take the same rotation: `S_a' = S_a R`, `S_g' = S_g R`, `Γ' = Γ R`. Biases and temperature
+//! coefficients do not change: `D S` becomes `D S R`.
 //!
-//! `R` depends on `S_a`, so that an error of `S_a` turns everything: `dS' = dS R + S' [δ]×`, where the small rotation `δ` keeps the form of the
-//! reference sensor's matrix: the three entries (or differences of entries) that the gauge sets to zero stay zero, three linear equations for `δ`. This is the exact
-//! Jacobian, and the covariance follows to first order.
+//! `R` depends on `S_a`, so an error of `S_a` turns everything: `dS' = dS R + S' [δ]×`. The small rotation
+//! `δ` keeps the form of the reference sensor's matrix. The three entries (or differences of entries) that
+//! the gauge sets to zero stay zero, which gives three linear equations for `δ`. This is the exact Jacobian,
+//! and the covariance follows to first order.
 
 use super::entry_vector::{self, EntryMatrix};
 use super::{Axis, CalibratedImu, Gauge, ImuParameters, ImuQuantity, Quantity, SensorKind, SensorModel};
@@ -24,7 +26,7 @@ struct Turned {
 }
 
 impl Gauge {
-    /// What this gauge sets to zero: three entries, or differences of entries, of the matrix.
+    /// What this gauge sets to zero: three entries of the matrix, or differences of entries.
     fn residuals(self, s: &Matrix3<f64>) -> Vector3<f64> {
         match self {
             Self::Lower => Vector3::new(s[(0, 1)], s[(0, 2)], s[(1, 2)]),
@@ -44,7 +46,7 @@ impl Gauge {
         positive && self.is_form_of(s)
     }
 
-    /// The same matrix with what this gauge sets to zero exactly so.
+    /// The same matrix, with exact zeros where this gauge sets zeros.
     fn cleaned(self, s: &Matrix3<f64>) -> Matrix3<f64> {
         Matrix3::from_fn(|i, j| match self {
             Self::Lower if j > i => 0.0,
@@ -54,7 +56,8 @@ impl Gauge {
         })
     }
 
-    /// The gauge whose form a matrix has exactly; `None` where it has none of them, or all of them because it is diagonal.
+    /// The gauge whose form a matrix has exactly. `None` where it has no gauge's form, or every gauge's
+    /// because it is diagonal.
     ///
     /// # Examples
     /// ```
@@ -90,7 +93,7 @@ impl Turned {
                 "one axis has the wrong sign: change the sign of its column in the recording and calibrate again",
             );
         }
-        // what has the form already stays as it is, to the last bit
+        // a matrix that has the form already stays as it is, to the last bit
         let target = if gauge.has(&sensor.matrix) {
             sensor.matrix
         } else {
@@ -123,7 +126,7 @@ impl Turned {
         Ok(Self { imu: turned, rotation, gauge, reference, restoring: -inverse })
     }
 
-    /// What a small step of the entries becomes.
+    /// The effect of a small step of the entries.
     fn step(&self, step: &ImuParameters) -> ImuParameters {
         let dragged = step.sensor(self.reference).matrix * self.rotation;
         let delta = (self.restoring * self.gauge.residuals(&dragged)).cross_matrix();
@@ -152,9 +155,11 @@ impl CalibratedImu {
         if self.accelerometer_unit.is_some() { SensorKind::Accelerometer } else { SensorKind::Gyroscope }
     }
 
-    /// The same IMU in the true frame of a gauge of the [reference](Self::reference) sensor, its covariance carried along to first order.
+    /// The same IMU in the true frame of a gauge of the [reference](Self::reference) sensor. Its covariance
+    /// follows to first order.
     ///
-    /// A frame that was known better than the gauge (that of a robot's motion) is given up: what the covariance said of the rotation is gone.
+    /// This gives up a frame that was known better than the gauge, such as that of a robot's motion. The
+    /// covariance loses what it contained about the rotation.
     ///
     /// # Errors
     /// [`Error::Experiment`] where the sensor is left-handed or its matrix singular.
@@ -191,7 +196,7 @@ impl CalibratedImu {
         let covariance = entry_vector::covariance(self).map(|sigma| {
             let jacobian = turned.jacobian();
             let sigma = jacobian * sigma * jacobian.transpose();
-            // the first entry of a quantity tells its value: both entries of a symmetric pair are the same
+            // the first entry of a quantity gives its value: both entries of a symmetric pair are the same
             let place: Vec<usize> =
                 quantities.iter().map(|&quantity| entry_vector::of_quantity(quantity).imax()).collect();
             DMatrix::from_fn(place.len(), place.len(), |i, j| {
@@ -210,11 +215,12 @@ impl CalibratedImu {
         })
     }
 
-    /// What the covariance speaks of after a turn: all that a listed quantity of the sensor can have become.
+    /// The quantities of the covariance after the rotation: all that a listed quantity of the sensor can
+    /// contribute to.
     fn turned_quantities(&self, turned: &Turned) -> Vec<ImuQuantity> {
         let has_matrix =
             |sensor_kind| self.quantities.iter().any(|quantity| quantity.in_matrix_of(sensor_kind));
-        // a diagonal matrix whose diagonal alone is in question stays so
+        // a diagonal matrix stays diagonal where the quantities contain only its diagonal
         let still = turned.rotation == Matrix3::identity()
             && self.quantities.iter().all(|quantity| {
                 !quantity.in_matrix_of(turned.reference)

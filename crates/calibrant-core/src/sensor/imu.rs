@@ -1,7 +1,9 @@
-//! An inertial measurement unit: an accelerometer and a gyroscope that share a frame.
+//! The model of an inertial measurement unit: an accelerometer and a gyroscope that share a frame. It defines
+//! the recordings, parameters and quantities of an IMU.
 //!
-//! `y_a = S_a f + b_a + ν_a`, `y_g = S_g ω + b_g + Γ f + ν_g`, true → raw: `f` the specific force in m/s², `ω` the angular rate in rad/s, both in the
-//! true frame. `Γ` is the g-sensitivity, what the gyroscope shows of specific force. `S` and `b` may follow temperature ([`Thermal`]).
+//! `y_a = S_a f + b_a + ν_a`, `y_g = S_g ω + b_g + Γ f + ν_g`, true → raw. `f` is the specific force in m/s²
+//! and `ω` the angular rate in rad/s, both in the true frame. `Γ` is the g-sensitivity: how the gyroscope
+//! responds to specific force. `S` and `b` may follow temperature ([`Thermal`]).
 
 use super::spikes::{Spikes, without};
 use super::{
@@ -31,7 +33,8 @@ impl ImuRecording {
         }
     }
 
-    /// The recording without spikes and invalid readings of either sensor ([`Recording::without_spikes`]), and what they were.
+    /// The recording without spikes and invalid readings of either sensor ([`Recording::without_spikes`]),
+    /// and those that were removed.
     #[must_use]
     pub fn without_spikes(&self) -> (Cow<'_, Self>, Vec<(SensorKind, Spikes)>) {
         let clean = |sensor_kind: SensorKind| {
@@ -70,7 +73,7 @@ pub struct ImuParameters {
     pub gyroscope: SensorParameters,
     /// `Γ`, in the unit of the gyroscope's readings per m/s².
     pub g_sensitivity: Matrix3<f64>,
-    /// What temperature does to biases and gains, which are those at its reference.
+    /// The temperature coefficients. Biases and gains are those at the reference temperature.
     pub thermal: Thermal,
 }
 
@@ -108,9 +111,10 @@ impl ImuParameters {
 pub enum ImuQuantity {
     /// A quantity of one of the sensors; printed `gyroscope.scale.x`.
     Of(SensorKind, Quantity),
-    /// Entry of `Γ`, (row, column): what gyroscope axis `row` shows of the specific force along `column`; printed `gyroscope.g_sensitivity.xy`.
+    /// Entry of `Γ`, (row, column): the response of gyroscope axis `row` to the specific force along
+    /// `column`; printed `gyroscope.g_sensitivity.xy`.
     GSensitivity(Axis, Axis),
-    /// A coefficient of what temperature does to one of the sensors; printed `gyroscope.bias_per_k.x`.
+    /// A temperature coefficient of one of the sensors; printed `gyroscope.bias_per_k.x`.
     Thermal(SensorKind, ThermalTerm),
 }
 
@@ -217,16 +221,16 @@ impl ImuQuantity {
     }
 }
 
-/// A calibrated IMU as it is exchanged with other programs: what `convert`, `apply` and `compare` work on.
+/// A calibrated IMU in the form that `convert`, `apply` and `compare` share with other programs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CalibratedImu {
-    /// The values; those of a sensor that was not calibrated are of no meaning.
+    /// The values. Those of a sensor that was not calibrated have no meaning.
     pub parameters: ImuParameters,
     /// Unit of the accelerometer's readings; `None` where there is no accelerometer.
     pub accelerometer_unit: Option<ReadingUnit>,
     /// Unit of the gyroscope's readings; `None` where there is no gyroscope.
     pub gyroscope_unit: Option<ReadingUnit>,
-    /// The quantities that the covariance speaks of, in its order; without one, those that are known.
+    /// The quantities of the covariance, in its order. Without a covariance, the quantities that are known.
     pub quantities: Vec<ImuQuantity>,
     /// Covariance of these quantities; `None` where it is not known.
     pub covariance: Option<DMatrix<f64>>,
@@ -244,7 +248,8 @@ impl CalibratedImu {
         }
     }
 
-    /// Are the biases of a sensor known? Kalibr's files, which have no covariance either, do not list them: zeros stand in their place.
+    /// Are the biases of a sensor known? Kalibr's files have no covariance and list no biases: zeros stand in
+    /// their place.
     #[must_use]
     pub fn has_bias(&self, sensor_kind: SensorKind) -> bool {
         let listed = |quantity: &ImuQuantity| matches!(quantity, ImuQuantity::Of(of, Quantity::Bias(_)) if *of == sensor_kind);
@@ -287,7 +292,7 @@ impl CalibratedImu {
         imu
     }
 
-    /// Forgets all but these of the quantities.
+    /// Removes all quantities but these.
     pub(super) fn restrict(&mut self, kept: &[usize]) {
         self.quantities = kept.iter().map(|&k| self.quantities[k]).collect();
         self.covariance = self

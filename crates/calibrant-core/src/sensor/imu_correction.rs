@@ -1,8 +1,10 @@
-//! The correction of an IMU, raw → true, and how well it is known.
+//! The correction of an IMU, raw → true, and its uncertainty. This file applies a calibration to readings; it
+//! estimates nothing.
 //!
-//! `f = C_a (y_a − b_a)`, `ω = C_g (y_g − b_g − Γ f)` with `C = S⁻¹`. An error of the parameters moves a corrected reading by
-//! `df = −C_a (db_a + dS_a f)` and `dω = −C_g (db_g + dS_g ω + dΓ f + Γ df)`; the covariance of the parameters gives that of the correction. The
-//! noise of the reading is not in it. Where biases and gains follow temperature, all of this is at the temperature of each sample.
+//! `f = C_a (y_a − b_a)`, `ω = C_g (y_g − b_g − Γ f)` with `C = S⁻¹`. An error of the parameters moves a
+//! corrected reading by `df = −C_a (db_a + dS_a f)` and `dω = −C_g (db_g + dS_g ω + dΓ f + Γ df)`. The
+//! covariance of the parameters gives that of the correction. It does not contain the noise of the reading.
+//! Where biases and gains follow temperature, all of this is at the temperature of each sample.
 
 use super::entry_vector::{self, ENTRIES, EntryMatrix};
 use super::missing_specific_force::{MissingForce, unknown_force_variance};
@@ -38,9 +40,9 @@ use std::sync::Arc;
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct ImuCorrection {
-    /// That of the accelerometer, where there is one.
+    /// Correction of the accelerometer, where there is one.
     pub accelerometer: Option<Correction>,
-    /// That of the gyroscope, where there is one, g-sensitivity apart.
+    /// Correction of the gyroscope without the g-sensitivity, where there is one.
     pub gyroscope: Option<Correction>,
     /// `Γ`, in the unit of the gyroscope's readings per m/s².
     pub g_sensitivity: Matrix3<f64>,
@@ -54,7 +56,8 @@ impl ImuCorrection {
     /// The correction of a calibrated IMU.
     ///
     /// # Errors
-    /// [`Error::Experiment`] where a matrix has no inverse, or there is a g-sensitivity without an accelerometer to correct it with.
+    /// [`Error::Experiment`] where a matrix has no inverse, or there is a g-sensitivity without an
+    /// accelerometer to correct it with.
     pub fn of(imu: &CalibratedImu) -> Result<Self> {
         let of = |sensor_kind: SensorKind| match imu.unit(sensor_kind) {
             None => Ok(None),
@@ -123,7 +126,7 @@ impl ImuCorrection {
         })
     }
 
-    /// Does the correction depend on temperature, in its values or in what is known of them?
+    /// Does the correction depend on temperature, in its values or in their covariance?
     #[must_use]
     pub fn follows_temperature(&self) -> bool {
         !self.imu.thermal.is_none() || self.covers(entry_vector::AT_REFERENCE..ENTRIES)
@@ -181,6 +184,7 @@ impl ImuCorrection {
             if self.follows_temperature() {
                 errors * covariance * errors.transpose()
             } else {
+                /// Number of entries without temperature terms.
                 const N: usize = entry_vector::AT_REFERENCE;
                 let errors = errors.fixed_view::<3, N>(0, 0);
                 errors * covariance.fixed_view::<N, N>(0, 0) * errors.transpose()
@@ -216,19 +220,22 @@ impl ImuCorrection {
         self.covers(entry_vector::g_sensitivity(0, 0)..entry_vector::AT_REFERENCE)
     }
 
-    /// Says the covariance anything of these entries?
+    /// Does the covariance contain any of these entries?
     fn covers(&self, mut entries: std::ops::Range<usize>) -> bool {
         self.covariance.as_ref().is_some_and(|sigma| entries.any(|k| sigma[(k, k)] > 0.0))
     }
 
     /// A corrected recording: every sensor that the calibration and the recording both have.
     ///
-    /// The specific force at a sample of the gyroscope is interpolated where the sensors' times differ. Where the accelerometer has none within two of its sample intervals, the nearest is taken
-    /// (between both ends of a gap, what lies on the line), and the uncertainty has in it that gravity may point anywhere else.
+    /// The specific force at a sample of the gyroscope is interpolated where the sensors' times differ. Where
+    /// the accelerometer has no sample within two of its sample intervals, the nearest is taken. Between both
+    /// ends of a gap that is the value on the line. The uncertainty then allows for gravity in any other
+    /// direction.
     ///
     /// # Errors
-    /// [`Error::Recording`] where the readings are in another unit than the calibration's, where there is a g-sensitivity to correct and the
-    /// recording has no accelerometer, or where the calibration follows temperature and the recording has none.
+    /// [`Error::Recording`] where the readings are in another unit than the calibration's. Also where there
+    /// is a g-sensitivity to correct and the recording has no accelerometer. Also where the calibration
+    /// follows temperature and the recording has none.
     pub fn apply<'a>(
         &self,
         imu: &CalibratedImu,
@@ -237,7 +244,8 @@ impl ImuCorrection {
         self.apply_feeling(imu, recording, recording.accelerometer.as_ref())
     }
 
-    /// The same where the accelerometer has spikes: `felt` are its readings without ([`Recording::without_spikes`]), which are the force that the gyroscope feels.
+    /// The same where the accelerometer has spikes. `felt` are its readings without them
+    /// ([`Recording::without_spikes`]): the force that the gyroscope feels.
     ///
     /// # Errors
     /// As [`apply`](Self::apply).
@@ -339,7 +347,8 @@ impl ImuCorrection {
         })
     }
 
-    /// What takes an error of the specific force to one of the corrected rate, by the g-sensitivity.
+    /// The matrix from an error of the specific force to an error of the corrected rate, through the
+    /// g-sensitivity.
     fn by_unknown_force(&self) -> Matrix3<f64> {
         self.gyroscope.map_or_else(Matrix3::zeros, |correction| correction.matrix * self.g_sensitivity)
     }
@@ -372,7 +381,7 @@ impl ImuCorrection {
 
 /// Derivative of a reading with respect to bias and matrix of its sensor (12 entries), at a stimulus and a factor on each gain.
 fn own_errors(stimulus: &Vector3<f64>, gain_factor: &Vector3<f64>) -> SMatrix<f64, 3, 12> {
-    // the places are those of either sensor, less its first
+    // the entries of either sensor have these places, less the sensor's first
     let own = SensorKind::Accelerometer;
     let mut errors = SMatrix::zeros();
     for row in 0..3 {
@@ -384,7 +393,8 @@ fn own_errors(stimulus: &Vector3<f64>, gain_factor: &Vector3<f64>) -> SMatrix<f6
     errors
 }
 
-/// Square root of a variance, which rounding may have made a little negative; NaN is one that overflowed.
+/// Square root of a variance that rounding may have made slightly negative. NaN stands for a variance that
+/// overflowed.
 fn sqrt(variance: f64) -> f64 {
     if variance.is_nan() { f64::INFINITY } else { variance.max(0.0).sqrt() }
 }

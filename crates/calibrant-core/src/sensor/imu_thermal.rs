@@ -1,10 +1,10 @@
-//! What an IMU is at a temperature, and the list of its temperature terms.
+//! The IMU at a given temperature, and the list of its temperature terms.
 
 use super::{Axis, HIGHEST_ORDER, ImuParameters, ImuQuantity, SensorKind, Thermal, ThermalPart, ThermalTerm};
 use nalgebra::Matrix3;
 
 impl ImuParameters {
-    /// The IMU at a temperature: `b(T)`, `S(T)` and `Γ`, and nothing that follows temperature any more.
+    /// The IMU at a temperature: `b(T)`, `S(T)` and `Γ`. The result does not follow temperature any more.
     ///
     /// # Examples
     /// ```
@@ -34,7 +34,8 @@ impl ImuParameters {
 }
 
 impl ImuQuantity {
-    /// The temperature terms of one sensor up to these orders: of the bias first, then of the scale, order by order.
+    /// The temperature terms of one sensor up to these orders. The terms of the bias come first, then those
+    /// of the scale, order by order.
     #[must_use]
     pub fn thermal_list(sensor_kind: SensorKind, bias_order: usize, scale_order: usize) -> Vec<Self> {
         let mut list = Vec::new();

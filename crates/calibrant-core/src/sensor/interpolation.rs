@@ -1,9 +1,9 @@
-//! Values between samples.
+//! Linear interpolation between the samples of a recording.
 
 use std::ops::{Add, Mul};
 
-/// A value at a time, linear between samples, the nearest one outside; `None` where there is no sample. `near`: the sample that is looked at first, where the
-/// times of two sensors are mostly the same.
+/// A value at a time, linear between samples, the nearest one outside; `None` where there is no sample.
+/// `near` is the sample at which the search starts: the times of two sensors are mostly the same.
 pub fn interpolated<T>(times_s: &[f64], value: impl Fn(usize) -> T, time_s: f64, near: usize) -> Option<T>
 where
     T: Mul<f64, Output = T> + Add<Output = T>,

@@ -1,4 +1,4 @@
-//! What a sensor shows on the mean of a stretch of time.
+//! Mean and scatter of a sensor's readings over an interval of time.
 
 use super::Recording;
 use nalgebra::Vector3;
@@ -9,14 +9,14 @@ use std::ops::Range;
 pub struct MeanReading {
     /// The mean.
     pub mean: Vector3<f64>,
-    /// How many samples it is the mean of.
+    /// Number of samples in the mean.
     pub samples: usize,
     /// Squared deviations from the mean, summed per axis.
     squares: Vector3<f64>,
 }
 
 impl MeanReading {
-    /// That of readings; `None` without any.
+    /// The mean of readings; `None` without any.
     #[must_use]
     pub fn of(readings: &[Vector3<f64>]) -> Option<Self> {
         if readings.is_empty() {
@@ -27,7 +27,8 @@ impl MeanReading {
         Some(Self { mean, samples: readings.len(), squares })
     }
 
-    /// Standard deviation of one sample about the mean of its stretch, pooled over the stretches; zero where none has two.
+    /// Standard deviation of one sample about the mean of its segment, pooled over the segments; zero where
+    /// none has two samples.
     #[must_use]
     pub fn pooled_sd<'a>(segments: impl IntoIterator<Item = &'a Self>) -> Vector3<f64> {
         let (mut squares, mut degrees) = (Vector3::zeros(), 0);

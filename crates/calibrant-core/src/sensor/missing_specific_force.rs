@@ -1,13 +1,15 @@
-//! Samples of a gyroscope at which the accelerometer has no data, so that the specific force that its g-sensitivity feels is not known.
+//! Missing specific force: samples of a gyroscope near which the accelerometer has no data. The force that
+//! acts on the g-sensitivity is then unknown.
 //!
-//! The sensor may have been turned since the last known force `f`: with gravity in any direction the force that is missed has the mean square `f fᵀ + I g²/3`.
+//! The sensor may have been turned since the last known force `f`. With gravity in any direction, the missing
+//! force has the mean square `f fᵀ + I g²/3`.
 
 use super::Recording;
 use nalgebra::{Matrix3, Vector3};
 
-/// A force is known within so many sample intervals of the accelerometer.
+/// A force is known within this number of sample intervals of the accelerometer.
 const INTERVALS: f64 = 2.0;
-/// Gravity, near enough for what is not known, m/s².
+/// Gravity, m/s²: accurate enough for a force that is not known.
 const GRAVITY_MPS2: f64 = 9.81;
 
 /// Where a gyroscope's g-sensitivity was corrected with a specific force that is not known.
@@ -15,9 +17,9 @@ const GRAVITY_MPS2: f64 = 9.81;
 pub struct WithoutForce {
     /// Number of samples of the gyroscope.
     pub samples: usize,
-    /// Time of the first and of the last of them, s; there may be others between.
+    /// Time of the first and of the last of them, s. Other samples may lie between.
     pub span_s: (f64, f64),
-    /// What the correction may be off by where gravity points the other way, along the worst axis, rad/s.
+    /// Largest error of the correction if gravity points the other way, along the worst axis, rad/s.
     pub most_radps: f64,
 }
 
@@ -25,7 +27,7 @@ pub struct WithoutForce {
 pub(super) struct MissingForce(Vec<bool>);
 
 impl MissingForce {
-    /// `forces`: the accelerometer's recording, where it is needed.
+    /// `forces` is the accelerometer's recording, where the correction needs it.
     pub(super) fn of(readings: &Recording, forces: Option<&Recording>) -> Self {
         let Some(forces) = forces else { return Self(Vec::new()) };
         let step = forces.rate_hz().recip();
@@ -45,7 +47,7 @@ impl MissingForce {
         self.0.get(sample).copied().unwrap_or(false)
     }
 
-    /// `by_force`: what takes an error of the force to one of the rate.
+    /// `by_force` is the matrix from an error of the force to an error of the rate.
     pub(super) fn summary(&self, readings: &Recording, by_force: &Matrix3<f64>) -> Option<WithoutForce> {
         let mut times =
             self.0.iter().zip(&readings.times_s).filter(|(unknown, _)| **unknown).map(|(_, t)| *t);
@@ -56,7 +58,7 @@ impl MissingForce {
     }
 }
 
-/// Variance of the rate along each axis by a force of which nothing but its last value is known.
+/// Variance of the rate along each axis from a force of which only the last value is known.
 pub(super) fn unknown_force_variance(by_force: &Matrix3<f64>, force: &Vector3<f64>) -> Vector3<f64> {
     let of_last = by_force * force;
     let of_gravity =
@@ -81,7 +83,7 @@ mod tests {
         }
     }
 
-    /// What forces of gravity in any direction make of the rate, drawn.
+    /// Draws forces of gravity in any direction and compares the scatter of the rate.
     #[test]
     fn the_uncertainty_has_the_unknown_force_in_it() {
         let imu = imu();

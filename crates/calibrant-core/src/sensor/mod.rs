@@ -1,8 +1,10 @@
-//! What a sensor reports, given its stimulus.
+//! The sensor model: what a sensor reads from its stimulus. Units, parameters, gauges, corrections,
+//! recordings and checks of readings.
 //!
-//! A reading is `y = S s + b + ν` with `ν ~ N(0, diag σ²)`, in the direction **true → raw**: `s` is the specific force in
-//! m/s², `y` is in the reading's unit (m/s² or counts), `b` the bias in that unit, and `S` holds the scale factors on its
-//! diagonal and the cross-axis sensitivities (misalignment, non-orthogonality) off it.
+//! A reading is `y = S s + b + ν` with `ν ~ N(0, diag σ²)`, in the direction **true → raw**. `s` is the
+//! specific force in m/s². `y` is in the reading's unit (m/s² or counts), and so is the bias `b`. `S` holds
+//! the scale factors on its diagonal. Off it are the cross-axis sensitivities (misalignment,
+//! non-orthogonality).
 
 mod axis;
 mod corrected_recording;

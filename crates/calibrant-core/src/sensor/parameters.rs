@@ -6,7 +6,7 @@ use nalgebra::{Matrix3, Vector3};
 /// Which errors a sensor's model has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SensorModel {
-    /// `S` is diagonal: bias and scale factor of each axis, which are then independent of each other.
+    /// `S` is diagonal. Each axis has a bias and a scale factor, independent of the other axes.
     ScaleBias,
     /// `S` is a full 3×3 matrix: bias, scale factors and cross-axis sensitivities.
     Full,
@@ -42,7 +42,8 @@ pub enum Quantity {
     Bias(Axis),
     /// Diagonal entry of `S`; printed `scale.x`.
     Scale(Axis),
-    /// Off-diagonal entry of `S`, (row, column): what reading `row` shows of stimulus `column`; printed `matrix.xy`.
+    /// Off-diagonal entry of `S`, (row, column): the response of reading `row` to stimulus `column`; printed
+    /// `matrix.xy`.
     CrossAxis(Axis, Axis),
     /// The same entry above and below the diagonal of `S`, in the symmetric gauge; printed `matrix.xy`.
     Symmetric(Axis, Axis),
@@ -113,8 +114,8 @@ impl Quantity {
 
 /// The quantities that are estimated, in their order.
 ///
-/// Biases first, then the diagonal of `S`, then its off-diagonal entries row by row, so that the scale-bias model's list begins
-/// the full model's.
+/// Biases come first, then the diagonal of `S`, then its off-diagonal entries row by row. So the scale-bias
+/// model's list begins the full model's.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ParameterList {
     quantities: Vec<Quantity>,
@@ -139,7 +140,7 @@ impl ParameterList {
         Self { quantities }
     }
 
-    /// A list of the caller's choice.
+    /// A list of quantities that the caller chooses.
     #[must_use]
     pub fn from_quantities(quantities: Vec<Quantity>) -> Self {
         Self { quantities }

@@ -1,29 +1,32 @@
-//! The step in which a sensor's readings come.
+//! The quantisation step: the resolution in which a sensor's readings come, found from the readings alone.
 
 use super::{Recording, lesser};
 use nalgebra::Vector3;
 
-/// Steps up to so many times the smallest one are looked at: larger ones say little.
+/// Steps up to this multiple of the smallest are examined; larger ones show little.
 const LARGEST_MULTIPLE: f64 = 8.0;
-/// They are multiples of it if this share of them is within a fifth of one; where readings are not rounded, two in five are by chance.
+/// Steps are multiples of the smallest if this share of them is within a fifth of a multiple. For readings
+/// that are not quantised, two in five are so by chance.
 const MULTIPLES: f64 = 0.95;
 /// A step is a multiple of the smallest within this share of it.
 const MULTIPLE_TOLERANCE: f64 = 0.2;
-/// Fewer steps tell nothing.
+/// Fewer steps determine nothing.
 const FEWEST_STEPS: usize = 8;
-/// More changes than this tell no more: steps that matter are seen in every few of them.
+/// Number of changes that are examined. More of them add nothing: steps that matter occur in every few
+/// changes.
 const MOST_STEPS: usize = 8192;
 
 impl Recording {
     /// The step of which the readings of each axis are multiples, in their unit; 0 where there is none.
     ///
-    /// It is the smallest change from one sample to the next, if the other small changes are multiples of it; of a long recording, some thousands spread evenly over it are looked at.
+    /// It is the smallest change from one sample to the next, if the other small changes are multiples of it.
+    /// A long recording is examined at some thousands of changes, spread evenly over it.
     #[must_use]
     pub fn resolution(&self) -> Vector3<f64> {
         let every = (self.len() / MOST_STEPS).max(1);
         let changes = || {
             let pairs = self.readings.windows(2).step_by(every);
-            // no branch: that would be taken at random
+            // no branch: the processor could not predict it
             pairs.map(|pair| {
                 (pair[1] - pair[0]).abs().map(|step| if step > 0.0 { step } else { f64::INFINITY })
             })

@@ -1,11 +1,12 @@
-//! Readings of a sensor over time.
+//! The recording: readings of a sensor over time. It knows its rate, gaps and extremes, and changes nothing.
 
 use super::extremes::{greater, lesser};
 use super::sample_rate::rate_hz;
 use super::{Axis, ReadingUnit};
 use nalgebra::Vector3;
 
-/// A recording: times in seconds, strictly increasing, and a reading for each. A uniaxial sensor uses x, the others are zero.
+/// A recording: times in seconds, strictly increasing, and a reading for each. A uniaxial sensor uses x; the
+/// other components are zero.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Recording {
     /// Sample times, s.
@@ -18,9 +19,9 @@ pub struct Recording {
     pub unit: ReadingUnit,
 }
 
-/// A step of so many usual ones is a gap,
+/// A step of this number of usual steps is a gap.
 const GAP: f64 = 5.0;
-/// A shorter gap is none, s: nothing moves in so short a time.
+/// No gap is shorter than this, s: nothing moves in so short a time.
 const MOVED_S: f64 = 0.05;
 
 impl Recording {
@@ -58,15 +59,18 @@ impl Recording {
         &Axis::ALL[..self.axes]
     }
 
-    /// Sample rate in Hz: the inverse of the usual time between samples, so that gaps do not matter; 0 for fewer than two samples.
+    /// Sample rate in Hz: the inverse of the usual time between samples, so that gaps do not matter; 0 for
+    /// fewer than two samples.
     ///
-    /// That is the median step. Where steps come in coarse units, as at 400 Hz in whole milliseconds, or jitter, it is the mean step; where samples are lost, the least that is usual.
+    /// The usual time is the median step. Steps may jitter or come in coarse units, as at 400 Hz in whole
+    /// milliseconds: then it is the mean step. Where samples are lost, it is the least usual step.
     #[must_use]
     pub fn rate_hz(&self) -> f64 {
         rate_hz(&self.times_s)
     }
 
-    /// A time between samples longer than this, s, is a gap that parts what is before from what is after: of five usual steps, but no less than a sensor needs to be moved.
+    /// A longer time between samples, s, is a gap that separates the samples before it from those after. It
+    /// is five usual steps, but at least the time in which a sensor can be moved.
     #[must_use]
     pub(crate) fn gap_s(&self) -> f64 {
         gap_s(self.rate_hz())

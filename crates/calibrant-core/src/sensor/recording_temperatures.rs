@@ -1,11 +1,11 @@
-//! The temperatures of a recording.
+//! The temperatures of a recording: checked, averaged and interpolated.
 
 use super::{ImuRecording, interpolated};
 use crate::error::{Error, InputError, Result};
 
 /// Temperatures at which an inertial sensor works, °C, with room to spare.
 pub const WORKING_C: std::ops::RangeInclusive<f64> = -100.0..=250.0;
-/// What is beyond them and in here is in kelvin.
+/// A value outside the working range and in this range is in kelvin.
 const KELVIN: std::ops::RangeInclusive<f64> = 250.0..=500.0;
 
 /// Temperature over time.
@@ -18,10 +18,11 @@ pub struct Temperatures<'a> {
 }
 
 impl<'a> Temperatures<'a> {
-    /// Those of a recording; `None` where it has none.
+    /// The temperatures of a recording; `None` where it has none.
     ///
     /// # Errors
-    /// [`Error::Recording`] where a temperature is none that a sensor has ([`WORKING_C`]), as in kelvin, or there is not one for each sample.
+    /// [`Error::Recording`] where no sensor has such a temperature ([`WORKING_C`]), as in kelvin. Also where
+    /// there is not one temperature for each sample.
     pub fn of(recording: &'a ImuRecording) -> Result<Option<Self>> {
         let sensor = recording.accelerometer.as_ref().or(recording.gyroscope.as_ref());
         let (Some(values_c), Some(sensor)) = (&recording.temperature_c, sensor) else { return Ok(None) };
@@ -41,7 +42,7 @@ impl<'a> Temperatures<'a> {
         Ok(Some(Self { times_s, values_c }))
     }
 
-    /// Least and greatest of them, °C; `None` without any.
+    /// Least and greatest temperature, °C; `None` without any.
     #[must_use]
     pub fn range_c(&self) -> Option<[f64; 2]> {
         let first = *self.values_c.first()?;
@@ -49,7 +50,7 @@ impl<'a> Temperatures<'a> {
         Some(self.values_c.iter().fold([first; 2], wider))
     }
 
-    /// What to ask about a temperature that no sensor has.
+    /// The question for the user about a temperature that no sensor has.
     #[must_use]
     pub fn question(value: f64) -> String {
         let (low, high) = (WORKING_C.start(), WORKING_C.end());
@@ -61,13 +62,14 @@ impl<'a> Temperatures<'a> {
         format!("temperatures are in °C, a sensor's from {low} to {high}: {asked}")
     }
 
-    /// The temperature at a time, linear between samples, the nearest one outside; 0 where there is no sample.
+    /// The temperature at a time, linear between samples, the nearest one outside; 0 where there is no
+    /// sample.
     #[must_use]
     pub fn at(&self, time_s: f64) -> f64 {
         interpolated(self.times_s, |k| self.values_c[k], time_s, 0).unwrap_or(0.0)
     }
 
-    /// Mean between two times; that of the middle where no sample lies between them.
+    /// Mean temperature between two times. Where no sample lies between them, the temperature of the middle.
     #[must_use]
     pub fn mean(&self, start_s: f64, end_s: f64) -> f64 {
         let first = self.times_s.partition_point(|&t| t < start_s);

@@ -1,7 +1,9 @@
-//! A calibration referred to another temperature: the same polynomials about another `T₀`, the covariance with them.
+//! The change of a calibration's reference temperature: the same polynomials about another `T₀`, and their
+//! covariance.
 //!
-//! With `d = T₀' − T₀`: `b' = b + b_1 d + b_2 d²`, `b_1' = b_1 + 2 b_2 d`, `b_2' = b_2`; and with `c = 1 + k_1 d + k_2 d²`: `S' = diag(c) S`,
-//! `k_1' = (k_1 + 2 k_2 d)/c`, `k_2' = k_2/c`. Readings stay the same at every temperature.
+//! Let `d = T₀' − T₀` and `c = 1 + k_1 d + k_2 d²`. Then `b' = b + b_1 d + b_2 d²`, `b_1' = b_1 + 2 b_2 d`,
+//! `b_2' = b_2`. Further `S' = diag(c) S`, `k_1' = (k_1 + 2 k_2 d)/c`, `k_2' = k_2/c`. Readings stay the same
+//! at every temperature.
 
 use super::entry_vector::{self, EntryMatrix};
 use super::{
@@ -13,7 +15,7 @@ use nalgebra::{DMatrix, Matrix3, Vector3};
 /// A matrix is symmetric where no entry differs from its counterpart by more than this share of the largest.
 const SYMMETRIC: f64 = 1e-12;
 
-/// The parameters about another reference, and how they depend on those before.
+/// The parameters about another reference, and their derivatives with respect to those before.
 struct Referred {
     before: ImuParameters,
     after: ImuParameters,
@@ -46,7 +48,7 @@ impl Referred {
         Ok(Self { before: *imu, after, change_k })
     }
 
-    /// What a small step of the entries becomes.
+    /// The effect of a small step of the entries.
     fn step(&self, step: &ImuParameters) -> ImuParameters {
         let d = self.change_k;
         let mut out = *step;
@@ -77,14 +79,15 @@ impl Referred {
 }
 
 impl CalibratedImu {
-    /// Does temperature do anything to it, in its values or in what its covariance speaks of?
+    /// Does anything in it follow temperature, in its values or in the quantities of its covariance?
     #[must_use]
     pub fn follows_temperature(&self) -> bool {
         let thermal = |quantity: &ImuQuantity| matches!(quantity, ImuQuantity::Thermal(..));
         !self.parameters.thermal.is_none() || self.quantities.iter().any(thermal)
     }
 
-    /// The same IMU with its temperature terms about another reference, its covariance carried along to first order.
+    /// The same IMU with its temperature terms about another reference. Its covariance follows to first
+    /// order.
     ///
     /// # Errors
     /// [`Error::Experiment`] where the polynomial of a gain is not positive there.
@@ -127,8 +130,8 @@ impl CalibratedImu {
         Ok(Self { parameters: referred.after, quantities, covariance, frame, ..*self })
     }
 
-    /// The true frame in words. One that a symmetric matrix fixes stays where it is, but gains that follow temperature leave the matrix symmetric only at the
-    /// reference at which it was: that is then said.
+    /// The true frame in words. A frame that a symmetric matrix fixes stays where it is. Gains that follow
+    /// temperature leave the matrix symmetric only at the old reference, and the words then say so.
     fn referred_frame(&self, after: &ImuParameters) -> String {
         let symmetric = |imu: &ImuParameters| {
             let matrix = imu.sensor(self.reference()).matrix;
@@ -142,7 +145,7 @@ impl CalibratedImu {
         self.frame.clone()
     }
 
-    /// The IMU as it is at one temperature, °C, nothing following temperature any more.
+    /// The IMU at one temperature, °C. The result does not follow temperature any more.
     ///
     /// # Errors
     /// As [`at_reference_temperature`](Self::at_reference_temperature).
@@ -156,7 +159,7 @@ impl CalibratedImu {
         Ok(imu)
     }
 
-    /// What the covariance speaks of after the change: all that an uncertain term adds to.
+    /// The quantities of the covariance after the change: all that an uncertain term adds to.
     fn referred_quantities(&self, jacobian: &EntryMatrix) -> Vec<ImuQuantity> {
         let rescaled = |sensor_kind: SensorKind| {
             let scale = |quantity: &ImuQuantity| matches!(quantity, ImuQuantity::Thermal(of, term) if *of == sensor_kind && term.part == ThermalPart::Scale);
@@ -171,7 +174,7 @@ impl CalibratedImu {
         };
         for &quantity in &self.quantities {
             match quantity {
-                // gains that differ leave no symmetric matrix
+                // gains that differ make the matrix asymmetric
                 ImuQuantity::Of(sensor_kind, Quantity::Symmetric(row, column)) if rescaled(sensor_kind) => {
                     let entry = |row: Axis, column: Axis| {
                         ImuQuantity::Of(sensor_kind, Quantity::CrossAxis(row, column))
@@ -287,7 +290,7 @@ pub(super) mod tests {
         for imu in [&warmer, &at(&warmer, 50.0), &back, &at(&back, 43.0)] {
             assert_eq!(imu.frame, stated);
         }
-        // a triangle stays one, and so does a symmetric matrix whose gains stay
+        // a triangular matrix stays triangular; a symmetric one whose gains stay does, too
         let upper = warm().in_gauge(Gauge::Upper).expect("right-handed");
         assert_eq!(at(&upper, 43.0).frame, upper.frame);
         let mut steady = symmetric;

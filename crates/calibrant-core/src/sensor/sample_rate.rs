@@ -1,24 +1,25 @@
-//! How fast a sensor was sampled, by times that are coarse, jitter, or lack samples.
+//! The sample rate of a sensor, from times that may be coarse, jitter, or lack samples.
 
 use super::extremes::{greater, lesser};
 
-/// The median is first looked for among so many steps.
+/// Number of steps among which the median is first sought.
 const MEDIAN_STEPS: usize = 512;
 /// Steps that differ from the median by this share are uneven.
 const UNEVEN: f64 = 0.01;
-/// Uneven steps are looked for in eight blocks of so many samples first.
+/// Uneven steps are sought first in eight blocks of this number of samples.
 const FIRST_BLOCK: usize = 64;
-/// Uneven times are judged in blocks of so many samples.
+/// Uneven times are judged in blocks of this number of samples.
 const BLOCK: usize = 512;
-/// At most so many blocks are judged, spread evenly.
+/// Largest number of blocks that are judged, spread evenly.
 const MOST_BLOCKS: usize = 40;
-/// The share of the steps that is near the median where there is a usual one.
+/// Share of the steps near the median from which on there is a usual step.
 const USUAL_SHARE: f64 = 0.48;
-/// A step of so many medians is a pause.
+/// A step of this number of medians is a pause.
 const PAUSE: f64 = 20.0;
-/// Times in units longer than this, s, are hardly of sensors that are sampled as often.
+/// Times in units longer than this, s, seldom come from sensors with such a rate.
 const COARSE_S: f64 = 1.1e-3;
-/// By this share the mean step of times that jitter differs from that of the steps near the median; samples that are lost evenly make more.
+/// Largest relative difference between the mean step of times that jitter and the mean of the steps near the
+/// median. Samples that are lost evenly make more.
 const JITTERED: f64 = 0.1;
 /// Where samples are missing, this share of the steps is a whole multiple of the least one.
 const WHOLE_SHARE: f64 = 0.9;
@@ -27,7 +28,7 @@ const MULTIPLE_TOLERANCE: f64 = 0.02;
 
 /// The inverse of the usual step between times in s, Hz; 0 for fewer than two.
 ///
-/// That is the median step where steps are even. Others are judged by what makes them uneven.
+/// The usual step is the median step where steps are even. The blocks show what makes other steps uneven.
 #[must_use]
 pub fn rate_hz(times_s: &[f64]) -> f64 {
     if times_s.len() < 2 {
@@ -55,7 +56,8 @@ pub fn rate_hz(times_s: &[f64]) -> f64 {
     if (usual / median - 1.0).abs() > UNEVEN { 1.0 / usual } else { 1.0 / median }
 }
 
-/// The share of the samples that is missing between times, in steps of less than `gap_s`; 0 where it cannot be told from a rate that is a little lower.
+/// The share of the samples that is missing between times, in steps of less than `gap_s`. It is 0 where a
+/// slightly lower rate explains the steps as well.
 #[must_use]
 pub fn missing(times_s: &[f64], rate_hz: f64, gap_s: f64) -> f64 {
     let (mean, _) = mean(steps(times_s).filter(|step| *step <= gap_s));
@@ -68,12 +70,12 @@ fn steps(times_s: &[f64]) -> impl ExactSizeIterator<Item = f64> {
     times_s.array_windows().map(|[one, next]| next - one)
 }
 
-/// Some samples one after another.
+/// Consecutive samples that are judged together.
 struct Block {
     mean: f64,
     shortest: f64,
     longest: f64,
-    /// How far the times reach before and after those of an even clock, together.
+    /// Range of the differences between these times and those of an even clock.
     off: f64,
 }
 
@@ -92,30 +94,32 @@ impl Block {
         })
     }
 
-    /// Is the clock even, but read in coarse units, as at 800 Hz in whole milliseconds? Steps then differ by one unit, and so do the times from those of the clock.
+    /// Is the clock even, but read in coarse units, as at 800 Hz in whole milliseconds? Steps then differ by
+    /// one unit, and so do the times from those of the clock.
     ///
-    /// Steps of one and two units are those of lost samples, too, if the unit is the distance of samples.
+    /// Steps of one and two units also occur with lost samples, if the unit is the distance of samples.
     fn is_coarse(&self) -> bool {
         let unit = self.longest - self.shortest;
         let most = if self.shortest < COARSE_S { 1.0 + MULTIPLE_TOLERANCE } else { 1.0 - MULTIPLE_TOLERANCE };
         unit <= most * self.shortest && self.off <= 1.5 * unit
     }
 
-    /// Is the clock even, but each time off by itself? Times are then not farther off than steps; where samples are lost here and there, those that follow are.
+    /// Is the clock even, but each time off by itself? Times are then not farther off than steps. Where
+    /// samples are lost here and there, the later times are farther off.
     fn jitters(&self) -> bool {
         let range = self.longest - self.shortest;
         range <= 4.0 * self.mean && self.off <= 1.2 * range
     }
 }
 
-/// The median of the mean steps of the blocks that are such, if most are.
+/// The median of the mean steps of the blocks for which `is_such` holds, if these are most blocks.
 fn mean_of_most(blocks: &[Block], is_such: fn(&Block) -> bool) -> Option<f64> {
     let mut means: Vec<f64> = blocks.iter().filter(|block| is_such(block)).map(|block| block.mean).collect();
     let middle = means.len() / 2;
     (2 * means.len() > blocks.len()).then(|| *means.select_nth_unstable_by(middle, f64::total_cmp).1)
 }
 
-/// The least usual step, if most are whole multiples of it: those that are longer lack samples.
+/// The least usual step, if most steps are whole multiples of it. Longer steps lack samples.
 fn least_step(times_s: &[f64], median: f64) -> Option<f64> {
     let mut some: Vec<f64> = steps(times_s).step_by(times_s.len().div_ceil(MEDIAN_STEPS)).collect();
     some.sort_unstable_by(f64::total_cmp);
@@ -129,7 +133,8 @@ fn least_step(times_s: &[f64], median: f64) -> Option<f64> {
     is_usual.then(|| mean(steps(times_s).filter(|step| multiple(*step) == Some(1.0))).0)
 }
 
-/// The mean of the steps within half of the median of it; where fewer than half are, as in times of arrival, that of all but pauses.
+/// The mean of the steps within half of the median of it. Times of arrival have fewer than half of their
+/// steps there: then the mean of all steps but pauses.
 fn mean_near(times_s: &[f64], median: f64) -> f64 {
     let (near, count) = mean(steps(times_s).filter(|step| (0.5..=1.5).contains(&(step / median))));
     match count < USUAL_SHARE * steps(times_s).len() as f64 {
@@ -138,7 +143,7 @@ fn mean_near(times_s: &[f64], median: f64) -> f64 {
     }
 }
 
-/// The mean of steps, and how many there are.
+/// The mean of steps, and their number.
 fn mean(steps: impl Iterator<Item = f64>) -> (f64, f64) {
     let (sum, count) = steps.fold((0.0, 0.0), |(sum, count), step| (sum + step, count + 1.0));
     (sum / count, count)
@@ -148,7 +153,7 @@ fn mean(steps: impl Iterator<Item = f64>) -> (f64, f64) {
 fn median_step(times_s: &[f64]) -> f64 {
     let count = steps(times_s).len();
     let middle = count / 2;
-    // some of the steps tell about where the median is: the others need only be compared with that
+    // some of the steps show about where the median is: the others are only compared with that
     let mut some: Vec<f64> = steps(times_s).step_by(count.div_ceil(MEDIAN_STEPS)).collect();
     some.sort_unstable_by(f64::total_cmp);
     let (low, high) = (some[some.len() * 2 / 5], some[some.len() * 3 / 5]);

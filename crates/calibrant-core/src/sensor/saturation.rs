@@ -1,17 +1,19 @@
-//! Readings that stopped at the end of the sensor's range.
+//! Saturation: readings that stopped at the end of the sensor's range.
 
 use super::{Axis, Recording};
 use nalgebra::Vector3;
 
-/// A plateau at the extreme value is noticed from this many samples on …
+/// Fewest samples of a plateau at the extreme value that counts as a stop.
 const PLATEAU: usize = 8;
-/// … if it is this many times longer than any plateau at another value. (The readings of a sensor that lies still repeat
-/// everywhere, or nowhere.)
+/// The plateau must be this many times longer than any plateau at another value. (The readings of a
+/// stationary sensor repeat everywhere, or nowhere.)
 const PLATEAU_RATIO: usize = 4;
-/// … and none at another value is longer than this: then the noise is so much finer than the steps of the readings that a hold repeats its value throughout, or
-/// not, by where between two steps it lies. Noise of half a step hardly repeats one 25 times in a recording.
+/// No plateau at another value may be longer than this. Otherwise the noise is much finer than the
+/// quantisation step. Holds then repeat their value throughout or not, depending on where between two steps
+/// it lies. Noise of half a step seldom repeats a value 25 times in a recording.
 const LONGEST_REPEAT: usize = 25;
-/// A stretch touches the end of the range if so many of its samples are there: one may be a tail that just reaches it.
+/// Samples at the end of the range from which on a segment touches it: one sample may be a tail that just
+/// reaches it.
 const TOUCHES: usize = 2;
 
 /// The end of its range at which an axis stopped.
@@ -65,14 +67,14 @@ impl Recording {
             .collect()
     }
 
-    /// Of each axis the longest run at each of these values: number of samples, and the end.
+    /// For each axis, the longest run at each of these values: its number of samples and its end.
     fn longest_stops(&self, values: &[Vector3<f64>; 2]) -> [[(usize, usize); 3]; 2] {
         // number of samples and end of the last run
         let (mut longest, mut last) = ([[(0, 0); 3]; 2], [[(0, 0); 3]; 2]);
         for (k, reading) in self.readings.iter().enumerate() {
             for ((longest, last), value) in longest.iter_mut().zip(&mut last).zip(values) {
                 for axis in 0..3 {
-                    // seldom, so that most samples cost a comparison
+                    // this is rare, so most samples cost one comparison
                     if reading[axis] == value[axis] {
                         let (samples, end) = last[axis];
                         last[axis] = (if end == k { samples + 1 } else { 1 }, k + 1);

@@ -1,71 +1,84 @@
-//! Spikes: single samples far off those beside them, and readings that no sensor gives. A lost bit, a loose contact; no movement.
+//! Detection and removal of spikes and invalid samples in a recording: a lost bit, a loose contact; no
+//! movement.
 //!
-//! One spike of 1000 standard deviations makes a still sensor look moved for as long as a window is, divides a hold, shifts its mean, and turns a gyroscope that does not turn. So spikes are
-//! taken out before holds are looked for, each replaced by the line between the samples beside it.
+//! One spike of 1000 standard deviations makes a stationary sensor look moved for the length of a window. It
+//! divides a hold, shifts its mean, and turns a gyroscope that does not turn. So spikes are removed before
+//! the search for holds. The line between the samples beside it replaces each.
 //!
-//! # What is one
-//! In a hold: a sample off the median of the nine about it by more than [`STILL_DEVIATIONS`] robust standard deviations of the difference of two successive samples, with stillness for [`STILL_S`] on both
-//! sides. A knock while the sensor is put down is as far off, but a movement is near.
+//! # What a spike is
+//! In a hold, a spike is far from the median of the nine samples about it (Hampel, `hampel1974`). The
+//! threshold is [`STILL_DEVIATIONS`] robust standard deviations of the difference of two successive samples.
+//! The sensor must be stationary for [`STILL_S`] on both sides. A knock while the sensor is put down is as
+//! far off, but a movement is near.
 //!
-//! In a movement, of a gyroscope (an accelerometer's movements count for nothing): a sample whose second difference is large, stands out among those of its neighbours, and has half of itself
-//! with the opposite sign on each side, as one sample alone has: neither the kink where a turn begins, nor a step, nor a short turn has.
+//! In a movement, only the gyroscope is examined: an accelerometer's movements count for nothing. A spike has
+//! a large second difference that stands out among those of its neighbours. On each side, half of it appears
+//! with the opposite sign. Only a single sample has that: neither the kink where a turn begins, nor a step,
+//! nor a short turn has it.
 //!
-//! A noise of finite variance has at most a quarter beyond any distance of what it has beyond half of it. Where what is far off is not that much fewer than what is half as far off, it is noise,
-//! and only what is farther off is a spike.
+//! Noise of finite variance has at most a quarter as many samples beyond a distance as beyond half of it.
+//! Where samples far off are not rarer by that much, they are noise. Only a sample still farther off is then
+//! a spike.
 //!
 //! # Invalid readings
-//! What is left and a thousand times as far from the median as everything else, with nothing in between, is no reading: a movement passes through what lies between. These samples are cut
-//! out, so that a gap is where they were.
+//! A remaining sample a thousand times as far from the median as everything else is invalid, if nothing lies
+//! between. A movement passes through what lies between. Invalid samples are cut out, so they leave a gap.
 
 use super::{Axis, Recording, SensorKind, greater, lesser};
 use rayon::prelude::*;
 use std::borrow::Cow;
 
-/// Robust standard deviations of the difference of two successive samples, in a hold: 10 of white noise.
+/// Threshold in a hold: robust standard deviations of the difference of two successive samples. It is 10 of
+/// white noise.
 const STILL_DEVIATIONS: f64 = 7.0;
-/// The same in a movement, which is rough by itself.
+/// The threshold in a movement, which is rough by itself.
 const MOVING_DEVIATIONS: f64 = 12.0;
-/// A sample that is off the median of those about it stands out of those beside it by this share of that.
+/// A sample that is off the median of the samples about it is also off its neighbours by this share of that.
 const CANDIDATE: f64 = 0.7;
-/// So many samples are asked at once whether they stand out.
+/// Number of samples that are examined at once for standing out.
 const AT_ONCE: usize = 64;
-/// Samples about one, itself included, with which it is compared.
+/// Number of samples, the examined one included, whose median is compared with it.
 const WINDOW_SAMPLES: usize = 9;
 /// Samples near their median are off it by fewer deviations than this.
 const NEAR_DEVIATIONS: f64 = 4.0;
-/// A knock is several samples: one beside it that is not near either makes it none, unless it is so many times as far off as it must be; two do always.
+/// A knock is several samples: one deviating sample beside it rules out a spike, unless the sample is this
+/// many thresholds off. Two rule it out always.
 const BEYOND_A_KNOCK: f64 = 3.0;
-/// So long on both sides samples are near the same median, s,
+/// Time on both sides for which samples must be near the same median, s.
 const STILL_S: f64 = 0.8;
-/// Of these samples one in so many may be another spike.
+/// One in this number of the samples on both sides may be another spike.
 const OTHER_SPIKES_ONE_IN: usize = 25;
-/// Neighbours on each side whose second differences tell how rough a movement is; the two next to a spike have half of its own.
+/// Neighbours on each side whose second differences measure the roughness of a movement. The two next to a
+/// spike have half of its own.
 const BESIDE: std::ops::RangeInclusive<usize> = 2..=10;
 /// Number of these neighbours on both sides.
 const NEIGHBOURS: usize = 18;
-/// The second difference of a spike is larger by this factor than all but three of those beside it: another spike has three.
+/// The second difference of a spike exceeds all but three of those beside it by this factor: another spike
+/// has three.
 const STANDS_OUT: f64 = 4.0;
-/// The second differences next to it are this share of its own, less this many deviations of noise; half without noise, a third in a turn of three samples.
+/// The second differences next to a spike are this share of its own, less this many deviations of noise. The
+/// share is a half without noise, a third in a turn of three samples.
 const OPPOSITE: (f64, f64) = (0.4, 1.5);
-/// Of a noise of finite variance, as many times as many are between half a distance and the distance as beyond it.
+/// For noise of finite variance: ratio of samples between half a distance and the distance to samples beyond
+/// it.
 const HEAVY_TAIL: usize = 3;
-/// Where more than one sample in so many is off, the sensor is not one that is still and turned.
+/// Where more than one sample in this number is off, the sensor does not alternate between holds and turns.
 const MOST_SPIKES_ONE_IN: usize = 50;
-/// Median of the absolute deviations of normal noise, times this, is its standard deviation.
+/// Standard deviation of normal noise over the median of its absolute deviations.
 const MAD: f64 = 1.4826;
-/// So many samples tell about how large steps and deviations usually are.
+/// Number of samples from which the usual size of steps and deviations is taken.
 const MEDIAN_SAMPLES: usize = 2048;
-/// Binary orders of magnitude between readings and what is none.
+/// Binary orders of magnitude between readings and an invalid sample.
 const BINARY_ORDERS: usize = 10;
 
-/// What was taken out of a recording.
+/// The spikes and invalid samples that were removed from a recording.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Spikes {
     /// Which samples were replaced, from 0, in order.
     pub samples: Vec<usize>,
     /// Which were cut out, in order: invalid readings, more than two in a row.
     pub cut: Vec<usize>,
-    /// Axis of the one that is farthest off.
+    /// Axis of the sample that is farthest off.
     pub axis: Axis,
     /// Its time, s.
     pub time_s: f64,
@@ -76,7 +89,7 @@ pub struct Spikes {
 }
 
 impl Spikes {
-    /// Place in the recording as it was read of a sample of the one without.
+    /// Index in the recording as it was read of a sample of the recording without spikes.
     pub(crate) fn place(&self, sample: usize) -> usize {
         self.cut.iter().fold(sample, |place, cut| place + usize::from(*cut <= place))
     }
@@ -124,7 +137,8 @@ fn replaced(count: usize, counted: &str) -> String {
 }
 
 impl Recording {
-    /// The recording without spikes and invalid readings, and what they were; the recording itself where there are none.
+    /// The recording without spikes and invalid readings, and a list of them. The recording itself where
+    /// there are none.
     ///
     /// # Examples
     /// ```
@@ -142,7 +156,7 @@ impl Recording {
     #[must_use]
     pub fn without_spikes(&self, sensor_kind: SensorKind) -> (Cow<'_, Self>, Option<Spikes>) {
         let axes = self.active_axes();
-        // as a hold is: where the sensor pauses, samples are as many
+        // as a hold is measured: where the sensor pauses, the number of samples is the same
         let still = (STILL_S * self.rate_hz()).round() as usize;
         let found: Vec<Found> =
             axes.par_iter().map(|axis| AxisReadings::new(self, *axis, sensor_kind, still).found()).collect();
@@ -196,11 +210,11 @@ struct Spike {
     sample: usize,
     /// By how many robust standard deviations of the difference of two samples.
     off: f64,
-    /// What takes its place.
+    /// The value that replaces it.
     instead: f64,
 }
 
-/// What was found on an axis, in order.
+/// The findings on an axis, in order.
 struct Found {
     spikes: Vec<Spike>,
     invalid: Vec<Spike>,
@@ -216,7 +230,7 @@ impl Found {
 struct AxisReadings<'a> {
     times_s: &'a [f64],
     values: Vec<f64>,
-    /// Robust standard deviation of the difference of two successive ones, no less than the finest step.
+    /// Robust standard deviation of the difference of two successive readings, at least the finest step.
     scale: f64,
     /// Samples on each side of a spike in which the sensor is still.
     still: usize,
@@ -231,7 +245,7 @@ impl<'a> AxisReadings<'a> {
         let mut some: Vec<f64> = steps().step_by(values.len().div_ceil(MEDIAN_SAMPLES).max(1)).collect();
         let mut least = some.iter().copied().fold(f64::INFINITY, finest);
         let typical = middle(&mut some);
-        // of readings coarser than their noise, most are like those beside them
+        // readings coarser than their noise mostly equal their neighbours
         if typical == 0.0 {
             least = steps().fold(f64::INFINITY, finest);
         }
@@ -266,7 +280,8 @@ impl<'a> AxisReadings<'a> {
         if found.len() > (n / MOST_SPIKES_ONE_IN).max(1) { Vec::new() } else { found }
     }
 
-    /// The samples that are off by so much and more; by more where these are not much fewer than those that are off by half. And by how much that is.
+    /// The samples that are off by this much or more, and the threshold that was used. It is larger where
+    /// these samples are not much rarer than samples that are off by half.
     fn far_off(
         &self,
         candidates: &[usize],
@@ -298,9 +313,10 @@ impl<'a> AxisReadings<'a> {
         (found, least)
     }
 
-    /// The samples above both of their neighbours, or below both, by so much; or with the one before or after, above or below those beside the two. And the two at each end.
+    /// The samples above both of their neighbours, or below both, by this much. Also pairs of samples above
+    /// or below those beside the pair. Also the two samples at each end.
     ///
-    /// This is asked of every sample, so of many at once and without a branch.
+    /// Every sample is examined, many at once and without a branch.
     fn standing_out(&self, least: f64) -> Vec<usize> {
         let stands_out = |[a, b, here, d, e]: &[f64; 5]| {
             let (low, high) = (here - least, here + least);
@@ -321,7 +337,7 @@ impl<'a> AxisReadings<'a> {
         found
     }
 
-    /// By how much a sample in a hold is off the median of those about it, if by more than this.
+    /// Distance of a sample in a hold from the median of the samples about it, if larger than this.
     fn off_the_still(&self, k: usize, least: f64) -> Option<f64> {
         let first = k.saturating_sub(WINDOW_SAMPLES / 2).min(self.values.len() - WINDOW_SAMPLES);
         let about = &self.values[first..first + WINDOW_SAMPLES];
@@ -344,7 +360,7 @@ impl<'a> AxisReadings<'a> {
         sides.iter().all(is_still).then_some(own)
     }
 
-    /// By how much a sample in a movement is off the line between its neighbours, if by more than this.
+    /// Distance of a sample in a movement from the line between its neighbours, if larger than this.
     fn off_the_moving(&self, k: usize, least: f64) -> Option<f64> {
         let reach = BESIDE.end() + 1;
         if k < reach || k + reach >= self.values.len() {
@@ -364,7 +380,7 @@ impl<'a> AxisReadings<'a> {
         (size > STANDS_OUT * rough).then_some(size)
     }
 
-    /// Puts the line between the nearest others in the place of each spike.
+    /// Replaces each spike by the line between the nearest other samples.
     fn bridge(&mut self, spikes: &mut [Spike]) {
         let places: Vec<usize> = spikes.iter().map(|spike| spike.sample).collect();
         let is_good = |k: &usize| places.binary_search(k).is_err();
@@ -384,7 +400,7 @@ impl<'a> AxisReadings<'a> {
         }
     }
 
-    /// What no sensor gives.
+    /// The invalid samples: values that no sensor gives.
     fn invalid(&self) -> Vec<Spike> {
         let mut some: Vec<f64> =
             self.values.iter().step_by(self.values.len().div_ceil(MEDIAN_SAMPLES).max(1)).copied().collect();
@@ -402,7 +418,7 @@ impl<'a> AxisReadings<'a> {
             .iter()
             .map(size)
             .fold(0.0, |most, size| if size.is_nan() { f64::INFINITY } else { greater(most, size) });
-        // a movement is larger, too: whether something lies between is asked only where it may be worth it
+        // a movement is larger, too: the gap between the values is examined only where it may be large enough
         if usual <= 0.0 || most <= (1 << BINARY_ORDERS) as f64 * usual {
             return Vec::new();
         }

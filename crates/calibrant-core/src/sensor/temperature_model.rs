@@ -1,7 +1,8 @@
-//! How bias and gain follow temperature: polynomials about a reference.
+//! The temperature model: bias and gain as polynomials of temperature about a reference.
 //!
-//! With `τ = T − T₀` in K: `b(T) = b + Σ_m b_m τ^m` and `S(T) = diag(1 + Σ_m k_m τ^m) S`. The gain of each sense element drifts, its direction does not;
-//! `k_m` in 1/K^m, as datasheets give it. A change of the true frame, `S → S R`, leaves both as they are. The g-sensitivity `Γ` does not follow temperature.
+//! With `τ = T − T₀` in K: `b(T) = b + Σ_m b_m τ^m` and `S(T) = diag(1 + Σ_m k_m τ^m) S`. The gain of each
+//! sense element drifts, its direction does not; `k_m` in 1/K^m, as datasheets give it. A change of the true
+//! frame, `S → S R`, leaves both as they are. The g-sensitivity `Γ` does not follow temperature.
 
 use super::{Axis, ReadingUnit, SensorKind};
 use nalgebra::Vector3;
@@ -12,12 +13,13 @@ pub const HIGHEST_ORDER: usize = 2;
 /// The reference temperature where nothing follows temperature, °C.
 const ROOM_C: f64 = 25.0;
 
-/// What temperature does to an IMU.
+/// The temperature model of an IMU.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Thermal {
     /// The reference `T₀`, °C: the temperature at which biases and matrices are given.
     pub reference_c: f64,
-    /// Least and greatest temperature at which the terms were determined, °C, where it is known; beyond it they extrapolate.
+    /// Least and greatest temperature at which the terms were determined, °C, where it is known. Beyond it
+    /// the polynomials extrapolate.
     pub range_c: Option<[f64; 2]>,
     /// Terms of the accelerometer.
     pub accelerometer: SensorThermal,
@@ -25,7 +27,7 @@ pub struct Thermal {
     pub gyroscope: SensorThermal,
 }
 
-/// What temperature does to one sensor; entry `m − 1` is of the power `τ^m`.
+/// The temperature model of one sensor; entry `m − 1` belongs to the power `τ^m`.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct SensorThermal {
     /// `b_m`, in the unit of the readings per K^m.
@@ -34,7 +36,7 @@ pub struct SensorThermal {
     pub scale: [Vector3<f64>; HIGHEST_ORDER],
 }
 
-/// What follows temperature.
+/// The part of the model that follows temperature.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ThermalPart {
     /// The bias.
@@ -46,7 +48,7 @@ pub enum ThermalPart {
 /// One coefficient of a sensor's polynomials.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ThermalTerm {
-    /// What follows temperature.
+    /// The part that follows temperature.
     pub part: ThermalPart,
     /// The axis of the sensor.
     pub axis: Axis,
@@ -164,7 +166,8 @@ impl Thermal {
         }
     }
 
-    /// Is a temperature so far outside the range that the polynomials extrapolate: by more than a tenth of the range, or 1 K where that is more?
+    /// Is a temperature so far outside the range that the polynomials extrapolate? The limit is a tenth of
+    /// the range, or 1 K where that is more.
     #[must_use]
     pub fn extrapolates_to(&self, temperature_c: f64) -> bool {
         self.range_c.is_some_and(|[low, high]| {

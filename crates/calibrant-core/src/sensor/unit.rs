@@ -1,4 +1,4 @@
-//! Units of readings.
+//! The units of a sensor's readings, and how they are printed.
 
 /// Unit of a sensor's readings.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

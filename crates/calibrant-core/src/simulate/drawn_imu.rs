@@ -1,4 +1,4 @@
-//! A whole IMU drawn from the datasheet.
+//! Draws a whole IMU at random from the datasheet.
 
 use super::{Rng, draw_sensor};
 use crate::sensor::{
@@ -13,9 +13,11 @@ const BIAS_SD: [f64; 2] = [0.1, 0.02];
 const MATRIX_SD: f64 = 0.01;
 /// Spread of the g-sensitivity, (rad/s)/(m/s²).
 const G_SENSITIVITY_SD: f64 = 2e-4;
-/// Spread of what temperature does to a bias, m/s²/K and rad/s/K, and to a gain, 1/K.
+/// Spread of the temperature coefficient of an accelerometer bias, m/s²/K.
 const ACCELEROMETER_BIAS_PER_K: f64 = 1e-3;
+/// Spread of the temperature coefficient of a gyroscope bias, rad/s/K.
 const GYROSCOPE_BIAS_PER_K: f64 = 1e-4;
+/// Spread of the temperature coefficient of a gain, 1/K.
 const SCALE_PER_K: f64 = 5e-5;
 
 /// The gyroscope that is drawn.
@@ -29,8 +31,9 @@ pub struct GyroscopeToDraw {
     pub g_sensitivity: bool,
 }
 
-/// An IMU drawn from the accelerometer's datasheet and the gyroscope's gain. Spreads that no datasheet gives are those of common MEMS sensors: biases of
-/// 0.1 m/s² and 0.02 rad/s, gains and misalignments of 1 %, g-sensitivities of 2e-4 (rad/s)/(m/s²).
+/// An IMU drawn from the accelerometer's datasheet and the gyroscope's gain. Spreads that no datasheet gives
+/// are those of common MEMS sensors. Biases have 0.1 m/s² and 0.02 rad/s, gains and misalignments 1 %, and
+/// the g-sensitivity 2e-4 (rad/s)/(m/s²).
 #[must_use]
 pub fn draw_imu(accelerometer: &Sensor, gyroscope: &GyroscopeToDraw, rng: &mut Rng) -> ImuParameters {
     let spread = Sensor {
@@ -59,8 +62,10 @@ pub fn draw_imu(accelerometer: &Sensor, gyroscope: &GyroscopeToDraw, rng: &mut R
     }
 }
 
-/// Draws the thermal terms among these quantities; `gains` are the nominal ones of accelerometer and gyroscope, in the unit of the readings. Over 25 K a bias moves by some
-/// 25 mm/s² or 0.15 °/s and a gain by 0.1 %, as in a MEMS IMU of the middle class; what is of second order is a twentieth per K².
+/// Draws the temperature terms among these quantities. `gains` are the nominal gains of accelerometer and
+/// gyroscope, in the unit of the readings. Over 25 K a bias moves by some 25 mm/s² or 0.15 °/s, and a gain
+/// changes by 0.1 %. A MEMS IMU of the middle class is about as sensitive. A second-order term is a twentieth
+/// of that per K².
 pub fn draw_thermal(
     imu: &mut ImuParameters,
     quantities: &[ImuQuantity],
@@ -81,7 +86,7 @@ pub fn draw_thermal(
     }
 }
 
-/// Gives a quantity that is known beforehand the value it is fixed at, or draws it from the normal distribution of its mean and standard deviation.
+/// Gives a known quantity the value at which it is fixed, or draws it from its prior: a normal distribution.
 pub fn draw_known(
     imu: &mut ImuParameters,
     quantity: ImuQuantity,

@@ -1,11 +1,11 @@
-//! Recordings of a sensor that is held still in several orientations and turned by hand in between.
+//! Simulated recordings of a sensor that is held still in several orientations and turned by hand in between.
 
 use super::Rng;
 use crate::sensor::{ReadingUnit, Recording, SensorParameters};
 use nalgebra::{UnitQuaternion, Vector3};
 use rand_distr::{Distribution, StandardNormal};
 
-/// What is simulated.
+/// The conditions of the simulation.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HoldsSimulation {
     /// Number of holds.
@@ -22,8 +22,8 @@ pub struct HoldsSimulation {
     pub between_holds_sd_mps2: f64,
 }
 
-/// The recording of a sensor held in orientations spread evenly over the sphere (a Fibonacci lattice, turned at random), and the true
-/// direction of the specific force in each hold, m/s².
+/// The recording of a sensor in orientations spread evenly over the sphere, and the true specific force in
+/// each hold, m/s². The orientations are a Fibonacci lattice, turned at random.
 pub fn simulate_holds(
     sensor: &SensorParameters,
     noise: &Vector3<f64>,

@@ -1,4 +1,4 @@
-//! Recordings of an IMU that is held still in several orientations and turned by hand in between.
+//! Simulated recordings of an IMU that is held still in several orientations and turned by hand in between.
 
 use super::imu_stimuli::Stimuli;
 use super::{ImuSimulation, Rng};
@@ -10,10 +10,13 @@ use rand_distr::{Distribution, StandardNormal};
 /// Most samples of a simulated recording of an IMU: 2 GB.
 pub const MOST_SAMPLES: f64 = 2e7;
 
-/// The recording of an IMU that is turned from each random orientation to the next, about an axis that wobbles, and held still there.
+/// The recording of an IMU that is turned from each random orientation to the next and held still there. The
+/// axis of each turn wobbles.
 ///
-/// The attitude is integrated at sixteen steps for each sample, so the rates and the directions belong together to about 1e-9 rad.
+/// The attitude is integrated at sixteen steps for each sample. So the rates and the directions belong
+/// together to about 1e-9 rad.
 pub fn simulate_imu(imu: &ImuParameters, setup: &ImuSimulation, rng: &mut Rng) -> ImuRecording {
+    /// Integration steps for each sample.
     const FINE: usize = 16;
     let samples = |duration: f64| (duration * setup.rate_hz).round().max(1.0) as usize;
     let step = 1.0 / setup.rate_hz;

@@ -1,4 +1,4 @@
-//! What is simulated of an IMU that is held still and turned by hand.
+//! The settings of a simulated IMU recording: holds, turns, gravity, noise, units and temperature.
 
 use crate::sensor::ReadingUnit;
 use nalgebra::Vector3;
@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 /// Duration of a turn by hand from one hold to the next, s.
 pub const TURN_S: f64 = 2.0;
 
-/// What is simulated.
+/// The conditions of the simulation.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ImuSimulation {
     /// Number of holds.
@@ -27,11 +27,13 @@ pub struct ImuSimulation {
     pub accelerometer_unit: ReadingUnit,
     /// Unit of the gyroscope's readings.
     pub gyroscope_unit: ReadingUnit,
-    /// Standard deviation of the tilt, about each axis, with which a face on a table is met, rad.
+    /// Standard deviation of the face alignment: tilt of the sensor on a face, about each axis, rad.
     pub face_sd_rad: f64,
-    /// The Earth's rate in a frame whose z axis is up ([`earth_rate`](crate::motion::earth_rate) at a latitude), rad/s; zero for an Earth that does not turn.
+    /// Earth's rate in a frame whose z axis is up ([`earth_rate`](crate::motion::earth_rate) at a latitude),
+    /// rad/s. Zero for an Earth that does not turn.
     pub earth_rate_radps: Vector3<f64>,
-    /// Temperature at the beginning and at the end, °C, even in between; `None` for an IMU at its reference temperature, of which nothing is recorded.
+    /// Temperature at the beginning and at the end, °C, linear in between. `None` for an IMU at its reference
+    /// temperature, whose recording has no temperature.
     pub temperature_c: Option<[f64; 2]>,
 }
 

@@ -1,4 +1,4 @@
-//! What an IMU feels in a motion, and the recording that it makes of it.
+//! The stimuli of an IMU in a motion, and the recording that follows from them.
 
 use super::{ImuSimulation, Rng};
 use crate::sensor::{ImuParameters, ImuRecording, ReadingUnit, Recording};
@@ -26,7 +26,8 @@ impl Stimuli {
         self.rates.push(rate);
     }
 
-    /// The readings of both sensors, as they are at the temperature of the sample, with the noise of the accelerometer and then of the gyroscope drawn.
+    /// The readings of both sensors at the temperature of each sample. The noise of the accelerometer is
+    /// drawn first, then that of the gyroscope.
     pub(super) fn record(self, imu: &ImuParameters, setup: &ImuSimulation, rng: &mut Rng) -> ImuRecording {
         let samples = 0..self.len();
         let last = self.len().saturating_sub(1).max(1) as f64;

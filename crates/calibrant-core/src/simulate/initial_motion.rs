@@ -1,18 +1,21 @@
-//! The motion that experience would choose: the one that every design is compared with.
+//! The initial motion that experience would choose. Every design is compared with it.
 
 use super::Rng;
 use crate::motion::{JerkControlledMotion, Limits, Rest};
 use nalgebra::Vector3;
 use rand::RngExt;
 
-/// Acceleration and jerk where no limit is given: the report's ±30.
+/// Largest acceleration and jerk where no limit is given: the report's ±30 m/s² and m/s³.
 const DEFAULT_LIMIT: f64 = 30.0;
 
-/// A random motion: jerk `u_i ~ U(−1, 1) u_max/10`, start `a_0 ~ U(−1, 1) a_max/10`, shrunk into the limits; on each of `axes` axes.
+/// A random motion on each of `axes` axes, shrunk into the limits: jerk `u_i ~ U(−1, 1) u_max/10`, start
+/// `a_0 ~ U(−1, 1) a_max/10`.
 ///
-/// All limits are linear in the motion, so shrinking means multiplying each axis by one factor. Velocity and displacement are bounded by their
-/// Bézier control points, which holds between the nodes too. At rest at the end, the mean acceleration is taken off first. Where the acceleration has no
-/// limit, that of the intercept counts for the draw; limits that are not given count as ±30 (m/s², m/s³) for the draw and do not bind.
+/// All limits are linear in the motion, so shrinking means multiplying each axis by one factor. Velocity and
+/// displacement are bounded by their Bézier control points, which holds between the nodes too. For rest at
+/// the end, the mean acceleration is subtracted first. Where the acceleration has no limit, that of the
+/// intercept counts for the draw. Limits that are not given count as ±30 (m/s², m/s³) for the draw and do not
+/// bind.
 ///
 /// # Errors
 /// As [`JerkControlledMotion::uniform`].

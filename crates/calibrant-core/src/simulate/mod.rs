@@ -1,7 +1,7 @@
-//! Sensors and recordings out of the datasheet, seeded and reproducible.
+//! Simulation of sensors and recordings from the datasheet, seeded and reproducible.
 //!
-//! Every item of work (a sensor, a motion) has a ChaCha stream of its own under the common seed, so that results do not depend on the
-//! number of threads or on the order in which items are made.
+//! Every item of work (a sensor, a motion) has a ChaCha stream of its own under the common seed. So results
+//! do not depend on the number of threads or on the order in which items are made.
 
 mod drawn_imu;
 mod holds;
@@ -28,7 +28,7 @@ pub use table_recording::{TableAction, TableStep, simulate_table};
 use rand::SeedableRng;
 pub use rand_chacha::ChaCha8Rng as Rng;
 
-/// What a random stream is for. Streams of different purposes never meet.
+/// The purpose of a random stream. Streams of different purposes never overlap.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Purpose {
     /// The initial motion.

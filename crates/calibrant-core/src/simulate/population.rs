@@ -1,12 +1,12 @@
-//! Sensors drawn from the datasheet.
+//! Draws sensors at random from the datasheet.
 
 use super::Rng;
 use crate::sensor::{Quantity, Sensor, SensorParameters};
 use nalgebra::{Matrix3, Vector3};
 use rand_distr::{Distribution, StandardNormal};
 
-/// A sensor drawn from the datasheet: each parameter `N(nominal, spread²)`; without a spread, the nominal value. A gain or an offset that the
-/// datasheet does not give counts as 1 and 0.
+/// A sensor drawn from the datasheet: each parameter `N(nominal, spread²)`, or the nominal value without a
+/// spread. Where the datasheet gives no gain or offset, they count as 1 and 0.
 ///
 /// # Examples
 /// ```

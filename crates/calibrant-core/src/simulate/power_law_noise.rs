@@ -1,12 +1,13 @@
-//! Noise of a sensor at rest with a power-law spectrum.
+//! Simulated noise of a sensor at rest, with a power-law spectrum.
 
 use super::Rng;
 use crate::noise::PowerLaw;
 use rand_distr::{Distribution, StandardNormal};
 
-/// `n` readings at intervals of `interval_s`: one random process with this coefficient (see [`PowerLaw`]), in the unit of the coefficient.
+/// `n` readings at intervals of `interval_s` of one random process with this coefficient (see [`PowerLaw`]),
+/// in the unit of the coefficient.
 ///
-/// Flicker noise is white noise through the fractional sum of order ½ (`kasdin1995`), from rest: O(n²).
+/// Flicker noise is the fractional sum of order ½ of white noise (`kasdin1995`), from rest: O(n²).
 ///
 /// # Examples
 /// ```

@@ -1,4 +1,4 @@
-//! Recordings of a motion.
+//! Simulated recordings of a commanded motion, with process noise and measurement noise.
 
 use super::Rng;
 use crate::motion::{InputNoise, JerkControlledMotion, KnownEnds};
@@ -6,10 +6,12 @@ use crate::sensor::{ReadingUnit, Recording, SensorParameters};
 use nalgebra::Vector3;
 use rand_distr::{Distribution, StandardNormal};
 
-/// The motion that happens when this one is commanded: process noise `w_i ~ N(0, σ_u(u_i)²)` on each interval's jerk, the report's `ū_i = u_i + w_i`.
+/// The motion that happens when this one is commanded. Process noise `w_i ~ N(0, σ_u(u_i)²)` acts on each
+/// interval's jerk, the report's `ū_i = u_i + w_i`.
 ///
-/// Where both ends are known, the walk is drawn given that it ends where it was commanded to: the deviation at the end is taken back in proportion to
-/// the variance of the increments up to each node (a bridge).
+/// Where both ends are known, the walk is drawn on the condition that it ends where it was commanded to (a
+/// bridge). The deviation at the end is distributed over the nodes, in proportion to the variance of the
+/// increments up to each.
 ///
 /// # Errors
 /// As [`JerkControlledMotion::new`], where the noise is not finite.
@@ -48,7 +50,8 @@ pub fn perturb(
     JerkControlledMotion::new(command.times_s().to_vec(), nodes)
 }
 
-/// The recording of a motion by a sensor: `y_k = S α(t_k) + b + ν_k`, `ν_k ~ N(0, σ_ν²)` per axis; noise in the unit of the readings.
+/// The recording of a motion by a sensor: `y_k = S α(t_k) + b + ν_k`, `ν_k ~ N(0, σ_ν²)` per axis. The noise
+/// is in the unit of the readings.
 #[must_use]
 pub fn simulate_recording(
     sensor: &SensorParameters,

@@ -1,4 +1,4 @@
-//! Recordings of an IMU on a table: put down on faces, turned by known angles.
+//! Simulated recordings of an IMU on a table: put down on faces, turned by known angles.
 
 use super::imu_stimuli::Stimuli;
 use super::{ImuSimulation, Rng};
@@ -6,40 +6,42 @@ use crate::sensor::{ImuParameters, ImuRecording};
 use nalgebra::{Unit, UnitQuaternion, Vector3};
 use rand_distr::{Distribution, StandardNormal};
 
-/// The recording begins and ends this long before and after what is listed, s.
+/// The recording begins and ends this long before and after the listed steps, s.
 const MARGIN_S: f64 = 1.0;
 
-/// What is done at a time: from, until, in s.
+/// One step on the table and its times, s.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TableStep {
     /// Start, s.
     pub start_s: f64,
     /// End, s.
     pub end_s: f64,
-    /// What is done.
+    /// The action.
     pub action: TableAction,
 }
 
-/// What is done with the IMU on a table.
+/// An action with the IMU on a table.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum TableAction {
-    /// Kept still, the specific force (up) along this unit vector of the true frame.
+    /// Kept still, with the specific force (up) along this unit vector of the true frame.
     Hold(Vector3<f64>),
-    /// Turned about this unit vector of the true frame by an angle, rad, which is met with this standard deviation; it begins and ends at rest.
+    /// Turned about this unit vector of the true frame by an angle, rad. The turn begins and ends at rest.
+    /// The actual axis and angle scatter with this standard deviation.
     Turn {
         /// The axis.
         axis: Vector3<f64>,
         /// The angle.
         angle_rad: f64,
-        /// How well angle and axis are met.
+        /// Standard deviation of the actual axis and angle, rad.
         angle_sd_rad: f64,
     },
 }
 
-/// The recording of an IMU that is put down and turned as listed, in order of time. In between it is turned over from each face to the next; `setup` gives rate,
-/// gravity, noise, units and temperature.
+/// The recording of an IMU that is put down and turned as listed, in order of time. In between it is turned
+/// over from each face to the next. `setup` gives rate, gravity, noise, units and temperature.
 ///
-/// Attitudes between samples are exact, rates are the mean over a sample step: what the gyroscope sums up to is the angle that was made.
+/// Attitudes between samples are exact. Rates are the mean over a sample step, so the sum of the gyroscope's
+/// rates is the actual angle.
 pub fn simulate_table(
     imu: &ImuParameters,
     steps: &[TableStep],
@@ -52,7 +54,7 @@ pub fn simulate_table(
     let samples = ((until_s - from_s) / step_s).round() as usize;
     let mut normal = || -> f64 { StandardNormal.sample(rng) };
     let up = Vector3::new(0.0, 0.0, setup.gravity_mps2);
-    // attitudes: what each step starts from, and where it ends
+    // attitudes: where each step starts and ends
     let mut world_from_sensor = first_face(steps);
     let mut path: Vec<(f64, f64, UnitQuaternion<f64>, Vector3<f64>)> = Vec::new();
     let mut end_s = from_s;
@@ -112,10 +114,10 @@ fn first_face(steps: &[TableStep]) -> UnitQuaternion<f64> {
 /// The rotation vector, in the sensor's frame, that brings a direction of the sensor up.
 fn turn_over(world_from_sensor: &UnitQuaternion<f64>, direction: &Vector3<f64>) -> Vector3<f64> {
     let up_now = world_from_sensor.inverse() * Vector3::z();
-    // what is up after a turn by R of the sensor's frame is R⁻¹ of what was
+    // a turn by R of the sensor's frame turns the up direction by R⁻¹
     let (sine, cosine) = (direction.cross(&up_now), direction.dot(&up_now));
     match Unit::try_new(sine, 1e-12) {
-        // from both, as the cosine of opposite faces may be rounded beyond -1
+        // from sine and cosine, as rounding may take the cosine of opposite faces beyond -1
         Some(axis) => axis.into_inner() * sine.norm().atan2(cosine),
         None if cosine > 0.0 => Vector3::zeros(),
         None => {
@@ -130,7 +132,7 @@ mod tests {
     use super::*;
     use crate::simulate::{Purpose, stream};
 
-    /// Nearly: by a rounding error and by what a turn of known angle leaves.
+    /// The turn is exact but for a rounding error and the error of a turn of known angle.
     #[test]
     fn opposite_faces_are_turned_over_to() {
         let face = Vector3::new(0.0, 0.6, 0.8);

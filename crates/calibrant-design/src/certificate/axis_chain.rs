@@ -1,4 +1,4 @@
-//! One axis of a motion, as the certificate sees it.
+//! One axis of a motion in the form that the certificate bounds.
 
 use calibrant_core::motion::{AxisLimits, IntervalSums};
 
@@ -13,11 +13,11 @@ pub(crate) struct AxisChain {
     pub(crate) limits: AxisLimits,
     /// The motion variance is `V = Σ α² − (Σ α + shift)²/mass`.
     pub(crate) shift: f64,
-    /// At least the number of samples.
+    /// The divisor of the mean's term: at least the number of samples.
     pub(crate) mass: f64,
 }
 
-/// The states that are carried from interval to interval.
+/// The states that pass from interval to interval.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct States {
     pub(super) velocity: bool,

@@ -1,14 +1,15 @@
-//! Tighter bounds on nodes and states, by linear programs.
+//! Bound tightening: smaller bounds on nodes and states, by linear programs.
 //!
-//! What closed forms cannot see, limits of many nodes acting together: how fast the velocity limit lets the acceleration swing, how far the
-//! displacement limit lets it go at all. The scale of every unknown of the relaxation follows, and a tight scale is half of a tight relaxation.
+//! Closed forms do not cover limits of many nodes that act together. Examples are how fast the velocity limit
+//! lets the acceleration swing, and how far the displacement limit lets it go. The bounds scale every unknown
+//! of the relaxation, and a tight scale is half of a tight relaxation.
 
 use super::AxisChain;
 use super::bounds::StateBounds;
 use super::dual_bound::{MomentProgram, Row};
 use calibrant_core::motion::Rest;
 
-/// Most iterations of each linear program.
+/// Largest number of iterations of each linear program.
 const MAX_ITERATIONS: u32 = 50;
 
 /// A linear form in the nodes' accelerations.
@@ -23,7 +24,8 @@ fn combine(terms: &[(f64, &Form)]) -> Form {
 }
 
 impl StateBounds {
-    /// The same bounds or smaller ones, from all limits together, those inside an interval at the places `inside`.
+    /// The same bounds or smaller ones, from all limits together. Limits inside an interval act at the places
+    /// `inside`.
     pub(super) fn tightened(&self, chain: &AxisChain, inside: &[f64]) -> Self {
         let (n, dt, l) = (chain.sums.len(), chain.interval_s, &chain.limits);
         let node = |i: usize| -> Form { (0..=n).map(|k| f64::from(u8::from(k == i))).collect() };

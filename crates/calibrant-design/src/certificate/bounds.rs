@@ -1,4 +1,5 @@
-//! What no admissible motion can exceed, in closed form: the scale of every unknown of the relaxation, and a bound of its own.
+//! Closed-form bounds that no admissible motion can exceed. They scale every unknown of the relaxation, and
+//! are a bound of their own.
 
 use super::AxisChain;
 use calibrant_core::motion::Rest;
@@ -19,8 +20,10 @@ pub(super) struct StateBounds {
 impl StateBounds {
     /// Propagates the limits along the chain and back.
     ///
-    /// Limits that hold for all t bound derivatives inside an interval too, by Markov's inequality for polynomials of degree n on an interval of
-    /// length Δτ: `|p'| ≤ 2n² max|p|/Δτ` and `|p''| ≤ 4n²(n² − 1) max|p|/(3 Δτ²)`. So `|α| ≤ 8 v_max/Δτ`, `|α| ≤ 96 d_max/Δτ²`, `|v| ≤ 18 d_max/Δτ`.
+    /// Limits that hold for all t bound derivatives inside an interval too, by Markov's inequality. For
+    /// polynomials of degree n on an interval of length Δτ, `|p'| ≤ 2n² max|p|/Δτ` and
+    /// `|p''| ≤ 4n²(n² − 1) max|p|/(3 Δτ²)`. So `|α| ≤ 8 v_max/Δτ`, `|α| ≤ 96 d_max/Δτ²`,
+    /// `|v| ≤ 18 d_max/Δτ`.
     pub(super) fn of(chain: &AxisChain) -> Self {
         let (n, dt, l) = (chain.sums.len(), chain.interval_s, &chain.limits);
         let unlimited = f64::INFINITY;

@@ -1,11 +1,13 @@
-//! An upper bound that holds whatever the solver did.
+//! A dual bound on a conic program that holds whatever the solver did.
 //!
-//! Wanted: the largest `cᵀy` where every entry of y is in [−1, 1] and `b − A y ∈ K`, K a product of cones. For any z in the dual cone and any such y
+//! Sought is the largest `cᵀy` where every entry of y is in [−1, 1] and `b − A y ∈ K`, K a product of cones.
+//! For any z in the dual cone and any such y
 //!
 //! `cᵀy ≤ cᵀy + zᵀ(b − A y) = bᵀz + (c − Aᵀz)ᵀy ≤ bᵀz + ‖c − Aᵀz‖₁`.
 //!
-//! So the solver's z need not solve anything: it is moved into the dual cone by a shift of its eigenvalues, what remains of its equations is paid
-//! for in full, and so are the roundings of this very computation. A solver that stops early gives a looser bound, never a wrong one.
+//! So the solver's z need not solve anything. A shift of its eigenvalues moves it into the dual cone. The
+//! bound adds in full what remains of its equations, and the roundings of this computation. A solver that
+//! stops early gives a looser bound, never a wrong one.
 //!
 //! # References
 //! `jansson2008`
@@ -21,43 +23,44 @@ pub(super) struct Row {
     pub(super) terms: Vec<(usize, f64)>,
 }
 
-/// Maximise `constant + cᵀy` over `|y_j| ≤ 1`, rows that are zero, rows that are not negative, and symmetric matrices that are positive semidefinite.
+/// Maximise `constant + cᵀy` over `|y_j| ≤ 1`, subject to rows that are zero, rows that are not negative, and
+/// positive semidefinite symmetric matrices.
 #[derive(Debug, Default)]
 pub(super) struct MomentProgram {
     /// Number of unknowns.
     pub(super) columns: usize,
-    /// Unknowns that cannot be negative either: means of squares.
+    /// Unknowns that cannot be negative: means of squares.
     pub(super) squares: Vec<usize>,
-    /// What is maximised.
+    /// The objective, which is maximised.
     pub(super) objective: Row,
     /// Rows that are zero.
     pub(super) zero: Vec<Row>,
     /// Rows that are not negative.
     pub(super) nonnegative: Vec<Row>,
-    /// Size and upper triangle, column by column.
+    /// Size and upper triangle of each matrix, column by column.
     pub(super) semidefinite: Vec<(usize, Vec<Row>)>,
 }
 
-/// A bound and how it came about.
+/// A bound and how it was found.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct DualBound {
     /// The bound.
     pub(super) value: f64,
-    /// What was added for the solver's residual and for rounding; part of `value`.
+    /// Addition for the solver's residual and for rounding; part of `value`.
     pub(super) correction: f64,
-    /// Did the solver end as it should, or near enough?
+    /// Did the solver reach its solution, or nearly?
     pub(super) solved: bool,
 }
 
-/// Relative size of the roundings that are paid for, on every product of the bound: some thousand times the unit roundoff, for the coefficients are
-/// themselves results of a short computation.
+/// Relative size of the roundings that are added for every product of the bound. It is some thousand times
+/// the unit roundoff, since the coefficients are themselves results of a short computation.
 const ROUNDING: f64 = 1e-12;
 
 /// Share of a bound that the correction may take where the solver stopped for lack of progress.
 const NEAR_ENOUGH: f64 = 0.02;
 
 impl MomentProgram {
-    /// Solves, and bounds. `None` where the solver refused to start.
+    /// Solves the program and bounds it. `None` where the solver refused to start.
     pub(super) fn bound(&self, max_iterations: u32) -> Option<DualBound> {
         let (a, b, cones) = self.standard_form();
         let mut q = vec![0.0; self.columns];

@@ -1,22 +1,26 @@
-//! The certificate: a bound on the criterion that no admissible motion can beat, and so how good a motion is at most from being the best.
+//! The certificate: a lower bound on the criterion that no admissible motion can beat. It shows how far a
+//! motion can be from the best at most.
 //!
-//! A search finds good motions and cannot know that there is no better one. The certificate works from the other side. No variance can be smaller than
-//! that of the parameter when others are given for free, so that with `F⁰` the information that is there already, σ the noise of a reading
-//! and M the number of samples,
+//! A search finds good motions and cannot show that there is no better one. The certificate works from the
+//! other side. The variance of a parameter is smallest where other parameters are given for free. Let `F⁰` be
+//! the information that is there already, σ the noise of a reading and M the number of samples. Then
 //!
 //! `C_bb ≥ 1/(F_bb + F⁰_bb)`, `C_KK ≥ 1/(V/σ² + F⁰_KK)`, `V = Σ α² − (Σ α + σ² F⁰_bK)²/(M + σ² F⁰_bb)`,
 //!
-//! with `F_bb` the information on the bias where the scale factor is known (`M/σ²` where the motion is). V, the motion variance, is what the motion
-//! decides, and [`motion_variance`] bounds it from above. An element `S_rk` of a full matrix is bounded as if axis k could be moved on its own.
+//! with `F_bb` the information on the bias where the scale factor is known (`M/σ²` where the motion is
+//! known). The motion decides V, the motion variance, and [`motion_variance`] bounds it from above. An
+//! element `S_rk` of a full matrix is bounded as if axis k could be moved on its own.
 //!
-//! Every criterion is at least its value at the diagonal matrix of these bounds: A, M and c weight variances; the largest eigenvalue is no smaller than any
-//! diagonal entry; the determinant of the information is at most the product of the information on each parameter (Hadamard, Fischer); I is `tr(W C)`, with
-//! `W ⪰ λ diag(W)` where W is not diagonal.
+//! Every criterion is at least its value at the diagonal matrix of these bounds. A, M and c weight variances.
+//! For E, the largest eigenvalue is no smaller than any diagonal entry. For D, the determinant of the
+//! information is at most the product of the information on each parameter (Hadamard, Fischer). I is
+//! `tr(W C)`, with `W ⪰ λ diag(W)` where W is not diagonal.
 //!
 //! # A motion that is not known
-//! Process noise only takes information away, so all of the above holds. Where only the start is known there is a second bound: were the readings
-//! perfect, the scale factor would still have to be found from increments that are noisy, `F_KK ≤ Σ (u_i/(K σ_u(u_i)))²`, and each term grows with the jerk.
-//! Where nothing but the ends is known, `C_KK = c/(a_N − a_0)²` with a constant c, and the ends can only be so far apart.
+//! Process noise only removes information, so all of the above holds. Where only the start is known there is
+//! a second bound. With perfect readings, the scale factor would still follow from noisy increments,
+//! `F_KK ≤ Σ (u_i/(K σ_u(u_i)))²`, and each term grows with the jerk. Where only the ends are known,
+//! `C_KK = c/(a_N − a_0)²` with a constant c, and the limits bound the distance of the ends.
 
 mod axis_chain;
 mod bound_tightening;

@@ -1,17 +1,21 @@
-//! The sparse moment relaxation of a chain.
+//! The sparse moment relaxation of a chain of intervals. It makes a nonconvex maximum a semidefinite program.
 //!
-//! The motion variance is a quadratic of the motion, its maximum over the admissible motions a nonconvex problem. In place of one motion, take a
-//! distribution of motions: the mean variance is then linear in the moments of the distribution. What moments up to a degree must satisfy
-//! is convex, so that the largest value over all vectors that satisfy it bounds the motion variance from above:
+//! The motion variance is a quadratic of the motion; its maximum over the admissible motions is a nonconvex
+//! problem. In place of one motion, take a distribution of motions. The mean variance is then linear in the
+//! moments of the distribution. Moments up to a degree satisfy convex conditions. The largest value over all
+//! vectors that satisfy them bounds the motion variance from above. The conditions are:
 //!
-//! - the moment matrix of `(1, z, z²)`, or up to `z³`, is positive semidefinite, for the few variables z of one interval: its two nodes and the states that the
-//!   limits need at its start (velocity, displacement, the running sum of the samples);
-//! - for every limit, `|ℓ(z)| ≤ 1`, that of one degree less, weighted with `1 − ℓ²`, is so too, and that of two degrees less with
-//!   `(1 − ℓ²)(1 − k²)` for any two of them. Limits that hold for all t hold at the quarters of the interval;
-//! - two neighbours agree on all moments of the node and the states that they share.
+//! - The moment matrix of `(1, z, z²)`, or up to `z³`, is positive semidefinite, for the few variables z of
+//!   one interval. These are its two nodes and the states that the limits need at its start (velocity,
+//!   displacement, the running sum of the samples).
+//! - For every limit `|ℓ(z)| ≤ 1`, the matrix of one degree less, weighted with `1 − ℓ²`, is positive
+//!   semidefinite. So is the matrix of two degrees less with `(1 − ℓ²)(1 − k²)` for any two limits. Limits
+//!   that hold for all t hold at the quarters of the interval.
+//! - Two neighbours agree on all moments of the node and the states that they share.
 //!
-//! Every variable is divided by a bound of its own, so that no moment exceeds one in size. Where nothing tells a motion from its mirror image −a,
-//! the distribution may be taken symmetric: odd moments vanish and every matrix falls into two.
+//! Every variable is divided by a bound of its own, so that no moment exceeds one in size. Where a motion and
+//! its mirror image −a are equivalent, the distribution may be taken symmetric. Odd moments then vanish and
+//! every matrix falls into two.
 //!
 //! # References
 //! `lasserre2001`, `waki2006`
@@ -23,17 +27,17 @@ use super::{AxisChain, States};
 use calibrant_core::motion::Rest;
 use std::collections::BTreeMap;
 
-/// What part of the chain is relaxed, and how.
+/// The part of the chain that is relaxed, and how.
 #[derive(Debug, Clone)]
 pub(super) struct ChainPart<'a> {
     pub(super) chain: &'a AxisChain,
     pub(super) bounds: &'a StateBounds,
     /// Intervals.
     pub(super) range: std::ops::Range<usize>,
-    /// Intervals seen together.
+    /// Number of intervals that a clique combines.
     pub(super) width: usize,
     pub(super) states: States,
-    /// Is the part cut out of a longer chain, so that it starts and ends anywhere?
+    /// Is the part cut from a longer chain, so that it starts and ends anywhere?
     pub(super) open: bool,
     /// Places inside each interval at which limits are imposed.
     pub(super) inside: &'a [f64],
@@ -41,7 +45,7 @@ pub(super) struct ChainPart<'a> {
     pub(super) order: u8,
 }
 
-/// Some intervals that are seen together: their quantities as polynomials of its own scaled variables.
+/// Some intervals that are combined: their quantities as polynomials of scaled variables.
 struct Clique {
     variables: usize,
     /// Column of each moment.
@@ -56,7 +60,7 @@ struct Clique {
     objective: Polynomial,
 }
 
-/// Variables of a clique while they are being named.
+/// The number of variables of a clique that have a name so far.
 #[derive(Default)]
 struct Variables(usize);
 
@@ -72,7 +76,8 @@ impl Variables {
 }
 
 impl ChainPart<'_> {
-    /// The relaxation, its objective divided by `scale`; `None` where a quantity it needs is not bounded or nothing is free.
+    /// The relaxation, its objective divided by `scale`. `None` where a quantity that it needs is not bounded
+    /// or nothing is free.
     pub(super) fn relax(&self, scale: f64) -> Option<MomentProgram> {
         let symmetric = self.is_symmetric();
         let mut program = MomentProgram::default();
@@ -153,7 +158,8 @@ impl ChainPart<'_> {
         let mut forms: Vec<_> = (0..variables.0).map(|k| Polynomial::variable(k, 1.0)).collect();
         for (form, limit) in limited {
             let form = form.scaled(1.0 / limit);
-            // what follows from the bounds of the variables says nothing new; a limit of zero is an equality that was put in already
+            // a form that the bounds of the variables imply adds nothing; a limit of zero is an equality that
+            // is there already
             if limit > 0.0 && limit.is_finite() && form.bounds() > 1.0 + 1e-9 {
                 forms.push(form);
             }
@@ -194,7 +200,7 @@ impl ChainPart<'_> {
         })
     }
 
-    /// Names the variables: what is prescribed or follows from rest at the end is none.
+    /// Names the variables. A value that is prescribed, or follows from rest at the end, is not a variable.
     fn motion(&self, i: usize, first: bool, last: bool, variables: &mut Variables) -> Option<Motion> {
         let (bounds, states, width) = (self.bounds, self.states, self.width);
         let (dt, l) = (self.chain.interval_s, &self.chain.limits);
@@ -215,7 +221,7 @@ impl ChainPart<'_> {
         let d = state(states.displacement, bounds.d[i], variables);
         let sum = state(states.sum, bounds.sum[i], variables);
         if let (Some(limit), None, None, false) = (l.intercept, start, end, stops) {
-            // the report's variables: the limits are on them, and nodes far from t = 0 would be badly scaled
+            // the report's variables: the limits act on them, and nodes far from t = 0 would be badly scaled
             let x = variables.add(limit);
             for k in 0..width {
                 let bound = l.jerk.unwrap_or(f64::INFINITY).min((bounds.a[i + k] + bounds.a[i + k + 1]) / dt);

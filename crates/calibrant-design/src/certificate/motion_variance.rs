@@ -1,4 +1,5 @@
-//! The largest motion variance that any admissible motion of one axis can have.
+//! An upper bound on the motion variance of any admissible motion of one axis. It chooses among relaxations
+//! by their cost.
 
 use super::bounds::StateBounds;
 use super::moment_relaxation::ChainPart;
@@ -12,9 +13,10 @@ pub(crate) struct MotionVarianceBound {
     pub(crate) value: f64,
     /// Where it comes from.
     pub(crate) kind: BoundKind,
-    /// Did the conic solver end as it should? The bound holds in any case; where it did not, it is looser than need be.
+    /// Did the conic solver reach its solution? The bound holds in any case; otherwise it is looser than
+    /// necessary.
     pub(crate) solved: bool,
-    /// Part of `value` that pays for the solver's residual and for rounding.
+    /// Part of `value` that covers the solver's residual and rounding.
     pub(crate) correction: f64,
 }
 
@@ -28,7 +30,7 @@ pub(crate) enum BoundKind {
         /// Were velocity or displacement states needed?
         states: bool,
     },
-    /// Moment relaxations of stretches of the chain that may each start and end anywhere.
+    /// Moment relaxations of segments of the chain that may each start and end anywhere.
     Stretches,
     /// Every node at its largest acceleration at once.
     StateBounds,
@@ -37,7 +39,7 @@ pub(crate) enum BoundKind {
 }
 
 impl BoundKind {
-    /// What it is and why it may be loose, for a reader who has not seen one before.
+    /// What the bound is and why it may be loose, for a reader who has not seen one before.
     pub(crate) fn explanation(self) -> &'static str {
         match self {
             Self::Chain { states: false, mean: true } => {
@@ -65,24 +67,27 @@ impl BoundKind {
     }
 }
 
-/// Most iterations of the conic solver; it needs some 20.
+/// Largest number of iterations of the conic solver; it needs some 20.
 const MAX_ITERATIONS: u32 = 100;
 /// Places inside each interval at which limits on velocity and displacement are imposed.
 const INSIDE: [f64; 3] = [0.25, 0.5, 0.75];
-/// Most intervals for moments up to degree 6 with states: seconds.
+/// Most intervals for moments up to degree 6 with states. They take seconds.
 const MOST_HIGH_ORDER: usize = 12;
-/// Most intervals of a chain with states that are looked at in pairs: seconds.
+/// Most intervals of a chain with states that are relaxed in pairs. They take seconds.
 const MOST_WIDE: usize = 40;
-/// Most intervals of a whole chain with states, and without: seconds.
+/// Most intervals of a whole chain with states. They take seconds.
 const MOST_WITH_STATES: usize = 100;
+/// Most intervals of a whole chain without states. They take seconds.
 const MOST_WITHOUT_STATES: usize = 1000;
-/// Most intervals over which the running sum is carried, its scale grows with the chain; and with other states beside it.
+/// Most intervals over which the running sum is a state: its scale grows with the chain.
 const MOST_WITH_MEAN: usize = 200;
+/// Most intervals over which the running sum is a state beside others.
 const MOST_WITH_STATES_AND_MEAN: usize = 30;
 /// Most intervals whose bounds are tightened by linear programs.
 const MOST_TIGHTENED: usize = 30;
-/// Intervals of a stretch, and most different stretches that are relaxed.
+/// Number of intervals of a segment.
 const STRETCH: usize = 8;
+/// Largest number of different segments that are relaxed.
 const MOST_SEGMENTS: usize = 12;
 
 /// Bounds the motion variance; `None` where nothing bounds the acceleration.
@@ -90,7 +95,8 @@ pub(crate) fn motion_variance_bound(chain: &AxisChain) -> Option<MotionVarianceB
     bound_within(chain, MAX_ITERATIONS, 3)
 }
 
-/// The same with at most so many iterations of the conic solver, and moments up to degree `2 · most_order`.
+/// The same with at most this number of iterations of the conic solver, and moments up to degree
+/// `2 · most_order`.
 pub(super) fn bound_within(
     chain: &AxisChain,
     max_iterations: u32,
@@ -119,7 +125,8 @@ pub(super) fn bound_within(
         consider(segments(chain, &bounds, States { velocity, displacement, sum: false }, max_iterations));
         return Some(best);
     }
-    // the running sum is one more state: with velocity and displacement only to second order, and not where rest at the end makes the mean small
+    // the running sum is one more state; beside velocity and displacement only to second order. Rest at the
+    // end makes the mean small, so that it is not needed there
     let with_mean = chain.mass.is_finite()
         && n <= if velocity { MOST_WITH_STATES_AND_MEAN } else { MOST_WITH_MEAN }
         && !(velocity && l.rest == Rest::Both);
@@ -147,9 +154,11 @@ pub(super) fn bound_within(
     Some(best)
 }
 
-/// What the jerk alone admits: `V ≤ Σ (α − c)² + (mass − M) c² + 2 |shift| |c|` for every c, here the acceleration in the middle of the motion.
+/// The bound from the jerk alone: `V ≤ Σ (α − c)² + (mass − M) c² + 2 |shift| |c|` for every c. Here c is the
+/// acceleration in the middle of the motion.
 ///
-/// The relaxations divide by the largest acceleration, beside which a small jerk is lost in the solver's tolerance; this bound is not.
+/// The relaxations divide by the largest acceleration. A small jerk is then lost in the solver's tolerance;
+/// in this bound it is not.
 fn by_jerk(chain: &AxisChain, bounds: &StateBounds) -> Option<MotionVarianceBound> {
     let (n, jerk) = (chain.sums.len(), chain.limits.jerk?);
     let samples: f64 = chain.sums.iter().map(|sum| sum.samples).sum();
@@ -176,7 +185,7 @@ fn relax(part: &ChainPart<'_>, max_iterations: u32, kind: BoundKind) -> Option<M
     })
 }
 
-/// The sum of the bounds of stretches; equal stretches are relaxed once.
+/// The sum of the bounds of segments; equal segments are relaxed once.
 fn segments(
     chain: &AxisChain,
     bounds: &StateBounds,
@@ -184,7 +193,7 @@ fn segments(
     max_iterations: u32,
 ) -> Option<MotionVarianceBound> {
     let n = chain.sums.len();
-    // the same bounds everywhere make stretches equal, but for the report's intercept, which counts from t = 0
+    // the same bounds everywhere make segments equal, but for the report's intercept, which counts from t = 0
     let uniform = bounds.everywhere();
     let (bounds, moves) = if chain.limits.intercept.is_some() { (bounds, true) } else { (&uniform, false) };
     let mut total =

@@ -1,8 +1,8 @@
-//! Polynomials in the few variables of one clique.
+//! Sparse polynomials in the few variables of one clique.
 
 use std::collections::BTreeMap;
 
-/// Most variables of a clique: nodes and states.
+/// Largest number of variables of a clique: nodes and states.
 pub(super) const VARIABLES: usize = 8;
 
 /// Exponents of a monomial.

@@ -41,6 +41,7 @@ fn gap(bound: &MotionVarianceBound, sd: f64) -> f64 {
     sd / (2e-4 / bound.value.sqrt()) - 1.0
 }
 
+/// The limits of the report's case D1: acceleration and jerk.
 const D1: AxisLimits = AxisLimits {
     acceleration: Some(30.0),
     jerk: Some(30.0),
@@ -115,7 +116,7 @@ fn a_slow_motion_is_bounded_by_its_jerk_whatever_the_acceleration() {
         "{} {best}",
         bound.value
     );
-    // what is known of the bias before counts too
+    // earlier information on the bias counts too
     let informed = AxisChain { shift: 0.3, mass: chain.mass + 20.0, ..chain };
     let bound = motion_variance_bound(&informed).expect("bounded");
     for offset in [-500.0, -1.0, 0.0, 1.0, 500.0_f64] {
@@ -154,7 +155,7 @@ fn breach(chain: &AxisChain, a: &[f64]) -> f64 {
     worst
 }
 
-/// A random small problem and an admissible motion of it, climbed as far as random steps go.
+/// A random small problem and an admissible motion of it, improved as far as random steps go.
 fn climbed(number: u64) -> (AxisChain, f64) {
     let mut rng = stream(7, Purpose::Motion, number);
     let n = rng.random_range(2..=4_usize);
@@ -231,7 +232,7 @@ fn no_admissible_motion_beats_the_bound_and_most_come_near_it() {
     let mut ratios = Vec::new();
     for number in 0..100 {
         let (chain, best) = climbed(number);
-        // the higher order where it costs something: a few
+        // the higher order takes longer: use it for a few
         let order = if number % 50 == 0 { 3 } else { 2 };
         let bound = bound_within(&chain, 100, order).expect("bounded");
         assert!(bound.value >= best, "{number}: {} < {best}, {chain:?}", bound.value);
@@ -299,6 +300,7 @@ mod of_a_design {
         Limits { acceleration_mps2: all, jerk_mps3: all, ..Limits::default() }
     }
 
+    /// Process noise on the jerk, as in the report.
     const NOISY: Trust = Trust::Noisy(InputNoise { floor_mps3: 0.01, ratio: 0.01 });
 
     #[test]

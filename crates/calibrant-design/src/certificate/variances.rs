@@ -1,4 +1,4 @@
-//! From bounds on the motion to bounds on variances and on the criterion.
+//! Bounds on variances and on the criterion, from the bounds on the motion. This makes the certificate.
 
 use super::AxisChain;
 use super::bounds::StateBounds;
@@ -54,7 +54,7 @@ pub(crate) fn certify(problem: &DesignProblem<'_>, value: f64) -> Result<Option<
     }))
 }
 
-/// Every axis from −1 to 1 m/s² in a straight line.
+/// A straight line from −1 to 1 m/s² on every axis.
 fn ramp(problem: &DesignProblem<'_>) -> Result<JerkControlledMotion> {
     let n = problem.intervals;
     let nodes = (0..=n).map(|i| Vector3::repeat(2.0 * i as f64 / n as f64 - 1.0)).collect();
@@ -71,19 +71,21 @@ fn independence(criterion: &Criterion, at: &DMatrix<f64>) -> f64 {
     if scaled.amax() == 0.0 { 1.0 } else { (1.0 + scaled.symmetric_eigenvalues().min() - 1e-14).max(0.0) }
 }
 
-/// By how much, relatively, rounding may have made a bound on the information too small: a bound that the motion meets exactly must not end above its value.
+/// Relative amount by which rounding may have made a bound on the information too small. A bound that the
+/// motion attains exactly must not end above its value.
 const ROUNDING: f64 = 1e-12;
 
-/// Lower bounds on variances, with what they share.
+/// Lower bounds on variances, and what they share.
 struct Bounds<'a> {
     problem: &'a DesignProblem<'a>,
     noise: Vector3<f64>,
     sums: Vec<IntervalSums>,
-    /// Information at rest: that on the biases does not depend on the motion, and with process noise is largest there.
+    /// Information at rest. On the biases it does not depend on the motion; with process noise it is largest
+    /// at rest.
     still: DMatrix<f64>,
     /// Information of a straight line from −1 to 1, where the motion is unknown.
     ramp: Option<DMatrix<f64>>,
-    /// Motion variances that are bounded already.
+    /// Motion variances that have bounds already.
     known: Vec<(AxisLimits, [f64; 2], Option<MotionVarianceBound>)>,
     reasons: Vec<String>,
 }
@@ -106,7 +108,8 @@ impl Bounds<'_> {
             all.iter().position(|other| matches!(other, Quantity::Bias(axis) if axis.index() == row))?;
         let (own, cross, on_bias) = (prior(place, place), prior(place, bias), prior(bias, bias));
         let bounds = StateBounds::of(&self.chain(column, 0.0, f64::INFINITY));
-        // what earlier information on the bias adds where the bias follows from the scale factor and a known acceleration
+        // what earlier information on the bias adds where the bias follows from the scale factor and a known
+        // acceleration
         let anchored = |a: f64| own + 2.0 * a * cross.abs() + a * a * on_bias;
 
         let mut information = f64::INFINITY;
@@ -202,7 +205,7 @@ impl Bounds<'_> {
         apart.min(l.jerk.unwrap_or(f64::INFINITY) * self.problem.interval_s * n as f64)
     }
 
-    /// Largest information on `S_rk` that noisy increments can carry where readings are perfect:
+    /// Largest information on `S_rk` that noisy increments can carry with perfect readings:
     /// `Σ_i u_ik² Σ_m (S⁻¹)²_mr/σ_u,m²`.
     fn increments(&self, input: InputNoise, row: usize, column: usize) -> f64 {
         let problem = self.problem;
@@ -228,7 +231,8 @@ impl Bounds<'_> {
                     } else {
                         0.0
                     };
-                    // the jerk of axis k is what excites; that of any other axis may be zero, and its noise at the floor
+                    // the jerk of axis k excites; that of any other axis may be zero, and its noise at the
+                    // floor
                     let sd = input.floor_mps3 + if m == column { input.ratio * u } else { 0.0 };
                     if share != 0.0 {
                         sum += (share * u / sd).powi(2);

@@ -1,4 +1,4 @@
-//! All experiments of one experiment file.
+//! All studies that one experiment file asks for.
 
 use super::{
     DesignStudy, DesignStudyProblem, Study, StudyProblem, StudySettings, SurfaceSettings, TraceSurface,
@@ -7,7 +7,7 @@ use super::{
 use calibrant_core::error::Result;
 use calibrant_core::sensor::Sensor;
 
-/// The experiments that are asked for.
+/// The studies that are wanted.
 #[derive(Debug, Clone, Default)]
 pub struct StudiesProblem<'a> {
     /// Sensors calibrated without a design.
@@ -18,7 +18,7 @@ pub struct StudiesProblem<'a> {
     pub design: Option<DesignStudyProblem<'a>>,
     /// The same with process noise.
     pub noisy: Option<DesignStudyProblem<'a>>,
-    /// What is not asked for although one might expect it, and why, in words.
+    /// Studies that are not wanted although a reader might expect them, and why, in words.
     pub remarks: Vec<String>,
 }
 
@@ -32,10 +32,11 @@ impl StudiesProblem<'_> {
     }
 }
 
-/// What `calibrant study` gives: the experiments that were asked for. The preset `report` asks for all of them.
+/// The result of `calibrant study`: the studies that were wanted. The preset `report` wants all of them.
 #[derive(Debug, Clone, Default)]
 pub struct Studies {
-    /// Sensors calibrated without a design: the report's chapter 3, where nothing is known of the motion but its ends (Figures 4 to 6).
+    /// Sensors calibrated without a design: the report's chapter 3, where only the ends of the motion are
+    /// known (Figures 4 to 6).
     pub calibration: Option<Study>,
     /// The criterion over the jerks of two intervals (Figure 7).
     pub surface: Option<TraceSurface>,
@@ -43,11 +44,11 @@ pub struct Studies {
     pub design: Option<DesignStudy>,
     /// The same with process noise, of `[study.noisy]` (Figures 13 and 14).
     pub noisy: Option<DesignStudy>,
-    /// What was not run although one might expect it, and why, in words.
+    /// Studies that were not run although a reader might expect them, and why, in words.
     pub remarks: Vec<String>,
 }
 
-/// Runs the experiments that are asked for, one after the other; `progress` is called with 1 after each sensor.
+/// Runs the wanted studies, one after the other; `progress` is called with 1 after each sensor.
 ///
 /// # Errors
 /// As [`run_study`], [`trace_surface`] and [`run_design_study`].

@@ -1,4 +1,4 @@
-//! Sensors that are moved by the same command and calibrated once.
+//! The calibration study: sensors that are moved by the same command and calibrated once.
 
 use super::simulated_recording::record;
 use super::summary::summarise;
@@ -14,7 +14,7 @@ use rayon::prelude::*;
 /// A population and the motion that calibrates it.
 #[derive(Debug, Clone, Copy)]
 pub struct StudyProblem<'a> {
-    /// The datasheet that sensors are drawn from; its noise must be given.
+    /// The datasheet from which sensors are drawn; its noise must be given.
     pub sensor: &'a Sensor,
     /// The command, and how far it is trusted.
     pub command: &'a CommandedMotion,
@@ -24,7 +24,7 @@ pub struct StudyProblem<'a> {
     pub sensors: usize,
 }
 
-/// How studies are run.
+/// The settings of all studies.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct StudySettings {
     /// Seed of everything random. Sensors of the same number are the same in every study under one seed.
@@ -34,12 +34,12 @@ pub struct StudySettings {
     /// How each motion is designed. Every sensor's design has a seed of its own that follows from the study's, and only the first sensor's has a
     /// certificate.
     pub design: DesignSettings,
-    /// Rate at which the sensor looked at in detail is recorded once more, Hz; five times the rate where it is not given, as in the report (2 Hz and
-    /// 10 Hz).
+    /// Rate at which the sensor in detail is recorded once more, Hz. Where it is not given, it is five times
+    /// the rate, as in the report (2 Hz and 10 Hz).
     pub detail_rate_hz: Option<f64>,
 }
 
-/// The detail case is shown at this multiple of the rate too.
+/// Multiple of the rate at which the case in detail is shown, too.
 const DETAIL_RATE: f64 = 5.0;
 
 /// Runs a study, in parallel; `progress` is called with 1 after each sensor.

@@ -1,4 +1,5 @@
-//! The report's loop (Figure 2) over many sensors: calibrate, design at the estimate, calibrate again.
+//! The design study, the report's loop (Figure 2) over many sensors: calibrate, design at the estimate,
+//! calibrate again.
 
 use super::simulated_recording::record;
 use super::summary::{compare, traces};
@@ -13,10 +14,10 @@ use calibrant_core::simulate::{Purpose, Rng, draw_sensor, initial_motion, stream
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
-/// A population, and what its motions are designed for.
+/// A population, and the design problem of its motions.
 #[derive(Debug, Clone)]
 pub struct DesignStudyProblem<'a> {
-    /// The datasheet that sensors are drawn from; its noise must be given.
+    /// The datasheet from which sensors are drawn; its noise must be given.
     pub sensor: &'a Sensor,
     /// Number of intervals of the motions.
     pub intervals: usize,
@@ -28,15 +29,15 @@ pub struct DesignStudyProblem<'a> {
     pub trust: Trust,
     /// Which ends of it are known.
     pub known_ends: KnownEnds,
-    /// What bounds the motion.
+    /// The limits of the motion.
     pub limits: Limits,
-    /// What the designs minimise.
+    /// The criterion that the designs minimise.
     pub criterion: Criterion,
     /// The initial motion of all sensors; `None`: a random one for each.
     pub initial: Option<&'a JerkControlledMotion>,
     /// Number of sensors, at least one.
     pub sensors: usize,
-    /// How many of the optimal motions are to be shown together.
+    /// Number of the optimal motions that are shown together.
     pub motions_shown: usize,
 }
 
@@ -197,15 +198,16 @@ fn outcome(
     }
 }
 
-/// What the datasheet tells of the parameters.
+/// The information of the datasheet on the parameters.
 fn datasheet_information(sensor: &Sensor, like: &SensorParameters) -> DMatrix<f64> {
     let parameters = sensor.parameter_list().describe(sensor, like);
     let weights = parameters.iter().map(|parameter| parameter.spread.map_or(0.0, |sd| sd.powi(-2)));
     DMatrix::from_diagonal(&DVector::from_iterator(parameters.len(), weights))
 }
 
-/// The seed of a sensor's initial motion and design: the study's for the first sensor, so that `design` under that seed has the same initial motion; far apart for
-/// the others (the finaliser of SplitMix64, Steele et al. 2014).
+/// The seed of a sensor's initial motion and design. The first sensor has the study's, so that `design` under
+/// that seed has the same initial motion. The others are far apart (the finaliser of SplitMix64, Steele et
+/// al. 2014).
 fn seed_of(seed: u64, index: u64) -> u64 {
     if index == 0 {
         return seed;

@@ -1,4 +1,4 @@
-//! What a study of initial against optimal motions gives.
+//! The result of a study of initial against optimal motions.
 
 use super::ParameterSummary;
 use crate::{Design, DesignStatus};
@@ -6,10 +6,11 @@ use calibrant_core::information::Criterion;
 use calibrant_core::motion::{JerkControlledMotion, KnownEnds, Limits, Trust};
 use calibrant_core::sensor::{Parameter, Sensor};
 
-/// Sensors that went round the report's loop (Figure 2): calibrated on a random motion, the best motion designed at the estimate, calibrated again on it.
+/// Sensors that went round the report's loop (Figure 2). Each was calibrated on a random motion, then again
+/// on the best motion, designed at the estimate.
 #[derive(Debug, Clone)]
 pub struct DesignStudy {
-    /// The datasheet that the sensors were drawn from.
+    /// The datasheet from which the sensors were drawn.
     pub sensor: Sensor,
     /// Name, unit, nominal value and spread of each parameter.
     pub parameters: Vec<Parameter>,
@@ -23,9 +24,9 @@ pub struct DesignStudy {
     pub trust: Trust,
     /// Which ends of it were known.
     pub known_ends: KnownEnds,
-    /// What bounded the motion, the sensor's range among it.
+    /// The limits of the motion, the sensor's range among them.
     pub limits: Limits,
-    /// What the designs minimised.
+    /// The criterion that the designs minimised.
     pub criterion: Criterion,
     /// Was the datasheet a prior of every calibration?
     pub datasheet_prior: bool,
@@ -33,11 +34,12 @@ pub struct DesignStudy {
     pub initial_given: bool,
     /// Starts of each design.
     pub starts: usize,
-    /// Seed that everything random followed from.
+    /// Seed of everything random.
     pub seed: u64,
     /// One entry for each sensor.
     pub outcomes: Vec<DesignOutcome>,
-    /// How many of the first sensors' optimal motions are shown together (the report's Figure 9); at most as many as there are outcomes.
+    /// Number of the first sensors whose optimal motions are shown together (the report's Figure 9). At most
+    /// the number of outcomes.
     pub motions_shown: usize,
     /// The whole design of the first sensor (the report's Figure 8).
     pub design: Design,
@@ -47,7 +49,8 @@ pub struct DesignStudy {
     pub trace: TraceSummary,
 }
 
-/// One sensor: truth, and what both motions made of it. Values are in the order and the units of the parameters.
+/// One sensor: its truth, and its calibrations on both motions. Values are in the order and the units of the
+/// parameters.
 #[derive(Debug, Clone)]
 pub struct DesignOutcome {
     /// True values.
@@ -87,7 +90,7 @@ impl MotionOutcome {
     }
 }
 
-/// What both motions made of one parameter, over the sensors.
+/// The results of both motions for one parameter, over the sensors.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Improvement {
     /// With the initial motions.
@@ -100,7 +103,7 @@ pub struct Improvement {
     pub realised: Factor,
 }
 
-/// A ratio of two root mean squares over the sensors, and how well so many sensors know it.
+/// A ratio of two root mean squares over the sensors, and its Monte Carlo uncertainty.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Factor {
     /// The ratio.

@@ -1,4 +1,4 @@
-//! The experiments over many sensors: what a calibration promises beside what it delivers.
+//! Studies over many simulated sensors: what a calibration promises beside what it delivers.
 //!
 //! | experiment | of the report | gives |
 //! |---|---|---|
@@ -6,7 +6,7 @@
 //! | [`trace_surface`]: the criterion over the jerks of two intervals | Figure 7 | [`TraceSurface`] |
 //! | [`run_design_study`]: each sensor calibrated on a random motion, and again on the one designed for it | Figures 8 to 11, 13, 14 | [`DesignStudy`] |
 //!
-//! [`run_studies`] runs what is asked for of these, one after the other.
+//! [`run_studies`] runs the wanted studies, one after the other.
 
 mod all_studies;
 mod calibration;

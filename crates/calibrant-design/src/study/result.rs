@@ -1,19 +1,20 @@
-//! What a study gives.
+//! The result of a calibration study: truth beside estimate of many sensors.
 
 use calibrant_core::estimate::Calibration;
 use calibrant_core::motion::JerkControlledMotion;
 use calibrant_core::sensor::{Parameter, Recording, Sensor, SensorParameters};
 
-/// A population of simulated sensors, each calibrated from its own recording of the same commanded motion, truth beside estimate.
+/// A population of simulated sensors, truth beside estimate. Each is calibrated from its own recording of the
+/// same commanded motion.
 #[derive(Debug, Clone)]
 pub struct Study {
-    /// The datasheet that the sensors were drawn from.
+    /// The datasheet from which the sensors were drawn.
     pub sensor: Sensor,
     /// Name, unit, nominal value and spread of each parameter.
     pub parameters: Vec<Parameter>,
     /// How far the motion was trusted: `known`, `noisy`, `unknown`.
     pub trust: &'static str,
-    /// Seed that everything random followed from.
+    /// Seed of everything random.
     pub seed: u64,
     /// Sample rate of the population's recordings, Hz.
     pub rate_hz: f64,
@@ -44,7 +45,7 @@ pub struct SensorOutcome {
     pub status: &'static str,
 }
 
-/// What the population says of one parameter.
+/// The result of the population for one parameter.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ParameterSummary {
     /// Name of the parameter.
@@ -57,7 +58,7 @@ pub struct ParameterSummary {
     pub realised_rms: f64,
     /// Mean of estimate less truth.
     pub mean_error: f64,
-    /// Fraction of sensors whose 95 % interval holds the truth.
+    /// Fraction of sensors whose 95 % interval contains the truth.
     pub coverage_95: f64,
 }
 

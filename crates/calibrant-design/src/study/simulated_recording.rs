@@ -1,4 +1,4 @@
-//! A simulated sensor moves and is recorded.
+//! One simulated recording of a study: a drawn sensor moves and is recorded.
 
 use calibrant_core::error::Result;
 use calibrant_core::motion::{CommandedMotion, JerkControlledMotion, Trust};

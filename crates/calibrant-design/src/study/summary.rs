@@ -1,4 +1,4 @@
-//! Truth and estimate over the sensors, in a few numbers.
+//! Summaries over the sensors of a study: truth against estimate in a few numbers.
 
 use super::{DesignOutcome, Factor, Improvement, MotionOutcome, ParameterSummary, TraceRange, TraceSummary};
 use calibrant_core::sensor::Parameter;
@@ -6,7 +6,7 @@ use calibrant_core::sensor::Parameter;
 /// Half-width of a 95 % interval in standard deviations.
 const NORMAL_95: f64 = 1.959_963_984_540_054;
 
-/// Of one sensor: truth, estimates, their standard deviations.
+/// Truth, estimates and their standard deviations of one sensor.
 pub(super) type Triple<'a> = (&'a [f64], &'a [f64], &'a [f64]);
 
 /// One entry for each parameter.
@@ -28,7 +28,7 @@ pub(super) fn summarise(parameters: &[Parameter], sensors: &[Triple<'_>]) -> Vec
         .collect()
 }
 
-/// What both motions made of each parameter.
+/// The results of both motions for each parameter.
 pub(super) fn compare(parameters: &[Parameter], outcomes: &[DesignOutcome]) -> Vec<Improvement> {
     fn triple<'a>(outcome: &'a DesignOutcome, motion: &'a MotionOutcome) -> Triple<'a> {
         (&outcome.truth, &motion.values, &motion.sd)
@@ -58,8 +58,9 @@ pub(super) fn compare(parameters: &[Parameter], outcomes: &[DesignOutcome]) -> V
 
 /// The ratio of two root mean squares, from the squares of each sensor.
 ///
-/// Its standard error is that of `ln r = ½ (ln mean p − ln mean q)` to first order, from the scatter of the pairs: `½ sd(p/mean p − q/mean q)/√n`. It makes
-/// no use of a normal distribution, because the sensors' initial motions differ.
+/// Its standard error is that of `ln r = ½ (ln mean p − ln mean q)` to first order, from the scatter of the
+/// pairs: `½ sd(p/mean p − q/mean q)/√n`. It does not assume a normal distribution, because the sensors'
+/// initial motions differ.
 fn factor(before: &[f64], after: &[f64]) -> Factor {
     let n = before.len() as f64;
     let (p, q) = (before.iter().sum::<f64>() / n, after.iter().sum::<f64>() / n);
@@ -69,7 +70,7 @@ fn factor(before: &[f64], after: &[f64]) -> Factor {
     Factor { value, standard_error: (before.len() > 1).then_some(error) }
 }
 
-/// The traces over the sensors.
+/// The summaries of the traces over the sensors.
 pub(super) fn traces(outcomes: &[DesignOutcome]) -> TraceSummary {
     TraceSummary {
         initial: range(outcomes.iter().map(|outcome| outcome.initial.trace).collect()),

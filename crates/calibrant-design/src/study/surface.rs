@@ -9,7 +9,7 @@ use calibrant_core::sensor::{Sensor, SensorModel, SensorParameters};
 use nalgebra::{DVector, Vector3};
 use rayon::prelude::*;
 
-/// What the surface is drawn of: one axis, two intervals, the motion known.
+/// The conditions of the surface: one axis, two intervals, the motion known.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SurfaceSettings {
     /// Largest jerk, m/s³; both jerks run from its negative to it.
@@ -27,12 +27,12 @@ pub struct SurfaceSettings {
 /// The trace of the covariance of one axis' bias and scale factor over the jerks `u_1`, `u_2` of two intervals.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TraceSurface {
-    /// What it was drawn of.
+    /// Its conditions.
     pub settings: SurfaceSettings,
-    /// The jerks, m/s³, from least to most: those of both intervals.
+    /// The jerks of both intervals, m/s³, from least to most.
     pub jerk_mps3: Vec<f64>,
-    /// Entry `[i][j]`: decimal logarithm of the trace (variances in SI) at `u_1 = jerk_mps3[i]`, `u_2 = jerk_mps3[j]`; `None` where the motion does not determine
-    /// the parameters, as at (0, 0).
+    /// Entry `[i][j]`: decimal logarithm of the trace (variances in SI) at `u_1 = jerk_mps3[i]`,
+    /// `u_2 = jerk_mps3[j]`. `None` where the motion does not determine the parameters, as at (0, 0).
     pub log10_trace: Vec<Vec<Option<f64>>>,
 }
 

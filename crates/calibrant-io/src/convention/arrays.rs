@@ -1,4 +1,4 @@
-//! Vectors and matrices as files list them.
+//! Vectors and matrices in the form in which files list them.
 
 use super::words::input_error;
 use crate::text_decoding::Checked;
@@ -8,7 +8,7 @@ use nalgebra::{Matrix3, Vector3};
 /// A matrix, row by row.
 pub(super) type Rows = Vec<Vec<f64>>;
 
-/// A field that is not there.
+/// The error for a missing field.
 pub(super) fn missing(field: &str) -> Box<calibrant_core::error::InputError> {
     input_error(
         format!("this is no calibration of an IMU: the field `{field}` is missing"),

@@ -4,6 +4,7 @@ use crate::text_decoding::Checked;
 use calibrant_core::error::InputError;
 use nalgebra::{Matrix3, Vector3};
 
+/// The remedy for a broken header.
 pub(super) const HELP: &str = "give a header that calibrant wrote, as it wrote it";
 
 pub(super) fn vector(values: &Vector3<f64>) -> String {
@@ -20,7 +21,7 @@ pub(super) fn numbers(text: &str, name: &str, count: usize) -> Checked<Option<Ve
     read_constant(text, &format!("{name}[3]"), count)
 }
 
-/// The number of a constant that has one.
+/// The number of a constant with one number.
 pub(super) fn number(text: &str, name: &str) -> Checked<Option<f64>> {
     Ok(read_constant(text, &format!("CALIBRANT_REAL {name} ="), 1)?.map(|found| found[0]))
 }

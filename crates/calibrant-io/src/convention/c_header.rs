@@ -1,8 +1,11 @@
-//! A C header with the correction ready to apply: constants with all their digits and a function for each sensor (C99 and C++).
+//! Writes and reads a C header with the correction: constants with all their digits and a function for each
+//! sensor (C99 and C++).
 //!
-//! Direction raw → true: `f = C_a (y_a − b_a)`, `ω = C_g (y_g − b_g − G f)`. Units and frame are in its comments. The type of the numbers is the macro
-//! `CALIBRANT_REAL`, `double` unless it is defined before (as `float` for small processors). What it cannot carry: the covariance. Our own headers are
-//! read back by the names of their constants. Where the calibration follows temperature, the functions take it.
+//! The direction is raw → true: `f = C_a (y_a − b_a)`, `ω = C_g (y_g − b_g − G f)`. Comments of the header
+//! give units and frame. The type of the numbers is the macro `CALIBRANT_REAL`. It is `double` unless it is
+//! defined before (as `float` for small processors). The header cannot carry the covariance. Our own headers
+//! are read back by the names of their constants. Where the calibration follows temperature, the functions
+//! take the temperature as an argument.
 
 use super::arrays::vector3;
 use super::c_constants::{HELP, matrix, numbers, vector};
@@ -84,6 +87,7 @@ pub(super) fn write(file: &CalibratedImuFile) -> Checked<String> {
     Ok(out)
 }
 
+/// The correction function of the accelerometer.
 const ACCELEROMETER: &str = "
 /* Specific force (m/s^2) of a reading of the accelerometer. */
 static inline void calibrant_correct_accelerometer(const CALIBRANT_REAL raw[3], CALIBRANT_REAL force[3])
@@ -98,6 +102,7 @@ static inline void calibrant_correct_accelerometer(const CALIBRANT_REAL raw[3], 
 }
 ";
 
+/// The correction function of the gyroscope.
 const GYROSCOPE: &str = "
 /* Angular rate (rad/s) of a reading of the gyroscope, at the corrected specific force (m/s^2; zeros where it is not known). */
 static inline void calibrant_correct_gyroscope(const CALIBRANT_REAL raw[3], const CALIBRANT_REAL force[3],

@@ -1,4 +1,4 @@
-//! What temperature does to an IMU, in the C header: coefficients, and what the correction functions do with them.
+//! The temperature model in the C header: coefficients, and their use in the correction functions.
 
 use super::arrays::vector3;
 use super::c_constants::{HELP, number, numbers, vector};
@@ -8,7 +8,9 @@ use calibrant_core::sensor::{CalibratedImu, HIGHEST_ORDER, SensorKind, SensorThe
 use nalgebra::Vector3;
 use std::fmt::Write;
 
+/// The words before the range of temperature, in a comment of the header.
 const RANGE: &str = " * temperatures of the calibration: ";
+/// The name of the constant with the reference temperature.
 const REFERENCE: &str = "calibrant_reference_c";
 
 /// The lines of the head of the file.
@@ -59,7 +61,7 @@ pub(super) fn coefficients(sensor_kind: SensorKind, terms: &SensorThermal, unit:
     out
 }
 
-/// The correction of a sensor that follows temperature: that of one that does not, with the temperature as its second argument.
+/// The correction function of a sensor that follows temperature. The temperature is its second argument.
 pub(super) fn with_temperature(sensor_kind: SensorKind, function: &str) -> String {
     let change = format!(
         "    for (i = 0; i < 3; i++)\n        y[i] = (y[i] - tau * ({b1}[i] + tau * {b2}[i]))\n             / ((CALIBRANT_REAL)1 + tau * ({k1}[i] + tau * {k2}[i]));\n",
@@ -89,7 +91,7 @@ pub(super) fn with_temperature(sensor_kind: SensorKind, function: &str) -> Strin
         .replacen(" of a reading of the", " of a reading, at a temperature in degrees Celsius, of the", 1)
 }
 
-/// What a header says of temperature.
+/// The temperature model that a header contains.
 pub(super) fn read(text: &str) -> Checked<Thermal> {
     let mut thermal = Thermal::none();
     let Some(reference_c) = number(text, REFERENCE)? else { return Ok(thermal) };

@@ -1,8 +1,10 @@
-//! calibrant JSON, schema 2: a whole IMU, with everything.
+//! calibrant JSON, schema 2: reads and writes a whole IMU, with everything.
 //!
-//! Direction true → raw; frame in words, and by `gauge` where the matrix of the reference sensor (the accelerometer where there is one) has such a form;
-//! units in the names of the fields. Carries everything: covariance, g-sensitivity, counts, noise densities, the hashes of the recordings. Numbers have the
-//! fewest digits that read back to the same bits. Schema 1, `calibration.json` of one accelerometer, is read as well, and `truth.json` of a simulation.
+//! The direction is true → raw. The frame is in words, and by `gauge` where the matrix of the reference
+//! sensor has such a form. The reference sensor is the accelerometer where there is one. Units are in the
+//! names of the fields. The file carries everything: covariance, g-sensitivity, counts, noise densities, the
+//! hashes of the recordings. Numbers have the fewest digits that read back to the same bits. The reader also
+//! takes schema 1, `calibration.json` of one accelerometer, and `truth.json` of a simulation.
 
 use super::arrays::missing;
 use super::imu_noise::ImuNoise;
@@ -13,10 +15,12 @@ use crate::json;
 use crate::text_decoding::Checked;
 use serde::{Deserialize, Serialize};
 
+/// The kind of file that the field `kind` names.
 const KIND: &str = "calibrated IMU";
+/// The remedy for a broken file.
 const HELP: &str = "give a file that calibrant wrote";
 
-/// How every file of this schema begins, whatever else it holds.
+/// The first fields of every file of this schema.
 #[derive(Serialize)]
 pub(crate) struct Heading {
     schema: u32,
@@ -40,12 +44,12 @@ struct File {
     noise: Option<NoiseFields>,
 }
 
-/// What is beside the core; a file of the estimator has more, which is not read here.
+/// The fields beside the core. A file of the estimator has more, which this reader ignores.
 #[derive(Deserialize)]
 struct Header {
     schema: Option<serde_json::Value>,
     status: Option<String>,
-    /// A simulation has one.
+    /// Only the file of a simulation has one.
     seed: Option<serde_json::Value>,
     noise: Option<NoiseFields>,
 }

@@ -1,4 +1,4 @@
-//! A calibrated IMU as it stands in a file.
+//! The data types of a calibrated IMU as a file holds it.
 
 use super::format::ImuFormat;
 use super::imu_noise::ImuNoise;
@@ -9,22 +9,22 @@ use std::path::PathBuf;
 /// Largest file of a calibration, bytes.
 pub(super) const LARGEST: u64 = 64 << 20;
 
-/// A calibrated IMU as it stands in a file.
+/// A calibrated IMU as a file holds it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CalibratedImuFile {
     /// The calibration.
     pub imu: CalibratedImu,
     /// Noise densities, where the file has them.
     pub noise: Option<ImuNoise>,
-    /// The recordings that it came from, where the file says so.
+    /// The recordings from which it came, where the file names them.
     pub inputs: Vec<Input>,
-    /// The format that it was read from.
+    /// The format of the file.
     pub format: ImuFormat,
-    /// What the reader supposed or left out.
+    /// What the reader assumed or ignored.
     pub findings: Vec<String>,
 }
 
-/// What was written.
+/// The result of writing a calibration.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct WrittenImu {
     /// The files.

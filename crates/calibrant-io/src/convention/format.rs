@@ -1,4 +1,4 @@
-//! The formats: their names, and how a file is recognised.
+//! The formats of calibrations: their names, and how a file is recognised.
 
 use super::words::input_error;
 use crate::text_decoding::Checked;
@@ -7,7 +7,8 @@ use std::path::Path;
 /// A format of calibrations.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ImuFormat {
-    /// Our own, with everything: schema 2 for an IMU; schema 1, `calibration.json` of one accelerometer, is read as well, and `truth.json` of a simulation.
+    /// Our own, with everything: schema 2 for an IMU. The reader also takes schema 1, `calibration.json` of
+    /// one accelerometer, and `truth.json` of a simulation.
     CalibrantJson,
     /// Kalibr's `imu.yaml` with the scale-misalignment model.
     Kalibr,
@@ -20,7 +21,7 @@ pub enum ImuFormat {
 }
 
 impl ImuFormat {
-    /// All of them.
+    /// All formats.
     pub const ALL: [Self; 5] = [Self::CalibrantJson, Self::Kalibr, Self::ImuTk, Self::Imucal, Self::CHeader];
 
     /// Its name on the command line: `calibrant`, `kalibr`, `imu_tk`, `imucal`, `c`.
@@ -53,7 +54,7 @@ impl ImuFormat {
         Self::ALL.into_iter().find(|format| format.name() == name)
     }
 
-    /// The format that a file of this name is written in; `.json` is ours.
+    /// The format in which a file of this name is written; `.json` is ours.
     #[must_use]
     pub fn of_extension(path: &Path) -> Option<Self> {
         match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
@@ -65,7 +66,7 @@ impl ImuFormat {
         }
     }
 
-    /// The format of a text, by what it says.
+    /// The format of a text, by its content.
     pub(super) fn of_content(text: &str) -> Checked<Self> {
         let first = text.lines().map(str::trim).find(|line| !line.is_empty() && !line.starts_with('#'));
         let Some(first) = first.or_else(|| text.lines().map(str::trim).find(|line| !line.is_empty())) else {

@@ -1,10 +1,11 @@
-//! Noise densities that stand beside a calibration.
+//! Noise densities that are given beside a calibration.
 
 use super::words::input_error;
 use crate::text_decoding::Checked;
 use calibrant_core::sensor::SensorKind;
 
-/// Rates are the same to this part: clocks of two sensors differ by less, and the noise of a sample by half of it.
+/// Rates are the same within this share. Clocks of two sensors differ by less, and half of it changes the
+/// noise of a sample.
 const SAME_RATE: f64 = 0.01;
 
 /// Noise densities of an IMU, as Kalibr's `imu.yaml` has them.
@@ -20,14 +21,15 @@ pub struct ImuNoise {
     pub gyroscope_random_walk: Option<f64>,
     /// Sample rate, Hz.
     pub update_rate_hz: Option<f64>,
-    /// Sample rates at which the densities of accelerometer and gyroscope were measured, Hz, where that is known: the files have one rate.
+    /// Sample rates at which the densities of accelerometer and gyroscope were measured, Hz, where they are
+    /// known: the files have one rate.
     pub measured_at_hz: [Option<f64>; 2],
     /// The ROS topic of the readings.
     pub rostopic: Option<String>,
 }
 
 impl ImuNoise {
-    /// The same, where its numbers are positive and finite.
+    /// The same densities, if its numbers are positive and finite.
     pub(super) fn checked(self) -> Checked<Self> {
         for (name, value) in self.fields() {
             if value.is_some_and(|value| !(value.is_finite() && value > 0.0)) {
@@ -40,7 +42,7 @@ impl ImuNoise {
         Ok(self)
     }
 
-    /// What either has; where both have it, what `self` has.
+    /// The densities of either; where both have one, that of `self`.
     #[must_use]
     pub fn or(self, other: Self) -> Self {
         Self {

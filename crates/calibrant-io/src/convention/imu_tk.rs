@@ -1,9 +1,12 @@
-//! imu_tk's `.calib`: one sensor in 21 numbers, misalignment `T` (3×3), scale `K` (3×3), bias `b` (3×1), separated by white space.
+//! imu_tk's `.calib`: reads and writes one sensor in 21 numbers, separated by white space. They are
+//! misalignment `T` (3×3), scale `K` (3×3), bias `b` (3×1).
 //!
-//! Direction raw → true: `s = T K (y − b)`. imu_tk's own results have the upper gauge (`T` upper triangular with unit diagonal) for the accelerometer and the
-//! accelerometer's frame for the gyroscope; the file itself takes any `T`, and ours has `T_ij = C_ij/C_jj`. The file does not say which sensor it is of, nor the
-//! unit of its readings, so both are asked. imu_tk stops reading after 21 numbers: ours go on with comment lines that say it, and are read back
-//! without questions. What it cannot carry: the covariance; the g-sensitivity, without which the correction would be another.
+//! The direction is raw → true: `s = T K (y − b)`. The results of imu_tk itself have the upper gauge for the
+//! accelerometer (`T` upper triangular with unit diagonal). Their gyroscope has the accelerometer's frame.
+//! The file itself takes any `T`, and ours has `T_ij = C_ij/C_jj`. The file names neither its sensor nor the
+//! unit of its readings, so the user must give both. The reader of imu_tk stops after 21 numbers. Our files
+//! go on with comment lines that give both, and are read back without questions. The file cannot carry the
+//! covariance. Nor can it carry the g-sensitivity, without which the correction would be another.
 //!
 //! # References
 //! `tedaldi2014`, `imu_tk`
@@ -19,10 +22,12 @@ use calibrant_core::sensor::{
 use nalgebra::{Matrix3, Vector3};
 use std::path::{Path, PathBuf};
 
+/// Count of the numbers in a file.
 const COUNT: usize = 21;
+/// The remedy for a broken file.
 const HELP: &str = "imu_tk's file has 9 numbers of the misalignment, 9 of the scale and 3 of the bias";
 
-/// The pair of files that a name stands for where there is no file of that name.
+/// The pair of files for which a name stands where there is no file of that name.
 pub(super) fn pair_instead_of(path: &Path) -> Option<[PathBuf; 2]> {
     if path.extension()? != "calib" || path.exists() {
         return None;
@@ -43,7 +48,7 @@ pub(super) fn name_of(path: &Path, sensor_kind: SensorKind) -> PathBuf {
     path.with_file_name(format!("{stem}_{ending}{extension}"))
 }
 
-/// The sensor that a file's name tells: `…_acc.calib`, `…_gyro.calib`.
+/// The sensor that a file's name shows: `…_acc.calib`, `…_gyro.calib`.
 pub(super) fn sensor_kind_of_name(path: &Path) -> Option<SensorKind> {
     let stem = path.file_stem()?.to_str()?.to_ascii_lowercase();
     let (accelerometer, gyroscope) = (stem.contains("acc"), stem.contains("gyr"));

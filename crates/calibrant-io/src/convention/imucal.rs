@@ -1,10 +1,13 @@
-//! imucal's JSON: the fields of its `FerrarisCalibrationInfo` and `TurntableCalibrationInfo`, format version 2.0.0.
+//! imucal's JSON: reads and writes the fields of its `FerrarisCalibrationInfo` and
+//! `TurntableCalibrationInfo`, format version 2.0.0.
 //!
-//! Direction true → raw by its fields, `y_a = K_a R_a f + b_a` and `y_g = K_g R_g ω + K_ga f + b_g`; it applies `f = R_a⁻¹ K_a⁻¹ (y_a − b_a)` and
-//! `ω = R_g⁻¹ K_g⁻¹ (y_g − K_ga f − b_g)`. `K` is diagonal with the lengths of the rows of `S`, so the rows of `R` have length 1: any true frame is carried; imucal's own is
-//! that of the six faces. Units are named: `from_acc_unit`, `from_gyr_unit` of the readings, `acc_unit`, `gyr_unit` of the corrected ones. Ours has rates
-//! in deg/s, the readings too where they are not counts (`a.u.`), as imucal itself has them. What it cannot carry: the covariance, and one sensor
-//! without the other.
+//! The direction of its fields is true → raw, `y_a = K_a R_a f + b_a` and `y_g = K_g R_g ω + K_ga f + b_g`.
+//! It applies `f = R_a⁻¹ K_a⁻¹ (y_a − b_a)` and `ω = R_g⁻¹ K_g⁻¹ (y_g − K_ga f − b_g)`. `K` is diagonal with
+//! the lengths of the rows of `S`, so the rows of `R` have length 1. The file takes any true frame; imucal's
+//! own is that of the six faces. Units have names: `from_acc_unit`, `from_gyr_unit` of the readings,
+//! `acc_unit`, `gyr_unit` of the corrected ones. Our files have rates in deg/s as imucal's do, and readings
+//! too unless they are counts (`a.u.`). The file cannot carry the covariance, or one sensor without the
+//! other.
 //!
 //! # References
 //! `ferraris1995`, `imucal`
@@ -22,7 +25,9 @@ use serde::{Deserialize, Serialize};
 
 /// Standard gravity, m/s²: the unit g.
 const G: f64 = 9.80665;
+/// One degree, rad.
 const DEGREE: f64 = std::f64::consts::PI / 180.0;
+/// The remedy for a broken file.
 const HELP: &str = "give the JSON of imucal's to_json_file";
 
 #[derive(Serialize, Deserialize)]
@@ -46,7 +51,7 @@ struct Fields {
     format_version: Option<String>,
 }
 
-/// What a unit is in SI; `None` for counts.
+/// The SI value of a unit; `None` for counts.
 fn factor(unit: &str, sensor_kind: SensorKind) -> Option<Option<f64>> {
     match (sensor_kind, unit.trim()) {
         (_, "a.u." | "counts" | "raw" | "LSB") => Some(None),
@@ -58,7 +63,7 @@ fn factor(unit: &str, sensor_kind: SensorKind) -> Option<Option<f64>> {
     }
 }
 
-/// The unit of the readings, and what one of them is in it (1 for counts).
+/// The unit of the readings, and the size of the file's unit in it (1 for counts).
 fn unit_of_readings(
     stated: Option<&String>,
     field: &str,

@@ -1,8 +1,9 @@
-//! The fields that describe a calibrated IMU in a JSON file of ours, whatever else the file says: direction, frame, gauge, each sensor with its unit, the
-//! quantities by name with their covariance, and the recordings they came from.
+//! The core of our JSON files: the fields that describe a calibrated IMU. They are direction, frame, gauge,
+//! the unit of each sensor, the named quantities with their covariance, and the recordings.
 //!
-//! Numbers carry their unit in the field's name. Values stand twice, in the sensors' matrices, which are complete, and in the list of parameters, which is
-//! what the covariance speaks of; a file where they contradict each other is refused.
+//! Numbers carry their unit in the field's name. Values stand twice. The sensors' matrices are complete. The
+//! list of parameters has the quantities of the covariance. The reader refuses a file where they contradict
+//! each other.
 
 use super::super::calibration::Input;
 use super::arrays::{Rows, matrix3, missing, rows, vector3};
@@ -17,7 +18,7 @@ use calibrant_core::sensor::{
 use nalgebra::{DMatrix, Matrix3};
 use serde::{Deserialize, Serialize};
 
-/// To be flattened into a file. Everything is optional when it is read, so that what is missing can be named.
+/// To be flattened into a file. All fields are optional for the reader, so that it can name what is missing.
 #[derive(Debug, Serialize, Deserialize)]
 pub(crate) struct ImuCore {
     direction: Option<String>,
@@ -33,10 +34,11 @@ pub(crate) struct ImuCore {
     inputs: Option<Vec<Input>>,
 }
 
+/// The words of the field `direction`.
 const DIRECTION: &str =
     "true to raw: y_a = S_a f + b_a, y_g = S_g w + b_g + G f; matrix is S, g_sensitivity is G";
 
-/// One sensor. Of each quantity, the field in its unit is there.
+/// One sensor. Each quantity has the field in its unit.
 #[derive(Debug, Default, Serialize, Deserialize)]
 #[serde(default)]
 struct SensorCore {
@@ -61,7 +63,7 @@ struct SensorCore {
     correction: Option<CorrectionCore>,
 }
 
-/// Raw → true, for readers of the file; it is not read back.
+/// Raw → true, for readers of the file; our reader ignores it.
 #[derive(Debug, Serialize)]
 struct CorrectionCore {
     direction: &'static str,
@@ -114,7 +116,7 @@ impl ImuCore {
         }
     }
 
-    /// The same, saying of each parameter what share of its information came from what was known beforehand.
+    /// The same, with the share of each parameter's information that came from its prior.
     pub(crate) fn with_prior_share(mut self, prior_share: &[f64]) -> Self {
         for (parameter, share) in self.parameters.iter_mut().flatten().zip(prior_share) {
             parameter.prior_share = Some(*share);
@@ -243,7 +245,7 @@ impl SensorCore {
             bias: vector3(&bias, &field(bias_name))?,
             matrix: matrix3(&matrix, &field(matrix_name))?,
         };
-        // a gyroscope without it has none
+        // a gyroscope without a g-sensitivity has the matrix zero
         let g_sensitivity = match (sensor_kind, g_sensitivity) {
             (SensorKind::Gyroscope, Some(rows)) => matrix3(&rows, &field(g_name))?,
             _ => Matrix3::zeros(),
@@ -306,7 +308,8 @@ impl ParameterCore {
     }
 }
 
-/// The quantity of a name. Where the gauge is symmetric (then with all names of the list), one of the reference's off the diagonal is that of the pair.
+/// The quantity of a name. In the symmetric gauge, with all names of the list, an off-diagonal quantity of
+/// the reference is that of the pair.
 pub(super) fn quantity_of(
     name: &str,
     imu: &CalibratedImu,
@@ -330,7 +333,7 @@ pub(super) fn quantity_of(
     }
 }
 
-/// The gauge that an IMU is in, where it is in one and not diagonal.
+/// The gauge of an IMU, where it has one and is not diagonal.
 pub(super) fn gauge_of(imu: &CalibratedImu) -> Option<Gauge> {
     let pair = |quantity: &ImuQuantity| matches!(quantity, ImuQuantity::Of(_, Quantity::Symmetric(..)));
     if imu.quantities.iter().any(pair) {
@@ -339,7 +342,8 @@ pub(super) fn gauge_of(imu: &CalibratedImu) -> Option<Gauge> {
     Gauge::of(&imu.parameters.sensor(imu.reference()).matrix)
 }
 
-/// The covariance of so many parameters; what is no number becomes one that [`check`](super::usable_calibration) refuses.
+/// The covariance of this number of parameters. An entry that is no number becomes one that
+/// [`check`](super::usable_calibration) refuses.
 pub(super) fn covariance_of(rows: &[Vec<Option<f64>>], size: usize) -> Checked<DMatrix<f64>> {
     if rows.len() != size || rows.iter().any(|row| row.len() != size) {
         let message = format!("the covariance is not {size} × {size}, one row for each parameter");
@@ -352,7 +356,7 @@ fn unit_of(imu: &CalibratedImu, sensor_kind: SensorKind) -> ReadingUnit {
     imu.unit(sensor_kind).unwrap_or(sensor_kind.stimulus_unit())
 }
 
-/// Complains of a field that says another direction than that of our own files.
+/// Returns an error for a field that states another direction than that of our own files.
 pub(super) fn check_direction(field: &str, stated: &str) -> Checked<()> {
     if stated.starts_with("true to raw") {
         return Ok(());

@@ -1,12 +1,16 @@
-//! Kalibr's `imu.yaml`: noise densities, and with the scale-misalignment model the calibration.
+//! Kalibr's `imu.yaml`: reads and writes noise densities, and with the scale-misalignment model the
+//! calibration.
 //!
-//! Direction true → raw, as its estimator predicts readings (`IccSensors.py`, March 2024): `y_a = M_a C_i_b f + b_a` and
-//! `y_g = M_g C_gyro_i C_i_b ω + A C_gyro_i C_i_b f + b_g`, `f` and `ω` in the body frame b. `M_a` and `M_g` are lower triangular, so that the x axis of frame i lies along
-//! the accelerometer's x axis; `C_i_b` is the rotation in `T_i_b`, the identity for a single IMU. So `S_a = M_a C_i_b`, `S_g = M_g C_gyro_i C_i_b`,
-//! `Γ = A C_gyro_i C_i_b`, and any `S` is carried: its triangular factor in `M`, the rotation in `C`.
+//! The direction is true → raw, as its estimator predicts readings (`IccSensors.py`, March 2024). It is
+//! `y_a = M_a C_i_b f + b_a` and `y_g = M_g C_gyro_i C_i_b ω + A C_gyro_i C_i_b f + b_g`, with `f` and `ω` in
+//! the body frame b. `M_a` and `M_g` are lower triangular, so the x axis of frame i lies along the
+//! accelerometer's x axis. `C_i_b` is the rotation in `T_i_b`, the identity for a single IMU. So
+//! `S_a = M_a C_i_b`, `S_g = M_g C_gyro_i C_i_b`, `Γ = A C_gyro_i C_i_b`. The file takes any `S`: its
+//! triangular factor in `M`, the rotation in `C`.
 //!
-//! Readings are in m/s² and rad/s, `A` in (rad/s)/(m/s²). Kalibr estimates biases as curves in time and does not write them: they stand under a key
-//! `calibrant`, which its readers ignore, and so does the unit of readings that are counts. What it cannot carry: the covariance.
+//! Readings are in m/s² and rad/s, `A` in (rad/s)/(m/s²). Kalibr estimates biases as curves in time and does
+//! not write them. Our files have them under a key `calibrant`, which its readers ignore. The unit of
+//! readings that are counts is there, too. The file cannot carry the covariance.
 //!
 //! # References
 //! `rehder2016`, `kalibr`
@@ -28,6 +32,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::Path;
 
+/// The remedy for a broken file.
 const HELP: &str = "give an imu.yaml as Kalibr writes it";
 #[derive(Deserialize)]
 struct Imu {
@@ -72,7 +77,7 @@ struct Beside {
     frame: Option<String>,
 }
 
-/// The one IMU of a file: its keys at the top, or below `imu0`.
+/// The one IMU of a file: its keys are at the top, or below `imu0`.
 fn parse(text: &str) -> Checked<Imu> {
     let broken = |error: serde_saphyr::Error| {
         let error = error.without_snippet();
@@ -126,7 +131,7 @@ impl Imu {
     }
 }
 
-/// Reads the noise densities of Kalibr's `imu.yaml`, the plain one that Kalibr reads or one that it wrote.
+/// Reads the noise densities of Kalibr's `imu.yaml`: the plain file that Kalibr reads, or one that it wrote.
 ///
 /// # Errors
 /// [`Error::Experiment`] with the file: not readable, no YAML, no noise in it, a number that is not positive.
@@ -239,7 +244,7 @@ fn unit_of(
     }
 }
 
-/// The rotation of `T_i_b`; its translation is a lever arm, which the correction of a reading does not need.
+/// The rotation of `T_i_b`. Its translation is a lever arm, which the correction of a reading does not need.
 fn pose(rows: &[Vec<f64>], findings: &mut Vec<String>) -> Checked<Matrix3<f64>> {
     if rows.len() != 4 || rows.iter().any(|row| row.len() != 4) {
         return Err(input_error("`T_i_b` is not 4 × 4", HELP));
@@ -375,7 +380,8 @@ fn put(out: &mut String, text: std::fmt::Arguments<'_>) {
     let _ = out.write_fmt(text);
 }
 
-/// A number as YAML 1.1 has it too, where `1e-7` is a word: with a point, and a sign in the exponent.
+/// A number in a form that YAML 1.1 takes, too: with a point, and a sign in the exponent. YAML 1.1 reads
+/// `1e-7` as a word.
 fn number(value: f64) -> String {
     let text = format!("{value:?}");
     let Some((mantissa, exponent)) = text.split_once('e') else { return text };
@@ -384,7 +390,7 @@ fn number(value: f64) -> String {
     format!("{mantissa}{point}e{sign}{exponent}")
 }
 
-/// A word in double quotes, with JSON's escapes, which are YAML's too.
+/// A word in double quotes, with JSON's escapes, which are also YAML's.
 fn quoted(text: &str) -> String {
     serde_json::Value::from(text).to_string()
 }

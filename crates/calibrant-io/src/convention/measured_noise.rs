@@ -1,4 +1,5 @@
-//! Noise densities from `noise.json`, as `calibrant noise` writes it, for formats that carry one number for a sensor.
+//! Reads noise densities from `noise.json`, as `calibrant noise` writes it, for formats with one number for a
+//! sensor.
 
 use super::ImuNoise;
 use super::file::LARGEST;
@@ -11,8 +12,9 @@ use calibrant_core::sensor::{CalibratedImu, SensorKind};
 use serde::Deserialize;
 use std::path::Path;
 
-/// No sample time is better known than to this part of an interval.
+/// Sample times are known to this part of an interval at best.
 const FINEST: f64 = 1e-6;
+/// The remedy for a broken file.
 const HELP: &str = "give noise.json as `calibrant noise` writes it";
 
 #[derive(Deserialize)]
@@ -46,12 +48,15 @@ struct Coefficient {
     value: Option<f64>,
 }
 
-/// Reads the densities of `noise.json`: of the three axes the largest, in SI; the gain for readings in counts is that of the calibration.
+/// Reads the densities of `noise.json` in SI: the largest of the three axes. The gain for readings in counts
+/// is that of the calibration.
 ///
-/// A coefficient that is not determined on every axis is not given: Kalibr's users put a multiple of the datasheet's there.
+/// A coefficient that is not determined on every axis is not given. Kalibr's users put a multiple of the
+/// datasheet's value there.
 ///
 /// # Errors
-/// [`Error::Experiment`] with the file: not readable, no `noise.json`, noise that is not that of a sensor at rest, a number that is not positive, counts of a sensor whose calibration is of SI readings.
+/// [`Error::Experiment`] with the file. It is not readable or not a `noise.json`. Its noise is not that of a
+/// sensor at rest. A number is not positive. It has counts of a sensor whose calibration is of SI readings.
 pub fn read_measured_noise(path: &Path, imu: &CalibratedImu) -> Result<ImuNoise> {
     let read = || -> Checked<ImuNoise> {
         let bytes = text_decoding::read_bytes(path, LARGEST, "noise.json")?;
@@ -119,7 +124,8 @@ fn take(noise: &mut ImuNoise, sensor: &Sensor, imu: &CalibratedImu) -> Checked<(
 }
 
 impl Sensor {
-    /// The rate, to the digits that the sample times tell: the ends of `n` intervals are known to the jitter of a time.
+    /// The rate, to the digits that the sample times determine: the ends of `n` intervals are known to the
+    /// jitter of a time.
     fn rate_hz(&self) -> f64 {
         let rate = self.interval_s.recip();
         let samples = self.first_sample.zip(self.end_sample).map(|(first, end)| end.saturating_sub(first));

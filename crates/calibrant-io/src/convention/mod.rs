@@ -1,4 +1,4 @@
-//! Calibrations of an IMU in the formats of other programs, and in our own.
+//! Calibrations of an IMU in the formats of other programs, and in our own: one file for each format.
 //!
 //! | format | file | direction | true frame | units of readings | cannot carry |
 //! |---|---|---|---|---|---|
@@ -8,8 +8,9 @@
 //! | [`Imucal`](ImuFormat::Imucal) | `.json` with `cal_type` | true → raw | any | named; true rates in deg/s | covariance; temperature; one sensor alone |
 //! | [`CHeader`](ImuFormat::CHeader) | `.h` | raw → true | any, said in words | named | covariance |
 //!
-//! What a format cannot carry is told as a warning when it is written, and refused where the correction itself would change. What a reader had to
-//! suppose is told as a finding; what is ambiguous (the unit of imu_tk's readings) is asked.
+//! When a format cannot carry something, the writer warns. It refuses where the correction itself would
+//! change. A finding states what a reader had to assume. What is ambiguous (the unit of imu_tk's readings)
+//! the user must give.
 
 mod arrays;
 mod c_constants;

@@ -1,9 +1,9 @@
-//! How a calibration is read.
+//! Options for reading a calibration.
 
 use super::format::ImuFormat;
 use calibrant_core::sensor::{ReadingUnit, SensorKind};
 
-/// What the readings are, where a file does not say it.
+/// The unit of the readings, where a file does not state it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RawUnits {
     /// m/s² and rad/s.
@@ -23,13 +23,13 @@ impl RawUnits {
     }
 }
 
-/// How a calibration is read.
+/// Options for reading a calibration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct ConventionOptions {
-    /// The format; by content where it is not given.
+    /// The format; the content decides where it is not given.
     pub format: Option<ImuFormat>,
-    /// Unit of the readings, for files that do not say.
+    /// Unit of the readings, for files that do not state it.
     pub units: Option<RawUnits>,
-    /// The sensor, for files of one sensor that do not say which.
+    /// The sensor, for files of one sensor that do not name it.
     pub sensor_kind: Option<SensorKind>,
 }

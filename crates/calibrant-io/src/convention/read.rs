@@ -1,4 +1,4 @@
-//! Reads a calibration in any format.
+//! Reads a calibration in any format: recognises the format, calls its reader, checks the result.
 
 use super::file::{CalibratedImuFile, LARGEST};
 use super::options::ConventionOptions;
@@ -13,8 +13,9 @@ use std::path::{Path, PathBuf};
 /// A name `NAME.calib` that does not exist stands for imu_tk's pair `NAME_acc.calib` and `NAME_gyro.calib`.
 ///
 /// # Errors
-/// [`Error::Experiment`] with the file, and line and column where they are known: a file that cannot be read; a format that is not recognised; fields
-/// that are missing or no numbers; a matrix that is singular; a unit or a sensor that the file does not say and the options do not either.
+/// [`Error::Experiment`] with the file, and line and column where they are known. The file cannot be read, or
+/// its format is not recognised. Fields are missing or not numbers. A matrix is singular. Neither the file
+/// nor the options state a unit or a sensor.
 pub fn read_calibrated_imu(path: &Path, options: &ConventionOptions) -> Result<CalibratedImuFile> {
     if let Some(pair) = imu_tk::pair_instead_of(path) {
         let read = |path: &PathBuf, sensor_kind| {
@@ -47,7 +48,7 @@ fn read_one(path: &Path, options: &ConventionOptions) -> Result<CalibratedImuFil
 /// As [`read_calibrated_imu`], without the name of the file.
 ///
 /// # Examples
-/// An accelerometer as imu_tk writes it: misalignment, scale, bias.
+/// An accelerometer in imu_tk's form: misalignment, scale, bias.
 /// ```
 /// use calibrant::io::{ConventionOptions, RawUnits, parse_calibrated_imu};
 /// use calibrant::sensor::SensorKind;

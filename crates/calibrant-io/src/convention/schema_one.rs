@@ -1,4 +1,4 @@
-//! calibrant JSON, schema 1: `calibration.json` of one accelerometer, read as an IMU that has no gyroscope.
+//! calibrant JSON, schema 1: reads `calibration.json` of one accelerometer as an IMU without a gyroscope.
 
 use super::json_core::{check_direction, quantity_of};
 use super::words::input_error;
@@ -11,7 +11,7 @@ use calibrant_core::sensor::{CalibratedImu, ImuParameters, Quantity, ReadingUnit
 use nalgebra::Matrix3;
 use serde::Deserialize;
 
-/// What is read beside the estimates.
+/// The fields that are read beside the estimates.
 #[derive(Deserialize)]
 struct Beside {
     convention: Option<Convention>,

@@ -1,6 +1,6 @@
-//! What temperature does to an IMU, in a JSON file of ours: the object `temperature`.
+//! The temperature model of an IMU in our JSON files: the object `temperature`.
 //!
-//! Of each sensor's bias, the fields in its unit are there; what is not there is zero.
+//! The bias of each sensor has the fields in its unit. Fields that are not there are zero.
 
 use super::arrays::{missing, vector3};
 use super::words::input_error;
@@ -20,6 +20,7 @@ pub(super) struct TemperatureCore {
     gyroscope: Option<TermsCore>,
 }
 
+/// The formula that the file states.
 const FORMULA: &str = "with t = T - reference_c: b(T) = b + bias_per_k t + bias_per_k2 t^2, S(T) = diag(1 + scale_per_k t + scale_per_k2 t^2) S";
 
 #[derive(Debug, Default, Serialize, Deserialize)]
@@ -58,7 +59,7 @@ impl TemperatureCore {
         })
     }
 
-    /// What they say; units are those of the sensors.
+    /// The temperature model of the fields; units are those of the sensors.
     pub(super) fn into_thermal(self, units: [Option<ReadingUnit>; 2]) -> Checked<Thermal> {
         let Some(reference_c) = self.reference_c else {
             return Err(missing("temperature.reference_c"));

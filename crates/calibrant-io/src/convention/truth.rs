@@ -1,4 +1,4 @@
-//! `truth.json` of a simulated sensor, read as a calibration without a covariance: its values are exact.
+//! Reads `truth.json` of a simulated sensor as a calibration without a covariance: its values are exact.
 
 use super::json_core::{check_direction, quantity_of};
 use super::words::input_error;
@@ -11,10 +11,12 @@ use calibrant_core::sensor::{
 use nalgebra::Matrix3;
 use serde::Deserialize;
 
+/// The kind of file that the field `kind` names.
 const KIND: &str = "the truth of a simulation";
+/// The remedy for a broken file.
 const HELP: &str = "give a truth.json that `calibrant simulate` wrote";
 
-/// Everything is optional, so that what is missing can be named.
+/// All fields are optional, so that the reader can name what is missing.
 #[derive(Deserialize)]
 struct File {
     seed: Option<u64>,
@@ -34,7 +36,7 @@ struct Value {
 }
 
 impl Value {
-    /// Its name among those of an IMU: one accelerometer's have no sensor.
+    /// Its name among those of an IMU: the names of a single accelerometer have no sensor.
     fn full_name(&self) -> String {
         let of_imu =
             SensorKind::ALL.iter().any(|sensor_kind| self.name.starts_with(&format!("{sensor_kind}.")));
@@ -73,7 +75,7 @@ pub(super) fn read(text: &str) -> Checked<CalibratedImuFile> {
             None => "that of the simulation".into(),
         },
     };
-    // what is not listed is zero
+    // quantities that are not listed are zero
     if imu.accelerometer_unit.is_some() {
         imu.parameters.accelerometer.matrix = Matrix3::zeros();
     }

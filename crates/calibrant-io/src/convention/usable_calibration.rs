@@ -1,14 +1,15 @@
-//! What every calibration must be to be of use, whatever its format.
+//! The check that every calibration must pass to be usable, whatever its format.
 
 use super::words::input_error;
 use crate::text_decoding::Checked;
 use calibrant_core::sensor::{CalibratedImu, ImuCorrection, SensorKind};
 use nalgebra::{DMatrix, Matrix3};
 
-/// Largest number that is believed.
+/// Largest number that counts as plausible.
 const LARGEST: f64 = 1e12;
 
-/// Can the correction be computed: everything finite, the matrices regular, a covariance that is one?
+/// Can the correction be computed? Everything is finite, the matrices are regular, and the covariance is
+/// valid.
 pub(super) fn usable(imu: &CalibratedImu) -> Checked<()> {
     if imu.accelerometer_unit.is_none() && imu.gyroscope_unit.is_none() {
         return Err(input_error(
@@ -84,7 +85,8 @@ fn temperature(imu: &CalibratedImu) -> Checked<()> {
     Ok(())
 }
 
-/// Is a matrix the covariance of so many quantities: square, finite, symmetric, no negative variance in any direction?
+/// Is a matrix the covariance of this number of quantities: square, finite, symmetric, no negative variance
+/// in any direction?
 fn covariance_of(covariance: &DMatrix<f64>, size: usize) -> Checked<()> {
     let reject = |message: String| Err(input_error(message, "calibrate again, or remove the covariance"));
     if covariance.shape() != (size, size) {

@@ -7,7 +7,7 @@ pub(super) fn written_by() -> String {
     format!("written by calibrant {}", env!("CARGO_PKG_VERSION"))
 }
 
-/// A complaint without a place.
+/// An input error without a place.
 pub(super) fn input_error(message: impl Into<String>, help: &str) -> Box<InputError> {
     Box::new(InputError::new(message, help))
 }

@@ -14,7 +14,8 @@ use std::path::Path;
 /// imu_tk's format has one file for each sensor: of a whole IMU, `NAME.calib` becomes `NAME_acc.calib` and `NAME_gyro.calib`.
 ///
 /// # Errors
-/// [`Error::Experiment`] where the format cannot carry the correction, with the reason; [`Error::Output`] where a file cannot be written.
+/// [`Error::Experiment`] with the reason where the format cannot carry the correction. [`Error::Output`]
+/// where a file cannot be written.
 pub fn write_calibrated_imu(path: &Path, file: &CalibratedImuFile, format: ImuFormat) -> Result<WrittenImu> {
     let (texts, warnings) = text_of(file, format).map_err(|input_error| Error::experiment(*input_error))?;
     let mut files = Vec::new();

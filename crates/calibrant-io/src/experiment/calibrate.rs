@@ -1,11 +1,11 @@
-//! `[calibrate]`: how a recording is evaluated.
+//! Reads `[calibrate]`: how a recording is evaluated.
 
 use super::spreads::need_spreads;
 use super::toml_document::Section;
 use calibrant_core::error::Result;
 use calibrant_core::sensor::Sensor;
 
-/// What is assumed of the parameters before the recording is seen.
+/// The assumption about the parameters before the recording.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Prior {
     /// Nothing.
@@ -15,10 +15,10 @@ pub enum Prior {
     Datasheet,
 }
 
-/// What `[calibrate]` asks for.
+/// The options of `[calibrate]`.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct CalibrateOptions {
-    /// What is assumed of the parameters before the recording is seen.
+    /// The assumption about the parameters before the recording.
     pub prior: Prior,
 }
 

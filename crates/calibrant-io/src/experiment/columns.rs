@@ -1,4 +1,4 @@
-//! `[columns]`: what a recording's file does not say itself.
+//! Reads `[columns]`: what a recording's file does not state itself.
 
 use super::number_range::Bounds;
 use super::toml_document::{Entry, Section};
@@ -6,6 +6,7 @@ use crate::{ColumnMapping, FileFormat, ImuReadOptions, ImuUnit, TimeUnit};
 use calibrant_core::error::Result;
 use calibrant_core::sensor::SensorKind;
 
+/// Range of a sample rate.
 const RATE: Bounds = Bounds::from(1e-6, 1e9, "Hz");
 
 /// Reads `[columns]`.

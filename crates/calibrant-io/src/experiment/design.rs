@@ -1,4 +1,4 @@
-//! `[design]`: what an optimal motion minimises, and how hard it is looked for.
+//! Reads `[design]`: the criterion that an optimal motion minimises, and the effort of the search.
 
 use super::known_keys;
 use super::number_range::Bounds;
@@ -7,7 +7,9 @@ use super::toml_document::Section;
 use calibrant_core::error::Result;
 use calibrant_core::sensor::{ParameterList, Sensor};
 
+/// Range of the operating range of criterion I.
 const RANGE: Bounds = Bounds::above(0.0, 1e9, "m/s²");
+/// Range of a weight of criterion c.
 const WEIGHT: Bounds = Bounds::from(0.0, 1e30, "");
 
 /// The criterion of a design, by its letter. C is the covariance of the parameters.
@@ -28,7 +30,7 @@ pub enum CriterionLetter {
 }
 
 impl CriterionLetter {
-    /// All of them.
+    /// All criteria.
     pub const ALL: [Self; 6] = [Self::A, Self::D, Self::E, Self::M, Self::C, Self::I];
 
     /// As written in experiment files: `A`, `D`, `E`, `M`, `c`, `I`.
@@ -45,7 +47,7 @@ impl CriterionLetter {
     }
 }
 
-/// What parameters are divided by before they are compared.
+/// The divisor of the parameters before they are compared.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum ScaleBy {
     /// Nothing: their units decide.
@@ -55,16 +57,16 @@ pub enum ScaleBy {
     Datasheet,
 }
 
-/// What `[design]` asks for.
+/// The options of `[design]`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DesignOptions {
-    /// What is minimised.
+    /// The criterion that is minimised.
     pub criterion: CriterionLetter,
     /// Weights of criterion c by parameter name; parameters that are not named have weight 0.
     pub weights: Vec<(String, f64)>,
     /// Operating range R of criterion I, m/s².
     pub range_mps2: Option<f64>,
-    /// What parameters are divided by before they are compared.
+    /// The divisor of the parameters before they are compared.
     pub scale_by: ScaleBy,
     /// Number of random starts.
     pub starts: usize,

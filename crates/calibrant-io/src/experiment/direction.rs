@@ -1,4 +1,4 @@
-//! A direction in an experiment file.
+//! Reads a direction in an experiment file.
 
 use super::number_range::Bounds;
 use super::toml_document::Entry;
@@ -6,6 +6,7 @@ use calibrant_core::error::Result;
 use calibrant_core::sensor::Axis;
 use nalgebra::Vector3;
 
+/// Range of a component of a direction.
 const COMPONENT: Bounds = Bounds::from(-1e3, 1e3, "");
 
 /// A direction: `"x"`, `"-z"`, or three numbers.

@@ -1,4 +1,4 @@
-//! `[gyroscope]` and `[known]`: the second sensor of an IMU, its turns, and what is known beforehand.
+//! Reads `[gyroscope]` and `[known]`: the second sensor of an IMU, its turns, and known quantities.
 
 use super::HoldsPlan;
 use super::direction::direction;
@@ -10,22 +10,30 @@ use calibrant_core::estimate::{Gyroscope, HoldsSetup, ImuSetup, KnownTerm, Therm
 use calibrant_core::sensor::{ImuQuantity, ReadingUnit, SensorModel};
 use nalgebra::Vector3;
 
+/// Range of the nominal gain.
 const GAIN: Bounds = Bounds::above(0.0, 1e12, "counts/(rad/s)");
+/// Range of the noise of a sample in rad/s.
 const NOISE_RADPS: Bounds = Bounds::from(1e-9, 1e3, "rad/s");
+/// Range of the noise of a sample in counts.
 const NOISE_COUNTS: Bounds = Bounds::from(1e-9, 1e9, "counts");
+/// Range of a time.
 const TIME: Bounds = Bounds::from(-1e12, 1e12, "s");
+/// Range of the angle of a turn.
 const ANGLE: Bounds = Bounds::from(-1e6, 1e6, "degrees");
-/// No turn is met exactly, and nothing in the recording says so.
+/// Range of the standard uncertainty of a turn's angle. It is above 0: no turn is exact, and nothing in the
+/// recording shows its error.
 const ANGLE_SD: Bounds = Bounds::above(0.0, 360.0, "degrees");
+/// Range of a known value.
 const NUMBER: Bounds = Bounds::from(-1e12, 1e12, "");
-/// A smaller one leaves the other data no digits.
+/// Range of the standard deviation of a prior. A smaller one leaves the other data no digits.
 const PRIOR_SD: Bounds = Bounds::from(1e-12, 1e12, "");
-/// The second sensor of an IMU and what both share, as `[gyroscope]`, `[known]` and `[temperature]` describe it.
+/// The second sensor of an IMU and what both sensors share, as `[gyroscope]`, `[known]` and `[temperature]`
+/// describe it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ImuPlan {
     /// The datasheet.
     pub gyroscope: Gyroscope,
-    /// Unit of the readings in the file, where the file does not say.
+    /// Unit of the readings in the file, where the file does not state it.
     pub file_unit: Option<ImuUnit>,
     /// Turns of known angle.
     pub turns: Vec<Turn>,
@@ -33,14 +41,14 @@ pub struct ImuPlan {
     pub section_angle_rad: f64,
     /// Standard uncertainty of that angle and of its axis, rad.
     pub section_angle_sd_rad: f64,
-    /// Quantities that are known beforehand.
+    /// Known quantities: fixed values and priors.
     pub known: Vec<KnownTerm>,
-    /// What is to follow temperature.
+    /// The part of the model that follows temperature.
     pub thermal: ThermalModel,
 }
 
 impl ImuPlan {
-    /// How such an IMU is recorded: the holds, the turns, and what is known and follows temperature.
+    /// The setup of such a recording: the holds, the turns, the known quantities and the temperature model.
     #[must_use]
     pub fn setup(&self, holds: &HoldsPlan) -> ImuSetup {
         ImuSetup {

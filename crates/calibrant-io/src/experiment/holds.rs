@@ -1,4 +1,4 @@
-//! `[holds]`: static calibration in several poses.
+//! Reads `[holds]`: static calibration in several poses.
 
 use super::direction::direction;
 use super::motion::RATE_HZ;
@@ -10,13 +10,19 @@ use calibrant_core::sensor::Gauge;
 use calibrant_core::simulate::{MOST_SAMPLES, TURN_S};
 use nalgebra::Vector3;
 
+/// Range of gravity.
 const GRAVITY: Bounds = Bounds::from(0.1, 100.0, "m/s²");
-/// Faces that are met worse are none.
+/// Range of the face alignment. Faces with a larger tilt are not faces.
 const TILT: Bounds = Bounds::from(0.0, 10.0, "degrees");
+/// Range of the standard uncertainty of gravity.
 const GRAVITY_SD: Bounds = Bounds::from(0.0, 1.0, "m/s²");
+/// Range of the latitude.
 const LATITUDE: Bounds = Bounds::from(-90.0, 90.0, "degrees");
+/// Range of the height above the sea.
 const HEIGHT: Bounds = Bounds::from(-12_000.0, 100_000.0, "m");
+/// Range of a time.
 const TIME: Bounds = Bounds::from(-1e12, 1e12, "s");
+/// Range of a duration.
 const DURATION: Bounds = Bounds::above(0.0, 1e6, "s");
 
 /// A static calibration, as `[holds]` describes it.
@@ -24,19 +30,21 @@ const DURATION: Bounds = Bounds::above(0.0, 1e6, "s");
 pub struct HoldsPlan {
     /// Gravity where the recording was made.
     pub gravity: Gravity,
-    /// Geographic latitude, degrees, where it is given: for the Earth's rate.
+    /// Geographic latitude, degrees, where it is given. It determines Earth's rate.
     pub latitude_deg: Option<f64>,
-    /// Where the value of gravity comes from, in words: `given`, or `from latitude 52.2°, height 30 m`.
+    /// The source of the value of gravity, in words: `given`, or `from latitude 52.2°, height 30 m`.
     pub gravity_source: String,
     /// Convention that fixes the true frame.
     pub gauge: Gauge,
-    /// Start and end of each hold, s, in order, where the user gives them; otherwise they are looked for.
+    /// Start and end of each hold, s, in order, where the user gives them. Otherwise the program searches for
+    /// them.
     pub intervals_s: Option<Vec<(f64, f64)>>,
     /// Direction of the specific force (up) in each of these holds, where it is known.
     pub directions: Option<Vec<Vector3<f64>>>,
-    /// How well these directions are met, rad about each axis; by the scatter of the holds where it is not given.
+    /// Face alignment of these directions, rad about each axis. Where it is not given, the scatter of the
+    /// holds determines it.
     pub face_sd_rad: Option<f64>,
-    /// Shortest stretch of stillness that counts as a hold, s.
+    /// Shortest stationary interval that counts as a hold, s.
     pub minimum_hold_s: f64,
     /// Number of poses of a simulated recording.
     pub poses: usize,
@@ -46,7 +54,8 @@ pub struct HoldsPlan {
     pub rate_hz: f64,
 }
 
-/// Reads `[holds]`. The gyroscope of an IMU feels the Earth turn: a latitude beside a value of gravity is for that.
+/// Reads `[holds]`. The gyroscope of an IMU senses Earth's rate: a latitude beside a value of gravity serves
+/// for that.
 pub(super) fn read(section: &Section<'_>, is_imu: bool) -> Result<HoldsPlan> {
     let (gravity, gravity_source) = read_gravity(section, is_imu)?;
     let latitude_deg = section.get("latitude_deg").map(|entry| entry.number(&LATITUDE)).transpose()?;

@@ -147,7 +147,7 @@ pub(super) fn allowed(section: &str) -> &'static [&'static str] {
     KEYS.iter().find(|(name, _)| *name == section).map_or(&[], |(_, keys)| keys)
 }
 
-/// What to say of an unknown key: the section where it belongs, the nearest key, or all there are.
+/// The help for an unknown key: the section where it belongs, the nearest key, or all keys.
 pub(super) fn suggest(section: &str, unknown: &str) -> String {
     let unknown = shorten(unknown);
     let near = nearest(&unknown, allowed(section).iter().copied());
@@ -171,7 +171,7 @@ pub(super) fn suggest(section: &str, unknown: &str) -> String {
 
 /// The word most like this one, if any is.
 pub(super) fn nearest<'w>(unknown: &str, words: impl Iterator<Item = &'w str>) -> Option<&'w str> {
-    const ALIKE: f64 = 0.75; // Jaro–Winkler: 1 is equal, 0 nothing in common
+    const ALIKE: f64 = 0.75; // least Jaro–Winkler similarity: 1 is equal, 0 nothing in common
     let unknown = shorten(unknown).to_lowercase();
     words
         .map(|word| (strsim::jaro_winkler(&word.to_lowercase(), &unknown), word))

@@ -1,4 +1,4 @@
-//! `[limits]`: what the arm can do.
+//! Reads `[limits]`: the limits of the arm.
 
 use super::known_keys;
 use super::number_range::Bounds;
@@ -7,14 +7,19 @@ use calibrant_core::error::Result;
 use calibrant_core::motion::{Limits, Rest};
 use nalgebra::Vector3;
 
+/// Range of an acceleration limit.
 const ACCELERATION: Bounds = Bounds::above(0.0, 1e9, "m/s²");
+/// Range of a jerk limit.
 const JERK: Bounds = Bounds::above(0.0, 1e9, "m/s³");
+/// Range of a velocity limit.
 const VELOCITY: Bounds = Bounds::above(0.0, 1e9, "m/s");
-/// A prescribed acceleration: of either sign, or zero.
+/// Range of a prescribed acceleration: of either sign, or zero.
 const END: Bounds = Bounds::from(-1e9, 1e9, "m/s²");
+/// Range of a displacement limit.
 const DISPLACEMENT: Bounds = Bounds::above(0.0, 1e9, "m");
 
-/// Reads the limits of an experiment that varies another, which take the place of all of its limits; `None` where the section has none.
+/// Reads the limits of an experiment that varies another. They take the place of all limits of the other;
+/// `None` where the section has none.
 pub(super) fn read_instead(section: &Section<'_>, axes: usize) -> Result<Option<Limits>> {
     let any = section.entries().any(|(key, _)| known_keys::allowed("limits").contains(&key));
     any.then(|| read(section, axes)).transpose()

@@ -1,7 +1,9 @@
-//! The experiment file (TOML): the sensor's datasheet, the motion or the holds, the columns of recordings, and the options of each command.
+//! The experiment file (TOML): the sensor's datasheet, the motion or the holds, the columns of recordings,
+//! and the options of each command. One file here reads each section.
 //!
-//! Unknown keys, wrong types and values out of range are errors that point at line and column; an unknown key is answered with
-//! the nearest known one. [`presets`](super::preset()) are commented examples of every key.
+//! Unknown keys, wrong types and values out of range are errors that point at line and column. The error for
+//! an unknown key names the nearest known one. [`presets`](super::preset()) are commented examples of every
+//! key.
 
 mod calibrate;
 mod columns;

@@ -1,16 +1,19 @@
-//! `[motion]`: a commanded motion, its intervals and how far it is trusted.
+//! Reads `[motion]`: a commanded motion, its intervals and how far it is trusted.
 
 use super::number_range::Bounds;
 use super::toml_document::Section;
 use calibrant_core::error::Result;
 use calibrant_core::motion::{InputNoise, KnownEnds, Trust};
 
-/// Most samples that a simulated recording may have.
+/// Largest number of samples of a simulated recording.
 const MOST_SAMPLES: f64 = 1e9;
-/// Sample rates that make sense.
+/// Range of a sample rate.
 pub(super) const RATE_HZ: Bounds = Bounds::above(0.0, 1e6, "Hz");
+/// Range of the duration of an interval.
 const INTERVAL_S: Bounds = Bounds::above(0.0, 1e6, "s");
+/// Range of the constant part of the process noise.
 const FLOOR_MPS3: Bounds = Bounds::from(0.0, 1e9, "m/s³");
+/// Range of the process noise relative to the jerk.
 const RATIO: Bounds = Bounds::from(0.0, 1e3, "");
 
 /// A commanded motion of equal intervals, as `[motion]` describes it.
@@ -35,7 +38,8 @@ pub(super) fn read(section: &Section<'_>) -> Result<MotionPlan> {
     Ok(MotionPlan { intervals, interval_s, rate_hz, trust, known_ends })
 }
 
-/// Reads intervals, their duration and the sample rate; a section that varies another takes what it does not say from there.
+/// Reads intervals, their duration and the sample rate. A section that varies another takes its missing keys
+/// from there.
 pub(super) fn read_grid(section: &Section<'_>, base: Option<&MotionPlan>) -> Result<(usize, f64, f64)> {
     let given = |key: &str, help: &str| match base {
         Some(_) => Ok(section.get(key)),
@@ -59,7 +63,7 @@ pub(super) fn read_grid(section: &Section<'_>, base: Option<&MotionPlan>) -> Res
     Ok((intervals, interval_s, rate_hz))
 }
 
-/// Complains of a rate, under this key, at which a motion has too many samples or none.
+/// Returns an error for a rate, under this key, at which a motion has too many samples or none.
 pub(super) fn check_samples(section: &Section<'_>, key: &str, duration_s: f64, rate_hz: f64) -> Result<()> {
     let reject = |message: String, help: String| match section.get(key) {
         Some(entry) => entry.reject(message, help),
@@ -72,7 +76,7 @@ pub(super) fn check_samples(section: &Section<'_>, key: &str, duration_s: f64, r
             format!("at most {MOST_SAMPLES:.0e}: lower the rate, or shorten the motion"),
         ));
     }
-    // a little tolerance: 10 × 0.1 s × 1 Hz is one sample step, whatever the rounding says
+    // a little tolerance: 10 × 0.1 s × 1 Hz is one sample step, whatever the rounding
     if samples < 1.0 - 1e-9 {
         return Err(reject(
             format!("the motion lasts {duration_s} s, less than one sample step of {} s", 1.0 / rate_hz),
@@ -93,7 +97,7 @@ fn read_trust(section: &Section<'_>) -> Result<(Trust, KnownEnds)> {
     let word = section
         .need("trust", "how far the motion is trusted: \"known\", \"noisy\" or \"unknown\"")?
         .word(&[("known", Word::Known), ("noisy", Word::Noisy), ("unknown", Word::Unknown)])?;
-    // read, and so checked, whatever the trust: an experiment changes its trust by one word
+    // read and checked whatever the trust: an experiment changes its trust by one word
     let noise = read_noise(section, "motion.input_noise")?;
     let ends = section.get("known_ends");
     let known_ends = match &ends {

@@ -1,4 +1,4 @@
-//! The range that a number must lie in, and how it is said.
+//! The range that a number must lie in, and its words in messages.
 
 use std::fmt;
 

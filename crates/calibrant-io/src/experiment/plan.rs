@@ -1,4 +1,4 @@
-//! How the sensor is moved.
+//! The data type of the plan: how the sensor is moved.
 
 use super::holds::HoldsPlan;
 use super::motion::MotionPlan;

@@ -1,4 +1,4 @@
-//! From the experiment file to the design problem that it describes.
+//! Makes the design problem that an experiment file describes.
 
 use super::{CriterionLetter, Experiment, Plan, Prior, ScaleBy};
 use crate::EarlierCalibration;
@@ -11,12 +11,14 @@ use calibrant_design::{DesignProblem, DesignSettings};
 use nalgebra::{DMatrix, DVector};
 
 impl Experiment {
-    /// What `[design]` minimises, for a sensor like `at`.
+    /// The criterion that `[design]` minimises, for a sensor like `at`.
     ///
-    /// With `scale_by = "datasheet"` parameters are divided by their spread (for c the variances by its square); I needs no scale.
+    /// With `scale_by = "datasheet"` the parameters are divided by their spread (for c the variances by its
+    /// square). I needs no scale.
     ///
     /// # Errors
-    /// [`Error::Experiment`] where c has no weight, I no range or no correction (`S` singular), or a spread is missing.
+    /// [`Error::Experiment`] where c has no weight, I no range or no correction (`S` singular), or a spread
+    /// is missing.
     pub fn criterion(&self, at: &SensorParameters) -> Result<Criterion> {
         let reject = |key: &str, message: &str, help: &str| {
             Error::experiment(InputError::new(message, help).about_key(format!("design.{key}")))
@@ -70,13 +72,15 @@ impl Experiment {
         })
     }
 
-    /// The design problem, with what earlier calibrations know: their information adds up, the last one gives the values; without any, the nominal ones.
+    /// The design problem, with the information of earlier calibrations. Their information adds up, and the
+    /// last one gives the values. Without any, the values are nominal.
     ///
-    /// `[calibrate] prior = "datasheet"` adds the datasheet's information, once, however many of the calibrations have it in them already.
+    /// `[calibrate] prior = "datasheet"` adds the datasheet's information once, however many of the
+    /// calibrations already contain it.
     ///
     /// # Errors
-    /// [`Error::Experiment`] for a `[holds]` experiment, an unknown nominal gain or offset, a calibration of another sensor (its parameters, their units),
-    /// or as [`criterion`](Self::criterion).
+    /// [`Error::Experiment`] for a `[holds]` experiment, an unknown nominal gain or offset, or a calibration
+    /// of another sensor (its parameters, their units). Also as [`criterion`](Self::criterion).
     pub fn design_problem(&self, earlier: &[EarlierCalibration]) -> Result<DesignProblem<'_>> {
         let Plan::Motion(plan) = &self.plan else {
             return Err(Error::experiment(InputError::new(
@@ -126,7 +130,7 @@ impl Experiment {
         })
     }
 
-    /// How `[design]` wants the design to be looked for.
+    /// The settings of the search that `[design]` gives.
     #[must_use]
     pub fn design_settings(&self) -> DesignSettings {
         DesignSettings {

@@ -15,7 +15,7 @@ use toml::de::DeTable;
 /// Largest experiment file, bytes.
 const LARGEST: u64 = 1 << 20;
 
-/// What an experiment file says.
+/// The content of an experiment file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Experiment {
     /// `[sensor]`: the datasheet.
@@ -24,7 +24,7 @@ pub struct Experiment {
     pub plan: Plan,
     /// `[gyroscope]`, `[known]` and `[temperature]`, for an IMU.
     pub imu: Option<ImuPlan>,
-    /// `[columns]`: what the recordings' files do not say themselves; nothing where the section is absent.
+    /// `[columns]`: what the recordings' files do not state themselves; nothing where the section is absent.
     pub columns: ImuReadOptions,
     /// `[limits]`; none where the section is absent.
     pub limits: Limits,
@@ -36,10 +36,12 @@ pub struct Experiment {
     pub study: StudyOptions,
 }
 
-/// Reads `[columns]` of a file that needs to have nothing else: an experiment file, or one with this table alone (and `schema = 1`, where it likes).
+/// Reads `[columns]` of a file that may have nothing else. It is an experiment file, or one with this table
+/// alone (and optionally `schema = 1`).
 ///
 /// # Errors
-/// As [`Experiment::read`], whatever section is wrong; [`Error::Experiment`] without a `[columns]` section that says anything.
+/// As [`Experiment::read`], whatever section is wrong. [`Error::Experiment`] where there is no `[columns]`
+/// section, or an empty one.
 pub fn read_columns(path: &Path) -> Result<ImuReadOptions> {
     let text = read_text(path)?;
     let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
@@ -77,11 +79,11 @@ impl Experiment {
         Self::parse(&read_text(path)?, Some(path))
     }
 
-    /// Reads the text of an experiment file; `file` is only named in complaints.
+    /// Reads the text of an experiment file. `file` serves only for its name in errors.
     ///
     /// # Errors
-    /// [`Error::Experiment`] with line, column, key and excerpt: invalid TOML, an unknown key, a required key that is missing,
-    /// a wrong type, a number out of range, or keys that contradict each other.
+    /// [`Error::Experiment`] with line, column, key and excerpt. The TOML is invalid, or a key is unknown or
+    /// missing. A value has the wrong type or is out of range, or keys contradict each other.
     ///
     /// # Examples
     /// ```
@@ -194,7 +196,7 @@ fn read_plan(root: &Section<'_>, sensor: &Sensor) -> Result<Plan> {
                     ReadingUnit::Counts => "noise_counts = 10.0, for example: the noise of one sample",
                 };
                 let key = if sensor.unit == ReadingUnit::Counts { "noise_counts" } else { "noise_mps2" };
-                // [sensor] is there: it was read
+                // [sensor] is there: it was read above
                 return Err(root.section("sensor")?.map_or_else(
                     || root.missing(key, help),
                     |section| section.reject("this key is required with [motion]", help, key),

@@ -1,4 +1,4 @@
-//! `[sensor]`: the datasheet.
+//! Reads `[sensor]`: the datasheet of the accelerometer.
 
 use super::number_range::Bounds;
 use super::toml_document::Section;
@@ -6,13 +6,21 @@ use calibrant_core::error::Result;
 use calibrant_core::sensor::{ReadingUnit, Sensor, SensorModel};
 use nalgebra::Vector3;
 
+/// Range of the noise of a sample in m/s².
 const NOISE_MPS2: Bounds = Bounds::from(1e-7, 1e6, "m/s²");
+/// Range of the noise of a sample in counts.
 const NOISE_COUNTS: Bounds = Bounds::from(1e-9, 1e9, "counts");
+/// Range of the datasheet spread of the bias.
 const BIAS_SD: Bounds = Bounds::from(0.0, 1e6, "m/s²");
+/// Range of the datasheet spread of the scale factors, relative.
 const SCALE_SD: Bounds = Bounds::from(0.0, 10.0, "");
+/// Range of the largest stimulus.
 const RANGE: Bounds = Bounds::above(0.0, 1e9, "m/s²");
+/// Range of the datasheet spread of the cross-axis sensitivities.
 const CROSS_AXIS_SD: Bounds = Bounds::from(0.0, 10.0, "");
+/// Range of the nominal gain.
 const GAIN: Bounds = Bounds::above(0.0, 1e12, "counts/(m/s²)");
+/// Range of the nominal offset.
 const OFFSET: Bounds = Bounds::from(-1e12, 1e12, "counts");
 
 /// Reads `[sensor]`.

@@ -1,10 +1,11 @@
-//! Complains where the datasheet is asked for and gives no spreads.
+//! The check that the datasheet gives spreads where an option needs them.
 
 use super::toml_document::Section;
 use calibrant_core::error::Result;
 use calibrant_core::sensor::{ReadingUnit, Sensor, SensorModel};
 
-/// Complains where `key`, which asks for the datasheet, finds no spread there (or one of zero, which would leave nothing to estimate).
+/// Returns an error where `key` needs the datasheet and a spread is missing there. A spread of zero is an
+/// error, too: it would leave nothing to estimate.
 pub(super) fn need_spreads(section: &Section<'_>, key: &str, sensor: &Sensor) -> Result<()> {
     let mut missing = Vec::new();
     let positive = |spread: Option<nalgebra::Vector3<f64>>| spread.is_some_and(|sd| sd.min() > 0.0);

@@ -1,4 +1,4 @@
-//! `[study]`: which experiments over many sensors are run.
+//! Reads `[study]`: which studies over many sensors are run.
 
 use super::motion::{self, MotionPlan};
 use super::number_range::Bounds;
@@ -8,25 +8,29 @@ use calibrant_core::error::Result;
 use calibrant_core::motion::{InputNoise, KnownEnds, Limits, Trust};
 use calibrant_design::study::SurfaceSettings;
 
+/// Range of the largest jerk of the surface.
 const JERK: Bounds = Bounds::above(0.0, 1e9, "m/s³");
+/// Range of the acceleration at the start.
 const ACCELERATION: Bounds = Bounds::from(-1e9, 1e9, "m/s²");
+/// Largest number of sensors.
 const MOST_SENSORS: u64 = 10_000_000;
+/// Largest number of jerks in each direction of the surface.
 const MOST_POINTS: u64 = 1001;
 
-/// What `[study]` asks for.
+/// The options of `[study]`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StudyOptions {
     /// Number of simulated sensors.
     pub sensors: usize,
-    /// Seed that everything random follows from.
+    /// Seed of everything random.
     pub seed: u64,
-    /// How many of the optimal motions are shown together.
+    /// Number of the optimal motions that are shown together.
     pub motions: usize,
     /// Starts of each sensor's design; `None`: as `[design]` says.
     pub starts: Option<usize>,
     /// `[study.surface]`: the criterion over the jerks of two intervals.
     pub surface: Option<SurfaceSettings>,
-    /// `[study.unknown]`: a calibration without knowing the motion.
+    /// `[study.unknown]`: a calibration without knowledge of the motion.
     pub unknown: Option<UnknownVariant>,
     /// `[study.noisy]`: the experiment of `[motion]` with process noise.
     pub noisy: Option<NoisyVariant>,
@@ -38,7 +42,7 @@ impl Default for StudyOptions {
     }
 }
 
-/// A calibration without knowing the motion; what the section does not say is as in `[motion]`.
+/// A calibration without knowledge of the motion. Keys that the section does not have are as in `[motion]`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct UnknownVariant {
     /// Number of simulated sensors.

@@ -1,4 +1,4 @@
-//! `[temperature]`: which biases and gains of an IMU follow temperature, and by which polynomials.
+//! Reads `[temperature]`: which biases and gains of an IMU follow temperature, and by which polynomials.
 
 use super::number_range::Bounds;
 use super::toml_document::Section;
@@ -6,6 +6,7 @@ use calibrant_core::error::Result;
 use calibrant_core::estimate::ThermalModel;
 use calibrant_core::sensor::{HIGHEST_ORDER, WORKING_C};
 
+/// Range of a temperature.
 const CELSIUS: Bounds = Bounds::from(*WORKING_C.start(), *WORKING_C.end(), "°C");
 
 /// Reads `[temperature]`; orders that are not there are 0.

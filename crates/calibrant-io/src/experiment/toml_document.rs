@@ -1,4 +1,4 @@
-//! An experiment file as a tree of values that know their place, and complaints that point at it.
+//! An experiment file as a tree of values that know their place, and errors that point at it.
 
 use super::known_keys;
 use super::number_range::Bounds;
@@ -9,17 +9,17 @@ use std::path::Path;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-/// The text of an experiment file and where it came from.
+/// The text of an experiment file and its origin.
 pub(super) struct Document<'a> {
     pub(super) text: &'a str,
     pub(super) file: Option<&'a Path>,
 }
 
 impl Document<'_> {
-    /// Longest text that an excerpt carries along.
+    /// Longest text that an excerpt holds.
     const EXCERPT_BYTES: usize = 256 * 1024;
 
-    /// A complaint about these bytes of the text.
+    /// An error about these bytes of the text.
     pub(super) fn reject(&self, span: Range<usize>, message: String, help: String) -> InputError {
         let start = (0..=span.start.min(self.text.len())).rev().find(|&at| self.text.is_char_boundary(at));
         let before = &self.text[..start.unwrap_or(0)];
@@ -36,7 +36,7 @@ impl Document<'_> {
         }
     }
 
-    /// A complaint of the TOML parser.
+    /// An error of the TOML parser.
     pub(super) fn syntax(&self, error: &toml::de::Error) -> Error {
         let span = error.span().unwrap_or(0..0);
         let message = error.message().replace('\n', " ");
@@ -112,12 +112,12 @@ impl<'a> Section<'a> {
         self.get(key).ok_or_else(|| self.missing(key, help))
     }
 
-    /// A complaint that a key is missing from this section.
+    /// The error for a key that is missing from this section.
     pub(super) fn missing(&self, key: &str, help: &str) -> Error {
         self.reject("this required key is missing", help, key)
     }
 
-    /// A complaint about this section and one of its keys.
+    /// An error about this section and one of its keys.
     pub(super) fn reject(&self, message: &str, help: &str, key: &str) -> Error {
         let key = if key.is_empty() { self.name.to_owned() } else { self.full(key) };
         let input_error = self.document.reject(self.span.clone(), message.into(), help.into());
@@ -132,7 +132,7 @@ impl<'a> Section<'a> {
         })
     }
 
-    /// A table that is the value of an entry or an item of a list; `name` is its place in the list of keys.
+    /// A table that is the value of an entry or an item of a list. `name` is its place in the list of keys.
     pub(super) fn item(entry: &Entry<'a>, name: &'static str) -> Result<Self> {
         let Some(table) = entry.value.get_ref().as_table() else {
             return Err(entry.wrong_type("a table", "write { key = value, … }"));
@@ -140,7 +140,7 @@ impl<'a> Section<'a> {
         Self::checked(entry.document, name, entry.value.span(), table)
     }
 
-    /// Only its keys' values are checked by the caller, not their names (a table of parameter names).
+    /// A table of parameter names: the caller checks only the values of its keys, not their names.
     pub(super) fn open(entry: &Entry<'a>, name: &'static str) -> Result<Self> {
         let Some(table) = entry.value.get_ref().as_table() else {
             return Err(entry.wrong_type("a table", "for example { \"scale.x\" = 1.0 }"));
@@ -149,7 +149,7 @@ impl<'a> Section<'a> {
     }
 }
 
-/// A value of the file: what it says and where.
+/// A value of the file and its place.
 pub(super) struct Entry<'a> {
     document: &'a Document<'a>,
     key: String,
@@ -157,13 +157,13 @@ pub(super) struct Entry<'a> {
 }
 
 impl<'a> Entry<'a> {
-    /// A complaint about this value.
+    /// An error about this value.
     pub(super) fn reject(&self, message: impl Into<String>, help: impl Into<String>) -> Error {
         let input_error = self.document.reject(self.value.span(), message.into(), help.into());
         Error::experiment(input_error.about_key(self.key.clone()))
     }
 
-    /// A complaint that the value is of another type than is needed.
+    /// The error for a value of another type than is needed.
     pub(super) fn wrong_type(&self, needed: &str, help: &str) -> Error {
         let found = match self.value.get_ref() {
             DeValue::String(_) => "a string",
@@ -246,7 +246,7 @@ impl<'a> Entry<'a> {
             .map_err(|_| self.reject(format!("{number} is out of range"), "give a smaller one"))
     }
 
-    /// One of these words, and what it stands for.
+    /// One of these words, and its meaning.
     pub(super) fn word<T: Copy>(&self, words: &[(&str, T)]) -> Result<T> {
         let all: Vec<_> = words.iter().map(|(word, _)| format!("\"{word}\"")).collect();
         let help =

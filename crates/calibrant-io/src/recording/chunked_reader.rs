@@ -1,4 +1,5 @@
-//! A text file in pieces of whole lines: however long a recording is, its text is never in memory at once.
+//! Reads a text file in pieces of whole lines: however long a recording is, its text is never in memory at
+//! once.
 
 use super::checksum::hex;
 use super::size::LARGEST;
@@ -8,24 +9,24 @@ use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
-/// Bytes that are read at a time: few enough to be still at hand when they are taken apart.
+/// Bytes that are read at a time: few enough to be still in the cache when they are parsed.
 const PIECE: usize = 128 << 10;
 
-/// Bytes that are left for the next piece: a last line that was cut off is told by those above it.
+/// Bytes that stay for the next piece: the lines above show whether the last line was cut off.
 const HELD_BACK: usize = 16 << 10;
-/// What a file says of its length is not to be trusted further, bytes.
+/// Largest stated length of a file that is trusted, bytes.
 const TRUSTED: u64 = 64 << 20;
 
-/// The beginning of a file, and what follows it.
+/// The beginning of a file, and its remainder.
 pub(super) struct FileBeginning {
-    /// Its first lines; everything where the file is short, or is no text in lines.
+    /// Its first lines. Everything where the file is short, or is no text in lines.
     pub(super) bytes: Vec<u8>,
     pub(super) rest: Option<Pieces>,
     is_binary: bool,
 }
 
 impl FileBeginning {
-    /// Files that begin as `is_binary` says are read whole; no other may have a NUL byte.
+    /// Files that begin as `is_binary` says are read whole. No other file may have a NUL byte.
     pub(super) fn read(path: &Path, is_binary: impl Fn(&[u8]) -> bool) -> Checked<Self> {
         let file = text_decoding::open(path, "the recording")?;
         let length = file.metadata().map_or(0, |metadata| metadata.len()).min(TRUSTED);
@@ -47,7 +48,7 @@ impl FileBeginning {
         self.bytes.append(&mut pieces.cut);
         self.bytes.reserve(pieces.length.saturating_sub(pieces.read) as usize);
         loop {
-            // a device or a disk image is not to fill the memory
+            // a device or a disk image must not fill the memory
             if !self.is_binary && self.bytes.contains(&0) {
                 text_decoding::as_text(&self.bytes)?;
             }
@@ -64,10 +65,10 @@ impl FileBeginning {
     }
 }
 
-/// What follows the beginning of a file.
+/// The remainder after the beginning of a file.
 pub(super) struct Pieces {
     file: File,
-    /// As the file system says, as far as that is trusted.
+    /// The length by the file system, as far as that is trusted.
     length: u64,
     hash: Sha256,
     /// Bytes so far.
@@ -80,12 +81,13 @@ pub(super) struct Pieces {
 /// Some lines of a file.
 pub(super) struct Piece {
     bytes: Vec<u8>,
-    /// Where it begins in the file.
+    /// Its first byte in the file.
     offset: u64,
 }
 
 impl Pieces {
-    /// The next lines; `None` at the end of the file. `spare` is the memory of a piece that was done with.
+    /// The next lines; `None` at the end of the file. `spare` is the memory of a piece that is no longer
+    /// needed.
     pub(super) fn next(&mut self, spare: Option<Piece>) -> Checked<Option<Piece>> {
         let mut bytes = spare.map_or_else(Vec::new, |piece| piece.bytes);
         bytes.clear();
@@ -100,7 +102,7 @@ impl Pieces {
         Ok((!bytes.is_empty()).then_some(Piece { bytes, offset }))
     }
 
-    /// SHA-256 of the file, which was read to its end.
+    /// SHA-256 of the file, which has been read to its end.
     pub(super) fn sha256(self) -> String {
         hex(self.hash)
     }
@@ -119,7 +121,7 @@ impl Pieces {
         Ok(())
     }
 
-    /// Takes off some lines for the next piece, the last of them cut in two; are there lines?
+    /// Moves some lines to the next piece, the last of them cut in two. Returns whether lines remain.
     fn cut_off(&mut self, bytes: &mut Vec<u8>) -> bool {
         let Some(last) = memchr::memrchr(b'\n', &bytes[..bytes.len().saturating_sub(HELD_BACK)]) else {
             return false;
@@ -131,7 +133,7 @@ impl Pieces {
 }
 
 impl Piece {
-    /// Its text, which comes after so many lines.
+    /// Its text, which follows this number of lines.
     pub(super) fn text(&self, before: usize) -> Checked<&str> {
         text_decoding::as_text_at(&self.bytes, self.offset, before)
     }

@@ -1,4 +1,4 @@
-//! Which column holds what: from the header, or from the contract for text without one.
+//! The meaning of the columns of a plain text: from its header, or from the contract for text without one.
 
 use super::ReadOptions;
 use super::reader_finding::{Finding, FindingKind};
@@ -11,6 +11,7 @@ use calibrant_core::sensor::{Axis, ReadingUnit};
 /// Standard gravity, m/s²: what a reading of 1 g means.
 pub(super) const STANDARD_GRAVITY_MPS2: f64 = 9.80665;
 
+/// The names of columns, for messages.
 const UNITS: &str = "header t_s,ax,ay,az; the axes may end in _mps2, _counts or _g";
 
 /// The columns of a recording.
@@ -21,7 +22,7 @@ pub(super) struct Columns {
     pub(super) axes: usize,
     /// Unit of the readings, after the conversion.
     pub(super) unit: ReadingUnit,
-    /// Readings are multiplied by this.
+    /// Factor on the readings.
     pub(super) factor: f64,
 }
 
@@ -145,7 +146,7 @@ impl Columns {
     }
 }
 
-/// Names in back quotes, at most so many of them.
+/// Names in back quotes, at most this number of them.
 pub(super) fn list(names: &[String], most: usize) -> String {
     let shown: Vec<String> = names
         .iter()
@@ -195,7 +196,7 @@ fn axis_column(name: &str) -> Option<(usize, Suffix)> {
     Some((axis, suffix))
 }
 
-/// Unit and factor of the readings: what the header says; else the option; else the experiment.
+/// Unit and factor of the readings: from the header; else the option; else the experiment.
 fn resolve_unit(
     suffix: Suffix,
     line: Line<'_>,

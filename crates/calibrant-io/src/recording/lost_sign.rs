@@ -1,4 +1,4 @@
-//! Negative readings that were written as positive ones: two's complement without its sign.
+//! A check for a lost sign: negative readings that were written as positive ones, as two's complement.
 
 use crate::text_decoding::Checked;
 use calibrant_core::error::InputError;
@@ -6,14 +6,15 @@ use calibrant_core::sensor::{Axis, ReadingUnit, Recording};
 
 /// Widths of a converter's words, bits.
 const WIDTHS: [u32; 8] = [8, 10, 12, 14, 16, 18, 20, 24];
-/// Readings around zero come within this share of the range of both its ends,
+/// Readings around zero come within this share of both ends of the range.
 const ENDS: f64 = 1.0 / 64.0;
-/// fewer than this share of them are in the middle quarter, beyond 3/4 of what the sensor can tell,
+/// Fewer than this share of them are in the middle quarter, where 3/4 of the sensor's range would be.
 const IN_THE_MIDDLE: f64 = 1e-3;
-/// and at least this share on either side.
+/// At least this share of them is on either side.
 const ON_A_SIDE: f64 = 0.01;
 
-/// Refuses counts that jump from 0 to the largest number of so many bits. `of` goes before the word axis, as in `gyroscope axis x`.
+/// Refuses counts that jump from 0 to the largest number of this many bits. `of` goes before the word axis,
+/// as in `gyroscope axis x`.
 pub(super) fn check(recording: &Recording, of: &str) -> Checked<()> {
     if recording.unit != ReadingUnit::Counts {
         return Ok(());
@@ -51,7 +52,8 @@ mod tests {
     use super::*;
     use nalgebra::Vector3;
 
-    /// Held along ±x in turn, moved through everything between: 1 g is 16 384 counts of 16 bits, or 2 048 of a range that begins at 0.
+    /// Held along ±x in turn, and moved through everything between. 1 g is 16 384 counts of 16 bits, or 2 048
+    /// of a range that begins at 0.
     fn recording(of: impl Fn(f64) -> f64) -> Recording {
         let at = |k: usize| (k as f64 * 1e-3).sin() * 17_000.0;
         Recording {
@@ -72,7 +74,7 @@ mod tests {
         );
         assert!(check(&recording(f64::round), "").is_ok(), "signed");
         assert!(check(&recording(|y| (y + 32_768.0).round()), "").is_ok(), "zero in the middle");
-        // from one end of the range to the other, as one that saturates
+        // from one end of the range to the other, as a saturated sensor
         assert!(check(&recording(|y| (2.0 * y + 32_768.0).round().clamp(0.0, 65_535.0)), "").is_ok());
         let in_si = Recording { unit: ReadingUnit::MetrePerSecondSquared, ..wrapped };
         assert!(check(&in_si, "").is_ok());

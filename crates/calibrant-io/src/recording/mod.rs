@@ -5,11 +5,11 @@
 //! | `t_s,ax,ay,az`, axes optionally ending in `_mps2`, `_counts`, `_g` | its header |
 //! | `t x y z` (imu_tk's `.mat` files and many others) | a first row of numbers |
 //!
-//! Every other format is that of a whole IMU (`imu/`); [`read_accelerometer`] takes its accelerometer alone.
+//! Every other format is that of a whole IMU (`imu/`). [`read_accelerometer`] takes its accelerometer alone.
 //!
-//! Delimiters: comma, semicolon, tab or white space, found in the first line. Comment lines (`#`, `//`, `%`), blank lines, a byte
-//! order mark and line ends of any system are fine. What can be repaired is repaired and told as a [`Finding`]; what would change
-//! the answer unnoticed is an error.
+//! Delimiters: comma, semicolon, tab or white space, found in the first line. Comment lines (`#`, `//`, `%`),
+//! blank lines, a byte order mark and line ends of any system are fine. The reader repairs what it can and
+//! reports it as a [`Finding`]. What would change the answer unnoticed is an error.
 
 mod checksum;
 mod chunked_reader;

@@ -1,13 +1,13 @@
-//! How a recording of an accelerometer is read.
+//! Options for reading a recording of an accelerometer.
 
 use calibrant_core::sensor::ReadingUnit;
 
-/// How a recording is read.
+/// Options for reading a recording.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ReadOptions {
     /// Unit of the readings where the user gives it (`--unit`); a header that contradicts it is an error.
     pub unit: Option<ReadingUnit>,
-    /// Unit that the experiment expects: that of the readings where neither the header nor the user says.
+    /// Unit that the experiment expects. It applies where neither the header nor the user gives one.
     pub expected_unit: ReadingUnit,
     /// Number of axes that are needed, 1 or 3.
     pub axes: usize,

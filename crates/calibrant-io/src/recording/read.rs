@@ -15,10 +15,10 @@ use std::path::Path;
 /// Reads a recording.
 ///
 /// # Errors
-/// [`Error::Recording`] with file, line and column: a file that cannot be read or is not text; columns missing, or units that
-/// contradict each other; a row with too few or too many columns, or something that is not a number; |t| above 1e12, or |reading|
-/// in more than one row of 50 (fewer are invalid samples; none above 1e300);
-/// a time that goes backwards; fewer than two samples.
+/// [`Error::Recording`] with file, line and column. The file cannot be read or is not text. Columns are
+/// missing, or units contradict each other. A row has too few or too many columns, or a field that is not a
+/// number. |t| is above 1e12. |reading| is above 1e12 in more than one row of 50, or above 1e300; fewer are
+/// invalid samples. A time goes backwards. There are fewer than two samples.
 pub fn read_recording(path: &Path, options: &ReadOptions) -> Result<RecordingFile> {
     let bytes = text_decoding::read_bytes(path, LARGEST, "the recording")
         .map_err(|input_error| Error::recording(*input_error))?;

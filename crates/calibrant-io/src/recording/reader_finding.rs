@@ -1,11 +1,11 @@
-//! What a reader noticed in a recording that can be used nevertheless.
+//! The findings of a reader: what it noticed in a recording that can be used nevertheless.
 
 use std::fmt;
 
-/// What kind of thing was noticed.
+/// The kind of a finding.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum FindingKind {
-    /// Columns that are not needed were left aside.
+    /// Columns that are not needed were not used.
     IgnoredColumns,
     /// The header's unit is not the experiment's.
     Unit,
@@ -17,7 +17,7 @@ pub enum FindingKind {
     DuplicateTime,
     /// The last line was cut off and was dropped.
     TruncatedLastLine,
-    /// The file ends before its container does: what was recorded afterwards is not there.
+    /// The file ends before its container does: the later part of the recording is missing.
     Unfinished,
     /// Samples are missing: the time makes a jump.
     Gap,
@@ -29,35 +29,36 @@ pub enum FindingKind {
     EqualAxes,
     /// Readings stay at the extreme value as if clipped there.
     Saturation,
-    /// Where the sample times come from, where it is not simply a column of seconds.
+    /// The source of the sample times, where it is not simply a column of seconds.
     Clock,
     /// A sensor of a pair of files was recorded for a part of the other's time only.
     ShorterThanOther,
     /// The sensors of a pair of files were never recorded at the same time.
     NoCommonTime,
-    /// The sample times are hardly in the unit that is stated.
+    /// The sample times are most likely not in the stated unit.
     DoubtfulClock,
     /// The temperature is missing in some rows, seldom for long.
     Temperature,
-    /// It is missing for so long, or is so far from any sensor's, that what follows it is in doubt.
+    /// The temperature is missing for so long, or is so implausible, that the results that follow it are
+    /// doubtful.
     DoubtfulTemperature,
 }
 
-/// Something noticed in a recording: what, where, and what was done about it.
+/// A finding in a recording: what, where, and the reader's action.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Finding {
-    /// What kind of thing.
+    /// The kind of finding.
     pub kind: FindingKind,
     /// Line of its first occurrence, from 1, where it is about a line.
     pub line: Option<usize>,
-    /// What, in words.
+    /// The finding, in words.
     pub message: String,
     /// Is it about the gyroscope's file of a pair, not the accelerometer's?
     pub in_second_file: bool,
 }
 
 impl Finding {
-    /// Is it more than a note: does what follows from the recording become doubtful?
+    /// Is it more than a note: do results of the recording become doubtful?
     #[must_use]
     pub fn is_warning(&self) -> bool {
         use FindingKind::{DoubtfulClock, DoubtfulTemperature, NoCommonTime, Unfinished};
@@ -78,7 +79,7 @@ impl fmt::Display for Finding {
     }
 }
 
-/// How many times something was noticed, and where first.
+/// The number of occurrences of something, and the first place.
 #[derive(Default)]
 pub(super) struct Tally {
     count: usize,
@@ -92,7 +93,7 @@ impl Tally {
         self.first = self.first.or(line);
     }
 
-    /// One finding for all; `say` puts the count into words.
+    /// One finding for all occurrences; `say` puts the count into words.
     pub(super) fn report(
         &self,
         kind: FindingKind,
@@ -111,7 +112,8 @@ pub(super) fn count(number: usize, noun: &str) -> String {
     format!("{number} {noun}{}", if number == 1 { "" } else { "s" })
 }
 
-/// A time as it stands in the file where six digits do not tell it from its neighbours, as in seconds since 1970.
+/// A time as it stands in the file. It serves where six digits do not distinguish it from its neighbours, as
+/// in seconds since 1970.
 pub(super) fn moment(time_s: f64) -> String {
     if time_s.abs() < 1e5 { short(time_s) } else { time_s.to_string() }
 }

@@ -1,22 +1,23 @@
-//! Quality of a recording as a whole: gaps, irregular sampling, axes that are not connected, clipped readings.
+//! The quality of a recording as a whole: gaps, irregular sampling, axes that are not connected, clipped
+//! readings.
 
 use super::reader_finding::{Finding, FindingKind, count, moment, short};
 use super::row_reader::LineMap;
 use calibrant_core::sensor::{Axis, Recording, greater, lesser, missing};
 use nalgebra::Vector3;
 
-/// A step of the time is a gap from this many usual steps on.
+/// A time step is a gap from this many usual steps on.
 const GAP: f64 = 5.0;
-/// Most gaps that are told one by one.
+/// Largest number of gaps that are listed one by one.
 const GAPS_SHOWN: usize = 3;
-/// Relative deviation of time steps from the usual one that is not worth a word.
+/// Largest relative deviation of time steps from the usual one that needs no finding.
 const JITTER: f64 = 0.01;
-/// Inertial sensors are hardly read more seldom than this; where they seem to be, the unit of the time is in doubt.
+/// Inertial sensors are seldom read more slowly than this. Below it, the unit of the time is doubtful.
 const SLOW_HZ: f64 = 2.5;
 /// Rates from here on are usual.
 const USUAL_HZ: f64 = 5.0;
 
-/// Looks at a recording of at least two samples.
+/// Examines a recording of at least two samples.
 pub(super) fn examine(recording: &Recording, lines: &LineMap, findings: &mut Vec<Finding>) {
     sampling(recording, recording.rate_hz(), lines, findings);
     readings(recording, "", lines, findings);
@@ -54,7 +55,7 @@ pub(super) fn readings(recording: &Recording, of: &str, lines: &LineMap, finding
     }
 }
 
-/// Asks for the unit of the times where an IMU is read as seldom as none is.
+/// Asks for the unit of the times where the rate is lower than that of any IMU.
 pub(super) fn clock(rate: f64, findings: &mut Vec<Finding>) {
     if rate < SLOW_HZ
         && let Some((unit, short_unit)) =
@@ -70,7 +71,7 @@ pub(super) fn clock(rate: f64, findings: &mut Vec<Finding>) {
     }
 }
 
-/// Looks for gaps and irregular sampling, the rate being that of most samples, Hz.
+/// Looks for gaps and irregular sampling; `rate` is that of most samples, Hz.
 pub(super) fn sampling(recording: &Recording, rate: f64, lines: &LineMap, findings: &mut Vec<Finding>) {
     let usual = 1.0 / rate;
     let (mut gaps, mut longest, mut least, mut most) = (0_usize, (0.0, 0), f64::INFINITY, 0.0_f64);

@@ -1,4 +1,4 @@
-//! `recording.csv`.
+//! Writes `recording.csv`.
 
 use crate::atomic_output::write_atomically;
 use calibrant_core::error::{Error, InputError, Result};
@@ -35,8 +35,8 @@ pub fn write_recording(path: &Path, recording: &Recording) -> Result<()> {
 /// Numbers are written with the fewest digits that read back to the same bits.
 ///
 /// # Errors
-/// [`Error::Recording`] where a sensor is missing or the sensors' times differ, which this file has no place for; [`Error::Output`] where it cannot be
-/// written.
+/// [`Error::Recording`] where a sensor is missing or the sensors' times differ: this file has no place for
+/// them. [`Error::Output`] where it cannot be written.
 pub fn write_imu_recording(path: &Path, recording: &ImuRecording) -> Result<()> {
     let (Some(accelerometer), Some(gyroscope)) = (&recording.accelerometer, &recording.gyroscope) else {
         let input_error =

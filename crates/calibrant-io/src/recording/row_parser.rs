@@ -1,20 +1,22 @@
-//! One row of a recording: its fields as numbers, each in its slot, or a complaint that points at the field.
+//! Parses one row of a recording: its fields as numbers, each in its slot, or an error that points at the
+//! field.
 
 use crate::delimited_text::{Delimiter, Line, last_number_is_cut};
 use crate::text_decoding::Checked;
 use calibrant_core::error::InputError;
 use std::ops::RangeInclusive;
 
-/// Largest time and reading that make sense, in any unit.
+/// Largest plausible time and reading, in any unit.
 const LARGEST: f64 = 1e12;
-/// A few readings up to this are invalid samples, which are found where their neighbours are known; conversion to SI does not overflow below it.
+/// A few readings up to this are invalid samples; the search for spikes finds them. Conversion to SI does not
+/// overflow below it.
 const LARGEST_INVALID: f64 = 1e300;
-/// Readings that make no sense in more than one row of so many are no invalid samples.
+/// Implausible readings in more than one row of this number are not invalid samples.
 const MOST_INVALID: usize = 50;
 /// Slots of readings in every layout.
 const READINGS: RangeInclusive<usize> = 1..=6;
 
-/// Does a value make sense in this slot? A reading that does not may still be an invalid sample.
+/// Is a value plausible in this slot? An implausible reading may still be an invalid sample.
 pub(super) enum Sense {
     Some,
     Invalid,
@@ -22,7 +24,7 @@ pub(super) enum Sense {
 }
 
 impl Sense {
-    /// That of a value that is there.
+    /// The plausibility of a value that is there.
     pub(super) fn of(value: f64, slot: usize) -> Self {
         match value.abs() {
             size if size <= LARGEST => Self::Some,
@@ -39,12 +41,12 @@ impl Sense {
 /// Whole numbers above this are not exact as `f64`.
 const EXACT: u64 = 1 << 53;
 
-/// What the columns of a text are for.
+/// The purpose of the columns of a text.
 pub(super) struct Layout {
     pub(super) delimiter: Delimiter,
     /// For each column the slot of its values, `None` where it is not needed. Slot 0 is the time.
     pub(super) slots: Vec<Option<usize>>,
-    /// Names, for complaints; empty where there is no header.
+    /// Names, for errors; empty where there is no header.
     pub(super) names: Vec<String>,
     /// Is the line that they were found in a header (and not the first row)?
     pub(super) has_header: bool,
@@ -53,7 +55,7 @@ pub(super) struct Layout {
 }
 
 impl Layout {
-    /// Name of a column, for complaints.
+    /// Name of a column, for errors.
     pub(super) fn name(&self, column: usize) -> String {
         self.names
             .get(column)
@@ -70,20 +72,20 @@ pub(super) struct RowReader<'l> {
     pub(super) truncated: Option<usize>,
     /// Is the last line known to be cut off?
     last_is_cut: bool,
-    /// What was taken from ticks that are too large to be exact as `f64`.
+    /// The number that is subtracted from ticks that are too large to be exact as `f64`.
     pub(super) origin: Option<i64>,
-    /// Number of invalid readings, and what is to be said of the first if they are too many.
+    /// Number of invalid readings, and the error about the first if they are too many.
     invalid: (usize, Option<Box<InputError>>),
 }
 
-/// What is wrong with a row.
+/// The fault of a row.
 struct RowError {
     input_error: Box<InputError>,
-    /// Would it be right had the line not been cut off?
+    /// Would it be right if the line had not been cut off?
     cut: bool,
 }
 
-/// Length of the rows, where all have the same: what is shorter was cut off.
+/// Length of the rows, where all have the same: a shorter row was cut off.
 #[derive(Clone, Copy)]
 enum Width {
     Unknown,
@@ -104,7 +106,7 @@ impl<'l> RowReader<'l> {
         }
     }
 
-    /// Looks at the end of the text that the next lines are from.
+    /// Examines the end of the text that holds the next lines.
     pub(super) fn look_at_the_end(&mut self, text: &str) {
         self.last_is_cut = last_number_is_cut(text, self.layout.delimiter);
     }
@@ -114,7 +116,8 @@ impl<'l> RowReader<'l> {
         self.rows
     }
 
-    /// Reads the values of a line, each into its slot: NaN where one is missing or has no column. Not where the line is void or was cut off: `false`.
+    /// Reads the values of a line, each into its slot: NaN where one is missing or has no column. Returns
+    /// `false` where the line is empty or was cut off.
     pub(super) fn read<const N: usize>(&mut self, line: Line<'_>, values: &mut [f64; N]) -> Checked<bool> {
         if line.is_void() {
             return Ok(false);
@@ -144,7 +147,8 @@ impl<'l> RowReader<'l> {
         Ok(true)
     }
 
-    /// Complains of the first invalid reading where they are too many to be a few bad samples; after the last row.
+    /// Returns an error at the first invalid reading where they are too many to be a few bad samples. To be
+    /// called after the last row.
     pub(super) fn check_invalid(&mut self) -> Checked<()> {
         match self.invalid.1.take() {
             Some(input_error) if Sense::is_lost(self.invalid.0, self.rows) => Err(input_error),
@@ -152,7 +156,8 @@ impl<'l> RowReader<'l> {
         }
     }
 
-    /// Is this line, the last one, known to be cut off, or shorter than all rows before, which have the same length (numbers in columns)?
+    /// Is this last line known to be cut off? Or is it shorter than all rows before, which have the same
+    /// length (numbers in columns)?
     fn is_cut(&self, line: Line<'_>) -> bool {
         self.last_is_cut
             || (self.layout.delimiter == Delimiter::Whitespace

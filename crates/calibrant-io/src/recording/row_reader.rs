@@ -1,4 +1,4 @@
-//! The rows of a recording: one pass over the text, every row checked against the one before.
+//! Reads the rows of a recording: one pass over the text, every row checked against the one before.
 
 use super::columns::Columns;
 use super::reader_finding::{Finding, FindingKind, Tally, count};
@@ -8,7 +8,7 @@ use crate::text_decoding::Checked;
 use calibrant_core::error::InputError;
 use nalgebra::Vector3;
 
-/// The samples so far, and what was noticed on the way.
+/// The samples so far, and the findings.
 pub(super) struct Rows<'c> {
     columns: &'c Columns,
     reader: RowReader<'c>,
@@ -35,7 +35,7 @@ impl<'c> Rows<'c> {
         }
     }
 
-    /// Looks at the end of the text that the lines are from.
+    /// Examines the end of the text that holds the lines.
     pub(super) fn look_at_the_end(&mut self, text: &str) {
         self.reader.look_at_the_end(text);
     }
@@ -60,7 +60,7 @@ impl<'c> Rows<'c> {
         self.push(values[0], reading * self.columns.factor, line)
     }
 
-    /// Complains of readings that make no sense, where they are too many to be a few bad samples.
+    /// Returns an error for implausible readings, where they are too many to be a few bad samples.
     pub(super) fn check_invalid(&mut self) -> Checked<()> {
         self.reader.check_invalid()
     }
@@ -83,7 +83,7 @@ impl<'c> Rows<'c> {
         Ok(())
     }
 
-    /// Puts into words what was noticed.
+    /// Puts the findings into words.
     pub(super) fn report(&self, findings: &mut Vec<Finding>) {
         self.missing.report(FindingKind::Missing, findings, |n| {
             format!("{} with a missing or NaN value dropped", count(n, "sample"))
@@ -93,7 +93,7 @@ impl<'c> Rows<'c> {
     }
 }
 
-/// Complains that the time goes backwards, s.
+/// The error for a time that goes backwards, s.
 pub(super) fn backwards(before: f64, t: f64) -> InputError {
     InputError::new(
         format!("time goes backwards, from {before:?} s to {t:?} s"),
@@ -101,7 +101,7 @@ pub(super) fn backwards(before: f64, t: f64) -> InputError {
     )
 }
 
-/// Puts into words how many rows repeat the one before, or only its time.
+/// The findings about rows that repeat the one before, or only its time.
 pub(super) fn report_duplicates(rows: &Tally, times: &Tally, findings: &mut Vec<Finding>) {
     rows.report(FindingKind::DuplicateRow, findings, |n| {
         format!("{} equal to the one before dropped", count(n, "row"))
@@ -111,7 +111,7 @@ pub(super) fn report_duplicates(rows: &Tally, times: &Tally, findings: &mut Vec<
     });
 }
 
-/// Puts into words that the last line was cut off.
+/// The finding about a last line that was cut off.
 pub(super) fn report_truncated(line: Option<usize>, findings: &mut Vec<Finding>) {
     if line.is_some() {
         let message = "truncated last line dropped".to_owned();

@@ -1,4 +1,4 @@
-//! Truth and estimate of a population of simulated sensors.
+//! The fields of a calibration study: truth and estimate of a population of simulated sensors.
 
 use crate::shared_fields::{FitFields, MotionFields, axes_of, values_of};
 use calibrant_core::estimate::Recovered;

@@ -1,4 +1,4 @@
-//! Initial against optimal motion, sensor by sensor.
+//! The fields of a design study: initial against optimal motion, sensor by sensor.
 
 use super::calibration::{ParameterFields, SummaryFields};
 use crate::design::{CertificateFields, EvaluationFields, InputNoiseFields, LimitsFields};

@@ -1,4 +1,4 @@
-//! `study.json`: every experiment that was run, sensor by sensor.
+//! Writes `study.json`: every study that was run, sensor by sensor.
 
 mod calibration;
 mod improvement;
@@ -13,8 +13,8 @@ use serde::Serialize;
 use std::path::Path;
 use surface::SurfaceFields;
 
-/// Writes `study.json`: of each experiment the setting, the summary, every sensor, and what was looked at in detail (without its samples); `null` where an
-/// experiment was not run.
+/// Writes `study.json`: of each study the conditions, the summary, every sensor, and the case in detail
+/// (without its samples). It is `null` where a study was not run.
 ///
 /// # Errors
 /// [`Error::Output`](calibrant_core::Error::Output) where it cannot be written.

@@ -1,4 +1,4 @@
-//! The criterion over the jerks of two intervals.
+//! The fields of the surface: the criterion over the jerks of two intervals.
 
 use calibrant_design::study::TraceSurface;
 use serde::Serialize;

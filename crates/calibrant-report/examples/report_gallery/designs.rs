@@ -1,4 +1,4 @@
-//! Designs that look real: a swinging motion in place of the optimum, evaluated as the solver would.
+//! Made-up designs for the gallery: a swinging motion in place of the optimum, evaluated as the solver would.
 
 use super::{design, information, motion, sensor, simulate};
 use design::{
@@ -40,7 +40,7 @@ pub(crate) fn problem<'a>(sensor: &'a Sensor, limits: &'a Limits) -> DesignProbl
     }
 }
 
-/// A swing to and fro, `periods` times on each axis, as wide as the limits let it.
+/// A swing to and fro, `periods` times on each axis, as wide as the limits permit.
 pub(crate) fn swing(problem: &DesignProblem<'_>, periods: [f64; 3]) -> Evaluation {
     let axes = problem.sensor.axes;
     let of = |amplitude: &Vector3<f64>| {
@@ -63,7 +63,7 @@ pub(crate) fn swing(problem: &DesignProblem<'_>, periods: [f64; 3]) -> Evaluatio
     design::evaluate(problem, &of(&most)).expect("a valid setting")
 }
 
-/// A design of this problem with a certificate and so many starts.
+/// A design of this problem with a certificate and this number of starts.
 pub(crate) fn design_of(problem: &DesignProblem<'_>, starts: usize) -> Design {
     let limits = problem.effective_limits();
     let random = initial_motion(10, 1.0, problem.sensor.axes, &limits, &mut stream(1, Purpose::Motion, 0));
@@ -103,7 +103,7 @@ pub(crate) fn design_of(problem: &DesignProblem<'_>, starts: usize) -> Design {
     }
 }
 
-/// Designs over the displacement allowed, one of which is impossible and one unfinished.
+/// Designs over the allowed displacement. One is impossible and one unfinished.
 pub(crate) fn sweep(sensor: &Sensor) -> Sweep {
     let asked = [0.1, 0.5, 1.0, 2.0, 5.0, 10.0];
     let points = asked.iter().map(|&asked| {

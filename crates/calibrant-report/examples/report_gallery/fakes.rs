@@ -1,4 +1,4 @@
-//! Results that look real: simulated readings, fitted only as far as a picture needs it.
+//! Made-up results for the gallery: simulated readings, fitted only as far as a picture needs it.
 
 use super::{estimate, motion, sensor, study};
 use estimate::{
@@ -12,6 +12,7 @@ use rand_distr::{Distribution, StandardNormal};
 use sensor::{Gauge, ReadingUnit, Recording, Sensor, SensorModel, SensorParameters};
 use study::{ParameterSummary, SensorOutcome, SingleCase, Study};
 
+/// Noise of one sample, m/s².
 const NOISE: f64 = 2e-4;
 
 struct Dice(ChaCha8Rng);
@@ -129,7 +130,7 @@ fn calibrated(
     }
 }
 
-/// A static calibration of a sensor in counts, 38 holds, one of them bad.
+/// A static calibration of a sensor in counts: 38 holds, one of them bad.
 pub(crate) fn hold_case(count: usize, samples_per_hold: usize) -> (Calibration, Recording) {
     let mut dice = Dice::new(38);
     let mut datasheet = Sensor::triaxial(SensorModel::Full);

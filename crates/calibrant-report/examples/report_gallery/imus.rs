@@ -1,4 +1,4 @@
-//! A whole IMU turned by hand: simulated readings, really calibrated.
+//! A whole IMU turned by hand for the gallery: simulated readings, really calibrated.
 
 use super::{estimate, motion, sensor};
 use estimate::{
@@ -14,21 +14,25 @@ use sensor::{
     SensorParameters, Thermal,
 };
 
+/// Sample rate, Hz.
 const RATE_HZ: f64 = 50.0;
+/// Duration of a hold, s.
 const HOLD_S: f64 = 2.0;
+/// Duration of a turn, s.
 const TURN_S: f64 = 2.0;
+/// Gravity where the IMU is calibrated.
 const GRAVITY: Gravity = Gravity { magnitude_mps2: 9.81, sd_mps2: 3.5e-4 };
 /// The rotation that is disturbed.
 pub(crate) const DISTURBED: usize = 5;
 
-/// What was recorded, and what came of it.
+/// The recording and its calibration.
 pub(crate) struct ImuCase {
     pub(crate) recording: ImuRecording,
     pub(crate) calibration: ImuCalibration,
 }
 
-/// An IMU in counts through so many holds. A disturbance falls into one rotation, the last is a known turn about z, and one entry of the g-sensitivity is
-/// half known beforehand.
+/// An IMU in counts through this number of holds. A disturbance falls into one rotation, the last rotation is
+/// a known turn about z, and one entry of the g-sensitivity has a prior.
 pub(crate) fn imu_case(holds: usize, seed: u64) -> ImuCase {
     let truth = truth();
     let mut hand = Hand::new(&truth, seed);
@@ -132,7 +136,8 @@ impl<'a> Hand<'a> {
         self.recording.gyroscope.as_ref().map_or(0.0, |gyroscope| gyroscope.len() as f64 / RATE_HZ)
     }
 
-    /// By this angle about a fixed axis, beginning and ending at rest; something adds to the gyroscope's readings while it is quickest.
+    /// Turns by this angle about a fixed axis, beginning and ending at rest. `knock` adds to the gyroscope's
+    /// readings in the quickest part.
     fn turn(&mut self, angle: &Vector3<f64>, duration_s: f64, knock: Vector3<f64>) {
         let start = self.world_from_sensor;
         let samples = (duration_s * RATE_HZ) as usize;

@@ -1,4 +1,5 @@
-//! Reports of made-up results, to look at: `cargo run --example report_gallery -- DIRECTORY`.
+//! Writes reports of made-up results for a reader to look at:
+//! `cargo run --example report_gallery -- DIRECTORY`.
 
 use calibrant_core::{estimate, information, motion, sensor, simulate};
 use calibrant_design::{self as design, study};

@@ -1,4 +1,5 @@
-//! Studies that look real: swings in place of the optima, errors drawn from the predicted covariance.
+//! Made-up studies for the gallery: swings in place of the optima, errors drawn from the predicted
+//! covariance.
 
 use super::{design, designs, fakes, motion, sensor, simulate, study};
 use design::{DesignStatus, Evaluation};
@@ -16,7 +17,7 @@ pub(crate) fn calibrations(study: Study) -> Studies {
     Studies { calibration: Some(study), ..Studies::default() }
 }
 
-/// All of the report's experiments.
+/// All studies of the report.
 pub(crate) fn everything(calibrated: usize, designed: usize) -> Studies {
     let surface =
         SurfaceSettings { jerk_mps3: 0.5, points: 41, start_mps2: 0.0, interval_s: 1.0, rate_hz: 10.0 };

@@ -1,8 +1,8 @@
-//! The axes that a design is about.
+//! The axes of a design, from its parameters.
 
 use calibrant_core::sensor::{Axis, Parameter};
 
-/// The axes that the parameters are about.
+/// The axes of the parameters.
 pub(crate) fn axes(parameters: &[Parameter]) -> &'static [Axis] {
     let biases = parameters.iter().filter(|parameter| parameter.name.starts_with("bias.")).count();
     &Axis::ALL[..biases.min(3)]

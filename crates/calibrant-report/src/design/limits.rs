@@ -1,10 +1,10 @@
-//! The limits and how far a motion uses them.
+//! The table of limits, and how far a motion uses them.
 
 use crate::number_format;
 use crate::table::{Cell, Table};
 use calibrant_design::{LimitKind, LimitUse};
 
-/// A limit used to at least this share holds the motion back.
+/// A limit that is used to at least this share limits the motion.
 const ACTIVE: f64 = 0.9999;
 
 /// One row for each limit of each axis, at the time when the motion is worst.

@@ -1,4 +1,5 @@
-//! The report on a design: how good the motion is, what it promises, what the arm has to do, how it was found.
+//! The report page on a design: how good the motion is, what it promises, what the arm must do, how it was
+//! found.
 
 mod axes;
 mod limits;
@@ -22,8 +23,9 @@ use calibrant_design::{Design, limit_use};
 use predicted_sd::criterion_table;
 use verdict::verdict;
 
-/// A design as one HTML file: the certificate in words, what the motion promises beside the initial one, the motions with their limits,
-/// confidence ellipses, correlations, and the starts of the search.
+/// A design as one HTML file: the certificate in words, and the predicted standard deviations beside those of
+/// the initial motion. Also the motions with their limits, confidence ellipses, correlations, and the starts
+/// of the search.
 ///
 /// Self-contained as [`calibration_report`](super::calibration_report) is.
 #[must_use]

@@ -1,4 +1,4 @@
-//! Predicted standard deviations of two motions beside each other.
+//! The table of predicted standard deviations of two motions beside each other.
 
 use crate::figure::DisplayUnit;
 use crate::number_format;
@@ -7,10 +7,10 @@ use calibrant_core::information::Criterion;
 use calibrant_core::sensor::Parameter;
 use calibrant_design::{Design, Evaluation};
 
-/// What stands for the standard deviation of a parameter that is not determined.
+/// The text in place of the standard deviation of a parameter that is not determined.
 const UNDETERMINED: &str = "undetermined";
 
-/// Per parameter: sd of both motions, how many times smaller the second is, and the lower bound where there is one.
+/// Per parameter: sd of both motions, their ratio, and the lower bound where there is one.
 pub(crate) fn promised_table(
     parameters: &[Parameter],
     before: (&str, &Evaluation),
@@ -80,7 +80,7 @@ pub(crate) fn times(factor: f64) -> String {
     }
 }
 
-/// An excess over a bound; rounding may put it a hair below zero. A loose bound is a matter of factors.
+/// An excess over a bound. Rounding may put it slightly below zero. A loose bound is a matter of factors.
 pub(crate) fn above(excess: f64) -> String {
     match excess {
         _ if excess.abs() < 5e-5 => "< 0.01 %".to_string(),

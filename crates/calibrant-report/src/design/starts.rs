@@ -1,4 +1,4 @@
-//! The starts of the search in numbers.
+//! The table of the starts of the search.
 
 use crate::number_format;
 use crate::table::{Cell, Table};
@@ -6,7 +6,7 @@ use calibrant_core::information::Criterion;
 use calibrant_core::sensor::Axis;
 use calibrant_design::{AT_BEST, DesignStatus, StartOutcome};
 
-/// A longer table is folded.
+/// A table with more rows is folded.
 const MOST_UNFOLDED: usize = 40;
 
 /// The starts of the same axes, best first.
@@ -22,13 +22,13 @@ impl StartGroup<'_> {
         self.criterion.gap(start.value, self.sorted[0].value)
     }
 
-    /// How many reached the best.
+    /// How many starts reached the best value.
     pub(crate) fn reached(&self) -> usize {
         self.sorted.iter().filter(|start| self.excess(start).abs() <= AT_BEST).count()
     }
 }
 
-/// The starts by the axes that they are about.
+/// The starts by their axes.
 pub(crate) fn groups<'a>(starts: &'a [StartOutcome], criterion: &'a Criterion) -> Vec<StartGroup<'a>> {
     let mut groups: Vec<StartGroup<'a>> = Vec::new();
     for start in starts {

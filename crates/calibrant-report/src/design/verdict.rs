@@ -1,4 +1,4 @@
-//! The headline: how good is this motion, and how do we know?
+//! The verdict on a design: how good is this motion, and how is that shown?
 
 use super::axes;
 use super::predicted_sd::{above, times};
@@ -15,7 +15,7 @@ use calibrant_design::{Certificate, Design, DesignStatus, Evaluation, LimitUse, 
 const PROVED: f64 = 0.01;
 /// An initial motion within this factor of the bound leaves nothing to gain.
 const NOTHING_TO_GAIN: f64 = 1.02;
-/// Within this, the bound still says something.
+/// Within this distance, the bound is still informative.
 const NEAR: f64 = 0.1;
 
 /// The verdict and everything that qualifies it, as one prominent box.
@@ -71,7 +71,7 @@ fn unfinished(status: DesignStatus) -> Option<&'static str> {
     }
 }
 
-/// Says what the certificate proves; returns how far the worst parameter is from its bound.
+/// States what the certificate proves; returns how far the worst parameter is from its bound.
 fn bound(design: &Design, certificate: &Certificate, sentences: &mut Vec<String>) -> f64 {
     let excess: Vec<(&Parameter, f64, f64)> = design
         .parameters

@@ -5,17 +5,17 @@ use super::unit::DisplayUnit;
 use super::{Figure, colour};
 use calibrant_core::noise::{AxisNoise, PowerLaw, SensorNoise};
 
-/// Points of a fitted line.
+/// Number of points of a fitted line.
 const LINE: usize = 60;
 /// Label of a filter's share of the Allan variance.
 const FILTER: &str = "share of a filter";
 
-/// Allan deviation of each axis with its 95 % bounds, the fitted model and the processes that it consists of.
+/// Allan deviation of each axis with its 95 % bounds, the fitted model and its processes.
 pub(crate) fn allan_figure(noise: &SensorNoise) -> Figure {
     let highest = noise.axes.iter().flat_map(|axis| &axis.allan.points).map(|point| point.deviation);
     let unit = DisplayUnit::suited_to(noise.unit.symbol(), highest);
     let mut panels: Vec<Panel> = noise.axes.iter().map(|axis| panel(axis, unit)).collect();
-    // the same range everywhere, so that axes can be compared by eye
+    // the same range everywhere, so that a reader can compare the axes
     let extremes: Vec<f64> =
         panels.iter().filter_map(Panel::ranges).flat_map(|[_, (low, high)]| [low, high]).collect();
     panels.iter_mut().for_each(|panel| panel.y_includes.clone_from(&extremes));

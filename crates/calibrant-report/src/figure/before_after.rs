@@ -1,4 +1,4 @@
-//! The readings before and after the correction.
+//! Figures of the readings before and after the correction.
 
 use super::panel::{Mark, Panel, Series, Shape};
 use super::point_thinning::{is_thinned, thinned, thinned_dots};
@@ -10,10 +10,13 @@ use calibrant_core::sensor::{
 };
 use nalgebra::Vector3;
 
+/// Legend of readings before the correction.
 const BEFORE: &str = "before";
+/// Legend of readings after the correction.
 const AFTER: &str = "after";
 
-/// Magnitude of the mean reading of each hold less gravity: before and after on one axis, and after alone on its own. `None` without holds.
+/// Magnitude of the mean reading of each hold less gravity. One panel has both before and after, another has
+/// after alone. `None` without holds.
 pub(crate) fn holds_before_and_after(holds: &HoldCalibration) -> Option<Figure> {
     let numbered = || (1..).map(f64::from).zip(&holds.holds);
     let before: Vec<(f64, f64)> = numbered()
@@ -71,10 +74,10 @@ pub(crate) fn force_before_and_after(
     Some(Figure::new("The recording, before and after", panels, caption).with_columns(2))
 }
 
-/// The same of an IMU, and what the correction changes of its angular rate.
+/// The same of an IMU, and the change of its angular rate by the correction.
 pub(crate) fn imu_before_and_after(calibration: &ImuCalibration, recording: &ImuRecording) -> Option<Figure> {
     let (accelerometer, gyroscope) = (recording.accelerometer.as_ref()?, recording.gyroscope.as_ref()?);
-    // the values are asked for, not how well they are known
+    // the figure needs the values only, not their uncertainty
     let imu = CalibratedImu { covariance: None, ..calibration.calibrated() };
     let corrected = ImuCorrection::of(&imu).ok()?.apply(&imu, recording).ok()?;
     let forces = corrected.accelerometer?;
@@ -133,7 +136,7 @@ fn force_panels(
     ])
 }
 
-/// The rate after the correction, and what that changes of it. `after` are the corrected readings.
+/// The rate after the correction, and the change by it. `after` are the corrected readings.
 fn rate_panels(
     calibration: &ImuCalibration,
     after: &[Vector3<f64>],

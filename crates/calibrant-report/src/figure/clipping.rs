@@ -1,11 +1,12 @@
-//! Names of clipping paths, the same in every run.
+//! Names of clipping paths in a page, made the same in every run.
 
 use std::collections::BTreeMap;
 
-/// What the plotting library's names of clipping paths begin with; a number follows.
+/// The prefix of the plotting library's names of clipping paths; a number follows.
 const CLIP: &str = "kuva-clip-";
 
-/// A page whose clipping paths are numbered in their order on it. The library counts those of the whole process, figures of other threads among them.
+/// A page whose clipping paths are numbered in their order on it. The library numbers them over the whole
+/// process, with figures of other threads among them.
 pub(crate) fn renumbered(page: &str) -> String {
     let mut numbers: BTreeMap<&str, usize> = BTreeMap::new();
     let mut text = String::with_capacity(page.len());

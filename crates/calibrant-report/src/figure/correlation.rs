@@ -7,7 +7,7 @@ use crate::number_format;
 use calibrant_core::sensor::Parameter;
 use nalgebra::DMatrix;
 
-/// Beyond so many parameters, columns bear numbers in place of names.
+/// Beyond this number of parameters, columns bear numbers in place of names.
 const NARROW: usize = 14;
 
 /// The correlations of a covariance: their lower triangle, coloured by sign and size.

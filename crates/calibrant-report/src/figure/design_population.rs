@@ -1,4 +1,4 @@
-//! Initial against optimal motions over many sensors: the report's Figures 9 to 11, 13 and 14.
+//! Figures of initial against optimal motions over many sensors: the report's Figures 9 to 11, 13 and 14.
 
 use super::motion::{TIME, nodes};
 use super::panel::{Mark, Panel, Series, Shape};
@@ -10,7 +10,7 @@ use calibrant_core::motion::JerkControlledMotion;
 use calibrant_core::sensor::Axis;
 use calibrant_design::study::{DesignOutcome, DesignStudy, MotionOutcome};
 
-/// At most this many sensors are drawn one by one.
+/// Largest number of sensors that are drawn one by one.
 const MOST_SENSORS: usize = 200;
 /// Above this ratio of largest to smallest, an axis is logarithmic.
 const WIDE: f64 = 4.0;
@@ -64,7 +64,7 @@ pub(crate) fn optimal_motions(title: &str, study: &DesignStudy, axes: &[Axis]) -
     Figure::new(title, panels, caption).with_columns(columns)
 }
 
-/// How many motions are the first one or its mirror image on this axis, in words.
+/// The number of motions on this axis that equal the first one or its mirror image, in words.
 fn counted(axis: Axis, motions: &[&JerkControlledMotion]) -> String {
     let values = |motion: &JerkControlledMotion| -> Vec<f64> {
         motion.acceleration_mps2().iter().map(|a| a[axis.index()]).collect()
@@ -123,7 +123,8 @@ pub(crate) fn traces(title: &str, study: &DesignStudy) -> Figure {
     Figure::new(title, vec![panel], caption)
 }
 
-/// Absolute errors of each sensor's parameters, with both motions: biases (a), scale factors (b), and what else there is (c).
+/// Absolute errors of each sensor's parameters, with both motions: biases (a), scale factors (b), and others
+/// (c).
 pub(crate) fn absolute_errors(title: &str, study: &DesignStudy) -> Figure {
     let sensors = every(study.outcomes.len(), MOST_SENSORS);
     let mut panels = Vec::new();

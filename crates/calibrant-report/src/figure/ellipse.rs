@@ -1,4 +1,4 @@
-//! Confidence ellipses of bias and scale factor.
+//! The figure of confidence ellipses of bias and scale factor.
 
 use super::panel::{Mark, Panel, Series, Shape};
 use super::unit::DisplayUnit;
@@ -9,10 +9,11 @@ use nalgebra::{DMatrix, Matrix2, Vector2};
 
 /// Mahalanobis radius that holds 95 % of two normal variables: √(−2 ln 0.05).
 const RADIUS_95: f64 = 2.447_746_83;
-/// Below this ratio of extents, both ellipses can be read in one panel.
+/// Below this ratio of extents, a reader can see both ellipses in one panel.
 const SAME_SIZE: f64 = 3.0;
 
-/// The 95 % ellipse of (bias, scale factor) of each axis: both motions to one scale, and the better one alone where it is too small for that.
+/// The 95 % ellipse of (bias, scale factor) of each axis, for both motions to one scale. The better one has
+/// its own panel where it is too small there.
 pub(crate) fn confidence_ellipses(
     parameters: &[Parameter],
     before: (&str, &Evaluation),

@@ -1,4 +1,4 @@
-//! A figure: panels in a frame, with title, legend and caption.
+//! The frame of a figure: panels with title, legend and caption, as HTML.
 
 use super::panel::{Panel, Series};
 use super::svg;
@@ -51,7 +51,8 @@ impl Figure {
     }
 }
 
-/// Figures as HTML, side by side, as drawing is what a report waits for; nothing for those that there is no occasion for.
+/// Figures as HTML, drawn in parallel, since a report mostly waits for drawing. Nothing for a figure that is
+/// `None`.
 pub(crate) fn drawn<const N: usize>(figures: [&(dyn Fn() -> Option<Figure> + Sync); N]) -> [String; N] {
     let mut html = figures.map(|_| String::new());
     html.par_iter_mut().zip(figures).for_each(|(html, figure)| {

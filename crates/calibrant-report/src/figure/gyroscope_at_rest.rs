@@ -1,4 +1,4 @@
-//! What the gyroscope shows while it is still.
+//! The figure of the gyroscope's mean rate at rest.
 
 use super::panel::{Mark, Panel, Series, Shape};
 use super::{Figure, colour};
@@ -9,8 +9,8 @@ use nalgebra::Vector3;
 /// Below this rate in °/s, rates are given in °/h.
 const SLOW_DEGPS: f64 = 0.02;
 
-/// The mean rate that the corrected gyroscope shows in each hold, which should be zero, beside what its noise and its scatter explain. `None` where no hold
-/// has readings of it.
+/// The mean rate of the corrected gyroscope in each hold. It should be zero. Beside it is what noise and
+/// scatter explain. `None` where no hold has readings of the gyroscope.
 pub(crate) fn still_gyroscope(calibration: &ImuCalibration, gyroscope: &Recording) -> Option<Figure> {
     let means: Vec<Mean> = calibration
         .holds

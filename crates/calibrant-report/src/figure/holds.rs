@@ -1,4 +1,4 @@
-//! Static calibration: the recording with its holds, and how well each hold fits.
+//! Figures of a static calibration: the recording with its holds, and how well each hold fits.
 
 use super::panel::{Mark, Panel, Series, Shade, Shape};
 use super::point_thinning::{is_thinned, thinned};
@@ -7,7 +7,9 @@ use super::{Figure, colour};
 use calibrant_core::estimate::HoldCalibration;
 use calibrant_core::sensor::Recording;
 
+/// Legend of a hold that was used.
 const USED: &str = "hold";
+/// Legend of a hold that was not used.
 const LEFT_OUT: &str = "hold, left out";
 
 /// The recording of each axis with the holds shaded.
@@ -45,7 +47,7 @@ pub(crate) fn recording_overview(holds: &HoldCalibration, recording: &Recording)
     Figure::new("The recording and its holds", panels, caption)
 }
 
-/// Corrected magnitude less gravity of each hold, beside what is expected of it.
+/// Corrected magnitude less gravity of each hold, beside its expected scatter.
 pub(crate) fn hold_residuals(holds: &HoldCalibration) -> Figure {
     let residuals: Vec<f64> = holds.holds.iter().map(|hold| hold.magnitude_residual_mps2).collect();
     let unit = DisplayUnit::suited_to("m/s²", residuals.iter().copied());

@@ -1,8 +1,8 @@
 //! Figures as data: panels of series with a title, a legend and a caption, drawn at the very end.
 //!
-//! A [`Figure`] becomes one `<figure>`: panels beside each other where there is room and below each other where there is
-//! not, each its own SVG that scales with its column, so that letters stay legible on a phone. The legend is made from the
-//! series themselves. [`svg`] is the only place that knows the plotting library.
+//! A [`Figure`] becomes one `<figure>`. Its panels are beside each other where there is room, and else below
+//! each other. Each is an SVG of its own that scales with its column, so that letters stay legible on a
+//! phone. The legend comes from the series themselves. Only [`svg`] knows the plotting library.
 
 mod allan;
 mod before_after;

@@ -1,4 +1,4 @@
-//! The recovered motion: the report's Figures 4 and 5.
+//! Figures of the recovered motion: the report's Figures 4 and 5.
 
 use super::panel::{Mark, Panel, Series, Shape};
 use super::point_thinning::{is_thinned, thinned};
@@ -9,9 +9,10 @@ use calibrant_core::motion::JerkControlledMotion;
 use calibrant_core::sensor::{Axis, Correction, ReadingUnit, Recording};
 use nalgebra::Vector3;
 
+/// Label of the time axis.
 pub(super) const TIME: &str = "time (s)";
 
-/// Acceleration as measured, as it was where that is known, and as estimated: the report's Figure 4.
+/// Acceleration as measured, as estimated, and the true one where it is known: the report's Figure 4.
 pub(crate) fn acceleration_figure(
     title: &str,
     calibration: &Calibration,
@@ -69,7 +70,8 @@ pub(crate) fn acceleration_figure(
     Figure::new(title, panels, caption)
 }
 
-/// Estimated less true acceleration with its stated uncertainty, or the uncertainty alone; `None` where neither says anything.
+/// Estimated less true acceleration with its stated uncertainty, or the uncertainty alone. `None` where
+/// neither is known.
 pub(crate) fn motion_error_figure(
     recovered: &RecoveredMotion,
     recording: &Recording,

@@ -1,4 +1,4 @@
-//! Motions over time with their limits: the report's Figure 8, and what the arm has to do for it.
+//! Figures of motions over time with their limits: the report's Figure 8, and the motion of the arm for it.
 
 use super::motion::{TIME, nodes, steps};
 use super::panel::{Mark, Panel, Series};
@@ -8,9 +8,10 @@ use crate::design::starts::name;
 use calibrant_core::motion::{AxisLimits, JerkControlledMotion, Limits};
 use calibrant_core::sensor::Axis;
 
-/// Points drawn of each interval, so that peaks between nodes show.
+/// Number of points per interval, so that peaks between nodes show.
 const POINTS_PER_INTERVAL: usize = 24;
-/// A limit is drawn where it is below this many times the largest value; farther away it would flatten the curves.
+/// A limit is drawn where it is below this many times the largest value. Farther away it would flatten the
+/// curves.
 const NEAR: f64 = 4.0;
 
 /// A motion as it is drawn: name in the legend, colour, width of its lines.
@@ -34,7 +35,7 @@ impl<'a> Drawn<'a> {
     }
 }
 
-/// Something of a motion that is drawn over time.
+/// A quantity of a motion that is drawn over time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Profile {
     Jerk,

@@ -1,6 +1,6 @@
-//! One pair of axes and what is drawn in it.
+//! One pair of axes and the series in it, as data.
 
-/// How a series looks.
+/// The look of a series.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Mark {
     /// A line; the dashes are SVG's, empty for solid.
@@ -63,7 +63,7 @@ impl Series {
         self
     }
 
-    /// Points and half widths that can be drawn: what is not finite is left out.
+    /// Points and half widths that can be drawn: the finite ones.
     pub(super) fn finite(&self) -> impl Iterator<Item = (f64, f64, f64)> + '_ {
         self.points.iter().enumerate().filter_map(|(i, &(x, y))| {
             let spread = self.spread.get(i).copied().unwrap_or(0.0);
@@ -76,7 +76,7 @@ impl Series {
     }
 }
 
-/// A stretch of the x axis that is shaded.
+/// A shaded interval of the x axis.
 #[derive(Debug, Clone)]
 pub(super) struct Shade {
     /// As in the legend.
@@ -106,7 +106,7 @@ pub(super) struct Panel {
     pub(super) log_x: bool,
     /// Logarithmic y axis; only positive points are drawn.
     pub(super) log_y: bool,
-    /// What to say in place of a plot where there is nothing to show.
+    /// The text in place of a plot where there is nothing to show.
     pub(super) when_empty: String,
 }
 

@@ -1,9 +1,10 @@
-//! Fewer points for the same picture.
+//! Thinning of points: fewer points for the same picture.
 
-/// At most this many columns of pixels are told apart in a panel.
+/// Largest number of columns of pixels in a panel.
 const COLUMNS: usize = 400;
 
-/// The smallest and the largest value of each column of pixels, in order of x: looks the same as all points.
+/// The smallest and the largest value of each column of pixels, in order of x. It looks the same as all
+/// points.
 pub(super) fn thinned(points: impl ExactSizeIterator<Item = (f64, f64)>) -> Vec<(f64, f64)> {
     thinned_to(COLUMNS, points)
 }
@@ -47,7 +48,7 @@ impl Default for Column {
 impl Column {
     /// Takes another point, if it is finite.
     fn add(&mut self, point: (f64, f64)) {
-        // few points get so far that this is asked
+        // few points get here
         let is_finite = || point.0.is_finite() && point.1.is_finite();
         if point.1 < self.low.1 && is_finite() {
             self.low = point;
@@ -57,7 +58,7 @@ impl Column {
         }
     }
 
-    /// In order of x; one where both are the same.
+    /// In order of x; one value where both are the same.
     fn extremes(self) -> impl Iterator<Item = (f64, f64)> {
         let Self { low, high } = self;
         let (first, second) = if high.0 < low.0 { (high, low) } else { (low, high) };
@@ -93,7 +94,7 @@ mod tests {
         assert!(kept.contains(&(54_321.0, 99.0)));
         assert!(kept.windows(2).all(|pair| pair[0].0 < pair[1].0));
         assert!(kept.iter().all(|point| point.1.is_finite()));
-        // constant, and not known in parts
+        // constant, and unknown in part
         let flat = (0..100_000).map(|i| (f64::from(i), if i < 50_000 { f64::NAN } else { 2.0 }));
         let kept = thinned(flat);
         assert_eq!((kept.len(), kept[0]), (COLUMNS / 2, (50_000.0, 2.0)));

@@ -1,4 +1,4 @@
-//! A population of sensors: the report's Figure 6 and what it hides.
+//! Figures of a population of sensors: the report's Figure 6 and the errors behind it.
 
 use super::panel::{Mark, Panel, Series, Shape};
 use super::point_thinning::every;
@@ -8,8 +8,9 @@ use super::{Figure, colour};
 use calibrant_core::sensor::Parameter;
 use calibrant_design::study::Study;
 
-/// At most this many sensors are drawn one by one.
+/// Largest number of sensors that are drawn one by one.
 const MOST_POINTS: usize = 500;
+/// Largest number of sensors that are drawn with error bars.
 const MOST_BARS: usize = 150;
 
 /// Estimated against true parameters, biases left and scale factors right: the report's Figure 6.

@@ -1,4 +1,4 @@
-//! Residuals: over time, as a histogram, and their autocorrelation.
+//! Figures of residuals: over time, as a histogram, and their autocorrelation.
 
 use super::panel::{Mark, Panel, Series, Shape};
 use super::point_thinning::{is_thinned, thinned};
@@ -77,7 +77,7 @@ pub(crate) fn histograms(calibration: &Calibration, recording: &Recording) -> Fi
     Figure::new("Distribution of the residuals", panels, caption)
 }
 
-/// Autocorrelation of each axis' residuals with the band that white noise keeps to.
+/// Autocorrelation of each axis' residuals with the band of white noise.
 pub(crate) fn autocorrelations(calibration: &Calibration, recording: &Recording) -> Figure {
     let unit = unit_of(calibration);
     let panels = panels(calibration, recording, "lag (samples)", "autocorrelation", |axis, mut panel| {

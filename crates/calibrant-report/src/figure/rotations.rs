@@ -1,4 +1,4 @@
-//! How far gravity is missed after each rotation of a whole IMU.
+//! The figure of rotation errors: gravity after each rotation of a whole IMU.
 
 use super::panel::{Mark, Panel, Series, Shape};
 use super::{Figure, colour};

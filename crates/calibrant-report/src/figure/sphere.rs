@@ -1,14 +1,15 @@
-//! The holds' directions on the sphere, in two equal-area hemispheres.
+//! The figure of the holds' directions on the sphere, in two equal-area hemispheres.
 //!
-//! Drawn by hand: a sphere with a graticule and numbered points is beyond the plotting library.
+//! This file draws it itself: a sphere with a graticule and numbered points is beyond the plotting library.
 
 use super::colour;
 use super::frame::framed;
 use calibrant_core::estimate::{HoldCalibration, HoldResult};
 use nalgebra::Vector3;
 
-/// Radius of a hemisphere and half the side of its drawing.
+/// Radius of a hemisphere.
 const RADIUS: f64 = 165.0;
+/// Half the side of a hemisphere's drawing.
 const HALF: f64 = 212.0;
 
 /// Directions of the specific force in the sensor's frame, one numbered point for each hold.
@@ -80,8 +81,10 @@ fn hemisphere(holds: &HoldCalibration, name: &str, upper: bool) -> String {
     svg + "</svg>"
 }
 
-/// Where each number goes: the place about its point that is farthest from other points and numbers already placed.
+/// The position of each number. It is the place about its point that is farthest from other points and
+/// numbers already placed.
 fn placed(points: &[(usize, (f64, f64), bool)]) -> Vec<(usize, (f64, f64), bool)> {
+    /// Places of a number about its point.
     const PLACES: [(f64, f64); 8] = [
         (11.0, -5.0),
         (-11.0, -5.0),
@@ -103,7 +106,7 @@ fn placed(points: &[(usize, (f64, f64), bool)]) -> Vec<(usize, (f64, f64), bool)
                 .map(|p| (p.0 - cx).hypot(1.3 * (p.1 - cy)))
                 .fold(40.0, f64::min)
         };
-        // a little reluctance to leave the first place keeps the picture calm
+        // a small preference for the first place keeps the picture calm
         let score = |i: usize| room(&PLACES[i]) - 0.5 * i as f64;
         let best = (0..PLACES.len()).max_by(|&a, &b| score(a).total_cmp(&score(b))).unwrap_or(0);
         let (dx, dy) = PLACES[best];

@@ -1,4 +1,4 @@
-//! Where the starts of the search ended.
+//! The figure of the final values of all starts of the search.
 
 use super::panel::{Mark, Panel, Series, Shape};
 use super::{Figure, colour};
@@ -6,7 +6,8 @@ use crate::design::starts::{groups, name};
 use calibrant_core::information::Criterion;
 use calibrant_design::{DesignStatus, StartOutcome};
 
-/// The values of all starts, best first, as their distance from the best; `None` where there is nothing to compare.
+/// The values of all starts, best first, as their distance from the best. `None` where there is nothing to
+/// compare.
 pub(crate) fn start_values(starts: &[StartOutcome], criterion: &Criterion) -> Option<Figure> {
     let groups = groups(starts, criterion);
     if groups.iter().all(|group| group.sorted.len() < 2) {

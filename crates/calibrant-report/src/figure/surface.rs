@@ -1,22 +1,28 @@
-//! The criterion over the jerks of two intervals as a map in bands: the report's Figure 7.
+//! The figure of the criterion over the jerks of two intervals, as a map in bands: the report's Figure 7.
 //!
-//! Drawn by hand: bands whose edges read as contours, with a bar that names them, are beyond the plotting library.
+//! This file draws it itself: bands whose edges read as contours, with a bar that names them, are beyond the
+//! plotting library.
 
 use super::frame::framed;
 use crate::html::escape;
 use crate::number_format;
 use calibrant_design::study::TraceSurface;
 
-/// Left edge, top edge and side of the map, in a drawing of `WIDTH` by `HEIGHT`.
+/// Left edge of the map.
 const LEFT: f64 = 78.0;
+/// Top edge of the map.
 const TOP: f64 = 12.0;
+/// Side of the map.
 const SIDE: f64 = 360.0;
+/// Width of the drawing.
 const WIDTH: f64 = 556.0;
+/// Height of the drawing.
 const HEIGHT: f64 = 428.0;
 /// Left edge and width of the colour bar.
 const BAR: (f64, f64) = (462.0, 18.0);
+/// Colour of lines and letters.
 const INK: &str = "#1b1f24";
-/// At most so many bands.
+/// Largest number of bands.
 const MOST_BANDS: f64 = 18.0;
 
 /// The map; dark is good.
@@ -204,6 +210,7 @@ impl Bands {
 
 /// The colour map viridis, dark for 0 and bright for 1: even steps for all common kinds of colour vision, and in grey.
 fn viridis(share: f64) -> String {
+    /// Colours of viridis at equal steps.
     const STOPS: [[u8; 3]; 9] = [
         [68, 1, 84],
         [71, 45, 123],

@@ -1,4 +1,4 @@
-//! Panels as SVG: the one place that knows the plotting library.
+//! Panels as SVG: the only file that knows the plotting library.
 
 use super::panel::{Mark, Panel, Series, Shape};
 use crate::html::escape;
@@ -7,10 +7,13 @@ use kuva::prelude::{Layout, LinePlot, LineStyle, MarkerShape, Plot, ScatterPlot,
 use kuva::{TickFormat, plot::BandPlot, render::annotations::ShadedRegion};
 use std::sync::Arc;
 
-/// Width of a panel in SVG units; a column of a wide page, or a phone, is about as many pixels wide.
+/// Width of a panel in SVG units. A column of a wide page, or a phone, is about as many pixels wide.
 const WIDTH: f64 = 400.0;
+/// Height of a panel in SVG units.
 const HEIGHT: f64 = 270.0;
+/// Height of a square panel in SVG units.
 const SQUARE_HEIGHT: f64 = 400.0;
+/// Fonts of the letters, the first available one.
 const FONT: &str = "system-ui, 'Segoe UI', Roboto, 'DejaVu Sans', Arial, sans-serif";
 
 /// The panel as an SVG that takes the width of its column.
@@ -56,7 +59,8 @@ pub(super) fn svg(panel: &Panel) -> String {
     responsive(&kuva::render_to_svg(plots, layout), height, &panel.title)
 }
 
-/// A tick's label. Where the x axis is far from zero, as in seconds since 1970, six digits do not tell its ticks apart.
+/// A tick's label. Where the x axis is far from zero, as in seconds since 1970, six digits do not distinguish
+/// its ticks.
 fn tick(value: f64, x: (f64, f64)) -> String {
     let (span, most) = (x.1 - x.0, x.0.abs().max(x.1.abs()));
     if span > 1e-3 * most || !(x.0..=x.1).contains(&value) {
@@ -154,7 +158,7 @@ pub(super) fn key(series: &Series) -> String {
     swatch(&drawing)
 }
 
-/// The sign of shaded stretches in a legend.
+/// The sign of a shaded interval in a legend.
 pub(super) fn shade_key(colour: &str) -> String {
     swatch(&format!("<rect x=\"1\" y=\"1\" width=\"32\" height=\"12\" fill=\"{colour}\" opacity=\"0.3\"/>"))
 }
@@ -177,7 +181,8 @@ fn responsive(svg: &str, height: f64, name: &str) -> String {
     )
 }
 
-/// Decimals beyond the second dropped within tags: the plotting library writes some coordinates as 123.45000000000002.
+/// Drops decimals beyond the second within tags: the plotting library writes some coordinates as
+/// 123.45000000000002.
 fn shortened(svg: &str) -> String {
     let mut short = String::with_capacity(svg.len());
     let (mut decimals, mut after_point, mut in_tag, mut kept) = (0, false, false, 0);

@@ -1,4 +1,4 @@
-//! What can be had as one thing about the experiment changes.
+//! The figure of a sweep: the best standard deviations as one quantity of the experiment changes.
 
 use super::panel::{Mark, Panel, Series, Shape};
 use super::unit::DisplayUnit;

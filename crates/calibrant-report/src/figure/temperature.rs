@@ -1,4 +1,4 @@
-//! How the gyroscope's bias follows temperature.
+//! The figure of the gyroscope's bias over temperature.
 
 use super::panel::{Mark, Panel, Series, Shape};
 use super::{Figure, colour};
@@ -6,11 +6,11 @@ use calibrant_core::estimate::ImuCalibration;
 use calibrant_core::sensor::{Axis, Recording};
 use nalgebra::Vector3;
 
-/// Points of the fitted polynomial.
+/// Number of points of the fitted polynomial.
 const POINTS: usize = 60;
 
-/// Mean of the gyroscope's readings in each hold over its temperature, less what it feels of gravity, and the fitted polynomial. `None` where nothing follows
-/// temperature.
+/// Mean of the gyroscope's readings in each hold over its temperature, less its response to gravity, and the
+/// fitted polynomial. `None` where nothing follows temperature.
 pub(crate) fn bias_over_temperature(calibration: &ImuCalibration, gyroscope: &Recording) -> Option<Figure> {
     let temperatures = calibration.hold_temperatures_c.as_ref()?;
     let [low, high] = calibration.imu.thermal.range_c?;

@@ -1,4 +1,4 @@
-//! Errors on data that were not used, beside what was predicted of them.
+//! The figure of errors on data that the calibration did not use, beside the prediction of them.
 
 use super::panel::{Mark, Panel, Series, Shape};
 use super::unit::DisplayUnit;

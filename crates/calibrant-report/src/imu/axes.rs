@@ -1,4 +1,4 @@
-//! Gains and angles between the axes of both sensors: what no choice of the true frame changes.
+//! The table of gains and angles between the axes of both sensors. No choice of the true frame changes them.
 
 use crate::number_format;
 use crate::table::{Cell, Table};

@@ -1,4 +1,4 @@
-//! The corrections of both sensors, to look at and to copy.
+//! The corrections of both sensors, to read and to copy.
 
 use crate::html::escape;
 use crate::number_format;

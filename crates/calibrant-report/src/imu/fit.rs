@@ -1,4 +1,4 @@
-//! How the joint estimation ended.
+//! The table of the least-squares fit of an IMU.
 
 use crate::number_format;
 use crate::table::Table;

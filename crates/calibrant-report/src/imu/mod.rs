@@ -1,4 +1,4 @@
-//! The report on a whole IMU: accelerometer and gyroscope, and how they fit each other.
+//! The report page on a whole IMU: accelerometer and gyroscope, and how they fit each other.
 
 mod axes;
 mod correction;
@@ -26,10 +26,11 @@ use calibrant_core::estimate::{ImuCalibration, Validation};
 use calibrant_core::noise::SensorNoise;
 use calibrant_core::sensor::{ImuRecording, SensorKind};
 
-/// A whole IMU as one HTML file: verdict, parameters and corrections of both sensors, holds, rotations, turns, correlations, and its noise where
-/// it was determined.
+/// A whole IMU as one HTML file. It has the verdict, parameters and corrections of both sensors, holds,
+/// rotations, turns and correlations. It has the noise where that was determined.
 ///
-/// Self-contained as [`calibration_report`](super::calibration_report) is. `recording` is the one that was calibrated from; `noise` may be empty.
+/// Self-contained as [`calibration_report`](super::calibration_report) is. `recording` is the calibrated
+/// recording; `noise` may be empty.
 #[must_use]
 pub fn imu_calibration_report(
     calibration: &ImuCalibration,

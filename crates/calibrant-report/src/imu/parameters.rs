@@ -1,4 +1,4 @@
-//! The parameters of one sensor of an IMU, and what they amount to.
+//! The table of the parameters of one sensor of an IMU, also in units of the stimulus.
 
 use crate::figure::DisplayUnit;
 use crate::number_format;
@@ -6,12 +6,13 @@ use crate::table::{Cell, Table};
 use calibrant_core::estimate::ImuCalibration;
 use calibrant_core::sensor::{ImuQuantity, Quantity, ReadingUnit, SensorKind, ThermalPart, ThermalTerm};
 
-/// Shares from here on are given in %, smaller ones in ppm.
+/// Shares from here on are in %, smaller ones in ppm.
 const PER_CENT: f64 = 1e-3;
-/// What is called 1 g, m/s².
+/// Standard gravity, m/s²: 1 g.
 const STANDARD_GRAVITY: f64 = 9.806_65;
 
-/// Name without that of the sensor, estimate and sd, unit; what it amounts to; how much of it was known beforehand, where anything was.
+/// Name without that of the sensor, estimate and sd, and unit. Also the value over the gain, and the share of
+/// the prior where there is one.
 pub(super) fn parameter_table(calibration: &ImuCalibration, sensor_kind: SensorKind) -> String {
     let places = calibration.places_of(sensor_kind);
     let with_prior = places.iter().any(|&k| calibration.known_beforehand(k).is_some());
@@ -47,8 +48,9 @@ pub(super) fn parameter_table(calibration: &ImuCalibration, sensor_kind: SensorK
     table.html() + explanation
 }
 
-/// A parameter and its sd divided by the gain of its axis: a bias in the unit of the stimulus, a scale factor as its deviation from 1, an entry off the
-/// diagonal as a share. Of readings in counts, biases and scale factors have only their sd so, since counts say nothing by themselves.
+/// A parameter and its sd divided by the gain of its axis. A bias is then in the unit of the stimulus, a
+/// scale factor is its deviation from 1, and an off-diagonal entry is a share. For readings in counts, biases
+/// and scale factors have only their sd in this form, since counts alone mean nothing.
 #[must_use]
 pub fn over_the_gain(calibration: &ImuCalibration, quantity: ImuQuantity, sd: f64) -> String {
     let sensor_kind = quantity.sensor_kind();

@@ -1,9 +1,10 @@
-//! How good the calibration of an IMU is, in one sentence.
+//! The quality of an IMU's calibration, in one sentence.
 
 use crate::number_format;
 use calibrant_core::estimate::ImuCalibration;
 
-/// How well gravity is met after rotations, known turns and in holds: `after a rotation, gravity is agreement within 0.12° rms (3.4° before); …`.
+/// How well gravity agrees after rotations and in holds, and how well known turns agree. The sentence names
+/// the errors before the calibration, too.
 #[must_use]
 pub fn imu_quality(calibration: &ImuCalibration) -> String {
     let mut parts = Vec::new();
@@ -43,7 +44,7 @@ pub fn imu_quality(calibration: &ImuCalibration) -> String {
     parts.join("; ")
 }
 
-/// `agreement within 0.12° rms`, or that it is not met at all.
+/// The agreement with its rms, or the words that there is none.
 fn agreement(rms_rad: f64) -> String {
     let how = if rms_rad > std::f64::consts::PI { "missed by" } else { "met within" };
     format!("{how} {} rms", number_format::missed_angle(rms_rad))

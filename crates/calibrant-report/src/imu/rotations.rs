@@ -1,10 +1,10 @@
-//! Rotations between holds and turns of known angle, in numbers.
+//! Tables of the rotations between holds and of the turns of known angle.
 
 use crate::number_format;
 use crate::table::{Cell, Table};
 use calibrant_core::estimate::{ImuCalibration, RotationResult};
 
-/// What holds for all rotations together.
+/// What is common to all rotations.
 pub(super) fn rotation_summary(calibration: &ImuCalibration) -> String {
     let rotations = &calibration.rotations;
     let used = rotations.iter().filter(|rotation| rotation.used).count();

@@ -1,4 +1,4 @@
-//! What temperature does, in words.
+//! The temperature model of an IMU in words.
 
 use crate::number_format;
 use calibrant_core::estimate::ImuCalibration;

@@ -1,11 +1,11 @@
-//! The headline: can this calibration be used?
+//! The verdict on an IMU's calibration: can it be used?
 
 use super::quality::imu_quality;
 use crate::{About, html, number_format};
 use calibrant_core::estimate::{CalibrationStatus, ImuCalibration};
 use calibrant_core::sensor::{Invariant, SensorKind};
 
-/// Beyond this share, a parameter is what was known beforehand rather than what the data say.
+/// Above this share of the prior in its information, a parameter is more prior knowledge than data.
 const MOSTLY_PRIOR: f64 = 0.5;
 /// A calibration that lowers the error of rotations by less than this factor has not explained them.
 const IMPROVED: f64 = 0.8;

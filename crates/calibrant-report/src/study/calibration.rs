@@ -1,4 +1,4 @@
-//! Calibrations of a population of sensors: the report's chapter 3.
+//! The chapter on calibrations of a population of sensors: the report's chapter 3.
 
 use crate::figure::{
     DisplayUnit, acceleration_figure, motion_error_figure, p_values, parameter_errors,
@@ -66,7 +66,7 @@ fn fine(page: &mut Page, case: &SingleCase) {
     }
 }
 
-/// What the population says: is it good, and why.
+/// The verdict on the population: is it good, and why.
 pub(super) fn judge(study: &Study) -> (bool, String) {
     let all = study.outcomes.len();
     let converged = study.outcomes.iter().filter(|outcome| outcome.status == "converged").count();

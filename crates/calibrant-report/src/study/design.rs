@@ -1,4 +1,4 @@
-//! Initial against optimal motions over many sensors: the report's chapter 4.
+//! The chapter on initial against optimal motions over many sensors: the report's chapter 4.
 
 use super::settings::settings;
 use crate::design::{axes, limit_table, times};
@@ -15,7 +15,7 @@ use calibrant_design::study::{DesignStudy, Factor, ParameterSummary};
 /// Beyond this many standard errors, promise and delivery differ by more than chance.
 const CHANCE: f64 = 3.0;
 
-/// What a chapter is called, and the titles of its figures.
+/// The title of a chapter and of its figures.
 pub(super) struct Chapter {
     heading: &'static str,
     lead: &'static str,
@@ -82,7 +82,7 @@ pub(super) fn chapter(page: &mut Page, study: &DesignStudy, chapter: &Chapter) {
     }
 }
 
-/// What the study says, in one line: is it good, and why.
+/// The verdict of the study, in one line: is it good, and why.
 pub(super) fn judge(name: &str, study: &DesignStudy) -> (bool, String) {
     let all = study.outcomes.len();
     let better = study.outcomes.iter().filter(|o| o.optimal.trace <= o.initial.trace).count();

@@ -1,4 +1,4 @@
-//! The report on studies: the source report's chapters 3 and 4, figure by figure.
+//! The report page on studies: the source report's chapters 3 and 4, figure by figure.
 
 mod calibration;
 mod design;
@@ -9,11 +9,12 @@ use super::figure::trace_map;
 use super::html::{Page, escape, facts, list, verdict_box};
 use calibrant_design::study::Studies;
 
-/// Studies as one HTML file: for each that was run its settings, a summary, and the report's figures: 4 to 6 (calibration), 7 (the surface of the
-/// trace), 8 to 11 (initial against optimal motion), 13 and 14 (the same with process noise).
+/// Studies as one HTML file: for each study its settings, a summary, and the report's figures. Figures 4 to 6
+/// show calibrations, 7 the surface of the trace, and 8 to 11 initial against optimal motion. Figures 13 and
+/// 14 show the latter with process noise.
 ///
-/// Self-contained as [`calibration_report`](super::calibration_report) is; of a large population, the figures that show sensors one by one show
-/// an evenly spread part, and say so.
+/// Self-contained as [`calibration_report`](super::calibration_report) is. Of a large population, the figures
+/// that show sensors one by one show an evenly spread part, and say so.
 #[must_use]
 pub fn study_report(studies: &Studies, about: &About) -> String {
     let mut judged = Vec::new();

@@ -1,4 +1,4 @@
-//! What a study of initial against optimal motions was asked for.
+//! The settings of a study of initial against optimal motions, as a table.
 
 use crate::number_format;
 use crate::table::{Cell, Table};

@@ -1,4 +1,4 @@
-//! What holds for the pages about designs.
+//! Tests of the pages about designs.
 
 use super::{about, assert_sound, designs};
 use crate::{About, design_report, evaluation_report, number_format, sweep_report};

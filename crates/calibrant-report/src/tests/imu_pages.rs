@@ -1,4 +1,4 @@
-//! Pages on a whole IMU.
+//! Tests of the pages on a whole IMU.
 
 use super::super::{About, imu_calibration_report, number_format};
 use super::{about, assert_sound, estimate, motion, sensor};
@@ -51,7 +51,7 @@ fn a_page_shows_both_sensors_the_holds_the_rotations_and_the_turns() {
     ] {
         assert!(html.contains(says), "{says}");
     }
-    // what is to be copied is plain
+    // the text to copy is plain
     let copied = html.split("<pre>").nth(1).and_then(|rest| rest.split("</pre>").next()).expect("there");
     assert!(copied.is_ascii() && copied.contains("b_a = [3.31"), "{copied}");
 }

@@ -1,4 +1,4 @@
-//! Pages on the noise of a sensor.
+//! Tests of the pages on the noise of a sensor.
 
 use super::super::noise_report;
 use super::{about, assert_sound};
@@ -56,7 +56,8 @@ fn a_page_shows_the_plot_the_coefficients_and_what_is_not_determined() {
 
 #[test]
 fn a_drift_is_told_apart() {
-    // 40 standard deviations of what white noise makes of a slope; a random walk as large as the recording allows makes 10 of them
+    // 40 standard deviations of the slope that white noise makes; a random walk as large as the recording
+    // permits makes 10 of them
     let html = noise_report(&[noise(SensorKind::Gyroscope, ReadingUnit::RadianPerSecond, 3e-6)], &about());
     assert_sound(&html);
     assert!(
@@ -64,7 +65,8 @@ fn a_drift_is_told_apart() {
     );
 }
 
-/// What a filter with a resonance adds to short cluster times has the slope of quantisation, and is none.
+/// The contribution of a filter with a resonance to short cluster times has the slope of quantisation, but is
+/// none.
 #[test]
 fn a_filters_share_is_not_called_quantisation() {
     let mut rng = stream(4, Purpose::Sensor, 0);

@@ -1,4 +1,4 @@
-//! What holds for the pages about studies of optimal motions.
+//! Tests of the pages about studies of optimal motions.
 
 use super::{about, assert_sound, studies};
 use crate::{number_format, study_report};

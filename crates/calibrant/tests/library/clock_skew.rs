@@ -1,4 +1,5 @@
-//! Sensors whose times are not of one clock: what is said, and that it is not said of others.
+//! Tests of sensors whose times are not of one clock: the warning names it, and other sensors get no such
+//! warning.
 
 use crate::common::draw_imu;
 use calibrant::Error;
@@ -11,7 +12,7 @@ use calibrant::simulate::{ImuSimulation, Purpose, simulate_imu, stream};
 use nalgebra::Vector3;
 use rayon::prelude::*;
 
-/// What is said where the clocks differ.
+/// The words of the warning where the clocks differ.
 const SAID: &str = "the gyroscope shows movements ";
 
 fn run(recording: &ImuRecording) -> calibrant::Result<ImuCalibration> {
@@ -22,7 +23,7 @@ fn run(recording: &ImuRecording) -> calibrant::Result<ImuCalibration> {
     calibrate_imu(&problem, &CalibrationSettings::default())
 }
 
-/// Every so many samples, from one on.
+/// Every `step`-th sample, from one on.
 fn every(recording: &Recording, step: usize, from: usize) -> Recording {
     let thinned = |values: &[Vector3<f64>]| values.iter().skip(from).step_by(step).copied().collect();
     Recording {
@@ -45,7 +46,8 @@ fn of_uneven_holds(recording: &Recording, number: u64) -> Recording {
     Recording { times_s, readings, ..*recording }
 }
 
-/// An IMU, and what it records at 400 Hz when it is turned so on an arm whose components have this standard deviation, m.
+/// An IMU, and its recording at 400 Hz when it is turned on an arm whose components have this standard
+/// deviation, m.
 fn on_an_arm(number: u64, setup: &ImuSimulation, arm_sd_m: f64) -> (ImuParameters, ImuRecording) {
     let mut rng = stream(71, Purpose::Sensor, number);
     let imu = draw_imu(&mut rng);
@@ -60,7 +62,7 @@ fn on_an_arm(number: u64, setup: &ImuSimulation, arm_sd_m: f64) -> (ImuParameter
     (imu, both)
 }
 
-/// The accelerometer at 50 to 200 Hz and the gyroscope at 80 to 400 Hz, whose time goes to `clock(t)`.
+/// The accelerometer at 50 to 200 Hz and the gyroscope at 80 to 400 Hz, whose time becomes `clock(t)`.
 fn thinned(both: &ImuRecording, number: u64, clock: impl Fn(f64) -> f64) -> ImuRecording {
     let (Some(forces), Some(rates)) = (&both.accelerometer, &both.gyroscope) else { unreachable!() };
     let steps = [[4, 1], [2, 5], [8, 2], [4, 4], [3, 3]][number as usize % 5];
@@ -69,7 +71,8 @@ fn thinned(both: &ImuRecording, number: u64, clock: impl Fn(f64) -> f64) -> ImuR
     ImuRecording { accelerometer: Some(accelerometer), gyroscope: Some(gyroscope), temperature_c: None }
 }
 
-/// An IMU that is turned about a point some centimetres beside it; the time of the gyroscope goes to `clock(t)`.
+/// An IMU that is turned about a point some centimetres beside it; the time of the gyroscope becomes
+/// `clock(t)`.
 fn pair(number: u64, clock: impl Fn(f64) -> f64) -> (ImuParameters, ImuRecording) {
     let setup = ImuSimulation { rate_hz: 400.0, hold_s: 4.0, ..ImuSimulation::default() };
     let (imu, mut both) = on_an_arm(number, &setup, 0.03);
@@ -175,7 +178,7 @@ fn the_xsens_pair_is_not_accused() {
         calibrate_imu(&problem, &CalibrationSettings::default()).expect("determined")
     };
     assert_eq!(message(&calibrate(&recording)), None);
-    // and it is, with a clock that is off
+    // and it is so with a wrong clock
     let mut other = recording;
     other.gyroscope.as_mut().expect("there").times_s.iter_mut().for_each(|t| *t = 3.0 + (*t - 3.0) * 1.0002);
     let calibration = calibrate(&other);

@@ -1,4 +1,4 @@
-//! Holds, turns and directions that are given, where the recording says otherwise.
+//! Tests of given holds, turns and directions that the recording contradicts.
 
 use crate::common::draw_imu;
 use calibrant::estimate::{

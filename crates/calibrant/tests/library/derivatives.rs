@@ -1,4 +1,4 @@
-//! Derivatives of every criterion with respect to the motion, against finite differences.
+//! Tests of the derivatives of every criterion with respect to the motion, against finite differences.
 
 use calibrant::information::criterion::{
     AOptimality, COptimality, DOptimality, EOptimality, IOptimality, MOptimality,

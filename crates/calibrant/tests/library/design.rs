@@ -1,4 +1,4 @@
-//! The reference cases of the design problem, and what every design must keep.
+//! Tests of the reference cases of the design problem, and of what every design must keep.
 
 use calibrant::design::{Design, DesignProblem, DesignSettings, DesignStatus, design};
 use calibrant::information::Criterion;
@@ -77,7 +77,7 @@ fn a_optimality(parameters: usize) -> Criterion {
     Criterion::A(AOptimality { scale: DVector::repeat(parameters, 1.0) })
 }
 
-/// The motion keeps its limits at 10 000 times, by integration of its jerk that knows nothing of nodes.
+/// The motion keeps its limits at 10 000 times, by integration of its jerk without use of the nodes.
 fn assert_admissible(name: &str, design: &Design, limits: &Limits) {
     let motion = &design.optimal.motion;
     let duration = motion.times_s()[motion.intervals()];
@@ -121,7 +121,8 @@ fn the_reference_cases_are_reached_from_every_seed() {
             let design = design(&problem, &settings, &|_| ()).expect("solved");
             let ratio = design.optimal.value / (3.0 * case.reference);
             assert!(ratio <= 1.0 + case.tolerance, "{} seed {seed}: {ratio}", case.name);
-            // far below would be a bug: D1 to D3 know no better optimum, D4 none by more than its reference's rounding
+            // far below would be a bug: D1 to D3 have no better optimum; D4's is better by no more than its
+            // reference's rounding
             assert!(ratio >= 1.0 - 1e-6, "{} seed {seed}: {ratio}", case.name);
             assert_eq!(design.status, DesignStatus::Converged, "{} seed {seed}", case.name);
             assert!(design.initial.value > design.optimal.value);
@@ -148,7 +149,7 @@ fn the_result_does_not_depend_on_the_number_of_threads() {
     assert_eq!(one.starts, three.starts);
 }
 
-/// Every criterion's best motion is better in its own criterion than the best motions of the others.
+/// The best motion of every criterion is better in its own criterion than the best motions of the others.
 #[test]
 fn every_criterion_is_served_best_by_its_own_design() {
     let all = |limit: f64| Some(Vector3::repeat(limit));

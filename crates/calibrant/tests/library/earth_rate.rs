@@ -1,4 +1,5 @@
-//! The Earth turns under the sensor: about the vertical, which looks like g-sensitivity, and about the north, in a heading that nobody knows.
+//! Tests of Earth's rate under the sensor. About the vertical it looks like g-sensitivity; about the north
+//! its heading is unknown.
 
 use crate::common::draw_imu;
 use calibrant::estimate::{
@@ -44,13 +45,14 @@ impl Bench {
     }
 }
 
-/// Holds known to the sample, so that no gentle beginning of a turn falls into one: it would be more than the noise of a good gyroscope.
+/// Holds known to the sample, so that no slow start of a turn falls into one. It would be more than the noise
+/// of a good gyroscope.
 fn holds() -> HoldsSetup {
     let hold = |k: usize| (4.5 * k as f64 + 0.02, 4.5 * k as f64 + 2.46);
     HoldsSetup { intervals_s: Some((0..24).map(hold).collect()), ..HoldsSetup::default() }
 }
 
-/// A good gyroscope and accelerometer, turned by hand where the Earth turns so.
+/// A good gyroscope and accelerometer, turned by hand under this Earth's rate.
 fn simulation(earth_rate_radps: Vector3<f64>) -> ImuSimulation {
     ImuSimulation {
         rate_hz: 50.0,
@@ -61,7 +63,7 @@ fn simulation(earth_rate_radps: Vector3<f64>) -> ImuSimulation {
     }
 }
 
-/// Nearly without noise, with the Earth turning about the vertical alone.
+/// Nearly without noise, with Earth's rate about the vertical alone.
 fn quiet(latitude_deg: f64) -> ImuSimulation {
     let vertical = Vector3::new(0.0, 0.0, earth_rate(latitude_deg).z);
     ImuSimulation { accelerometer_noise: 1e-6, gyroscope_noise: 1e-9, ..simulation(vertical) }
@@ -79,15 +81,15 @@ fn g_sensitivity(calibration: &ImuCalibration) -> Vec<usize> {
 
 /// Errors of sensors in standard deviations.
 struct Scores {
-    /// Of the g-sensitivity's entries.
+    /// Scores of the g-sensitivity's entries.
     g_sensitivity: Vec<f64>,
-    /// Of the gyroscope's biases and matrix.
+    /// Scores of the gyroscope's biases and matrix.
     others: Vec<f64>,
     /// Mean of `eᵀ C⁻¹ e` of the g-sensitivity over the number of its entries.
     whole: f64,
     /// Mean standard deviation of the g-sensitivity, (rad/s)/(m/s²).
     sd: f64,
-    /// In how many a word is said.
+    /// Number of calibrations with a warning.
     message: usize,
 }
 
@@ -98,7 +100,7 @@ fn squares_within(z: &[f64]) -> (f64, f64) {
     (z.iter().map(|z| z * z).sum::<f64>() / count, within / count)
 }
 
-/// So fast that what the rates do between samples is less than their noise.
+/// A rate so high that the change of rates between samples is less than their noise.
 const RATE_HZ: f64 = 200.0;
 
 fn scores(known: bool) -> Scores {
@@ -171,13 +173,13 @@ fn the_vertical_rate_is_in_the_model_and_without_a_latitude_it_is_the_g_sensitiv
         let recording = simulate_imu(&truth, &quiet_world(latitude_deg), &mut rng);
         let off = |calibration: &ImuCalibration| calibration.imu.g_sensitivity - truth.g_sensitivity;
         let bias = |calibration: &ImuCalibration| calibration.imu.gyroscope.bias - truth.gyroscope.bias;
-        // what the rotations leave is of the integration of a linear rate
+        // the rotations leave an error of the integration of a linear rate
         let close =
             |calibration: &ImuCalibration| off(calibration).amax() < 2e-9 && bias(calibration).amax() < 2e-8;
         let mut bench = Bench::new(true, Some(latitude_deg));
         let calibration = bench.calibrate(&recording);
         assert!(close(&calibration), "{} {}", off(&calibration), bias(&calibration));
-        // what is left is the rate about the north
+        // the rate about the north remains
         let north = earth_rate(latitude_deg).x.abs();
         let rms = calibration.still.rate_rms_radps;
         assert!((rms - north).abs() < 1e-8, "{rms:e} {north:e}");
@@ -191,7 +193,7 @@ fn the_vertical_rate_is_in_the_model_and_without_a_latitude_it_is_the_g_sensitiv
             assert!(close(&known), "{sd:?} {} {}", off(&known), bias(&known));
             assert!(!known.warnings.join("; ").contains("contradict"), "{:?}", known.warnings);
         }
-        // without a latitude all of it goes into the g-sensitivity, and the covariance knows
+        // without a latitude all of it goes into the g-sensitivity, and the covariance contains that
         let unknown = Bench::new(true, None).calibrate(&recording);
         let expected = truth.gyroscope.matrix * (earth_rate(latitude_deg).z / GRAVITY);
         assert!((off(&unknown) - expected).amax() < 2e-9 && bias(&unknown).amax() < 2e-8);
@@ -218,7 +220,7 @@ fn without_g_sensitivity_the_holds_tell_the_vertical_rate() {
     let [known, unknown] = [Some(-70.0), None].map(|at| Bench::new(false, at).calibrate(&recording));
     let bias = |calibration: &ImuCalibration| (calibration.imu.gyroscope.bias - truth.gyroscope.bias).amax();
     assert!(bias(&known) < 2e-8 && bias(&unknown) < 2e-8, "{:e} {:e}", bias(&known), bias(&unknown));
-    // what is not given counts as scatter of another recording
+    // what is not given counts as scatter in another recording
     let scatter = |calibration: &ImuCalibration| calibration.still.between_holds_sd.norm();
     let rate = earth_rate(-70.0);
     let (known, unknown) = (scatter(&known) / rate.x.abs(), scatter(&unknown) / rate.norm());
@@ -231,7 +233,7 @@ fn where_a_rotation_cannot_be_followed_another_heading_begins() {
     let truth = draw_imu(&mut rng);
     let mut recording = simulate_imu(&truth, &quiet_world(34.0), &mut rng);
     let gyroscope = recording.gyroscope.as_mut().expect("a gyroscope");
-    // the gyroscope pauses in the third and in the fourth rotation, so that a hold is alone, and in the tenth
+    // the gyroscope pauses in the third, the fourth and the tenth rotation, so that a hold is alone
     let paused = |t: f64| [3, 4, 10].iter().any(|&k| (t - 4.5 * f64::from(k) + 1.0).abs() < 0.4);
     let kept: Vec<usize> = (0..gyroscope.len()).filter(|&k| !paused(gyroscope.times_s[k])).collect();
     gyroscope.times_s = kept.iter().map(|&k| gyroscope.times_s[k]).collect();
@@ -283,7 +285,7 @@ fn table(number: u64, simulation: &ImuSimulation) -> (ImuParameters, ImuRecordin
 #[test]
 fn a_turn_on_a_table_is_that_of_the_sensor_and_the_earth() {
     let (truth, recording, setup) = table(0, &quiet(60.0));
-    // without a latitude the holds on faces tell the rate
+    // without a latitude the holds on faces determine the rate
     for latitude_deg in [Some(60.0), None] {
         let bench = Bench { setup: ImuSetup { latitude_deg, ..setup.clone() }, ..Bench::new(false, None) };
         let calibration = bench.calibrate(&recording);
@@ -303,7 +305,7 @@ fn the_gains_of_a_table_at_an_unknown_latitude_are_as_uncertain_as_they_say() {
         .map(|number| {
             let sine = stream(97, Purpose::Sensor, number).random_range(-1.0_f64..1.0);
             let noise = 10.0_f64.powf(-5.0 + (number % 3) as f64);
-            // the rate about the north points elsewhere on each face, and is scatter of these
+            // the rate about the north has another direction on each face, and is scatter of the faces
             let vertical = Vector3::new(0.0, 0.0, EARTH_RATE_RADPS * sine);
             let world = ImuSimulation { gyroscope_noise: noise, ..simulation(vertical) };
             let (truth, recording, setup) = table(number, &world);
@@ -353,7 +355,7 @@ fn errors_of_unused_holds_know_of_it() {
             assert!(believed >= 11, "{known} {kind}: {verdicts:?}");
         }
     }
-    // without noise nothing is left of the rate about the vertical
+    // without noise nothing remains of the rate about the vertical
     let mut rng = stream(95, Purpose::Sensor, 99);
     let recording = simulate_imu(&draw_imu(&mut rng), &quiet(45.0), &mut rng);
     let bench = Bench::new(true, Some(45.0));

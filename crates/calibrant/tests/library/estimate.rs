@@ -1,4 +1,4 @@
-//! The estimator against closed forms.
+//! Tests of the estimator against closed forms.
 
 use crate::common::case::Case;
 use calibrant::estimate::{
@@ -211,7 +211,7 @@ fn a_prior_determines_what_the_data_do_not() {
     );
     let settings = CalibrationSettings { datasheet_prior: true, ..CalibrationSettings::default() };
     let calibration = calibrate(&case.problem(), &settings).expect("the prior helps");
-    // the data fix b + 2 K, so along b = −2 K only the prior speaks: 1/var(K) = 1/0.005² + 2²/0.1²
+    // the data fix b + 2 K, so along b = −2 K only the prior has information: 1/var(K) = 1/0.005² + 2²/0.1²
     let along = (1.0 / (0.005_f64.powi(-2) + 4.0 * 0.1_f64.powi(-2))).sqrt();
     assert!((calibration.sd()[4] / along - 1.0).abs() < 1e-3, "{} {along}", calibration.sd()[4]);
 }
@@ -314,7 +314,7 @@ fn large_process_noise_converges() {
 
 #[test]
 fn a_long_recording_on_few_intervals_converges_to_rounding() {
-    // the chain takes almost all information away, so rounding is magnified: 7 iterations, not 50
+    // the chain removes almost all information, so rounding is magnified: 7 iterations, not 50
     let noise = Trust::Noisy(InputNoise { floor_mps3: 0.01, ratio: 0.01 });
     let case = Case::new(SensorModel::Full, noise, 14, 1.0, 7143.0, 1);
     let calibration = case.calibrate().expect("identifiable");

@@ -1,4 +1,5 @@
-//! Static multi-position calibration: against a program of others on a real recording, and on recordings made to be difficult.
+//! Tests of static multi-position calibration: against another program on a real recording, and on difficult
+//! recordings.
 
 use calibrant::estimate::{
     Calibration, CalibrationProblem, CalibrationSettings, CalibrationStatus, HoldCalibration, HoldsSetup,
@@ -74,7 +75,7 @@ fn xsens_mti_agrees_with_imu_tk_within_two_standard_deviations() {
     let correction = Correction::of(&calibration.sensor).expect("regular");
     let gains = correction.scale().map(|k| 1.0 / k);
     let t = correction.misalignment();
-    // standard deviations of a refit on hold means, by others
+    // standard deviations of a refit on hold means, by another program
     let against = [
         ("gain x", gains.x, 414.458_874, 0.027),
         ("gain y", gains.y, 412.010_468, 0.014),
@@ -89,7 +90,7 @@ fn xsens_mti_agrees_with_imu_tk_within_two_standard_deviations() {
     for (name, ours, theirs, sd) in against {
         assert!((ours - theirs).abs() < 2.0 * sd, "{name}: {ours} against {theirs} ± {sd}");
     }
-    // and our own standard deviations are those of that refit
+    // and our own standard deviations equal those of that refit
     for (k, sd) in [0.25, 0.14, 0.15, 0.027, 0.014, 0.016].into_iter().enumerate() {
         assert!(
             (calibration.sd()[k] / sd - 1.0).abs() < 0.05,
@@ -332,7 +333,8 @@ fn holds_are_found_at_any_noise_and_unit() {
     }
 }
 
-/// At 400 Hz: in whole milliseconds, late by 3 ms on average, three samples in ten lost, or all of it.
+/// Times at 400 Hz: in whole milliseconds, late by 3 ms on average, with three samples in ten lost, or all of
+/// these.
 #[test]
 fn holds_are_found_whatever_became_of_the_times() {
     let simulation = HoldsSimulation {

@@ -1,4 +1,4 @@
-//! A whole IMU: against programs of others on real recordings, and against the truth on simulated ones.
+//! Tests of a whole IMU: against other programs on real recordings, and against the truth on simulated ones.
 
 use crate::common::{draw_feeling_imu, run_imu};
 use calibrant::estimate::{CalibrationStatus, Gyroscope, HoldsSetup, ImuCalibration, ImuSetup, Turn};
@@ -35,7 +35,8 @@ fn xsens_mti_agrees_with_imu_tk_and_leaves_less_error_after_each_rotation() {
     }
 }
 
-/// The gyroscope's axes in the frame of the accelerometer's: angles between them do not depend on a gauge. Factory alignment, two decimals.
+/// The gyroscope's axes in the frame of the accelerometer's: angles between them do not depend on a gauge.
+/// The factory states the alignment with two decimals.
 #[test]
 fn xsens_mti_has_the_misalignment_that_the_factory_states() {
     let Some(calibration) = xsens(true) else { return };
@@ -106,7 +107,7 @@ fn a_ferraris_session_agrees_with_imucal() {
     let imu = &calibration.imu;
     for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
         let gain = imu.accelerometer.matrix.row(axis).norm();
-        // a face that is tilted shows less than gravity: theirs is too small by the square of the tilt
+        // a tilted face shows less than gravity: theirs is too small by the square of the tilt
         let theirs = [0.996_745_865_1, 1.002_437_618_6, 1.023_395_347_5][axis] / (1.0 - tilt.sd_rad.powi(2));
         assert!((gain - theirs).abs() < 1e-6, "K_a {name}: {gain} beside {theirs}");
         let gain = imu.gyroscope.matrix.row(axis).norm();
@@ -118,7 +119,8 @@ fn a_ferraris_session_agrees_with_imucal() {
         let theirs = [0.537_117_424_4, -0.616_202_993_1, 0.398_867_342_4][axis];
         let bias_sd = sd(&format!("accelerometer.bias.{name}"));
         assert!((bias - theirs).abs() < 2.0 * bias_sd, "b_a {name}: {bias} beside {theirs}, sd {bias_sd}");
-        // both take the middle of two faces. What a tilt shows across them leaks into the reading by the cross-axis terms, and there calibrant takes it out
+        // both take the middle of two faces. A tilt leaks into the reading across them through the cross-axis
+        // terms. There calibrant corrects it
         let faces = &calibration.holds.holds[2 * axis..2 * axis + 2];
         let middle = 0.5 * (faces[0].hold.mean + faces[1].hold.mean);
         assert!((middle[axis] - theirs).abs() < 1e-8, "b_a {name}: {} beside {theirs}", middle[axis]);
@@ -126,14 +128,14 @@ fn a_ferraris_session_agrees_with_imucal() {
             imu.accelerometer.matrix.try_inverse().expect("regular") * (middle - imu.accelerometer.bias);
         assert!(left[axis].abs() < 0.05 * bias_sd, "b_a {name}: {left}, sd {bias_sd}");
     }
-    // by hand: between a tenth of a degree and two
+    // face alignment by hand: between a tenth of a degree and two
     assert!((0.1..2.0).contains(&tilt.sd_rad.to_degrees()), "{tilt:?}");
     let cross = tilt.sd_rad * (6.0 / 4.0 / 2.0_f64).sqrt();
     assert!(
         (sd("accelerometer.matrix.xy") / cross - 1.0).abs() < 0.05,
         "the tilt of the faces is in the covariance"
     );
-    // an axis that was met to half a degree has that share of the turn
+    // an axis aligned to half a degree has that share of the turn
     let (tilt, found) = (0.5_f64.to_radians(), sd("gyroscope.matrix.xy"));
     assert!((found / tilt - 1.0).abs() < 0.05, "{found} beside {tilt}");
 }
@@ -165,7 +167,8 @@ fn intervals_of_2000_simulated_imus_cover_the_truth() {
         let mean = inside.iter().map(|z| z[k]).sum::<f64>() / count as f64;
         let rms = (inside.iter().map(|z| z[k] * z[k]).sum::<f64>() / count as f64).sqrt();
         println!("{k}: {covered:.4} covered, mean {mean:+.3}, rms {rms:.3}");
-        // 0.5 % is a standard deviation. The wander between holds, here none, is estimated too: what it takes part in is up to 2 % off either way
+        // 0.5 % is one standard deviation. The wander between holds is estimated, too, though here there is
+        // none: quantities that depend on it are off by up to 2 % either way
         if !(0.925..0.975).contains(&covered) || mean.abs() > 0.10 {
             off.push(format!("quantity {k}: {covered} covered, mean {mean:+.3}"));
         }

@@ -1,4 +1,4 @@
-//! What is wrong with the recording of an IMU is named; what its user knows beforehand counts.
+//! Tests of faulty recordings of an IMU, whose fault is named, and of known quantities, which are used.
 
 use crate::common::{draw_feeling_imu, normal, run_imu};
 use calibrant::error::Error;
@@ -57,7 +57,7 @@ fn axes_of_a_gyroscope_in_si_may_be_in_another_order_too() {
     assert!(calibration.warnings.iter().any(|found| found.contains(warning)), "{:?}", calibration.warnings);
 }
 
-/// A rotation whose rate was cut off says nothing, however well the others fit.
+/// A rotation whose rate saturated shows nothing, however well the others fit.
 #[test]
 fn rotations_in_which_the_gyroscope_saturates_are_left_out() {
     let (truth, mut recording) = small();
@@ -161,7 +161,8 @@ fn a_gyroscope_that_ends_early_leaves_named_parameters_undetermined() {
     assert!(error.to_string().contains("gyroscope.scale"), "{error}");
 }
 
-/// Holds of 2.5 s and turns of 2 s: those beside the time at which the gyroscope ends or begins are left out by their own times.
+/// Holds of 2.5 s and turns of 2 s. Those beside the time at which the gyroscope ends or begins are not used,
+/// by their own times.
 #[test]
 fn rotations_that_the_gyroscope_does_not_cover_are_named_by_their_times() {
     let (_, whole) = small();
@@ -182,7 +183,7 @@ fn rotations_that_the_gyroscope_does_not_cover_are_named_by_their_times() {
         for rotation in &calibration.rotations {
             let (from, to) = (&holds[rotation.from_hold].hold, &holds[rotation.to_hold].hold);
             let ends = (from.end_s, to.start_s);
-            // it reaches 0.3 s into the holds, a quarter of a hold that was cut short
+            // it reaches 0.3 s into the holds, or a quarter of a hold that was cut short
             let margin = |duration_s: f64| (0.25 * duration_s).min(0.3);
             let beside = (
                 rotation.start_s - ends.0 + margin(from.duration_s()),
@@ -224,7 +225,7 @@ fn a_known_bias_is_kept_and_a_prior_shares() {
     assert!(calibration.prior_share[place] > 0.99 && calibration.sd()[place] < 1e-6);
     assert!(calibration.warnings.is_empty(), "{:?}", calibration.warnings);
 
-    // what the data contradict is kept, and said
+    // a value that the data contradict is kept, with a warning
     let fixed = KnownTerm { quantity: quantity("gyroscope.scale.x"), value: 0.9, sd: None };
     let setup = ImuSetup { known: vec![fixed], ..ImuSetup::default() };
     let calibration = run_imu(&recording, &Gyroscope::default(), &setup, unit).expect("determined");
@@ -241,7 +242,8 @@ fn a_known_bias_is_kept_and_a_prior_shares() {
     assert!(message.contains("the data contradict what [known] says of gyroscope.bias.x"), "{message}");
     assert!(message.contains("degrees of freedom: the data contradict"), "{message}");
 
-    // far off, it is refused whatever the fit with it would come to; with a third of that it converges, and is said
+    // a value far off is refused whatever the fit with it would give; a third of that converges, with a
+    // warning
     for (name, absurd) in [
         ("accelerometer.bias.x", 4.0),
         ("accelerometer.scale.x", -0.4),
@@ -314,7 +316,7 @@ fn the_noise_of_a_sample_is_the_datasheets_then_that_of_a_long_hold_then_the_sca
     assert_eq!(found.noise_source.to_string(), "Allan deviation of hold 4 (42.0 s)");
     let found = still(&Gyroscope::default(), &ImuSetup::default());
     assert_eq!(found.noise_source, NoiseSource::ScatterWithinHolds);
-    // 24 holds of 250 samples tell it to 1 %: four standard deviations
+    // 24 holds of 250 samples determine it to 1 %: four standard deviations
     assert!(found.noise.iter().all(|sd| (0.96..1.04).contains(&(sd / 2e-3))), "{}", found.noise);
 }
 

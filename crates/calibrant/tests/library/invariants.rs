@@ -1,4 +1,4 @@
-//! What must hold whatever the numbers: property tests over random problems.
+//! Property tests over random problems: what must hold whatever the numbers.
 
 use crate::common::case::Case;
 use calibrant::estimate::{Calibration, CalibrationProblem, CalibrationSettings, Stimulus, calibrate};
@@ -85,7 +85,7 @@ proptest! {
 
     #[test]
     fn more_samples_never_lower_the_information(model in models(), seed in 0..10_000_u64, samples in 100..160_usize) {
-        // trust known: the covariance depends on the samples, not on what they read
+        // trust known: the covariance depends on the samples, not on their values
         let case = Case::new(model, Trust::Known, 8, 1.0, 20.0, seed);
         let (fewer, all) = (calibrate_first(&case, samples).expect("identifiable"), case.calibrate().expect("identifiable"));
         let gained = &fewer.covariance - &all.covariance;

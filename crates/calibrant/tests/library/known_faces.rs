@@ -1,4 +1,4 @@
-//! Faces of known directions that are met with a tilt: what is stated of the accelerometer is true.
+//! Tests of faces of known directions with a tilt: the stated uncertainty of the accelerometer is right.
 
 use crate::common::draw_imu;
 use calibrant::estimate::{
@@ -19,7 +19,7 @@ fn run(recording: &ImuRecording, setup: &ImuSetup) -> calibrant::Result<ImuCalib
     calibrate_imu(&problem, &CalibrationSettings::default())
 }
 
-/// Each of these directions for five seconds, and a turn about each axis, met to half a degree.
+/// Each of these directions for five seconds, and a turn about each axis, exact to half a degree.
 fn session(directions: &[Vector3<f64>]) -> (Vec<TableStep>, ImuSetup) {
     let (mut steps, mut setup, mut intervals) = (Vec::new(), ImuSetup::default(), Vec::new());
     let mut start_s = 0.0;
@@ -108,9 +108,11 @@ fn covers(number: u64, directions: &[Vector3<f64>], tilt_deg: f64, given: bool) 
     let faces = directions.len();
     let reported = |(kind, covered, square): (&str, f64, f64)| {
         println!("{faces} faces, {tilt_deg}° {kind}: {covered:.3} covered, z² {square:.2}");
-        // of 1200 at least, 0.6 % is a standard deviation. A scatter that is zero is found as zero or more, and what noise leaves open of it counts: of six residuals, 99.4 % are
-        // covered by the distributions alone. Biases and scale factors are stated too wide where tilts decide, the more so the
-        // more faces there are; Student's t of three degrees of freedom, of five faces, has a mean square that no number of simulations tells
+        // of 1200 at least, 0.6 % is a standard deviation. A scatter of zero is estimated as zero or more,
+        // and its uncertainty counts: of six residuals, the distributions alone cover 99.4 %. Biases and
+        // scale factors have too wide intervals where tilts decide, the more so the more faces there are.
+        // Student's t of three degrees of freedom, of five faces, has a mean square that no number of
+        // simulations determines
         let most = if faces > 6 || tilt_deg == 0.0 { 0.998 } else { 0.99 };
         let honest = (0.93..most).contains(&covered) && square > 0.35 && (square < 1.4 || faces == 5);
         (!honest).then(|| format!("{faces} faces, {tilt_deg}° {kind}: {covered} covered, z² {square}"))
@@ -141,7 +143,7 @@ fn intervals_cover_the_truth_with_a_given_tilt_with_more_faces_and_with_fewer() 
 #[test]
 fn a_session_without_noise_converges() {
     let (steps, setup) = session(&six());
-    // a gyroscope that says the same throughout a turn is at the end of its range
+    // a gyroscope with the same reading throughout a turn is at the end of its range
     let quiet = ImuSimulation { accelerometer_noise: 0.0, gyroscope_noise: 1e-6, ..ImuSimulation::default() };
     for sensor in 0..4 {
         let mut rng = stream(92, Purpose::Sensor, sensor);
@@ -159,7 +161,7 @@ fn a_session_without_noise_converges() {
     }
 }
 
-/// A scatter that is small by chance, beside noise as large, does not pass for small.
+/// A scatter that is small by chance, beside noise as large, does not count as small.
 #[test]
 fn noise_as_large_as_the_tilt_hides_it_and_the_intervals_know() {
     // the mean of 500 samples is off by 0.078° of gravity in each axis
@@ -171,13 +173,14 @@ fn noise_as_large_as_the_tilt_hides_it_and_the_intervals_know() {
     let found = deviations(91, &six(), &simulation, false);
     let z: Vec<f64> = found.iter().filter(|(kind, _)| *kind == "a.matrix").map(|(_, z)| z.abs()).collect();
     let within = |limit: f64| z.iter().filter(|z| **z < limit).count() as f64 / z.len() as f64;
-    // by the distributions alone 96 % and 99.7 %; 93 % and 98.6 % where a scatter of zero is believed
+    // by the distributions alone 96 % and 99.7 %; 93 % and 98.6 % if a scatter of zero is taken at face value
     let (covered, near) = (within(1.959_964), within(3.0));
     println!("{covered} covered, {near} within three standard deviations");
     assert!((0.95..0.985).contains(&covered) && near > 0.99, "{covered} {near}");
 }
 
-/// Turns that are exchanged, cut, or of another sign are refused (`cli/ferraris.rs`); sensors that are only crooked are not.
+/// Turns that are swapped, cut, or of another sign are refused (`cli/ferraris.rs`). Sensors that are only
+/// misaligned are not.
 #[test]
 fn crooked_sensors_with_gains_that_are_off_are_calibrated() {
     let (steps, setup) = session(&six());
@@ -185,7 +188,8 @@ fn crooked_sensors_with_gains_that_are_off_are_calibrated() {
         for sensor in 0..64 {
             let mut rng = stream(81, Purpose::Sensor, sensor);
             let mut truth = draw_imu(&mut rng);
-            // signs by the bits of the number, the two sensors' the other way round: the worst of them are turned against each other
+            // signs by the bits of the number, the two sensors' in opposite order: the worst of them are
+            // turned against each other
             for (k, sensor_kind) in [&mut truth.accelerometer, &mut truth.gyroscope].into_iter().enumerate() {
                 let mut bits = if k == 0 { sensor } else { !sensor };
                 let mut sign = || {
@@ -230,13 +234,14 @@ fn how_well_the_faces_were_met_is_given_or_told_by_their_scatter_or_assumed() {
     assert_eq!((given.source, given.degrees_of_freedom), (TiltSource::Given, 0));
     assert_eq!(given.sd_rad, 0.3_f64.to_radians());
     assert!(calibration.warnings.is_empty(), "{:?}", calibration.warnings);
-    // a tilt by 0.3° of two faces up and down: 1/√2 of it in each cross term, of which gravity tells nothing else
+    // a tilt by 0.3° of two faces up and down: 1/√2 of it in each cross term, on which gravity has no other
+    // information
     let place = |name: &str| calibration.quantities.iter().position(|of| of.name() == name).expect(name);
     let cross = calibration.sd()[place("accelerometer.matrix.xy")];
     assert!((cross / (0.3_f64.to_radians() / 2.0_f64.sqrt()) - 1.0).abs() < 0.03, "{cross}");
     // along gravity: noise of 500 samples, and the square of the tilt twice, of two faces each
     let (noise, square) = (0.01 / 9.806_65 / 500.0_f64.sqrt(), 0.3_f64.to_radians().powi(2));
-    // what a tilt across shows of the other two axes
+    // the effect of a tilt through the other two axes
     let of_others = cross * calibration.imu.accelerometer.matrix.fixed_view::<1, 2>(0, 1).norm();
     let found = calibration.sd()[place("accelerometer.scale.x")];
     let expected = (0.5 * noise * noise + square * square + of_others * of_others).sqrt();
@@ -246,7 +251,7 @@ fn how_well_the_faces_were_met_is_given_or_told_by_their_scatter_or_assumed() {
         message.contains("the faces scatter by 1.") && message.contains("holds.face_sd_deg says 0.30°"),
         "{message}"
     );
-    // stated far too large, the mean of the gains follows what the faces show
+    // stated far too large, the mean of the gains follows the faces
     let large = tilted(&six, 0.3, Some(5.0));
     let message = large.warnings.join("; ");
     assert!(message.contains("the faces scatter by only 0.") && message.contains("says 5.00°"), "{message}");

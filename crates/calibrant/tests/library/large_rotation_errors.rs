@@ -1,4 +1,5 @@
-//! Rotations after which gravity is missed by more than a right angle: the part of it across the direction found is small again near 180°.
+//! Tests of rotation errors of more than a right angle: near 180° the part of gravity across the direction
+//! found is small again.
 
 use calibrant::estimate::{
     CalibrationSettings, Gyroscope, ImuCalibration, ImuProblem, ImuSetup, calibrate_imu,
@@ -29,7 +30,7 @@ fn imu() -> ImuParameters {
     imu
 }
 
-/// Before one hold the gyroscope says that the sensor went through an angle that it did not.
+/// Before one hold the gyroscope reports a rotation of the sensor that did not happen.
 #[test]
 fn a_rotation_that_ends_upside_down_is_left_out_with_its_angle() {
     let setup = ImuSimulation::default();
@@ -40,7 +41,8 @@ fn a_rotation_that_ends_upside_down_is_left_out_with_its_angle() {
         let mut recording = clean.clone();
         let hold = calibration.holds.holds[7].hold.clone();
         let gyroscope = recording.gyroscope.as_mut().expect("there");
-        // just before the hold that was found; across gravity; for a tenth of a second, as one sample is a spike
+        // just before the hold that was found; across gravity; for a tenth of a second, as one sample is a
+        // spike
         let at = hold.first - 3;
         let across = hold.mean.cross(&Vector3::x()).normalize();
         for reading in &mut gyroscope.readings[at - 9..=at] {
@@ -65,7 +67,8 @@ fn gyroscope_time(recording: &ImuRecording, at: usize) -> f64 {
     recording.gyroscope.as_ref().expect("there").times_s[at]
 }
 
-/// About x only by right angles, so that a rotation by −90° in place of 90° misses gravity by exactly 180°.
+/// About x only right angles, so that a rotation by −90° in place of 90° gives a rotation error of exactly
+/// 180°.
 #[test]
 fn an_axis_that_points_the_other_way_is_found_where_all_turns_about_it_are_right_angles() {
     let up = |angles: &[f64], from: Vector3<f64>, to: Vector3<f64>| -> Vec<Vector3<f64>> {

@@ -1,4 +1,4 @@
-//! What the library promises, checked from outside: one binary, so that it is linked once.
+//! Tests of the library from outside: one binary, so that it is linked once.
 
 mod architecture;
 mod clock_skew;

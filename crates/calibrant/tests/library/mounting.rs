@@ -1,4 +1,4 @@
-//! A gyroscope may be turned against the accelerometer by any angle.
+//! Tests of the mounting: a gyroscope may be turned against the accelerometer by any angle.
 
 use crate::common::{draw_imu, normal, run_imu};
 use calibrant::estimate::{Gyroscope, ImuCalibration, ImuSetup};
@@ -11,7 +11,7 @@ fn run(recording: &ImuRecording, unit: ReadingUnit) -> calibrant::Result<ImuCali
     run_imu(recording, &gyroscope, &ImuSetup::default(), ReadingUnit::MetrePerSecondSquared)
 }
 
-/// An IMU whose gyroscope reads by this matrix more.
+/// An IMU whose gyroscope's matrix has this factor.
 fn turned(number: u64, by: &Matrix3<f64>) -> (ImuParameters, ImuRecording) {
     let mut rng = stream(501, Purpose::Sensor, number);
     let mut imu = draw_imu(&mut rng);
@@ -32,7 +32,7 @@ fn every_attitude_is_found() {
     let given = [10.0, 13.0, 16.0, 20.0, 30.0, 45.0].map(about_z);
     let drawn = (0..12).map(attitude).chain((12..16).map(|number| -attitude(number)));
     for (number, by) in (0..).zip(given.into_iter().chain(drawn)) {
-        // of counts the gain is not known
+        // in counts the gain is not known
         let unit = [ReadingUnit::RadianPerSecond, ReadingUnit::Counts][number as usize % 2];
         let gain = if unit == ReadingUnit::Counts { 1000.0 } else { 1.0 };
         let (truth, mut recording) = turned(number, &by);

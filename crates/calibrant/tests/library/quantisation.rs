@@ -1,4 +1,4 @@
-//! Readings in steps coarser than their noise: more samples do not help, and that is said.
+//! Tests of readings in steps coarser than their noise: more samples do not help, and a warning says so.
 
 use crate::common::{draw_imu, normal};
 use calibrant::estimate::{
@@ -94,7 +94,8 @@ fn intervals_are_not_too_narrow_where_the_gyroscope_is_coarse() {
         for step in [1e-3, 0.005, 0.01, 0.02] {
             let covered = coverage(100, step, on_table);
             println!("table {on_table}, step {step}: {covered:.3?}");
-            // errors of one recording are correlated: about 100 independent ones, of which 2.2 % is a standard deviation
+            // errors of one recording are correlated: about 100 independent ones, of which 2.2 % is a
+            // standard deviation
             assert!(covered.iter().all(|share| *share > 0.90), "table {on_table}, step {step}: {covered:?}");
             let usual = step > 0.003 || covered.iter().all(|share| *share < 0.98);
             assert!(usual, "a fine step widens nothing: {covered:?}");

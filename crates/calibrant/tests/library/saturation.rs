@@ -1,4 +1,5 @@
-//! An accelerometer that stops at the end of its range: what it says there is left out, and said.
+//! Tests of an accelerometer that stops at the end of its range: its readings there are not used, and a
+//! warning says so.
 
 use crate::common::{draw_imu, normal};
 use calibrant::estimate::{
@@ -18,7 +19,7 @@ fn draw(rng: &mut Rng) -> ImuParameters {
     ImuParameters { g_sensitivity: Matrix3::from_fn(|_, _| 2e-4 * normal(rng)), ..draw_imu(rng) }
 }
 
-/// Cuts axis x of the accelerometer off.
+/// Limits axis x of the accelerometer.
 fn clip(recording: &mut ImuRecording, limit: f64) {
     let readings = &mut recording.accelerometer.as_mut().expect("there").readings;
     readings.iter_mut().for_each(|y| y.x = y.x.clamp(-limit, limit));
@@ -34,7 +35,7 @@ fn run(
     calibrate_imu(&problem, &CalibrationSettings::default())
 }
 
-/// In how many of simulated recordings that are cut off at a limit each 95 % interval covers the truth.
+/// For each 95 % interval, the share of simulated recordings with this limit in which it covers the truth.
 fn coverage(count: u64, limit: f64) -> (Vec<f64>, Vec<f64>) {
     let gyroscope = Gyroscope { g_sensitivity: true, ..Gyroscope::default() };
     let errors: Vec<Vec<f64>> = (0..count)
@@ -109,7 +110,7 @@ fn holds_and_rotations_in_which_the_accelerometer_saturates_are_left_out_and_nam
         assert_eq!(rotation.used, rotation.reason.is_none(), "{rotation:?}");
     }
     assert!(calibration.rotations.iter().filter(|rotation| is_named(&rotation.reason)).count() > 5);
-    // a gyroscope that feels no force does not mind: the rotations stay
+    // a gyroscope without g-sensitivity is not affected: the rotations stay
     let calibration = run(&recording, &Gyroscope::default(), &ImuSetup::default()).expect("determined");
     assert!(calibration.rotations.iter().all(|rotation| !is_named(&rotation.reason)));
 }
@@ -188,7 +189,7 @@ fn known_faces_that_are_cut_off_are_left_out_too() {
     let error = (calibration.imu.accelerometer.matrix - truth.accelerometer.matrix).amax();
     assert!(error < 1e-3, "{error}");
 
-    // where the gyroscope feels the force, a turn in which it is not known is refused
+    // where the gyroscope senses the force, a turn with an unknown force is refused
     let axis = Vector3::x();
     setup.turns.push(Turn { name: None, start_s: 0.0, end_s: 3.0, axis, angle_rad: 1.0, angle_sd_rad: 1e-3 });
     let gyroscope = Gyroscope { g_sensitivity: true, ..Gyroscope::default() };
@@ -199,7 +200,8 @@ fn known_faces_that_are_cut_off_are_left_out_too() {
     );
 }
 
-/// A quiet sensor in counts repeats its value in a hold; the largest may well be repeated for longest, since a recording often begins with a long hold.
+/// A quiet sensor in counts repeats its value in a hold. The largest value may well have the longest
+/// repetition, since a recording often begins with a long hold.
 #[test]
 fn a_long_quiet_hold_at_the_largest_count_is_not_cut_off() {
     let mut rng = stream(25, Purpose::Sensor, 0);
@@ -257,7 +259,7 @@ fn the_accelerometer_alone_leaves_them_out_as_well() {
     assert!(
         cut.len() > 2 && cut.iter().all(|reason| reason.contains("axis x of the accelerometer saturates"))
     );
-    // and so says the file
+    // and the file has it, too
     let input = Input { file: "x.csv".into(), sha256: String::new(), samples: 0, rate_hz: 100.0 };
     let json: serde_json::Value =
         serde_json::from_str(&calibration_json(&calibration, &[], &input)).expect("JSON");

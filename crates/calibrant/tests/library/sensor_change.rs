@@ -1,4 +1,5 @@
-//! A sensor that changes within a recording is told; one that does not is not accused.
+//! Tests of a sensor that changes within a recording: the change is reported. No change is reported of other
+//! sensors.
 
 use crate::common::{draw_imu, normal, run_imu};
 use calibrant::estimate::{
@@ -42,8 +43,8 @@ fn from(
     }
 }
 
-/// Of honest recordings fewer than one in two hundred are accused: with many and few holds, noise that is believed to be a third or three times of what it is, a scatter between holds, and
-/// holds that move.
+/// Of good recordings fewer than one in two hundred show a change. They have many and few holds, an assumed
+/// noise of a third or three times its value, a scatter between holds, and holds that move.
 #[test]
 fn a_sensor_that_does_not_change_is_not_accused() {
     let accused = |number: u64| {
@@ -101,7 +102,7 @@ fn a_step_is_found_and_its_sensor_its_kind_and_its_time_are_told() {
             );
             assert!((time_s - 4.5 * last as f64 - 3.5).abs() < 10.0, "{change:?}");
             let off = (change.amount[axis] - amount).abs();
-            // a step that is placed a turn early or late is diluted
+            // a step that is found a turn early or late is diluted
             let misplaced = (before.abs_diff(last) + after.abs_diff(last + 1)) as f64;
             let most = 5.0 * change.sd[axis] + 0.1 * amount * (1.0 + misplaced);
             assert!(off < most, "{sensor_kind} {of:?} {number}: {change:?}");
@@ -114,7 +115,8 @@ fn a_step_is_found_and_its_sensor_its_kind_and_its_time_are_told() {
     }
 }
 
-/// A bias that is off for the middle third is no single step: both ends are told, and by how much it is off in between.
+/// A bias that is off for the middle third is no single step: the warning gives both ends, and the shift in
+/// between.
 #[test]
 fn a_bias_that_comes_and_goes_is_an_episode() {
     let simulation = ImuSimulation { poses: 36, ..ImuSimulation::default() };
@@ -150,7 +152,7 @@ fn a_bias_that_comes_and_goes_is_an_episode() {
     assert!(changes.iter().flatten().filter(is_reported).count() >= 10, "{changes:#?}");
 }
 
-/// Of a few holds at the end each looks like an outlier.
+/// Of a few holds at the end, each looks like an outlier.
 #[test]
 fn holds_that_are_left_out_in_a_row_are_a_change() {
     let simulation = ImuSimulation { poses: 30, ..ImuSimulation::default() };
@@ -213,7 +215,7 @@ fn an_accelerometer_alone_is_told_too() {
     }
 }
 
-/// Each part of a recording is predicted by the rest of it as well as the scatter between both promises.
+/// The rest of a recording predicts each part of it as well as the scatter between both promises.
 #[test]
 fn folds_of_a_sensor_that_changes_are_not_believed() {
     let simulation = ImuSimulation { poses: 28, ..ImuSimulation::default() };
@@ -255,7 +257,7 @@ fn folds_of_a_sensor_that_changes_are_not_believed() {
     }
 }
 
-/// What a real sensor of good make shows is no change.
+/// A real sensor of good quality shows no change.
 #[test]
 fn the_xsens_is_the_same_throughout() {
     let Some((recording, gravity)) = crate::common::xsens() else { return };

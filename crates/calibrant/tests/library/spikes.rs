@@ -1,4 +1,4 @@
-//! Samples that are none: single ones far off, and what no sensor gives. And what is said of holds by the parameters that are written.
+//! Tests of spikes and invalid samples, and of the magnitudes of holds in the table.
 
 use crate::common::{draw_imu, normal, xsens};
 use calibrant::estimate::{
@@ -34,7 +34,7 @@ fn sensor(recording: &mut ImuRecording, sensor_kind: SensorKind) -> &mut Recordi
     .expect("recorded")
 }
 
-/// One sample in so many of one axis is off by 20 to 1000 standard deviations of the noise; returns how many.
+/// Moves one in `every` samples of one axis by 20 to 1000 standard deviations of the noise; returns how many.
 fn add_spikes(recording: &mut Recording, every: f64, noise: f64, seed: u64) -> usize {
     let mut rng = stream(seed, Purpose::Sensor, 0);
     let mut count = 0;
@@ -124,7 +124,8 @@ fn spikes_divide_no_hold_and_shift_no_estimate() {
     }
 }
 
-/// One sample in a hundred off by the same, too near the noise to be left out: the bias is off by four standard deviations and more.
+/// One sample in a hundred is off by the same amount, too near the noise to be removed. The bias is off by
+/// four standard deviations and more.
 #[test]
 fn spikes_of_one_sign_are_named_with_what_they_do_to_the_bias() {
     let one_sided = |of: &ImuCalibration| -> Vec<String> {
@@ -156,7 +157,7 @@ fn spikes_of_one_sign_are_named_with_what_they_do_to_the_bias() {
             let side = if size > 0.0 { "above the others, and" } else { "below the others, and" };
             assert!(message.len() == 1 && message[0].contains(side), "{of} {size}: {message:?}");
             assert!(message[0].starts_with(&format!("{of} z: ")), "{message:?}");
-            // by a hundredth of their size, and no more than what is beyond four standard deviations
+            // by a hundredth of their size, and no more than the part beyond four standard deviations
             let (_, by) = message[0].split_once("the bias, by ").expect("how far");
             let by: f64 = by.split(' ').next().and_then(|number| number.parse().ok()).expect("a number");
             assert!((0.7..1.3).contains(&(by / (0.01 * size * noise))), "{of} {size}: {by}");
@@ -225,7 +226,7 @@ fn neither_heavy_tails_nor_coarse_steps_nor_brief_turns_are_spikes() {
     }
 }
 
-/// What the table says of a hold is what the calibration that is written makes of its mean.
+/// The magnitude of a hold in the table is that of its mean after the correction in the file.
 #[test]
 fn the_magnitude_of_a_hold_is_what_the_correction_gives() {
     let calibration = run(&simulated(4), &ImuSetup::default());

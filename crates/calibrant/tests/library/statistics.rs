@@ -1,7 +1,8 @@
-//! Monte Carlo: what a calibration promises, it delivers. Seeded, so that a failure is a change.
+//! Monte Carlo tests: a calibration delivers what it promises. Seeded, so that a failure is a change.
 //!
-//! Tolerances are those of the sample size: with n sensors a variance is known to √(2/n) relative, a coverage of 95 % to √(0.95·0.05/n),
-//! and √n times the Kolmogorov–Smirnov distance of uniform p-values exceeds 1.95 once in a thousand.
+//! Tolerances are those of the sample size. With n sensors a variance is known to √(2/n) relative, and a
+//! coverage of 95 % to √(0.95·0.05/n). √n times the Kolmogorov–Smirnov distance of uniform p-values exceeds
+//! 1.95 once in a thousand.
 
 use calibrant::design::{DesignProblem, DesignSettings, design};
 use calibrant::estimate::{
@@ -256,7 +257,8 @@ fn static_holds_deliver_the_promised_covariance() {
     }
 }
 
-/// The joint estimate of motion and parameters has a bias that grows with the number of noisy intervals; the warning knows how large it is.
+/// The joint estimate of motion and parameters has a bias that grows with the number of noisy intervals. The
+/// warning states its size.
 #[test]
 fn the_bias_of_a_long_noisy_motion_is_foretold() {
     let noise = Trust::Noisy(InputNoise { floor_mps3: 0.01, ratio: 0.01 });

@@ -1,4 +1,5 @@
-//! An IMU whose bias and gain follow temperature: against the truth on simulated ones, and where the data do not determine it.
+//! Tests of an IMU whose bias and gain follow temperature: against the truth on simulated ones, and where the
+//! data do not determine it.
 
 use calibrant::estimate::{
     CalibrationSettings, CalibrationStatus, Comparison, Gyroscope, ImuCalibration, ImuProblem, ImuSetup,
@@ -57,13 +58,13 @@ fn ramp(poses: usize) -> ImuSimulation {
     ImuSimulation { poses, temperature_c: Some([20.0, 45.0]), ..ImuSimulation::default() }
 }
 
-/// Mean and coverage of every quantity over IMUs turned by hand; what is off is told.
+/// Mean and coverage of every quantity over IMUs turned by hand; returns those that are off.
 fn off(model: ThermalModel, poses: usize, count: u64) -> Vec<String> {
     let simulation = ramp(poses);
     off_in(&setup(model), count, &|truth, rng| simulate_imu(truth, &simulation, rng))
 }
 
-/// The same, recorded as it may be.
+/// The same, with these conditions of the recording.
 fn off_in(
     setup: &ImuSetup,
     count: u64,
@@ -91,7 +92,8 @@ fn off_in(
         let mean = z().sum::<f64>() / n;
         let rms = (z().map(|z| z * z).sum::<f64>() / n).sqrt();
         println!("{}: {covered:.4} covered, mean {mean:+.3}, rms {rms:.3}", quantity.name());
-        // four standard deviations of a share and of a mean; and 2.5 % for the scatter between holds, here none, that is estimated too
+        // four standard deviations of a share and of a mean; and 2.5 % for the scatter between holds, which
+        // is zero here but estimated, too
         let band = 4.0 * (0.95 * 0.05 / n).sqrt() + 0.025;
         if (covered - 0.95).abs() > band || mean.abs() > 4.0 / n.sqrt() {
             off.push(format!("{}: {covered} covered, mean {mean:+.3}", quantity.name()));
@@ -119,7 +121,8 @@ fn intervals_of_400_imus_with_quadratic_terms_cover_the_truth() {
     assert!(off.is_empty(), "{off:#?}");
 }
 
-/// On a turntable that warms up: three times each of six faces, and a turn there and back about each axis. Angles are met within 0.1°.
+/// On a turntable that warms up: three times each of six faces, and a turn there and back about each axis.
+/// Angles are exact within 0.1°.
 #[test]
 fn intervals_of_400_imus_turned_by_known_angles_cover_the_truth() {
     let model = ThermalModel { gyroscope_bias: 1, gyroscope_scale: 1, ..ThermalModel::default() };
@@ -240,7 +243,7 @@ fn a_constant_temperature_is_named_and_a_prior_alone_determines_a_term() {
     let fixed = run(&recording, &setup).expect("fixed");
     assert!(fixed.quantities.iter().all(|quantity| !matches!(quantity, ImuQuantity::Thermal(..))));
     assert_eq!(fixed.imu.thermal.gyroscope.bias[0], Vector3::repeat(3e-5));
-    // the bias at 32 °C is what is there at 30.1 °C and 1.9 K more
+    // the bias at 32 °C is the one at 30.1 °C and 1.9 K more
     let (a, b) = (&calibration.imu, &fixed.imu);
     let terms = a.thermal.gyroscope.bias[0] - b.thermal.gyroscope.bias[0];
     let expected = 1.9 * terms;
@@ -272,7 +275,8 @@ fn what_is_no_temperature_is_said() {
     assert!(message.contains("the recording has none") && message.contains("[columns]"), "{message}");
 }
 
-/// Six holds of thirty are 25 K warmer than the rest. The bias of each axis moves by 0.1 m/s², 158 times the noise of a hold's mean.
+/// Six holds of thirty are 25 K warmer than the rest. The bias of each axis moves by 0.1 m/s², 158 times the
+/// noise of a hold's mean.
 #[test]
 fn no_hold_is_thrown_away_for_its_temperature_and_a_bad_one_still_is() {
     let model = ThermalModel { accelerometer_bias: 1, accelerometer_scale: 1, ..ThermalModel::default() };
@@ -296,7 +300,7 @@ fn no_hold_is_thrown_away_for_its_temperature_and_a_bad_one_still_is() {
         let holds = calibration.holds.holds.iter().enumerate();
         holds.filter_map(|(j, hold)| (!hold.used).then_some(j)).collect()
     };
-    // to a calibration without terms the warm ones do not fit
+    // the warm ones do not fit a calibration without terms
     let blind = run(&recording, &ImuSetup::default()).expect("determined");
     assert_eq!(left_out(&blind), [24, 25, 26, 27, 28, 29]);
     let clean = run(&recording, &setup(model)).expect("determined");
@@ -340,7 +344,7 @@ fn a_calibration_keeps_its_terms_in_its_file() {
         .expect("determined")
         .calibrated();
     let comparison = Comparison::of(&calibration.calibrated(), &other);
-    // the same data, only said about another temperature
+    // the same data, only given at another temperature
     for row in &comparison.quantities {
         let in_sd = row.in_sd.unwrap_or(0.0);
         assert!(in_sd.abs() < 0.02, "{}: {in_sd}", row.invariant.name());
@@ -353,7 +357,8 @@ fn a_calibration_keeps_its_terms_in_its_file() {
     );
 }
 
-/// The directions of the holds are known, as on a turntable: the same motion of a perfect IMU without noise shows them.
+/// The directions of the holds are known, as on a turntable: the same motion of a perfect IMU without noise
+/// gives them.
 #[test]
 fn terms_are_found_where_the_directions_of_the_holds_are_known() {
     let model =

@@ -1,4 +1,4 @@
-//! What is printed of a simulated IMU.
+//! Tests of what is printed for a simulated IMU.
 
 use super::imu_calibration;
 use calibrant::{estimate, motion, sensor};

@@ -1,8 +1,8 @@
-//! Broken experiment files: exit status 2, the line shown and what to write in its stead.
+//! Tests of broken experiment files: exit status 2, the line shown and the remedy.
 
 use super::bench;
 
-/// Text of the preset, what replaces it, text of the line that is complained about, and what is said.
+/// Text of the preset, its replacement, text of the line at fault, and the message.
 type Case = (&'static str, &'static str, &'static str, &'static [&'static str]);
 
 const CASES: &[Case] = &[

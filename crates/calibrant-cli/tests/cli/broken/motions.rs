@@ -1,8 +1,8 @@
-//! Broken commanded motions: exit status 2, the line in the message.
+//! Tests of broken commanded motions: exit status 2, the line in the message.
 
 use super::{CALIBRATE, bench};
 
-/// The bytes of a motion and what is said of it.
+/// The bytes of a motion and the message about it.
 const CASES: &[(&[u8], &str)] = &[
     (b"", ": the file is empty"),
     (b"t_s,ax_mps2,ay_mps2,az_mps2\n", ": a motion needs at least two nodes, this one has 0"),

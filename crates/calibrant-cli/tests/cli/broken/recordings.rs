@@ -1,8 +1,8 @@
-//! Broken recordings: exit status 3, the line in the message.
+//! Tests of broken recordings: exit status 3, the line in the message.
 
 use super::{CALIBRATE, bench};
 
-/// The bytes of a recording and what is said of it.
+/// The bytes of a recording and the message about it.
 const CASES: &[(&[u8], &str)] = &[
     (b"", ": the file is empty (a recording has a header t_s,ax,ay,az and a row for each sample)"),
     (b"\n\n  \n", ": the file is empty"),

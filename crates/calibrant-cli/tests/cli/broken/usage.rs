@@ -1,9 +1,9 @@
-//! Wrong commands and places that cannot be written: exit status 2.
+//! Tests of wrong commands and places that cannot be written: exit status 2.
 
 use super::{CALIBRATE, bench};
 use crate::bench::Bench;
 
-/// Arguments and what is said of them.
+/// Arguments and the messages about them.
 const CASES: &[(&str, &[&str])] = &[
     ("frobnicate", &["unrecognized subcommand 'frobnicate'", "Usage: calibrant"]),
     ("calibrat experiment.toml", &["'calibrate'"]),
@@ -56,7 +56,7 @@ fn a_file_in_the_way_of_the_directory_is_named_before_the_work_is_done() {
         CALIBRATE.replace("result", "taken"),
         CALIBRATE.replace("result", "taken/below"),
         CALIBRATE.replace("recording.csv", "recording.csv recording.csv").replace("result", "taken"),
-        // the place is looked at first: this recording is not there
+        // the place is checked first: this recording is not there
         CALIBRATE.replace("recording.csv", "absent.csv").replace("result", "taken"),
         "simulate experiment.toml -o taken".into(),
         "simulate static.toml -o taken".into(),

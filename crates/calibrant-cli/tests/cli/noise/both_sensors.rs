@@ -1,10 +1,11 @@
-//! `calibrant noise` of both sensors of an IMU in one run.
+//! Tests of `calibrant noise` of both sensors of an IMU in one run.
 
 use super::recording;
 use crate::bench::Bench;
 use std::fmt::Write;
 
-/// An IMU at rest at 100 Hz, with noise of its gyroscope a tenth of the accelerometer's; the accelerometer's file and the gyroscope's.
+/// An IMU at rest at 100 Hz; the noise of its gyroscope is a tenth of the accelerometer's. Returns the file
+/// of the IMU, the accelerometer's and the gyroscope's.
 fn imu(n: u32) -> [String; 3] {
     let forces = recording("", n + 100, 0.1);
     let lines: Vec<&str> = forces.lines().skip(1).collect();
@@ -49,7 +50,7 @@ fn both_sensors_of_an_imu_are_examined_at_once() {
     assert_eq!(names, ["accelerometer", "gyroscope"]);
     let page = bench.read("both/report.html");
     assert!(page.contains("Noise of the accelerometer") && page.contains("Noise of the gyroscope"));
-    // the same numbers from a file each
+    // the same numbers from two files
     bench.run("noise acc.csv --gyroscope gyro.csv -o pair").done();
     let pair = bench.json("pair/noise.json");
     assert_eq!(pair["sensors"], json["sensors"]);
@@ -88,7 +89,7 @@ fn both_sensors_of_an_imu_are_examined_at_once() {
         assert!((value(key) / expected - 1.0).abs() < 0.05, "{key}: {yaml}");
     }
     assert!(yaml.contains("update_rate: 100.0\n"), "{yaml}");
-    // the accelerometer's file of imu_tk carries nothing of the gyroscope's g-sensitivity
+    // the accelerometer's file of imu_tk cannot carry the gyroscope's g-sensitivity
     bench.refuses("convert ferraris.json imu.calib", 2, &["g-sensitivity", "--sensor accelerometer"]);
     let outcome = bench.run("convert ferraris.json acc.calib --sensor accelerometer").done();
     assert!(outcome.stdout.contains("acc.calib (imu_tk"), "{}", outcome.stdout);
@@ -110,7 +111,8 @@ fn both_sensors_of_an_imu_are_examined_at_once() {
     bench.refuses("convert ferraris.json next.yaml --noise next.json", 2, &["version 9"]);
 }
 
-/// Where one sensor is asked for, the unit of the other says nothing: it only tells when the IMU is still.
+/// Where the user asks for one sensor, the unit of the other has no effect: that sensor only shows when the
+/// IMU is stationary.
 #[test]
 fn of_a_pair_only_the_unit_of_the_sensor_that_is_asked_for_is_needed() {
     let bench = Bench::new();

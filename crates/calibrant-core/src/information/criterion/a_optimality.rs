@@ -1,4 +1,4 @@
-//! A: the sum of the variances.
+//! Criterion A: the sum of the variances.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -6,17 +6,18 @@ use nalgebra::{DMatrix, DVector};
 ///
 /// `Φ_A(C) = trace C = Σ C_ii / s_i²`
 ///
-/// Units decide: with `s = 1` a bias in m/s² is added to a scale factor without unit. On the report's problem the bias contributes `σ²/M` at least,
-/// whatever the motion, and hides what the motion does for the scale factor; divide by the datasheet's spread to see it.
+/// Units decide: with `s = 1` a bias in m/s² is added to a scale factor without unit. On the report's problem
+/// the bias contributes at least `σ²/M`, whatever the motion. That hides the effect of the motion on the
+/// scale factor. Divide by the datasheet's spread to see it.
 ///
 /// # Units
-/// None with a scale; the sum of the squares of the parameters' units without.
+/// None with a scale. Without one, the sum of the squares of the parameters' units.
 ///
 /// # References
 /// `pukelsheim2006`, `vamvaka2021`
 #[derive(Debug, Clone, PartialEq)]
 pub struct AOptimality {
-    /// What each parameter is divided by.
+    /// The divisor of each parameter.
     pub scale: DVector<f64>,
 }
 

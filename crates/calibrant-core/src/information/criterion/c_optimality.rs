@@ -1,4 +1,4 @@
-//! c: a weighted sum of variances.
+//! Criterion c: a weighted sum of variances.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -9,7 +9,7 @@ use nalgebra::{DMatrix, DVector};
 /// Weight 1 on one parameter and 0 on the others asks for the motion that determines this parameter best.
 ///
 /// # Units
-/// Those of the weights times the squares of the parameters' units.
+/// The unit of the weights times the squares of the parameters' units.
 ///
 /// # References
 /// `pukelsheim2006`

@@ -1,4 +1,4 @@
-//! D: the volume of the confidence ellipsoid.
+//! Criterion D: the volume of the confidence ellipsoid.
 
 use super::scaling::scaled;
 use nalgebra::{Cholesky, DMatrix, DVector};
@@ -7,20 +7,20 @@ use nalgebra::{Cholesky, DMatrix, DVector};
 ///
 /// `Φ_D(C) = ln det C − 2 Σ ln s_i`
 ///
-/// The confidence ellipsoid's volume is proportional to `exp(Φ_D/2)`. Changing a parameter's unit (or `s`) adds a constant and leaves the optimal
-/// design where it was; this is not so for A, E and M.
+/// The confidence ellipsoid's volume is proportional to `exp(Φ_D/2)`. Changing a parameter's unit (or `s`)
+/// adds a constant and leaves the optimal design where it was. This is not so for A, E and M.
 ///
 /// # Units
 /// Nats. Compare only designs of the same parameters, by difference.
 ///
 /// # Numerics
-/// Twice the sum of the logarithms of the Cholesky diagonal: the determinant itself underflows.
+/// It is twice the sum of the logarithms of the Cholesky diagonal: the determinant itself underflows.
 ///
 /// # References
 /// `pukelsheim2006`
 #[derive(Debug, Clone, PartialEq)]
 pub struct DOptimality {
-    /// What each parameter is divided by.
+    /// The divisor of each parameter.
     pub scale: DVector<f64>,
 }
 

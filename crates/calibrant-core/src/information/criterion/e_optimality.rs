@@ -1,4 +1,4 @@
-//! E: the worst direction.
+//! Criterion E: the variance of the worst direction.
 
 use super::scaling::scaled;
 use nalgebra::{DMatrix, DVector};
@@ -11,13 +11,13 @@ use nalgebra::{DMatrix, DVector};
 /// designs often make it.
 ///
 /// # Units
-/// None with a scale; mixed without, so that a scale is advisable.
+/// None with a scale. Mixed without one, so a scale is advisable.
 ///
 /// # References
 /// `pukelsheim2006`
 #[derive(Debug, Clone, PartialEq)]
 pub struct EOptimality {
-    /// What each parameter is divided by.
+    /// The divisor of each parameter.
     pub scale: DVector<f64>,
 }
 

@@ -1,12 +1,13 @@
-//! I: the variance of what the user finally reads.
+//! Criterion I: the mean variance of the corrected reading, which the user finally reads.
 
 use crate::sensor::{Axis, ParameterList, Quantity, SensorParameters};
 use nalgebra::{DMatrix, Matrix3, Vector3};
 
 /// Mean variance of the corrected reading over the operating range.
 ///
-/// The corrected reading is `ŝ = S⁻¹ (y − b)`, so an error of the parameters makes it wrong by `δŝ = −S⁻¹ (δb + δS s)`. Averaged over `s` uniform in
-/// `[−R, R]³` (independent components of variance `R²/3`) and summed over the axes,
+/// The corrected reading is `ŝ = S⁻¹ (y − b)`, so an error of the parameters changes it by
+/// `δŝ = −S⁻¹ (δb + δS s)`. This is averaged over `s` uniform in `[−R, R]³` (independent components of
+/// variance `R²/3`) and summed over the axes:
 ///
 /// `Φ_I(C) = E ‖δŝ‖² = tr(Q C_bb) + R²/3 Σ_j tr(Q C_{S_j S_j})`, `Q = S⁻ᵀ S⁻¹`, `S_j` column j of `S`.
 ///
@@ -43,7 +44,7 @@ impl IOptimality {
         let q: Matrix3<f64> = inverse.tr_mul(&inverse);
         let moment = range_mps2 * range_mps2 / 3.0;
         let quantities = list.quantities();
-        // the reading that a quantity changes, and by which entry of (1, s): bias is entry 0
+        // the reading that a quantity changes, and the entry of (1, s) that it multiplies: bias is entry 0
         let unit = |axis: Axis| Vector3::ith(axis.index(), 1.0);
         let terms = |quantity: Quantity| -> Vec<(Vector3<f64>, usize)> {
             match quantity {

@@ -1,4 +1,4 @@
-//! M: the worst parameter.
+//! Criterion M: the variance of the worst parameter.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -9,13 +9,13 @@ use nalgebra::{DMatrix, DVector};
 /// Not smooth where two variances are equal, as optimal designs make them.
 ///
 /// # Units
-/// None with a scale; mixed without, so that a scale is advisable.
+/// None with a scale. Mixed without one, so a scale is advisable.
 ///
 /// # References
 /// `pukelsheim2006`
 #[derive(Debug, Clone, PartialEq)]
 pub struct MOptimality {
-    /// What each parameter is divided by.
+    /// The divisor of each parameter.
     pub scale: DVector<f64>,
 }
 

@@ -1,4 +1,4 @@
-//! Criteria of optimality: what a design minimises, as a function of the covariance `C` of the parameters.
+//! The criteria of optimality that a design minimises, as functions of the covariance `C` of the parameters.
 //!
 //! | letter | value | asks for |
 //! |---|---|---|
@@ -9,8 +9,9 @@
 //! | c | `Σ w_i C_ii` | the parameters that matter to you |
 //! | I | mean variance of the corrected reading | accurate readings, which is what a sensor is for |
 //!
-//! A, E, M and c compare variances of different units: divide the parameters by a `scale` (their datasheet spread) unless you mean their SI values. All
-//! fall when information is added, and all are convex in the information.
+//! A, E, M and c compare variances of different units. Divide the parameters by a `scale` (their datasheet
+//! spread) unless you mean their SI values. All fall when information is added, and all are convex in the
+//! information.
 //!
 //! # References
 //! `pukelsheim2006`
@@ -63,7 +64,7 @@ impl Criterion {
         }
     }
 
-    /// Its formula, for people.
+    /// Its formula, as text.
     #[must_use]
     pub fn formula(&self) -> &'static str {
         match self {
@@ -76,8 +77,8 @@ impl Criterion {
         }
     }
 
-    /// What the parameters are divided by before they are compared, to be said behind the formula: empty where that changes nothing (I), or is part of the
-    /// weights (c).
+    /// The words behind the formula that name the divisors of the parameters. They are empty where a divisor
+    /// changes nothing (I), or is part of the weights (c).
     #[must_use]
     pub fn scaling(&self) -> &'static str {
         let scale = match self {
@@ -120,7 +121,7 @@ impl Criterion {
         }
     }
 
-    /// The criterion of some of the parameters, those at these places, where they share nothing with the others.
+    /// The criterion of the parameters at these places, which share no information with the others.
     #[must_use]
     pub fn restricted(&self, places: &[usize]) -> Self {
         match self {
@@ -133,7 +134,7 @@ impl Criterion {
         }
     }
 
-    /// The value for all parameters from those of groups that share nothing: the sum, or (E, M) the largest.
+    /// The value for all parameters from those of groups that share nothing: the sum, or the largest (E, M).
     #[must_use]
     pub fn combine(&self, parts: impl IntoIterator<Item = f64>) -> f64 {
         match self {
@@ -142,7 +143,7 @@ impl Criterion {
         }
     }
 
-    /// How much worse `value` is than `best`: `value/best − 1`, for D the difference in nats.
+    /// How much worse `value` is than `best`: `value/best − 1`; for D the difference in nats.
     #[must_use]
     pub fn gap(&self, value: f64, best: f64) -> f64 {
         if let Self::D(_) = self { value - best } else { value / best - 1.0 }

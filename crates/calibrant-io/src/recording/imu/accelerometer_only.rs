@@ -1,4 +1,4 @@
-//! The accelerometer alone, out of a recording in any format.
+//! Reads the accelerometer alone, from a recording in any format.
 
 use super::read::parse;
 use super::text_header::Head;
@@ -12,11 +12,12 @@ use calibrant_core::error::{Error, InputError, Result};
 use calibrant_core::sensor::{Axis, ReadingUnit, SensorKind};
 use std::path::Path;
 
-/// Reads the accelerometer of a recording: a text of its own, as [`read_recording`](crate::read_recording) reads it, or one sensor of any file that
-/// [`read_imu_recording`](super::read_imu_recording) reads. The content decides, unless `device` says something.
+/// Reads the accelerometer of a recording. The file is a text of the accelerometer alone, as
+/// [`read_recording`](crate::read_recording) reads it, or any file for
+/// [`read_imu_recording`](super::read_imu_recording). The content decides, unless `device` states something.
 ///
 /// # Errors
-/// As these two; [`Error::Recording`] too where the file has no accelerometer.
+/// As these two. [`Error::Recording`] also where the file has no accelerometer.
 pub fn read_accelerometer(
     path: &Path,
     options: &ReadOptions,
@@ -56,7 +57,7 @@ fn is_plain(bytes: &[u8]) -> bool {
     if FileFormat::of_magic(bytes).is_some() || bytes.trim_ascii_start().starts_with(b"{") {
         return false;
     }
-    // what is no text at all, or has no rows, is the plain reader's to complain of
+    // the plain reader reports a file that is no text at all, or has no rows
     let Some(head) = text_decoding::as_text(bytes).ok().and_then(|text| Head::find(text).ok()) else {
         return true;
     };

@@ -1,4 +1,4 @@
-//! A message `sensor_msgs/msg/Imu` in CDR, the serialisation of ROS 2.
+//! Reads a message `sensor_msgs/msg/Imu` in CDR, the serialisation of ROS 2.
 //!
 //! ```text
 //! encapsulation  4 bytes: 0, 0 big-endian or 1 little-endian, two of options
@@ -12,7 +12,7 @@
 use calibrant_core::sensor::SensorKind;
 use nalgebra::Vector3;
 
-/// What of a message is of interest.
+/// The fields of a message that are used.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct ImuMessage {
     /// `header.stamp`, ns.
@@ -22,7 +22,7 @@ pub(super) struct ImuMessage {
 }
 
 impl ImuMessage {
-    /// The reading of a sensor; `None` where its covariance says that it is not there.
+    /// The reading of a sensor; `None` where its covariance marks it as absent.
     pub(super) fn sensor(&self, sensor_kind: SensorKind) -> Option<Vector3<f64>> {
         match sensor_kind {
             SensorKind::Accelerometer => self.linear_acceleration,
@@ -31,7 +31,7 @@ impl ImuMessage {
     }
 }
 
-/// Reads a message; says why it cannot be one.
+/// Reads a message, or states why it cannot be one.
 pub(super) fn imu(bytes: &[u8]) -> Result<ImuMessage, &'static str> {
     let little = match bytes.get(..2) {
         Some([0, 0]) => false,
@@ -52,6 +52,7 @@ pub(super) fn imu(bytes: &[u8]) -> Result<ImuMessage, &'static str> {
     Ok(ImuMessage { stamp_ns, angular_velocity, linear_acceleration })
 }
 
+/// The reason for a message that ends too early.
 const SHORT: &str = "it is too short";
 
 struct Reader<'b> {

@@ -1,10 +1,10 @@
-//! The columns of a file: what each means, and why it is used or not.
+//! The columns of a file: the meaning of each, and why it is used or not.
 
 use super::unit::ColumnUnit;
 use calibrant_core::sensor::{Axis, SensorKind};
 use std::fmt;
 
-/// What a column holds.
+/// The content of a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ColumnMeaning {
     /// Sample times.
@@ -66,7 +66,7 @@ impl ColumnMeaning {
 pub struct ImuColumn {
     /// Its name; its number, from 1, in a file without a header.
     pub name: String,
-    /// What it holds.
+    /// Its content.
     pub meaning: ColumnMeaning,
     /// Its unit in the file, where it is known.
     pub unit: Option<ColumnUnit>,

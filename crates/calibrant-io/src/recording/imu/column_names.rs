@@ -1,4 +1,4 @@
-//! What the name of a column says: which sensor, which axis, which unit.
+//! The meaning of a column's name: which sensor, which axis, which unit.
 //!
 //! | meaning | names | units, as an ending or in brackets |
 //! |---|---|---|
@@ -8,18 +8,22 @@
 //! | gyroscope | `gx`, `wx`, `gyr_x`, `gyro_x`, `gyroscope_x`, `omega_x`, `angular_velocity_x` | `_radps`, `_degps`, `_mdps`, `_counts` |
 //! | temperature | `temp`, `temperature` | `_c` |
 //!
-//! Capitals, and whether words are joined by `_`, `.`, `-` or a space, do not matter. `linear_acceleration` is ROS' name of an accelerometer's
-//! reading and Android's of one without gravity: the magnitude tells.
+//! Capitals do not matter, nor whether `_`, `.`, `-` or a space joins words. `linear_acceleration` is ROS'
+//! name of an accelerometer's reading, and Android's of one without gravity: the magnitude decides.
 
 use super::column::{ColumnMeaning, ImuColumn};
 use super::unit::{ColumnUnit, ImuUnit, TimeUnit};
 use calibrant_core::sensor::{Axis, SensorKind};
 
+/// Names of a time.
 const TIME: &[&str] = &["t", "time", "timestamp", "stamp", "timestamps", "sampletime", "headerstamp"];
+/// Names of a sample counter.
 const COUNTER: &[&str] =
     &["nsamples", "sample", "samples", "samplenumber", "sampleindex", "index", "counter", "packetcounter"];
+/// Names of an accelerometer.
 const ACCELEROMETER: &[&str] =
     &["a", "acc", "accel", "accelerometer", "acceleration", "linearacceleration", "arss", "rawacc", "accraw"];
+/// Names of a gyroscope.
 const GYROSCOPE: &[&str] = &[
     "g",
     "w",
@@ -33,9 +37,13 @@ const GYROSCOPE: &[&str] = &[
     "rawgyro",
     "rate",
 ];
+/// Names of an acceleration without gravity.
 const GRAVITY_REMOVED: &[&str] = &["freeacc", "useracceleration", "useracc", "linacc", "linaccel", "lia"];
+/// Names of a temperature.
 const TEMPERATURE: &[&str] = &["temp", "temperature", "imutemp", "sensortemp"];
+/// Names of a magnetometer.
 const MAGNETOMETER: &[&str] = &["m", "mag", "magnetometer", "magneticfield"];
+/// Names of an orientation.
 const ORIENTATION: &[&str] = &["quat", "q", "orientation", "euler"];
 
 /// The column of this name.

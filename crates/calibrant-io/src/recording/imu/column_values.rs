@@ -1,4 +1,4 @@
-//! The values of a file's used columns, as they are in the file, whatever its format.
+//! The values of a file's used columns, in the units of the file, whatever its format.
 
 use super::column::ColumnMeaning;
 use crate::delimited_text::Line;
@@ -10,11 +10,14 @@ use nalgebra::Vector3;
 
 /// Number of slots: time, three axes of each sensor, temperature, counter.
 pub(super) const SLOTS: usize = 9;
+/// Slot of the time.
 pub(super) const TIME: usize = 0;
+/// Slot of the temperature.
 pub(super) const TEMPERATURE: usize = 7;
+/// Slot of the sample counter.
 pub(super) const COUNTER: usize = 8;
 
-/// Where the values of a column of this meaning go.
+/// The slot of the values of a column of this meaning.
 pub(super) fn slot_of(meaning: ColumnMeaning) -> Option<usize> {
     match meaning {
         ColumnMeaning::Time => Some(TIME),
@@ -34,10 +37,10 @@ pub(super) fn slots_of(sensor_kind: SensorKind) -> [usize; 3] {
     Axis::ALL.map(|axis| first + axis.index())
 }
 
-/// The values of a file; lists are empty where there is no column, and values NaN where they are missing.
+/// The values of a file. Lists are empty where there is no column, and values NaN where they are missing.
 #[derive(Default)]
 pub(super) struct Samples {
-    /// In the ticks of the file's clock.
+    /// The times, in the ticks of the file's clock.
     pub(super) times: Vec<f64>,
     pub(super) counts: Vec<f64>,
     pub(super) temperatures: Vec<f64>,
@@ -47,9 +50,9 @@ pub(super) struct Samples {
     pub(super) rows: usize,
     /// Lines of the rows; empty for a file that has none.
     pub(super) lines: LineMap,
-    /// What was taken from each time, in its ticks, so that they are exact.
+    /// The number that was subtracted from each time, in its ticks, so that they are exact.
     pub(super) origin: i64,
-    /// The time that the times were made to count from, ns.
+    /// The time from which the times count, ns.
     pub(super) counted_from_ns: Option<i128>,
     /// Line that was cut off, where the last one was.
     pub(super) truncated: Option<usize>,
@@ -63,7 +66,7 @@ impl Samples {
         &self.sensor_kinds[sensor_kind as usize]
     }
 
-    /// The readings of a sensor, which are not there afterwards.
+    /// Moves the readings of a sensor out.
     pub(super) fn take_sensor(&mut self, sensor_kind: SensorKind) -> Vec<Vector3<f64>> {
         std::mem::take(&mut self.sensor_kinds[sensor_kind as usize])
     }
@@ -110,7 +113,7 @@ impl<'l> SampleReader<'l> {
         Self { reader: RowReader::new(layout), samples, has, sensor_kinds }
     }
 
-    /// Takes some more lines, which are those of this text or the last of them.
+    /// Takes some more lines: further lines of this text or its last ones.
     pub(super) fn take<'t>(&mut self, lines: impl Iterator<Item = Line<'t>>, text: &str) -> Checked<()> {
         self.reader.look_at_the_end(text);
         let samples = &mut self.samples;
@@ -146,7 +149,7 @@ impl<'l> SampleReader<'l> {
         self.samples.last_line
     }
 
-    /// The values of all rows, which must not be invalid in many of them.
+    /// The values of all rows; an error where too many rows have invalid ones.
     pub(super) fn finish(mut self) -> Checked<Samples> {
         self.reader.check_invalid()?;
         self.samples.origin = self.reader.origin.unwrap_or(0);

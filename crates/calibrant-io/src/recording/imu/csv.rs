@@ -1,4 +1,4 @@
-//! Delimited text whose header says what is what, or whose columns `[columns]` names.
+//! Delimited text whose header gives the meaning of the columns, or whose columns `[columns]` names.
 
 use super::column::{ColumnMeaning, ImuColumn};
 use super::file_layout::Draft;
@@ -9,7 +9,7 @@ use super::{column_names, imu_tk};
 use crate::recording::columns::is_axis;
 use calibrant_core::sensor::SensorKind;
 
-/// The columns; `asked` is the sensor that the user says is among them, whose name they need not have then.
+/// The columns. `asked` is the sensor that the user names; its columns then need no name.
 pub(super) fn draft(head: &Head<'_>, asked: Option<SensorKind>) -> Draft {
     let columns = if head.names.is_empty() {
         let other = |column: usize| ImuColumn::new(&(column + 1).to_string(), ColumnMeaning::Other, None);
@@ -31,7 +31,8 @@ fn is_reading(column: &ImuColumn) -> bool {
     matches!(column.meaning, ColumnMeaning::Reading(..))
 }
 
-/// Are the columns of one sensor that is not named, beside nothing but times? Loggers of one sensor call any of them ax, ay, az.
+/// Are they the columns of one unnamed sensor, beside nothing but times? Loggers of one sensor call any of
+/// them ax, ay, az.
 fn is_unnamed(columns: &[ImuColumn]) -> bool {
     let may_be_another = |column: &ImuColumn| match column.unit {
         None | Some(ColumnUnit::Reading(ImuUnit::Counts)) => is_axis(&column.name.to_lowercase()),

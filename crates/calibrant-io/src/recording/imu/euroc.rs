@@ -1,4 +1,5 @@
-//! `imu0/data.csv` of the EuRoC MAV dataset: `#timestamp [ns],w_RS_S_x [rad s^-1],…,a_RS_S_x [m s^-2],…`.
+//! The columns of `imu0/data.csv` of the EuRoC MAV dataset:
+//! `#timestamp [ns],w_RS_S_x [rad s^-1],…,a_RS_S_x [m s^-2],…`.
 
 use super::column::{ColumnMeaning, ImuColumn};
 use super::column_names;

@@ -1,4 +1,4 @@
-//! A recording of an IMU, as it stands in a file.
+//! The data types of an IMU's recording as a file holds it.
 
 use super::column::ImuColumn;
 use super::format::FileFormat;
@@ -22,11 +22,11 @@ pub struct ImuFile {
     pub sha256: Vec<String>,
     /// The gyroscope's file of a pair.
     pub second: Option<SecondFile>,
-    /// The time that the times count from, where that is their first and the file has another, ns.
+    /// The time from which the times count, ns, where they count from their first and the file has another.
     pub(super) counted_from_ns: Option<i128>,
 }
 
-/// What is told of the gyroscope's file of a pair.
+/// The facts about the gyroscope's file of a pair.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SecondFile {
     /// The format, as recognised or given.

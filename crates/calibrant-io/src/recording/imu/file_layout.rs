@@ -1,4 +1,4 @@
-//! What is known of a file before its rows are read: its columns, what they mean, and where the times come from.
+//! The layout of a file before its rows are read: its columns, their meaning, and the source of the times.
 
 use super::column::{ColumnMeaning, ImuColumn};
 use super::column_values::{COUNTER, TEMPERATURE, TIME, slot_of};
@@ -10,15 +10,15 @@ use crate::text_decoding::Checked;
 use calibrant_core::error::InputError;
 use calibrant_core::sensor::{Axis, SensorKind};
 
-/// What is known of a file before its rows are read.
+/// The layout of a file before its rows are read.
 pub(super) struct Draft {
     pub(super) format: FileFormat,
     pub(super) columns: Vec<ImuColumn>,
-    /// The time column begins anew at this number of ticks.
+    /// The time column restarts at this number of ticks.
     pub(super) time_wraps_at: Option<f64>,
-    /// The counter begins anew at this number.
+    /// The counter restarts at this number.
     pub(super) counter_wraps_at: Option<f64>,
-    /// Sample rate that the file states, Hz, and where.
+    /// Sample rate that the file states, Hz, and its place.
     pub(super) rate_hz: Option<(f64, &'static str)>,
 }
 
@@ -27,7 +27,7 @@ impl Draft {
         Self { format, columns, time_wraps_at: None, counter_wraps_at: None, rate_hz: None }
     }
 
-    /// Leaves the other sensor's columns aside.
+    /// Marks the other sensor's columns as unused.
     pub(super) fn keep_only(&mut self, sensor_kind: SensorKind) {
         for column in &mut self.columns {
             if matches!(column.meaning, ColumnMeaning::Reading(other, _) if other != sensor_kind) {
@@ -36,7 +36,7 @@ impl Draft {
         }
     }
 
-    /// Puts in what the user says of the columns.
+    /// Applies the user's mapping of the columns.
     pub(super) fn map(&mut self, options: &ImuReadOptions) -> Checked<()> {
         let mapping = &options.columns;
         if let Some(name) = &mapping.time {
@@ -87,7 +87,7 @@ impl Draft {
             let message = format!("[columns] names `{name}`, which the file has twice");
             return Err(InputError::new(message, "rename one of them in the file").into());
         }
-        // what is given counts, before what the name says
+        // what the user gives takes precedence over the name
         let unit = unit
             .or(super::column_names::column(name).unit.filter(|_| column.meaning == meaning))
             .or(column.unit);
@@ -95,7 +95,7 @@ impl Draft {
         Ok(())
     }
 
-    /// Puts in the unit of the time where neither the name nor the mapping says.
+    /// Sets the unit of the time where neither the name nor the mapping gives it.
     pub(super) fn set_time_unit(&mut self, options: &ImuReadOptions) -> Checked<()> {
         let Some(given) = options.time_unit.filter(|_| options.columns.time.is_none()) else { return Ok(()) };
         for column in self.columns.iter_mut().filter(|column| column.meaning == ColumnMeaning::Time) {
@@ -119,7 +119,8 @@ impl Draft {
         Ok(())
     }
 
-    /// The slot of each column's values, `None` where it is not used; complains where a sensor has no columns, lacks an axis or has one twice.
+    /// The slot of each column's values, `None` where it is not used. An error where a sensor has no columns,
+    /// lacks an axis or has one twice.
     pub(super) fn slots(&mut self) -> Checked<Vec<Option<usize>>> {
         self.one_time();
         let mut slots: Vec<Option<usize>> = vec![None; self.columns.len()];
@@ -213,7 +214,7 @@ impl Draft {
         )
     }
 
-    /// Of several times, the one whose unit is known; of time and counter, both.
+    /// Keeps one time column: of several, the one whose unit is known. A time and a counter both stay.
     fn one_time(&mut self) {
         let is_time = |column: &ImuColumn| column.meaning == ColumnMeaning::Time && column.is_used();
         let times = self.columns.iter().filter(|column| is_time(column)).count();
@@ -230,14 +231,14 @@ impl Draft {
         self.columns.iter().find(|column| column.meaning == meaning && column.is_used())
     }
 
-    /// Says why columns of this meaning are not used after all.
+    /// Records why columns of this meaning are not used after all.
     pub(super) fn leave_aside(&mut self, meaning: ColumnMeaning, why: &str) {
         for column in self.columns.iter_mut().filter(|column| column.meaning == meaning && column.is_used()) {
             column.unused = Some(why.to_owned());
         }
     }
 
-    /// Says the unit of the columns of this meaning.
+    /// Sets the unit of the columns of this meaning.
     pub(super) fn set_unit(&mut self, meaning: ColumnMeaning, unit: ColumnUnit) {
         for column in self.columns.iter_mut().filter(|column| column.meaning == meaning && column.is_used()) {
             column.unit = Some(unit);

@@ -1,10 +1,10 @@
-//! The formats, and how each is recognised by what is in the file.
+//! The formats of recordings, and how the content of a file shows its format.
 
 use super::text_header::Head;
 use crate::text_decoding::Checked;
 use calibrant_core::error::InputError;
 
-/// What to do where the format that was given is not that of the content.
+/// The remedy where the given format is not that of the content.
 pub(super) const LEAVE_AWAY: &str = "leave --format away: the format is recognised by the content";
 
 /// A file format of whole-IMU recordings.
@@ -20,7 +20,7 @@ pub enum FileFormat {
     ImuTk,
     /// CSV of imucal and NilsPod: `n_samples,gyr_x,…,acc_x,…`.
     Imucal,
-    /// Delimited text whose header (or `[columns]`) says what is what.
+    /// Delimited text whose header (or `[columns]`) gives the meaning of the columns.
     Csv,
     /// ROS 2 bag in an MCAP container, `sensor_msgs/msg/Imu`.
     Mcap,
@@ -29,7 +29,7 @@ pub enum FileFormat {
 }
 
 impl FileFormat {
-    /// All of them.
+    /// All formats.
     pub const ALL: [Self; 8] = [
         Self::MtManager,
         Self::MovellaDot,

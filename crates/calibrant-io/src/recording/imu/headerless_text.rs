@@ -1,10 +1,10 @@
-//! A text without a header: what is asked, and what answers it in `[columns]`.
+//! A text without a header: the question to the user, and the answer in `[columns]`.
 
 use super::text_header::Head;
 use super::unit::ImuUnit;
 use calibrant_core::error::InputError;
 
-/// The question what the columns hold.
+/// The question about the meaning of the columns.
 pub(super) fn question(head: &Head<'_>) -> InputError {
     let columns = head.fields();
     let message = format!("{columns} columns without a header: nothing says what they hold");
@@ -15,7 +15,8 @@ pub(super) fn question(head: &Head<'_>) -> InputError {
     InputError::new(message, help).at_line(head.line())
 }
 
-/// What `[columns]` needs for the usual order of so many columns, with the units that the first row suggests; `None` where there are too few.
+/// The entry in `[columns]` for the usual order of this number of columns, with the units that the first row
+/// suggests. `None` where there are too few.
 pub(super) fn in_columns(head: &Head<'_>) -> Option<String> {
     let values: Vec<f64> = head.first_row.map_or_else(Vec::new, |row| {
         row.fields(head.delimiter).map(|(_, field)| field.parse().unwrap_or(f64::NAN)).collect()

@@ -1,4 +1,5 @@
-//! Text of imu_tk: `t x y z` without a header, seconds and readings; accelerometer and gyroscope each in a file of their own.
+//! Text of imu_tk: `t x y z` without a header, seconds and readings. Accelerometer and gyroscope each have a
+//! file of their own.
 
 use super::column::{ColumnMeaning, ImuColumn};
 use super::file_layout::Draft;
@@ -45,7 +46,7 @@ pub(super) fn draft(head: &Head<'_>, sensor_kind: Option<SensorKind>) -> Checked
     Ok(Draft::new(FileFormat::ImuTk, (0..columns).map(of_order).collect()))
 }
 
-/// The columns of a file with a header that holds this sensor: `t_s,x,y,z` as well as names that say which sensor it is.
+/// The columns of a file with a header that holds this sensor: `t_s,x,y,z`, or names that include the sensor.
 pub(super) fn named(head: &Head<'_>, sensor_kind: SensorKind) -> Vec<ImuColumn> {
     let column = |name: &&str| {
         let axis = ["x", "y", "z"].iter().position(|axis| name.eq_ignore_ascii_case(axis));

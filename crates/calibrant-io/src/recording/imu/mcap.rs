@@ -1,8 +1,8 @@
-//! ROS 2 bags in MCAP containers: messages `sensor_msgs/msg/Imu` in CDR.
+//! Reads ROS 2 bags in MCAP containers: messages `sensor_msgs/msg/Imu` in CDR.
 //!
-//! Angular velocity is in rad/s, linear acceleration in m/s² and with gravity by the message's definition ([`readings`](super::reading_unit) looks
-//! whether it is). Times are `header.stamp`, when the sample was taken, and not when the recorder got it. A covariance that begins with −1 says
-//! that a sensor is not there.
+//! By the message's definition, angular velocity is in rad/s, and linear acceleration is in m/s² with
+//! gravity. [`readings`](super::reading_unit) checks that. Times are `header.stamp`, when the sample was
+//! taken, and not when the recorder received it. A covariance that begins with −1 marks a sensor as absent.
 
 use super::cdr::{self, ImuMessage};
 use super::column::{ColumnMeaning, ImuColumn};
@@ -25,14 +25,16 @@ use std::collections::BTreeMap;
 
 /// Names of the message's type.
 const IMU: [&str; 2] = ["sensor_msgs/msg/Imu", "sensor_msgs/msg/dds_/Imu_"];
-/// How much of the file the container's reader is given at once, bytes.
+/// Bytes that the container's reader receives at once.
 const PIECE: usize = 1 << 20;
-/// Opcodes of the records that are of interest.
+/// Opcode of a record with a schema.
 const SCHEMA: u8 = 3;
+/// Opcode of a record with a channel.
 const CHANNEL: u8 = 4;
+/// Opcode of a record with a message.
 const MESSAGE: u8 = 5;
 
-/// What the container says of its topics, and the messages of those with IMUs.
+/// The topics of the container, and the messages of those with IMUs.
 #[derive(Default)]
 struct Bag {
     /// Name of each schema.
@@ -109,7 +111,7 @@ impl Bag {
                     rest = &rest[length..];
                 }
                 Ok(LinearReadEvent::Record { data, opcode }) => bag.take(opcode, data)?,
-                // a record that claims more than the file has is the one that was cut off
+                // a record that states more bytes than the file has is the one that was cut off
                 Err(McapError::UnexpectedEof | McapError::RecordTooLarge { .. }) if is_cut => break,
                 Err(error) => return Err(damaged(&error).into()),
             }
@@ -161,7 +163,7 @@ impl Bag {
         Ok(())
     }
 
-    /// The messages of the topic that is meant.
+    /// The messages of the wanted topic.
     fn messages(mut self, topic: Option<&str>) -> Checked<Vec<ImuMessage>> {
         let mut topics: BTreeMap<String, Vec<ImuMessage>> = BTreeMap::new();
         let is_imu = |channel: &Channel| IMU.contains(&channel.schema.as_str());
@@ -201,10 +203,10 @@ impl Bag {
     }
 }
 
-/// Do the texts of a schema or a channel end within the record? `mcap::parse_record` reserves as many bytes as a text says it has, up to 4 GiB, before it
-/// looks whether they are there.
+/// Do the texts of a schema or a channel end within the record? `mcap::parse_record` reserves the bytes that
+/// a text states, up to 4 GiB, before it checks that they are there.
 fn texts_end(opcode: u8, data: &[u8]) -> bool {
-    /// What follows a block that begins with its length.
+    /// The bytes after a block that begins with its length.
     fn after(data: &[u8]) -> Option<(&[u8], &[u8])> {
         let (length, rest) = data.split_first_chunk::<4>()?;
         rest.split_at_checked(usize::try_from(u32::from_le_bytes(*length)).ok()?)

@@ -1,4 +1,4 @@
-//! The end of an MCAP container: a recorder that was killed, or a copy that broke off, leaves none.
+//! The end of an MCAP container. A recorder that was killed, or a copy that broke off, leaves none.
 //!
 //! A whole container ends with a record `DataEnd` below the messages, an index, a record `Footer` and the magic bytes once more.
 
@@ -19,7 +19,7 @@ pub(super) struct Cut {
 }
 
 impl Cut {
-    /// What a container lacks; `None` of one that is whole.
+    /// The missing part of a container; `None` where it is whole.
     pub(super) fn of(bytes: &[u8]) -> Option<Self> {
         let (mut at, mut is_after_data) = (MAGIC.len(), false);
         for record in raw_records(bytes.get(at..)?) {
@@ -35,7 +35,7 @@ impl Cut {
         Some(Self { length: bytes.len(), within: None, is_after_data })
     }
 
-    /// The warning where messages could be read: how many, and for how long, s.
+    /// The warning where messages could be read: their number, and their duration, s.
     pub(super) fn finding(&self, messages: usize, duration_s: f64) -> Finding {
         let lost = match self.is_after_data {
             true => "no message is missing, only the index is",
@@ -50,7 +50,7 @@ impl Cut {
         Finding::new(FindingKind::Unfinished, None, message)
     }
 
-    /// The complaint where none could.
+    /// The error where none could be read.
     pub(super) fn input_error(&self) -> InputError {
         let message = format!("{}, before any message of an IMU", self.sentence());
         InputError::new(

@@ -1,4 +1,4 @@
-//! The records of an MCAP container as they lie in the file, without a look at what is in them.
+//! The records of an MCAP container as they lie in the file. Their content is not examined.
 
 use mcap::records::op;
 
@@ -8,9 +8,9 @@ pub(super) const HEAD: usize = 1 + 8;
 /// A record.
 pub(super) struct RawRecord<'a> {
     pub(super) opcode: u8,
-    /// How many bytes it says that it has.
+    /// Number of bytes that it states.
     pub(super) length: u64,
-    /// Those that are there.
+    /// The bytes that are there.
     pub(super) content: &'a [u8],
 }
 
@@ -33,7 +33,8 @@ pub(super) fn raw_records(bytes: &[u8]) -> impl Iterator<Item = RawRecord<'_>> {
     })
 }
 
-/// Do the records of every chunk that is not compressed end where it ends? `mcap::LinearReader` takes their lengths off its own without a look.
+/// Do the records of every uncompressed chunk end where it ends? `mcap::LinearReader` subtracts their lengths
+/// from the chunk's without a check.
 pub(super) fn chunks_end(bytes: &[u8]) -> bool {
     raw_records(bytes).filter(|record| record.opcode == op::CHUNK).all(|chunk| chunk_ends(chunk.content))
 }

@@ -10,9 +10,11 @@
 //! | MCAP, Parquet | their first bytes | `header.stamp`; by name or type | m/s², rad/s; by name, or asked for |
 //! | CSV | none of these | by name, or `[columns]` | by name, or asked for |
 //!
-//! All of them go the same way: [`text_header`] finds the header, a format's own file says what its columns mean ([`file_layout`]), [`column_values`] reads the rows,
-//! [`sample_clock`] makes times and [`reading_unit`] units of them, [`recording_assembly`] puts the recording together. A unit that the file does not state is
-//! asked for, with what its values suggest; it is never guessed.
+//! All formats go the same way. [`text_header`] finds the header. A format's own file gives the meaning of
+//! its columns ([`file_layout`]). [`column_values`] reads the rows. [`sample_clock`] makes times of them, and
+//! [`reading_unit`] finds the units. [`recording_assembly`] puts the recording together. The user must give a
+//! unit that the file does not state; the question shows what the values suggest. The program never guesses
+//! it.
 
 mod accelerometer_only;
 #[cfg(any(feature = "mcap", feature = "parquet"))]

@@ -1,5 +1,5 @@
-//! CSV exports of the Movella DOT app: acceleration in m/s², rate in **deg/s**, `SampleTimeFine` in µs modulo 2³², `OutputRate:,60Hz` above the
-//! header in some versions.
+//! CSV exports of the Movella DOT app: acceleration in m/s², rate in **deg/s**, `SampleTimeFine` in µs modulo
+//! 2³². Some versions have `OutputRate:,60Hz` above the header.
 
 use super::file_layout::Draft;
 use super::format::FileFormat;

@@ -1,5 +1,5 @@
-//! Text exports of Xsens/Movella MT Manager: acceleration in m/s², rate in rad/s, `SampleTimeFine` in 0.1 ms (often empty), `PacketCounter`
-//! modulo 2¹⁶, `// Update Rate: 100.0Hz` above the header in some versions.
+//! Text exports of Xsens/Movella MT Manager: acceleration in m/s², rate in rad/s, `SampleTimeFine` in 0.1 ms
+//! (often empty), `PacketCounter` modulo 2¹⁶. Some versions have `// Update Rate: 100.0Hz` above the header.
 
 use super::file_layout::Draft;
 use super::format::FileFormat;

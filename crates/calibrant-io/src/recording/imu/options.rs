@@ -1,10 +1,11 @@
-//! What the user says of a file beyond what it says itself.
+//! The options for reading an IMU's recording: what the user states about a file beyond its content.
 
 use super::format::FileFormat;
 use super::unit::{ImuUnit, TimeUnit};
 use calibrant_core::sensor::SensorKind;
 
-/// How a recording of an IMU is read: everything that the file does not say itself. `[columns]` of an experiment file says the same.
+/// Options for reading a recording of an IMU: everything that the file does not state itself. `[columns]` of
+/// an experiment file gives the same.
 ///
 /// # Examples
 /// ```
@@ -29,15 +30,16 @@ use calibrant_core::sensor::SensorKind;
 pub struct ImuReadOptions {
     /// The format; `None` to recognise it by the content.
     pub format: Option<FileFormat>,
-    /// Columns by name, where their names do not say what they hold.
+    /// Columns by name, where their names do not show their content.
     pub columns: ColumnMapping,
-    /// Unit of the time column, where its name does not say.
+    /// Unit of the time column, where its name does not give it.
     pub time_unit: Option<TimeUnit>,
-    /// Unit of the accelerometer's columns, where the file does not say.
+    /// Unit of the accelerometer's columns, where the file does not give it.
     pub accelerometer_unit: Option<ImuUnit>,
-    /// Unit of the gyroscope's columns, where the file does not say.
+    /// Unit of the gyroscope's columns, where the file does not give it.
     pub gyroscope_unit: Option<ImuUnit>,
-    /// Accelerometer, gyroscope: counts where neither the file nor the user says a unit, as where a calibration in counts is applied. Not asked then.
+    /// Accelerometer, gyroscope: use counts where neither the file nor the user gives a unit. A calibration
+    /// in counts is applied so. The user is then not asked.
     pub counts_unless_stated: [bool; 2],
     /// Sample rate in Hz, for files without sample times.
     pub rate_hz: Option<f64>,
@@ -64,7 +66,7 @@ impl ImuReadOptions {
         }
     }
 
-    /// These options, and those of `other` where these say nothing.
+    /// These options, completed from `other`.
     #[must_use]
     pub fn or(self, other: Self) -> Self {
         Self {
@@ -81,9 +83,9 @@ impl ImuReadOptions {
     }
 }
 
-/// Which column holds what, by name; columns of a file without a header are named `1`, `2`, ….
+/// The content of each column, by name. Columns of a file without a header are named `1`, `2`, ….
 ///
-/// What is given replaces what the names of the columns say; what is not given is still found by name.
+/// A given column replaces the meaning of the columns' names. Other columns are still found by name.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct ColumnMapping {
     /// Sample times, in [`ImuReadOptions::time_unit`].

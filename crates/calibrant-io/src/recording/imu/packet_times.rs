@@ -1,7 +1,9 @@
-//! Times that are those of packets, not of samples: a radio sends several at once, a logger's clock has coarse steps.
+//! Times of packets in place of times of samples: a radio sends several samples at once, a logger's clock has
+//! coarse steps.
 //!
-//! Rows that repeat a time would be dropped, and with them most of the recording; a rotation integrated over the steps between packets is another one. So such times are asked about, and a
-//! sample rate that is given takes their place.
+//! A reader would drop rows that repeat a time, and with them most of the recording. A rotation integrated
+//! over the steps between packets would be wrong. So the user must decide: a given sample rate replaces such
+//! times.
 
 use super::column_values::Samples;
 use crate::recording::reader_finding::{count, short};
@@ -10,11 +12,12 @@ use calibrant_core::sensor::SensorKind;
 
 /// Fewer samples are not judged.
 const FEWEST: usize = 100;
-/// One row in so many with the time of the one before is too many.
+/// One row in this number with the time of the one before is too many.
 const SAME: usize = 10;
-/// Steps this much shorter than their mean are those within a packet, if most are
+/// Steps shorter than this share of their mean are within a packet, if most steps are.
 const WITHIN: f64 = 1.0 / 3.0;
-/// and one in so many is longer than the mean: a logger that pauses has long stretches between.
+/// One step in this number must be longer than the mean. A logger that pauses has long segments between
+/// pauses.
 const LONGEST_PACKET: usize = 50;
 
 /// Samples that come in packets.
@@ -25,7 +28,8 @@ pub(super) struct Packets {
 }
 
 impl Packets {
-    /// `None` where a sensor's times are those of its samples. Rows that repeat all of the one before are none.
+    /// `None` where a sensor's times are those of its samples. A row that repeats the whole row before it
+    /// does not count.
     pub(super) fn of(times: &[f64], samples: &Samples, sensor_kind: SensorKind) -> Option<Self> {
         let holds = |row: &usize| !times[*row].is_nan() && samples.holds(sensor_kind, *row);
         let (mut found, mut same, mut before) = (Vec::with_capacity(times.len()), 0, None);
@@ -55,7 +59,7 @@ impl Packets {
         })
     }
 
-    /// What to say of them.
+    /// The question to the user about them.
     pub(super) fn question(&self, sensor_kind: SensorKind) -> InputError {
         let what = match SAME * self.same > self.samples {
             true => format!(

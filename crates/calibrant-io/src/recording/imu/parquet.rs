@@ -1,4 +1,4 @@
-//! Parquet files: columns named as in CSV; numbers of any width, times as numbers or time stamps.
+//! Reads Parquet files: columns named as in CSV, numbers of any width, times as numbers or time stamps.
 
 use super::column::{ColumnMeaning, ImuColumn};
 use super::column_names;
@@ -18,14 +18,15 @@ use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::schema::types::ColumnDescriptor;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// Values that are read at once.
+/// Number of values that are read at once.
 const BATCH: usize = 1 << 16;
-/// Rows for each byte of the file, at most: what changes from row to row takes more room, and a few bytes can claim billions of equal ones.
+/// Largest number of rows for each byte of the file. Values that change from row to row take more room, but a
+/// few bytes can state billions of equal ones.
 const ROWS_PER_BYTE: usize = 1000;
 /// Whole numbers above this are not exact as `f64`.
 const EXACT: u64 = 1 << 53;
 
-/// An opened file and what its columns mean.
+/// An opened file and the meaning of its columns.
 pub(super) struct Opened {
     reader: SerializedFileReader<Bytes>,
     bytes: usize,
@@ -108,10 +109,10 @@ pub(super) fn samples(file: &Opened, slots: &[Option<usize>]) -> Checked<Samples
 struct Column<'n> {
     name: &'n str,
     is_time: bool,
-    /// What is taken from times that are too large to be exact as `f64`.
+    /// The number that is subtracted from times that are too large to be exact as `f64`.
     origin: Option<i64>,
     values: Vec<f64>,
-    /// The most rows that are believed.
+    /// The largest plausible number of rows.
     most: usize,
 }
 

@@ -1,9 +1,10 @@
-//! Pages of a Parquet file that do not promise more values than they have bytes for: the crate that decodes them would reserve room for all that are promised.
+//! A guard on pages of a Parquet file: a page may not promise more values than it has bytes for. The decoding
+//! crate would reserve room for all that are promised.
 
 use parquet::column::page::{Page, PageMetadata, PageReader};
 use parquet::errors::{ParquetError, Result};
 
-/// The pages of a column, dictionaries looked at before they are decoded.
+/// The pages of a column. Dictionaries are checked before they are decoded.
 pub(super) struct Pages(pub(super) Box<dyn PageReader>);
 
 impl PageReader for Pages {

@@ -1,4 +1,5 @@
-//! Reads a recording of an IMU in any format: the header, the meaning of the columns, the rows, the recording.
+//! Reads a recording of an IMU in any format, in this order: the header, the meaning of the columns, the
+//! rows, the recording.
 
 use super::column_values::Samples;
 use super::file::ImuFile;
@@ -24,19 +25,21 @@ use std::path::Path;
 /// Reads a recording of an IMU in any known format.
 ///
 /// # Errors
-/// [`Error::Recording`] with file, line and column: a file that cannot be read; no column of a sensor, or one from which gravity was removed, or
-/// only orientation; an axis that is missing or there twice; a unit or the sample rate that the file does not state (the message asks for it and says
-/// what the values suggest) or that contradicts the options; a row with the wrong number of columns, or something that is not a number; a time
-/// that goes backwards; fewer than two samples.
+/// [`Error::Recording`] with file, line and column. The file cannot be read. No column is of a sensor, or
+/// only one without gravity, or only orientation. An axis is missing or there twice. The file does not state
+/// a unit or the sample rate; the message then shows what the values suggest. Or these contradict the
+/// options. A row has the wrong number of columns, or a field that is not a number. A time goes backwards.
+/// There are fewer than two samples.
 pub fn read_imu_recording(path: &Path, options: &ImuReadOptions) -> Result<ImuFile> {
     read(path, options, None)
 }
 
-/// Reads a recording that holds this sensor: as [`read_imu_recording`] does, with the other sensor where the file has it, or a text of this sensor alone whose columns do
-/// not say which it is: `t x y z` of imu_tk, `t_s,x,y,z`, or `t_s,ax,ay,az` of a gyroscope.
+/// Reads a recording that holds this sensor, as [`read_imu_recording`] does, with the other sensor where the
+/// file has it. It also reads a text of this sensor alone whose columns do not name it: `t x y z` of imu_tk,
+/// `t_s,x,y,z`, or `t_s,ax,ay,az` of a gyroscope.
 ///
 /// # Errors
-/// As [`read_imu_recording`]. That the file has the other sensor only is none.
+/// As [`read_imu_recording`]. A file with only the other sensor is no error here.
 pub fn read_imu_sensor(path: &Path, sensor_kind: SensorKind, options: &ImuReadOptions) -> Result<ImuFile> {
     read(path, options, Some(sensor_kind))
 }
@@ -84,7 +87,7 @@ pub(super) fn parse(bytes: &[u8], options: &ImuReadOptions) -> Checked<ImuFile> 
     text_source::of_bytes(bytes, |source| parse_text(source, options, None))
 }
 
-/// Reads a text; `asked` is the sensor that the user says is in it.
+/// Reads a text; `asked` is the sensor that the user names.
 fn parse_text(source: Source<'_>, options: &ImuReadOptions, asked: Option<SensorKind>) -> Checked<ImuFile> {
     let head = Head::find(source.text)?;
     let format = match options.format {
@@ -157,7 +160,7 @@ fn binary(format: FileFormat, bytes: &[u8], options: &ImuReadOptions) -> Checked
     if format == FileFormat::Mcap { read_mcap(bytes, options) } else { read_parquet(bytes, options) }
 }
 
-/// The format of a text. With the columns named, four of them need not be imu_tk's.
+/// The format of a text. Where the user names the columns, four of them need not be imu_tk's.
 fn sniffed(head: &Head<'_>, options: &ImuReadOptions) -> Checked<FileFormat> {
     match FileFormat::of_text(head) {
         Ok(FileFormat::ImuTk) | Err(_) if !options.columns.is_empty() => Ok(FileFormat::Csv),
@@ -189,7 +192,7 @@ pub(super) fn rows(
     finish(draft, samples, options)
 }
 
-/// From the values of a file to its recording.
+/// Makes a recording of the values of a file.
 fn finish(mut draft: Draft, mut samples: Samples, options: &ImuReadOptions) -> Checked<ImuFile> {
     let assembled = assemble(&mut draft, &mut samples, options)?;
     Ok(ImuFile {

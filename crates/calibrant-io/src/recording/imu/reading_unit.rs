@@ -1,4 +1,5 @@
-//! The unit of a sensor's readings: stated by the file, given by the user, or asked for. What contradicts gravity is not believed.
+//! The unit of a sensor's readings: stated by the file or given by the user. It is refused where gravity
+//! contradicts it.
 
 use super::column::ColumnMeaning;
 use super::file_layout::Draft;
@@ -9,18 +10,19 @@ use crate::text_decoding::Checked;
 use calibrant_core::error::InputError;
 use calibrant_core::sensor::{Axis, Recording, SensorKind};
 
-/// A gyroscope that turns faster than this is hardly in rad/s.
+/// A gyroscope that reads faster rates than this is most likely not in rad/s.
 const FAST_RADPS: f64 = 40.0;
-/// Nor is one that turns faster than this in deg/s.
+/// A gyroscope that reads faster rates than this in deg/s is not in deg/s either.
 const FAST_DEGPS: f64 = 8000.0;
-/// Whole numbers larger than this are hardly anything but counts.
+/// Whole numbers larger than this are most likely counts.
 const COUNTS: f64 = 2500.0;
-/// A sensor that reads less than this, m/s², half of the time has had gravity removed.
+/// Gravity was removed from a sensor that reads less than this, m/s², half of the time.
 const NO_GRAVITY_MPS2: f64 = 3.0;
 /// Magnitudes that are 1 within this share are in g.
 const ONE: f64 = 0.15;
 
-/// The unit of a sensor's columns: what the file says; else what the user says; else counts, if that is agreed; else `None`.
+/// The unit of a sensor's columns: from the file; else from the user; else counts, if the options allow it;
+/// else `None`.
 pub(super) fn stated_unit(
     draft: &Draft,
     options: &ImuReadOptions,
@@ -70,7 +72,7 @@ pub(super) fn stated_unit(
     }
 }
 
-/// What is asked where the unit is not known: the question, and what the readings suggest.
+/// The question where the unit is not known, with what the readings suggest.
 pub(super) fn question(sensor_kind: SensorKind, recording: &Recording) -> String {
     let largest = recording.readings.iter().map(|y| y.amax()).fold(0.0, f64::max);
     let whole = recording.readings.iter().all(|y| y.iter().all(|value| value.fract() == 0.0));
@@ -105,7 +107,8 @@ fn median_magnitude(recording: &Recording) -> f64 {
     if magnitudes.is_empty() { 0.0 } else { *magnitudes.select_nth_unstable_by(middle, f64::total_cmp).1 }
 }
 
-/// Complains of an accelerometer in m/s² that does not read gravity: one in g, or from which gravity was removed.
+/// Returns an error for an accelerometer in m/s² that does not read gravity: its readings are in g, or
+/// gravity was removed.
 pub(super) fn check_gravity(recording: &Recording, stated: ImuUnit) -> Checked<()> {
     if stated == ImuUnit::Counts {
         return Ok(());

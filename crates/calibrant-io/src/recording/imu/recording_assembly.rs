@@ -1,4 +1,4 @@
-//! From the values of a file to a recording: times, units, what is missing or twice, and what is noticed on the way.
+//! Assembles a recording from the values of a file: times, units, missing and duplicate rows, and findings.
 
 use super::column::ColumnMeaning;
 use super::column_values::Samples;
@@ -20,13 +20,13 @@ use calibrant_core::sensor::{
 use nalgebra::Vector3;
 use std::iter::once;
 
-/// A recording put together, and what was noticed.
+/// The assembled recording, and the findings.
 pub(super) struct Assembled {
     pub(super) recording: ImuRecording,
     pub(super) findings: Vec<Finding>,
 }
 
-/// Puts the recording together; the draft learns which of its columns turned out to be of no use.
+/// Assembles the recording. The draft records which of its columns were of no use.
 pub(super) fn assemble(
     draft: &mut Draft,
     samples: &mut Samples,
@@ -44,7 +44,7 @@ pub(super) fn assemble(
         .collect::<Checked<Vec<_>>>()?;
     let has_unused_rate = options.rate_hz.is_some() && sample_clock::are_recorded(samples);
     let times = sample_clock::times(draft, samples, options, &mut findings);
-    // the questions are asked all at once
+    // all questions come at once
     let mut times = match times {
         Ok(times) => times,
         Err(input_error) if units.contains(&None) => {
@@ -91,8 +91,9 @@ pub(super) fn assemble(
     Ok(Assembled { recording, findings })
 }
 
-/// A sensor warms up within minutes: what happens to its temperature in a shorter time than this is little.
+/// Longest time without a temperature that needs no warning, s: a sensor warms up within minutes.
 const LONG_WITHOUT_TEMPERATURE_S: f64 = 30.0;
+/// The remedy for a recording that is too short.
 const TWO: &str = "a recording needs two samples at least";
 
 /// The sensors that have columns with values in them.
@@ -120,7 +121,7 @@ fn with_values(draft: &mut Draft, samples: &Samples) -> Checked<Vec<SensorKind>>
     Ok(sensor_kinds)
 }
 
-/// One complaint that asks everything.
+/// One error with all questions.
 fn ask(
     clock: Option<InputError>,
     samples: &Samples,
@@ -143,17 +144,17 @@ fn ask(
     InputError::new(questions.join("; "), format!("say {}", answers.join("; ")))
 }
 
-/// The readings of a sensor as they are in the file.
+/// The readings of a sensor in the unit of the file.
 fn raw(sensor_kind: SensorKind, samples: &Samples) -> Recording {
     let is_whole = |reading: &&Vector3<f64>| reading.iter().all(|value| value.is_finite());
     let readings: Vec<Vector3<f64>> = samples.sensor(sensor_kind).iter().filter(is_whole).copied().collect();
     Recording { times_s: vec![0.0; readings.len()], readings, axes: 3, unit: ReadingUnit::Counts }
 }
 
-/// The rows of a file but for some.
+/// The rows of a file that are kept.
 struct Kept {
     rows: usize,
-    /// In order.
+    /// The dropped rows, in order.
     dropped: Vec<usize>,
 }
 
@@ -168,8 +169,8 @@ impl Kept {
     }
 }
 
-/// The rows in which the times of a sensor increase; where sensors have rows of their own, each has its times. Rows that repeat the time before are dropped; one
-/// that goes back is an error.
+/// The rows in which the times of a sensor increase. Where sensors have rows of their own, each has its
+/// times. Rows that repeat the time before are dropped; a time that goes back is an error.
 fn increasing(
     times: &[f64],
     sensor_kinds: &[SensorKind],

@@ -1,4 +1,4 @@
-//! The sample times in seconds: from a column of times, or from a counter and the sample rate.
+//! Sample times in seconds: from a column of times, or from a counter and the sample rate.
 
 use super::column::ColumnMeaning;
 use super::column_values::Samples;
@@ -9,11 +9,11 @@ use crate::recording::reader_finding::{Finding, FindingKind, count, short};
 use crate::text_decoding::Checked;
 use calibrant_core::error::InputError;
 
-/// Times beyond this, s, count from another epoch than the recording's: they are taken from the first.
+/// Times beyond this, s, count from another epoch than the recording's. They then count from the first.
 const EPOCH_S: f64 = 1e8;
-/// Largest time that makes sense, s.
+/// Largest plausible time, s.
 const LARGEST_S: f64 = 1e12;
-/// Said of times that have another beginning than in the file.
+/// The words for times that count from another beginning than in the file.
 pub(super) const COUNTED: &str = "times count from the first";
 /// A stated rate and a given one may differ by this share.
 const SAME_RATE: f64 = 1e-3;
@@ -61,7 +61,7 @@ pub(super) fn times(
     Ok((0..samples.rows).map(|row| row as f64 / rate).collect())
 }
 
-/// Times of the rows by the rate that was given, in the place of those in the file, which are not those of samples.
+/// Times of the rows from the given rate. They replace those in the file, which are not times of samples.
 pub(super) fn of_rows(rows: usize, rate_hz: f64, findings: &mut Vec<Finding>) -> Vec<f64> {
     let message = format!(
         "its times are those of packets, not of samples: they follow from the rows and {} Hz, as given; lost samples would not show",
@@ -71,7 +71,7 @@ pub(super) fn of_rows(rows: usize, rate_hz: f64, findings: &mut Vec<Finding>) ->
     (0..rows).map(|row| row as f64 / rate_hz).collect()
 }
 
-/// What is said of a rate that the times do without.
+/// The finding about a given rate that the times do not need.
 pub(super) fn rate_not_used() -> Finding {
     Finding::new(
         FindingKind::Clock,
@@ -80,7 +80,7 @@ pub(super) fn rate_not_used() -> Finding {
     )
 }
 
-/// The sample rate where it is stated or given, and who says so.
+/// The stated or given sample rate, and its source.
 fn rate(draft: &Draft, options: &ImuReadOptions) -> Checked<Option<(f64, String)>> {
     if let Some(rate) = options.rate_hz
         && !(rate.is_finite() && (1e-6..=1e9).contains(&rate))
@@ -140,7 +140,7 @@ fn of_times(draft: &Draft, samples: &mut Samples, findings: &mut Vec<Finding>) -
 
 fn of_counter(draft: &Draft, samples: &mut Samples, rate: f64) -> Checked<Vec<f64>> {
     let counts = std::mem::take(&mut samples.counts);
-    // a counter that is once beyond its width is wider
+    // a counter that exceeds its width once is wider
     let wraps_at =
         draft.counter_wraps_at.map(|at| if counts.iter().any(|n| *n >= at) { 2.0_f64.powi(32) } else { at });
     let (mut counts, _) = unwrap(counts, wraps_at);
@@ -149,7 +149,8 @@ fn of_counter(draft: &Draft, samples: &mut Samples, rate: f64) -> Checked<Vec<f6
     Ok(counts)
 }
 
-/// Ticks that go on where the clock begins anew, and how often it does. A step back of more than half its width is taken for that.
+/// Ticks that continue where the clock restarts, and the number of restarts. A step back of more than half
+/// its width is a restart.
 fn unwrap(mut ticks: Vec<f64>, wraps_at: Option<f64>) -> (Vec<f64>, usize) {
     let Some(width) = wraps_at else { return (ticks, 0) };
     let (mut before, mut wraps) = (f64::NAN, 0);
@@ -189,7 +190,7 @@ fn which_unit(name: &str, ticks: &[f64]) -> InputError {
     )
 }
 
-/// The complaint, at the line of a row where rows have lines.
+/// The error, at the line of a row where rows have lines.
 pub(super) fn at(input_error: InputError, samples: &Samples, row: usize) -> InputError {
     match samples.lines.line(row) {
         Some(line) => input_error.at_line(line),

@@ -1,4 +1,4 @@
-//! What is above the rows of a text: comments, lines of `key: value`, and the header.
+//! The lines above the rows of a text: comments, lines of `key: value`, and the header.
 
 use crate::delimited_text::{Delimiter, Line, Lines};
 use crate::text_decoding::Checked;
@@ -15,7 +15,7 @@ pub(super) struct Head<'t> {
     pub(super) delimiter: Delimiter,
     /// The names of the columns; empty where there is no header.
     pub(super) names: Vec<&'t str>,
-    /// What follows the header, or the first row.
+    /// The text after the header, or after the first row.
     pub(super) rest: Lines<'t>,
 }
 
@@ -102,7 +102,7 @@ impl<'t> Head<'t> {
         self.names.iter().map(|name| name.to_lowercase()).collect()
     }
 
-    /// What follows `key:` in the lines above the header.
+    /// The value after `key:` in the lines above the header.
     pub(super) fn value(&self, key: &str) -> Option<&'t str> {
         self.preamble.iter().find_map(|line| {
             let plain = line.text.trim_ascii().trim_start_matches(['/', '#', '%']).trim_ascii();
@@ -111,7 +111,7 @@ impl<'t> Head<'t> {
         })
     }
 
-    /// The number, such as `100.0` of `100.0Hz`, that follows `key:` in the lines above the header.
+    /// The number, such as `100.0` of `100.0Hz`, after `key:` in the lines above the header.
     pub(super) fn number(&self, key: &str) -> Option<f64> {
         let value = self.value(key)?;
         let end = value.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(value.len());
@@ -133,7 +133,8 @@ fn fields(line: Line<'_>, delimiter: Delimiter) -> Vec<&str> {
     fields
 }
 
-/// What separates the fields of this line. Where names are separated by single spaces, two spaces in a row have an empty field between them.
+/// The separator of the fields of this line. Where single spaces separate names, two spaces in a row have an
+/// empty field between them.
 fn delimiter_of(line: &str) -> Delimiter {
     match Delimiter::of(line) {
         Delimiter::Whitespace if line.starts_with("PacketCounter ") && !line.contains("  ") => {
@@ -156,7 +157,7 @@ fn mixed(line: Line<'_>, rest: &Lines<'_>) -> Option<Delimiter> {
     (are_numbers && is_mixed && words(line) == words(row)).then_some(Delimiter::Whitespace)
 }
 
-/// The complaint about JSON in place of a recording.
+/// The error for JSON in place of a recording.
 fn no_json(text: &str) -> InputError {
     match text.contains("\"parameters\"") || text.contains("\"K_a\"") {
         true => InputError::new(
@@ -174,7 +175,7 @@ fn is_number(field: &&str) -> bool {
     field.parse::<f64>().is_ok()
 }
 
-/// `sep=,`, the line that tells Excel the delimiter.
+/// Is it `sep=,`, the line that states the delimiter for Excel?
 fn is_separator(line: &str) -> bool {
     line.len() == 5 && line.starts_with("sep=")
 }

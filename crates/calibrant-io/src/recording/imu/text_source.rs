@@ -1,4 +1,4 @@
-//! Where a text comes from: bytes at hand, or a file that is read in pieces.
+//! The source of a text: bytes in memory, or a file that is read in pieces.
 
 use super::column_values::{SampleReader, Samples};
 use super::text_header::Head;
@@ -11,7 +11,7 @@ use crate::recording::size::estimated_rows;
 use crate::text_decoding::{self, Checked};
 use std::path::Path;
 
-/// A text, or its first lines and what follows them.
+/// A text, or its first lines and its remainder.
 pub(super) struct Source<'s> {
     pub(super) text: &'s str,
     /// Length of all of it, bytes, as far as it is known.
@@ -42,7 +42,8 @@ pub(super) fn of_bytes(
     Ok(ImuFile { sha256: vec![sha256], ..file? })
 }
 
-/// Reads a text file on from its beginning: in pieces, or at once where the beginning does not hold its head.
+/// Continues to read a text file from its beginning: in pieces, or at once where the beginning does not hold
+/// its head.
 pub(super) fn of_file(
     mut beginning: FileBeginning,
     read: impl Fn(Source<'_>) -> Checked<ImuFile> + Sync,
@@ -74,7 +75,7 @@ impl Source<'_> {
     }
 }
 
-/// Takes lines apart, and those that follow them in a file; meanwhile the next are read.
+/// Parses lines, and those that follow them in a file. Meanwhile the next are read.
 fn in_pieces<'t>(
     reader: &mut SampleReader<'_>,
     first: impl Iterator<Item = Line<'t>> + Send,

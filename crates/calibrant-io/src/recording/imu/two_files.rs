@@ -1,4 +1,4 @@
-//! A recording whose sensors have a file each.
+//! Reads a recording whose sensors have a file each, and joins them.
 
 use super::column::{ColumnMeaning, ImuColumn};
 use super::file_layout::Draft;
@@ -13,12 +13,13 @@ use calibrant_core::error::{Error, InputError, Result};
 use calibrant_core::sensor::{ImuRecording, Recording, SensorKind};
 use std::path::Path;
 
-/// What both files have in common of the longer one's time, where nothing is to be said of it.
+/// Share of the longer file's time that both must cover. Below it there is a finding.
 const COVERED: f64 = 0.9;
 
 /// Reads a recording whose accelerometer and gyroscope are in a file each, as imu_tk's are: `t x y z`.
 ///
-/// A file with a header serves as well: `t_s,x,y,z`, or any that has the sensor's columns by name. The sensors share a clock; their sample times may differ.
+/// A file with a header serves as well: `t_s,x,y,z`, or any that names the sensor's columns. The sensors
+/// share a clock; their sample times may differ.
 ///
 /// # Errors
 /// As [`read_imu_recording`](crate::read_imu_recording), for each file.
@@ -28,7 +29,7 @@ pub fn read_imu_pair(accelerometer: &Path, gyroscope: &Path, options: &ImuReadOp
         let beginning = text_source::beginning(path).map_err(in_file)?;
         text_source::of_file(beginning, |source| parse_one(source, options, sensor_kind)).map_err(in_file)
     };
-    // one beside the other: this is what a calibration waits for
+    // in parallel: a calibration waits for this
     let (accelerometer, gyroscope) = rayon::join(
         || one(accelerometer, SensorKind::Accelerometer),
         || one(gyroscope, SensorKind::Gyroscope),
@@ -65,8 +66,9 @@ pub fn parse_imu_pair(accelerometer: &[u8], gyroscope: &[u8], options: &ImuReadO
     both(one(accelerometer, SensorKind::Accelerometer), one(gyroscope, SensorKind::Gyroscope))
 }
 
-/// The pair; where both files leave a question open, both questions at once.
+/// The pair. Where both files leave a question open, the error has both questions.
 fn both(accelerometer: Result<ImuFile>, gyroscope: Result<ImuFile>) -> Result<ImuFile> {
+    /// The beginning of a remedy.
     const SAY: &str = "say ";
     let is_question = |input_error: &InputError| input_error.help.starts_with(SAY);
     match (accelerometer, gyroscope) {
@@ -93,7 +95,7 @@ fn parse_one(source: Source<'_>, options: &ImuReadOptions, sensor_kind: SensorKi
         Draft::new(FileFormat::Csv, imu_tk::named(&head, sensor_kind))
     };
     draft.keep_only(sensor_kind);
-    // the other sensor's unit, or the columns of one file that holds both, are not meant
+    // the other sensor's unit, and the columns of one file that holds both, do not apply
     let options = ImuReadOptions { columns: ColumnMapping::default(), ..options.clone() };
     rows(draft, head, source, &options)
 }
@@ -116,7 +118,7 @@ fn left_aside(file: &ImuFile, sensor_kind: SensorKind) -> Option<Finding> {
     })
 }
 
-/// Says where one of a pair of files covers much less of the time than the other, or nothing of it.
+/// The finding where one of a pair of files covers much less of the time than the other, or nothing of it.
 fn shorter_than_other(first: &ImuRecording, second: &ImuRecording) -> Option<Finding> {
     let span = |recording: &Recording| Some((*recording.times_s.first()?, *recording.times_s.last()?));
     let (accelerometer, gyroscope) =

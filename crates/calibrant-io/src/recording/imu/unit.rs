@@ -23,7 +23,7 @@ pub enum ImuUnit {
 }
 
 impl ImuUnit {
-    /// All of them.
+    /// All units.
     pub const ALL: [Self; 7] = [
         Self::MetrePerSecondSquared,
         Self::StandardGravity,
@@ -48,7 +48,8 @@ impl ImuUnit {
         }
     }
 
-    /// The unit of this name in one of its usual spellings: `m/s²`, `m/s^2`, `mps2`, `m s^-2`, `g`, `mg`, `rad/s`, `radps`, `deg/s`, `dps`, `°/s`, `mdps`, `counts`, `LSB`, …
+    /// The unit of this name in one of its usual spellings: `m/s²`, `m/s^2`, `mps2`, `m s^-2`, `g`, `mg`,
+    /// `rad/s`, `radps`, `deg/s`, `dps`, `°/s`, `mdps`, `counts`, `LSB`, …
     ///
     /// # Examples
     /// ```
@@ -99,7 +100,7 @@ impl ImuUnit {
         }
     }
 
-    /// Unit after the conversion, and the factor that readings are multiplied by.
+    /// Unit after the conversion, and the factor on the readings.
     #[must_use]
     pub fn reading(self) -> (ReadingUnit, f64) {
         match self {
@@ -137,7 +138,7 @@ pub enum TimeUnit {
     Microsecond,
     /// Nanoseconds.
     Nanosecond,
-    /// Samples: a counter, which becomes times by the sample rate.
+    /// Samples: a counter, which the sample rate turns into times.
     Sample,
 }
 
@@ -169,7 +170,8 @@ impl TimeUnit {
         })
     }
 
-    /// Ticks in a second; `None` for samples, whose rate is another matter. (Times are divided by it: `1/1000` is no binary number.)
+    /// Ticks in a second; `None` for samples, which need a rate. (Times are divided by it: `1/1000` is no
+    /// binary number.)
     pub(super) fn per_second(self) -> Option<f64> {
         match self {
             Self::Second => Some(1.0),

@@ -1,4 +1,4 @@
-//! The crates of the workspace, as they lie on the disk.
+//! Reads the crates of the workspace from the disk, for the architecture test.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -46,7 +46,7 @@ fn read_sources(folder: &Path, base: &Path, sources: &mut BTreeMap<String, Strin
     }
 }
 
-/// The names in `[dependencies]`; what tests alone need does not count.
+/// The names in `[dependencies]`. Dependencies of tests alone do not count.
 pub(crate) fn dependencies(manifest: &str) -> BTreeSet<String> {
     let mut names = BTreeSet::new();
     let mut inside = false;

@@ -1,10 +1,11 @@
-//! Which file uses which: paths followed through re-exports to the file that defines the item.
+//! The graph of the architecture test: which file uses which. It follows paths through re-exports to the file
+//! that defines the item.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::modules::{Modules, Path};
 
-/// For each file the files it uses, each with a path that it names.
+/// For each file the files that it uses, each with a path that it names.
 #[derive(Debug, Default)]
 pub(crate) struct Graph {
     pub(crate) edges: BTreeMap<String, BTreeMap<String, String>>,
@@ -84,17 +85,17 @@ impl Graph {
     }
 }
 
-/// The names under way, so that a name that leads to itself ends.
+/// The names that are being resolved, so that a name that leads to itself ends.
 type Open = Vec<(usize, String, Kind)>;
 
-/// A name can stand for an item and for a module at once.
+/// The kind of a name: it can stand for an item and for a module at once.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Kind {
     Item,
     Module,
 }
 
-/// Where a path that is named in a module leads to; its last word is of the kind that is wanted, if there is one.
+/// The target of a path that a module names. Its last word is of the wanted kind, if there is one.
 fn resolve(modules: &Modules, from: usize, path: &Path, wanted: Kind, open: &mut Open) -> Target {
     let mut module = from;
     let mut rest = path.as_slice();
@@ -122,7 +123,7 @@ fn resolve(modules: &Modules, from: usize, path: &Path, wanted: Kind, open: &mut
     Target::Module(module)
 }
 
-/// What a name means in a module.
+/// The meaning of a name in a module.
 fn lookup(modules: &Modules, module: usize, word: &str, wanted: Kind, open: &mut Open) -> Target {
     let name = (module, word.to_owned(), wanted);
     if open.contains(&name) {

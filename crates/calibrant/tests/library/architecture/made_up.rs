@@ -1,4 +1,4 @@
-//! The graph on small made-up sources: what it finds and what it must not find.
+//! Tests of the graph on small made-up sources: what it must find and what it must not find.
 
 use std::collections::BTreeMap;
 

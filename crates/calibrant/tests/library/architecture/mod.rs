@@ -1,4 +1,5 @@
-//! The shape of the workspace, read from its sources: crates and modules in order, no circle of files, small files.
+//! The architecture test, on the sources of the workspace: crates and modules in order, no circle of files,
+//! small files.
 
 mod crates;
 mod graph;
@@ -77,7 +78,7 @@ fn children_take_nothing_from_their_parent() {
     assert!(taken.is_empty(), "move these items into files of their own:\n{}", taken.join("\n"));
 }
 
-/// Whether a file holds the module that another lies in: `a/mod.rs` or `a.rs` for `a/b.rs`.
+/// Does a file hold the module that contains the other? `a/mod.rs` or `a.rs` does for `a/b.rs`.
 fn is_parent(parent: &str, file: &str) -> bool {
     let folder = parent.strip_suffix("mod.rs").map(str::to_owned);
     file != parent && file.starts_with(&folder.unwrap_or_else(|| parent.replace(".rs", "/")))

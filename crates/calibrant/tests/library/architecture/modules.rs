@@ -1,4 +1,4 @@
-//! The modules of a crate, as its sources declare them.
+//! Reads the modules of a crate from its sources, for the architecture test.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -7,7 +7,7 @@ use super::tokens::{after_group, tokens};
 /// A path as it is written: `crate::sensor::Imu`.
 pub(crate) type Path = Vec<String>;
 
-/// What a module declares and names.
+/// The declarations and names of a module.
 #[derive(Debug, Default)]
 pub(crate) struct Module {
     /// the file that holds it
@@ -41,7 +41,7 @@ impl Modules {
         self.roots.insert(name.replace('-', "_"), index);
     }
 
-    /// The files that the modules were read from.
+    /// The files from which the modules were read.
     pub(crate) fn files(&self) -> BTreeSet<&str> {
         self.all.iter().map(|module| module.file.as_str()).collect()
     }
@@ -110,7 +110,7 @@ impl Modules {
                         path.push(at(place + 2).to_owned());
                         place += 2;
                     }
-                    // a single small word is a variable or a field, unless it is called
+                    // a single lower-case word is a variable or a field, unless it is called
                     let is_name = path.len() > 1
                         || word.starts_with(char::is_uppercase)
                         || matches!(at(place + 1), "(" | "!" | "::");

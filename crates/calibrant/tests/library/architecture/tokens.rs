@@ -1,4 +1,4 @@
-//! The tokens of a source, without comments, strings and test code.
+//! The tokens of a source without comments, strings and test code, for the architecture test.
 
 /// Words, numbers, `::` and single signs; a string or a character becomes `"`.
 pub(crate) fn tokens(text: &str) -> Vec<String> {
@@ -99,7 +99,7 @@ fn after_quoted(signs: &[char], start: usize, quote: char) -> usize {
     place + 1
 }
 
-/// Leaves out each item that follows `#[cfg(test)]` or `#[test]`.
+/// Removes each item that follows `#[cfg(test)]` or `#[test]`.
 fn without_tests(tokens: &[String]) -> Vec<String> {
     let mut kept = Vec::new();
     let mut place = 0;

@@ -1,4 +1,4 @@
-//! IMUs, simulated and recorded.
+//! Simulated and recorded IMUs that several tests share.
 
 use calibrant::estimate::{
     CalibrationSettings, Gyroscope, ImuCalibration, ImuProblem, ImuSetup, calibrate_imu,
@@ -12,7 +12,7 @@ use calibrant::simulate::Rng;
 use nalgebra::{Matrix3, Vector3};
 use rand_distr::{Distribution, StandardNormal};
 
-/// The recording of imu_tk in counts, with gravity where it was made; `None` where it is not at hand.
+/// The recording of imu_tk in counts, with gravity at its place; `None` where the file is absent.
 pub(crate) fn xsens() -> Option<(ImuRecording, Gravity)> {
     let accelerometer = super::shared_data("xsens-mti-static/xsens_acc.mat")?;
     let gyroscope = super::shared_data("xsens-mti-static/xsens_gyro.mat")?;
@@ -46,7 +46,7 @@ pub(crate) fn draw_feeling_imu(rng: &mut Rng) -> ImuParameters {
     ImuParameters { g_sensitivity: Matrix3::from_fn(|_, _| 2e-4 * normal(rng)), ..imu }
 }
 
-/// A triaxial accelerometer with cross terms; of counts its gain is not known.
+/// A triaxial accelerometer with cross-axis terms. In counts, its gain is not known.
 fn accelerometer(unit: ReadingUnit) -> Sensor {
     let sensor = Sensor::triaxial(SensorModel::Full);
     match unit {

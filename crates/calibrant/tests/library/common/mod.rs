@@ -1,4 +1,4 @@
-//! What several of the tests need.
+//! Code that several tests share.
 #![allow(dead_code, unused_imports)] // not every test needs everything
 
 pub(crate) mod case;

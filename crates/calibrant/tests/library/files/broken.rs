@@ -1,9 +1,9 @@
-//! Broken recordings and motions: every complaint word for word.
+//! Tests of broken recordings and motions: every message word for word.
 
 use calibrant::io::{ReadOptions, parse_motion, parse_recording, read_motion, read_recording};
 use calibrant::sensor::ReadingUnit;
 
-/// The bytes of a file and what is said of it.
+/// The bytes of a file and the message about it.
 type Case = (&'static [u8], &'static str);
 
 const OPTIONS: ReadOptions =

@@ -1,4 +1,5 @@
-//! A corrected recording as CSV: its numbers against the model of the readings, solved anew, and against drawn calibrations.
+//! Tests of a corrected recording as CSV: its numbers against the model of the readings, solved anew, and
+//! against drawn calibrations.
 
 use super::conventions::{SI, imu};
 use calibrant::io::write_corrected_recording;
@@ -8,7 +9,7 @@ use nalgebra::{DVector, Vector3};
 use rand_distr::{Distribution, StandardNormal};
 use std::collections::BTreeMap;
 
-/// A row of the file by the names of its columns; empty fields are left out.
+/// A row of the file by the names of its columns, without empty fields.
 fn rows(text: &str) -> Vec<BTreeMap<String, f64>> {
     let mut lines = text.lines();
     let header: Vec<&str> = lines.next().expect("a header").split(',').collect();
@@ -25,7 +26,8 @@ fn vector(row: &BTreeMap<String, f64>, name: &str) -> Vector3<f64> {
     Vector3::from_fn(|k, _| row[&name.replace('?', ["x", "y", "z"][k])])
 }
 
-/// `f` and `ω` that this IMU shows as these readings: `y_a = S_a f + b_a`, `y_g = S_g ω + b_g + Γ f`, solved by LU.
+/// The `f` and `ω` for which this IMU gives these readings: `y_a = S_a f + b_a`, `y_g = S_g ω + b_g + Γ f`,
+/// solved by LU.
 fn solved(p: &ImuParameters, y_a: &Vector3<f64>, y_g: &Vector3<f64>) -> (Vector3<f64>, Vector3<f64>) {
     let force = p.accelerometer.matrix.lu().solve(&(y_a - p.accelerometer.bias)).expect("regular");
     let felt = p.g_sensitivity * force;
@@ -94,7 +96,7 @@ fn both_sensors_columns_are_the_solved_model_and_their_sd_that_of_drawn_calibrat
             squares_a += (f - force).map(|error| error * error) / f64::from(draws);
             squares_g += (w - rate).map(|error| error * error) / f64::from(draws);
         }
-        // the standard deviation of so many draws is known to 0.5 %
+        // the standard deviation of this number of draws is known to 0.5 %
         let near = |stated: Vector3<f64>, squares: Vector3<f64>| {
             let ratio = stated.component_div(&squares.map(f64::sqrt));
             assert!(ratio.iter().all(|ratio| (ratio - 1.0).abs() < 0.025), "row {row}: {ratio}");

@@ -1,4 +1,4 @@
-//! `calibration.json` as it is read back: there and back again, and everything that can be wrong with it.
+//! Tests of `calibration.json` of an earlier calibration: there and back again, and every fault of the file.
 
 use crate::files::results::{input, uniaxial};
 use calibrant::io::{calibration_json, parse_calibration, read_calibration};
@@ -10,7 +10,7 @@ const GOOD: &str = r#"{ "schema": 1, "status": "converged",
                  { "name": "scale.x", "unit": "1", "value": 1.01, "sd": 0.001 }],
   "covariance": [[4e-4, 1e-6], [1e-6, 1e-6]] }"#;
 
-/// What is said of GOOD with one thing replaced.
+/// The message about GOOD with one replacement.
 fn message(from: &str, to: &str) -> String {
     assert!(GOOD.contains(from), "{from}");
     parse_calibration(GOOD.replacen(from, to, 1).as_bytes()).expect_err("broken").to_string()

@@ -1,4 +1,4 @@
-//! Good experiment files: what they say arrives, and what they leave out has its default.
+//! Tests of good experiment files: their values arrive, and missing keys have their defaults.
 
 use calibrant::io::{
     CriterionLetter, Experiment, HoldsPlan, MotionPlan, NoisyVariant, PRESETS, Plan, Prior, ScaleBy, preset,
@@ -37,7 +37,8 @@ fn every_preset_is_valid_also_with_its_commented_keys_switched_on_one_by_one() {
                 let lines = text.lines().enumerate().map(|(i, line)| if i == at { key } else { line });
                 Experiment::parse(&lines.collect::<Vec<_>>().join("\n"), None)
             };
-            // latitude and height stand for gravity, and go together: no line is good alone, but the latitude of an IMU
+            // latitude and height replace gravity and go together: no line is good alone, but the latitude of
+            // an IMU
             let alone = |key: &str| key.starts_with("latitude") && name.starts_with("imu");
             match with(key) {
                 Ok(_) => assert!(alone(key) || !key.starts_with("latitude") && !key.starts_with("height")),
@@ -129,7 +130,7 @@ fn a_latitude_beside_the_gravity_of_an_imu_is_for_the_rate_of_the_earth() {
     let plan = holds(&experiment);
     assert_eq!((plan.gravity.magnitude_mps2, plan.latitude_deg), (9.80665, Some(-33.9)));
     assert_eq!(experiment.imu.as_ref().expect("an IMU").setup(plan).latitude_deg, Some(-33.9));
-    // the height is of no use to it
+    // the height is unused there
     let both = imu.replace(gravity, &format!("height_m = 30.0\nlatitude_deg = -33.9\n{gravity}"));
     let error = Experiment::parse(&both, None).expect_err("twice").to_string();
     assert!(error.contains("`holds.height_m`: gravity is given twice"), "{error}");

@@ -1,4 +1,4 @@
-//! `calibration.json` of a whole IMU: what it says, and that it is read back.
+//! Tests of `calibration.json` of a whole IMU: its content, and that it is read back.
 
 use self::imus::{DISTURBED, imu_case};
 use super::results::input;
@@ -30,7 +30,7 @@ fn it_is_read_as_a_calibrated_imu_to_the_bit() {
     assert!(back.findings.is_empty() && back.noise.is_none());
     let text = std::fs::read_to_string(&path).expect("read");
     assert_eq!(text, imu_calibration_json(&calibration, &[], &inputs), "the same bytes");
-    // and goes on to the others
+    // and converts to the other formats
     calibrated_imu_texts(&back, ImuFormat::Kalibr).expect("convertible");
 }
 

@@ -1,4 +1,4 @@
-//! Every file that is read or written: good ones, broken ones, and there and back again.
+//! Tests of every file that is read or written: good ones, broken ones, and there and back again.
 
 mod broken;
 mod conventions;

@@ -1,4 +1,4 @@
-//! Recordings that nobody here made.
+//! Tests of real recordings of accelerometers.
 
 use crate::common::shared_data;
 use calibrant::io::{FindingKind, ReadOptions, read_recording};

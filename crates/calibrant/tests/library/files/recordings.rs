@@ -1,4 +1,4 @@
-//! Recordings that can be used: every dialect, and every finding in words.
+//! Tests of recordings that can be used: every dialect, and every finding in words.
 
 use calibrant::io::{FindingKind, ReadOptions, RecordingFile, parse_recording};
 use calibrant::sensor::ReadingUnit;
@@ -10,7 +10,7 @@ fn parse(bytes: &[u8]) -> RecordingFile {
     parse_recording(bytes, &OPTIONS).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// The only finding, and how many samples are left.
+/// The only finding, and the number of remaining samples.
 fn finding(text: &str) -> (FindingKind, String, usize) {
     let file = parse(text.as_bytes());
     assert_eq!(file.findings.len(), 1, "{:?}", file.findings);
@@ -177,7 +177,7 @@ fn irregular_sampling_is_told_once() {
         message.starts_with("sampling is irregular: time steps from 9.7 to 10.3 ms, usually "),
         "{message}"
     );
-    // half a percent is not worth a word, nor is the rounding of time stamps that began in 1970
+    // half a percent needs no finding, nor does the rounding of time stamps that began in 1970
     let text = rows(|k| format!("{},{},{},{}", 0.01 * k as f64 + 5e-5 * (k % 2) as f64, k % 7, k % 5, k % 3));
     assert!(parse(text.as_bytes()).findings.is_empty());
     let text = rows(|k| format!("{},{},{},{}", 1.7e9 + 1e-5 * k as f64, k % 7, k % 5, k % 3));

@@ -1,4 +1,4 @@
-//! What is written: there and back again, and the JSON field by field.
+//! Tests of written results: there and back again, and the JSON field by field.
 
 use calibrant::Error;
 use calibrant::estimate::{

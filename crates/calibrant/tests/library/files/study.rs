@@ -1,4 +1,4 @@
-//! `study.json`, field by field.
+//! Tests of `study.json`, field by field.
 
 use super::results::uniaxial;
 use calibrant::io::{study_json, write_study};

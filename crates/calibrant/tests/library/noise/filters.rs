@@ -1,10 +1,10 @@
-//! Filtered noise: N is that of means over a long time, whether the filter shows or not.
+//! Tests of filtered noise: N is that of means over a long time, whether the filter shows or not.
 
 use super::{INTERVAL_S, simulate, tally};
 use calibrant::noise::{Coefficient, Moments, NoiseFit, PowerLaw};
 use rayon::prelude::*;
 
-/// White noise through a filter whose gain at rest is 1 and which is at rest after so many samples.
+/// White noise through a filter whose gain at rest is 1. After this number of samples the filter is at rest.
 struct Filter {
     what: &'static str,
     settled: usize,
@@ -38,7 +38,7 @@ fn mean_of(values: &[f64], count: usize) -> Vec<f64> {
 const FILTERS: [Filter; 8] = [
     Filter { what: "the mean of two samples", settled: 1, run: |x| mean_of(x, 2) },
     Filter { what: "the mean of four samples", settled: 3, run: |x| mean_of(x, 4) },
-    // longer than the cluster times from which its share shows beside those before
+    // longer than the cluster times from which its share shows beside the earlier ones
     Filter { what: "the mean of eight samples", settled: 7, run: |x| mean_of(x, 8) },
     Filter { what: "the mean of ten samples", settled: 9, run: |x| mean_of(x, 10) },
     Filter { what: "a pole at 0.5", settled: 60, run: |x| second_order(x, [0.5, 0.0, 0.0], [-0.5, 0.0]) },
@@ -47,8 +47,8 @@ const FILTERS: [Filter; 8] = [
     Filter { what: "Butterworth at rate/10", settled: 100, run: |x| butterworth(x, 0.1) },
 ];
 
-/// What a mean over a long time does is what N says, filtered or not: N was 0.965 of the truth behind a mean of two samples and 0.908 behind a pole at 0.9, and the interval covered in
-/// one case of eight.
+/// N is that of a mean over a long time, filtered or not. Before, N was 0.965 of the truth behind a mean of
+/// two samples and 0.908 behind a pole at 0.9. The interval covered in one case of eight.
 #[test]
 fn the_interval_of_filtered_white_noise_covers() {
     let (n, runs) = (20_000, 100_u64);
@@ -102,7 +102,8 @@ fn the_share_of_a_filter_is_that_of_the_closed_form() {
     assert!(reason.contains("filtered"), "{reason}");
 }
 
-/// A filter that correlates successive samples by 0.01 to 0.02 does not show in 20 000, and takes 1 to 1.4 % from N, two to three standard deviations: the interval covered in 23 to 68 of 100.
+/// A filter that correlates successive samples by 0.01 to 0.02 does not show in 20 000. It takes 1 to 1.4 %
+/// from N, two to three standard deviations. Before, the interval covered in 23 to 68 of 100.
 #[test]
 fn the_interval_behind_a_filter_that_does_not_show_reaches_far_enough() {
     let (n, runs) = (20_000, 200_u64);
@@ -122,7 +123,7 @@ fn the_interval_behind_a_filter_that_does_not_show_reaches_far_enough() {
         let wider = fits.iter().map(width).sum::<f64>() / (runs as f64 * 2.0 * 1.96);
         println!("{correlation}: {white:?}, {filtered} filtered, {wider:.3} times as wide");
         assert!(filtered <= most_filtered && white.covered >= least_covered, "{correlation}: {white:?}");
-        // of noise that is not filtered it is a seventh wider for that
+        // for unfiltered noise it is a seventh wider because of that
         assert!(correlation > 0.0 || (1.05..1.2).contains(&wider), "{wider}");
     }
 }

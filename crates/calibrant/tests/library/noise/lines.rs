@@ -1,4 +1,4 @@
-//! White noise beside a vibration: N is that of the noise, or in doubt.
+//! Tests of white noise beside a vibration: N is that of the noise, or marked as doubtful.
 
 use super::{INTERVAL_S, examine, simulate};
 use calibrant::noise::{Moments, PowerLaw, SensorNoise};
@@ -9,7 +9,8 @@ const DENSITY: f64 = 0.02;
 /// Standard deviation of a sample.
 const SIGMA: f64 = 0.2;
 
-/// White noise, behind a pole at 0.7 or not, with a sine of this frequency and this part of the variance of the white noise before the filter.
+/// White noise, behind a pole at 0.7 or not, with a sine of this frequency. `share` is the sine's part of the
+/// variance of the white noise before the filter.
 fn beside_a_sine(moments: &Moments, filtered: bool, hertz: f64, share: f64, seed: u64) -> SensorNoise {
     let n = moments.samples();
     let white = simulate(&[(PowerLaw::White, DENSITY)], n + 100, 40_000 + seed);
@@ -29,7 +30,7 @@ fn beside_a_sine(moments: &Moments, filtered: bool, hertz: f64, share: f64, seed
     examine(&values, moments)
 }
 
-/// In how many the noise is not in doubt, and in how many of these the interval of N covers.
+/// Number of runs whose noise is not doubtful, and of those among them whose interval of N covers.
 fn kept_and_covered(runs: &[SensorNoise]) -> (usize, usize) {
     let kept = runs.iter().filter(|noise| noise.caveat.is_none());
     let covers = |noise: &&SensorNoise| {
@@ -39,7 +40,8 @@ fn kept_and_covered(runs: &[SensorNoise]) -> (usize, usize) {
     (kept.clone().count(), kept.filter(covers).count())
 }
 
-/// A hum of a few per cent of the variance was enough for no result, and left in it makes N of white noise 1 to 10 % too large.
+/// Before, a hum of a few per cent of the variance was enough for no result. If it stays, N of white noise is
+/// 1 to 10 % too large.
 #[test]
 fn beside_a_line_far_from_the_cluster_times_that_matter_the_interval_covers() {
     for n in [5000, 20_000] {
@@ -63,7 +65,8 @@ fn beside_a_line_far_from_the_cluster_times_that_matter_the_interval_covers() {
     }
 }
 
-/// Where it is most of the Allan variance at a cluster time that matters, and where it wanders too much to be taken off.
+/// A line that is most of the Allan variance at a cluster time that matters, and one that wanders too much to
+/// be subtracted.
 #[test]
 fn beside_a_line_that_is_most_of_what_is_seen_the_noise_is_in_doubt() {
     let n = 20_000;

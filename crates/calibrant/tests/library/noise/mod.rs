@@ -1,4 +1,5 @@
-//! Noise of known coefficients: recovered within the stated intervals, and these cover as often as they say.
+//! Tests of noise of known coefficients: recovered within the stated intervals, which cover as often as
+//! stated.
 
 mod filters;
 mod lines;
@@ -26,7 +27,7 @@ fn simulate(coefficients: &[(PowerLaw, f64)], n: usize, seed: u64) -> Vec<f64> {
     sum
 }
 
-/// The fits of so many simulations of the same noise.
+/// The fits of this number of simulations of the same noise.
 fn fits(coefficients: &[(PowerLaw, f64)], n: usize, count: u64) -> Vec<NoiseFit> {
     let moments = Moments::of(n);
     let fit =
@@ -34,7 +35,7 @@ fn fits(coefficients: &[(PowerLaw, f64)], n: usize, count: u64) -> Vec<NoiseFit>
     (0..count).into_par_iter().map(fit).collect()
 }
 
-/// What became of one coefficient in many fits.
+/// The results for one coefficient in many fits.
 #[derive(Debug, Default)]
 struct Tally {
     determined: usize,
@@ -144,7 +145,7 @@ fn all_processes_together_are_told_apart() {
     for (process, coefficient) in truth {
         let tally = tally(&fits, process, coefficient);
         println!("{process:?} {tally:?}");
-        // which of them are seen is decided by the same data: not quite 95 %
+        // the same data decide which of them are significant: not quite 95 %
         assert!(tally.covered + tally.limits_kept >= 85, "{process:?} {tally:?}");
     }
 }
@@ -173,7 +174,7 @@ fn a_linear_drift_is_no_random_walk() {
     assert!((fit.model.random_walk.value().expect("determined") / 0.02 - 1.0).abs() < 0.04);
 }
 
-/// The slope of a random walk is one of its realisations, seen in the Allan deviation or not.
+/// The slope of a random walk is one of its realisations, whether the Allan deviation shows it or not.
 #[test]
 fn a_random_walk_is_no_linear_drift() {
     let (n, duration_s) = (6000, 60.0_f64);
@@ -208,7 +209,7 @@ fn a_random_walk_is_no_linear_drift() {
     }
 }
 
-/// One spike of 20 m/s² made N four times too large.
+/// Before, one spike of 20 m/s² made N four times too large.
 #[test]
 fn an_outlier_is_left_out_and_named() {
     let record = |spike: f64| {
@@ -230,7 +231,7 @@ fn an_outlier_is_left_out_and_named() {
     assert!((n / clean_n - 1.0).abs() < 1e-3, "{n} {clean_n}");
     let outliers = spiked.axes[0].outliers.as_ref().expect("found");
     assert_eq!(outliers.samples, [31_234]);
-    // 20 m/s² in one of n samples: their variance is more by 400/n
+    // 20 m/s² in one of n samples: their variance increases by 400/n
     let expected = (400.0 / 60_000.0 + clean_n.powi(2)).sqrt();
     let with_them = outliers.white_with_them.expect("determined");
     assert!((with_them / expected - 1.0).abs() < 0.2, "{with_them} {expected}");
@@ -279,7 +280,7 @@ fn the_first_hold_of_the_mti_determines_white_noise_and_not_bias_instability() {
     }
 }
 
-/// The noise of an accelerometer of one axis by all of these samples.
+/// The noise of an accelerometer of one axis, from all of these samples.
 fn examine(values: &[f64], moments: &Moments) -> SensorNoise {
     let recording = Recording {
         times_s: (0..values.len()).map(|k| k as f64 * INTERVAL_S).collect(),
@@ -291,7 +292,7 @@ fn examine(values: &[f64], moments: &Moments) -> SensorNoise {
     SensorNoise::with_moments(SensorKind::Accelerometer, &recording, segment, moments).expect("noisy")
 }
 
-/// Spikes of up to 20 m/s² in one of so many samples: N was 82 times too large at one in 600.
+/// Spikes of up to 20 m/s² in one of `one_in` samples: before, N was 82 times too large at one in 600.
 #[test]
 fn without_spikes_the_interval_of_white_noise_covers() {
     let (n, runs) = (20_000, 200_u64);
@@ -321,7 +322,7 @@ fn without_spikes_the_interval_of_white_noise_covers() {
     }
 }
 
-/// What is no spike stays: noise with heavy tails, a burst, too many.
+/// Samples that are not spikes stay: noise with heavy tails, a burst, too many.
 #[test]
 fn too_many_spikes_are_called_so_and_heavy_tails_are_not() {
     let n = 20_000;
@@ -361,7 +362,7 @@ fn too_many_spikes_are_called_so_and_heavy_tails_are_not() {
     assert!(examine(&values).axes[0].outliers.is_none());
 }
 
-/// Spikes of a few standard deviations are too near for outliers, and made N 1.9 times too large.
+/// Spikes of a few standard deviations are too near for outliers; before, they made N 1.9 times too large.
 #[test]
 fn spikes_nearby_are_doubted_and_heavy_tails_widen_the_interval() {
     let n = 20_000;

@@ -1,4 +1,5 @@
-//! A simulated IMU, calibrated from one recording and tried on another.
+//! The bench of the validation tests: a simulated IMU, calibrated from one recording and validated on
+//! another.
 
 use crate::common::normal;
 use calibrant::estimate::{
@@ -52,7 +53,7 @@ impl Bench {
     }
 }
 
-/// Holds known to the sample, so that no gentle beginning of a turn falls into one.
+/// Holds known to the sample, so that no slow start of a turn falls into one.
 pub(crate) fn intervals(simulation: &ImuSimulation) -> Vec<(f64, f64)> {
     let period = simulation.hold_s + simulation.turn_s;
     (0..simulation.poses)
@@ -61,7 +62,8 @@ pub(crate) fn intervals(simulation: &ImuSimulation) -> Vec<(f64, f64)> {
         .collect()
 }
 
-/// Scatter that no sample's noise explains: a disturbance of each hold, a bias that wanders from hold to hold, and one that comes and goes with each turn.
+/// Scatter that no sample's noise explains. It is a disturbance of each hold, a bias that wanders from hold
+/// to hold, and one that comes and goes with each turn.
 fn scatter(recording: &mut ImuRecording, simulation: &ImuSimulation, size: f64, rng: &mut Rng) {
     let period = simulation.hold_s + simulation.turn_s;
     let mut vectors = |sd: f64| -> Vec<Vector3<f64>> {

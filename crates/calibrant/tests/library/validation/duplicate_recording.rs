@@ -1,4 +1,4 @@
-//! The same recording in disguise, and honest repetitions that look alike.
+//! Tests of duplicate recordings in disguise, and of honest repetitions that look alike.
 
 use crate::common::{draw_imu, normal, xsens};
 use crate::validation::bench::{bench, simulate};
@@ -26,7 +26,7 @@ fn quiet() -> Recording {
     simulate_holds(&SensorParameters::identity(), &Vector3::zeros(), unit, &setup, &mut rng).0
 }
 
-/// One of its recordings. `filter`: share of the noise before that stays.
+/// One of its recordings. `filter` is the share of the previous sample's noise that stays.
 fn noisy(quiet: &Recording, filter: f64, rng: &mut Rng) -> Recording {
     let mut recording = quiet.clone();
     let mut noise = Vector3::zeros();
@@ -56,7 +56,8 @@ fn chosen(recording: &Recording, every: &[usize]) -> Recording {
 
 #[test]
 fn honest_repetitions_have_no_noise_in_common() {
-    // a machine that makes the same movements at the same times, with the same hum, the same ringing after each and the same warming up
+    // a machine that makes the same movements at the same times, with the same hum, the same ringing after
+    // each and the same warming up
     let still = quiet();
     let mut machine = still.clone();
     for (t, y) in machine.times_s.iter().zip(&mut machine.readings) {
@@ -79,7 +80,7 @@ fn honest_repetitions_have_no_noise_in_common() {
             let mut record = || rounded(noisy(base, filter, &mut rng), step * SD);
             let (one, other) = (record(), record());
             let found = noise_in_common(&one, &holds(&one), &other);
-            // intervals that take in the movements, too
+            // intervals that contain the movements, too
             let whole =
                 calibrant::estimate::holds_between(&one, &[(0.0, 30.0), (30.1, 60.0)]).expect("samples");
             found.or(noise_in_common(&one, &whole, &other)).map(|r| (number, r))
@@ -117,7 +118,8 @@ fn the_same_recording_is_known_in_every_disguise() {
             .collect();
         let mut pairs = chosen(&one, &(0..n / 2).map(|k| 2 * k).collect::<Vec<_>>());
         pairs.readings = one.readings.chunks_exact(2).map(|two| 0.5 * (two[0] + two[1])).collect();
-        // differences of samples `apart` have the variance 2 (1 − filter^apart) σ²; rounding adds q²/6; less what 60 blocks leave to chance
+        // differences of samples `apart` have the variance 2 (1 − filter^apart) σ²; rounding adds q²/6; less
+        // the random error of 60 blocks
         let left = |step: f64, apart: i32| {
             let variance = 2.0 * (1.0 - filter.powi(apart));
             (variance / (variance + step * step / 6.0)).sqrt() - 0.05
@@ -170,7 +172,7 @@ fn honest_repetitions_have_no_readings_in_common() {
         .into_par_iter()
         .map(|number| {
             let mut rng = stream(74, Purpose::Sensor, number);
-            // from fine steps to noise of a fifth of one, and none to be seen
+            // from fine steps to noise of a fifth of one, and none that shows
             let step = [1e-6, 2.0, 5.0, 1e3][number as usize % 4];
             let filter = [0.0, 0.8][number as usize / 4 % 2];
             let mut record = || rounded(noisy(&still, filter, &mut rng), step * SD);
@@ -183,7 +185,7 @@ fn honest_repetitions_have_no_readings_in_common() {
         .collect();
     let alarms: Vec<_> = shares.iter().filter(|(_, _, found)| found.is_some()).collect();
     assert!(alarms.is_empty(), "{alarms:?}");
-    // a sensor that shows one value
+    // a sensor with one value
     let mut constant = still.clone();
     constant.readings.iter_mut().for_each(|y| *y = Vector3::new(1.0, 2.0, 3.0));
     let intervals =
@@ -211,7 +213,7 @@ fn the_same_readings_are_known_in_any_order_and_at_any_time() {
             ("another clock", slower),
             ("a part, reversed", part_reversed),
         ] {
-            // a third of the few blocks that very coarse readings have once is too few to tell
+            // a third of the few blocks that very coarse readings have once is too few to decide
             if step > 2.0 && other.len() < n {
                 continue;
             }
@@ -224,7 +226,7 @@ fn the_same_readings_are_known_in_any_order_and_at_any_time() {
     }
 }
 
-/// A moving average over so many samples; `trailing`: its times are those of the last one.
+/// A moving average over `window` samples; with `trailing` its times are those of the last one.
 fn smoothed(recording: &Recording, window: usize, trailing: bool) -> Recording {
     let n = recording.len();
     let after = if trailing { 0 } else { window / 2 };
@@ -235,7 +237,7 @@ fn smoothed(recording: &Recording, window: usize, trailing: bool) -> Recording {
     Recording { readings: (0..n).map(mean).collect(), ..recording.clone() }
 }
 
-/// White and filtered noise, centred and trailing windows, thinned out after it, rounded.
+/// White and filtered noise, centred and trailing windows, thinned out after it, quantised.
 #[test]
 fn a_smoothed_recording_is_known() {
     for (number, filter) in [0.0, 0.8, 0.0, 0.8].into_iter().enumerate() {
@@ -263,7 +265,8 @@ fn a_smoothed_recording_is_known() {
     }
 }
 
-/// A machine that settles after each turn, and whose sensor creeps in each hold, as before; holds of any length.
+/// A machine whose motion decays after each turn, and whose sensor creeps in each hold, as before; holds of
+/// any length.
 #[test]
 fn what_a_machine_repeats_slowly_is_no_noise_in_common() {
     let still = quiet();

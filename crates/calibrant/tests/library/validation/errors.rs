@@ -1,4 +1,5 @@
-//! The errors themselves, what is predicted of each, and what is said of those that stand out.
+//! Tests of the validation errors themselves, of their predictions, and of the report on those that stand
+//! out.
 
 use crate::common::{draw_imu, normal};
 use crate::validation::bench::{KINDS, bench, intervals, mean};
@@ -34,7 +35,7 @@ fn a_bias_that_has_moved_is_said_and_not_blamed_on_the_rotations() {
     assert!(sentences[1].contains("|f| misses gravity by") && sentences[1].contains("is to be believed"));
 }
 
-/// A bad hold and a bad rotation are named, and the rest is judged without them.
+/// A bad hold and a bad rotation are named, and do not count for the others.
 #[test]
 fn what_stands_out_is_named() {
     let simulation = ImuSimulation::default();
@@ -71,7 +72,8 @@ fn what_stands_out_is_named() {
     }
 }
 
-/// Magnitudes, rates and rotations beside plain arithmetic on the readings, the rotations in steps of a hundredth of a sample.
+/// Magnitudes, rates and rotations against plain arithmetic on the readings, the rotations in steps of a
+/// hundredth of a sample.
 #[test]
 fn errors_equal_those_of_plain_arithmetic() {
     let simulation = ImuSimulation { poses: 16, ..ImuSimulation::default() };
@@ -125,8 +127,10 @@ fn errors_equal_those_of_plain_arithmetic() {
     }
 }
 
-/// The predicted variance of each single error, parameters' part included, beside its variance over new noise in both recordings; and χ² beside its distribution. With a quiet
-/// gyroscope the errors of rotations come from the directions of the holds, which neighbours share: taken to be independent, their χ² had 1.35 times the variance.
+/// The predicted variance of each single error, with the parameters' part, against its variance over new
+/// noise in both recordings. Also χ² against its distribution. With a quiet gyroscope the errors of rotations
+/// come from the directions of the holds, which neighbours share. When they counted as independent, their χ²
+/// had 1.35 times the variance.
 #[test]
 fn predicted_variances_equal_those_of_repetitions() {
     for gyroscope_noise in [2e-3, 2e-4] {
@@ -157,7 +161,7 @@ fn repeated(gyroscope_noise: f64) {
         .map(|number| {
             let mut rng = stream(27, Purpose::Sensor, number);
             let mut calibration = bench.calibrate(&noisy(&one, &mut rng));
-            // there is none
+            // there is no such scatter
             calibration.holds.between_holds_sd_mps2 = 0.0;
             calibration.still.between_holds_sd = Vector3::zeros();
             calibration.between_rotations_sd_rad = 0.0;
@@ -186,8 +190,9 @@ fn repeated(gyroscope_noise: f64) {
         let spread = spread / average.powi(2);
         // four standard deviations of a variance from 600 runs
         assert!((spread - 1.0).abs() < 0.25, "{kind:?}: {spread}");
-        // a variance from 600 runs is good to 6 %, of two or three components to less; some calibrations believe in a scatter that is none, all of
-        // those with a quiet gyroscope: they count the directions' errors among the rotations'
+        // a variance from 600 runs is good to 6 %, of two or three components to less. Some calibrations
+        // estimate a scatter where there is none; all with a quiet gyroscope do: they count the directions'
+        // errors among the rotations'
         let least = if gyroscope_noise < 1e-3 { 0.9 } else { 0.93 };
         assert!((least..1.07).contains(&all) && low > 0.68 && high < 1.36, "{kind:?}: {all} {low} {high}");
     }

@@ -1,4 +1,5 @@
-//! What is another than at the calibration is told in place of a covariance that is too small.
+//! Tests of explanations: a change since the calibration is reported in place of a covariance that is too
+//! small.
 
 use crate::common::draw_imu;
 use crate::validation::bench::{bench, simulate};
@@ -12,7 +13,7 @@ use rayon::prelude::*;
 
 const COUNT: u64 = 60;
 
-/// Calibrations tried on another recording, whose truth and readings are tampered with.
+/// Calibrations validated on another recording, whose truth and readings `tamper` changes.
 fn tried(
     change: impl Fn(&mut ImuParameters) + Sync,
     convert: impl Fn(&mut ImuRecording) + Sync,
@@ -52,7 +53,7 @@ fn a_bias_of_the_accelerometer_that_has_moved_is_told_with_its_size() {
             continue;
         };
         reported += 1;
-        // gains of 1 % are no part of the truth as it is drawn here
+        // gains of 1 % are not part of the truth drawn here
         let missed = (shift_mps2 - nalgebra::Vector3::new(0.05, 0.0, 0.0)).component_div(sd_mps2);
         inside += u64::from(missed.amax() < 4.0);
         let sentences = validation_sentences(&validation);
@@ -225,7 +226,7 @@ fn a_bias_and_a_gain_that_have_changed_together_are_both_told() {
     assert!(reported > 54, "{reported} of {COUNT}");
 }
 
-/// Axes that have turned in the case are no bias and no gain.
+/// Axes that have turned in the housing are no bias and no gain.
 #[test]
 fn another_sensor_is_no_bias_and_gain() {
     let found = tried(
@@ -278,7 +279,7 @@ fn temperatures_beyond_the_calibrations_are_told() {
     println!("{sentences:#?}");
     assert!(sentences[0].starts_with("This recording was made at 55.0 to 60.0 °C, the calibration at 20."));
     assert!(sentences.iter().all(|sentence| !sentence.contains("multiply")), "{sentences:#?}");
-    // within them it is something else
+    // within them the cause is another
     let inside = tried([22.0, 44.0], 0.05);
     assert!(
         matches!(inside.reasons.as_slice(), [LikelyExplanation::AccelerometerBias { .. }]),

@@ -1,4 +1,4 @@
-//! Calibrations from known faces and turns on another recording.
+//! Tests of calibrations from known faces and turns on another recording.
 
 use crate::common::draw_imu;
 use crate::validation::bench::{Bench, KINDS, share};
@@ -9,8 +9,9 @@ use calibrant::simulate::{
 use nalgebra::Vector3;
 use rayon::prelude::*;
 
-/// Six faces, and a turn there and back about each axis, whose angles are met within 0.1°. How the sensor was placed on a face is no property of it: the calibration is tried on
-/// another session of the same kind, and on one turned by hand, where its holds are found and their directions unknown.
+/// Six faces, and a turn there and back about each axis, whose angles are exact within 0.1°. The tilt of the
+/// sensor on a face is no property of it. So the calibration is validated on another session of the same
+/// kind. It is also validated on one turned by hand, where its holds are found and their directions unknown.
 #[test]
 fn a_ferraris_calibration_is_believed_on_another_session_and_by_hand() {
     let mut bench = Bench::new();
@@ -57,7 +58,8 @@ fn a_ferraris_calibration_is_believed_on_another_session_and_by_hand() {
                 / of.iter().map(|errors| errors.degrees_of_freedom as f64).sum::<f64>();
             println!("{holds} holds, {kind:?} of {}: χ²/n {ratio:.3}, believed {believed}", of.len());
             assert_eq!(of.len() as u64, count, "{kind:?}");
-            // 97 to 99 % of intervals of 99 % hold in such simulations; less 4 standard deviations of a share of 200
+            // 97 to 99 % of intervals of 99 % cover in such simulations; less 4 standard deviations of a
+            // share of 200
             assert!(believed > 0.92, "{kind:?}: {believed}");
             // a scatter of zero is estimated as zero or more; 1200 components at least, 4 standard deviations
             assert!((0.8..1.17).contains(&ratio), "{kind:?}: {ratio}");

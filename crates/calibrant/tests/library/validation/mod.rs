@@ -1,4 +1,4 @@
-//! Calibrations on data that were not used for them.
+//! Tests of validation: calibrations on data that they did not use.
 
 mod bench;
 mod duplicate_recording;

@@ -1,4 +1,4 @@
-//! Another recording with other noise: another range, bandwidth or filter of a sensor.
+//! Tests of validation on another recording with other noise: another range, bandwidth or filter of a sensor.
 
 use crate::common::{draw_imu, normal};
 use crate::validation::bench::{KINDS, bench, mean, share, simulate};
@@ -9,7 +9,7 @@ use calibrant::simulate::{ImuSimulation, Purpose, simulate_imu, stream};
 use nalgebra::Vector3;
 use rayon::prelude::*;
 
-/// So many times the noise of the calibration's recording.
+/// Factors on the noise of the calibration's recording.
 #[derive(Debug, Clone, Copy)]
 struct Times {
     accelerometer: f64,
@@ -20,7 +20,8 @@ const fn times(accelerometer: f64, gyroscope: f64) -> Times {
     Times { accelerometer, gyroscope }
 }
 
-/// Calibrations, each tried on another recording with so many times the noise. `tamper`: with the calibration and with the truth of the other recording.
+/// Calibrations, each validated on another recording with this factor on the noise. `tamper` changes the
+/// calibration and the truth of the other recording.
 fn tried(
     on: Times,
     scatter: f64,
@@ -73,7 +74,7 @@ fn other_noise_is_no_reason_to_distrust_an_honest_calibration() {
                         .expect("there")
                         .overall()
                 };
-                // 24 holds of 246 samples tell a standard deviation to 1 %, three axes to 0.5 %
+                // 24 holds of 246 samples determine a standard deviation to 1 %, three axes to 0.5 %
                 assert!((ratio(SensorKind::Accelerometer) / on.accelerometer - 1.0).abs() < 0.03);
                 assert!((ratio(SensorKind::Gyroscope) / on.gyroscope - 1.0).abs() < 0.03);
             }
@@ -93,7 +94,8 @@ fn other_noise_is_no_reason_to_distrust_an_honest_calibration() {
     }
 }
 
-/// Where the scatter is no larger than the noise of the calibration, a few calibrations see none or too much, and a quieter recording shows it: their covariance is wrong.
+/// Where the scatter is no larger than the noise of the calibration, a few calibrations find none or too much
+/// of it. A quieter recording shows it: their covariance is wrong.
 #[test]
 fn a_quieter_recording_shows_scatter_that_the_calibration_did_not_see() {
     for (on, scatter) in [(times(0.2, 1.0), 0.0), (times(0.2, 1.0), 0.3), (times(1.0, 0.2), 0.0)] {
@@ -103,7 +105,8 @@ fn a_quieter_recording_shows_scatter_that_the_calibration_did_not_see() {
             let believed = share(&of, CovarianceVerdict::Believed);
             let small = share(&of, CovarianceVerdict::TooSmall);
             println!("{on:?} {scatter} {kind:?}: believed {believed}, too small {small}");
-            // with 15 degrees of freedom behind it 12 % see a scatter that is off by a quarter and more; less 4 standard deviations of a share of 200
+            // with 15 degrees of freedom behind it, 12 % find a scatter that is off by a quarter and more.
+            // Less 4 standard deviations of a share of 200
             assert!(
                 believed > 0.88 - 4.0 * (0.12 * 0.88 / 200.0_f64).sqrt(),
                 "{on:?} {scatter} {kind:?}: {believed}"
@@ -135,13 +138,15 @@ fn what_is_wrong_is_found_in_other_noise() {
             let bias = moved(&biases);
             println!("{on:?} {scatter}: gain {gain}, scale {scale}, bias {bias}");
             assert!(gain > 0.95 && scale > 0.95, "{on:?} {scatter}: {gain} {scale}");
-            // χ² of three components, one of them off by 5, is beyond 11.3 in 95 %; less what is uncertain of the scatter, and 4 standard deviations of a share of 60
+            // χ² of three components, one of them off by 5, is beyond 11.3 in 95 %. Less the uncertainty of
+            // the scatter, and 4 standard deviations of a share of 60
             assert!(bias > 0.78, "{on:?} {scatter}: {bias}");
         }
     }
 }
 
-/// A low-pass filter's noise does not average out as white noise does: what it adds to the means counts for scatter between holds, which grows with it.
+/// A low-pass filter's noise does not average out as white noise does. Its contribution to the means counts
+/// as scatter between holds, which grows with the noise.
 #[test]
 fn filtered_noise_is_scatter_that_goes_with_the_noise() {
     let quiet = ImuSimulation { gyroscope_noise: 0.0, ..ImuSimulation::default() };
@@ -164,7 +169,8 @@ fn filtered_noise_is_scatter_that_goes_with_the_noise() {
             bench.validate(&bench.calibrate(&one), &other)
         })
         .collect();
-    // the noise that the means have beyond white noise is found to a share of itself only; before, 0 of the rotations were believed. Less 4 standard deviations of a share of 200
+    // the noise of the means beyond white noise is known to a share of itself only; before, 0 of the
+    // rotations passed. Less 4 standard deviations of a share of 200
     for (kind, at_least) in KINDS.into_iter().zip([0.96, 0.78, 0.69]) {
         let of: Vec<_> = found.iter().filter_map(|validation| validation.of_kind(kind)).collect();
         let (believed, small) =
@@ -189,7 +195,7 @@ fn other_noise_is_said() {
     assert!(!validation_sentences(&found[0])[0].contains("noise"));
 }
 
-/// The accelerometer's readings in steps of so many standard deviations of their noise.
+/// The accelerometer's readings in steps of this number of standard deviations of their noise.
 fn rounded(mut recording: ImuRecording, setup: &ImuSimulation, deviations: f64) -> ImuRecording {
     in_steps(recording.accelerometer.as_mut().expect("there"), deviations * setup.accelerometer_noise);
     recording
@@ -199,7 +205,8 @@ fn in_steps(recording: &mut Recording, step: f64) {
     recording.readings.iter_mut().for_each(|y| *y = y.map(|y| (y / step).round() * step));
 }
 
-/// What rounding makes of a hold's mean is part of the prediction: a coarser range of the accelerometer is no reason to call a covariance too small.
+/// The effect of quantisation on a hold's mean is part of the prediction. A coarser range of the
+/// accelerometer is no reason to call a covariance too small.
 #[test]
 fn an_accelerometer_with_coarser_steps_does_not_make_a_covariance_too_small() {
     let setup = ImuSimulation::default();
@@ -222,7 +229,7 @@ fn an_accelerometer_with_coarser_steps_does_not_make_a_covariance_too_small() {
     }
 }
 
-/// At rest all holds have the rounding error of a gyroscope in common: it is no bias that has moved.
+/// At rest all holds share the rounding error of a gyroscope: its bias has not moved.
 #[test]
 fn a_gyroscope_with_coarse_steps_in_the_other_recording_has_not_moved() {
     let setup = ImuSimulation::default();
@@ -249,7 +256,7 @@ fn a_gyroscope_with_coarse_steps_in_the_other_recording_has_not_moved() {
         let [honest, off] = [0, 1].map(|k| found.iter().map(|pair| pair[k].clone()).collect::<Vec<_>>());
         let (alarms, seen) = (moved(&honest), moved(&off));
         println!("steps of {steps}, scatter {scatter}: {alarms} moved, {seen} of those off by a step");
-        // at most 5 % of 200, and of the biases that are off nearly all, although half a step may be hidden
+        // at most 5 % of 200, and nearly all of the biases that are off, although half a step may be hidden
         assert!(alarms <= 0.05 && seen > 0.9, "steps of {steps}, scatter {scatter}: {alarms} {seen}");
         for kind in KINDS {
             let of: Vec<_> = honest.iter().filter_map(|found| found.of_kind(kind)).collect();
@@ -261,7 +268,8 @@ fn a_gyroscope_with_coarse_steps_in_the_other_recording_has_not_moved() {
     }
 }
 
-/// Steps of the other recording that make its readings scatter more are told with their size; noise of the same size is noise.
+/// Steps of the other recording that make its readings scatter more are reported with their size; noise of
+/// the same size is noise.
 #[test]
 fn coarser_steps_are_no_noise() {
     let setup = ImuSimulation::default();
@@ -302,7 +310,7 @@ fn coarser_steps_are_no_noise() {
     assert!(validation_sentences(&validation)[0].starts_with("The accelerometer's noise is 3.0 times"));
 }
 
-/// Both sensors in steps of so many standard deviations of their noise.
+/// Both sensors in steps of this number of standard deviations of their noise.
 fn in_both(recording: &mut ImuRecording, deviations: f64, setup: &ImuSimulation) -> ImuRecording {
     in_steps(recording.accelerometer.as_mut().expect("there"), deviations * setup.accelerometer_noise);
     in_steps(recording.gyroscope.as_mut().expect("there"), deviations * setup.gyroscope_noise);

@@ -1,4 +1,4 @@
-//! Recordings that were not made here.
+//! Tests of validation on real recordings.
 
 use crate::validation::bench::{Bench, KINDS};
 use calibrant::estimate::{CovarianceVerdict, Gyroscope, HoldsSetup, ImuSetup};

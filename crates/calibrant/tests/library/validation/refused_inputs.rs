@@ -1,4 +1,4 @@
-//! What cannot be validated.
+//! Tests of inputs that cannot be validated.
 
 use crate::common::draw_imu;
 use crate::validation::bench::bench;

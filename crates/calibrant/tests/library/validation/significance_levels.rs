@@ -1,4 +1,5 @@
-//! How often a covariance is believed, where it is right and where it is not.
+//! Tests of the level of the validation: how often a covariance passes, where it is right and where it is
+//! not.
 
 use crate::common::draw_imu;
 use crate::validation::bench::{KINDS, bench, mean, share, simulate};
@@ -12,7 +13,7 @@ use calibrant::simulate::{HoldsSimulation, ImuSimulation, Purpose, simulate_hold
 use nalgebra::Vector3;
 use rayon::prelude::*;
 
-/// Truths, recordings and others of them, calibrated from the one and tried on both.
+/// Truths, and two recordings of each: calibrated from the one and validated on both.
 fn pairs(size: f64, count: u64, tamper: fn(&mut ImuCalibration)) -> Vec<(Validation, Validation)> {
     let simulation = ImuSimulation::default();
     let bench = bench(&simulation);
@@ -41,7 +42,8 @@ fn an_honest_covariance_is_believed() {
             let believed = [&others, &folds].map(|of| share(of, CovarianceVerdict::Believed));
             let ratio = mean(others.iter().map(|errors| errors.chi2 / errors.degrees_of_freedom as f64));
             println!("scatter {size} {kind:?}: χ²/n {ratio:.3}, believed {believed:?}");
-            // intervals of 99 %, of which 97 to 99 % hold in such simulations; less 4 standard deviations of a share of 200
+            // intervals of 99 %, of which 97 to 99 % cover in such simulations; less 4 standard deviations of
+            // a share of 200
             assert!(believed.iter().all(|share| *share > 0.92), "{kind:?}: {believed:?}");
             if size > 0.0 {
                 // the mean of F: 15 degrees of freedom behind the scatter of the holds, 23 behind each axis at rest, 37 behind the rotations
@@ -65,8 +67,9 @@ fn a_covariance_that_is_too_small_is_found_by_its_factor() {
         calibration.still.between_holds_sd *= 0.5;
         calibration.between_rotations_sd_rad *= 0.5;
     });
-    // with 24 errors and 15 degrees of freedom behind their scatter, chance hides a factor of 2 in nearly half of the cases: P(4 F > F at 99.5 %) is 0.5, 1.0 and 0.96 of the
-    // three kinds; less 4 standard deviations of a share of 200
+    // with 24 errors and 15 degrees of freedom behind their scatter, chance hides a factor of 2 in nearly
+    // half of the cases. P(4 F > F at 99.5 %) is 0.5, 1.0 and 0.96 of the three kinds. Less 4 standard
+    // deviations of a share of 200
     for (kind, at_least) in KINDS.into_iter().zip([0.4, 0.97, 0.9]) {
         let others: Vec<_> = found.iter().filter_map(|pair| pair.0.of_kind(kind)).collect();
         let small = share(&others, CovarianceVerdict::TooSmall);
@@ -76,12 +79,13 @@ fn a_covariance_that_is_too_small_is_found_by_its_factor() {
         }));
         println!("{kind:?}: found {small}, interval holds 2 in {inside}");
         assert!(small > at_least, "{kind:?}: {small}");
-        // noise is not halved, so that the rates' factor is somewhat below 2
+        // noise is not halved, so the rates' factor is somewhat below 2
         assert!(inside > 0.93, "{kind:?}: {inside}");
     }
 }
 
-/// The parameters' covariance alone is too small by four: a calibration from 24 holds, tried on 120 others.
+/// Only the parameters' covariance is too small, by four: a calibration from 24 holds, validated on 120
+/// others.
 #[test]
 fn parameters_that_are_less_certain_than_stated_are_found_in_what_the_errors_have_in_common() {
     let short = ImuSimulation::default();
@@ -114,7 +118,8 @@ fn parameters_that_are_less_certain_than_stated_are_found_in_what_the_errors_hav
             (share(&honest, CovarianceVerdict::TooSmall), share(&small, CovarianceVerdict::TooSmall));
         println!("{kind:?}: parameters' χ²/n {right:.2}, {wrong:.2}; too small {message}, {found}");
         assert!((0.7..1.2).contains(&right) && wrong > 2.0, "{kind:?}: {right} {wrong}");
-        // nine numbers tell a variance roughly: P(χ²/9 > 2.6/4.2) = 0.77, with 2.6 the limit at 99.5 % and 4.2 the mean; less 4 standard deviations of a share of 60
+        // nine numbers determine a variance roughly: P(χ²/9 > 2.6/4.2) = 0.77, with 2.6 the limit at 99.5 %
+        // and 4.2 the mean. Less 4 standard deviations of a share of 60
         assert!(message < 0.06 && found > 0.5, "{kind:?}: {message} {found}");
     }
 }
@@ -162,8 +167,8 @@ fn an_accelerometer_alone_is_tried_on_another_recording_and_by_folds() {
     assert!(believed.iter().all(|share| *share > 0.95), "{believed:?}");
 }
 
-/// Of 400 honest covariances, 2 ± 1.4 at either end do not have one in an interval of 99 %, and 20 ± 4.4 have a p-value below 5 %, whether the scatter is about as large as the noise or
-/// far larger.
+/// Of 400 honest covariances, 2 ± 1.4 at either end do not have one in an interval of 99 %. Of the same, 20 ±
+/// 4.4 have a p-value below 5 %. This holds whether the scatter is about as large as the noise or far larger.
 #[test]
 fn the_level_of_the_test_is_what_is_claimed() {
     let simulation = ImuSimulation::default();
@@ -188,7 +193,8 @@ fn the_level_of_the_test_is_what_is_claimed() {
             let below = share(&|errors| errors.factor_interval.1 < 1.0);
             let few = share(&|errors| errors.p_value < 0.05);
             println!("scatter {size} {kind:?}: above {above:.4}, below {below:.4}; p < 0.05 in {few:.4}");
-            // where the scatter is as large as the noise, 15 degrees of freedom see none of it in some of the cases, and the prediction is too small: 3.1 % and 6.5 % of 400 000 drawn ratios
+            // where the scatter is as large as the noise, 15 degrees of freedom find none of it in some of
+            // the cases. The prediction is then too small: 3.1 % and 6.5 % of 400 000 drawn ratios
             let hidden = kind == ErrorKind::Magnitude && size < 1.0;
             let (rarely, seldom) = if hidden { (0.031, 0.065) } else { (0.005, 0.05) };
             // 4 standard deviations of a share of 400

@@ -1,4 +1,4 @@
-//! Broken calibrations of every format: refused with the reason, and the place where it is known.
+//! Tests of broken calibrations of every format: refused with the reason, and the place where it is known.
 
 use super::{COUNTS, SI, alone, file, imu};
 use calibrant::io::{
@@ -23,7 +23,7 @@ fn message_of(text: &str, options: &ConventionOptions) -> String {
     message
 }
 
-/// Each case: what is replaced in a good file, by what, and what is said then.
+/// Each case: a text in a good file, its replacement, and the message.
 fn check(format: ImuFormat, cases: &[(&str, &str, &str)]) {
     let good = text(format);
     for (from, to, says) in cases {

@@ -1,4 +1,4 @@
-//! The C header compiled and run, where there is a C compiler.
+//! Tests of the C header, compiled and run where there is a C compiler.
 
 use super::{COUNTS, file, imu, readings};
 use calibrant::io::{ImuFormat, write_calibrated_imu};

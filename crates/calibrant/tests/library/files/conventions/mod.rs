@@ -1,4 +1,5 @@
-//! Calibrations in every convention: there and back again, into a C program, and everything that can be wrong with a file.
+//! Tests of calibrations in every convention: there and back again, into a C program, and every fault of a
+//! file.
 
 mod broken;
 mod c_header;
@@ -71,7 +72,7 @@ pub(crate) fn file(imu: CalibratedImu) -> CalibratedImuFile {
     }
 }
 
-/// What is read back of what is written, one file for each text.
+/// Reads back the written calibration, one file for each text.
 pub(crate) fn there_and_back(file: &CalibratedImuFile, format: ImuFormat) -> Vec<CalibratedImuFile> {
     let texts =
         calibrated_imu_texts(file, format).unwrap_or_else(|error| panic!("{}: {error}", format.name()));

@@ -1,4 +1,4 @@
-//! Every convention keeps the correction, and calibrant JSON everything.
+//! Tests of round trips: every convention keeps the correction, and calibrant JSON keeps everything.
 
 use super::{COUNTS, SI, alone, file, imu, largest_difference, readings, there_and_back};
 use calibrant::estimate::Comparison;
@@ -128,7 +128,7 @@ fn imu_tk_has_one_file_for_each_sensor_and_is_read_as_a_pair() {
     let after = read_calibrated_imu(&path, &ConventionOptions::default()).expect("the pair");
     assert!(after.imu.accelerometer_unit.is_some() && after.imu.gyroscope_unit.is_some());
     assert!(largest_difference(&before, &after.imu, &readings(&before, 1000, 3)) < 1e-12);
-    // one sensor keeps the name, and the name tells the sensor where the file does not
+    // one sensor keeps the name, and the name shows the sensor where the file does not
     let one = write_calibrated_imu(&path, &file(alone(&before, SensorKind::Gyroscope)), ImuFormat::ImuTk)
         .expect("one");
     assert_eq!(one.files, [path]);
@@ -215,7 +215,7 @@ fn kalibrs_own_file_is_read() {
     assert_eq!((noise.accelerometer_density, noise.update_rate_hz), (Some(0.00668), Some(200.0)));
     let after = there_and_back(&file, ImuFormat::Kalibr).remove(0);
     assert_eq!(after.noise, file.noise);
-    // that the biases are not known is not lost: neither on the way nor through another format
+    // biases that are not known stay unknown: on the way and through another format
     for format in [ImuFormat::Kalibr, ImuFormat::CalibrantJson] {
         let after = there_and_back(&file, format).remove(0).imu;
         assert!(SensorKind::ALL.into_iter().all(|sensor_kind| !after.has_bias(sensor_kind)), "{format:?}");
@@ -270,7 +270,7 @@ proptest! {
             sensor.bias *= zero;
         }
         let readings = readings(&before, 20, 4);
-        // the readings' own rounding, seen through the correction
+        // the readings' own rounding after the correction
         let rounding = 1e-15 * (zero.abs() / gain + 100.0) * 30.0;
         for format in [ImuFormat::Kalibr, ImuFormat::Imucal, ImuFormat::CHeader, ImuFormat::CalibrantJson] {
             let after = there_and_back(&file(before.clone()), format).remove(0);

@@ -1,4 +1,4 @@
-//! What temperature does goes through calibrant JSON and the C header, and is refused where there is no place for it.
+//! Tests of the temperature model through calibrant JSON and the C header; other formats refuse it.
 
 use super::{COUNTS, SI, file, imu, largest_difference, readings, there_and_back};
 use calibrant::io::{

@@ -1,4 +1,4 @@
-//! What a format cannot carry is said, and refused where the correction would be another.
+//! Tests of warnings about what a format cannot carry, and refusals where the correction would be another.
 
 use super::{COUNTS, SI, alone, file, imu};
 use calibrant::io::{ImuFormat, calibrated_imu_texts, write_calibrated_imu};

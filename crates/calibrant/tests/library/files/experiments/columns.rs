@@ -1,4 +1,4 @@
-//! `[columns]`: what arrives, and what is refused.
+//! Cases of broken `[columns]`, with their messages.
 
 use super::{Case, HOLDS, MOTION};
 use calibrant::io::{ColumnMapping, Experiment, FileFormat, ImuReadOptions, ImuUnit, TimeUnit};

@@ -1,4 +1,4 @@
-//! Unknown keys, the schema and `[sensor]`.
+//! Cases of unknown keys, a wrong schema and a broken `[sensor]`, with their messages.
 
 use super::Case;
 

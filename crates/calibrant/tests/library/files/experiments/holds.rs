@@ -1,4 +1,4 @@
-//! `[holds]` and the prior.
+//! Cases of a broken `[holds]` and prior, with their messages.
 
 use super::Case;
 

@@ -1,4 +1,4 @@
-//! Broken experiment files: every complaint word for word.
+//! Tests of broken experiment files: every message word for word.
 
 mod columns;
 mod datasheet;
@@ -39,7 +39,7 @@ gravity_mps2 = 9.81
 gauge = "upper"
 "#;
 
-/// A change to a good file (old, new; `⏎` stands for a line end) and what is said of it.
+/// A change to a good file (old, new; `⏎` stands for a line end) and the message about it.
 type Case = (&'static str, &'static str, &'static str);
 
 #[test]

@@ -1,4 +1,4 @@
-//! `[motion]`, `[limits]`, `[design]` and `[study]`.
+//! Cases of a broken `[motion]`, `[limits]`, `[design]` and `[study]`, with their messages.
 
 use super::Case;
 

@@ -1,4 +1,4 @@
-//! `[study]` and the experiments in it.
+//! Cases of a broken `[study]` and its subsections, with their messages.
 
 use super::Case;
 

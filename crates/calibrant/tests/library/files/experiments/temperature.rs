@@ -1,4 +1,4 @@
-//! `[temperature]` and what is known of its terms.
+//! Tests of `[temperature]` and of the known values of its terms.
 
 use calibrant::estimate::ThermalModel;
 use calibrant::io::{Experiment, preset};
@@ -41,7 +41,7 @@ fn what_is_not_there_or_out_of_range_is_said() {
             "did you mean \"gyroscope.bias_per_k",
         ),
     ] {
-        // the preset's own [known] makes way
+        // the preset's own [known] is removed
         let section = section.to_owned();
         let text = preset("imu").expect("known").replace("\n[known] ", "\n# [known] ");
         let at = text.find("[temperature]").expect("there");

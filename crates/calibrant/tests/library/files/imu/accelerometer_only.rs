@@ -1,4 +1,4 @@
-//! The accelerometer alone, out of any file.
+//! Tests of the accelerometer alone, read from any file.
 
 use calibrant::Error;
 use calibrant::io::{ImuReadOptions, ImuUnit, ReadOptions, RecordingFile, read_accelerometer};

@@ -1,4 +1,4 @@
-//! Files that cannot be used, and why: every complaint word for word.
+//! Tests of files that cannot be used, and why: every message word for word.
 
 use super::{refused, units};
 use calibrant::io::{
@@ -29,7 +29,7 @@ fn counts() -> ImuReadOptions {
     units(ImuUnit::Counts, ImuUnit::Counts)
 }
 
-/// The text of a file, how it is read, and what is said of it.
+/// The text of a file, the options of its reading, and the message about it.
 type Case = (&'static str, fn() -> ImuReadOptions, &'static str);
 
 #[test]
@@ -68,7 +68,7 @@ fn a_pair_says_which_of_its_files_is_at_fault() {
     }
 }
 
-/// Two files, how they are read, and what is said of them.
+/// Two files, the options of their reading, and the message about them.
 type Pair = (&'static str, &'static str, fn() -> ImuReadOptions, &'static str);
 
 const PAIRS: &[Pair] = &[
@@ -177,7 +177,7 @@ const CASES: &[Case] = &[
         plain,
         "gravity has been removed from the accelerometer: its magnitude is 0.02 g half of the time or less (export the sensor's own readings; is it really an acceleration, in the unit that is stated?)",
     ),
-    // units that cannot be right
+    // implausible units
     (
         "t_s,ax_mps2,ay_mps2,az_mps2\n0,1,0,0\n1,0,1,0.01\n2,0.02,0,1\n",
         plain,
@@ -188,7 +188,7 @@ const CASES: &[Case] = &[
         plain,
         "the accelerometer is said to be in m/s², but its magnitude is 58400 half of the time or more: is it in mg, or are these counts? (correct the unit)",
     ),
-    // units that are asked for
+    // units that the user must give
     (
         "t_s,ax,ay,az\n0,0,0.1,9.8\n1,0,9.8,0.1\n2,9.8,0,0\n",
         plain,
@@ -249,7 +249,7 @@ const CASES: &[Case] = &[
         plain,
         "line 1: the columns are those of an MT Manager and of a Movella DOT export, whose units differ (rad/s and 0.1 ms; deg/s and µs), and nothing above the header tells which it is (say --format mt-manager or movella-dot)",
     ),
-    // a rate that is asked for
+    // a rate that the user must give
     (
         "// DeviceId: 1\nPacketCounter\tGyr_X\tGyr_Y\tGyr_Z\n1\t1\t2\t3\n2\t1\t2\t3\n",
         plain,
@@ -265,7 +265,7 @@ const CASES: &[Case] = &[
         plain,
         "the file has no sample times, and nothing in it says the sample rate (say --rate-hz, or rate_hz in [columns]: the sample rate in Hz, as it was set when the recording was made)",
     ),
-    // what contradicts
+    // contradictions
     (
         "// Update Rate: 40.0Hz\nPacketCounter\tGyr_X\tGyr_Y\tGyr_Z\n1\t1\t2\t3\n2\t1\t2\t3\n",
         rate,

@@ -1,4 +1,4 @@
-//! Files that can be used, in every format.
+//! Tests of files that can be used, in every format.
 
 use super::{findings, read, units, used};
 use calibrant::io::{
@@ -180,7 +180,7 @@ fn a_csv_says_units_by_name_in_many_ways() {
     }
 }
 
-/// As ST's sensors and Arduino's libraries give them.
+/// Units of ST's sensors and of Arduino's libraries.
 #[test]
 fn thousandths_are_units() {
     let rows = "0,0,980,17,90000,0,-500\n0.01,1000,0,0,0,180000,0\n0.02,0,0,-1000,0,0,0\n";
@@ -214,7 +214,7 @@ fn columns_are_mapped_by_name_or_number() {
     assert_eq!(named.recording, by_number.recording);
     assert_eq!(named.recording.accelerometer.as_ref().expect("there").times_s, [0.0, 0.01, 0.02]);
     assert_eq!(named.columns[0].unused.as_deref(), Some("other columns are named in [columns]"));
-    // a mapped column's given unit counts before its name
+    // a mapped column's given unit takes precedence over its name
     let text = "t_s,ax_mps2,ay_mps2,az_mps2\n0,1,0,0\n1,0,1,0.1\n2,0,0.1,1\n";
     let overruled = ImuReadOptions {
         columns: ColumnMapping {

@@ -1,4 +1,5 @@
-//! Numbers that no sensor gives: a few are invalid samples, many a file that is not what it seems.
+//! Tests of invalid samples, numbers that no sensor gives. A few are removed; many mean a file of another
+//! kind.
 
 use super::{read, refused};
 use calibrant::io::{ImuReadOptions, ReadOptions, parse_recording};

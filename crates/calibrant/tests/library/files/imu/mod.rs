@@ -1,4 +1,4 @@
-//! Recordings of a whole IMU: every format, every question, every complaint.
+//! Tests of recordings of a whole IMU: every format, every question, every message.
 
 mod accelerometer_only;
 mod broken;
@@ -32,7 +32,7 @@ fn refused(text: &str, options: &ImuReadOptions) -> String {
     error.to_string()
 }
 
-/// What was noticed, in words.
+/// The findings, in words.
 fn findings(file: &ImuFile) -> Vec<String> {
     file.findings.iter().map(ToString::to_string).collect()
 }

@@ -1,4 +1,4 @@
-//! Times of packets in the place of times of samples.
+//! Tests of times of packets in the place of times of samples.
 
 use super::{findings, read, refused};
 use calibrant::io::ImuReadOptions;

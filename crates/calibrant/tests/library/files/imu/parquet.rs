@@ -1,4 +1,4 @@
-//! Parquet files, written with the crate `parquet`.
+//! Tests of Parquet files, written with the crate `parquet`.
 
 use super::{findings, units};
 use calibrant::io::{FileFormat, ImuFile, ImuReadOptions, ImuUnit, TimeUnit, parse_imu_recording};

@@ -1,4 +1,4 @@
-//! Long text files are read in pieces: the same comes of it as of their bytes at once.
+//! Tests of long text files, which are read in pieces: the result is that of their bytes at once.
 
 use calibrant::io::{
     ImuFile, ImuReadOptions, ImuUnit, parse_imu_pair, parse_imu_recording, read_imu_pair, read_imu_recording,

@@ -1,4 +1,4 @@
-//! Recordings that nobody here made.
+//! Tests of real recordings of IMUs.
 
 use super::{findings, units, used};
 use crate::common::shared_data;

@@ -1,4 +1,4 @@
-//! ROS 2 bags, written with the crate `mcap`.
+//! Tests of ROS 2 bags, written with the crate `mcap`.
 
 use super::findings;
 use calibrant::io::{
@@ -142,7 +142,8 @@ fn unfinished(file: &ImuFile) -> Option<&str> {
     Some(&found.message)
 }
 
-/// Of a bag cut off anywhere as many messages are read as end before the cut, and it is said where that is.
+/// From a bag that is cut off anywhere, the reader takes all messages that end before the cut, and names the
+/// cut.
 #[test]
 fn a_bag_that_was_cut_off_is_read_as_far_as_it_goes_with_a_warning() {
     let messages: Vec<Vec<u8>> = (0..5).map(message).collect();
@@ -221,7 +222,7 @@ fn what_a_bag_lacks_is_said() {
             chunk + 100
         )
     );
-    // a file that was made as long as it should have become
+    // a file that was allocated at its final length
     let padded = [&whole[..data_end], &[0; 4096]].concat();
     assert!(unfinished(&read(&padded)).is_some());
 }
@@ -342,7 +343,7 @@ fn bags_that_cannot_be_used_say_why() {
     }
 }
 
-/// A text that says it has 2.5 GiB: the container's crate would reserve them.
+/// A text that states a length of 2.5 GiB: the container's crate would reserve them.
 #[test]
 fn a_text_longer_than_its_record_is_refused_without_taking_its_word() {
     // names and encodings of a schema and of a channel
@@ -359,7 +360,8 @@ fn a_text_longer_than_its_record_is_refused_without_taking_its_word() {
     }
 }
 
-/// A record that reaches beyond its chunk: the container's crate would take its length off the chunk's, and panic or wrap around.
+/// A record that reaches beyond its chunk: the container's crate would subtract its length from the chunk's,
+/// and panic or wrap around.
 #[test]
 fn a_record_longer_than_its_chunk_is_refused() {
     let plain = compressed(&one(), "", <[u8]>::to_vec);

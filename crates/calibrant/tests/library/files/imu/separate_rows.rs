@@ -1,4 +1,4 @@
-//! Files in which each sensor has rows of its own, against a reading of the text that knows nothing else.
+//! Tests of files in which each sensor has rows of its own, against an independent reading of the text.
 
 use super::findings;
 use calibrant::io::{FindingKind, ImuFile, ImuReadOptions, parse_imu_recording};
@@ -114,7 +114,7 @@ fn a_sensor_that_is_twice_at_a_time_is_a_duplicate_still() {
     assert_eq!(file.recording, good.recording);
     let says = "line 7: 1 sample of the accelerometer with the time of the one before dropped";
     assert!(findings(&file).contains(&says.to_owned()), "{:?}", findings(&file));
-    // each sensor's time goes forwards
+    // each sensor's time increases
     rows.push(accelerometer(0.75));
     let text = HEADER.to_owned() + &rows.concat();
     let error = parse_imu_recording(text.as_bytes(), &ImuReadOptions::default()).expect_err("backwards");
