@@ -1,6 +1,6 @@
 //! How a calibration fares on data that were not used for it, on stdout.
 
-use super::table;
+use super::table::table;
 use calibrant::estimate::Validation;
 use calibrant::report::{validation_heading, validation_rows, validation_sentences};
 
