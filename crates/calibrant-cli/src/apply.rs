@@ -1,7 +1,6 @@
 //! `calibrant apply`: corrects a recording, and writes the correction's standard uncertainty.
 
 use crate::calibration_file::{Reading, in_words};
-use crate::recording_options::in_file;
 use crate::{Exit, console, output_places};
 use calibrant::Error;
 use calibrant::error::InputError;
@@ -64,7 +63,7 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     let (clean, spikes) = recording.without_spikes();
     let corrected = correction
         .apply_feeling(&imu, &recording, clean.accelerometer.as_ref())
-        .map_err(|error| in_file(error, &arguments.recording))?;
+        .map_err(|error| error.in_recording(&arguments.recording))?;
     for sensor_kind in SensorKind::ALL {
         match (imu.unit(sensor_kind), recording.sensor(sensor_kind)) {
             (Some(_), None) => {
@@ -132,7 +131,7 @@ fn read_for(imu: &CalibratedImu, arguments: &Arguments) -> calibrant::Result<Imu
     let second = arguments.gyroscope.as_ref().map(|path| path.display().to_string());
     console::findings(&file.findings, &path.display().to_string(), second.as_deref());
     for sensor_kind in SensorKind::ALL.into_iter().filter(|&sensor_kind| imu.unit(sensor_kind).is_some()) {
-        check_usable(&file, sensor_kind).map_err(|error| in_file(error, path))?;
+        check_usable(&file, sensor_kind).map_err(|error| error.in_recording(path))?;
     }
     Ok(file.recording)
 }

@@ -1,10 +1,10 @@
 //! `calibrant inspect`: shows what a recording contains, and what a calibration from it can determine.
 
-use crate::recording_options::{RecordingOptions, name};
+use crate::recording_options::RecordingOptions;
 use crate::{Exit, console};
 use calibrant::io::{
-    FileFormat, HoldsInspection, ImuColumn, ImuFile, Inspection, SensorInspection, inspect, inspection_json,
-    read_imu_pair, read_imu_recording,
+    FileFormat, HoldsInspection, ImuColumn, ImuFile, Inspection, SensorInspection, file_name, inspect,
+    inspection_json, read_imu_pair, read_imu_recording,
 };
 use calibrant::motion::Hold;
 use calibrant::report::number_format::{count, counted, short, significant};
@@ -53,7 +53,7 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
         None => read_imu_recording(&arguments.file, &options)?,
     };
     let warnings: Vec<_> = file.findings.iter().filter(|finding| finding.is_warning()).cloned().collect();
-    console::findings(&warnings, &name(&arguments.file), arguments.second().map(name).as_deref());
+    console::findings(&warnings, &file_name(&arguments.file), arguments.second().map(file_name).as_deref());
     let inspection = inspect(&file);
     if arguments.json {
         console::print(&inspection_json(&file, &inspection));

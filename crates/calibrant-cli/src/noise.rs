@@ -7,12 +7,11 @@ mod table;
 
 pub(crate) use arguments::Arguments;
 
-use crate::recording_options::{in_file, name};
 use crate::{Exit, console, output_places};
 use arguments::Gains;
 use calibrant::Error;
 use calibrant::error::InputError;
-use calibrant::io::{ImuFile, Input, noise_json, write_atomically, write_noise};
+use calibrant::io::{ImuFile, Input, file_name, noise_json, write_atomically, write_noise};
 use calibrant::noise::{Segment, SensorNoise};
 use calibrant::report::{About, noise_report, number_format};
 use calibrant::sensor::{Recording, SensorKind};
@@ -27,7 +26,7 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     let asked = arguments.sensor.map(SensorKind::from);
     let file = read::read(arguments, asked.unwrap_or(SensorKind::Accelerometer), &gains)?;
     let imu = &file.recording;
-    let in_file = |error| in_file(error, &arguments.recording);
+    let in_file = |error: Error| error.in_recording(&arguments.recording);
     let is_asked = |sensor_kind: &SensorKind| asked.is_none_or(|asked| asked == *sensor_kind);
     let there: Vec<(SensorKind, &Recording)> = SensorKind::ALL
         .into_iter()
@@ -76,8 +75,8 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     };
     let inputs = inputs(arguments, &file, first.sensor_kind);
 
-    let second = arguments.gyroscope.as_deref().map(name);
-    console::findings(&file.findings, &name(&arguments.recording), second.as_deref());
+    let second = arguments.gyroscope.as_deref().map(file_name);
+    console::findings(&file.findings, &file_name(&arguments.recording), second.as_deref());
     if let Some((sensor_kind, error)) = &failed {
         console::warn(&format!("no noise of the {sensor_kind}: {error}"));
     }
@@ -101,21 +100,15 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
 
 /// The files, for noise.json: a single one, or the accelerometer's and the gyroscope's.
 fn inputs(arguments: &Arguments, file: &ImuFile, of_one: SensorKind) -> Vec<Input> {
-    let input = |path: &Path, sha256: String, sensor_kind: SensorKind| {
-        let readings = file.recording.sensor(sensor_kind);
-        Input {
-            file: name(path),
-            sha256,
-            samples: readings.map_or(0, Recording::len),
-            rate_hz: readings.map_or(0.0, Recording::rate_hz),
-        }
+    let input = |path: &Path, sha256: &str, sensor_kind: SensorKind| {
+        Input::of(path, sha256, file.recording.sensor(sensor_kind))
     };
     match (&arguments.gyroscope, file.sha256.as_slice()) {
         (Some(gyroscope), [first, second]) => vec![
-            input(&arguments.recording, first.clone(), SensorKind::Accelerometer),
-            input(gyroscope, second.clone(), SensorKind::Gyroscope),
+            input(&arguments.recording, first, SensorKind::Accelerometer),
+            input(gyroscope, second, SensorKind::Gyroscope),
         ],
-        _ => vec![input(&arguments.recording, file.sha256.concat(), of_one)],
+        _ => vec![input(&arguments.recording, &file.sha256.concat(), of_one)],
     }
 }
 

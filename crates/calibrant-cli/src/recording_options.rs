@@ -1,10 +1,7 @@
-//! The options of all commands that read a recording: what its file does not state itself. Also its name in
-//! errors.
+//! The options of all commands that read a recording: what its file does not state itself.
 
-use calibrant::Error;
 use calibrant::io::{FileFormat, ImuReadOptions, ImuUnit, TimeUnit, read_columns};
-use calibrant::sensor::{ImuRecording, Recording, SensorKind, WORKING_C};
-use std::borrow::Cow;
+use calibrant::sensor::{SensorKind, WORKING_C};
 use std::path::Path;
 
 #[derive(clap::Args, Clone)]
@@ -86,41 +83,4 @@ pub(crate) fn celsius(text: &str) -> Result<f64, String> {
     let (low, high) = (WORKING_C.start(), WORKING_C.end());
     let value = text.parse().ok().filter(|value| WORKING_C.contains(value));
     value.ok_or_else(|| format!("a sensor's temperature in °C, from {low} to {high}"))
-}
-
-/// Removes spikes and invalid readings from a recording; returns a warning for each sensor that has some.
-pub(crate) fn take_out_spikes(recording: &mut ImuRecording) -> Vec<String> {
-    let (clean, spikes) = recording.without_spikes();
-    let unit = |sensor_kind: SensorKind| recording.sensor(sensor_kind).map_or("", |of| of.unit.symbol());
-    let stated =
-        spikes.iter().map(|(sensor_kind, spikes)| spikes.words(*sensor_kind, unit(*sensor_kind))).collect();
-    if let Cow::Owned(clean) = clean {
-        *recording = clean;
-    }
-    stated
-}
-
-/// The same of an accelerometer alone.
-pub(crate) fn spikes_taken_out(recording: &mut Recording) -> Option<String> {
-    let (clean, spikes) = recording.without_spikes(SensorKind::Accelerometer);
-    let words = spikes.map(|spikes| spikes.words(SensorKind::Accelerometer, recording.unit.symbol()));
-    if let Cow::Owned(clean) = clean {
-        *recording = clean;
-    }
-    words
-}
-
-/// Names the recording in an error that does not.
-pub(crate) fn in_file(error: Error, path: &Path) -> Error {
-    match error {
-        Error::Recording(input_error) if input_error.file.is_none() => {
-            Error::Recording(Box::new(input_error.in_file(path)))
-        }
-        other => other,
-    }
-}
-
-/// Name of a file, without its directory.
-pub(crate) fn name(path: &Path) -> String {
-    path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned())
 }

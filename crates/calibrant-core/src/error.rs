@@ -244,4 +244,15 @@ impl Error {
     pub fn recording(input_error: InputError) -> Self {
         Self::Recording(Box::new(input_error))
     }
+
+    /// The same error; one about a recording names this file, where it names none.
+    #[must_use]
+    pub fn in_recording(self, file: &Path) -> Self {
+        match self {
+            Self::Recording(input_error) if input_error.file.is_none() => {
+                Self::recording(input_error.in_file(file))
+            }
+            other => other,
+        }
+    }
 }

@@ -9,7 +9,7 @@ use super::shared_fields::{
 use super::validation::{ValidationFields, validation_fields};
 use calibrant_core::error::Result;
 use calibrant_core::estimate::{Calibration, Recovered, Validation};
-use calibrant_core::sensor::{Correction, ReadingUnit};
+use calibrant_core::sensor::{Correction, ReadingUnit, Recording};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
@@ -24,6 +24,25 @@ pub struct Input {
     pub samples: usize,
     /// Sample rate, Hz.
     pub rate_hz: f64,
+}
+
+impl Input {
+    /// What was read of a file: `sha256` of its bytes, and the readings of its sensor.
+    #[must_use]
+    pub fn of(path: &Path, sha256: &str, readings: Option<&Recording>) -> Self {
+        Self {
+            file: file_name(path),
+            sha256: sha256.to_owned(),
+            samples: readings.map_or(0, Recording::len),
+            rate_hz: readings.map_or(0.0, Recording::rate_hz),
+        }
+    }
+}
+
+/// Name of a file, without its directory.
+#[must_use]
+pub fn file_name(path: &Path) -> String {
+    path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned())
 }
 
 /// Writes `calibration.json`.

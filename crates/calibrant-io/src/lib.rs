@@ -50,7 +50,7 @@ mod truth;
 mod validation;
 
 pub use atomic_output::write_atomically;
-pub use calibration::{Input, calibration_json, write_calibration};
+pub use calibration::{Input, calibration_json, file_name, write_calibration};
 pub use comparison::comparison_json;
 pub use convention::{
     CalibratedImuFile, ConventionOptions, ImuFormat, ImuNoise, RawUnits, WrittenImu, calibrated_imu_texts,

@@ -34,6 +34,7 @@
 //! | the best motion, what it promises, and the proof | [`design::Design`], [`design::Certificate`] |
 //! | a motion of one's own beside it; the best as one thing changes | [`design::Assessment`], [`design::Sweep`] |
 //! | the noise of a sensor at rest, its Allan deviation | [`noise::SensorNoise`], [`noise::AllanDeviation`] |
+//! | from a recording's file to the calibration and its report | [`pipeline::Pipeline`], [`pipeline::Outcome`] |
 //! | a population of simulated sensors | [`study::Study`], [`study::DesignStudy`] |
 //!
 //! # An example
@@ -63,7 +64,10 @@
 //! # The modules
 //! Data flow one way: [`sensor`] and [`motion`] say what is measured; [`arrowhead`] is the one linear-algebra kernel; [`information`] turns
 //! its result into covariance and into words about what is undetermined; [`noise`] examines a sensor at rest; [`estimate`] calibrates; [`design`] finds the motion; [`simulate`] makes sensors and recordings;
-//! [`study`] compares truth and estimate over many. [`io`] and [`report`] may use all and are used by none.
+//! [`study`] compares truth and estimate over many. [`io`] and [`report`] may use all of these, and none uses them.
+//! [`pipeline`] stands above all: it reads a recording, calibrates, validates and writes.
+
+pub mod pipeline;
 
 pub use calibrant_core::{
     Error, Result, arrowhead, error, estimate, information, motion, noise, sensor, simulate,

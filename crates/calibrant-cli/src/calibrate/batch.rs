@@ -1,38 +1,49 @@
 //! Several recordings in one call, each calibrated by itself: none stops the others.
 
-use super::Arguments;
+use super::job::Job;
+use super::quality;
 use crate::{Exit, console};
 use calibrant::estimate::CalibrationStatus;
-use calibrant::io::{Finding, Summary, SummaryRow, calibrations_json, write_summary};
+use calibrant::io::{Summary, SummaryRow, calibrations_json, write_summary};
+use calibrant::pipeline::{Note, Source};
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// What came of a recording.
-pub(super) struct Outcome {
-    /// What was noticed when it was read.
-    pub(super) findings: Vec<Finding>,
-    pub(super) calibrated: calibrant::Result<Calibrated>,
+struct Outcome {
+    /// What was noticed.
+    notes: Vec<Note>,
+    calibrated: calibrant::Result<Calibrated>,
 }
 
 /// What is told of a calibration.
-pub(super) struct Calibrated {
-    pub(super) status: CalibrationStatus,
-    pub(super) warnings: Vec<String>,
+struct Calibrated {
+    status: CalibrationStatus,
+    warnings: Vec<String>,
     /// Cells of the table between the status and the number of warnings.
-    pub(super) cells: Vec<String>,
-    pub(super) summary: Summary,
+    cells: Vec<String>,
+    summary: Summary,
     /// calibration.json, where it is to be printed.
-    pub(super) json: Option<String>,
+    json: Option<String>,
 }
 
-/// Calibrates all recordings: `calibrate` gets the number of one and its directory, writes into that and leaves the telling to this. `columns` are those of the table between the
-/// status and the number of warnings.
-pub(super) fn run(
-    arguments: &Arguments,
-    columns: &[&str],
-    calibrate: impl Fn(usize, &Path) -> Outcome + Sync,
-) -> calibrant::Result<Exit> {
+/// Calibrates from a recording and writes the results into this directory; what is to be said of it is kept.
+fn calibrate(job: &Job<'_>, source: &Source, directory: &Path) -> Outcome {
+    let mut notes = Vec::new();
+    let calibrated = job.run(source, directory, &mut notes).map(|outcome| Calibrated {
+        status: outcome.status(),
+        warnings: outcome.warnings().to_vec(),
+        cells: quality::cells(&outcome.calibration),
+        summary: outcome.summary(),
+        json: job.arguments.json.then(|| outcome.json()),
+    });
+    Outcome { notes, calibrated }
+}
+
+/// Calibrates all recordings, then says what came of each.
+pub(super) fn run(job: &Job<'_>) -> calibrant::Result<Exit> {
+    let (arguments, columns) = (job.arguments, quality::columns(job.is_imu));
     let folders = folders(&arguments.recordings);
     arguments.check_inputs(&folders)?;
     for (folder, path) in folders.iter().zip(&arguments.recordings) {
@@ -42,7 +53,7 @@ pub(super) fn run(
     }
     let bar = console::progress(folders.len() as u64, "calibrating");
     let outcomes = in_parallel(folders.len(), |number| {
-        let outcome = calibrate(number, &arguments.output.join(&folders[number]));
+        let outcome = calibrate(job, &job.sources[number], &arguments.output.join(&folders[number]));
         bar.inc(1);
         outcome
     });
@@ -50,7 +61,7 @@ pub(super) fn run(
 
     let (mut exit, mut rows, mut texts, mut summary) = (Exit::DONE, Vec::new(), Vec::new(), Vec::new());
     for ((path, folder), outcome) in arguments.recordings.iter().zip(&folders).zip(outcomes) {
-        outcome.findings.iter().for_each(|finding| console::finding(folder, finding));
+        outcome.notes.iter().for_each(|note| console::noted_of(folder, note));
         let mut row = vec![folder.clone()];
         let outcome = match outcome.calibrated {
             Ok(calibrated) => {

@@ -3,18 +3,17 @@
 use crate::console;
 use std::path::Path;
 
-/// A report that is not written anew is not that of the calibration beside it.
-pub(super) fn warn_of_earlier_report(directory: &Path) {
-    warn_of_earlier(&directory.join("report.html"), "calibration: --no-report writes none");
+/// A warning where a report is there that is not of the calibration beside it.
+pub(super) fn earlier_report(directory: &Path) -> Option<String> {
+    earlier(&directory.join("report.html"), "calibration: --no-report writes none")
 }
 
 /// What is left of an earlier run is not the result of one that failed.
 pub(super) fn warn_of_earlier_result(directory: &Path) {
-    warn_of_earlier(&directory.join("calibration.json"), "recording: this one has none");
+    let words = earlier(&directory.join("calibration.json"), "recording: this one has none");
+    words.iter().for_each(|words| console::warn(words));
 }
 
-fn warn_of_earlier(file: &Path, what: &str) {
-    if file.exists() {
-        console::warn(&format!("{} is that of an earlier {what}", file.display()));
-    }
+fn earlier(file: &Path, what: &str) -> Option<String> {
+    file.exists().then(|| format!("{} is that of an earlier {what}", file.display()))
 }

@@ -1,12 +1,12 @@
 //! The table of a whole IMU's calibration on stdout.
 
-use super::table;
-use calibrant::estimate::{ImuCalibration, Validation};
+use super::table::table;
+use calibrant::estimate::ImuCalibration;
 use calibrant::report::{imu_quality, number_format, over_the_gain, temperature_in_words};
 use calibrant::sensor::SensorKind;
 
 /// The data that were used, the parameters of both sensors, and their quality.
-pub(crate) fn imu_calibration(calibration: &ImuCalibration, validations: &[Validation]) -> String {
+pub(crate) fn imu_calibration(calibration: &ImuCalibration) -> String {
     let mut text = used(calibration);
     for sensor_kind in SensorKind::ALL {
         text.push('\n');
@@ -25,7 +25,6 @@ pub(crate) fn imu_calibration(calibration: &ImuCalibration, validations: &[Valid
         number_format::significant(calibration.chi2, 4),
         number_format::count(calibration.degrees_of_freedom),
     ));
-    text.push_str(&super::validations(validations));
     text
 }
 

@@ -1,6 +1,6 @@
 //! Validation on stdout: the errors of a calibration on data that it did not use.
 
-use super::table;
+use super::table::table;
 use calibrant::estimate::Validation;
 use calibrant::report::{validation_heading, validation_rows, validation_sentences};
 

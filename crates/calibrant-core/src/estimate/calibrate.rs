@@ -5,10 +5,12 @@ use super::{
 };
 use crate::error::Result;
 use crate::sensor::SensorKind;
+use std::borrow::Cow;
 
 /// Calibrates a sensor.
 ///
-/// From holds, spikes and invalid readings are taken out first ([`Recording::without_spikes`](crate::sensor::Recording::without_spikes)), and a warning says so.
+/// From holds, spikes and invalid readings are taken out first ([`Recording::without_spikes`](crate::sensor::Recording::without_spikes)), and a warning says so;
+/// not where the holds were found before ([`HoldsSetup::found`](super::HoldsSetup::found)).
 ///
 /// # Errors
 /// [`Error::Recording`](crate::Error::Recording) for a recording that is none, or that does not overlap the motion;
@@ -51,7 +53,10 @@ pub fn calibrate(problem: &CalibrationProblem<'_>, settings: &CalibrationSetting
             motion::calibrate(problem, command, settings)
         }
         Stimulus::Holds(setup) => {
-            let (recording, spikes) = problem.recording.without_spikes(SensorKind::Accelerometer);
+            let (recording, spikes) = match setup.found {
+                Some(_) => (Cow::Borrowed(problem.recording), None),
+                None => problem.recording.without_spikes(SensorKind::Accelerometer),
+            };
             let problem = CalibrationProblem { recording: &recording, ..*problem };
             problem.validate()?;
             let mut calibration = holds::calibrate(&problem, setup, settings, &recording)?;

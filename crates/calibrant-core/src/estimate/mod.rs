@@ -38,13 +38,13 @@ pub use calibrate::calibrate;
 pub use change::{Change, Changed, Course};
 pub use comparison::{ComparedQuantity, Comparison, OverallDifference};
 pub use holds::{
-    Coverage, ExpectedCalibration, HoldsSetup, clipped_holds, coverage, expected_calibration, find_holds,
-    holds_between, holds_lost_to_filter,
+    Coverage, ExpectedCalibration, HoldsSetup, clipped_holds, coverage, expected_calibration,
+    find_clean_holds, find_holds, holds_between, holds_lost_to_filter,
 };
 pub use imu::{
     ClockRate, Gyroscope, GyroscopeInHolds, ImuCalibration, ImuProblem, ImuSetup, KnownTerm, NoiseSource,
-    RotationResult, ThermalModel, Turn, TurnResult, WhiteNoise, calibrate_imu, calibrate_imu_while,
-    find_clean_imu_holds, find_imu_holds, swapped_sensors,
+    RotationResult, ThermalModel, Turn, TurnResult, WhiteNoise, WhiteNoiseSearch, calibrate_imu,
+    calibrate_imu_with, find_clean_imu_holds, find_imu_holds, swapped_sensors,
 };
 pub use problem::{CalibrationProblem, Stimulus};
 pub use quantisation::{CoarseAxis, coarse_axes, coarse_axes_in};

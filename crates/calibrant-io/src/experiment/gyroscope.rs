@@ -57,6 +57,7 @@ impl ImuPlan {
                 gauge: holds.gauge,
                 intervals_s: holds.intervals_s.clone(),
                 minimum_hold_s: holds.minimum_hold_s,
+                found: None,
             },
             latitude_deg: holds.latitude_deg,
             directions: holds.directions.clone(),

@@ -1,6 +1,6 @@
 //! From a recording with holds to the calibration: find the holds, fit, put the result together.
 
-use super::hold_detection::{beyond, find_holds_in, holds_between};
+use super::hold_detection::{beyond, find_clean_holds, holds_between};
 use super::holds_with_pauses::with_pauses;
 use super::low_pass_filtered::{holds_lost_to_filter, with_filter};
 use super::residuals::magnitude_rms;
@@ -34,9 +34,10 @@ pub(in crate::estimate) fn calibrate(
             "set sensor.axes = 3",
         )));
     }
-    let holds = match &setup.intervals_s {
-        Some(intervals) => holds_between(problem.recording, intervals)?,
-        None => find_holds_in(problem.recording, setup.minimum_hold_s)?,
+    let holds = match (&setup.intervals_s, &setup.found) {
+        (Some(intervals), _) => holds_between(problem.recording, intervals)?,
+        (None, Some(found)) => found.clone(),
+        (None, None) => find_clean_holds(problem.recording, setup.minimum_hold_s)?,
     };
     let clipped = clipped_holds(as_read, &holds);
     let sound: Vec<usize> = (0..holds.len()).filter(|&j| clipped[j].is_none()).collect();

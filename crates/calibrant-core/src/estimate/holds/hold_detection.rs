@@ -46,7 +46,7 @@ const WANDER: f64 = 2.0;
 /// ```
 pub fn find_holds(recording: &Recording, minimum_s: f64) -> Result<Vec<Hold>> {
     let (clean, spikes) = recording.without_spikes(SensorKind::Accelerometer);
-    Ok(as_recorded(find_holds_in(&clean, minimum_s)?, spikes.as_ref()))
+    Ok(as_recorded(find_clean_holds(&clean, minimum_s)?, spikes.as_ref()))
 }
 
 /// The same holds in the recording as it was before anything was cut out of it.
@@ -59,8 +59,11 @@ pub(in crate::estimate) fn as_recorded(mut holds: Vec<Hold>, spikes: Option<&Spi
     holds
 }
 
-/// [`find_holds`] in a recording without spikes.
-pub(in crate::estimate) fn find_holds_in(recording: &Recording, minimum_s: f64) -> Result<Vec<Hold>> {
+/// The same in a recording from which spikes were taken out before ([`Recording::without_spikes`]): they are not looked for again.
+///
+/// # Errors
+/// As [`find_holds`].
+pub fn find_clean_holds(recording: &Recording, minimum_s: f64) -> Result<Vec<Hold>> {
     let rate = recording.rate_hz();
     if minimum_s * rate < 8.0 {
         return Err(Error::recording(InputError::new(

@@ -44,8 +44,8 @@ pub(super) use verdict::left_out;
 pub(super) use words::coarse_words;
 
 pub use expected_accuracy::{ExpectedCalibration, expected_calibration};
-pub(super) use hold_detection::{as_recorded, beyond, find_holds_in, median};
-pub use hold_detection::{find_holds, holds_between};
+pub(super) use hold_detection::{as_recorded, beyond, median};
+pub use hold_detection::{find_clean_holds, find_holds, holds_between};
 pub(super) use holds_with_pauses::with_pauses;
 pub use low_pass_filtered::holds_lost_to_filter;
 pub(super) use low_pass_filtered::with_filter;

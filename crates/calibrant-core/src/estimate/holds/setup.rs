@@ -1,6 +1,6 @@
 //! What is known of the holds beforehand.
 
-use crate::motion::Gravity;
+use crate::motion::{Gravity, Hold};
 use crate::sensor::Gauge;
 
 /// What is known of the holds.
@@ -14,6 +14,8 @@ pub struct HoldsSetup {
     pub intervals_s: Option<Vec<(f64, f64)>>,
     /// A shorter stillness is not a hold, s.
     pub minimum_hold_s: f64,
+    /// The holds of this recording, where they were found before. Outliers were taken out of it before that; neither is looked for again.
+    pub found: Option<Vec<Hold>>,
 }
 
 impl Default for HoldsSetup {
@@ -23,6 +25,7 @@ impl Default for HoldsSetup {
             gauge: Gauge::Upper,
             intervals_s: None,
             minimum_hold_s: 1.0,
+            found: None,
         }
     }
 }

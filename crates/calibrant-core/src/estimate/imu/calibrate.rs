@@ -2,9 +2,10 @@
 
 use crate::error::{Error, InputError, Result};
 use crate::estimate::imu::checks::known_terms::{self, Contradiction};
-use crate::estimate::imu::problem::{ImuProblem, ImuSetup, WhiteNoise};
+use crate::estimate::imu::problem::{ImuProblem, ImuSetup};
 use crate::estimate::imu::result::ImuCalibration;
 use crate::estimate::imu::solver::solve_imu;
+use crate::estimate::imu::white_noise_search::WhiteNoiseSearch;
 use crate::estimate::result::CalibrationStatus;
 use crate::estimate::settings::CalibrationSettings;
 use crate::estimate::unknown_latitude::unknown_latitude;
@@ -17,22 +18,23 @@ use crate::sensor::SensorKind;
 /// gyroscope's readings cannot be angular rates in the unit given; [`Error::Experiment`](crate::Error::Experiment) where the readings contradict the directions of
 /// the holds or what is known beforehand; [`Error::NotIdentifiable`](crate::Error::NotIdentifiable) names what the holds or the rotations do not determine, and what would.
 pub fn calibrate_imu(problem: &ImuProblem<'_>, settings: &CalibrationSettings) -> Result<ImuCalibration> {
-    calibrate_imu_while(problem, settings, || problem.setup.white_noise)
+    calibrate_imu_with(problem, settings, &WhiteNoiseSearch::known(problem.setup.white_noise))
 }
 
-/// The same where the gyroscope's white noise is still to be found: `white_noise` finds it while the accelerometer is fitted, which does not wait for it.
+/// Calibrates an IMU whose gyroscope's white noise is still to be found. The search runs while the accelerometer is fitted, which does not wait for it.
 ///
-/// What it gives counts in place of [`ImuSetup::white_noise`]. Where no holds were found before ([`ImuSetup::found`]), spikes and invalid readings are taken out first
-/// ([`ImuRecording::without_spikes`](crate::sensor::ImuRecording::without_spikes)), and warnings say so.
+/// What it finds counts in place of [`ImuSetup::white_noise`]. Spikes and invalid readings are taken out first
+/// ([`ImuRecording::without_spikes`](crate::sensor::ImuRecording::without_spikes)), and warnings say so; not where the holds were found before
+/// ([`HoldsSetup::found`](crate::estimate::HoldsSetup::found)).
 ///
 /// # Errors
 /// As [`calibrate_imu`].
-pub fn calibrate_imu_while(
+pub fn calibrate_imu_with(
     problem: &ImuProblem<'_>,
     settings: &CalibrationSettings,
-    white_noise: impl FnOnce() -> Option<WhiteNoise> + Send,
+    white_noise: &WhiteNoiseSearch<'_>,
 ) -> Result<ImuCalibration> {
-    let mut calibration = match problem.setup.found {
+    let mut calibration = match problem.setup.holds.found {
         Some(_) => of_clean(problem, settings, white_noise)?,
         None => without_outliers(problem, settings, white_noise)?,
     };
@@ -44,7 +46,7 @@ pub fn calibrate_imu_while(
 fn without_outliers(
     problem: &ImuProblem<'_>,
     settings: &CalibrationSettings,
-    white_noise: impl FnOnce() -> Option<WhiteNoise> + Send,
+    white_noise: &WhiteNoiseSearch<'_>,
 ) -> Result<ImuCalibration> {
     let (recording, outliers) = problem.recording.without_spikes();
     let mut calibration = of_clean(&ImuProblem { recording: &recording, ..*problem }, settings, white_noise)?;
@@ -60,18 +62,14 @@ fn without_outliers(
 fn of_clean(
     problem: &ImuProblem<'_>,
     settings: &CalibrationSettings,
-    white_noise: impl FnOnce() -> Option<WhiteNoise> + Send,
+    white_noise: &WhiteNoiseSearch<'_>,
 ) -> Result<ImuCalibration> {
     let known = &problem.setup.known;
     if known.is_empty() {
         return solve_imu(problem, settings, white_noise);
     }
     known.iter().try_for_each(known_terms::check)?;
-    let mut found_noise = None;
-    let outcome = solve_imu(problem, settings, || {
-        found_noise = white_noise();
-        found_noise
-    });
+    let outcome = solve_imu(problem, settings, white_noise);
     // what is fixed leaves no residual of its own
     let fixed = known.iter().any(|known| known.sd.is_none());
     if let Ok(found) = &outcome
@@ -81,7 +79,7 @@ fn of_clean(
     {
         return outcome;
     }
-    let contradictions = contradictions(problem, settings, found_noise);
+    let contradictions = contradictions(problem, settings, white_noise);
     let absurd = contradictions.iter().any(|term| term.is_absurd);
     let stated = contradictions.into_iter().map(|term| term.words);
     match outcome {
@@ -101,11 +99,11 @@ fn of_clean(
 fn contradictions(
     problem: &ImuProblem<'_>,
     settings: &CalibrationSettings,
-    white_noise: Option<WhiteNoise>,
+    white_noise: &WhiteNoiseSearch<'_>,
 ) -> Vec<Contradiction> {
     let setup = ImuSetup { known: Vec::new(), ..problem.setup.clone() };
     let without = ImuProblem { setup: &setup, ..*problem };
-    match solve_imu(&without, settings, || white_noise) {
+    match solve_imu(&without, settings, white_noise) {
         Ok(without) => known_terms::contradicted(&problem.setup.known, &without),
         Err(_) => Vec::new(),
     }

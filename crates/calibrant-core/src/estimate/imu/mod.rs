@@ -35,8 +35,9 @@ mod solver;
 mod stationary;
 mod temperature;
 mod variance_components;
+mod white_noise_search;
 
-pub use calibrate::{calibrate_imu, calibrate_imu_while};
+pub use calibrate::{calibrate_imu, calibrate_imu_with};
 pub use checks::swapped_sensors::swapped_sensors;
 pub use clock::rate::ClockRate;
 pub use problem::{Gyroscope, ImuProblem, ImuSetup, KnownTerm, NoiseSource, ThermalModel, Turn, WhiteNoise};
@@ -45,3 +46,4 @@ pub(super) use recordings::recordings;
 pub use result::{GyroscopeInHolds, ImuCalibration, RotationResult, TurnResult};
 pub use stationary::intervals::{find_clean_imu_holds, find_imu_holds};
 pub(super) use temperature::needed_temperatures;
+pub use white_noise_search::WhiteNoiseSearch;

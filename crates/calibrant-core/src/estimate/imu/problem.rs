@@ -2,7 +2,7 @@
 
 use crate::estimate::earth::UNKNOWN_SD_RADPS;
 use crate::estimate::holds::HoldsSetup;
-use crate::motion::{Hold, earth_rate, to_ms};
+use crate::motion::{earth_rate, to_ms};
 use crate::sensor::{ImuQuantity, ImuRecording, ParameterList, ReadingUnit, Sensor, SensorKind, SensorModel};
 use nalgebra::Vector3;
 
@@ -53,8 +53,6 @@ pub struct ImuSetup {
     pub holds: HoldsSetup,
     /// Geographic latitude, degrees, southern ones negative: the Earth's turn about the vertical is then part of the model. Where it is not known, it is estimated as far as the recording tells it, and part of the uncertainty, of the g-sensitivity above all.
     pub latitude_deg: Option<f64>,
-    /// The holds that [`find_imu_holds`](crate::estimate::find_imu_holds) found in this recording, where none are given and that was done before, with spikes taken out before that ([`ImuRecording::without_spikes`]: they are not looked for again); `None` to find them.
-    pub found: Option<Vec<Hold>>,
     /// Direction of the specific force in each of the given holds (up), unit vectors in the true frame; `None` where only its magnitude is known.
     pub directions: Option<Vec<Vector3<f64>>>,
     /// How well these directions were met, rad about each axis; by the scatter of the holds where it is not given.

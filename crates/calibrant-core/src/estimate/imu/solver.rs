@@ -22,20 +22,21 @@ use crate::estimate::imu::estimated::{estimated_quantities, prior_of};
 use crate::estimate::imu::initial::accelerometer_alone::initial_accelerometer;
 use crate::estimate::imu::initial::gyroscope::{explained_means, initial_values};
 use crate::estimate::imu::model::{ImuModel, State};
-use crate::estimate::imu::problem::{ImuProblem, WhiteNoise};
+use crate::estimate::imu::problem::ImuProblem;
 use crate::estimate::imu::recordings::recordings;
 use crate::estimate::imu::result::ImuCalibration;
 use crate::estimate::imu::rotations::movement::Movement;
 use crate::estimate::imu::stationary::gyroscope::StationaryGyroscope;
 use crate::estimate::imu::variance_components::bias_drift::follow_drift;
 use crate::estimate::imu::variance_components::solution::solve;
+use crate::estimate::imu::white_noise_search::WhiteNoiseSearch;
 use crate::estimate::settings::CalibrationSettings;
 
 /// Calibrates an IMU. `white_noise` is found while the accelerometer is fitted.
 pub(crate) fn solve_imu(
     problem: &ImuProblem<'_>,
     settings: &CalibrationSettings,
-    white_noise: impl FnOnce() -> Option<WhiteNoise> + Send,
+    white_noise: &WhiteNoiseSearch<'_>,
 ) -> Result<ImuCalibration> {
     stages(problem, settings, white_noise).map_err(|error| with_time_offset(error, problem.recording))
 }
@@ -43,12 +44,13 @@ pub(crate) fn solve_imu(
 fn stages(
     problem: &ImuProblem<'_>,
     settings: &CalibrationSettings,
-    white_noise: impl FnOnce() -> Option<WhiteNoise> + Send,
+    white_noise: &WhiteNoiseSearch<'_>,
 ) -> Result<ImuCalibration> {
     let setup = problem.setup;
     let (as_read, gyroscope_recording) = recordings(problem)?;
     // stationary intervals and initial values
-    let (first, white_noise) = rayon::join(|| initial_accelerometer(problem, as_read, settings), white_noise);
+    let (first, white_noise) =
+        rayon::join(|| initial_accelerometer(problem, as_read, settings), || white_noise.result());
     let (first, temperature) = first?;
     let recording = first.adjusted.as_ref().unwrap_or(as_read);
     let used = first.used_holds();

@@ -31,9 +31,10 @@ const OTHER_UNIT: f64 = 0.25;
 pub fn validate_imu(calibration: &ImuCalibration, problem: &ImuProblem<'_>) -> Result<Validation> {
     let (accelerometer, gyroscope) = recordings(problem)?;
     let setup = &problem.setup.holds;
-    let holds = match &setup.intervals_s {
-        Some(intervals) => holds_between(accelerometer, intervals)?,
-        None => find_imu_holds(problem.recording, setup.minimum_hold_s)?,
+    let holds = match (&setup.intervals_s, &setup.found) {
+        (Some(intervals), _) => holds_between(accelerometer, intervals)?,
+        (None, Some(found)) => found.clone(),
+        (None, None) => find_imu_holds(problem.recording, setup.minimum_hold_s)?,
     };
     let holds = at_least_one(holds, setup)?;
     let unused = Unused {
@@ -58,9 +59,10 @@ pub fn validate_imu(calibration: &ImuCalibration, problem: &ImuProblem<'_>) -> R
 pub fn validate(calibration: &Calibration, problem: &CalibrationProblem<'_>) -> Result<Validation> {
     let (setup, found) = of_holds(calibration, problem)?;
     problem.validate()?;
-    let holds = match &setup.intervals_s {
-        Some(intervals) => holds_between(problem.recording, intervals)?,
-        None => find_holds(problem.recording, setup.minimum_hold_s)?,
+    let holds = match (&setup.intervals_s, &setup.found) {
+        (Some(intervals), _) => holds_between(problem.recording, intervals)?,
+        (None, Some(found)) => found.clone(),
+        (None, None) => find_holds(problem.recording, setup.minimum_hold_s)?,
     };
     let holds = at_least_one(holds, setup)?;
     let list = setup.gauge.parameter_list(problem.sensor.model);

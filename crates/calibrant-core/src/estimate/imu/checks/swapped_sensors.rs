@@ -1,7 +1,7 @@
 //! Swapped sensors, taken for each other: files or columns exchanged.
 
 use crate::error::{Error, NotIdentifiable};
-use crate::estimate::holds::{find_holds_in, median};
+use crate::estimate::holds::{find_clean_holds, median};
 use crate::sensor::{ImuRecording, Recording};
 use nalgebra::Vector3;
 
@@ -33,7 +33,7 @@ pub(crate) fn with_swapped_sensors(error: Error, recording: &ImuRecording, minim
 }
 
 fn rests_at_several(recording: &Recording, minimum_s: f64) -> bool {
-    let Ok(rests) = find_holds_in(recording, minimum_s) else { return false };
+    let Ok(rests) = find_clean_holds(recording, minimum_s) else { return false };
     if rests.len() < SEVERAL_RESTS {
         return false;
     }

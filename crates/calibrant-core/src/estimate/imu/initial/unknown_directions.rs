@@ -23,7 +23,7 @@ pub(crate) fn from_unknown_directions(
 ) -> Result<InitialAccelerometer> {
     let detected = intervals_s.is_none();
     let minimum_s = problem.setup.holds.minimum_hold_s;
-    let found = match (&problem.setup.found, detected) {
+    let found = match (&problem.setup.holds.found, detected) {
         (_, false) => Cow::Borrowed(&[][..]),
         (Some(found), true) => Cow::Borrowed(found.as_slice()),
         (None, true) => Cow::Owned(find_clean_imu_holds(problem.recording, minimum_s)?),

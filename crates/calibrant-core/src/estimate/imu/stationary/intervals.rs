@@ -5,7 +5,7 @@
 //! far from the others' is a turn at a steady rate.
 
 use crate::error::{Error, InputError, Result};
-use crate::estimate::holds::{as_recorded, find_holds_in, holds_between, median};
+use crate::estimate::holds::{as_recorded, find_clean_holds, holds_between, median};
 use crate::motion::Hold;
 use crate::sensor::{ImuRecording, Recording, SensorKind};
 use nalgebra::Vector3;
@@ -38,10 +38,10 @@ pub fn find_clean_imu_holds(recording: &ImuRecording, minimum_s: f64) -> Result<
         )));
     };
     let Some(gyroscope) = &recording.gyroscope else {
-        return find_holds_in(accelerometer, minimum_s);
+        return find_clean_holds(accelerometer, minimum_s);
     };
     let (holds, calm) =
-        rayon::join(|| find_holds_in(accelerometer, minimum_s), || find_holds_in(gyroscope, minimum_s));
+        rayon::join(|| find_clean_holds(accelerometer, minimum_s), || find_clean_holds(gyroscope, minimum_s));
     let (holds, calm) = (holds?, calm.unwrap_or_default());
     let turning = turning(gyroscope, &calm);
     let mut intervals = Vec::with_capacity(holds.len());

@@ -1,0 +1,62 @@
+//! What all recordings of a call share, whatever the sensor.
+
+use super::arguments::{Arguments, Unit};
+use super::earlier::earlier_report;
+use super::sources::{check_motion, sources};
+use crate::console;
+use calibrant::io::Experiment;
+use calibrant::pipeline::{Note, Outcome, Pipeline, PipelineOptions, Source};
+use calibrant::sensor::ReadingUnit;
+use std::path::Path;
+
+/// The pipeline, and the recordings to send through it.
+pub(super) struct Job<'a> {
+    pub(super) arguments: &'a Arguments,
+    pub(super) sources: Vec<Source>,
+    pub(super) is_imu: bool,
+    pipeline: Pipeline<'a>,
+}
+
+impl<'a> Job<'a> {
+    pub(super) fn prepare(arguments: &'a Arguments, experiment: &'a Experiment) -> calibrant::Result<Self> {
+        check_motion(arguments, experiment)?;
+        let pipeline = Pipeline::from_experiment(experiment, options(arguments))?;
+        pipeline.notes().iter().for_each(console::noted);
+        let sources = sources(arguments, experiment)?;
+        Ok(Self { arguments, sources, is_imu: experiment.imu.is_some(), pipeline })
+    }
+
+    /// Calibrates from a recording and writes the results. What is noticed goes to `notes`, even where it fails.
+    pub(super) fn run(
+        &self,
+        source: &Source,
+        directory: &Path,
+        notes: &mut Vec<Note>,
+    ) -> calibrant::Result<Outcome> {
+        let outcome = self.pipeline.run_noting(source, notes)?;
+        outcome.write(directory)?;
+        if self.arguments.no_report {
+            notes.extend(earlier_report(directory).map(Note::Warning));
+        }
+        Ok(outcome)
+    }
+}
+
+fn options(arguments: &Arguments) -> PipelineOptions {
+    let other = |recording| Source {
+        gyroscope: arguments.validate_gyroscope.clone(),
+        ..Source::from_file(recording)
+    };
+    PipelineOptions {
+        experiment_file: arguments.experiment.clone(),
+        motion: arguments.motion.clone(),
+        reading: arguments.reading.options(),
+        unit: arguments.unit.map(|unit| match unit {
+            Unit::Mps2 => ReadingUnit::MetrePerSecondSquared,
+            Unit::Counts => ReadingUnit::Counts,
+        }),
+        validate: arguments.validate.as_ref().map(other),
+        folds: arguments.folds,
+        report: !arguments.no_report,
+    }
+}

@@ -1,0 +1,38 @@
+//! One recording in a call.
+
+use super::earlier::warn_of_earlier_result;
+use super::job::Job;
+use crate::{Exit, console};
+use calibrant::pipeline::{Outcome, Source};
+
+/// Calibrates from the recording and shows the result.
+pub(super) fn run(job: &Job<'_>, source: &Source) -> Exit {
+    let directory = &job.arguments.output;
+    let mut notes = Vec::new();
+    let outcome = job.run(source, directory, &mut notes);
+    notes.iter().for_each(console::noted);
+    match outcome {
+        Ok(outcome) => {
+            show(job, &outcome);
+            Exit::of_status(outcome.status())
+        }
+        Err(error) => {
+            warn_of_earlier_result(directory);
+            match job.is_imu {
+                true => console::error(&error),
+                false => console::error_in(&error, &source.recording),
+            }
+            Exit::of(&error)
+        }
+    }
+}
+
+/// Prints the tables, or calibration.json.
+fn show(job: &Job<'_>, outcome: &Outcome) {
+    outcome.warnings().iter().for_each(|warning| console::warn(warning));
+    if job.arguments.json {
+        return console::print(&outcome.json());
+    }
+    console::print(&console::calibration(outcome));
+    console::print(&format!("\n{}\n", job.arguments.main_result().display()));
+}

@@ -1,0 +1,77 @@
+//! The recordings of a call, and what cannot be asked of several.
+
+use super::arguments::Arguments;
+use crate::output_places::same_file;
+use calibrant::Error;
+use calibrant::error::InputError;
+use calibrant::io::{Experiment, Plan};
+use calibrant::pipeline::Source;
+use calibrant::report::number_format;
+
+/// The recordings, those of an IMU with their gyroscopes' files.
+pub(super) fn sources(arguments: &Arguments, experiment: &Experiment) -> calibrant::Result<Vec<Source>> {
+    let sources = match experiment.imu {
+        Some(_) => with_gyroscopes(arguments)?,
+        None => arguments.recordings.iter().map(Source::from_file).collect(),
+    };
+    if sources.len() > 1 {
+        check_several(arguments, experiment)?;
+    }
+    Ok(sources)
+}
+
+fn with_gyroscopes(arguments: &Arguments) -> calibrant::Result<Vec<Source>> {
+    let (recordings, gyroscopes) = (&arguments.recordings, &arguments.gyroscope);
+    if !gyroscopes.is_empty() && gyroscopes.len() != recordings.len() {
+        return refuse(
+            &format!(
+                "{} of gyroscopes for {}",
+                number_format::counted(gyroscopes.len(), "file"),
+                number_format::counted(recordings.len(), "recording")
+            ),
+            "give --gyroscope FILE once for each recording, in their order, or not at all where the recordings have both sensors",
+        );
+    }
+    let gyroscopes = gyroscopes.iter().cloned().map(Some).chain(std::iter::repeat(None));
+    let source = |(recording, gyroscope)| Source {
+        gyroscope,
+        sections: arguments.sections.clone(),
+        ..Source::from_file(recording)
+    };
+    Ok(recordings.iter().zip(gyroscopes).map(source).collect())
+}
+
+/// Refuses what makes sense for one recording only.
+fn check_several(arguments: &Arguments, experiment: &Experiment) -> calibrant::Result<()> {
+    if arguments.validate.is_some() || arguments.folds.is_some() {
+        return refuse(
+            "one calibration is validated at a time, and several recordings are given",
+            "give one recording with --validate or --folds",
+        );
+    }
+    if experiment.imu.is_some() && arguments.sections.is_some() {
+        return refuse(
+            "--sections is the list of one recording, and several are given",
+            "calibrate one recording at a time with its list",
+        );
+    }
+    Ok(())
+}
+
+/// Refuses a recording that is the commanded motion, too.
+pub(super) fn check_motion(arguments: &Arguments, experiment: &Experiment) -> calibrant::Result<()> {
+    let (Some(motion), None, Plan::Motion(_)) = (&arguments.motion, &experiment.imu, &experiment.plan) else {
+        return Ok(());
+    };
+    match arguments.recordings.iter().find(|recording| same_file(recording, motion)) {
+        Some(recording) => refuse(
+            &format!("{} is both the motion and a recording", recording.display()),
+            "leave it out of the recordings, or keep them in a folder of their own",
+        ),
+        None => Ok(()),
+    }
+}
+
+fn refuse<T>(what: &str, help: &str) -> calibrant::Result<T> {
+    Err(Error::experiment(InputError::new(what, help)))
+}

@@ -1,0 +1,25 @@
+//! Options that are given and not used.
+
+use super::arguments::Arguments;
+use crate::console;
+use calibrant::io::{Experiment, Plan};
+
+/// Warns of options that are for another kind of experiment.
+pub(super) fn warn(arguments: &Arguments, experiment: &Experiment) {
+    let motion = arguments.motion.is_some();
+    if experiment.imu.is_some() {
+        if arguments.unit.is_some() {
+            console::warn("--unit is not used for an IMU: say --accelerometer-unit and --gyroscope-unit");
+        }
+        if motion {
+            console::warn("--motion is not used: an IMU is calibrated from holds and what lies between them");
+        }
+        return;
+    }
+    if !arguments.gyroscope.is_empty() || arguments.sections.is_some() {
+        console::warn("--gyroscope and --sections are not used: they are for kind = \"imu\"");
+    }
+    if motion && matches!(experiment.plan, Plan::Holds(_)) {
+        console::warn("--motion is not used: a [holds] experiment needs no motion");
+    }
+}

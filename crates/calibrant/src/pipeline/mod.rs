@@ -1,0 +1,66 @@
+//! From a recording's file to a calibration and its report, in one call.
+//!
+//! | stage | what it does | where |
+//! |---|---|---|
+//! | read | reads the files of a [`Source`] | `recorded`, `read_imu` |
+//! | clean | takes spikes and invalid readings out | `clean` |
+//! | holds | finds the stationary intervals | `holds` |
+//! | noise | examines the longest hold of an IMU | `noise` |
+//! | calibrate | estimates the parameters and their covariance | [`estimate`](crate::estimate) |
+//! | validate | tries the calibration on data that it is not from | `validation` |
+//! | report | writes `calibration.json` and `report.html` | `outcome`, `report` |
+//!
+//! Each stage runs once and hands its result on. The stages in their order are in `accelerometer` and `imu`.
+//!
+//! # Examples
+//! A simulated accelerometer that is held still in 24 orientations:
+//! ```
+//! use calibrant::io::{Experiment, write_recording};
+//! use calibrant::pipeline::{Pipeline, PipelineOptions, SensorCalibration, Source};
+//! use calibrant::sensor::{ReadingUnit, SensorParameters};
+//! use calibrant::simulate::{HoldsSimulation, Purpose, simulate_holds, stream};
+//! use nalgebra::Vector3;
+//!
+//! let directory = tempfile::tempdir().expect("a directory");
+//! let simulation = HoldsSimulation { poses: 24, hold_s: 3.0, turn_s: 1.5, rate_hz: 100.0, gravity_mps2: 9.81, between_holds_sd_mps2: 0.0 };
+//! let (truth, noise) = (SensorParameters::identity(), Vector3::repeat(0.01));
+//! let mut rng = stream(1, Purpose::Sensor, 0);
+//! let (recording, _) = simulate_holds(&truth, &noise, ReadingUnit::MetrePerSecondSquared, &simulation, &mut rng);
+//! let file = directory.path().join("recording.csv");
+//! write_recording(&file, &recording)?;
+//!
+//! let experiment = Experiment::parse("schema = 1\n[sensor]\nunit = \"mps2\"\naxes = 3\nmodel = \"full\"\n[holds]\ngravity_mps2 = 9.81\n", None)?;
+//! let pipeline = Pipeline::from_experiment(&experiment, PipelineOptions::default())?;
+//! let outcome = pipeline.run(&Source::from_file(&file))?;
+//! outcome.write(directory.path())?;
+//!
+//! let SensorCalibration::Accelerometer(calibration) = &outcome.calibration else { panic!("no gyroscope") };
+//! assert!(calibration.sensor.bias.norm() < 0.01);
+//! assert!(directory.path().join("report.html").exists());
+//! # Ok::<(), calibrant::Error>(())
+//! ```
+
+mod accelerometer;
+mod clean;
+mod duplicates;
+mod holds;
+mod imu;
+mod noise;
+mod note;
+mod options;
+mod outcome;
+mod read_imu;
+mod recorded;
+mod report;
+mod run;
+mod sections;
+mod source;
+mod temperature;
+mod validation;
+
+pub use note::Note;
+pub use options::PipelineOptions;
+pub use outcome::{Outcome, SensorCalibration};
+pub use run::Pipeline;
+pub use source::Source;
+pub use temperature::extrapolation_in_words;

@@ -1,0 +1,39 @@
+//! What the caller of a pipeline chooses, for all recordings.
+
+use super::source::Source;
+use calibrant_core::sensor::ReadingUnit;
+use calibrant_io::ImuReadOptions;
+use std::path::PathBuf;
+
+/// What is said of all recordings of a pipeline beside the experiment.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PipelineOptions {
+    /// The experiment file, as the report and errors name it.
+    pub experiment_file: PathBuf,
+    /// The commanded motion; a `[motion]` experiment needs one.
+    pub motion: Option<PathBuf>,
+    /// What the recordings' files do not say themselves. It counts before `[columns]` of the experiment.
+    pub reading: ImuReadOptions,
+    /// Unit of an accelerometer's readings, where neither its file nor `reading` says it.
+    pub unit: Option<ReadingUnit>,
+    /// Another recording of the sensor, on which the calibration is tried.
+    pub validate: Option<Source>,
+    /// Number of blocks of holds, each predicted by a calibration from the others.
+    pub folds: Option<usize>,
+    /// Is `report.html` written?
+    pub report: bool,
+}
+
+impl Default for PipelineOptions {
+    fn default() -> Self {
+        Self {
+            experiment_file: PathBuf::new(),
+            motion: None,
+            reading: ImuReadOptions::default(),
+            unit: None,
+            validate: None,
+            folds: None,
+            report: true,
+        }
+    }
+}

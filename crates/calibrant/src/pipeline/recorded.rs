@@ -1,0 +1,71 @@
+//! A recording as it was read.
+
+use super::duplicates::Readings;
+use super::source::Source;
+use calibrant_core::error::{Error, InputError, Result};
+use calibrant_core::sensor::{ImuRecording, Recording, SensorKind};
+use calibrant_io::{
+    FileFormat, Finding, ImuFile, ImuReadOptions, Input, ReadOptions, read_accelerometer, read_imu_pair,
+    read_imu_recording,
+};
+
+/// The samples of one sensor or of both, and where they come from.
+pub(crate) struct Recorded {
+    pub(crate) recording: ImuRecording,
+    /// The format of an IMU's file.
+    pub(crate) format: Option<FileFormat>,
+    /// What the reader noticed.
+    pub(crate) findings: Vec<Finding>,
+    /// SHA-256 of each file.
+    pub(crate) sha256: Vec<String>,
+}
+
+impl Recorded {
+    /// Reads an accelerometer alone.
+    pub(crate) fn accelerometer_from(
+        source: &Source,
+        options: &ReadOptions,
+        device: &ImuReadOptions,
+    ) -> Result<Self> {
+        let file = read_accelerometer(&source.recording, options, device)?;
+        Ok(Self {
+            recording: ImuRecording {
+                accelerometer: Some(file.recording),
+                gyroscope: None,
+                temperature_c: None,
+            },
+            format: None,
+            findings: file.findings,
+            sha256: vec![file.sha256],
+        })
+    }
+
+    /// Reads an IMU from its file or its two files.
+    pub(crate) fn imu_from(source: &Source, options: &ImuReadOptions) -> Result<Self> {
+        let ImuFile { recording, format, findings, sha256, .. } = match &source.gyroscope {
+            Some(gyroscope) => read_imu_pair(&source.recording, gyroscope, options),
+            None => read_imu_recording(&source.recording, options),
+        }?;
+        Ok(Self { recording, format: Some(format), findings, sha256 })
+    }
+
+    /// The accelerometer's samples.
+    pub(crate) fn accelerometer(&self) -> Result<&Recording> {
+        self.recording.accelerometer.as_ref().ok_or_else(|| {
+            let message = format!("the recording has no {}", SensorKind::Accelerometer);
+            Error::recording(InputError::new(message, "choose another file"))
+        })
+    }
+
+    /// The readings of a sensor, with the hash of all files.
+    pub(crate) fn readings(&self, sensor_kind: SensorKind) -> Readings<'_> {
+        Readings { sha256: self.sha256.concat(), recording: self.recording.sensor(sensor_kind) }
+    }
+
+    /// The files, as `calibration.json` names them.
+    pub(crate) fn inputs(&self, source: &Source) -> Vec<Input> {
+        let sensors = SensorKind::ALL.map(|sensor_kind| self.recording.sensor(sensor_kind));
+        let files = source.files().zip(&self.sha256).zip(sensors);
+        files.map(|((path, sha256), readings)| Input::of(path, sha256, readings)).collect()
+    }
+}

@@ -1,0 +1,67 @@
+//! The pipeline, whatever the sensor.
+
+use super::accelerometer::AccelerometerTask;
+use super::imu::ImuTask;
+use super::note::Note;
+use super::options::PipelineOptions;
+use super::outcome::Outcome;
+use super::source::Source;
+use calibrant_core::error::Result;
+use calibrant_io::Experiment;
+
+/// From recordings to calibrations. It holds what all recordings share, and can calibrate several at the same time.
+pub struct Pipeline<'e> {
+    task: Task<'e>,
+    options: PipelineOptions,
+    notes: Vec<Note>,
+}
+
+/// What is calibrated.
+enum Task<'e> {
+    Accelerometer(AccelerometerTask<'e>),
+    Imu(ImuTask<'e>),
+}
+
+impl<'e> Pipeline<'e> {
+    /// Prepares what all recordings share. It reads the commanded motion of a `[motion]` experiment.
+    ///
+    /// # Errors
+    /// [`Error::Experiment`](crate::Error::Experiment) where the commanded motion is missing or makes no sense, or where an IMU has no `[holds]`.
+    pub fn from_experiment(experiment: &'e Experiment, options: PipelineOptions) -> Result<Self> {
+        let mut notes = Vec::new();
+        let task = match &experiment.imu {
+            Some(plan) => Task::Imu(ImuTask::new(experiment, plan, &options)?),
+            None => Task::Accelerometer(AccelerometerTask::new(experiment, &options, &mut notes)?),
+        };
+        Ok(Self { task, options, notes })
+    }
+
+    /// What was noticed in what all recordings share.
+    #[must_use]
+    pub fn notes(&self) -> &[Note] {
+        &self.notes
+    }
+
+    /// Calibrates from one recording.
+    ///
+    /// # Errors
+    /// As [`run_noting`](Self::run_noting).
+    pub fn run(&self, source: &Source) -> Result<Outcome> {
+        let mut notes = Vec::new();
+        let outcome = self.run_noting(source, &mut notes)?;
+        Ok(Outcome { notes, ..outcome })
+    }
+
+    /// The same; what is noticed goes to `notes`, so that it is known even where an error ends the run.
+    ///
+    /// # Errors
+    /// [`Error::Recording`](crate::Error::Recording) where a recording cannot be read or used;
+    /// [`Error::NotIdentifiable`](crate::Error::NotIdentifiable) names the parameters that it cannot determine;
+    /// [`Error::Experiment`](crate::Error::Experiment) where it contradicts the experiment, or where the validation is on the data that were calibrated from.
+    pub fn run_noting(&self, source: &Source, notes: &mut Vec<Note>) -> Result<Outcome> {
+        match &self.task {
+            Task::Accelerometer(task) => task.run(source, &self.options, notes),
+            Task::Imu(task) => task.run(source, &self.options, notes),
+        }
+    }
+}

@@ -1,0 +1,63 @@
+//! What is known of the recording of an IMU: by the experiment, and by a list of sections.
+
+use super::note::Note;
+use super::source::Source;
+use calibrant_core::error::{Error, InputError, Result};
+use calibrant_core::estimate::{ImuSetup, Turn};
+use calibrant_core::sensor::ImuRecording;
+use calibrant_io::{HoldsPlan, ImuPlan, Section, SectionKind, read_sections};
+
+/// The setup of this recording.
+pub(crate) fn setup_of(
+    plan: &ImuPlan,
+    holds: &HoldsPlan,
+    source: &Source,
+    recording: &ImuRecording,
+    notes: &mut Vec<Note>,
+) -> Result<ImuSetup> {
+    let mut setup = plan.setup(holds);
+    if let Some(path) = &source.sections {
+        let times = recording.accelerometer.as_ref().map_or(&[][..], |recording| &recording.times_s);
+        let sections = read_sections(path)?;
+        if let Some(late) = sections.iter().find(|section| section.end > times.len()) {
+            let message = format!("a section ends at sample {}, the recording at {}", late.end, times.len());
+            let input_error = InputError::new(message, "are the list and the recording of one session?");
+            return Err(Error::experiment(input_error.in_file(path)));
+        }
+        if setup.holds.intervals_s.is_some() {
+            let words =
+                "holds.intervals_s and holds.directions are not used: the list of sections gives the faces";
+            notes.push(Note::Warning(words.into()));
+        }
+        take_sections(&mut setup, &sections, times, plan);
+    }
+    if setup.face_sd_rad.is_some() && setup.directions.is_none() {
+        let words = "holds.face_sd_deg is not used: no directions of the holds are given";
+        notes.push(Note::Warning(words.into()));
+    }
+    Ok(setup)
+}
+
+/// Faces and turns from a list of sections.
+fn take_sections(setup: &mut ImuSetup, sections: &[Section], times: &[f64], plan: &ImuPlan) {
+    let (mut intervals, mut directions) = (Vec::new(), Vec::new());
+    for section in sections {
+        let (start_s, end_s) = (times[section.start], times[section.end - 1]);
+        match section.kind {
+            SectionKind::Face(direction) => {
+                intervals.push((start_s, end_s));
+                directions.push(direction);
+            }
+            SectionKind::Turn(axis) => setup.turns.push(Turn {
+                name: Some(section.name.clone()),
+                start_s,
+                end_s,
+                axis,
+                angle_rad: plan.section_angle_rad,
+                angle_sd_rad: plan.section_angle_sd_rad,
+            }),
+        }
+    }
+    setup.holds.intervals_s = Some(intervals);
+    setup.directions = Some(directions);
+}
