@@ -245,7 +245,7 @@ impl ImuCorrection {
     }
 
     /// The same where the accelerometer has spikes. `felt` are its readings without them
-    /// ([`Recording::without_spikes`]): the force that the gyroscope feels.
+    /// ([`Recording::without_spikes`]): the force that acts on the gyroscope.
     ///
     /// # Errors
     /// As [`apply`](Self::apply).
