@@ -346,6 +346,7 @@ fn a_simulation_fits_into_memory() {
 
 #[test]
 fn turns_give_the_gain_of_a_gyroscope_in_counts() {
+    /// Gain of the gyroscope.
     const GAIN: f64 = 940.0;
     let bench = Bench::new();
     let table = include_str!("../../../../examples/06_whole_imu/table.toml");
