@@ -14,7 +14,8 @@ impl Exit {
     pub(crate) const USAGE: Exit = Exit(2);
     /// The recording is bad.
     pub(crate) const RECORDING: Exit = Exit(3);
-    /// The data or the motion do not determine the parameters.
+    /// The data or the motion do not determine the parameters, the limits admit no motion, or the iteration
+    /// did not converge.
     pub(crate) const NOT_IDENTIFIABLE: Exit = Exit(4);
 
     /// The exit status of a calibration. One that did not converge has determined nothing.

@@ -27,8 +27,8 @@
 //!
 //! # Cost
 //! The elimination takes `O(N D (D + P)²)` flops. It keeps one gain of `D (2D + P + 1)` numbers for each
-//! interval. It asks for links one at a time, so the caller need not store them. What is left is the Schur
-//! complement `F` on the border: the Fisher information of the parameters with the motion marginalised.
+//! interval. It asks for links one at a time, so the caller need not store them. The Schur complement `F` on
+//! the border remains: the Fisher information of the parameters with the motion marginalised.
 
 use nalgebra::{SMatrix, SVector};
 

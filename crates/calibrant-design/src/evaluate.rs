@@ -9,7 +9,7 @@ use calibrant_core::motion::{JerkControlledMotion, Trust, sample_times};
 /// Predicts the covariance of a calibration from a recording of `motion`. Intervals and limits of the problem are not used.
 ///
 /// # Errors
-/// As [`MotionInformation::of`](calibrant_core::information::MotionInformation::of). A motion that leaves
+/// As [`MotionInformation::information`](calibrant_core::information::MotionInformation::information). A motion that leaves
 /// parameters undetermined is not an error: the result names them.
 pub fn evaluate(problem: &DesignProblem<'_>, motion: &JerkControlledMotion) -> Result<Evaluation> {
     let setting = problem.setting()?;

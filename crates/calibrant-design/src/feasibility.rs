@@ -18,7 +18,7 @@ use nalgebra::Vector3;
 /// Relative distance from the limits below which there is no room to move.
 const ROOM: f64 = 1e-9;
 
-/// Returns an error where the limits admit no motion.
+/// Checks that the limits admit a motion.
 ///
 /// # Errors
 /// [`Error::Infeasible`] names the axis and the limits that clash.

@@ -65,6 +65,7 @@ pub fn write_motion(path: &Path, motion: &JerkControlledMotion, axes: usize) -> 
 }
 
 fn parse(bytes: &[u8], axes: usize) -> Checked<JerkControlledMotion> {
+    /// The remedy for a wrong header.
     const HELP: &str = "a motion has the header t_s,ax_mps2,ay_mps2,az_mps2 and a row for each node";
     let text = text_decoding::as_text(bytes)?;
     if axes != 1 && axes != 3 {

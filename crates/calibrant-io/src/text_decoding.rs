@@ -97,7 +97,7 @@ fn packed_by(bytes: &[u8]) -> Option<(&'static str, &'static str)> {
         (b"BZh", "bzip2", "bunzip2 FILE"),
     ];
     let (begin, program, unpack) = begins.into_iter().find(|(begin, ..)| bytes.starts_with(begin))?;
-    // the letters of bzip2 could begin a text: a digit and the first block follow
+    // a text could begin with the letters of bzip2: check the digit and the first block, too
     let block = [&b"\x31\x41\x59\x26\x53\x59"[..], b"\x17\x72\x45\x38\x50\x90"];
     let is_text = begin == b"BZh" && !block.iter().any(|block| bytes.get(4..10) == Some(*block));
     (!is_text).then_some((program, unpack))

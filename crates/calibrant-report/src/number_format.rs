@@ -70,7 +70,7 @@ pub fn counted(count: usize, what: &str) -> String {
     format!("{count} {what}{}", if count == 1 { "" } else { "s" })
 }
 
-/// A number that someone wrote down, such as a nominal value: at most six significant digits, no trailing zeros.
+/// A number from a file, such as a nominal value: at most six significant digits, no trailing zeros.
 pub fn short(value: f64) -> String {
     if value == 0.0 { "0".to_string() } else { without_trailing_zeros(&significant(value, 6)) }
 }

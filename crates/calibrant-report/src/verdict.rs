@@ -5,7 +5,7 @@ use calibrant_core::estimate::{Calibration, CalibrationStatus, Recovered};
 
 /// Below this, a probability counts as evidence against the model.
 const SIGNIFICANT: f64 = 0.001;
-/// A parameter with a larger share of its datasheet spread left was determined only poorly.
+/// A standard deviation above this share of the datasheet spread means that the recording determined little.
 const HARDLY_DETERMINED: f64 = 0.5;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

@@ -14,6 +14,7 @@ use criterion::{Criterion, criterion_group, criterion_main};
 use nalgebra::Vector3;
 use std::hint::black_box;
 
+/// The models, with their names in the benchmark.
 const MODELS: [(SensorModel, &str); 2] =
     [(SensorModel::ScaleBias, "scale-bias"), (SensorModel::Full, "full")];
 

@@ -18,6 +18,7 @@ use nalgebra::{DVector, Matrix3, Vector3};
 use serde_json::{Value, json};
 use std::time::Instant;
 
+/// Number of starts of each design.
 const STARTS: usize = 20;
 /// A value counts as reached when it is this close.
 const REACHED: f64 = 1e-6;

@@ -19,12 +19,19 @@ use serde_json::{Value, json};
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
+/// Number of intervals of the motions.
 const INTERVALS: usize = 14;
+/// Duration of an interval, s.
 const INTERVAL_S: f64 = 5.0;
+/// Sample rate, Hz.
 const RATE_HZ: f64 = 2.0;
+/// Number of problems of each kind.
 const SEEDS: u64 = 5;
+/// Number of calibrations before the timed ones.
 const WARM_UP: usize = 100;
+/// Number of timed calibrations.
 const REPETITIONS: usize = 400;
+/// Process noise of noisy motions.
 const NOISE: InputNoise = InputNoise { floor_mps3: 0.01, ratio: 0.01 };
 /// No floor: an interval with zero commanded jerk has exactly zero jerk.
 const RATIO_ONLY: InputNoise = InputNoise { floor_mps3: 0.0, ratio: 0.01 };

@@ -2,6 +2,7 @@
 
 use crate::bench::Bench;
 
+/// The columns of a recording in SI units.
 const NAMES: &str = "t_s,ax_mps2,ay_mps2,az_mps2,gx_radps,gy_radps,gz_radps";
 
 /// A bench with an IMU in `truth.json`, m/s² and rad/s, and a file of its readings.

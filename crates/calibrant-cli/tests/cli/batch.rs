@@ -18,6 +18,7 @@ fn bench(recordings: &[&str]) -> Bench {
     bench
 }
 
+/// The command of these tests, without its recordings.
 const CALIBRATE: &str = "calibrate experiment.toml --motion simulated/motion.csv";
 
 #[test]

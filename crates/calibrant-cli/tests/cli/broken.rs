@@ -9,6 +9,7 @@ mod usage;
 
 use crate::bench::Bench;
 
+/// The command of these tests.
 const CALIBRATE: &str = "calibrate experiment.toml recording.csv --motion motion.csv -o result";
 
 /// An experiment with its motion and a good recording, and a static experiment.

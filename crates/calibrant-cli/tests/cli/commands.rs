@@ -3,7 +3,9 @@
 use crate::bench::{Bench, assert_close_to_truth, names};
 use serde_json::Value;
 
+/// The parameters of the scale-bias model.
 const SCALE_BIAS: [&str; 6] = ["bias.x", "bias.y", "bias.z", "scale.x", "scale.y", "scale.z"];
+/// The parameters of the full model in the upper gauge.
 const UPPER: [&str; 9] =
     ["bias.x", "bias.y", "bias.z", "scale.x", "scale.y", "scale.z", "matrix.xy", "matrix.xz", "matrix.yz"];
 

@@ -146,7 +146,7 @@ fn faces_whose_directions_the_readings_contradict_are_named() {
     bench.refuses(given(r#""x", "-x", "z", "-y", "y", "-z""#), 2, &[third, "hold 5 (53.0 to 58.0 s)"]);
     let opposite = "every direction is the opposite";
     bench.refuses(given(r#""-x", "x", "-y", "y", "-z", "z""#), 2, &[opposite, "gravity in place of"]);
-    // a direction that is off by 20°: with two faces for each axis, either may be the one
+    // a direction that is wrong by 20°: with two faces for each axis, either may be the wrong one
     let tilted = bench.run(given(r#"[0.94, 0.34, 0.0], "-x", "y", "-y", "z", "-z""#));
     tilted.says("least of all fits hold 1 (1.0 to 6.0 s), or hold 2 (19.0 to 24.0 s)");
     // all faces turned together: the sensor sits otherwise in its housing, and the program says so
@@ -346,6 +346,7 @@ fn a_simulation_fits_into_memory() {
 
 #[test]
 fn turns_give_the_gain_of_a_gyroscope_in_counts() {
+    /// Gain of the gyroscope.
     const GAIN: f64 = 940.0;
     let bench = Bench::new();
     let table = include_str!("../../../../examples/06_whole_imu/table.toml");

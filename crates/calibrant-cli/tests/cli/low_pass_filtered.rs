@@ -21,6 +21,7 @@ fn filtered(recording: &str, pole: f64) -> String {
     text
 }
 
+/// The words of the warning about a filter.
 const FILTER: &str =
     "neighbouring samples are strongly correlated, as behind a low-pass filter far below the sample rate";
 /// The remedy.

@@ -241,7 +241,7 @@ fn an_interval_that_is_given_holds_still_or_is_said_to_move() {
     bench.run("noise turned.csv --hold 0 60").done().says("warning: the sensor moves in 1.");
 }
 
-/// The text without the lines that give the key again that `line` gives.
+/// The text without the lines that repeat the key of `line`.
 fn without_key(text: &str, line: &str) -> String {
     let key = line.split(' ').next().expect("a key");
     let kept = text.lines().filter(|other| *other == line || !other.trim_start().starts_with(key));

@@ -5,6 +5,7 @@ use crate::bench::Bench;
 /// A change of a recording: the first line that was changed (from 1), and the new text.
 type Edit = fn(&mut Vec<String>);
 
+/// The faults: a name, the change, and the finding.
 const CASES: &[(&str, Edit, &str)] = &[
     (
         "a sample is NaN",

@@ -288,7 +288,7 @@ fn a_calibration_from_faces_and_turns_is_validated_on_another_session() {
     );
 }
 
-/// Files of an IMU with a gyroscope's noise that is white beside its own: another range.
+/// Files of an IMU whose gyroscope has additional white noise: another range.
 #[test]
 fn another_recordings_noise_is_said_and_its_gyroscope_is_no_copy() {
     let bench = Bench::new();

@@ -93,7 +93,7 @@ impl MotionInformation {
     /// Derivative of `⟨Ω, F⟩` with respect to the accelerations of the motion's nodes, `Ω` symmetric (p × p).
     ///
     /// # Errors
-    /// As [`of`](Self::of).
+    /// As [`information`](Self::information).
     pub fn derivative(
         &self,
         motion: &JerkControlledMotion,

@@ -1,4 +1,5 @@
-//! Where the sensor is: jerk-controlled motion, how far it is trusted, static holds, gravity and the arm's limits.
+//! The motion of the sensor: jerk-controlled motion, how far it is trusted, static holds, gravity, Earth's
+//! rate and the arm's limits.
 
 mod commanded_motion;
 mod earth_rate;

@@ -30,7 +30,7 @@ pub struct NoiseFit {
     pub chi2: f64,
     /// Cluster times less coefficients.
     pub degrees_of_freedom: usize,
-    /// Probability of a χ² at least as high; `None` without degrees of freedom.
+    /// Probability of a χ² at least as large; `None` without degrees of freedom.
     pub p_value: Option<f64>,
     /// Lines in the spectrum that are large enough to report: a vibration, a hum. The coefficients are those
     /// of the noise beside them.

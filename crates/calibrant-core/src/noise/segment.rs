@@ -8,7 +8,7 @@ use std::ops::Range;
 const GAP: f64 = 5.0;
 /// Largest share of missing samples between gaps. Above it, each missing sample is a gap.
 const MISSING: f64 = 0.1;
-/// Number of usual steps from which on a single missing sample is a gap.
+/// A step of this many usual ones is a gap where many samples are missing: one sample is missing there.
 const STEP: f64 = 1.5;
 /// Fewest samples.
 const FEWEST: usize = 96;

@@ -1,4 +1,4 @@
-//! Confidence bounds of a variance, by inverting a test.
+//! Confidence bounds of a variance, from the distribution of its estimate: a test, inverted.
 
 use super::confidence::CONFIDENCE;
 use crate::root::root;

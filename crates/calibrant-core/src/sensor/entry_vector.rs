@@ -90,7 +90,7 @@ pub(super) fn from_parameters(imu: &ImuParameters) -> EntryVector {
     entries
 }
 
-/// An IMU with these entries: the inverse of [`from_parameters`](Self::from_parameters). The reference
+/// An IMU with these entries: the inverse of [`from_parameters`]. The reference
 /// temperature is not among the entries.
 pub(super) fn to_imu(entries: &EntryVector) -> ImuParameters {
     let sensor = |sensor_kind| SensorParameters {

@@ -1,5 +1,4 @@
-//! The correction of an IMU, raw → true, and its uncertainty. This file applies a calibration to readings; it
-//! estimates nothing.
+//! The correction of an IMU, raw → true, and its uncertainty. It applies a calibration and estimates nothing.
 //!
 //! `f = C_a (y_a − b_a)`, `ω = C_g (y_g − b_g − Γ f)` with `C = S⁻¹`. An error of the parameters moves a
 //! corrected reading by `df = −C_a (db_a + dS_a f)` and `dω = −C_g (db_g + dS_g ω + dΓ f + Γ df)`. The
@@ -56,8 +55,7 @@ impl ImuCorrection {
     /// The correction of a calibrated IMU.
     ///
     /// # Errors
-    /// [`Error::Experiment`] where a matrix has no inverse, or there is a g-sensitivity without an
-    /// accelerometer to correct it with.
+    /// [`Error::Experiment`] where a matrix has no inverse, or the g-sensitivity lacks an accelerometer.
     pub fn of(imu: &CalibratedImu) -> Result<Self> {
         let of = |sensor_kind: SensorKind| match imu.unit(sensor_kind) {
             None => Ok(None),
@@ -184,8 +182,7 @@ impl ImuCorrection {
             if self.follows_temperature() {
                 errors * covariance * errors.transpose()
             } else {
-                /// Number of entries without temperature terms.
-                const N: usize = entry_vector::AT_REFERENCE;
+                const N: usize = entry_vector::AT_REFERENCE; // entries without temperature terms
                 let errors = errors.fixed_view::<3, N>(0, 0);
                 errors * covariance.fixed_view::<N, N>(0, 0) * errors.transpose()
             }
@@ -227,15 +224,13 @@ impl ImuCorrection {
 
     /// A corrected recording: every sensor that the calibration and the recording both have.
     ///
-    /// The specific force at a sample of the gyroscope is interpolated where the sensors' times differ. Where
-    /// the accelerometer has no sample within two of its sample intervals, the nearest is taken. Between both
-    /// ends of a gap that is the value on the line. The uncertainty then allows for gravity in any other
-    /// direction.
+    /// Where the sensors' times differ, the specific force at a sample of the gyroscope is interpolated.
+    /// Where the accelerometer has no sample within two of its intervals, the nearest is taken, or the line
+    /// across a gap. The uncertainty then allows for gravity in any other direction.
     ///
     /// # Errors
-    /// [`Error::Recording`] where the readings are in another unit than the calibration's. Also where there
-    /// is a g-sensitivity to correct and the recording has no accelerometer. Also where the calibration
-    /// follows temperature and the recording has none.
+    /// [`Error::Recording`] where the readings are in another unit than the calibration's. Also where the
+    /// recording lacks the accelerometer or the temperature that the correction needs.
     pub fn apply<'a>(
         &self,
         imu: &CalibratedImu,
@@ -244,8 +239,7 @@ impl ImuCorrection {
         self.apply_feeling(imu, recording, recording.accelerometer.as_ref())
     }
 
-    /// The same where the accelerometer has spikes. `felt` are its readings without them
-    /// ([`Recording::without_spikes`]): the force that the gyroscope feels.
+    /// The same with the accelerometer's readings `felt` without spikes ([`Recording::without_spikes`]).
     ///
     /// # Errors
     /// As [`apply`](Self::apply).
@@ -347,8 +341,7 @@ impl ImuCorrection {
         })
     }
 
-    /// The matrix from an error of the specific force to an error of the corrected rate, through the
-    /// g-sensitivity.
+    /// The matrix from an error of the specific force to an error of the corrected rate.
     fn by_unknown_force(&self) -> Matrix3<f64> {
         self.gyroscope.map_or_else(Matrix3::zeros, |correction| correction.matrix * self.g_sensitivity)
     }
@@ -393,8 +386,7 @@ fn own_errors(stimulus: &Vector3<f64>, gain_factor: &Vector3<f64>) -> SMatrix<f6
     errors
 }
 
-/// Square root of a variance that rounding may have made slightly negative. NaN stands for a variance that
-/// overflowed.
+/// Square root of a variance, which rounding may have made negative. NaN where the variance overflowed.
 fn sqrt(variance: f64) -> f64 {
     if variance.is_nan() { f64::INFINITY } else { variance.max(0.0).sqrt() }
 }

@@ -217,7 +217,7 @@ mod tests {
 
     #[test]
     fn samples_that_are_missing_are_counted() {
-        // every step is as likely to be followed by a lost sample as the others
+        // a lost sample is equally likely after every step
         let mut rng = stream(3, Purpose::Sensor, 0);
         for (rate, lost) in [(200.0, 0.03), (200.0, 0.3), (200.0, 0.6), (104.0, 0.1)] {
             let even = (0..20_000).map(|k| k as f64 / rate);
@@ -253,7 +253,7 @@ mod tests {
         assert_eq!((rate_hz(&[]), rate_hz(&[1.0])), (0.0, 0.0));
         // steps of -1, 0, 0.25, 0.5 and 8
         assert_eq!(rate_hz(&[0.0, 0.5, 8.5, 7.5, 7.5, 7.75]), 4.0);
-        // each step its own; all the same; some that stand for all the others badly
+        // every step different; all equal; a few that represent the others badly
         let irregular = |k: usize| 0.01 + 1e-3 * (k as f64).sin();
         let every_64th = |k: usize| if k.is_multiple_of(64) { 0.5 } else { 0.01 + 1e-9 * k as f64 };
         for (count, step) in [

@@ -76,7 +76,7 @@ const BINARY_ORDERS: usize = 10;
 pub struct Spikes {
     /// Which samples were replaced, from 0, in order.
     pub samples: Vec<usize>,
-    /// Which were cut out, in order: invalid readings, more than two in a row.
+    /// Which samples were cut out, in order: invalid readings, more than two in a row.
     pub cut: Vec<usize>,
     /// Axis of the sample that is farthest off.
     pub axis: Axis,
@@ -232,7 +232,7 @@ struct AxisReadings<'a> {
     values: Vec<f64>,
     /// Robust standard deviation of the difference of two successive readings, at least the finest step.
     scale: f64,
-    /// Samples on each side of a spike in which the sensor is still.
+    /// Number of samples on each side of a spike in which the sensor must be stationary.
     still: usize,
     moves: bool,
 }

@@ -1,3 +1,5 @@
+//! Tests of the certificate: its bounds against exact optima, random motions and the reference cases.
+
 use super::motion_variance::{BoundKind, MotionVarianceBound, bound_within, motion_variance_bound};
 use super::*;
 use calibrant_core::motion::{AxisLimits, IntervalSums, Rest};

@@ -15,7 +15,7 @@ use nalgebra::{DMatrix, DVector, Vector3};
 /// `None` where nothing bounds the motion, or the limits leave it no freedom at all.
 ///
 /// # Errors
-/// As [`MotionInformation::of`](calibrant_core::information::MotionInformation::of).
+/// As [`MotionInformation::information`](calibrant_core::information::MotionInformation::information).
 pub(crate) fn certify(problem: &DesignProblem<'_>, value: f64) -> Result<Option<Certificate>> {
     let setting = problem.setting()?;
     let rest =

@@ -56,7 +56,7 @@ impl ImuNoise {
         }
     }
 
-    /// A warning where the one rate of a file is not that of a sensor.
+    /// The warning where the single rate of a file is not that of a sensor.
     pub(super) fn of_rates(&self) -> Option<String> {
         let rate = self.update_rate_hz?;
         let is_other = |measured: &f64| (measured / rate - 1.0).abs() > SAME_RATE;

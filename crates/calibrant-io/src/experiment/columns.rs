@@ -43,6 +43,7 @@ pub(super) fn read(section: &Section<'_>) -> Result<ImuReadOptions> {
 }
 
 fn column(entry: &Entry<'_>) -> Result<String> {
+    /// The remedy for a wrong name of a column.
     const HELP: &str = "the name as it is in the file, in quotes; without a header, its number from \"1\"";
     match entry.text() {
         Some("") => Err(entry.reject("this name is empty", HELP)),
@@ -52,6 +53,7 @@ fn column(entry: &Entry<'_>) -> Result<String> {
 }
 
 fn three(entry: &Entry<'_>) -> Result<[String; 3]> {
+    /// The remedy for a wrong list of columns.
     const HELP: &str = "the columns of x, y and z: [\"acc_x\", \"acc_y\", \"acc_z\"]";
     let names = entry.items(HELP)?.iter().map(column).collect::<Result<Vec<_>>>()?;
     let count = names.len();

@@ -11,6 +11,7 @@ const COMPONENT: Bounds = Bounds::from(-1e3, 1e3, "");
 
 /// A direction: `"x"`, `"-z"`, or three numbers.
 pub(super) fn direction(entry: &Entry<'_>) -> Result<Vector3<f64>> {
+    /// The remedy for a wrong direction.
     const HELP: &str = "\"x\", \"-x\", …, or three numbers: [0.0, 0.6, 0.8]";
     if let Some(text) = entry.text() {
         let (sign, name) = text.strip_prefix('-').map_or((1.0, text), |name| (-1.0, name));

@@ -141,6 +141,7 @@ fn turned_by(entry: &Entry<'_>) -> Result<f64> {
 }
 
 fn turns(entry: &Entry<'_>) -> Result<Vec<Turn>> {
+    /// The remedy for a wrong turn.
     const HELP: &str = "turns = [{ start_s = 10.0, end_s = 14.0, axis = \"x\", angle_deg = 360.0 }]";
     let mut turns: Vec<Turn> = Vec::new();
     for item in &entry.items(HELP)? {
@@ -174,6 +175,7 @@ fn read_known(section: &Section<'_>, thermal: &ThermalModel) -> Result<Vec<Known
     section
         .entries()
         .map(|(name, entry)| {
+            /// The remedy for a wrong known value.
             const HELP: &str = "a number fixes it; { value = 0.0, sd = 0.01 } is a prior";
             let Some(&quantity) = all.iter().find(|quantity| quantity.name() == name) else {
                 let names: Vec<String> = all.iter().map(|quantity| quantity.name()).collect();

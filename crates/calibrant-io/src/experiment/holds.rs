@@ -99,6 +99,7 @@ pub(super) fn read(section: &Section<'_>, is_imu: bool) -> Result<HoldsPlan> {
 }
 
 fn read_gravity(section: &Section<'_>, is_imu: bool) -> Result<(Gravity, String)> {
+    /// The remedy for missing or contradictory gravity.
     const HELP: &str = "give gravity_mps2, or latitude_deg and height_m";
     let sd = section.get("gravity_sd_mps2").map(|entry| entry.number(&GRAVITY_SD)).transpose()?;
     let (given, latitude, height) =
@@ -133,6 +134,7 @@ fn read_gravity(section: &Section<'_>, is_imu: bool) -> Result<(Gravity, String)
 }
 
 fn read_directions(entry: &Entry<'_>, intervals: Option<&[(f64, f64)]>) -> Result<Vec<Vector3<f64>>> {
+    /// The remedy for wrong directions.
     const HELP: &str =
         "one for each of intervals_s, in the same order: [\"x\", \"-x\", \"y\", \"-y\", \"z\", \"-z\"]";
     let directions: Vec<Vector3<f64>> = entry.items(HELP)?.iter().map(direction).collect::<Result<_>>()?;
@@ -144,6 +146,7 @@ fn read_directions(entry: &Entry<'_>, intervals: Option<&[(f64, f64)]>) -> Resul
 }
 
 fn read_intervals(entry: &Entry<'_>) -> Result<Vec<(f64, f64)>> {
+    /// The remedy for wrong intervals.
     const HELP: &str = "start and end of each hold in seconds: [[0.0, 50.0], [52.0, 57.0]]";
     let mut intervals: Vec<(f64, f64)> = Vec::new();
     let items = entry.items(HELP)?;

@@ -182,6 +182,7 @@ pub(super) fn nearest<'w>(unknown: &str, words: impl Iterator<Item = &'w str>) -
 
 /// The beginning of a text that may be very long.
 pub(super) fn shorten(text: &str) -> String {
+    /// Longest shortened text, characters.
     const LONGEST: usize = 60;
     if text.chars().count() <= LONGEST {
         return text.to_owned();

@@ -8,7 +8,8 @@ use calibrant_core::sensor::{Axis, ReadingUnit, Recording};
 const WIDTHS: [u32; 8] = [8, 10, 12, 14, 16, 18, 20, 24];
 /// Readings around zero come within this share of both ends of the range.
 const ENDS: f64 = 1.0 / 64.0;
-/// Fewer than this share of them are in the middle quarter, where 3/4 of the sensor's range would be.
+/// Fewer than this share of them are in the middle quarter, which stands for readings beyond 3/4 of the
+/// sensor's range.
 const IN_THE_MIDDLE: f64 = 1e-3;
 /// At least this share of them is on either side.
 const ON_A_SIDE: f64 = 0.01;

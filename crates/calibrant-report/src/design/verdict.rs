@@ -11,7 +11,7 @@ use calibrant_core::motion::Limits;
 use calibrant_core::sensor::Parameter;
 use calibrant_design::{Certificate, Design, DesignStatus, Evaluation, LimitUse, limit_use};
 
-/// Within this of its lower bound, a standard deviation is as good as optimal.
+/// A standard deviation within this share of its lower bound counts as optimal.
 const PROVED: f64 = 0.01;
 /// An initial motion within this factor of the bound leaves nothing to gain.
 const NOTHING_TO_GAIN: f64 = 1.02;

@@ -7,7 +7,8 @@ use calibrant_core::sensor::{Invariant, SensorKind};
 
 /// Above this share of the prior in its information, a parameter is more prior knowledge than data.
 const MOSTLY_PRIOR: f64 = 0.5;
-/// A calibration that lowers the error of rotations by less than this factor has not explained them.
+/// The calibration must lower the rotation errors to this factor or less; otherwise it has not explained
+/// them.
 const IMPROVED: f64 = 0.8;
 
 /// The verdict and everything that qualifies it, as one prominent box.

@@ -17,7 +17,9 @@ use nalgebra::{DVector, Matrix3, Vector3};
 use rand::RngExt;
 use rayon::prelude::*;
 
+/// Gravity of the simulations, m/s².
 const GRAVITY: f64 = 9.806_65;
+/// Words of the warning about Earth's rate.
 const SAID: &str = "the Earth turns about the vertical";
 
 struct Bench {

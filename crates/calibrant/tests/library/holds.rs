@@ -140,7 +140,8 @@ fn bad_holds_are_found_and_left_out_with_a_word() {
     for (size, bad) in [(0.02, vec![5]), (0.5, vec![5, 11, 17]), (-3.0, vec![0, 23])] {
         let mut recording = clean.clone();
         for &hold in &bad {
-            // bumped against the table, or magnetised, or leaning on a hand: the magnitude is wrong
+            // a sensor that bumped against the table, was magnetised, or leaned on a hand: the magnitude is
+            // wrong
             for reading in &mut recording.readings
                 [spans[hold].0.saturating_sub(30)..(spans[hold].1 + 30).min(clean.len())]
             {
@@ -177,7 +178,7 @@ fn clean_recordings_rarely_lose_a_hold() {
             usize::from(holds(&calibration).holds.iter().any(|hold| !hold.used))
         })
         .sum();
-    // one in a hundred recordings by the test's own level, and a little for the robust start
+    // one in a hundred recordings by the test's own level, and a margin for the robust start
     assert!(lost <= 4, "{lost} of 100 clean recordings lost a hold");
 }
 

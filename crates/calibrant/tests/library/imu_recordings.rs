@@ -87,7 +87,8 @@ fn rotations_in_which_the_gyroscope_saturates_are_left_out() {
     assert!(error < 5e-3, "{error}");
 }
 
-/// The noise of an axis that never turns looks like small rotations, so no combination is exactly free.
+/// The noise of an axis that never turns looks like small rotations. So no combination of parameters is
+/// exactly free.
 #[test]
 fn an_axis_about_which_nothing_turns_is_named() {
     let (rate_hz, steps) = (100.0, 200);

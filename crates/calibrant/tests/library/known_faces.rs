@@ -88,6 +88,7 @@ fn scores(
     KINDS.map(of).to_vec()
 }
 
+/// The kinds of quantities.
 const KINDS: [&str; 7] = ["a.bias", "a.scale", "a.matrix", "g.bias", "g.scale", "g.matrix", "Γ"];
 
 fn kind(quantity: &ImuQuantity) -> &'static str {

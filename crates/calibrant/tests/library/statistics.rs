@@ -21,6 +21,7 @@ use calibrant::study::{Study, StudyProblem, StudySettings, run_study};
 use nalgebra::{DMatrix, DVector, Vector3};
 use rayon::prelude::*;
 
+/// Number of simulated sensors.
 const SENSORS: usize = 10_000;
 
 /// √n times the largest distance between the empirical distribution and the uniform one.

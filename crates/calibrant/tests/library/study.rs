@@ -10,6 +10,7 @@ use calibrant::study::{
 };
 use nalgebra::{DVector, Vector3};
 
+/// The process noise of the report.
 const NOISE: Trust = Trust::Noisy(InputNoise { floor_mps3: 0.01, ratio: 0.01 });
 
 fn surface(start_mps2: f64) -> TraceSurface {

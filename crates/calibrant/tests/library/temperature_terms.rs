@@ -21,6 +21,7 @@ fn normal(rng: &mut Rng) -> f64 {
     StandardNormal.sample(rng)
 }
 
+/// A model in which everything follows temperature to second order.
 const ALL_TO_2: ThermalModel = ThermalModel {
     reference_c: None,
     accelerometer_bias: 2,
@@ -193,6 +194,7 @@ fn place(calibration: &ImuCalibration, name: &str) -> usize {
     calibration.quantities.iter().position(|quantity| quantity.name() == name).expect(name)
 }
 
+/// A model in which only the gyroscope's bias follows temperature, to first order.
 const GYROSCOPE_BIAS: ThermalModel = ThermalModel {
     reference_c: None,
     accelerometer_bias: 0,

@@ -5,6 +5,7 @@ use super::bench;
 /// Text of the preset, its replacement, text of the line at fault, and the message.
 type Case = (&'static str, &'static str, &'static str, &'static [&'static str]);
 
+/// The broken experiment files.
 const CASES: &[Case] = &[
     ("interval_s = 1.0", "intervall_s = 1.0", "intervall_s", &["unknown key", "did you mean `interval_s`?"]),
     ("[limits]", "[limit]", "[limit]", &["unknown key", "did you mean `limits`?"]),

@@ -160,4 +160,5 @@ fn sensors_of_different_rates_are_told_apart() {
     assert!(bench.read("same.yaml").contains("update_rate: 50.0\n"));
 }
 
+/// A calibration of Kalibr.
 const YAML: &str = "imu0:\n  accelerometers:\n    M:\n    - [1.0, 0.0, 0.0]\n    - [0.0, 1.0, 0.0]\n    - [0.0, 0.0, 1.0]\n  gyroscopes:\n    M:\n    - [1.0, 0.0, 0.0]\n    - [0.0, 1.0, 0.0]\n    - [0.0, 0.0, 1.0]\n  model: scale-misalignment\n";

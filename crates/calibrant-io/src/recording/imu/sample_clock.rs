@@ -18,7 +18,7 @@ pub(super) const COUNTED: &str = "times count from the first";
 /// A stated rate and a given one may differ by this share.
 const SAME_RATE: f64 = 1e-3;
 
-/// Are there sample times? A clock that most rows lack is none, where there is a counter.
+/// Are there sample times? A clock that most rows lack does not count, where there is a counter.
 pub(super) fn are_recorded(samples: &Samples) -> bool {
     let present = samples.times.iter().filter(|t| t.is_finite()).count();
     present > 0 && (2 * present > samples.rows || samples.counts.is_empty())

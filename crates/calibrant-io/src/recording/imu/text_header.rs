@@ -67,7 +67,7 @@ impl<'t> Head<'t> {
         if !names.iter().any(is_number) && names.iter().any(|name| !name.is_empty()) {
             return Self { preamble, header: Some(line), first_row: None, delimiter, names, rest };
         }
-        // a comment above the first row that has a name for each of its columns
+        // the comment above the first row, if it has a name for each column
         let commented = preamble.last().copied().filter(|comment| comment.is_void()).and_then(|comment| {
             let plain = comment.text.trim_ascii().trim_start_matches(['#', '%', '/']).trim_ascii();
             let found = fields(Line { text: plain, ..comment }, delimiter);

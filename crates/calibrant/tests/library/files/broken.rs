@@ -6,6 +6,7 @@ use calibrant::sensor::ReadingUnit;
 /// The bytes of a file and the message about it.
 type Case = (&'static [u8], &'static str);
 
+/// The options of all these readings.
 const OPTIONS: ReadOptions =
     ReadOptions { unit: None, expected_unit: ReadingUnit::MetrePerSecondSquared, axes: 3 };
 
@@ -62,6 +63,7 @@ fn an_endless_device_is_refused_at_once() {
     assert!(error.to_string().contains("binary data, not text: NUL byte at offset 0"), "{error}");
 }
 
+/// The broken recordings.
 const RECORDINGS: &[Case] = &[
     (b"", "the file is empty (a recording has a header t_s,ax,ay,az and a row for each sample)"),
     (b"\n \n\n", "the file is empty (a recording has a header t_s,ax,ay,az and a row for each sample)"),
@@ -164,6 +166,7 @@ const RECORDINGS: &[Case] = &[
     ),
 ];
 
+/// The broken motions.
 const MOTIONS: &[Case] = &[
     (b"", "the file is empty (a motion has the header t_s,ax_mps2,ay_mps2,az_mps2 and a row for each node)"),
     (

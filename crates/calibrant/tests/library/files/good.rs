@@ -109,6 +109,7 @@ fn static_presets_are_for_si_and_for_counts() {
     assert_eq!((holds(&counts).gauge, holds(&counts).gravity_source.as_str()), (Gauge::Upper, "given"));
 }
 
+/// A short experiment file with holds.
 const HOLDS: &str =
     "schema = 1\n[sensor]\nkind = 'accelerometer'\naxes = 3\nmodel = 'full'\n[holds]\ngauge = 'lower'\n";
 
@@ -147,6 +148,7 @@ fn what_holds_leaves_out_has_its_default() {
     assert_eq!(holds(&experiment).intervals_s, Some(vec![(-1.0, 2.5), (2.5, 7.0)]));
 }
 
+/// A short experiment file with a motion.
 const MOTION: &str = "schema = 1\nsensor = { kind = 'accelerometer', axes = 3, model = 'full', noise_mps2 = [1e-4, 2, 3], \
                       bias_sd_mps2 = 0.1, scale_sd = [0.1, 0.2, 0.3], cross_axis_sd = 0.01 }\n\
                       [motion]\nintervals = 0x0A\ninterval_s = 5\nrate_hz = 2\n";

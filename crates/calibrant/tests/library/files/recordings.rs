@@ -3,6 +3,7 @@
 use calibrant::io::{FindingKind, ReadOptions, RecordingFile, parse_recording};
 use calibrant::sensor::ReadingUnit;
 
+/// The options of all these readings.
 const OPTIONS: ReadOptions =
     ReadOptions { unit: None, expected_unit: ReadingUnit::MetrePerSecondSquared, axes: 3 };
 

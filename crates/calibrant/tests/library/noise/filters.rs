@@ -35,6 +35,7 @@ fn mean_of(values: &[f64], count: usize) -> Vec<f64> {
     values.windows(count).map(|window| window.iter().sum::<f64>() / count as f64).collect()
 }
 
+/// The filters of these tests.
 const FILTERS: [Filter; 8] = [
     Filter { what: "the mean of two samples", settled: 1, run: |x| mean_of(x, 2) },
     Filter { what: "the mean of four samples", settled: 3, run: |x| mean_of(x, 4) },

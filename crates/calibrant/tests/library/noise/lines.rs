@@ -5,6 +5,7 @@ use calibrant::noise::{Moments, PowerLaw, SensorNoise};
 use rayon::prelude::*;
 use std::f64::consts::TAU;
 
+/// Density N of the white noise, per √Hz.
 const DENSITY: f64 = 0.02;
 /// Standard deviation of a sample.
 const SIGMA: f64 = 0.2;

@@ -14,6 +14,7 @@ use nalgebra::Vector3;
 use rand::RngExt;
 use rayon::prelude::*;
 
+/// Time between samples, s.
 const INTERVAL_S: f64 = 0.01;
 
 /// A sum of processes with these coefficients.

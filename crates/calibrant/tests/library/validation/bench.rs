@@ -104,6 +104,7 @@ pub(crate) fn bench(simulation: &ImuSimulation) -> Bench {
     bench
 }
 
+/// The kinds of errors.
 pub(crate) const KINDS: [ErrorKind; 3] = [ErrorKind::Magnitude, ErrorKind::Rate, ErrorKind::Rotation];
 
 pub(crate) fn mean(values: impl Iterator<Item = f64>) -> f64 {

@@ -9,6 +9,7 @@ use calibrant::simulate::{HoldsSimulation, ImuSimulation, Purpose, Rng, simulate
 use nalgebra::Vector3;
 use rayon::prelude::*;
 
+/// Standard deviation of the noise of a sample, m/s².
 const SD: f64 = 0.01;
 
 /// A recording without noise: 20 poses of 2 s at 100 Hz, of a machine that repeats itself.

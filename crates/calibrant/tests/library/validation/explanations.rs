@@ -11,6 +11,7 @@ use calibrant::sensor::{ImuParameters, ImuRecording};
 use calibrant::simulate::{ImuSimulation, Purpose, stream};
 use rayon::prelude::*;
 
+/// Number of simulated calibrations.
 const COUNT: u64 = 60;
 
 /// Calibrations validated on another recording, whose truth and readings `tamper` changes.

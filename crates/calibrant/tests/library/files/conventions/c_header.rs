@@ -7,6 +7,7 @@ use nalgebra::Vector3;
 use std::io::Write;
 use std::process::{Command, Stdio};
 
+/// The C program that corrects readings with the header.
 const PROGRAM: &str = r#"
 #include <stdio.h>
 #include "imu.h"

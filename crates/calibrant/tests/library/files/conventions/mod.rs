@@ -57,7 +57,9 @@ pub(crate) fn imu(unit: [ReadingUnit; 2], g_sensitivity: bool) -> CalibratedImu 
     }
 }
 
+/// Readings in SI units.
 pub(crate) const SI: [ReadingUnit; 2] = [ReadingUnit::MetrePerSecondSquared, ReadingUnit::RadianPerSecond];
+/// Readings in counts.
 pub(crate) const COUNTS: [ReadingUnit; 2] = [ReadingUnit::Counts, ReadingUnit::Counts];
 
 pub(crate) fn file(imu: CalibratedImu) -> CalibratedImuFile {

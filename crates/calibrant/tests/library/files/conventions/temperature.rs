@@ -52,6 +52,7 @@ fn the_c_header_corrects_as_we_do_at_every_temperature() {
     }
 }
 
+/// The C program that corrects a reading at a temperature.
 const PROGRAM: &str = r#"
 #include <stdio.h>
 #include "imu.h"

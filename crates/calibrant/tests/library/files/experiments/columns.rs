@@ -3,6 +3,7 @@
 use super::{Case, HOLDS, MOTION};
 use calibrant::io::{ColumnMapping, Experiment, FileFormat, ImuReadOptions, ImuUnit, TimeUnit};
 
+/// The broken `[columns]`.
 pub(super) const CASES: &[Case] = &[
     (
         "gauge = \"upper\"",

@@ -2,6 +2,7 @@
 
 use super::Case;
 
+/// The broken datasheets.
 pub(super) const CASES: &[Case] = &[
     (
         "schema = 1",

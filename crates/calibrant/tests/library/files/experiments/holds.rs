@@ -2,6 +2,7 @@
 
 use super::Case;
 
+/// The broken `[holds]`.
 pub(super) const CASES: &[Case] = &[
     (
         r#"unit = "counts""#,

@@ -9,6 +9,7 @@ mod temperature;
 
 use calibrant::io::Experiment;
 
+/// A good experiment file with a motion.
 const MOTION: &str = r#"schema = 1
 
 [sensor]
@@ -26,6 +27,7 @@ rate_hz = 10.0
 trust = "known"
 "#;
 
+/// A good experiment file with holds.
 const HOLDS: &str = r#"schema = 1
 
 [sensor]

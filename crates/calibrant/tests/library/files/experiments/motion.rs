@@ -2,6 +2,7 @@
 
 use super::Case;
 
+/// The broken motions, limits, designs and studies.
 pub(super) const CASES: &[Case] = &[
     (
         "interval_s = 1.0⏎",

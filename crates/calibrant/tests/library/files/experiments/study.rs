@@ -2,6 +2,7 @@
 
 use super::Case;
 
+/// The broken studies of an experiment with a motion.
 pub(super) const CASES: &[Case] = &[
     (
         r#"trust = "known""#,
@@ -80,6 +81,7 @@ pub(super) const CASES: &[Case] = &[
     ),
 ];
 
+/// The broken studies of an experiment with holds.
 pub(super) const HOLDS_CASES: &[Case] = &[(
     r#"gauge = "upper""#,
     r#"gauge = "upper"⏎[study.surface]"#,

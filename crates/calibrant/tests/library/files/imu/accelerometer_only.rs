@@ -4,6 +4,7 @@ use calibrant::Error;
 use calibrant::io::{ImuReadOptions, ImuUnit, ReadOptions, RecordingFile, read_accelerometer};
 use calibrant::sensor::ReadingUnit;
 
+/// The options of the plain reader.
 const PLAIN: ReadOptions =
     ReadOptions { unit: None, expected_unit: ReadingUnit::MetrePerSecondSquared, axes: 3 };
 

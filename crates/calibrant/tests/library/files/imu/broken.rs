@@ -71,6 +71,7 @@ fn a_pair_says_which_of_its_files_is_at_fault() {
 /// Two files, the options of their reading, and the message about them.
 type Pair = (&'static str, &'static str, fn() -> ImuReadOptions, &'static str);
 
+/// The broken pairs of files.
 const PAIRS: &[Pair] = &[
     (
         "0 1 2 3\n1 2 3 4\n",
@@ -99,6 +100,7 @@ const PAIRS: &[Pair] = &[
     ),
 ];
 
+/// The broken files.
 const CASES: &[Case] = &[
     (
         "",

@@ -7,6 +7,7 @@ use calibrant::io::{
 use calibrant::sensor::{ReadingUnit, Recording};
 use nalgebra::Vector3;
 
+/// Options with nothing given.
 const PLAIN: ImuReadOptions = ImuReadOptions {
     format: None,
     columns: ColumnMapping { time: None, accelerometer: None, gyroscope: None, temperature: None },
@@ -33,6 +34,7 @@ const MT: [[&str; 8]; 4] = [
     ["00000", "", "9.8", "0.3", "0.2", "0.3", "0.3", "0.5"],
     ["00003", "", "0.3", "0.4", "9.8", "0.4", "0.4", "0.6"],
 ];
+/// The names of the columns of an MT Manager's export.
 const MT_HEADER: [&str; 8] =
     ["PacketCounter", "SampleTimeFine", "Acc_X", "Acc_Y", "Acc_Z", "Gyr_X", "Gyr_Y", "Gyr_Z"];
 
@@ -97,6 +99,7 @@ fn sample_time_fine_is_in_tenths_of_a_millisecond_and_begins_anew() {
     );
 }
 
+/// A Movella DOT export.
 const DOT: &str = "sep=,\nDeviceTag:,Xsens DOT 1\nFirmwareVersion:,2.0.0\nAppVersion:,2021.0\nSyncStatus:,Synced\nOutputRate:,60Hz\n\
     FilterProfile:,General\nMeasurement Mode:,Rate quantities (with mag)\nStartTime:,2021-01-01_00:00:00_000\n© Movella. All rights reserved.\n\n";
 
@@ -120,7 +123,9 @@ fn movella_dot_is_in_degrees_and_microseconds() {
     assert_eq!(times, [0.0, 1.0 / 60.0, 2.0 / 60.0]);
 }
 
+/// The header of a EuRoC file.
 const EUROC: &str = "#timestamp [ns],w_RS_S_x [rad s^-1],w_RS_S_y [rad s^-1],w_RS_S_z [rad s^-1],a_RS_S_x [m s^-2],a_RS_S_y [m s^-2],a_RS_S_z [m s^-2]\n";
+/// Rows of a EuRoC file.
 const EUROC_ROWS: &str = "1403636579758555392,-0.099134701513277898,0.14730578886832138,0.02722713633111154,8.1476917083333333,-0.37592158333333331,-2.4026292499999999\n\
     1403636579763555584,-0.099134701513277898,0.14032447186034408,0.029321531433504733,8.033280791666666,-0.40861041666666664,-2.4026292499999999\n\
     1403636579768555520,-0.098436569812480182,0.12775810124598494,0.037699111843077518,7.8861810416666662,-0.42495483333333334,-2.4353180833333332\n";

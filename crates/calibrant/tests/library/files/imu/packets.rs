@@ -3,7 +3,9 @@
 use super::{findings, read, refused};
 use calibrant::io::ImuReadOptions;
 
+/// Sample rate, Hz.
 const RATE_HZ: f64 = 100.0;
+/// Number of rows.
 const ROWS: usize = 2000;
 
 /// A recording of both sensors whose row k has this time, s.

@@ -55,8 +55,10 @@ fn write(schema: &str, groups: &[Vec<Values>], compression: Compression) -> Vec<
     writer.into_inner().expect("finished")
 }
 
+/// The schema of the test files.
 const SCHEMA: &str = "required int64 stamp (TIMESTAMP(NANOS,true)); optional double ax_mps2; optional double ay_mps2; optional double az_mps2; \
     required float gx_degps; required float gy_degps; required float gz_degps; required int32 temp_c; required binary label (UTF8);";
+/// The first time stamp, ns.
 const STAMP: i64 = 1_700_000_000_123_456_789;
 
 fn group(from: i64) -> Vec<Values> {

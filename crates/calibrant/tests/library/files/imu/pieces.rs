@@ -6,6 +6,7 @@ use calibrant::io::{
 use std::fmt::Write;
 use std::path::PathBuf;
 
+/// The names of the columns.
 const HEADER: &str = "t_s,ax_mps2,ay_mps2,az_mps2,gx_radps,gy_radps,gz_radps";
 /// Enough for several pieces.
 const ROWS: usize = 12_000;

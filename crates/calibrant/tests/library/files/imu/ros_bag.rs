@@ -25,6 +25,7 @@ fn cdr(stamp_ns: u64, frame: &str, rate: [f64; 3], force: [f64; 3], absent: [boo
     [vec![0, 1, 0, 0], bytes].concat()
 }
 
+/// The first time stamp, ns.
 const STAMP: u64 = 1_700_000_000_123_456_789;
 
 fn message(k: u64) -> Vec<u8> {
@@ -53,6 +54,7 @@ fn bag_with(options: mcap::WriteOptions, topics: &[(&str, &str, &str, Vec<Vec<u8
     writer.into_inner().into_inner()
 }
 
+/// The name of the message's type.
 const IMU: &str = "sensor_msgs/msg/Imu";
 
 fn one() -> Vec<u8> {

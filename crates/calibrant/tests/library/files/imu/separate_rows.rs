@@ -4,6 +4,7 @@ use super::findings;
 use calibrant::io::{FindingKind, ImuFile, ImuReadOptions, parse_imu_recording};
 use calibrant::sensor::{Recording, SensorKind};
 
+/// The names of the columns.
 const HEADER: &str = "t_s,ax_mps2,ay_mps2,az_mps2,gx_radps,gy_radps,gz_radps,temp_c\n";
 
 fn read(rows: &[String]) -> ImuFile {
