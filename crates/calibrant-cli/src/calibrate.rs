@@ -37,8 +37,8 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     });
     match outcome {
         Ok(done) => {
-            show(&done, arguments);
-            Ok(Exit::of_status(done.calibration.status))
+            let exit = show(&done, arguments);
+            Ok(exit.max(Exit::of_status(done.calibration.status)))
         }
         Err(error) => {
             warn_of_earlier_result(&arguments.output);

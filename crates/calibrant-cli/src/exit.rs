@@ -9,6 +9,8 @@ pub(crate) struct Exit(pub(crate) u8);
 
 impl Exit {
     pub(crate) const DONE: Exit = Exit(0);
+    /// Done, but a diagnostic that is denied occurred.
+    pub(crate) const DENIED: Exit = Exit(1);
     pub(crate) const USAGE: Exit = Exit(2);
     pub(crate) const RECORDING: Exit = Exit(3);
     pub(crate) const NOT_IDENTIFIABLE: Exit = Exit(4);

@@ -1,8 +1,9 @@
 //! What every command that reads a recording needs: the options that say what its file does not say itself, and its name in errors.
 
 use calibrant::Error;
+use calibrant::diagnostic::Diagnostic;
 use calibrant::io::{FileFormat, ImuReadOptions, ImuUnit, TimeUnit, read_columns};
-use calibrant::sensor::{ImuRecording, Recording, SensorKind, WORKING_C};
+use calibrant::sensor::{ImuRecording, Recording, SensorKind, Spikes, WORKING_C};
 use std::borrow::Cow;
 use std::path::Path;
 
@@ -88,11 +89,13 @@ pub(crate) fn celsius(text: &str) -> Result<f64, String> {
 }
 
 /// Takes spikes and invalid readings out of a recording; a warning for each sensor that has some.
-pub(crate) fn take_out_spikes(recording: &mut ImuRecording) -> Vec<String> {
+pub(crate) fn take_out_spikes(recording: &mut ImuRecording) -> Vec<Diagnostic> {
     let (clean, spikes) = recording.without_spikes();
-    let unit = |sensor_kind: SensorKind| recording.sensor(sensor_kind).map_or("", |of| of.unit.symbol());
-    let stated =
-        spikes.iter().map(|(sensor_kind, spikes)| spikes.words(*sensor_kind, unit(*sensor_kind))).collect();
+    let of_sensor = |(sensor_kind, spikes): &(SensorKind, Spikes)| {
+        let unit = recording.sensor(*sensor_kind)?.unit;
+        Some(Diagnostic::spikes(spikes, *sensor_kind, unit))
+    };
+    let stated = spikes.iter().filter_map(of_sensor).collect();
     if let Cow::Owned(clean) = clean {
         *recording = clean;
     }
@@ -100,13 +103,13 @@ pub(crate) fn take_out_spikes(recording: &mut ImuRecording) -> Vec<String> {
 }
 
 /// The same of an accelerometer alone.
-pub(crate) fn spikes_taken_out(recording: &mut Recording) -> Option<String> {
+pub(crate) fn spikes_taken_out(recording: &mut Recording) -> Option<Diagnostic> {
     let (clean, spikes) = recording.without_spikes(SensorKind::Accelerometer);
-    let words = spikes.map(|spikes| spikes.words(SensorKind::Accelerometer, recording.unit.symbol()));
+    let stated = spikes.map(|spikes| Diagnostic::spikes(&spikes, SensorKind::Accelerometer, recording.unit));
     if let Cow::Owned(clean) = clean {
         *recording = clean;
     }
-    words
+    stated
 }
 
 /// Names the recording in an error that does not.

@@ -21,6 +21,7 @@ mod sweep;
 mod table;
 mod validation;
 mod verdict;
+mod words;
 
 #[cfg(test)]
 mod tests;
@@ -34,3 +35,4 @@ pub use report_context::About;
 pub use study::study_report;
 pub use sweep::sweep_report;
 pub use validation::{validation_heading, validation_rows, validation_sentences};
+pub use words::{coarse_axis, message, spikes_taken_out};

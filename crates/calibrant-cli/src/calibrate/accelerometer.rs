@@ -3,9 +3,10 @@
 use super::arguments::{Arguments, Unit};
 use super::batch;
 use super::earlier::warn_of_earlier_report;
-use crate::console;
+use crate::diagnostics::Rules;
 use crate::output_places::same_file;
 use crate::recording_options::{in_file, name, spikes_taken_out};
+use crate::{Exit, console};
 use calibrant::Error;
 use calibrant::error::InputError;
 use calibrant::estimate::{
@@ -30,6 +31,7 @@ pub(super) struct Job {
     pub(super) settings: CalibrationSettings,
     pub(super) read: ReadOptions,
     pub(super) device: ImuReadOptions,
+    pub(super) rules: Rules,
     /// Is a report to be written?
     pub(super) report: bool,
 }
@@ -101,7 +103,8 @@ impl Job {
         let device = arguments.reading.options().or(experiment.columns.clone());
         let experiment_file = arguments.experiment.clone();
         let report = !arguments.no_report;
-        Ok(Self { experiment, experiment_file, command, holds, settings, read, device, report })
+        let rules = arguments.rules.clone();
+        Ok(Self { experiment, experiment_file, command, holds, settings, read, device, rules, report })
     }
 
     pub(super) fn run(&self, path: &Path) -> calibrant::Result<Done> {
@@ -142,7 +145,9 @@ impl Job {
                         calibration.fit.p_value.map_or_else(|| "–".into(), number_format::probability),
                     ],
                     summary: Summary::of(&calibration),
-                    json: arguments.json.then(|| calibration_json(&calibration, &validations, &input)),
+                    json: arguments
+                        .json
+                        .then(|| calibration_json(&calibration, &validations, &input, &self.rules.words())),
                     warnings: calibration.warnings,
                 }),
             },
@@ -156,6 +161,7 @@ impl Job {
             &done.calibration,
             &done.validations,
             &done.input,
+            &self.rules.words(),
         )?;
         if !self.report {
             warn_of_earlier_report(directory);
@@ -193,15 +199,16 @@ impl Job {
     }
 }
 
-pub(super) fn show(done: &Done, arguments: &Arguments) {
+/// Prints what came of it; the exit status is that of the diagnostics that are denied.
+pub(super) fn show(done: &Done, arguments: &Arguments) -> Exit {
     for finding in &done.file.findings {
         console::finding(&done.input.file, finding);
     }
-    for warning in &done.calibration.warnings {
-        console::warn(warning);
-    }
+    let exit = arguments.rules.show(&done.calibration.warnings, "");
     if arguments.json {
-        return console::print(&calibration_json(&done.calibration, &done.validations, &done.input));
+        let words = arguments.rules.words();
+        console::print(&calibration_json(&done.calibration, &done.validations, &done.input, &words));
+        return exit;
     }
     if let Recovered::Holds(holds) = &done.calibration.recovered {
         console::print(&(console::holds(holds) + "\n"));
@@ -210,4 +217,5 @@ pub(super) fn show(done: &Done, arguments: &Arguments) {
     console::print(&console::fit(&done.calibration));
     console::print(&console::validations(&done.validations));
     console::print(&format!("\n{}\n", arguments.main_result().display()));
+    exit
 }

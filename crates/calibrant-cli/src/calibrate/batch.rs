@@ -2,6 +2,7 @@
 
 use super::Arguments;
 use crate::{Exit, console};
+use calibrant::diagnostic::Diagnostic;
 use calibrant::estimate::CalibrationStatus;
 use calibrant::io::{Finding, Summary, SummaryRow, calibrations_json, write_summary};
 use std::collections::HashSet;
@@ -18,7 +19,7 @@ pub(super) struct Outcome {
 /// What is told of a calibration.
 pub(super) struct Calibrated {
     pub(super) status: CalibrationStatus,
-    pub(super) warnings: Vec<String>,
+    pub(super) warnings: Vec<Diagnostic>,
     /// Cells of the table between the status and the number of warnings.
     pub(super) cells: Vec<String>,
     pub(super) summary: Summary,
@@ -54,8 +55,8 @@ pub(super) fn run(
         let mut row = vec![folder.clone()];
         let outcome = match outcome.calibrated {
             Ok(calibrated) => {
-                calibrated.warnings.iter().for_each(|warning| console::warn(&format!("{folder}: {warning}")));
-                exit = exit.max(Exit::of_status(calibrated.status));
+                let denied = arguments.rules.show(&calibrated.warnings, &format!("{folder}: "));
+                exit = exit.max(denied).max(Exit::of_status(calibrated.status));
                 row.push(calibrated.status.name().into());
                 row.extend(calibrated.cells);
                 row.push(calibrated.warnings.len().to_string());

@@ -54,11 +54,9 @@ pub(super) fn run(arguments: &Arguments, experiment: &Experiment, plan: &ImuPlan
             job.calibrate(*files, file, &arguments.output)
         });
         let done = done.inspect_err(|_| super::earlier::warn_of_earlier_result(&arguments.output))?;
-        for warning in &done.calibration.warnings {
-            console::warn(warning);
-        }
+        let exit = arguments.rules.show(&done.calibration.warnings, "");
         super::imu_output::show(arguments, &done);
-        return Ok(Exit::of_status(done.calibration.status));
+        return Ok(exit.max(Exit::of_status(done.calibration.status)));
     }
     super::validation::only_one(arguments)?;
     if arguments.sections.is_some() {
@@ -154,7 +152,9 @@ impl Job<'_> {
     }
 
     fn reported(&self, Done { calibration, validations, inputs, .. }: Done) -> Calibrated {
-        let json = self.arguments.json.then(|| imu_calibration_json(&calibration, &validations, &inputs));
+        let words = self.arguments.rules.words();
+        let json =
+            self.arguments.json.then(|| imu_calibration_json(&calibration, &validations, &inputs, &words));
         let magnitude = calibration.holds.magnitude_residual_rms_mps2;
         let cells = vec![
             share(calibration.holds.holds.iter().map(|hold| hold.used)),

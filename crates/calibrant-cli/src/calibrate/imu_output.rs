@@ -26,7 +26,7 @@ pub(super) fn write(
     noise: Vec<SensorNoise>,
 ) -> calibrant::Result<()> {
     let json = directory.join("calibration.json");
-    let json = || write_imu_calibration(&json, calibration, validations, inputs);
+    let json = || write_imu_calibration(&json, calibration, validations, inputs, &arguments.rules.words());
     if arguments.no_report {
         super::earlier::warn_of_earlier_report(directory);
         return json();
@@ -67,7 +67,12 @@ pub(super) fn write(
 /// Prints the tables, or calibration.json.
 pub(super) fn show(arguments: &Arguments, Done { calibration, validations, inputs, .. }: &Done) {
     if arguments.json {
-        return console::print(&imu_calibration_json(calibration, validations, inputs));
+        return console::print(&imu_calibration_json(
+            calibration,
+            validations,
+            inputs,
+            &arguments.rules.words(),
+        ));
     }
     console::print(&console::imu_calibration(calibration, validations));
     console::print(&format!("\n{}\n", arguments.main_result().display()));

@@ -13,6 +13,7 @@ use calibrant::estimate::{
 };
 use calibrant::io::{ImuFile, ImuReadOptions, read_accelerometer, read_imu_pair, read_imu_recording};
 use calibrant::motion::Hold;
+use calibrant::report::message;
 use calibrant::sensor::{Recording, SensorKind, Temperatures};
 use std::path::Path;
 
@@ -71,7 +72,7 @@ pub(super) fn of_imu(
         let second = arguments.validate_gyroscope.as_deref().map(name);
         console::findings(&other.findings, &name(path), second.as_deref());
         let spikes = take_out_spikes(&mut other.recording);
-        spikes.iter().for_each(|words| console::warn(&format!("{}: {words}", name(path))));
+        spikes.iter().for_each(|found| console::warn(&format!("{}: {}", name(path), message(found))));
         let gyroscope_path = arguments.validate_gyroscope.as_deref().unwrap_or(path);
         for (sensor_kind, path) in
             [(SensorKind::Accelerometer, path.as_path()), (SensorKind::Gyroscope, gyroscope_path)]
@@ -112,7 +113,7 @@ pub(super) fn of_accelerometer(
         let mut other = read_accelerometer(path, &job.read, &job.device)?;
         other.findings.iter().for_each(|finding| console::finding(&name(path), finding));
         let spikes = job.holds.as_ref().and_then(|_| spikes_taken_out(&mut other.recording));
-        spikes.iter().for_each(|words| console::warn(&format!("{}: {words}", name(path))));
+        spikes.iter().for_each(|found| console::warn(&format!("{}: {}", name(path), message(found))));
         if let Recovered::Holds(holds) = &done.calibration.recovered {
             refuse_the_same(
                 SensorKind::Accelerometer,

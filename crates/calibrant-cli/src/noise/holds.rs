@@ -1,6 +1,7 @@
 //! Where the sensor is at rest: the longest hold, and whether it moves in an interval that was given.
 
 use calibrant::Error;
+use calibrant::diagnostic::Diagnostic;
 use calibrant::error::InputError;
 use calibrant::estimate::{find_holds, find_imu_holds};
 use calibrant::motion::Hold;
@@ -53,8 +54,8 @@ pub(super) fn examined(holds: &[Hold], segment: &Segment, recording: &Recording)
     })
 }
 
-/// A warning where the sensor moves in an interval that was given as at rest: where that holds more than one hold, or more than a hold.
-pub(super) fn moves(holds: &[Hold], given: &Segment) -> Option<String> {
+/// Does the sensor move in an interval that was given as at rest? It does where that holds more than one hold, or more than a hold.
+pub(super) fn moves(holds: &[Hold], given: &Segment) -> Option<Diagnostic> {
     if holds.is_empty() {
         return None;
     }
@@ -69,10 +70,6 @@ pub(super) fn moves(holds: &[Hold], given: &Segment) -> Option<String> {
     (moving_s > 0.0).then(|| moving(moving_s, given))
 }
 
-fn moving(moving_s: f64, given: &Segment) -> String {
-    format!(
-        "the sensor moves in {moving_s:.1} of the {:.1} s given with --hold, or is shaken: what follows is no noise of a sensor at rest (`calibrant inspect` shows how many \
-         holds there are; without --hold the longest is taken)",
-        given.duration_s()
-    )
+fn moving(moving_s: f64, given: &Segment) -> Diagnostic {
+    Diagnostic::NoiseHoldMoves { moving_s, given_s: given.duration_s() }
 }

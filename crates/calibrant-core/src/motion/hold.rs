@@ -42,11 +42,6 @@ impl Hold {
         (squares / degrees.max(1.0)).map(f64::sqrt)
     }
 
-    /// What it is called in a sentence, by its number from 0 and its times: `hold 3 (12.0 to 15.5 s)`.
-    pub(crate) fn named(&self, number: usize) -> String {
-        format!("hold {} ({:.1} to {:.1} s)", number + 1, self.start_s, self.end_s)
-    }
-
     /// Number (from 0) of the hold that lasts longest; `None` where there is none.
     ///
     /// # Examples
