@@ -17,3 +17,14 @@ pub(crate) fn direction_in_words(direction: &Vector3<f64>) -> String {
     }
     format!("({:+.1}, {:+.1}, {:+.1})", direction.x, direction.y, direction.z)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_direction_reads_as_its_axis_or_its_components() {
+        assert_eq!(direction_in_words(&Vector3::new(0.05, -0.99, 0.1).normalize()), "-y");
+        assert_eq!(direction_in_words(&Vector3::new(0.6, 0.0, 0.8)), "(+0.6, +0.0, +0.8)");
+    }
+}

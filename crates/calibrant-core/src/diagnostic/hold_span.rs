@@ -95,3 +95,16 @@ impl Part for HoldLeftOut {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::Vector3;
+
+    #[test]
+    fn a_hold_is_named_by_number_and_times() {
+        let (mean, sd) = (Vector3::z(), Vector3::zeros());
+        let hold = Hold { first: 0, end: 9, start_s: 12.04, end_s: 15.46, mean, sd };
+        assert_eq!(HoldSpan::of(2, &hold).to_string(), "hold 3 (12.0 to 15.5 s)");
+    }
+}

@@ -166,10 +166,4 @@ mod tests {
         assert_eq!(wrong(["x", "-x", "z", "-z", "y", "-y"], &none).0, [2, 3, 4, 5]);
         assert_eq!(wrong(["-x", "x", "-y", "y", "-z", "z"], &none).0.len(), 6);
     }
-
-    #[test]
-    fn a_direction_reads_as_its_axis_or_its_components() {
-        assert_eq!(direction_in_words(&Vector3::new(0.05, -0.99, 0.1).normalize()), "-y");
-        assert_eq!(direction_in_words(&Vector3::new(0.6, 0.0, 0.8)), "(+0.6, +0.0, +0.8)");
-    }
 }
