@@ -40,6 +40,11 @@ pub(crate) fn warn(text: &str) {
     let _ = writeln!(std::io::stderr(), "warning: {text}");
 }
 
+/// Prints to stderr that a diagnostic of this code occurred, which is denied.
+pub(crate) fn denied(code: &str, text: &str) {
+    let _ = writeln!(std::io::stderr(), "error: denied: {code}: {text}");
+}
+
 /// Prints a finding about a recording: a note, or a warning where results become doubtful.
 pub(crate) fn finding(file: &str, finding: &Finding) {
     let say = if finding.is_warning() { warn } else { note };

@@ -10,6 +10,8 @@ pub(crate) struct Exit(pub(crate) u8);
 impl Exit {
     /// The command did its work.
     pub(crate) const DONE: Exit = Exit(0);
+    /// Done, but a diagnostic that is denied occurred.
+    pub(crate) const DENIED: Exit = Exit(1);
     /// Bad usage or experiment file, or a result that cannot be written.
     pub(crate) const USAGE: Exit = Exit(2);
     /// The recording is bad.

@@ -8,7 +8,8 @@ use calibrant::io::{
 };
 use calibrant::motion::Hold;
 use calibrant::report::number_format::{count, counted, short, significant};
-use calibrant::sensor::{Axis, ReadingUnit, Saturation, SensorKind};
+use calibrant::report::{coarse_axis, spikes_taken_out};
+use calibrant::sensor::{Axis, ReadingUnit, Saturation, SensorKind, Spikes};
 use std::path::{Path, PathBuf};
 
 /// Names of columns are cut to this number of characters.
@@ -74,11 +75,11 @@ fn text(file: &ImuFile, inspection: &Inspection, arguments: &Arguments) -> Strin
         let most = temperature.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         text.push_str(&format!("  temperature from {} to {} °C\n", short(least), short(most)));
     }
-    let unit = |sensor_kind: SensorKind| {
-        file.recording.sensor(sensor_kind).map_or("", |recording| recording.unit.symbol())
+    let of_sensor = |(sensor_kind, spikes): &(SensorKind, Spikes)| {
+        let unit = file.recording.sensor(*sensor_kind)?.unit;
+        Some(spikes_taken_out(spikes, *sensor_kind, unit))
     };
-    let spikes =
-        inspection.spikes.iter().map(|(sensor_kind, spikes)| spikes.words(*sensor_kind, unit(*sensor_kind)));
+    let spikes = inspection.spikes.iter().filter_map(of_sensor);
     let noticed: Vec<String> = file.findings.iter().map(ToString::to_string).chain(spikes).collect();
     if !noticed.is_empty() {
         text.push_str("\nNoticed\n");
@@ -207,12 +208,9 @@ fn holds(found: &HoldsInspection, inspection: &Inspection) -> String {
         }
     }
     for (sensor_kind, coarse) in &found.coarse {
-        let unit = inspection
-            .sensors
-            .iter()
-            .find(|sensor| sensor.sensor_kind == *sensor_kind)
-            .map_or("", |of| of.unit.symbol());
-        text.push_str(&format!("  {}\n", coarse.words(sensor_kind.name(), unit)));
+        let of_kind = |sensor: &&SensorInspection| sensor.sensor_kind == *sensor_kind;
+        let Some(sensor) = inspection.sensors.iter().find(of_kind) else { continue };
+        text.push_str(&format!("  {}\n", coarse_axis(*sensor_kind, sensor.unit, coarse)));
     }
     if let Some(coverage) = &found.coverage {
         let missing: Vec<String> = Axis::ALL

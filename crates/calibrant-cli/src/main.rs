@@ -7,6 +7,7 @@ mod compare;
 mod console;
 mod convert;
 mod design;
+mod diagnostics;
 mod exit;
 mod init;
 mod inspect;
@@ -22,7 +23,7 @@ use std::process::ExitCode;
 
 /// Calibrate inertial sensors: parameters with an honest covariance from a recording, and the best motion to record.
 ///
-/// Exit status: 0 done; 2 bad usage or experiment file, or a result that cannot be written; 3 bad recording; 4 the data or the motion cannot determine
+/// Exit status: 0 done; 1 done, but a diagnostic occurred that `calibrate --deny` denies; 2 bad usage or experiment file, or a result that cannot be written; 3 bad recording; 4 the data or the motion cannot determine
 /// the parameters, the limits admit no motion, or the iteration did not converge.
 #[derive(Parser)]
 #[command(name = "calibrant", version, about, long_about, arg_required_else_help = true)]

@@ -11,9 +11,9 @@ use crate::{Exit, console, output_places};
 use arguments::Gains;
 use calibrant::Error;
 use calibrant::error::InputError;
-use calibrant::io::{ImuFile, Input, file_name, noise_json, write_atomically, write_noise};
+use calibrant::io::{DiagnosticWords, ImuFile, Input, file_name, noise_json, write_atomically, write_noise};
 use calibrant::noise::{Segment, SensorNoise};
-use calibrant::report::{About, noise_report, number_format};
+use calibrant::report::{About, message, noise_report, number_format};
 use calibrant::sensor::{Recording, SensorKind};
 use nalgebra::Vector3;
 use std::path::Path;
@@ -74,20 +74,21 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
         None => imu.sensor(first.sensor_kind).and_then(|it| holds::examined(&holds, &first.segment, it)),
     };
     let inputs = inputs(arguments, &file, first.sensor_kind);
+    let words = DiagnosticWords::new(&message);
 
     let second = arguments.gyroscope.as_deref().map(file_name);
     console::findings(&file.findings, &file_name(&arguments.recording), second.as_deref());
     if let Some((sensor_kind, error)) = &failed {
         console::warn(&format!("no noise of the {sensor_kind}: {error}"));
     }
-    noise.iter().flat_map(|sensor| &sensor.warnings).for_each(|warning| console::warn(warning));
+    noise.iter().flat_map(|sensor| &sensor.warnings).for_each(|found| console::warn(&message(found)));
     if arguments.json {
-        console::print(&noise_json(&noise, &inputs));
+        console::print(&noise_json(&noise, &inputs, &words));
     } else {
         noise.iter().for_each(|sensor| console::print(&table::noise_table(sensor, examined.as_deref())));
     }
     if let Some(directory) = &arguments.output {
-        write_noise(&directory.join("noise.json"), &noise, &inputs)?;
+        write_noise(&directory.join("noise.json"), &noise, &inputs, &words)?;
         let html = noise_report(&noise, &about(arguments, &file, &inputs, examined));
         let page = directory.join("report.html");
         write_atomically(&page, |out| out.write_all(html.as_bytes()))?;

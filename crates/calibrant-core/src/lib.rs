@@ -3,12 +3,14 @@
 //!
 //! Data flow one way: [`sensor`] and [`motion`] say what is measured. [`arrowhead`] is the one linear-algebra
 //! kernel. [`information`] turns its result into a covariance, and explains what is undetermined.
-//! [`power_law_noise`] examines a sensor at rest. [`estimate`] calibrates. [`simulate`] makes sensors and
+//! [`noise`] examines a sensor at rest. [`estimate`] calibrates.
+//! What a user should know of a result is a [`diagnostic`]. [`simulate`] makes sensors and
 //! recordings.
 //!
 //! The crate `calibrant` re-exports all of it. Depend on that crate unless the build time matters.
 
 pub mod arrowhead;
+pub mod diagnostic;
 pub mod error;
 pub mod estimate;
 pub mod information;

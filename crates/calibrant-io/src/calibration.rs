@@ -1,6 +1,7 @@
 //! `calibration.json` of an accelerometer: writes a calibration with everything needed to use it and to judge
 //! it.
 
+use super::diagnostics::{DiagnosticFields, DiagnosticWords};
 use super::holds::HoldsFields;
 use super::json;
 use super::shared_fields::{
@@ -58,14 +59,20 @@ pub fn write_calibration(
     calibration: &Calibration,
     validations: &[Validation],
     input: &Input,
+    words: &DiagnosticWords<'_>,
 ) -> Result<()> {
-    json::write_json(path, &CalibrationFile::of(calibration, validations, input))
+    json::write_json(path, &CalibrationFile::of(calibration, validations, input, words))
 }
 
 /// The text that [`write_calibration`] writes.
 #[must_use]
-pub fn calibration_json(calibration: &Calibration, validations: &[Validation], input: &Input) -> String {
-    json::to_json(&CalibrationFile::of(calibration, validations, input))
+pub fn calibration_json(
+    calibration: &Calibration,
+    validations: &[Validation],
+    input: &Input,
+    words: &DiagnosticWords<'_>,
+) -> String {
+    json::to_json(&CalibrationFile::of(calibration, validations, input, words))
 }
 
 #[derive(Serialize)]
@@ -86,12 +93,17 @@ struct CalibrationFile<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     validation: Option<ValidationFields>,
     convention: Convention,
-    warnings: &'a [String],
+    warnings: Vec<DiagnosticFields>,
     input: &'a Input,
 }
 
 impl<'a> CalibrationFile<'a> {
-    fn of(calibration: &'a Calibration, validations: &[Validation], input: &'a Input) -> Self {
+    fn of(
+        calibration: &'a Calibration,
+        validations: &[Validation],
+        input: &'a Input,
+        words: &DiagnosticWords<'_>,
+    ) -> Self {
         let axes = axes_of(&calibration.parameters);
         let (motion, holds) = match &calibration.recovered {
             Recovered::Motion(recovered) => {
@@ -115,7 +127,7 @@ impl<'a> CalibrationFile<'a> {
             holds,
             convention: Convention::of(calibration, axes),
             validation: validation_fields(validations),
-            warnings: &calibration.warnings,
+            warnings: DiagnosticFields::all(&calibration.warnings, words),
             input,
         }
     }

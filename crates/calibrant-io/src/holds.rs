@@ -74,7 +74,7 @@ impl HoldsFields {
             magnitude_residual_before_mps2: holds.magnitude_residual_before_mps2(&result.hold),
             studentised_residual: result.studentised_residual,
             used: result.used,
-            reason: result.why_left_out(),
+            reason: result.why_left_out().map(|why| why.to_string()),
         };
         Self {
             gravity_mps2: holds.gravity.magnitude_mps2,

@@ -3,6 +3,7 @@
 
 use super::calibration::Input;
 use super::convention::{Heading, ImuCore};
+use super::diagnostics::{DiagnosticFields, DiagnosticWords};
 use super::holds::HoldsFields;
 use super::json;
 use super::shared_fields::{InUnit, matrix_rows, per_axis};
@@ -25,8 +26,9 @@ pub fn write_imu_calibration(
     calibration: &ImuCalibration,
     validations: &[Validation],
     inputs: &[Input],
+    words: &DiagnosticWords<'_>,
 ) -> Result<()> {
-    json::write_json(path, &ImuCalibrationFile::of(calibration, validations, inputs))
+    json::write_json(path, &ImuCalibrationFile::of(calibration, validations, inputs, words))
 }
 
 /// The text that [`write_imu_calibration`] writes.
@@ -35,8 +37,9 @@ pub fn imu_calibration_json(
     calibration: &ImuCalibration,
     validations: &[Validation],
     inputs: &[Input],
+    words: &DiagnosticWords<'_>,
 ) -> String {
-    json::to_json(&ImuCalibrationFile::of(calibration, validations, inputs))
+    json::to_json(&ImuCalibrationFile::of(calibration, validations, inputs, words))
 }
 
 #[derive(Serialize)]
@@ -57,7 +60,7 @@ struct ImuCalibrationFile<'a> {
     turns: Vec<TurnFields>,
     #[serde(skip_serializing_if = "Option::is_none")]
     validation: Option<ValidationFields>,
-    warnings: &'a [String],
+    warnings: Vec<DiagnosticFields>,
 }
 
 #[derive(Serialize)]
@@ -67,7 +70,12 @@ struct FitFields {
 }
 
 impl<'a> ImuCalibrationFile<'a> {
-    fn of(calibration: &'a ImuCalibration, validations: &[Validation], inputs: &[Input]) -> Self {
+    fn of(
+        calibration: &'a ImuCalibration,
+        validations: &[Validation],
+        inputs: &[Input],
+        words: &DiagnosticWords<'_>,
+    ) -> Self {
         Self {
             heading: Heading::new(),
             status: calibration.status.name(),
@@ -82,7 +90,7 @@ impl<'a> ImuCalibrationFile<'a> {
             rotations: RotationsFields::of(calibration),
             turns: calibration.turns.iter().map(TurnFields::of).collect(),
             validation: validation_fields(validations),
-            warnings: &calibration.warnings,
+            warnings: DiagnosticFields::all(&calibration.warnings, words),
         }
     }
 }

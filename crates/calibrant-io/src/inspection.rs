@@ -178,7 +178,9 @@ impl HoldsInspection {
                 Err(_) => swapped_sensors(recording, MINIMUM_HOLD_S).map(str::to_owned),
                 Ok(_) => None,
             }
-            .or_else(|| holds_lost_to_filter(accelerometer, &holds, MINIMUM_HOLD_S)),
+            .or_else(|| {
+                holds_lost_to_filter(accelerometer, &holds, MINIMUM_HOLD_S).map(|lost| lost.to_string())
+            }),
             coarse: SensorKind::ALL
                 .into_iter()
                 .flat_map(|sensor_kind| coarse(recording, sensor_kind, &sound))

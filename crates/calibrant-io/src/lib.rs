@@ -29,6 +29,7 @@ mod corrected_recording;
 mod delimited_text;
 mod dense_motion;
 mod design;
+mod diagnostics;
 mod earlier_calibration;
 mod evaluation;
 mod experiment;
@@ -59,6 +60,7 @@ pub use convention::{
 pub use corrected_recording::write_corrected_recording;
 pub use dense_motion::write_dense_motion;
 pub use design::{design_json, write_design};
+pub use diagnostics::DiagnosticWords;
 pub use earlier_calibration::{EarlierCalibration, parse_calibration, read_calibration};
 pub use evaluation::{evaluation_json, write_evaluation};
 pub use experiment::{

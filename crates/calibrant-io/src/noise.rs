@@ -1,6 +1,7 @@
 //! Writes `noise.json`: the noise of a sensor at rest, its Allan deviation and its coefficients.
 
 use super::calibration::Input;
+use super::diagnostics::{DiagnosticFields, DiagnosticWords};
 use super::json;
 use calibrant_core::error::Result;
 use calibrant_core::noise::{
@@ -21,14 +22,19 @@ pub(super) const NOISE_SCHEMA: u32 = 1;
 ///
 /// # Errors
 /// [`Error::Output`](calibrant_core::Error::Output) where it cannot be written.
-pub fn write_noise(path: &Path, noise: &[SensorNoise], inputs: &[Input]) -> Result<()> {
-    json::write_json(path, &NoiseFile::of(noise, inputs))
+pub fn write_noise(
+    path: &Path,
+    noise: &[SensorNoise],
+    inputs: &[Input],
+    words: &DiagnosticWords<'_>,
+) -> Result<()> {
+    json::write_json(path, &NoiseFile::of(noise, inputs, words))
 }
 
 /// The text that [`write_noise`] writes.
 #[must_use]
-pub fn noise_json(noise: &[SensorNoise], inputs: &[Input]) -> String {
-    json::to_json(&NoiseFile::of(noise, inputs))
+pub fn noise_json(noise: &[SensorNoise], inputs: &[Input], words: &DiagnosticWords<'_>) -> String {
+    json::to_json(&NoiseFile::of(noise, inputs, words))
 }
 
 /// The line of an experiment file that states a sensor's white noise, and its section.
@@ -73,11 +79,11 @@ struct NoiseFile<'a> {
 }
 
 impl<'a> NoiseFile<'a> {
-    fn of(noise: &'a [SensorNoise], inputs: &'a [Input]) -> Self {
+    fn of(noise: &'a [SensorNoise], inputs: &'a [Input], words: &DiagnosticWords<'_>) -> Self {
         Self {
             schema: NOISE_SCHEMA,
             confidence: CONFIDENCE,
-            sensors: noise.iter().map(SensorNoiseFields::of).collect(),
+            sensors: noise.iter().map(|noise| SensorNoiseFields::of(noise, words)).collect(),
             input: inputs.first(),
             gyroscope_input: inputs.get(1),
         }
@@ -99,11 +105,11 @@ struct SensorNoiseFields<'a> {
     experiment: Option<NoiseLine>,
     #[serde(rename = "doubt")]
     caveat: Option<&'a str>,
-    warnings: &'a [String],
+    warnings: Vec<DiagnosticFields>,
 }
 
 impl<'a> SensorNoiseFields<'a> {
-    fn of(noise: &'a SensorNoise) -> Self {
+    fn of(noise: &'a SensorNoise, words: &DiagnosticWords<'_>) -> Self {
         let rate = noise.segment.rate_hz();
         Self {
             sensor: noise.sensor_kind.name(),
@@ -122,7 +128,7 @@ impl<'a> SensorNoiseFields<'a> {
                 .collect(),
             experiment: noise_line(noise),
             caveat: noise.caveat.as_deref(),
-            warnings: &noise.warnings,
+            warnings: DiagnosticFields::all(&noise.warnings, words),
         }
     }
 }

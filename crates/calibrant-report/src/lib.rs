@@ -22,6 +22,7 @@ mod sweep;
 mod table;
 mod validation;
 mod verdict;
+mod words;
 
 #[cfg(test)]
 mod tests;
@@ -35,3 +36,4 @@ pub use report_context::About;
 pub use study::study_report;
 pub use sweep::sweep_report;
 pub use validation::{validation_heading, validation_rows, validation_sentences};
+pub use words::{coarse_axis, message, spikes_taken_out};

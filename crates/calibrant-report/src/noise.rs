@@ -5,6 +5,7 @@ use super::figure::allan_figure;
 use super::html::{Page, escape, facts, verdict_box};
 use super::number_format;
 use super::table::{Cell, Table};
+use crate::words::message;
 use calibrant_core::noise::{AxisNoise, Coefficient, PowerLaw, SensorNoise, coefficient_units};
 use rayon::prelude::*;
 
@@ -186,6 +187,8 @@ fn verdict(noise: &[SensorNoise], about: &About) -> String {
     let caveats = noise.iter().filter_map(|sensor_kind| {
         Some(format!("{}: {}", sensor_kind.sensor_kind, sensor_kind.caveat.as_ref()?))
     });
-    let warnings = caveats.chain(noise.iter().flat_map(|sensor_kind| sensor_kind.warnings.clone())).collect();
+    let warnings = caveats
+        .chain(noise.iter().flat_map(|sensor_kind| sensor_kind.warnings.iter().map(message)))
+        .collect();
     verdict_box(class, word, &sentence, &[("Warnings", warnings), ("Findings", about.findings.clone())])
 }

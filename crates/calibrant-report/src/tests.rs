@@ -1,6 +1,7 @@
 //! Tests of what holds for every report page.
 
 use super::{About, calibration_report, study_report};
+use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::estimate::{Calibration, Recovered};
 use calibrant_core::sensor::Recording;
 use calibrant_core::{estimate, information, motion, sensor, simulate};
@@ -97,7 +98,7 @@ fn text_of_the_user_is_escaped() {
     let case = fakes::motion_case(1, 3, 2.0, 1);
     let hostile = "a<b>&\"c\".csv";
     let mut calibration = case.calibration;
-    calibration.warnings = vec![hostile.to_string()];
+    calibration.warnings = vec![Diagnostic::WeakerThanDatasheet { parameters: vec![hostile.to_string()] }];
     let about = About {
         title: hostile.to_string(),
         facts: vec![(hostile.to_string(), hostile.to_string())],

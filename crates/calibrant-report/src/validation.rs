@@ -4,6 +4,7 @@ use super::figure::validation_errors;
 use super::html::{Page, list};
 use super::number_format;
 use super::table::{Cell, Table};
+use crate::words::headline;
 use calibrant_core::estimate::{
     BiasShift, Caveat, ClockRate, CovarianceVerdict, ErrorKind, FailedFold, LikelyExplanation, NoiseRatio,
     UnusedError, ValidatedErrors, Validation, ValidationSource,
@@ -242,7 +243,7 @@ fn why(caveat: &Caveat, errors: &ValidatedErrors) -> String {
     };
     match caveat {
         Caveat::Change(change) => {
-            format!("{}, and what is predicted has the scatter in it that this makes", change.headline())
+            format!("{}, and what is predicted has the scatter in it that this makes", headline(change))
         }
         Caveat::Clocks(ClockRate { faster, sd }) => format!(
             "the clocks of the sensors go at different rates, by {:.4} ± {:.4} %: gains are wrong by this share in all rotations alike",

@@ -1,6 +1,7 @@
 //! The verdict on an accelerometer's calibration: can it be used?
 
 use super::{About, html, number_format};
+use crate::words::message;
 use calibrant_core::estimate::{Calibration, CalibrationStatus, Recovered};
 
 /// Below this, a probability counts as evidence against the model.
@@ -36,7 +37,7 @@ impl Grade {
 /// The verdict and everything that qualifies it, as one prominent box.
 pub(super) fn verdict(calibration: &Calibration, about: &About) -> String {
     let (grade, sentence) = judge(calibration);
-    let mut remarks = calibration.warnings.clone();
+    let mut remarks = calibration.warnings.iter().map(message).collect::<Vec<_>>();
     remarks.extend(hardly_determined(calibration));
     let grade = if remarks.is_empty() { grade } else { grade.max(Grade::Caution) };
     let remarks = [("Warnings", remarks), ("About the recording", about.findings.clone())];

@@ -63,14 +63,14 @@
 //!
 //! # The modules
 //! Data flow one way: [`sensor`] and [`motion`] say what is measured; [`arrowhead`] is the one linear-algebra kernel; [`information`] turns
-//! its result into covariance and into words about what is undetermined; [`noise`] examines a sensor at rest; [`estimate`] calibrates; [`design`] finds the motion; [`simulate`] makes sensors and recordings;
+//! its result into covariance and into words about what is undetermined; [`noise`] examines a sensor at rest; [`estimate`] calibrates; what a user should know of a result is a [`diagnostic`]; [`design`] finds the motion; [`simulate`] makes sensors and recordings;
 //! [`study`] compares truth and estimate over many. [`io`] and [`report`] may use all of these, and none uses them.
 //! [`pipeline`] stands above all: it reads a recording, calibrates, validates and writes.
 
 pub mod pipeline;
 
 pub use calibrant_core::{
-    Error, Result, arrowhead, error, estimate, information, motion, noise, sensor, simulate,
+    Error, Result, arrowhead, diagnostic, error, estimate, information, motion, noise, sensor, simulate,
 };
 pub use calibrant_design as design;
 pub use calibrant_design::study;

@@ -1,5 +1,6 @@
 //! The arguments of `calibrant calibrate`.
 
+use crate::diagnostics::Rules;
 use crate::output_places;
 use crate::recording_options::RecordingOptions;
 use std::ffi::OsStr;
@@ -9,6 +10,7 @@ use std::path::PathBuf;
 ///
 /// Writes calibration.json and report.html into DIR; with several recordings into a subfolder of DIR for each, named after its file, and
 /// DIR/summary.csv. One bad recording does not stop the others; the exit status is then the highest of all.
+/// Warnings have codes: --deny CODE makes the exit status 1, --allow CODE silences one.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
     /// The experiment file (see `calibrant init`).
@@ -39,6 +41,8 @@ pub(crate) struct Arguments {
     /// Unit of the readings where the file does not say.
     #[arg(long, value_enum)]
     pub(super) unit: Option<Unit>,
+    #[command(flatten)]
+    pub(super) rules: Rules,
     /// Write no report.html: where there are many sensors, and time counts.
     #[arg(long)]
     pub(super) no_report: bool,

@@ -3,6 +3,7 @@
 use super::job::Job;
 use super::quality;
 use crate::{Exit, console};
+use calibrant::diagnostic::Diagnostic;
 use calibrant::estimate::CalibrationStatus;
 use calibrant::io::{Summary, SummaryRow, calibrations_json, write_summary};
 use calibrant::pipeline::{Note, Source};
@@ -20,7 +21,7 @@ struct Outcome {
 /// What is told of a calibration.
 struct Calibrated {
     status: CalibrationStatus,
-    warnings: Vec<String>,
+    warnings: Vec<Diagnostic>,
     /// Cells of the table between the status and the number of warnings.
     cells: Vec<String>,
     summary: Summary,
@@ -65,8 +66,8 @@ pub(super) fn run(job: &Job<'_>) -> calibrant::Result<Exit> {
         let mut row = vec![folder.clone()];
         let outcome = match outcome.calibrated {
             Ok(calibrated) => {
-                calibrated.warnings.iter().for_each(|warning| console::warn(&format!("{folder}: {warning}")));
-                exit = exit.max(Exit::of_status(calibrated.status));
+                let denied = arguments.rules.show(&calibrated.warnings, &format!("{folder}: "));
+                exit = exit.max(denied).max(Exit::of_status(calibrated.status));
                 row.push(calibrated.status.name().into());
                 row.extend(calibrated.cells);
                 row.push(calibrated.warnings.len().to_string());

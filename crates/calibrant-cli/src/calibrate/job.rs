@@ -57,6 +57,7 @@ fn options(arguments: &Arguments) -> PipelineOptions {
         }),
         validate: arguments.validate.as_ref().map(other),
         folds: arguments.folds,
+        allowed: arguments.rules.allowed().to_vec(),
         report: !arguments.no_report,
     }
 }

@@ -12,10 +12,7 @@ pub(super) fn run(job: &Job<'_>, source: &Source) -> Exit {
     let outcome = job.run(source, directory, &mut notes);
     notes.iter().for_each(console::noted);
     match outcome {
-        Ok(outcome) => {
-            show(job, &outcome);
-            Exit::of_status(outcome.status())
-        }
+        Ok(outcome) => show(job, &outcome).max(Exit::of_status(outcome.status())),
         Err(error) => {
             warn_of_earlier_result(directory);
             match job.is_imu {
@@ -27,12 +24,14 @@ pub(super) fn run(job: &Job<'_>, source: &Source) -> Exit {
     }
 }
 
-/// Prints the tables, or calibration.json.
-fn show(job: &Job<'_>, outcome: &Outcome) {
-    outcome.warnings().iter().for_each(|warning| console::warn(warning));
+/// Prints the diagnostics, then the tables or calibration.json. Gives the exit status that denied diagnostics set.
+fn show(job: &Job<'_>, outcome: &Outcome) -> Exit {
+    let exit = job.arguments.rules.show(outcome.warnings(), "");
     if job.arguments.json {
-        return console::print(&outcome.json());
+        console::print(&outcome.json());
+        return exit;
     }
     console::print(&console::calibration(outcome));
     console::print(&format!("\n{}\n", job.arguments.main_result().display()));
+    exit
 }

@@ -1,6 +1,7 @@
 //! Finds where the sensor is at rest: the longest hold, or whether it moves in a given interval.
 
 use calibrant::Error;
+use calibrant::diagnostic::Diagnostic;
 use calibrant::error::InputError;
 use calibrant::estimate::{find_holds, find_imu_holds};
 use calibrant::motion::Hold;
@@ -56,7 +57,7 @@ pub(super) fn examined(holds: &[Hold], segment: &Segment, recording: &Recording)
 
 /// A warning where the sensor moves in an interval that was given as at rest. The interval contains more than
 /// one hold, or is longer than a hold.
-pub(super) fn moves(holds: &[Hold], given: &Segment) -> Option<String> {
+pub(super) fn moves(holds: &[Hold], given: &Segment) -> Option<Diagnostic> {
     if holds.is_empty() {
         return None;
     }
@@ -71,10 +72,6 @@ pub(super) fn moves(holds: &[Hold], given: &Segment) -> Option<String> {
     (moving_s > 0.0).then(|| moving(moving_s, given))
 }
 
-fn moving(moving_s: f64, given: &Segment) -> String {
-    format!(
-        "the sensor moves in {moving_s:.1} of the {:.1} s given with --hold, or is shaken: what follows is no noise of a sensor at rest (`calibrant inspect` shows how many \
-         holds there are; without --hold the longest is taken)",
-        given.duration_s()
-    )
+fn moving(moving_s: f64, given: &Segment) -> Diagnostic {
+    Diagnostic::NoiseHoldMoves { moving_s, given_s: given.duration_s() }
 }

@@ -30,7 +30,9 @@ fn an_accelerometer_that_changes_is_told_on_the_console_in_the_json_and_in_the_r
         assert_eq!(outcome.stdout.contains("is to be believed"), !changes, "{}", outcome.stdout);
         let json = bench.json("result/calibration.json");
         let warnings = json["warnings"].as_array().expect("a list").iter();
-        let warned = warnings.filter_map(|warning| warning.as_str()).any(|warning| warning.contains(message));
+        let warned = warnings
+            .filter_map(|warning| warning["message"].as_str())
+            .any(|warning| warning.contains(message));
         assert_eq!(warned, changes, "{}", json["warnings"]);
         let errors = &json["validation"]["folds"]["magnitude"];
         let verdict = if changes { ("doubtful", "\"change\"") } else { ("believed", "null") };

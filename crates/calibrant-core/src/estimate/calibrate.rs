@@ -3,6 +3,7 @@
 use super::{
     Calibration, CalibrationProblem, CalibrationSettings, HoldCalibration, Recovered, Stimulus, holds, motion,
 };
+use crate::diagnostic::Diagnostic;
 use crate::error::Result;
 use crate::sensor::SensorKind;
 use std::borrow::Cow;
@@ -60,11 +61,12 @@ pub fn calibrate(problem: &CalibrationProblem<'_>, settings: &CalibrationSetting
             let problem = CalibrationProblem { recording: &recording, ..*problem };
             problem.validate()?;
             let mut calibration = holds::calibrate(&problem, setup, settings, &recording)?;
-            let unit = recording.unit.symbol();
-            let stated = spikes.map(|spikes| spikes.words(SensorKind::Accelerometer, unit));
-            calibration.warnings.splice(0..0, stated);
+            let found =
+                spikes.map(|spikes| Diagnostic::spikes(&spikes, SensorKind::Accelerometer, recording.unit));
+            calibration.warnings.splice(0..0, found);
             if let Recovered::Holds(HoldCalibration { change: Some(change), .. }) = &calibration.recovered {
-                calibration.warnings.push(change.warning(None));
+                let (change, coldest_c, hottest_c) = (**change, None, None);
+                calibration.warnings.push(Diagnostic::SensorChanged { change, coldest_c, hottest_c });
             }
             Ok(calibration)
         }

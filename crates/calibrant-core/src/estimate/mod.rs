@@ -19,6 +19,7 @@ mod change;
 mod comparison;
 mod earth;
 mod gravity_error;
+mod gravity_off_earth;
 mod holds;
 mod imu;
 mod motion;
@@ -34,8 +35,8 @@ mod uncalibrated;
 mod unknown_latitude;
 mod validation;
 
+pub use crate::diagnostic::{Change, Changed, Course};
 pub use calibrate::calibrate;
-pub use change::{Change, Changed, Course};
 pub use comparison::{ComparedQuantity, Comparison, OverallDifference};
 pub use holds::{
     Coverage, ExpectedCalibration, HoldsSetup, clipped_holds, coverage, expected_calibration,

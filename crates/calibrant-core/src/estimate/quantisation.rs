@@ -9,8 +9,9 @@
 //! is its mean square (`widrow2008`): `q²/12` without noise, a hundredth of a step for `σ = 0.4 q`, nothing that matters from `σ = q/2` on. It does not become less with more samples.
 
 use super::quantised_noise::{Counts, noise_in_steps};
+use crate::diagnostic::Diagnostic;
 use crate::motion::Hold;
-use crate::sensor::{Axis, MeanReading, Recording};
+use crate::sensor::{Axis, MeanReading, ReadingUnit, Recording, SensorKind};
 use nalgebra::Vector3;
 use std::f64::consts::PI;
 use std::ops::Range;
@@ -36,19 +37,10 @@ pub struct CoarseAxis {
 }
 
 impl CoarseAxis {
-    /// In words, for this sensor: `axis x of the gyroscope comes in steps of …`.
-    #[must_use]
-    pub fn words(&self, sensor: &str, unit: &str) -> String {
-        let noise = if self.noise > 0.0 {
-            format!("its noise of about {:.1e} {unit}", self.noise)
-        } else {
-            "its noise, which hardly shows".to_owned()
-        };
-        format!(
-            "the readings of axis {} of the {sensor} come in steps of {:.3e} {unit}, coarser than twice {noise}: the mean of a hold is off by about {:.1e} {unit} however \
-             long it is",
-            self.axis, self.step, self.mean_sd
-        )
+    /// What a user should know of it, for this sensor.
+    pub(crate) fn diagnostic(&self, sensor_kind: SensorKind, unit: ReadingUnit) -> Diagnostic {
+        let Self { axis, step, noise, mean_sd } = *self;
+        Diagnostic::CoarseSteps { sensor_kind, axis, unit, step, noise, mean_sd }
     }
 }
 

@@ -1,6 +1,7 @@
 //! What a calibration gives.
 
 use super::{Change, Uncalibrated};
+use crate::diagnostic::{Diagnostic, HoldLeftOut};
 use crate::motion::{Gravity, Hold, JerkControlledMotion};
 use crate::sensor::{Gauge, Parameter, ReadingUnit, SensorParameters};
 use nalgebra::{DMatrix, Vector3};
@@ -59,7 +60,7 @@ pub struct Calibration {
     /// Did the datasheet count as a prior?
     pub datasheet_prior: bool,
     /// Things a user should know, in words.
-    pub warnings: Vec<String>,
+    pub warnings: Vec<Diagnostic>,
 }
 
 impl Calibration {
@@ -248,21 +249,18 @@ pub struct HoldResult {
     pub studentised_residual: f64,
     /// Was it used? A bad hold is found, reported and left out.
     pub used: bool,
-    /// Why it was not used, in words, where that was known before its residual: the sensor saturates in it.
-    pub reason: Option<String>,
+    /// Why it was not used, where that was known before its residual: the sensor saturates in it.
+    pub reason: Option<HoldLeftOut>,
 }
 
 impl HoldResult {
-    /// Why it was left out, in words; `None` where it was used.
+    /// Why it was left out; `None` where it was used.
     #[must_use]
-    pub fn why_left_out(&self) -> Option<String> {
-        let by_residual = || {
-            format!(
-                "its magnitude is off by {:.3} mm/s², {:.1} standard deviations",
-                1e3 * self.magnitude_residual_mps2,
-                self.studentised_residual.abs()
-            )
+    pub fn why_left_out(&self) -> Option<HoldLeftOut> {
+        let by_residual = HoldLeftOut::MagnitudeOff {
+            residual_mps2: self.magnitude_residual_mps2,
+            studentised: self.studentised_residual,
         };
-        (!self.used).then(|| self.reason.clone().unwrap_or_else(by_residual))
+        (!self.used).then(|| self.reason.unwrap_or(by_residual))
     }
 }

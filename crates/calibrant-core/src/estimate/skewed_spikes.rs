@@ -3,6 +3,7 @@
 //! Noise is as often far above its mean as far below. So in the middle of each hold single samples beyond [`FAR_DEVIATIONS`] standard deviations are counted on either side. It is no chance if there are
 //! far more on one side altogether, and in nearly all holds that have any: a sensor that is put down leaves some in one hold, on either side.
 
+use crate::diagnostic::Diagnostic;
 use crate::motion::Hold;
 use crate::sensor::{Axis, MeanReading, Recording, SensorKind};
 
@@ -14,12 +15,12 @@ const OF_HOLDS: f64 = 3.0;
 /// This share of a hold at each end may move already.
 const END_SHARE: usize = 5;
 
-/// For each axis with such samples, in words, what they do and what to look for. The holds' times are those of a sensor on the same clock.
+/// For each axis with such samples, what they do. The holds' times are those of a sensor on the same clock.
 pub(super) fn skewed_spikes<'a>(
     recording: &Recording,
     sensor_kind: SensorKind,
     holds: impl IntoIterator<Item = &'a Hold>,
-) -> Vec<String> {
+) -> Vec<Diagnostic> {
     let middle = |hold: &Hold| {
         let mut span = recording.between(hold.start_s, hold.end_s);
         let end = span.len() / END_SHARE;
@@ -29,8 +30,8 @@ pub(super) fn skewed_spikes<'a>(
     };
     let middles: Vec<_> =
         holds.into_iter().filter_map(middle).filter_map(|(span, mean)| Some((span, mean?))).collect();
-    let unit = recording.unit.symbol();
-    let words = |&axis: &Axis| {
+    let unit = recording.unit;
+    let skewed = |&axis: &Axis| {
         let k = axis.index();
         let (mut all, mut holds, mut samples) = (Sides::default(), Sides::default(), 0);
         for (span, mean) in &middles {
@@ -49,17 +50,18 @@ pub(super) fn skewed_spikes<'a>(
         }
         let shift = all.sum / samples as f64;
         let noise = MeanReading::pooled_sd(middles.iter().map(|(_, mean)| mean))[k];
-        let (side, other) = if shift > 0.0 { ("above", "below") } else { ("below", "above") };
-        Some(format!(
-            "{sensor_kind} {axis}: {} single samples in the holds are more than {FAR_DEVIATIONS} standard deviations {side} the others, and {} {other}: noise has as many on either side. They move the \
-             means, and with them the bias, by {shift:+.1e} {unit}, which is {:.0} times what noise does to the mean of all holds. A loose contact, bytes lost on the way? They are too near \
-             the noise to be left out",
-            all.above.max(all.below),
-            all.above.min(all.below),
-            (shift / noise).abs() * (samples as f64).sqrt()
-        ))
+        Some(Diagnostic::SkewedSpikes {
+            sensor_kind,
+            axis,
+            unit,
+            far_deviations: FAR_DEVIATIONS,
+            samples_above: all.above,
+            samples_below: all.below,
+            shift,
+            times_noise: (shift / noise).abs() * (samples as f64).sqrt(),
+        })
     };
-    recording.active_axes().iter().filter_map(words).collect()
+    recording.active_axes().iter().filter_map(skewed).collect()
 }
 
 /// How many are above, and below; and the sum of their deviations.

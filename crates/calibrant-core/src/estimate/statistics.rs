@@ -1,6 +1,7 @@
 //! Tests on the residuals.
 
 use super::{Calibration, Whiteness};
+use crate::diagnostic::Diagnostic;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 /// Probability of a χ² at least this large with so many degrees of freedom; `None` without degrees of freedom.
@@ -52,7 +53,7 @@ pub(crate) fn dot(x: &[f64], y: &[f64]) -> f64 {
 }
 
 /// Parameters so far from their nominal value that a mistake is more likely than a rare sensor.
-pub(crate) fn implausible(calibration: &Calibration) -> Option<String> {
+pub(crate) fn implausible(calibration: &Calibration) -> Option<Diagnostic> {
     const FAR: f64 = 10.0;
     let (name, times) = calibration
         .parameters
@@ -63,15 +64,5 @@ pub(crate) fn implausible(calibration: &Calibration) -> Option<String> {
             Some((&parameter.name, ((value - parameter.nominal?) / spread).abs()))
         })
         .max_by(|one, other| one.1.total_cmp(&other.1))?;
-    (times > FAR).then(|| {
-        format!(
-            "{name} is {times:.0} datasheet standard deviations from its nominal value: check the unit of the recording, gravity, the order and \
-             the direction of the axes"
-        )
-    })
-}
-
-/// A small probability in words: `1.2e-7`, or `below 1e-300` where the number underflows.
-pub(crate) fn small(p: f64) -> String {
-    if p < 1e-300 { "below 1e-300".into() } else { format!("{p:.1e}") }
+    (times > FAR).then(|| Diagnostic::ParameterImplausible { parameter: name.clone(), deviations: times })
 }

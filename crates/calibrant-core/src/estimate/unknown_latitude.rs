@@ -1,6 +1,7 @@
 //! What an unknown latitude does to the uncertainty of a calibration.
 
 use super::ImuCalibration;
+use crate::diagnostic::Diagnostic;
 use crate::motion::EARTH_RATE_RADPS;
 use crate::sensor::ImuQuantity;
 
@@ -8,7 +9,7 @@ use crate::sensor::ImuQuantity;
 const SIZEABLE: f64 = 1.15;
 
 /// What to say where an unknown latitude is a sizeable part of the uncertainty.
-pub(super) fn unknown_latitude(calibration: &ImuCalibration) -> Option<String> {
+pub(super) fn unknown_latitude(calibration: &ImuCalibration) -> Option<Diagnostic> {
     let slope = calibration.of_vertical.as_ref()?;
     let larger = |(slope, variance): (&f64, &f64)| {
         let without = (variance - slope.powi(2)).max(f64::MIN_POSITIVE);
@@ -18,14 +19,8 @@ pub(super) fn unknown_latitude(calibration: &ImuCalibration) -> Option<String> {
     let all = slope.iter().zip(variances.iter()).map(larger);
     let (quantity, most) =
         calibration.quantities.iter().zip(all).max_by(|one, other| one.1.total_cmp(&other.1))?;
-    let (like, of_what) = match quantity {
-        ImuQuantity::GSensitivity(..) => ("looks like g-sensitivity", "the latter's"),
-        _ => ("adds to turns of known angle", "the gyroscope's"),
-    };
-    (most > SIZEABLE).then(|| {
-        format!(
-            "the Earth turns about the vertical by {EARTH_RATE_RADPS:.2e} rad/s times the sine of the latitude, which {like}: not knowing it makes {of_what} standard deviations \
-             up to {most:.1} times larger; give holds.latitude_deg"
-        )
-    })
+    let of_g_sensitivity = matches!(quantity, ImuQuantity::GSensitivity(..));
+    let larger =
+        Diagnostic::LatitudeUnknown { earth_rate_radps: EARTH_RATE_RADPS, of_g_sensitivity, times: most };
+    (most > SIZEABLE).then_some(larger)
 }

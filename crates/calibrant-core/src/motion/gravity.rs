@@ -49,18 +49,9 @@ impl Gravity {
         Self { magnitude_mps2, sd_mps2: Self::ANOMALY_SD_MPS2 }
     }
 
-    /// The finding about a gravity that the Earth has nowhere. No recording contradicts it, since all gains
-    /// are off by the same share.
-    pub(crate) fn elsewhere(&self) -> Option<String> {
-        let words = || {
-            format!(
-                "gravity is given as {} m/s², and on the Earth's surface it is {} to {}: correct holds.gravity_mps2, or all gains of the accelerometer are off by as much",
-                self.magnitude_mps2,
-                ON_EARTH.start(),
-                ON_EARTH.end()
-            )
-        };
-        (!ON_EARTH.contains(&self.magnitude_mps2)).then(words)
+    /// The least and the most on the Earth's surface, m/s², where this is neither: the Earth has it nowhere.
+    pub(crate) fn elsewhere(&self) -> Option<[f64; 2]> {
+        (!ON_EARTH.contains(&self.magnitude_mps2)).then_some([*ON_EARTH.start(), *ON_EARTH.end()])
     }
 }
 

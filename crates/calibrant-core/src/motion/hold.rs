@@ -42,11 +42,6 @@ impl Hold {
         (squares / degrees.max(1.0)).map(f64::sqrt)
     }
 
-    /// The name of the hold in a sentence, by its number from 0 and its times: `hold 3 (12.0 to 15.5 s)`.
-    pub(crate) fn named(&self, number: usize) -> String {
-        format!("hold {} ({:.1} to {:.1} s)", number + 1, self.start_s, self.end_s)
-    }
-
     /// Number (from 0) of the hold that lasts longest; `None` where there is no hold.
     ///
     /// # Examples
@@ -74,10 +69,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_hold_is_named_by_number_and_times() {
-        let (mean, sd) = (Vector3::z(), Vector3::zeros());
-        let hold = Hold { first: 0, end: 9, start_s: 12.04, end_s: 15.46, mean, sd };
-        assert_eq!(hold.named(2), "hold 3 (12.0 to 15.5 s)");
+    fn of_no_holds_none_is_the_longest() {
         assert_eq!(Hold::longest(&[]), None);
     }
 }

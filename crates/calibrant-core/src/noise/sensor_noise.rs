@@ -2,8 +2,9 @@
 
 use super::heavy_tails::Tails;
 use super::outliers::{self, Outliers};
-use super::words::{short_time, three_digits, two_digits};
+use super::words::three_digits;
 use super::{AllanDeviation, Moments, NoiseFit, Segment};
+use crate::diagnostic::Diagnostic;
 use crate::error::{Error, InputError, Result};
 use crate::sensor::{Axis, ReadingUnit, Recording, SensorKind};
 use nalgebra::Vector3;
@@ -32,7 +33,7 @@ pub struct SensorNoise {
     /// Why the white noise is not that of a sensor at rest, where it is not: there are too many outliers, no process explains it, or whoever knows better says that the sensor moves.
     pub caveat: Option<String>,
     /// What the user should know.
-    pub warnings: Vec<String>,
+    pub warnings: Vec<Diagnostic>,
 }
 
 /// The noise of one axis.
@@ -197,137 +198,103 @@ impl SensorNoise {
         self.axes.iter().all(|axis| axis.fit.explains())
     }
 
-    /// A warning for each axis with outliers; they are among the [`warnings`](Self::warnings), too.
+    /// What to know of each axis with outliers; they are among the [`warnings`](Self::warnings), too.
     #[must_use]
-    pub fn of_outliers(&self) -> Vec<String> {
+    pub fn of_outliers(&self) -> Vec<Diagnostic> {
         self.axes.iter().filter_map(|axis| Some(self.of_outliers_on(axis, axis.outliers.as_ref()?))).collect()
     }
 
-    fn of_outliers_on(&self, axis: &AxisNoise, outliers: &Outliers) -> String {
-        let (unit, count) = (self.unit.symbol(), outliers.samples.len());
-        let white = axis.fit.model.white_noise_per_sample(self.segment.rate_hz());
-        let farthest = format!(
-            "the farthest {} {unit} at {:.3} s, {:.0} times the usual difference of two samples off those beside it",
-            three_digits(outliers.largest),
-            outliers.time_s,
-            outliers.deviations
-        );
-        let what =
-            format!("{} {}: {count} of {} samples", self.sensor_kind, axis.axis, self.segment.samples());
-        if !outliers.left_out {
-            return format!(
-                "{what} are sparks ({farthest}): single samples far off, too many to be left out, which one in fifty would be; what is stated is their noise, not that of the \
-                 others. Look for their cause: a loose contact, bits lost on the way?"
-            );
+    fn of_outliers_on(&self, axis: &AxisNoise, found: &Outliers) -> Diagnostic {
+        let (sensor_kind, unit, samples) = (self.sensor_kind, self.unit, self.segment.samples());
+        let (outliers, reading, time_s) = (found.samples.len(), found.largest, found.time_s);
+        let (axis, deviations, fit) = (axis.axis, found.deviations, &axis.fit);
+        if !found.left_out {
+            return Diagnostic::NoiseSpikes {
+                sensor_kind,
+                axis,
+                unit,
+                outliers,
+                samples,
+                reading,
+                time_s,
+                deviations,
+            };
         }
-        let with_them = match white.zip(outliers.white_with_them) {
-            Some((without, with)) => format!(
-                "with {} N would be {:.2} times as large",
-                if count == 1 { "it" } else { "them" },
-                with / without
-            ),
-            None => "the noise is that of the others".to_owned(),
-        };
-        format!(
-            "{what} {} ({farthest}): a spark, a lost bit or a knock is no noise that averages out, and was left out; {with_them}",
-            if count == 1 { "is an outlier" } else { "are outliers" }
-        )
+        let white = fit.model.white_noise_per_sample(self.segment.rate_hz());
+        let white_noise_ratio = white.zip(found.white_with_them).map(|(without, with)| with / without);
+        Diagnostic::NoiseOutliers {
+            sensor_kind,
+            axis,
+            unit,
+            outliers,
+            samples,
+            reading,
+            time_s,
+            deviations,
+            white_noise_ratio,
+        }
     }
 
-    fn remarks(&self, readings: &[Vector3<f64>]) -> Vec<String> {
-        let unit = self.unit.symbol();
+    fn remarks(&self, readings: &[Vector3<f64>]) -> Vec<Diagnostic> {
         let mut remarks = self.of_outliers();
         if self.segment.missing > 0.0 {
-            remarks.push(format!(
-                "{:.1} % of the samples are missing; the others are taken as if they followed one another: N is that of what was recorded, {:.1} % above the sensor's",
-                100.0 * self.segment.missing,
-                100.0 * ((1.0 - self.segment.missing).sqrt().recip() - 1.0)
-            ));
+            remarks.push(Diagnostic::SamplesMissing { missing_share: self.segment.missing });
         } else if self.segment.jitter > JITTER {
-            remarks.push(format!(
-                "the sample times vary by up to {:.0} % of the interval: short cluster times are less certain than stated",
-                100.0 * self.segment.jitter
-            ));
+            remarks.push(Diagnostic::SampleTimesVary { jitter: self.segment.jitter });
         }
         if self.segment.parts > 1 {
-            remarks.push(format!(
-                "gaps cut the hold into {} parts; the longest, {}, was examined",
-                self.segment.parts,
-                short_time(self.segment.duration_s())
-            ));
+            let (parts, longest_s) = (self.segment.parts, self.segment.duration_s());
+            remarks.push(Diagnostic::NoiseInParts { parts, longest_s });
         }
         // of spikes the noise is what it is
         let explicable = |axis: &&AxisNoise| axis.outliers.as_ref().is_none_or(|outliers| outliers.left_out);
-        for axis in self.axes.iter().filter(explicable) {
-            let (name, fit) = (axis.axis, &axis.fit);
-            if fit.drift.is_significant() {
-                remarks.push(format!(
-                    "{} {name} drifts by {} {unit} per hour ({:.1} standard deviations of the most that its noise explains): warming up? The drift was \
-                     subtracted; it is no random walk",
-                    self.sensor_kind,
-                    three_digits(3600.0 * fit.drift.per_s),
-                    fit.drift.per_s.abs() / fit.drift.most_sd
-                ));
-            }
-            if !fit.explains() {
-                remarks.push(format!(
-                    "{} {name}: no sum of the processes explains the Allan deviation (χ² {} with {} degrees of freedom): vibration, or a sensor that was \
-                     touched? Do not trust the intervals",
-                    self.sensor_kind,
-                    three_digits(fit.chi2),
-                    fit.degrees_of_freedom
-                ));
-            } else if fit.filtered {
-                remarks.push(format!(
-                    "{} {name}: samples less than {} apart are correlated (filtered in the sensor?); what is stated is the noise before the filter, which means of many \
-                     samples have",
-                    self.sensor_kind,
-                    short_time(fit.shortest_tau_s.max(2.0 * self.segment.interval_s))
-                ));
-            } else if fit.shortest_tau_s > 1.5 * self.segment.interval_s {
-                remarks.push(format!(
-                    "{} {name}: no sum of the processes explains cluster times below {}: they were not fitted",
-                    self.sensor_kind,
-                    short_time(fit.shortest_tau_s)
-                ));
-            }
-            if let Some(line) = fit.vibration.as_ref().filter(|line| line.left_out) {
-                remarks.push(format!(
-                    "{} {name}: a line at {} Hz has {} % of the samples' variance: a vibration, or the hum of the mains? What is stated is the noise beside it; with it N would be \
-                     {:.1} % larger",
-                    self.sensor_kind,
-                    three_digits(line.frequency_hz),
-                    two_digits(100.0 * line.share),
-                    50.0 * line.of_white.max(0.0)
-                ));
-            }
-            let white = fit.model.white_noise_per_sample(self.segment.rate_hz());
-            if let Some(white) = white
-                && axis.sample_sd > BEYOND_WHITE * white
-            {
-                remarks.push(format!(
-                    "{} {name}: the samples' standard deviation, {} {unit}, exceeds the white noise, {} {unit}: part of it does not average out like \
-                     independent samples",
-                    self.sensor_kind,
-                    three_digits(axis.sample_sd),
-                    three_digits(white)
-                ));
-            }
-            let index = name.index();
-            let step = readings
-                .windows(2)
-                .map(|pair| (pair[1][index] - pair[0][index]).abs())
-                .filter(|step| *step > 0.0)
-                .fold(f64::INFINITY, f64::min);
-            if step.is_finite() && step > axis.sample_sd {
-                remarks.push(format!(
-                    "{} {name}: its resolution, {} {unit}, is coarser than its noise: what is stated is rounding as much as noise",
-                    self.sensor_kind,
-                    three_digits(step)
-                ));
-            }
-        }
+        self.axes.iter().filter(explicable).for_each(|axis| self.remarks_on(axis, readings, &mut remarks));
         remarks
+    }
+
+    fn remarks_on(&self, noise: &AxisNoise, readings: &[Vector3<f64>], remarks: &mut Vec<Diagnostic>) {
+        let (sensor_kind, unit, interval_s) = (self.sensor_kind, self.unit, self.segment.interval_s);
+        let (axis, fit) = (noise.axis, &noise.fit);
+        if fit.drift.is_significant() {
+            let deviations = fit.drift.per_s.abs() / fit.drift.most_sd;
+            let drift_per_s = fit.drift.per_s;
+            remarks.push(Diagnostic::NoiseDrifts { sensor_kind, axis, unit, drift_per_s, deviations });
+        }
+        if !fit.explains() {
+            let (chi2, degrees_of_freedom) = (fit.chi2, fit.degrees_of_freedom);
+            remarks.push(Diagnostic::NoiseUnexplained { sensor_kind, axis, chi2, degrees_of_freedom });
+        } else if fit.filtered {
+            let correlated_s = fit.shortest_tau_s.max(2.0 * interval_s);
+            remarks.push(Diagnostic::NoiseFiltered { sensor_kind, axis, correlated_s });
+        } else if fit.shortest_tau_s > 1.5 * interval_s {
+            let shortest_tau_s = fit.shortest_tau_s;
+            remarks.push(Diagnostic::ShortTimesUnexplained { sensor_kind, axis, shortest_tau_s });
+        }
+        if let Some(line) = fit.vibration.as_ref().filter(|line| line.left_out) {
+            remarks.push(Diagnostic::NoiseVibration {
+                sensor_kind,
+                axis,
+                frequency_hz: line.frequency_hz,
+                share: line.share,
+                of_white: line.of_white,
+            });
+        }
+        let white = fit.model.white_noise_per_sample(self.segment.rate_hz());
+        if let Some(white_noise) = white
+            && noise.sample_sd > BEYOND_WHITE * white_noise
+        {
+            let sample_sd = noise.sample_sd;
+            remarks.push(Diagnostic::NoiseBeyondWhite { sensor_kind, axis, unit, sample_sd, white_noise });
+        }
+        let index = axis.index();
+        let step = readings
+            .windows(2)
+            .map(|pair| (pair[1][index] - pair[0][index]).abs())
+            .filter(|step| *step > 0.0)
+            .fold(f64::INFINITY, f64::min);
+        if step.is_finite() && step > noise.sample_sd {
+            remarks.push(Diagnostic::ResolutionCoarse { sensor_kind, axis, unit, step });
+        }
     }
 }
 
@@ -405,8 +372,14 @@ mod tests {
         };
         let found = of(&counts).with_gain(&counts, &gain).expect("positive gains");
         let expected = of(&physical);
-        assert_eq!((found.unit, &found.warnings), (expected.unit, &expected.warnings));
+        assert_eq!(found.unit, expected.unit);
         let near = |one: f64, other: f64| assert!((one - other).abs() <= 1e-6 * other.abs(), "{one} {other}");
+        assert_eq!(found.warnings.len(), expected.warnings.len());
+        for (one, other) in found.warnings.iter().zip(&expected.warnings) {
+            assert_eq!((one.code(), one.subject()), (other.code(), other.subject()));
+            let numbers = one.numbers().into_iter().zip(other.numbers());
+            numbers.for_each(|((_, one), (_, other))| near(one, other));
+        }
         for (found, expected) in found.axes.iter().zip(&expected.axes) {
             near(found.sample_sd, expected.sample_sd);
             near(found.fit.drift.per_s, expected.fit.drift.per_s);

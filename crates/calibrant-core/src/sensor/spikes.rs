@@ -93,47 +93,6 @@ impl Spikes {
     pub(crate) fn place(&self, sample: usize) -> usize {
         self.cut.iter().fold(sample, |place, cut| place + usize::from(*cut <= place))
     }
-
-    /// In words, for the user.
-    #[must_use]
-    pub fn words(&self, sensor_kind: SensorKind, unit: &str) -> String {
-        let counted = |count: usize| if count == 1 { "1 sample".into() } else { format!("{count} samples") };
-        let what = match (self.samples.len(), self.cut.len()) {
-            (0, 1) => "1 sample cannot be a reading and was cut out".to_owned(),
-            (0, cut) => format!("{} cannot be readings and were cut out", counted(cut)),
-            (spikes, 0) => replaced(spikes, &counted(spikes)),
-            (spikes, cut) => {
-                format!(
-                    "{}; {} more cannot be readings and were cut out",
-                    replaced(spikes, &counted(spikes)),
-                    counted(cut)
-                )
-            }
-        };
-        let off = if self.deviations.is_finite() {
-            let few = self.deviations < 1e4;
-            let times =
-                if few { format!("{:.0}", self.deviations) } else { format!("{:.1e}", self.deviations) };
-            format!(", {times} standard deviations of the noise off")
-        } else {
-            String::new()
-        };
-        // as many digits as the largest of 32 bits
-        let reading = format!("{:.9e}", self.reading).parse().unwrap_or(self.reading);
-        format!(
-            "{sensor_kind}: {what}; farthest off is {reading:?} {unit} at {:.3} s on axis {}{off}: a loose contact, or a byte lost on the way?",
-            self.time_s, self.axis
-        )
-    }
-}
-
-fn replaced(count: usize, counted: &str) -> String {
-    match count {
-        1 => format!("{counted} far off those beside it was left out, the line between them in its place"),
-        _ => format!(
-            "{counted} far off those beside them were left out, the line between these in the place of each"
-        ),
-    }
 }
 
 impl Recording {

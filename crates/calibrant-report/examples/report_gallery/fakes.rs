@@ -1,6 +1,7 @@
 //! Made-up results for the gallery: simulated readings, fitted only as far as a picture needs it.
 
 use super::{estimate, motion, sensor, study};
+use calibrant_core::diagnostic::{Diagnostic, HoldLeftOut, HoldSpan};
 use estimate::{
     Calibration, CalibrationStatus, FitStatistics, HoldCalibration, HoldResult, Recovered, RecoveredMotion,
     Uncalibrated, Whiteness,
@@ -225,10 +226,10 @@ pub(crate) fn hold_case(count: usize, samples_per_hold: usize) -> (Calibration, 
         residuals: Vec::new(),
         first_sample: 0,
         datasheet_prior: false,
-        warnings: vec![
-            "hold 18 was left out: its residual is 21 times what is expected; it was probably not still"
-                .to_string(),
-        ],
+        warnings: vec![Diagnostic::HoldLeftOut {
+            hold: HoldSpan { number: 18, start_s: 170.0, end_s: 175.0 },
+            why: HoldLeftOut::MagnitudeOff { residual_mps2: 0.1, studentised: 21.0 },
+        }],
     };
     (calibration, recording)
 }

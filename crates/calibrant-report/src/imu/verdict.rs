@@ -1,6 +1,7 @@
 //! The verdict on an IMU's calibration: can it be used?
 
 use super::quality::imu_quality;
+use crate::words::message;
 use crate::{About, html, number_format};
 use calibrant_core::estimate::{CalibrationStatus, ImuCalibration};
 use calibrant_core::sensor::{Invariant, SensorKind};
@@ -13,7 +14,7 @@ const IMPROVED: f64 = 0.8;
 
 /// The verdict and everything that qualifies it, as one prominent box.
 pub(super) fn verdict(calibration: &ImuCalibration, about: &About) -> String {
-    let mut remarks = calibration.warnings.clone();
+    let mut remarks = calibration.warnings.iter().map(message).collect::<Vec<_>>();
     remarks.extend(not_improved(calibration));
     remarks.extend(mostly_prior(calibration));
     if calibration.degrees_of_freedom == 0 {

@@ -10,6 +10,7 @@ use super::recorded::Recorded;
 use super::report::about_accelerometer;
 use super::source::Source;
 use super::validation::{on_recording, unless_too_few};
+use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::error::{Error, InputError, Result};
 use calibrant_core::estimate::{
     Calibration, CalibrationProblem, CalibrationSettings, HoldsSetup, Recovered, Stimulus, Validation,
@@ -20,6 +21,7 @@ use calibrant_core::sensor::{Recording, Sensor, SensorKind};
 use calibrant_io::{
     Experiment, HoldsPlan, ImuReadOptions, MotionPlan, Plan, Prior, ReadOptions, file_name, read_motion,
 };
+use calibrant_report::message;
 
 /// What the recordings of an accelerometer share.
 pub(crate) struct AccelerometerTask<'e> {
@@ -100,11 +102,12 @@ impl<'e> AccelerometerTask<'e> {
             inputs,
             recording: recorded.recording,
             about,
+            allowed: options.allowed.clone(),
         })
     }
 
     /// Takes outliers out and finds the holds, where there are some. A motion has neither.
-    fn prepared(&self, recorded: &mut Recorded) -> (Vec<String>, Known) {
+    fn prepared(&self, recorded: &mut Recorded) -> (Vec<Diagnostic>, Known) {
         match &self.known {
             Known::Motion(command) => (Vec::new(), Known::Motion(command.clone())),
             Known::Holds(setup) => {
@@ -152,7 +155,7 @@ impl<'e> AccelerometerTask<'e> {
             Known::Motion(command) => Known::Motion(command.clone()),
             Known::Holds(setup) => {
                 let outliers = take_out_outliers(&mut other.recording);
-                let warning = |words| Note::Warning(format!("{}: {words}", file_name(path)));
+                let warning = |found| Note::Warning(format!("{}: {}", file_name(path), message(&found)));
                 notes.extend(outliers.into_iter().map(warning));
                 Known::Holds(with_holds_of_other(setup, &other.recording))
             }

@@ -1,18 +1,19 @@
 //! Outliers are taken out of a recording once, for all stages that follow.
 
-use calibrant_core::sensor::{ImuRecording, SensorKind};
+use calibrant_core::diagnostic::Diagnostic;
+use calibrant_core::sensor::{ImuRecording, SensorKind, Spikes};
 use std::borrow::Cow;
 
-/// Takes spikes and invalid readings out of a recording. A warning for each sensor that has some.
-pub(crate) fn take_out_outliers(recording: &mut ImuRecording) -> Vec<String> {
+/// Takes spikes and invalid readings out of a recording. Gives a diagnostic for each sensor that has some.
+pub(crate) fn take_out_outliers(recording: &mut ImuRecording) -> Vec<Diagnostic> {
     let (clean, outliers) = recording.without_spikes();
-    let unit = |sensor_kind: SensorKind| recording.sensor(sensor_kind).map_or("", |of| of.unit.symbol());
-    let warnings = outliers
-        .iter()
-        .map(|(sensor_kind, outliers)| outliers.words(*sensor_kind, unit(*sensor_kind)))
-        .collect();
+    let of_sensor = |(sensor_kind, spikes): &(SensorKind, Spikes)| {
+        let unit = recording.sensor(*sensor_kind)?.unit;
+        Some(Diagnostic::spikes(spikes, *sensor_kind, unit))
+    };
+    let found = outliers.iter().filter_map(of_sensor).collect();
     if let Cow::Owned(clean) = clean {
         *recording = clean;
     }
-    warnings
+    found
 }

@@ -22,6 +22,7 @@ use calibrant_core::estimate::{
 use calibrant_core::noise::SensorNoise;
 use calibrant_core::sensor::{Sensor, SensorKind, Temperatures};
 use calibrant_io::{Experiment, HoldsPlan, ImuPlan, Plan, file_name};
+use calibrant_report::message;
 
 /// What the recordings of an IMU share.
 pub(crate) struct ImuTask<'e> {
@@ -87,6 +88,7 @@ impl<'e> ImuTask<'e> {
             inputs,
             recording: recorded.recording,
             about,
+            allowed: options.allowed.clone(),
         })
     }
 
@@ -147,7 +149,8 @@ impl<'e> ImuTask<'e> {
         let warning = |words: String| Note::Warning(format!("{}: {words}", file_name(path)));
         let mut other = self.reader.read_other(source)?;
         notes.extend(Note::of_findings(&other.findings, source));
-        notes.extend(take_out_outliers(&mut other.recording).into_iter().map(warning));
+        let outliers = take_out_outliers(&mut other.recording);
+        notes.extend(outliers.iter().map(|found| warning(message(found))));
         let gyroscope_path = source.gyroscope.as_deref().unwrap_or(path);
         for (sensor_kind, path) in
             [(SensorKind::Accelerometer, path), (SensorKind::Gyroscope, gyroscope_path)]

@@ -1,6 +1,7 @@
 //! What the caller of a pipeline chooses, for all recordings.
 
 use super::source::Source;
+use calibrant_core::diagnostic::Code;
 use calibrant_core::sensor::ReadingUnit;
 use calibrant_io::ImuReadOptions;
 use std::path::PathBuf;
@@ -20,6 +21,8 @@ pub struct PipelineOptions {
     pub validate: Option<Source>,
     /// Number of blocks of holds, each predicted by a calibration from the others.
     pub folds: Option<usize>,
+    /// Diagnostics that the files mark as allowed.
+    pub allowed: Vec<Code>,
     /// Is `report.html` written?
     pub report: bool,
 }
@@ -33,6 +36,7 @@ impl Default for PipelineOptions {
             unit: None,
             validate: None,
             folds: None,
+            allowed: Vec::new(),
             report: true,
         }
     }

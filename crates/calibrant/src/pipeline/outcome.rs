@@ -1,15 +1,16 @@
 //! What comes of a recording, and the files that it is written to.
 
 use super::note::Note;
+use calibrant_core::diagnostic::{Code, Diagnostic};
 use calibrant_core::error::Result;
 use calibrant_core::estimate::{Calibration, CalibrationStatus, ImuCalibration, Validation};
 use calibrant_core::noise::SensorNoise;
 use calibrant_core::sensor::ImuRecording;
 use calibrant_io::{
-    Input, Summary, calibration_json, imu_calibration_json, write_atomically, write_calibration,
-    write_imu_calibration,
+    DiagnosticWords, Input, Summary, calibration_json, imu_calibration_json, write_atomically,
+    write_calibration, write_imu_calibration,
 };
-use calibrant_report::{About, calibration_report, imu_calibration_report};
+use calibrant_report::{About, calibration_report, imu_calibration_report, message};
 use std::path::Path;
 
 /// A calibration of an accelerometer alone, or of an IMU.
@@ -36,6 +37,8 @@ pub struct Outcome {
     pub inputs: Vec<Input>,
     /// The recording without outliers.
     pub(crate) recording: ImuRecording,
+    /// Diagnostics that the files mark as allowed.
+    pub(crate) allowed: Vec<Code>,
     /// The head of the report, where one is written.
     pub(crate) about: Option<About>,
 }
@@ -52,7 +55,7 @@ impl Outcome {
 
     /// The warnings of the calibration.
     #[must_use]
-    pub fn warnings(&self) -> &[String] {
+    pub fn warnings(&self) -> &[Diagnostic] {
         match &self.calibration {
             SensorCalibration::Accelerometer(calibration) => &calibration.warnings,
             SensorCalibration::Imu(calibration) => &calibration.warnings,
@@ -73,10 +76,10 @@ impl Outcome {
     pub fn json(&self) -> String {
         match &self.calibration {
             SensorCalibration::Accelerometer(calibration) => {
-                calibration_json(calibration, &self.validations, &self.inputs[0])
+                calibration_json(calibration, &self.validations, &self.inputs[0], &self.words())
             }
             SensorCalibration::Imu(calibration) => {
-                imu_calibration_json(calibration, &self.validations, &self.inputs)
+                imu_calibration_json(calibration, &self.validations, &self.inputs, &self.words())
             }
         }
     }
@@ -96,14 +99,19 @@ impl Outcome {
         }
     }
 
+    /// How diagnostics are written to files.
+    fn words(&self) -> DiagnosticWords<'_> {
+        DiagnosticWords { message: &message, allowed: &self.allowed }
+    }
+
     fn write_json(&self, directory: &Path) -> Result<()> {
         let path = directory.join("calibration.json");
         match &self.calibration {
             SensorCalibration::Accelerometer(calibration) => {
-                write_calibration(&path, calibration, &self.validations, &self.inputs[0])
+                write_calibration(&path, calibration, &self.validations, &self.inputs[0], &self.words())
             }
             SensorCalibration::Imu(calibration) => {
-                write_imu_calibration(&path, calibration, &self.validations, &self.inputs)
+                write_imu_calibration(&path, calibration, &self.validations, &self.inputs, &self.words())
             }
         }
     }

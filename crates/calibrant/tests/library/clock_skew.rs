@@ -2,6 +2,7 @@
 //! warning.
 
 use crate::common::draw_imu;
+use crate::common::messages;
 use calibrant::Error;
 use calibrant::estimate::{
     CalibrationSettings, CovarianceVerdict, ErrorKind, Gyroscope, HoldsSetup, ImuCalibration, ImuProblem,
@@ -89,8 +90,8 @@ fn quick(number: u64, clock: impl Fn(f64) -> f64) -> ImuRecording {
     thinned(&on_an_arm(number, &setup, 0.3).1, number, clock)
 }
 
-fn message(calibration: &ImuCalibration) -> Option<&String> {
-    calibration.warnings.iter().find(|warning| warning.contains(SAID))
+fn message(calibration: &ImuCalibration) -> Option<String> {
+    messages(&calibration.warnings).into_iter().find(|warning| warning.contains(SAID))
 }
 
 /// Standard deviation of the least certain gain of the gyroscope.
@@ -183,7 +184,7 @@ fn the_xsens_pair_is_not_accused() {
     other.gyroscope.as_mut().expect("there").times_s.iter_mut().for_each(|t| *t = 3.0 + (*t - 3.0) * 1.0002);
     let calibration = calibrate(&other);
     let warning = message(&calibration).expect("told");
-    let (growth, sd) = (number(warning, "at the end, "), number(warning, " ± "));
+    let (growth, sd) = (number(&warning, "at the end, "), number(&warning, " ± "));
     assert!((growth - 0.02).abs() < 4.0 * sd && sd < 0.003, "{warning}");
 }
 
@@ -198,7 +199,7 @@ fn a_clock_that_goes_faster_is_told_with_its_rate_and_the_advice_repairs_the_gai
         };
         let calibration = run(&recording).expect("determined");
         let warning = message(&calibration).unwrap_or_else(|| panic!("{rate}: {:?}", calibration.warnings));
-        let (growth, sd) = (number(warning, "at the end, "), number(warning, " ± "));
+        let (growth, sd) = (number(&warning, "at the end, "), number(&warning, " ± "));
         assert!((growth - 100.0 * rate).abs() < 4.0 * sd, "{rate}: {warning}");
         assert!(warning.contains(if rate > 0.0 { "too large" } else { "too small" }), "{warning}");
         assert!(
@@ -207,10 +208,10 @@ fn a_clock_that_goes_faster_is_told_with_its_rate_and_the_advice_repairs_the_gai
             off(&calibration)
         );
         // as advised
-        let factor = number(warning, "first sample by ");
+        let factor = number(&warning, "first sample by ");
         let shift = match (warning.contains("and subtract "), warning.contains("and add ")) {
-            (true, _) => -number(warning, "and subtract "),
-            (_, true) => number(warning, "and add "),
+            (true, _) => -number(&warning, "and subtract "),
+            (_, true) => number(&warning, "and add "),
             _ => 0.0,
         };
         let times = &mut recording.gyroscope.as_mut().expect("there").times_s;
@@ -234,10 +235,10 @@ fn a_latency_is_told_with_its_length() {
         let warning = message(&calibration).unwrap_or_else(|| panic!("{lag}: {:?}", calibration.warnings));
         let direction = if lag > 0.0 { "ms later" } else { "ms earlier" };
         assert!(warning.contains(direction), "{lag}: {warning}");
-        let (reported, sd) = (number(warning, SAID) / 1e3, number(warning, "(± ") / 1e3);
+        let (reported, sd) = (number(&warning, SAID) / 1e3, number(&warning, "(± ") / 1e3);
         assert!((reported - lag.abs()).abs() < 4.0 * sd && sd < 0.01, "{lag}: {warning}");
         let advice = if lag > 0.0 { ": subtract " } else { ": add " };
-        assert!((number(warning, advice) - lag.abs()).abs() < 4.0 * sd, "{lag}: {warning}");
+        assert!((number(&warning, advice) - lag.abs()).abs() < 4.0 * sd, "{lag}: {warning}");
     });
 }
 

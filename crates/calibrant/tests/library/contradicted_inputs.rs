@@ -1,6 +1,7 @@
 //! Tests of given holds, turns and directions that the recording contradicts.
 
 use crate::common::draw_imu;
+use crate::common::messages;
 use calibrant::estimate::{
     CalibrationSettings, Gyroscope, ImuCalibration, ImuProblem, ImuSetup, Turn, calibrate_imu,
 };
@@ -47,7 +48,7 @@ fn a_given_hold_in_which_the_sensor_turns_about_the_vertical_is_named_and_tells_
         let (truth, mut recording, setup) = table();
         let clean = run(&recording, &setup).expect("determined");
         assert!(
-            clean.warnings.iter().all(|warning| !warning.contains("turns in hold")),
+            messages(&clean.warnings).iter().all(|warning| !warning.contains("turns in hold")),
             "{:?}",
             clean.warnings
         );
@@ -60,8 +61,10 @@ fn a_given_hold_in_which_the_sensor_turns_about_the_vertical_is_named_and_tells_
             }
         }
         let calibration = run(&recording, &setup).expect("determined");
-        let message: Vec<&String> =
-            calibration.warnings.iter().filter(|warning| warning.contains("turns in hold")).collect();
+        let message: Vec<String> = messages(&calibration.warnings)
+            .into_iter()
+            .filter(|warning| warning.contains("turns in hold"))
+            .collect();
         assert_eq!(message.len(), 1, "{:?}", calibration.warnings);
         assert!(
             message[0].starts_with("the gyroscope turns in hold 2 (14.0 to 19.0 s), by "),
@@ -85,7 +88,7 @@ fn a_hold_that_reaches_beyond_the_recording_is_named() {
     let calibration = run(&recording, &setup).expect("determined");
     let is_stated = |calibration: &ImuCalibration| {
         let message = "hold 6 is given from 58 to 7600 s, and the recording goes from -1 to 64 s: only 6.0 s of it count";
-        calibration.warnings.iter().filter(|warning| warning.contains(message)).count()
+        messages(&calibration.warnings).iter().filter(|warning| warning.contains(message)).count()
     };
     assert_eq!((is_stated(&within), is_stated(&calibration)), (0, 1), "{:?}", calibration.warnings);
     setup.holds.intervals_s.as_mut().expect("given")[5] = (7000.0, 7600.0);
@@ -106,11 +109,8 @@ fn a_turn_that_is_given_twice_is_refused() {
 fn faces_that_are_all_turned_alike_are_named() {
     let (_, recording, mut setup) = table();
     let named = |calibration: &ImuCalibration| {
-        let warnings = calibration.warnings.iter();
-        warnings
-            .filter(|warning| warning.contains("all directions are turned alike"))
-            .cloned()
-            .collect::<Vec<_>>()
+        let warnings = messages(&calibration.warnings).into_iter();
+        warnings.filter(|warning| warning.contains("all directions are turned alike")).collect::<Vec<_>>()
     };
     assert!(named(&run(&recording, &setup).expect("determined")).is_empty());
     for direction in setup.directions.as_mut().expect("given") {

@@ -1,6 +1,7 @@
 //! Tests of static multi-position calibration: against another program on a real recording, and on difficult
 //! recordings.
 
+use crate::common::messages;
 use calibrant::estimate::{
     Calibration, CalibrationProblem, CalibrationSettings, CalibrationStatus, HoldCalibration, HoldsSetup,
     Recovered, Stimulus, calibrate, find_holds,
@@ -156,7 +157,7 @@ fn bad_holds_are_found_and_left_out_with_a_word() {
         for &hold in &bad {
             let word = format!("hold {} (", hold + 1);
             assert!(
-                calibration.warnings.iter().any(|warning| warning.starts_with(&word)),
+                messages(&calibration.warnings).iter().any(|warning| warning.starts_with(&word)),
                 "{:?}",
                 calibration.warnings
             );
@@ -239,7 +240,7 @@ fn poor_spread_is_a_warning_with_the_missing_side_named() {
     let setup = HoldsSetup { intervals_s: Some(up), ..HoldsSetup::default() };
     let calibration = run(&sensor(SensorModel::Full), &recording, &setup).expect("identifiable");
     assert!(!holds(&calibration).detected);
-    let words = calibration.warnings.join("\n");
+    let words = messages(&calibration.warnings).join("\n");
     assert!(words.contains("the z axis pointing down"), "{words}");
     assert!(words.contains("do not spread enough"), "{words}");
 }
@@ -249,7 +250,7 @@ fn one_hold_more_than_parameters_is_said_so() {
     let (_, recording) = simulate(10, 3);
     let setup = HoldsSetup::default();
     let calibration = run(&sensor(SensorModel::Full), &recording, &setup).expect("determined");
-    let words = calibration.warnings.join("\n");
+    let words = messages(&calibration.warnings).join("\n");
     assert_eq!(calibration.fit.degrees_of_freedom, 1);
     assert!(words.contains("only one hold more than parameters: "), "{words}");
 }

@@ -1,5 +1,6 @@
 //! Tests of faulty recordings of an IMU, whose fault is named, and of known quantities, which are used.
 
+use crate::common::messages;
 use crate::common::{draw_feeling_imu, normal, run_imu};
 use calibrant::error::Error;
 use calibrant::estimate::{CalibrationStatus, Gyroscope, ImuSetup, KnownTerm, NoiseSource, Turn, WhiteNoise};
@@ -40,7 +41,11 @@ fn counts_of_an_unknown_gain_and_axes_in_another_order_are_found() {
     let calibration = run_imu(&recording, &model, &ImuSetup::default(), unit).expect("found");
     let error = (calibration.imu.gyroscope.matrix - order * truth.gyroscope.matrix).amax();
     assert!(error < 5.0, "{error} of 1000");
-    assert!(calibration.warnings.iter().any(|warning| warning.contains("the gyroscope's axes are not")));
+    assert!(
+        messages(&calibration.warnings)
+            .iter()
+            .any(|warning| warning.contains("the gyroscope's axes are not"))
+    );
 }
 
 #[test]
@@ -54,7 +59,11 @@ fn axes_of_a_gyroscope_in_si_may_be_in_another_order_too() {
     let error = (calibration.imu.gyroscope.matrix - order * truth.gyroscope.matrix).amax();
     assert!(error < 5e-3, "{error}");
     let warning = "along x, y and z of the accelerometer lie y, -x and -z of the gyroscope";
-    assert!(calibration.warnings.iter().any(|found| found.contains(warning)), "{:?}", calibration.warnings);
+    assert!(
+        messages(&calibration.warnings).iter().any(|found| found.contains(warning)),
+        "{:?}",
+        calibration.warnings
+    );
 }
 
 /// A rotation whose rate saturated shows nothing, however well the others fit.
@@ -231,7 +240,7 @@ fn a_known_bias_is_kept_and_a_prior_shares() {
     let setup = ImuSetup { known: vec![fixed], ..ImuSetup::default() };
     let calibration = run_imu(&recording, &Gyroscope::default(), &setup, unit).expect("determined");
     assert_eq!(calibration.imu.gyroscope.matrix.m11, 0.9);
-    let message = calibration.warnings.join("; ");
+    let message = messages(&calibration.warnings).join("; ");
     assert!(
         message.contains("the recording contradicts what [known] says of gyroscope.scale.x: 0.9"),
         "{message}"
@@ -239,7 +248,7 @@ fn a_known_bias_is_kept_and_a_prior_shares() {
     let prior = KnownTerm { quantity: quantity("gyroscope.bias.x"), value: 0.1, sd: Some(1e-4) };
     let setup = ImuSetup { known: vec![prior], ..ImuSetup::default() };
     let calibration = run_imu(&recording, &Gyroscope::default(), &setup, unit).expect("determined");
-    let message = calibration.warnings.join("; ");
+    let message = messages(&calibration.warnings).join("; ");
     assert!(message.contains("the data contradict what [known] says of gyroscope.bias.x"), "{message}");
     assert!(message.contains("degrees of freedom: the data contradict"), "{message}");
 
@@ -262,7 +271,7 @@ fn a_known_bias_is_kept_and_a_prior_shares() {
                 let says =
                     format!("the recording contradicts what [known] says of {name}: {:?}", known.value);
                 let message = match &found {
-                    Ok(calibration) => calibration.warnings.join("; "),
+                    Ok(calibration) => messages(&calibration.warnings).join("; "),
                     Err(error) => error.to_string(),
                 };
                 assert!(message.contains(&says), "{message}");
@@ -293,7 +302,7 @@ fn a_turn_that_was_not_made_is_named() {
     let setup = ImuSetup { turns: vec![turn], ..ImuSetup::default() };
     let unit = ReadingUnit::MetrePerSecondSquared;
     let calibration = run_imu(&recording, &Gyroscope::default(), &setup, unit).expect("determined");
-    let message = calibration.warnings.join("; ");
+    let message = messages(&calibration.warnings).join("; ");
     assert!(
         message.contains("turn 1 (10.0 to 14.0 s) is given as 360.0° about x, and the gyroscope shows"),
         "{message}"

@@ -1,6 +1,7 @@
 //! Tests of faces of known directions with a tilt: the stated uncertainty of the accelerometer is right.
 
 use crate::common::draw_imu;
+use crate::common::messages;
 use calibrant::estimate::{
     CalibrationSettings, CalibrationStatus, Gyroscope, ImuCalibration, ImuProblem, ImuSetup, TiltSource,
     Turn, calibrate_imu,
@@ -247,14 +248,14 @@ fn how_well_the_faces_were_met_is_given_or_told_by_their_scatter_or_assumed() {
     let found = calibration.sd()[place("accelerometer.scale.x")];
     let expected = (0.5 * noise * noise + square * square + of_others * of_others).sqrt();
     assert!((found / expected - 1.0).abs() < 0.05, "{found} {expected}");
-    let message = tilted(&six, 1.5, Some(0.3)).warnings.join("; ");
+    let message = messages(&tilted(&six, 1.5, Some(0.3)).warnings).join("; ");
     assert!(
         message.contains("the faces scatter by 1.") && message.contains("holds.face_sd_deg says 0.30°"),
         "{message}"
     );
     // stated far too large, the mean of the gains follows the faces
     let large = tilted(&six, 0.3, Some(5.0));
-    let message = large.warnings.join("; ");
+    let message = messages(&large.warnings).join("; ");
     assert!(message.contains("the faces scatter by only 0.") && message.contains("says 5.00°"), "{message}");
     let free = tilted(&six, 0.3, None);
     let by = large.imu.accelerometer.matrix / free.imu.accelerometer.matrix[(0, 0)];
@@ -262,5 +263,7 @@ fn how_well_the_faces_were_met_is_given_or_told_by_their_scatter_or_assumed() {
     let few = tilted(&[six[0], six[2], six[4], six[5]], 0.4, None);
     let assumed = few.holds.tilt.expect("faces");
     assert_eq!((assumed.source, assumed.sd_rad), (TiltSource::Assumed, 0.5_f64.to_radians()));
-    assert!(few.warnings.join("; ").contains("4 faces are too few to tell how well they were met"));
+    assert!(
+        messages(&few.warnings).join("; ").contains("4 faces are too few to tell how well they were met")
+    );
 }

@@ -6,6 +6,7 @@ mod common;
 mod contradicted_inputs;
 mod derivatives;
 mod design;
+mod diagnostics;
 mod earth_rate;
 mod estimate;
 mod files;

@@ -1,5 +1,6 @@
 //! Tests of the mounting: a gyroscope may be turned against the accelerometer by any angle.
 
+use crate::common::messages;
 use crate::common::{draw_imu, normal, run_imu};
 use calibrant::estimate::{Gyroscope, ImuCalibration, ImuSetup};
 use calibrant::sensor::{ImuParameters, ImuRecording, ReadingUnit};
@@ -53,7 +54,7 @@ fn the_angle_and_the_axis_are_told() {
     let calibration = run(&recording, ReadingUnit::RadianPerSecond).expect("determined");
     let reported = "the gyroscope is turned by 40° against the accelerometer, about the axis (";
     assert!(
-        calibration.warnings.iter().any(|message| message.contains(reported)),
+        messages(&calibration.warnings).iter().any(|message| message.contains(reported)),
         "{:#?}",
         calibration.warnings
     );

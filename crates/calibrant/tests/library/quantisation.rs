@@ -1,5 +1,6 @@
 //! Tests of readings in steps coarser than their noise: more samples do not help, and a warning says so.
 
+use crate::common::messages;
 use crate::common::{draw_imu, normal};
 use calibrant::estimate::{
     CalibrationSettings, CalibrationStatus, Gyroscope, ImuCalibration, ImuProblem, ImuSetup, Turn,
@@ -112,7 +113,7 @@ fn coarse_steps_are_named_with_the_noise_and_fine_ones_are_not() {
     let message = |step: f64| {
         let mut recording = whole.clone();
         round(&mut recording, step);
-        run(&recording, &setup).expect("determined").warnings.join("; ")
+        messages(&run(&recording, &setup).expect("determined").warnings).join("; ")
     };
     assert!(!message(1e-3).contains("come in steps"), "{}", message(1e-3));
     for (step, words) in [(0.01, "1.000e-2"), (0.02, "2.000e-2")] {

@@ -1,10 +1,11 @@
 //! Tests of an accelerometer that stops at the end of its range: its readings there are not used, and a
 //! warning says so.
 
+use crate::common::{WORDS, messages};
 use crate::common::{draw_imu, normal};
 use calibrant::estimate::{
-    CalibrationProblem, CalibrationSettings, CalibrationStatus, Gyroscope, HoldsSetup, ImuCalibration,
-    ImuProblem, ImuSetup, Recovered, Stimulus, Turn, calibrate, calibrate_imu,
+    CalibrationProblem, CalibrationSettings, CalibrationStatus, Gyroscope, HoldResult, HoldsSetup,
+    ImuCalibration, ImuProblem, ImuSetup, Recovered, Stimulus, Turn, calibrate, calibrate_imu,
 };
 use calibrant::io::{Input, calibration_json};
 use calibrant::sensor::{Axis, ImuParameters, ImuRecording, ReadingUnit, Recording, Sensor, SensorModel};
@@ -91,7 +92,7 @@ fn holds_and_rotations_in_which_the_accelerometer_saturates_are_left_out_and_nam
     for (number, result) in (1..).zip(&calibration.holds.holds) {
         let cut = is_cut(&whole, (result.hold.start_s, result.hold.end_s), limit);
         assert_eq!(!result.used, cut, "hold {number}");
-        let message = calibration.warnings.iter().any(|warning| {
+        let message = messages(&calibration.warnings).iter().any(|warning| {
             warning.starts_with(&format!("hold {number} ("))
                 && warning.contains("was left out: axis x of the accelerometer saturates in it, at ")
                 && warning.contains("7.84 m/s²; record with a larger range, or tilt that axis")
@@ -255,17 +256,18 @@ fn the_accelerometer_alone_leaves_them_out_as_well() {
         CalibrationProblem { sensor: &sensor, recording: &accelerometer, stimulus: Stimulus::Holds(&setup) };
     let calibration = calibrate(&problem, &CalibrationSettings::default()).expect("determined");
     let Recovered::Holds(holds) = &calibration.recovered else { panic!("holds") };
-    let cut: Vec<&str> = holds.holds.iter().filter_map(|hold| hold.reason.as_deref()).collect();
+    let reason = |hold: &HoldResult| hold.reason.map(|reason| reason.to_string());
+    let cut: Vec<String> = holds.holds.iter().filter_map(reason).collect();
     assert!(
         cut.len() > 2 && cut.iter().all(|reason| reason.contains("axis x of the accelerometer saturates"))
     );
     // and the file has it, too
     let input = Input { file: "x.csv".into(), sha256: String::new(), samples: 0, rate_hz: 100.0 };
     let json: serde_json::Value =
-        serde_json::from_str(&calibration_json(&calibration, &[], &input)).expect("JSON");
+        serde_json::from_str(&calibration_json(&calibration, &[], &input, &WORDS)).expect("JSON");
     let table = json["holds"]["table"].as_array().expect("a table");
     for (row, hold) in table.iter().zip(&holds.holds) {
-        assert_eq!(row["reason"].as_str(), hold.reason.as_deref());
+        assert_eq!(row["reason"].as_str(), reason(hold).as_deref());
         assert_eq!(row.get("reason").is_none(), row["used"] == true);
     }
     for (value, (sd, quantity)) in calibration

@@ -1,6 +1,7 @@
 //! Tests of a sensor that changes within a recording: the change is reported. No change is reported of other
 //! sensors.
 
+use crate::common::messages;
 use crate::common::{draw_imu, normal, run_imu};
 use calibrant::estimate::{
     CalibrationProblem, CalibrationSettings, Caveat, Change, Changed, Course, CovarianceVerdict, ErrorKind,
@@ -106,7 +107,7 @@ fn a_step_is_found_and_its_sensor_its_kind_and_its_time_are_told() {
             let misplaced = (before.abs_diff(last) + after.abs_diff(last + 1)) as f64;
             let most = 5.0 * change.sd[axis] + 0.1 * amount * (1.0 + misplaced);
             assert!(off < most, "{sensor_kind} {of:?} {number}: {change:?}");
-            let message = &calibration.warnings[0];
+            let message = &messages(&calibration.warnings)[0];
             assert!(
                 message.contains("changes at about") && message.contains("holds.intervals_s"),
                 "{message}"
@@ -129,7 +130,7 @@ fn a_bias_that_comes_and_goes_is_an_episode() {
         let calibration = run(&recording, &Gyroscope::default());
         let change = calibration.changes.first().copied();
         if let Some(change) = change.filter(|change| matches!(change.course, Course::Episode { .. })) {
-            let message = &calibration.warnings[0];
+            let message = &messages(&calibration.warnings)[0];
             assert!(
                 message.contains("changes at about") && message.contains("and back at about"),
                 "{message}"
@@ -161,7 +162,8 @@ fn holds_that_are_left_out_in_a_row_are_a_change() {
         let mut recording = simulated(404, number, &simulation);
         from(&mut recording, 4.5 * 23.0 + 3.5, SensorKind::Accelerometer, 0, (1.0, 0.3));
         let calibration = run(&recording, &Gyroscope::default());
-        let says = |words: &str| calibration.warnings.iter().any(|message| message.contains(words));
+        let says =
+            |words: &str| messages(&calibration.warnings).iter().any(|message| message.contains(words));
         assert!(
             says("the accelerometer changes at about") || says("were left out one after another"),
             "{:#?}",
@@ -187,13 +189,13 @@ fn a_drift_is_told_and_temperature_pointed_at() {
     assert_eq!((drift.sensor_kind, drift.course), (SensorKind::Accelerometer, Course::Drift));
     assert!((drift.amount.y - 0.04).abs() < 5.0 * drift.sd.y, "{drift:?}");
     assert!(
-        with_temperature.warnings[0].contains("from 20.0 to 38.0 °C"),
+        messages(&with_temperature.warnings)[0].contains("from 20.0 to 38.0 °C"),
         "{}",
-        with_temperature.warnings[0]
+        messages(&with_temperature.warnings)[0]
     );
     recording.temperature_c = None;
     let without = run(&recording, &Gyroscope::default());
-    assert!(without.warnings[0].contains("warm up"), "{}", without.warnings[0]);
+    assert!(messages(&without.warnings)[0].contains("warm up"), "{}", messages(&without.warnings)[0]);
 }
 
 #[test]
@@ -209,8 +211,9 @@ fn an_accelerometer_alone_is_told_too() {
         let calibration = calibrate(&problem, &CalibrationSettings::default()).expect("determined");
         let Recovered::Holds(holds) = &calibration.recovered else { panic!("holds") };
         assert_eq!(holds.change.is_some(), changes, "{:?}", holds.change);
-        let says =
-            calibration.warnings.iter().any(|message| message.contains("the accelerometer changes at about"));
+        let says = messages(&calibration.warnings)
+            .iter()
+            .any(|message| message.contains("the accelerometer changes at about"));
         assert_eq!(says, changes, "{:#?}", calibration.warnings);
     }
 }

@@ -1,5 +1,6 @@
 //! Tests of spikes and invalid samples, and of the magnitudes of holds in the table.
 
+use crate::common::messages;
 use crate::common::{draw_imu, normal, xsens};
 use calibrant::estimate::{
     CalibrationProblem, CalibrationSettings, Gyroscope, HoldsSetup, ImuCalibration, ImuProblem, ImuSetup,
@@ -88,7 +89,7 @@ fn invalid_samples_in_a_row_are_a_gap_and_are_named_with_time_and_value() {
         assert_eq!((*found, spikes.cut.len(), spikes.time_s), (of, 20, 10.0));
         let samples = without.accelerometer.as_ref().expect("there").len();
         assert_eq!(without.temperature_c.as_ref().expect("there").len(), samples);
-        let words = spikes.words(of, "m/s²");
+        let words = calibrant::report::spikes_taken_out(spikes, of, ReadingUnit::MetrePerSecondSquared);
         assert!(words.contains("20 samples cannot be readings") && words.contains("at 10.000 s"), "{words}");
         // the holds after the gap are where they were
         let holds = find_imu_holds(&damaged, 1.0).expect("found");
@@ -115,8 +116,10 @@ fn spikes_divide_no_hold_and_shift_no_estimate() {
         assert!(of_accelerometer > 3 && of_gyroscope > 3);
         let found = run(&damaged, &ImuSetup::default());
         assert_eq!(found.holds.holds.len(), 24, "1 in {every}");
-        let message: Vec<&String> =
-            found.warnings.iter().filter(|warning| warning.contains("far off those beside")).collect();
+        let message: Vec<String> = messages(&found.warnings)
+            .into_iter()
+            .filter(|warning| warning.contains("far off those beside"))
+            .collect();
         assert_eq!(message.len(), 2, "once for each sensor: {:?}", found.warnings);
         // most of a short hold is near a movement, where a spike counts as one
         let shift = worst_shift(&found, &clean);
@@ -129,10 +132,9 @@ fn spikes_divide_no_hold_and_shift_no_estimate() {
 #[test]
 fn spikes_of_one_sign_are_named_with_what_they_do_to_the_bias() {
     let one_sided = |of: &ImuCalibration| -> Vec<String> {
-        of.warnings
-            .iter()
+        messages(&of.warnings)
+            .into_iter()
             .filter(|warning| warning.contains("single samples in the holds"))
-            .cloned()
             .collect()
     };
     let recording = simulated(6);

@@ -4,6 +4,7 @@
 //! coverage of 95 % to √(0.95·0.05/n). √n times the Kolmogorov–Smirnov distance of uniform p-values exceeds
 //! 1.95 once in a thousand.
 
+use crate::common::messages;
 use calibrant::design::{DesignProblem, DesignSettings, design};
 use calibrant::estimate::{
     CalibrationProblem, CalibrationSettings, HoldsSetup, Recovered, Stimulus, calibrate,
@@ -266,7 +267,7 @@ fn the_bias_of_a_long_noisy_motion_is_foretold() {
     let foretold = |intervals| {
         let case = crate::common::case::Case::new(SensorModel::ScaleBias, noise, intervals, 1.0, 10.0, 3);
         let warnings = case.calibrate().expect("identifiable").warnings;
-        warnings.iter().find(|warning| warning.contains("is biased by about")).map(|warning| {
+        messages(&warnings).iter().find(|warning| warning.contains("is biased by about")).map(|warning| {
             let words: Vec<&str> = warning.split_whitespace().collect();
             let at = words.iter().position(|word| *word == "about").expect("a number follows");
             words[at + 1].parse::<f64>().expect("a number")

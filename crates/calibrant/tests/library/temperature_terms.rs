@@ -1,6 +1,7 @@
 //! Tests of an IMU whose bias and gain follow temperature: against the truth on simulated ones, and where the
 //! data do not determine it.
 
+use crate::common::WORDS;
 use calibrant::estimate::{
     CalibrationSettings, CalibrationStatus, Comparison, Gyroscope, ImuCalibration, ImuProblem, ImuSetup,
     KnownTerm, ThermalModel, Turn, calibrate_imu,
@@ -332,7 +333,7 @@ fn a_calibration_keeps_its_terms_in_its_file() {
     let (_, recording) = recorded(&ALL_TO_2, [20.0, 45.0]);
     let linear = ThermalModel { accelerometer_bias: 1, ..GYROSCOPE_BIAS };
     let calibration = run(&recording, &setup(linear)).expect("determined");
-    let text = imu_calibration_json(&calibration, &[], &[]);
+    let text = imu_calibration_json(&calibration, &[], &[], &WORDS);
     let back = parse_calibrated_imu(text.as_bytes(), &ConventionOptions::default()).expect("ours");
     assert_eq!(back.imu, calibration.calibrated());
     let message = text.replace("\"reference_c\": 32.0", "\"reference_c\": 3200.0");

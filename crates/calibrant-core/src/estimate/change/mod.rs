@@ -4,10 +4,7 @@
 //! larger, so that nothing looks wrong; and each part of such a recording is predicted by the rest of it as well as that scatter promises. Only the order of time tells (`score`).
 
 mod left_out_run;
-mod result;
 mod score_test;
-mod words;
 
 pub(in crate::estimate) use left_out_run::longest_run;
-pub use result::{Change, Changed, Course};
 pub(in crate::estimate) use score_test::Series;

@@ -15,7 +15,7 @@
 //! # References
 //! `andrews1993`, `levin1985`
 
-use super::{Change, Changed, Course};
+use crate::diagnostic::{Change, Changed, Course};
 use crate::sensor::SensorKind;
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use statrs::function::beta::beta_reg;

@@ -1,8 +1,9 @@
 //! Does the accelerometer change from a hold on?
 
 use super::robust_weights::Magnitude;
+use crate::diagnostic::{Change, Changed};
 use crate::estimate::HoldResult;
-use crate::estimate::change::{Change, Changed, Series};
+use crate::estimate::change::Series;
 use crate::sensor::SensorKind;
 use nalgebra::{DMatrix, DVector};
 

@@ -1,5 +1,6 @@
 //! From a recording with holds to the calibration: find the holds, fit, put the result together.
 
+use super::coarse_steps::coarse_steps;
 use super::hold_detection::{beyond, find_clean_holds, holds_between};
 use super::holds_with_pauses::with_pauses;
 use super::low_pass_filtered::{holds_lost_to_filter, with_filter};
@@ -7,8 +8,8 @@ use super::residuals::magnitude_rms;
 use super::robust_weights::{self, Robust};
 use super::saturated_holds::{clipped_holds, reason as clipped_reason, with_clipped};
 use super::setup::HoldsSetup;
-use super::words::coarse_words;
 use super::{accelerometer_change, verdict};
+use crate::diagnostic::{Diagnostic, HoldLeftOut};
 use crate::error::{Error, InputError, Result};
 use crate::estimate::gravity_error::gravity_slope;
 use crate::estimate::quantisation::of_means;
@@ -46,7 +47,9 @@ pub(in crate::estimate) fn calibrate(
     let skewed_spikes =
         skewed_spikes(problem.recording, SensorKind::Accelerometer, sound.iter().map(|&j| &holds[j]));
     let found = setup.intervals_s.is_none().then_some((problem.recording, setup.minimum_hold_s));
-    let lost = found.and_then(|(recording, minimum_s)| holds_lost_to_filter(recording, &holds, minimum_s));
+    let lost = found
+        .and_then(|(recording, minimum_s)| holds_lost_to_filter(recording, &holds, minimum_s))
+        .map(|lost| Diagnostic::HoldsLostToFilter { lost });
     let robust = match problem.sensor.model {
         SensorModel::ScaleBias => robust_weights::fit::<6>(problem, setup, settings, &holds, sound, of_mean),
         SensorModel::Full => robust_weights::fit::<9>(problem, setup, settings, &holds, sound, of_mean),
@@ -61,7 +64,7 @@ pub(in crate::estimate) fn calibrate(
     let reasons = clipped.iter().map(|end| end.map(|end| clipped_reason(&end, as_read))).collect();
     let mut calibration = assemble(problem, setup, holds, reasons, robust);
     calibration.warnings.extend(lost);
-    calibration.warnings.extend(coarse_words(&coarse, as_read));
+    calibration.warnings.extend(coarse_steps(&coarse, as_read));
     calibration.warnings.extend(skewed_spikes);
     calibration.warnings.extend(beyond(as_read, setup.intervals_s.as_deref().unwrap_or_default()));
     Ok(Calibration { datasheet_prior: settings.datasheet_prior, ..calibration })
@@ -72,7 +75,7 @@ fn assemble(
     problem: &CalibrationProblem<'_>,
     setup: &HoldsSetup,
     holds: Vec<Hold>,
-    reasons: Vec<Option<String>>,
+    reasons: Vec<Option<HoldLeftOut>>,
     robust: Robust,
 ) -> Calibration {
     let list = setup.gauge.parameter_list(problem.sensor.model);

@@ -4,6 +4,7 @@
 //! and spread over decades where it moves. The lowest peak gives the noise; the emptiest place above it separates still from
 //! moving. No threshold in absolute units is needed, and holds of any noise level are found, hands that tremble included.
 
+use crate::diagnostic::Diagnostic;
 use crate::error::{Error, InputError, Result};
 use crate::motion::{Hold, to_ms};
 use crate::sensor::{MeanReading, Recording, SensorKind, Spikes, gap_s, greater, lesser};
@@ -240,8 +241,8 @@ fn summarise(recording: &Recording, first: usize, end: usize) -> Hold {
     }
 }
 
-/// Says which of the holds that are given reach beyond the recording, whose samples are all that counts of them.
-pub(in crate::estimate) fn beyond(recording: &Recording, intervals_s: &[(f64, f64)]) -> Vec<String> {
+/// Which of the holds that are given reach beyond the recording, whose samples are all that counts of them.
+pub(in crate::estimate) fn beyond(recording: &Recording, intervals_s: &[(f64, f64)]) -> Vec<Diagnostic> {
     let (Some(&first), Some(&last), [_, ..]) =
         (recording.times_s.first(), recording.times_s.last(), intervals_s)
     else {
@@ -252,14 +253,15 @@ pub(in crate::estimate) fn beyond(recording: &Recording, intervals_s: &[(f64, f6
         let missing = (first - start).max(0.0) + (end - last).max(0.0);
         missing > (ROUNDED_TIME_SHARE * (end - start)).max(2.0 * step)
     };
-    let words = |(k, (start, end)): (usize, &(f64, f64))| {
-        format!(
-            "hold {} is given from {start} to {end} s, and the recording goes from {first} to {last} s: only {:.1} s of it count; correct holds.intervals_s",
-            k + 1,
-            end.min(last) - start.max(first)
-        )
+    let beyond = |(k, &(start_s, end_s)): (usize, &(f64, f64))| Diagnostic::HoldBeyondRecording {
+        hold: k + 1,
+        start_s,
+        end_s,
+        recording_start_s: first,
+        recording_end_s: last,
+        common_s: end_s.min(last) - start_s.max(first),
     };
-    intervals_s.iter().enumerate().filter(outside).map(words).collect()
+    intervals_s.iter().enumerate().filter(outside).map(beyond).collect()
 }
 
 /// The holds between these (start, end) times in s.

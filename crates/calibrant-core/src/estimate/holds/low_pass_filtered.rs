@@ -5,6 +5,7 @@
 //! `D(4)/D(1) = 1`, a pole ρ has `1 + ρ + ρ² + ρ³`, which is 3 at ρ = 0.81, and a steady movement 16.
 
 use super::hold_detection::still_segments;
+use crate::diagnostic::LostHolds;
 use crate::error::{Error, NotIdentifiable};
 use crate::motion::Hold;
 use crate::sensor::Recording;
@@ -19,19 +20,13 @@ const MOST_SAMPLES: usize = 4096;
 /// Pieces between the holds that need no word: a sensor may pause in a turn.
 const PAUSES: usize = 2;
 
-/// Says that neighbouring samples are alike as behind a slow filter, where stretches that look still were too short to be holds: a likely reason, and what to do. `None` where it is not so.
+/// Stretches that look still and were too short to be holds, where neighbouring samples are alike as behind a slow filter. `None` where it is not so.
 ///
 /// The `holds` are those that [`find_holds`](super::find_holds) or [`find_imu_holds`](crate::estimate::find_imu_holds) found in the recording.
 #[must_use]
-pub fn holds_lost_to_filter(recording: &Recording, holds: &[Hold], minimum_s: f64) -> Option<String> {
+pub fn holds_lost_to_filter(recording: &Recording, holds: &[Hold], minimum_s: f64) -> Option<LostHolds> {
     let pieces = pieces(recording, holds, minimum_s)?;
-    (pieces > PAUSES).then(|| {
-        let found = match holds.len() {
-            1 => "besides 1 hold".to_owned(),
-            count => format!("besides {count} holds"),
-        };
-        format!("{found}, {pieces} stretches look still, but each for less than {minimum_s} s or not throughout: {REASON}: {HELP}")
-    })
+    (pieces > PAUSES).then_some(LostHolds { holds: holds.len(), stretches: pieces, minimum_s })
 }
 
 /// The same error, which came of too few holds, with this reason where it is one.
@@ -47,16 +42,11 @@ pub(in crate::estimate) fn with_filter(
     }
     let mut groups = undetermined.groups;
     for group in &mut groups {
-        group.reason = format!("{}; {REASON}", group.reason);
-        group.remedy = format!("{HELP}; {}", group.remedy);
+        group.reason = format!("{}; {}", group.reason, LostHolds::REASON);
+        group.remedy = format!("{}; {}", LostHolds::HELP, group.remedy);
     }
     Error::NotIdentifiable(Box::new(NotIdentifiable { groups }))
 }
-
-/// Why the holds are broken up.
-const REASON: &str = "neighbouring samples are strongly correlated, as behind a low-pass filter far below the sample rate, which breaks holds up";
-/// What to do about it.
-const HELP: &str = "give holds.intervals_s, hold longer, or record with a wider bandwidth";
 
 /// How many stretches look still and are no holds; `None` where samples are not as behind a filter.
 fn pieces(recording: &Recording, holds: &[Hold], minimum_s: f64) -> Option<usize> {

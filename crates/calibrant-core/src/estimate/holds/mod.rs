@@ -23,6 +23,7 @@
 
 mod accelerometer_change;
 mod calibrate;
+mod coarse_steps;
 mod expected_accuracy;
 mod fit;
 mod hold_detection;
@@ -34,14 +35,13 @@ mod robust_weights;
 mod saturated_holds;
 mod setup;
 mod verdict;
-mod words;
 
 pub(super) use calibrate::calibrate;
+pub(super) use coarse_steps::coarse_steps;
 pub(super) use residuals::magnitude_rms;
 pub(super) use robust_weights::{critical, sphere};
 pub(super) use saturated_holds::{reason as clipped_reason, with_clipped};
 pub(super) use verdict::left_out;
-pub(super) use words::coarse_words;
 
 pub use expected_accuracy::{ExpectedCalibration, expected_calibration};
 pub(super) use hold_detection::{as_recorded, beyond, median};

@@ -3,6 +3,7 @@
 //! Where it does, the mean is off by what was cut away, always to the same side, and the scatter within the hold is too small. So these holds are known to be bad
 //! beforehand, whatever their residuals.
 
+use crate::diagnostic::HoldLeftOut;
 use crate::error::{Error, NotIdentifiable};
 use crate::motion::Hold;
 use crate::sensor::{Recording, Saturation};
@@ -44,14 +45,9 @@ pub fn clipped_holds(recording: &Recording, holds: &[Hold]) -> Vec<Option<Satura
     holds.iter().map(touched).collect()
 }
 
-/// Why a hold is left out, in words.
-pub(in crate::estimate) fn reason(end: &Saturation, recording: &Recording) -> String {
-    format!(
-        "axis {} of the accelerometer saturates in it, at {} {}; record with a larger range, or tilt that axis away from the vertical there",
-        end.axis,
-        end.value,
-        recording.unit.symbol()
-    )
+/// Why a hold is left out.
+pub(in crate::estimate) fn reason(end: &Saturation, recording: &Recording) -> HoldLeftOut {
+    HoldLeftOut::Saturated { axis: end.axis, reading: end.value, unit: recording.unit }
 }
 
 /// The same error, which came of the other holds; it says how many are missing since they are clipped.

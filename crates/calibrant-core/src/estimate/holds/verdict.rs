@@ -1,12 +1,14 @@
 //! What a user should know about a static calibration, in words.
 
+use crate::diagnostic::{Diagnostic, FacePointing, HoldSpan};
 use crate::error::UndeterminedGroup;
+use crate::estimate::gravity_off_earth::gravity_off_earth;
 use crate::estimate::{Calibration, CalibrationStatus, HoldCalibration, HoldResult, Recovered};
 
 use crate::estimate::change::longest_run;
 use crate::estimate::statistics::implausible;
 use crate::motion::Hold;
-use crate::sensor::{Axis, ParameterList};
+use crate::sensor::{Axis, ParameterList, SensorKind};
 use nalgebra::{Matrix3, Vector3};
 
 /// A condition number above which the holds do not spread enough. Twenty-four even orientations give about 3, six faces with their edges about 10.
@@ -78,112 +80,84 @@ fn arrangement(holds: &[Hold]) -> String {
 }
 
 /// Warnings about a fit.
-pub(super) fn warnings(calibration: &Calibration, weakest: &[String]) -> Vec<String> {
+pub(super) fn warnings(calibration: &Calibration, weakest: &[String]) -> Vec<Diagnostic> {
     let mut warnings = Vec::new();
     let Recovered::Holds(holds) = &calibration.recovered else { return warnings };
     if calibration.status != CalibrationStatus::Converged {
-        warnings.push(format!(
-            "the iteration did not converge ({}): the numbers are the best found, not the optimum",
-            calibration.status.name()
-        ));
+        warnings.push(Diagnostic::NotConverged { status: calibration.status.name() });
     }
-    warnings.extend(holds.gravity.elsewhere());
+    warnings.extend(gravity_off_earth(&holds.gravity));
     warnings.extend(left_out(holds));
     warnings.extend(left_out_in_a_row(holds));
     let used: Vec<&HoldResult> = holds.holds.iter().filter(|hold| hold.used).collect();
     if calibration.fit.degrees_of_freedom == 0 {
-        warnings.push(format!(
-            "{} holds for {} parameters leave nothing to check the fit with: the standard deviations rest on the noise within the holds \
-             alone and are too small; add holds",
-            used.len(),
-            calibration.parameters.len()
-        ));
+        warnings.push(Diagnostic::NothingToCheck {
+            holds: Some(used.len()),
+            parameters: calibration.parameters.len(),
+        });
     } else if calibration.fit.degrees_of_freedom < 5 {
-        warnings.push(format!(
-            "only {} than parameters: the standard deviations themselves are known to about {:.0} %",
-            match calibration.fit.degrees_of_freedom {
-                1 => "one hold more".to_owned(),
-                more => format!("{more} holds more"),
-            },
-            100.0 / (2.0 * calibration.fit.degrees_of_freedom as f64).sqrt()
-        ));
+        let degrees_of_freedom = calibration.fit.degrees_of_freedom;
+        warnings.push(Diagnostic::FewDegreesOfFreedom { degrees_of_freedom });
     }
     if holds.condition_number > CONDITION {
-        warnings.push(format!(
-            "the holds do not spread enough (condition number {:.0}): {} can hardly be told apart",
-            holds.condition_number,
-            weakest.join(", ")
-        ));
+        let (condition_number, parameters) = (holds.condition_number, weakest.to_vec());
+        warnings.push(Diagnostic::HoldsSpreadLittle { condition_number, parameters });
     }
     let missing = missing_faces(&used);
     if !missing.is_empty() && (holds.condition_number > CONDITION / 3.0 || missing.len() > 1) {
-        warnings.push(format!("no hold has {}: add one there", missing.join(" or ")));
+        warnings.push(Diagnostic::OrientationMissing { missing });
     }
     if let (Some(assumed), Some(found)) = (calibration.fit.assumed_noise, calibration.fit.noise_estimate) {
         for axis in Axis::ALL {
             let ratio = found[axis.index()] / assumed[axis.index()];
             if !(0.5..=2.0).contains(&ratio) {
-                warnings.push(format!(
-                    "the noise of axis {axis} within the holds is {ratio:.2} times the one in the experiment file (not used: the \
-                     recording's own is)"
-                ));
+                let sensor_kind = SensorKind::Accelerometer;
+                warnings.push(Diagnostic::NoiseNotAsGiven { sensor_kind, axis, ratio });
             }
         }
     }
     if holds.between_holds_sd_mps2 > 0.02 {
-        warnings.push(format!(
-            "the holds scatter by {:.0} mm/s² beyond their noise: something moves, drifts, clips or is not gravity",
-            1e3 * holds.between_holds_sd_mps2
-        ));
+        warnings.push(Diagnostic::HoldsScatter { between_holds_sd_mps2: holds.between_holds_sd_mps2 });
     }
     if !(9.7..=9.9).contains(&holds.gravity.magnitude_mps2) {
-        warnings.push(format!(
-            "gravity is given as {} m/s²: results are in that unit",
-            holds.gravity.magnitude_mps2
-        ));
+        warnings.push(Diagnostic::GravityUnusual { gravity_mps2: holds.gravity.magnitude_mps2 });
     }
     warnings.extend(implausible(calibration));
     warnings
 }
 
 /// The holds that were left out, and why.
-pub(in crate::estimate) fn left_out(holds: &HoldCalibration) -> Vec<String> {
+pub(in crate::estimate) fn left_out(holds: &HoldCalibration) -> Vec<Diagnostic> {
     holds
         .holds
         .iter()
         .enumerate()
         .filter_map(|(k, hold)| {
             let why = hold.why_left_out()?;
-            Some(format!("{} was left out: {why}", hold.hold.named(k)))
+            Some(Diagnostic::HoldLeftOut { hold: HoldSpan::of(k, &hold.hold), why })
         })
         .collect()
 }
 
 /// Holds that were left out one after another, where no change explains them.
-fn left_out_in_a_row(holds: &HoldCalibration) -> Option<String> {
+fn left_out_in_a_row(holds: &HoldCalibration) -> Option<Diagnostic> {
     let sound: Vec<&HoldResult> = holds.holds.iter().filter(|hold| hold.reason.is_none()).collect();
     let run = longest_run(sound.iter().map(|hold| !hold.used)).filter(|_| holds.change.is_none())?;
     let (first, last) = (&sound[run.start].hold, &sound[run.end - 1].hold);
-    Some(format!(
-        "the {} holds from {:.1} to {:.1} s were left out one after another, which is no chance: the sensor was another one there, or not still; calibrate them apart \
-         (holds.intervals_s) and compare",
-        run.len(),
-        first.start_s,
-        last.end_s
-    ))
+    Some(Diagnostic::HoldsLeftOutInARow { holds: run.len(), start_s: first.start_s, end_s: last.end_s })
 }
 
 /// Directions, out of ±x, ±y, ±z, near which there is no hold.
-fn missing_faces(holds: &[&HoldResult]) -> Vec<String> {
+fn missing_faces(holds: &[&HoldResult]) -> Vec<FacePointing> {
     let mut missing = Vec::new();
     for axis in Axis::ALL {
-        for (sign, word) in [(1.0, "up"), (-1.0, "down")] {
+        for (sign, is_up) in [(1.0, true), (-1.0, false)] {
             let mut face = Vector3::zeros();
             face[axis.index()] = sign;
             let nearest =
                 holds.iter().map(|hold| hold.force_mps2.normalize().dot(&face)).fold(-1.0, f64::max);
             if nearest < 0.5 {
-                missing.push(format!("the {axis} axis pointing {word}"));
+                missing.push(FacePointing { axis, is_up });
             }
         }
     }

@@ -1,5 +1,6 @@
 //! Calibrates an IMU: outliers are taken out first, and what is known beforehand is compared with the recording.
 
+use crate::diagnostic::Diagnostic;
 use crate::error::{Error, InputError, Result};
 use crate::estimate::imu::checks::known_terms::{self, Contradiction};
 use crate::estimate::imu::problem::{ImuProblem, ImuSetup};
@@ -9,7 +10,6 @@ use crate::estimate::imu::white_noise_search::WhiteNoiseSearch;
 use crate::estimate::result::CalibrationStatus;
 use crate::estimate::settings::CalibrationSettings;
 use crate::estimate::unknown_latitude::unknown_latitude;
-use crate::sensor::SensorKind;
 
 /// Calibrates an IMU.
 ///
@@ -50,11 +50,11 @@ fn without_outliers(
 ) -> Result<ImuCalibration> {
     let (recording, outliers) = problem.recording.without_spikes();
     let mut calibration = of_clean(&ImuProblem { recording: &recording, ..*problem }, settings, white_noise)?;
-    let unit =
-        |sensor_kind: SensorKind| problem.recording.sensor(sensor_kind).map_or("", |of| of.unit.symbol());
-    let stated =
-        outliers.iter().map(|(sensor_kind, outliers)| outliers.words(*sensor_kind, unit(*sensor_kind)));
-    calibration.warnings.splice(0..0, stated);
+    let found = outliers.iter().filter_map(|(sensor_kind, outliers)| {
+        let unit = problem.recording.sensor(*sensor_kind)?.unit;
+        Some(Diagnostic::spikes(outliers, *sensor_kind, unit))
+    });
+    calibration.warnings.splice(0..0, found);
     Ok(calibration)
 }
 
@@ -81,15 +81,15 @@ fn of_clean(
     }
     let contradictions = contradictions(problem, settings, white_noise);
     let absurd = contradictions.iter().any(|term| term.is_absurd);
-    let stated = contradictions.into_iter().map(|term| term.words);
+    let stated = contradictions.into_iter().map(|term| term.known);
     match outcome {
         Ok(mut found) if !absurd => {
-            found.warnings.splice(0..0, stated);
+            found.warnings.splice(0..0, stated.map(|known| Diagnostic::KnownContradicted { known }));
             Ok(found)
         }
         Err(error) if stated.len() == 0 => Err(error),
         _ => Err(Error::experiment(InputError::new(
-            stated.collect::<Vec<_>>().join("; "),
+            stated.map(|known| known.to_string()).collect::<Vec<_>>().join("; "),
             "correct the value in [known], its unit too, or leave it out and let the recording tell",
         ))),
     }

@@ -1,5 +1,6 @@
 //! What is to be calibrated of an IMU, and what is known of its recording.
 
+use crate::diagnostic::TurnSpan;
 use crate::estimate::earth::UNKNOWN_SD_RADPS;
 use crate::estimate::holds::HoldsSetup;
 use crate::motion::{earth_rate, to_ms};
@@ -166,10 +167,14 @@ pub struct Turn {
 }
 
 impl Turn {
-    /// What it is called in a sentence, by its name, or its number from 0, and its times to the ms: `turn 3 (12.0 to 15.512 s)`.
-    pub(crate) fn named(&self, number: usize) -> String {
-        let name = self.name.clone().unwrap_or_else(|| format!("turn {}", number + 1));
-        format!("{name} ({:?} to {:?} s)", to_ms(self.start_s), to_ms(self.end_s))
+    /// What it is called in a diagnostic, by its name, or its number from 0, and its times.
+    pub(crate) fn span(&self, number: usize) -> TurnSpan {
+        TurnSpan {
+            number: number + 1,
+            name: self.name.clone(),
+            start_s: to_ms(self.start_s),
+            end_s: to_ms(self.end_s),
+        }
     }
 
     /// Is it the same turn once more? Two that share more than half of the shorter one's time are.

@@ -1,6 +1,6 @@
 //! What the calibration of an IMU gives.
 
-use crate::estimate::change::Change;
+use crate::diagnostic::{Change, Diagnostic};
 use crate::estimate::imu::clock::rate::ClockRate;
 use crate::estimate::imu::problem::NoiseSource;
 use crate::estimate::result::{CalibrationStatus, HoldCalibration};
@@ -60,7 +60,7 @@ pub struct ImuCalibration {
     /// The rates of the sensors' clocks, where the rotations show that they differ.
     pub clocks: Option<ClockRate>,
     /// Things a user should know, in words.
-    pub warnings: Vec<String>,
+    pub warnings: Vec<Diagnostic>,
 }
 
 /// The gyroscope in the holds.

@@ -25,13 +25,14 @@ const LAYERS: &[&[&str]] = &[
 /// What each module of calibrant-core may use.
 const MAY_USE: &[(&str, &[&str])] = &[
     ("error", &[]),
+    ("diagnostic", &["sensor", "motion"]),
     ("arrowhead", &[]),
     ("root", &[]),
     ("sensor", &["error"]),
     ("motion", &["error", "sensor"]),
     ("information", &["error", "sensor", "motion", "arrowhead"]),
-    ("estimate", &["error", "sensor", "motion", "arrowhead", "root", "information"]),
-    ("noise", &["error", "sensor", "motion", "root"]),
+    ("estimate", &["diagnostic", "error", "sensor", "motion", "arrowhead", "root", "information"]),
+    ("noise", &["diagnostic", "error", "sensor", "motion", "root"]),
     ("simulate", &["error", "sensor", "motion", "noise"]),
 ];
 

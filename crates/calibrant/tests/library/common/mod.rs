@@ -4,6 +4,8 @@
 pub(crate) mod case;
 mod data;
 mod imu;
+mod messages;
 
 pub(crate) use data::shared_data;
 pub(crate) use imu::{draw_feeling_imu, draw_imu, normal, run_imu, xsens};
+pub(crate) use messages::{WORDS, messages};

@@ -1,5 +1,6 @@
 //! Tests of `calibration.json` of an earlier calibration: there and back again, and every fault of the file.
 
+use crate::common::WORDS;
 use crate::files::results::{input, uniaxial};
 use calibrant::io::{calibration_json, parse_calibration, read_calibration};
 use calibrant::sensor::{ParameterList, ReadingUnit, SensorModel};
@@ -108,7 +109,7 @@ fn a_file_that_is_written_is_read_back() {
     let directory = tempfile::tempdir().expect("a directory");
     let path = directory.path().join("calibration.json");
     let calibration = uniaxial();
-    std::fs::write(&path, calibration_json(&calibration, &[], &input())).expect("written");
+    std::fs::write(&path, calibration_json(&calibration, &[], &input(), &WORDS)).expect("written");
     let found = read_calibration(&path).expect("read");
     assert_eq!(found.values, calibration.values);
     assert_eq!(found.covariance, calibration.covariance);

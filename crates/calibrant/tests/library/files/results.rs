@@ -1,6 +1,8 @@
 //! Tests of written results: there and back again, and the JSON field by field.
 
+use crate::common::WORDS;
 use calibrant::Error;
+use calibrant::diagnostic::Diagnostic;
 use calibrant::estimate::{
     Calibration, CalibrationStatus, FitStatistics, HoldCalibration, HoldResult, Recovered, RecoveredMotion,
     Uncalibrated, Whiteness,
@@ -139,7 +141,7 @@ fn calibration(
         residuals: Vec::new(),
         first_sample: 0,
         datasheet_prior: true,
-        warnings: vec!["a \"word\"".into()],
+        warnings: vec![Diagnostic::WeakerThanDatasheet { parameters: vec!["a \"word\"".into()] }],
     }
 }
 
@@ -158,7 +160,7 @@ pub(super) fn uniaxial() -> Calibration {
 
 #[test]
 fn calibration_json_of_a_motion() {
-    let text = calibration_json(&uniaxial(), &[], &input());
+    let text = calibration_json(&uniaxial(), &[], &input(), &WORDS);
     let json: Value = serde_json::from_str(&text).expect("JSON");
     assert_eq!(json["schema"], 1);
     assert_eq!(json["gradient_norm"], Value::Null, "NaN is null");
@@ -182,7 +184,7 @@ fn calibration_json_of_a_motion() {
     assert!(text.contains("\"covariance\": [\n    [0.25, 0.0],\n    [0.0, 0.25]\n  ]"), "{text}");
     let directory = tempfile::tempdir().expect("a directory");
     let path = directory.path().join("calibration.json");
-    write_calibration(&path, &uniaxial(), &[], &input()).expect("written");
+    write_calibration(&path, &uniaxial(), &[], &input(), &WORDS).expect("written");
     assert_eq!(std::fs::read_to_string(path).expect("read"), text, "the same bytes each time");
 }
 
@@ -232,7 +234,7 @@ pub(super) fn holds_in_counts() -> Calibration {
 
 #[test]
 fn calibration_json_of_holds_in_counts() {
-    let text = calibration_json(&holds_in_counts(), &[], &input());
+    let text = calibration_json(&holds_in_counts(), &[], &input(), &WORDS);
     let json: Value = serde_json::from_str(&text).expect("JSON");
     assert_eq!(json["parameters"].as_array().map(Vec::len), Some(9));
     assert_eq!(json["holds"]["table"][0]["mean_counts"], json!([1.0, 2.0, 3.0]));

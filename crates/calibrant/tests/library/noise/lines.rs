@@ -1,6 +1,7 @@
 //! Tests of white noise beside a vibration: N is that of the noise, or marked as doubtful.
 
 use super::{INTERVAL_S, examine, simulate};
+use crate::common::messages;
 use calibrant::noise::{Moments, PowerLaw, SensorNoise};
 use rayon::prelude::*;
 use std::f64::consts::TAU;
@@ -99,8 +100,10 @@ fn a_line_is_named_with_what_it_would_do_to_n() {
     assert!((line.frequency_hz - 45.4).abs() < 5e-3 && (line.share - 0.05 / 1.05).abs() < 5e-3, "{line:?}");
     // the variance of white noise is N² √rate: of all cluster times together
     assert!(line.left_out && (line.of_white - 0.05).abs() < 5e-3, "{line:?}");
-    let message: Vec<&String> =
-        noise.warnings.iter().filter(|message| message.contains("a line at 45.4 Hz has ")).collect();
+    let message: Vec<String> = messages(&noise.warnings)
+        .into_iter()
+        .filter(|message| message.contains("a line at 45.4 Hz has "))
+        .collect();
     assert!(message.len() == 1 && message[0].contains("with it N would be 2."), "{:?}", noise.warnings);
     let none = beside_a_sine(&Moments::of(20_000), false, 45.4, 0.0, 1);
     assert_eq!((&none.axes[0].fit.vibration, none.warnings.len()), (&None, 0));

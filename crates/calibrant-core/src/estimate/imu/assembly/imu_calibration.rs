@@ -1,7 +1,7 @@
 //! Puts the result together, and nothing else.
 
+use crate::diagnostic::Change;
 use crate::error::Result;
-use crate::estimate::change::Change;
 use crate::estimate::imu::assembly::gyroscope_before::{gyroscope_before, with_plain_gyroscope};
 use crate::estimate::imu::assembly::holds::hold_results;
 use crate::estimate::imu::assembly::rotations::rotation_results;

@@ -1,9 +1,10 @@
 //! A sensor that changes within the recording.
 
+use crate::diagnostic::Diagnostic;
 use crate::estimate::imu::checks::evidence::{Diagnostics, Evidence};
 use crate::sensor::Temperatures;
 
-/// Each change, in words.
+/// Each change.
 pub(crate) fn check(evidence: &Evidence<'_>) -> Diagnostics {
     let follows = !evidence.problem.setup.thermal.is_none();
     let changes = &evidence.calibration.changes;
@@ -12,5 +13,6 @@ pub(crate) fn check(evidence: &Evidence<'_>) -> Diagnostics {
     }
     let temperatures = Temperatures::of(evidence.problem.recording).ok().flatten().filter(|_| !follows);
     let range_c = temperatures.and_then(|temperatures| temperatures.range_c());
-    changes.iter().map(|change| change.warning(range_c)).collect()
+    let [coldest_c, hottest_c] = range_c.map_or([None; 2], |range_c| range_c.map(Some));
+    changes.iter().map(|change| Diagnostic::SensorChanged { change: *change, coldest_c, hottest_c }).collect()
 }

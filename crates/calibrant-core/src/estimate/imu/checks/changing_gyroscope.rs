@@ -1,6 +1,7 @@
 //! Does the gyroscope change from a hold on? Its bias shows in the holds, its gains and axes in the rotations.
 
-use crate::estimate::change::{Change, Changed, Series};
+use crate::diagnostic::{Change, Changed};
+use crate::estimate::change::Series;
 use crate::estimate::imu::model::{Fit, GravityResidual, ImuModel};
 use crate::estimate::result::HoldCalibration;
 use crate::motion::Hold;

@@ -2,15 +2,11 @@
 
 use crate::estimate::imu::checks::evidence::{Diagnostics, Evidence};
 use crate::estimate::quantisation::CoarseAxis;
+use crate::sensor::SensorKind;
 
 /// The axes that have them.
 pub(crate) fn check(evidence: &Evidence<'_>) -> Diagnostics {
-    let unit = evidence.problem.gyroscope.unit.symbol();
-    let words = |found: &CoarseAxis| {
-        format!(
-            "{}; the standard deviations know of it; choose a smaller range, or more digits in the file",
-            found.words("gyroscope", unit)
-        )
-    };
-    evidence.gyroscope.coarse.iter().map(words).collect()
+    let unit = evidence.problem.gyroscope.unit;
+    let steps = |found: &CoarseAxis| found.diagnostic(SensorKind::Gyroscope, unit);
+    evidence.gyroscope.coarse.iter().map(steps).collect()
 }

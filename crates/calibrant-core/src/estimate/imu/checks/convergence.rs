@@ -1,5 +1,6 @@
 //! Did the iteration converge?
 
+use crate::diagnostic::Diagnostic;
 use crate::estimate::imu::checks::evidence::{Diagnostics, Evidence};
 use crate::estimate::result::CalibrationStatus;
 
@@ -9,8 +10,5 @@ pub(crate) fn check(evidence: &Evidence<'_>) -> Diagnostics {
     if status == CalibrationStatus::Converged {
         return Vec::new();
     }
-    vec![format!(
-        "the iteration did not converge ({}): the numbers are the best found, not the optimum",
-        status.name()
-    )]
+    vec![Diagnostic::NotConverged { status: status.name() }]
 }

@@ -1,10 +1,7 @@
-//! Directions of holds and axes: which are the same, and what they are called.
+//! The order of the axes in a matrix.
 
 use crate::sensor::Axis;
-use nalgebra::{Matrix3, Vector3};
-
-/// Two directions agree within this, rad. Faces by hand, unknown gains and non-orthogonality stay well below it; mistakes are 90° or 180°.
-pub(crate) const AGREES_RAD: f64 = 0.5;
+use nalgebra::Matrix3;
 
 /// Is this matrix of an accelerometer that of another order of its axes?
 pub(crate) fn turned_frame(matrix: &Matrix3<f64>) -> bool {
@@ -12,16 +9,4 @@ pub(crate) fn turned_frame(matrix: &Matrix3<f64>) -> bool {
         let row = matrix.row(axis.index());
         row[axis.index()] < 0.5 * row.norm()
     })
-}
-
-/// A direction in words: `-x`, or its components.
-pub(crate) fn direction_in_words(direction: &Vector3<f64>) -> String {
-    let near =
-        |sign: f64, axis: &Axis| direction.angle(&(sign * Vector3::ith(axis.index(), 1.0))) < AGREES_RAD;
-    for (sign, name) in [(1.0, ""), (-1.0, "-")] {
-        if let Some(axis) = Axis::ALL.iter().find(|axis| near(sign, axis)) {
-            return format!("{name}{axis}");
-        }
-    }
-    format!("({:+.1}, {:+.1}, {:+.1})", direction.x, direction.y, direction.z)
 }

@@ -3,6 +3,7 @@
 //! A check is `fn check(evidence: &Evidence) -> Diagnostics`; it changes nothing. Checks before the fit refuse what makes no sense: they take what
 //! is there by then, and give an error.
 
+use crate::diagnostic::Diagnostic;
 use crate::estimate::imu::alignment::axes::Axes;
 use crate::estimate::imu::clock::difference::ClockDifference;
 use crate::estimate::imu::initial::accelerometer::{InitialAccelerometer, UsedHolds};
@@ -13,8 +14,8 @@ use crate::estimate::imu::stationary::gyroscope::StationaryGyroscope;
 use crate::estimate::imu::temperature::RecordingTemperature;
 use crate::sensor::Recording;
 
-/// What is to be said to a user, in words.
-pub(crate) type Diagnostics = Vec<String>;
+/// What a user should know.
+pub(crate) type Diagnostics = Vec<Diagnostic>;
 
 /// Everything that is known after the fit.
 pub(crate) struct Evidence<'a> {

@@ -1,5 +1,6 @@
 //! Gains of readings in SI, which are near one, each axis along its own.
 
+use crate::diagnostic::Diagnostic;
 use crate::estimate::imu::checks::directions::turned_frame;
 use crate::estimate::imu::checks::evidence::{Diagnostics, Evidence};
 use crate::estimate::imu::result::ImuCalibration;
@@ -14,7 +15,7 @@ pub(crate) fn check(evidence: &Evidence<'_>) -> Diagnostics {
 }
 
 /// Readings in SI have gains near one, each axis along its own.
-fn of_gains(calibration: &ImuCalibration, reordered: bool) -> Vec<String> {
+fn of_gains(calibration: &ImuCalibration, reordered: bool) -> Diagnostics {
     let mut warnings = Vec::new();
     for (sensor_kind, unit) in [
         (SensorKind::Accelerometer, calibration.accelerometer_unit),
@@ -31,11 +32,7 @@ fn of_gains(calibration: &ImuCalibration, reordered: bool) -> Vec<String> {
         for axis in Axis::ALL {
             let along = matrix[(axis.index(), axis.index())];
             if !PLAUSIBLE_GAINS.contains(&along) {
-                warnings.push(format!(
-                    "the {sensor_kind} shows {along:.3} of what there is along its axis {axis}, for readings in {} it should be near 1: are unit, sample rate, order and \
-                     direction of the axes right, and what was given of turns and faces?",
-                    unit.symbol()
-                ));
+                warnings.push(Diagnostic::GainImplausible { sensor_kind, axis, gain: along, unit });
             }
         }
     }

@@ -1,8 +1,9 @@
 //! The gyroscope's noise, where the datasheet gives it.
 
+use crate::diagnostic::Diagnostic;
 use crate::estimate::imu::checks::evidence::{Diagnostics, Evidence};
 use crate::estimate::imu::problem::NoiseSource;
-use crate::sensor::Axis;
+use crate::sensor::{Axis, SensorKind};
 
 /// The scatter within holds over the noise that was given is no cause for concern in this range.
 const USUAL_RATIOS: std::ops::RangeInclusive<f64> = 0.5..=2.0;
@@ -13,13 +14,11 @@ pub(crate) fn check(evidence: &Evidence<'_>) -> Diagnostics {
         return Vec::new();
     }
     let (scatter, noise) = (&evidence.gyroscope.scatter, &evidence.model.gyroscope_noise.of_sample);
-    let words = |axis: Axis| {
+    let unlike = |axis: Axis| {
         let ratio = scatter[axis.index()] / noise[axis.index()];
-        (!USUAL_RATIOS.contains(&ratio)).then(|| {
-            format!(
-                "the scatter of the gyroscope's axis {axis} within the holds is {ratio:.2} times the noise that was given"
-            )
-        })
+        let sensor_kind = SensorKind::Gyroscope;
+        let unlike = Diagnostic::NoiseNotAsGiven { sensor_kind, axis, ratio };
+        (!USUAL_RATIOS.contains(&ratio)).then_some(unlike)
     };
-    Axis::ALL.into_iter().filter_map(words).collect()
+    Axis::ALL.into_iter().filter_map(unlike).collect()
 }

@@ -3,6 +3,7 @@
 //! A term that is far off leaves no problem that is nearly linear, and where the fit with it ends, if it ends, hangs on the last digits. So what is absurd is told by the fit
 //! without it alone, and is an error whatever the fit with it came to.
 
+use crate::diagnostic::{KnownEvidence, KnownMismatch};
 use crate::error::{Error, InputError, Result};
 use crate::estimate::imu::problem::KnownTerm;
 use crate::estimate::imu::result::ImuCalibration;
@@ -24,7 +25,7 @@ const LEAST_SD: f64 = 1e-12;
 
 /// A term that the recording contradicts by far.
 pub(crate) struct Contradiction {
-    pub(crate) words: String,
+    pub(crate) known: KnownMismatch,
     /// Is it so far off that no fit with it makes sense?
     pub(crate) is_absurd: bool,
 }
@@ -57,11 +58,11 @@ pub(crate) fn contradicted(known: &[KnownTerm], without: &ImuCalibration) -> Vec
         let pull = off * sd * sd / (sd * sd + variance);
         let gravity = without.holds.gravity.magnitude_mps2;
         (off > CONTRADICTED * sd.hypot(known.sd.unwrap_or(0.0))).then(|| Contradiction {
-            words: format!(
-                "the recording contradicts what [known] says of {}: {:?}, where the recording alone gives {found:.5} ± {sd:.1e}",
-                known.quantity.name(),
-                known.value
-            ),
+            known: KnownMismatch {
+                parameter: known.quantity.name(),
+                given: known.value,
+                evidence: KnownEvidence::RecordingAlone { value: found, sd },
+            },
             is_absurd: pull * share(known.quantity, without, gravity) > ABSURD,
         })
     };

@@ -1,5 +1,6 @@
 //! Values that were given in `[known]`, where the data contradict them.
 
+use crate::diagnostic::{Diagnostic, KnownEvidence, KnownMismatch};
 use crate::estimate::imu::checks::evidence::{Diagnostics, Evidence};
 
 /// The data contradict a value that is off by this many standard deviations.
@@ -13,11 +14,13 @@ pub(crate) fn check(evidence: &Evidence<'_>) -> Diagnostics {
     for (k, quantity) in model.quantities.iter().enumerate() {
         let off = (quantity.value(imu) - mean[k]).abs() * weight[k].sqrt();
         if off > CONTRADICTED_SD {
-            warnings.push(format!(
-                "the data contradict what [known] says of {}: {off:.0} standard deviations from {}",
-                quantity.name(),
-                mean[k]
-            ));
+            warnings.push(Diagnostic::KnownContradicted {
+                known: KnownMismatch {
+                    parameter: quantity.name(),
+                    given: mean[k],
+                    evidence: KnownEvidence::Deviations(off),
+                },
+            });
         }
     }
     warnings

@@ -3,9 +3,9 @@
 //! An accelerometer that is turned reads another part of gravity from moment to moment, `|ḟ| = |ω × f|`, so that how fast it changes and the rate of the gyroscope rise and fall together. The lag and the
 //! growth at which they do most are searched for, to a fraction of a second: where the clocks are so far apart no fit may be left to tell (`time_offset`).
 
+use crate::diagnostic::{late, repair};
 use crate::error::{Error, InputError, NotIdentifiable};
 use crate::estimate::holds::median;
-use crate::estimate::imu::checks::time_offset::{late, repair};
 use crate::sensor::{ImuRecording, Recording};
 use nalgebra::Vector3;
 use rayon::prelude::*;

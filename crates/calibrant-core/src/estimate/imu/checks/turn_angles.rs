@@ -1,6 +1,6 @@
 //! A turn of known angle of which the gyroscope shows another one.
 
-use crate::estimate::imu::checks::directions::{AGREES_RAD, direction_in_words};
+use crate::diagnostic::{AGREES_RAD, TurnMismatch, UnitMistake};
 use crate::estimate::imu::problem::Turn;
 use nalgebra::Vector3;
 
@@ -11,15 +11,13 @@ pub(crate) const OTHER_TURN_SHARE: f64 = 0.25;
 const NEAR_DEGREES: f64 = 0.1;
 
 /// What a factor between the angle that the gyroscope shows and the one that was given tells, if it is that between degrees and radians.
-pub(crate) fn factor(share: f64) -> Option<&'static str> {
+pub(crate) fn factor(share: f64) -> Option<UnitMistake> {
     const DEGREES: f64 = 180.0 / std::f64::consts::PI;
     let near = |factor: f64| (share / factor - 1.0).abs() < NEAR_DEGREES;
     if near(DEGREES) {
-        return Some(
-            "180/π times. Is the angle in radians, where degrees are meant (angle_deg = 360.0 for a whole turn), or are the gyroscope's readings in deg/s and read as rad/s?",
-        );
+        return Some(UnitMistake::DegreesAsRadians);
     }
-    near(1.0 / DEGREES).then_some("π/180 of it. Are the gyroscope's readings in rad/s and read as deg/s?")
+    near(1.0 / DEGREES).then_some(UnitMistake::RadiansAsDegrees)
 }
 
 /// Is what readings in SI show of a turn another one, by its angle or by its axis? Errors of a few degrees and per cent in both sensors are none.
@@ -28,17 +26,16 @@ pub(crate) fn is_another(shown: &Vector3<f64>, given: &Vector3<f64>) -> bool {
 }
 
 /// What was given of a turn, and what is shown of it, rad.
-pub(crate) fn shows_another(number: usize, turn: &Turn, shown: &Vector3<f64>) -> String {
+pub(crate) fn shows_another(number: usize, turn: &Turn, shown: &Vector3<f64>) -> TurnMismatch {
     // about the axis as it was named
     let along = shown.dot(&turn.axis);
     let sign = if along.abs() > 0.5 * shown.norm() { along.signum() } else { turn.angle_rad.signum() };
     let about = (sign * shown).try_normalize(0.0).unwrap_or(turn.axis);
-    format!(
-        "{} is given as {:.1}° about {}, and the gyroscope shows {:.0}° about {}",
-        turn.named(number),
-        turn.angle_rad.to_degrees(),
-        direction_in_words(&turn.axis),
-        (sign * shown.norm()).to_degrees(),
-        direction_in_words(&about)
-    )
+    TurnMismatch {
+        turn: turn.span(number),
+        given_rad: turn.angle_rad,
+        given_about: turn.axis,
+        shown_rad: sign * shown.norm(),
+        shown_about: about,
+    }
 }

@@ -1,5 +1,6 @@
 //! Turns of known angle that do not fit the other data.
 
+use crate::diagnostic::Diagnostic;
 use crate::estimate::imu::checks::evidence::{Diagnostics, Evidence};
 use crate::estimate::imu::checks::turn_angles::{OTHER_TURN_SHARE, factor, is_another, shows_another};
 use crate::estimate::imu::model::{Fit, ImuModel, TurnData};
@@ -15,14 +16,12 @@ pub(crate) fn check(evidence: &Evidence<'_>) -> Diagnostics {
     of_turns(evidence.model, evidence.fit, &evidence.problem.setup.turns, evidence.calibration)
 }
 
-fn of_turns(model: &ImuModel<'_>, fit: &Fit, turns: &[Turn], calibration: &ImuCalibration) -> Vec<String> {
+fn of_turns(model: &ImuModel<'_>, fit: &Fit, turns: &[Turn], calibration: &ImuCalibration) -> Diagnostics {
     let mut warnings = Vec::new();
     let on_faces = calibration.frame_is_known();
     if calibration.gyroscope_unit != ReadingUnit::Counts {
         if let Some(share) = same_share(model, fit) {
-            let why = factor(share)
-                .unwrap_or("are the angle of the turns, the sample rate and the gyroscope's unit right?");
-            return vec![format!("the gyroscope shows {share:.3} of the angle of every turn: {why}")];
+            return vec![Diagnostic::TurnShare { share, mistake: factor(share) }];
         }
         // on known faces these were refused before
         let other = model.turns.iter().zip(turns).enumerate().filter(|_| !on_faces);
@@ -36,11 +35,11 @@ fn of_turns(model: &ImuModel<'_>, fit: &Fit, turns: &[Turn], calibration: &ImuCa
         let residual = model.turn_residual(data, &fit.state.imu);
         let off = residual.component_mul(&residual).dot(&data.weight).sqrt();
         if off > CONTRADICTED_SD {
-            warnings.push(format!(
-                "{}, {:.1}°, does not fit the other data, by {off:.0} standard deviations: are its times, axis and angle right?",
-                turn.named(number),
-                turn.angle_rad.to_degrees()
-            ));
+            warnings.push(Diagnostic::TurnContradicted {
+                turn: turn.span(number),
+                angle_rad: turn.angle_rad,
+                deviations: off,
+            });
         }
     }
     warnings
@@ -58,10 +57,11 @@ fn same_share(model: &ImuModel<'_>, fit: &Fit) -> Option<f64> {
 }
 
 /// A turn of which the readings, in SI, show quite another one.
-fn other_turn(fit: &Fit, data: &TurnData, turn: &Turn, number: usize) -> Option<String> {
+fn other_turn(fit: &Fit, data: &TurnData, turn: &Turn, number: usize) -> Option<Diagnostic> {
     let shown = data.beyond_bias(&fit.state.imu);
     let share = shown.dot(&data.angle) / data.angle.norm_squared();
-    let why = factor(share)
-        .map_or_else(|| ": correct its angle, its axis or its times".to_owned(), |why| format!(", {why}"));
-    is_another(&shown, &data.angle).then(|| format!("{}{why}", shows_another(number, turn, &shown)))
+    is_another(&shown, &data.angle).then(|| Diagnostic::TurnUnlikeGiven {
+        turn: shows_another(number, turn, &shown),
+        mistake: factor(share),
+    })
 }

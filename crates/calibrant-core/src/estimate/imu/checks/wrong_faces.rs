@@ -3,9 +3,10 @@
 //! Where up is in the readings needs no direction: they lie on a sphere about the bias, distorted by errors of a few per cent. A turn of all
 //! directions together is the mounting of the sensor and no mistake, so the turn that most faces agree with counts.
 
+use crate::diagnostic::{AGREES_RAD, Diagnostic, FaceMismatch, HoldSpan};
 use crate::error::{Error, InputError, Result};
 use crate::estimate::holds::sphere;
-use crate::estimate::imu::checks::directions::{AGREES_RAD, direction_in_words, turned_frame};
+use crate::estimate::imu::checks::directions::turned_frame;
 use crate::estimate::imu::problem::ImuProblem;
 use crate::motion::Hold;
 use crate::sensor::ReadingUnit;
@@ -37,14 +38,14 @@ pub(crate) fn turned_faces(
     holds: &[Hold],
     given: &[Vector3<f64>],
     matrix: &Matrix3<f64>,
-) -> Option<String> {
+) -> Option<Diagnostic> {
     if problem.accelerometer.unit == ReadingUnit::Counts || !turned_frame(matrix) {
         return None;
     }
     let guess = problem.accelerometer.nominal()?;
     let correction = guess.matrix.try_inverse()?;
     let shown = |hold: &Hold| (correction * (hold.mean - guess.bias)).try_normalize(0.0);
-    let wrong: Vec<String> = holds
+    let wrong: Vec<FaceMismatch> = holds
         .iter()
         .zip(given)
         .enumerate()
@@ -53,22 +54,12 @@ pub(crate) fn turned_faces(
             Some(difference(j, hold, given, &shown))
         })
         .collect();
-    (!wrong.is_empty()).then(|| {
-        format!(
-            "{}: all directions are turned alike; correct them, unless the sensor is mounted so that its axes are not those of the directions, whose frame all results are in",
-            wrong.join("; ")
-        )
-    })
+    (!wrong.is_empty()).then_some(Diagnostic::FacesTurned { faces: wrong })
 }
 
 /// What was given of a hold, and what is measured.
-fn difference(j: usize, hold: &Hold, given: &Vector3<f64>, shown: &Vector3<f64>) -> String {
-    format!(
-        "{} is given with {} up, and the accelerometer shows {} up",
-        hold.named(j),
-        direction_in_words(given),
-        direction_in_words(shown)
-    )
+fn difference(j: usize, hold: &Hold, given: &Vector3<f64>, shown: &Vector3<f64>) -> FaceMismatch {
+    FaceMismatch { hold: HoldSpan::of(j, hold), given: *given, shown: *shown }
 }
 
 fn input_error(problem: &ImuProblem<'_>, holds: &[Hold], given: &[Vector3<f64>]) -> Option<InputError> {
@@ -89,7 +80,7 @@ fn input_error(problem: &ImuProblem<'_>, holds: &[Hold], given: &[Vector3<f64>])
         return None;
     }
     let shown = |j: usize| mounting.transpose() * measured[j];
-    let one = |&j: &usize| difference(j, &holds[j], &given[j], &shown(j));
+    let one = |&j: &usize| difference(j, &holds[j], &given[j], &shown(j)).to_string();
     let all: Vec<String> = wrong.iter().map(one).collect();
     let opposite = |j: usize| (-shown(j)).angle(&given[j]) < AGREES_RAD;
     let help = if wrong.len() == given.len() && wrong.iter().all(|&j| opposite(j)) {
@@ -174,11 +165,5 @@ mod tests {
         assert_eq!(wrong(["-x", "x", "y", "-y", "z", "-z"], &none).0, [0, 1]);
         assert_eq!(wrong(["x", "-x", "z", "-z", "y", "-y"], &none).0, [2, 3, 4, 5]);
         assert_eq!(wrong(["-x", "x", "-y", "y", "-z", "z"], &none).0.len(), 6);
-    }
-
-    #[test]
-    fn a_direction_reads_as_its_axis_or_its_components() {
-        assert_eq!(direction_in_words(&Vector3::new(0.05, -0.99, 0.1).normalize()), "-y");
-        assert_eq!(direction_in_words(&Vector3::new(0.6, 0.0, 0.8)), "(+0.6, +0.0, +0.8)");
     }
 }

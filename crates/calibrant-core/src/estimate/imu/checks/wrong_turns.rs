@@ -4,6 +4,7 @@
 //! frame of the directions the faces tell. A gyroscope whose axes are all
 //! turned alike against the accelerometer's sits otherwise in its housing; no sensor is a mirror image of another.
 
+use crate::diagnostic::Diagnostic;
 use crate::error::{Error, InputError, Result};
 use crate::estimate::imu::alignment::axes::{axis_names, orders};
 use crate::estimate::imu::checks::turn_angles::{factor, is_another, shows_another};
@@ -21,7 +22,7 @@ pub(crate) fn check(
     imu: &ImuParameters,
     data: &[TurnData],
     turns: &[Turn],
-) -> Result<Option<String>> {
+) -> Result<Option<Diagnostic>> {
     let Some(shown) = ShownTurns::of(gyroscope, imu, data).filter(|_| !data.is_empty()) else {
         return Ok(None);
     };
@@ -45,11 +46,7 @@ pub(crate) fn check(
     let orders = orders();
     let mut alike = orders.iter().filter(alike);
     if let (Some(order), None) = (alike.next(), alike.next()) {
-        let [x, y, z] = axis_names(order);
-        return Ok(Some(format!(
-            "the gyroscope's axes are not the accelerometer's: along x, y and z of the accelerometer lie {x}, {y} and {z} of the gyroscope; where both sensors share a housing, the \
-             turns or the gyroscope's columns are in another order than given"
-        )));
+        return Ok(Some(Diagnostic::AxesInOtherOrder { order: axis_names(order), by_turns: true }));
     }
     let one = |&k: &usize| {
         let (turned, by) = (&shown.in_frame[k], &data[k].angle);

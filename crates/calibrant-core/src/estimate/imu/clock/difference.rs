@@ -181,7 +181,7 @@ mod tests {
             };
             let offsets: Vec<TimeOffset> = (0..rotations).map(offset).collect();
             let Some(found) = ClockDifference::through(&offsets) else { continue };
-            words += usize::from(time_offset::words(&found, &slow, &fast).is_some());
+            words += usize::from(time_offset::of_clock(&found, &slow, &fast).is_some());
             squares += ((found.skew - skew) / found.skew_sd).powi(2) / count as f64;
         }
         (words, squares)

@@ -1,5 +1,6 @@
 //! The accelerometer by itself, before anything is known of the gyroscope.
 
+use crate::diagnostic::Diagnostic;
 use crate::estimate::imu::initial::face_alignment::{FaceAlignment, FaceScatter};
 use crate::estimate::result::HoldCalibration;
 use crate::motion::Hold;
@@ -19,7 +20,7 @@ pub(crate) struct InitialAccelerometer {
     pub(crate) holds: HoldCalibration,
     /// How well the sensor was placed on the faces, where the directions are known.
     pub(crate) alignment: Option<FaceAlignment>,
-    pub(crate) warnings: Vec<String>,
+    pub(crate) warnings: Vec<Diagnostic>,
     /// Its temperature terms, and the recording as it would be at the reference temperature, where they were fitted.
     pub(crate) thermal: SensorThermal,
     pub(crate) adjusted: Option<Recording>,

@@ -14,6 +14,7 @@
 //!
 //! which is `S/(ν − 2)` for large tilts, and leaves six faces that scatter as their noise does a `τ²` of `v`.
 
+use crate::diagnostic::Diagnostic;
 use crate::estimate::between_hold_variance::excess;
 use crate::estimate::result::{FaceTilt, TiltSource};
 use nalgebra::{Matrix3, Vector3};
@@ -219,32 +220,17 @@ impl FaceAlignment {
     }
 
     /// What is to be said where the scatter of the faces contradicts what was given of it.
-    pub(crate) fn contradiction(&self) -> Option<String> {
+    pub(crate) fn contradiction(&self) -> Option<Diagnostic> {
         let (shown_rad, given_rad) = (self.shown_rad.filter(|_| self.contradicted)?, self.scatter.tilt_rad);
-        let [by, so] = match shown_rad > given_rad {
-            true => ["by", "the standard deviations are too small"],
-            false => [
-                "by only",
-                "the standard deviations are too large; leave the key out, and the scatter of the faces tells it",
-            ],
-        };
-        Some(format!(
-            "the faces scatter {by} {:.2}° about each axis, and holds.face_sd_deg says {:.2}°: {so}",
-            shown_rad.to_degrees(),
-            given_rad.to_degrees()
-        ))
+        Some(Diagnostic::TiltContradicted { shown_rad, given_rad })
     }
 }
 
 impl FaceTilt {
     /// What is to be said where so many faces do not tell how well they were met.
-    pub(crate) fn assumed(&self, faces: usize) -> Option<String> {
-        (self.source == TiltSource::Assumed).then(|| {
-            format!(
-                "{faces} faces are too few to tell how well they were met: {:.1}° about each axis is assumed; add faces, or give holds.face_sd_deg",
-                self.sd_rad.to_degrees()
-            )
-        })
+    pub(crate) fn assumed(&self, faces: usize) -> Option<Diagnostic> {
+        let assumed = Diagnostic::TiltAssumed { faces, tilt_rad: self.sd_rad };
+        (self.source == TiltSource::Assumed).then_some(assumed)
     }
 }
 

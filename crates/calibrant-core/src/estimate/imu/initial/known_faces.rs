@@ -3,9 +3,11 @@
 //! `ȳ_j = S f_j + b + ε_j` with known `f_j`: linear least squares, and no gauge, since the directions are the true frame. `ε_j` is the noise of the mean and how
 //! well the sensor was placed (`face_alignment`).
 
+use crate::diagnostic::{Diagnostic, HoldSpan};
 use crate::error::{Error, InputError, NotIdentifiable, Result, UndeterminedGroup};
+use crate::estimate::gravity_off_earth::gravity_off_earth;
 use crate::estimate::holds::{
-    clipped_holds, clipped_reason, coarse_words, holds_between, left_out, magnitude_rms, with_clipped,
+    clipped_holds, clipped_reason, coarse_steps, holds_between, left_out, magnitude_rms, with_clipped,
 };
 use crate::estimate::imu::checks::accelerometer_gains;
 use crate::estimate::imu::checks::wrong_faces::{self, turned_faces};
@@ -102,7 +104,7 @@ pub(crate) fn from_faces(
             }
         })
         .collect();
-    let brief: Vec<String> = holds.iter().enumerate().filter_map(|(k, hold)| brief(k, hold)).collect();
+    let brief: Vec<Diagnostic> = holds.iter().enumerate().filter_map(|(k, hold)| brief(k, hold)).collect();
     let scattered = is_scattered
         .then(|| scattered(&results, &sensor, &correction, (shown_rad, alignment.scatter.along_mps2)));
     let holds = HoldCalibration {
@@ -126,12 +128,12 @@ pub(crate) fn from_faces(
         of_mean,
         warnings: turned
             .into_iter()
-            .chain(setup.gravity.elsewhere())
+            .chain(gravity_off_earth(&setup.gravity))
             .chain(left_out(&holds))
             .chain(brief)
             .chain(scattered)
             .chain(of_tilt)
-            .chain(coarse_words(&coarse, as_read))
+            .chain(coarse_steps(&coarse, as_read))
             .chain(skewed_spikes(recording, SensorKind::Accelerometer, &usable))
             .collect(),
         holds,
@@ -140,12 +142,10 @@ pub(crate) fn from_faces(
     })
 }
 
-/// What is to be said of a face that is hardly there.
-fn brief(number: usize, hold: &Hold) -> Option<String> {
-    (hold.samples() < FEWEST_SAMPLES).then(|| {
-        let (named, samples) = (hold.named(number), hold.samples());
-        format!("{named} has {samples} samples only: are its times right? A face is held for seconds")
-    })
+/// A face that is hardly there.
+fn brief(number: usize, hold: &Hold) -> Option<Diagnostic> {
+    let brief = Diagnostic::FaceBrief { hold: HoldSpan::of(number, hold), samples: hold.samples() };
+    (hold.samples() < FEWEST_SAMPLES).then_some(brief)
 }
 
 /// The faces that fit least, of faces that scatter too much: both of an axis, where only these tell its direction.
@@ -154,22 +154,16 @@ fn scattered(
     sensor: &SensorParameters,
     correction: &Matrix3<f64>,
     (tilt_rad, along_mps2): (f64, f64),
-) -> String {
+) -> Diagnostic {
     let used = || results.iter().enumerate().filter(|(_, result)| result.used);
     let off: Vec<f64> = results
         .iter()
         .map(|result| (correction * (result.hold.mean - sensor.bias)).angle(&result.force_mps2))
         .collect();
     let most = used().map(|(k, _)| off[k]).fold(0.0, f64::max);
-    let worst: Vec<String> =
-        used().filter(|(k, _)| off[*k] > 0.8 * most).map(|(k, result)| result.hold.named(k)).collect();
-    format!(
-        "the faces scatter by {:.1}° and {:.2} m/s² along gravity beyond their noise; by {:.1}° and least of all fits {}: are directions and times of the holds right?",
-        tilt_rad.to_degrees(),
-        along_mps2,
-        most.to_degrees(),
-        worst.join(", or ")
-    )
+    let is_worst = |(k, _): &(usize, &HoldResult)| off[*k] > 0.8 * most;
+    let worst = used().filter(is_worst).map(|(k, result)| HoldSpan::of(k, &result.hold)).collect();
+    Diagnostic::FacesScatter { tilt_rad, along_mps2, worst_rad: most, worst }
 }
 
 struct Linear<'a> {

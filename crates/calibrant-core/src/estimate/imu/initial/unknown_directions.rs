@@ -1,5 +1,6 @@
 //! The accelerometer from holds whose directions are not known: its static calibration.
 
+use crate::diagnostic::Diagnostic;
 use crate::error::{Error, InputError, Result};
 use crate::estimate::holds::{self, HoldsSetup, holds_lost_to_filter, with_filter, with_pauses};
 use crate::estimate::imu::checks::swapped_sensors::with_swapped_sensors;
@@ -42,7 +43,8 @@ pub(crate) fn from_unknown_directions(
         false => error,
     })?;
     if detected {
-        first.warnings.extend(holds_lost_to_filter(as_read, &found, minimum_s));
+        let lost = holds_lost_to_filter(as_read, &found, minimum_s);
+        first.warnings.extend(lost.map(|lost| Diagnostic::HoldsLostToFilter { lost }));
     }
     let Recovered::Holds(mut holds) = first.recovered else {
         return Err(Error::experiment(InputError::new("an IMU is calibrated from holds", "use [holds]")));

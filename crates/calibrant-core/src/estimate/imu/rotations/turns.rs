@@ -29,8 +29,8 @@ pub(crate) fn turn_data(
                 return Err(Error::experiment(InputError::new(
                     format!(
                         "{} and {} are the same turn: it would count twice",
-                        problem.setup.turns[before].named(before),
-                        turn.named(number)
+                        problem.setup.turns[before].span(before),
+                        turn.span(number)
                     ),
                     "give each turn once, in gyroscope.turns or in the list of sections",
                 )));
@@ -38,13 +38,13 @@ pub(crate) fn turn_data(
             let Range { start: first, end } = gyroscope.between(turn.start_s, turn.end_s);
             if end < first + 3 {
                 return Err(Error::recording(InputError::new(
-                    format!("{} has {} samples of the gyroscope", turn.named(number), end - first),
+                    format!("{} has {} samples of the gyroscope", turn.span(number), end - first),
                     "correct the times of the turns",
                 )));
             }
             if let Some(saturation) = integrable.saturation(&(first..end)) {
                 return Err(Error::recording(InputError::new(
-                    format!("{} cannot be integrated: {saturation}", turn.named(number)),
+                    format!("{} cannot be integrated: {saturation}", turn.span(number)),
                     "turn more slowly, record with a larger range, or take this turn out",
                 )));
             }

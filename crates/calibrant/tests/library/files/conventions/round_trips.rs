@@ -1,6 +1,7 @@
 //! Tests of round trips: every convention keeps the correction, and calibrant JSON keeps everything.
 
 use super::{COUNTS, SI, alone, file, imu, largest_difference, readings, there_and_back};
+use crate::common::WORDS;
 use calibrant::estimate::Comparison;
 use calibrant::io::{
     CalibratedImuFile, ConventionOptions, ImuFormat, ImuNoise, RawUnits, calibration_json,
@@ -101,7 +102,7 @@ fn the_json_says_what_it_means() {
 #[test]
 fn todays_calibration_json_is_read_as_an_imu() {
     let calibration = crate::files::results::holds_in_counts();
-    let text = calibration_json(&calibration, &[], &crate::files::results::input());
+    let text = calibration_json(&calibration, &[], &crate::files::results::input(), &WORDS);
     let file = parse_calibrated_imu(text.as_bytes(), &ConventionOptions::default()).expect("schema 1");
     assert_eq!(file.imu.parameters.accelerometer, calibration.sensor);
     assert_eq!(file.imu.covariance.as_ref(), Some(&calibration.covariance));

@@ -1,5 +1,6 @@
 //! A change of a sensor within a recording: of what, when and by how much.
 
+use crate::diagnostic::parts::{Part, Parts};
 use crate::sensor::SensorKind;
 use nalgebra::Vector3;
 
@@ -66,5 +67,27 @@ impl Change {
     pub fn in_sd(&self) -> f64 {
         let of = |(amount, sd): (&f64, &f64)| if *sd > 0.0 { amount.abs() / sd } else { 0.0 };
         self.amount.iter().zip(&self.sd).map(of).fold(0.0, f64::max)
+    }
+}
+
+impl Part for Change {
+    fn add_to(&self, parts: &mut Parts, _: &'static str) {
+        parts.subject.push(self.sensor_kind.name().to_owned());
+        match self.course {
+            Course::Step { before, after, time_s } => {
+                let holds = [("before_hold", before), ("after_hold", after)];
+                parts.numbers.extend(holds.map(|(key, hold)| (key, hold as f64 + 1.0)));
+                parts.numbers.push(("time_s", time_s));
+            }
+            Course::Drift => {}
+            Course::Episode { first, last, start_s, end_s } => {
+                let holds = [("first_hold", first), ("last_hold", last)];
+                parts.numbers.extend(holds.map(|(key, hold)| (key, hold as f64 + 1.0)));
+                parts.numbers.extend([("start_s", start_s), ("end_s", end_s)]);
+            }
+        }
+        let amount = ["amount_x", "amount_y", "amount_z"].into_iter().zip(self.amount.iter().copied());
+        parts.numbers.extend(amount);
+        parts.numbers.extend([("deviations", self.in_sd()), ("p_value", self.p_value)]);
     }
 }

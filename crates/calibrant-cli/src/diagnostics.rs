@@ -1,0 +1,76 @@
+//! Diagnostics of results: which are printed, and which set the exit status.
+
+use crate::{Exit, console};
+use calibrant::diagnostic::{Code, Diagnostic, Severity};
+use calibrant::report::message;
+
+/// Names as similar as this are suggested.
+const SIMILAR: f64 = 0.8;
+
+/// What the user denies and allows.
+#[derive(Clone, clap::Args)]
+pub(crate) struct Rules {
+    /// Exit with status 1 where this diagnostic occurs; `warnings` denies all. The results are written. Repeatable; docs/diagnostics.md lists the codes.
+    #[arg(long, value_name = "CODE", value_parser = denied)]
+    deny: Vec<Denied>,
+    /// Do not print this diagnostic, and do not deny it. JSON keeps it with the severity `allowed`. Repeatable.
+    #[arg(long, value_name = "CODE", value_parser = code)]
+    allow: Vec<Code>,
+}
+
+/// What is denied.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Denied {
+    /// All warnings.
+    Warnings,
+    /// One code.
+    Code(Code),
+}
+
+impl Rules {
+    /// The diagnostics that are allowed.
+    pub(crate) fn allowed(&self) -> &[Code] {
+        &self.allow
+    }
+
+    /// Prints the diagnostics of a result that are not allowed, and gives the exit status that they set. `prefix` stands before each.
+    pub(crate) fn show(&self, diagnostics: &[Diagnostic], prefix: &str) -> Exit {
+        let mut exit = Exit::DONE;
+        for diagnostic in diagnostics.iter().filter(|found| !self.allow.contains(&found.code())) {
+            let text = format!("{prefix}{}", message(diagnostic));
+            if self.denies(diagnostic) {
+                exit = Exit::DENIED;
+                console::denied(diagnostic.code().name(), &text);
+            } else {
+                console::warn(&text);
+            }
+        }
+        exit
+    }
+
+    fn denies(&self, diagnostic: &Diagnostic) -> bool {
+        let is_warning = diagnostic.severity() == Severity::Warning;
+        self.deny.contains(&Denied::Code(diagnostic.code()))
+            || is_warning && self.deny.contains(&Denied::Warnings)
+    }
+}
+
+fn denied(text: &str) -> Result<Denied, String> {
+    match text {
+        "warnings" => Ok(Denied::Warnings),
+        _ => code(text).map(Denied::Code),
+    }
+}
+
+fn code(text: &str) -> Result<Code, String> {
+    Code::parse(text).ok_or_else(|| {
+        let names = Code::ALL.iter().map(|code| code.name());
+        let nearest = names
+            .map(|name| (strsim::jaro_winkler(name, text), name))
+            .max_by(|one, other| one.0.total_cmp(&other.0));
+        match nearest.filter(|(similarity, _)| *similarity >= SIMILAR) {
+            Some((_, name)) => format!("there is no such code; did you mean `{name}`?"),
+            None => "there is no such code; docs/diagnostics.md lists them".into(),
+        }
+    })
+}

@@ -1,0 +1,74 @@
+//! What a diagnostic is about and its numbers, gathered from its fields.
+
+use crate::sensor::{Axis, ReadingUnit, SensorKind};
+
+/// Subject and numbers of a diagnostic.
+#[derive(Default)]
+pub(super) struct Parts {
+    pub(super) subject: Vec<String>,
+    pub(super) numbers: Vec<(&'static str, f64)>,
+}
+
+/// A field of a diagnostic, which adds to its subject or to its numbers.
+pub(super) trait Part {
+    /// Adds itself. `key`: the name of the field.
+    fn add_to(&self, parts: &mut Parts, key: &'static str);
+}
+
+impl Part for f64 {
+    fn add_to(&self, parts: &mut Parts, key: &'static str) {
+        parts.numbers.push((key, *self));
+    }
+}
+
+impl Part for usize {
+    fn add_to(&self, parts: &mut Parts, key: &'static str) {
+        parts.numbers.push((key, *self as f64));
+    }
+}
+
+impl<T: Part> Part for Option<T> {
+    fn add_to(&self, parts: &mut Parts, key: &'static str) {
+        self.iter().for_each(|part| part.add_to(parts, key));
+    }
+}
+
+impl<T: Part> Part for Vec<T> {
+    fn add_to(&self, parts: &mut Parts, key: &'static str) {
+        let mut own = Parts::default();
+        self.iter().for_each(|part| part.add_to(&mut own, key));
+        // of several there is no one number
+        if !own.subject.is_empty() {
+            parts.subject.push(own.subject.join(", "));
+        }
+    }
+}
+
+impl Part for SensorKind {
+    fn add_to(&self, parts: &mut Parts, _: &'static str) {
+        parts.subject.push(self.name().to_owned());
+    }
+}
+
+impl Part for Axis {
+    fn add_to(&self, parts: &mut Parts, _: &'static str) {
+        parts.subject.push(format!("axis {self}"));
+    }
+}
+
+/// Names of parameters.
+impl Part for String {
+    fn add_to(&self, parts: &mut Parts, _: &'static str) {
+        parts.subject.push(self.clone());
+    }
+}
+
+macro_rules! neither {
+    ($($kind:ty),*) => {
+        $(impl Part for $kind {
+            fn add_to(&self, _: &mut Parts, _: &'static str) {}
+        })*
+    };
+}
+
+neither!(bool, ReadingUnit, &'static str, [String; 3]);

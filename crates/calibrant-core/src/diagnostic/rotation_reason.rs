@@ -1,0 +1,11 @@
+//! Why a rotation was left out.
+
+use crate::diagnostic::parts::{Part, Parts};
+
+/// Why a rotation was left out, as its row in the result states it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct RotationReason(pub String);
+
+impl Part for RotationReason {
+    fn add_to(&self, _: &mut Parts, _: &'static str) {}
+}

@@ -1,0 +1,102 @@
+//! A turn of known angle that a diagnostic is about.
+
+use crate::diagnostic::direction::direction_in_words;
+use crate::diagnostic::parts::{Part, Parts};
+use nalgebra::Vector3;
+use std::fmt;
+
+/// A turn by its name or number and its times.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TurnSpan {
+    /// Its number, from 1.
+    pub number: usize,
+    /// Its name, where it has one.
+    pub name: Option<String>,
+    /// Begin, s, to the millisecond.
+    pub start_s: f64,
+    /// End, s, to the millisecond.
+    pub end_s: f64,
+}
+
+/// `turn 3 (12.0 to 15.512 s)`.
+impl fmt::Display for TurnSpan {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.name {
+            Some(name) => write!(f, "{name}")?,
+            None => write!(f, "turn {}", self.number)?,
+        }
+        write!(f, " ({:?} to {:?} s)", self.start_s, self.end_s)
+    }
+}
+
+impl Part for TurnSpan {
+    fn add_to(&self, parts: &mut Parts, _: &'static str) {
+        let name = self.name.clone();
+        parts.subject.push(name.unwrap_or_else(|| format!("turn {}", self.number)));
+        parts.numbers.extend([
+            ("turn", self.number as f64),
+            ("start_s", self.start_s),
+            ("end_s", self.end_s),
+        ]);
+    }
+}
+
+/// A turn that is given, and that which the gyroscope shows in its place.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TurnMismatch {
+    /// The turn.
+    pub turn: TurnSpan,
+    /// Its angle as given, rad.
+    pub given_rad: f64,
+    /// About this axis.
+    pub given_about: Vector3<f64>,
+    /// The angle that the gyroscope shows, rad.
+    pub shown_rad: f64,
+    /// About this axis.
+    pub shown_about: Vector3<f64>,
+}
+
+impl fmt::Display for TurnMismatch {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "{} is given as {:.1}° about {}, and the gyroscope shows {:.0}° about {}",
+            self.turn,
+            self.given_rad.to_degrees(),
+            direction_in_words(&self.given_about),
+            self.shown_rad.to_degrees(),
+            direction_in_words(&self.shown_about)
+        )
+    }
+}
+
+impl Part for TurnMismatch {
+    fn add_to(&self, parts: &mut Parts, key: &'static str) {
+        self.turn.add_to(parts, key);
+        parts.numbers.extend([("given_rad", self.given_rad), ("shown_rad", self.shown_rad)]);
+    }
+}
+
+/// A mistake of units, by the factor that it makes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum UnitMistake {
+    /// The factor is 180/π.
+    DegreesAsRadians,
+    /// The factor is π/180.
+    RadiansAsDegrees,
+}
+
+impl fmt::Display for UnitMistake {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::DegreesAsRadians => {
+                "180/π times. Is the angle in radians, where degrees are meant (angle_deg = 360.0 for a whole turn), or are the gyroscope's readings in deg/s and read as rad/s?"
+            }
+            Self::RadiansAsDegrees => "π/180 of it. Are the gyroscope's readings in rad/s and read as deg/s?",
+        })
+    }
+}
+
+impl Part for UnitMistake {
+    fn add_to(&self, _: &mut Parts, _: &'static str) {}
+}

@@ -1,0 +1,99 @@
+//! A change in words, for whoever has to find its reason.
+
+use calibrant_core::diagnostic::{Change, Changed, Course};
+use calibrant_core::sensor::{Axis, SensorKind};
+use nalgebra::Vector3;
+
+/// A recording that is warmer or colder by this is another one, K.
+const WARMER_K: f64 = 1.0;
+
+/// What changes, when, by how much, and what to do. `temperature_c`: least and greatest of the recording, where they are known and nothing follows them.
+pub(super) fn change(change: &Change, temperature_c: Option<(f64, f64)>) -> String {
+    let reason = match (temperature_c, change.course) {
+        (Some((low, high)), _) if high - low >= WARMER_K => format!(
+            "the temperature goes from {low:.1} to {high:.1} °C, and nothing follows it: set [temperature]; or"
+        ),
+        (_, Course::Drift) => "let the sensor warm up before; or".to_owned(),
+        (_, Course::Episode { .. }) => {
+            "was it touched, warmed or clamped then, or its supply another?".to_owned()
+        }
+        (_, Course::Step { .. }) => format!(
+            "was it knocked, did a mounting slip, did it saturate, was it still warming up{}?",
+            if change.of == Changed::Bias { ", does its bias walk at random" } else { "" }
+        ),
+    };
+    let apart = match change.course {
+        Course::Drift => "calibrate the first and the second half apart",
+        Course::Episode { .. } => "calibrate without what lies in between",
+        Course::Step { .. } => "calibrate what lies before and after apart",
+    };
+    format!(
+        "{}: {}; the estimates are a mean of that, and their standard deviations do not cover it: {reason} {apart} (holds.intervals_s), and compare",
+        headline(change),
+        by_how_much(change)
+    )
+}
+
+/// Which sensor changes, and when.
+pub(crate) fn headline(change: &Change) -> String {
+    match change.course {
+        Course::Drift => format!("the {} drifts through the recording", change.sensor_kind),
+        Course::Episode { first, last, start_s, end_s } => format!(
+            "the {} changes at about {start_s:.0} s and back at about {end_s:.0} s (hold {} to hold {})",
+            change.sensor_kind,
+            first + 1,
+            last + 1
+        ),
+        Course::Step { before, after, time_s } => {
+            let place = match before == after {
+                true => format!("in hold {}", after + 1),
+                false => format!("between hold {} and hold {}", before + 1, after + 1),
+            };
+            format!("the {} changes at about {time_s:.0} s ({place})", change.sensor_kind)
+        }
+    }
+}
+
+fn by_how_much(change: &Change) -> String {
+    let what = match change.instead {
+        Some(instead) => format!("its {} (or its {})", name(change.of), name(instead)),
+        None => format!("its {}", name(change.of)),
+    };
+    let ending = if change.of == Changed::Bias { "s" } else { "" };
+    let moves = match change.course {
+        Course::Step { .. } => format!("step{ending} by"),
+        Course::Drift => format!("change{ending} from begin to end by"),
+        Course::Episode { .. } => format!("differ{ending} in between by"),
+    };
+    let (scale, unit) = match (change.of, change.sensor_kind) {
+        (Changed::Bias, SensorKind::Accelerometer) => (1e3, "mm/s²"),
+        (Changed::Bias, SensorKind::Gyroscope) => (1_f64.to_degrees(), "°/s"),
+        (Changed::Gain, _) => (100.0, "%"),
+        (Changed::Axes, _) => (1_f64.to_degrees(), "°"),
+    };
+    let known: Vec<Axis> = Axis::ALL.into_iter().filter(|axis| change.sd[axis.index()] > 0.0).collect();
+    let amounts = listed(&change.amount, &change.sd, &known, scale);
+    let on = match known.as_slice() {
+        [_, _, _] => String::new(),
+        some => format!(" on {}", some.iter().map(Axis::to_string).collect::<Vec<_>>().join(", ")),
+    };
+    format!("{what} {moves} {amounts} {unit}{on}, up to {:.0} standard deviations", change.in_sd())
+}
+
+fn name(of: Changed) -> &'static str {
+    match of {
+        Changed::Bias => "bias",
+        Changed::Gain => "gains",
+        Changed::Axes => "axes (against the accelerometer's)",
+    }
+}
+
+/// The amounts to the digits that their standard deviations leave.
+fn listed(amount: &Vector3<f64>, sd: &Vector3<f64>, axes: &[Axis], scale: f64) -> String {
+    let one = |axis: &Axis| {
+        let (amount, sd) = (scale * amount[axis.index()], scale * sd[axis.index()]);
+        let decimals = (-sd.log10().floor()).clamp(0.0, 9.0) as usize;
+        format!("{amount:.decimals$}").replace('-', "−")
+    };
+    axes.iter().map(one).collect::<Vec<_>>().join(", ")
+}
