@@ -15,21 +15,21 @@
 //! # Examples
 //! A simulated accelerometer that is held still in 24 orientations:
 //! ```
-//! use calibrant::io::{Experiment, write_recording};
+//! use calibrant::io::{Experiment, preset, write_recording};
 //! use calibrant::pipeline::{Pipeline, PipelineOptions, SensorCalibration, Source};
 //! use calibrant::sensor::{ReadingUnit, SensorParameters};
 //! use calibrant::simulate::{HoldsSimulation, Purpose, simulate_holds, stream};
 //! use nalgebra::Vector3;
 //!
 //! let directory = tempfile::tempdir().expect("a directory");
-//! let simulation = HoldsSimulation { poses: 24, hold_s: 3.0, turn_s: 1.5, rate_hz: 100.0, gravity_mps2: 9.81, between_holds_sd_mps2: 0.0 };
+//! let simulation = HoldsSimulation { poses: 24, hold_s: 3.0, turn_s: 1.5, rate_hz: 100.0, gravity_mps2: 9.806_65, between_holds_sd_mps2: 0.0 };
 //! let (truth, noise) = (SensorParameters::identity(), Vector3::repeat(0.01));
 //! let mut rng = stream(1, Purpose::Sensor, 0);
 //! let (recording, _) = simulate_holds(&truth, &noise, ReadingUnit::MetrePerSecondSquared, &simulation, &mut rng);
 //! let file = directory.path().join("recording.csv");
 //! write_recording(&file, &recording)?;
 //!
-//! let experiment = Experiment::parse("schema = 1\n[sensor]\nunit = \"mps2\"\naxes = 3\nmodel = \"full\"\n[holds]\ngravity_mps2 = 9.81\n", None)?;
+//! let experiment = Experiment::parse(preset("static-poses").expect("it exists"), None)?;
 //! let pipeline = Pipeline::from_experiment(&experiment, PipelineOptions::default())?;
 //! let outcome = pipeline.run(&Source::from_file(&file))?;
 //! outcome.write(directory.path())?;

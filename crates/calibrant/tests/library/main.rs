@@ -18,6 +18,7 @@ mod known_faces;
 mod large_rotation_errors;
 mod mounting;
 mod noise;
+mod pipeline;
 mod quantisation;
 mod saturation;
 mod sensor_change;

@@ -1,0 +1,187 @@
+//! The pipeline gives what its stages give one by one, and writes it.
+
+use crate::common::{draw_feeling_imu, run_imu};
+use calibrant::estimate::{
+    CalibrationProblem, CalibrationSettings, CalibrationStatus, Gyroscope, HoldsSetup, ImuSetup, NoiseSource,
+    Stimulus, calibrate,
+};
+use calibrant::io::{Experiment, preset, write_imu_recording, write_motion, write_recording};
+use calibrant::motion::{CommandedMotion, Gravity, KnownEnds, Limits, Trust};
+use calibrant::pipeline::{Note, Outcome, Pipeline, PipelineOptions, SensorCalibration, Source};
+use calibrant::sensor::{Gauge, ImuRecording, ReadingUnit, Recording, Sensor, SensorModel, SensorParameters};
+use calibrant::simulate::{
+    HoldsSimulation, ImuSimulation, Purpose, draw_sensor, initial_motion, sample_times, simulate_holds,
+    simulate_imu, simulate_recording, stream,
+};
+use nalgebra::Vector3;
+use std::path::Path;
+
+const GRAVITY_MPS2: f64 = 9.806_65;
+
+fn experiment(name: &str) -> Experiment {
+    Experiment::parse(preset(name).expect("a preset"), None).expect("valid")
+}
+
+fn run(experiment: &Experiment, options: PipelineOptions, file: &Path) -> calibrant::Result<Outcome> {
+    Pipeline::from_experiment(experiment, options)?.run(&Source::from_file(file))
+}
+
+/// An accelerometer held still in 24 orientations.
+fn held(seed: u64) -> Recording {
+    let simulation = HoldsSimulation {
+        poses: 24,
+        hold_s: 3.0,
+        turn_s: 1.5,
+        rate_hz: 100.0,
+        gravity_mps2: GRAVITY_MPS2,
+        between_holds_sd_mps2: 0.0,
+    };
+    let (sensor, noise) = (SensorParameters::identity(), Vector3::repeat(0.01));
+    let unit = ReadingUnit::MetrePerSecondSquared;
+    simulate_holds(&sensor, &noise, unit, &simulation, &mut stream(seed, Purpose::Sensor, 0)).0
+}
+
+#[test]
+fn an_accelerometer_is_calibrated_from_holds_and_validated() {
+    let directory = tempfile::tempdir().expect("a directory");
+    let path = |name: &str| directory.path().join(name);
+    let mut recording = held(1);
+    // a spike within a hold
+    recording.readings[100].x += 3.0;
+    write_recording(&path("one.csv"), &recording).expect("written");
+    write_recording(&path("other.csv"), &held(2)).expect("written");
+
+    let experiment = experiment("static-poses");
+    let options = PipelineOptions {
+        validate: Some(Source::from_file(path("other.csv"))),
+        folds: Some(4),
+        ..PipelineOptions::default()
+    };
+    let outcome = run(&experiment, options, &path("one.csv")).expect("calibrated");
+    let SensorCalibration::Accelerometer(calibration) = &outcome.calibration else { panic!("an IMU") };
+
+    let setup = HoldsSetup {
+        gravity: Gravity { magnitude_mps2: GRAVITY_MPS2, sd_mps2: 0.0 },
+        gauge: Gauge::Upper,
+        ..HoldsSetup::default()
+    };
+    let problem = CalibrationProblem {
+        sensor: &experiment.sensor,
+        recording: &recording,
+        stimulus: Stimulus::Holds(&setup),
+    };
+    let expected = calibrate(&problem, &CalibrationSettings::default()).expect("calibrated");
+    assert_eq!(calibration.values, expected.values);
+    assert_eq!(calibration.covariance, expected.covariance);
+    assert_eq!(calibration.warnings, expected.warnings, "the spike is told once");
+    assert_eq!(outcome.validations.len(), 2);
+    assert_eq!(outcome.status(), CalibrationStatus::Converged);
+
+    outcome.write(directory.path()).expect("written");
+    let written = std::fs::read_to_string(path("calibration.json")).expect("written");
+    assert_eq!(written, outcome.json());
+    assert!(path("report.html").exists());
+}
+
+#[test]
+fn an_accelerometer_is_calibrated_from_a_commanded_motion() {
+    let directory = tempfile::tempdir().expect("a directory");
+    let path = |name: &str| directory.path().join(name);
+    let experiment = experiment("report");
+    let sensor = &experiment.sensor;
+    // the experiment says 10 intervals
+    let limits = Limits::default();
+    let motion = initial_motion(12, 1.0, 3, &limits, &mut stream(1, Purpose::Motion, 0)).expect("a motion");
+    let mut rng = stream(1, Purpose::Sensor, 0);
+    let truth = draw_sensor(sensor, &mut rng);
+    let times = sample_times(&motion, 10.0);
+    let noise = sensor.noise_mps2.expect("given");
+    let recording = simulate_recording(&truth, &noise, sensor.unit, 3, &motion, &times, &mut rng);
+    write_recording(&path("recording.csv"), &recording).expect("written");
+    write_motion(&path("motion.csv"), &motion, 3).expect("written");
+
+    let without = run(&experiment, PipelineOptions::default(), &path("recording.csv"));
+    assert!(without.expect_err("no motion").is_invalid_experiment());
+    let options =
+        PipelineOptions { motion: Some(path("motion.csv")), report: false, ..PipelineOptions::default() };
+    let pipeline = Pipeline::from_experiment(&experiment, options).expect("prepared");
+    assert!(matches!(pipeline.notes(), [Note::Remark(words)] if words.contains("12 intervals")));
+    let outcome = pipeline.run(&Source::from_file(path("recording.csv"))).expect("calibrated");
+    let SensorCalibration::Accelerometer(calibration) = &outcome.calibration else { panic!("an IMU") };
+
+    let command = CommandedMotion { motion, trust: Trust::Known, known_ends: KnownEnds::Start };
+    let problem = CalibrationProblem { sensor, recording: &recording, stimulus: Stimulus::Motion(&command) };
+    let expected = calibrate(&problem, &CalibrationSettings::default()).expect("calibrated");
+    assert_eq!(calibration.values, expected.values);
+    assert_eq!(calibration.covariance, expected.covariance);
+    outcome.write(directory.path()).expect("written");
+    assert!(path("calibration.json").exists() && !path("report.html").exists());
+}
+
+/// A whole IMU by hand.
+fn imu_recording(seed: u64) -> ImuRecording {
+    let imu = draw_feeling_imu(&mut stream(7, Purpose::Sensor, 0));
+    let simulation = ImuSimulation { poses: 20, hold_s: 2.5, ..ImuSimulation::default() };
+    simulate_imu(&imu, &simulation, &mut stream(seed, Purpose::Sensor, 1))
+}
+
+#[test]
+fn an_imu_is_calibrated_and_not_validated_on_itself() {
+    let directory = tempfile::tempdir().expect("a directory");
+    let path = |name: &str| directory.path().join(name);
+    let recording = imu_recording(1);
+    write_imu_recording(&path("one.csv"), &recording).expect("written");
+    write_imu_recording(&path("other.csv"), &imu_recording(2)).expect("written");
+
+    let experiment = experiment("imu");
+    let on = |name: &str| PipelineOptions {
+        validate: Some(Source::from_file(path(name))),
+        ..PipelineOptions::default()
+    };
+    let outcome = run(&experiment, on("other.csv"), &path("one.csv")).expect("calibrated");
+    let SensorCalibration::Imu(calibration) = &outcome.calibration else { panic!("an accelerometer") };
+
+    let gyroscope = Gyroscope { g_sensitivity: true, ..Gyroscope::default() };
+    let holds = HoldsSetup {
+        gravity: Gravity { magnitude_mps2: GRAVITY_MPS2, sd_mps2: 0.0 },
+        gauge: Gauge::Lower,
+        ..HoldsSetup::default()
+    };
+    let setup = ImuSetup { holds, ..ImuSetup::default() };
+    let expected =
+        run_imu(&recording, &gyroscope, &setup, ReadingUnit::MetrePerSecondSquared).expect("calibrated");
+    assert_eq!(experiment.sensor.model, Sensor::triaxial(SensorModel::Full).model);
+    assert_eq!(calibration.values, expected.values);
+    assert_eq!(calibration.covariance, expected.covariance);
+    assert_eq!(calibration.warnings, expected.warnings);
+    assert_eq!(calibration.still.noise_source, NoiseSource::ScatterWithinHolds, "no hold is long");
+    assert_eq!(outcome.validations.len(), 1);
+    outcome.write(directory.path()).expect("written");
+    assert!(path("calibration.json").exists() && path("report.html").exists());
+
+    let refused = run(&experiment, on("one.csv"), &path("one.csv")).expect_err("the same data");
+    assert!(refused.to_string().contains("calibrated from"), "{refused}");
+}
+
+/// What was noticed before an error is not lost with it.
+#[test]
+fn notes_are_there_where_the_run_fails() {
+    let directory = tempfile::tempdir().expect("a directory");
+    let file = directory.path().join("recording.csv");
+    let mut recording = imu_recording(3);
+    // a second is missing, and all that follows the third hold
+    let few = |recording: &mut Recording| {
+        recording.times_s.truncate(1200);
+        recording.readings.truncate(1200);
+        recording.times_s.drain(450..550);
+        recording.readings.drain(450..550);
+    };
+    recording.accelerometer.iter_mut().chain(&mut recording.gyroscope).for_each(few);
+    write_imu_recording(&file, &recording).expect("written");
+    let experiment = experiment("imu");
+    let pipeline = Pipeline::from_experiment(&experiment, PipelineOptions::default()).expect("prepared");
+    let mut notes = Vec::new();
+    let outcome = pipeline.run_noting(&Source::from_file(&file), &mut notes);
+    assert!(outcome.expect_err("too few holds").is_not_identifiable());
+    assert!(matches!(notes.as_slice(), [Note::Finding { file, .. }] if file == "recording.csv"), "{notes:?}");
+}
