@@ -93,10 +93,10 @@ impl Modules {
                 }
                 "struct" | "enum" | "union" | "trait" | "type" | "fn" | "const" | "static" if depth == 0 => {
                     // neither `const fn f` nor the type `fn(…)`
-                    if starts_path(at(place + 1))
-                        && !matches!(at(place + 1), "fn" | "unsafe" | "extern" | "_")
-                    {
-                        self.all[module].items.insert(at(place + 1).to_owned());
+                    let name = at(place + 1);
+                    let is_item = starts_path(name) && !matches!(name, "fn" | "unsafe" | "extern" | "_");
+                    if is_item {
+                        self.all[module].items.insert(name.to_owned());
                         place += 1;
                     }
                 }
