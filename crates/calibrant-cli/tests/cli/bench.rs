@@ -104,7 +104,12 @@ pub(crate) struct Outcome {
 impl Outcome {
     /// The run, which must have succeeded.
     pub(crate) fn done(self) -> Self {
-        assert_eq!(self.status, 0, "{}\n{}", self.command, self.stderr);
+        self.ends_with(0)
+    }
+
+    /// The run, which must have ended with this status.
+    pub(crate) fn ends_with(self, status: i32) -> Self {
+        assert_eq!(self.status, status, "{}\n{}", self.command, self.stderr);
         self
     }
 

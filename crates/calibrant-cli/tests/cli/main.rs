@@ -10,6 +10,7 @@ mod conventions;
 mod data;
 mod design;
 mod determinism;
+mod diagnostics;
 mod examples;
 mod ferraris;
 mod headerless_text;

@@ -144,3 +144,17 @@ fn dependencies_are_read_without_those_of_tests() {
     let manifest = "[dependencies]\n# low.workspace = true\ncsv.workspace = true\nlow = { path = \"x\" }\n\n[dependencies.long]\nversion = \"1\"\n[dev-dependencies]\ntest-only = \"1\"";
     assert_eq!(dependencies(manifest).into_iter().collect::<Vec<_>>(), ["csv", "long", "low"]);
 }
+
+#[test]
+fn a_type_that_a_macro_defines_belongs_to_its_file() {
+    let graph = graph(&[
+        ("a/lib.rs", "mod one; mod two;"),
+        (
+            "a/one.rs",
+            "macro_rules! codes { ($($c:ident)*) => { pub enum Code { $($c,)* } }; } codes! { A B }",
+        ),
+        ("a/two.rs", "use crate::one::Code;"),
+    ]);
+    assert!(graph.unresolved.is_empty(), "{:?}", graph.unresolved);
+    assert!(graph.edges["a/two.rs"].contains_key("a/one.rs"));
+}

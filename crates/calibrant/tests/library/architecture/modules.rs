@@ -102,6 +102,11 @@ impl Modules {
                 }
                 "macro_rules" if depth == 0 => {
                     self.all[module].items.insert(at(place + 2).to_owned());
+                    // types that the macro defines are the module's, since it is called there
+                    let body = &tokens[place..after_group(tokens, place + 3)];
+                    let types = body.windows(2).filter(|two| matches!(two[0].as_str(), "enum" | "struct"));
+                    let names = types.map(|two| two[1].clone()).filter(|name| starts_path(name));
+                    self.all[module].items.extend(names);
                     place += 2;
                 }
                 word if starts_path(word) && !matches!(at(place.wrapping_sub(1)), "::" | "." | "fn") => {

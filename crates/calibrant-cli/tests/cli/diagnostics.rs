@@ -1,0 +1,53 @@
+//! Tests of `--deny` and `--allow`: diagnostics set the exit status of a production line.
+
+use crate::bench::Bench;
+
+/// A recording of an accelerometer whose bias steps half-way.
+fn changed(bench: &Bench) {
+    bench.preset("static-poses", "poses.toml", &[("poses = 24 ", "poses = 32 ")]);
+    bench.run("simulate poses.toml -o honest").done();
+    let text = bench.read("honest/recording.csv");
+    let rows = text.lines().count();
+    let stepped = text.lines().enumerate().map(|(row, line)| {
+        let mut fields: Vec<String> = line.split(',').map(str::to_owned).collect();
+        if row > rows / 2 {
+            fields[1] = format!("{}", fields[1].parse::<f64>().expect("a number") + 0.05);
+        }
+        fields.join(",") + "\n"
+    });
+    bench.write("stepped.csv", stepped.collect::<String>());
+}
+
+#[test]
+fn a_denied_code_sets_the_exit_status_and_the_results_are_written() {
+    let bench = Bench::new();
+    changed(&bench);
+    for denied in ["sensor-changed", "warnings"] {
+        let outcome =
+            bench.run(&format!("calibrate poses.toml stepped.csv --deny {denied} -o {denied}")).ends_with(1);
+        assert!(outcome.stderr.contains("error: denied: sensor-changed: "), "{}", outcome.stderr);
+        assert!(!bench.read(&format!("{denied}/calibration.json")).is_empty());
+    }
+    bench.run("calibrate poses.toml stepped.csv --deny spikes -o other").done();
+    bench.run("calibrate poses.toml stepped.csv honest/recording.csv --deny warnings -o both").ends_with(1);
+}
+
+#[test]
+fn an_allowed_code_is_silent_and_stays_in_the_json() {
+    let bench = Bench::new();
+    changed(&bench);
+    let run = "calibrate poses.toml stepped.csv --deny warnings --allow sensor-changed -o allowed";
+    let outcome = bench.run(run);
+    assert!(!outcome.stderr.contains("the accelerometer changes"), "{}", outcome.stderr);
+    let json = bench.json("allowed/calibration.json");
+    let warnings = json["warnings"].as_array().expect("a list");
+    let change = warnings.iter().find(|warning| warning["code"] == "sensor-changed").expect("there");
+    assert_eq!(change["severity"], "allowed");
+}
+
+#[test]
+fn an_unknown_code_is_refused_with_the_nearest_name() {
+    let bench = Bench::new();
+    let outcome = bench.run("calibrate poses.toml a.csv --deny sensor-chnaged -o x").ends_with(2);
+    assert!(outcome.stderr.contains("did you mean `sensor-changed`?"), "{}", outcome.stderr);
+}
