@@ -235,7 +235,7 @@ codes! {
         "It is off by more than 4.5 standard deviations."
         "Correct its times, axis and angle.";
     KnownContradicted "known-contradicted" Warning
-        "The data contradict what [known] says of a parameter."
+        "The data contradict what `[known]` says of a parameter."
         "It is off by more than 4.5 of its standard deviations, or by 6 of the fit without it."
         "Correct the value and its unit, or leave it out.";
     ChiSquaredLarge "chi-squared-large" Warning
