@@ -151,6 +151,7 @@ fn the_result_does_not_depend_on_the_number_of_threads() {
 
 /// The best motion of every criterion is better in its own criterion than the best motions of the others.
 #[test]
+#[ignore = "long: scripts/test-all runs it"]
 fn every_criterion_is_served_best_by_its_own_design() {
     let all = |limit: f64| Some(Vector3::repeat(limit));
     let limits = Limits {

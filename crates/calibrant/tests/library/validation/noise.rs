@@ -52,6 +52,7 @@ fn moved(found: &[Validation]) -> f64 {
 }
 
 #[test]
+#[ignore = "long: scripts/test-all runs it"]
 fn other_noise_is_no_reason_to_distrust_an_honest_calibration() {
     let count = 200;
     // 4 standard deviations of a share of 200
@@ -97,6 +98,7 @@ fn other_noise_is_no_reason_to_distrust_an_honest_calibration() {
 /// Where the scatter is no larger than the noise of the calibration, a few calibrations find none or too much
 /// of it. A quieter recording shows it: their covariance is wrong.
 #[test]
+#[ignore = "long: scripts/test-all runs it"]
 fn a_quieter_recording_shows_scatter_that_the_calibration_did_not_see() {
     for (on, scatter) in [(times(0.2, 1.0), 0.0), (times(0.2, 1.0), 0.3), (times(1.0, 0.2), 0.0)] {
         let found = tried(on, scatter, 200, |_, _| ());
@@ -116,6 +118,7 @@ fn a_quieter_recording_shows_scatter_that_the_calibration_did_not_see() {
 }
 
 #[test]
+#[ignore = "long: scripts/test-all runs it"]
 fn what_is_wrong_is_found_in_other_noise() {
     let count = 60;
     for on in [times(1.0, 5.0), times(5.0, 5.0), times(0.2, 0.2)] {
@@ -231,6 +234,7 @@ fn an_accelerometer_with_coarser_steps_does_not_make_a_covariance_too_small() {
 
 /// At rest all holds share the rounding error of a gyroscope: its bias has not moved.
 #[test]
+#[ignore = "long: scripts/test-all runs it"]
 fn a_gyroscope_with_coarse_steps_in_the_other_recording_has_not_moved() {
     let setup = ImuSimulation::default();
     let bench = bench(&setup);

@@ -170,6 +170,7 @@ fn an_accelerometer_alone_is_tried_on_another_recording_and_by_folds() {
 /// Of 400 honest covariances, 2 ± 1.4 at either end do not have one in an interval of 99 %. Of the same, 20 ±
 /// 4.4 have a p-value below 5 %. This holds whether the scatter is about as large as the noise or far larger.
 #[test]
+#[ignore = "long: scripts/test-all runs it"]
 fn the_level_of_the_test_is_what_is_claimed() {
     let simulation = ImuSimulation::default();
     let bench = bench(&simulation);
