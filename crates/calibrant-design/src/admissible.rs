@@ -129,8 +129,8 @@ impl LimitUse {
 ///
 /// # Examples
 /// ```
-/// use calibrant::design::limit_use;
-/// use calibrant::motion::{JerkControlledMotion, Limits};
+/// use calibrant_design::limit_use;
+/// use calibrant_core::motion::{JerkControlledMotion, Limits};
 /// use nalgebra::Vector3;
 /// // a falls from 2 to −2 in 2 s: the velocity is zero at both nodes and 1 m/s in the middle
 /// let motion = JerkControlledMotion::uniform(2.0, vec![Vector3::repeat(2.0), Vector3::repeat(-2.0)])?;
@@ -138,7 +138,7 @@ impl LimitUse {
 /// let velocity = &limit_use(&limits, 1, &motion)[0];
 /// assert_eq!((velocity.time_s, velocity.value), (1.0, 1.0));
 /// assert!(velocity.is_violated() && (velocity.violation - 0.25).abs() < 1e-15);
-/// # Ok::<(), calibrant::Error>(())
+/// # Ok::<(), calibrant_core::Error>(())
 /// ```
 #[must_use]
 pub fn limit_use(limits: &Limits, axes: usize, motion: &JerkControlledMotion) -> Vec<LimitUse> {

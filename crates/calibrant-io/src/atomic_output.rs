@@ -16,9 +16,9 @@ use std::path::Path;
 /// ```
 /// let directory = tempfile::tempdir().expect("a temporary directory");
 /// let path = directory.path().join("new/result.txt");
-/// calibrant::io::write_atomically(&path, |out| writeln!(out, "42"))?;
+/// calibrant_io::write_atomically(&path, |out| writeln!(out, "42"))?;
 /// assert_eq!(std::fs::read_to_string(path).expect("written"), "42\n");
-/// # Ok::<(), calibrant::Error>(())
+/// # Ok::<(), calibrant_core::Error>(())
 /// ```
 pub fn write_atomically(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<()> {
     write(path, fill).map_err(|source| Error::Output { path: path.to_path_buf(), source })

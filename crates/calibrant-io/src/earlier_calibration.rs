@@ -52,12 +52,12 @@ pub fn read_calibration(path: &Path) -> Result<EarlierCalibration> {
 ///
 /// # Examples
 /// ```
-/// use calibrant::io::parse_calibration;
+/// use calibrant_io::parse_calibration;
 /// let json = r#"{ "schema": 1, "status": "converged", "covariance": [[4e-4]],
 ///                 "parameters": [{ "name": "bias.x", "unit": "m/s²", "value": 0.1, "sd": 0.02 }] }"#;
 /// let calibration = parse_calibration(json.as_bytes())?;
 /// assert!((calibration.information()[(0, 0)] - 2500.0).abs() < 1e-9);
-/// # Ok::<(), calibrant::Error>(())
+/// # Ok::<(), calibrant_core::Error>(())
 /// ```
 pub fn parse_calibration(bytes: &[u8]) -> Result<EarlierCalibration> {
     parse(bytes).map_err(|input_error| Error::experiment(*input_error))

@@ -16,8 +16,8 @@ pub const PRESETS: &[(&str, &str)] = &[
 ///
 /// # Examples
 /// ```
-/// assert!(calibrant::io::preset("static-poses").expect("known").contains("[holds]"));
-/// assert!(calibrant::io::preset("nonsense").is_none());
+/// assert!(calibrant_io::preset("static-poses").expect("known").contains("[holds]"));
+/// assert!(calibrant_io::preset("nonsense").is_none());
 /// ```
 #[must_use]
 pub fn preset(name: &str) -> Option<&'static str> {

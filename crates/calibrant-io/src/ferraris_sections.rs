@@ -57,12 +57,12 @@ pub fn read_sections(path: &Path) -> Result<Vec<Section>> {
 ///
 /// # Examples
 /// ```
-/// use calibrant::io::{SectionKind, parse_sections};
+/// use calibrant_io::{SectionKind, parse_sections};
 /// use nalgebra::Vector3;
 /// let sections = parse_sections(br#"{"x_a": {"start": 90, "end": 99}, "z_rot": {"start": 5, "end": 80}}"#)?;
 /// assert_eq!(sections[0].kind, SectionKind::Turn(Vector3::z()));
 /// assert_eq!(sections[1].kind, SectionKind::Face(-Vector3::x()));
-/// # Ok::<(), calibrant::Error>(())
+/// # Ok::<(), calibrant_core::Error>(())
 /// ```
 pub fn parse_sections(bytes: &[u8]) -> Result<Vec<Section>> {
     parse(bytes).map_err(|input_error| Error::experiment(*input_error))

@@ -93,12 +93,12 @@ pub struct HoldsInspection {
 ///
 /// # Examples
 /// ```
-/// use calibrant::io::{ImuReadOptions, inspect, parse_imu_recording};
+/// use calibrant_io::{ImuReadOptions, inspect, parse_imu_recording};
 /// let file = parse_imu_recording(b"t_s,gx_radps,gy_radps,gz_radps\n0,0,1,2\n0.01,1,1,2.5\n0.02,2,4,3\n", &ImuReadOptions::default())?;
 /// let inspection = inspect(&file);
 /// assert_eq!(inspection.sensors[0].mean.y, 2.0);
 /// assert!(inspection.holds.is_none(), "there is no accelerometer");
-/// # Ok::<(), calibrant::Error>(())
+/// # Ok::<(), calibrant_core::Error>(())
 /// ```
 #[must_use]
 pub fn inspect(file: &ImuFile) -> Inspection {

@@ -37,9 +37,9 @@ pub fn read_motion(path: &Path, axes: usize) -> Result<JerkControlledMotion> {
 ///
 /// # Examples
 /// ```
-/// let motion = calibrant::io::parse_motion(b"t_s,ax_mps2\n0,0\n1,5\n", 1)?;
+/// let motion = calibrant_io::parse_motion(b"t_s,ax_mps2\n0,0\n1,5\n", 1)?;
 /// assert_eq!(motion.jerk_mps3()[0].x, 5.0);
-/// # Ok::<(), calibrant::Error>(())
+/// # Ok::<(), calibrant_core::Error>(())
 /// ```
 pub fn parse_motion(bytes: &[u8], axes: usize) -> Result<JerkControlledMotion> {
     parse(bytes, axes).map_err(|input_error| Error::experiment(*input_error))

@@ -24,7 +24,7 @@ pub struct SummaryRow {
 ///
 /// # Examples
 /// ```
-/// use calibrant::io::calibrations_json;
+/// use calibrant_io::calibrations_json;
 /// let text = calibrations_json([("a.csv", Ok("{\"schema\": 2}\n")), ("b.csv", Err("the file is empty"))]);
 /// assert!(text.contains("\"file\": \"b.csv\",\n    \"error\": \"the file is empty\""));
 /// ```

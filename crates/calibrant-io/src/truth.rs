@@ -27,8 +27,8 @@ pub fn write_truth(
 ///
 /// # Examples
 /// ```
-/// use calibrant::io::truth_json;
-/// use calibrant::sensor::{Sensor, SensorParameters};
+/// use calibrant_io::truth_json;
+/// use calibrant_core::sensor::{Sensor, SensorParameters};
 ///
 /// let sensor = Sensor::memsic_mxd2020u();
 /// let text = truth_json(7, &sensor.parameter_list(), sensor.unit, &SensorParameters::identity());

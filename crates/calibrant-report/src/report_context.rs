@@ -10,7 +10,7 @@ use calibrant_core::sensor::SensorParameters;
 ///
 /// # Examples
 /// ```
-/// use calibrant::report::About;
+/// use calibrant_report::About;
 ///
 /// let about = About {
 ///     title: "Calibration of sensor 7".into(),

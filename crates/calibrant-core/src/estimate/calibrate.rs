@@ -25,9 +25,9 @@ use std::borrow::Cow;
 /// # Examples
 /// Three samples of an exactly known motion determine bias and scale factor of one axis:
 /// ```
-/// use calibrant::estimate::{CalibrationProblem, CalibrationSettings, Stimulus, calibrate};
-/// use calibrant::motion::{CommandedMotion, JerkControlledMotion, KnownEnds, Trust};
-/// use calibrant::sensor::{ReadingUnit, Recording, Sensor};
+/// use calibrant_core::estimate::{CalibrationProblem, CalibrationSettings, Stimulus, calibrate};
+/// use calibrant_core::motion::{CommandedMotion, JerkControlledMotion, KnownEnds, Trust};
+/// use calibrant_core::sensor::{ReadingUnit, Recording, Sensor};
 /// use nalgebra::Vector3;
 ///
 /// let sensor = Sensor { axes: 1, ..Sensor::memsic_mxd2020u() };
@@ -45,7 +45,7 @@ use std::borrow::Cow;
 /// assert!((calibration.values[0] - 0.09).abs() < 1e-12, "bias.x");
 /// assert!((calibration.values[1] - 1.0).abs() < 1e-12, "scale.x");
 /// assert!((calibration.sd()[1] - 2e-4 / (2.0_f64 * 81.0).sqrt()).abs() < 1e-15);
-/// # Ok::<(), calibrant::Error>(())
+/// # Ok::<(), calibrant_core::Error>(())
 /// ```
 pub fn calibrate(problem: &CalibrationProblem<'_>, settings: &CalibrationSettings) -> Result<Calibration> {
     match problem.stimulus {

@@ -56,8 +56,8 @@ impl Comparison {
     ///
     /// # Examples
     /// ```
-    /// use calibrant::estimate::Comparison;
-    /// use calibrant::sensor::{CalibratedImu, ImuParameters, ImuQuantity, ReadingUnit};
+    /// use calibrant_core::estimate::Comparison;
+    /// use calibrant_core::sensor::{CalibratedImu, ImuParameters, ImuQuantity, ReadingUnit};
     /// use nalgebra::DMatrix;
     /// let quantities = ImuQuantity::full_list(true, false, false)[..6].to_vec(); // bias and scale factors
     /// let a = CalibratedImu {

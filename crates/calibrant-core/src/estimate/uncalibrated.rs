@@ -18,8 +18,8 @@ impl Uncalibrated {
     /// # Examples
     /// Readings in m/s² are what they say:
     /// ```
-    /// use calibrant::estimate::Uncalibrated;
-    /// use calibrant::sensor::{Sensor, SensorModel, SensorParameters};
+    /// use calibrant_core::estimate::Uncalibrated;
+    /// use calibrant_core::sensor::{Sensor, SensorModel, SensorParameters};
     /// use nalgebra::Vector3;
     ///
     /// let found = SensorParameters { bias: Vector3::repeat(0.1), ..SensorParameters::identity() };

@@ -16,7 +16,7 @@ use nalgebra::DMatrix;
 ///
 /// # Examples
 /// ```
-/// use calibrant::information::covariance;
+/// use calibrant_core::information::covariance;
 /// use nalgebra::DMatrix;
 /// let information = DMatrix::from_row_slice(2, 2, &[4.0, 2.0, 2.0, 2.0]);
 /// let c = covariance(&information).unwrap();

@@ -66,16 +66,16 @@ impl MotionInformation {
     /// # Examples
     /// One axis, two samples, known motion: `F = σ⁻² Σ (1, α)ᵀ (1, α)`.
     /// ```
-    /// use calibrant::information::MotionInformation;
-    /// use calibrant::motion::{JerkControlledMotion, KnownEnds, Trust};
-    /// use calibrant::sensor::{Sensor, SensorParameters};
+    /// use calibrant_core::information::MotionInformation;
+    /// use calibrant_core::motion::{JerkControlledMotion, KnownEnds, Trust};
+    /// use calibrant_core::sensor::{Sensor, SensorParameters};
     /// use nalgebra::Vector3;
     /// let sensor = Sensor { axes: 1, noise_mps2: Some(Vector3::repeat(0.5)), ..Sensor::memsic_mxd2020u() };
     /// let setting = MotionInformation::new(&sensor, SensorParameters::identity(), Trust::Known, KnownEnds::Start, 1.0)?;
     /// let motion = JerkControlledMotion::uniform(1.0, vec![Vector3::repeat(-1.0), Vector3::repeat(3.0)])?;
     /// let f = setting.information(&motion)?;
     /// assert_eq!(f.as_slice(), [8.0, 8.0, 8.0, 40.0]);
-    /// # Ok::<(), calibrant::Error>(())
+    /// # Ok::<(), calibrant_core::Error>(())
     /// ```
     pub fn information(&self, motion: &JerkControlledMotion) -> Result<DMatrix<f64>> {
         match self.model {

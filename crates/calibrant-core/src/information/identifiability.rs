@@ -31,7 +31,7 @@ const INVOLVED: f64 = 1e-6;
 /// # Examples
 /// An axis that stands still at 2 m/s²: only one combination of bias and scale factor is determined.
 /// ```
-/// use calibrant::information::undetermined;
+/// use calibrant_core::information::undetermined;
 /// use nalgebra::DMatrix;
 /// let f = DMatrix::from_row_slice(2, 2, &[10.0, 20.0, 20.0, 40.0]);
 /// let groups = undetermined(&f, &f.diagonal());

@@ -10,7 +10,7 @@ pub const EARTH_RATE_RADPS: f64 = 7.292_115e-5;
 ///
 /// # Examples
 /// ```
-/// use calibrant::motion::earth_rate;
+/// use calibrant_core::motion::earth_rate;
 /// assert!((earth_rate(-90.0).z + 7.292115e-5).abs() < 1e-20);
 /// assert!((earth_rate(30.0).z / earth_rate(90.0).z - 0.5).abs() < 1e-12);
 /// ```

@@ -30,7 +30,7 @@ impl Gravity {
     ///
     /// # Examples
     /// ```
-    /// use calibrant::motion::Gravity;
+    /// use calibrant_core::motion::Gravity;
     /// let pole = Gravity::from_latitude(90.0, 0.0);
     /// assert!((pole.magnitude_mps2 - 9.8321849379).abs() < 1e-9);
     /// ```

@@ -46,7 +46,7 @@ impl Hold {
     ///
     /// # Examples
     /// ```
-    /// use calibrant::motion::Hold;
+    /// use calibrant_core::motion::Hold;
     /// use nalgebra::Vector3;
     /// let hold = |start_s: f64, end_s: f64| Hold { first: 0, end: 2, start_s, end_s, mean: Vector3::z(), sd: Vector3::zeros() };
     /// assert_eq!(Hold::longest(&[hold(0.0, 2.0), hold(3.0, 9.0), hold(10.0, 11.0)]), Some(1));

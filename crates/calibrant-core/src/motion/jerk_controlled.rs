@@ -15,14 +15,14 @@ use nalgebra::Vector3;
 ///
 /// # Examples
 /// ```
-/// use calibrant::motion::JerkControlledMotion;
+/// use calibrant_core::motion::JerkControlledMotion;
 /// use nalgebra::Vector3;
 ///
 /// let nodes = vec![Vector3::zeros(), Vector3::new(1.0, 0.0, 0.0), Vector3::zeros()];
 /// let motion = JerkControlledMotion::uniform(2.0, nodes)?;
 /// assert_eq!(motion.acceleration_at(3.0).x, 0.5);
 /// assert_eq!(motion.jerk_mps3()[1].x, -0.5);
-/// # Ok::<(), calibrant::Error>(())
+/// # Ok::<(), calibrant_core::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct JerkControlledMotion {

@@ -23,13 +23,13 @@ impl JerkControlledMotion {
     ///
     /// # Examples
     /// ```
-    /// use calibrant::motion::JerkControlledMotion;
+    /// use calibrant_core::motion::JerkControlledMotion;
     /// use nalgebra::Vector3;
     /// // jerk 2 from rest: a = 2 t, v = t², d = t³/3
     /// let motion = JerkControlledMotion::uniform(3.0, vec![Vector3::zeros(), Vector3::repeat(6.0)])?;
     /// let state = motion.states_at(&[1.5])[0];
     /// assert_eq!((state.velocity_mps.x, state.displacement_m.x), (2.25, 1.125));
-    /// # Ok::<(), calibrant::Error>(())
+    /// # Ok::<(), calibrant_core::Error>(())
     /// ```
     #[must_use]
     pub fn states_at(&self, times_s: &[f64]) -> Vec<MotionState> {

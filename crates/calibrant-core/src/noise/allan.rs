@@ -16,13 +16,13 @@ const FEWEST: usize = 9;
 /// # Examples
 /// A case by hand: `d = (y₂ − y₁, …)`, `σ² = ½ mean d²`.
 /// ```
-/// use calibrant::noise::AllanDeviation;
+/// use calibrant_core::noise::AllanDeviation;
 ///
 /// let allan = AllanDeviation::of(&[1.0, 3.0, 2.0, 6.0, 4.0, 4.0, 5.0, 3.0, 5.0], 0.1)?;
 /// let first = &allan.points[0];
 /// // differences 2, −1, 4, −2, 0, 1, −2, 2: mean square 34/8
 /// assert!((first.deviation - (34.0_f64 / 16.0).sqrt()).abs() < 1e-12 && first.tau_s == 0.1);
-/// # Ok::<(), calibrant::Error>(())
+/// # Ok::<(), calibrant_core::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct AllanDeviation {

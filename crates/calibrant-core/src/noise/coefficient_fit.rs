@@ -48,8 +48,8 @@ impl NoiseFit {
     ///
     /// # Examples
     /// ```
-    /// use calibrant::noise::{Moments, NoiseFit, PowerLaw};
-    /// use calibrant::simulate::{Purpose, simulate_noise, stream};
+    /// use calibrant_core::noise::{Moments, NoiseFit, PowerLaw};
+    /// use calibrant_core::simulate::{Purpose, simulate_noise, stream};
     ///
     /// // white noise of N = 0.02 u/√Hz at 100 Hz: 0.2 u per sample
     /// let readings = simulate_noise(PowerLaw::White, 0.02, 0.01, 5000, &mut stream(1, Purpose::Sensor, 0));
@@ -57,7 +57,7 @@ impl NoiseFit {
     /// let n = fit.model.random_walk.estimate().expect("determined");
     /// assert!(n.low < 0.02 && 0.02 < n.high && n.sd < 5e-4);
     /// assert!(fit.model.rate_random_walk.estimate().is_none());
-    /// # Ok::<(), calibrant::Error>(())
+    /// # Ok::<(), calibrant_core::Error>(())
     /// ```
     pub fn of(readings: &[f64], interval_s: f64, moments: &Moments) -> Result<Self> {
         let n = readings.len();

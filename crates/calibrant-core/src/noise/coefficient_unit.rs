@@ -22,8 +22,8 @@ pub struct CoefficientUnit {
 ///
 /// # Examples
 /// ```
-/// use calibrant::noise::{PowerLaw, coefficient_units};
-/// use calibrant::sensor::{ReadingUnit, SensorKind};
+/// use calibrant_core::noise::{PowerLaw, coefficient_units};
+/// use calibrant_core::sensor::{ReadingUnit, SensorKind};
 ///
 /// let units = coefficient_units(SensorKind::Gyroscope, PowerLaw::White, ReadingUnit::RadianPerSecond);
 /// let symbols: Vec<_> = units.iter().map(|unit| unit.symbol).collect();

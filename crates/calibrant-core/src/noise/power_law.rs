@@ -6,7 +6,7 @@ use std::f64::consts::{LN_2, PI};
 ///
 /// # Examples
 /// ```
-/// use calibrant::noise::PowerLaw;
+/// use calibrant_core::noise::PowerLaw;
 ///
 /// assert_eq!(PowerLaw::White.slope(), -0.5);
 /// // flicker noise of B = 1 has a flat Allan deviation of 0.664

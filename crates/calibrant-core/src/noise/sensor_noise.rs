@@ -59,9 +59,9 @@ impl SensorNoise {
     ///
     /// # Examples
     /// ```
-    /// use calibrant::noise::{PowerLaw, Segment, SensorNoise};
-    /// use calibrant::sensor::{ReadingUnit, Recording, SensorKind};
-    /// use calibrant::simulate::{Purpose, simulate_noise, stream};
+    /// use calibrant_core::noise::{PowerLaw, Segment, SensorNoise};
+    /// use calibrant_core::sensor::{ReadingUnit, Recording, SensorKind};
+    /// use calibrant_core::simulate::{Purpose, simulate_noise, stream};
     /// use nalgebra::Vector3;
     ///
     /// let mut rng = stream(1, Purpose::Sensor, 0);
@@ -75,7 +75,7 @@ impl SensorNoise {
     /// let noise = SensorNoise::of(SensorKind::Accelerometer, &recording, Segment::between(&recording, 0.0, 60.0)?)?;
     /// let sigma = noise.white_noise_per_sample().expect("determined");
     /// assert!((sigma - Vector3::repeat(0.01)).amax() < 5e-4);
-    /// # Ok::<(), calibrant::Error>(())
+    /// # Ok::<(), calibrant_core::Error>(())
     /// ```
     pub fn of(sensor_kind: SensorKind, recording: &Recording, segment: Segment) -> Result<Self> {
         let moments = Moments::of(segment.samples());

@@ -12,7 +12,7 @@ use nalgebra::{Matrix3, Vector3};
 ///
 /// # Examples
 /// ```
-/// use calibrant::sensor::{Sensor, SensorModel};
+/// use calibrant_core::sensor::{Sensor, SensorModel};
 ///
 /// let sensor = Sensor::triaxial(SensorModel::ScaleBias);
 /// let names: Vec<_> = sensor.parameter_list().names();

@@ -179,7 +179,7 @@ impl CalibratedImu {
     ///
     /// # Examples
     /// ```
-    /// use calibrant::sensor::{CalibratedImu, ImuParameters, ReadingUnit};
+    /// use calibrant_core::sensor::{CalibratedImu, ImuParameters, ReadingUnit};
     /// let imu = CalibratedImu {
     ///     parameters: ImuParameters::identity(),
     ///     accelerometer_unit: Some(ReadingUnit::MetrePerSecondSquared),

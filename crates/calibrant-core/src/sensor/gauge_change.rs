@@ -61,7 +61,7 @@ impl Gauge {
     ///
     /// # Examples
     /// ```
-    /// use calibrant::sensor::Gauge;
+    /// use calibrant_core::sensor::Gauge;
     /// use nalgebra::Matrix3;
     /// let lower = Matrix3::new(1.0, 0.0, 0.0, 0.1, 1.0, 0.0, 0.0, 0.2, 1.0);
     /// assert_eq!(Gauge::of(&lower), Some(Gauge::Lower));
@@ -166,7 +166,7 @@ impl CalibratedImu {
     ///
     /// # Examples
     /// ```
-    /// use calibrant::sensor::{CalibratedImu, Gauge, ImuParameters, ImuQuantity, ReadingUnit};
+    /// use calibrant_core::sensor::{CalibratedImu, Gauge, ImuParameters, ImuQuantity, ReadingUnit};
     /// let mut parameters = ImuParameters::identity();
     /// parameters.accelerometer.matrix[(0, 1)] = 0.01;
     /// let imu = CalibratedImu {
@@ -180,7 +180,7 @@ impl CalibratedImu {
     /// let lower = imu.in_gauge(Gauge::Lower)?.parameters;
     /// assert_eq!(lower.accelerometer.matrix[(0, 1)], 0.0);
     /// assert!((lower.gyroscope.matrix[(1, 0)] - 0.01).abs() < 1e-4, "the gyroscope turned with it");
-    /// # Ok::<(), calibrant::Error>(())
+    /// # Ok::<(), calibrant_core::Error>(())
     /// ```
     pub fn in_gauge(&self, gauge: Gauge) -> Result<Self> {
         self.in_gauge_of(self.reference(), gauge)

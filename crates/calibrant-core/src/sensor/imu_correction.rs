@@ -20,7 +20,7 @@ use std::sync::Arc;
 ///
 /// # Examples
 /// ```
-/// use calibrant::sensor::{CalibratedImu, ImuCorrection, ImuParameters, ReadingUnit};
+/// use calibrant_core::sensor::{CalibratedImu, ImuCorrection, ImuParameters, ReadingUnit};
 /// use nalgebra::Vector3;
 /// let mut parameters = ImuParameters::identity();
 /// parameters.accelerometer.bias = Vector3::new(0.1, 0.0, 0.0);
@@ -35,7 +35,7 @@ use std::sync::Arc;
 /// let correction = ImuCorrection::of(&imu)?;
 /// let force = correction.force(&Vector3::new(0.3, 0.0, 9.8)).expect("has an accelerometer");
 /// assert!((force.x - 0.2).abs() < 1e-15);
-/// # Ok::<(), calibrant::Error>(())
+/// # Ok::<(), calibrant_core::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct ImuCorrection {

@@ -8,7 +8,7 @@ impl ImuParameters {
     ///
     /// # Examples
     /// ```
-    /// use calibrant::sensor::ImuParameters;
+    /// use calibrant_core::sensor::ImuParameters;
     /// let mut imu = ImuParameters::identity();
     /// imu.thermal.reference_c = 20.0;
     /// imu.thermal.gyroscope.bias[0].x = 1e-4; // rad/s/K

@@ -94,7 +94,7 @@ impl CalibratedImu {
     ///
     /// # Examples
     /// ```
-    /// use calibrant::sensor::{CalibratedImu, ImuParameters, ImuQuantity, ReadingUnit};
+    /// use calibrant_core::sensor::{CalibratedImu, ImuParameters, ImuQuantity, ReadingUnit};
     /// let mut parameters = ImuParameters::identity();
     /// parameters.thermal.reference_c = 20.0;
     /// parameters.thermal.accelerometer.bias = [[0.01, 0.0, 0.0].into(), [0.001, 0.0, 0.0].into()];
@@ -109,7 +109,7 @@ impl CalibratedImu {
     /// let warm = imu.at_reference_temperature(30.0)?.parameters;
     /// assert!((warm.accelerometer.bias.x - 0.2).abs() < 1e-15);
     /// assert!((warm.thermal.accelerometer.bias[0].x - 0.03).abs() < 1e-15);
-    /// # Ok::<(), calibrant::Error>(())
+    /// # Ok::<(), calibrant_core::Error>(())
     /// ```
     pub fn at_reference_temperature(&self, reference_c: f64) -> Result<Self> {
         if self.parameters.thermal.reference_c == reference_c {

@@ -101,7 +101,7 @@ impl Recording {
     ///
     /// # Examples
     /// ```
-    /// use calibrant::sensor::{ReadingUnit, Recording, SensorKind};
+    /// use calibrant_core::sensor::{ReadingUnit, Recording, SensorKind};
     /// use nalgebra::Vector3;
     /// let times_s: Vec<f64> = (0..500).map(|k| f64::from(k) * 0.01).collect();
     /// let mut readings: Vec<Vector3<f64>> = times_s.iter().map(|t| Vector3::new((700.0 * t).sin(), (900.0 * t).cos(), 9.8)).collect();

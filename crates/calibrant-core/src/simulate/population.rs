@@ -10,8 +10,8 @@ use rand_distr::{Distribution, StandardNormal};
 ///
 /// # Examples
 /// ```
-/// use calibrant::sensor::Sensor;
-/// use calibrant::simulate::{Purpose, draw_sensor, stream};
+/// use calibrant_core::sensor::Sensor;
+/// use calibrant_core::simulate::{Purpose, draw_sensor, stream};
 /// let sensor = draw_sensor(&Sensor::memsic_mxd2020u(), &mut stream(1, Purpose::Sensor, 0));
 /// assert!(sensor.bias.norm() > 0.0 && (sensor.matrix[(0, 0)] - 1.0).abs() < 0.05);
 /// ```

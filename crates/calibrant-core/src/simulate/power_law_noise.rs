@@ -11,8 +11,8 @@ use rand_distr::{Distribution, StandardNormal};
 ///
 /// # Examples
 /// ```
-/// use calibrant::noise::PowerLaw;
-/// use calibrant::simulate::{Purpose, simulate_noise, stream};
+/// use calibrant_core::noise::PowerLaw;
+/// use calibrant_core::simulate::{Purpose, simulate_noise, stream};
 ///
 /// let readings = simulate_noise(PowerLaw::RandomWalk, 0.1, 0.01, 1000, &mut stream(1, Purpose::Sensor, 0));
 /// assert_eq!(readings.len(), 1000);

@@ -50,14 +50,14 @@ fn read_one(path: &Path, options: &ConventionOptions) -> Result<CalibratedImuFil
 /// # Examples
 /// An accelerometer in imu_tk's form: misalignment, scale, bias.
 /// ```
-/// use calibrant::io::{ConventionOptions, RawUnits, parse_calibrated_imu};
-/// use calibrant::sensor::SensorKind;
+/// use calibrant_io::{ConventionOptions, RawUnits, parse_calibrated_imu};
+/// use calibrant_core::sensor::SensorKind;
 ///
 /// let text = "1 0 0\n0 1 0\n0 0 1\n\n0.0024 0 0\n0 0.0024 0\n0 0 0.0024\n\n33124\n33275\n32364\n";
 /// let options = ConventionOptions { units: Some(RawUnits::Counts), sensor_kind: Some(SensorKind::Accelerometer), ..Default::default() };
 /// let file = parse_calibrated_imu(text.as_bytes(), &options)?;
 /// assert!((file.imu.parameters.accelerometer.matrix[(0, 0)] - 1.0 / 0.0024).abs() < 1e-9, "counts per m/s²");
-/// # Ok::<(), calibrant::Error>(())
+/// # Ok::<(), calibrant_core::Error>(())
 /// ```
 pub fn parse_calibrated_imu(bytes: &[u8], options: &ConventionOptions) -> Result<CalibratedImuFile> {
     parse(bytes, options).map_err(|input_error| Error::experiment(*input_error))

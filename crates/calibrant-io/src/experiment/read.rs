@@ -87,13 +87,13 @@ impl Experiment {
     ///
     /// # Examples
     /// ```
-    /// use calibrant::io::{Experiment, preset};
+    /// use calibrant_io::{Experiment, preset};
     /// let text = preset("report").expect("a preset");
     /// assert_eq!(Experiment::parse(text, None)?.sensor.axes, 3);
     ///
     /// let error = Experiment::parse(&text.replace("interval_s", "intervall_s"), None).expect_err("misspelt");
     /// assert!(error.to_string().contains("did you mean `interval_s`?"), "{error}");
-    /// # Ok::<(), calibrant::Error>(())
+    /// # Ok::<(), calibrant_core::Error>(())
     /// ```
     pub fn parse(text: &str, file: Option<&Path>) -> Result<Self> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);

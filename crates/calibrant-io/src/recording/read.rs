@@ -32,14 +32,14 @@ pub fn read_recording(path: &Path, options: &ReadOptions) -> Result<RecordingFil
 ///
 /// # Examples
 /// ```
-/// use calibrant::io::{ReadOptions, parse_recording};
-/// use calibrant::sensor::ReadingUnit;
+/// use calibrant_io::{ReadOptions, parse_recording};
+/// use calibrant_core::sensor::ReadingUnit;
 ///
 /// let options = ReadOptions { unit: None, expected_unit: ReadingUnit::MetrePerSecondSquared, axes: 3 };
 /// let file = parse_recording(b"t_s,ax_g,ay_g,az_g\n0.00,0,0,1\n0.01,0,0,1\n", &options)?;
 /// assert_eq!(file.recording.readings[0].z, 9.80665);
 /// assert!(file.findings[0].to_string().contains("axis x never changes"));
-/// # Ok::<(), calibrant::Error>(())
+/// # Ok::<(), calibrant_core::Error>(())
 /// ```
 pub fn parse_recording(bytes: &[u8], options: &ReadOptions) -> Result<RecordingFile> {
     parse(bytes, options).map_err(|input_error| Error::recording(*input_error))

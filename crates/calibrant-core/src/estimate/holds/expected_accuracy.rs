@@ -54,9 +54,9 @@ impl ExpectedCalibration {
 ///
 /// # Examples
 /// ```
-/// use calibrant::estimate::{expected_calibration, find_holds};
-/// use calibrant::sensor::{Gauge, ReadingUnit, SensorParameters};
-/// use calibrant::simulate::{HoldsSimulation, Purpose, simulate_holds, stream};
+/// use calibrant_core::estimate::{expected_calibration, find_holds};
+/// use calibrant_core::sensor::{Gauge, ReadingUnit, SensorParameters};
+/// use calibrant_core::simulate::{HoldsSimulation, Purpose, simulate_holds, stream};
 /// use nalgebra::Vector3;
 ///
 /// let setup = HoldsSimulation { poses: 24, hold_s: 4.0, turn_s: 1.5, rate_hz: 100.0, gravity_mps2: 9.81, between_holds_sd_mps2: 0.0 };
@@ -67,7 +67,7 @@ impl ExpectedCalibration {
 /// let expected = expected_calibration(&holds, unit, 9.81, Gauge::Upper)?;
 /// // one hold's mean has 0.01/√400 = 0.0005 m/s²; 24 of them know a bias to a few ten thousandths
 /// assert!(expected.sd()[0] > 0.0005 / 24_f64.sqrt() && expected.sd()[0] < 0.0005);
-/// # Ok::<(), calibrant::Error>(())
+/// # Ok::<(), calibrant_core::Error>(())
 /// ```
 pub fn expected_calibration(
     holds: &[Hold],

@@ -33,9 +33,9 @@ const WANDER: f64 = 2.0;
 ///
 /// # Examples
 /// ```
-/// use calibrant::estimate::find_holds;
-/// use calibrant::sensor::{ReadingUnit, SensorParameters};
-/// use calibrant::simulate::{HoldsSimulation, Purpose, simulate_holds, stream};
+/// use calibrant_core::estimate::find_holds;
+/// use calibrant_core::sensor::{ReadingUnit, SensorParameters};
+/// use calibrant_core::simulate::{HoldsSimulation, Purpose, simulate_holds, stream};
 /// use nalgebra::Vector3;
 ///
 /// let setup = HoldsSimulation { poses: 12, hold_s: 4.0, turn_s: 1.5, rate_hz: 100.0, gravity_mps2: 9.81, between_holds_sd_mps2: 0.0 };
@@ -43,7 +43,7 @@ const WANDER: f64 = 2.0;
 /// let unit = ReadingUnit::MetrePerSecondSquared;
 /// let (recording, _) = simulate_holds(&sensor, &Vector3::repeat(0.01), unit, &setup, &mut stream(1, Purpose::Sensor, 0));
 /// assert_eq!(find_holds(&recording, 1.0)?.len(), 12);
-/// # Ok::<(), calibrant::Error>(())
+/// # Ok::<(), calibrant_core::Error>(())
 /// ```
 pub fn find_holds(recording: &Recording, minimum_s: f64) -> Result<Vec<Hold>> {
     let (clean, spikes) = recording.without_spikes(SensorKind::Accelerometer);

@@ -23,7 +23,7 @@ pub struct Coverage {
 ///
 /// # Examples
 /// ```
-/// use calibrant::estimate::coverage;
+/// use calibrant_core::estimate::coverage;
 /// use nalgebra::Vector3;
 /// let faces: Vec<_> = (0..6).map(|k| Vector3::from_fn(|axis, _| if axis == k / 2 { 1.0 - 2.0 * (k % 2) as f64 } else { 0.0 })).collect();
 /// let all = coverage(&faces).expect("not empty");

@@ -12,8 +12,8 @@ use crate::sensor::{Recording, Saturation};
 ///
 /// # Examples
 /// ```
-/// use calibrant::estimate::{clipped_holds, holds_between};
-/// use calibrant::sensor::{ReadingUnit, Recording};
+/// use calibrant_core::estimate::{clipped_holds, holds_between};
+/// use calibrant_core::sensor::{ReadingUnit, Recording};
 /// use nalgebra::Vector3;
 ///
 /// // two holds; in the second, x would show 9.8 m/s²
@@ -33,7 +33,7 @@ use crate::sensor::{Recording, Saturation};
 /// let clipped = clipped_holds(&recording, &holds);
 /// assert!(clipped[0].is_none());
 /// assert_eq!(clipped[1].map(|end| (end.axis.to_string(), end.value)), Some(("x".to_owned(), 8.0)));
-/// # Ok::<(), calibrant::Error>(())
+/// # Ok::<(), calibrant_core::Error>(())
 /// ```
 #[must_use]
 pub fn clipped_holds(recording: &Recording, holds: &[Hold]) -> Vec<Option<Saturation>> {

@@ -10,7 +10,7 @@ type Search<'a> = Box<dyn FnOnce() -> Option<WhiteNoise> + Send + 'a>;
 ///
 /// # Examples
 /// ```
-/// use calibrant::estimate::{WhiteNoise, WhiteNoiseSearch};
+/// use calibrant_core::estimate::{WhiteNoise, WhiteNoiseSearch};
 /// use nalgebra::Vector3;
 ///
 /// let found = WhiteNoise { sd: Vector3::repeat(1e-3), hold: 0, duration_s: 60.0 };

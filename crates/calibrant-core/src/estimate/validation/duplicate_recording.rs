@@ -36,9 +36,9 @@ const LAGS: [f64; 5] = [0.0, 2.0, -2.0, 5.0, -5.0];
 ///
 /// # Examples
 /// ```
-/// use calibrant::estimate::{find_holds, noise_in_common};
-/// use calibrant::sensor::{ReadingUnit, SensorParameters};
-/// use calibrant::simulate::{HoldsSimulation, Purpose, simulate_holds, stream};
+/// use calibrant_core::estimate::{find_holds, noise_in_common};
+/// use calibrant_core::sensor::{ReadingUnit, SensorParameters};
+/// use calibrant_core::simulate::{HoldsSimulation, Purpose, simulate_holds, stream};
 /// use nalgebra::Vector3;
 ///
 /// let setup = HoldsSimulation { poses: 12, hold_s: 4.0, turn_s: 1.5, rate_hz: 100.0, gravity_mps2: 9.81, between_holds_sd_mps2: 0.0 };
@@ -52,7 +52,7 @@ const LAGS: [f64; 5] = [0.0, 2.0, -2.0, 5.0, -5.0];
 /// rounded.readings.iter_mut().for_each(|y| *y = y.map(|y| (y * 100.0).round() / 100.0));
 /// assert!(noise_in_common(&one, &holds, &rounded).is_some_and(|r| r > 0.9));
 /// assert_eq!(noise_in_common(&one, &holds, &other), None);
-/// # Ok::<(), calibrant::Error>(())
+/// # Ok::<(), calibrant_core::Error>(())
 /// ```
 #[must_use]
 pub fn noise_in_common(one: &Recording, holds: &[Hold], other: &Recording) -> Option<f64> {

@@ -21,9 +21,9 @@ const LEAST_FOUND_SHARE: f64 = 0.8;
 ///
 /// # Examples
 /// ```
-/// use calibrant::estimate::{find_holds, readings_in_common};
-/// use calibrant::sensor::{ReadingUnit, SensorParameters};
-/// use calibrant::simulate::{HoldsSimulation, Purpose, simulate_holds, stream};
+/// use calibrant_core::estimate::{find_holds, readings_in_common};
+/// use calibrant_core::sensor::{ReadingUnit, SensorParameters};
+/// use calibrant_core::simulate::{HoldsSimulation, Purpose, simulate_holds, stream};
 /// use nalgebra::Vector3;
 ///
 /// let setup = HoldsSimulation { poses: 12, hold_s: 4.0, turn_s: 1.5, rate_hz: 100.0, gravity_mps2: 9.81, between_holds_sd_mps2: 0.0 };
@@ -37,7 +37,7 @@ const LEAST_FOUND_SHARE: f64 = 0.8;
 /// let holds = find_holds(&one, 1.0)?;
 /// assert_eq!(readings_in_common(&one, &holds, &reversed), Some(1.0));
 /// assert_eq!(readings_in_common(&one, &holds, &other), None);
-/// # Ok::<(), calibrant::Error>(())
+/// # Ok::<(), calibrant_core::Error>(())
 /// ```
 #[must_use]
 pub fn readings_in_common(one: &Recording, holds: &[Hold], other: &Recording) -> Option<f64> {

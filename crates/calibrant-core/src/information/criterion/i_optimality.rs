@@ -29,8 +29,8 @@ impl IOptimality {
     ///
     /// # Examples
     /// ```
-    /// use calibrant::information::criterion::{Criterion, IOptimality};
-    /// use calibrant::sensor::{ParameterList, SensorModel, SensorParameters};
+    /// use calibrant_core::information::criterion::{Criterion, IOptimality};
+    /// use calibrant_core::sensor::{ParameterList, SensorModel, SensorParameters};
     /// use nalgebra::DMatrix;
     /// // one axis, perfect sensor, bias and scale factor of variance 1 and 3, range 2: 1 + 3 · 2²/3
     /// let list = ParameterList::new(1, SensorModel::ScaleBias);

@@ -9,7 +9,7 @@ use calibrant_core::sensor::SensorKind;
 ///
 /// # Examples
 /// ```
-/// use calibrant::io::{ImuReadOptions, ImuUnit, parse_imu_recording};
+/// use calibrant_io::{ImuReadOptions, ImuUnit, parse_imu_recording};
 ///
 /// let text = b"n_samples,gyr_x,gyr_y,gyr_z,acc_x,acc_y,acc_z\n0,90,0,0,0,0,9.8\n1,0,90,0,0,9.8,0\n2,0,0,90,9.8,0,0\n";
 /// let question = parse_imu_recording(text, &ImuReadOptions::default()).expect_err("no units, no rate");
@@ -24,7 +24,7 @@ use calibrant_core::sensor::SensorKind;
 /// let file = parse_imu_recording(text, &options)?;
 /// let gyroscope = file.recording.gyroscope.expect("there");
 /// assert_eq!(gyroscope.readings[0].x, std::f64::consts::FRAC_PI_2);
-/// # Ok::<(), calibrant::Error>(())
+/// # Ok::<(), calibrant_core::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ImuReadOptions {

@@ -60,7 +60,7 @@ fn read(path: &Path, options: &ImuReadOptions, asked: Option<SensorKind>) -> Res
 ///
 /// # Examples
 /// ```
-/// use calibrant::io::{FileFormat, ImuReadOptions, parse_imu_recording};
+/// use calibrant_io::{FileFormat, ImuReadOptions, parse_imu_recording};
 ///
 /// let text = "// Update Rate: 100.0Hz\nPacketCounter\tAcc_X\tAcc_Y\tAcc_Z\tGyr_X\tGyr_Y\tGyr_Z\n\
 ///             65534\t0.1\t0.2\t9.81\t0.0\t0.1\t0.0\n65535\t0.2\t0.1\t9.80\t0.1\t0.0\t0.1\n00001\t0.1\t0.1\t9.82\t0.0\t0.0\t0.0\n";
@@ -68,7 +68,7 @@ fn read(path: &Path, options: &ImuReadOptions, asked: Option<SensorKind>) -> Res
 /// assert_eq!(file.format, FileFormat::MtManager);
 /// let gyroscope = file.recording.gyroscope.expect("there");
 /// assert_eq!(gyroscope.times_s, [0.0, 0.01, 0.03], "the counter began anew, and one sample was lost");
-/// # Ok::<(), calibrant::Error>(())
+/// # Ok::<(), calibrant_core::Error>(())
 /// ```
 pub fn parse_imu_recording(bytes: &[u8], options: &ImuReadOptions) -> Result<ImuFile> {
     parse(bytes, options).map_err(|input_error| Error::recording(*input_error))

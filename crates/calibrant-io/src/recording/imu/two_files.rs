@@ -44,7 +44,7 @@ pub fn read_imu_pair(accelerometer: &Path, gyroscope: &Path, options: &ImuReadOp
 ///
 /// # Examples
 /// ```
-/// use calibrant::io::{ImuReadOptions, ImuUnit, parse_imu_pair};
+/// use calibrant_io::{ImuReadOptions, ImuUnit, parse_imu_pair};
 /// let options = ImuReadOptions {
 ///     accelerometer_unit: Some(ImuUnit::Counts),
 ///     gyroscope_unit: Some(ImuUnit::Counts),
@@ -52,7 +52,7 @@ pub fn read_imu_pair(accelerometer: &Path, gyroscope: &Path, options: &ImuReadOp
 /// };
 /// let file = parse_imu_pair(b"0.00 33108 33329 36429\n0.01 33096 33336 36437\n", b"0.00 32786 32429 32499\n0.01 32797 32410 32531\n", &options)?;
 /// assert_eq!(file.recording.gyroscope.expect("there").readings[1].y, 32410.0);
-/// # Ok::<(), calibrant::Error>(())
+/// # Ok::<(), calibrant_core::Error>(())
 /// ```
 pub fn parse_imu_pair(accelerometer: &[u8], gyroscope: &[u8], options: &ImuReadOptions) -> Result<ImuFile> {
     let one = |bytes: &[u8], sensor_kind: SensorKind| {

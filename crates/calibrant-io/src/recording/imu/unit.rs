@@ -53,7 +53,7 @@ impl ImuUnit {
     ///
     /// # Examples
     /// ```
-    /// use calibrant::io::ImuUnit;
+    /// use calibrant_io::ImuUnit;
     /// assert_eq!(ImuUnit::parse("m s^-2"), Some(ImuUnit::MetrePerSecondSquared));
     /// assert_eq!(ImuUnit::parse("dps"), Some(ImuUnit::DegreePerSecond));
     /// assert_eq!(ImuUnit::parse("furlongs"), None);
