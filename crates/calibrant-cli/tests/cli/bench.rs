@@ -44,6 +44,22 @@ impl Bench {
         self.write(file, text);
     }
 
+    /// Writes poses.toml, an honest recording of it, and stepped.csv: the same with a bias that steps half-way.
+    pub(crate) fn stepped_poses(&self) {
+        self.preset("static-poses", "poses.toml", &[("poses = 24 ", "poses = 32 ")]);
+        self.run("simulate poses.toml -o honest").done();
+        let text = self.read("honest/recording.csv");
+        let rows = text.lines().count();
+        let stepped = text.lines().enumerate().map(|(row, line)| {
+            let mut fields: Vec<String> = line.split(',').map(str::to_owned).collect();
+            if row > rows / 2 {
+                fields[1] = format!("{}", fields[1].parse::<f64>().expect("a number") + 0.05);
+            }
+            fields.join(",") + "\n"
+        });
+        self.write("stepped.csv", stepped.collect::<String>());
+    }
+
     /// Runs the program; the arguments are separated by blanks.
     pub(crate) fn run(&self, arguments: &str) -> Outcome {
         let output = Command::new(env!("CARGO_BIN_EXE_calibrant"))

@@ -2,26 +2,10 @@
 
 use crate::bench::Bench;
 
-/// A recording of an accelerometer whose bias steps half-way.
-fn changed(bench: &Bench) {
-    bench.preset("static-poses", "poses.toml", &[("poses = 24 ", "poses = 32 ")]);
-    bench.run("simulate poses.toml -o honest").done();
-    let text = bench.read("honest/recording.csv");
-    let rows = text.lines().count();
-    let stepped = text.lines().enumerate().map(|(row, line)| {
-        let mut fields: Vec<String> = line.split(',').map(str::to_owned).collect();
-        if row > rows / 2 {
-            fields[1] = format!("{}", fields[1].parse::<f64>().expect("a number") + 0.05);
-        }
-        fields.join(",") + "\n"
-    });
-    bench.write("stepped.csv", stepped.collect::<String>());
-}
-
 #[test]
 fn a_denied_code_sets_the_exit_status_and_the_results_are_written() {
     let bench = Bench::new();
-    changed(&bench);
+    bench.stepped_poses();
     for denied in ["sensor-changed", "warnings"] {
         let outcome =
             bench.run(&format!("calibrate poses.toml stepped.csv --deny {denied} -o {denied}")).ends_with(1);
@@ -35,7 +19,7 @@ fn a_denied_code_sets_the_exit_status_and_the_results_are_written() {
 #[test]
 fn an_allowed_code_is_silent_and_stays_in_the_json() {
     let bench = Bench::new();
-    changed(&bench);
+    bench.stepped_poses();
     let run = "calibrate poses.toml stepped.csv --deny warnings --allow sensor-changed -o allowed";
     let outcome = bench.run(run);
     assert!(!outcome.stderr.contains("the accelerometer changes"), "{}", outcome.stderr);

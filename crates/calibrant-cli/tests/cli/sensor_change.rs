@@ -5,19 +5,8 @@ use crate::bench::Bench;
 #[test]
 fn an_accelerometer_that_changes_is_told_on_the_console_in_the_json_and_in_the_report() {
     let bench = Bench::new();
-    bench.preset("static-poses", "poses.toml", &[("poses = 24 ", "poses = 32 ")]);
-    bench.run("simulate poses.toml -o honest").done();
-    let text = bench.read("honest/recording.csv");
-    let rows = text.lines().count();
-    let knocked = text.lines().enumerate().map(|(row, line)| {
-        let mut fields: Vec<String> = line.split(',').map(str::to_owned).collect();
-        if row > rows / 2 {
-            fields[1] = format!("{}", fields[1].parse::<f64>().expect("a number") + 0.05);
-        }
-        fields.join(",") + "\n"
-    });
-    bench.write("knocked.csv", knocked.collect::<String>());
-    for (file, changes) in [("honest/recording.csv", false), ("knocked.csv", true)] {
+    bench.stepped_poses();
+    for (file, changes) in [("honest/recording.csv", false), ("stepped.csv", true)] {
         let outcome = bench.run(&format!("calibrate poses.toml {file} --folds 4 -o result")).done();
         let message = "the accelerometer changes at about";
         assert_eq!(outcome.stderr.contains(message), changes, "{}", outcome.stderr);
