@@ -66,7 +66,7 @@ pub(crate) fn noted(found: &Note) {
     say(&found.to_string());
 }
 
-/// The same for one of several recordings: its findings are told under the name of its folder.
+/// The same for one of several recordings. Its findings are printed with the name of its folder.
 pub(crate) fn noted_of(folder: &str, found: &Note) {
     match found {
         Note::Finding { finding: what, .. } => finding(folder, what),

@@ -8,7 +8,7 @@ use calibrant::report::message;
 const SIMILAR: f64 = 0.8;
 
 /// What the user denies and allows.
-#[derive(Clone, clap::Args)]
+#[derive(clap::Args)]
 pub(crate) struct Rules {
     /// Exit with status 1 where this diagnostic occurs; `warnings` denies all. The results are written. Repeatable; docs/diagnostics.md lists the codes.
     #[arg(long, value_name = "CODE", value_parser = denied)]

@@ -2,7 +2,7 @@
 //!
 //! At rest a gyroscope reads `b + Γ f + S (Ω sin φ/g) f + S ω_h`, with `f` the specific force, φ the latitude and `ω_h` the Earth's rate about the north: the rate about the vertical looks like a
 //! g-sensitivity `S Ω sin φ/g`. At a known latitude it is part of the model. Otherwise `sin φ` is anything from −1 to 1: the rate about the vertical has the variance `Ω²/3`, and all entries of Γ
-//! are off by it together. How the rest of the Earth's rate is found is told in `imu/earth_rate.rs`.
+//! are off by it together. `imu/earth_rate.rs` estimates the rest of the Earth's rate.
 
 use crate::motion::EARTH_RATE_RADPS;
 use crate::sensor::{ImuParameters, ImuQuantity};

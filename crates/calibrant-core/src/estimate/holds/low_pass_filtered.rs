@@ -15,7 +15,7 @@ use std::ops::Range;
 const FILTERED: f64 = 3.0;
 /// From this `D(4)/D(1)` on, where there is no hold at all, it is that of a movement.
 const MOVING: f64 = 6.0;
-/// The ratio is taken from at most so many samples.
+/// The ratio is taken from at most this many samples.
 const MOST_SAMPLES: usize = 4096;
 /// Pieces between the holds that need no word: a sensor may pause in a turn.
 const PAUSES: usize = 2;

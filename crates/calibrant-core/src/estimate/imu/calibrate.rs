@@ -95,7 +95,7 @@ fn of_clean(
     }
 }
 
-/// The terms that the recording contradicts by far, by the fit that knows of none.
+/// The given terms that the recording contradicts by far, judged by the fit without any of them.
 fn contradictions(
     problem: &ImuProblem<'_>,
     settings: &CalibrationSettings,

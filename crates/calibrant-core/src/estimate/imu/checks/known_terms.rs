@@ -1,7 +1,7 @@
 //! What is known beforehand, where the recording contradicts it: the fit without it tells which term it is.
 //!
-//! A term that is far off leaves no problem that is nearly linear, and where the fit with it ends, if it ends, hangs on the last digits. So what is absurd is told by the fit
-//! without it alone, and is an error whatever the fit with it came to.
+//! A given term that is far off makes the problem strongly nonlinear. Where the fit with it ends then depends on rounding.
+//! So an absurd term is judged by the fit without it alone. It is an error, whatever the fit with it gives.
 
 use crate::diagnostic::{KnownEvidence, KnownMismatch};
 use crate::error::{Error, InputError, Result};
@@ -43,7 +43,7 @@ pub(crate) fn check(known: &KnownTerm) -> Result<()> {
     )))
 }
 
-/// The terms that the recording contradicts by far. `without`: the calibration that knows of none.
+/// The terms that the recording contradicts by far. `without`: the calibration without any of them.
 pub(crate) fn contradicted(known: &[KnownTerm], without: &ImuCalibration) -> Vec<Contradiction> {
     if without.status != CalibrationStatus::Converged {
         return Vec::new();

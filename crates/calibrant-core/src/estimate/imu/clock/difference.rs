@@ -165,7 +165,7 @@ mod tests {
         Recording { times_s, readings: Vec::new(), axes: 3, unit: crate::sensor::ReadingUnit::Counts }
     }
 
-    /// Of so many recordings, in how many a word is said, and the mean square of the growth's error in standard deviations.
+    /// Simulates `count` recordings. Gives how many get a message, and the mean square of the skew's error in standard deviations.
     fn drawn(count: u64, rotations: usize, skew: f64, latency_s: f64) -> (usize, f64) {
         let (mut words, mut squares) = (0, 0.0);
         let [slow, fast] = [100.0, 200.0].map(recording);
