@@ -4,9 +4,7 @@
 use super::diagnostics::{DiagnosticFields, DiagnosticWords};
 use super::holds::HoldsFields;
 use super::json;
-use super::shared_fields::{
-    EstimateFields, FitFields, InUnit, MotionFields, axes_of, block, matrix_rows, per_axis,
-};
+use super::shared_fields::{EstimateFields, FitFields, InUnit, MotionFields, block, matrix_rows, per_axis};
 use super::validation::{ValidationFields, validation_fields};
 use calibrant_core::error::Result;
 use calibrant_core::estimate::{Calibration, Recovered, Validation};
@@ -104,14 +102,14 @@ impl<'a> CalibrationFile<'a> {
         input: &'a Input,
         words: &DiagnosticWords<'_>,
     ) -> Self {
-        let axes = axes_of(&calibration.parameters);
+        let axes = calibration.axes();
         let (motion, holds) = match &calibration.recovered {
             Recovered::Motion(recovered) => {
                 let sd = Some(recovered.acceleration_sd_mps2.as_slice());
                 let fields = MotionFields::of(&recovered.motion, axes, sd);
                 (Some(RecoveredMotionFields { trust: recovered.trust, fields }), None)
             }
-            Recovered::Holds(holds) => (None, Some(HoldsFields::of(holds, calibration.unit))),
+            Recovered::Holds(holds) => (None, Some(HoldsFields::of(holds, calibration.accelerometer_unit))),
         };
         Self {
             schema: 1,
@@ -122,7 +120,7 @@ impl<'a> CalibrationFile<'a> {
             parameters: EstimateFields::all(calibration),
             covariance: matrix_rows(&calibration.covariance),
             correlation: matrix_rows(&calibration.correlation()),
-            fit: FitFields::of(&calibration.fit, calibration.unit, axes),
+            fit: FitFields::of(&calibration.fit, calibration.accelerometer_unit, axes),
             motion,
             holds,
             convention: Convention::of(calibration, axes),
@@ -157,7 +155,7 @@ struct Convention {
 
 impl Convention {
     fn of(calibration: &Calibration, axes: usize) -> Self {
-        let unit = calibration.unit;
+        let unit = calibration.accelerometer_unit;
         let gauge = match &calibration.recovered {
             Recovered::Motion(_) => None,
             Recovered::Holds(holds) => Some(holds.gauge),
@@ -171,9 +169,9 @@ impl Convention {
                 None => "the axes of the commanded motion",
                 Some(_) => "fixed by the gauge: S and its inverse have this form, with a positive diagonal",
             },
-            matrix: InUnit::gain("matrix", unit, block(&calibration.sensor.matrix, axes)),
-            bias: InUnit::new("bias", unit, per_axis(&calibration.sensor.bias, axes)),
-            correction: Correction::of(&calibration.sensor)
+            matrix: InUnit::gain("matrix", unit, block(&calibration.imu.accelerometer.matrix, axes)),
+            bias: InUnit::new("bias", unit, per_axis(&calibration.imu.accelerometer.bias, axes)),
+            correction: Correction::of(&calibration.imu.accelerometer)
                 .map(|correction| CorrectionFields::of(&correction, unit, axes, gauge.is_some())),
         }
     }

@@ -9,7 +9,7 @@ use super::json;
 use super::shared_fields::{InUnit, matrix_rows, per_axis};
 use super::validation::{ValidationFields, validation_fields};
 use calibrant_core::error::Result;
-use calibrant_core::estimate::{ImuCalibration, RotationResult, TurnResult, Validation};
+use calibrant_core::estimate::{Calibration, GyroscopeCalibration, RotationResult, TurnResult, Validation};
 use serde::Serialize;
 use std::path::Path;
 
@@ -23,7 +23,7 @@ use std::path::Path;
 /// [`Error::Output`](calibrant_core::Error::Output) where it cannot be written.
 pub fn write_imu_calibration(
     path: &Path,
-    calibration: &ImuCalibration,
+    calibration: &Calibration,
     validations: &[Validation],
     inputs: &[Input],
     words: &DiagnosticWords<'_>,
@@ -34,7 +34,7 @@ pub fn write_imu_calibration(
 /// The text that [`write_imu_calibration`] writes.
 #[must_use]
 pub fn imu_calibration_json(
-    calibration: &ImuCalibration,
+    calibration: &Calibration,
     validations: &[Validation],
     inputs: &[Input],
     words: &DiagnosticWords<'_>,
@@ -53,8 +53,8 @@ struct ImuCalibrationFile<'a> {
     core: ImuCore,
     correlation: Vec<Vec<f64>>,
     fit: FitFields,
-    holds: HoldsFields,
-    still_gyroscope: StillFields<'a>,
+    holds: Option<HoldsFields>,
+    still_gyroscope: Option<StillFields<'a>>,
     rotations: RotationsFields<'a>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     turns: Vec<TurnFields>,
@@ -71,7 +71,7 @@ struct FitFields {
 
 impl<'a> ImuCalibrationFile<'a> {
     fn of(
-        calibration: &'a ImuCalibration,
+        calibration: &'a Calibration,
         validations: &[Validation],
         inputs: &[Input],
         words: &DiagnosticWords<'_>,
@@ -83,12 +83,17 @@ impl<'a> ImuCalibrationFile<'a> {
             gradient_norm: calibration.gradient_norm,
             core: ImuCore::of(&calibration.calibrated(), inputs).with_prior_share(&calibration.prior_share),
             correlation: matrix_rows(&calibration.correlation()),
-            fit: FitFields { chi2: calibration.chi2, degrees_of_freedom: calibration.degrees_of_freedom },
-            holds: HoldsFields::of(&calibration.holds, calibration.accelerometer_unit)
-                .at_latitude(calibration.latitude_deg),
-            still_gyroscope: StillFields::of(calibration),
+            fit: FitFields {
+                chi2: calibration.fit.chi2,
+                degrees_of_freedom: calibration.fit.degrees_of_freedom,
+            },
+            holds: calibration.holds().map(|holds| {
+                HoldsFields::of(holds, calibration.accelerometer_unit)
+                    .at_latitude(calibration.gyroscope.as_ref().and_then(|gyroscope| gyroscope.latitude_deg))
+            }),
+            still_gyroscope: calibration.gyroscope.as_deref().map(StillFields::of),
             rotations: RotationsFields::of(calibration),
-            turns: calibration.turns.iter().map(TurnFields::of).collect(),
+            turns: calibration.turns().iter().map(TurnFields::of).collect(),
             validation: validation_fields(validations),
             warnings: DiagnosticFields::all(&calibration.warnings, words),
         }
@@ -109,15 +114,15 @@ struct StillFields<'a> {
 }
 
 impl<'a> StillFields<'a> {
-    fn of(calibration: &'a ImuCalibration) -> Self {
-        let (still, unit) = (&calibration.still, calibration.gyroscope_unit);
+    fn of(gyroscope: &'a GyroscopeCalibration) -> Self {
+        let (still, unit) = (&gyroscope.still, gyroscope.unit);
         Self {
             noise: InUnit::new("noise_per_sample", unit, per_axis(&still.noise, 3)),
             noise_source: still.noise_source.to_string(),
             between_holds_sd: InUnit::new("between_holds_sd", unit, per_axis(&still.between_holds_sd, 3)),
             rate_rms_radps: still.rate_rms_radps,
             rate_rms_before_radps: still.rate_rms_before_radps,
-            before: &calibration.gyroscope_before.source,
+            before: &gyroscope.before.source,
         }
     }
 }
@@ -133,15 +138,18 @@ struct RotationsFields<'a> {
 }
 
 impl<'a> RotationsFields<'a> {
-    fn of(calibration: &'a ImuCalibration) -> Self {
-        let used = calibration.rotations.iter().filter(|rotation| rotation.used).count();
+    fn of(calibration: &'a Calibration) -> Self {
+        let used = calibration.rotations().iter().filter(|rotation| rotation.used).count();
         let known = |rms: f64| (used > 0).then_some(rms);
         Self {
             used,
             error_rms_rad: known(calibration.rotation_rms_rad()),
             error_before_rms_rad: known(calibration.rotation_rms_before_rad()),
-            excess_sd_rad: calibration.between_rotations_sd_rad,
-            table: calibration.rotations.iter().map(RotationFields::of).collect(),
+            excess_sd_rad: calibration
+                .gyroscope
+                .as_ref()
+                .map_or(0.0, |gyroscope| gyroscope.between_rotations_sd_rad),
+            table: calibration.rotations().iter().map(RotationFields::of).collect(),
         }
     }
 }

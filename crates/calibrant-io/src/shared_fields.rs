@@ -2,7 +2,7 @@
 
 use calibrant_core::estimate::{Calibration, FitStatistics, Whiteness};
 use calibrant_core::motion::JerkControlledMotion;
-use calibrant_core::sensor::{Axis, Parameter, ParameterList, ReadingUnit, SensorParameters};
+use calibrant_core::sensor::{Axis, Parameter, ReadingUnit};
 use nalgebra::{DMatrix, Matrix3, Vector3};
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
@@ -65,17 +65,6 @@ pub(super) fn axes_of(parameters: &[Parameter]) -> usize {
     parameters.iter().filter(|parameter| parameter.name.starts_with("bias.")).count().clamp(1, 3)
 }
 
-/// True values of parameters, found by name.
-pub(super) fn values_of(
-    parameters: &[Parameter],
-    list: &ParameterList,
-    sensor: &SensorParameters,
-) -> Vec<Option<f64>> {
-    let value =
-        |parameter: &Parameter| Some(list.quantities()[list.position(&parameter.name)?].value(sensor));
-    parameters.iter().map(value).collect()
-}
-
 /// An estimated parameter.
 #[derive(Serialize)]
 pub(super) struct EstimateFields {
@@ -90,7 +79,7 @@ pub(super) struct EstimateFields {
 impl EstimateFields {
     pub(super) fn all(calibration: &Calibration) -> Vec<Self> {
         let fields = |((parameter, &value), sd): ((&Parameter, &f64), f64)| Self {
-            name: parameter.name.clone(),
+            name: parameter.name.trim_start_matches("accelerometer.").to_owned(),
             unit: parameter.unit,
             value,
             sd,
@@ -133,7 +122,7 @@ pub(super) struct FitFields {
     degrees_of_freedom: usize,
     p_value: Option<f64>,
     #[serde(flatten)]
-    residual_rms: InUnit<Vec<f64>>,
+    residual_rms: InUnit<Option<Vec<f64>>>,
     #[serde(flatten)]
     assumed_noise: InUnit<Option<Vec<f64>>>,
     #[serde(flatten)]
@@ -162,7 +151,7 @@ impl FitFields {
             chi2: fit.chi2,
             degrees_of_freedom: fit.degrees_of_freedom,
             p_value: fit.p_value,
-            residual_rms: InUnit::new("residual_rms", unit, per_axis(&fit.residual_rms, axes)),
+            residual_rms: InUnit::new("residual_rms", unit, optional(&fit.residual_rms)),
             assumed_noise: InUnit::new("assumed_noise", unit, optional(&fit.assumed_noise)),
             noise_estimate: InUnit::new("noise_estimate", unit, optional(&fit.noise_estimate)),
             whiteness: Axis::ALL.iter().zip(&fit.whiteness).map(whiteness).collect(),

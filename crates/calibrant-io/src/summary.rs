@@ -3,7 +3,7 @@
 use super::atomic_output::write_atomically;
 use super::json::to_json;
 use calibrant_core::error::Result;
-use calibrant_core::estimate::{Calibration, CalibrationStatus, ImuCalibration, Recovered};
+use calibrant_core::estimate::{Calibration, CalibrationStatus, Recovered};
 use calibrant_core::sensor::Parameter;
 use std::io;
 use std::path::Path;
@@ -96,13 +96,13 @@ impl Summary {
     /// The summary of an IMU: the number of warnings, holds and rotations, and how many of them were used.
     /// Also the root mean square of `|f| − g` in the holds, and of the rotation errors, and the parameters.
     #[must_use]
-    pub fn of_imu(calibration: &ImuCalibration) -> Self {
-        let (holds, rotations) = (&calibration.holds.holds, &calibration.rotations);
+    pub fn of_imu(calibration: &Calibration) -> Self {
+        let (holds, rotations) = (calibration.hold_results(), calibration.rotations());
         let good_holds = holds.iter().filter(|hold| hold.used).count();
         let good_rotations = rotations.iter().filter(|rotation| rotation.used).count();
         // holds that only just determine the accelerometer leave no residual
-        let checked = calibration.holds.degrees_of_freedom > 0;
-        let magnitude = checked.then_some(calibration.holds.magnitude_residual_rms_mps2);
+        let checked = calibration.holds().filter(|holds| holds.degrees_of_freedom > 0);
+        let magnitude = checked.map(|holds| holds.magnitude_residual_rms_mps2);
         let angle = (good_rotations > 0).then(|| calibration.rotation_rms_rad());
         let estimates = calibration.values.iter().zip(calibration.sd());
         let parameters =

@@ -49,13 +49,13 @@ fn it_says_everything_that_is_needed_to_judge_it() {
     assert!((0.05..0.95).contains(&number(&last["prior_share"])), "{last}");
     assert_eq!(number(&parameters[0]["prior_share"]), 0.0);
     assert_eq!(number(&json["correlation"][3][3]), 1.0);
-    assert_eq!(json["fit"]["degrees_of_freedom"], calibration.degrees_of_freedom);
+    assert_eq!(json["fit"]["degrees_of_freedom"], calibration.fit.degrees_of_freedom);
 
     let holds = &json["holds"];
     assert_eq!(holds["gauge"], "upper");
     assert!(holds.get("latitude_deg").is_none(), "not known");
     let mut placed = calibration.clone();
-    placed.latitude_deg = Some(-33.9);
+    placed.gyroscope.as_mut().expect("an IMU").latitude_deg = Some(-33.9);
     let placed: Value =
         serde_json::from_str(&imu_calibration_json(&placed, &[], &[input()], &WORDS)).expect("JSON");
     assert_eq!(placed["holds"]["latitude_deg"], -33.9);
@@ -100,7 +100,7 @@ fn it_says_what_the_true_frame_is() {
 fn what_was_not_integrated_is_null_and_what_did_not_converge_is_not_read() {
     let mut calibration = imu_case(14, 1).calibration;
     calibration.status = CalibrationStatus::Stalled;
-    for rotation in &mut calibration.rotations {
+    for rotation in &mut calibration.gyroscope.as_mut().expect("an IMU").rotations {
         (rotation.used, rotation.path_rad) = (false, 0.0);
     }
     let text = imu_calibration_json(&calibration, &[], &[input()], &WORDS);

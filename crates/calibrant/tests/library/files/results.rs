@@ -12,7 +12,9 @@ use calibrant::io::{
     write_atomically, write_calibration, write_motion, write_recording, write_summary,
 };
 use calibrant::motion::{Gravity, Hold, JerkControlledMotion};
-use calibrant::sensor::{Gauge, ReadingUnit, Recording, Sensor, SensorModel, SensorParameters};
+use calibrant::sensor::{
+    Gauge, ImuParameters, ReadingUnit, Recording, Sensor, SensorModel, SensorParameters,
+};
 use nalgebra::{DMatrix, Matrix3, Vector3};
 use serde_json::{Value, json};
 use std::path::Path;
@@ -117,30 +119,32 @@ fn calibration(
     recovered: Recovered,
     list: calibrant::sensor::ParameterList,
 ) -> Calibration {
-    let described = list.describe(sensor, &SensorParameters::identity());
+    let described = list.describe_accelerometer(sensor, &SensorParameters::identity());
     let p = described.len();
     Calibration {
         status: CalibrationStatus::Converged,
         iterations: 3,
         gradient_norm: f64::NAN,
         values: list.quantities().iter().map(|quantity| quantity.value(&parameters)).collect(),
+        quantities: list.of_accelerometer(),
         parameters: described,
         covariance: DMatrix::identity(p, p) * 0.25,
-        sensor: parameters,
-        unit: sensor.unit,
+        prior_share: Vec::new(),
+        datasheet_prior: true,
+        imu: ImuParameters { accelerometer: parameters, ..ImuParameters::identity() },
+        accelerometer_unit: sensor.unit,
         fit: FitStatistics {
             chi2: 5.5,
             degrees_of_freedom: 4,
             p_value: None,
-            residual_rms: Vector3::new(1.0, 2.0, 3.0),
+            residual_rms: Some(Vector3::new(1.0, 2.0, 3.0)),
             assumed_noise: None,
             noise_estimate: Some(Vector3::new(4.0, 5.0, 6.0)),
             whiteness: vec![Whiteness { statistic: 1.0, lags: 2, p_value: 0.5 }],
         },
         recovered,
-        residuals: Vec::new(),
-        first_sample: 0,
-        datasheet_prior: true,
+        gyroscope: None,
+        changes: Vec::new(),
         warnings: vec![Diagnostic::WeakerThanDatasheet { parameters: vec!["a \"word\"".into()] }],
     }
 }
@@ -150,8 +154,13 @@ pub(super) fn uniaxial() -> Calibration {
     let sensor = Sensor { axes: 1, ..Sensor::memsic_mxd2020u() };
     let nodes = vec![Vector3::zeros(), Vector3::new(2.0, 0.0, 0.0)];
     let motion = JerkControlledMotion::uniform(1.0, nodes).expect("good");
-    let recovered =
-        RecoveredMotion { motion, acceleration_sd_mps2: vec![Vector3::zeros(); 2], trust: "known" };
+    let recovered = RecoveredMotion {
+        motion,
+        acceleration_sd_mps2: vec![Vector3::zeros(); 2],
+        trust: "known",
+        residuals: Vec::new(),
+        first_sample: 0,
+    };
     let mut parameters = SensorParameters::identity();
     parameters.bias.x = 0.5;
     parameters.matrix[(0, 0)] = 2.0;
@@ -222,6 +231,7 @@ pub(super) fn holds_in_counts() -> Calibration {
             sensor: SensorParameters::identity(),
             source: "the readings as they are".into(),
         },
+        temperatures_c: None,
         change: None,
     };
     let parameters = SensorParameters {

@@ -104,9 +104,12 @@ fn todays_calibration_json_is_read_as_an_imu() {
     let calibration = crate::files::results::holds_in_counts();
     let text = calibration_json(&calibration, &[], &crate::files::results::input(), &WORDS);
     let file = parse_calibrated_imu(text.as_bytes(), &ConventionOptions::default()).expect("schema 1");
-    assert_eq!(file.imu.parameters.accelerometer, calibration.sensor);
+    assert_eq!(file.imu.parameters.accelerometer, calibration.imu.accelerometer);
     assert_eq!(file.imu.covariance.as_ref(), Some(&calibration.covariance));
-    assert_eq!((file.imu.accelerometer_unit, file.imu.gyroscope_unit), (Some(calibration.unit), None));
+    assert_eq!(
+        (file.imu.accelerometer_unit, file.imu.gyroscope_unit),
+        (Some(calibration.accelerometer_unit), None)
+    );
     assert_eq!(file.inputs, [crate::files::results::input()]);
     assert!(file.imu.frame.contains("gauge of the accelerometer"), "{}", file.imu.frame);
     // into schema 2 and back
