@@ -6,10 +6,7 @@ use calibrant_core::error::Result;
 use calibrant_core::estimate::{Calibration, CalibrationStatus, Validation};
 use calibrant_core::noise::SensorNoise;
 use calibrant_core::sensor::ImuRecording;
-use calibrant_io::{
-    DiagnosticWords, Input, Summary, calibration_json, imu_calibration_json, write_atomically,
-    write_calibration, write_imu_calibration,
-};
+use calibrant_io::{DiagnosticWords, Input, Summary, calibration_json, write_atomically, write_calibration};
 use calibrant_report::{About, calibration_report, message};
 use std::path::Path;
 
@@ -50,20 +47,13 @@ impl Outcome {
     /// A line for a table of many calibrations.
     #[must_use]
     pub fn summary(&self) -> Summary {
-        match self.calibration.gyroscope {
-            None => Summary::of(&self.calibration),
-            Some(_) => Summary::of_imu(&self.calibration),
-        }
+        Summary::of(&self.calibration)
     }
 
     /// The text of `calibration.json`.
     #[must_use]
     pub fn json(&self) -> String {
-        let calibration = &self.calibration;
-        match self.calibration.gyroscope {
-            None => calibration_json(calibration, &self.validations, &self.inputs[0], &self.words()),
-            Some(_) => imu_calibration_json(calibration, &self.validations, &self.inputs, &self.words()),
-        }
+        calibration_json(&self.calibration, &self.validations, &self.inputs, &self.words())
     }
 
     /// Writes `calibration.json` into this directory, then `report.html` where the options ask for one. Each file is whole or absent.
@@ -88,13 +78,7 @@ impl Outcome {
 
     fn write_json(&self, directory: &Path) -> Result<()> {
         let path = directory.join("calibration.json");
-        let calibration = &self.calibration;
-        match calibration.gyroscope {
-            None => write_calibration(&path, calibration, &self.validations, &self.inputs[0], &self.words()),
-            Some(_) => {
-                write_imu_calibration(&path, calibration, &self.validations, &self.inputs, &self.words())
-            }
-        }
+        write_calibration(&path, &self.calibration, &self.validations, &self.inputs, &self.words())
     }
 
     /// The text of `report.html`, where one is written.

@@ -83,7 +83,9 @@ fn solve_axes(context: &Context<'_>) -> Result<Solved> {
 fn assemble(context: &Context<'_>, solved: Solved, first_sample: usize) -> Result<Calibration> {
     let problem = context.problem;
     let list = problem.sensor.parameter_list();
-    let mut sensor = SensorParameters { bias: Vector3::zeros(), matrix: Matrix3::zeros() };
+    // axes that the sensor does not have count as perfect
+    let absent = Vector3::from_fn(|k, _| if k < problem.sensor.axes { 0.0 } else { 1.0 });
+    let mut sensor = SensorParameters { bias: Vector3::zeros(), matrix: Matrix3::from_diagonal(&absent) };
     for (quantity, value) in list.quantities().iter().zip(&solved.values) {
         quantity.add_to(&mut sensor, *value);
     }
