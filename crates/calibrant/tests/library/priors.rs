@@ -1,11 +1,12 @@
 //! A prior only adds information: no standard deviation grows by it, a weak one changes nothing, and what the data leave open follows it.
 
+use crate::common::{draw_feeling_imu, run_imu};
 use calibrant::estimate::{
-    Calibration, CalibrationProblem, CalibrationSettings, HoldCalibration, HoldsSetup, Recovered, Stimulus,
-    calibrate,
+    Calibration, CalibrationProblem, CalibrationSettings, Gyroscope, HoldCalibration, HoldsSetup,
+    ImuCalibration, ImuSetup, KnownTerm, Recovered, Stimulus, calibrate,
 };
-use calibrant::sensor::{Gauge, ReadingUnit, Recording, Sensor, SensorModel, SensorParameters};
-use calibrant::simulate::{HoldsSimulation, Purpose, simulate_holds, stream};
+use calibrant::sensor::{Gauge, ReadingUnit, Recording, Sensor, SensorKind, SensorModel, SensorParameters};
+use calibrant::simulate::{HoldsSimulation, ImuSimulation, Purpose, simulate_holds, simulate_imu, stream};
 use nalgebra::Vector3;
 use rand_distr::{Distribution, StandardNormal};
 
@@ -126,4 +127,56 @@ fn a_prior_gives_what_holds_about_one_axis_leave_open() {
     // the bias of x times a cross-axis term looks like a bias of y: its standard deviation is linearised, and too large
     assert!(squares.iter().all(|z2| *z2 < 1.5), "z² of each parameter: {squares:.2?}");
     assert!(squares[3] > 0.6, "scale.x is as the datasheet says: {squares:.2?}");
+}
+
+/// What is known of every gyroscope of this kind: each quantity with the spread of the population, times a factor.
+fn population(
+    calibration: &ImuCalibration,
+    truth: &calibrant::sensor::ImuParameters,
+    factor: f64,
+) -> Vec<KnownTerm> {
+    let of_gyroscope =
+        calibration.quantities.iter().filter(|quantity| quantity.sensor_kind() == SensorKind::Gyroscope);
+    let known = |quantity: &calibrant::sensor::ImuQuantity| {
+        let name = quantity.name();
+        let nominal = if name.contains("scale") { 1.0 } else { 0.0 };
+        let spread = if name.contains("bias") {
+            0.02
+        } else if name.contains("g_sensitivity") {
+            2e-4
+        } else {
+            0.01
+        };
+        assert!((quantity.value(truth) - nominal).abs() < 6.0 * spread, "{name}");
+        KnownTerm { quantity: *quantity, value: nominal, sd: Some(factor * spread) }
+    };
+    of_gyroscope.map(known).collect()
+}
+
+#[test]
+fn a_prior_makes_no_imu_worse() {
+    let unit = ReadingUnit::MetrePerSecondSquared;
+    let gyroscope = Gyroscope { g_sensitivity: true, ..Gyroscope::default() };
+    for seed in 0..8 {
+        let mut rng = stream(seed, Purpose::Sensor, 3);
+        let truth = draw_feeling_imu(&mut rng);
+        let simulation = ImuSimulation { poses: 12 + seed as usize, ..ImuSimulation::default() };
+        let recording = simulate_imu(&truth, &simulation, &mut rng);
+        let run = |known: Vec<KnownTerm>| {
+            let setup = ImuSetup { known, latitude_deg: Some(48.1), ..ImuSetup::default() };
+            run_imu(&recording, &gyroscope, &setup, unit).expect("determined")
+        };
+        let without = run(Vec::new());
+        let [with, weak] = [1.0, 1e4].map(|factor| run(population(&without, &truth, factor)));
+        for (k, quantity) in without.quantities.iter().enumerate() {
+            let [sd, sd_with, sd_weak] = [&without, &with, &weak].map(|calibration| calibration.sd()[k]);
+            let name = quantity.name();
+            assert!(sd_with <= sd * (1.0 + 1e-4), "{seed}, {name}: {sd_with} with the prior, {sd} without");
+            let off = (weak.values[k] - without.values[k]) / sd;
+            assert!(
+                off.abs() < 1e-3 && (sd_weak / sd - 1.0).abs() < 1e-3,
+                "{seed}, {name}: {off}, {sd_weak} {sd}"
+            );
+        }
+    }
 }
