@@ -5,6 +5,8 @@
 
 use super::HoldsSetup;
 use super::fit::{Directions, Fit};
+use super::hardly_determined::hardly_determined;
+use super::sphere::sphere;
 use super::verdict::explain;
 use crate::error::{Error, InputError, NotIdentifiable, Result};
 use crate::estimate::between_hold_variance::excess;
@@ -13,7 +15,7 @@ use crate::estimate::{CalibrationProblem, CalibrationSettings, CalibrationStatus
 use crate::information;
 use crate::motion::Hold;
 use crate::sensor::{ParameterList, SensorParameters};
-use nalgebra::{DMatrix, DVector, Matrix3, SVector, Vector3, Vector4};
+use nalgebra::{DMatrix, DVector, Matrix3, SVector, Vector3};
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
 /// A hold is left out when a residual as large as its own would be seen in fewer than this share of recordings.
@@ -154,32 +156,6 @@ fn prior<const P: usize>(
 
 fn too_few(holds: &[Hold], list: &ParameterList) -> NotIdentifiable {
     NotIdentifiable { groups: vec![explain(holds, list, &[], 0)] }
-}
-
-/// Centre and radius of the sphere through the means, by linear least squares on `|y|² = 2 c·y + const`.
-pub(in crate::estimate) fn sphere(holds: &[Hold], gravity: f64) -> Option<SensorParameters> {
-    if holds.len() < 4 {
-        return None;
-    }
-    let center = holds.iter().map(|hold| hold.mean).sum::<Vector3<f64>>() / holds.len() as f64;
-    let size = holds.iter().map(|hold| (hold.mean - center).norm()).fold(0.0, f64::max);
-    if size <= 0.0 {
-        return None;
-    }
-    let rows: Vec<Vector4<f64>> = holds.iter().map(|hold| ((hold.mean - center) / size).push(1.0)).collect();
-    let normal: nalgebra::Matrix4<f64> = rows.iter().map(|row| row * row.transpose()).sum();
-    let rhs: Vector4<f64> = rows.iter().map(|row| row * row.xyz().norm_squared()).sum();
-    let eigenvalues = normal.symmetric_eigenvalues();
-    if eigenvalues.min() <= 1e-8 * eigenvalues.max() {
-        return None;
-    }
-    let solution = normal.cholesky()?.solve(&rhs);
-    let c = solution.xyz() / 2.0;
-    let radius = (solution.w + c.norm_squared()).sqrt();
-    (radius.is_finite() && radius > 0.0).then(|| SensorParameters {
-        bias: center + c * size,
-        matrix: Matrix3::identity() * (radius * size / gravity),
-    })
 }
 
 /// Standard deviation of samples within holds, pooled over the holds, not below the rounding of the readings.
@@ -507,32 +483,6 @@ fn covariance_of<const P: usize>(fit: &Fit<P>) -> Option<DMatrix<f64>> {
 /// Places of the holds that are used.
 fn chosen(used: &[bool]) -> Vec<usize> {
     (0..used.len()).filter(|&j| used[j]).collect()
-}
-
-/// A condition number at which the data no longer determine a combination: the noise in the directions of the holds then decides it.
-const LARGEST_CONDITION: f64 = 1e5;
-
-/// Parameters that make up the combinations whose information, scaled, is a vanishing part of the best, and not that of the prior.
-fn hardly_determined(information: &DMatrix<f64>, prior: &DVector<f64>) -> Vec<usize> {
-    let size = information.nrows();
-    let scaled = DMatrix::from_fn(size, size, |i, j| {
-        information[(i, j)] / (information[(i, i)] * information[(j, j)]).sqrt()
-    });
-    let eigen = scaled.symmetric_eigen();
-    let floor = eigen.eigenvalues.max() / LARGEST_CONDITION;
-    let is_prior = |e: usize| {
-        let of_prior = |k: usize| eigen.eigenvectors[(k, e)].powi(2) * prior[k] / information[(k, k)];
-        (0..size).map(of_prior).sum::<f64>() > 0.5 * eigen.eigenvalues[e]
-    };
-    (0..size)
-        .filter(|&k| {
-            let share: f64 = (0..size)
-                .filter(|&e| eigen.eigenvalues[e] < floor && !is_prior(e))
-                .map(|e| eigen.eigenvectors[(k, e)].powi(2))
-                .sum();
-            share > 0.1
-        })
-        .collect()
 }
 
 /// Largest studentised residual that chance explains, among so many holds.
