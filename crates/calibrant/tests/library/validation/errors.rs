@@ -2,7 +2,7 @@
 //! out.
 
 use crate::common::{draw_imu, normal};
-use crate::validation::bench::{KINDS, bench, intervals, mean};
+use crate::validation::bench::{KINDS, bench, gyroscope_mut, holds_mut, intervals, mean};
 use calibrant::estimate::{CovarianceVerdict, ErrorKind, UnusedError, ValidatedErrors, Validation};
 use calibrant::report::validation_sentences;
 use calibrant::sensor::{ImuRecording, Recording, SensorParameters};
@@ -82,7 +82,7 @@ fn errors_equal_those_of_plain_arithmetic() {
     let truth = draw_imu(&mut rng);
     let mut calibration = bench.calibrate(&simulate_imu(&truth, &simulation, &mut rng));
     // one bias for all holds
-    calibration.still.between_holds_sd = Vector3::zeros();
+    gyroscope_mut(&mut calibration).still.between_holds_sd = Vector3::zeros();
     let other = simulate_imu(&truth, &simulation, &mut rng);
     let validation = bench.validate(&calibration, &other);
     let imu = calibration.imu;
@@ -162,9 +162,9 @@ fn repeated(gyroscope_noise: f64) {
             let mut rng = stream(27, Purpose::Sensor, number);
             let mut calibration = bench.calibrate(&noisy(&one, &mut rng));
             // there is no such scatter
-            calibration.holds.between_holds_sd_mps2 = 0.0;
-            calibration.still.between_holds_sd = Vector3::zeros();
-            calibration.between_rotations_sd_rad = 0.0;
+            holds_mut(&mut calibration).between_holds_sd_mps2 = 0.0;
+            gyroscope_mut(&mut calibration).still.between_holds_sd = Vector3::zeros();
+            gyroscope_mut(&mut calibration).between_rotations_sd_rad = 0.0;
             bench.validate(&calibration, &noisy(&other, &mut rng))
         })
         .collect();
