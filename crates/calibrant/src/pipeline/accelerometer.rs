@@ -13,8 +13,8 @@ use super::validation::{on_recording, unless_too_few};
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::error::{Error, InputError, Result};
 use calibrant_core::estimate::{
-    Calibration, CalibrationProblem, CalibrationSettings, HoldsSetup, Recovered, Stimulus, Validation,
-    calibrate, cross_validate, validate,
+    Calibration, CalibrationProblem, CalibrationSettings, HoldsSetup, Stimulus, Validation, calibrate,
+    cross_validate, validate,
 };
 use calibrant_core::motion::CommandedMotion;
 use calibrant_core::sensor::{Recording, Sensor, SensorKind};
@@ -160,10 +160,8 @@ impl<'e> AccelerometerTask<'e> {
                 Known::Holds(with_holds_of_other(setup, &other.recording))
             }
         };
-        if let Recovered::Holds(holds) = &calibration.recovered {
-            let [one, two] = [recorded, &other].map(|recorded| recorded.readings(SensorKind::Accelerometer));
-            refuse_duplicate(SensorKind::Accelerometer, &one, holds, &two, path)?;
-        }
+        let [one, two] = [recorded, &other].map(|recorded| recorded.readings(SensorKind::Accelerometer));
+        refuse_duplicate(SensorKind::Accelerometer, &one, &two, path)?;
         let problem = self.problem(other.accelerometer()?, known.stimulus());
         let validation = validate(calibration, &problem).map_err(|error| error.in_recording(path))?;
         Ok(on_recording(path, validation))

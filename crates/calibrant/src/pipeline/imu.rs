@@ -156,7 +156,7 @@ impl<'e> ImuTask<'e> {
             [(SensorKind::Accelerometer, path), (SensorKind::Gyroscope, gyroscope_path)]
         {
             let [one, two] = [recorded, &other].map(|recorded| recorded.readings(sensor_kind));
-            refuse_duplicate(sensor_kind, &one, &calibration.holds, &two, path)?;
+            refuse_duplicate(sensor_kind, &one, &two, path)?;
         }
         let setup = ImuSetup {
             holds: with_holds_of_other(&setup.holds, &other.recording),
