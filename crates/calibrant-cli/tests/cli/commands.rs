@@ -69,8 +69,9 @@ fn motion_presets_go_from_init_to_calibration() {
             "calibrate experiment.toml simulated/recording.csv --motion simulated/motion.csv -o result";
         let outcome = bench.run(command).done();
         if preset == "report-noisy" {
-            outcome
-                .says("warning: the recording says less than the datasheet about scale.x, scale.y, scale.z");
+            outcome.says(
+                "warning: the recording determines scale.x, scale.y, scale.z less well than the datasheet",
+            );
         } else {
             assert_eq!(outcome.stderr, "", "{preset}");
         }
