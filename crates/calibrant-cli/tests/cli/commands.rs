@@ -69,7 +69,7 @@ fn motion_presets_go_from_init_to_calibration() {
             "calibrate experiment.toml simulated/recording.csv --motion simulated/motion.csv -o result";
         let outcome = bench.run(command).done();
         if preset == "report-noisy" {
-            outcome.says("warning: the recording says less than the datasheet about accelerometer.scale.x");
+            outcome.says("warning: the recording determines accelerometer.scale.x, accelerometer.scale.y");
         } else {
             assert_eq!(outcome.stderr, "", "{preset}");
         }

@@ -86,9 +86,10 @@ fn an_outlier_is_named_and_left_out() {
     let ((expected, clean), (found, outcome)) = (n("still.csv"), n("spark.csv"));
     assert!((found / expected - 1.0).abs() < 0.01, "{found} {expected}");
     assert!(!clean.stderr.contains("outlier"), "{}", clean.stderr);
-    outcome
-        .says("warning: accelerometer x: 1 of 6000 samples is an outlier (the farthest 20 m/s² at 30.000 s");
-    outcome.says("was left out; with it N would be");
+    outcome.says(
+        "warning: accelerometer x: 1 of 6000 samples is an outlier (the farthest is 20 m/s² at 30.000 s",
+    );
+    outcome.says("With it, N would be");
 }
 
 /// A recording of this number of samples with an addition to x in some samples.
@@ -132,8 +133,8 @@ fn spikes_neither_divide_a_hold_nor_change_its_noise() {
     // more than one in fifty are reported for what they are, and N is not usable
     bench.write("many.csv", disturbed(12_000, |k| if k % 40 == 7 { 20.0 } else { 0.0 }));
     let outcome = bench.run("noise many.csv --hold 0 120 -o result").done();
-    outcome.says("accelerometer x: 300 of 12000 samples are sparks");
-    outcome.says("too many to be left out");
+    outcome.says("accelerometer x: 300 of 12000 samples are spikes");
+    outcome.says("too many to remove");
     assert!(!outcome.stderr.contains("filtered") && !outcome.stderr.contains("moves"), "{}", outcome.stderr);
     assert!(
         outcome.stdout.contains("nothing for an experiment file: there are too many sparks"),

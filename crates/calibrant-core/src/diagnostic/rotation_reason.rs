@@ -1,8 +1,8 @@
-//! Why a rotation was left out.
+//! Why a rotation is not used.
 
 use crate::diagnostic::parts::{Part, Parts};
 
-/// Why a rotation was left out, as its row in the result states it.
+/// Why a rotation is not used, as its row in the result states it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct RotationReason(pub String);
 

@@ -185,7 +185,7 @@ fn the_xsens_pair_is_not_accused() {
     other.gyroscope.as_mut().expect("there").times_s.iter_mut().for_each(|t| *t = 3.0 + (*t - 3.0) * 1.0002);
     let calibration = calibrate(&other);
     let warning = message(&calibration).expect("told");
-    let (growth, sd) = (number(&warning, "at the end, "), number(&warning, " ± "));
+    let (growth, sd) = (number(&warning, "at different rates, by "), number(&warning, " ± "));
     assert!((growth - 0.02).abs() < 4.0 * sd && sd < 0.003, "{warning}");
 }
 
@@ -200,7 +200,7 @@ fn a_clock_that_goes_faster_is_told_with_its_rate_and_the_advice_repairs_the_gai
         };
         let calibration = run(&recording).expect("determined");
         let warning = message(&calibration).unwrap_or_else(|| panic!("{rate}: {:?}", calibration.warnings));
-        let (growth, sd) = (number(&warning, "at the end, "), number(&warning, " ± "));
+        let (growth, sd) = (number(&warning, "at different rates, by "), number(&warning, " ± "));
         assert!((growth - 100.0 * rate).abs() < 4.0 * sd, "{rate}: {warning}");
         assert!(warning.contains(if rate > 0.0 { "too large" } else { "too small" }), "{warning}");
         assert!(
@@ -238,7 +238,7 @@ fn a_latency_is_told_with_its_length() {
         assert!(warning.contains(direction), "{lag}: {warning}");
         let (reported, sd) = (number(&warning, SAID) / 1e3, number(&warning, "(± ") / 1e3);
         assert!((reported - lag.abs()).abs() < 4.0 * sd && sd < 0.01, "{lag}: {warning}");
-        let advice = if lag > 0.0 { ": subtract " } else { ": add " };
+        let advice = if lag > 0.0 { "correct it, subtract " } else { "correct it, add " };
         assert!((number(&warning, advice) - lag.abs()).abs() < 4.0 * sd, "{lag}: {warning}");
     });
 }

@@ -264,6 +264,6 @@ fn how_well_the_faces_were_met_is_given_or_told_by_their_scatter_or_assumed() {
     let assumed = few.holds().expect("held").tilt.expect("faces");
     assert_eq!((assumed.source, assumed.sd_rad), (TiltSource::Assumed, 0.5_f64.to_radians()));
     assert!(
-        messages(&few.warnings).join("; ").contains("4 faces are too few to tell how well they were met")
+        messages(&few.warnings).join("; ").contains("4 faces are too few to estimate the face alignment")
     );
 }

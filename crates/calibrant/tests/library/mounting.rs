@@ -52,7 +52,8 @@ fn every_attitude_is_found() {
 fn the_angle_and_the_axis_are_told() {
     let (_, recording) = turned(3, &Rotation3::from_euler_angles(0.0, 0.0, 0.7).into_inner());
     let calibration = run(&recording, ReadingUnit::RadianPerSecond).expect("determined");
-    let reported = "the gyroscope is turned by 40° against the accelerometer, about the axis (";
+    let reported =
+        "the gyroscope is mounted with a rotation of 40° against the accelerometer, about the axis (";
     assert!(
         messages(&calibration.warnings).iter().any(|message| message.contains(reported)),
         "{:#?}",

@@ -121,10 +121,10 @@ fn coarse_steps_are_named_with_the_noise_and_fine_ones_are_not() {
                 format!("the readings of axis {axis} of the gyroscope come in steps of {words} rad/s");
             assert!(message(step).contains(&expected), "{}", message(step));
         }
-        assert!(message(step).contains("however long it is"), "{}", message(step));
+        assert!(message(step).contains("however long the hold is"), "{}", message(step));
     }
     assert!(
-        message(0.01).contains("its noise of about 2.") || message(0.01).contains("its noise of about 1."),
+        message(0.01).contains("the noise of about 2.") || message(0.01).contains("the noise of about 1."),
         "{}",
         message(0.01)
     );

@@ -165,7 +165,7 @@ fn holds_that_are_left_out_in_a_row_are_a_change() {
         let says =
             |words: &str| messages(&calibration.warnings).iter().any(|message| message.contains(words));
         assert!(
-            says("the accelerometer changes at about") || says("were left out one after another"),
+            says("the accelerometer changes at about") || says("consecutive"),
             "{:#?}",
             calibration.warnings
         );

@@ -90,7 +90,7 @@ fn invalid_samples_in_a_row_are_a_gap_and_are_named_with_time_and_value() {
         let samples = without.accelerometer.as_ref().expect("there").len();
         assert_eq!(without.temperature_c.as_ref().expect("there").len(), samples);
         let words = calibrant::report::spikes_taken_out(spikes, of, ReadingUnit::MetrePerSecondSquared);
-        assert!(words.contains("20 samples cannot be readings") && words.contains("at 10.000 s"), "{words}");
+        assert!(words.contains("20 samples are invalid") && words.contains("at 10.000 s"), "{words}");
         // the holds after the gap are where they were
         let holds = find_imu_holds(&damaged, 1.0).expect("found");
         let last = |holds: &[calibrant::motion::Hold]| holds.last().map(|hold| (hold.first, hold.end));
@@ -118,7 +118,7 @@ fn spikes_divide_no_hold_and_shift_no_estimate() {
         assert_eq!(found.hold_results().len(), 24, "1 in {every}");
         let message: Vec<String> = messages(&found.warnings)
             .into_iter()
-            .filter(|warning| warning.contains("far off those beside"))
+            .filter(|warning| warning.contains("replaced by the line"))
             .collect();
         assert_eq!(message.len(), 2, "once for each sensor: {:?}", found.warnings);
         // most of a short hold is near a movement, where a spike counts as one
@@ -132,10 +132,7 @@ fn spikes_divide_no_hold_and_shift_no_estimate() {
 #[test]
 fn spikes_of_one_sign_are_named_with_what_they_do_to_the_bias() {
     let one_sided = |of: &Calibration| -> Vec<String> {
-        messages(&of.warnings)
-            .into_iter()
-            .filter(|warning| warning.contains("single samples in the holds"))
-            .collect()
+        messages(&of.warnings).into_iter().filter(|warning| warning.contains("single samples lie")).collect()
     };
     let recording = simulated(6);
     let clean = run(&recording, &ImuSetup::default());
