@@ -1,8 +1,6 @@
 //! Console output: tables on stdout, errors, notes and progress on stderr.
 
-mod accelerometer;
 mod calibration;
-mod imu;
 mod table;
 mod validation;
 

@@ -1,6 +1,7 @@
-//! Reads `calibration.json` of an earlier calibration. It is the prior knowledge of a sensor for the next
-//! design.
+//! Reads the accelerometer of an earlier `calibration.json`. It is the prior knowledge of a sensor for the
+//! next design.
 
+use super::convention::obsolete;
 use super::json;
 use super::text_decoding::{self, Checked};
 use calibrant_core::error::{Error, InputError, Result};
@@ -13,12 +14,15 @@ use std::path::{Path, PathBuf};
 /// Largest calibration file, bytes. The file holds the motion, but not the residuals.
 const LARGEST: u64 = 1 << 30;
 
+/// The beginning of the names of an accelerometer's parameters.
+const ACCELEROMETER: &str = "accelerometer.";
+
 /// The parameters of an earlier calibration.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EarlierCalibration {
     /// The file, where it came from one.
     pub file: Option<PathBuf>,
-    /// Name and unit of each parameter.
+    /// Name and unit of each parameter of the accelerometer: `bias.x`.
     pub parameters: Vec<(String, String)>,
     /// Estimates, in the order of the parameters.
     pub values: Vec<f64>,
@@ -53,8 +57,8 @@ pub fn read_calibration(path: &Path) -> Result<EarlierCalibration> {
 /// # Examples
 /// ```
 /// use calibrant_io::parse_calibration;
-/// let json = r#"{ "schema": 1, "status": "converged", "covariance": [[4e-4]],
-///                 "parameters": [{ "name": "bias.x", "unit": "m/s²", "value": 0.1, "sd": 0.02 }] }"#;
+/// let json = r#"{ "schema": 2, "status": "converged", "covariance": [[4e-4]],
+///                 "parameters": [{ "name": "accelerometer.bias.x", "unit": "m/s²", "value": 0.1, "sd": 0.02 }] }"#;
 /// let calibration = parse_calibration(json.as_bytes())?;
 /// assert!((calibration.information()[(0, 0)] - 2500.0).abs() < 1e-9);
 /// # Ok::<(), calibrant_core::Error>(())
@@ -161,16 +165,19 @@ pub(super) fn parse(bytes: &[u8]) -> Checked<EarlierCalibration> {
     let file: File =
         serde_json::from_str(text).map_err(|error| json::broken(&error, "a calibration.json", AGAIN))?;
     match file.schema {
-        Some(schema) if schema == 1 => (),
+        Some(schema) if schema == 2 => (),
+        Some(schema) if schema == 1 && file.seed.is_none() => return Err(obsolete()),
+        Some(schema) if schema == 1 => {
+            return reject(
+                "this is the truth of a simulation, not a calibration: it has no covariance".into(),
+            );
+        }
         Some(schema) => {
             return reject(format!("schema {schema} of calibration.json is not known to this version"));
         }
         None => return reject("this is no calibration: the field `schema` is missing".into()),
     }
     let missing = |field: &str| InputError::new(format!("the field `{field}` is missing"), AGAIN);
-    if file.status.is_none() && file.seed.is_some() {
-        return reject("this is the truth of a simulation, not a calibration: it has no covariance".into());
-    }
     let status = file.status.ok_or_else(|| missing("status"))?;
     let parameters = file.parameters.ok_or_else(|| missing("parameters"))?;
     let covariance_rows = file.covariance.ok_or_else(|| missing("covariance"))?;
@@ -178,23 +185,27 @@ pub(super) fn parse(bytes: &[u8]) -> Checked<EarlierCalibration> {
         let message = format!("this calibration did not converge: its status is \"{status}\"");
         return Err(InputError::new(message, "calibrate again; its report says what is wrong").into());
     }
-    let (mut names, mut values) = (Vec::new(), Vec::new());
+    let listed = parameters.len();
+    let (mut names, mut values, mut places) = (Vec::new(), Vec::new(), Vec::new());
     for (i, parameter) in parameters.into_iter().enumerate() {
         let field = |field: &str| missing(&format!("parameters[{i}].{field}"));
         let name = parameter.name.ok_or_else(|| field("name"))?;
         let unit = parameter.unit.ok_or_else(|| field("unit"))?;
         let value = parameter.value.ok_or_else(|| field("value"))?;
-        names.push((name, unit));
-        values.push(value);
+        if let Some(of_accelerometer) = name.strip_prefix(ACCELEROMETER) {
+            names.push((of_accelerometer.to_owned(), unit));
+            values.push(value);
+            places.push(i);
+        }
     }
     let size = values.len();
     if size == 0 {
-        return reject("it has no parameters".into());
+        return reject("it has no parameters of an accelerometer".into());
     }
-    if covariance_rows.len() != size || covariance_rows.iter().any(|row| row.len() != size) {
-        return reject(format!("the covariance is not {size} × {size}, one row for each parameter"));
+    if covariance_rows.len() != listed || covariance_rows.iter().any(|row| row.len() != listed) {
+        return reject(format!("the covariance is not {listed} × {listed}, one row for each parameter"));
     }
-    let entry = |i: usize, j: usize| covariance_rows[i][j].unwrap_or(f64::NAN);
+    let entry = |i: usize, j: usize| covariance_rows[places[i]][places[j]].unwrap_or(f64::NAN);
     let matrix = DMatrix::from_fn(size, size, entry);
     for i in 0..size {
         for j in 0..=i {

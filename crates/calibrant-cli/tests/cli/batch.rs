@@ -39,11 +39,11 @@ fn one_bad_recording_does_not_stop_the_others() {
     let rows: Vec<&str> = summary.lines().collect();
     assert!(
         rows[0].starts_with(
-            "file,recording,status,error,warnings,chi2,degrees_of_freedom,p_value,bias.x_mps2,bias.x_sd_mps2,bias.y_mps2,"
+            "file,recording,status,error,warnings,chi2,degrees_of_freedom,p_value,accelerometer.bias.x_mps2,accelerometer.bias.x_sd_mps2,"
         ),
         "{summary}"
     );
-    assert!(rows[0].ends_with(",scale.z,scale.z_sd"), "{summary}");
+    assert!(rows[0].ends_with(",accelerometer.scale.z,accelerometer.scale.z_sd"), "{summary}");
     let starts = [
         "a,a.csv,converged,,",
         "b,b.csv,error,\"b.csv:5:5: \"\"oops\"\" in column",
@@ -86,7 +86,7 @@ fn files_of_one_name_do_not_collide() {
     bench.run(&command).done().says("note: rec-3 is two/rec.csv: the name is taken");
     let value = |folder: &str| {
         let calibration = bench.json(&format!("result/{folder}/calibration.json"));
-        (calibration["input"]["file"].to_string(), calibration["input"]["sha256"].to_string())
+        (calibration["inputs"][0]["file"].to_string(), calibration["inputs"][0]["sha256"].to_string())
     };
     let (one, two, dash, three) = (value("rec"), value("rec-3"), value("rec-2"), value("rec-4"));
     assert_eq!((one.0.as_str(), two.0.as_str()), ("\"rec.csv\"", "\"rec.csv\""));

@@ -43,8 +43,8 @@ pub use holds::{
     find_clean_holds, find_holds, holds_between, holds_lost_to_filter,
 };
 pub use imu::{
-    ClockRate, Gyroscope, GyroscopeInHolds, ImuCalibration, ImuProblem, ImuSetup, KnownTerm, NoiseSource,
-    RotationResult, ThermalModel, Turn, TurnResult, WhiteNoise, WhiteNoiseSearch, calibrate_imu,
+    ClockRate, Gyroscope, GyroscopeCalibration, GyroscopeInHolds, ImuProblem, ImuSetup, KnownTerm,
+    NoiseSource, RotationResult, ThermalModel, Turn, TurnResult, WhiteNoise, WhiteNoiseSearch, calibrate_imu,
     calibrate_imu_with, find_clean_imu_holds, find_imu_holds, swapped_sensors,
 };
 pub use problem::{CalibrationProblem, Stimulus};

@@ -1,22 +1,23 @@
-//! calibrant JSON, schema 2: reads and writes a whole IMU, with everything.
+//! calibrant JSON, schema 2: reads and writes an IMU or one of its sensors, with everything.
 //!
 //! The direction is true → raw. The frame is in words, and by `gauge` where the matrix of the reference
 //! sensor has such a form. The reference sensor is the accelerometer where there is one. Units are in the
 //! names of the fields. The file carries everything: covariance, g-sensitivity, counts, noise densities, the
 //! hashes of the recordings. Numbers have the fewest digits that read back to the same bits. The reader also
-//! takes schema 1, `calibration.json` of one accelerometer, and `truth.json` of a simulation.
+//! takes `truth.json` of a simulation.
 
 use super::arrays::missing;
 use super::imu_noise::ImuNoise;
 use super::json_core::ImuCore;
 use super::words::input_error;
-use super::{CalibratedImuFile, ImuFormat, schema_one, truth};
+use super::{CalibratedImuFile, ImuFormat, truth};
 use crate::json;
 use crate::text_decoding::Checked;
+use calibrant_core::error::InputError;
 use serde::{Deserialize, Serialize};
 
 /// The kind of file that the field `kind` names.
-const KIND: &str = "calibrated IMU";
+const KIND: &str = "calibration";
 /// The remedy for a broken file.
 const HELP: &str = "give a file that calibrant wrote";
 
@@ -71,7 +72,7 @@ struct NoiseFields {
 pub(super) fn write(file: &CalibratedImuFile) -> String {
     json::to_json(&File {
         heading: Heading::new(),
-        core: ImuCore::of(&file.imu, &file.inputs),
+        core: ImuCore::of(&file.imu, 3, &file.inputs),
         noise: file.noise.as_ref().map(NoiseFields::of),
     })
 }
@@ -81,11 +82,11 @@ pub(super) fn read(text: &str) -> Checked<CalibratedImuFile> {
     let header: Header = serde_json::from_str(text).map_err(|error| broken(&error))?;
     match header.schema {
         Some(schema) if schema == 1 && header.seed.is_some() => return truth::read(text),
-        Some(schema) if schema == 1 => return schema_one::read(text),
+        Some(schema) if schema == 1 => return Err(obsolete()),
         Some(schema) if schema == 2 => (),
         Some(schema) => {
             let message = format!("schema {schema} of a calibration is not known to this version");
-            return Err(input_error(message, "1 and 2 are; use a newer calibrant"));
+            return Err(input_error(message, "use a newer calibrant"));
         }
         None => return Err(missing("schema")),
     }
@@ -97,6 +98,14 @@ pub(super) fn read(text: &str) -> Checked<CalibratedImuFile> {
     let (imu, inputs) = core.into_imu()?;
     let noise = header.noise.map(NoiseFields::into_noise).transpose()?;
     Ok(CalibratedImuFile { imu, noise, inputs, format: ImuFormat::CalibrantJson, findings: Vec::new() })
+}
+
+/// The error for a file of schema 1, in which earlier versions wrote the calibration of an accelerometer.
+pub(crate) fn obsolete() -> Box<InputError> {
+    input_error(
+        "schema 1 of calibration.json is that of an earlier calibrant: its parameters have other names",
+        "calibrate the recording again with this version",
+    )
 }
 
 impl NoiseFields {

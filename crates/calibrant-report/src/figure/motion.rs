@@ -20,10 +20,10 @@ pub(crate) fn acceleration_figure(
     recording: &Recording,
     truth: Option<&JerkControlledMotion>,
 ) -> Figure {
-    let counts = calibration.unit == ReadingUnit::Counts;
-    let correction = if counts { Correction::of(&calibration.sensor) } else { None };
-    let first = calibration.first_sample.min(recording.len());
-    let end = match calibration.residuals.len() {
+    let counts = calibration.accelerometer_unit == ReadingUnit::Counts;
+    let correction = if counts { Correction::of(&calibration.imu.accelerometer) } else { None };
+    let first = recovered.first_sample.min(recording.len());
+    let end = match recovered.residuals.len() {
         0 => recording.len(),
         used => (first + used).min(recording.len()),
     };

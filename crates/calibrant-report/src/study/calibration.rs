@@ -1,14 +1,15 @@
 //! The chapter on calibrations of a population of sensors: the report's chapter 3.
 
+use crate::calibration::parameter_table;
 use crate::figure::{
     DisplayUnit, acceleration_figure, motion_error_figure, p_values, parameter_errors,
     parameters_against_truth, standardised_errors, state_and_jerk_figure,
 };
 use crate::html::Page;
 use crate::number_format;
-use crate::parameters::parameter_table;
 use crate::table::{Cell, Table};
 use calibrant_core::estimate::Recovered;
+use calibrant_core::sensor::SensorKind;
 use calibrant_design::study::{SingleCase, Study};
 
 /// The report's chapter 3: calibrations of many sensors, and one of them in detail (Figures 4 to 6).
@@ -47,7 +48,7 @@ fn rates(what: &str, case: &SingleCase) -> String {
 }
 
 fn single(page: &mut Page, case: &SingleCase) {
-    page.push(parameter_table(&case.calibration, Some(&case.truth)));
+    page.push(parameter_table(&case.calibration, SensorKind::Accelerometer, Some(&case.truth)));
     if let Recovered::Motion(recovered) = &case.calibration.recovered {
         let title = "Figure 4 of the report: actual, measured and estimated acceleration";
         let truth = Some(&case.true_motion);
@@ -59,7 +60,7 @@ fn single(page: &mut Page, case: &SingleCase) {
 }
 
 fn fine(page: &mut Page, case: &SingleCase) {
-    page.push(parameter_table(&case.calibration, Some(&case.truth)));
+    page.push(parameter_table(&case.calibration, SensorKind::Accelerometer, Some(&case.truth)));
     if let Recovered::Motion(recovered) = &case.calibration.recovered {
         let title = "Figure 5 of the report: actual and estimated states and inputs";
         page.push(state_and_jerk_figure(title, recovered, &case.recording, Some(&case.true_motion)).html());

@@ -1,13 +1,17 @@
 //! Tests of the pages on a whole IMU.
 
-use super::super::{About, imu_calibration_report, number_format};
+use super::super::{About, calibration_report, number_format};
 use super::{about, assert_sound, estimate, motion, sensor};
-use calibrant_core::estimate::CalibrationStatus;
+use calibrant_core::estimate::{Calibration, CalibrationStatus, GyroscopeCalibration, Recovered};
 use calibrant_core::noise::{Segment, SensorNoise};
 use calibrant_core::sensor::{ImuRecording, SensorKind};
 
 #[path = "../../examples/report_gallery/imus.rs"]
 mod imus;
+
+fn gyroscope_of(calibration: &mut Calibration) -> &mut GyroscopeCalibration {
+    calibration.gyroscope.as_mut().expect("an IMU")
+}
 
 #[test]
 fn a_page_shows_both_sensors_the_holds_the_rotations_and_the_turns() {
@@ -15,7 +19,7 @@ fn a_page_shows_both_sensors_the_holds_the_rotations_and_the_turns() {
     let gyroscope = case.recording.gyroscope.as_ref().expect("recorded");
     let segment = Segment::between(gyroscope, 0.0, 2.0).expect("long enough");
     let noise = SensorNoise::of(SensorKind::Gyroscope, gyroscope, segment).expect("noisy");
-    let html = imu_calibration_report(&case.calibration, &case.recording, &[noise], &about());
+    let html = calibration_report(&case.calibration, &case.recording, &[noise], &about());
     assert_sound(&html);
     let text = html.replace("<th scope=\"row\">", "");
     for quantity in &case.calibration.quantities {
@@ -60,7 +64,8 @@ fn a_page_shows_both_sensors_the_holds_the_rotations_and_the_turns() {
 #[test]
 fn the_magnitude_before_is_that_of_plain_readings() {
     let case = imus::imu_case(14, 1);
-    let (holds, imu) = (&case.calibration.holds, &case.calibration.imu.accelerometer);
+    let holds = case.calibration.holds().expect("held");
+    let imu = &case.calibration.imu.accelerometer;
     let readings = &case.recording.accelerometer.as_ref().expect("recorded").readings;
     let bias = (imu.bias.x + imu.bias.y + imu.bias.z) / 3.0;
     let gain = imu.matrix.row_iter().map(|row| row.norm()).sum::<f64>() / 3.0;
@@ -76,7 +81,7 @@ fn the_magnitude_before_is_that_of_plain_readings() {
     let rms = (squares / holds.holds.len() as f64).sqrt();
     let found = holds.magnitude_residual_rms_before_mps2().expect("regular");
     assert!((found / rms - 1.0).abs() < 1e-9 && rms > 0.5, "{found} beside {rms}");
-    let html = imu_calibration_report(&case.calibration, &case.recording, &[], &about());
+    let html = calibration_report(&case.calibration, &case.recording, &[], &about());
     let [before, after] =
         [found, holds.magnitude_residual_rms_mps2].map(|v| number_format::significant(v, 3));
     assert!(html.contains(&format!("{before} → {after} m/s², ")), "{before} → {after}");
@@ -86,8 +91,8 @@ fn the_magnitude_before_is_that_of_plain_readings() {
 fn the_verdict_follows_the_status_the_warnings_and_the_prior() {
     let case = imus::imu_case(14, 1);
     let mut calibration = case.calibration;
-    let page = |calibration: &estimate::ImuCalibration| {
-        let html = imu_calibration_report(calibration, &case.recording, &[], &about());
+    let page = |calibration: &Calibration| {
+        let html = calibration_report(calibration, &case.recording, &[], &about());
         assert_sound(&html);
         html
     };
@@ -99,7 +104,10 @@ fn the_verdict_follows_the_status_the_warnings_and_the_prior() {
     assert!(page(&calibration).contains("less than what was known beforehand about accelerometer.bias.x."));
     calibration.prior_share[0] = 0.0;
     assert!(!page(&calibration).contains("nown beforehand"));
-    calibration.rotations.iter_mut().for_each(|rotation| rotation.error_before_rad = rotation.error_rad);
+    gyroscope_of(&mut calibration)
+        .rotations
+        .iter_mut()
+        .for_each(|rotation| rotation.error_before_rad = rotation.error_rad);
     assert!(page(&calibration).contains("hardly improves the rotations"));
     calibration.status = CalibrationStatus::Stalled;
     assert!(page(&calibration).contains("verdict bad"));
@@ -109,25 +117,27 @@ fn the_verdict_follows_the_status_the_warnings_and_the_prior() {
 fn degenerate_results_and_hostile_words_are_reported_without_harm() {
     let case = imus::imu_case(14, 1);
     let mut calibration = case.calibration;
-    for rotation in &mut calibration.rotations {
+    for rotation in &mut gyroscope_of(&mut calibration).rotations {
         (rotation.used, rotation.path_rad, rotation.reason) = (false, 0.0, Some("a<b>&\"c\"".to_string()));
     }
-    let html = imu_calibration_report(&calibration, &ImuRecording::default(), &[], &About::default());
+    let html = calibration_report(&calibration, &ImuRecording::default(), &[], &About::default());
     assert_sound(&html);
     assert!(
         html.contains("no: a&lt;b&gt;&amp;&quot;c&quot;") && !html.contains("Gravity after each rotation")
     );
 
-    calibration.rotations.clear();
-    calibration.turns.clear();
-    calibration.holds.holds.clear();
+    gyroscope_of(&mut calibration).rotations.clear();
+    gyroscope_of(&mut calibration).turns.clear();
+    if let Recovered::Holds(holds) = &mut calibration.recovered {
+        holds.holds.clear();
+    }
     calibration.covariance.fill(f64::NAN);
     calibration.values.fill(f64::INFINITY);
-    calibration.still.noise.fill(f64::NAN);
-    assert_sound(&imu_calibration_report(&calibration, &case.recording, &[], &about()));
+    gyroscope_of(&mut calibration).still.noise.fill(f64::NAN);
+    assert_sound(&calibration_report(&calibration, &case.recording, &[], &about()));
 
     calibration.imu.gyroscope.matrix.fill(0.0);
-    let html = imu_calibration_report(&calibration, &case.recording, &[], &about());
+    let html = calibration_report(&calibration, &case.recording, &[], &about());
     assert_sound(&html);
     assert!(html.contains("there is no correction"));
 }

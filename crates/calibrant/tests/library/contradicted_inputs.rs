@@ -3,13 +3,13 @@
 use crate::common::draw_imu;
 use crate::common::messages;
 use calibrant::estimate::{
-    CalibrationSettings, Gyroscope, ImuCalibration, ImuProblem, ImuSetup, Turn, calibrate_imu,
+    Calibration, CalibrationSettings, Gyroscope, ImuProblem, ImuSetup, Turn, calibrate_imu,
 };
 use calibrant::sensor::{ImuParameters, ImuRecording, Sensor, SensorModel};
 use calibrant::simulate::{ImuSimulation, Purpose, TableAction, TableStep, simulate_table, stream};
 use nalgebra::Vector3;
 
-fn run(recording: &ImuRecording, setup: &ImuSetup) -> calibrant::Result<ImuCalibration> {
+fn run(recording: &ImuRecording, setup: &ImuSetup) -> calibrant::Result<Calibration> {
     let accelerometer = Sensor::triaxial(SensorModel::Full);
     let gyroscope = Gyroscope::default();
     let problem = ImuProblem { accelerometer: &accelerometer, gyroscope: &gyroscope, recording, setup };
@@ -86,7 +86,7 @@ fn a_hold_that_reaches_beyond_the_recording_is_named() {
     let intervals = setup.holds.intervals_s.as_mut().expect("given");
     intervals[5].1 = 7600.0;
     let calibration = run(&recording, &setup).expect("determined");
-    let is_stated = |calibration: &ImuCalibration| {
+    let is_stated = |calibration: &Calibration| {
         let message = "hold 6 is given from 58 to 7600 s, but the recording lasts from -1 to 64 s. Only 6.0 s of the hold count";
         messages(&calibration.warnings).iter().filter(|warning| warning.contains(message)).count()
     };
@@ -108,7 +108,7 @@ fn a_turn_that_is_given_twice_is_refused() {
 #[test]
 fn faces_that_are_all_turned_alike_are_named() {
     let (_, recording, mut setup) = table();
-    let named = |calibration: &ImuCalibration| {
+    let named = |calibration: &Calibration| {
         let warnings = messages(&calibration.warnings).into_iter();
         warnings
             .filter(|warning| warning.contains("All directions are rotated in the same way"))

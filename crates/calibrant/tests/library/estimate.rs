@@ -47,9 +47,9 @@ fn known_motion_equals_ordinary_least_squares() {
             let normal = x.tr_mul(&x).try_inverse().expect("regular");
             let ols = x.clone().svd(true, true).solve(&y, 0.0).expect("solved");
             let sigma = 2e-4;
-            assert!((ols[0] - calibration.sensor.bias[axis]).abs() < 1e-12);
+            assert!((ols[0] - calibration.imu.accelerometer.bias[axis]).abs() < 1e-12);
             for (c, &column) in columns.iter().enumerate() {
-                let difference = ols[1 + c] - calibration.sensor.matrix[(axis, column)];
+                let difference = ols[1 + c] - calibration.imu.accelerometer.matrix[(axis, column)];
                 assert!(difference.abs() < 1e-12, "{model:?} {axis}{column}: {difference}");
             }
             let sd = calibration.sd()[axis];

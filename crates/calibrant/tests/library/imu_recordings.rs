@@ -85,10 +85,10 @@ fn rotations_in_which_the_gyroscope_saturates_are_left_out() {
     };
     let unit = ReadingUnit::MetrePerSecondSquared;
     let calibration = run_imu(&recording, &Gyroscope::default(), &ImuSetup::default(), unit).expect("found");
-    let cut: Vec<bool> = calibration.rotations.iter().map(|r| is_cut(r.start_s, r.end_s)).collect();
+    let cut: Vec<bool> = calibration.rotations().iter().map(|r| is_cut(r.start_s, r.end_s)).collect();
     let cuts = cut.iter().filter(|cut| **cut).count();
     assert!((5..18).contains(&cuts), "{cuts} of {}: the test needs both kinds", cut.len());
-    for (rotation, cut) in calibration.rotations.iter().zip(cut) {
+    for (rotation, cut) in calibration.rotations().iter().zip(cut) {
         let saturates = rotation.reason.as_ref().is_some_and(|reason| reason.contains("saturates"));
         assert_eq!(saturates, cut, "{rotation:?}");
     }
@@ -187,10 +187,10 @@ fn rotations_that_the_gyroscope_does_not_cover_are_named_by_their_times() {
         gyroscope.readings = gyroscope.readings[covered.clone()].to_vec();
         let calibration =
             run_imu(&recording, &Gyroscope::default(), &ImuSetup::default(), unit).expect("found");
-        let holds = &calibration.holds.holds;
+        let holds = &calibration.hold_results();
         let (from_s, to_s) = (covered.start as f64 / 100.0, covered.end as f64 / 100.0);
         let mut left_out = 0;
-        for rotation in &calibration.rotations {
+        for rotation in calibration.rotations() {
             let (from, to) = (&holds[rotation.from_hold].hold, &holds[rotation.to_hold].hold);
             let ends = (from.end_s, to.start_s);
             // it reaches 0.3 s into the holds, or a quarter of a hold that was cut short
@@ -316,7 +316,7 @@ fn the_noise_of_a_sample_is_the_datasheets_then_that_of_a_long_hold_then_the_sca
     let examined = ImuSetup { white_noise: Some(white), ..ImuSetup::default() };
     let given = Gyroscope { noise: Some(Vector3::repeat(2.1e-3)), ..Gyroscope::default() };
     let still = |gyroscope: &Gyroscope, setup: &ImuSetup| {
-        run_imu(&recording, gyroscope, setup, unit).expect("determined").still
+        run_imu(&recording, gyroscope, setup, unit).expect("determined").gyroscope.expect("an IMU").still
     };
     let found = still(&given, &examined);
     assert_eq!((found.noise, found.noise_source), (Vector3::repeat(2.1e-3), NoiseSource::Datasheet));

@@ -6,9 +6,9 @@ use calibrant::io::{calibration_json, parse_calibration, read_calibration};
 use calibrant::sensor::{ParameterList, ReadingUnit, SensorModel};
 
 /// A good file of one axis.
-const GOOD: &str = r#"{ "schema": 1, "status": "converged",
-  "parameters": [{ "name": "bias.x", "unit": "m/s²", "value": 0.1, "sd": 0.02 },
-                 { "name": "scale.x", "unit": "1", "value": 1.01, "sd": 0.001 }],
+const GOOD: &str = r#"{ "schema": 2, "status": "converged",
+  "parameters": [{ "name": "accelerometer.bias.x", "unit": "m/s²", "value": 0.1, "sd": 0.02 },
+                 { "name": "accelerometer.scale.x", "unit": "1", "value": 1.01, "sd": 0.001 }],
   "covariance": [[4e-4, 1e-6], [1e-6, 1e-6]] }"#;
 
 /// The message about GOOD with one replacement.
@@ -35,9 +35,10 @@ fn broken_calibrations_are_refused_with_their_reason() {
     for (from, to, says) in [
         ("{ \"schema\"", "hello { \"schema\"", "line 1, column 1: not valid JSON: expected value"),
         ("[1e-6, 1e-6]] }", "[1e-6, 1e-6]]", "line 4, column"),
-        ("\"schema\": 1", "\"schema\": 2", "schema 2 of calibration.json is not known to this version"),
-        ("\"schema\": 1", "\"schema\": \"one\"", "schema \"one\" of calibration.json"),
-        ("\"schema\": 1, ", "", "this is no calibration: the field `schema` is missing"),
+        ("\"schema\": 2", "\"schema\": 3", "schema 3 of calibration.json is not known to this version"),
+        ("\"schema\": 2", "\"schema\": 1", "schema 1 of calibration.json is that of an earlier calibrant"),
+        ("\"schema\": 2", "\"schema\": \"one\"", "schema \"one\" of calibration.json"),
+        ("\"schema\": 2, ", "", "this is no calibration: the field `schema` is missing"),
         ("\"status\": \"converged\",", "", "the field `status` is missing"),
         ("converged", "stalled", "this calibration did not converge: its status is \"stalled\""),
         ("\"covariance\"", "\"covar\"", "the field `covariance` is missing"),
@@ -69,7 +70,7 @@ fn broken_calibrations_are_refused_with_their_reason() {
     assert!(parse_calibration(b"\x00\x01").expect_err("binary").to_string().contains("binary data"));
     assert!(parse_calibration(b"[]").expect_err("a list").to_string().contains("not a calibration.json"));
     assert!(
-        parse_calibration(b"{\"schema\":1,\"status\":\"converged\",\"parameters\":[],\"covariance\":[]}")
+        parse_calibration(b"{\"schema\":2,\"status\":\"converged\",\"parameters\":[],\"covariance\":[]}")
             .expect_err("nothing in it")
             .to_string()
             .contains("it has no parameters")
@@ -109,10 +110,10 @@ fn a_file_that_is_written_is_read_back() {
     let directory = tempfile::tempdir().expect("a directory");
     let path = directory.path().join("calibration.json");
     let calibration = uniaxial();
-    std::fs::write(&path, calibration_json(&calibration, &[], &input(), &WORDS)).expect("written");
+    std::fs::write(&path, calibration_json(&calibration, &[], &[input()], &WORDS)).expect("written");
     let found = read_calibration(&path).expect("read");
     assert_eq!(found.values, calibration.values);
     assert_eq!(found.covariance, calibration.covariance);
     assert_eq!(found.file.as_deref(), Some(path.as_path()));
-    assert!(found.parameters.iter().map(|(name, _)| name).eq(calibration.parameters.iter().map(|p| &p.name)));
+    assert_eq!(found.parameters[1], ("scale.x".to_owned(), "1".to_owned()));
 }

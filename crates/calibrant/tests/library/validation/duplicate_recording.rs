@@ -312,7 +312,7 @@ fn recordings_of_an_imu_have_no_noise_in_common_but_with_a_smoothed_copy() {
             let mut record = || simulate(&truth, &simulation, size, &mut rng);
             let (one, other) = (record(), record());
             let holds: Vec<Hold> =
-                bench.calibrate(&one).holds.holds.into_iter().map(|result| result.hold).collect();
+                bench.calibrate(&one).hold_results().iter().map(|result| result.hold.clone()).collect();
             let window = [3, 5, 10][number as usize % 3];
             [SensorKind::Accelerometer, SensorKind::Gyroscope].map(|sensor_kind| {
                 let of = |recording: &ImuRecording| recording.sensor(sensor_kind).expect("there").clone();

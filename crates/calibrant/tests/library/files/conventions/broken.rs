@@ -68,7 +68,7 @@ fn calibrant_json() {
             (
                 "\"bias_mps2\": [",
                 "\"bias_mps2\": [1e30], \"x\": [",
-                "`accelerometer.bias_mps2` has 1 numbers, not 3",
+                "this is the calibration of a sensor with one axis; an IMU has three",
             ),
             ("\"matrix\": [", "\"matrix\": [[1.0], ", "`accelerometer.matrix` is not 3 × 3"),
             ("\"matrix\": [", "\"matrix\": [null, ", "not a calibration of calibrant: invalid type: null"),

@@ -1,8 +1,8 @@
 //! The improvement by a calibration, in numbers: errors before and after it.
 
-use super::number_format;
-use super::table::{Cell, Table};
-use calibrant_core::estimate::{HoldCalibration, ImuCalibration};
+use crate::number_format;
+use crate::table::{Cell, Table};
+use calibrant_core::estimate::{Calibration, HoldCalibration};
 
 /// One error: its name, its value before and after, its unit, and its meaning.
 struct Improved {
@@ -13,22 +13,17 @@ struct Improved {
     meaning: &'static str,
 }
 
-/// The magnitude in holds of a static calibration; empty where nothing is left to check it.
-pub(super) fn of_holds(holds: &HoldCalibration) -> String {
-    table(&magnitude(holds).into_iter().collect::<Vec<_>>())
-}
-
-/// The same of an IMU, with its gyroscope at rest and gravity after rotations.
-pub(super) fn of_imu(calibration: &ImuCalibration) -> String {
-    let mut rows: Vec<Improved> = magnitude(&calibration.holds).into_iter().collect();
-    rows.push(Improved {
+/// The magnitude in holds, the gyroscope at rest, and gravity after rotations; empty where nothing is left to check them.
+pub(super) fn improvements(calibration: &Calibration, holds: &HoldCalibration) -> String {
+    let mut rows: Vec<Improved> = magnitude(holds).into_iter().collect();
+    rows.extend(calibration.gyroscope.as_ref().map(|gyroscope| Improved {
         name: "rate shown at rest, rms",
-        before: calibration.still.rate_rms_before_radps.to_degrees(),
-        after: calibration.still.rate_rms_radps.to_degrees(),
+        before: gyroscope.still.rate_rms_before_radps.to_degrees(),
+        after: gyroscope.still.rate_rms_radps.to_degrees(),
         unit: "°/s",
         meaning: "Mean rate in each hold, all axes together. Its mean over all holds is taken out before, too: what is left is a bias that wanders, and g-sensitivity.",
-    });
-    if calibration.rotations.iter().any(|rotation| rotation.used) {
+    }));
+    if calibration.rotations().iter().any(|rotation| rotation.used) {
         rows.push(Improved {
             name: "gravity after a rotation, rms",
             before: calibration.rotation_rms_before_rad().to_degrees(),

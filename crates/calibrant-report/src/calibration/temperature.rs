@@ -1,12 +1,12 @@
-//! The temperature model of an IMU in words.
+//! The temperature model in words.
 
 use crate::number_format;
-use calibrant_core::estimate::ImuCalibration;
+use calibrant_core::estimate::Calibration;
 
 /// The reference temperature, the polynomials and the temperatures of the holds; `None` where nothing follows temperature.
 #[must_use]
-pub fn temperature_in_words(calibration: &ImuCalibration) -> Option<String> {
-    calibration.hold_temperatures_c.as_ref()?;
+pub fn temperature_in_words(calibration: &Calibration) -> Option<String> {
+    calibration.holds()?.temperatures_c.as_ref()?;
     let thermal = &calibration.imu.thermal;
     let celsius = |t: f64| number_format::significant(t, 3);
     let range = thermal.range_c.map_or_else(String::new, |[low, high]| {

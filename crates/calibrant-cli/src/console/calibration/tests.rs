@@ -1,6 +1,6 @@
 //! Tests of what is printed for a simulated IMU.
 
-use super::imu_calibration;
+use super::of_calibration;
 use calibrant::{estimate, motion, sensor};
 
 #[path = "../../../../calibrant-report/examples/report_gallery/imus.rs"]
@@ -10,7 +10,7 @@ mod imus;
 fn it_says_what_was_used_what_was_found_and_how_good_it_is() {
     let case = imus::imu_case(14, 1);
     assert!(case.recording.gyroscope.is_some());
-    let text = imu_calibration(&case.calibration);
+    let text = of_calibration(&case.calibration);
     let from = imus::DISTURBED + 1;
     for says in [
         "  14 holds, all used\n",

@@ -1,7 +1,7 @@
 //! Tables of the holds of a static calibration.
 
-use super::number_format;
-use super::table::{Cell, Table};
+use crate::number_format;
+use crate::table::{Cell, Table};
 use calibrant_core::estimate::{HoldCalibration, HoldResult};
 use calibrant_core::sensor::ReadingUnit;
 
