@@ -55,5 +55,5 @@ pub use uncalibrated::Uncalibrated;
 pub use validation::{
     BiasShift, Caveat, CoarseStep, CovarianceVerdict, ErrorKind, FailedFold, LikelyExplanation, NoiseRatio,
     ParameterPart, UnusedError, ValidatedErrors, Validation, ValidationSource, cross_validate,
-    cross_validate_imu, noise_in_common, other_temperature, readings_in_common, validate, validate_imu,
+    cross_validate_imu, other_temperature, validate, validate_imu,
 };

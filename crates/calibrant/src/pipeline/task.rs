@@ -132,11 +132,9 @@ impl<'e> Task<'e> {
         let mut setup = setup.of_other();
         let outliers = setup.prepare(&mut other.recording);
         notes.extend(outliers.iter().map(|found| warning(message(found))));
-        if let Some(holds) = calibration.holds() {
-            for &sensor_kind in calibration.sensor_kinds() {
-                let [one, two] = [recorded, &other].map(|recorded| recorded.readings(sensor_kind));
-                refuse_duplicate(sensor_kind, &one, holds, &two, source.file_of(sensor_kind))?;
-            }
+        for &sensor_kind in calibration.sensor_kinds() {
+            let [one, two] = [recorded, &other].map(|recorded| recorded.readings(sensor_kind));
+            refuse_duplicate(sensor_kind, &one, &two, source.file_of(sensor_kind))?;
         }
         let problem = setup.problem(self.accelerometer, &other)?;
         let mut validation = problem.validate(calibration).map_err(|error| error.in_recording(path))?;
