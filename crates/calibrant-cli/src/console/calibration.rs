@@ -1,4 +1,4 @@
-//! A calibration on stdout, whatever the sensors.
+//! The tables of a calibration on stdout.
 
 use super::table::table;
 use super::validation::validations;
@@ -10,7 +10,7 @@ use calibrant::report::{
 use calibrant::sensor::{Axis, SensorKind};
 use nalgebra::Vector3;
 
-/// What was used, the parameters, how good they are, and how they fare on other data.
+/// The used data, the parameters, their quality, and the validation.
 pub(crate) fn calibration(outcome: &Outcome) -> String {
     of_calibration(&outcome.calibration) + &validations(&outcome.validations)
 }
@@ -45,7 +45,7 @@ fn used(calibration: &Calibration) -> Vec<String> {
         let all = number_format::counted(used + left_out.len(), what);
         match left_out.len() {
             0 => format!("{all}, all used"),
-            _ => format!("{all}, {used} used; left out: {}", left_out.join(", ")),
+            _ => format!("{all}, {used} used; not used: {}", left_out.join(", ")),
         }
     };
     if calibration.holds().is_none() {
@@ -66,15 +66,14 @@ fn used(calibration: &Calibration) -> Vec<String> {
     lines
 }
 
-/// The parameters of a sensor, with what was known of them.
+/// The parameters of a sensor, with their nominal values and priors.
 fn parameters(calibration: &Calibration, sensor_kind: SensorKind) -> String {
     let places = calibration.places_of(sensor_kind);
     let any = |known: &dyn Fn(usize) -> bool| places.iter().any(|&k| known(k));
     let with_nominal = any(&|k| calibration.parameters[k].nominal.is_some());
     let with_spread = any(&|k| calibration.parameters[k].spread.is_some());
     let with_prior = any(&|k| calibration.known_beforehand(k).is_some());
-    let optional =
-        [(with_nominal, "nominal"), (with_spread, "datasheet sd"), (with_prior, "known beforehand")];
+    let optional = [(with_nominal, "nominal"), (with_spread, "datasheet sd"), (with_prior, "from prior")];
     let mut header = vec!["parameter", "estimate ± sd", "unit", "over the gain"];
     header.extend(optional.iter().filter(|(there, _)| *there).map(|(_, name)| *name));
     let sd = calibration.sd();
@@ -111,7 +110,7 @@ fn conditions(holds: &HoldCalibration) -> String {
     )
 }
 
-/// What the standard deviations of an accelerometer follow from.
+/// The source of the standard deviations of an accelerometer.
 fn uncertainty(holds: &HoldCalibration) -> String {
     match holds.between_holds_dominates {
         true => format!(

@@ -124,7 +124,7 @@ fn what_is_known_already_counts() {
     bench.run(&format!("design arm.toml {QUICK} --from c/calibration.json -o after")).done();
     let twice = "--from c/calibration.json --from c/calibration.json";
     let outcome = bench.run(&format!("design arm.toml {QUICK} {twice} -o twice")).done();
-    outcome.says("warning: c/calibration.json and c/calibration.json say the same to the last digit");
+    outcome.says("warning: c/calibration.json and c/calibration.json are equal to the last digit");
     let bias = |name: &str| sd(&bench.json(&format!("{name}/design.json")), "bias.x");
     // the bias is known equally from any recording of this length, so information adds up: 1, 2 and 3
     // recordings
@@ -135,7 +135,9 @@ fn what_is_known_already_counts() {
     bench.run("calibrate arm.toml s2/recording.csv --motion s2/motion.csv -o c2").done();
     let outcome = bench
         .run(&format!("design arm.toml {QUICK} --from c/calibration.json --from c2/calibration.json -o no"));
-    outcome.says("warning: c/calibration.json and c2/calibration.json disagree beyond their uncertainty (χ²");
+    outcome.says(
+        "warning: c/calibration.json and c2/calibration.json differ by more than their uncertainty (χ²",
+    );
     let after = bench.json("after/design.json");
     let guess = bench.json("c/calibration.json")["parameters"][0]["value"].clone();
     assert_eq!(after["setting"]["guess"][0], guess);

@@ -100,7 +100,7 @@ fn how_well_the_faces_were_met_is_told() {
     bench.run("simulate tilted.toml --seed 3 -o tilted").done();
     let given = bench.run("calibrate tilted.toml tilted/recording.csv -o given").done();
     assert!(
-        given.stdout.contains("the faces were met within 0.50° about each axis, as given"),
+        given.stdout.contains("the face alignment is 0.50° about each axis, as given"),
         "{}",
         given.stdout
     );
@@ -115,7 +115,7 @@ fn how_well_the_faces_were_met_is_told() {
     assert!(
         page.contains("tilt of the faces, sd") && page.contains("by their scatter, 6 degrees of freedom")
     );
-    assert!(page.contains("too little left to tell it"));
+    assert!(page.contains("repeat each face"));
     bench.refuses(
         &format!("calibrate {} tilted/recording.csv -o no", {
             bench.write("wrong.toml", table.replacen("[holds]", "[holds]\nface_sd_deg = 12.0", 1));

@@ -30,7 +30,7 @@ fn an_absurd_number_is_left_out_and_named_whatever_its_size() {
     bench
         .run("apply out/calibration.json wild.csv -o true.csv")
         .done()
-        .says("gyroscope: 1 sample is far off those beside it");
+        .says("gyroscope: 1 sample is a spike");
     // its own uncertainty overflows, which does not mean certainty
     let corrected = bench.read("true.csv");
     let row: Vec<&str> = corrected.lines().nth(5000).expect("a row").split(',').collect();

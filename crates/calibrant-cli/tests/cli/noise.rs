@@ -137,12 +137,12 @@ fn spikes_neither_divide_a_hold_nor_change_its_noise() {
     outcome.says("too many to remove");
     assert!(!outcome.stderr.contains("filtered") && !outcome.stderr.contains("moves"), "{}", outcome.stderr);
     assert!(
-        outcome.stdout.contains("nothing for an experiment file: there are too many sparks"),
+        outcome.stdout.contains("no noise for an experiment file: there are too many spikes"),
         "{}",
         outcome.stdout
     );
     assert!(bench.json("result/noise.json")["sensors"][0]["experiment"].is_null());
-    assert!(bench.read("result/report.html").contains("This is not the noise of a sensor at rest"));
+    assert!(bench.read("result/report.html").contains("This is not only the noise of a sensor at rest"));
 }
 
 #[test]
@@ -161,10 +161,12 @@ fn noise_of_a_sensor_that_moves_is_not_for_use() {
         let outcome = bench.run(&format!("noise {name}.csv --hold 0 120 -o {name}")).done();
         outcome.says("warning: the sensor moves in");
         assert!(!outcome.stdout.contains("noise_mps2"), "{}", outcome.stdout);
-        let why = "nothing for an experiment file: the sensor moves in the interval that was given";
+        let why = "no noise for an experiment file: the sensor moves in the given interval";
         assert!(outcome.stdout.contains(why), "{}", outcome.stdout);
         assert!(
-            bench.read(&format!("{name}/report.html")).contains("This is not the noise of a sensor at rest")
+            bench
+                .read(&format!("{name}/report.html"))
+                .contains("This is not only the noise of a sensor at rest")
         );
         bench.refuses(
             &format!("convert imu.json imu.yaml --noise {name}/noise.json"),

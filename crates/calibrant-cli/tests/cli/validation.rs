@@ -114,17 +114,14 @@ fn one_hold_is_too_few_to_tell_and_another_sensor_is_asked_about() {
         (outcome.stdout, json["validation"]["recording"]["magnitude"]["verdict"].clone())
     };
     let (message, verdict) = validate("one-hold.csv");
-    assert!(
-        message.contains("On 1 hold that was not used") && message.contains("too few to tell"),
-        "{message}"
-    );
+    assert!(message.contains("In 1 unused hold,") && message.contains("too few for a verdict"), "{message}");
     assert_eq!(verdict, "too_few");
     // bias and gains that are all 5 % larger
     let (message, _) = validate("other-gain.csv");
     assert!(message.contains("its gains have changed by 5."), "{message}");
     assert!(!message.contains("no covariance explains") && !message.contains("multiply"), "{message}");
     let (message, verdict) = validate("other-axes.csv");
-    assert!(message.contains("which no covariance explains: is it the same sensor"), "{message}");
+    assert!(message.contains("which no covariance explains. Is it the same sensor"), "{message}");
     assert!(!message.contains("multiply"), "{message}");
     assert_eq!(verdict, "too_small");
 }

@@ -399,7 +399,7 @@ impl FaceTilt {
             TiltSource::Recording => {
                 format!("by their scatter, {} degrees of freedom", self.degrees_of_freedom)
             }
-            TiltSource::Assumed => "assumed, since so few tell nothing of it".into(),
+            TiltSource::Assumed => "assumed, since the faces are too few".into(),
         }
     }
 }

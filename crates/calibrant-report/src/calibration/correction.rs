@@ -6,7 +6,7 @@ use calibrant_core::estimate::Calibration;
 use calibrant_core::sensor::{Correction, ReadingUnit, SensorKind};
 use nalgebra::{Matrix3, Vector3};
 
-/// Formulas, matrices, and the same as text.
+/// Formulas and matrices, also as text.
 pub(super) fn correction(calibration: &Calibration) -> String {
     let imu = &calibration.imu;
     if calibration.axes() == 1 {
@@ -42,7 +42,7 @@ pub(super) fn correction(calibration: &Calibration) -> String {
         (Some(_), Some(_)) => ("f = C_a (y_a − b_a),  ω = C_g (y_g − b_g − Γ f)", BOTH),
     };
     let words = format!(
-        "{words} {} Digits beyond those that are known are given so that rounding adds nothing.",
+        "{words} {} The extra digits keep rounding from adding an error.",
         frame_in_words(calibration)
     );
     format!(
@@ -56,7 +56,7 @@ pub(super) fn correction(calibration: &Calibration) -> String {
     )
 }
 
-/// What the corrections of two sensors have in common.
+/// The frame and the units of the corrections of two sensors.
 const BOTH: &str = "f in m/s², ω in rad/s, both in the true frame. The gyroscope is given in the frame of the accelerometer, so its misalignment to it is in C_g.";
 
 fn letter(sensor_kind: SensorKind) -> char {
@@ -88,7 +88,7 @@ fn at_other_temperatures(calibration: &Calibration) -> String {
     )
 }
 
-/// What fixes the true frame.
+/// The convention that fixes the true frame.
 fn frame_in_words(calibration: &Calibration) -> &'static str {
     let gauge = match calibration.holds() {
         None => return "The true frame is that of the commanded motion.",

@@ -1,4 +1,4 @@
-//! The table of the fit: how well the model fits, each number with its meaning.
+//! The table of the fit: each statistic with its meaning.
 
 use crate::figure::DisplayUnit;
 use crate::number_format;
@@ -14,35 +14,33 @@ pub(super) fn fit_table(calibration: &Calibration) -> String {
     let mut table = Table::explained();
     let mut row = |name: &str, value: String, meaning: &str| table.explain(name, value, meaning);
     let status = calibration.status.name().replace('_', " ");
-    row("status", status, "How the iteration ended; only “converged” is an optimum.");
-    row("iterations", calibration.iterations.to_string(), "Steps of the estimator; a handful is usual.");
+    row("status", status, "How the iteration ended. Only “converged” is an optimum.");
+    row("iterations", calibration.iterations.to_string(), "Steps of the estimator. A handful is usual.");
     row(
         "gradient norm",
         number_format::significant(calibration.gradient_norm, 2),
-        "Distance from the optimum in standard deviations of the parameters; good is far below 1.",
+        "Distance from the optimum in standard deviations of the parameters. Good: far below 1.",
     );
     row(
         "χ²",
         number_format::significant(fit.chi2, 5),
         match fit.p_value {
-            Some(_) => {
-                "Sum of squared residuals over the assumed noise; good is near the degrees of freedom."
-            }
+            Some(_) => "Sum of squared residuals over the assumed noise. Good: near the degrees of freedom.",
             None => {
-                "Sum of weighted squared residuals. The weights come from these data, so it is near the degrees of freedom and tests nothing."
+                "Sum of weighted squared residuals. The weights come from these data, so it is always near the degrees of freedom and tests nothing."
             }
         },
     );
     row(
         "degrees of freedom",
         number_format::count(fit.degrees_of_freedom),
-        "Data less unknowns: how much checks the fit. χ² scatters about it by √(2·dof).",
+        "Number of data less number of unknowns. χ² scatters about it by √(2·dof).",
     );
     if let Some(p) = fit.p_value {
         row(
             "p-value",
             number_format::probability(p),
-            "Chance of a χ² at least this large if model and noise are right; suspicious below 0.001 and above 0.999.",
+            "Probability of a χ² at least this large if model and noise are right. Suspicious: below 0.001 and above 0.999.",
         );
     }
     let rms = fit.residual_rms.unwrap_or_else(Vector3::zeros);
@@ -54,12 +52,12 @@ pub(super) fn fit_table(calibration: &Calibration) -> String {
         format!("{} {symbol}", axes.iter().map(number).collect::<Vec<_>>().join(", "))
     };
     let rows = [
-        ("residual rms", fit.residual_rms, "Root mean square of what the fit leaves, per axis."),
-        ("assumed noise", fit.assumed_noise, "Standard deviation of one sample's noise that went into χ²."),
+        ("residual rms", fit.residual_rms, "Root mean square of the residuals of each axis."),
+        ("assumed noise", fit.assumed_noise, "Standard deviation of one sample, as χ² assumes it."),
         (
             "noise estimate",
             fit.noise_estimate,
-            "The noise of one sample as the data show it; good is close to the assumed noise, where one was given.",
+            "Standard deviation of one sample, from the data. Good: close to the assumed noise, if one was given.",
         ),
     ];
     for (name, values, meaning) in rows {
@@ -72,7 +70,7 @@ pub(super) fn fit_table(calibration: &Calibration) -> String {
             &format!("whiteness {axis}, p"),
             number_format::probability(test.p_value),
             &format!(
-                "Ljung–Box test of {} lags (Q = {}); below 0.001 the residuals are not white and the stated sd too small.",
+                "Ljung–Box test of {} lags (Q = {}). Below 0.001, the residuals are not white, and the stated sd are too small.",
                 test.lags,
                 number_format::significant(test.statistic, 3)
             ),
@@ -88,7 +86,7 @@ pub(super) fn fit_table(calibration: &Calibration) -> String {
         row(
             "between holds x, y, z",
             per_axis(&still.between_holds_sd, 1.0, symbol),
-            "Standard deviation of the gyroscope's mean from hold to hold beyond this noise: a wandering bias, the Earth's rotation.",
+            "Standard deviation of the gyroscope's mean from hold to hold, beyond this noise. Causes: a wandering bias, the Earth's rate.",
         );
     }
     table.html()

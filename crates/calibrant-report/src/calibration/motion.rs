@@ -9,7 +9,7 @@ use crate::html::Page;
 use calibrant_core::estimate::{Calibration, RecoveredMotion};
 use calibrant_core::sensor::ImuRecording;
 
-/// The motion as it was estimated, beside the true one where that is known.
+/// The estimated motion, with the true one if it is known.
 pub(super) fn motion_section(
     calibration: &Calibration,
     recovered: &RecoveredMotion,
@@ -18,12 +18,12 @@ pub(super) fn motion_section(
 ) -> Page {
     let mut page = Page::default();
     let lead = match recovered.trust {
-        "known" => "Trust known: the motion was taken as commanded and not estimated.",
+        "known" => "Trust known: the motion is the commanded one, and not estimated.",
         "noisy" => {
-            "Trust noisy: the command was followed up to process noise, and the motion estimated with the parameters."
+            "Trust noisy: the motion is the commanded one plus process noise. It was estimated with the parameters."
         }
         "unknown" => {
-            "Trust unknown: only the acceleration at both ends was given; the motion in between was estimated with the parameters."
+            "Trust unknown: only the acceleration at both ends was given. The motion in between was estimated with the parameters."
         }
         _ => "",
     };
@@ -46,7 +46,7 @@ pub(super) fn motion_section(
     page
 }
 
-/// What the motion and the parameters leave of the readings.
+/// The residuals: readings less the model.
 pub(super) fn residual_section(
     page: &mut Page,
     calibration: &Calibration,

@@ -49,7 +49,7 @@ pub fn calibration_report(
         Recovered::Motion(_) => about.footer(),
         Recovered::Holds(_) => vec![
             about.made(),
-            "Directions are true → raw where nothing else is said; sd is the standard deviation.".to_string(),
+            "Directions are true → raw unless stated otherwise. sd is the standard deviation.".to_string(),
         ],
     };
     page.finish(title, &footer)
@@ -68,8 +68,8 @@ fn parameters(calibration: &Calibration, about: &About) -> Page {
     page.section(
         "Parameters",
         match calibration.gyroscope {
-            None => "Readings are y = S f + b, with f the specific force: biases are the entries of b, scale factors and matrix entries those of S. In files, their names begin with that of the sensor: accelerometer.bias.x.",
-            Some(_) => "Readings are y = S f + b of the accelerometer and y = S ω + b + Γ f of the gyroscope, with f the specific force and ω the angular rate: biases are \
+            None => "Readings are y = S f + b, with f the specific force. Biases are the entries of b, scale factors and matrix entries those of S. In files, their names begin with that of the sensor: accelerometer.bias.x.",
+            Some(_) => "Readings are y = S f + b of the accelerometer and y = S ω + b + Γ f of the gyroscope, with f the specific force and ω the angular rate. Biases are \
              the entries of b, scale factors and matrix entries those of S, g-sensitivities those of Γ. In files, their names begin with that of the sensor: gyroscope.bias.x.",
         },
     );
@@ -109,7 +109,7 @@ fn hold_section(calibration: &Calibration, holds: &HoldCalibration, recording: &
     let mut page = Page::default();
     page.section(
         "Before and after correction",
-        "What the correction makes of the readings that it was found from.",
+        "The readings of the calibration, before and after their correction.",
     );
     page.push(improvements(calibration, holds));
     page.push(magnitudes);
@@ -117,8 +117,8 @@ fn hold_section(calibration: &Calibration, holds: &HoldCalibration, recording: &
     page.section(
         "Holds",
         match calibration.gyroscope {
-            None => "The sensor was kept still in several orientations; in each, the corrected reading has the magnitude of gravity.",
-            Some(_) => "The IMU was kept still in several orientations; in each, the corrected accelerometer has the magnitude of gravity and the corrected gyroscope is zero.",
+            None => "The sensor was at rest in several orientations. In each, the corrected reading has the magnitude of gravity.",
+            Some(_) => "The IMU was at rest in several orientations. In each, the corrected accelerometer has the magnitude of gravity, and the corrected gyroscope is zero.",
         },
     );
     page.push(hold_summary(holds));
@@ -136,7 +136,7 @@ fn rotations(calibration: &Calibration) -> Page {
     let mut page = Page::default();
     if !calibration.rotations().is_empty() {
         let [figure] = drawn([&|| rotation_errors(calibration.rotations())]);
-        page.section("Rotations", "Between the holds the IMU was turned by hand. The gyroscope must carry gravity from each hold to the next.");
+        page.section("Rotations", "Between the holds the IMU was rotated by hand. The gyroscope propagates gravity from each hold to the next, where the accelerometer measures it.");
         page.push(rotation_summary(calibration));
         page.push(figure);
         page.subsection("Table of the rotations");
@@ -145,7 +145,7 @@ fn rotations(calibration: &Calibration) -> Page {
     if !calibration.turns().is_empty() {
         page.section(
             "Turns of known angle",
-            "What the calibrated gyroscope shows of each turn, beside what was made.",
+            "Each turn as given, and as the calibrated gyroscope measures it.",
         );
         page.push(turn_table(calibration));
     }
@@ -160,7 +160,7 @@ fn fit(calibration: &Calibration, recording: &ImuRecording, about: &About) -> Pa
     validation_section(&mut page, &about.validations);
     page.section(
         "Fit and correlations",
-        "Whether the model and the noise describe the data, so that the standard deviations can be believed.",
+        "Whether the model and the noise describe the data. Only then are the standard deviations right.",
     );
     page.push(fit_table(calibration));
     let names: Vec<&str> = calibration

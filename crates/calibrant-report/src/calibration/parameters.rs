@@ -28,7 +28,7 @@ pub(crate) fn parameter_table(
     let optional = [
         (with_nominal, &["nominal"][..]),
         (with_spread, &["datasheet spread", "sd / spread"]),
-        (with_prior, &["known beforehand"]),
+        (with_prior, &["from prior"]),
         (truth.is_some(), &["truth", "error / sd"]),
     ];
     let mut columns = vec!["parameter", "estimate ± sd", "unit", "over the gain"];
@@ -71,16 +71,18 @@ pub(crate) fn parameter_table(
         }
         table.row(row);
     }
-    let mut explanation = "Over the gain: the parameter divided by the gain of its axis, which is what it amounts to in m/s² or rad/s, or as a share of the stimulus.".to_string();
+    let mut explanation = "Over the gain: the parameter divided by the gain of its axis. This gives its size in m/s² or rad/s, or as a share of the stimulus.".to_string();
     if with_prior {
-        explanation.push_str(" Known beforehand: the share of the information that came from what was given, not from the data.");
+        explanation.push_str(
+            " From prior: the share of the information that comes from the prior and not from the data.",
+        );
     }
     format!("{}<p>{explanation}</p>", table.html())
 }
 
 /// A parameter and its sd divided by the gain of its axis. A bias is then in the unit of the stimulus, a
 /// scale factor is its deviation from 1, and an off-diagonal entry is a share. For readings in counts, biases
-/// and scale factors have only their sd in this form, since counts alone mean nothing.
+/// and scale factors show only their sd, since the value has no meaning in SI.
 #[must_use]
 pub fn over_the_gain(calibration: &Calibration, quantity: ImuQuantity, sd: f64) -> String {
     let sensor_kind = quantity.sensor_kind();
@@ -108,7 +110,7 @@ pub fn over_the_gain(calibration: &Calibration, quantity: ImuQuantity, sd: f64) 
     in_display_unit(unit, "", value, sd / gain)
 }
 
-/// The same of a temperature term: in the unit of the stimulus, or as a share of the gain, per K or K².
+/// A temperature term in the unit of the stimulus, or as a share of the gain, per K or K².
 fn over_temperature(
     calibration: &Calibration,
     sensor_kind: SensorKind,

@@ -4,7 +4,7 @@ use crate::number_format;
 use crate::table::{Cell, Table};
 use calibrant_core::estimate::{Calibration, RotationResult};
 
-/// What is common to all rotations.
+/// The table of what all rotations have in common.
 pub(super) fn rotation_summary(calibration: &Calibration) -> String {
     let rotations = calibration.rotations();
     let used = rotations.iter().filter(|rotation| rotation.used).count();
@@ -17,12 +17,12 @@ pub(super) fn rotation_summary(calibration: &Calibration) -> String {
     );
     if used > 0 {
         row(
-            "gravity missed by, rms",
+            "rotation error, rms",
             number_format::missed_angle(calibration.rotation_rms_rad()),
-            "Angle between gravity carried through a rotation and gravity found after it, over the rotations that were used.",
+            "Angle from propagated gravity to measured gravity after a rotation, over the used rotations.",
         );
         row(
-            "the same before",
+            "rotation error before",
             number_format::missed_angle(calibration.rotation_rms_before_rad()),
             "With one bias and one gain for all axes, or the datasheet's.",
         );
@@ -32,7 +32,7 @@ pub(super) fn rotation_summary(calibration: &Calibration) -> String {
         "beyond the noise, sd per axis",
         number_format::missed_angle(excess),
         if excess > 0.0 {
-            "What the gyroscope's noise does not explain of these errors: a bias that wanders, timing, vibration. It is part of the stated standard deviations."
+            "The part of these errors that the gyroscope's noise does not explain: a wandering bias, timing, vibration. The standard deviations include it."
         } else {
             "The gyroscope's noise explains the errors."
         },

@@ -14,7 +14,7 @@ const MOSTLY_PRIOR: f64 = 0.5;
 /// them.
 const IMPROVED: f64 = 0.8;
 
-/// The verdict and everything that qualifies it, as one prominent box.
+/// The verdict with its warnings, as one prominent box.
 pub(super) fn verdict(calibration: &Calibration, about: &About) -> String {
     let remarks: Vec<String> = calibration
         .warnings
@@ -51,7 +51,7 @@ fn capitalised(sentence: &str) -> String {
     letters.next().map_or_else(String::new, |first| first.to_uppercase().to_string() + letters.as_str())
 }
 
-/// How well the gains of each sensor are known, on the worst axis.
+/// The relative standard deviation of each sensor's gains, on the worst axis.
 fn gains(calibration: &Calibration) -> String {
     if calibration.axes() == 1 {
         let scale = ImuQuantity::Of(SensorKind::Accelerometer, Quantity::Scale(Axis::X));
@@ -78,13 +78,13 @@ fn gains(calibration: &Calibration) -> String {
 fn not_improved(calibration: &Calibration) -> Option<String> {
     let (after, before) = (calibration.rotation_rms_rad(), calibration.rotation_rms_before_rad());
     (after > IMPROVED * before).then(|| {
-        "The calibration hardly improves the rotations: either the gyroscope was good before, or something else than its gains and misalignment \
-         makes them miss gravity (saturation, delay between the sensors, a sample rate that is too low for the turns)."
+        "The calibration hardly improves the rotations. Either the gyroscope was good before, or the rotation errors have another cause: \
+         saturation, a delay between the sensors, or a sample rate that is too low."
             .to_string()
     })
 }
 
-/// Parameters known little better than from the datasheet; those known worse have a warning of their own.
+/// Parameters that are known little better than from the datasheet. Parameters that are known worse have a warning.
 fn hardly_determined(calibration: &Calibration) -> Option<String> {
     let names: Vec<&str> = calibration
         .parameters
@@ -98,8 +98,8 @@ fn hardly_determined(calibration: &Calibration) -> Option<String> {
         .collect();
     (!names.is_empty()).then(|| {
         format!(
-            "The data say little more than the datasheet about {}: the standard deviation is more than half the datasheet spread. \
-             A motion that excites it more, or more data, would help.",
+            "The data determine {} hardly better than the datasheet: the standard deviation is more than half the datasheet spread. \
+             Use a motion that excites it more, or record more data.",
             names.join(", ")
         )
     })
@@ -114,11 +114,11 @@ fn mostly_prior(calibration: &Calibration) -> Option<String> {
         .map(|(parameter, _)| parameter.name.as_str())
         .collect();
     (!names.is_empty())
-        .then(|| format!("The data say less than what was known beforehand about {}.", names.join(", ")))
+        .then(|| format!("The data give less information than the prior about {}.", names.join(", ")))
 }
 
-/// An accelerometer alone has a warning of this.
+/// An accelerometer alone has a warning about this.
 fn unchecked(calibration: &Calibration) -> Option<String> {
     (calibration.gyroscope.is_some() && calibration.fit.degrees_of_freedom == 0)
-        .then(|| "There are no more data than unknowns, so nothing checks the fit.".to_string())
+        .then(|| "The data are as many as the unknowns, so nothing checks the fit.".to_string())
 }

@@ -50,8 +50,8 @@ pub(crate) fn holds_before_and_after(holds: &HoldCalibration) -> Option<Figure> 
     let unit = DisplayUnit::suited_to("m/s²", residuals);
     let alone = Panel::new("after alone", "hold", unit.label("|f| − g"));
     let caption = format!(
-        "Magnitude of the mean reading of each hold less gravity. Before: {}. Good: on the left the blue lies on zero however far the orange squares are off (errors that depend on the \
-         orientation), on the right it scatters about zero without a pattern.",
+        "Magnitude of the mean reading of each hold less gravity. Before: {}. Good: on the left, the blue markers lie on zero, wherever the orange squares are (errors that depend on the \
+         orientation). On the right, they scatter about zero without a pattern.",
         holds.before.source
     );
     let panels = vec![with_after(both, 1.0), with_after(alone, unit.factor)];
@@ -85,8 +85,8 @@ pub(crate) fn recording_before_and_after(
                 "Before, accelerometer: {}; gyroscope: {}.",
                 holds.before.source, gyroscope.before.source
             ),
-            " The correction of the gyroscope is far smaller than the rates, so its change is shown: nothing at rest but the g-sensitivity, and in the turns what misalignment \
-             and the gains of the axes make of the rate.",
+            " The correction of the gyroscope is far smaller than the rates, so its change is shown. At rest, only the g-sensitivity changes the rate. In rotations, misalignment \
+             and gains change it, too.",
         ),
     };
     let panels = forces?.into_iter().chain(rates.into_iter().flatten()).collect();
@@ -146,7 +146,7 @@ fn rate_panels(before: &Uncalibrated, after: &[Vector3<f64>], recording: &Record
         thin,
         magnitude,
     ));
-    let mut change = Panel::new("what the correction changes", "time (s)", "ω after − before (°/s)");
+    let mut change = Panel::new("change by the correction", "time (s)", "ω after − before (°/s)");
     for (axis, colour) in Axis::ALL.into_iter().zip([colour::VERMILLION, colour::GREEN, colour::SKY]) {
         let row = before.matrix.row(axis.index()).transpose();
         let difference = thinned(after().zip(&recording.readings).map(|((t, after), reading)| {
@@ -159,7 +159,7 @@ fn rate_panels(before: &Uncalibrated, after: &[Vector3<f64>], recording: &Record
 
 fn caption(recording: &Recording, before: &str, more: &str) -> String {
     let mut caption = format!(
-        "Magnitude of the specific force, of all samples and of those in holds. {before} Good: in the holds the blue lies on g from the first to the last, and its width is \
+        "Magnitude of the specific force, of all samples and of those in holds. {before} Good: in all holds the blue points lie on g, and their width is \
          the noise of the samples.{more}"
     );
     if is_thinned(recording.len()) {

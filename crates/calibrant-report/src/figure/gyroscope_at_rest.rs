@@ -77,9 +77,9 @@ pub(crate) fn still_gyroscope(
             panel
         })
         .collect();
-    let caption = "Mean of the corrected gyroscope in each hold, which should be zero. Good: no trend, nineteen in twenty within the band. Bars far shorter \
-                   than the band: the bias wanders from hold to hold (temperature, supply, the Earth's rotation of 15 °/h) by more than noise explains, \
-                   and longer holds will not determine it better. The stated standard deviations take the wander into account.";
+    let caption = "Mean of the corrected gyroscope in each hold, which should be zero. Good: no trend, and nineteen in twenty within the band. If the bars are far shorter \
+                   than the band, the bias wanders from hold to hold by more than noise explains (temperature, supply, the Earth's rate of 15 °/h). \
+                   Longer holds will not determine it better. The stated standard deviations include the wander.";
     Some(Figure::new("The gyroscope at rest", panels, caption))
 }
 

@@ -37,12 +37,12 @@ pub(crate) fn residuals_over_time(
         }
         panel
     });
-    let mut caption = "Reading less model. Good: a structureless band about zero, of the same width everywhere, with about one \
-                       point in twenty outside the dashed lines. A wave or a step means that the model misses something."
+    let mut caption = "Reading less model. Good: a band without structure about zero, of the same width everywhere, with about one \
+                       point in twenty outside the dashed lines. A wave or a step is an error of the model."
         .to_string();
     if is_thinned(motion.residuals.len()) {
         caption.push_str(
-            " Drawn are the smallest and the largest residual of each pixel column, so the band shows the extremes and looks \
+            " Only the smallest and the largest residual of each pixel column are drawn, so the band shows the extremes and looks \
              wider than ±2 sd.",
         );
     }
@@ -77,8 +77,8 @@ pub(crate) fn histograms(
         }
         panel
     });
-    let caption = "Good: the bars follow the curve. Narrower bars mean that the noise is smaller than assumed, wider ones that it \
-                   is larger or that the model misses something; long tails are outliers.";
+    let caption = "Good: the bars follow the curve. Narrower bars mean that the noise is smaller than assumed. Wider bars mean that it \
+                   is larger, or that the model has an error. Long tails are outliers.";
     Figure::new("Distribution of the residuals", panels, caption)
 }
 
@@ -104,8 +104,8 @@ pub(crate) fn autocorrelations(
             )
             .with(Series::new("autocorrelation", colour::BLUE, Mark::Stems, stems))
     });
-    let caption = "Good: about nineteen in twenty stems end within the band. Many long stems mean coloured noise or a model error; \
-                   then the standard deviations of the parameters are too small.";
+    let caption = "Good: about nineteen in twenty stems end within the band. Many long stems mean coloured noise or a model error. \
+                   The standard deviations of the parameters are then too small.";
     Figure::new("Autocorrelation of the residuals", panels, caption)
 }
 

@@ -72,7 +72,7 @@ pub(crate) fn bias_over_temperature(
             panel
         })
         .collect();
-    let caption = "Mean of the gyroscope in each hold over its temperature, and the polynomial that was fitted. Good: nineteen bars in twenty meet the line, \
-                   with no bend that it does not follow. Where the bars leave it together, raise the order; beyond the holds it is not known.";
+    let caption = "Mean of the gyroscope in each hold over its temperature, and the fitted polynomial. Good: nineteen bars in twenty touch the line, \
+                   and the line follows every bend. If neighbouring bars miss the line together, raise the order. Beyond the holds the line is an extrapolation.";
     Some(Figure::new("The gyroscope's bias over temperature", panels, caption))
 }

@@ -16,7 +16,7 @@ use calibrant_design::study::{SingleCase, Study};
 pub(super) fn chapter(page: &mut Page, study: &Study) {
     page.section(
         "Calibration of a population",
-        "Each sensor is moved by the same command, recorded and calibrated; truth and estimate are compared.",
+        "Each sensor makes the same commanded motion, is recorded and calibrated. Then the estimate is compared with the truth.",
     );
     page.push(settings(study));
     page.subsection("One sensor in detail");
@@ -27,8 +27,8 @@ pub(super) fn chapter(page: &mut Page, study: &Study) {
     fine(page, &study.fine);
     page.subsection("All sensors");
     page.paragraph(
-        "If the calibrations are honest, the realised error equals the stated standard deviation, the mean error is near zero, and \
-         95 % of the intervals hold the truth.",
+        "If the covariances are right, the realised error equals the stated standard deviation, the mean error is near zero, and \
+         95 % of the intervals contain the truth.",
     );
     page.push(summary_table(study));
     page.push(parameters_against_truth(study).html());
@@ -67,7 +67,7 @@ fn fine(page: &mut Page, case: &SingleCase) {
     }
 }
 
-/// The verdict on the population: is it good, and why.
+/// The verdict on the population: are the covariances right, and why.
 pub(super) fn judge(study: &Study) -> (bool, String) {
     let all = study.outcomes.len();
     let converged = study.outcomes.iter().filter(|outcome| outcome.status == "converged").count();
@@ -80,12 +80,12 @@ pub(super) fn judge(study: &Study) -> (bool, String) {
         "There is nothing to judge.".to_string()
     } else if honest {
         format!(
-            "95 % intervals hold the truth in {} of the cases, as they should.",
+            "95 % intervals contain the truth in {} of the cases, as expected.",
             number_format::percent(coverage)
         )
     } else {
         format!(
-            "95 % intervals hold the truth in {} of the cases, beyond what chance explains: the stated standard deviations are too {}.",
+            "95 % intervals contain the truth in {} of the cases, which chance does not explain. The stated standard deviations are too {}.",
             number_format::percent(coverage),
             if coverage < 0.95 { "small" } else { "large" }
         )

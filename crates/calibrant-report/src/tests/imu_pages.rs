@@ -31,9 +31,9 @@ fn a_page_shows_both_sensors_the_holds_the_rotations_and_the_turns() {
     let from = imus::DISTURBED + 1;
     for says in [
         "from 14 of 14 holds, 12 of 13 rotations between them and 1 turn of known angle",
-        "After a rotation, gravity is met within",
+        "The rotation error is",
         "The gains are known to",
-        "known beforehand",
+        "from prior",
         "z of both sensors",
         "ω = C_g (y_g − b_g − Γ f)",
         "C_g = [[",
@@ -44,8 +44,8 @@ fn a_page_shows_both_sensors_the_holds_the_rotations_and_the_turns() {
         "what the correction changes",
         "Magnitude residual of each hold",
         "The gyroscope at rest",
-        "Gravity after each rotation",
-        "gravity missed by (°)",
+        "Rotation errors",
+        "rotation error (°)",
         "after, left out",
         &format!("{from} → {}</th>", from + 1),
         "no: it misses gravity by",
@@ -101,7 +101,7 @@ fn the_verdict_follows_the_status_the_warnings_and_the_prior() {
     calibration.prior_share.fill(0.0);
     assert!(page(&calibration).contains("verdict good"));
     calibration.prior_share[0] = 0.9;
-    assert!(page(&calibration).contains("less than what was known beforehand about accelerometer.bias.x."));
+    assert!(page(&calibration).contains("less information than the prior about accelerometer.bias.x."));
     calibration.prior_share[0] = 0.0;
     assert!(!page(&calibration).contains("nown beforehand"));
     gyroscope_of(&mut calibration)
@@ -122,9 +122,7 @@ fn degenerate_results_and_hostile_words_are_reported_without_harm() {
     }
     let html = calibration_report(&calibration, &ImuRecording::default(), &[], &About::default());
     assert_sound(&html);
-    assert!(
-        html.contains("no: a&lt;b&gt;&amp;&quot;c&quot;") && !html.contains("Gravity after each rotation")
-    );
+    assert!(html.contains("no: a&lt;b&gt;&amp;&quot;c&quot;") && !html.contains("Rotation errors"));
 
     gyroscope_of(&mut calibration).rotations.clear();
     gyroscope_of(&mut calibration).turns.clear();

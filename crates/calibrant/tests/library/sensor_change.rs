@@ -255,7 +255,7 @@ fn folds_of_a_sensor_that_changes_are_not_believed() {
                 errors.kind
             );
         }
-        let says = sentences.contains("but not to be believed: the ") || sentences.contains("too small");
+        let says = sentences.contains("but they confirm nothing: the ") || sentences.contains("too small");
         assert_eq!(says, step.is_some(), "{sentences}");
     }
 }

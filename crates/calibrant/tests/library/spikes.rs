@@ -264,5 +264,5 @@ fn as_many_holds_as_parameters_leave_nothing_to_check() {
     assert_eq!((holds.holds.len(), holds.degrees_of_freedom), (9, 0));
     let html =
         calibrant::report::calibration_report(&calibration, &recording.into(), &[], &Default::default());
-    assert!(html.contains("nothing left to check") && !html.contains("|f| − g in holds, rms"));
+    assert!(html.contains("no data left to check") && !html.contains("|f| − g in holds, rms"));
 }

@@ -337,7 +337,7 @@ fn too_many_spikes_are_called_so_and_heavy_tails_are_not() {
         let mut values = white.clone();
         values.iter_mut().skip(7).step_by(one_in).for_each(|y| *y += 20.0);
         let noise = examine(&values);
-        assert_eq!(noise.caveat.as_deref(), Some("there are too many sparks"), "one in {one_in}");
+        assert_eq!(noise.caveat.as_deref(), Some("there are too many spikes"), "one in {one_in}");
         assert_eq!(noise.warnings.len(), 1, "{:?}", noise.warnings);
         let message = format!("accelerometer x: {} of 20000 samples are spikes", (n - 7).div_ceil(one_in));
         assert!(messages(&noise.warnings)[0].contains(&message), "{:?}", noise.warnings);
