@@ -7,7 +7,7 @@
 //! ```
 //!
 //! [`Trust`](crate::motion::Trust) in the commanded motion tells the report's problems (5), (6) and (3) apart; a static calibration has an
-//! unknown direction for each hold instead of a chain ([`HoldsSetup`]). Both end in a [`Calibration`].
+//! unknown direction for each hold instead of a chain ([`HoldsSetup`]). An IMU ([`ImuProblem`]) adds rotations of its gyroscope. All end in a [`Calibration`].
 //!
 //! The covariance is the inverse of the information `F` that is left for the parameters once motion or directions are
 //! eliminated (Schur complement, [`arrowhead`](crate::arrowhead)). It holds to first order in the noise, for noise that is white,
