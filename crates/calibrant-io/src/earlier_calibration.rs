@@ -3,7 +3,7 @@
 
 use super::json;
 use super::text_decoding::{self, Checked};
-use calibrant_core::error::{Error, InputError, Result};
+use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::information::covariance;
 use calibrant_core::sensor::{ParameterList, Quantity, ReadingUnit, SensorParameters};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
@@ -90,7 +90,7 @@ impl EarlierCalibration {
     /// [`Error::Experiment`] where the parameters or their units are not the same.
     pub fn sensor_of(&self, list: &ParameterList, unit: ReadingUnit) -> Result<SensorParameters> {
         let reject = |message: String, help: &str| {
-            let input_error = InputError::new(message, help);
+            let input_error = InputError::new(Refusal::CalibrationUnsuited, message, help);
             Err(Error::experiment(match &self.file {
                 Some(file) => input_error.in_file(file),
                 None => input_error,
@@ -156,7 +156,8 @@ struct ParameterFields {
 pub(super) fn parse(bytes: &[u8]) -> Checked<EarlierCalibration> {
     /// The remedy for a broken file.
     const AGAIN: &str = "give a calibration.json that `calibrant calibrate` wrote";
-    let reject = |message: String| Err(Box::new(InputError::new(message, AGAIN)));
+    let reject =
+        |message: String| Err(Box::new(InputError::new(Refusal::CalibrationInvalid, message, AGAIN)));
     let text = text_decoding::as_text(bytes)?;
     let file: File =
         serde_json::from_str(text).map_err(|error| json::broken(&error, "a calibration.json", AGAIN))?;
@@ -167,7 +168,9 @@ pub(super) fn parse(bytes: &[u8]) -> Checked<EarlierCalibration> {
         }
         None => return reject("this is no calibration: the field `schema` is missing".into()),
     }
-    let missing = |field: &str| InputError::new(format!("the field `{field}` is missing"), AGAIN);
+    let missing = |field: &str| {
+        InputError::new(Refusal::CalibrationInvalid, format!("the field `{field}` is missing"), AGAIN)
+    };
     if file.status.is_none() && file.seed.is_some() {
         return reject("this is the truth of a simulation, not a calibration: it has no covariance".into());
     }
@@ -176,7 +179,12 @@ pub(super) fn parse(bytes: &[u8]) -> Checked<EarlierCalibration> {
     let covariance_rows = file.covariance.ok_or_else(|| missing("covariance"))?;
     if status != "converged" {
         let message = format!("this calibration did not converge: its status is \"{status}\"");
-        return Err(InputError::new(message, "calibrate again; its report says what is wrong").into());
+        return Err(InputError::new(
+            Refusal::CalibrationUnusable,
+            message,
+            "calibrate again; its report says what is wrong",
+        )
+        .into());
     }
     let (mut names, mut values) = (Vec::new(), Vec::new());
     for (i, parameter) in parameters.into_iter().enumerate() {

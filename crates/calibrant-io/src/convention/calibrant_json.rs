@@ -13,6 +13,7 @@ use super::words::input_error;
 use super::{CalibratedImuFile, ImuFormat, schema_one, truth};
 use crate::json;
 use crate::text_decoding::Checked;
+use calibrant_core::error::Refusal;
 use serde::{Deserialize, Serialize};
 
 /// The kind of file that the field `kind` names.
@@ -85,13 +86,21 @@ pub(super) fn read(text: &str) -> Checked<CalibratedImuFile> {
         Some(schema) if schema == 2 => (),
         Some(schema) => {
             let message = format!("schema {schema} of a calibration is not known to this version");
-            return Err(input_error(message, "1 and 2 are; use a newer calibrant"));
+            return Err(input_error(
+                Refusal::CalibrationInvalid,
+                message,
+                "1 and 2 are; use a newer calibrant",
+            ));
         }
         None => return Err(missing("schema")),
     }
     if let Some(status) = header.status.filter(|status| status != "converged") {
         let message = format!("this calibration did not converge: its status is \"{status}\"");
-        return Err(input_error(message, "calibrate again; its report says what is wrong"));
+        return Err(input_error(
+            Refusal::CalibrationInvalid,
+            message,
+            "calibrate again; its report says what is wrong",
+        ));
     }
     let core: ImuCore = serde_json::from_str(text).map_err(|error| broken(&error))?;
     let (imu, inputs) = core.into_imu()?;

@@ -7,6 +7,7 @@ use crate::calibration::Input;
 use crate::earlier_calibration;
 use crate::json;
 use crate::text_decoding::Checked;
+use calibrant_core::error::Refusal;
 use calibrant_core::sensor::{CalibratedImu, ImuParameters, Quantity, ReadingUnit, SensorKind};
 use nalgebra::Matrix3;
 use serde::Deserialize;
@@ -38,6 +39,7 @@ pub(super) fn read(text: &str) -> Checked<CalibratedImuFile> {
         earlier.parameters.iter().map(|(name, _)| format!("{}.{name}", SensorKind::Accelerometer)).collect();
     if !names.iter().any(|name| name.ends_with("bias.z")) {
         return Err(input_error(
+            Refusal::CalibrationInvalid,
             "this is the calibration of a sensor with one axis; an IMU has three",
             "use its parameters from the file itself",
         ));
@@ -64,12 +66,14 @@ pub(super) fn read(text: &str) -> Checked<CalibratedImuFile> {
     for ((name, (plain, found)), value) in names.iter().zip(&earlier.parameters).zip(&earlier.values) {
         let quantity = quantity_of(name, &imu, symmetric).ok_or_else(|| {
             input_error(
+                Refusal::CalibrationInvalid,
                 format!("\"{plain}\" is no parameter of an accelerometer"),
                 "give one that calibrant wrote",
             )
         })?;
         if quantity.unit(unit) != found || imu.quantities.contains(&quantity) {
             return Err(input_error(
+                Refusal::CalibrationInvalid,
                 format!("{plain} is in {found} or stands twice; {} is expected once", quantity.unit(unit)),
                 "give a file that calibrant wrote",
             ));
@@ -83,6 +87,7 @@ pub(super) fn read(text: &str) -> Checked<CalibratedImuFile> {
         .filter(|q| matches!(q, calibrant_core::sensor::ImuQuantity::Of(_, Quantity::Scale(_))));
     if scales.count() != 3 {
         return Err(input_error(
+            Refusal::CalibrationInvalid,
             "it does not have the three scale factors",
             "give a file that calibrant wrote",
         ));

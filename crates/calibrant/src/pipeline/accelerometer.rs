@@ -11,7 +11,7 @@ use super::report::about_accelerometer;
 use super::source::Source;
 use super::validation::{on_recording, unless_too_few};
 use calibrant_core::diagnostic::Diagnostic;
-use calibrant_core::error::{Error, InputError, Result};
+use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::estimate::{
     Calibration, CalibrationProblem, CalibrationSettings, HoldsSetup, Recovered, Stimulus, Validation,
     calibrate, cross_validate, validate,
@@ -178,7 +178,7 @@ fn commanded(
     notes: &mut Vec<Note>,
 ) -> Result<CommandedMotion> {
     let path = options.motion.as_deref().ok_or_else(|| {
-        Error::experiment(InputError::new(
+        Error::experiment(InputError::new(Refusal::KeyMissing,
             "a [motion] experiment needs the commanded motion",
             "add --motion FILE with columns t_s,ax_mps2,ay_mps2,az_mps2 at the nodes; trust unknown uses only its first and last row",
         ))

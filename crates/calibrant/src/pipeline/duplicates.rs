@@ -1,6 +1,6 @@
 //! A calibration is not tried on the data that it is from.
 
-use calibrant_core::error::{Error, InputError, Result};
+use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::estimate::{HoldCalibration, noise_in_common, readings_in_common};
 use calibrant_core::motion::Hold;
 use calibrant_core::sensor::{Recording, SensorKind};
@@ -23,7 +23,7 @@ pub(crate) fn refuse_duplicate(
     let refused = |what: &str| {
         let message = format!("{what}; errors on them are smaller than on other data, and validate nothing");
         let help = "give another recording of the sensor, or --folds 5 in place of --validate: blocks of holds, each predicted from the others";
-        Err(Error::experiment(InputError::new(message, help).in_file(path)))
+        Err(Error::experiment(InputError::new(Refusal::RecordingRepeated, message, help).in_file(path)))
     };
     let same = match sensor_kind {
         SensorKind::Accelerometer => "it has the data that were calibrated from",

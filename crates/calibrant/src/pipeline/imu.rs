@@ -14,7 +14,7 @@ use super::sections::setup_of;
 use super::source::Source;
 use super::temperature::extrapolation_in_words;
 use super::validation::{on_recording, unless_too_few};
-use calibrant_core::error::{Error, InputError, Result};
+use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::estimate::{
     CalibrationSettings, ImuCalibration, ImuProblem, ImuSetup, Validation, calibrate_imu_with,
     cross_validate_imu, other_temperature, validate_imu,
@@ -41,6 +41,7 @@ impl<'e> ImuTask<'e> {
     ) -> Result<Self> {
         let Plan::Holds(holds) = &experiment.plan else {
             return Err(Error::experiment(InputError::new(
+                Refusal::ExperimentUnsuited,
                 "an IMU needs [holds]",
                 "see `calibrant init imu`",
             )));

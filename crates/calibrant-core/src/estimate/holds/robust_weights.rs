@@ -3,7 +3,7 @@
 use super::HoldsSetup;
 use super::fit::{Directions, Fit};
 use super::verdict::explain;
-use crate::error::{Error, InputError, NotIdentifiable, Result};
+use crate::error::{Error, InputError, NotIdentifiable, Refusal, Result};
 use crate::estimate::between_hold_variance::excess;
 use crate::estimate::change::longest_run;
 use crate::estimate::{CalibrationProblem, CalibrationSettings, CalibrationStatus};
@@ -273,6 +273,7 @@ impl<const P: usize> Problem<'_, P> {
             format!("; those from {start_s:.1} to {end_s:.1} s do not: did the sensor change there?")
         });
         Err(Error::recording(InputError::new(
+            Refusal::HoldsContradict,
             format!(
                 "the holds do not look like gravity: {count} of {all} fit, with magnitudes that scatter by {:.0} mm/s²{in_a_row}",
                 1e3 * rms
@@ -337,6 +338,7 @@ impl<const P: usize> Problem<'_, P> {
         };
         let singular = || {
             Error::recording(InputError::new(
+                Refusal::FitFailed,
                 "the fit of the holds breaks down: the estimated matrix becomes singular",
                 "check the unit of the recording and that the holds are what they should be",
             ))
