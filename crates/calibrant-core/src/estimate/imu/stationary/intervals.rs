@@ -4,7 +4,7 @@
 //! gyroscope's mean in them is no bias. Where the gyroscope is calm is found in its own readings, in the same way. A calm segment whose mean is
 //! far from the others' is a turn at a steady rate.
 
-use crate::error::{Error, InputError, Result};
+use crate::error::{Error, InputError, Refusal, Result};
 use crate::estimate::holds::{as_recorded, find_clean_holds, holds_between, median};
 use crate::motion::Hold;
 use crate::sensor::{ImuRecording, Recording, SensorKind};
@@ -33,6 +33,7 @@ pub fn find_imu_holds(recording: &ImuRecording, minimum_s: f64) -> Result<Vec<Ho
 pub fn find_clean_imu_holds(recording: &ImuRecording, minimum_s: f64) -> Result<Vec<Hold>> {
     let Some(accelerometer) = &recording.accelerometer else {
         return Err(Error::recording(InputError::new(
+            Refusal::SensorMissing,
             format!("the recording has no {}", SensorKind::Accelerometer),
             "holds are found with it",
         )));
