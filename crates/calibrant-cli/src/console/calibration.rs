@@ -4,7 +4,9 @@ use super::table::table;
 use super::validation::validations;
 use calibrant::estimate::{Calibration, GyroscopeInHolds, HoldCalibration};
 use calibrant::pipeline::Outcome;
-use calibrant::report::{calibration_quality, number_format, over_the_gain, temperature_in_words};
+use calibrant::report::{
+    calibration_quality, number_format, over_the_gain, temperature_in_words, used_in_words,
+};
 use calibrant::sensor::{Axis, SensorKind};
 use nalgebra::Vector3;
 
@@ -28,6 +30,7 @@ fn of_calibration(calibration: &Calibration) -> String {
     }
     calibration_quality(calibration).split("; ").filter(|part| !part.is_empty()).for_each(&mut line);
     if let Some(holds) = calibration.holds() {
+        line(&conditions(holds));
         line(&uncertainty(holds));
     }
     noise(calibration).iter().for_each(|words| line(words));
@@ -45,12 +48,12 @@ fn used(calibration: &Calibration) -> Vec<String> {
             _ => format!("{all}, {used} used; not used: {}", left_out.join(", ")),
         }
     };
-    let mut lines = Vec::new();
-    if let Some(holds) = calibration.holds() {
-        let holds = &holds.holds;
-        let bad = (0..holds.len()).filter(|&k| !holds[k].used).map(|k| (k + 1).to_string());
-        lines.push(count(holds.iter().filter(|hold| hold.used).count(), "hold", bad.collect()));
+    if calibration.holds().is_none() {
+        return vec![used_in_words(calibration)];
     }
+    let holds = calibration.hold_results();
+    let bad = (0..holds.len()).filter(|&k| !holds[k].used).map(|k| (k + 1).to_string());
+    let mut lines = vec![count(holds.iter().filter(|hold| hold.used).count(), "hold", bad.collect())];
     if !rotations.is_empty() {
         let bad = rotations.iter().filter(|rotation| !rotation.used);
         let bad = bad.map(|rotation| format!("{} → {}", rotation.from_hold + 1, rotation.to_hold + 1));
@@ -95,6 +98,16 @@ fn parameters(calibration: &Calibration, sensor_kind: SensorKind) -> String {
         })
         .collect();
     table(&header, &rows)
+}
+
+/// Gravity, and how evenly the holds determine the accelerometer.
+fn conditions(holds: &HoldCalibration) -> String {
+    format!(
+        "gravity {} m/s²; condition number of the {} holds {}",
+        number_format::with_sd_or_exact(holds.gravity.magnitude_mps2, holds.gravity.sd_mps2),
+        if holds.detected { "detected" } else { "given" },
+        number_format::significant(holds.condition_number, 3),
+    )
 }
 
 /// The source of the standard deviations of an accelerometer.

@@ -69,9 +69,7 @@ fn motion_presets_go_from_init_to_calibration() {
             "calibrate experiment.toml simulated/recording.csv --motion simulated/motion.csv -o result";
         let outcome = bench.run(command).done();
         if preset == "report-noisy" {
-            outcome.says(
-                "warning: the recording determines scale.x, scale.y, scale.z less well than the datasheet",
-            );
+            outcome.says("warning: the recording determines accelerometer.scale.x, accelerometer.scale.y");
         } else {
             assert_eq!(outcome.stderr, "", "{preset}");
         }

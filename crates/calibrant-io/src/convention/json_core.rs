@@ -133,6 +133,14 @@ impl ImuCore {
         self
     }
 
+    /// Is the accelerometer one of a single axis?
+    pub(super) fn has_one_axis(&self) -> bool {
+        let is_one = |bias: &Option<Vec<f64>>| bias.as_ref().is_some_and(|bias| bias.len() == 1);
+        self.accelerometer
+            .as_ref()
+            .is_some_and(|fields| is_one(&fields.bias_mps2) || is_one(&fields.bias_counts))
+    }
+
     /// The IMU that the fields describe, and its recordings.
     pub(crate) fn into_imu(self) -> Checked<(CalibratedImu, Vec<Input>)> {
         let missing = |field: &str| missing(field);
@@ -249,16 +257,13 @@ impl SensorCore {
         };
         let field = |name: &str| format!("{sensor_kind}.{name}");
         let bias = bias.ok_or_else(|| missing(&field(bias_name)))?;
-        if bias.len() == 1 {
-            return Err(input_error(
-                "this is the calibration of a sensor with one axis; an IMU has three",
-                "use its parameters from the file itself",
-            ));
-        }
         let matrix = matrix.ok_or_else(|| missing(&field(matrix_name)))?;
-        let sensor = SensorParameters {
-            bias: vector3(&bias, &field(bias_name))?,
-            matrix: matrix3(&matrix, &field(matrix_name))?,
+        let sensor = match (bias.as_slice(), matrix.as_slice()) {
+            ([bias], [row]) if row.len() == 1 => of_one_axis(*bias, row[0]),
+            _ => SensorParameters {
+                bias: vector3(&bias, &field(bias_name))?,
+                matrix: matrix3(&matrix, &field(matrix_name))?,
+            },
         };
         // a gyroscope without a g-sensitivity has the matrix zero
         let g_sensitivity = match (sensor_kind, g_sensitivity) {
@@ -267,6 +272,13 @@ impl SensorCore {
         };
         Ok((unit, sensor, g_sensitivity))
     }
+}
+
+/// A sensor whose other axes count as perfect.
+fn of_one_axis(bias: f64, scale: f64) -> SensorParameters {
+    let mut sensor = SensorParameters::identity();
+    (sensor.bias.x, sensor.matrix[(0, 0)]) = (bias, scale);
+    sensor
 }
 
 impl CorrectionCore {

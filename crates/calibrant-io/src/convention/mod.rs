@@ -33,7 +33,7 @@ mod usable_calibration;
 mod words;
 mod write;
 
-pub(crate) use calibrant_json::{Heading, obsolete};
+pub(crate) use calibrant_json::{Heading, read_estimates};
 pub use file::{CalibratedImuFile, WrittenImu};
 pub use format::ImuFormat;
 pub use imu_noise::ImuNoise;

@@ -2,8 +2,8 @@
 
 use crate::common::{draw_feeling_imu, run_imu};
 use calibrant::estimate::{
-    Calibration, CalibrationProblem, CalibrationSettings, Gyroscope, HoldCalibration, HoldsSetup, ImuSetup,
-    KnownTerm, Recovered, Stimulus, calibrate,
+    Calibration, CalibrationProblem, CalibrationSettings, Gyroscope, HoldsSetup, ImuSetup, KnownTerm,
+    Stimulus, calibrate,
 };
 use calibrant::sensor::{Gauge, ReadingUnit, Recording, Sensor, SensorKind, SensorModel, SensorParameters};
 use calibrant::simulate::{HoldsSimulation, ImuSimulation, Purpose, simulate_holds, simulate_imu, stream};
@@ -78,13 +78,6 @@ fn run(
     calibrate(&problem, &CalibrationSettings { datasheet_prior, ..CalibrationSettings::default() })
 }
 
-fn holds(calibration: &Calibration) -> &HoldCalibration {
-    match &calibration.recovered {
-        Recovered::Holds(holds) => holds,
-        Recovered::Motion(_) => panic!("holds"),
-    }
-}
-
 #[test]
 fn a_prior_makes_no_holds_worse() {
     for seed in 0..12 {
@@ -95,7 +88,8 @@ fn a_prior_makes_no_holds_worse() {
         for (k, (with, without)) in with.sd().into_iter().zip(without.sd()).enumerate() {
             assert!(with <= without * (1.0 + 1e-6), "{seed}, {k}: {with} with the prior, {without} without");
         }
-        let rms = [&with, &without].map(|calibration| holds(calibration).magnitude_residual_rms_mps2);
+        let rms = [&with, &without]
+            .map(|calibration| calibration.holds().expect("held").magnitude_residual_rms_mps2);
         assert!(rms[0] < 1.05 * rms[1], "{seed}: |f| - g {rms:?}");
         let weak = run(&sensor(1e5), &recording, &setup, true).expect("identifiable");
         for k in 0..9 {
@@ -123,7 +117,7 @@ fn a_prior_gives_what_holds_about_one_axis_leave_open() {
         let scale_x =
             with.parameters.iter().position(|parameter| parameter.name.ends_with("scale.x")).expect("x");
         assert!((with.sd()[scale_x] / 0.005 - 1.0).abs() < 0.02, "{seed}: {}", with.sd()[scale_x]);
-        assert!(holds(&with).magnitude_residual_rms_mps2 < 5e-3);
+        assert!(with.holds().expect("held").magnitude_residual_rms_mps2 < 5e-3);
     }
     // the bias of x times a cross-axis term looks like a bias of y: its standard deviation is linearised, and too large
     assert!(squares.iter().all(|z2| *z2 < 1.5), "z² of each parameter: {squares:.2?}");

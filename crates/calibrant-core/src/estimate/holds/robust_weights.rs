@@ -438,9 +438,9 @@ impl<const P: usize> Problem<'_, P> {
         let eigen = scaled.symmetric_eigen();
         let weakest = eigen.eigenvalues.imin();
         let direction = eigen.eigenvectors.column(weakest);
-        let names = self.list.names();
+        let quantities = self.list.of_accelerometer();
         let shares: Vec<String> =
-            (0..P).filter(|&k| direction[k].powi(2) > 0.1).map(|k| names[k].clone()).collect();
+            (0..P).filter(|&k| direction[k].powi(2) > 0.1).map(|k| quantities[k].name()).collect();
         let every = self.directions(&(0..self.holds.len()).collect::<Vec<_>>(), &|_| 1.0, 0.0, &fit.sensor);
         // the directions of the fit for the holds that were used, those of the correction for the others
         let mut forces =

@@ -82,7 +82,7 @@ fn the_json_says_what_it_means() {
         &calibrant::io::calibrated_imu_texts(&file, ImuFormat::CalibrantJson).expect("everything")[0].1;
     for says in [
         "\"schema\": 2",
-        "\"kind\": \"calibrated IMU\"",
+        "\"kind\": \"calibration\"",
         "\"direction\": \"true to raw: y_a = S_a f + b_a",
         "\"frame\": \"fixed by the upper gauge of the accelerometer",
         "\"gauge\": \"upper\"",
