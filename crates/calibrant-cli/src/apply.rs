@@ -3,7 +3,7 @@
 use crate::calibration_file::{Reading, in_words};
 use crate::{Exit, console, output_places};
 use calibrant::Error;
-use calibrant::error::InputError;
+use calibrant::error::{InputError, Refusal};
 use calibrant::io::{
     ColumnMeaning, ImuFile, ImuReadOptions, read_imu_pair, read_imu_recording, read_imu_sensor,
     write_corrected_recording,
@@ -169,6 +169,7 @@ fn check_usable(file: &ImuFile, sensor_kind: SensorKind) -> calibrant::Result<()
     let why = unused.filter_map(|column| column.unused.as_deref()).next();
     match why.filter(|_| file.recording.sensor(sensor_kind).is_none()) {
         Some(why) => Err(Error::Recording(Box::new(InputError::new(
+            Refusal::ColumnMissing,
             format!("the {sensor_kind} has columns, but they cannot be used: {why}"),
             format!("export it again, or remove the {sensor_kind}'s columns from the file"),
         )))),

@@ -3,7 +3,7 @@
 use crate::calibration_file::{Reading, in_words};
 use crate::{Exit, console};
 use calibrant::Error;
-use calibrant::error::InputError;
+use calibrant::error::{InputError, Refusal};
 use calibrant::estimate::{ComparedQuantity, Comparison};
 use calibrant::io::comparison_json;
 use calibrant::report::number_format;
@@ -39,6 +39,7 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
             in_words(&b)
         );
         return Err(Error::Experiment(Box::new(InputError::new(
+            Refusal::CalibrationUnsuited,
             message,
             "compare calibrations of one sensor",
         ))));

@@ -86,8 +86,9 @@ pub(crate) fn error(error: &Error) {
             let (text, range) = input_error.excerpt.clone().unwrap_or_default();
             let mut title = input_error.clone();
             (title.excerpt, title.help) = (None, String::new());
-            let mut diagnostic =
-                MietteDiagnostic::new(title.to_string()).with_label(LabeledSpan::at(range, "here"));
+            let mut diagnostic = MietteDiagnostic::new(title.to_string())
+                .with_code(error.code().name())
+                .with_label(LabeledSpan::at(range, "here"));
             if !input_error.help.is_empty() {
                 diagnostic = diagnostic.with_help(input_error.help.clone());
             }
@@ -98,14 +99,15 @@ pub(crate) fn error(error: &Error) {
             let report = Report::new(diagnostic).with_source_code(NamedSource::new(name, text));
             writeln!(std::io::stderr(), "error: {report:?}")
         }
-        _ => writeln!(std::io::stderr(), "error: {error}"),
+        _ => writeln!(std::io::stderr(), "error: {error} [{}]", error.code().name()),
     };
 }
 
 /// Prints an error about this recording to stderr. An error without a file's name gets its name.
 pub(crate) fn error_in(found: &Error, recording: &Path) {
     if found.is_not_identifiable() {
-        let _ = writeln!(std::io::stderr(), "error: {}: {found}", recording.display());
+        let _ =
+            writeln!(std::io::stderr(), "error: {}: {found} [{}]", recording.display(), found.code().name());
     } else {
         error(found);
     }

@@ -3,7 +3,7 @@
 use crate::calibration_file::{Format, Reading, in_words};
 use crate::{Exit, console, output_places};
 use calibrant::Error;
-use calibrant::error::InputError;
+use calibrant::error::{InputError, Refusal};
 use calibrant::io::{ImuFormat, ImuNoise, read_kalibr_noise, read_measured_noise, write_calibrated_imu};
 use calibrant::sensor::{CalibratedImu, Gauge, SensorKind};
 use std::path::{Path, PathBuf};
@@ -64,6 +64,7 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
         Some(format) => format.into(),
         None => ImuFormat::of_extension(&arguments.output).ok_or_else(|| {
             let input_error = InputError::new(
+                Refusal::FormatUnknown,
                 "the extension does not tell the format to write",
                 "say it with --to: calibrant, kalibr, imu_tk, imucal, c",
             );
@@ -138,7 +139,7 @@ fn densities(paths: &[PathBuf], imu: &CalibratedImu) -> calibrant::Result<Option
 /// One sensor of the calibration alone.
 fn only(imu: &CalibratedImu, sensor_kind: SensorKind, path: &Path) -> calibrant::Result<CalibratedImu> {
     let refuse = |message: &str, help: &str| {
-        Err(Error::Experiment(Box::new(InputError::new(message, help).in_file(path))))
+        Err(Error::Experiment(Box::new(InputError::new(Refusal::SensorMissing, message, help).in_file(path))))
     };
     if imu.unit(sensor_kind).is_none() {
         return refuse(

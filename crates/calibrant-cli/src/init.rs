@@ -2,7 +2,7 @@
 
 use crate::{Exit, console};
 use calibrant::Error;
-use calibrant::error::InputError;
+use calibrant::error::{InputError, Refusal};
 use calibrant::io::{Experiment, PRESETS, preset, write_atomically};
 use std::path::PathBuf;
 
@@ -21,10 +21,11 @@ pub(crate) struct Arguments {
 }
 
 pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
-    let reject = |message, help| Err(Error::Experiment(Box::new(InputError::new(message, help))));
+    let reject = |code, message, help| Err(Error::Experiment(Box::new(InputError::new(code, message, help))));
     let Some(text) = preset(&arguments.preset) else {
         let names: Vec<_> = PRESETS.iter().map(|(name, _)| *name).collect();
         return reject(
+            Refusal::KeyUnknown,
             format!("there is no preset `{}`", arguments.preset),
             format!("choose one of {}", names.join(", ")),
         );
@@ -33,6 +34,7 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
         None => console::print(text),
         Some(path) if path.exists() && !arguments.force => {
             return reject(
+                Refusal::FileTaken,
                 format!("{} is there already", path.display()),
                 "choose another name, or add --force".into(),
             );

@@ -10,7 +10,7 @@ pub(crate) use arguments::Arguments;
 use crate::{Exit, console, output_places};
 use arguments::Gains;
 use calibrant::Error;
-use calibrant::error::InputError;
+use calibrant::error::{InputError, Refusal};
 use calibrant::io::{DiagnosticWords, ImuFile, Input, file_name, noise_json, write_atomically, write_noise};
 use calibrant::noise::{Segment, SensorNoise};
 use calibrant::report::{About, message, noise_report, number_format};
@@ -145,8 +145,11 @@ fn about(arguments: &Arguments, file: &ImuFile, inputs: &[Input], examined: Opti
 }
 
 fn no_sensor(sensor_kind: SensorKind) -> Error {
-    let input_error =
-        InputError::new(format!("the file has no {sensor_kind}"), "choose the other with --sensor");
+    let input_error = InputError::new(
+        Refusal::SensorMissing,
+        format!("the file has no {sensor_kind}"),
+        "choose the other with --sensor",
+    );
     Error::Recording(Box::new(input_error))
 }
 
@@ -161,7 +164,11 @@ fn gains(arguments: &Arguments) -> calibrant::Result<Gains> {
         let Some(gain) = gain(option, given)? else { continue };
         if gains.iter().any(|(other, _)| *other == sensor_kind) {
             let message = "--gain and --gyroscope-gain are both the gyroscope's with --sensor gyroscope";
-            return Err(Error::Experiment(Box::new(InputError::new(message, "omit one of them"))));
+            return Err(Error::Experiment(Box::new(InputError::new(
+                Refusal::OptionsContradict,
+                message,
+                "omit one of them",
+            ))));
         }
         gains.push((sensor_kind, gain));
     }
@@ -179,6 +186,7 @@ fn gain(option: &str, given: &[f64]) -> calibrant::Result<Option<Vector3<f64>>> 
         return Ok(Some(gain.abs()));
     }
     Err(Error::Experiment(Box::new(InputError::new(
+        Refusal::ValueInvalid,
         format!("{option} is one number or three, none of them zero"),
         format!("counts per m/s² or per rad/s: {option} 415,413,415"),
     ))))

@@ -1,6 +1,6 @@
 //! Checks of the output directories, before the work begins.
 
-use calibrant::error::InputError;
+use calibrant::error::{InputError, Refusal};
 use calibrant::{Error, Result};
 use std::io;
 use std::path::Path;
@@ -20,6 +20,7 @@ pub(crate) fn check_directory(directory: &Path) -> Result<()> {
 pub(crate) fn check_not_input(output: &Path, inputs: &[&Path]) -> Result<()> {
     if inputs.iter().any(|input| same_file(input, output)) {
         let input_error = InputError::new(
+            Refusal::FileTaken,
             "this file is read, and would be replaced by the result",
             "give another name for the result",
         );

@@ -9,7 +9,7 @@ pub(crate) use arguments::Arguments;
 use crate::{Exit, console, output_places};
 use calibrant::Error;
 use calibrant::design::initial_motion;
-use calibrant::error::InputError;
+use calibrant::error::{InputError, Refusal};
 use calibrant::io::{
     Experiment, HoldsPlan, MotionPlan, Plan, read_motion, write_motion, write_recording, write_truth,
 };
@@ -57,8 +57,11 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
 /// Returns an error where a simulation needs a number that a calibration can do without.
 fn check_simulable(sensor: &Sensor, file: &Path) -> calibrant::Result<()> {
     let missing = |key: &str| {
-        let input_error =
-            InputError::new(format!("a simulation needs `{key}`"), "add it to the experiment file");
+        let input_error = InputError::new(
+            Refusal::KeyMissing,
+            format!("a simulation needs `{key}`"),
+            "add it to the experiment file",
+        );
         Err(Error::Experiment(Box::new(input_error.in_file(file).about_key(format!("sensor.{key}")))))
     };
     if sensor.gain.is_none() {

@@ -5,7 +5,7 @@ mod table;
 
 use crate::{Exit, console, output_places};
 use calibrant::Error;
-use calibrant::error::InputError;
+use calibrant::error::{InputError, Refusal};
 use calibrant::io::{Experiment, Plan, preset, study_json, write_atomically, write_study};
 use calibrant::report::{About, study_report};
 use calibrant::study::run_studies;
@@ -52,6 +52,7 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     };
     let Plan::Motion(plan) = &experiment.plan else {
         return Err(Error::Experiment(Box::new(InputError::new(
+            Refusal::ExperimentUnsuited,
             "a study needs a [motion] experiment, this one has [holds]",
             "see `calibrant init report-unknown`; a static recording can be made with `calibrant simulate`",
         ))));
@@ -59,8 +60,12 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     let sensor = &experiment.sensor;
     if sensor.gain.is_none() {
         return Err(Error::Experiment(Box::new(
-            InputError::new("a study needs `gain_counts_per_mps2`", "add it to the experiment file")
-                .about_key("sensor.gain_counts_per_mps2"),
+            InputError::new(
+                Refusal::KeyMissing,
+                "a study needs `gain_counts_per_mps2`",
+                "add it to the experiment file",
+            )
+            .about_key("sensor.gain_counts_per_mps2"),
         )));
     }
     let choice = Choice {

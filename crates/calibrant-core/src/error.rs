@@ -5,6 +5,7 @@
 //! iteration that does not converge is a [`CalibrationStatus`](crate::estimate::CalibrationStatus) in a
 //! complete result.
 
+pub use crate::refusal::Refusal;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
@@ -42,8 +43,10 @@ pub enum Error {
 }
 
 /// What is wrong with an input, where, and what to do about it.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct InputError {
+    /// Its code, which never changes.
+    pub code: Refusal,
     /// The file, where the input is one.
     pub file: Option<PathBuf>,
     /// Line in the file, counted from 1.
@@ -56,6 +59,8 @@ pub struct InputError {
     pub message: String,
     /// What to do about it.
     pub help: String,
+    /// What the user may say, where the error is a question; `help` lists it.
+    pub answers: Vec<String>,
     /// The text of the file and the range of bytes at fault, so that it can be shown underlined.
     pub excerpt: Option<(String, std::ops::Range<usize>)>,
 }
@@ -63,8 +68,24 @@ pub struct InputError {
 impl InputError {
     /// An input error that is not about a place in a file.
     #[must_use]
-    pub fn new(message: impl Into<String>, help: impl Into<String>) -> Self {
-        Self { message: message.into(), help: help.into(), ..Self::default() }
+    pub fn new(code: Refusal, message: impl Into<String>, help: impl Into<String>) -> Self {
+        Self {
+            code,
+            file: None,
+            line: None,
+            column: None,
+            key: None,
+            message: message.into(),
+            help: help.into(),
+            answers: Vec::new(),
+            excerpt: None,
+        }
+    }
+
+    /// A question to the user, with the options that answer it.
+    #[must_use]
+    pub fn question(code: Refusal, message: impl Into<String>, answers: Vec<String>) -> Self {
+        Self { answers: answers.clone(), ..Self::new(code, message, format!("say {}", answers.join("; "))) }
     }
 
     /// The same error, in this file.
@@ -208,6 +229,18 @@ impl Error {
     #[must_use]
     pub fn is_infeasible(&self) -> bool {
         matches!(self, Self::Infeasible(_))
+    }
+
+    /// Its code, which never changes.
+    #[must_use]
+    pub fn code(&self) -> Refusal {
+        match self {
+            Self::Experiment(input_error) | Self::Infeasible(input_error) | Self::Recording(input_error) => {
+                input_error.code
+            }
+            Self::NotIdentifiable(_) => Refusal::NotIdentifiable,
+            Self::Output { .. } => Refusal::OutputUnwritable,
+        }
     }
 
     /// The input error, where this is one.

@@ -10,7 +10,7 @@ use super::admissible::{LimitKind, worst_violation};
 use super::admissible_region::{Region, WatchedIntervals};
 use super::conic_program::{ConicProgram, Row};
 use super::{DesignProblem, limit_use};
-use calibrant_core::error::{Error, InputError, Result};
+use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::motion::{AxisLimits, JerkControlledMotion, Limits, Rest};
 use calibrant_core::sensor::Axis;
 use nalgebra::Vector3;
@@ -223,7 +223,10 @@ fn spare(limits: &AxisLimits, times: &[f64], a: &[f64]) -> f64 {
 /// The clashes that need no program.
 fn plain_clash(axis: Axis, limits: &AxisLimits, times: &[f64]) -> Option<InputError> {
     let reject = |kind: LimitKind, message: String, help: String| {
-        Some(InputError::new(message, help).about_key(format!("limits.{}", kind.key())))
+        Some(
+            InputError::new(Refusal::MotionInfeasible, message, help)
+                .about_key(format!("limits.{}", kind.key())),
+        )
     };
     let ends = [(LimitKind::StartAcceleration, limits.start), (LimitKind::EndAcceleration, limits.end)];
     for (kind, value) in ends {
@@ -296,7 +299,7 @@ fn clash(axis: Axis, limits: &AxisLimits, times: &[f64]) -> InputError {
             "loosen the limits a little".into(),
         ),
     };
-    InputError::new(message, help)
+    InputError::new(Refusal::MotionInfeasible, message, help)
 }
 
 fn has(limits: &AxisLimits, kind: LimitKind) -> bool {

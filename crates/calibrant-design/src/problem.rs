@@ -1,6 +1,6 @@
 //! The design problem: sensor, motion grid, limits and criterion.
 
-use calibrant_core::error::{Error, InputError, Result};
+use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::information::{Criterion, MotionInformation};
 use calibrant_core::motion::{KnownEnds, Limits, Trust};
 use calibrant_core::sensor::{Axis, Sensor, SensorModel, SensorParameters};
@@ -70,7 +70,7 @@ impl DesignProblem<'_> {
                 || (l.jerk.is_some() && (l.intercept.is_some() || l.start.is_some() || l.end.is_some()));
             if !bounded {
                 return Err(Error::experiment(
-                    InputError::new(
+                    InputError::new(Refusal::MotionInfeasible,
                         format!("nothing bounds the acceleration of axis {axis}: the best motion would be infinitely fast"),
                         "set `limits.acceleration_mps2`, or `intercept_mps2` with `jerk_mps3`, or `sensor.range_mps2`",
                     )

@@ -1,7 +1,7 @@
 //! A sweep: the best design as one quantity of the experiment changes.
 
 use super::{Design, DesignProblem, DesignSettings, design};
-use calibrant_core::error::{Error, InputError, Result};
+use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::information::Criterion;
 use calibrant_core::motion::Limits;
 use calibrant_core::sensor::{Parameter, Sensor};
@@ -180,7 +180,9 @@ struct Changed {
 
 impl Changed {
     fn of(problem: &DesignProblem<'_>, variable: SweepVariable, asked: f64) -> Result<Self> {
-        let reject = |message: String, help: &str| Err(Error::experiment(InputError::new(message, help)));
+        let reject = |message: String, help: &str| {
+            Err(Error::experiment(InputError::new(Refusal::ValueInvalid, message, help)))
+        };
         if !(asked.is_finite() && asked > 0.0) {
             return reject(
                 format!("cannot sweep {} to {asked}", variable.name()),

@@ -1,7 +1,7 @@
 //! Delimited text: splits it into lines and fields, with quotes, comments and the line ends of every system.
 
 use super::text_decoding::Checked;
-use calibrant_core::error::InputError;
+use calibrant_core::error::{InputError, Refusal};
 
 /// One line of a text.
 #[derive(Clone, Copy)]
@@ -31,7 +31,11 @@ impl<'t> Line<'t> {
         }
         let are = if ends == 1 { "line end is" } else { "line ends are" };
         let message = format!("{ends} {are} a lone CR, as on an old Mac, others are LF");
-        let input_error = InputError::new(message, "end all lines alike: tr '\\r' '\\n' < FILE > OTHER");
+        let input_error = InputError::new(
+            Refusal::RowMalformed,
+            message,
+            "end all lines alike: tr '\\r' '\\n' < FILE > OTHER",
+        );
         Err(input_error.at_line(self.number).into())
     }
 

@@ -1,7 +1,7 @@
 //! Writes `motion_dense.csv`: a motion at a constant rate, for the arm's controller.
 
 use super::atomic_output::write_atomically;
-use calibrant_core::error::{Error, InputError, Result};
+use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::motion::{JerkControlledMotion, sample_times};
 use nalgebra::Vector3;
 use std::path::Path;
@@ -26,7 +26,9 @@ pub fn write_dense_motion(
     axes: usize,
     rate_hz: f64,
 ) -> Result<()> {
-    let reject = |message: String, help: &str| Err(Error::experiment(InputError::new(message, help)));
+    let reject = |message: String, help: &str| {
+        Err(Error::experiment(InputError::new(Refusal::ValueInvalid, message, help)))
+    };
     if !(rate_hz.is_finite() && rate_hz > 0.0) {
         return reject(format!("a sample rate of {rate_hz:?} Hz makes no sense"), "a number above 0");
     }

@@ -3,7 +3,7 @@
 
 use super::convention::read_estimates;
 use super::text_decoding::{self, Checked};
-use calibrant_core::error::{Error, InputError, Result};
+use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::information::covariance;
 use calibrant_core::sensor::{
     ImuQuantity, ParameterList, Quantity, ReadingUnit, SensorKind, SensorParameters,
@@ -94,7 +94,7 @@ impl EarlierCalibration {
     /// [`Error::Experiment`] where the parameters or their units are not the same.
     pub fn sensor_of(&self, list: &ParameterList, unit: ReadingUnit) -> Result<SensorParameters> {
         let reject = |message: String, help: &str| {
-            let input_error = InputError::new(message, help);
+            let input_error = InputError::new(Refusal::CalibrationUnsuited, message, help);
             Err(Error::experiment(match &self.file {
                 Some(file) => input_error.in_file(file),
                 None => input_error,
@@ -136,7 +136,7 @@ impl EarlierCalibration {
 fn parse(bytes: &[u8]) -> Checked<EarlierCalibration> {
     /// The remedy for a file that is no prior.
     const AGAIN: &str = "give a calibration.json that `calibrant calibrate` wrote";
-    let reject = |message: &str| Err(Box::new(InputError::new(message, AGAIN)));
+    let reject = |message: &str| Err(Box::new(InputError::new(Refusal::CalibrationInvalid, message, AGAIN)));
     let (imu, has_datasheet_prior) = read_estimates(text_decoding::as_text(bytes)?)?;
     let imu = imu.only(SensorKind::Accelerometer);
     let Some(unit) = imu.accelerometer_unit.filter(|_| !imu.quantities.is_empty()) else {

@@ -3,7 +3,7 @@
 
 use super::motion::shorten;
 use super::text_decoding::{self, Checked};
-use calibrant_core::error::{Error, InputError, Result};
+use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::sensor::Axis;
 use nalgebra::Vector3;
 use serde::de::{Deserialize, Deserializer, MapAccess, Visitor};
@@ -72,9 +72,14 @@ fn parse(bytes: &[u8]) -> Checked<Vec<Section>> {
     let text = text_decoding::as_text(bytes)?;
     let List(list) = serde_json::from_str(text).map_err(|error| {
         if error.is_data() {
-            return InputError::new("no list of sections: its names are missing", EXAMPLE);
+            return InputError::new(
+                Refusal::SyntaxInvalid,
+                "no list of sections: its names are missing",
+                EXAMPLE,
+            );
         }
-        let input_error = InputError::new("no list of sections: this is not JSON", EXAMPLE);
+        let input_error =
+            InputError::new(Refusal::SyntaxInvalid, "no list of sections: this is not JSON", EXAMPLE);
         if error.line() > 0 {
             input_error.at_line(error.line()).at_column(error.column().max(1))
         } else {
@@ -85,25 +90,28 @@ fn parse(bytes: &[u8]) -> Checked<Vec<Section>> {
     for (name, samples) in &list {
         if sections.iter().any(|before| before.name == *name) {
             let message = format!("the section \"{}\" is there twice", shorten(name));
-            return Err(InputError::new(message, "a list has each name once; more faces and turns: holds.intervals_s, directions and gyroscope.turns in the experiment file").into());
+            return Err(InputError::new(Refusal::KeyRepeated, message, "a list has each name once; more faces and turns: holds.intervals_s, directions and gyroscope.turns in the experiment file").into());
         }
-        let kind = kind(name)
-            .ok_or_else(|| InputError::new(format!("the section \"{name}\" is not known"), NAMES))?;
+        let kind = kind(name).ok_or_else(|| {
+            InputError::new(Refusal::KeyUnknown, format!("the section \"{name}\" is not known"), NAMES)
+        })?;
         let (start, end) = (sample(name, samples, "start")?, sample(name, samples, "end")?);
         if let Some(other) =
             samples.as_object().and_then(|object| object.keys().find(|key| *key != "start" && *key != "end"))
         {
             let message = format!("the section \"{name}\" has a \"{}\", which is not known", shorten(other));
-            return Err(InputError::new(message, EXAMPLE).into());
+            return Err(InputError::new(Refusal::KeyUnknown, message, EXAMPLE).into());
         }
         if end < start + 2 {
             let message = format!("the section \"{name}\" from sample {start} to {end} has no samples");
-            return Err(InputError::new(message, "its end must be after its start").into());
+            return Err(
+                InputError::new(Refusal::HoldsInvalid, message, "its end must be after its start").into()
+            );
         }
         sections.push(Section { name: name.clone(), kind, start, end });
     }
     if sections.is_empty() {
-        return Err(InputError::new("the list has no sections", NAMES).into());
+        return Err(InputError::new(Refusal::KeyMissing, "the list has no sections", NAMES).into());
     }
     sections.sort_by_key(|section| section.start);
     let is_face = |section: &Section| matches!(section.kind, SectionKind::Face(_));
@@ -111,7 +119,12 @@ fn parse(bytes: &[u8]) -> Checked<Vec<Section>> {
         let overlaps = |other: &&Section| other.start < section.end && is_face(other) == is_face(section);
         if let Some(other) = sections[k + 1..].iter().find(overlaps) {
             let message = format!("the sections \"{}\" and \"{}\" overlap", section.name, other.name);
-            return Err(InputError::new(message, "correct their samples: none may count twice").into());
+            return Err(InputError::new(
+                Refusal::HoldsInvalid,
+                message,
+                "correct their samples: none may count twice",
+            )
+            .into());
         }
     }
     Ok(sections)
@@ -142,8 +155,9 @@ impl<'de> Deserialize<'de> for List {
 
 /// The sample at which a section starts or ends.
 fn sample(name: &str, samples: &Value, key: &str) -> Checked<usize> {
-    let reject =
-        |what: String| Err(InputError::new(format!("the section \"{name}\" {what}"), EXAMPLE).into());
+    let reject = |what: String| {
+        Err(InputError::new(Refusal::ValueInvalid, format!("the section \"{name}\" {what}"), EXAMPLE).into())
+    };
     match samples.get(key) {
         None => reject(format!("has no \"{key}\"")),
         Some(value) => match value.as_u64().and_then(|sample| usize::try_from(sample).ok()) {

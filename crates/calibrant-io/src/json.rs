@@ -1,7 +1,7 @@
 //! JSON for people and programs: indented, but with rows of numbers on one line.
 
 use super::atomic_output::write_atomically;
-use calibrant_core::error::{InputError, Result};
+use calibrant_core::error::{InputError, Refusal, Result};
 use serde::Serialize;
 use serde_json::ser::{Formatter, Serializer};
 use std::io::{self, Write};
@@ -33,7 +33,7 @@ pub(super) fn broken(error: &serde_json::Error, what: &str, help: &str) -> Input
     let message = error.to_string();
     let message = message.split(" at line ").next().unwrap_or_default();
     let found = if error.is_data() { format!("not {what}") } else { "not valid JSON".into() };
-    let input_error = InputError::new(format!("{found}: {message}"), help);
+    let input_error = InputError::new(Refusal::SyntaxInvalid, format!("{found}: {message}"), help);
     if error.line() > 0 {
         input_error.at_line(error.line()).at_column(error.column().max(1))
     } else {

@@ -80,6 +80,6 @@ pub use recording::{
     read_imu_sensor, read_recording, write_imu_recording, write_recording,
 };
 pub use study::{study_json, write_study};
-pub use summary::{Summary, SummaryRow, calibrations_json, write_summary};
+pub use summary::{Failure, Summary, SummaryRow, calibrations_json, write_summary};
 pub use sweep::{sweep_json, write_sweep, write_sweep_csv};
 pub use truth::{truth_json, write_imu_truth, write_truth};

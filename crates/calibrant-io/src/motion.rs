@@ -3,7 +3,7 @@
 use super::atomic_output::write_atomically;
 use super::delimited_text::{Delimiter, Line, Lines};
 use super::text_decoding::{self, Checked};
-use calibrant_core::error::{Error, InputError, Result};
+use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::motion::JerkControlledMotion;
 use calibrant_core::sensor::Axis;
 use nalgebra::Vector3;
@@ -69,10 +69,17 @@ fn parse(bytes: &[u8], axes: usize) -> Checked<JerkControlledMotion> {
     const HELP: &str = "a motion has the header t_s,ax_mps2,ay_mps2,az_mps2 and a row for each node";
     let text = text_decoding::as_text(bytes)?;
     if axes != 1 && axes != 3 {
-        return Err(InputError::new(format!("{axes} axes are not supported"), "1 or 3").into());
+        return Err(InputError::new(
+            Refusal::ValueInvalid,
+            format!("{axes} axes are not supported"),
+            "1 or 3",
+        )
+        .into());
     }
     let mut lines = Lines::of(text).filter(|line| !line.is_void());
-    let Some(header) = lines.next() else { return Err(InputError::new("the file is empty", HELP).into()) };
+    let Some(header) = lines.next() else {
+        return Err(InputError::new(Refusal::FileEmpty, "the file is empty", HELP).into());
+    };
     let delimiter = Delimiter::of(header.text);
     let slots = read_header(header, delimiter, axes)?;
     let (mut times_s, mut nodes): (Vec<f64>, Vec<Vector3<f64>>) = (Vec::new(), Vec::new());
@@ -80,6 +87,7 @@ fn parse(bytes: &[u8], axes: usize) -> Checked<JerkControlledMotion> {
         let [t, x, y, z] = read_row(line, delimiter, &slots)?;
         if let Some(&before) = times_s.last().filter(|before| **before >= t) {
             return Err(InputError::new(
+                Refusal::TimesNotIncreasing,
                 format!("node times must increase: {t:?} s comes after {before:?} s"),
                 "sort the rows and remove duplicates",
             )
@@ -91,10 +99,14 @@ fn parse(bytes: &[u8], axes: usize) -> Checked<JerkControlledMotion> {
     }
     if nodes.len() < 2 {
         let message = format!("a motion needs at least two nodes, this one has {}", nodes.len());
-        return Err(InputError::new(message, HELP).into());
+        return Err(InputError::new(Refusal::MotionInvalid, message, HELP).into());
     }
     JerkControlledMotion::new(times_s, nodes).map_err(|error| {
-        error.input_error().cloned().unwrap_or_else(|| InputError::new(error.to_string(), HELP)).into()
+        error
+            .input_error()
+            .cloned()
+            .unwrap_or_else(|| InputError::new(Refusal::MotionInvalid, error.to_string(), HELP))
+            .into()
     })
 }
 
@@ -108,22 +120,22 @@ fn read_header(line: Line<'_>, delimiter: Delimiter, axes: usize) -> Checked<Vec
         fields.pop();
     }
     for (offset, field) in fields {
-        let reject = |message: String| {
-            Err(InputError::new(message, help.clone())
+        let reject = |code: Refusal, message: String| {
+            Err(InputError::new(code, message, help.clone())
                 .at_line(line.number)
                 .at_column(line.column(offset))
                 .into())
         };
         let shown = shorten(field);
         if field.parse::<f64>().is_ok() {
-            return reject(format!("there is no header, the first field is {shown}"));
+            return reject(Refusal::HeaderMissing, format!("there is no header, the first field is {shown}"));
         }
         match NAMES.iter().position(|name| name.eq_ignore_ascii_case(field)) {
             Some(slot) if slots.contains(&Some(slot)) => {
-                return reject(format!("column `{shown}` is there twice"));
+                return reject(Refusal::ColumnRepeated, format!("column `{shown}` is there twice"));
             }
             Some(slot) => slots.push(Some(slot)),
-            None => return reject(format!("column `{shown}` is not known")),
+            None => return reject(Refusal::HeaderMissing, format!("column `{shown}` is not known")),
         }
     }
     for slot in &mut slots {
@@ -138,7 +150,7 @@ fn read_header(line: Line<'_>, delimiter: Delimiter, axes: usize) -> Checked<Vec
         [one] => format!("column {one} is missing"),
         several => format!("columns {} are missing", several.join(", ")),
     };
-    Err(InputError::new(message, help).at_line(line.number).into())
+    Err(InputError::new(Refusal::ColumnMissing, message, help).at_line(line.number).into())
 }
 
 fn read_row(line: Line<'_>, delimiter: Delimiter, slots: &[Option<usize>]) -> Checked<[f64; 4]> {
@@ -149,10 +161,14 @@ fn read_row(line: Line<'_>, delimiter: Delimiter, slots: &[Option<usize>]) -> Ch
             let reject = |message: &str, help: &str| {
                 let what =
                     if slot == 0 { "the time".into() } else { format!("axis {}", Axis::ALL[slot - 1]) };
-                Err(InputError::new(format!("\"{}\" for {what} {message}", shorten(field)), help)
-                    .at_line(line.number)
-                    .at_column(line.column(offset))
-                    .into())
+                Err(InputError::new(
+                    Refusal::NumberMalformed,
+                    format!("\"{}\" for {what} {message}", shorten(field)),
+                    help,
+                )
+                .at_line(line.number)
+                .at_column(line.column(offset))
+                .into())
             };
             match field.parse::<f64>() {
                 Err(_) => return reject("is not a number", "numbers look like 9.81 or 1e-3"),
@@ -167,9 +183,13 @@ fn read_row(line: Line<'_>, delimiter: Delimiter, slots: &[Option<usize>]) -> Ch
         return Ok(values);
     }
     let message = format!("{fields} columns where the header has {}", slots.len());
-    Err(InputError::new(message, "every node needs a time and an acceleration for each axis")
-        .at_line(line.number)
-        .into())
+    Err(InputError::new(
+        Refusal::RowMalformed,
+        message,
+        "every node needs a time and an acceleration for each axis",
+    )
+    .at_line(line.number)
+    .into())
 }
 
 pub(super) fn shorten(field: &str) -> String {

@@ -2,7 +2,7 @@
 
 use super::atomic_output::write_atomically;
 use super::json::to_json;
-use calibrant_core::error::Result;
+use calibrant_core::error::{Error, Refusal, Result};
 use calibrant_core::estimate::{Calibration, CalibrationStatus};
 use calibrant_core::sensor::Parameter;
 use std::io;
@@ -16,30 +16,49 @@ pub struct SummaryRow {
     /// The recording, as it was given.
     pub recording: String,
     /// Its calibration, or the reason why there is none.
-    pub outcome: std::result::Result<Summary, String>,
+    pub outcome: std::result::Result<Summary, Failure>,
+}
+
+/// Why there is no calibration.
+#[derive(Debug, Clone)]
+pub struct Failure {
+    /// The code of the refusal.
+    pub code: Refusal,
+    /// Its sentence.
+    pub message: String,
+}
+
+impl From<&Error> for Failure {
+    fn from(error: &Error) -> Self {
+        Self { code: error.code(), message: error.to_string() }
+    }
 }
 
 /// The calibrations of several recordings as one JSON array, in their order. Each entry has its file, and
-/// either the text of its calibration.json or its error.
+/// either the text of its calibration.json, or its error and the code of that.
 ///
 /// # Examples
 /// ```
-/// use calibrant_io::calibrations_json;
-/// let text = calibrations_json([("a.csv", Ok("{\"schema\": 2}\n")), ("b.csv", Err("the file is empty"))]);
-/// assert!(text.contains("\"file\": \"b.csv\",\n    \"error\": \"the file is empty\""));
+/// use calibrant_io::{Failure, calibrations_json};
+/// use calibrant_core::error::Refusal;
+/// let failed = Failure { code: Refusal::FileEmpty, message: "the file is empty".into() };
+/// let text = calibrations_json([("a.csv", Ok("{\"schema\": 2}\n")), ("b.csv", Err(&failed))]);
+/// assert!(text.contains("\"error\": \"the file is empty\",\n    \"code\": \"file-empty\""));
 /// ```
 #[must_use]
 pub fn calibrations_json<'a>(
-    recordings: impl IntoIterator<Item = (&'a str, std::result::Result<&'a str, &'a str>)>,
+    recordings: impl IntoIterator<Item = (&'a str, std::result::Result<&'a str, &'a Failure>)>,
 ) -> String {
-    let entry = |(file, outcome): (&str, std::result::Result<&str, &str>)| {
+    let entry = |(file, outcome): (&str, std::result::Result<&str, &Failure>)| {
         let quoted = |text: &str| to_json(&text).trim_end().to_owned();
         let outcome = match outcome {
             // no text of JSON has a line end within a string
             Ok(calibration) => {
                 format!("\"calibration\": {}", calibration.trim_end().replace('\n', "\n    "))
             }
-            Err(error) => format!("\"error\": {}", quoted(error)),
+            Err(failure) => {
+                format!("\"error\": {},\n    \"code\": \"{}\"", quoted(&failure.message), failure.code.name())
+            }
         };
         format!("  {{\n    \"file\": {},\n    {outcome}\n  }}", quoted(file))
     };
@@ -104,11 +123,11 @@ impl Summary {
     }
 }
 
-/// Writes `summary.csv`: file, recording, status, error, the quality of the calibration ([`Summary`]), then
+/// Writes `summary.csv`: file, recording, status, error, its code, the quality of the calibration ([`Summary`]), then
 /// value and standard deviation of each parameter.
 ///
 /// Units are in the header (`accelerometer.bias.x_mps2`, `accelerometer.bias.x_sd_mps2`; nothing for pure numbers). A recording without a calibration has status
-/// `error`, the reason, and empty fields.
+/// `error`, the reason, the code of that, and empty fields.
 ///
 /// # Errors
 /// [`Error::Output`](calibrant_core::Error::Output) where it cannot be written.
@@ -117,7 +136,7 @@ pub fn write_summary(path: &Path, rows: &[SummaryRow]) -> Result<()> {
     let named = rows.iter().find_map(|row| row.outcome.as_ref().ok());
     write_atomically(path, |out| {
         let mut out = csv::Writer::from_writer(out);
-        let mut header = ["file", "recording", "status", "error"].map(String::from).to_vec();
+        let mut header = ["file", "recording", "status", "error", "code"].map(String::from).to_vec();
         if let Some(named) = named {
             header.extend(named.quality.iter().map(|(name, _)| (*name).to_owned()));
             for Estimate { name, ending, .. } in &named.parameters {
@@ -130,7 +149,10 @@ pub fn write_summary(path: &Path, rows: &[SummaryRow]) -> Result<()> {
             match (&row.outcome, named) {
                 (Ok(summary), Some(named)) => fields.extend(summary.fields(named)),
                 (Ok(_), None) => {}
-                (Err(reason), _) => fields.extend(["error".into(), reason.clone()]),
+                (Err(failure), _) => {
+                    let failed = ["error", &failure.message, failure.code.name()];
+                    fields.extend(failed.map(String::from));
+                }
             }
             fields.resize(header.len(), String::new());
             out.write_record(&fields).map_err(io::Error::other)?;
@@ -142,7 +164,7 @@ pub fn write_summary(path: &Path, rows: &[SummaryRow]) -> Result<()> {
 impl Summary {
     /// Its fields after those of the recording, the parameters in the order of another's.
     fn fields(&self, named: &Self) -> Vec<String> {
-        let mut fields = vec![self.status.name().to_owned(), String::new()];
+        let mut fields = vec![self.status.name().to_owned(), String::new(), String::new()];
         fields.extend(self.quality.iter().map(|(_, text)| text.clone()));
         for column in &named.parameters {
             let found = self.parameters.iter().find(|estimate| estimate.name == column.name);

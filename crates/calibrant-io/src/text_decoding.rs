@@ -1,7 +1,7 @@
 //! Decodes the bytes of a file to text: size, encoding and binary content, each with an error that names the
 //! file's real kind.
 
-use calibrant_core::error::InputError;
+use calibrant_core::error::{InputError, Refusal};
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
@@ -39,7 +39,11 @@ pub(super) fn read_bytes(path: &Path, limit: u64, what: &str) -> Checked<Vec<u8>
 /// Opens a file to be read.
 pub(super) fn open(path: &Path, what: &str) -> Checked<File> {
     let input_error = if path.is_dir() {
-        InputError::new(format!("this is a directory, not {what}"), "name a file in it")
+        InputError::new(
+            Refusal::FileUnreadable,
+            format!("this is a directory, not {what}"),
+            "name a file in it",
+        )
     } else {
         match File::open(path) {
             Ok(file) => return Ok(file),
@@ -55,11 +59,12 @@ pub(super) fn unreadable(what: &str, error: &std::io::Error) -> InputError {
         std::io::ErrorKind::PermissionDenied => "check who may read it",
         _ => "check the file and its disk",
     };
-    InputError::new(format!("cannot read {what}: {error}"), help)
+    InputError::new(Refusal::FileUnreadable, format!("cannot read {what}: {error}"), help)
 }
 
 pub(super) fn too_large(what: &str, limit: u64) -> InputError {
     InputError::new(
+        Refusal::FileUnreadable,
         format!("{what} is larger than {} MiB", limit >> 20),
         "this is hardly the file that you mean",
     )
@@ -68,12 +73,15 @@ pub(super) fn too_large(what: &str, limit: u64) -> InputError {
 /// The bytes as text, without the byte order mark.
 pub(super) fn as_text(bytes: &[u8]) -> Checked<&str> {
     if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
-        return Err(
-            InputError::new("the text is encoded in UTF-16", "save it as UTF-8 (or plain ASCII)").into()
-        );
+        return Err(InputError::new(
+            Refusal::EncodingUnknown,
+            "the text is encoded in UTF-16",
+            "save it as UTF-8 (or plain ASCII)",
+        )
+        .into());
     }
     if bytes.starts_with(b"#ROSBAG V") {
-        return Err(InputError::new(
+        return Err(InputError::new(Refusal::FormatUnsupported,
             "this is a bag of ROS 1, which is not read",
             "convert it to MCAP: `rosbags-convert --src FILE.bag --dst DIR --dst-storage mcap`, and give the .mcap file in DIR",
         )
@@ -81,7 +89,9 @@ pub(super) fn as_text(bytes: &[u8]) -> Checked<&str> {
     }
     if let Some((program, unpack)) = packed_by(bytes) {
         let message = format!("this file is compressed with {program}");
-        return Err(InputError::new(message, format!("unpack it first: {unpack}")).into());
+        return Err(
+            InputError::new(Refusal::EncodingUnknown, message, format!("unpack it first: {unpack}")).into()
+        );
     }
     let text = bytes.strip_prefix(&[0xef, 0xbb, 0xbf]).unwrap_or(bytes);
     as_text_at(text, (bytes.len() - text.len()) as u64, 0)
@@ -108,6 +118,7 @@ pub(super) fn as_text_at(bytes: &[u8], before: u64, lines: usize) -> Checked<&st
     if let Some(at) = memchr::memchr(0, bytes) {
         let offset = before + at as u64;
         return Err(InputError::new(
+            Refusal::EncodingUnknown,
             format!("this is binary data, not text: NUL byte at offset {offset}"),
             "export the data as text",
         )
@@ -117,6 +128,7 @@ pub(super) fn as_text_at(bytes: &[u8], before: u64, lines: usize) -> Checked<&st
         let at = error.valid_up_to();
         let line = lines + 1 + bytes[..at].iter().filter(|&&byte| byte == b'\n').count();
         InputError::new(
+            Refusal::EncodingUnknown,
             format!(
                 "not UTF-8 text: byte 0x{:02x} at offset {}",
                 bytes.get(at).copied().unwrap_or(0),

@@ -81,7 +81,7 @@ pub(super) fn run(job: &Job<'_>) -> calibrant::Result<Exit> {
                 row.push("ERROR".into());
                 row.resize(columns.len() + 3, "–".into());
                 texts.push(String::new());
-                Err(error.to_string())
+                Err((&error).into())
             }
         };
         rows.push(row);
@@ -93,7 +93,7 @@ pub(super) fn run(job: &Job<'_>) -> calibrant::Result<Exit> {
         let files: Vec<String> = arguments.recordings.iter().map(|path| path.display().to_string()).collect();
         let outcomes = summary.iter().zip(&texts).map(|(row, text)| match &row.outcome {
             Ok(_) => Ok(text.as_str()),
-            Err(error) => Err(error.as_str()),
+            Err(failure) => Err(failure),
         });
         console::print(&calibrations_json(files.iter().map(String::as_str).zip(outcomes)));
     } else {

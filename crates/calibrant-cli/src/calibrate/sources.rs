@@ -3,7 +3,7 @@
 use super::arguments::Arguments;
 use crate::output_places::same_file;
 use calibrant::Error;
-use calibrant::error::InputError;
+use calibrant::error::{InputError, Refusal};
 use calibrant::io::{Experiment, Plan};
 use calibrant::pipeline::Source;
 use calibrant::report::number_format;
@@ -73,5 +73,5 @@ pub(super) fn check_motion(arguments: &Arguments, experiment: &Experiment) -> ca
 }
 
 fn refuse<T>(what: &str, help: &str) -> calibrant::Result<T> {
-    Err(Error::experiment(InputError::new(what, help)))
+    Err(Error::experiment(InputError::new(Refusal::OptionsContradict, what, help)))
 }

@@ -2,7 +2,7 @@
 
 use calibrant::Error;
 use calibrant::diagnostic::Diagnostic;
-use calibrant::error::InputError;
+use calibrant::error::{InputError, Refusal};
 use calibrant::estimate::{find_holds, find_imu_holds};
 use calibrant::motion::Hold;
 use calibrant::noise::{Segment, without_outliers};
@@ -34,6 +34,7 @@ pub(super) fn holds(imu: &ImuRecording) -> calibrant::Result<Vec<Hold>> {
 pub(super) fn longest(holds: &[Hold]) -> calibrant::Result<&Hold> {
     Hold::longest(holds).map(|number| &holds[number]).ok_or_else(|| {
         Error::Recording(Box::new(InputError::new(
+            Refusal::HoldsMissing,
             format!("no hold of {SHORTEST_HOLD_S} s or more is found"),
             "noise needs a sensor at rest; if it was at rest, give the interval with --hold START END",
         )))

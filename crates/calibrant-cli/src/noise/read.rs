@@ -2,7 +2,7 @@
 
 use super::arguments::{Arguments, Gains};
 use calibrant::Error;
-use calibrant::error::InputError;
+use calibrant::error::{InputError, Refusal};
 use calibrant::io::{ImuFile, ImuReadOptions, ImuUnit, read_imu_pair, read_imu_sensor};
 use calibrant::sensor::{ReadingUnit, SensorKind};
 
@@ -75,5 +75,5 @@ fn options(arguments: &Arguments, sensor_kind: SensorKind) -> calibrant::Result<
 }
 
 fn usage(message: &str, help: &str) -> Error {
-    Error::Experiment(Box::new(InputError::new(message, help)))
+    Error::Experiment(Box::new(InputError::new(Refusal::UnitContradicted, message, help)))
 }

@@ -4,7 +4,7 @@ use super::Arguments;
 use super::random::Random;
 use crate::console;
 use calibrant::Error;
-use calibrant::error::InputError;
+use calibrant::error::{InputError, Refusal};
 use calibrant::io::{Experiment, HoldsPlan, ImuPlan, ImuReadOptions, write_imu_recording, write_imu_truth};
 use calibrant::motion::earth_rate;
 use calibrant::sensor::{CalibratedImu, ImuParameters, ImuQuantity, ReadingUnit, SensorKind, WORKING_C};
@@ -29,8 +29,11 @@ pub(super) fn run(
 ) -> calibrant::Result<usize> {
     let sensor = &experiment.sensor;
     let needs = |key: &str| {
-        let input_error =
-            InputError::new(format!("a simulation of counts needs `{key}`"), "add it to the experiment file");
+        let input_error = InputError::new(
+            Refusal::KeyMissing,
+            format!("a simulation of counts needs `{key}`"),
+            "add it to the experiment file",
+        );
         Error::Experiment(Box::new(input_error.in_file(&arguments.experiment).about_key(key)))
     };
     let ones = Vector3::repeat(1.0);
@@ -172,6 +175,7 @@ fn check_length(steps: &[TableStep], rate_hz: f64) -> calibrant::Result<()> {
         return Ok(());
     }
     Err(Error::Experiment(Box::new(InputError::new(
+        Refusal::ValueInvalid,
         format!(
             "{duration_s} s at {rate_hz} Hz are {samples:.1e} samples, at most {MOST_SAMPLES:.0e} fit into memory"
         ),
@@ -184,6 +188,7 @@ fn check_order(steps: &[TableStep]) -> calibrant::Result<()> {
     match steps.windows(2).find(|pair| pair[1].start_s < pair[0].end_s) {
         None => Ok(()),
         Some(pair) => Err(Error::Experiment(Box::new(InputError::new(
+            Refusal::HoldsInvalid,
             format!(
                 "what begins at {} s begins before what is done until {} s is over",
                 pair[1].start_s, pair[0].end_s

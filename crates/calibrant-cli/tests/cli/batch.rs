@@ -39,7 +39,7 @@ fn one_bad_recording_does_not_stop_the_others() {
     let rows: Vec<&str> = summary.lines().collect();
     assert!(
         rows[0].starts_with(
-            "file,recording,status,error,warnings,chi2,degrees_of_freedom,p_value,accelerometer.bias.x_mps2,accelerometer.bias.x_sd_mps2,"
+            "file,recording,status,error,code,warnings,chi2,degrees_of_freedom,p_value,accelerometer.bias.x_mps2,accelerometer.bias.x_sd_mps2,"
         ),
         "{summary}"
     );
@@ -181,8 +181,8 @@ fn every_imu_is_calibrated_as_if_it_were_alone() {
     let summary = bench.read("all/summary.csv");
     let rows: Vec<Vec<&str>> = summary.lines().map(|row| row.split(',').collect()).collect();
     assert_eq!(
-        rows[0][..7],
-        ["file", "recording", "status", "error", "warnings", "holds", "holds_used"],
+        rows[0][..8],
+        ["file", "recording", "status", "error", "code", "warnings", "holds", "holds_used"],
         "{summary}"
     );
     assert_eq!(rows[2][..3], ["broken", "broken.csv", "error"], "{summary}");

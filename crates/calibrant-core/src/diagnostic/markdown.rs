@@ -1,13 +1,24 @@
-//! The table of codes as a page of the documentation.
+//! The tables of codes as a page of the documentation.
 
 use crate::diagnostic::code::Code;
+use crate::refusal::Refusal;
 
 /// The head of the page.
 const HEAD: &str = "# Diagnostics\n
-<!-- Made from crates/calibrant-core/src/diagnostic/code.rs: cargo run -p calibrant-core --example diagnostics > docs/diagnostics.md -->\n
+<!-- Made from diagnostic/code.rs and refusal.rs of crates/calibrant-core/src: cargo run -p calibrant-core --example diagnostics > docs/diagnostics.md -->\n
 calibrant prints a warning where a result may be wrong. Each warning has a code, which never changes.
 `calibration.json` and `noise.json` list the warnings with code, severity, subject, numbers and message.
 `calibrant calibrate --deny CODE` makes the exit status 1 where a code occurs, `--allow CODE` silences one.
+";
+
+/// The head of the second part.
+const REFUSALS: &str = "
+# Refusals\n
+calibrant prints an error where there is no result. Its code stands in brackets behind the message, and never changes.
+`summary.csv` and the JSON of several recordings have it in the column `code`. The exit status says whether the experiment (2), the recording (3) or what they can determine (4) is at fault.
+There are fewer codes than messages: errors with the same code ask for the same action.\n
+| code | meaning | what to do |
+|---|---|---|
 ";
 
 /// The text of `docs/diagnostics.md`.
@@ -24,6 +35,10 @@ pub fn table_as_markdown() -> String {
             entry.decided,
             entry.remedy
         ));
+    }
+    text.push_str(REFUSALS);
+    for code in Refusal::ALL {
+        text.push_str(&format!("| `{}` | {} | {} |\n", code.name(), code.meaning(), code.remedy()));
     }
     text
 }

@@ -7,18 +7,15 @@ pub enum Severity {
     Note,
     /// The result may be wrong, or its standard deviations too small.
     Warning,
-    /// There is no result.
-    Refusal,
 }
 
 impl Severity {
-    /// As files state it: `note`, `warning` or `refusal`.
+    /// As files state it: `note` or `warning`.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Note => "note",
             Self::Warning => "warning",
-            Self::Refusal => "refusal",
         }
     }
 }

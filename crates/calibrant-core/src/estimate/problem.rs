@@ -1,7 +1,7 @@
 //! What is to be calibrated.
 
 use super::holds::HoldsSetup;
-use crate::error::{Error, InputError, Result};
+use crate::error::{Error, InputError, Refusal, Result};
 use crate::motion::CommandedMotion;
 use crate::sensor::{Recording, Sensor};
 
@@ -29,15 +29,19 @@ impl CalibrationProblem<'_> {
     /// Checks that the recording is one: at least two samples, finite, strictly increasing in time, of the sensor's axes and unit.
     pub(super) fn validate(&self) -> Result<()> {
         let recording = self.recording;
-        let reject = |message: String, help: &str| Err(Error::recording(InputError::new(message, help)));
+        let reject = |code: Refusal, message: String, help: &str| {
+            Err(Error::recording(InputError::new(code, message, help)))
+        };
         if recording.axes != self.sensor.axes {
             return reject(
+                Refusal::ColumnMissing,
                 format!("the recording has {} axes, the sensor {}", recording.axes, self.sensor.axes),
                 "set `sensor.axes`, or record all axes",
             );
         }
         if recording.unit != self.sensor.unit {
             return reject(
+                Refusal::UnitContradicted,
                 format!(
                     "the recording is in {}, the sensor's readings in {}",
                     recording.unit.symbol(),
@@ -52,14 +56,21 @@ impl CalibrationProblem<'_> {
 
 /// Refuses a recording whose samples are none: too few, times that do not increase, readings that are no numbers.
 pub(super) fn sound(recording: &Recording) -> Result<()> {
-    let reject = |message: String, help: &str| Err(Error::recording(InputError::new(message, help)));
+    let reject = |code: Refusal, message: String, help: &str| {
+        Err(Error::recording(InputError::new(code, message, help)))
+    };
     if recording.len() < 2 || recording.readings.len() != recording.len() {
-        return reject(format!("the recording has {} samples", recording.len()), "record at least two");
+        return reject(
+            Refusal::RecordingShort,
+            format!("the recording has {} samples", recording.len()),
+            "record at least two",
+        );
     }
     if let Some(k) =
         recording.times_s.windows(2).position(|pair| pair[1] <= pair[0] || !(pair[1] - pair[0]).is_finite())
     {
         return reject(
+            Refusal::TimesNotIncreasing,
             format!("time does not increase after sample {k}"),
             "sort the samples, remove duplicates",
         );
@@ -68,6 +79,7 @@ pub(super) fn sound(recording: &Recording) -> Result<()> {
         recording.readings.iter().position(|y| y.iter().any(|y| !y.is_finite() || y.abs() > 1e12))
     {
         return reject(
+            Refusal::ValueOutOfRange,
             format!(
                 "sample {k}, at {:?} s, is not a usable reading: {:?}",
                 recording.times_s[k],

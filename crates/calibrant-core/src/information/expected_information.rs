@@ -7,7 +7,7 @@
 
 use super::chain_model::FULL_SLOTS;
 use super::motion_information::PartInformation;
-use crate::error::{Error, InputError, Result};
+use crate::error::{Error, InputError, Refusal, Result};
 use crate::motion::{IntervalSums, JerkControlledMotion, KnownEnds, Trust};
 use crate::sensor::{Sensor, SensorModel, SensorParameters};
 use nalgebra::{DMatrix, SMatrix, SVector, Vector3};
@@ -45,12 +45,14 @@ impl MotionInformation {
     ) -> Result<Self> {
         let noise = sensor.noise(&at.matrix.diagonal().abs()).ok_or_else(|| {
             Error::experiment(InputError::new(
+                Refusal::KeyMissing,
                 "the noise of a sample is not given",
                 "set `sensor.noise_mps2`",
             ))
         })?;
         if trust == Trust::Unknown && known_ends != KnownEnds::Both {
             return Err(Error::experiment(InputError::new(
+                Refusal::KeyMissing,
                 "trust `unknown` needs the acceleration at both ends",
                 "set known_ends = \"both\"",
             )));

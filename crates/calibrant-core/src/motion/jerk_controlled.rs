@@ -5,7 +5,7 @@
 //! (x, u): intercept and jerk of each interval, `α(t) = x_i + u_i t`. Both describe the same motions: the
 //! report's continuity constraint holds identically in node form.
 
-use crate::error::{Error, InputError, Result};
+use crate::error::{Error, InputError, Refusal, Result};
 use nalgebra::Vector3;
 
 /// A motion of piecewise-linear acceleration.
@@ -37,7 +37,9 @@ impl JerkControlledMotion {
     /// [`Error::Experiment`] where there are fewer than two nodes, the lengths differ, a number is not
     /// finite, or the times do not increase. The error names the row.
     pub fn new(times_s: Vec<f64>, acceleration_mps2: Vec<Vector3<f64>>) -> Result<Self> {
-        let reject = |message: String, help: &str| Err(Error::experiment(InputError::new(message, help)));
+        let reject = |message: String, help: &str| {
+            Err(Error::experiment(InputError::new(Refusal::MotionInvalid, message, help)))
+        };
         if times_s.len() != acceleration_mps2.len() {
             return reject(
                 format!("{} node times but {} node accelerations", times_s.len(), acceleration_mps2.len()),

@@ -2,7 +2,7 @@
 
 use super::confidence::CONFIDENCE;
 use super::{PowerLaw, lag_sums};
-use crate::error::{Error, InputError, Result};
+use crate::error::{Error, InputError, Refusal, Result};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 use std::sync::OnceLock;
 
@@ -76,6 +76,7 @@ impl AllanDeviation {
         let n = readings.len();
         if n < FEWEST {
             return Err(Error::recording(InputError::new(
+                Refusal::NoiseUndetermined,
                 format!("an Allan deviation of {n} samples says nothing"),
                 format!("it takes {FEWEST} at least, and thousands to be of use"),
             )));
@@ -83,6 +84,7 @@ impl AllanDeviation {
         if readings.iter().any(|reading| !reading.is_finite()) || interval_s <= 0.0 || !interval_s.is_finite()
         {
             return Err(Error::recording(InputError::new(
+                Refusal::NoiseUndetermined,
                 "an Allan deviation needs finite readings at a positive interval",
                 "leave out what is missing",
             )));

@@ -5,7 +5,7 @@ use super::heavy_tails::Tails;
 use super::model_selection::choose;
 use super::vibration::{Lines, Vibration};
 use super::{Drift, Moments, NoiseModel, PowerLaw, allan};
-use crate::error::{Error, InputError, Result};
+use crate::error::{Error, InputError, Refusal, Result};
 
 /// Fewest samples: six cluster times.
 const FEWEST: usize = 96;
@@ -64,6 +64,7 @@ impl NoiseFit {
         assert_eq!(n, moments.samples(), "the moments are those of the readings");
         if n < FEWEST {
             return Err(Error::recording(InputError::new(
+                Refusal::NoiseUndetermined,
                 format!("{n} samples of one hold do not determine its noise"),
                 format!("it takes {FEWEST} samples at least; record the sensor at rest for minutes"),
             )));
@@ -71,6 +72,7 @@ impl NoiseFit {
         let observed = moments.observe(&allan::phase(readings));
         if observed.iter().any(|v| !v.is_finite() || *v <= 0.0) {
             return Err(Error::recording(InputError::new(
+                Refusal::AxisConstant,
                 "the readings do not change: there is no noise to be seen",
                 "is the axis connected? its resolution may be coarser than its noise",
             )));

@@ -1,6 +1,6 @@
 //! The segment of a recording whose noise is examined: at rest, at equal intervals, without a gap.
 
-use crate::error::{Error, InputError, Result};
+use crate::error::{Error, InputError, Refusal, Result};
 use crate::sensor::{Recording, missing, rate_hz};
 use std::ops::Range;
 
@@ -63,6 +63,7 @@ impl Segment {
             let gaps =
                 if parts > 1 { format!(" without a gap (there are {})", parts - 1) } else { String::new() };
             return Err(Error::recording(InputError::new(
+                Refusal::NoiseUndetermined,
                 format!("{samples} samples{gaps} from {start_s} to {end_s} s do not determine the noise"),
                 format!("it takes {FEWEST} samples at least, and minutes at rest to be of use"),
             )));
@@ -103,7 +104,9 @@ impl Segment {
 }
 
 fn check(recording: &Recording, start_s: f64, end_s: f64) -> Result<()> {
-    let reject = |message: String, help: String| Err(Error::experiment(InputError::new(message, help)));
+    let reject = |message: String, help: String| {
+        Err(Error::experiment(InputError::new(Refusal::HoldsInvalid, message, help)))
+    };
     let stated = |t: f64| if t.abs() < 1e12 { t.to_string() } else { format!("{t:e}") };
     let rounded = |t: f64| stated((1e3 * t).round() / 1e3);
     let interval = format!("from {} to {} s", stated(start_s), stated(end_s));

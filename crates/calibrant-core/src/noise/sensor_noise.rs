@@ -5,7 +5,7 @@ use super::outliers::{self, Outliers};
 use super::words::three_digits;
 use super::{AllanDeviation, Moments, NoiseFit, Segment};
 use crate::diagnostic::Diagnostic;
-use crate::error::{Error, InputError, Result};
+use crate::error::{Error, InputError, Refusal, Result};
 use crate::sensor::{Axis, ReadingUnit, Recording, SensorKind};
 use nalgebra::Vector3;
 use rayon::prelude::*;
@@ -165,6 +165,7 @@ impl SensorNoise {
         }
         if !gain.iter().all(|gain| gain.is_finite() && *gain > 0.0) {
             return Err(Error::experiment(InputError::new(
+                Refusal::ValueInvalid,
                 format!(
                     "the gains of the {} are {}, {} and {} counts/({})",
                     self.sensor_kind,

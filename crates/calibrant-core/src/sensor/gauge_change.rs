@@ -12,7 +12,7 @@
 
 use super::entry_vector::{self, EntryMatrix};
 use super::{Axis, CalibratedImu, Gauge, ImuParameters, ImuQuantity, Quantity, SensorKind, SensorModel};
-use crate::error::{Error, InputError, Result};
+use crate::error::{Error, InputError, Refusal, Result};
 use nalgebra::{DMatrix, Matrix3, Vector3};
 
 /// `S R` in a gauge, and `R`.
@@ -85,7 +85,9 @@ impl Gauge {
 impl Turned {
     fn new(imu: &ImuParameters, reference: SensorKind, gauge: Gauge) -> Result<Self> {
         let sensor = imu.sensor(reference);
-        let reject = |message: String, help: &str| Err(Error::experiment(InputError::new(message, help)));
+        let reject = |message: String, help: &str| {
+            Err(Error::experiment(InputError::new(Refusal::ConversionImpossible, message, help)))
+        };
         let determinant = sensor.matrix.determinant();
         if determinant < 0.0 {
             return reject(

@@ -11,7 +11,7 @@ use super::{
     CalibratedImu, CorrectedRecording, CorrectedSensor, Correction, HIGHEST_ORDER, ImuParameters,
     ImuQuantity, ImuRecording, Recording, SensorKind, Temperatures, ThermalPart, interpolated, times,
 };
-use crate::error::{Error, InputError, Result};
+use crate::error::{Error, InputError, Refusal, Result};
 use nalgebra::{Matrix3, SMatrix, Vector3};
 use std::ptr;
 use std::sync::Arc;
@@ -64,6 +64,7 @@ impl ImuCorrection {
                     Ok(Some(correction))
                 }
                 _ => Err(Error::experiment(InputError::new(
+                    Refusal::CalibrationUnusable,
                     format!("the matrix S of the {sensor_kind} is singular, so that it reports nothing"),
                     "calibrate again",
                 ))),
@@ -73,6 +74,7 @@ impl ImuCorrection {
         let g_sensitivity = if gyroscope.is_some() { imu.parameters.g_sensitivity } else { Matrix3::zeros() };
         if g_sensitivity != Matrix3::zeros() && accelerometer.is_none() {
             return Err(Error::experiment(InputError::new(
+                Refusal::ConversionImpossible,
                 "the gyroscope's g-sensitivity cannot be corrected without an accelerometer",
                 "convert the whole IMU, or set the g-sensitivity to zero",
             )));
@@ -112,6 +114,7 @@ impl ImuCorrection {
         {
             true => Ok(Correction::of(imu.sensor(sensor_kind))),
             false => Err(Error::recording(InputError::new(
+                Refusal::CalibrationUnsuited,
                 format!("at {temperature_c} °C the polynomial of the {sensor_kind}'s gain is not positive"),
                 "this is too far from the temperatures of the calibration",
             ))),
@@ -254,6 +257,7 @@ impl ImuCorrection {
                 && unit != readings.unit
             {
                 return Err(Error::recording(InputError::new(
+                    Refusal::CalibrationUnsuited,
                     format!(
                         "the readings of the {sensor_kind} are in {}, the calibration is of readings in {}",
                         readings.unit.symbol(),
@@ -265,7 +269,7 @@ impl ImuCorrection {
         }
         let temperatures = if self.follows_temperature() {
             Some(Temperatures::of(recording)?.ok_or_else(|| {
-                Error::recording(InputError::new(
+                Error::recording(InputError::new(Refusal::TemperatureMissing,
                     "the calibration follows temperature, and this recording has no temperature",
                     "say the temperature with --temperature CELSIUS, or, where a column of the recording has it, which one with --columns EXPERIMENT",
                 ))
@@ -284,6 +288,7 @@ impl ImuCorrection {
                 let needed = self.g_sensitivity != Matrix3::zeros() || self.covers_g_sensitivity();
                 if needed && accelerometer.is_none() {
                     return Err(Error::recording(InputError::new(
+                        Refusal::SensorMissing,
                         "the gyroscope's g-sensitivity is corrected with the specific force, and this recording has no accelerometer",
                         "give the recording of both sensors",
                     )));

@@ -1,7 +1,7 @@
 //! The temperatures of a recording: checked, averaged and interpolated.
 
 use super::{ImuRecording, interpolated};
-use crate::error::{Error, InputError, Result};
+use crate::error::{Error, InputError, Refusal, Result};
 
 /// Temperatures at which an inertial sensor works, °C, with room to spare.
 pub const WORKING_C: std::ops::RangeInclusive<f64> = -100.0..=250.0;
@@ -29,12 +29,14 @@ impl<'a> Temperatures<'a> {
         let times_s = sensor.times_s.as_slice();
         if times_s.len() != values_c.len() {
             return Err(Error::recording(InputError::new(
+                Refusal::RecordingsUnlike,
                 format!("there are {} temperatures for {} samples", values_c.len(), times_s.len()),
                 "each sample needs its temperature",
             )));
         }
         if let Some(k) = values_c.iter().position(|value| !WORKING_C.contains(value)) {
             return Err(Error::recording(InputError::new(
+                Refusal::ValueOutOfRange,
                 format!("the temperature is {} °C at {} s", values_c[k], times_s[k]),
                 Self::question(values_c[k]),
             )));

@@ -9,7 +9,7 @@ use super::entry_vector::{self, EntryMatrix};
 use super::{
     Axis, CalibratedImu, Gauge, ImuParameters, ImuQuantity, Quantity, SensorKind, Thermal, ThermalPart,
 };
-use crate::error::{Error, InputError, Result};
+use crate::error::{Error, InputError, Refusal, Result};
 use nalgebra::{DMatrix, Matrix3, Vector3};
 
 /// A matrix is symmetric where no entry differs from its counterpart by more than this share of the largest.
@@ -31,6 +31,7 @@ impl Referred {
             let factor = imu.thermal.sensor(sensor_kind).gain_factor(change_k);
             if !(factor.min() > 0.0 && factor.iter().all(|c| c.is_finite())) {
                 return Err(Error::experiment(InputError::new(
+                    Refusal::CalibrationUnsuited,
                     format!("at {reference_c} °C the polynomial of the {sensor_kind}'s gain is not positive"),
                     "choose a temperature within the range of the calibration",
                 )));

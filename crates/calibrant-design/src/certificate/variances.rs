@@ -87,6 +87,7 @@ struct Bounds<'a> {
     ramp: Option<DMatrix<f64>>,
     /// Motion variances that have bounds already.
     known: Vec<(AxisLimits, [f64; 2], Option<MotionVarianceBound>)>,
+    /// Why the scale factors cannot be known better.
     reasons: Vec<String>,
 }
 
@@ -150,7 +151,7 @@ impl Bounds<'_> {
                 let from_increments = self.increments(input, row, column) + anchored(bounds.a[0]);
                 if from_increments < information {
                     information = from_increments;
-                    self.reasons.retain(|reason| !reason.starts_with("scale factors"));
+                    self.reasons.clear(); // all are of the scale factors
                     self.explain("scale factors: the process noise alone, as if the readings were perfect and every interval had the largest jerk; close where the process noise dominates");
                 }
             }

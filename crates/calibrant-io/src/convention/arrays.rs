@@ -2,6 +2,7 @@
 
 use super::words::input_error;
 use crate::text_decoding::Checked;
+use calibrant_core::error::Refusal;
 use calibrant_core::sensor::Axis;
 use nalgebra::{Matrix3, Vector3};
 
@@ -11,6 +12,7 @@ pub(super) type Rows = Vec<Vec<f64>>;
 /// The error for a missing field.
 pub(super) fn missing(field: &str) -> Box<calibrant_core::error::InputError> {
     input_error(
+        Refusal::CalibrationInvalid,
         format!("this is no calibration of an IMU: the field `{field}` is missing"),
         "give a file that calibrant wrote, or name its format with --from",
     )
@@ -26,6 +28,7 @@ pub(super) fn vector3(values: &[f64], field: &str) -> Checked<Vector3<f64>> {
     match values {
         [x, y, z] => Ok(Vector3::new(*x, *y, *z)),
         _ => Err(input_error(
+            Refusal::CalibrationInvalid,
             format!("`{field}` has {} numbers, not 3", values.len()),
             "give one for each axis",
         )),
@@ -35,7 +38,11 @@ pub(super) fn vector3(values: &[f64], field: &str) -> Checked<Vector3<f64>> {
 /// Three rows of three numbers.
 pub(super) fn matrix3(values: &[Vec<f64>], field: &str) -> Checked<Matrix3<f64>> {
     if values.len() != 3 || values.iter().any(|row| row.len() != 3) {
-        return Err(input_error(format!("`{field}` is not 3 × 3"), "give three rows of three numbers"));
+        return Err(input_error(
+            Refusal::CalibrationInvalid,
+            format!("`{field}` is not 3 × 3"),
+            "give three rows of three numbers",
+        ));
     }
     Ok(Matrix3::from_fn(|row, column| values[row][column]))
 }

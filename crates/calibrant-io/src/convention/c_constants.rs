@@ -1,7 +1,7 @@
 //! Numbers in a C header: written as constants, and read back by name.
 
 use crate::text_decoding::Checked;
-use calibrant_core::error::InputError;
+use calibrant_core::error::{InputError, Refusal};
 use nalgebra::{Matrix3, Vector3};
 
 /// The remedy for a broken header.
@@ -30,7 +30,9 @@ fn read_constant(text: &str, name: &str, count: usize) -> Checked<Option<Vec<f64
     let Some(start) = text.find(name) else { return Ok(None) };
     let name = name.trim_end_matches("[3]");
     let line = 1 + text[..start].matches('\n').count();
-    let reject = |message: String| Err(Box::new(InputError::new(message, HELP).at_line(line)));
+    let reject = |message: String| {
+        Err(Box::new(InputError::new(Refusal::CalibrationInvalid, message, HELP).at_line(line)))
+    };
     let Some((value, _)) = text[start..].split_once('=').and_then(|(_, rest)| rest.split_once(';')) else {
         return reject(format!("`{name}` has no value"));
     };

@@ -12,6 +12,7 @@ use super::c_constants::{HELP, matrix, numbers, vector};
 use super::words::{input_error, written_by};
 use super::{CalibratedImuFile, ImuFormat, c_temperature};
 use crate::text_decoding::Checked;
+use calibrant_core::error::Refusal;
 use calibrant_core::sensor::{
     CalibratedImu, ImuCorrection, ImuParameters, ImuQuantity, ReadingUnit, SensorKind, SensorParameters,
 };
@@ -20,7 +21,8 @@ use std::fmt::Write;
 
 pub(super) fn write(file: &CalibratedImuFile) -> Checked<String> {
     let imu = &file.imu;
-    let correction = ImuCorrection::of(imu).map_err(|error| input_error(error.to_string(), ""))?;
+    let correction = ImuCorrection::of(imu)
+        .map_err(|error| input_error(Refusal::CalibrationInvalid, error.to_string(), ""))?;
     let mut out = format!(
         "/* Correction of an IMU, raw to true; {}.\n *\n * frame: {}\n",
         written_by(),
@@ -138,10 +140,11 @@ pub(super) fn read(text: &str) -> Checked<CalibratedImuFile> {
             continue;
         };
         let name = format!("calibrant_{sensor_kind}_bias");
-        let bias =
-            numbers(text, &name, 3)?.ok_or_else(|| input_error(format!("`{name}` is missing"), HELP))?;
+        let bias = numbers(text, &name, 3)?
+            .ok_or_else(|| input_error(Refusal::CalibrationInvalid, format!("`{name}` is missing"), HELP))?;
         let Some(matrix) = Matrix3::from_row_slice(&correction).try_inverse() else {
             return Err(input_error(
+                Refusal::CalibrationUnusable,
                 format!("the matrix of the {sensor_kind} is singular"),
                 "calibrate again",
             ));
@@ -160,6 +163,7 @@ pub(super) fn read(text: &str) -> Checked<CalibratedImuFile> {
     }
     if units == [None, None] {
         return Err(input_error(
+            Refusal::CalibrationInvalid,
             "there is no `calibrant_accelerometer_matrix` and no `calibrant_gyroscope_matrix` in it",
             HELP,
         ));
@@ -191,10 +195,20 @@ fn unit_of(text: &str, sensor_kind: SensorKind) -> Checked<ReadingUnit> {
     let before = format!(" * {sensor_kind}: readings in ");
     let stated = text.lines().find_map(|line| line.strip_prefix(&before)?.split(',').next());
     let stated = stated.ok_or_else(|| {
-        input_error(format!("the comment with the unit of the {sensor_kind} is missing"), HELP)
+        input_error(
+            Refusal::CalibrationInvalid,
+            format!("the comment with the unit of the {sensor_kind} is missing"),
+            HELP,
+        )
     })?;
     [sensor_kind.stimulus_unit(), ReadingUnit::Counts]
         .into_iter()
         .find(|unit| ascii(unit.symbol()) == stated.trim())
-        .ok_or_else(|| input_error(format!("the unit of the {sensor_kind} is \"{}\"", stated.trim()), HELP))
+        .ok_or_else(|| {
+            input_error(
+                Refusal::CalibrationInvalid,
+                format!("the unit of the {sensor_kind} is \"{}\"", stated.trim()),
+                HELP,
+            )
+        })
 }

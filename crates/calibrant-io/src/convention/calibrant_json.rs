@@ -14,7 +14,7 @@ use super::words::input_error;
 use super::{CalibratedImuFile, ImuFormat, truth};
 use crate::json;
 use crate::text_decoding::Checked;
-use calibrant_core::error::InputError;
+use calibrant_core::error::{InputError, Refusal};
 use calibrant_core::sensor::CalibratedImu;
 use serde::{Deserialize, Serialize};
 
@@ -88,6 +88,7 @@ pub(super) fn read(text: &str) -> Checked<CalibratedImuFile> {
     let core = header.core(text)?;
     if core.has_one_axis() {
         return Err(input_error(
+            Refusal::CalibrationUnsuited,
             "this is the calibration of a sensor with one axis; an IMU has three",
             "use its parameters from the file itself",
         ));
@@ -103,7 +104,11 @@ pub(crate) fn read_estimates(text: &str) -> Checked<(CalibratedImu, bool)> {
     let header = Header::of(text)?;
     if header.is_truth() {
         let message = "this is the truth of a simulation, not a calibration: it has no covariance";
-        return Err(input_error(message, "give a calibration.json that `calibrant calibrate` wrote"));
+        return Err(input_error(
+            Refusal::CalibrationInvalid,
+            message,
+            "give a calibration.json that `calibrant calibrate` wrote",
+        ));
     }
     let (imu, _) = header.core(text)?.into_imu()?;
     usable(&imu)?;
@@ -127,13 +132,17 @@ impl Header {
             Some(schema) if *schema == 1 => return Err(obsolete()),
             Some(schema) => {
                 let message = format!("schema {schema} of a calibration is not known to this version");
-                return Err(input_error(message, "use a newer calibrant"));
+                return Err(input_error(Refusal::CalibrationInvalid, message, "use a newer calibrant"));
             }
             None => return Err(missing("schema")),
         }
         if let Some(status) = self.status.as_ref().filter(|status| *status != "converged") {
             let message = format!("this calibration did not converge: its status is \"{status}\"");
-            return Err(input_error(message, "calibrate again; its report says what is wrong"));
+            return Err(input_error(
+                Refusal::CalibrationInvalid,
+                message,
+                "calibrate again; its report says what is wrong",
+            ));
         }
         serde_json::from_str(text).map_err(|error| broken(&error))
     }
@@ -146,6 +155,7 @@ fn broken(error: &serde_json::Error) -> Box<InputError> {
 /// The error for a file of schema 1, in which earlier versions wrote the calibration of an accelerometer.
 fn obsolete() -> Box<InputError> {
     input_error(
+        Refusal::CalibrationInvalid,
         "schema 1 of calibration.json is that of an earlier calibrant: its parameters have other names",
         "calibrate the recording again with this version",
     )

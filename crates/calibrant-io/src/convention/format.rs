@@ -2,6 +2,7 @@
 
 use super::words::input_error;
 use crate::text_decoding::Checked;
+use calibrant_core::error::Refusal;
 use std::path::Path;
 
 /// A format of calibrations.
@@ -69,7 +70,7 @@ impl ImuFormat {
     pub(super) fn of_content(text: &str) -> Checked<Self> {
         let first = text.lines().map(str::trim).find(|line| !line.is_empty() && !line.starts_with('#'));
         let Some(first) = first.or_else(|| text.lines().map(str::trim).find(|line| !line.is_empty())) else {
-            return Err(input_error("the file is empty", "give a calibration"));
+            return Err(input_error(Refusal::CalibrationInvalid, "the file is empty", "give a calibration"));
         };
         let has = |word: &str| text.contains(word);
         if first.starts_with(['{', '[']) {
@@ -87,6 +88,7 @@ impl ImuFormat {
             return Ok(Self::ImuTk);
         }
         Err(input_error(
+            Refusal::CalibrationInvalid,
             "this is no calibration in a format that is known",
             "name its format with --from: calibrant, kalibr, imu_tk, imucal, c",
         ))

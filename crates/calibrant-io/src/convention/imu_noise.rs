@@ -2,6 +2,7 @@
 
 use super::words::input_error;
 use crate::text_decoding::Checked;
+use calibrant_core::error::Refusal;
 use calibrant_core::sensor::SensorKind;
 
 /// Rates are the same within this share. Clocks of two sensors differ by less, and half of it changes the
@@ -34,6 +35,7 @@ impl ImuNoise {
         for (name, value) in self.fields() {
             if value.is_some_and(|value| !(value.is_finite() && value > 0.0)) {
                 return Err(input_error(
+                    Refusal::CalibrationInvalid,
                     format!("`{name}` is not a positive number"),
                     "correct it or remove it",
                 ));

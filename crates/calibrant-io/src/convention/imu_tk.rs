@@ -15,7 +15,7 @@ use super::words::{input_error, written_by};
 use super::{CalibratedImuFile, ConventionOptions, ImuFormat};
 use crate::delimited_text::Lines;
 use crate::text_decoding::Checked;
-use calibrant_core::error::InputError;
+use calibrant_core::error::{InputError, Refusal};
 use calibrant_core::sensor::{
     CalibratedImu, Correction, ImuParameters, ImuQuantity, ReadingUnit, SensorKind, SensorParameters,
 };
@@ -99,7 +99,11 @@ pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<Calibrate
             let at = from + line.text[from..].find(word).unwrap_or(0);
             from = at + word.len();
             let reject = |message: String| {
-                Err(Box::new(InputError::new(message, HELP).at_line(line.number).at_column(line.column(at))))
+                Err(Box::new(
+                    InputError::new(Refusal::CalibrationInvalid, message, HELP)
+                        .at_line(line.number)
+                        .at_column(line.column(at)),
+                ))
             };
             if numbers.len() == COUNT {
                 return reject(format!("there is more than {COUNT} numbers: {word}"));
@@ -112,18 +116,20 @@ pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<Calibrate
     }
     if numbers.len() < COUNT {
         let message = format!("the file has {} of {COUNT} numbers", numbers.len());
-        return Err(Box::new(InputError::new(message, HELP).at_line(last)));
+        return Err(Box::new(InputError::new(Refusal::CalibrationInvalid, message, HELP).at_line(last)));
     }
     if let (Some(stated), Some(given)) = (sensor_kind, options.sensor_kind)
         && stated != given
     {
         return Err(input_error(
+            Refusal::CalibrationInvalid,
             format!("the file says that it is of the {stated}, and it was given as that of the {given}"),
             "are the two files exchanged, or is --sensor wrong?",
         ));
     }
     let Some(sensor_kind) = sensor_kind.or(options.sensor_kind) else {
         return Err(input_error(
+            Refusal::CalibrationInvalid,
             "is this the accelerometer's or the gyroscope's? The file does not say",
             "say --sensor accelerometer or --sensor gyroscope, or give the pair NAME_acc.calib and NAME_gyro.calib as NAME.calib",
         ));
@@ -134,7 +140,11 @@ pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<Calibrate
     let unit = match stated {
         Some(Some(unit)) => unit,
         Some(None) => {
-            return Err(input_error("its unit of readings is not known", "m/s², rad/s or counts"));
+            return Err(input_error(
+                Refusal::CalibrationInvalid,
+                "its unit of readings is not known",
+                "m/s², rad/s or counts",
+            ));
         }
         None => match options.units {
             Some(units) => units.unit(sensor_kind),
@@ -146,6 +156,7 @@ pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<Calibrate
                     [sensor_kind.stimulus_unit().symbol(), "si"]
                 };
                 return Err(input_error(
+                    Refusal::UnitUnknown,
                     format!(
                         "in which unit are the readings of the {sensor_kind}? imu_tk's file does not say"
                     ),
@@ -158,7 +169,11 @@ pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<Calibrate
     };
     let matrix = |first: usize| Matrix3::from_row_slice(&numbers[first..first + 9]);
     let Some(inverse) = (matrix(0) * matrix(9)).try_inverse() else {
-        return Err(input_error(format!("the matrix of the {sensor_kind} is singular"), "calibrate again"));
+        return Err(input_error(
+            Refusal::CalibrationUnusable,
+            format!("the matrix of the {sensor_kind} is singular"),
+            "calibrate again",
+        ));
     };
     let sensor = SensorParameters { bias: Vector3::from_column_slice(&numbers[18..]), matrix: inverse };
     let mut parameters = ImuParameters::identity();
@@ -189,6 +204,7 @@ pub(super) fn write(file: &CalibratedImuFile) -> Checked<Vec<(SensorKind, String
     let imu = &file.imu;
     if imu.gyroscope_unit.is_some() && imu.parameters.g_sensitivity != Matrix3::zeros() {
         return Err(input_error(
+            Refusal::ConversionImpossible,
             "imu_tk's .calib has no place for the gyroscope's g-sensitivity, and the correction would be another without it",
             "choose another format, write the accelerometer alone with --sensor accelerometer, or leave it out on purpose with --drop-g-sensitivity",
         ));
@@ -203,6 +219,7 @@ fn text(imu: &CalibratedImu, sensor_kind: SensorKind, unit: ReadingUnit) -> Chec
         Correction::of(imu.parameters.sensor(sensor_kind)).filter(|c| c.scale().iter().all(|&k| k != 0.0));
     let Some(correction) = correction else {
         return Err(input_error(
+            Refusal::CalibrationInvalid,
             format!(
                 "the correction of the {sensor_kind} has a zero on its diagonal, and imu_tk's T has none"
             ),

@@ -17,6 +17,7 @@ use super::words::{input_error, written_by};
 use super::{CalibratedImuFile, ConventionOptions, ImuFormat, RawUnits};
 use crate::json;
 use crate::text_decoding::Checked;
+use calibrant_core::error::Refusal;
 use calibrant_core::sensor::{
     CalibratedImu, ImuParameters, ImuQuantity, ReadingUnit, SensorKind, SensorParameters, Thermal,
 };
@@ -73,6 +74,7 @@ fn unit_of_readings(
     let Some(stated) = stated else {
         let Some(given) = given else {
             return Err(input_error(
+                Refusal::UnitUnknown,
                 format!("in which unit are the readings of the {sensor_kind}? `{field}` is null"),
                 "say --unit si or --unit counts",
             ));
@@ -83,6 +85,7 @@ fn unit_of_readings(
         Some(Some(factor)) => Ok((sensor_kind.stimulus_unit(), factor)),
         Some(None) => Ok((ReadingUnit::Counts, 1.0)),
         None => Err(input_error(
+            Refusal::CalibrationInvalid,
             format!("`{field}` is \"{stated}\", which is not known"),
             "known are m/s^2, g, deg/s, rad/s and a.u. for counts",
         )),
@@ -96,17 +99,19 @@ pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<Calibrate
         Some("Ferraris" | "Turntable") => (),
         Some(other) => {
             return Err(input_error(
+                Refusal::CalibrationInvalid,
                 format!("cal_type \"{other}\" is not known"),
                 "Ferraris and Turntable are",
             ));
         }
-        None => return Err(input_error("`cal_type` is missing", HELP)),
+        None => return Err(input_error(Refusal::CalibrationInvalid, "`cal_type` is missing", HELP)),
     }
     let mut findings = Vec::new();
     match fields.format_version.as_deref() {
         Some("2.0.0") => (),
         Some(other) => {
             return Err(input_error(
+                Refusal::CalibrationInvalid,
                 format!("format version {other} is not known"),
                 "2.0.0 is, and files without one",
             ));
@@ -117,16 +122,17 @@ pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<Calibrate
     }
     let matrix = |rows: &Option<Vec<Vec<f64>>>, name: &str| match rows {
         Some(rows) => matrix3(rows, name),
-        None => Err(input_error(format!("`{name}` is missing"), HELP)),
+        None => Err(input_error(Refusal::CalibrationInvalid, format!("`{name}` is missing"), HELP)),
     };
     let vector = |values: &Option<Vec<f64>>, name: &str| match values {
         Some(values) => vector3(values, name),
-        None => Err(input_error(format!("`{name}` is missing"), HELP)),
+        None => Err(input_error(Refusal::CalibrationInvalid, format!("`{name}` is missing"), HELP)),
     };
     let corrected = |stated: &Option<String>, name: &str, sensor_kind: SensorKind| match stated {
-        None => Err(input_error(format!("`{name}` is missing"), HELP)),
+        None => Err(input_error(Refusal::CalibrationInvalid, format!("`{name}` is missing"), HELP)),
         Some(stated) => factor(stated, sensor_kind).flatten().ok_or_else(|| {
             input_error(
+                Refusal::CalibrationInvalid,
                 format!("`{name}` is \"{stated}\", which is not known"),
                 "known are m/s^2, g, deg/s and rad/s",
             )
@@ -183,6 +189,7 @@ pub(super) fn write(file: &CalibratedImuFile) -> Checked<String> {
         let absent =
             if imu.accelerometer_unit.is_some() { SensorKind::Gyroscope } else { SensorKind::Accelerometer };
         return Err(input_error(
+            Refusal::ConversionImpossible,
             format!("imucal's JSON wants both sensors, and there is no {absent}"),
             "choose another format",
         ));

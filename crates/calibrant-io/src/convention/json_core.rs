@@ -11,6 +11,7 @@ use super::temperature::TemperatureCore;
 use super::words::input_error;
 use crate::shared_fields::{block, matrix_rows, per_axis};
 use crate::text_decoding::Checked;
+use calibrant_core::error::Refusal;
 use calibrant_core::estimate::Calibration;
 use calibrant_core::sensor::{
     CalibratedImu, Correction, Gauge, ImuParameters, ImuQuantity, Quantity, ReadingUnit, SensorKind,
@@ -178,6 +179,7 @@ impl ImuCore {
             let quantity = parameter.into_quantity(i, &imu, symmetric.then_some(&names))?;
             if imu.quantities.contains(&quantity) {
                 return Err(input_error(
+                    Refusal::CalibrationInvalid,
                     format!("{} stands twice in `parameters`", quantity.name()),
                     "remove one",
                 ));
@@ -190,6 +192,7 @@ impl ImuCore {
             let matrix = imu.parameters.sensor(imu.reference()).matrix;
             if !Gauge::ALL.into_iter().any(|known| known.name() == gauge && known.is_form_of(&matrix)) {
                 return Err(input_error(
+                    Refusal::CalibrationInvalid,
                     format!(
                         "`gauge` is \"{gauge}\", but the matrix of the {} has not this form",
                         imu.reference()
@@ -233,6 +236,7 @@ impl SensorCore {
             .find(|unit| unit.symbol() == self.reading_unit)
             .ok_or_else(|| {
                 input_error(
+                    Refusal::CalibrationInvalid,
                     format!("`{sensor_kind}.reading_unit` is \"{}\"", self.reading_unit),
                     &format!("write \"{}\" or \"counts\"", sensor_kind.stimulus_unit().symbol()),
                 )
@@ -313,6 +317,7 @@ impl ParameterCore {
         let value = self.value.ok_or_else(|| field("value"))?;
         let quantity = quantity_of(&name, imu, symmetric).ok_or_else(|| {
             input_error(
+                Refusal::CalibrationInvalid,
                 format!("\"{name}\" is no parameter of this IMU"),
                 "names are accelerometer.bias.x, …",
             )
@@ -320,6 +325,7 @@ impl ParameterCore {
         let wanted = quantity.unit(unit_of(imu, quantity.sensor_kind()));
         if unit != wanted {
             return Err(input_error(
+                Refusal::CalibrationInvalid,
                 format!("{name} is in {unit}, its sensor says {wanted}"),
                 "correct one of them",
             ));
@@ -327,6 +333,7 @@ impl ParameterCore {
         let in_matrix = quantity.value(&imu.parameters);
         if (value - in_matrix).abs() > 1e-9 * value.abs().max(in_matrix.abs()) {
             return Err(input_error(
+                Refusal::CalibrationInvalid,
                 format!("{name} is {value} in `parameters` and {in_matrix} in its sensor"),
                 "correct one of them",
             ));
@@ -374,7 +381,11 @@ pub(super) fn gauge_of(imu: &CalibratedImu) -> Option<Gauge> {
 pub(super) fn covariance_of(rows: &[Vec<Option<f64>>], size: usize) -> Checked<DMatrix<f64>> {
     if rows.len() != size || rows.iter().any(|row| row.len() != size) {
         let message = format!("the covariance is not {size} × {size}, one row for each parameter");
-        return Err(input_error(message, "calibrate again, or remove the covariance"));
+        return Err(input_error(
+            Refusal::CalibrationInvalid,
+            message,
+            "calibrate again, or remove the covariance",
+        ));
     }
     Ok(DMatrix::from_fn(size, size, |i, j| rows[i][j].unwrap_or(f64::NAN)))
 }
@@ -389,6 +400,7 @@ pub(super) fn check_direction(field: &str, stated: &str) -> Checked<()> {
         return Ok(());
     }
     Err(input_error(
+        Refusal::CalibrationInvalid,
         format!(
             "`{field}` must be true to raw in this format, not {:?}",
             stated.chars().take(40).collect::<String>()

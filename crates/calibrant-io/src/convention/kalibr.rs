@@ -21,7 +21,7 @@ use super::imu_noise::ImuNoise;
 use super::words::{input_error, written_by};
 use super::{CalibratedImuFile, ConventionOptions, ImuFormat, RawUnits};
 use crate::text_decoding::{self, Checked};
-use calibrant_core::error::{Error, InputError, Result};
+use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::sensor::{
     CalibratedImu, Gauge, ImuParameters, ImuQuantity, Quantity, ReadingUnit, SensorKind, SensorParameters,
 };
@@ -82,7 +82,11 @@ fn parse(text: &str) -> Checked<Imu> {
     let broken = |error: serde_saphyr::Error| {
         let error = error.without_snippet();
         let message = error.to_string();
-        let mut input_error = InputError::new(format!("not Kalibr's imu.yaml: {}", message.trim()), HELP);
+        let mut input_error = InputError::new(
+            Refusal::CalibrationInvalid,
+            format!("not Kalibr's imu.yaml: {}", message.trim()),
+            HELP,
+        );
         if let Some(place) = error.location() {
             let message = message.split(" at line ").next().unwrap_or(&message).trim().to_owned();
             input_error.message = format!("not Kalibr's imu.yaml: {message}");
@@ -101,14 +105,17 @@ fn parse(text: &str) -> Checked<Imu> {
         [one] => {
             if keys.len() > 1 {
                 return Err(input_error(
+                    Refusal::CalibrationInvalid,
                     format!("there are other keys beside {one}"),
                     "leave only the IMU in the file",
                 ));
             }
             let mut imus: BTreeMap<String, Imu> = serde_saphyr::from_str(text).map_err(broken)?;
-            imus.remove(*one).ok_or_else(|| input_error("the file is empty", HELP))
+            imus.remove(*one)
+                .ok_or_else(|| input_error(Refusal::CalibrationInvalid, "the file is empty", HELP))
         }
         [one, other, ..] => Err(input_error(
+            Refusal::CalibrationInvalid,
             format!("the file has {one} and {other}, and one is read"),
             "leave the one that you mean in the file",
         )),
@@ -138,9 +145,9 @@ impl Imu {
 pub fn read_kalibr_noise(path: &Path) -> Result<ImuNoise> {
     let read = || -> Checked<ImuNoise> {
         let bytes = text_decoding::read_bytes(path, LARGEST, "the imu.yaml")?;
-        parse(text_decoding::as_text(&bytes)?)?
-            .noise()?
-            .ok_or_else(|| input_error("there are no noise densities in it", HELP))
+        parse(text_decoding::as_text(&bytes)?)?.noise()?.ok_or_else(|| {
+            input_error(Refusal::CalibrationInvalid, "there are no noise densities in it", HELP)
+        })
     };
     read().map_err(|input_error| Error::experiment(input_error.in_file(path)))
 }
@@ -151,6 +158,7 @@ pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<Calibrate
     let Some(accelerometers) = &imu.accelerometers else {
         let model = imu.model.as_deref().unwrap_or("calibrated");
         return Err(input_error(
+            Refusal::CalibrationInvalid,
             format!("there is no calibration in it: model {model}, and no `accelerometers: M`"),
             "run Kalibr with --imu-models scale-misalignment",
         ));
@@ -158,7 +166,7 @@ pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<Calibrate
     let mut findings = Vec::new();
     let needed = |rows: &Option<Vec<Vec<f64>>>, field: &str| match rows {
         Some(rows) => matrix3(rows, field),
-        None => Err(input_error(format!("`{field}` is missing"), HELP)),
+        None => Err(input_error(Refusal::CalibrationInvalid, format!("`{field}` is missing"), HELP)),
     };
     let c_i_b = match &imu.t_i_b {
         None => Matrix3::identity(),
@@ -237,6 +245,7 @@ fn unit_of(
             .find(|unit| unit.symbol() == stated)
             .ok_or_else(|| {
                 input_error(
+                    Refusal::CalibrationInvalid,
                     format!("`calibrant.{sensor_kind}_unit` is \"{stated}\""),
                     "m/s², rad/s or counts",
                 )
@@ -247,7 +256,7 @@ fn unit_of(
 /// The rotation of `T_i_b`. Its translation is a lever arm, which the correction of a reading does not need.
 fn pose(rows: &[Vec<f64>], findings: &mut Vec<String>) -> Checked<Matrix3<f64>> {
     if rows.len() != 4 || rows.iter().any(|row| row.len() != 4) {
-        return Err(input_error("`T_i_b` is not 4 × 4", HELP));
+        return Err(input_error(Refusal::CalibrationInvalid, "`T_i_b` is not 4 × 4", HELP));
     }
     let c_i_b = Matrix3::from_fn(|row, column| rows[row][column]);
     rotation(&c_i_b, "T_i_b")?;
@@ -259,13 +268,18 @@ fn pose(rows: &[Vec<f64>], findings: &mut Vec<String>) -> Checked<Matrix3<f64>> 
 
 fn rotation(c: &Matrix3<f64>, field: &str) -> Checked<()> {
     let is_one = (c * c.transpose() - Matrix3::identity()).amax() < 1e-6 && c.determinant() > 0.0;
-    if is_one { Ok(()) } else { Err(input_error(format!("`{field}` is not a rotation"), HELP)) }
+    if is_one {
+        Ok(())
+    } else {
+        Err(input_error(Refusal::CalibrationInvalid, format!("`{field}` is not a rotation"), HELP))
+    }
 }
 
 /// `L` and `Q` of `S = L Q`: lower triangular with positive diagonal, and a rotation.
 fn factors(s: &Matrix3<f64>, sensor_kind: SensorKind) -> Checked<(Matrix3<f64>, Matrix3<f64>)> {
     if s.determinant() < 0.0 {
         return Err(input_error(
+            Refusal::ConversionImpossible,
             format!("the axes of the {sensor_kind} are left-handed, which Kalibr's model cannot say"),
             "one axis has the wrong sign: change the sign of its column in the recording and calibrate again",
         ));
@@ -276,14 +290,20 @@ fn factors(s: &Matrix3<f64>, sensor_kind: SensorKind) -> Checked<(Matrix3<f64>, 
     let l = Gauge::Lower.apply(&SensorParameters { bias: Vector3::zeros(), matrix: *s }).matrix;
     let l = Matrix3::from_fn(|row, column| if column > row { 0.0 } else { l[(row, column)] });
     let q = l.try_inverse().map(|inverse| inverse * s);
-    q.map(|q| (l, q))
-        .ok_or_else(|| input_error(format!("the matrix of the {sensor_kind} is singular"), "calibrate again"))
+    q.map(|q| (l, q)).ok_or_else(|| {
+        input_error(
+            Refusal::CalibrationUnusable,
+            format!("the matrix of the {sensor_kind} is singular"),
+            "calibrate again",
+        )
+    })
 }
 
 pub(super) fn write(file: &CalibratedImuFile, warnings: &mut Vec<String>) -> Checked<String> {
     let imu = &file.imu;
     let Some(accelerometer_unit) = imu.accelerometer_unit else {
         return Err(input_error(
+            Refusal::ConversionImpossible,
             "Kalibr's imu.yaml has no place for a gyroscope alone: its frame is the accelerometer's",
             "choose another format",
         ));

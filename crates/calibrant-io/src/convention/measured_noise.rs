@@ -7,7 +7,7 @@ use super::words::input_error;
 use crate::json;
 use crate::noise::NOISE_SCHEMA;
 use crate::text_decoding::{self, Checked};
-use calibrant_core::error::{Error, Result};
+use calibrant_core::error::{Error, Refusal, Result};
 use calibrant_core::sensor::{CalibratedImu, SensorKind};
 use serde::Deserialize;
 use std::path::Path;
@@ -64,7 +64,11 @@ pub fn read_measured_noise(path: &Path, imu: &CalibratedImu) -> Result<ImuNoise>
             .map_err(|error| json::broken(&error, "the noise of a sensor", HELP))?;
         if let Some(schema) = file.schema.filter(|schema| *schema > NOISE_SCHEMA) {
             let message = format!("it is of version {schema}, and this program knows up to {NOISE_SCHEMA}");
-            return Err(input_error(message, "convert with the program that wrote it"));
+            return Err(input_error(
+                Refusal::CalibrationInvalid,
+                message,
+                "convert with the program that wrote it",
+            ));
         }
         let mut noise = ImuNoise::default();
         for sensor in &file.sensors {
@@ -79,12 +83,17 @@ fn take(noise: &mut ImuNoise, sensor: &Sensor, imu: &CalibratedImu) -> Checked<(
     let Some(sensor_kind) =
         SensorKind::ALL.into_iter().find(|sensor_kind| sensor_kind.name() == sensor.sensor)
     else {
-        return Err(input_error(format!("no sensor is called \"{}\"", sensor.sensor), HELP));
+        return Err(input_error(
+            Refusal::CalibrationInvalid,
+            format!("no sensor is called \"{}\"", sensor.sensor),
+            HELP,
+        ));
     };
     let Some(unit) = imu.unit(sensor_kind) else { return Ok(()) };
     if let Some(caveat) = &sensor.caveat {
         let message = format!("the noise of the {sensor_kind} is not that of a sensor at rest: {caveat}");
         return Err(input_error(
+            Refusal::CalibrationInvalid,
             message,
             "run `calibrant noise` on a recording at rest, where nothing vibrates; or write the densities into the file by hand",
         ));
@@ -97,6 +106,7 @@ fn take(noise: &mut ImuNoise, sensor: &Sensor, imu: &CalibratedImu) -> Checked<(
             unit.symbol()
         );
         return Err(input_error(
+            Refusal::CalibrationInvalid,
             message,
             "run `calibrant noise` on the same readings, or give it their --gain",
         ));

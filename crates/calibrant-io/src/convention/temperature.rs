@@ -5,6 +5,7 @@
 use super::arrays::{missing, vector3};
 use super::words::input_error;
 use crate::text_decoding::Checked;
+use calibrant_core::error::Refusal;
 use calibrant_core::sensor::{CalibratedImu, ReadingUnit, SensorKind, SensorThermal, Thermal};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -69,6 +70,7 @@ impl TemperatureCore {
             Some([low, high]) => Some([*low, *high]),
             Some(_) => {
                 return Err(input_error(
+                    Refusal::CalibrationInvalid,
                     "`temperature.range_c` is not two numbers",
                     "give the least and the greatest temperature",
                 ));
@@ -85,6 +87,7 @@ impl TemperatureCore {
                 (Some(terms), Some(unit)) => terms.into_terms(sensor_kind, unit)?,
                 (Some(_), None) => {
                     return Err(input_error(
+                        Refusal::CalibrationInvalid,
                         format!("`temperature.{sensor_kind}` is there, and no {sensor_kind}"),
                         "correct the one or the other",
                     ));
@@ -125,6 +128,7 @@ impl TermsCore {
         let others = [ReadingUnit::MetrePerSecondSquared, ReadingUnit::RadianPerSecond, ReadingUnit::Counts];
         if others.into_iter().any(|other| self.bias(other).iter().any(|field| field.is_some())) {
             return Err(input_error(
+                Refusal::CalibrationInvalid,
                 format!(
                     "`temperature.{sensor_kind}` has a bias in another unit than its sensor, {}",
                     unit.symbol()

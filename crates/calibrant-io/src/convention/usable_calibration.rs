@@ -2,6 +2,7 @@
 
 use super::words::input_error;
 use crate::text_decoding::Checked;
+use calibrant_core::error::Refusal;
 use calibrant_core::sensor::{CalibratedImu, ImuCorrection, SensorKind};
 use nalgebra::{DMatrix, Matrix3};
 
@@ -13,6 +14,7 @@ const LARGEST: f64 = 1e12;
 pub(super) fn usable(imu: &CalibratedImu) -> Checked<()> {
     if imu.accelerometer_unit.is_none() && imu.gyroscope_unit.is_none() {
         return Err(input_error(
+            Refusal::CalibrationInvalid,
             "there is neither an accelerometer nor a gyroscope in it",
             "give a calibration",
         ));
@@ -25,12 +27,14 @@ pub(super) fn usable(imu: &CalibratedImu) -> Checked<()> {
         let believable = |value: &f64| value.is_finite() && value.abs() <= LARGEST;
         if !sensor.bias.iter().chain(sensor.matrix.iter()).all(believable) {
             return Err(input_error(
+                Refusal::CalibrationInvalid,
                 format!("a number of the {sensor_kind} is not finite or beyond 1e12"),
                 "calibrate again",
             ));
         }
         if !imu.parameters.g_sensitivity.iter().all(believable) {
             return Err(input_error(
+                Refusal::CalibrationInvalid,
                 "a number of the g-sensitivity is not finite or beyond 1e12",
                 "calibrate again",
             ));
@@ -40,13 +44,15 @@ pub(super) fn usable(imu: &CalibratedImu) -> Checked<()> {
         });
         if !regular {
             return Err(input_error(
+                Refusal::CalibrationUnusable,
                 format!("the matrix of the {sensor_kind} is singular: it reports nothing in some direction"),
                 "calibrate again",
             ));
         }
     }
     temperature(imu)?;
-    ImuCorrection::of(imu).map_err(|error| input_error(error.to_string(), ""))?;
+    ImuCorrection::of(imu)
+        .map_err(|error| input_error(Refusal::CalibrationInvalid, error.to_string(), ""))?;
     match &imu.covariance {
         Some(covariance) => covariance_of(covariance, imu.quantities.len()),
         None => Ok(()),
@@ -60,6 +66,7 @@ fn temperature(imu: &CalibratedImu) -> Checked<()> {
     let possible = |t: f64| (-273.15..=1000.0).contains(&t);
     if !(possible(thermal.reference_c) && possible(low) && possible(high) && low <= high) {
         return Err(input_error(
+            Refusal::CalibrationInvalid,
             "a temperature is not between -273.15 and 1000 °C, or the range of temperatures is none",
             "reference_c and range_c are in °C, the range from the least to the greatest",
         ));
@@ -69,12 +76,14 @@ fn temperature(imu: &CalibratedImu) -> Checked<()> {
         let all = terms.bias.iter().chain(&terms.scale).flat_map(|vector| vector.iter());
         if !all.into_iter().all(|value| value.is_finite() && value.abs() <= LARGEST) {
             return Err(input_error(
+                Refusal::CalibrationInvalid,
                 format!("a temperature term of the {sensor_kind} is not finite or beyond 1e12"),
                 "calibrate again",
             ));
         }
         if [low, high].iter().any(|t| terms.gain_factor(thermal.tau_k(*t)).min() <= 0.0) {
             return Err(input_error(
+                Refusal::CalibrationInvalid,
                 format!(
                     "the polynomial of the {sensor_kind}'s gain is not positive in the range of temperatures"
                 ),
@@ -88,7 +97,9 @@ fn temperature(imu: &CalibratedImu) -> Checked<()> {
 /// Is a matrix the covariance of this number of quantities: square, finite, symmetric, no negative variance
 /// in any direction?
 fn covariance_of(covariance: &DMatrix<f64>, size: usize) -> Checked<()> {
-    let reject = |message: String| Err(input_error(message, "calibrate again, or remove the covariance"));
+    let reject = |message: String| {
+        Err(input_error(Refusal::CalibrationInvalid, message, "calibrate again, or remove the covariance"))
+    };
     if covariance.shape() != (size, size) {
         return reject(format!("the covariance is not {size} × {size}, one row for each parameter"));
     }

@@ -1,6 +1,6 @@
 //! Words that all formats share.
 
-use calibrant_core::error::InputError;
+use calibrant_core::error::{InputError, Refusal};
 
 /// Program and version, for the first line of a file.
 pub(super) fn written_by() -> String {
@@ -8,6 +8,6 @@ pub(super) fn written_by() -> String {
 }
 
 /// An input error without a place.
-pub(super) fn input_error(message: impl Into<String>, help: &str) -> Box<InputError> {
-    Box::new(InputError::new(message, help))
+pub(super) fn input_error(code: Refusal, message: impl Into<String>, help: &str) -> Box<InputError> {
+    Box::new(InputError::new(code, message, help))
 }

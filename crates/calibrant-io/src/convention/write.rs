@@ -5,7 +5,7 @@ use super::words::input_error;
 use super::{ImuFormat, c_header, calibrant_json, imu_tk, imucal, kalibr, usable_calibration};
 use crate::atomic_output::write_atomically;
 use crate::text_decoding::Checked;
-use calibrant_core::error::{Error, Result};
+use calibrant_core::error::{Error, Refusal, Result};
 use calibrant_core::sensor::SensorKind;
 use std::path::Path;
 
@@ -54,6 +54,7 @@ fn text_of(file: &CalibratedImuFile, format: ImuFormat) -> Checked<Texts> {
     }
     if file.imu.follows_temperature() && !matches!(format, ImuFormat::CalibrantJson | ImuFormat::CHeader) {
         return Err(input_error(
+            Refusal::ConversionImpossible,
             format!(
                 "{} has no place for what temperature does to bias and gain, and the correction would be another without it",
                 format.title()

@@ -2,7 +2,7 @@
 
 use super::{CriterionLetter, Experiment, Plan, Prior, ScaleBy};
 use crate::EarlierCalibration;
-use calibrant_core::error::{Error, InputError, Result};
+use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::information::criterion::{
     AOptimality, COptimality, Criterion, DOptimality, EOptimality, IOptimality, MOptimality,
 };
@@ -21,7 +21,9 @@ impl Experiment {
     /// is missing.
     pub fn criterion(&self, at: &SensorParameters) -> Result<Criterion> {
         let reject = |key: &str, message: &str, help: &str| {
-            Error::experiment(InputError::new(message, help).about_key(format!("design.{key}")))
+            Error::experiment(
+                InputError::new(Refusal::KeyMissing, message, help).about_key(format!("design.{key}")),
+            )
         };
         let list = self.sensor.parameter_list();
         let scale = match self.design.scale_by {
@@ -84,6 +86,7 @@ impl Experiment {
     pub fn design_problem(&self, earlier: &[EarlierCalibration]) -> Result<DesignProblem<'_>> {
         let Plan::Motion(plan) = &self.plan else {
             return Err(Error::experiment(InputError::new(
+                Refusal::ExperimentUnsuited,
                 "a design needs a [motion] experiment, this one has [holds]",
                 "see `calibrant init report`",
             )));
@@ -99,7 +102,7 @@ impl Experiment {
             datasheets += usize::from(calibration.has_datasheet_prior);
         }
         let at = at.ok_or_else(|| {
-            let input_error = InputError::new(
+            let input_error = InputError::new(Refusal::KeyMissing,
                 "the sensor's nominal gain and offset are not known, so a design has nothing to begin with",
                 "give gain_counts_per_mps2 and offset_counts in [sensor], or an earlier calibration (--from calibration.json)",
             );

@@ -6,7 +6,7 @@ use super::{
     holds, limits, motion, sensor, study,
 };
 use crate::{ImuReadOptions, text_decoding};
-use calibrant_core::error::{Error, InputError, Result};
+use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::motion::Limits;
 use calibrant_core::sensor::{ReadingUnit, Sensor};
 use std::path::Path;
@@ -55,8 +55,11 @@ pub fn read_columns(path: &Path) -> Result<ImuReadOptions> {
         None => ImuReadOptions::default(),
     };
     if columns == ImuReadOptions::default() {
-        let input_error =
-            InputError::new("there is no [columns] section", "add one, or leave --columns away");
+        let input_error = InputError::new(
+            Refusal::KeyMissing,
+            "there is no [columns] section",
+            "add one, or leave --columns away",
+        );
         return Err(Error::experiment(input_error.in_file(path)));
     }
     Ok(columns)
@@ -100,6 +103,7 @@ impl Experiment {
         let document = Document { text, file };
         if text.len() as u64 > LARGEST {
             return Err(Error::experiment(document.reject(
+                Refusal::FileUnreadable,
                 0..0,
                 "the experiment file is larger than 1 MiB".into(),
                 "this is hardly the file that you mean".into(),

@@ -2,7 +2,7 @@
 
 use super::known_keys;
 use super::number_range::Bounds;
-use calibrant_core::error::{Error, InputError, Result};
+use calibrant_core::error::{Error, InputError, Refusal, Result};
 use nalgebra::Vector3;
 use std::ops::Range;
 use std::path::Path;
@@ -20,7 +20,13 @@ impl Document<'_> {
     const EXCERPT_BYTES: usize = 256 * 1024;
 
     /// An error about these bytes of the text.
-    pub(super) fn reject(&self, span: Range<usize>, message: String, help: String) -> InputError {
+    pub(super) fn reject(
+        &self,
+        code: Refusal,
+        span: Range<usize>,
+        message: String,
+        help: String,
+    ) -> InputError {
         let start = (0..=span.start.min(self.text.len())).rev().find(|&at| self.text.is_char_boundary(at));
         let before = &self.text[..start.unwrap_or(0)];
         let line_start = before.rfind('\n').map_or(0, |at| at + 1);
@@ -28,11 +34,10 @@ impl Document<'_> {
             file: self.file.map(Path::to_path_buf),
             line: Some(1 + before.bytes().filter(|&byte| byte == b'\n').count()),
             column: Some(1 + before[line_start..].chars().count()),
-            message,
-            help,
             key: None,
             excerpt: (self.text.len() <= Self::EXCERPT_BYTES)
                 .then(|| (self.text.to_owned(), before.len()..span.end.clamp(before.len(), self.text.len()))),
+            ..InputError::new(code, message, help)
         }
     }
 
@@ -40,13 +45,15 @@ impl Document<'_> {
     pub(super) fn syntax(&self, error: &toml::de::Error) -> Error {
         let span = error.span().unwrap_or(0..0);
         let message = error.message().replace('\n', " ");
-        let (message, help) = match self.text.get(span.clone()) {
-            Some(key) if message == "duplicate key" => {
-                (format!("the key `{}` is there twice", known_keys::shorten(key)), "keep one of them")
-            }
-            _ => (format!("not valid TOML: {message}"), "see https://toml.io"),
+        let (code, message, help) = match self.text.get(span.clone()) {
+            Some(key) if message == "duplicate key" => (
+                Refusal::KeyRepeated,
+                format!("the key `{}` is there twice", known_keys::shorten(key)),
+                "keep one of them",
+            ),
+            _ => (Refusal::SyntaxInvalid, format!("not valid TOML: {message}"), "see https://toml.io"),
         };
-        Error::experiment(self.reject(span, message, help.into()))
+        Error::experiment(self.reject(code, span, message, help.into()))
     }
 }
 
@@ -74,6 +81,7 @@ impl<'a> Section<'a> {
         for key in table.keys() {
             if !known_keys::allowed(name).contains(&key.get_ref().as_ref()) {
                 let input_error = document.reject(
+                    Refusal::KeyUnknown,
                     key.span(),
                     "unknown key".into(),
                     known_keys::suggest(name, key.get_ref()),
@@ -114,13 +122,17 @@ impl<'a> Section<'a> {
 
     /// The error for a key that is missing from this section.
     pub(super) fn missing(&self, key: &str, help: &str) -> Error {
-        self.reject("this required key is missing", help, key)
+        self.refuse(Refusal::KeyMissing, "this required key is missing", help, key)
     }
 
     /// An error about this section and one of its keys.
     pub(super) fn reject(&self, message: &str, help: &str, key: &str) -> Error {
+        self.refuse(Refusal::ValueInvalid, message, help, key)
+    }
+
+    fn refuse(&self, code: Refusal, message: &str, help: &str, key: &str) -> Error {
         let key = if key.is_empty() { self.name.to_owned() } else { self.full(key) };
-        let input_error = self.document.reject(self.span.clone(), message.into(), help.into());
+        let input_error = self.document.reject(code, self.span.clone(), message.into(), help.into());
         Error::experiment(if key.is_empty() { input_error } else { input_error.about_key(key) })
     }
 
@@ -159,7 +171,8 @@ pub(super) struct Entry<'a> {
 impl<'a> Entry<'a> {
     /// An error about this value.
     pub(super) fn reject(&self, message: impl Into<String>, help: impl Into<String>) -> Error {
-        let input_error = self.document.reject(self.value.span(), message.into(), help.into());
+        let input_error =
+            self.document.reject(Refusal::ValueInvalid, self.value.span(), message.into(), help.into());
         Error::experiment(input_error.about_key(self.key.clone()))
     }
 

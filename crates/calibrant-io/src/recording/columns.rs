@@ -5,7 +5,7 @@ use super::reader_finding::{Finding, FindingKind};
 use super::row_parser::Layout;
 use crate::delimited_text::{Delimiter, Line};
 use crate::text_decoding::Checked;
-use calibrant_core::error::InputError;
+use calibrant_core::error::{InputError, Refusal};
 use calibrant_core::sensor::{Axis, ReadingUnit};
 
 /// Standard gravity, m/s²: what a reading of 1 g means.
@@ -52,6 +52,7 @@ impl Columns {
         let needed = options.axes + 1;
         if columns < needed {
             return Err(InputError::new(
+                Refusal::ColumnMissing,
                 format!("{columns} column{} where {needed} are needed", if columns == 1 { "" } else { "s" }),
                 format!(
                     "without a header the columns are {}",
@@ -85,8 +86,9 @@ impl Columns {
         findings: &mut Vec<Finding>,
     ) -> Checked<Self> {
         let names: Vec<String> = fields.iter().map(|field| field.to_lowercase()).collect();
-        let reject =
-            |message: String, help: &str| Err(InputError::new(message, help).at_line(line.number).into());
+        let reject = |message: String, help: &str| {
+            Err(InputError::new(Refusal::ColumnMissing, message, help).at_line(line.number).into())
+        };
         let mut slots: Vec<Option<usize>> = vec![None; names.len()];
         let mut suffix: Option<Suffix> = None;
         for (column, name) in names.iter().enumerate() {
@@ -212,6 +214,7 @@ fn resolve_unit(
     match options.unit {
         Some(given) if given != unit || suffix == Suffix::G => {
             return Err(InputError::new(
+                Refusal::UnitContradicted,
                 format!("the header says {}, but the unit was given as {}", suffix.symbol(), given.symbol()),
                 "leave --unit away: the header decides (readings in g are converted to m/s²)",
             )

@@ -8,7 +8,7 @@ use super::size::{LARGEST, estimated_rows};
 use super::{ReadOptions, RecordingFile, lost_sign, recording_quality};
 use crate::delimited_text::Lines;
 use crate::text_decoding::{self, Checked};
-use calibrant_core::error::{Error, InputError, Result};
+use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::sensor::Recording;
 use std::path::Path;
 
@@ -48,12 +48,18 @@ pub fn parse_recording(bytes: &[u8], options: &ReadOptions) -> Result<RecordingF
 pub(super) fn parse(bytes: &[u8], options: &ReadOptions) -> Checked<RecordingFile> {
     let text = text_decoding::as_text(bytes)?;
     if options.axes != 1 && options.axes != 3 {
-        return Err(InputError::new(format!("{} axes are not supported", options.axes), "1 or 3").into());
+        return Err(InputError::new(
+            Refusal::ValueInvalid,
+            format!("{} axes are not supported", options.axes),
+            "1 or 3",
+        )
+        .into());
     }
     let mut findings = Vec::new();
     let mut lines = Lines::of(text);
     let Some(first) = lines.by_ref().find(|line| !line.is_void()) else {
         return Err(InputError::new(
+            Refusal::FileEmpty,
             if text.trim().is_empty() { "the file is empty" } else { "the file has only comments" },
             "a recording has a header t_s,ax,ay,az and a row for each sample",
         )
@@ -91,5 +97,5 @@ pub(super) fn too_short(rows: &Rows<'_>, last: usize, findings: &[Finding]) -> I
     };
     let mut help = vec!["a recording needs two samples at least".to_owned()];
     help.extend(findings.iter().map(ToString::to_string));
-    InputError::new(message, help.join("; ")).at_line(last)
+    InputError::new(Refusal::RecordingShort, message, help.join("; ")).at_line(last)
 }

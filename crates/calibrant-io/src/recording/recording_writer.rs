@@ -1,7 +1,7 @@
 //! Writes `recording.csv`.
 
 use crate::atomic_output::write_atomically;
-use calibrant_core::error::{Error, InputError, Result};
+use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::sensor::{Axis, ImuRecording, Recording, SensorKind};
 use std::path::Path;
 
@@ -39,12 +39,16 @@ pub fn write_recording(path: &Path, recording: &Recording) -> Result<()> {
 /// them. [`Error::Output`] where it cannot be written.
 pub fn write_imu_recording(path: &Path, recording: &ImuRecording) -> Result<()> {
     let (Some(accelerometer), Some(gyroscope)) = (&recording.accelerometer, &recording.gyroscope) else {
-        let input_error =
-            InputError::new("the recording has one sensor only", "write that sensor's recording");
+        let input_error = InputError::new(
+            Refusal::SensorMissing,
+            "the recording has one sensor only",
+            "write that sensor's recording",
+        );
         return Err(Error::recording(input_error));
     };
     if accelerometer.times_s != gyroscope.times_s {
         let input_error = InputError::new(
+            Refusal::RecordingsUnlike,
             "the sensors have different sample times",
             "write each sensor's recording by itself",
         );

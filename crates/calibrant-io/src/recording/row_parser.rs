@@ -3,7 +3,7 @@
 
 use crate::delimited_text::{Delimiter, Line, last_number_is_cut};
 use crate::text_decoding::Checked;
-use calibrant_core::error::InputError;
+use calibrant_core::error::{InputError, Refusal};
 use std::ops::RangeInclusive;
 
 /// Largest plausible time and reading, in any unit.
@@ -207,7 +207,7 @@ impl<'l> RowReader<'l> {
         let before = if layout.has_header { "the header" } else { "the first row" };
         let message = format!("{fields} columns where {before} has {columns}");
         Err(RowError {
-            input_error: InputError::new(message, help).at_line(line.number).into(),
+            input_error: InputError::new(Refusal::RowMalformed, message, help).at_line(line.number).into(),
             cut: fields < columns,
         })
     }
@@ -230,7 +230,9 @@ impl<'l> RowReader<'l> {
             (false, _) => "is the unit right? is the file damaged?",
         };
         let message = format!("{} in {} is out of range", quote(field), self.layout.name(column));
-        let input_error = InputError::new(message, help).at_line(line.number).at_column(line.column(offset));
+        let input_error = InputError::new(Refusal::ValueOutOfRange, message, help)
+            .at_line(line.number)
+            .at_column(line.column(offset));
         RowError { input_error: input_error.into(), cut: false }
     }
 
@@ -244,7 +246,9 @@ impl<'l> RowReader<'l> {
             "numbers look like 9.81 or 1e-3; a missing value is an empty field or NaN"
         };
         let message = format!("{} in {} is not a number", quote(field), self.layout.name(column));
-        let input_error = InputError::new(message, help).at_line(line.number).at_column(line.column(offset));
+        let input_error = InputError::new(Refusal::NumberMalformed, message, help)
+            .at_line(line.number)
+            .at_column(line.column(offset));
         RowError {
             input_error: input_error.into(),
             cut: offset + field.len() >= line.text.trim_ascii_end().len(),

@@ -5,7 +5,7 @@ use super::reader_finding::{Finding, FindingKind, Tally, count};
 use super::row_parser::RowReader;
 use crate::delimited_text::Line;
 use crate::text_decoding::Checked;
-use calibrant_core::error::InputError;
+use calibrant_core::error::{InputError, Refusal};
 use nalgebra::Vector3;
 
 /// The samples so far, and the findings.
@@ -96,6 +96,7 @@ impl<'c> Rows<'c> {
 /// The error for a time that goes backwards, s.
 pub(super) fn backwards(before: f64, t: f64) -> InputError {
     InputError::new(
+        Refusal::TimesNotIncreasing,
         format!("time goes backwards, from {before:?} s to {t:?} s"),
         "are these files put together, or did a counter wrap? split the file here",
     )

@@ -1,6 +1,6 @@
 //! A calibration is not tried on the data that it is from.
 
-use calibrant_core::error::{Error, InputError, Result};
+use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::sensor::{Recording, SensorKind};
 use nalgebra::Vector3;
 use std::collections::HashSet;
@@ -39,7 +39,7 @@ pub(crate) fn refuse_duplicate(
     };
     let message = format!("{what}; errors on them are smaller than on other data, and validate nothing");
     let help = "give another recording of the sensor, or --folds 5 in place of --validate: blocks of holds, each predicted from the others";
-    Err(Error::experiment(InputError::new(message, help).in_file(path)))
+    Err(Error::experiment(InputError::new(Refusal::RecordingRepeated, message, help).in_file(path)))
 }
 
 /// Do two recordings share samples: is one a part of the other, or do they overlap, at whatever times? Readings are compared to the last digit.

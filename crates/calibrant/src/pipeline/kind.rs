@@ -5,7 +5,7 @@ use super::options::PipelineOptions;
 use super::sections::setup_of;
 use super::setup::Setup;
 use super::source::Source;
-use calibrant_core::error::{Error, InputError, Result};
+use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::motion::CommandedMotion;
 use calibrant_core::sensor::ImuRecording;
 use calibrant_io::{Experiment, HoldsPlan, ImuPlan, MotionPlan, Plan, read_motion};
@@ -33,7 +33,11 @@ impl<'e> Kind<'e> {
             (Some(imu), Plan::Holds(holds)) => Ok(Self::Imu(imu, holds)),
             (Some(_), Plan::Motion(_)) => {
                 let help = "see `calibrant init imu`";
-                Err(Error::experiment(InputError::new("an IMU needs [holds]", help)))
+                Err(Error::experiment(InputError::new(
+                    Refusal::ExperimentUnsuited,
+                    "an IMU needs [holds]",
+                    help,
+                )))
             }
         }
     }
@@ -64,6 +68,7 @@ fn commanded(
 ) -> Result<CommandedMotion> {
     let path = options.motion.as_deref().ok_or_else(|| {
         Error::experiment(InputError::new(
+            Refusal::KeyMissing,
             "a [motion] experiment needs the commanded motion",
             "add --motion FILE with columns t_s,ax_mps2,ay_mps2,az_mps2 at the nodes; trust unknown uses only its first and last row",
         ))

@@ -3,7 +3,7 @@
 use super::options::PipelineOptions;
 use super::recorded::Recorded;
 use super::source::Source;
-use calibrant_core::error::{Error, InputError, Result};
+use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::sensor::{ReadingUnit, SensorKind};
 use calibrant_io::{Experiment, ImuPlan, ImuReadOptions, ImuUnit};
 use std::path::PathBuf;
@@ -45,10 +45,12 @@ impl<'e> ImuReader<'e> {
         match Recorded::imu_from(source, &self.options) {
             Ok(recorded) if source.gyroscope.is_none() && recorded.recording.gyroscope.is_none() => {
                 let message = "the recording has no gyroscope";
-                Err(Error::recording(InputError::new(message, help).in_file(&source.recording)))
+                Err(Error::recording(
+                    InputError::new(Refusal::SensorMissing, message, help).in_file(&source.recording),
+                ))
             }
             Err(Error::Recording(input_error))
-                if source.gyroscope.is_none() && input_error.help.contains("with --gyroscope,") =>
+                if source.gyroscope.is_none() && input_error.code == Refusal::SensorUnnamed =>
             {
                 Err(Error::recording(InputError { help: help.into(), ..*input_error }))
             }
@@ -74,7 +76,7 @@ impl<'e> ImuReader<'e> {
                 self.options.unit(sensor_kind)?.symbol()
             );
             let help = "correct it, or name the columns in [columns] to overrule the file; `calibrant inspect` says what it states";
-            Some(Error::experiment(InputError::new(message, help).in_file(&self.experiment_file)))
+            Some(Error::experiment(InputError::new(Refusal::UnitContradicted, message, help).in_file(&self.experiment_file)))
         })
     }
 }

@@ -2,7 +2,7 @@
 
 use super::duplicates::Readings;
 use super::source::Source;
-use calibrant_core::error::{Error, InputError, Result};
+use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::sensor::{ImuRecording, Recording, SensorKind};
 use calibrant_io::{
     FileFormat, Finding, ImuFile, ImuReadOptions, Input, ReadOptions, read_accelerometer, read_imu_pair,
@@ -49,7 +49,7 @@ impl Recorded {
     pub(crate) fn accelerometer(&self) -> Result<&Recording> {
         self.recording.accelerometer.as_ref().ok_or_else(|| {
             let message = format!("the recording has no {}", SensorKind::Accelerometer);
-            Error::recording(InputError::new(message, "choose another file"))
+            Error::recording(InputError::new(Refusal::SensorMissing, message, "choose another file"))
         })
     }
 

@@ -2,7 +2,7 @@
 
 use super::note::Note;
 use super::source::Source;
-use calibrant_core::error::{Error, InputError, Result};
+use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::estimate::{ImuSetup, Turn};
 use calibrant_core::sensor::ImuRecording;
 use calibrant_io::{HoldsPlan, ImuPlan, Section, SectionKind, read_sections};
@@ -21,7 +21,11 @@ pub(crate) fn setup_of(
         let sections = read_sections(path)?;
         if let Some(late) = sections.iter().find(|section| section.end > times.len()) {
             let message = format!("a section ends at sample {}, the recording at {}", late.end, times.len());
-            let input_error = InputError::new(message, "are the list and the recording of one session?");
+            let input_error = InputError::new(
+                Refusal::RecordingsUnlike,
+                message,
+                "are the list and the recording of one session?",
+            );
             return Err(Error::experiment(input_error.in_file(path)));
         }
         if setup.holds.intervals_s.is_some() {

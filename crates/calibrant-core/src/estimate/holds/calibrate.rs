@@ -10,7 +10,7 @@ use super::saturated_holds::{clipped_holds, reason as clipped_reason, with_clipp
 use super::setup::HoldsSetup;
 use super::{accelerometer_change, verdict};
 use crate::diagnostic::{Diagnostic, HoldLeftOut};
-use crate::error::{Error, InputError, Result};
+use crate::error::{Error, InputError, Refusal, Result};
 use crate::estimate::gravity_error::gravity_slope;
 use crate::estimate::quantisation::of_means;
 use crate::estimate::skewed_spikes::skewed_spikes;
@@ -31,6 +31,7 @@ pub(in crate::estimate) fn calibrate(
 ) -> Result<Calibration> {
     if problem.sensor.axes != 3 {
         return Err(Error::experiment(InputError::new(
+            Refusal::ExperimentUnsuited,
             "a static calibration needs three axes: only the magnitude of gravity is known, not its direction",
             "set sensor.axes = 3",
         )));

@@ -5,7 +5,7 @@
 //! finds holds in trembling hands too.
 
 use crate::diagnostic::Diagnostic;
-use crate::error::{Error, InputError, Result};
+use crate::error::{Error, InputError, Refusal, Result};
 use crate::motion::{Hold, to_ms};
 use crate::sensor::{MeanReading, Recording, SensorKind, Spikes, gap_s, greater, lesser};
 use nalgebra::Vector3;
@@ -68,6 +68,7 @@ pub fn find_clean_holds(recording: &Recording, minimum_s: f64) -> Result<Vec<Hol
     let rate = recording.rate_hz();
     if minimum_s * rate < 8.0 {
         return Err(Error::recording(InputError::new(
+            Refusal::HoldsMissing,
             format!(
                 "the samples are {:.3} s apart: a hold of {minimum_s} s has fewer than 8 of them",
                 1.0 / rate
@@ -277,6 +278,7 @@ pub fn holds_between(recording: &Recording, intervals_s: &[(f64, f64)]) -> Resul
         let end = recording.times_s.partition_point(|&t| t <= stop);
         if end < first + 2 {
             return Err(Error::recording(InputError::new(
+                Refusal::HoldsInvalid,
                 format!(
                     "hold {} from {} to {} s has {} samples; the recording spans {} to {} s",
                     k + 1,
@@ -291,6 +293,7 @@ pub fn holds_between(recording: &Recording, intervals_s: &[(f64, f64)]) -> Resul
         }
         if let Some(other) = holds.iter().position(|hold| first < hold.end && hold.first < end) {
             return Err(Error::recording(InputError::new(
+                Refusal::HoldsInvalid,
                 format!("holds {} and {} overlap", other + 1, k + 1),
                 "correct holds.intervals_s: no sample may count twice",
             )));

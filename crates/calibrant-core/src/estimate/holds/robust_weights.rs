@@ -8,7 +8,7 @@ use super::fit::{Directions, Fit};
 use super::hardly_determined::hardly_determined;
 use super::sphere::sphere;
 use super::verdict::explain;
-use crate::error::{Error, InputError, NotIdentifiable, Result};
+use crate::error::{Error, InputError, NotIdentifiable, Refusal, Result};
 use crate::estimate::between_hold_variance::excess;
 use crate::estimate::change::longest_run;
 use crate::estimate::{CalibrationProblem, CalibrationSettings, CalibrationStatus};
@@ -269,6 +269,7 @@ impl<const P: usize> Problem<'_, P> {
             format!("; those from {start_s:.1} to {end_s:.1} s do not: did the sensor change there?")
         });
         Err(Error::recording(InputError::new(
+            Refusal::HoldsContradict,
             format!(
                 "the holds do not look like gravity: {count} of {all} fit, with magnitudes that scatter by {:.0} mm/s²{in_a_row}",
                 1e3 * rms
@@ -471,6 +472,7 @@ impl<const P: usize> Problem<'_, P> {
 
 fn singular() -> Error {
     Error::recording(InputError::new(
+        Refusal::FitFailed,
         "the fit of the holds breaks down: the estimated matrix becomes singular",
         "check the unit of the recording and that the holds are what they should be",
     ))

@@ -1,7 +1,7 @@
 //! Calibrates an IMU: removes outliers, and compares given values with the recording.
 
 use crate::diagnostic::Diagnostic;
-use crate::error::{Error, InputError, Result};
+use crate::error::{Error, InputError, Refusal, Result};
 use crate::estimate::imu::checks::known_terms::{self, Contradiction};
 use crate::estimate::imu::problem::{ImuProblem, ImuSetup};
 use crate::estimate::imu::solver::solve_imu;
@@ -89,6 +89,7 @@ fn of_clean(
         }
         Err(error) if stated.len() == 0 => Err(error),
         _ => Err(Error::experiment(InputError::new(
+            Refusal::KnownContradicted,
             stated.map(|known| known.to_string()).collect::<Vec<_>>().join("; "),
             "correct the value in [known], its unit too, or leave it out and let the recording tell",
         ))),

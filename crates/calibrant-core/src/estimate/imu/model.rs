@@ -3,7 +3,7 @@
 //! A recording gives means in the holds ([`HoldData`]), rotations between them ([`RotationData`]) and turns of known angle ([`TurnData`]).
 //! [`ImuModel`] holds them with their weights, [`State`] the unknowns. `solver` lists the stages; none of them is used here.
 
-use crate::error::{Error, InputError};
+use crate::error::{Error, InputError, Refusal};
 use crate::estimate::imu::earth_rate::EarthRate;
 use crate::estimate::quantisation::{CoarseAxis, of_means};
 use crate::estimate::result::CalibrationStatus;
@@ -279,6 +279,7 @@ pub(crate) struct Fit {
 /// The error that an estimated matrix is or becomes singular.
 pub(crate) fn singular() -> Error {
     Error::recording(InputError::new(
+        Refusal::FitFailed,
         "the fit of the rotations breaks down: an estimated matrix becomes singular",
         "check the units of both sensors and that the files belong together",
     ))

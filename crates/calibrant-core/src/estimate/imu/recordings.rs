@@ -1,6 +1,6 @@
 //! Both recordings of an IMU: of three axes, in the units that are expected, and sound.
 
-use crate::error::{Error, InputError, Result};
+use crate::error::{Error, InputError, Refusal, Result};
 use crate::estimate::imu::problem::ImuProblem;
 use crate::estimate::problem::{CalibrationProblem, Stimulus, sound};
 use crate::sensor::{Axis, Recording, SensorKind};
@@ -12,6 +12,7 @@ pub(in crate::estimate) fn recordings<'a>(
     let need = |sensor_kind: SensorKind| {
         problem.recording.sensor(sensor_kind).filter(|recording| recording.len() > 1).ok_or_else(|| {
             Error::recording(InputError::new(
+                Refusal::SensorMissing,
                 format!("the recording has no {sensor_kind}"),
                 "an IMU needs both sensors; kind = \"accelerometer\" calibrates that one alone",
             ))
@@ -22,6 +23,7 @@ pub(in crate::estimate) fn recordings<'a>(
         match Axis::ALL.into_iter().find(|&axis| recording.constant(axis).is_some()) {
             None => Ok(recording),
             Some(axis) => Err(Error::recording(InputError::new(
+                Refusal::AxisConstant,
                 format!("axis {axis} of the {sensor_kind} never changes"),
                 "is it connected, and are the columns right?",
             ))),
@@ -34,6 +36,7 @@ pub(in crate::estimate) fn recordings<'a>(
     one.and(other)?;
     if gyroscope.unit != problem.gyroscope.unit {
         return Err(Error::recording(InputError::new(
+            Refusal::UnitContradicted,
             format!(
                 "the gyroscope's readings are in {}, the experiment expects {}",
                 gyroscope.unit.symbol(),

@@ -1,6 +1,6 @@
 //! The temperatures of a recording with temperature terms, and whether they differ enough.
 
-use crate::error::{Error, InputError, NotIdentifiable, Result, UndeterminedGroup};
+use crate::error::{Error, InputError, NotIdentifiable, Refusal, Result, UndeterminedGroup};
 use crate::estimate::imu::estimated::set_fixed;
 use crate::estimate::imu::problem::ImuProblem;
 use crate::motion::Hold;
@@ -15,7 +15,7 @@ const LEVEL_K: f64 = 0.5;
 /// The temperatures of a recording with temperature terms.
 pub(in crate::estimate) fn needed_temperatures(recording: &ImuRecording) -> Result<Temperatures<'_>> {
     Temperatures::of(recording)?.ok_or_else(|| {
-        Error::recording(InputError::new(
+        Error::recording(InputError::new(Refusal::TemperatureMissing,
             "the calibration is to follow temperature, and the recording has none",
             "name its column with temperature = \"…\" in [columns], or take [temperature] out of the experiment",
         ))

@@ -4,7 +4,7 @@ use super::fit::Chain;
 use super::interval_moments::{Positions, moments, reference};
 use super::sample_pairs::PairSums;
 use super::{CalibrationProblem, CalibrationSettings, CommandedMotion, Trust, Vector3};
-use crate::error::{Error, InputError, Result};
+use crate::error::{Error, InputError, Refusal, Result};
 use crate::motion::KnownEnds;
 use nalgebra::SVector;
 
@@ -48,6 +48,7 @@ impl<'a> Context<'a> {
         };
         if command.trust == Trust::Unknown && command.known_ends != KnownEnds::Both {
             return Err(Error::experiment(InputError::new(
+                Refusal::KeyMissing,
                 "trust `unknown` needs the acceleration at both ends",
                 "set known_ends = \"both\"",
             )));
@@ -67,6 +68,7 @@ impl<'a> Context<'a> {
         };
         let noise = sensor.noise(&gain).ok_or_else(|| {
             Error::experiment(InputError::new(
+                Refusal::KeyMissing,
                 "the noise of a sample is not given",
                 "set `sensor.noise_mps2`",
             ))
@@ -77,6 +79,7 @@ impl<'a> Context<'a> {
             .find(|axis| !(noise[axis.index()] > 0.0 && noise[axis.index()].is_finite()))
         {
             Some(axis) => Err(Error::experiment(InputError::new(
+                Refusal::ValueInvalid,
                 format!("the noise of axis {axis} is {}, not a positive number", noise[axis.index()]),
                 "set `sensor.noise_mps2` (or `noise_counts`) to the standard deviation of one sample",
             ))),

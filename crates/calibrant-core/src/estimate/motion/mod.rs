@@ -15,7 +15,7 @@ use super::{
     Calibration, CalibrationProblem, CalibrationSettings, CalibrationStatus, FitStatistics, Recovered,
     RecoveredMotion, statistics,
 };
-use crate::error::{Error, InputError, NotIdentifiable, Result};
+use crate::error::{Error, InputError, NotIdentifiable, Refusal, Result};
 use crate::information::chain_model::FULL_SLOTS;
 use crate::motion::{CommandedMotion, JerkControlledMotion, Trust};
 use crate::sensor::{Axis, ImuParameters, SensorModel, SensorParameters};
@@ -50,6 +50,7 @@ fn samples_within(problem: &CalibrationProblem<'_>, motion: &JerkControlledMotio
     let end = times.partition_point(|&t| t <= stop + slack);
     if first >= end {
         return Err(Error::recording(InputError::new(
+            Refusal::MotionInvalid,
             format!(
                 "no sample lies within the motion: the recording spans {} to {} s, the motion {start} to {stop} s",
                 times[0],
@@ -93,6 +94,7 @@ fn assemble(context: &Context<'_>, solved: Solved, first_sample: usize) -> Resul
     let motion =
         JerkControlledMotion::new(context.command.motion.times_s().to_vec(), solved.nodes).map_err(|_| {
             Error::recording(InputError::new(
+                Refusal::FitFailed,
                 "the estimated motion is not finite",
                 "check the recording's unit",
             ))

@@ -7,7 +7,7 @@ use super::judgement::judged;
 use super::prediction::Prediction;
 use super::prediction_errors::{Errors, Unused};
 use super::{Validation, ValidationSource};
-use crate::error::{Error, InputError, Result};
+use crate::error::{Error, InputError, Refusal, Result};
 use crate::estimate::imu::recordings;
 use crate::estimate::{
     Calibration, CalibrationProblem, CalibrationSettings, CalibrationStatus, HoldsSetup, ImuProblem,
@@ -42,6 +42,7 @@ fn cross_validated_imu(
 ) -> Result<Validation> {
     if problem.setup.directions.is_some() {
         return Err(Error::experiment(InputError::new(
+            Refusal::ValidationImpossible,
             "folds say nothing where the directions of the holds are known: a face that is left out shows how well the sensor was placed on it",
             "validate on another recording, with holds in any orientation",
         )));
@@ -132,7 +133,11 @@ fn converged(status: CalibrationStatus) -> Result<()> {
     if status == CalibrationStatus::Converged {
         return Ok(());
     }
-    Err(Error::recording(InputError::new(format!("the estimation did not converge ({})", status.name()), "")))
+    Err(Error::recording(InputError::new(
+        Refusal::FitFailed,
+        format!("the estimation did not converge ({})", status.name()),
+        "",
+    )))
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@
 //! samples from the hold before it to the hold after it are cut out, so that no rotation leads across.
 
 use super::result::FailedFold;
-use crate::error::{Error, InputError, Result};
+use crate::error::{Error, InputError, Refusal, Result};
 use crate::motion::Hold;
 use crate::sensor::Recording;
 use std::ops::Range;
@@ -24,6 +24,7 @@ pub(super) fn blocks(holds: &[&Hold], folds: usize) -> Result<Vec<Block>> {
     let count = holds.len();
     if folds < 2 || folds > count {
         return Err(Error::experiment(InputError::new(
+            Refusal::ValidationImpossible,
             format!("{folds} folds cannot be made of {count} used holds"),
             format!("choose between 2 and {count}"),
         )));
@@ -76,6 +77,7 @@ pub(super) fn sorted<T>(
     }
     match failed.first() {
         Some(first) if done.is_empty() => Err(Error::recording(InputError::new(
+            Refusal::ValidationImpossible,
             format!(
                 "none of the {} folds can be predicted from the others; without holds {} to {}: {}",
                 blocks.len(),

@@ -1,6 +1,6 @@
 //! What a validation begins with: holds, temperatures, and a calibration that corrects something.
 
-use crate::error::{Error, InputError, Result};
+use crate::error::{Error, InputError, Refusal, Result};
 use crate::estimate::imu::needed_temperatures;
 use crate::estimate::{Calibration, CalibrationProblem, HoldCalibration, HoldsSetup, ImuProblem, Stimulus};
 use crate::motion::Hold;
@@ -19,6 +19,7 @@ pub(super) fn temperatures<'a>(
 pub(super) fn at_least_one(holds: Vec<Hold>, setup: &HoldsSetup) -> Result<Vec<Hold>> {
     if holds.is_empty() {
         return Err(Error::recording(InputError::new(
+            Refusal::HoldsMissing,
             format!("it has no holds of at least {} s", setup.minimum_hold_s),
             "a validation needs the sensor held still in several orientations",
         )));
@@ -44,6 +45,7 @@ pub(super) fn of_holds<'a>(
 
 fn without_holds() -> Error {
     Error::experiment(InputError::new(
+        Refusal::ValidationImpossible,
         "only a calibration from holds can be validated: a commanded motion gives no errors of which anything is known",
         "record the sensor held still in several orientations, and use [holds]",
     ))
@@ -51,6 +53,7 @@ fn without_holds() -> Error {
 
 pub(super) fn singular() -> Error {
     Error::recording(InputError::new(
+        Refusal::CalibrationUnusable,
         "the calibration has a singular matrix, so that it corrects nothing",
         "calibrate again",
     ))

@@ -8,7 +8,7 @@ use super::prediction::Prediction;
 use super::prediction_errors::{Errors, Unused};
 use super::result::{Validation, ValidationSource};
 use super::scatter_comparison;
-use crate::error::{Error, InputError, Result};
+use crate::error::{Error, InputError, Refusal, Result};
 use crate::estimate::holds::median;
 use crate::estimate::imu::recordings;
 use crate::estimate::{
@@ -44,6 +44,7 @@ pub fn validate_imu(calibration: &Calibration, problem: &ImuProblem<'_>) -> Resu
     };
     if holds.iter().all(|hold| gyroscope.between(hold.start_s, hold.end_s).len() < 2) {
         return Err(Error::recording(InputError::new(
+            Refusal::RecordingsUnlike,
             "the gyroscope has no samples in the holds of the accelerometer",
             "both need the same clock: are these files of one recording?",
         )));
@@ -74,6 +75,7 @@ fn on_another(prediction: &Prediction, unused: Unused<'_>, caveats: &Caveats) ->
     let unused = Unused { another: true, ..unused };
     if unused.holds.is_empty() {
         return Err(Error::recording(InputError::new(
+            Refusal::ReadingsSaturated,
             "the accelerometer saturates in each of its holds",
             "record with a larger range",
         )));
@@ -87,6 +89,7 @@ fn on_another(prediction: &Prediction, unused: Unused<'_>, caveats: &Caveats) ->
     let median = median(errors.magnitudes.items.iter().map(|item| item.error[0].abs()).collect());
     if median > ANOTHER_SENSOR * prediction.gravity_mps2 {
         return Err(Error::recording(InputError::new(
+            Refusal::CalibrationUnsuited,
             format!("with this calibration, its holds miss the magnitude of gravity by {median:.2} m/s²"),
             other_unit(&errors, prediction)
                 .unwrap_or("is it a recording of the same sensor, in the same units?"),

@@ -8,7 +8,7 @@ use crate::recording::columns::is_axis;
 use crate::recording::read::parse as parse_plain;
 use crate::recording::{ReadOptions, RecordingFile};
 use crate::text_decoding;
-use calibrant_core::error::{Error, InputError, Result};
+use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::sensor::{Axis, ReadingUnit, SensorKind};
 use std::path::Path;
 
@@ -40,6 +40,7 @@ pub fn read_accelerometer(
     let file = parse(&bytes, &device).map_err(in_file)?;
     let Some(mut recording) = file.recording.accelerometer else {
         let input_error = InputError::new(
+            Refusal::SensorMissing,
             format!("the recording has no {}", SensorKind::Accelerometer),
             "`calibrant inspect` says what it has",
         );

@@ -3,7 +3,7 @@
 use super::column_values::{SLOTS, Samples, TIME, slots_of};
 use crate::recording::row_parser::Sense;
 use crate::text_decoding::Checked;
-use calibrant_core::error::InputError;
+use calibrant_core::error::{InputError, Refusal};
 use calibrant_core::sensor::SensorKind;
 use nalgebra::Vector3;
 
@@ -13,6 +13,7 @@ impl Samples {
         let rows = columns.iter().map(Vec::len).max().unwrap_or(0);
         if columns.iter().any(|column| !column.is_empty() && column.len() != rows) {
             return Err(InputError::new(
+                Refusal::FileDamaged,
                 "the columns have different lengths",
                 "was the file written to its end?",
             )
@@ -45,5 +46,5 @@ impl Samples {
 
 fn out_of_range(value: f64, row: usize) -> Box<InputError> {
     let message = format!("the value {value:e} in row {} is out of range", row + 1);
-    InputError::new(message, "is the unit right? is the file damaged?").into()
+    InputError::new(Refusal::ValueOutOfRange, message, "is the unit right? is the file damaged?").into()
 }

@@ -7,7 +7,7 @@ use super::options::ImuReadOptions;
 use super::unit::{ColumnUnit, TimeUnit};
 use crate::recording::columns::list;
 use crate::text_decoding::Checked;
-use calibrant_core::error::InputError;
+use calibrant_core::error::{InputError, Refusal};
 use calibrant_core::sensor::{Axis, SensorKind};
 
 /// The layout of a file before its rows are read.
@@ -81,11 +81,18 @@ impl Draft {
                 "[columns] names `{name}`, which the file does not have; it has {}",
                 list(&names, 20)
             );
-            return Err(InputError::new(message, "names count letter by letter, capitals too").into());
+            return Err(InputError::new(
+                Refusal::ColumnMissing,
+                message,
+                "names count letter by letter, capitals too",
+            )
+            .into());
         };
         if other.is_some() {
             let message = format!("[columns] names `{name}`, which the file has twice");
-            return Err(InputError::new(message, "rename one of them in the file").into());
+            return Err(
+                InputError::new(Refusal::ColumnRepeated, message, "rename one of them in the file").into()
+            );
         }
         // what the user gives takes precedence over the name
         let unit = unit
@@ -107,7 +114,12 @@ impl Draft {
                         stated.symbol(),
                         given.symbol()
                     );
-                    return Err(InputError::new(message, "leave --time-unit away").into());
+                    return Err(InputError::new(
+                        Refusal::UnitContradicted,
+                        message,
+                        "leave --time-unit away",
+                    )
+                    .into());
                 }
                 Some(_) => (),
                 None if given == TimeUnit::Sample => {
@@ -135,7 +147,7 @@ impl Draft {
                     true => "rename one of them in the file",
                     false => "say which in [columns] of an experiment file",
                 };
-                return Err(InputError::new(message, help).into());
+                return Err(InputError::new(Refusal::ColumnRepeated, message, help).into());
             }
             slots[k] = Some(slot);
         }
@@ -149,6 +161,7 @@ impl Draft {
             if !missing.is_empty() && missing.len() < 3 {
                 let message = format!("the {sensor_kind} has no column for axis {}", missing.join(", "));
                 return Err(InputError::new(
+                    Refusal::ColumnMissing,
                     message,
                     "three axes are needed; or leave its columns out altogether",
                 )
@@ -161,7 +174,7 @@ impl Draft {
         let accelerometer =
             slot_of(ColumnMeaning::Reading(SensorKind::Accelerometer, Axis::X)).is_some_and(has);
         if let Some(column) = of(ColumnMeaning::GravityRemoved).filter(|_| !accelerometer) {
-            return Err(InputError::new(
+            return Err(InputError::new(Refusal::GravityRemoved,
                 format!(
                     "gravity has been removed from the acceleration (column `{}`): what the sensor read cannot be got back, and gravity is what calibrates it",
                     column.name
@@ -189,6 +202,7 @@ impl Draft {
         let orientation = names(ColumnMeaning::Orientation);
         if !orientation.is_empty() {
             return InputError::new(
+                Refusal::ColumnMissing,
                 format!(
                     "the file holds orientation only ({}): no reading of a sensor",
                     list(&orientation, 3)
@@ -199,6 +213,7 @@ impl Draft {
         let increments = names(ColumnMeaning::Increment);
         if !increments.is_empty() {
             return InputError::new(
+                Refusal::ColumnMissing,
                 format!("the file holds increments only ({}), not readings", list(&increments, 3)),
                 "export accelerometer and gyroscope (Acc_X, …, Gyr_X, …)",
             );
@@ -209,6 +224,7 @@ impl Draft {
             list(&all, 20)
         );
         InputError::new(
+            Refusal::ColumnMissing,
             message,
             "name them like t_s,ax_mps2,ay_mps2,az_mps2,gx_radps,gy_radps,gz_radps, or say which is which in [columns] of an experiment file",
         )

@@ -2,7 +2,7 @@
 
 use super::text_header::Head;
 use crate::text_decoding::Checked;
-use calibrant_core::error::InputError;
+use calibrant_core::error::{InputError, Refusal};
 
 /// The remedy where the given format is not that of the content.
 pub(super) const LEAVE_AWAY: &str = "leave --format away: the format is recognised by the content";
@@ -112,7 +112,7 @@ impl FileFormat {
             return Ok(Self::MtManager);
         }
         if xsens {
-            return Err(InputError::new(
+            return Err(InputError::new(Refusal::FormatUnknown,
                 "the columns are those of an MT Manager and of a Movella DOT export, whose units differ (rad/s and 0.1 ms; deg/s and µs), and \
                  nothing above the header tells which it is",
                 "say --format mt-manager or movella-dot",

@@ -2,7 +2,7 @@
 
 use super::text_header::Head;
 use super::unit::ImuUnit;
-use calibrant_core::error::InputError;
+use calibrant_core::error::{InputError, Refusal};
 
 /// The question about the meaning of the columns.
 pub(super) fn question(head: &Head<'_>) -> InputError {
@@ -12,7 +12,7 @@ pub(super) fn question(head: &Head<'_>) -> InputError {
         "begin the file with a line like t_s,ax_mps2,ay_mps2,az_mps2,gx_radps,gy_radps,gz_radps{}",
         in_columns(head).map_or_else(String::new, |stated| format!("; or {stated}"))
     );
-    InputError::new(message, help).at_line(head.line())
+    InputError::new(Refusal::HeaderMissing, message, help).at_line(head.line())
 }
 
 /// The entry in `[columns]` for the usual order of this number of columns, with the units that the first row

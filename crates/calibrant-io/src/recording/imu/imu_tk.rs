@@ -8,7 +8,7 @@ use super::text_header::Head;
 use super::unit::{ColumnUnit, TimeUnit};
 use super::{column_names, headerless_text};
 use crate::text_decoding::Checked;
-use calibrant_core::error::InputError;
+use calibrant_core::error::{InputError, Refusal};
 use calibrant_core::sensor::{Axis, SensorKind};
 
 /// The columns of one of the two files; `sensor_kind` is its sensor, where that is known.
@@ -16,15 +16,21 @@ pub(super) fn draft(head: &Head<'_>, sensor_kind: Option<SensorKind>) -> Checked
     let columns = head.fields();
     if columns < 4 {
         let message = format!("{columns} column{} where 4 are needed", if columns == 1 { "" } else { "s" });
-        return Err(InputError::new(message, "imu_tk's columns are t x y z").at_line(head.line()).into());
-    }
-    if !head.names.is_empty() && sensor_kind.is_none() {
-        return Err(InputError::new("imu_tk's files have no header, and this one has", LEAVE_AWAY)
+        return Err(InputError::new(Refusal::ColumnMissing, message, "imu_tk's columns are t x y z")
             .at_line(head.line())
             .into());
     }
-    let Some(sensor_kind) = sensor_kind else {
+    if !head.names.is_empty() && sensor_kind.is_none() {
         return Err(InputError::new(
+            Refusal::FormatContradicted,
+            "imu_tk's files have no header, and this one has",
+            LEAVE_AWAY,
+        )
+        .at_line(head.line())
+        .into());
+    }
+    let Some(sensor_kind) = sensor_kind else {
+        return Err(InputError::new(Refusal::SensorUnnamed,
             "imu_tk keeps each sensor in a file of its own, t x y z: this one does not say which it is",
             format!(
                 "give the accelerometer's file as the recording, the gyroscope's with --gyroscope, and their units with --accelerometer-unit and --gyroscope-unit; \

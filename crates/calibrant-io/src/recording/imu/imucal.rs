@@ -5,12 +5,13 @@ use super::file_layout::Draft;
 use super::format::{FileFormat, LEAVE_AWAY};
 use super::text_header::Head;
 use crate::text_decoding::Checked;
-use calibrant_core::error::InputError;
+use calibrant_core::error::{InputError, Refusal};
 
 pub(super) fn draft(head: &Head<'_>) -> Checked<Draft> {
     let names = head.lower_names();
     if !names.iter().any(|name| name == "gyr_x" || name == "acc_x") {
         return Err(InputError::new(
+            Refusal::FormatContradicted,
             "the format was given as imucal, but this file has no column acc_x or gyr_x",
             LEAVE_AWAY,
         )

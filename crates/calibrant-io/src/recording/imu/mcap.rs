@@ -16,7 +16,7 @@ use super::unit::{ColumnUnit, ImuUnit, TimeUnit};
 use crate::recording::columns::list;
 use crate::recording::reader_finding::{Finding, count};
 use crate::text_decoding::Checked;
-use calibrant_core::error::InputError;
+use calibrant_core::error::{InputError, Refusal};
 use calibrant_core::sensor::{Axis, SensorKind};
 use mcap::records::Record;
 use mcap::sans_io::{LinearReadEvent, LinearReader, LinearReaderOptions};
@@ -141,7 +141,9 @@ impl Bag {
                         "messages of `{}` are encoded as `{}`",
                         channel.topic, channel.message_encoding
                     );
-                    return Err(InputError::new(message, "only CDR is read").into());
+                    return Err(
+                        InputError::new(Refusal::FormatUnsupported, message, "only CDR is read").into()
+                    );
                 }
                 let new = || Channel { topic: channel.topic.clone(), schema, messages: Vec::new() };
                 self.channels.entry(channel.id).or_insert_with(new);
@@ -154,7 +156,11 @@ impl Bag {
                 let number = channel.messages.len() + 1;
                 let message = cdr::imu(&data).map_err(|why| {
                     let message = format!("message {number} of `{}` cannot be read: {why}", channel.topic);
-                    InputError::new(message, "was it recorded as sensor_msgs/msg/Imu by ROS 2?")
+                    InputError::new(
+                        Refusal::FileDamaged,
+                        message,
+                        "was it recorded as sensor_msgs/msg/Imu by ROS 2?",
+                    )
                 })?;
                 channel.messages.push(message);
             }
@@ -176,7 +182,7 @@ impl Bag {
             return topics.remove(topic).filter(|messages| !messages.is_empty()).ok_or_else(|| {
                 let has = if known.is_empty() { "none".to_owned() } else { known };
                 let message = format!("there are no messages of sensor_msgs/msg/Imu on `{topic}`; the topics of such messages: {has}");
-                InputError::new(message, "names count letter by letter, the slash too").into()
+                InputError::new(Refusal::TopicUnknown, message, "names count letter by letter, the slash too").into()
             });
         }
         topics.retain(|_, messages| !messages.is_empty());
@@ -185,7 +191,12 @@ impl Bag {
                 .iter()
                 .map(|(topic, messages)| format!("{topic} ({})", count(messages.len(), "message")));
             let message = format!("there is more than one IMU: {}", each.collect::<Vec<_>>().join(", "));
-            return Err(InputError::new(message, "say --topic, or topic in [columns]").into());
+            return Err(InputError::new(
+                Refusal::TopicUnknown,
+                message,
+                "say --topic, or topic in [columns]",
+            )
+            .into());
         }
         topics.into_values().next().ok_or_else(|| {
             let others: Vec<String> = self
@@ -198,7 +209,7 @@ impl Bag {
             } else {
                 format!("the bag has no messages of sensor_msgs/msg/Imu; its topics are {}", named(others))
             };
-            InputError::new(message, "record the topic of the IMU").into()
+            InputError::new(Refusal::TopicUnknown, message, "record the topic of the IMU").into()
         })
     }
 }
@@ -231,9 +242,14 @@ fn texts_end(opcode: u8, data: &[u8]) -> bool {
 fn damaged(error: &McapError) -> InputError {
     match error {
         McapError::UnsupportedCompression(name) => InputError::new(
+            Refusal::FormatUnsupported,
             format!("the bag is compressed with {name}, which is not read"),
             "write it again with zstd: `mcap compress --compression zstd`",
         ),
-        error => InputError::new(format!("the MCAP container is damaged: {error}"), "try `mcap recover`"),
+        error => InputError::new(
+            Refusal::FileDamaged,
+            format!("the MCAP container is damaged: {error}"),
+            "try `mcap recover`",
+        ),
     }
 }

@@ -4,7 +4,7 @@
 
 use super::mcap_records::{HEAD, raw_records};
 use crate::recording::reader_finding::{Finding, FindingKind, count, short};
-use calibrant_core::error::InputError;
+use calibrant_core::error::{InputError, Refusal};
 use mcap::MAGIC;
 use mcap::records::op;
 
@@ -54,6 +54,7 @@ impl Cut {
     pub(super) fn input_error(&self) -> InputError {
         let message = format!("{}, before any message of an IMU", self.sentence());
         InputError::new(
+            Refusal::FileDamaged,
             message,
             "is it a whole copy? was the recorder stopped before it had written anything?",
         )

@@ -7,7 +7,7 @@
 
 use super::column_values::Samples;
 use crate::recording::reader_finding::{count, short};
-use calibrant_core::error::InputError;
+use calibrant_core::error::{InputError, Refusal};
 use calibrant_core::sensor::SensorKind;
 
 /// Fewer samples are not judged.
@@ -74,6 +74,6 @@ impl Packets {
              show; otherwise give a file with the time of each sample",
             short(self.rate_hz)
         );
-        InputError::new(format!("{sensor_kind}: {what}"), help)
+        InputError::new(Refusal::RateUnknown, format!("{sensor_kind}: {what}"), help)
     }
 }

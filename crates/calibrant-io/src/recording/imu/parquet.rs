@@ -9,7 +9,7 @@ use super::parquet_pages::Pages;
 use super::unit::{ColumnUnit, TimeUnit};
 use crate::text_decoding::Checked;
 use bytes::Bytes;
-use calibrant_core::error::InputError;
+use calibrant_core::error::{InputError, Refusal};
 use parquet::basic::{Compression, LogicalType, TimeUnit as StampUnit};
 use parquet::column::reader::{ColumnReader, ColumnReaderImpl, get_column_reader};
 use parquet::data_type::DataType;
@@ -87,6 +87,7 @@ pub(super) fn samples(file: &Opened, slots: &[Option<usize>]) -> Checked<Samples
                 let group = file.reader.get_row_group(group).map_err(|error| damaged(&error))?;
                 if group.metadata().column(at).compression() == Compression::LZO {
                     return Err(InputError::new(
+                        Refusal::FormatUnsupported,
                         "the file is compressed with LZO, which is not read",
                         "write it again with zstd, snappy or no compression",
                     )
@@ -128,6 +129,7 @@ impl Column<'_> {
             _ => {
                 let message = format!("column `{}` does not hold numbers", self.name);
                 Err(InputError::new(
+                    Refusal::NumberMalformed,
                     message,
                     "is it the right column? numbers are float, double, int32 or int64",
                 )
@@ -159,7 +161,9 @@ impl Column<'_> {
             }
             if self.values.len() + rows > self.most {
                 let message = format!("column `{}` claims more rows than the file can hold", self.name);
-                return Err(InputError::new(message, "was it written to its end?").into());
+                return Err(
+                    InputError::new(Refusal::FileDamaged, message, "was it written to its end?").into()
+                );
             }
             // where every value is there, there are no levels
             let all = values == rows;
@@ -176,12 +180,21 @@ impl Column<'_> {
 }
 
 fn damaged(error: &ParquetError) -> InputError {
-    InputError::new(format!("the Parquet file is damaged: {error}"), "was it written to its end?")
+    InputError::new(
+        Refusal::FileDamaged,
+        format!("the Parquet file is damaged: {error}"),
+        "was it written to its end?",
+    )
 }
 
 /// A damaged file must not end the program, even where the crate that reads it panics.
 fn guarded<T>(read: impl FnOnce() -> Checked<T>) -> Checked<T> {
     catch_unwind(AssertUnwindSafe(read)).unwrap_or_else(|_| {
-        Err(InputError::new("the Parquet file is damaged", "was it written to its end?").into())
+        Err(InputError::new(
+            Refusal::FileDamaged,
+            "the Parquet file is damaged",
+            "was it written to its end?",
+        )
+        .into())
     })
 }

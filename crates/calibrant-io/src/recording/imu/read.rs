@@ -18,7 +18,7 @@ use super::{csv, euroc, headerless_text, imu_tk, imucal, movella_dot, mt_manager
 use crate::recording::checksum::hex_sha256;
 use crate::recording::row_parser::Layout;
 use crate::text_decoding::Checked;
-use calibrant_core::error::{Error, InputError, Result};
+use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::sensor::SensorKind;
 use std::path::Path;
 
@@ -79,7 +79,7 @@ pub(super) fn parse(bytes: &[u8], options: &ImuReadOptions) -> Checked<ImuFile> 
         if let Some(given) = options.format.filter(|given| *given != format) {
             let message =
                 format!("the format was given as {}, but this is {}", given.name(), format.description());
-            return Err(InputError::new(message, LEAVE_AWAY).into());
+            return Err(InputError::new(Refusal::FormatContradicted, message, LEAVE_AWAY).into());
         }
         let (file, sha256) = rayon::join(|| binary(format, bytes, options), || hex_sha256(bytes));
         return Ok(ImuFile { sha256: vec![sha256], ..file? });
@@ -113,6 +113,7 @@ fn parse_text(source: Source<'_>, options: &ImuReadOptions, asked: Option<Sensor
 fn read_mcap(bytes: &[u8], options: &ImuReadOptions) -> Checked<ImuFile> {
     if !options.columns.is_empty() {
         return Err(InputError::new(
+            Refusal::OptionsContradict,
             "[columns] names columns, but the messages of a bag say what they hold",
             "take time, accelerometer, gyroscope and temperature out of [columns]; topic may stay",
         )
@@ -153,7 +154,8 @@ fn read_parquet(_: &[u8], _: &ImuReadOptions) -> Checked<ImuFile> {
 #[cfg(not(all(feature = "mcap", feature = "parquet")))]
 fn without(feature: &str) -> Box<InputError> {
     let message = format!("this build of calibrant does not read {feature} files");
-    InputError::new(message, format!("build it with the feature `{feature}`")).into()
+    InputError::new(Refusal::FormatUnsupported, message, format!("build it with the feature `{feature}`"))
+        .into()
 }
 
 fn binary(format: FileFormat, bytes: &[u8], options: &ImuReadOptions) -> Checked<ImuFile> {
@@ -208,7 +210,11 @@ fn finish(mut draft: Draft, mut samples: Samples, options: &ImuReadOptions) -> C
 }
 
 fn not_binary(format: FileFormat) -> InputError {
-    InputError::new(format!("the format was given as {}, but this is text", format.name()), LEAVE_AWAY)
+    InputError::new(
+        Refusal::FormatContradicted,
+        format!("the format was given as {}, but this is text", format.name()),
+        LEAVE_AWAY,
+    )
 }
 
 #[cfg(test)]

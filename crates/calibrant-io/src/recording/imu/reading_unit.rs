@@ -7,7 +7,7 @@ use super::options::ImuReadOptions;
 use super::unit::{ColumnUnit, ImuUnit};
 use crate::recording::reader_finding::short;
 use crate::text_decoding::Checked;
-use calibrant_core::error::InputError;
+use calibrant_core::error::{InputError, Refusal};
 use calibrant_core::sensor::{Axis, Recording, SensorKind};
 
 /// A gyroscope that reads faster rates than this is most likely not in rad/s.
@@ -45,13 +45,18 @@ pub(super) fn stated_unit(
             columns[other].name,
             symbol(unit(other))
         );
-        return Err(InputError::new(message, "all three need the same").into());
+        return Err(InputError::new(Refusal::UnitContradicted, message, "all three need the same").into());
     }
     let stated = if columns.is_empty() { None } else { unit(0) };
     let given = options.unit(sensor_kind);
     if let Some(given) = given.filter(|given| !given.suits(sensor_kind)) {
         let message = format!("{} is no unit of the {sensor_kind}", given.symbol());
-        return Err(InputError::new(message, format!("say {}", ImuUnit::choices(sensor_kind))).into());
+        return Err(InputError::new(
+            Refusal::UnitContradicted,
+            message,
+            format!("say {}", ImuUnit::choices(sensor_kind)),
+        )
+        .into());
     }
     match (stated, given) {
         (Some(stated), Some(given)) if stated != given => {
@@ -63,7 +68,7 @@ pub(super) fn stated_unit(
             let help = format!(
                 "leave --{sensor_kind}-unit away: the file decides (name the columns in [columns] to overrule it)"
             );
-            Err(InputError::new(message, help).into())
+            Err(InputError::new(Refusal::UnitContradicted, message, help).into())
         }
         (stated, given) => {
             let agreed = options.counts_unless_stated[sensor_kind as usize].then_some(ImuUnit::Counts);
@@ -120,7 +125,7 @@ pub(super) fn check_gravity(recording: &Recording, stated: ImuUnit) -> Checked<(
         let near = |y: &nalgebra::Vector3<f64>| (y.norm() - 1.0).abs() <= ONE;
         let share = recording.readings.iter().filter(|y| near(y)).count() as f64 / recording.len() as f64;
         if share > 0.7 {
-            return Err(InputError::new(
+            return Err(InputError::new(Refusal::UnitImplausible,
                 format!("the accelerometer is said to be in {unit}, but its magnitude is {shown} most of the time: is it in g?"),
                 "correct the unit: a column's name may end in _g, and accelerometer_unit = \"g\" in [columns] counts where the columns are named there",
             )
@@ -128,14 +133,14 @@ pub(super) fn check_gravity(recording: &Recording, stated: ImuUnit) -> Checked<(
         }
     }
     if median < NO_GRAVITY_MPS2 {
-        return Err(InputError::new(
+        return Err(InputError::new(Refusal::GravityRemoved,
             format!("gravity has been removed from the accelerometer: its magnitude is {shown} {unit} half of the time or less"),
             "export the sensor's own readings; is it really an acceleration, in the unit that is stated?",
         )
         .into());
     }
     if median > 100.0 * crate::recording::columns::STANDARD_GRAVITY_MPS2 {
-        return Err(InputError::new(
+        return Err(InputError::new(Refusal::UnitImplausible,
             format!("the accelerometer is said to be in {unit}, but its magnitude is {shown} half of the time or more: is it in mg, or are these counts?"),
             "correct the unit",
         )

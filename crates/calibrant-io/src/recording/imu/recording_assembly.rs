@@ -13,7 +13,7 @@ use crate::recording::reader_finding::{Finding, FindingKind, Tally, count, short
 use crate::recording::recording_quality;
 use crate::recording::row_reader::{LineMap, backwards, report_duplicates, report_truncated};
 use crate::text_decoding::Checked;
-use calibrant_core::error::InputError;
+use calibrant_core::error::{InputError, Refusal};
 use calibrant_core::sensor::{
     ImuRecording, ReadingUnit, Recording, SensorKind, Temperatures, WORKING_C, interpolated,
 };
@@ -34,7 +34,8 @@ pub(super) fn assemble(
 ) -> Checked<Assembled> {
     let mut findings = Vec::new();
     if samples.rows == 0 {
-        let input_error = InputError::new("there is a header but no sample below it", TWO);
+        let input_error =
+            InputError::new(Refusal::RecordingShort, "there is a header but no sample below it", TWO);
         return Err(samples.last_line.map_or(input_error.clone(), |line| input_error.at_line(line)).into());
     }
     let sensor_kinds = with_values(draft, samples)?;
@@ -116,7 +117,9 @@ fn with_values(draft: &mut Draft, samples: &Samples) -> Checked<Vec<SensorKind>>
     }
     if sensor_kinds.is_empty() {
         let message = format!("the columns of the {} are empty", empty.join(" and the "));
-        return Err(InputError::new(message, "were they recorded, and exported?").into());
+        return Err(
+            InputError::new(Refusal::SensorMissing, message, "were they recorded, and exported?").into()
+        );
     }
     Ok(sensor_kinds)
 }
@@ -139,9 +142,9 @@ fn ask(
     }
     if let Some(clock) = clock {
         questions.push(clock.message);
-        answers.push(clock.help.trim_start_matches("say ").to_owned());
+        answers.extend(if clock.answers.is_empty() { vec![clock.help] } else { clock.answers });
     }
-    InputError::new(questions.join("; "), format!("say {}", answers.join("; ")))
+    InputError::question(Refusal::UnitUnknown, questions.join("; "), answers)
 }
 
 /// The readings of a sensor in the unit of the file.
@@ -267,7 +270,7 @@ fn readings(
         let mut help = vec![TWO.to_owned()];
         let dropped = findings.iter().filter(|finding| finding.kind != FindingKind::Clock);
         help.extend(dropped.map(ToString::to_string));
-        let input_error = InputError::new(message, help.join("; "));
+        let input_error = InputError::new(Refusal::RecordingShort, message, help.join("; "));
         return Err(samples.last_line.map_or(input_error.clone(), |line| input_error.at_line(line)).into());
     }
     Ok((recording, lines))

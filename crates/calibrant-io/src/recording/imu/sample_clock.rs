@@ -7,7 +7,7 @@ use super::options::ImuReadOptions;
 use super::unit::TimeUnit;
 use crate::recording::reader_finding::{Finding, FindingKind, count, short};
 use crate::text_decoding::Checked;
-use calibrant_core::error::InputError;
+use calibrant_core::error::{InputError, Refusal};
 
 /// Times beyond this, s, count from another epoch than the recording's. They then count from the first.
 const EPOCH_S: f64 = 1e8;
@@ -42,9 +42,9 @@ pub(super) fn times(
         if times.is_empty() { "the file has no sample times" } else { "its sample times are missing" };
     draft.leave_aside(ColumnMeaning::Time, "most of its values are missing");
     let Some((rate, source)) = rate else {
-        let help = "say --rate-hz, or rate_hz in [columns]: the sample rate in Hz, as it was set when the recording was made";
+        let answer = "--rate-hz, or rate_hz in [columns]: the sample rate in Hz, as it was set when the recording was made";
         let message = format!("{empty}, and nothing in it says the sample rate");
-        return Err(InputError::new(message, help).into());
+        return Err(InputError::question(Refusal::RateUnknown, message, vec![answer.into()]).into());
     };
     if has_counter {
         let name =
@@ -85,9 +85,12 @@ fn rate(draft: &Draft, options: &ImuReadOptions) -> Checked<Option<(f64, String)
     if let Some(rate) = options.rate_hz
         && !(rate.is_finite() && (1e-6..=1e9).contains(&rate))
     {
-        return Err(
-            InputError::new(format!("a sample rate of {rate:?} Hz makes no sense"), "give it in Hz").into()
-        );
+        return Err(InputError::new(
+            Refusal::ValueInvalid,
+            format!("a sample rate of {rate:?} Hz makes no sense"),
+            "give it in Hz",
+        )
+        .into());
     }
     match (options.rate_hz, draft.rate_hz) {
         (Some(given), Some((stated, key))) if (given / stated - 1.0).abs() > SAME_RATE => {
@@ -96,7 +99,7 @@ fn rate(draft: &Draft, options: &ImuReadOptions) -> Checked<Option<(f64, String)
                 short(stated),
                 short(given)
             );
-            Err(InputError::new(message, "leave --rate-hz away").into())
+            Err(InputError::new(Refusal::RateContradicted, message, "leave --rate-hz away").into())
         }
         (Some(given), None) => Ok(Some((given, "as given".into()))),
         (_, stated) => Ok(stated.map(|(rate, key)| (rate, format!("its `{key}`")))),
@@ -130,6 +133,7 @@ fn of_times(draft: &Draft, samples: &mut Samples, findings: &mut Vec<Finding>) -
     ticks.iter_mut().for_each(|t| *t /= per_second);
     if let Some(row) = ticks.iter().position(|t| t.abs() > LARGEST_S) {
         let input_error = InputError::new(
+            Refusal::ValueOutOfRange,
             format!("the time {} s in `{name}` is out of range", short(ticks[row])),
             "is the unit of the time right?",
         );
@@ -184,9 +188,10 @@ fn which_unit(name: &str, ticks: &[f64]) -> InputError {
     };
     let is_number = name.parse::<usize>().is_ok();
     let or = if is_number { "" } else { ", or end its name in _s, _ms, _us or _ns" };
-    InputError::new(
+    InputError::question(
+        Refusal::UnitUnknown,
         format!("the time column `{name}` has no unit{hint}"),
-        format!("say --time-unit s, ms, us or ns (time_unit in [columns]){or}"),
+        vec![format!("--time-unit s, ms, us or ns (time_unit in [columns]){or}")],
     )
 }
 

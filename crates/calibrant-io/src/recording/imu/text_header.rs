@@ -2,7 +2,7 @@
 
 use crate::delimited_text::{Delimiter, Line, Lines};
 use crate::text_decoding::Checked;
-use calibrant_core::error::InputError;
+use calibrant_core::error::{InputError, Refusal};
 
 /// The beginning of a text, up to its first row.
 pub(super) struct Head<'t> {
@@ -50,12 +50,12 @@ impl<'t> Head<'t> {
             }
             return Ok(Self::at(line, preamble, rest));
         }
-        Err(InputError::new(
-            match preamble.iter().any(|line| !line.is_void()) {
-                _ if text.trim().is_empty() => "the file is empty",
-                true => "there is no header with the names of the columns",
-                false => "the file has only comments",
-            },
+        let (code, message) = match preamble.iter().any(|line| !line.is_void()) {
+            _ if text.trim().is_empty() => (Refusal::FileEmpty, "the file is empty"),
+            true => (Refusal::HeaderMissing, "there is no header with the names of the columns"),
+            false => (Refusal::FileEmpty, "the file has only comments"),
+        };
+        Err(InputError::new(code, message,
             "a recording has a header, such as t_s,ax_mps2,ay_mps2,az_mps2,gx_radps,gy_radps,gz_radps, and a row for each sample",
         )
         .into())
@@ -161,10 +161,12 @@ fn mixed(line: Line<'_>, rest: &Lines<'_>) -> Option<Delimiter> {
 fn no_json(text: &str) -> InputError {
     match text.contains("\"parameters\"") || text.contains("\"K_a\"") {
         true => InputError::new(
+            Refusal::FormatUnknown,
             "this is JSON, a calibration as it seems, not a recording",
             "`calibrant convert` and `compare` read calibrations, `apply` corrects a recording by one",
         ),
         false => InputError::new(
+            Refusal::FormatUnknown,
             "this is JSON, not a recording",
             "a recording is a table: a header such as t_s,ax_mps2,ay_mps2,az_mps2,gx_radps,gy_radps,gz_radps, and a row for each sample",
         ),

@@ -68,19 +68,16 @@ pub fn parse_imu_pair(accelerometer: &[u8], gyroscope: &[u8], options: &ImuReadO
 
 /// The pair. Where both files leave a question open, the error has both questions.
 fn both(accelerometer: Result<ImuFile>, gyroscope: Result<ImuFile>) -> Result<ImuFile> {
-    /// The beginning of a remedy.
-    const SAY: &str = "say ";
-    let is_question = |input_error: &InputError| input_error.help.starts_with(SAY);
     match (accelerometer, gyroscope) {
         (Err(Error::Recording(one)), Err(Error::Recording(other)))
-            if is_question(&one) && is_question(&other) =>
+            if !one.answers.is_empty() && !other.answers.is_empty() =>
         {
-            let mut answers: Vec<&str> = one.help.split("; ").collect();
-            let more = other.help.trim_start_matches(SAY).split("; ");
-            answers.extend(more.filter(|answer| !one.help.contains(answer)));
-            let help = answers.join("; ");
-            let second = InputError { help: String::new(), ..(*other).clone() };
-            Err(Error::recording(InputError { message: format!("{}; {second}", one.message), help, ..*one }))
+            let mut answers = one.answers.clone();
+            answers.extend(other.answers.iter().filter(|answer| !one.answers.contains(answer)).cloned());
+            let second = InputError { help: String::new(), ..*other };
+            let message = format!("{}; {second}", one.message);
+            let both = InputError::question(one.code, message, answers);
+            Err(Error::recording(InputError { file: one.file, line: one.line, ..both }))
         }
         (accelerometer, gyroscope) => Ok(joined(accelerometer?, gyroscope?)),
     }

@@ -3,13 +3,14 @@
 use crate::common::WORDS;
 use calibrant::Error;
 use calibrant::diagnostic::Diagnostic;
+use calibrant::error::Refusal;
 use calibrant::estimate::{
     Calibration, CalibrationStatus, FitStatistics, HoldCalibration, HoldResult, Recovered, RecoveredMotion,
     Uncalibrated, Whiteness,
 };
 use calibrant::io::{
-    Input, ReadOptions, Summary, SummaryRow, calibration_json, read_motion, read_recording, truth_json,
-    write_atomically, write_calibration, write_motion, write_recording, write_summary,
+    Failure, Input, ReadOptions, Summary, SummaryRow, calibration_json, read_motion, read_recording,
+    truth_json, write_atomically, write_calibration, write_motion, write_recording, write_summary,
 };
 use calibrant::motion::{Gravity, Hold, JerkControlledMotion};
 use calibrant::sensor::{
@@ -279,13 +280,13 @@ fn truth_and_summary() {
         SummaryRow {
             file: "bad,name".into(),
             recording: "a/bad,name.csv".into(),
-            outcome: Err("no \"rows\"".into()),
+            outcome: Err(Failure { code: Refusal::RecordingShort, message: "no \"rows\"".into() }),
         },
         SummaryRow { file: "good".into(), recording: "a/good.csv".into(), outcome: Ok(Summary::of(&good)) },
     ];
     write_summary(&path, &rows).expect("written");
-    let expected = "file,recording,status,error,warnings,chi2,degrees_of_freedom,p_value,accelerometer.bias.x_mps2,accelerometer.bias.x_sd_mps2,accelerometer.scale.x,accelerometer.scale.x_sd\n\
-                    \"bad,name\",\"a/bad,name.csv\",error,\"no \"\"rows\"\"\",,,,,,,,\n\
-                    good,a/good.csv,converged,,1,5.5,4,,0.5,0.5,2.0,0.5\n";
+    let expected = "file,recording,status,error,code,warnings,chi2,degrees_of_freedom,p_value,accelerometer.bias.x_mps2,accelerometer.bias.x_sd_mps2,accelerometer.scale.x,accelerometer.scale.x_sd\n\
+                    \"bad,name\",\"a/bad,name.csv\",error,\"no \"\"rows\"\"\",recording-short,,,,,,,,\n\
+                    good,a/good.csv,converged,,,1,5.5,4,,0.5,0.5,2.0,0.5\n";
     assert_eq!(std::fs::read_to_string(path).expect("read"), expected);
 }

@@ -1,6 +1,6 @@
 //! An accelerometer on known faces that no sensor is.
 
-use crate::error::{Error, InputError, Result};
+use crate::error::{Error, InputError, Refusal, Result};
 use crate::sensor::{Axis, ReadingUnit};
 use nalgebra::Matrix3;
 
@@ -30,7 +30,7 @@ pub(crate) fn check(unit: ReadingUnit, matrix: &Matrix3<f64>) -> Result<()> {
         let message = format!(
             "on the faces the accelerometer shows {gain:.3} times gravity along its axis {axis}; for readings in SI that should be near 1"
         );
-        return Err(Error::recording(InputError::new(message, help)));
+        return Err(Error::recording(InputError::new(Refusal::UnitImplausible, message, help)));
     }
     for (one, other) in [(Axis::X, Axis::Y), (Axis::X, Axis::Z), (Axis::Y, Axis::Z)] {
         let between = matrix.row(one.index()).transpose().angle(&matrix.row(other.index()).transpose());
@@ -40,7 +40,7 @@ pub(crate) fn check(unit: ReadingUnit, matrix: &Matrix3<f64>) -> Result<()> {
                 between.to_degrees()
             );
             let help = "correct the directions (the axis that is up in each hold) or the times of the holds";
-            return Err(Error::experiment(InputError::new(message, help)));
+            return Err(Error::experiment(InputError::new(Refusal::FacesContradicted, message, help)));
         }
     }
     Ok(())

@@ -1,6 +1,6 @@
 //! Axes of the gyroscope that show hardly a turn in any rotation.
 
-use crate::error::{Error, InputError, Result};
+use crate::error::{Error, InputError, Refusal, Result};
 use crate::estimate::imu::alignment::coarse_rotations::WRONG_RAD;
 use crate::estimate::imu::checks::axes_in_words::axes_in_words;
 use crate::estimate::imu::model::{ImuModel, RotationData, State};
@@ -31,6 +31,7 @@ pub(crate) fn check(model: &ImuModel<'_>, state: &State) -> Result<()> {
     }
     let most = still.iter().map(turned).fold(0.0, f64::max);
     Err(Error::recording(InputError::new(
+        Refusal::GravityMissed,
         format!(
             "the gyroscope hardly turns about its ax{} {}: by less than {:.0}° between two holds, while gravity turns by up to {:.0}°",
             if still.len() == 1 { "is" } else { "es" },

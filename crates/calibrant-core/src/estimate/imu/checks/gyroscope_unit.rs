@@ -1,6 +1,6 @@
 //! A gyroscope in deg/s whose readings are taken for rad/s.
 
-use crate::error::{Error, InputError, Result};
+use crate::error::{Error, InputError, Refusal, Result};
 use crate::estimate::imu::alignment::coarse_rotations::CoarseRotations;
 use crate::estimate::imu::model::{ImuModel, State};
 
@@ -13,6 +13,7 @@ pub(crate) fn check(model: &ImuModel<'_>, state: &State, median_rad: f64) -> Res
     }
     let degrees = median_rad.to_degrees();
     Err(Error::recording(InputError::new(
+        Refusal::UnitImplausible,
         format!(
             "the gyroscope's readings are in deg/s, not rad/s: so read, the rotations miss gravity by {degrees:.0}°"
         ),

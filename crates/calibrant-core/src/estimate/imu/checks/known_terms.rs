@@ -4,7 +4,7 @@
 //! So an absurd term is judged by the fit without it alone. It is an error, whatever the fit with it gives.
 
 use crate::diagnostic::{KnownEvidence, KnownMismatch};
-use crate::error::{Error, InputError, Result};
+use crate::error::{Error, InputError, Refusal, Result};
 use crate::estimate::imu::problem::KnownTerm;
 use crate::estimate::result::Calibration;
 use crate::estimate::result::CalibrationStatus;
@@ -38,6 +38,7 @@ pub(crate) fn check(known: &KnownTerm) -> Result<()> {
     }
     let sd = known.sd.map_or_else(String::new, |sd| format!(" ± {sd:?}"));
     Err(Error::experiment(InputError::new(
+        Refusal::ValueInvalid,
         format!("{} cannot be known as {:?}{sd}", known.quantity.name(), known.value),
         format!("a prior has a standard deviation of {LEAST_SD:e} or more; without one the value is fixed"),
     )))

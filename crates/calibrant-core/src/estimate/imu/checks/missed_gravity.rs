@@ -1,6 +1,6 @@
 //! Gravity that half of the rotations miss, whatever the gyroscope's matrix.
 
-use crate::error::{Error, InputError, Result};
+use crate::error::{Error, InputError, Refusal, Result};
 use crate::estimate::imu::alignment::coarse_rotations::WRONG_RAD;
 use crate::estimate::imu::checks::{axes_without_rotation, gyroscope_unit};
 use crate::estimate::imu::model::{ImuModel, State};
@@ -36,9 +36,10 @@ pub(crate) fn check(
             1e3 * scatter
         );
         let help = "was the sensor still in them? they are the calmest parts of the recording (holds.minimum_hold_s, holds.intervals_s)";
-        return Err(Error::recording(InputError::new(message, help)));
+        return Err(Error::recording(InputError::new(Refusal::GravityMissed, message, help)));
     }
     Err(Error::recording(InputError::new(
+        Refusal::GravityMissed,
         message,
         "do both files belong to one recording, with one clock? are the axes of the gyroscope those of the accelerometer? does the gyroscope saturate?",
     )))

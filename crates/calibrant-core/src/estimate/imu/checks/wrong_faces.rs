@@ -4,7 +4,7 @@
 //! directions together is the mounting of the sensor and no mistake, so the turn that most faces agree with counts.
 
 use crate::diagnostic::{AGREES_RAD, Diagnostic, FaceMismatch, HoldSpan};
-use crate::error::{Error, InputError, Result};
+use crate::error::{Error, InputError, Refusal, Result};
 use crate::estimate::holds::sphere;
 use crate::estimate::imu::checks::directions::turned_frame;
 use crate::estimate::imu::problem::ImuProblem;
@@ -25,6 +25,7 @@ pub(crate) fn check(
     match input_error(problem, holds, given) {
         Some(input_error) => Err(Error::experiment(input_error)),
         None if mirrored => Err(Error::experiment(InputError::new(
+            Refusal::FacesContradicted,
             "the readings of the accelerometer are the mirror image of the directions of the holds",
             "is a direction of the wrong sign, or are two swapped? else change the sign of the column of an axis that reads with the opposite sign",
         ))),
@@ -89,7 +90,7 @@ fn input_error(problem: &ImuProblem<'_>, holds: &[Hold], given: &[Vector3<f64>])
         "correct the directions (the axis that is up in each hold, in the order of the holds) or the times of the holds; where an axis of the accelerometer reads with the \
          opposite sign, change the sign of its column"
     };
-    Some(InputError::new(all.join("; "), help))
+    Some(InputError::new(Refusal::FacesContradicted, all.join("; "), help))
 }
 
 struct Faces<'a> {

@@ -5,7 +5,7 @@
 //! turned alike against the accelerometer's sits otherwise in its housing; no sensor is a mirror image of another.
 
 use crate::diagnostic::Diagnostic;
-use crate::error::{Error, InputError, Result};
+use crate::error::{Error, InputError, Refusal, Result};
 use crate::estimate::imu::alignment::axes::{axis_names, orders};
 use crate::estimate::imu::checks::turn_angles::{factor, is_another, shows_another};
 use crate::estimate::imu::model::TurnData;
@@ -35,7 +35,7 @@ pub(crate) fn check(
         };
         let why = factor(share).map_or_else(String::new, |why| format!(": {why}"));
         let message = format!("the gyroscope shows {share:.3} of the angle of every turn{why}");
-        return Err(Error::recording(InputError::new(message, help)));
+        return Err(Error::recording(InputError::new(Refusal::TurnsContradicted, message, help)));
     }
     let share = share.unwrap_or(1.0);
     let wrong = shown.wrong(&Matrix3::identity(), share);
@@ -62,7 +62,7 @@ pub(crate) fn check(
         "correct axis, angle or times of the turn (x_rot, y_rot, z_rot in a list of sections, gyroscope.turns); where an axis of the gyroscope reads with the opposite sign, change the \
          sign of its column"
     };
-    Err(Error::experiment(InputError::new(all.join("; "), help)))
+    Err(Error::experiment(InputError::new(Refusal::TurnsContradicted, all.join("; "), help)))
 }
 
 /// What the gyroscope shows of each turn.

@@ -4,7 +4,7 @@
 //! the face alignment (`face_alignment`).
 
 use crate::diagnostic::{Diagnostic, HoldSpan};
-use crate::error::{Error, InputError, NotIdentifiable, Result, UndeterminedGroup};
+use crate::error::{Error, InputError, NotIdentifiable, Refusal, Result, UndeterminedGroup};
 use crate::estimate::gravity_off_earth::gravity_off_earth;
 use crate::estimate::holds::{
     clipped_holds, clipped_reason, coarse_steps, holds_between, left_out, magnitude_rms, with_clipped,
@@ -42,12 +42,14 @@ pub(crate) fn from_faces(
     let intervals = setup.intervals_s.as_deref().unwrap_or_default();
     if intervals.len() != directions.len() {
         return Err(Error::experiment(InputError::new(
+            Refusal::HoldsInvalid,
             format!("{} holds are given, and {} directions", intervals.len(), directions.len()),
             "each hold of holds.intervals_s needs one direction, in the same order",
         )));
     }
     if intervals.windows(2).any(|pair| pair[1].0 < pair[0].0) {
         return Err(Error::experiment(InputError::new(
+            Refusal::HoldsInvalid,
             "the holds are not in order of time, and each has its direction",
             "sort holds.intervals_s together with the directions",
         )));
@@ -190,6 +192,7 @@ impl Linear<'_> {
         let condition = eigenvalues.max() / eigenvalues.min().max(f64::MIN_POSITIVE);
         let singular = || {
             Error::recording(InputError::new(
+                Refusal::FitFailed,
                 "the fit of the faces breaks down",
                 "check the directions of the holds and the unit of the recording",
             ))

@@ -1,7 +1,7 @@
 //! The accelerometer from holds of unknown directions: its static calibration.
 
 use crate::diagnostic::Diagnostic;
-use crate::error::{Error, InputError, Result};
+use crate::error::{Error, InputError, Refusal, Result};
 use crate::estimate::holds::{self, HoldsSetup, holds_lost_to_filter, with_filter, with_pauses};
 use crate::estimate::imu::checks::swapped_sensors::with_swapped_sensors;
 use crate::estimate::imu::initial::accelerometer::InitialAccelerometer;
@@ -47,7 +47,11 @@ pub(crate) fn from_unknown_directions(
         first.warnings.extend(lost.map(|lost| Diagnostic::HoldsLostToFilter { lost }));
     }
     let Recovered::Holds(mut holds) = first.recovered else {
-        return Err(Error::experiment(InputError::new("an IMU is calibrated from holds", "use [holds]")));
+        return Err(Error::experiment(InputError::new(
+            Refusal::ExperimentUnsuited,
+            "an IMU is calibrated from holds",
+            "use [holds]",
+        )));
     };
     holds.detected = detected;
     let within = first.fit.noise_estimate.unwrap_or_else(Vector3::zeros);

@@ -1,6 +1,6 @@
 //! Turns of known angle, with the integrals of the gyroscope's readings.
 
-use crate::error::{Error, InputError, Result};
+use crate::error::{Error, InputError, Refusal, Result};
 use crate::estimate::imu::model::{GyroscopeNoise, TurnData};
 use crate::estimate::imu::problem::ImuProblem;
 use crate::estimate::imu::rotations::spans::Integrable;
@@ -27,6 +27,7 @@ pub(crate) fn turn_data(
             if let Some(before) = problem.setup.turns[..number].iter().position(|before| turn.repeats(before))
             {
                 return Err(Error::experiment(InputError::new(
+                    Refusal::HoldsInvalid,
                     format!(
                         "{} and {} are the same turn: it would count twice",
                         problem.setup.turns[before].span(before),
@@ -38,12 +39,14 @@ pub(crate) fn turn_data(
             let Range { start: first, end } = gyroscope.between(turn.start_s, turn.end_s);
             if end < first + 3 {
                 return Err(Error::recording(InputError::new(
+                    Refusal::HoldsInvalid,
                     format!("{} has {} samples of the gyroscope", turn.span(number), end - first),
                     "correct the times of the turns",
                 )));
             }
             if let Some(saturation) = integrable.saturation(&(first..end)) {
                 return Err(Error::recording(InputError::new(
+                    Refusal::ReadingsSaturated,
                     format!("{} cannot be integrated: {saturation}", turn.span(number)),
                     "turn more slowly, record with a larger range, or take this turn out",
                 )));

@@ -1,6 +1,6 @@
 //! The gyroscope in the stationary intervals: its means, its noise, and the holds in which it turns.
 
-use crate::error::{Error, InputError, Result};
+use crate::error::{Error, InputError, Refusal, Result};
 use crate::estimate::imu::model::GyroscopeNoise;
 use crate::estimate::imu::problem::{Gyroscope, ImuProblem, NoiseSource, WhiteNoise};
 use crate::estimate::imu::stationary::motion::turning_rates;
@@ -40,6 +40,7 @@ impl StationaryGyroscope {
             holds.par_iter().map(|hold| mean_in_hold(gyroscope, hold)).collect();
         if measured.iter().flatten().count() == 0 {
             return Err(Error::recording(InputError::new(
+                Refusal::RecordingsUnlike,
                 "the gyroscope has no samples in the holds of the accelerometer",
                 "both need the same clock: are these files of one recording?",
             )));

@@ -4,7 +4,7 @@
 //! in which the gyroscope's mean is not its bias. The same detection finds calm segments of the gyroscope. A calm segment whose mean is far from
 //! that of the others is a rotation at a steady rate.
 
-use crate::error::{Error, InputError, Result};
+use crate::error::{Error, InputError, Refusal, Result};
 use crate::estimate::holds::{as_recorded, find_clean_holds, holds_between, median};
 use crate::motion::Hold;
 use crate::sensor::{ImuRecording, Recording, SensorKind};
@@ -34,6 +34,7 @@ pub fn find_imu_holds(recording: &ImuRecording, minimum_s: f64) -> Result<Vec<Ho
 pub fn find_clean_imu_holds(recording: &ImuRecording, minimum_s: f64) -> Result<Vec<Hold>> {
     let Some(accelerometer) = &recording.accelerometer else {
         return Err(Error::recording(InputError::new(
+            Refusal::SensorMissing,
             format!("the recording has no {}", SensorKind::Accelerometer),
             "holds are found with it",
         )));
