@@ -113,7 +113,7 @@ fn superscript(digit: char) -> char {
     }
 }
 
-/// A multiple: `3.4 times that`.
+/// A multiple: `3.4 times the bound`.
 fn times(factor: f64) -> String {
     let number = match factor {
         f if f < 9.95 => format!("{f:.1}"),
@@ -155,7 +155,7 @@ mod tests {
         // a loose bound is a matter of factors: a reader cannot use 51489740 %
         assert_eq!(
             (times(2.04), times(14.2), times(514_898.4)),
-            ("2.0 times that".into(), "14 times that".into(), "5.149 × 10⁵ times that".into())
+            ("2.0 times the bound".into(), "14 times the bound".into(), "5.149 × 10⁵ times the bound".into())
         );
     }
 }

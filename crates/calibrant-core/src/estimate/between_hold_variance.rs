@@ -1,18 +1,18 @@
-//! The scatter that the noise does not explain (`paule1982`).
+//! The between-hold variance: scatter that the noise does not explain (`paule1982`).
 //!
-//! Weighted by variances `v_i + σ²`, residuals have `χ²(σ) = Σ r_i²/(v_i + σ²)`, which falls with σ. The excess is the σ for which it equals its degrees of freedom ν.
-//! As a function of σ², `ν/χ²` is concave, and a straight line where all `v_i` are equal: a root that takes few steps.
+//! Weighted by variances `v_i + σ²`, residuals have `χ²(σ) = Σ r_i²/(v_i + σ²)`, which falls with σ. The between-hold standard deviation is the σ for which it equals its degrees of freedom ν.
+//! As a function of σ², `ν/χ²` is concave, and a straight line if all `v_i` are equal. The root therefore takes few steps.
 
 use crate::root::root;
 
-/// χ² is to equal its degrees of freedom to this share.
+/// Relative tolerance of χ² against its degrees of freedom.
 const CHI2_TOLERANCE: f64 = 1e-10;
-/// The excess is looked for up to this many times the first guess.
+/// Upper end of the search, as a multiple of the first guess.
 const LARGEST_FACTOR: f64 = 1e30;
 
-/// The excess σ with what was fitted with it; zero where the noise explains the scatter, or where there are no degrees of freedom.
+/// The between-hold σ with its fit. It is zero if the noise explains the scatter, or without degrees of freedom.
 ///
-/// `fit(σ)` gives χ² and what it fitted; `None` where that fails, which ends the search. It is asked for σ = 0 first, of which `guess` makes a σ of the right size.
+/// `fit(σ)` returns χ² and the fit. `None` ends the search. The first call has σ = 0, and `guess` derives a σ of the right size from its fit.
 pub(super) fn excess<T>(
     degrees_of_freedom: f64,
     guess: impl Fn(&T) -> f64,
@@ -42,7 +42,7 @@ pub(super) fn excess<T>(
 struct Search<T, F> {
     degrees_of_freedom: f64,
     fit: F,
-    /// How far from the root, σ, and what was fitted, where that is closest.
+    /// Distance from the root, σ and fit of the closest call.
     best: Option<(f64, f64, T)>,
 }
 

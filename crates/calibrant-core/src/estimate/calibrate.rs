@@ -8,14 +8,15 @@ use std::borrow::Cow;
 
 /// Calibrates a sensor.
 ///
-/// From holds, spikes and invalid readings are taken out first ([`Recording::without_spikes`](crate::sensor::Recording::without_spikes)), and a warning says so;
-/// not where the holds were found before ([`HoldsSetup::found`](super::HoldsSetup::found)).
+/// With holds, spikes and invalid samples are removed first ([`Recording::without_spikes`](crate::sensor::Recording::without_spikes)), with a warning.
+/// This is not done if the holds are given ([`HoldsSetup::found`](super::HoldsSetup::found)).
 ///
 /// # Errors
-/// [`Error::Recording`](crate::Error::Recording) for a recording that is none, or that does not overlap the motion;
-/// [`Error::NotIdentifiable`](crate::Error::NotIdentifiable) names the parameters that the data cannot determine and what would change that;
-/// [`Error::Experiment`](crate::Error::Experiment) where the problem itself lacks something, such as the noise. An iteration that does not
-/// converge is a [`CalibrationStatus`](super::CalibrationStatus) in the result.
+/// - [`Error::Recording`](crate::Error::Recording): the recording is unusable, or does not overlap the motion.
+/// - [`Error::NotIdentifiable`](crate::Error::NotIdentifiable) names the parameters that the data cannot determine, and a remedy.
+/// - [`Error::Experiment`](crate::Error::Experiment): the problem lacks a value, such as the noise.
+///
+/// An iteration that does not converge is a [`CalibrationStatus`](super::CalibrationStatus) in the result.
 ///
 /// # References
 /// `vamvaka2021`, `burger2017`

@@ -1,10 +1,10 @@
-//! Are two calibrations of one sensor the same, whatever their conventions?
+//! Comparison of two calibrations of one sensor, whatever their conventions.
 //!
-//! Quantity by quantity on what does not depend on the true frame ([`Invariant`]); and as a whole, with both brought into one frame (the lower gauge of the same
-//! sensor): `χ² = dᵀ (Σ_A + Σ_B)⁺ d` over the parameters that either covariance speaks of, `d` their difference. This supposes that the two come
-//! from different recordings; of the same recording, `χ²` comes out too small.
+//! The comparison has two parts. Single quantities are compared by their frame invariants ([`Invariant`]). All parameters together are compared in
+//! one frame, the lower gauge of one sensor: `χ² = dᵀ (Σ_A + Σ_B)⁺ d`, with `d` their difference. This includes all parameters of either covariance.
+//! It assumes different recordings. For the same recording, `χ²` is too small.
 //!
-//! Where both follow temperature, B is referred to the reference of A first; where only one does, it is taken at its reference.
+//! If both have temperature terms, B is first converted to the reference temperature of A. If only one has, it is taken at its own reference.
 
 use super::statistics::chi2_p_value;
 use crate::sensor::{CalibratedImu, Gauge, ImuQuantity, Invariant, InvariantValue, Quantity, SensorKind};
@@ -17,7 +17,7 @@ pub struct Comparison {
     pub quantities: Vec<ComparedQuantity>,
     /// All parameters together; `None` without a covariance (see [`notes`](Comparison::notes)).
     pub overall: Option<OverallDifference>,
-    /// What could not be compared, and what the comparison supposes.
+    /// What could not be compared, and what the comparison assumes.
     pub notes: Vec<String>,
 }
 
@@ -160,7 +160,7 @@ fn compared(
         invariant.in_unit_of().is_none_or(|sensor_kind| a.unit(sensor_kind) == b.unit(sensor_kind));
     let difference = comparable.then_some(in_b.value - in_a.value);
     let sd = match (in_a.sd, in_b.sd) {
-        // close to zero in the one: no first-order sd there, and so none of the difference
+        // close to zero, one has no first-order sd, and neither has the difference
         (None, Some(_)) if covers(a, invariant) => None,
         (Some(_), None) if covers(b, invariant) => None,
         (None, None) => None,
@@ -171,7 +171,7 @@ fn compared(
     ComparedQuantity { invariant, unit_a, unit_b, a: in_a, b: in_b, difference, in_sd }
 }
 
-/// Does the covariance of an IMU say anything of an invariant?
+/// Does the covariance of an IMU determine an invariant?
 fn covers(imu: &CalibratedImu, invariant: Invariant) -> bool {
     let has_matrix = |sensor_kind: SensorKind| {
         let matrix = |quantity: &ImuQuantity| matches!(quantity, ImuQuantity::Of(of, q) if *of == sensor_kind && !matches!(q, Quantity::Bias(_)));
@@ -247,7 +247,7 @@ fn overall(a: &CalibratedImu, b: &CalibratedImu, notes: &mut Vec<String>) -> Opt
     Some(OverallDifference { chi2, degrees_of_freedom, p_value })
 }
 
-/// `dᵀ Σ⁺ d` and the rank of `Σ`, scaled to unit diagonal so that units do not matter.
+/// `dᵀ Σ⁺ d` and the rank of `Σ`. `Σ` is scaled to unit diagonal, so units do not matter.
 fn mahalanobis(sigma: &DMatrix<f64>, difference: &DVector<f64>) -> (f64, usize) {
     let sd = sigma.diagonal().map(|variance| variance.max(0.0).sqrt());
     let scale = sd.map(|sd| if sd > 0.0 { 1.0 / sd } else { 0.0 });

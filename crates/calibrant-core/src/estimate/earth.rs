@@ -1,8 +1,8 @@
-//! What the Earth's turn about the vertical does to the g-sensitivity.
+//! The effect of the Earth's rate about the vertical on the g-sensitivity.
 //!
-//! At rest a gyroscope reads `b + Γ f + S (Ω sin φ/g) f + S ω_h`, with `f` the specific force, φ the latitude and `ω_h` the Earth's rate about the north: the rate about the vertical looks like a
-//! g-sensitivity `S Ω sin φ/g`. At a known latitude it is part of the model. Otherwise `sin φ` is anything from −1 to 1: the rate about the vertical has the variance `Ω²/3`, and all entries of Γ
-//! are off by it together. `imu/earth_rate.rs` estimates the rest of the Earth's rate.
+//! At rest a gyroscope reads `b + Γ f + S (Ω sin φ/g) f + S ω_h`, with `f` the specific force, φ the latitude and `ω_h` the Earth's rate about the north.
+//! So the rate about the vertical looks like a g-sensitivity `S Ω sin φ/g`. At a known latitude it is part of the model. Otherwise `sin φ` is anything
+//! from −1 to 1. The rate about the vertical then has the variance `Ω²/3`, a common error of all entries of Γ. `imu/earth_rate.rs` estimates the rest of the Earth's rate.
 
 use crate::motion::EARTH_RATE_RADPS;
 use crate::sensor::{ImuParameters, ImuQuantity};
@@ -10,7 +10,9 @@ use nalgebra::DVector;
 
 /// Standard deviation of each component of the Earth's rate at an unknown latitude, `Ω/√3`, rad/s.
 pub(super) const UNKNOWN_SD_RADPS: f64 = EARTH_RATE_RADPS / 1.732_050_807_568_877_2;
-/// Change of each estimate with a rate about the vertical that the model lacks, `S/g` of the g-sensitivity as far as the data tell it; `prior_share`: what of each was known beforehand.
+/// Derivative of each estimate with respect to a rate about the vertical that the model lacks: `S/g` for the g-sensitivity.
+///
+/// `prior_share`: the share of each quantity's information that comes from the prior. This part does not follow the rate.
 pub(super) fn vertical_slope(
     quantities: &[ImuQuantity],
     prior_share: &[f64],

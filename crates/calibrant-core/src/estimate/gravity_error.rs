@@ -1,11 +1,13 @@
-//! What an error of the assumed gravity does to the parameters.
+//! The effect of an error of the assumed gravity on the parameters.
 
 use crate::motion::Gravity;
 use crate::sensor::{ImuParameters, ImuQuantity, Quantity, SensorKind};
 use nalgebra::DVector;
 
-/// Change of each quantity with the gravity that is assumed, `∂p/∂g = −p/g`: a common factor of the accelerometer's matrix and of the g-sensitivity. Biases, the
-/// gyroscope's matrix, and what temperature does (shares of the gain, biases) do not depend on it. Times gravity's uncertainty it is a column of the covariance's root.
+/// Derivative of each quantity with respect to the assumed gravity, `∂p/∂g = −p/g`.
+///
+/// Gravity is a common factor of the accelerometer's matrix and of the g-sensitivity. Biases, the gyroscope's matrix and the temperature terms do not
+/// depend on it. Times the uncertainty of gravity, it is a column of the covariance's root.
 pub(super) fn gravity_slope(
     quantities: &[ImuQuantity],
     imu: &ImuParameters,

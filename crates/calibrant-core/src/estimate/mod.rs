@@ -1,4 +1,4 @@
-//! From a recording to parameters with an honest covariance.
+//! Estimates parameters and their covariance from a recording.
 //!
 //! ```text
 //! minimise over p, a:  ½ Σ_k ‖y_k − S α(t_k; a) − b‖²_{Σ_ν⁻¹}
@@ -6,12 +6,13 @@
 //!                    + anchors (known start, known end) + optional prior on p
 //! ```
 //!
-//! [`Trust`](crate::motion::Trust) in the commanded motion tells the report's problems (5), (6) and (3) apart; a static calibration has an
-//! unknown direction for each hold instead of a chain ([`HoldsSetup`]). An IMU ([`ImuProblem`]) adds rotations of its gyroscope. All end in a [`Calibration`].
+//! [`Trust`](crate::motion::Trust) in the commanded motion chooses between the report's problems (5), (6) and (3). A static calibration has an
+//! unknown direction for each hold instead of a chain ([`HoldsSetup`]). An IMU ([`ImuProblem`])
+//! adds rotations of its gyroscope. All end in a [`Calibration`].
 //!
-//! The covariance is the inverse of the information `F` that is left for the parameters once motion or directions are
-//! eliminated (Schur complement, [`arrowhead`](crate::arrowhead)). It holds to first order in the noise, for noise that is white,
-//! Gaussian and as large as assumed; the fit's [`FitStatistics`] say whether the data agree.
+//! The covariance is the inverse of the information `F` of the parameters after motion or directions are eliminated (Schur complement,
+//! [`arrowhead`](crate::arrowhead)). It holds to first order, for white Gaussian noise of the assumed size. [`FitStatistics`] state whether the data
+//! agree with that.
 
 mod between_hold_variance;
 mod calibrate;

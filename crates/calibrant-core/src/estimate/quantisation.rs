@@ -1,12 +1,14 @@
-//! Readings whose steps are coarser than the noise: what the mean over a hold does not tell, however long it is.
+//! Quantisation steps that are coarser than the noise. They give the mean of a hold an error, however long the hold is.
 //!
-//! With steps `q` and Gaussian noise `σ`, the mean of rounded readings is off by an error that depends on where between two steps the true value lies. Over all places,
+//! With steps `q` and Gaussian noise `σ`, the mean of rounded readings has an error that depends on the place of the true value between two steps. Over all
+//! places,
 //!
 //! ```text
 //! V = q²/(2π²) Σ_k exp(−4π² k² σ²/q²)/k²
 //! ```
 //!
-//! is its mean square (`widrow2008`): `q²/12` without noise, a hundredth of a step for `σ = 0.4 q`, nothing that matters from `σ = q/2` on. It does not become less with more samples.
+//! is its mean square (`widrow2008`). The error is `q/√12` rms without noise, a hundredth of a step for `σ = 0.4 q`, and negligible from `σ = q/2` on. More
+//! samples do not reduce it.
 
 use super::quantised_noise::{Counts, noise_in_steps};
 use crate::diagnostic::Diagnostic;
@@ -16,14 +18,14 @@ use nalgebra::Vector3;
 use std::f64::consts::PI;
 use std::ops::Range;
 
-/// Terms of the series.
+/// Number of terms of the series.
 const TERMS: i32 = 100;
-/// Readings that scatter by so many steps are fine.
+/// Scatter of readings, in steps, from which on the steps do not matter.
 const FINE_STEPS: f64 = 3.0;
-/// So many samples in the middle of each hold are looked at.
+/// Number of examined samples in the middle of each hold.
 const MIDDLE_SAMPLES: usize = 64;
 
-/// An axis whose readings come in steps so coarse that the means of holds are off by more than their noise lets expect.
+/// An axis with coarse steps: they add to the error of the means of holds.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CoarseAxis {
     /// The axis.
@@ -32,19 +34,19 @@ pub struct CoarseAxis {
     pub step: f64,
     /// Standard deviation of the noise before it was rounded; 0 where it is too small to be seen.
     pub noise: f64,
-    /// Root mean square `√V` of what the mean of a hold is off, in the unit of the readings.
+    /// Root mean square `√V` of the error of a hold's mean, in the unit of the readings.
     pub mean_sd: f64,
 }
 
 impl CoarseAxis {
-    /// What a user should know of it, for this sensor.
+    /// The warning about it, for this sensor.
     pub(crate) fn diagnostic(&self, sensor_kind: SensorKind, unit: ReadingUnit) -> Diagnostic {
         let Self { axis, step, noise, mean_sd } = *self;
         Diagnostic::CoarseSteps { sensor_kind, axis, unit, step, noise, mean_sd }
     }
 }
 
-/// The coarse axes of a recording, by its samples in holds: where what their means are off exceeds a quarter of their noise.
+/// The coarse axes of a recording, from its samples in holds: the error of their means exceeds a quarter of the noise.
 #[must_use]
 pub fn coarse_axes(recording: &Recording, holds: &[Range<usize>]) -> Vec<CoarseAxis> {
     let resolution = recording.resolution();
@@ -52,7 +54,7 @@ pub fn coarse_axes(recording: &Recording, holds: &[Range<usize>]) -> Vec<CoarseA
     recording.active_axes().iter().filter_map(of).collect()
 }
 
-/// The same between the times of holds, which may be those of another sensor.
+/// The coarse axes of a recording, between the times of holds, which may be those of another sensor.
 #[must_use]
 pub fn coarse_axes_in<'a>(
     recording: &Recording,
@@ -81,7 +83,7 @@ fn coarse(recording: &Recording, holds: &[Range<usize>], axis: Axis, step: f64) 
         MeanReading::of(&recording.readings[first..hold.end.min(first + MIDDLE_SAMPLES)])
     };
     let middles: Vec<MeanReading> = holds.iter().filter(longer).filter_map(middle).collect();
-    // most readings are finer by far, and need not be looked at any further
+    // most readings are far finer, and need no further test
     if MeanReading::pooled_sd(&middles)[axis.index()] > FINE_STEPS * step {
         return None;
     }
@@ -91,7 +93,7 @@ fn coarse(recording: &Recording, holds: &[Range<usize>], axis: Axis, step: f64) 
         let mean = values.iter().sum::<f64>() / values.len() as f64;
         squares += values.iter().map(|y| (y - mean).powi(2)).sum::<f64>();
         samples += values.len() - 1;
-        // the ends of a hold may move already
+        // the ends of a hold may already move
         let end = values.len() / 5;
         counts.push(Counts::of(&values[end..values.len() - end], step));
     }

@@ -1,30 +1,31 @@
-//! The noise of readings before they were rounded, by the shares of their values.
+//! Quantised noise: the noise of readings before rounding, from the frequencies of their values.
 //!
 //! In holds with mean `μ_j` (in steps) and noise `σ`, the value k has the probability `Φ((k + ½ − μ_j)/σ) − Φ((k − ½ − μ_j)/σ)`. The likelihood of all counts is that of interval-censored
-//! normal numbers, log-concave in `μ_j/σ` and `1/σ`: one maximum. A hold with two values alone tells only that the noise is small, and counts as such: an estimate from the holds with a third
-//! value, which chance has put there, is too large where a third value is rare.
+//! normal numbers. It is log-concave in `μ_j/σ` and `1/σ`, and has one maximum. A hold with only two values shows that the noise is small, and counts as such.
+//! Without these holds, the estimate would be too large if a third value is rare.
 //!
-//! Where two values are all there is, the likelihood grows towards no noise at all.
+//! If all holds have only two values, the likelihood grows towards zero noise.
 
 use statrs::function::erf::erfc;
 use std::f64::consts::SQRT_2;
 
-/// Least noise that is looked for, in steps.
+/// Lower end of the search, in steps.
 const LEAST_NOISE: f64 = 0.02;
-/// Largest noise that is looked for, in steps.
+/// Upper end of the search, in steps.
 const MOST_NOISE: f64 = 1.5;
-/// Reductions of an interval to 62 % each: to a thousandth of itself, and to a millionth.
-const COARSELY: usize = 16;
-const FINELY: usize = 30;
-/// A probability below this is rounding.
+/// Number of golden-section steps of a coarse search, which reduces the interval to a thousandth.
+const COARSE_STEPS: usize = 16;
+/// Number of golden-section steps of a fine search, which reduces the interval to a millionth.
+const FINE_STEPS: usize = 30;
+/// Least probability. A smaller one is rounding.
 const LEAST_PROBABILITY: f64 = 1e-300;
 
-/// How often each value was seen in a hold: its number of steps above the least one, and the count.
+/// The counts of each value in a hold: its number of steps above the smallest one, and the count.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Counts(Vec<(f64, f64)>);
 
 impl Counts {
-    /// Of readings in steps.
+    /// The counts of readings, in steps.
     pub(super) fn of(values: &[f64], step: f64) -> Self {
         let least = values.iter().copied().fold(f64::INFINITY, f64::min);
         let mut counts: Vec<(f64, f64)> = Vec::new();
@@ -53,11 +54,11 @@ impl Counts {
             });
             terms.sum::<f64>()
         };
-        of(largest((-1.0, self.span() + 1.0), FINELY, &of))
+        of(largest((-1.0, self.span() + 1.0), FINE_STEPS, &of))
     }
 }
 
-/// The noise behind rounded readings, in steps; 0 where it is too small to be seen. Holds that span more than one step beyond the usual have moved, and do not count.
+/// The noise before rounding, in steps, or 0 if it is too small to be seen. Holds with more than one step beyond the usual span have moved, and do not count.
 pub(super) fn noise_in_steps(holds: &[Counts]) -> f64 {
     let mut spans: Vec<f64> = holds.iter().map(Counts::span).collect();
     spans.sort_by(f64::total_cmp);
@@ -67,7 +68,7 @@ pub(super) fn noise_in_steps(holds: &[Counts]) -> f64 {
         return 0.0;
     }
     let of = |noise: f64| still.iter().map(|counts| counts.log_likelihood(noise)).sum::<f64>();
-    largest((LEAST_NOISE, MOST_NOISE), COARSELY, &of)
+    largest((LEAST_NOISE, MOST_NOISE), COARSE_STEPS, &of)
 }
 
 /// Probability of a standard normal number between two.
@@ -77,7 +78,7 @@ fn between(low: f64, high: f64) -> f64 {
     if low > 0.0 { above(low) - above(high) } else { above(-high) - above(-low) }
 }
 
-/// Where a function with one maximum is largest (golden section).
+/// The maximum of a function with one maximum (golden section).
 fn largest((mut low, mut high): (f64, f64), reductions: usize, of: &dyn Fn(f64) -> f64) -> f64 {
     let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
     let inner = |low: f64, high: f64| [high - golden * (high - low), low + golden * (high - low)];

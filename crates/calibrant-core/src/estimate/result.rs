@@ -1,4 +1,4 @@
-//! What a calibration gives.
+//! The result of a calibration.
 
 use super::imu::{GyroscopeCalibration, RotationResult, TurnResult};
 use super::uncalibrated::Uncalibrated;
@@ -15,9 +15,9 @@ use nalgebra::{DMatrix, Vector3};
 pub enum CalibrationStatus {
     /// The step became smaller than the tolerance, in standard deviations of the parameters.
     Converged,
-    /// The largest number of iterations was reached first. The numbers are the best found; do not use them without a look at the residuals.
+    /// The largest number of iterations was reached first. The numbers are the best that were found. Look at the residuals before you use them.
     IterationLimit,
-    /// No step lowered the cost any more although the tolerance was not met. The numbers are the best found.
+    /// No step lowered the cost any more, but the step was not below the tolerance. The numbers are the best that were found.
     Stalled,
 }
 
@@ -35,15 +35,15 @@ impl CalibrationStatus {
 
 /// A calibration of an accelerometer or of an IMU: parameters, their one covariance, and everything needed to judge them.
 ///
-/// What was measured of the motion is in `recovered`. A gyroscope, where there is one, adds its part.
+/// `recovered` has the estimated motion or the holds. `gyroscope` has the results of the gyroscope, if there is one.
 #[derive(Debug, Clone)]
 pub struct Calibration {
     /// How the iteration ended.
     pub status: CalibrationStatus,
     /// Iterations used.
     pub iterations: usize,
-    /// Norm of the gradient at the end in the metric of the covariance, `√(gᵀ Σ g)`: the length, in standard deviations, of the step that is
-    /// left. Zero at the optimum.
+    /// Norm of the gradient at the end in the metric of the covariance, `√(gᵀ Σ g)`: the length of the remaining step,
+    /// in standard deviations. Zero at the optimum.
     pub gradient_norm: f64,
     /// The quantities that were estimated.
     pub quantities: Vec<ImuQuantity>,
@@ -53,9 +53,9 @@ pub struct Calibration {
     pub values: Vec<f64>,
     /// Covariance of the estimates, p × p, entry (i, j) in unit i times unit j. The motion (or the directions) is marginalised.
     pub covariance: DMatrix<f64>,
-    /// The share of each quantity's information that was known beforehand, 0 to 1; empty for an accelerometer alone, whose prior is the datasheet.
+    /// The share of each quantity's information that comes from the prior, 0 to 1. Empty for an accelerometer alone, whose prior is the datasheet.
     pub prior_share: Vec<f64>,
-    /// Did the datasheet count as a prior?
+    /// Is the datasheet a prior?
     pub datasheet_prior: bool,
     /// The estimates as a model, fixed quantities included. A sensor that was not calibrated is a perfect one.
     pub imu: ImuParameters,
@@ -63,13 +63,13 @@ pub struct Calibration {
     pub accelerometer_unit: ReadingUnit,
     /// How well the model fits the data.
     pub fit: FitStatistics,
-    /// The motion or the holds that were estimated beside the parameters.
+    /// The motion or the holds, estimated with the parameters.
     pub recovered: Recovered,
-    /// What the gyroscope adds, where there is one.
+    /// The results of the gyroscope, if there is one.
     pub gyroscope: Option<Box<GyroscopeCalibration>>,
-    /// Sensors that are not the same throughout the recording.
+    /// Changes of a sensor within the recording.
     pub changes: Vec<Change>,
-    /// Things a user should know.
+    /// Warnings for the user.
     pub warnings: Vec<Diagnostic>,
 }
 
@@ -131,13 +131,13 @@ impl Calibration {
         (0..self.quantities.len()).filter(|&k| self.quantities[k].sensor_kind() == sensor_kind).collect()
     }
 
-    /// The share of a quantity's information that was known beforehand, where it is worth a word: above 5 %.
+    /// The share of a quantity's information that comes from the prior. `None` below 5 %.
     #[must_use]
     pub fn known_beforehand(&self, place: usize) -> Option<f64> {
         self.prior_share.get(place).copied().filter(|share| *share > 0.05)
     }
 
-    /// The holds; `None` of a commanded motion.
+    /// The holds. `None` for a commanded motion.
     #[must_use]
     pub fn holds(&self) -> Option<&HoldCalibration> {
         match &self.recovered {
@@ -146,13 +146,13 @@ impl Calibration {
         }
     }
 
-    /// Each of the holds; none of a commanded motion.
+    /// Each hold. Empty for a commanded motion.
     #[must_use]
     pub fn hold_results(&self) -> &[HoldResult] {
         self.holds().map_or(&[], |holds| &holds.holds)
     }
 
-    /// The rotations between holds, in order of time; none without a gyroscope.
+    /// The rotations between holds, in order of time. Empty without a gyroscope.
     #[must_use]
     pub fn rotations(&self) -> &[RotationResult] {
         self.gyroscope.as_ref().map_or(&[], |gyroscope| &gyroscope.rotations)
@@ -164,7 +164,8 @@ impl Calibration {
         self.gyroscope.as_ref().map_or(&[], |gyroscope| &gyroscope.turns)
     }
 
-    /// Do the known turns check the gyroscope's matrix? Where they are all there is, and no more equations than it has entries, they determine it and are met exactly.
+    /// Do the known turns check the gyroscope's matrix? They do not if they are the only data, with no more equations than the matrix has entries.
+    /// The fit is then exact.
     #[must_use]
     pub fn turns_check_the_gains(&self) -> bool {
         let of_matrix = |place: &usize| {
@@ -176,13 +177,13 @@ impl Calibration {
         self.rotations().iter().any(|rotation| rotation.used) || 3 * self.turns().len() > entries
     }
 
-    /// Root mean square of the angles by which gravity misses, over the rotations that were used, rad; zero where there is none.
+    /// Root mean square of the rotation errors, over the used rotations, rad. Zero without any.
     #[must_use]
     pub fn rotation_rms_rad(&self) -> f64 {
         self.rms_of_used(|rotation| rotation.error_rad)
     }
 
-    /// The same before the calibration, rad.
+    /// Root mean square of the rotation errors before the calibration, rad.
     #[must_use]
     pub fn rotation_rms_before_rad(&self) -> f64 {
         self.rms_of_used(|rotation| rotation.error_before_rad)
@@ -194,7 +195,7 @@ impl Calibration {
         (squares.iter().sum::<f64>() / squares.len().max(1) as f64).sqrt()
     }
 
-    /// As it is exchanged with other programs.
+    /// The calibration in the form that other programs exchange.
     #[must_use]
     pub fn calibrated(&self) -> CalibratedImu {
         CalibratedImu {
@@ -207,7 +208,7 @@ impl Calibration {
         }
     }
 
-    /// Did a commanded motion or known directions of the holds fix the true frame (and not the accelerometer's gauge)? Then its matrix has more entries than any gauge leaves.
+    /// Did a commanded motion or known directions fix the true frame, and not a gauge? The accelerometer's matrix then has more entries than in a gauge.
     #[must_use]
     pub fn frame_is_known(&self) -> bool {
         let Recovered::Holds(holds) = &self.recovered else { return true };
@@ -241,21 +242,21 @@ pub struct FitStatistics {
     pub chi2: f64,
     /// Residuals less unknowns.
     pub degrees_of_freedom: usize,
-    /// Probability of a χ² at least this large if model and noise are right; `None` without degrees of freedom, or where the
-    /// noise was itself estimated from this fit.
+    /// Probability of a χ² at least this large if model and noise are right. `None` without degrees of freedom, or if the noise was
+    /// estimated from this fit.
     pub p_value: Option<f64>,
     /// Root mean square of the accelerometer's residuals per axis, in the unit of the readings; `None` for an IMU.
     pub residual_rms: Option<Vector3<f64>>,
     /// Noise assumed for one sample per axis, in the unit of the readings; `None` where it was estimated from this fit.
     pub assumed_noise: Option<Vector3<f64>>,
-    /// Noise of one sample per axis as the residuals show it, in the unit of the readings; `None` without degrees of freedom.
+    /// Noise of one sample per axis, from the residuals, in the unit of the readings. `None` without degrees of freedom.
     pub noise_estimate: Option<Vector3<f64>>,
     /// Whiteness of the residuals, one test per axis; empty for holds.
     pub whiteness: Vec<Whiteness>,
 }
 
 impl FitStatistics {
-    /// Of a fit whose weights come from the data, so that χ² tests nothing.
+    /// The statistics of a fit whose weights come from the data. Its χ² tests nothing.
     pub(in crate::estimate) fn of_chi2(chi2: f64, degrees_of_freedom: usize) -> Self {
         Self {
             chi2,
@@ -280,7 +281,7 @@ pub struct Whiteness {
     pub p_value: f64,
 }
 
-/// What was estimated beside the parameters.
+/// The motion or the holds, estimated with the parameters.
 #[derive(Debug, Clone)]
 pub enum Recovered {
     /// The motion.
@@ -296,7 +297,7 @@ pub struct RecoveredMotion {
     pub motion: JerkControlledMotion,
     /// Standard deviation of each node acceleration, m/s²; zero where it was known.
     pub acceleration_sd_mps2: Vec<Vector3<f64>>,
-    /// How far the command was trusted: `known`, `noisy`, `unknown`.
+    /// Trust in the command: `known`, `noisy`, `unknown`.
     pub trust: &'static str,
     /// Residuals `y − S s − b` of the samples used, in the unit of the readings.
     pub residuals: Vec<Vector3<f64>>,
@@ -304,7 +305,7 @@ pub struct RecoveredMotion {
     pub first_sample: usize,
 }
 
-/// What a static calibration says beside the parameters.
+/// The results of a static calibration, in addition to the parameters.
 #[derive(Debug, Clone)]
 pub struct HoldCalibration {
     /// The holds, in order of time.
@@ -313,15 +314,16 @@ pub struct HoldCalibration {
     pub gravity: Gravity,
     /// Gauge of the parameters.
     pub gauge: Gauge,
-    /// Standard deviation of a hold's mean beyond what its samples' noise explains, m/s²; of holds of known directions, along these.
+    /// Between-hold standard deviation: that of a hold's mean beyond the noise of its samples, m/s². With known directions, along these.
     pub between_holds_sd_mps2: f64,
-    /// Does the scatter between holds exceed what the noise within them explains (so that it decides the covariance)?
+    /// Does the scatter between holds exceed the noise within them? It then decides the covariance.
     pub between_holds_dominates: bool,
-    /// How well known directions were met; `None` where only the magnitude of gravity is known.
+    /// Face alignment. `None` if only the magnitude of gravity is known.
     pub tilt: Option<FaceTilt>,
     /// Root mean square over the used holds of the corrected magnitude less gravity, m/s².
     pub magnitude_residual_rms_mps2: f64,
-    /// How many of the magnitudes of the used holds are left to check, the accelerometer's parameters and what was known beforehand counted off: with none, gravity is met exactly and checks nothing.
+    /// Degrees of freedom of the magnitudes of the used holds, after the accelerometer's parameters and their priors. With 0, the fit is exact and
+    /// checks nothing.
     pub degrees_of_freedom: usize,
     /// Condition number of the information on the parameters, each scaled by its own standard deviation when the others are known.
     pub condition_number: f64,
@@ -329,21 +331,21 @@ pub struct HoldCalibration {
     pub detected: bool,
     /// The accelerometer before its calibration.
     pub before: Uncalibrated,
-    /// Mean temperature of each of the holds, °C, where something follows temperature.
+    /// Mean temperature of each hold, °C, if the model has temperature terms.
     pub temperatures_c: Option<Vec<f64>>,
-    /// Is the accelerometer another one from some time on? `None` where nothing shows it, and where the directions are known.
+    /// A change of the accelerometer within the recording. `None` without evidence, and for known directions.
     pub change: Option<Box<Change>>,
 }
 
 impl HoldCalibration {
-    /// Magnitude of a hold's mean reading before the calibration, less gravity, m/s²; `None` where it cannot be told.
+    /// Gravity residual of a hold before the calibration, m/s². `None` if it is not known.
     #[must_use]
     pub fn magnitude_residual_before_mps2(&self, hold: &Hold) -> Option<f64> {
         let residual = self.before.stimulus(&hold.mean)?.norm() - self.gravity.magnitude_mps2;
         residual.is_finite().then_some(residual)
     }
 
-    /// Root mean square of the same over the used holds, m/s²; `None` where it cannot be told.
+    /// Root mean square of the gravity residuals before the calibration, over the used holds, m/s². `None` if it is not known.
     #[must_use]
     pub fn magnitude_residual_rms_before_mps2(&self) -> Option<f64> {
         let used: Vec<f64> = self
@@ -356,25 +358,25 @@ impl HoldCalibration {
     }
 }
 
-/// How well the sensor was placed on faces of known directions.
+/// Face alignment: how well the sensor was placed on its faces.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FaceTilt {
     /// Standard deviation of the tilt about each axis, rad.
     pub sd_rad: f64,
-    /// Where that comes from.
+    /// The source of this value.
     pub source: TiltSource,
-    /// How many equations were left to tell it by their scatter; 0 where they did not.
+    /// Degrees of freedom of its estimate from the scatter, or 0 if it was not estimated.
     pub degrees_of_freedom: usize,
 }
 
-/// Where the tilt of faces comes from.
+/// The source of the face alignment.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TiltSource {
     /// It was given.
     Given,
     /// The scatter of the faces.
     Recording,
-    /// Too few faces to tell: half a degree.
+    /// The faces are too few, and half a degree is assumed.
     Assumed,
 }
 
@@ -391,7 +393,7 @@ impl TiltSource {
 }
 
 impl FaceTilt {
-    /// Where it comes from, in words.
+    /// The source, in words.
     #[must_use]
     pub fn source_in_words(&self) -> String {
         match self.source {
@@ -413,16 +415,16 @@ pub struct HoldResult {
     pub force_mps2: Vector3<f64>,
     /// Magnitude of the mean reading less gravity, corrected with the parameters of the result, m/s².
     pub magnitude_residual_mps2: f64,
-    /// The same in standard deviations expected of it, the hold's own influence removed.
+    /// The magnitude residual in its expected standard deviations, without the hold's own influence (studentised).
     pub studentised_residual: f64,
-    /// Was it used? A bad hold is found, reported and left out.
+    /// Was it used? An outlier is reported and not used.
     pub used: bool,
-    /// Why it was not used, where that was known before its residual: the sensor saturates in it.
+    /// Why it was not used, if that does not follow from its residual: the sensor saturates.
     pub reason: Option<HoldLeftOut>,
 }
 
 impl HoldResult {
-    /// Why it was left out; `None` where it was used.
+    /// Why it was not used. `None` if it was used.
     #[must_use]
     pub fn why_left_out(&self) -> Option<HoldLeftOut> {
         let by_residual = HoldLeftOut::MagnitudeOff {

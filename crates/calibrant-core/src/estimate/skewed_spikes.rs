@@ -1,21 +1,24 @@
-//! Single samples that are off to one side: too near the noise to be left out as spikes are, but they take the means of the holds, and with them the bias, along.
+//! Skewed spikes: single samples to one side. They are too near the noise to be removed as spikes, but they shift the means of the holds and the bias.
 //!
-//! Noise is as often far above its mean as far below. So in the middle of each hold single samples beyond [`FAR_DEVIATIONS`] standard deviations are counted on either side. It is no chance if there are
-//! far more on one side altogether, and in nearly all holds that have any: a sensor that is put down leaves some in one hold, on either side.
+//! Noise is as often far above its mean as far below. So single samples beyond [`FAR_DEVIATIONS`] standard deviations are counted on either side, in the
+//! middle of each hold. Far more on one side, in nearly all holds with such samples, is not by chance. A sensor that is put down has some in one hold, on
+//! either side.
 
 use crate::diagnostic::Diagnostic;
 use crate::motion::Hold;
 use crate::sensor::{Axis, MeanReading, Recording, SensorKind};
 
-/// Standard deviations of a hold's samples, spikes included: five of white noise with one of 10 in a hundred.
+/// Least distance of a counted sample, in standard deviations of a hold's samples, spikes included. It is 5 of the white noise if one sample in a
+/// hundred is at 10.
 const FAR_DEVIATIONS: f64 = 4.0;
-/// The counts on both sides, of samples and of holds, differ by chance by fewer standard deviations than this.
-const OF_SAMPLES: f64 = 4.5;
-const OF_HOLDS: f64 = 3.0;
-/// This share of a hold at each end may move already.
+/// Least difference of the counts of samples on both sides, in standard deviations of chance.
+const SAMPLE_DEVIATIONS: f64 = 4.5;
+/// Least difference of the counts of holds on both sides, in standard deviations of chance.
+const HOLD_DEVIATIONS: f64 = 3.0;
+/// Inverse of the share of a hold at each end that may already move.
 const END_SHARE: usize = 5;
 
-/// For each axis with such samples, what they do. The holds' times are those of a sensor on the same clock.
+/// The warnings about axes with such samples. The holds' times are those of a sensor on the same clock.
 pub(super) fn skewed_spikes<'a>(
     recording: &Recording,
     sensor_kind: SensorKind,
@@ -45,7 +48,7 @@ pub(super) fn skewed_spikes<'a>(
             all.sum += own.sum;
             samples += span.len();
         }
-        if all.difference() < OF_SAMPLES || holds.difference() < OF_HOLDS {
+        if all.difference() < SAMPLE_DEVIATIONS || holds.difference() < HOLD_DEVIATIONS {
             return None;
         }
         let shift = all.sum / samples as f64;
@@ -64,7 +67,7 @@ pub(super) fn skewed_spikes<'a>(
     recording.active_axes().iter().filter_map(skewed).collect()
 }
 
-/// How many are above, and below; and the sum of their deviations.
+/// Number of samples above and below, and the sum of their deviations.
 #[derive(Default)]
 struct Sides {
     above: f64,
@@ -73,7 +76,7 @@ struct Sides {
 }
 
 impl Sides {
-    /// Of the single deviations beyond a distance.
+    /// The counts of single deviations beyond a distance.
     fn of(deviations: impl Iterator<Item = f64>, far: f64) -> Self {
         let mut sides = Self::default();
         let (mut before, mut here) = (0.0, 0.0_f64);
@@ -92,7 +95,7 @@ impl Sides {
         self.below += below;
     }
 
-    /// By how many standard deviations of chance the counts differ.
+    /// The difference of the counts, in standard deviations of chance.
     fn difference(&self) -> f64 {
         (self.above - self.below).abs() / (self.above + self.below).max(1.0).sqrt()
     }

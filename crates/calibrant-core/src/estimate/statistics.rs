@@ -4,7 +4,7 @@ use super::{Calibration, Whiteness};
 use crate::diagnostic::Diagnostic;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
-/// Probability of a χ² at least this large with so many degrees of freedom; `None` without degrees of freedom.
+/// Probability of a χ² at least this large. `None` without degrees of freedom.
 pub(crate) fn chi2_p_value(chi2: f64, degrees_of_freedom: usize) -> Option<f64> {
     if degrees_of_freedom == 0 {
         return None;
@@ -12,14 +12,14 @@ pub(crate) fn chi2_p_value(chi2: f64, degrees_of_freedom: usize) -> Option<f64> 
     ChiSquared::new(degrees_of_freedom as f64).ok().map(|distribution| distribution.sf(chi2.max(0.0)))
 }
 
-/// Ljung–Box test of the residuals of a fit.
+/// Ljung–Box test of the residuals of a fit (`ljung1978`).
 ///
-/// `Q = Σ_{l=1..L} (T_l/σ̂² + c_l)²/(n − l − q)`, `T_l = Σ_k r_k r_{k+l}`, is close to χ² with L degrees of freedom where the noise is white. The
-/// covariance of residuals is `σ² (I − P)`: `c_l = Σ_k P_{k,k+l}` (`shortfall`, lag 1 first) is what the fit takes from the l-th
-/// autocovariance, `q = tr P` (`leverage`) the number of unknowns that the readings paid for, and `σ̂² = Σ r²/(n − q)`. Without these two the
-/// test of Ljung and Box (1978) calls a third of all white recordings coloured where ten samples share a motion node.
+/// `Q = Σ_{l=1..L} (T_l/σ̂² + c_l)²/(n − l − q)`, `T_l = Σ_k r_k r_{k+l}`, is close to χ² with L degrees of freedom for white noise. The
+/// covariance of residuals is `σ² (I − P)`. The fit takes `c_l = Σ_k P_{k,k+l}` (`shortfall`, lag 1 first) from the l-th autocovariance. `q = tr P`
+/// (`leverage`) is the effective number of unknowns, and `σ̂² = Σ r²/(n − q)`. Without these two corrections, the test rejects a third of all white
+/// recordings with ten samples for each motion node.
 ///
-/// `None` where fewer than ten degrees of freedom are left, or where residuals vanish.
+/// `None` with fewer than ten degrees of freedom, or zero residuals.
 pub(crate) fn ljung_box(residuals: &[f64], shortfall: &[f64], leverage: f64) -> Option<Whiteness> {
     let n = residuals.len() as f64;
     let squares = dot(residuals, residuals);
@@ -39,7 +39,7 @@ pub(crate) fn ljung_box(residuals: &[f64], shortfall: &[f64], leverage: f64) -> 
     Some(Whiteness { statistic, lags, p_value })
 }
 
-/// Scalar product, in four running sums so that it vectorises.
+/// Scalar product, in four running sums for vector instructions.
 pub(crate) fn dot(x: &[f64], y: &[f64]) -> f64 {
     let (xs, ys) = (x.chunks_exact(4), y.chunks_exact(4));
     let rest: f64 = xs.remainder().iter().zip(ys.remainder()).map(|(x, y)| x * y).sum();
@@ -52,7 +52,7 @@ pub(crate) fn dot(x: &[f64], y: &[f64]) -> f64 {
     sums.iter().sum::<f64>() + rest
 }
 
-/// Parameters so far from their nominal value that a mistake is more likely than a rare sensor.
+/// Parameters far from their nominal value: a mistake is more likely than a rare sensor.
 pub(crate) fn implausible(calibration: &Calibration) -> Option<Diagnostic> {
     const FAR: f64 = 10.0;
     let (name, times) = calibration

@@ -1,22 +1,22 @@
-//! A sensor as it is read without its calibration: what the calibration is measured against.
+//! A sensor without its calibration, as the reference for the improvement.
 
 use crate::sensor::{Correction, ReadingUnit, Sensor, SensorParameters};
 use nalgebra::{Matrix3, Vector3};
 
-/// A sensor before its calibration: the datasheet's values, or the plainest ones that make sense of the readings where it gives none.
+/// A sensor before its calibration: the datasheet's values, or the simplest plausible ones.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Uncalibrated {
-    /// One gain for each axis, nothing off the diagonal but an order of the axes, and a bias.
+    /// One gain for each axis, an order of the axes, and a bias.
     pub sensor: SensorParameters,
-    /// Where gain and bias come from, in words: `the datasheet's gain and offset`.
+    /// The source of gain and bias, in words: `the datasheet's gain and offset`.
     pub source: String,
 }
 
 impl Uncalibrated {
-    /// An accelerometer by its datasheet. Where that gives no gain (no offset), all axes have one: the mean of those found.
+    /// An accelerometer from its datasheet. A missing gain or offset is replaced by the mean of the estimates, one for all axes.
     ///
     /// # Examples
-    /// Readings in m/s² are what they say:
+    /// Readings in m/s² are taken as they are:
     /// ```
     /// use calibrant_core::estimate::Uncalibrated;
     /// use calibrant_core::sensor::{Sensor, SensorModel, SensorParameters};
@@ -51,7 +51,7 @@ impl Uncalibrated {
         }
     }
 
-    /// The stimulus that a reading is taken for: `C (y − b)`; `None` where a gain is zero.
+    /// The stimulus of a reading without calibration: `C (y − b)`. `None` for a zero gain.
     #[must_use]
     pub fn stimulus(&self, reading: &Vector3<f64>) -> Option<Vector3<f64>> {
         Correction::of(&self.sensor).map(|correction| correction.apply(reading))

@@ -1,14 +1,14 @@
-//! What an unknown latitude does to the uncertainty of a calibration.
+//! The effect of an unknown latitude on the uncertainty of a calibration.
 
 use super::Calibration;
 use crate::diagnostic::Diagnostic;
 use crate::motion::EARTH_RATE_RADPS;
 use crate::sensor::ImuQuantity;
 
-/// Standard deviations that it makes larger by less need no word.
+/// Least increase of a standard deviation that is reported.
 const SIZEABLE: f64 = 1.15;
 
-/// What to say where an unknown latitude is a sizeable part of the uncertainty.
+/// The warning about an unknown latitude that is a sizeable part of the uncertainty.
 pub(super) fn unknown_latitude(calibration: &Calibration) -> Option<Diagnostic> {
     let slope = calibration.gyroscope.as_ref()?.of_vertical.as_ref()?;
     let larger = |(slope, variance): (&f64, &f64)| {

@@ -1,11 +1,11 @@
-//! Holds or rotations that are left out one after another are no outliers: the sensor was another one there, or not still.
+//! Consecutive unused holds or rotations. They are not outliers: the sensor changed there, or was not at rest.
 
 use std::ops::Range;
 
-/// So many in a row are no chance; two rotations may share a bad hold.
+/// A run of this length is not by chance. Two rotations in a row may share a bad hold.
 const FEWEST_IN_A_ROW: usize = 3;
 
-/// The longest run of those that are left out, where it is one.
+/// The longest run of unused items, if it is long enough.
 pub(in crate::estimate) fn longest_run(left_out: impl IntoIterator<Item = bool>) -> Option<Range<usize>> {
     let (mut longest, mut start) = (0..0, 0);
     for (place, left_out) in left_out.into_iter().enumerate() {

@@ -1,7 +1,8 @@
 //! Does a sensor change within a recording?
 //!
-//! A knock, a mounting that slips or a sensor that warms up leaves estimates that are a mean of before and after. Their standard deviations come from the scatter, which the change itself makes
-//! larger, so that nothing looks wrong; and each part of such a recording is predicted by the rest of it as well as that scatter promises. Only the order of time tells (`score`).
+//! After a knock, a slip of the mounting or a warm-up, the estimates are a mean of before and after. Their standard deviations come from the scatter,
+//! which the change enlarges. The result then looks consistent, and each part of the recording agrees with its prediction from the rest.
+//! Only the order in time shows the change (`score_test`).
 
 mod left_out_run;
 mod score_test;

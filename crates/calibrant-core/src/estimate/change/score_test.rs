@@ -1,16 +1,17 @@
-//! Scores of a change against time.
+//! The score test for a change in time.
 //!
-//! Residuals of holds or rotations, whitened and in order of time, are `e = A θ + ε`, with `A` their derivatives with respect to what was estimated. A change adds `W B δ`: `B` says what a
-//! bias or a gain does to each residual, `W` is 0 before a time and 1 after it for a step, 1 between two times for an episode, and time itself for a drift. With an orthonormal basis `Q` of the
-//! columns of `A`:
+//! Residuals of holds or rotations, whitened and in order of time, are `e = A θ + ε`. `A` has their derivatives with respect to the parameters.
+//! A change adds `W B δ`. `B` is the effect of a bias or a gain on each residual. For a step, `W` is 0 before a time and 1 after it. For an episode,
+//! `W` is 1 between two times. For a drift, `W` is time itself. With an orthonormal basis `Q` of the columns of `A`:
 //!
 //! ```text
 //! r = e − Q Qᵀ e,   s = (W B)ᵀ r,   V = (W B)ᵀ (W B) − (W B)ᵀ Q Qᵀ (W B),   δ = V⁻¹ s
 //! ```
 //!
-//! and δ takes `sᵀ V⁻¹ s` of `rᵀ r`: Rao's score for a change of parameters, which sees one that leaves the mean of the residuals where it was. Of m numbers beside ν degrees of freedom its share
-//! has the distribution Beta(m/2, (ν − m)/2) where nothing changes, whatever the scale of the noise: a scatter that the change itself has made larger hides nothing. Every time is tried, and the
-//! probability of the best multiplied by their number (Bonferroni); steps, episodes and drifts have a third of it each.
+//! The change explains `sᵀ V⁻¹ s` of `rᵀ r`. This is Rao's score for a change of parameters. It also shows a change that leaves the mean of the
+//! residuals the same. If nothing changes, the share has the distribution Beta(m/2, (ν − m)/2), with m numbers in δ and ν degrees of freedom.
+//! The distribution does not depend on the scale of the noise, so the scatter of the change itself hides nothing. Every time is tried, and the
+//! probability of the best is multiplied by their number (Bonferroni). Steps, episodes and drifts have a third of the significance each.
 //!
 //! # References
 //! `andrews1993`, `levin1985`
@@ -21,9 +22,9 @@ use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use statrs::function::beta::beta_reg;
 use std::cmp::Ordering;
 
-/// A change is one that would be found in fewer than this share of the recordings of a sensor that does not change.
+/// Significance level: share of the recordings of an unchanged sensor in which a change is found.
 const SIGNIFICANCE: f64 = 5e-4;
-/// Without any two neighbours a change at its time is still one that would be seen in fewer than this share.
+/// Significance level of a change at its time, after any two neighbours are removed.
 const STILL_SEEN: f64 = 2e-4;
 /// Fewest holds or rotations on either side of a step.
 const FEWEST_ON_A_SIDE: usize = 3;
@@ -31,15 +32,15 @@ const FEWEST_ON_A_SIDE: usize = 3;
 const SPARE_ROWS: usize = 2;
 /// Steps, episodes, drifts.
 const COURSES: f64 = 3.0;
-/// An episode begins and ends at one of so many places.
+/// Number of places where an episode may begin or end.
 const EDGES: usize = 24;
-/// So many that were left out may be a change.
+/// Fewest unused items that may be a change.
 const MANY_LEFT_OUT: usize = 3;
-/// What is left after a change, over what is usual: more, and those that were left out are no change.
+/// Largest ratio of the residuals after a change to the usual ones. Beyond it, the unused items are not a change.
 const USUAL_SQUARE: f64 = 9.0;
-/// Another kind of change that leaves no more than so many times as much explains it nearly as well.
+/// Another kind of change explains the residuals nearly as well if it leaves at most this multiple of them.
 const RIVAL_FACTOR: f64 = 1.5;
-/// A direction of which this share is left after the parameters is seen, and so is a residual of this size beside its noise.
+/// Smallest share of a direction that counts, after the parameters. Also the smallest residual that counts, relative to its noise.
 const SEEN_SHARE: f64 = 1e-6;
 
 /// Residuals of holds or rotations in order of time, whitened.
@@ -47,30 +48,30 @@ const SEEN_SHARE: f64 = 1e-6;
 pub(in crate::estimate) struct Series {
     /// Of each hold or rotation.
     pub(in crate::estimate) times_s: Vec<f64>,
-    /// Was it left out since it does not fit?
+    /// Is it unused, because it does not fit?
     pub(in crate::estimate) left_out: Vec<bool>,
-    /// So many rows for each.
+    /// `e`, with the same number of rows for each item.
     pub(in crate::estimate) errors: DVector<f64>,
     /// `A`.
     pub(in crate::estimate) parameters: DMatrix<f64>,
-    /// `B`, three columns for each kind of change; those of axes that are not asked about are zero.
+    /// `B`, three columns for each kind of change. Columns of axes that are not tested are zero.
     pub(in crate::estimate) kinds: Vec<(Changed, DMatrix<f64>)>,
 }
 
-/// The last before a change of the series, and the first after it.
+/// The last item before a change, and the first after it.
 pub(in crate::estimate) type Gap = (usize, usize);
 
-/// When a change is.
+/// The time of a change.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::estimate) enum When {
-    /// From between two of the series on.
+    /// A step between two items.
     From(Gap),
-    /// From between two of the series to between two others.
+    /// An episode, from between two items to between two others.
     Episode(Gap, Gap),
     Always,
 }
 
-/// A change of which the series knows.
+/// A change of a series.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::estimate) struct Found {
     pub(in crate::estimate) of: Changed,
@@ -82,7 +83,7 @@ pub(in crate::estimate) struct Found {
 }
 
 impl Change {
-    /// What a series found. `step`: the step between two of the series.
+    /// The change that a series shows. `step`: the step between two items.
     pub(in crate::estimate) fn of(
         sensor_kind: SensorKind,
         found: Found,
@@ -105,7 +106,7 @@ impl Change {
 }
 
 impl Series {
-    /// The most significant change, if there is one. `tests`: number of series among which it is looked for.
+    /// The most significant change, if there is one. `tests`: number of series that are tested.
     pub(in crate::estimate) fn change(&self, tests: usize) -> Option<Found> {
         let chance = |found: &Found| found.p_value * tests as f64;
         let among = |items: &[bool]| {
@@ -113,7 +114,7 @@ impl Series {
             (chance(&found.0) < SIGNIFICANCE && self.is_of_many(&found.0, items)).then_some(found)
         };
         let used: Vec<bool> = self.left_out.iter().map(|left_out| !left_out).collect();
-        // a change late in a recording makes outliers of what follows it
+        // after a late change, the remaining items look like outliers
         let of_all = || {
             let all = vec![true; used.len()];
             let usual = USUAL_SQUARE * Residuals::of(self, &used)?.variance();
@@ -125,7 +126,7 @@ impl Series {
         Some(Found { p_value: chance(&found).min(1.0), ..found })
     }
 
-    /// Is a change seen without any two neighbours? One that is made of both rotations beside a bad hold is not.
+    /// Is a change significant without any two neighbours? Both rotations beside a bad hold can look like a change.
     fn is_of_many(&self, found: &Found, items: &[bool]) -> bool {
         let places: Vec<usize> = (0..items.len()).filter(|&item| items[item]).collect();
         places.windows(2).all(|pair| {
@@ -153,11 +154,11 @@ impl Series {
     }
 }
 
-/// The residuals of some of a series, beside the parameters.
+/// The residuals of some items of a series, orthogonal to the parameters.
 struct Residuals {
     /// Their places in the series.
     items: Vec<usize>,
-    /// Rows of each.
+    /// The rows of each item.
     width: usize,
     /// The columns of `Q`.
     basis: Vec<DVector<f64>>,
@@ -169,7 +170,7 @@ struct Residuals {
 }
 
 impl Residuals {
-    /// `None` where they are too few, or nothing but rounding.
+    /// `None` if they are too few, or only rounding.
     fn of(series: &Series, chosen: &[bool]) -> Option<Self> {
         let items: Vec<usize> = (0..chosen.len()).filter(|&item| chosen[item]).collect();
         let width = series.errors.len() / series.times_s.len().max(1);
@@ -177,7 +178,7 @@ impl Residuals {
         let mut basis: Vec<DVector<f64>> = Vec::new();
         for column in series.parameters.column_iter() {
             let column = column.select_rows(&places);
-            // twice, so that they are orthogonal to the last digit
+            // twice, for orthogonality to the last digit
             let left = beside(beside(column.clone(), &basis), &basis);
             let norm = left.norm();
             if norm > SEEN_SHARE * column.norm() {
@@ -194,7 +195,7 @@ impl Residuals {
         self.square / self.degrees as f64
     }
 
-    /// The rows of a kind of change, for each of the items.
+    /// The rows of a kind of change, for each item.
     fn rows(&self, by: &DMatrix<f64>) -> Vec<Vec<Vector3<f64>>> {
         let row = |row: usize| Vector3::from_fn(|k, _| by[(row, k)]);
         self.items
@@ -214,7 +215,7 @@ impl Residuals {
         sums
     }
 
-    /// The change of items from one to before another that explains most, and among how many it is.
+    /// The change between two items that explains most, and the number of candidates.
     fn most(
         &self,
         sums: &[Score],
@@ -255,7 +256,7 @@ impl Residuals {
         }
     }
 
-    /// The variance that a change leaves, and its degrees of freedom.
+    /// The variance after a change, and its degrees of freedom.
     fn left(&self, solved: &Solved) -> Option<(f64, usize)> {
         let degrees = self.degrees.checked_sub(solved.numbers).filter(|left| *left >= FEWEST_ON_A_SIDE)?;
         Some(((self.square - solved.square).max(0.0) / degrees as f64, degrees))
@@ -279,14 +280,14 @@ impl Residuals {
         sums[to].less(&sums[from]).solved()
     }
 
-    /// Probability of a change that explains as much, its time given, where there is none.
+    /// Probability, without a change, that one at the given time explains as much.
     fn chance(&self, solved: &Solved) -> Option<f64> {
         let (_, degrees) = self.left(solved)?;
         let unexplained = (1.0 - solved.square / self.square).clamp(0.0, 1.0);
         Some(beta_reg(0.5 * degrees as f64, 0.5 * solved.numbers as f64, unexplained))
     }
 
-    /// The change that explains most, with the variance that it leaves.
+    /// The change that explains most, with the variance after it.
     fn change(&self, series: &Series) -> Option<(Found, f64)> {
         let of_kind = |(of, by): &(Changed, DMatrix<f64>)| {
             let rows = self.rows(by);
@@ -316,12 +317,12 @@ impl Residuals {
     }
 }
 
-/// The less likely by chance; the one that leaves less where neither is likely at all.
+/// The change that is less likely by chance. If both probabilities are zero, the one with the smaller variance after it.
 fn better(one: &(Found, f64), other: &(Found, f64)) -> Ordering {
     one.0.p_value.total_cmp(&other.0.p_value).then(one.1.total_cmp(&other.1))
 }
 
-/// What is left of a column beside an orthonormal basis.
+/// The part of a column that is orthogonal to a basis.
 fn beside(mut column: DVector<f64>, basis: &[DVector<f64>]) -> DVector<f64> {
     for known in basis {
         let along = known.dot(&column);
@@ -333,7 +334,7 @@ fn beside(mut column: DVector<f64>, basis: &[DVector<f64>]) -> DVector<f64> {
 /// `s`, `(W B)ᵀ (W B)` and `(W B)ᵀ Q`.
 #[derive(Clone)]
 struct Score {
-    /// The axes that are asked about.
+    /// The axes that are tested.
     asked: [bool; 3],
     gradient: Vector3<f64>,
     information: Matrix3<f64>,
@@ -362,7 +363,7 @@ impl Score {
         }
     }
 
-    /// That of the items of this one which another has not.
+    /// The sums of this set less those of another.
     fn less(&self, other: &Self) -> Self {
         Self {
             asked: self.asked,

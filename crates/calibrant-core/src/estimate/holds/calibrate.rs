@@ -1,4 +1,4 @@
-//! From a recording with holds to the calibration: find the holds, fit, put the result together.
+//! The calibration from holds: detection, fit, result.
 
 use super::coarse_steps::coarse_steps;
 use super::hold_detection::{beyond, find_clean_holds, holds_between};
@@ -22,7 +22,7 @@ use crate::motion::Hold;
 use crate::sensor::{ImuParameters, Recording, SensorKind, SensorModel, SensorParameters};
 use nalgebra::{Matrix3, Vector3};
 
-/// Calibrates from holds, spikes taken out. `as_read` is the recording before anything was corrected in it, of the same samples: it tells which holds are clipped.
+/// Calibrates from holds of a recording without spikes. `as_read`: the same samples before spikes were replaced, which show saturation.
 pub(in crate::estimate) fn calibrate(
     problem: &CalibrationProblem<'_>,
     setup: &HoldsSetup,
@@ -71,7 +71,7 @@ pub(in crate::estimate) fn calibrate(
     Ok(Calibration { datasheet_prior: settings.datasheet_prior, ..calibration })
 }
 
-/// Puts the result together.
+/// Assembles the result.
 fn assemble(
     problem: &CalibrationProblem<'_>,
     setup: &HoldsSetup,

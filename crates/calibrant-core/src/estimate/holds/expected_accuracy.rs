@@ -1,4 +1,4 @@
-//! What a static calibration will determine, before it is run.
+//! The expected accuracy of a static calibration, before it is run.
 
 use super::robust_weights;
 use crate::error::Result;
@@ -14,7 +14,7 @@ pub struct ExpectedCalibration {
     pub list: ParameterList,
     /// Unit of the readings.
     pub unit: ReadingUnit,
-    /// The sensor that the prediction is made for: the sphere through the means of the holds.
+    /// The sensor of the prediction: the sphere through the means of the holds.
     pub like: SensorParameters,
     /// Covariance `F⁻¹` of the parameters.
     pub covariance: DMatrix<f64>,
@@ -31,7 +31,7 @@ impl ExpectedCalibration {
         self.covariance.diagonal().map(f64::sqrt)
     }
 
-    /// Standard deviations that do not depend on the sensor's gain: of biases in m/s², of scale factors and cross-axis sensitivities
+    /// Standard deviations that do not depend on the sensor's gain: biases in m/s², scale factors and cross-axis sensitivities
     /// relative to the gain.
     #[must_use]
     pub fn relative_sd(&self) -> DVector<f64> {
@@ -40,11 +40,11 @@ impl ExpectedCalibration {
     }
 }
 
-/// The covariance of the nine parameters of an accelerometer that these holds will give.
+/// The expected covariance of an accelerometer's nine parameters from these holds.
 ///
-/// `C = F⁻¹` with the information `F` of the holds at their own directions, these marginalised, and the noise of their means `σ_w²/n_j`, where `σ_w` is the
-/// scatter of samples within the holds. It is what a calibration reports if the noise is white and nothing else disturbs; where the scatter
-/// *between* holds is larger than that (it usually is by some factor), so are the standard deviations.
+/// `C = F⁻¹`. `F` is the information of the holds at their own directions, with these marginalised. The noise of a mean is `σ_w²/n_j`, with `σ_w` the
+/// scatter of samples within the holds. A calibration reports this covariance if the noise is white and nothing else disturbs. The scatter
+/// *between* holds is usually larger, and then the standard deviations are larger too.
 ///
 /// # Shapes and units
 /// 9 × 9; entry (i, j) in unit of θᵢ · unit of θⱼ, for readings in `unit`.

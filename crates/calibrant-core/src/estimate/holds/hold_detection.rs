@@ -1,8 +1,8 @@
-//! Finds the holds in a recording by itself.
+//! Hold detection without a threshold.
 //!
-//! The variance within a sliding window is, on a logarithmic scale, sharply peaked where the sensor is still (its noise, whatever that is)
-//! and spread over decades where it moves. The lowest peak gives the noise; the emptiest place above it separates still from
-//! moving. No threshold in absolute units is needed, and holds of any noise level are found, hands that tremble included.
+//! On a logarithmic scale, the variance within a sliding window has a sharp peak at rest, for any noise. In a movement it spreads over decades.
+//! The lowest peak gives the noise. The emptiest place above it separates rest from movement. This needs no threshold in absolute units, and
+//! finds holds in trembling hands too.
 
 use crate::diagnostic::Diagnostic;
 use crate::error::{Error, InputError, Refusal, Result};
@@ -11,22 +11,22 @@ use crate::sensor::{MeanReading, Recording, SensorKind, Spikes, gap_s, greater, 
 use nalgebra::Vector3;
 use std::f64::consts::LOG10_2;
 
-/// The window is half the shortest hold, but no longer than this, s: turns between holds must show.
+/// Longest window, s. It is else half the shortest hold. Rotations between holds must show.
 const LONGEST_WINDOW_S: f64 = 0.5;
 /// Width of a bin of log₁₀ variance.
 const BIN: f64 = 0.05;
-/// Where the separation between still and moving is looked for, in decades of variance above the peak of stillness.
+/// Range of the search for the limit between rest and movement, in decades of variance above the peak of rest.
 const VALLEY: (f64, f64) = (0.4, 1.2);
-/// A peak this high relative to the highest counts as stillness if it is the lowest.
+/// The lowest peak counts as rest if it has this share of the highest.
 const PEAK: f64 = 0.2;
-/// A given hold may reach beyond the recording by this share of it, as times that were rounded do.
+/// Share of a given hold that may lie outside the recording, since times may be rounded.
 const ROUNDED_TIME_SHARE: f64 = 0.02;
-/// The mean of a stretch may wander this many standard deviations of a sample within a hold.
+/// How far the mean may wander within a hold, in standard deviations of a sample.
 const WANDER: f64 = 2.0;
 
 /// The holds of a recording, at least `minimum_s` long, in order of time.
 ///
-/// Spikes neither divide a hold nor count in its mean; invalid readings in a row end it as a gap does ([`Recording::without_spikes`]).
+/// Spikes neither divide a hold nor count in its mean. Consecutive invalid samples end it, as a gap does ([`Recording::without_spikes`]).
 ///
 /// # Errors
 /// [`Error::Recording`] where the sample rate is too low for the shortest hold.
@@ -50,7 +50,7 @@ pub fn find_holds(recording: &Recording, minimum_s: f64) -> Result<Vec<Hold>> {
     Ok(as_recorded(find_clean_holds(&clean, minimum_s)?, spikes.as_ref()))
 }
 
-/// The same holds in the recording as it was before anything was cut out of it.
+/// The same holds in the recording before samples were removed from it.
 pub(in crate::estimate) fn as_recorded(mut holds: Vec<Hold>, spikes: Option<&Spikes>) -> Vec<Hold> {
     if let Some(spikes) = spikes {
         for hold in &mut holds {
@@ -60,7 +60,7 @@ pub(in crate::estimate) fn as_recorded(mut holds: Vec<Hold>, spikes: Option<&Spi
     holds
 }
 
-/// The same in a recording from which spikes were taken out before ([`Recording::without_spikes`]): they are not looked for again.
+/// [`find_holds`] in a recording whose spikes were removed before ([`Recording::without_spikes`]).
 ///
 /// # Errors
 /// As [`find_holds`].
@@ -81,7 +81,7 @@ pub fn find_clean_holds(recording: &Recording, minimum_s: f64) -> Result<Vec<Hol
     Ok(long.filter_map(|(from, to)| steady(recording, from + window / 2, to - window / 2, window)).collect())
 }
 
-/// The stretches, of any length, whose windows are all still: first sample and one past the last. And the number of samples in a window.
+/// The stationary segments, of any length: first sample and one past the last. Also the number of samples in a window.
 pub(super) fn still_segments(
     recording: &Recording,
     minimum_s: f64,
@@ -107,13 +107,15 @@ pub(super) fn still_segments(
         while k < variance.len() && variance[k] <= threshold {
             k += 1;
         }
-        // the still windows reach from sample `start` to `k − 1 + window`; a sample is part of a hold if the window around it is still
+        // the stationary windows reach from sample `start` to `k − 1 + window`; a sample belongs to a hold if the window around it is stationary
         segments.push((start, k - 1 + window));
     }
     (segments, window)
 }
 
-/// Sum over the axes of the variance within each window of so many samples, whose mean is about this one; infinite for windows that span a gap.
+/// Sum over the axes of the variance within each window of `window` samples. Infinite for windows across a gap.
+///
+/// `mean`: rough mean of the samples, which keeps digits.
 fn window_variance(recording: &Recording, mean: &Vector3<f64>, window: usize, gap_s: f64) -> Vec<f64> {
     let n = recording.len();
     let (mut sum, mut squares) = (Vector3::zeros(), 0.0);
@@ -139,7 +141,7 @@ fn window_variance(recording: &Recording, mean: &Vector3<f64>, window: usize, ga
             let v = (squares - sum.norm_squared() * share) * share;
             variance.push(if gaps > 0 { f64::INFINITY } else { v.max(0.0) });
         }
-        // begin anew now and then, so that rounding does not pile up
+        // a fresh start now and then keeps rounding from accumulating
         if k % 4096 == 4095 {
             (sum, squares) = (Vector3::zeros(), 0.0);
             for reading in &recording.readings[(k + 1).saturating_sub(window)..=k] {
@@ -151,23 +153,23 @@ fn window_variance(recording: &Recording, mean: &Vector3<f64>, window: usize, ga
     variance
 }
 
-/// The variance below which a recording cannot tell: that of its quantisation, `q²/12` per axis with the smallest step `q` between samples,
-/// and a millionth of its range, below which the running sums round.
+/// The smallest meaningful variance: that of the quantisation, `q²/12` for each axis with the smallest step `q` between samples,
+/// or of a millionth of the range, where the running sums round.
 fn resolution(recording: &Recording, mean: &Vector3<f64>) -> f64 {
     let range = recording.readings.iter().map(|y| (y - mean).norm_squared()).fold(0.0, greater);
     let mut steps = Vector3::repeat(f64::INFINITY);
     for pair in recording.readings.windows(2) {
         let step = (pair[1] - pair[0]).abs();
-        // no branch: that would be taken at random
+        // without a branch, which would be unpredictable
         steps =
             steps.zip_map(&step, |least, step| lesser(least, if step > 0.0 { step } else { f64::INFINITY }));
     }
     let quantisation: f64 = steps.iter().filter(|step| step.is_finite()).map(|step| step * step / 12.0).sum();
-    // in a recording without noise the smallest step is a movement
+    // without noise, the smallest step is a movement
     (quantisation.min(1e-4 * range) + 1e-12 * range).max(f64::MIN_POSITIVE)
 }
 
-/// The variance that separates still from moving; `None` where nothing is still. Variances below `floor` are all the same.
+/// The variance that separates rest from movement. `None` if the sensor is never at rest. Variances below `floor` count as equal.
 fn threshold(variance: &[f64], floor: f64) -> Option<f64> {
     let finite = || variance.iter().copied().filter(|v| v.is_finite());
     let (least, largest) = finite().fold((f64::INFINITY, 0.0), |(a, b), v| (lesser(a, v), greater(b, v)));
@@ -242,7 +244,7 @@ fn summarise(recording: &Recording, first: usize, end: usize) -> Hold {
     }
 }
 
-/// Which of the holds that are given reach beyond the recording, whose samples are all that counts of them.
+/// Given holds that reach beyond the recording. Only their samples in the recording count.
 pub(in crate::estimate) fn beyond(recording: &Recording, intervals_s: &[(f64, f64)]) -> Vec<Diagnostic> {
     let (Some(&first), Some(&last), [_, ..]) =
         (recording.times_s.first(), recording.times_s.last(), intervals_s)

@@ -3,10 +3,10 @@
 use crate::error::{Error, NotIdentifiable};
 use crate::sensor::Recording;
 
-/// Fewer pauses than one in so many s leave enough between them.
+/// Pauses that are rarer than one in this time leave enough samples between them, s.
 const SELDOM_S: f64 = 10.0;
 
-/// The same error, which came of too few holds, with this reason where the samples pause again and again.
+/// Adds the pauses as a reason to an error about too few holds, where the samples pause often.
 pub(in crate::estimate) fn with_pauses(error: Error, recording: &Recording) -> Error {
     let Error::NotIdentifiable(mut undetermined) = error else { return error };
     if let Some(stated) = pauses(recording) {
@@ -16,7 +16,7 @@ pub(in crate::estimate) fn with_pauses(error: Error, recording: &Recording) -> E
     Error::NotIdentifiable(undetermined)
 }
 
-/// Says how often and how long the samples pause, where that is often.
+/// How often and how long the samples pause, in words. `None` if they pause rarely.
 fn pauses(recording: &Recording) -> Option<String> {
     let gap_s = recording.gap_s();
     let steps = recording.times_s.array_windows().map(|[one, next]| next - one);

@@ -1,8 +1,9 @@
-//! Holds that a low-pass filter hides.
+//! Holds that a low-pass filter breaks up.
 //!
-//! Behind a filter far below the sample rate neighbouring samples have nearly the same noise. The variance of a short window then depends on where the slow noise happens to go, half of a
-//! hold looks calmer than the rest, and the hold falls to pieces that are too short. What tells of it is the structure function of the samples, `D(k) = E (y_{i+k} − y_i)²`: white noise has
-//! `D(4)/D(1) = 1`, a pole ρ has `1 + ρ + ρ² + ρ³`, which is 3 at ρ = 0.81, and a steady movement 16.
+//! Behind a filter far below the sample rate, neighbouring samples have nearly the same noise. The variance of a short window then follows the
+//! slow noise. Half of a hold may look calmer than the rest, and the hold breaks up into pieces that are too short. The structure function of the
+//! samples, `D(k) = E (y_{i+k} − y_i)²`, shows the filter. White noise has `D(4)/D(1) = 1`. A pole ρ has `1 + ρ + ρ² + ρ³`, which is 3 at ρ = 0.81.
+//! A steady movement has 16.
 
 use super::hold_detection::still_segments;
 use crate::diagnostic::LostHolds;
@@ -11,16 +12,16 @@ use crate::motion::Hold;
 use crate::sensor::Recording;
 use std::ops::Range;
 
-/// From here on `D(4)/D(1)` is that of a filter,
+/// Least `D(4)/D(1)` of filtered samples.
 const FILTERED: f64 = 3.0;
-/// From this `D(4)/D(1)` on, where there is no hold at all, it is that of a movement.
+/// Least `D(4)/D(1)` of a movement, in a recording without holds.
 const MOVING: f64 = 6.0;
-/// The ratio is taken from at most this many samples.
+/// Largest number of samples for the ratio.
 const MOST_SAMPLES: usize = 4096;
-/// Pieces between the holds that need no word: a sensor may pause in a turn.
+/// Number of stationary segments between the holds that are normal, since a sensor may pause in a rotation.
 const PAUSES: usize = 2;
 
-/// Stretches that look still and were too short to be holds, where neighbouring samples are alike as behind a slow filter. `None` where it is not so.
+/// Segments that look stationary but are too short for holds, because neighbouring samples are correlated. `None` if they are not correlated.
 ///
 /// The `holds` are those that [`find_holds`](super::find_holds) or [`find_imu_holds`](crate::estimate::find_imu_holds) found in the recording.
 #[must_use]
@@ -29,7 +30,7 @@ pub fn holds_lost_to_filter(recording: &Recording, holds: &[Hold], minimum_s: f6
     (pieces > PAUSES).then_some(LostHolds { holds: holds.len(), stretches: pieces, minimum_s })
 }
 
-/// The same error, which came of too few holds, with this reason where it is one.
+/// Adds the filter as a reason to an error about too few holds, where there is a filter.
 pub(in crate::estimate) fn with_filter(
     error: Error,
     recording: &Recording,
@@ -48,7 +49,7 @@ pub(in crate::estimate) fn with_filter(
     Error::NotIdentifiable(Box::new(NotIdentifiable { groups }))
 }
 
-/// How many stretches look still and are no holds; `None` where samples are not as behind a filter.
+/// Number of stationary segments that are not holds. `None` if the samples are not filtered.
 fn pieces(recording: &Recording, holds: &[Hold], minimum_s: f64) -> Option<usize> {
     let of_holds = holds.iter().map(|hold| hold.first..hold.end);
     if !holds.is_empty() && smoothness(recording, of_holds)? < FILTERED {

@@ -1,25 +1,24 @@
-//! Static multi-position calibration: the sensor held still in several orientations, directions unknown, magnitude g.
+//! Static multi-position calibration: the sensor is at rest in several unknown orientations, and gravity is the reference.
 //!
 //! ```text
 //! minimise over S, b, f_j:  Σ_j (ȳ_j − S f_j − b)ᵀ V_j⁻¹ (ȳ_j − S f_j − b)   with |f_j| = g
 //! V_j = diag(σ_w²)/n_j + σ_b² diag(gain²)
 //! ```
 //!
-//! The same arrowhead as for a motion, with one unknown direction (two numbers) for each hold instead of a chain; `S` in the gauge asked
-//! for ([`Gauge`](crate::sensor::Gauge)). Each hold gives three numbers and takes two: with J holds and p parameters, J − p degrees of freedom.
+//! The structure is the arrowhead of a motion, with one unknown direction (two numbers) for each hold instead of a chain. `S` is in the chosen
+//! gauge ([`Gauge`](crate::sensor::Gauge)). Each hold gives three numbers and takes two. J holds and p parameters leave J − p degrees of freedom.
 //!
 //! # Where the covariance comes from
 //! Samples within a hold are correlated and share the hold's own error, so the scatter *between* holds decides. `σ_w` is the pooled scatter
-//! within holds; `σ_b` is chosen such that χ² equals its degrees of freedom (Paule and Mandel 1982), zero if the noise within holds
-//! already explains the scatter. So the covariance is the larger of the two, and [`HoldCalibration`](super::HoldCalibration) says which it was. Long holds count by
-//! their length only as far as noise within holds matters.
+//! within holds. `σ_b` makes χ² equal to its degrees of freedom (`paule1982`). It is zero if the noise within holds explains the scatter.
+//! [`HoldCalibration`](super::HoldCalibration) states which of the two decides. The length of a hold only matters for the noise within it.
 //!
 //! Gravity's own uncertainty is a common factor of `S`: it adds `(∂p/∂g)(∂p/∂g)ᵀ σ_g²`, with `∂S/∂g = −S/g`.
 //!
 //! # Bad holds
-//! A robust fit (Tukey's biweight) finds candidates; a hold is left out when its studentised deletion residual is beyond the 1 %
-//! point of Student's t, Bonferroni-corrected for the number of holds. Holds left out are listed with their residual. A hold in which the sensor stops at the end of
-//! its range is left out before that (`clipped`).
+//! A robust fit (Tukey's biweight) finds candidates. A hold is not used if its studentised deletion residual is beyond the 1 % point of Student's t,
+//! with a Bonferroni correction for the number of holds. The result lists unused holds with their residual. A hold in which the sensor saturates
+//! is removed before the fit (`saturated_holds`).
 
 mod accelerometer_change;
 mod calibrate;

@@ -1,14 +1,14 @@
-//! Holds in which the accelerometer stopped at the end of its range: their means say nothing.
+//! Holds in which the accelerometer saturates. Their means are wrong.
 //!
-//! Where it does, the mean is off by what was cut away, always to the same side, and the scatter within the hold is too small. So these holds are known to be bad
-//! beforehand, whatever their residuals.
+//! Saturation moves the mean, always to the same side, and makes the scatter within the hold too small. These holds are unusable, whatever their
+//! residuals.
 
 use crate::diagnostic::HoldLeftOut;
 use crate::error::{Error, NotIdentifiable};
 use crate::motion::Hold;
 use crate::sensor::{Recording, Saturation};
 
-/// The end of the range that each of these holds of a recording touches; `None` where it touches none.
+/// The end of the range that each hold reaches. `None` for a hold without saturation.
 ///
 /// # Examples
 /// ```
@@ -45,12 +45,12 @@ pub fn clipped_holds(recording: &Recording, holds: &[Hold]) -> Vec<Option<Satura
     holds.iter().map(touched).collect()
 }
 
-/// Why a hold is left out.
+/// Why a hold is not used.
 pub(in crate::estimate) fn reason(end: &Saturation, recording: &Recording) -> HoldLeftOut {
     HoldLeftOut::Saturated { axis: end.axis, reading: end.value, unit: recording.unit }
 }
 
-/// The same error, which came of the other holds; it says how many are missing since they are clipped.
+/// Adds the number of saturated holds to an error about the other holds.
 pub(in crate::estimate) fn with_clipped(
     error: Error,
     clipped: &[Option<Saturation>],

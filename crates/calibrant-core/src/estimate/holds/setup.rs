@@ -1,9 +1,9 @@
-//! What is known of the holds beforehand.
+//! The prior knowledge of the holds.
 
 use crate::motion::{Gravity, Hold};
 use crate::sensor::Gauge;
 
-/// What is known of the holds.
+/// The prior knowledge of the holds.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HoldsSetup {
     /// The magnitude of gravity.
@@ -12,9 +12,9 @@ pub struct HoldsSetup {
     pub gauge: Gauge,
     /// Holds given by the user as (start, end) in s; `None` to find them.
     pub intervals_s: Option<Vec<(f64, f64)>>,
-    /// A shorter stillness is not a hold, s.
+    /// Duration of the shortest hold, s.
     pub minimum_hold_s: f64,
-    /// The holds of this recording, where they were found before. Outliers were taken out of it before that; neither is looked for again.
+    /// The holds of this recording, if they were found before, after its outliers were removed. Neither step is repeated.
     pub found: Option<Vec<Hold>>,
 }
 

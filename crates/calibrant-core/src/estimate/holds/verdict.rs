@@ -1,4 +1,4 @@
-//! What a user should know about a static calibration, in words.
+//! Warnings about a static calibration, and the reason if it is not determined.
 
 use crate::diagnostic::{Diagnostic, FacePointing, HoldSpan};
 use crate::error::UndeterminedGroup;
@@ -11,14 +11,14 @@ use crate::motion::Hold;
 use crate::sensor::{Axis, ParameterList, SensorKind};
 use nalgebra::{Matrix3, Vector3};
 
-/// A condition number above which the holds do not spread enough. Twenty-four even orientations give about 3, six faces with their edges about 10.
+/// Condition number above which the directions of the holds are too similar. Twenty-four even orientations give about 3, six faces with edges about 10.
 const CONDITION: f64 = 100.0;
-/// Holds that extend by less than this share in one direction lie in a plane, or on a point.
+/// Holds lie in a plane or on a point if they extend by less than this share in one direction.
 const FLAT: f64 = 0.02;
 /// Cosine of the angle up to which a direction is that of an axis: 15°.
 const ALONG: f64 = 0.966;
 
-/// Says why the holds do not determine these parameters.
+/// The reason why the holds do not determine these parameters.
 pub(super) fn explain(
     holds: &[Hold],
     list: &ParameterList,
@@ -58,7 +58,7 @@ pub(super) fn explain(
     }
 }
 
-/// How the means of holds that do not spread enough lie.
+/// The arrangement of holds whose directions are too similar, in words.
 fn arrangement(holds: &[Hold]) -> String {
     let center = holds.iter().map(|hold| hold.mean).sum::<Vector3<f64>>() / holds.len() as f64;
     let scatter: Matrix3<f64> =
@@ -126,7 +126,7 @@ pub(super) fn warnings(calibration: &Calibration, weakest: &[String]) -> Vec<Dia
     warnings
 }
 
-/// The holds that were left out, and why.
+/// The unused holds, and why.
 pub(in crate::estimate) fn left_out(holds: &HoldCalibration) -> Vec<Diagnostic> {
     holds
         .holds
@@ -139,7 +139,7 @@ pub(in crate::estimate) fn left_out(holds: &HoldCalibration) -> Vec<Diagnostic> 
         .collect()
 }
 
-/// Holds that were left out one after another, where no change explains them.
+/// Consecutive unused holds, if no change explains them.
 fn left_out_in_a_row(holds: &HoldCalibration) -> Option<Diagnostic> {
     let sound: Vec<&HoldResult> = holds.holds.iter().filter(|hold| hold.reason.is_none()).collect();
     let run = longest_run(sound.iter().map(|hold| !hold.used)).filter(|_| holds.change.is_none())?;

@@ -1,4 +1,4 @@
-//! Calibrates an IMU: outliers are taken out first, and what is known beforehand is compared with the recording.
+//! Calibrates an IMU: removes outliers, and compares given values with the recording.
 
 use crate::diagnostic::Diagnostic;
 use crate::error::{Error, InputError, Refusal, Result};
@@ -13,17 +13,18 @@ use crate::estimate::unknown_latitude::unknown_latitude;
 /// Calibrates an IMU.
 ///
 /// # Errors
-/// [`Error::Recording`](crate::Error::Recording) where a sensor's recording is missing or is none, where gyroscope and accelerometer do not overlap, or where the
-/// gyroscope's readings cannot be angular rates in the unit given; [`Error::Experiment`](crate::Error::Experiment) where the readings contradict the directions of
-/// the holds or what is known beforehand; [`Error::NotIdentifiable`](crate::Error::NotIdentifiable) names what the holds or the rotations do not determine, and what would.
+/// - [`Error::Recording`](crate::Error::Recording): a sensor's recording is missing or unusable, the sensors do not overlap in time, or the gyroscope's readings
+///   cannot be angular rates in the given unit.
+/// - [`Error::Experiment`](crate::Error::Experiment): the readings contradict given directions or values.
+/// - [`Error::NotIdentifiable`](crate::Error::NotIdentifiable) names the parameters that holds or rotations do not determine, and a remedy.
 pub fn calibrate_imu(problem: &ImuProblem<'_>, settings: &CalibrationSettings) -> Result<Calibration> {
     calibrate_imu_with(problem, settings, &WhiteNoiseSearch::known(problem.setup.white_noise))
 }
 
-/// Calibrates an IMU whose gyroscope's white noise is still to be found. The search runs while the accelerometer is fitted, which does not wait for it.
+/// Calibrates an IMU, with a search for the gyroscope's white noise that runs beside the fit of the accelerometer.
 ///
-/// What it finds counts in place of [`ImuSetup::white_noise`]. Spikes and invalid readings are taken out first
-/// ([`ImuRecording::without_spikes`](crate::sensor::ImuRecording::without_spikes)), and warnings say so; not where the holds were found before
+/// The result of the search replaces [`ImuSetup::white_noise`]. Spikes and invalid samples are removed first
+/// ([`ImuRecording::without_spikes`](crate::sensor::ImuRecording::without_spikes)), with warnings. This is not done if the holds are given
 /// ([`HoldsSetup::found`](crate::estimate::HoldsSetup::found)).
 ///
 /// # Errors
@@ -41,7 +42,7 @@ pub fn calibrate_imu_with(
     Ok(calibration)
 }
 
-/// The same of a recording of which outliers are still to be taken out.
+/// Removes outliers from the recording, then calibrates.
 fn without_outliers(
     problem: &ImuProblem<'_>,
     settings: &CalibrationSettings,
@@ -57,7 +58,7 @@ fn without_outliers(
     Ok(calibration)
 }
 
-/// The same of a recording without outliers.
+/// Calibrates from a recording without outliers.
 fn of_clean(
     problem: &ImuProblem<'_>,
     settings: &CalibrationSettings,
@@ -69,7 +70,7 @@ fn of_clean(
     }
     known.iter().try_for_each(known_terms::check)?;
     let outcome = solve_imu(problem, settings, white_noise);
-    // what is fixed leaves no residual of its own
+    // fixed values have no residuals
     let fixed = known.iter().any(|known| known.sd.is_none());
     if let Ok(found) = &outcome
         && !fixed
@@ -95,7 +96,7 @@ fn of_clean(
     }
 }
 
-/// The given terms that the recording contradicts by far, judged by the fit without any of them.
+/// The given terms that the recording contradicts by far, from the fit without any of them.
 fn contradictions(
     problem: &ImuProblem<'_>,
     settings: &CalibrationSettings,

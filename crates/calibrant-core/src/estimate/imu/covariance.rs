@@ -1,7 +1,7 @@
 //! The covariance of the estimates.
 //!
-//! The noise gives the inverse of the information. Gravity's uncertainty, coarse steps that many readings have in common, and the unknown rate of
-//! the Earth add to it.
+//! The noise gives the inverse of the information. The uncertainty of gravity, common errors by coarse steps, and the unknown part of the Earth's
+//! rate add to it.
 
 use crate::error::Result;
 use crate::estimate::gravity_error::gravity_slope;
@@ -14,19 +14,19 @@ use crate::motion::Gravity;
 use crate::sensor::Condition;
 use nalgebra::{DMatrix, DVector};
 
-/// How uncertain the estimates are, and why.
+/// The uncertainty of the estimates and its sources.
 pub(crate) struct Uncertainty {
     pub(crate) covariance: DMatrix<f64>,
-    /// What share of each quantity's information came from what was known beforehand, 0 to 1.
+    /// The share of each quantity's information that comes from the prior, 0 to 1.
     pub(crate) prior_share: Vec<f64>,
-    /// How each estimate follows the Earth's rate about the vertical, by one standard deviation of that, where it is unknown.
+    /// Error of each estimate by one standard deviation of the Earth's rate about the vertical, if that is unknown.
     pub(crate) of_vertical: Option<DVector<f64>>,
     /// Root mean square of each component of the Earth's rate about the north, rad/s.
     pub(crate) north_rms_radps: f64,
 }
 
 impl Uncertainty {
-    /// Of a solution. `coarse`: the axes of the gyroscope whose steps are coarse.
+    /// The covariance of a solution. `coarse`: the gyroscope's axes with coarse steps.
     pub(crate) fn of(
         model: &ImuModel<'_>,
         solution: &Solution,
@@ -43,10 +43,10 @@ impl Uncertainty {
                     .map_or(0.0, |(_, weight)| (weight[k] * covariance[(k, k)]).clamp(0.0, 1.0))
             })
             .collect();
-        // what gravity's own uncertainty adds
+        // the uncertainty of gravity
         let slope = gravity_slope(&model.quantities, imu, g);
         covariance += &slope * slope.transpose() * (g.sd_mps2 * g.sd_mps2);
-        // what coarse steps add: holds that show nearly the same are off alike
+        // coarse steps: holds with nearly the same reading have the same error
         let of_noise = covariance.clone();
         for (slope, sd) in common_slopes(model, &solution.fit, coarse, &of_noise) {
             covariance += &slope * slope.transpose() * (sd * sd);
@@ -56,8 +56,10 @@ impl Uncertainty {
     }
 }
 
-/// What the unknown rate of the Earth adds to a covariance: `D C Dᵀ`, with `C` that of its unknowns and `D = −K C⁻¹` how the estimates follow them, `K` the covariance of both. Gives how each
-/// estimate follows the rate about the vertical, by one standard deviation of that, where it is unknown, and how large that about the north is.
+/// Adds the unknown part of the Earth's rate to a covariance: `D C Dᵀ`. `C` is the covariance of its unknowns, `D = −K C⁻¹` the derivative of the
+/// estimates, and `K` the covariance of both.
+///
+/// Returns the error of each estimate by one standard deviation of the rate about the vertical, if that is unknown, and the size of the rate about the north.
 fn add_earth(
     model: &ImuModel<'_>,
     weighed: &RotationWeights,
@@ -78,8 +80,10 @@ fn add_earth(
     Ok((of_vertical, north_rms_radps))
 }
 
-/// For each coarse axis of the gyroscope: how the estimates follow errors that its means in the holds, or its readings in the rotations, have in common, and their size. Holds that read nearly the
-/// same are rounded alike; what the force changes of the reading is then stretched or shrunk, so that a part of the error follows the force.
+/// The effect of rounding on the estimates, for each coarse axis of the gyroscope: derivatives with respect to common errors, and their size.
+///
+/// The means in the holds, or the readings in the rotations, have common errors. Holds with nearly the same reading are rounded alike. Rounding then
+/// stretches or shrinks the effect of the force on the reading, and a part of the error follows the force.
 fn common_slopes(
     model: &ImuModel<'_>,
     fit: &Fit,
@@ -113,7 +117,7 @@ fn common_slopes(
                     .for_each(|(gradient, shape)| gradient[k] += weighted * shape);
             }
         }
-        // an axis that hardly turns in the rotations is off by the same in these as in the holds
+        // an axis that hardly turns has the same error in the rotations as in the holds
         of_holds[0] += &of_rotations;
         let all = of_holds.into_iter().chain([of_rotations]);
         all.map(|gradient| (covariance * gradient, found.mean_sd)).collect::<Vec<_>>()

@@ -1,27 +1,30 @@
-//! The Earth's rate as far as it is not known: one vector of the world, which each hold sees in its own attitude.
+//! The unknown part of the Earth's rate: one vector in the world, which each hold sees in its own attitude.
 //!
-//! A sensor at rest turns by `κ f + E h`: `κ f` about the vertical, `κ = Ω sin φ/g` at the latitude φ, and `E h` about the north, with `E` two horizontal directions in the frame of the sensor. From hold
-//! to hold the gyroscope itself carries them, `E_k = Rᵀ E_j` less the Earth's own turn, with gravity where the holds show it; where no rotation can be followed another chain of holds begins, whose heading has nothing to do with that
-//! before. The unknowns are `h` (2 numbers for each chain) and, at an unknown latitude, `κ`, each in standard deviations of what is known of it beforehand:
+//! A sensor at rest turns by `κ f + E h`. `κ f` is the rate about the vertical, with `κ = Ω sin φ/g` at the latitude φ. `E h` is the rate about the north, with
+//! `E` two horizontal directions in the frame of the sensor. The gyroscope propagates them from hold to hold, `E_k = Rᵀ E_j` less the Earth's own rotation,
+//! with gravity from the holds. If a rotation cannot be followed, a new chain of holds begins, with an independent heading. The unknowns are `h` (2 numbers
+//! for each chain) and, at an unknown latitude, `κ`. Each is in its prior standard deviations:
 //!
 //! | latitude | rate about the vertical | each component of `h` |
 //! |---|---|---|
 //! | known | `Ω sin φ` | `0 ± Ω cos φ/√2` |
 //! | unknown | `0 ± Ω/√3` | `0 ± Ω/√3` |
 //!
-//! A rate about the vertical looks like a g-sensitivity `S κ`. So where entries of `Γ` are estimated, what the readings tell is `Γ + S κ` of these, which stands for `Γ` in the linear problem: `κ` then
-//! moves the readings only by the entries that are fixed, and what is known of `Γ` beforehand. `Γ` itself is had again by taking `S κ` off. Other variables would leave `κ` to rounding.
+//! A rate about the vertical looks like a g-sensitivity `S κ`. If entries of `Γ` are estimated, the readings determine `Γ + S κ`, which replaces `Γ` in the
+//! linear problem. `κ` then acts only through the fixed entries and the prior of `Γ`. Subtracting `S κ` gives `Γ` again. With other variables, rounding
+//! would decide `κ`.
 //!
-//! How the directions are carried is in `least_squares/earth_rate.rs`.
+//! `least_squares/earth_rate.rs` propagates the directions.
 //!
-//! In a rotation that lasts `T` the Earth turns gravity by `T E h` in the frame of the start. That is the angle `−T E h` for the gyroscope, to first order in `ΩT`, 1e-4. Turns of known angle know `κ` alone.
+//! In a rotation of duration `T` the Earth turns gravity by `T E h` in the frame of the start. For the gyroscope this is the angle `−T E h`, to first order
+//! in `ΩT`, 1e-4. Turns of known angle depend on `κ` only.
 
 use crate::estimate::earth::UNKNOWN_SD_RADPS;
 use crate::estimate::imu::problem::ImuSetup;
 use crate::sensor::{ImuParameters, ImuQuantity};
 use nalgebra::{DMatrix, DVector, Matrix3, Matrix3x2, Matrix3xX, Vector3};
 
-/// What is known of the Earth's rate.
+/// The Earth's rate: given values and unknowns.
 #[derive(Debug, Clone)]
 pub(crate) struct EarthRate {
     pub(crate) gravity: f64,
@@ -35,12 +38,12 @@ pub(crate) struct EarthRate {
     pub(crate) fixed: Matrix3<f64>,
     /// The unknowns in standard deviations: the vertical one, where it is one, and two for each chain.
     pub(crate) unknowns: DVector<f64>,
-    /// The chain of each hold and its horizontal directions; empty before any are carried.
+    /// The chain of each hold and its horizontal directions. Empty before the first propagation.
     pub(crate) seen: Vec<(usize, Matrix3x2<f64>)>,
 }
 
 impl EarthRate {
-    /// As it is known beforehand.
+    /// The prior.
     pub(crate) fn of(setup: &ImuSetup, quantities: &[ImuQuantity]) -> Self {
         let mut fixed = Matrix3::repeat(1.0);
         for quantity in quantities {
@@ -86,7 +89,7 @@ impl EarthRate {
         force * self.vertical_rate() + north
     }
 
-    /// The same beyond what was given.
+    /// The rate in a hold beyond the given one, rad/s.
     pub(crate) fn rate_found(&self, hold: usize, force: &Vector3<f64>) -> Vector3<f64> {
         self.rate(hold, force) - force * self.given
     }
@@ -106,7 +109,7 @@ impl EarthRate {
         usize::from(self.has_vertical()) + 2 * chain
     }
 
-    /// Derivative of what an IMU at its temperature reads in a hold with respect to the unknowns.
+    /// Derivative of an IMU's reading in a hold with respect to the unknowns, at its temperature.
     pub(crate) fn of_hold(&self, hold: usize, imu: &ImuParameters, force: &Vector3<f64>) -> Matrix3xX<f64> {
         let mut by = self.of_turn(imu, force);
         if let Some((chain, horizontal)) = self.seen.get(hold) {
@@ -125,13 +128,13 @@ impl EarthRate {
         by
     }
 
-    /// The g-sensitivity that the rate about the vertical is, by one standard deviation, in the entries that are not estimated; `None` where that rate is known.
+    /// The g-sensitivity that looks like one standard deviation of the rate about the vertical, in the fixed entries. `None` if that rate is known.
     pub(crate) fn by_force(&self, imu: &ImuParameters) -> Option<Matrix3<f64>> {
         let of_fixed = |sd: f64| imu.gyroscope.matrix.component_mul(&self.fixed) * (sd / self.gravity);
         self.vertical_sd.map(of_fixed)
     }
 
-    /// What the first unknown takes off an estimated quantity.
+    /// The part of an estimated quantity that belongs to the first unknown.
     pub(crate) fn taken_off(&self, quantity: ImuQuantity, imu: &ImuParameters) -> f64 {
         match (quantity, self.vertical_sd) {
             (ImuQuantity::GSensitivity(row, column), Some(sd)) => {

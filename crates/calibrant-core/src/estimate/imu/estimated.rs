@@ -1,4 +1,4 @@
-//! What is estimated of an IMU, and what is known of it beforehand.
+//! The estimated quantities of an IMU, and their priors.
 
 use crate::estimate::imu::model::Prior;
 use crate::estimate::imu::problem::{ImuProblem, KnownTerm};
@@ -15,7 +15,7 @@ pub(crate) fn estimated_quantities(problem: &ImuProblem<'_>) -> Vec<ImuQuantity>
     quantities
 }
 
-/// Mean and inverse variance of each estimated quantity that is known beforehand.
+/// The priors of the estimated quantities: mean and inverse variance.
 pub(crate) fn prior_of(problem: &ImuProblem<'_>, quantities: &[ImuQuantity]) -> Option<Prior> {
     let of = |quantity: &ImuQuantity| problem.setup.known.iter().find(|known| known.quantity == *quantity);
     if quantities.iter().all(|quantity| of(quantity).is_none()) {
@@ -31,7 +31,7 @@ pub(crate) fn prior_of(problem: &ImuProblem<'_>, quantities: &[ImuQuantity]) -> 
     )
 }
 
-/// Sets the quantities that are fixed beforehand.
+/// Sets the fixed quantities.
 pub(crate) fn set_fixed(imu: &mut ImuParameters, known: &[KnownTerm]) {
     for known in known.iter().filter(|known| known.sd.is_none()) {
         let now = known.quantity.value(imu);

@@ -1,16 +1,16 @@
-//! A whole IMU from one recording: held still in several orientations and turned in between, or turned by known angles.
+//! Calibration of a whole IMU from one recording: holds in several orientations, with rotations in between or turns of known angle.
 //!
 //! Holds give the accelerometer, as in a static calibration, and the gyroscope's bias. The rotations between them give the gyroscope's matrix: gravity
-//! before a rotation, propagated through it by the gyroscope, is gravity after it. All of it is one least-squares problem with one covariance
-//! (`least_squares`), in which the unknown directions of the holds form a chain whose links are the rotations. `solver` lists the stages.
+//! before a rotation, propagated through it by the gyroscope, is gravity after it. All of this is one least-squares problem with one covariance
+//! (`least_squares`). The unknown directions of the holds form a chain, and the rotations are its links. `solver` lists the stages.
 //!
-//! The weights come from the data: noise within holds, scatter between them, and the excess of the rotations' errors over their noise
-//! (`variance_components`). Rotations that do not fit are left out and listed.
+//! The weights come from the data: noise within holds, scatter between them, and the excess of the rotation errors over their noise
+//! (`variance_components`). Rotations that contradict the others are not used, and listed.
 //!
-//! The true frame is that of the accelerometer in its gauge; the gyroscope's matrix is given in it, so its misalignment to the accelerometer is in there. With
-//! known directions (`ImuSetup::directions`) it is the frame of these directions.
+//! The true frame is that of the accelerometer in its gauge. The gyroscope's matrix is in the same frame, and includes its misalignment to the
+//! accelerometer. With known directions (`ImuSetup::directions`) the true frame is that of these directions.
 //!
-//! Bias and gain of both sensors may follow temperature, where the recording has one ([`ThermalModel`]).
+//! Bias and gain of both sensors may follow temperature, if the recording has it ([`ThermalModel`]).
 //!
 //! # References
 //! `tedaldi2014`, `ferraris1995`

@@ -16,9 +16,9 @@ use nalgebra::{DMatrix, DVector, Matrix2, Matrix2x3, Matrix2xX, Matrix3, Vector2
 pub(crate) struct Samples<'a> {
     pub(crate) times_s: &'a [f64],
     pub(crate) readings: &'a [Vector3<f64>],
-    /// Specific force at these times, where the gyroscope feels it.
+    /// Specific force at these times, for a gyroscope with g-sensitivity.
     pub(crate) forces: Option<&'a [Vector3<f64>]>,
-    /// What the holds before and after say of the bias; in between it is taken to drift evenly.
+    /// The bias in the holds before and after. In between it is linear in time.
     pub(crate) drift: [LocalBias; 2],
 }
 
@@ -31,7 +31,7 @@ pub(crate) struct LocalBias {
     pub(crate) force: Vector3<f64>,
     /// Angular rate in it: the Earth's, rad/s.
     pub(crate) rate: Vector3<f64>,
-    /// How far it counts against the mean bias of all, 0 to 1: the share of its variance that is a true deviation.
+    /// Weight of this hold against the mean bias of all, 0 to 1: the share of its variance that is a true deviation.
     pub(crate) share: Vector3<f64>,
     /// Variance of the mean from the noise of its samples.
     pub(crate) variance: Vector3<f64>,
@@ -40,7 +40,7 @@ pub(crate) struct LocalBias {
 }
 
 impl LocalBias {
-    /// The bias is that of all holds.
+    /// The mean bias of all holds.
     pub(crate) fn none(temperature_c: f64) -> Self {
         Self {
             temperature_c,
@@ -66,7 +66,7 @@ impl Samples<'_> {
         mean_temperature_c(&self.drift)
     }
 
-    /// How long it lasts, s.
+    /// Duration, s.
     pub(crate) fn duration_s(&self) -> f64 {
         self.times_s[self.times_s.len() - 1] - self.times_s[0]
     }
@@ -82,7 +82,7 @@ pub(crate) fn mean_temperature_c(ends: &[LocalBias; 2]) -> f64 {
 pub(crate) struct GyroscopeNoise {
     /// Standard deviation of one sample.
     pub(crate) of_sample: Vector3<f64>,
-    /// Variance of a hold's mean that does not become less with its samples: that of coarse steps.
+    /// Variance of a hold's mean that does not depend on its number of samples: that of coarse steps.
     pub(crate) of_mean: Vector3<f64>,
 }
 
@@ -92,7 +92,7 @@ impl GyroscopeNoise {
         Self { of_sample: Vector3::zeros(), of_mean: Vector3::zeros() }
     }
 
-    /// Noise of a sample, in these holds of a recording. Steps make it no less than their own scatter where they are coarse.
+    /// Noise of a sample in these holds. With coarse steps, at least their own scatter.
     pub(crate) fn of(of_sample: Vector3<f64>, coarse: &[CoarseAxis]) -> Self {
         let mut of_sample = of_sample;
         for found in coarse {
@@ -102,7 +102,7 @@ impl GyroscopeNoise {
         Self { of_sample, of_mean: of_means(coarse) }
     }
 
-    /// Variance of the mean of so many samples.
+    /// Variance of the mean of this number of samples.
     pub(crate) fn variance(&self, samples: usize) -> Vector3<f64> {
         self.of_sample.component_mul(&self.of_sample) / samples as f64 + self.of_mean
     }
@@ -129,7 +129,7 @@ pub(crate) struct RotationData<'a> {
     pub(crate) samples: Samples<'a>,
     /// Can it be integrated?
     pub(crate) used: bool,
-    /// Does it count, or is it an outlier?
+    /// Is it used, or an outlier?
     pub(crate) counts: bool,
 }
 
@@ -149,7 +149,7 @@ pub(crate) struct TurnData {
 }
 
 impl TurnData {
-    /// What the gyroscope of an IMU adds up to beyond its bias, in the unit of its readings times s.
+    /// The integral of the gyroscope's readings beyond its bias, in the unit of its readings times s.
     pub(crate) fn beyond_bias(&self, imu: &ImuParameters) -> Vector3<f64> {
         self.integral - imu.at(self.temperature_c).gyroscope.bias * self.duration_s
     }
@@ -162,7 +162,7 @@ pub(crate) struct IntegratedRotation {
     pub(crate) start_from_end: Matrix3<f64>,
     /// `∫ R(t) e_r ω_c dt`: column r of entry c.
     pub(crate) by_rate: [Matrix3<f64>; 3],
-    /// `∫ R(t) (1 − x) dt` and `∫ R(t) x dt` with x from 0 to 1: how far the holds before and after say what the bias is.
+    /// `∫ R(t) (1 − x) dt` and `∫ R(t) x dt` with x from 0 to 1: the effects of the bias in the holds before and after.
     pub(crate) by_start: Matrix3<f64>,
     pub(crate) by_end: Matrix3<f64>,
     pub(crate) drift: [LocalBias; 2],
@@ -174,13 +174,13 @@ pub(crate) struct IntegratedRotation {
     pub(crate) covariance: Matrix3<f64>,
 }
 
-/// A rotation at a state: what is left of gravity across the direction found, and how it depends on everything.
+/// The residual of a rotation at a state, and its derivatives.
 pub(crate) struct GravityResidual {
-    /// The arc from `f_k` to where gravity would be by the gyroscope, rad.
+    /// The arc from `f_k` to propagated gravity, rad.
     pub(crate) error: Vector2<f64>,
     pub(crate) by_from: Matrix2<f64>,
     pub(crate) by_to: Matrix2<f64>,
-    /// Derivative with respect to a turn of the start's frame.
+    /// Derivative with respect to a rotation of the start's frame.
     pub(crate) by_turn: Matrix2x3<f64>,
     pub(crate) by_parameters: Matrix2xX<f64>,
     /// Covariance of the error from the gyroscope's noise.
@@ -188,7 +188,7 @@ pub(crate) struct GravityResidual {
     pub(crate) rotation: IntegratedRotation,
 }
 
-/// What each rotation says at a state; `None` for those that cannot be integrated.
+/// The residual of each rotation at a state. `None` for those that cannot be integrated.
 pub(crate) type GravityResiduals = Vec<Option<GravityResidual>>;
 
 impl GravityResidual {
@@ -211,7 +211,7 @@ pub(crate) struct State {
     pub(crate) forces: Vec<Vector3<f64>>,
 }
 
-/// What is known beforehand: mean and inverse variance of each quantity, 0 where nothing is known.
+/// The prior: mean and inverse variance of each quantity, 0 without one.
 pub(crate) type Prior = (Vec<f64>, Vec<f64>);
 
 /// The problem for given weights.
@@ -231,7 +231,7 @@ pub(crate) struct ImuModel<'a> {
 }
 
 impl ImuModel<'_> {
-    /// Number of quantities of which something is known beforehand.
+    /// Number of quantities with a prior.
     pub(crate) fn priors(&self) -> usize {
         self.prior.as_ref().map_or(0, |(_, weight)| weight.iter().filter(|weight| **weight > 0.0).count())
     }
@@ -243,12 +243,12 @@ impl ImuModel<'_> {
             .collect()
     }
 
-    /// What the gyroscope of an IMU at its temperature reads in a hold.
+    /// The gyroscope's reading in a hold, at the temperature of the IMU.
     pub(crate) fn at_rest(&self, hold: usize, imu: &ImuParameters, force: &Vector3<f64>) -> Vector3<f64> {
         imu.gyroscope.reading(&self.earth.rate(hold, force)) + imu.g_sensitivity * force
     }
 
-    /// What a turn leaves unexplained.
+    /// The residual of a turn.
     pub(crate) fn turn_residual(&self, turn: &TurnData, imu: &ImuParameters) -> Vector3<f64> {
         let imu = imu.at(turn.temperature_c);
         turn.integral
@@ -257,13 +257,13 @@ impl ImuModel<'_> {
             - imu.gyroscope.matrix * self.turned(turn)
     }
 
-    /// The rotation of a turn, the Earth's about the vertical with it, rad.
+    /// The rotation of a turn, with the Earth's about the vertical, rad.
     pub(crate) fn turned(&self, turn: &TurnData) -> Vector3<f64> {
         turn.angle + turn.force * self.earth.vertical_rate()
     }
 }
 
-/// Where it ended.
+/// The end of the iteration.
 pub(crate) struct Fit {
     pub(crate) state: State,
     pub(crate) residuals: GravityResiduals,
@@ -276,7 +276,7 @@ pub(crate) struct Fit {
     pub(crate) gradient_norm: f64,
 }
 
-/// An estimated matrix is or becomes singular.
+/// The error that an estimated matrix is or becomes singular.
 pub(crate) fn singular() -> Error {
     Error::recording(InputError::new(
         Refusal::FitFailed,

@@ -1,4 +1,4 @@
-//! What is to be calibrated of an IMU, and what is known of its recording.
+//! The calibration problem of an IMU: sensors, recording, and given values.
 
 use crate::diagnostic::TurnSpan;
 use crate::estimate::earth::UNKNOWN_SD_RADPS;
@@ -7,16 +7,16 @@ use crate::motion::{earth_rate, to_ms};
 use crate::sensor::{ImuQuantity, ImuRecording, ParameterList, ReadingUnit, Sensor, SensorKind, SensorModel};
 use nalgebra::Vector3;
 
-/// An IMU, a recording of it, and what is known beforehand.
+/// An IMU, its recording, and given values.
 #[derive(Debug, Clone, Copy)]
 pub struct ImuProblem<'a> {
     /// The accelerometer's datasheet.
     pub accelerometer: &'a Sensor,
-    /// The gyroscope's.
+    /// The gyroscope's datasheet.
     pub gyroscope: &'a Gyroscope,
     /// Both recordings.
     pub recording: &'a ImuRecording,
-    /// How it was recorded.
+    /// Holds, turns and other facts of the recording.
     pub setup: &'a ImuSetup,
 }
 
@@ -29,7 +29,7 @@ pub struct Gyroscope {
     pub model: SensorModel,
     /// Nominal gain in counts/(rad/s), where it is known; 1 for rad/s.
     pub gain: Option<Vector3<f64>>,
-    /// Standard deviation of one sample's noise, in the unit of the readings; from the recording where it is not known.
+    /// Standard deviation of one sample's noise, in the unit of the readings. `None`: it comes from the recording.
     pub noise: Option<Vector3<f64>>,
     /// Is the g-sensitivity estimated?
     pub g_sensitivity: bool,
@@ -47,40 +47,42 @@ impl Default for Gyroscope {
     }
 }
 
-/// How an IMU was recorded.
+/// Facts of the recording of an IMU.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ImuSetup {
     /// The holds.
     pub holds: HoldsSetup,
-    /// Geographic latitude, degrees, southern ones negative: the Earth's turn about the vertical is then part of the model. Where it is not known, it is estimated as far as the recording tells it, and part of the uncertainty, of the g-sensitivity above all.
+    /// Geographic latitude, degrees, negative in the south. With it, the Earth's rate about the vertical is part of the model. Without it, this rate is
+    /// estimated, and adds to the uncertainty, mainly of the g-sensitivity.
     pub latitude_deg: Option<f64>,
-    /// Direction of the specific force in each of the given holds (up), unit vectors in the true frame; `None` where only its magnitude is known.
+    /// Direction of the specific force in each given hold (up), unit vectors in the true frame. `None`: only its magnitude is known.
     pub directions: Option<Vec<Vector3<f64>>>,
-    /// How well these directions were met, rad about each axis; by the scatter of the holds where it is not given.
+    /// Face alignment: standard deviation of these directions, rad about each axis. `None`: it comes from the scatter of the holds.
     pub face_sd_rad: Option<f64>,
     /// Turns of known angle.
     pub turns: Vec<Turn>,
-    /// Quantities that are known beforehand.
+    /// Known quantities.
     pub known: Vec<KnownTerm>,
-    /// What is to follow temperature.
+    /// The temperature terms.
     pub thermal: ThermalModel,
-    /// White noise of the gyroscope as a long hold of this recording shows it: what counts where the datasheet gives no noise.
+    /// White noise of the gyroscope from a long hold of this recording. It is used if the datasheet gives no noise.
     pub white_noise: Option<WhiteNoise>,
 }
 
 impl ImuSetup {
-    /// A recording of which nothing but its holds is known.
+    /// A recording with known holds, and nothing else.
     pub(in crate::estimate) fn from_holds(holds: &HoldsSetup) -> Self {
         Self { holds: holds.clone(), ..Self::default() }
     }
 
-    /// The Earth's rate about the vertical over gravity, `Ω sin φ/g`, (rad/s)/(m/s²): at rest an IMU turns by this times the specific force. Zero where the latitude is not known.
+    /// The Earth's rate about the vertical over gravity, `Ω sin φ/g`, (rad/s)/(m/s²). An IMU at rest turns by this times the specific force. Zero at an
+    /// unknown latitude.
     pub(in crate::estimate) fn vertical_rate(&self) -> f64 {
         let rate = self.latitude_deg.map_or(0.0, |latitude_deg| earth_rate(latitude_deg).z);
         rate / self.holds.gravity.magnitude_mps2
     }
 
-    /// Standard deviation of each component of the Earth's rate about the north, in a heading that is not known, rad/s: `Ω cos φ/√2`, or `Ω/√3` where the latitude is not known.
+    /// Standard deviation of each component of the Earth's rate about the north, at an unknown heading, rad/s: `Ω cos φ/√2`, or `Ω/√3` at an unknown latitude.
     pub(in crate::estimate) fn north_sd(&self) -> f64 {
         match self.latitude_deg {
             Some(latitude_deg) => earth_rate(latitude_deg).x.abs() / 2.0_f64.sqrt(),
@@ -88,8 +90,8 @@ impl ImuSetup {
         }
     }
 
-    /// What an IMU of these sensors consists of, in the order of a result: the accelerometer's quantities in its gauge, the gyroscope's, then what temperature does to both. What is
-    /// fixed beforehand is among them.
+    /// The quantities of an IMU with these sensors, in the order of a result: those of the accelerometer in its gauge, those of the gyroscope, then the
+    /// temperature terms of both. Fixed quantities are included.
     #[must_use]
     pub fn quantities(&self, accelerometer: SensorModel, gyroscope: &Gyroscope) -> Vec<ImuQuantity> {
         // known directions are the true frame, otherwise the gauge fixes it
@@ -115,18 +117,18 @@ impl ImuSetup {
 
 /// White noise of one sample, from the Allan deviation of a hold.
 ///
-/// The scatter of samples about the mean of their hold contains the slow wander of the bias, too; the white part alone is what averages out.
+/// The scatter of samples about the mean of their hold also contains the slow wander of the bias. Only the white part averages out.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WhiteNoise {
     /// Standard deviation `N √f_s` per axis, in the unit of the readings.
     pub sd: Vector3<f64>,
     /// The hold, from 0.
     pub hold: usize,
-    /// Duration of what was examined of it, s.
+    /// Duration of the examined part, s.
     pub duration_s: f64,
 }
 
-/// Where the noise of a gyroscope's sample comes from.
+/// The source of the noise of a gyroscope's sample.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum NoiseSource {
     /// The datasheet.
@@ -135,7 +137,7 @@ pub enum NoiseSource {
     AllanDeviation {
         /// The hold, from 0.
         hold: usize,
-        /// Duration of what was examined of it, s.
+        /// Duration of the examined part, s.
         duration_s: f64,
     },
     /// The scatter of the samples within the holds of this recording.
@@ -157,7 +159,7 @@ impl std::fmt::Display for NoiseSource {
 /// A turn of known angle about an axis that is fixed in the sensor: the Ferraris procedure, or a turntable.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Turn {
-    /// Its name in a list of sections, `x_rot`, where it is from one.
+    /// Its name in a list of sections, such as `x_rot`.
     pub name: Option<String>,
     /// First and last time of the section, s.
     pub start_s: f64,
@@ -167,12 +169,13 @@ pub struct Turn {
     pub axis: Vector3<f64>,
     /// The angle, positive by the right-hand rule, rad.
     pub angle_rad: f64,
-    /// Standard uncertainty of the angle, and of the axis' direction, rad: across the axis the rotation is known to the angle times this. An axis that was met to 0.5° makes 3.1° of a full turn.
+    /// Standard uncertainty of the angle and of the axis' direction, rad. Across the axis, the uncertainty is this times the angle: 0.5° of the axis is
+    /// 3.1° of a full turn.
     pub angle_sd_rad: f64,
 }
 
 impl Turn {
-    /// What it is called in a diagnostic, by its name, or its number from 0, and its times.
+    /// Its span in a diagnostic. `number`: counted from 0.
     pub(crate) fn span(&self, number: usize) -> TurnSpan {
         TurnSpan {
             number: number + 1,
@@ -182,7 +185,7 @@ impl Turn {
         }
     }
 
-    /// Is it the same turn once more? Two that share more than half of the shorter one's time are.
+    /// Is it a repetition of another turn? Two turns are the same if they share more than half of the shorter one's time.
     #[must_use]
     pub fn repeats(&self, other: &Self) -> bool {
         let shared = self.end_s.min(other.end_s) - self.start_s.max(other.start_s);
@@ -190,21 +193,21 @@ impl Turn {
     }
 }
 
-/// A quantity that is known beforehand.
+/// A known quantity.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct KnownTerm {
     /// The quantity.
     pub quantity: ImuQuantity,
     /// Its value.
     pub value: f64,
-    /// Its standard uncertainty; `None` where it is fixed at the value.
+    /// Its standard uncertainty. `None`: it is fixed at the value.
     pub sd: Option<f64>,
 }
 
-/// What is to follow temperature: orders of the polynomials, 0 where nothing follows.
+/// The orders of the temperature polynomials. Order 0: no term.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ThermalModel {
-    /// The reference `T₀`, °C; the mean over the holds, to the degree, where it is not given.
+    /// The reference `T₀`, °C. `None`: the mean over the holds, rounded to a degree.
     pub reference_c: Option<f64>,
     /// Order of the accelerometer's bias, to 2.
     pub accelerometer_bias: usize,
@@ -217,7 +220,7 @@ pub struct ThermalModel {
 }
 
 impl ThermalModel {
-    /// Does nothing follow temperature?
+    /// Are there no temperature terms?
     #[must_use]
     pub fn is_none(&self) -> bool {
         self.quantities().is_empty()

@@ -1,4 +1,4 @@
-//! Rotations between holds that a calibration is tried on: what it needs of the recording, and gravity propagated through them.
+//! Gravity that the gyroscope propagates through the rotations of a recording, with a given calibration.
 
 use crate::estimate::imu::earth_rate::EarthRate;
 use crate::estimate::imu::model::{GravityResidual, GyroscopeNoise, HoldData, ImuModel, State};
@@ -21,13 +21,13 @@ pub(in crate::estimate) struct StationaryMean {
     pub(in crate::estimate) variance: Vector3<f64>,
 }
 
-/// The gyroscope in holds.
+/// The gyroscope's means in holds.
 pub(in crate::estimate) struct GyroscopeAtRest {
     /// In each hold; `None` where it has no samples there.
     readings: Vec<Option<MeanReading>>,
-    /// Noise of one sample, and what of coarse steps is another in each hold.
+    /// Noise of one sample, and the part of coarse steps that differs between holds.
     noise: GyroscopeNoise,
-    /// Variance of what coarse steps leave in all means alike.
+    /// Variance of the common error of all means by coarse steps.
     of_steps: Vector3<f64>,
 }
 
@@ -45,8 +45,8 @@ impl GyroscopeAtRest {
         Self { readings, noise, of_steps: Vector3::zeros() }
     }
 
-    /// With the rounding errors of another recording than the calibration's: those of a true rate that stays are the same in all holds. Apart are they as far as the means differ by more than
-    /// their noise and the scatter that the calibration found.
+    /// Allows for the rounding errors of another recording than the calibration's. At a constant true rate, they are the same in all holds. They differ
+    /// as far as the means differ by more than their noise and the scatter of the calibration.
     pub(in crate::estimate) fn with_steps_in_common(self, between_sd: &Vector3<f64>) -> Self {
         let means: Vec<MeanReading> = self.readings.iter().copied().flatten().collect();
         let of_steps = self.noise.of_mean;
@@ -64,7 +64,7 @@ impl GyroscopeAtRest {
         Self { noise: GyroscopeNoise { of_mean: apart, ..noise }, of_steps, ..self }
     }
 
-    /// Variance of what coarse steps leave in all means alike.
+    /// Variance of the common error of all means by coarse steps.
     pub(in crate::estimate) fn of_steps(&self) -> &Vector3<f64> {
         &self.of_steps
     }
@@ -80,7 +80,7 @@ impl GyroscopeAtRest {
     }
 }
 
-/// Gravity carried from one hold to the next.
+/// Propagated gravity from one hold to the next.
 #[derive(Debug, Clone)]
 pub(in crate::estimate) struct PropagatedGravity {
     /// Place of the hold that it begins with.
@@ -88,7 +88,7 @@ pub(in crate::estimate) struct PropagatedGravity {
     /// Begin and end, s.
     pub(in crate::estimate) start_s: f64,
     pub(in crate::estimate) end_s: f64,
-    /// By what gravity is missed, across it, rad.
+    /// Rotation error across gravity, rad.
     pub(in crate::estimate) error: Vector2<f64>,
     /// Derivative with respect to the gyroscope's quantities, 2 × p; zero for those of the accelerometer.
     pub(in crate::estimate) by_parameters: DMatrix<f64>,
@@ -97,20 +97,20 @@ pub(in crate::estimate) struct PropagatedGravity {
     pub(in crate::estimate) by_to: Matrix2x3<f64>,
     /// Covariance of the error from the gyroscope's noise.
     pub(in crate::estimate) noise: Matrix2<f64>,
-    /// The same from the Earth's rate about the north, whose heading is not known.
+    /// Covariance of the error from the Earth's rate about the north, at an unknown heading.
     pub(in crate::estimate) of_earth: Matrix2<f64>,
-    /// Covariance of the noise's error with that of the rotation that ends with the hold that this one begins with; zero where there is none.
+    /// Covariance of the noise's error with that of the rotation before, which ends with the same hold. Zero without one.
     pub(in crate::estimate) noise_with_previous: Matrix2<f64>,
 }
 
-/// What is given of the rotations.
+/// The given values of the rotations.
 pub(in crate::estimate) struct GravityPropagation<'a> {
     pub(in crate::estimate) imu: &'a ImuParameters,
     pub(in crate::estimate) quantities: &'a [ImuQuantity],
     pub(in crate::estimate) gravity_mps2: f64,
-    /// The Earth's rate about the vertical over gravity, (rad/s)/(m/s²), where it is known.
+    /// The Earth's rate about the vertical over gravity, (rad/s)/(m/s²), if it is known.
     pub(in crate::estimate) vertical_rate: f64,
-    /// Standard deviation of each component of that about the north, rad/s.
+    /// Standard deviation of each component of the Earth's rate about the north, rad/s.
     pub(in crate::estimate) north_sd_radps: f64,
     /// Scatter of the gyroscope's bias between holds, in the unit of its readings.
     pub(in crate::estimate) between: Vector3<f64>,
@@ -120,9 +120,8 @@ pub(in crate::estimate) struct GravityPropagation<'a> {
 }
 
 impl GravityPropagation<'_> {
-    /// Carries gravity through every rotation between consecutive holds that can be integrated. `forces`: the corrected specific force in each hold,
-    /// `temperatures_c` their temperatures. `None` where a
-    /// matrix is singular.
+    /// Propagates gravity through every rotation between consecutive holds that can be integrated. `forces`: the corrected specific force in each hold.
+    /// `temperatures_c`: their temperatures, °C. `None` if a matrix is singular.
     pub(in crate::estimate) fn through(
         &self,
         holds: &[&Hold],

@@ -1,4 +1,4 @@
-//! What a calibration says of a gyroscope, beside its parameters.
+//! The results of a gyroscope, in addition to its parameters.
 
 use crate::estimate::imu::clock::rate::ClockRate;
 use crate::estimate::imu::problem::NoiseSource;
@@ -6,28 +6,28 @@ use crate::estimate::uncalibrated::Uncalibrated;
 use crate::sensor::ReadingUnit;
 use nalgebra::{DVector, Vector3};
 
-/// What a gyroscope adds to a calibration.
+/// The part of a calibration that belongs to the gyroscope.
 #[derive(Debug, Clone)]
 pub struct GyroscopeCalibration {
     /// Unit of its readings.
     pub unit: ReadingUnit,
     /// The gyroscope before its calibration.
     pub before: Uncalibrated,
-    /// What it showed in the holds.
+    /// Its readings in the holds.
     pub still: GyroscopeInHolds,
     /// The rotations between holds, in order of time.
     pub rotations: Vec<RotationResult>,
-    /// Error of a rotation beyond what the gyroscope's noise explains, per axis, rad.
+    /// Excess standard deviation of the rotation errors, beyond the gyroscope's noise, per axis, rad.
     pub between_rotations_sd_rad: f64,
     /// The turns of known angle.
     pub turns: Vec<TurnResult>,
-    /// The rates of the sensors' clocks, where the rotations show that they differ.
+    /// The rates of the sensors' clocks, if the rotations show a difference.
     pub clocks: Option<ClockRate>,
-    /// Geographic latitude by which the Earth's turn about the vertical is part of the model, degrees.
+    /// Geographic latitude, degrees, if the Earth's rate about the vertical is part of the model.
     pub latitude_deg: Option<f64>,
-    /// How each estimate is off by one standard deviation of the Earth's rate about the vertical, where the latitude is unknown.
+    /// Error of each estimate by one standard deviation of the Earth's rate about the vertical, at an unknown latitude.
     pub(in crate::estimate) of_vertical: Option<DVector<f64>>,
-    /// Root mean square of each component of the Earth's rate about the north by this recording, rad/s.
+    /// Root mean square of each component of the Earth's rate about the north, from this recording, rad/s.
     pub(in crate::estimate) north_rms_radps: f64,
 }
 
@@ -36,15 +36,18 @@ pub struct GyroscopeCalibration {
 pub struct GyroscopeInHolds {
     /// Standard deviation of one sample's noise, in the unit of the readings.
     pub noise: Vector3<f64>,
-    /// Where it comes from.
+    /// The source of the noise.
     pub noise_source: NoiseSource,
-    /// Standard deviation of one sample about the mean of its hold, whatever the noise was taken for; coarse steps make it no less than their own scatter.
+    /// Standard deviation of one sample about the mean of its hold. With coarse steps, at least their own scatter.
     pub within_holds_sd: Vector3<f64>,
-    /// Standard deviation between holds beyond this noise: a wandering bias, the Earth's rate about the north (and about the vertical, where the latitude is not known), g-sensitivity that is not estimated.
+    /// Between-hold standard deviation of the mean, beyond this noise.
+    ///
+    /// Its causes are a wandering bias, the parts of the Earth's rate that are not in the model, and a g-sensitivity that is not estimated.
     pub between_holds_sd: Vector3<f64>,
-    /// Root mean square over the holds of the mean rate that the calibrated gyroscope shows, less the Earth's about the vertical where the latitude is known, all axes together, rad/s.
+    /// Root mean square over the holds of the calibrated mean rate, all axes together, rad/s. At a known latitude, the Earth's rate about the vertical
+    /// is subtracted.
     pub rate_rms_radps: f64,
-    /// The same before the calibration, rad/s.
+    /// Root mean square of the mean rates before the calibration, rad/s.
     pub rate_rms_before_radps: f64,
 }
 
@@ -59,15 +62,15 @@ pub struct RotationResult {
     pub start_s: f64,
     /// End, s.
     pub end_s: f64,
-    /// Angle that the sensor went through, all turns to and fro, rad.
+    /// Path of the rotation, `∫ |ω| dt`, rad.
     pub path_rad: f64,
     /// Largest rate, rad/s.
     pub peak_radps: f64,
-    /// Angle between gravity carried through the rotation and gravity found after it, rad.
+    /// Rotation error: angle from propagated gravity to measured gravity, rad.
     pub error_rad: f64,
-    /// The same before the calibration, with the datasheet's or no gain errors: a plain mean bias and the mean gain; rad.
+    /// Rotation error before the calibration, rad: with a mean bias, and the datasheet's gain or the mean gain.
     pub error_before_rad: f64,
-    /// Its error in standard deviations expected of it, its own influence removed.
+    /// Rotation error in its expected standard deviations, without its own influence (studentised).
     pub studentised: f64,
     /// Was it used?
     pub used: bool,
@@ -82,14 +85,14 @@ pub struct TurnResult {
     pub start_s: f64,
     /// End, s.
     pub end_s: f64,
-    /// The rotation that was made, `φ e`, rad.
+    /// The given rotation, `φ e`, rad.
     pub angle_rad: Vector3<f64>,
-    /// The rotation that the calibrated gyroscope shows, rad.
+    /// The rotation that the calibrated gyroscope measures, rad.
     pub measured_rad: Vector3<f64>,
 }
 
 impl RotationResult {
-    /// Could the gyroscope's readings be integrated through it? Path, rate and errors of one that could not are zero and mean nothing.
+    /// Could the gyroscope's readings be integrated? Otherwise path, rate and errors are zero, without a meaning.
     #[must_use]
     pub fn is_integrated(&self) -> bool {
         self.path_rad > 0.0

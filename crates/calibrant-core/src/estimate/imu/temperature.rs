@@ -1,4 +1,4 @@
-//! The temperatures of a recording of which something follows them, and whether they differ enough.
+//! The temperatures of a recording with temperature terms, and whether they differ enough.
 
 use crate::error::{Error, InputError, NotIdentifiable, Refusal, Result, UndeterminedGroup};
 use crate::estimate::imu::estimated::set_fixed;
@@ -9,10 +9,10 @@ use crate::sensor::{
     ThermalTerm,
 };
 
-/// Temperatures of holds count as different from here on, K: closer ones are noise and rounding of a thermometer.
+/// Least difference between distinct temperatures of holds, K. Smaller ones are noise and rounding of the thermometer.
 const LEVEL_K: f64 = 0.5;
 
-/// The temperatures of a recording of which something follows them.
+/// The temperatures of a recording with temperature terms.
 pub(in crate::estimate) fn needed_temperatures(recording: &ImuRecording) -> Result<Temperatures<'_>> {
     Temperatures::of(recording)?.ok_or_else(|| {
         Error::recording(InputError::new(Refusal::TemperatureMissing,
@@ -22,15 +22,15 @@ pub(in crate::estimate) fn needed_temperatures(recording: &ImuRecording) -> Resu
     })
 }
 
-/// The temperatures of a problem in which something follows them.
+/// The temperatures of a problem with temperature terms.
 pub(crate) struct RecordingTemperature<'a> {
     temperatures: Option<Temperatures<'a>>,
-    /// Nothing but the fixed terms.
+    /// Only the fixed terms.
     pub(crate) start: Thermal,
 }
 
 impl<'a> RecordingTemperature<'a> {
-    /// That of a problem with these holds: where nothing follows temperature, it is the reference always.
+    /// The temperatures of a problem with these holds. Without temperature terms, the temperature is always the reference.
     pub(crate) fn of(problem: &ImuProblem<'a>, holds: &[Hold]) -> Result<Self> {
         let model = problem.setup.thermal;
         let mut start = Thermal::none();
@@ -56,18 +56,18 @@ impl<'a> RecordingTemperature<'a> {
         self.temperatures.map_or(self.start.reference_c, |temperatures| temperatures.mean(start_s, end_s))
     }
 
-    /// That of a hold.
+    /// Mean temperature of a hold.
     pub(crate) fn of_hold(&self, hold: &Hold) -> f64 {
         self.mean(hold.start_s, hold.end_s)
     }
 
-    /// Least and greatest of the whole recording.
+    /// Lowest and highest temperature of the whole recording.
     pub(crate) fn of_recording(&self) -> Option<[f64; 2]> {
         let values = self.temperatures?.values_c.iter();
         values.map(|&t| [t, t]).reduce(|[low, high], [t, _]| [low.min(t), high.max(t)])
     }
 
-    /// Are the temperatures of the holds different enough for the terms of which nothing is known beforehand?
+    /// Are the temperatures of the holds different enough for the terms without a prior?
     fn enough(&self, problem: &ImuProblem<'_>, of_holds: &[f64]) -> Result<()> {
         let mut sorted = of_holds.to_vec();
         sorted.sort_by(f64::total_cmp);
@@ -117,7 +117,7 @@ impl<'a> RecordingTemperature<'a> {
     }
 }
 
-/// The readings of a sensor as they would be at the reference temperature.
+/// The readings of a sensor, converted to the reference temperature.
 pub(crate) fn at_reference(
     recording: &Recording,
     sensor_kind: SensorKind,

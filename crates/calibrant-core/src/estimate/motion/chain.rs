@@ -1,4 +1,4 @@
-//! One chain from the problem to its solution.
+//! The solution of one chain.
 
 use super::context::Context;
 use super::fit::{Chain, Fit, State};
@@ -20,11 +20,11 @@ pub(super) struct Solved {
     pub(super) covariance: DMatrix<f64>,
     pub(super) nodes: Vec<Vector3<f64>>,
     pub(super) node_sd: Vec<Vector3<f64>>,
-    /// Effective number of unknowns that each axis' readings paid for: the trace of the hat matrix.
+    /// Effective number of unknowns of each axis: the trace of the hat matrix.
     pub(super) leverage: Vector3<f64>,
-    /// For each lag from 1, what the fit takes from the autocovariance of each axis' residuals: `c_l = Σ_k P_{k,k+l}`.
+    /// Reduction of the autocovariance of each axis' residuals by the fit, for each lag from 1: `c_l = Σ_k P_{k,k+l}`.
     pub(super) shortfall: Vec<Vector3<f64>>,
-    /// First-order bias of the joint estimate of motion and parameters; empty unless the motion is noisy.
+    /// First-order bias of the estimate, since motion and parameters are estimated together. Empty unless the motion is noisy.
     pub(super) bias: Vec<f64>,
     pub(super) chi2: f64,
     pub(super) degrees_of_freedom: usize,
@@ -34,7 +34,7 @@ pub(super) struct Solved {
 }
 
 impl Solved {
-    /// Puts independent chains together.
+    /// Merges independent chains.
     pub(super) fn merge(parts: Vec<Solved>) -> Solved {
         let size: usize = parts.iter().map(|part| part.slots.len()).sum();
         let nodes = parts[0].nodes.len();
@@ -99,7 +99,7 @@ pub(super) fn solve<const D: usize, const P: usize>(
 /// A state and its factored system.
 type Start<const D: usize, const P: usize> = (State<D, P>, Arrowhead<D, P>);
 
-/// Checks that the parameters are determined where the motion is as commanded, and finds parameters to begin with.
+/// Checks that the commanded motion determines the parameters, and computes the initial ones.
 fn starting_state<const D: usize, const P: usize>(
     context: &Context<'_>,
     chain: &Chain<D, P>,
@@ -124,7 +124,7 @@ fn starting_state<const D: usize, const P: usize>(
         |state: &State<D, P>| chain.factor(state).map_err(|node| vec![explain_node(context, axes, node)]);
 
     if context.command.trust == Trust::Unknown {
-        // the motion in between is free, so only the two known ends speak of the parameters
+        // the motion in between is free, so only the two known ends determine the parameters
         let mut ends =
             model::information::<D, P>(&chain.weight, [1.0, 0.0, 1.0], &commanded[0], &commanded[last]);
         if let Some((_, weight)) = &chain.prior {
@@ -244,9 +244,9 @@ fn summarise<const D: usize, const P: usize>(
 
 /// Gradient of `½ ln det H_aa` with respect to the parameters, zero unless increments have a finite variance.
 ///
-/// The joint minimum over motion and parameters maximises the likelihood but for this term, that of the motion integrated out: a larger `S` needs
-/// less process noise to explain the same readings. So the estimate is off by about `F⁻¹` times this gradient, of the order of N variances of the
-/// relative scale factor. With `T = Σ_i Σ_k` covariance of the acceleration at sample k given the parameters, `∂/∂S_rc = w_r (S T)_rc`.
+/// The likelihood of the parameters has the motion integrated out. The minimum over motion and parameters lacks this term: a larger `S` needs less
+/// process noise to explain the same readings. The estimate is therefore biased by about `F⁻¹` times this gradient, which is of the order of N variances
+/// of the relative scale factor. With `T = Σ_i Σ_k` covariance of the acceleration at sample k given the parameters, `∂/∂S_rc = w_r (S T)_rc`.
 fn information_of_the_walk<const D: usize, const P: usize>(
     chain: &Chain<D, P>,
     fit: &Fit<D, P>,

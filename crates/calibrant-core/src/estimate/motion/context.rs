@@ -1,4 +1,4 @@
-//! What every chain of a problem shares, and the chains that it is divided into.
+//! The data that all chains of a problem share, and its division into chains.
 
 use super::fit::Chain;
 use super::interval_moments::{Positions, moments, reference};
@@ -8,12 +8,12 @@ use crate::error::{Error, InputError, Refusal, Result};
 use crate::motion::KnownEnds;
 use nalgebra::SVector;
 
-/// What every chain of a problem shares.
+/// The data that all chains of a problem share.
 pub(super) struct Context<'a> {
     pub(super) problem: &'a CalibrationProblem<'a>,
     pub(super) command: &'a CommandedMotion,
     pub(super) settings: &'a CalibrationSettings,
-    /// Readings within the motion, and where they lie on it.
+    /// Readings within the motion, and their places on it.
     pub(super) readings: &'a [Vector3<f64>],
     pub(super) positions: Positions,
     /// Pairs of nearby samples, for the whiteness test.
@@ -57,7 +57,7 @@ impl<'a> Context<'a> {
         Ok(context)
     }
 
-    /// σ_ν in the unit of the readings. Readings in counts without a nominal gain take it from a first look at the data.
+    /// σ_ν in the unit of the readings. For counts without a nominal gain, a rough gain comes from the data.
     fn noise_of_a_sample(&self) -> Result<Vector3<f64>> {
         let sensor = self.problem.sensor;
         let gain = match sensor.gain {
@@ -115,7 +115,7 @@ impl<'a> Context<'a> {
         let motion = &self.command.motion;
         let pick = |v: &Vector3<f64>| SVector::<f64, D>::from_fn(|k, _| v[axes[k]]);
         let jerk = motion.jerk_mps3();
-        // noise that drowns in the rounding of the accelerations themselves is none
+        // noise below the rounding of the accelerations counts as zero
         let rounding =
             64.0 * f64::EPSILON * motion.acceleration_mps2().iter().map(Vector3::amax).fold(0.0, f64::max);
         let variance: Vec<SVector<f64, D>> = (0..motion.intervals())
@@ -132,7 +132,7 @@ impl<'a> Context<'a> {
             motion.acceleration_mps2().windows(2).map(|pair| pick(&(pair[1] - pair[0]))).collect();
         let mut fixed = vec![[false; D]; motion.intervals()];
         if self.command.known_ends == KnownEnds::Both && self.command.trust != Trust::Known {
-            // where the last increments are known exactly, so are the nodes before them
+            // exactly known last increments make the nodes before them known
             for k in 0..D {
                 let mut i = motion.intervals() - 1;
                 fixed[i][k] = true;
@@ -166,8 +166,8 @@ impl<'a> Context<'a> {
         Some((mean, weight))
     }
 
-    /// Parameters to begin with for trust `unknown`: the gain that the two ends show, unless noise hides it and a nominal one is known; the
-    /// bias from the start.
+    /// Initial parameters for trust `unknown`. The gain comes from the two ends, or is nominal if noise hides it. The bias comes from the
+    /// start.
     pub(super) fn start_from_ends(&self, axis: usize) -> (f64, f64) {
         let last = self.reference.len() - 1;
         let clear = (self.reference[last][axis] - self.reference[0][axis]).abs() > 10.0 * self.noise[axis];

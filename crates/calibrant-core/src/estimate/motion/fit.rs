@@ -4,8 +4,8 @@
 //! minimise over p, a:  ½ Σ_k ‖y_k − S α(t_k; a) − b‖²_W + ½ Σ_i (a_{i+1} − a_i − Δ_i)²/q_i + prior
 //! ```
 //!
-//! Each iteration linearises at the present (p, a), factors the arrowhead and steps. Only the border is damped: for given
-//! parameters the motion is a linear problem and needs none.
+//! Each iteration linearises at the present (p, a), factors the arrowhead and steps. Only the border is damped. For given
+//! parameters the motion is a linear problem, and needs no damping.
 
 use super::interval_moments::Moments;
 use crate::arrowhead::{Arrowhead, Increment, Link, Undetermined};
@@ -33,10 +33,11 @@ pub(super) struct Chain<const D: usize, const P: usize> {
     pub(super) rigid: bool,
 }
 
-/// A step shorter than this, in standard deviations, is rounding as soon as it no longer halves.
+/// Length of a step, in standard deviations, below which it is rounding as soon as it no longer halves.
 const SHORT: f64 = 1e-6;
-/// A step shorter than this is rounding when it has not halved for three iterations: of a million samples in few intervals, say. χ² then no longer
-/// tells steps apart.
+/// Length of a step, in standard deviations, below which it is rounding if it has not halved for three iterations.
+///
+/// This occurs with a million samples in few intervals: χ² then no longer distinguishes steps.
 const STEADY: f64 = 1e-4;
 
 /// Parameters and motion.
@@ -46,15 +47,15 @@ pub(super) struct State<const D: usize, const P: usize> {
     pub(super) a: Vec<SVector<f64, D>>,
 }
 
-/// Where the iteration ended.
+/// The end of the iteration.
 pub(super) struct Fit<const D: usize, const P: usize> {
     pub(super) state: State<D, P>,
     /// The system factored at the end: information, gains.
     pub(super) system: Arrowhead<D, P>,
     pub(super) status: CalibrationStatus,
     pub(super) iterations: usize,
-    /// Norm of the parameters' gradient (motion eliminated) in the metric of their covariance: `√(gᵀ F⁻¹ g)`, the length in
-    /// standard deviations of the step that is left.
+    /// Norm of the parameters' gradient (motion eliminated) in the metric of their covariance: `√(gᵀ F⁻¹ g)`, the length of the
+    /// remaining step in standard deviations.
     pub(super) gradient_norm: f64,
     pub(super) chi2: f64,
 }
@@ -185,7 +186,7 @@ impl<const D: usize, const P: usize> Chain<D, P> {
         let mut norm = best;
         while iterations < settings.max_iterations {
             iterations += 1;
-            // for given parameters the motion is a linear problem that each step solves: only the parameters need come to rest
+            // for given parameters the motion is a linear problem that each step solves: only the parameters must converge
             norm = system.gradient_norm();
             if norm < 0.5 * best {
                 (best, since) = (norm, 0);
@@ -194,7 +195,7 @@ impl<const D: usize, const P: usize> Chain<D, P> {
             }
             if norm <= settings.tolerance || (norm < SHORT && since >= 1) || (norm < STEADY && since >= 3) {
                 status = CalibrationStatus::Converged;
-                // the parameters rest; the motion still follows their last step
+                // the parameters have converged; the motion still follows their last step
                 if let Some(last) = self.step(&state, &system, 0.0) {
                     state = last;
                     (system, _) = self.factor(&state)?;

@@ -1,7 +1,7 @@
 //! Calibration from a commanded motion: the chain problem for each axis (scale-bias) or for all at once (full).
 //!
-//! With a diagonal `S` the axes share nothing, so the scale-bias model is three chains of scalars; the full model is one chain of 3×3
-//! blocks. Everything after that is put together from [`Solved`] chains.
+//! With a diagonal `S` the axes are independent, and the scale-bias model is three chains of scalars. The full model is one chain of 3×3
+//! blocks. The result is assembled from [`Solved`] chains.
 
 mod chain;
 mod context;
@@ -41,7 +41,7 @@ pub(super) fn calibrate(
     assemble(&context, solved, first)
 }
 
-/// The range of samples within the motion. Those outside are left out; [`verdict`] says so.
+/// The range of samples within the motion. Samples outside are not used, with a warning ([`verdict`]).
 fn samples_within(problem: &CalibrationProblem<'_>, motion: &JerkControlledMotion) -> Result<(usize, usize)> {
     let times = &problem.recording.times_s;
     let (start, stop) = (motion.times_s()[0], motion.times_s()[motion.intervals()]);
@@ -66,7 +66,7 @@ fn not_identifiable(groups: Vec<crate::error::UndeterminedGroup>) -> Error {
     Error::NotIdentifiable(Box::new(NotIdentifiable { groups }))
 }
 
-/// The scale-bias model: one chain per axis. What is not determined is collected over all axes before it is an error.
+/// The scale-bias model: one chain per axis. Undetermined parameters of all axes are collected in one error.
 fn solve_axes(context: &Context<'_>) -> Result<Solved> {
     let axes = context.problem.sensor.axes;
     let mut parts = Vec::with_capacity(axes);
@@ -80,7 +80,7 @@ fn solve_axes(context: &Context<'_>) -> Result<Solved> {
     if undetermined.is_empty() { Ok(Solved::merge(parts)) } else { Err(not_identifiable(undetermined)) }
 }
 
-/// Puts the result together: residuals, statistics, warnings.
+/// Assembles the result: residuals, statistics, warnings.
 fn assemble(context: &Context<'_>, solved: Solved, first_sample: usize) -> Result<Calibration> {
     let problem = context.problem;
     let list = problem.sensor.parameter_list();

@@ -1,8 +1,8 @@
-//! Products of the places of samples a few steps apart: what the whiteness test needs to know of the fit.
+//! Sums over pairs of nearby samples, which the whiteness test needs.
 //!
-//! Residuals of a fit are correlated even where the noise is white: their covariance is `σ² (I − P)` with the hat matrix `P`. Its l-th
-//! off-diagonal sum `c_l = Σ_k P_{k,k+l}` is what the l-th autocovariance is short of. `P_{k,m}` is the covariance of the fitted
-//! readings at two samples, bilinear in their places `λ`, so c_l needs only these sums for each interval, once for all axes.
+//! Residuals of a fit are correlated even for white noise: their covariance is `σ² (I − P)` with the hat matrix `P`. The fit reduces the l-th
+//! autocovariance by the off-diagonal sum `c_l = Σ_k P_{k,k+l}`. `P_{k,m}` is the covariance of the fitted readings at two samples, and bilinear in
+//! their places `λ`. So c_l needs only these sums for each interval, once for all axes.
 
 use super::interval_moments::Positions;
 use crate::estimate::statistics::dot;
@@ -22,7 +22,7 @@ pub(super) struct PairSum {
 
 /// The sums for each interval and lag.
 pub(super) struct PairSums {
-    /// Number of lags L: 10, or the samples of an interval if fewer, so that no pair spans more than two intervals.
+    /// Number of lags L: 10, or the samples of an interval if fewer. No pair then spans more than two intervals.
     pub(super) lags: usize,
     sums: Vec<PairSum>,
 }

@@ -1,4 +1,4 @@
-//! What the recording cannot determine, in the user's words.
+//! Parameters and motion that the recording cannot determine, in words.
 
 use super::Axis;
 use super::context::Context;
@@ -8,7 +8,7 @@ use crate::information::{MotionFacts, Undetermined, explain as explain_motion};
 
 pub(super) use crate::information::View;
 
-/// Says why these groups of parameters cannot be separated. `slots` are the chain's parameters in the list.
+/// The reason why these groups of parameters cannot be separated. `slots` are the chain's parameters in the list.
 pub(super) fn explain(
     context: &Context<'_>,
     groups: &[Undetermined],
@@ -24,7 +24,7 @@ pub(super) fn explain(
     explain_motion(&context.problem.sensor.parameter_list(), groups, slots, facts)
 }
 
-/// Says which part of the motion the samples do not determine.
+/// The part of the motion that the samples do not determine, in words.
 pub(super) fn explain_node<const D: usize>(
     context: &Context<'_>,
     axes: [usize; D],

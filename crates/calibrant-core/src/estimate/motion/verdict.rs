@@ -1,4 +1,4 @@
-//! What a user should know about a fit.
+//! Warnings about a fit to a motion.
 
 use super::context::Context;
 use super::{Calibration, Error, Result, Trust};
@@ -58,7 +58,7 @@ pub(super) fn warnings(context: &Context<'_>, calibration: &Calibration, bias: &
     warnings
 }
 
-/// Parameters of which the recording says less than the datasheet.
+/// Parameters that the recording determines less well than the datasheet.
 fn weak(calibration: &Calibration) -> Option<Diagnostic> {
     let parameters: Vec<String> = calibration
         .parameters
@@ -89,7 +89,7 @@ fn uncovered(context: &Context<'_>) -> Option<Diagnostic> {
     (empty > 0.1 * whole && context.positions.samples() >= motion.intervals()).then_some(uncovered)
 }
 
-/// A noisy motion of many intervals biases the joint estimate.
+/// The warning about biased estimates, for a noisy motion of many intervals.
 fn biased(calibration: &Calibration, bias: &[f64]) -> Option<Diagnostic> {
     let sd = calibration.sd();
     let (k, times) = bias
@@ -106,7 +106,7 @@ fn biased(calibration: &Calibration, bias: &[f64]) -> Option<Diagnostic> {
 /// Does each axis respond to the motion at all?
 ///
 /// # Errors
-/// [`Error::NotIdentifiable`] where a scale factor is zero within its noise, so that no correction exists.
+/// [`Error::NotIdentifiable`] if a scale factor is zero within its noise. No correction exists then.
 pub(super) fn respond(context: &Context<'_>, calibration: &Calibration) -> Result<()> {
     let sd = calibration.sd();
     for &axis in context.problem.sensor.active_axes() {

@@ -1,13 +1,13 @@
-//! How the axes of a gyroscope lie in the accelerometer's frame.
+//! The axes of a gyroscope in the accelerometer's frame.
 
 use crate::sensor::Axis;
 use nalgebra::Matrix3;
 
-/// How the axes of a gyroscope lie in the accelerometer's frame.
+/// The axes of a gyroscope in the accelerometer's frame.
 pub(crate) enum Axes {
-    /// Those along the accelerometer's x, y and z: `-y`.
+    /// The axes along the accelerometer's x, y and z, such as `-y`.
     InOrder([String; 3]),
-    /// Turned by some angle.
+    /// Rotated by some angle.
     Turned,
 }
 

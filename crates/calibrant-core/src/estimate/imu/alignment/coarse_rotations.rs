@@ -1,4 +1,4 @@
-//! The rotations cut down to few steps, for a first look at the gyroscope's matrix.
+//! Coarse rotations with few samples, for a rough test of the gyroscope's matrix.
 
 use crate::estimate::holds::median;
 use crate::estimate::imu::least_squares::integration::propagated_back;
@@ -6,26 +6,26 @@ use crate::estimate::imu::model::{ImuModel, RotationData, State};
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::FRAC_PI_2;
 
-/// Units or axes are wrong where the median error of the rotations is beyond this, rad.
+/// Units or axes are wrong if the median rotation error exceeds this, rad.
 pub(crate) const WRONG_RAD: f64 = 0.2;
 
-/// A coarse rotation has about this many samples.
+/// Approximate number of samples of a coarse rotation.
 const COARSE_SAMPLES: usize = 150;
 
-/// How far gravity misses after the rotations, for one matrix of the gyroscope.
+/// The rotation errors for one matrix of the gyroscope.
 pub(crate) struct Judged {
     /// Median of the angles, rad.
     pub(crate) median_rad: f64,
-    /// How many are beyond a right angle.
+    /// Number of rotation errors beyond a right angle.
     pub(crate) upside_down: usize,
 }
 
-/// The rotations cut down.
+/// The coarse rotations.
 pub(crate) struct CoarseRotations {
     rotations: Vec<ThinnedRotation>,
 }
 
-/// A rotation cut down, with gravity before and after it.
+/// A coarse rotation, with gravity before and after it.
 struct ThinnedRotation {
     turns: Vec<Vector3<f64>>,
     from: Vector3<f64>,
@@ -33,7 +33,7 @@ struct ThinnedRotation {
 }
 
 impl CoarseRotations {
-    /// At a state whose bias counts, whatever its gains.
+    /// The coarse rotations at the bias of a state. Its gains do not matter.
     pub(crate) fn of(model: &ImuModel<'_>, state: &State) -> Self {
         let used = model.rotations.iter().filter(|data| data.used);
         let cut_down = |data: &RotationData<'_>| {
@@ -53,7 +53,7 @@ impl CoarseRotations {
         self.rotations.len()
     }
 
-    /// Looks at a matrix of the gyroscope; `None` where it is singular, or there are no rotations.
+    /// Rotation errors for a matrix of the gyroscope. `None` for a singular matrix, or without rotations.
     pub(crate) fn judge(&self, matrix: &Matrix3<f64>) -> Option<Judged> {
         let correction = matrix.try_inverse()?;
         let error = |rotation: &ThinnedRotation| {

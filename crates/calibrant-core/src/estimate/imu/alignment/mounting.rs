@@ -1,32 +1,36 @@
-//! A gyroscope that is turned against the accelerometer by any angle, as one on a board of its own: where no order of the axes brings gravity back.
+//! The mounting: a gyroscope that is rotated against the accelerometer by any angle, as on its own board.
 //!
-//! Orders and signs of the axes, each turned by up to 30° about all axes at once, are a net in which every attitude, mirrored or not, is within 30° of a knot. The best knots are improved by
-//! turns that become ever smaller.
+//! The search is needed if no order of the axes propagates gravity correctly.
+//!
+//! Its starts are all orders and signs of the axes, each rotated by up to 30° about the three axes. Every attitude, mirrored or not, is within 30° of a
+//! start. Ever smaller rotations improve the best starts.
 
 use crate::estimate::imu::alignment::axes::orders;
 use crate::estimate::imu::alignment::coarse_rotations::CoarseRotations;
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use rayon::prelude::*;
 
-/// Fewer rotations fit some attitude by chance. Half of twelve within 0.2 rad for one of some 5000 attitudes happens once in 10⁵ times.
+/// Fewest rotations for the search. Fewer fit some attitude by chance: half of twelve, within 0.2 rad of one of some 5000 attitudes, once in 10⁵ times.
 const ENOUGH_ROTATIONS: usize = 12;
 
-/// Angle between knots, rad.
+/// Angle between starts, rad.
 const MESH_RAD: f64 = 0.52;
 
-/// Number of knots that are improved.
+/// Number of starts that are improved.
 const KNOTS_IMPROVED: usize = 8;
 
-/// Knots are improved by turns of these angles, rad.
+/// Angles of the rotations that improve a start, rad.
 const TURNS_RAD: [f64; 4] = [0.3, 0.15, 0.07, 0.03];
 
-/// Knots are improved by these factors of the gain, where it is not known.
+/// Factors of an unknown gain that improve a start.
 const GAIN_FACTORS: [f64; 2] = [0.93, 1.0 / 0.93];
 
-/// Each angle improves a knot at most this many times.
+/// Largest number of improvements with each angle.
 const ROUNDS: usize = 6;
 
-/// The matrix with the least median error, rad, of all attitudes of these; `None` where the rotations are too few to tell. `is_scaled`: are these gains guesses?
+/// The matrix with the smallest median rotation error, rad, over all attitudes. `None` if the rotations are too few.
+///
+/// `is_scaled`: are the gains guesses?
 pub(crate) fn find_mounting(
     look: &CoarseRotations,
     gains: &[Matrix3<f64>],

@@ -1,8 +1,8 @@
-//! The search for the gyroscope's gain and the order of its axes, where the datasheet does not say.
+//! The search for the gyroscope's gain and the order of its axes, without a datasheet.
 //!
-//! A rotation turns gravity by no more than the angle that the gyroscope went through, so each rotation bounds the gain from above, and one about
-//! an axis across gravity gives it. From that bound downwards gains are tried. If none brings gravity back, all orders and signs of the axes
-//! follow, then all attitudes (`mounting`).
+//! A rotation turns gravity at most by the angle of the gyroscope's path. So each rotation bounds the gain from above, and a rotation about an axis
+//! across gravity reaches the bound. The search tries gains from that bound downwards. If none propagates gravity correctly, it tries all orders
+//! and signs of the axes, then all attitudes (`mounting`).
 
 use crate::estimate::imu::alignment::axes::{Axes, axis_names, orders};
 use crate::estimate::imu::alignment::coarse_rotations::{CoarseRotations, Judged, WRONG_RAD};
@@ -12,23 +12,23 @@ use crate::sensor::{ImuParameters, ReadingUnit};
 use nalgebra::Matrix3;
 use rayon::prelude::*;
 
-/// No wrong order of the axes fits this many rotations by chance. Three of four within [`WRONG_RAD`] for one of 48 orders happens once in 5000 times.
+/// Fewest rotations that no wrong order of the axes fits by chance. Three of four within [`WRONG_RAD`] of one of 48 orders happens once in 5000 times.
 const ENOUGH_ROTATIONS: usize = 4;
 
-/// This many rotations that end upside down are no single faults.
+/// Number of rotations with errors beyond a right angle that is not by chance.
 const SEVERAL_UPSIDE_DOWN: usize = 2;
 
-/// Number of gains that are tried.
+/// Number of gains that the search tries.
 const GAINS_TRIED: usize = 16;
 
-/// Each gain is the one before times this.
+/// Ratio of a gain to the one before.
 const GAIN_STEP: f64 = 0.92;
 
-/// A start, and the median error of the rotations with it, rad.
+/// A start, and its median rotation error, rad.
 pub(crate) struct Alignment {
     pub(crate) imu: ImuParameters,
     pub(crate) median_rad: f64,
-    /// The gyroscope's axes, where they are not the accelerometer's.
+    /// The gyroscope's axes, if they differ from the accelerometer's.
     pub(crate) axes: Option<Axes>,
 }
 
@@ -52,7 +52,7 @@ pub(crate) fn find_alignment(
             .filter_map(|matrix| judged(*matrix))
             .min_by(|(one, _), (other, _)| one.median_rad.total_cmp(&other.median_rad))
     };
-    // the axis about which the fewer rotations turned may be the one that points the other way
+    // the axis with fewer rotations about it may be the reversed one
     let fewer_upside_down = |matrix: &Matrix3<f64>, before: usize| {
         if before < SEVERAL_UPSIDE_DOWN {
             return None;

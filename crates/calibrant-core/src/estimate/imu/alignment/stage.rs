@@ -1,4 +1,4 @@
-//! Alignment of the two sensors: the gyroscope's matrix in the accelerometer's frame, roughly.
+//! Alignment of the two sensors: a rough matrix of the gyroscope in the accelerometer's frame.
 
 use crate::error::{Error, Result};
 use crate::estimate::imu::alignment::axes::Axes;
@@ -12,9 +12,9 @@ use crate::estimate::result::HoldCalibration;
 use crate::sensor::ReadingUnit;
 use nalgebra::Matrix3;
 
-/// Turns the gyroscope so that it brings gravity back after the rotations. Gives its axes where they are not the accelerometer's.
+/// Aligns the gyroscope: its matrix then propagates gravity through the rotations. Returns its axes if they differ from the accelerometer's.
 ///
-/// Where no rotation can be integrated the state stays: the turns tell the matrix.
+/// If no rotation can be integrated, the state does not change: the turns determine the matrix.
 pub(crate) fn align_sensors(
     problem: &ImuProblem<'_>,
     model: &ImuModel<'_>,

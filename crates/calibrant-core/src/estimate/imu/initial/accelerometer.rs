@@ -1,4 +1,4 @@
-//! The accelerometer by itself, before anything is known of the gyroscope.
+//! The initial values of the accelerometer, from its readings alone.
 
 use crate::diagnostic::Diagnostic;
 use crate::estimate::imu::initial::face_alignment::{FaceAlignment, FaceScatter};
@@ -7,21 +7,21 @@ use crate::motion::Hold;
 use crate::sensor::{Recording, SensorParameters, SensorThermal};
 use nalgebra::{Matrix3, Vector3};
 
-/// The noise of a face's mean is no less than this, m/s². Readings without noise have a last digit still.
+/// Least noise of a face's mean, m/s². Readings without noise are still rounded to their last digit.
 const LEAST_NOISE_MPS2: f64 = 3e-8;
 
-/// The accelerometer, before the joint problem.
+/// The initial accelerometer.
 pub(crate) struct InitialAccelerometer {
     pub(crate) sensor: SensorParameters,
     /// Standard deviation of a sample within holds.
     pub(crate) within: Vector3<f64>,
-    /// Variance of a hold's mean that more samples do not lower.
+    /// Variance of a hold's mean that does not depend on its number of samples.
     pub(crate) of_mean: Vector3<f64>,
     pub(crate) holds: HoldCalibration,
     /// How well the sensor was placed on the faces, where the directions are known.
     pub(crate) alignment: Option<FaceAlignment>,
     pub(crate) warnings: Vec<Diagnostic>,
-    /// Its temperature terms, and the recording as it would be at the reference temperature, where they were fitted.
+    /// Its temperature terms, if they were fitted, and the recording converted to the reference temperature.
     pub(crate) thermal: SensorThermal,
     pub(crate) adjusted: Option<Recording>,
 }
@@ -75,7 +75,7 @@ pub(crate) struct UsedHolds<'a> {
 }
 
 impl InitialAccelerometer {
-    /// The holds that are used.
+    /// The used holds.
     pub(crate) fn used_holds(&self) -> UsedHolds<'_> {
         let all = &self.holds.holds;
         let numbers: Vec<usize> = (0..all.len()).filter(|&j| all[j].used).collect();

@@ -1,4 +1,4 @@
-//! The accelerometer by itself, in the order of its steps: directions or magnitudes of the holds, their temperatures, its temperature terms.
+//! The steps of the initial accelerometer: directions or magnitudes of the holds, their temperatures, its temperature terms.
 
 use crate::error::Result;
 use crate::estimate::imu::initial::accelerometer::InitialAccelerometer;
@@ -11,7 +11,7 @@ use crate::estimate::settings::CalibrationSettings;
 use crate::motion::Hold;
 use crate::sensor::Recording;
 
-/// The accelerometer by itself, and the temperatures of its holds: what needs nothing of the gyroscope.
+/// The initial accelerometer and the temperatures of its holds. This step does not need the gyroscope.
 pub(crate) fn initial_accelerometer<'a>(
     problem: &ImuProblem<'a>,
     accelerometer: &Recording,

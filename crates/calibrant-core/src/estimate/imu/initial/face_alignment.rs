@@ -1,18 +1,19 @@
 //! Face alignment: how well the sensor was placed on known faces.
 //!
-//! A tilt by `θ` moves gravity across the direction that was given by `g θ`, and along it only by `g θ²/2`. With tilts of standard deviation `τ` about each axis, the specific force is
-//! about `g (1 − τ²)` along the direction, known to `g τ²` there, and to `g τ` across it. So six faces tell the scale factors far better than the cross-axis terms. What a tilt shows
-//! across passes for something along where the cross-axis terms are wrong: of `n` faces they are known to `τ √(3/n)`, two of them act on each face, and the variance along is
-//! `g² τ⁴ (1 + 6/n)`. That is true of biases; in scale factors both parts cancel to some degree, and what is stated of them is up to 1.6 times too wide where tilts decide.
+//! A tilt by `θ` moves gravity across the given direction by `g θ`, and along it only by `g θ²/2`. With tilts of standard deviation `τ` about each axis,
+//! the specific force along the direction is about `g (1 − τ²)`, with standard deviation `g τ²`. Across it the standard deviation is `g τ`. So six faces
+//! determine the scale factors far better than the cross-axis terms. Errors of the cross-axis terms turn a part of the tilt across into a residual along.
+//! `n` faces determine these terms to `τ √(3/n)`, and two of them act on each face. The variance along is then `g² τ⁴ (1 + 6/n)`. This holds for biases.
+//! In scale factors both parts partly cancel, and their intervals are up to 1.6 times too wide if tilts decide.
 //!
-//! `τ` is such that χ² equals its degrees of freedom, and so is what else scatters along the direction, where anything is left there to tell it: six faces fix three
-//! scale factors and three biases by what they show along gravity, and leave nothing. A scatter of few residuals is known badly: for the covariance its variance is multiplied by
-//! `ν/(ν − 2)`, which makes the normal distribution as wide as Student's t. Where the noise's variance `v` is no less than that of the tilt, a scatter that is small by chance leaves nothing
-//! to multiply. With `S = Σ r²`, the variance `v + τ²` is `S/χ²_ν` and not less than `v`; its mean is
+//! `τ` makes χ² equal to its degrees of freedom. A further scatter along the direction is estimated in the same way, if degrees of freedom are left there.
+//! Six faces leave none: along gravity, they determine three scale factors and three biases. A scatter of few residuals is uncertain. For the covariance
+//! its variance is multiplied by `ν/(ν − 2)`, which makes the normal distribution as wide as Student's t. This fails if the noise's variance `v` is as
+//! large as that of the tilt, and the scatter is small by chance. With `S = Σ r²`, the variance `v + τ²` is `S/χ²_ν` and at least `v`. Its mean is
 //!
 //! `E[v + τ²] = S/(ν − 2) · P(χ²_{ν−2} < S/v)/P(χ²_ν < S/v)`
 //!
-//! which is `S/(ν − 2)` for large tilts, and leaves six faces that scatter as their noise does a `τ²` of `v`.
+//! which is `S/(ν − 2)` for large tilts. Six faces that scatter like their noise get `τ² = v`.
 
 use crate::diagnostic::Diagnostic;
 use crate::estimate::between_hold_variance::excess;
@@ -20,22 +21,22 @@ use crate::estimate::result::{FaceTilt, TiltSource};
 use nalgebra::{Matrix3, Vector3};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
-/// Tilt of faces whose scatter does not show it, rad: half a degree, as of known turns.
+/// Assumed standard deviation of the tilt, rad: half a degree, as for known turns.
 const ASSUMED_RAD: f64 = 0.5 * std::f64::consts::PI / 180.0;
 
-/// A scatter of fewer degrees of freedom has no variance that could be stated.
+/// Fewest degrees of freedom for a variance of the scatter.
 const FEWEST_DEGREES: usize = 3;
 
-/// Faces that scatter by so many times the given tilt contradict it.
+/// Faces contradict the given tilt if they scatter by this multiple of it.
 const CONTRADICTED: f64 = 2.5;
 
-/// Faces contradict the given tilt, too, if only this share of sessions scatters as little.
+/// Faces also contradict the given tilt if only this share of sessions scatters as little.
 const TOO_LITTLE: f64 = 1e-3;
 
-/// At most so many rounds, in which the two scatters follow each other.
+/// Largest number of rounds, which estimate the two scatters in turn.
 const ROUNDS: usize = 30;
 
-/// The rounds end where the scatters change by less than this share.
+/// The rounds end when the scatters change by less than this share.
 const CLOSE: f64 = 1e-9;
 
 /// Scatter of the specific force about known directions.
@@ -45,27 +46,27 @@ pub(crate) struct FaceScatter {
     pub(crate) tilt_rad: f64,
     /// Standard deviation along the direction beyond noise and tilt, m/s².
     pub(crate) along_mps2: f64,
-    /// What the tilt adds along the direction, as a variance in shares of gravity.
+    /// Variance along the direction by the tilt, as a share of gravity squared.
     pub(crate) of_square: f64,
 }
 
-/// How well the sensor was placed on the faces.
+/// The face alignment.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct FaceAlignment {
     pub(crate) scatter: FaceScatter,
-    /// As it counts for the covariance of the estimates: for as few residuals as told it.
+    /// For the covariance of the estimates: enlarged, since few residuals determine it.
     pub(crate) widened: FaceScatter,
-    /// As it is told.
+    /// As it is reported.
     pub(crate) tilt: FaceTilt,
-    /// What is left of the magnitudes to check.
+    /// Degrees of freedom of the magnitudes.
     pub(crate) along_degrees: usize,
-    /// The tilt by the scatter, rad, where it tells it.
+    /// The tilt from the scatter, rad, if it determines it.
     pub(crate) shown_rad: Option<f64>,
-    /// Does it contradict the tilt that was given?
+    /// Does it contradict the given tilt?
     pub(crate) contradicted: bool,
 }
 
-/// What is left of the faces to tell the scatter.
+/// The residuals of the faces, for the scatter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Degrees {
     pub(crate) faces: usize,
@@ -73,7 +74,7 @@ pub(crate) struct Degrees {
     pub(crate) all: usize,
 }
 
-/// `Σ rᵀ C⁻¹ r` of the faces, and of what they show along their directions.
+/// `Σ rᵀ C⁻¹ r` of the faces, and the part along their directions.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Chi2 {
     pub(crate) along: f64,
@@ -108,7 +109,7 @@ impl Degrees {
         }
     }
 
-    /// `tilt2`: mean of τ² over what the recording leaves open, where it tells it.
+    /// `tilt2`: posterior mean of τ², if the recording determines it.
     fn alignment(self, scatter: FaceScatter, source: TiltSource, tilt2: Option<f64>) -> FaceAlignment {
         let factor = |degrees: usize| {
             let degrees = degrees.max(FEWEST_DEGREES) as f64;
@@ -133,7 +134,9 @@ impl Degrees {
     }
 }
 
-/// Finds how well the sensor was placed on the faces, and what was fitted with it. `noise`: variance of the direction of a face's mean by its noise, rad²; `fit` gives χ² and what it fitted for a scatter; `None` where it fails, which ends the search.
+/// Estimates the face alignment, together with a fit.
+///
+/// `noise`: variance of the direction of a face's mean by its noise, rad². `fit`: χ² and fit for a scatter. `None` ends the search.
 pub(crate) fn align_faces<T>(
     degrees: Degrees,
     given_rad: Option<f64>,
@@ -147,7 +150,7 @@ pub(crate) fn align_faces<T>(
         let tilt2 = is_reported.then(|| mean_square(degrees, &found, &chi2, noise));
         return Some((degrees.alignment(found, source, tilt2), fitted));
     };
-    // how they scatter, whatever was given of it
+    // the scatter, whatever the given tilt
     let shown = match degrees.source(None) {
         TiltSource::Recording => search(degrees, None, gravity, &mut fit).map(|(shown, ..)| shown.tilt_rad),
         TiltSource::Given | TiltSource::Assumed => None,
@@ -159,7 +162,7 @@ pub(crate) fn align_faces<T>(
     Some((FaceAlignment { shown_rad: shown, contradicted, ..alignment }, fitted))
 }
 
-/// The scatter, χ² and what was fitted with it.
+/// The scatter, its χ² and its fit.
 fn search<T>(
     degrees: Degrees,
     given_rad: Option<f64>,
@@ -168,7 +171,7 @@ fn search<T>(
 ) -> Option<(FaceScatter, Chi2, T)> {
     let determined = degrees.source(given_rad) == TiltSource::Recording;
     let mut scatter = FaceScatter::of(given_rad.unwrap_or(ASSUMED_RAD), 0.0, degrees.faces);
-    // where noise decides, all three components of a face share the parameters alike; where tilts do, what it shows along tells what it can alone
+    // if noise decides, all three components of a face determine the parameters together; if tilts decide, mainly the one along does
     let scattered = (fit(&FaceScatter::default())?.0.all / degrees.all.max(1) as f64).max(1.0);
     let shared = (degrees.all as f64 / 3.0 - degrees.along as f64).max(0.0);
     for _ in 0..ROUNDS {
@@ -198,7 +201,7 @@ fn search<T>(
     Some((scatter, chi2, fitted))
 }
 
-/// Mean of `τ²`, rad², over what a scatter of so few residuals leaves open. `noise`: `v`, rad².
+/// Posterior mean of `τ²`, rad², from a scatter of few residuals. `noise`: `v`, rad².
 fn mean_square(degrees: Degrees, found: &FaceScatter, chi2: &Chi2, noise: f64) -> f64 {
     let (nu, of_tilt) = (degrees.across() as f64, found.tilt_rad.powi(2));
     let squares = chi2.all * nu / degrees.all as f64 * (noise + of_tilt);
@@ -207,19 +210,19 @@ fn mean_square(degrees: Degrees, found: &FaceScatter, chi2: &Chi2, noise: f64) -
     if mean.is_finite() { mean.max(of_tilt) } else { of_tilt }
 }
 
-/// Probability of a χ² of so many degrees of freedom below this.
+/// Probability of a χ² below `x`.
 fn probability(degrees_of_freedom: usize, chi2: f64) -> f64 {
     ChiSquared::new(degrees_of_freedom as f64).map_or(f64::NAN, |of| of.cdf(chi2.max(0.0)))
 }
 
 impl FaceAlignment {
-    /// Share of gravity along the direction, on average: by the scatter where this contradicts what was given.
+    /// Mean share of gravity along the direction. It follows the scatter if this contradicts the given tilt.
     pub(crate) fn cosine(&self) -> f64 {
         let shown_rad = self.shown_rad.filter(|_| self.contradicted);
         1.0 - shown_rad.unwrap_or(self.scatter.tilt_rad).powi(2)
     }
 
-    /// What is to be said where the scatter of the faces contradicts what was given of it.
+    /// The warning about a scatter that contradicts the given tilt.
     pub(crate) fn contradiction(&self) -> Option<Diagnostic> {
         let (shown_rad, given_rad) = (self.shown_rad.filter(|_| self.contradicted)?, self.scatter.tilt_rad);
         Some(Diagnostic::TiltContradicted { shown_rad, given_rad })
@@ -227,7 +230,7 @@ impl FaceAlignment {
 }
 
 impl FaceTilt {
-    /// What is to be said where so many faces do not tell how well they were met.
+    /// The warning about too few faces for their alignment.
     pub(crate) fn assumed(&self, faces: usize) -> Option<Diagnostic> {
         let assumed = Diagnostic::TiltAssumed { faces, tilt_rad: self.sd_rad };
         (self.source == TiltSource::Assumed).then_some(assumed)

@@ -1,13 +1,13 @@
-//! What the residuals of faces tell: degrees of freedom, noise and χ² along and across the given directions.
+//! Statistics of the residuals of faces: degrees of freedom, noise and χ², along and across the given directions.
 
 use crate::estimate::imu::initial::face_alignment::{Chi2, Degrees};
 use crate::sensor::Quantity;
 use nalgebra::{DMatrix, Matrix3, Vector3};
 
-/// Equations along gravity that differ by less than this share are one.
+/// Equations along gravity count as one if they differ by less than this share.
 const SAME_SHARE: f64 = 1e-6;
 
-/// What is left of faces along these forces to tell their scatter, `others` further parameters estimated.
+/// Degrees of freedom of the scatter of faces along these forces. `others`: number of further parameters.
 pub(crate) fn face_degrees(forces: &[Vector3<f64>], quantities: &[Quantity], others: usize) -> Degrees {
     // along gravity, in a sensor without errors: one equation for each face
     let rows = DMatrix::from_fn(forces.len(), quantities.len(), |j, k| {
@@ -22,7 +22,7 @@ pub(crate) fn face_degrees(forces: &[Vector3<f64>], quantities: &[Quantity], oth
     }
 }
 
-/// Variance of the direction that the mean of a face shows, by noise alone, rad². `weights`: inverse covariances of the means.
+/// Variance of the direction of a face's mean, by noise alone, rad². `weights`: inverse covariances of the means.
 pub(crate) fn noise_rad2(
     weights: impl ExactSizeIterator<Item = Matrix3<f64>>,
     s: &Matrix3<f64>,
@@ -33,7 +33,7 @@ pub(crate) fn noise_rad2(
     count / (precision * gravity * gravity)
 }
 
-/// What a face adds to χ²: `r` is left of its mean, `weight` the inverse covariance of that.
+/// The contribution of a face to χ². `r`: residual of its mean. `weight`: inverse covariance of the mean.
 pub(crate) fn chi2_of_face(
     r: &Vector3<f64>,
     s: &Matrix3<f64>,

@@ -17,7 +17,7 @@ use crate::sensor::{
 };
 use nalgebra::{Matrix3, Vector3};
 
-/// Where the least squares begin.
+/// The start of the least squares.
 pub(crate) struct InitialValues {
     pub(crate) imu: ImuParameters,
     /// The holds with the weights of both sensors.
@@ -26,7 +26,7 @@ pub(crate) struct InitialValues {
     pub(crate) between: Vector3<f64>,
 }
 
-/// The gyroscope's means with what explains them.
+/// The gyroscope's means, and their explaining variables.
 pub(crate) fn explained_means<'a>(
     problem: &ImuProblem<'_>,
     (first, temperature): (&InitialAccelerometer, &RecordingTemperature<'_>),
@@ -46,7 +46,7 @@ pub(crate) fn explained_means<'a>(
     Means { readings: &gyroscope.readings, noise: &gyroscope.noise, by }
 }
 
-/// Takes the initial values from the holds.
+/// Computes the initial values from the holds.
 pub(crate) fn initial_values(
     problem: &ImuProblem<'_>,
     (first, temperature): (&InitialAccelerometer, &RecordingTemperature<'_>),
@@ -61,7 +61,9 @@ pub(crate) fn initial_values(
     InitialValues { imu: start_values(problem, first, &holds, thermal), holds, between }
 }
 
-/// What the gyroscope reads of the Earth's turn about the vertical at these forces, where no g-sensitivity takes it up; by the datasheet's gain, and nothing where that is not known.
+/// The gyroscope's readings of the Earth's rate about the vertical at these forces, with the datasheet's gain.
+///
+/// Zero if the g-sensitivity is estimated, which includes this rate, or if the gain is unknown.
 fn earth_in_holds(problem: &ImuProblem<'_>, forces: &[Vector3<f64>]) -> Option<Vec<Vector3<f64>>> {
     let gain = match problem.gyroscope.unit {
         ReadingUnit::Counts => problem.gyroscope.gain?,
@@ -116,7 +118,7 @@ fn start_values(
     imu
 }
 
-/// The means of the gyroscope's readings over the holds, as they would be at the reference temperature, averaged: its bias where nothing turns.
+/// The mean of the gyroscope's readings over the holds, converted to the reference temperature: its bias.
 pub(crate) fn mean_bias(holds: &[HoldData], thermal: &Thermal) -> Vector3<f64> {
     let (mut sum, mut weights) = (Vector3::zeros(), Vector3::zeros());
     for hold in holds {

@@ -1,7 +1,7 @@
 //! The accelerometer from holds whose directions are known: six faces on a table, a turntable, a robot.
 //!
-//! `ȳ_j = S f_j + b + ε_j` with known `f_j`: linear least squares, and no gauge, since the directions are the true frame. `ε_j` is the noise of the mean and how
-//! well the sensor was placed (`face_alignment`).
+//! `ȳ_j = S f_j + b + ε_j` with known `f_j`: linear least squares, and no gauge, since the directions are the true frame. `ε_j` is the noise of the mean and
+//! the face alignment (`face_alignment`).
 
 use crate::diagnostic::{Diagnostic, HoldSpan};
 use crate::error::{Error, InputError, NotIdentifiable, Refusal, Result, UndeterminedGroup};
@@ -26,10 +26,10 @@ use crate::motion::Hold;
 use crate::sensor::{ParameterList, Recording, SensorKind, SensorParameters, SensorThermal};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
-/// Faces that scatter by more than this share of gravity were not placed badly: a direction is wrong.
+/// If faces scatter by more than this share of gravity, a direction is wrong. Bad alignment does not explain it.
 const WRONG_SCATTER: f64 = 0.05;
 
-/// A face of fewer samples is a mistake of its times.
+/// Fewest samples of a face. A face with fewer has wrong times.
 const FEWEST_SAMPLES: usize = 10;
 
 /// Fits the accelerometer to holds of known directions.
@@ -145,13 +145,13 @@ pub(crate) fn from_faces(
     })
 }
 
-/// A face that is hardly there.
+/// The warning about a face with few samples.
 fn brief(number: usize, hold: &Hold) -> Option<Diagnostic> {
     let brief = Diagnostic::FaceBrief { hold: HoldSpan::of(number, hold), samples: hold.samples() };
     (hold.samples() < FEWEST_SAMPLES).then_some(brief)
 }
 
-/// The faces that fit least, of faces that scatter too much: both of an axis, where only these tell its direction.
+/// The faces with the largest residuals. If only two faces determine the direction of an axis, both are named.
 fn scattered(
     results: &[HoldResult],
     sensor: &SensorParameters,
@@ -178,7 +178,7 @@ struct Linear<'a> {
 }
 
 impl Linear<'_> {
-    /// The sensor, how the faces were met, and the condition number of the scaled information.
+    /// The sensor, the face alignment, and the condition number of the scaled information.
     fn solve(&self, given_rad: Option<f64>) -> Result<(SensorParameters, FaceAlignment, f64)> {
         let (one, none) = (Matrix3::identity(), FaceScatter::default());
         let (f, _) = self.normal(&one, &none);

@@ -1,4 +1,4 @@
-//! Initial values: the accelerometer by itself or on known faces, its temperature terms, and the gyroscope's bias.
+//! Initial values: the accelerometer from unknown directions or known faces, its temperature terms, and the gyroscope's bias.
 
 pub(crate) mod accelerometer;
 pub(crate) mod accelerometer_alone;

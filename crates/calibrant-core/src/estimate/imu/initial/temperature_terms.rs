@@ -1,8 +1,8 @@
-//! The accelerometer's temperature terms, before the least squares of all.
+//! The initial temperature terms of the accelerometer.
 //!
-//! The static fit of the holds knows no temperature, so that a drift would count as scatter between holds, or as bad holds. Where terms of the accelerometer
-//! are asked for, they are therefore fitted first, with the accelerometer alone, and the scatter between holds with them (Paule and Mandel, degrees of
-//! freedom less these terms). The static fit is then made with the recording as it would be at the reference temperature: it tells the bad holds.
+//! The static fit of the holds has no temperature terms. A drift would count as scatter between holds, or as outliers. So these terms are fitted first, with
+//! the accelerometer alone. The between-hold variance is estimated with them (`paule1982`, degrees of freedom less these terms). The static fit then uses the
+//! recording converted to the reference temperature, and finds the outliers.
 
 use crate::error::Result;
 use crate::estimate::between_hold_variance::excess;
@@ -22,7 +22,7 @@ use crate::motion::Hold;
 use crate::sensor::{ImuParameters, ImuQuantity, Quantity, Recording, SensorKind};
 use nalgebra::{Matrix3, Vector3};
 
-/// Rounds of terms and bad holds in turn.
+/// Largest number of rounds, which estimate terms and outliers in turn.
 const ROUNDS: usize = 5;
 
 /// The accelerometer with its temperature terms, beginning with a fit without them. `refit` is that fit with another recording and the times of its holds.
@@ -87,7 +87,7 @@ pub(crate) fn with_temperature_terms(
     Ok(first)
 }
 
-/// The static fit does not know that temperature terms took degrees of freedom, so that its residuals look larger than they are: says again which holds are bad.
+/// The outliers, with the degrees of freedom that the temperature terms take. The static fit does not count these, and its residuals look too large.
 fn reconsider(holds: &mut HoldCalibration, degrees: usize, terms: usize) {
     let shrink = (degrees as f64 / (degrees + terms).max(1) as f64).sqrt();
     let limit = critical(holds.holds.len(), degrees);
@@ -98,14 +98,14 @@ fn reconsider(holds: &mut HoldCalibration, degrees: usize, terms: usize) {
     holds.magnitude_residual_rms_mps2 = magnitude_rms(&holds.holds);
 }
 
-/// What scatters between holds.
+/// The between-hold scatter.
 enum Scatter {
     /// Their magnitudes, m/s².
     OfMagnitudes(f64),
     OfFaces(FaceAlignment),
 }
 
-/// The accelerometer alone, with what follows temperature.
+/// The accelerometer alone, with its temperature terms.
 struct AccelerometerOnly<'a> {
     first: &'a InitialAccelerometer,
     face_sd_rad: Option<f64>,
@@ -177,7 +177,7 @@ impl<'a> AccelerometerOnly<'a> {
         equations.saturating_sub(self.model.quantities.len())
     }
 
-    /// What is left of known faces to tell their scatter.
+    /// Degrees of freedom of the scatter of known faces.
     fn degrees_of_all_faces(&self) -> Degrees {
         let of = |quantity: &ImuQuantity| match quantity {
             ImuQuantity::Of(_, of) => Some(*of),
@@ -188,7 +188,7 @@ impl<'a> AccelerometerOnly<'a> {
         face_degrees(&self.start.forces, &quantities, others.saturating_sub(self.model.priors()))
     }
 
-    /// The problem for such weights of the holds.
+    /// The problem for given weights of the holds.
     fn weighed(&self, weight: impl Fn(&Hold, &Vector3<f64>) -> Matrix3<f64>) -> ImuModel<'static> {
         let mut model = self.model.clone();
         for ((hold, raw), force) in model.holds.iter_mut().zip(&self.raw).zip(&self.start.forces) {
@@ -240,7 +240,7 @@ impl<'a> AccelerometerOnly<'a> {
         Ok((state, Scatter::OfMagnitudes(between)))
     }
 
-    /// χ² of the faces; what was known beforehand is in all of it.
+    /// χ² of the faces, priors included.
     fn chi2_of_faces(&self, weighed: &ImuModel<'_>, fit: &Fit) -> Option<Chi2> {
         let along = weighed.holds.iter().zip(&fit.state.forces).map(|(hold, force)| {
             let r = hold.accelerometer - fit.state.imu.at(hold.temperature_c).accelerometer.reading(force);

@@ -1,4 +1,4 @@
-//! The accelerometer from holds whose directions are not known: its static calibration.
+//! The accelerometer from holds of unknown directions: its static calibration.
 
 use crate::diagnostic::Diagnostic;
 use crate::error::{Error, InputError, Refusal, Result};
@@ -15,7 +15,7 @@ use crate::sensor::{Recording, SensorThermal};
 use nalgebra::Vector3;
 use std::borrow::Cow;
 
-/// The accelerometer by its static calibration.
+/// The initial accelerometer from its static calibration.
 pub(crate) fn from_unknown_directions(
     problem: &ImuProblem<'_>,
     recording: &Recording,

@@ -1,13 +1,13 @@
 //! The angular rate during a rotation, `ω = M (y − b − Γ f)` with `M = S_g⁻¹`, sample by sample.
 //!
-//! The gain is that at the mean temperature of the holds before and after; the bias goes from that at the one's to that at the other's.
+//! The gain is that at the mean temperature of the holds before and after. The bias is linear in time between both.
 
 use crate::estimate::imu::model::Samples;
 use crate::sensor::{ImuParameters, times};
 use nalgebra::{Matrix3, Vector3};
 
 impl Samples<'_> {
-    /// How far and how fast it went by an IMU.
+    /// The path and the largest rate, corrected with an IMU.
     pub(crate) fn path(&self, imu: &ImuParameters) -> Path {
         let Some(rates) = Rates::of(self, imu) else { return Path::default() };
         let mut path = Path::default();
@@ -22,7 +22,7 @@ impl Samples<'_> {
     }
 }
 
-/// How far and how fast an IMU was turned.
+/// The path and the largest rate of a rotation.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Path {
     /// `∫ |ω| dt`, rad.
@@ -31,12 +31,12 @@ pub(crate) struct Path {
     pub(crate) peak_radps: f64,
 }
 
-/// The corrected rate at each sample, `M (y − b − Γ f)`, with the constant parts multiplied out.
+/// The corrected rate at each sample, `M (y − b − Γ f)`. Constant products are computed once.
 pub(crate) struct Rates<'a> {
     samples: &'a Samples<'a>,
     pub(crate) correction: Matrix3<f64>,
     by_force: Matrix3<f64>,
-    /// `M b` at the start, and how much more it is at the end.
+    /// `M b` at the start, and its increase until the end.
     at_start: Vector3<f64>,
     drifted: Vector3<f64>,
     from_s: f64,
@@ -60,7 +60,7 @@ impl<'a> Rates<'a> {
         })
     }
 
-    /// How far from the start to the end a sample is, 0 to 1.
+    /// The place of a sample between start and end, 0 to 1.
     #[inline]
     pub(crate) fn part(&self, k: usize) -> f64 {
         (self.samples.times_s[k] - self.from_s) * self.per_s
@@ -77,7 +77,7 @@ impl<'a> Rates<'a> {
         reading - self.at_start - self.drifted * part - times(&self.by_force, force)
     }
 
-    /// Time that a sample stands for, s.
+    /// Weight of a sample in time, s.
     #[inline]
     pub(crate) fn step_after(&self, k: usize) -> f64 {
         let times = &self.samples.times_s;

@@ -1,4 +1,4 @@
-//! The Earth's rate in the rotations: how the horizontal directions are carried from hold to hold, and what gravity is missed by.
+//! The Earth's rate in the rotations: the horizontal directions from hold to hold, and the effect on the rotation errors.
 //!
 //! See `earth_rate`.
 
@@ -9,11 +9,11 @@ use crate::sensor::ImuParameters;
 use nalgebra::{DVector, Matrix2xX, Matrix3x2, Vector3};
 use std::ops::AddAssign;
 
-/// A rotation that is left out breaks the chain where it misses gravity by more than this, rad. The heading may be off by as much.
+/// An unused rotation breaks the chain if its error exceeds this, rad. The heading may have the same error.
 const BROKEN_RAD: f64 = 0.05;
 
 impl EarthRate {
-    /// Derivative of what a rotation misses gravity by.
+    /// Derivative of a rotation error.
     pub(crate) fn of_rotation(
         &self,
         data: &RotationData<'_>,
@@ -37,7 +37,7 @@ impl EarthRate {
         residual.by_turn * by_angle
     }
 
-    /// Carries the horizontal directions from hold to hold. Where chains begin or end elsewhere than before, nothing is known of their rates any more.
+    /// Propagates the horizontal directions from hold to hold. If the chains change, their rates become unknown.
     pub(crate) fn follow(
         &mut self,
         rotations: &[RotationData<'_>],

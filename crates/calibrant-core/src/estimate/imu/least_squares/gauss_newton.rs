@@ -1,7 +1,7 @@
-//! The one least-squares problem of a whole IMU, for given weights: Gauss–Newton on directions and parameters.
+//! The least-squares problem of an IMU for given weights: Gauss–Newton on directions and parameters.
 //!
-//! The unknown directions `f_j` of the holds are a chain whose links are the rotations between them, with the parameters as the border: the arrowhead
-//! again. Residuals:
+//! The unknown directions `f_j` of the holds are a chain, and the rotations between them are its links. With the parameters as its border, this is an
+//! arrowhead. Residuals:
 //!
 //! | of | residual | unknowns |
 //! |---|---|---|
@@ -10,8 +10,8 @@
 //! | a rotation | the arc from `f_k` to `Rᵀ (f_i + T ω_i × f_i)`: 2 numbers | `f_i`, `f_k`, gyroscope |
 //! | a turn of known angle | `∫ (y_g − b_g − Γ f − S_g κ f) dt − S_g φ e` | gyroscope |
 //!
-//! `S` and `b` are those at the temperature of the hold, the rotation or the turn. `ω_j = κ f_j + E_j h` is the Earth's rate (`earth_rate`), which is held fixed here and settled beside the weights; `T` is the
-//! duration of the rotation.
+//! `S` and `b` are those at the temperature of the hold, the rotation or the turn. `ω_j = κ f_j + E_j h` is the Earth's rate (`earth_rate`). It is fixed
+//! here, and estimated with the weights. `T` is the duration of the rotation.
 
 use crate::arrowhead::{Arrowhead, Increment, Link};
 use crate::error::Result;
@@ -23,7 +23,8 @@ use crate::sensor::entry_vector::{AT_REFERENCE, ENTRIES};
 use crate::sensor::{Condition, SensorKind};
 use nalgebra::{DMatrix, DVector, Matrix3, SMatrix, SVector, Vector3};
 
-/// A step this short, in standard deviations, needs no test. The derivatives of a rotation are exact to second order in the sample step only, so that the last steps may not lower χ².
+/// A step below this length, in standard deviations, needs no test. The derivatives of a rotation are only exact to second order in the sample step,
+/// so the last steps may not lower χ².
 const CLOSE: f64 = 0.1;
 
 impl ImuModel<'_> {
@@ -64,7 +65,7 @@ impl ImuModel<'_> {
             rhs += j.tr_mul(&turn.weight.component_mul(&self.turn_residual(turn, imu)));
         }
         let mut unreduced = border.diagonal();
-        // places that no quantity takes
+        // places without a quantity
         for k in self.quantities.len()..P {
             border[(k, k)] = 1.0;
         }
@@ -141,7 +142,7 @@ impl ImuModel<'_> {
         Some((system, unreduced))
     }
 
-    /// Iterates from a state with its misses; `None` where a matrix is or becomes singular.
+    /// Iterates from a state with its residuals. `None` if a matrix is or becomes singular.
     pub(crate) fn fit(
         &self,
         start: State,

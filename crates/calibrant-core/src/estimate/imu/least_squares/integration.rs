@@ -1,13 +1,15 @@
 //! The rotation between two holds, integrated from the gyroscope's readings on SO(3), with its derivatives and its noise.
 //!
-//! With `M = S_g⁻¹` the corrected rate is `ω = M (y − b − Γ f)`, and `R(t)`, from the sensor's frame at time t to that at the start, follows `Ṙ = R ω^`. Between
-//! two samples the rate is taken to be linear; the Magnus expansion then gives `R_{k+1} = R_k exp(Ω^)`,
-//! `Ω = h (ω_k + ω_{k+1})/2 + h²/12 ω_k × ω_{k+1}`: the second term is the coning that a sum of rates misses.
+//! With `M = S_g⁻¹` the corrected rate is `ω = M (y − b − Γ f)`. `R(t)`, from the sensor's frame at time t to that at the start, follows `Ṙ = R ω^`.
+//! The rate is linear between two samples. The Magnus expansion then gives `R_{k+1} = R_k exp(Ω^)` with `Ω = h (ω_k + ω_{k+1})/2 + h²/12 ω_k × ω_{k+1}`.
+//! The second term is the coning, which a sum of rates lacks.
 //!
 //! A small change `δω(t)` turns the end by `δθ` (in the frame of the start): `R(T) → exp(δθ^) R(T)`, `δθ = ∫ R(t) δω(t) dt`. So three sums over the samples
-//! give all derivatives: `∫ R ω_cᵀ`, `∫ R`, `∫ R f_c`; and white noise of covariance `Σ_ν` per sample adds `Σ_k w_k² R_k M Σ_ν Mᵀ R_kᵀ`, `w_k` the weight of sample k in s.
+//! give all derivatives: `∫ R ω_cᵀ`, `∫ R`, `∫ R f_c`. White noise of covariance `Σ_ν` for each sample adds `Σ_k w_k² R_k M Σ_ν Mᵀ R_kᵀ`, with `w_k` the
+//! weight of sample k in s.
 //!
-//! The gain is that at the mean temperature of the holds before and after; the bias goes from that at the one's to that at the other's.
+//! The gain is that at the mean temperature of the holds before and after. The bias is linear in time, from its value in the hold before to that in the
+//! hold after.
 //!
 //! # References
 //! `iserles1999`, `tedaldi2014`
@@ -21,7 +23,7 @@ use nalgebra::{Matrix3, Matrix3xX, Quaternion, UnitQuaternion, Vector3};
 const TWELFTH: f64 = 1.0 / 12.0;
 
 impl Samples<'_> {
-    /// Integrates them for an IMU; `None` where the gyroscope's matrix is singular. `noise` is the standard deviation of one sample.
+    /// Integrates the samples for an IMU. `None` if the gyroscope's matrix is singular. `noise`: standard deviation of one sample.
     pub(crate) fn integrate(&self, imu: &ImuParameters, noise: &Vector3<f64>) -> Option<IntegratedRotation> {
         let rates = Rates::of(self, imu)?;
         let correction = rates.correction;
@@ -62,7 +64,7 @@ impl Samples<'_> {
         })
     }
 
-    /// What the readings less a bias add up to, `step` samples at a time: the rotation cut down for a first look.
+    /// The integral of the readings less a bias over each `step` samples: the coarse rotation.
     pub(crate) fn cut_down(&self, bias: &Vector3<f64>, step: usize) -> Vec<Vector3<f64>> {
         let last = self.times_s.len() - 1;
         (0..last)
@@ -76,7 +78,7 @@ impl Samples<'_> {
     }
 }
 
-/// A vector of the start's frame as the end of a rotation that was [cut down](Samples::cut_down) sees it.
+/// A vector of the start's frame, in the frame at the end of a [coarse rotation](Samples::cut_down).
 pub(crate) fn propagated_back(
     turns: &[Vector3<f64>],
     correction: &Matrix3<f64>,
@@ -89,10 +91,10 @@ pub(crate) fn propagated_back(
     attitude.inverse() * vector
 }
 
-/// The sums over the samples, entry by entry: this is where a calibration spends its time.
+/// The sums over the samples, entry by entry. A calibration spends most of its time here.
 #[derive(Default)]
 struct Sums {
-    /// `∫ R_rc s dt` in `[c][r]` for s = ω_x, ω_y, ω_z, 1 − x, x, f_x, f_y, f_z: eight at once, as processors like it.
+    /// `∫ R_rc s dt` in `[c][r]` for s = ω_x, ω_y, ω_z, 1 − x, x, f_x, f_y, f_z: eight at once, for vector instructions.
     of_attitude: [[[f64; 8]; 3]; 3],
     /// `Σ w² (R N)(R N)ᵀ` with N Nᵀ the covariance of a rate: xx, yy, zz, xy, xz, yz.
     squares: [f64; 6],
@@ -148,7 +150,7 @@ fn matrix(attitude: &UnitQuaternion<f64>) -> Matrix3<f64> {
 /// The rotation by a vector, rad.
 ///
 /// # Numerics
-/// Between two samples the angle is small: five terms of the series of `cos` and `sin(x)/x` at half the angle leave less than 1e-16.
+/// The angle between two samples is small. Five terms of the series of `cos` and `sin(x)/x` at half the angle have an error below 1e-16.
 #[inline]
 pub(crate) fn exponential(turn: &Vector3<f64>) -> UnitQuaternion<f64> {
     const SMALL: f64 = 0.01;
@@ -158,31 +160,31 @@ pub(crate) fn exponential(turn: &Vector3<f64>) -> UnitQuaternion<f64> {
         return UnitQuaternion::from_scaled_axis(*turn);
     }
     let h2 = h * h;
-    // in pairs, so that one does not wait for the other
+    // in pairs, which are independent of each other
     let cos = (1.0 - h / 2.0) + h2 * ((1.0 / 24.0 - h * (1.0 / 720.0)) + h2 * (1.0 / 40_320.0));
     let sinc = (1.0 - h * (1.0 / 6.0)) + h2 * ((1.0 / 120.0 - h * (1.0 / 5040.0)) + h2 * (1.0 / 362_880.0));
     UnitQuaternion::new_unchecked(Quaternion::from_parts(cos, half * sinc))
 }
 
 impl IntegratedRotation {
-    /// How `δθ` follows an error of all its readings, the same throughout.
+    /// Derivative of `δθ` with respect to a common error of all readings.
     pub(crate) fn by_reading(&self) -> Matrix3<f64> {
         (self.by_start + self.by_end) * self.correction
     }
 
-    /// How `δθ` follows readings in the holds before and after, which these take for their bias as far as they count.
+    /// Derivative of `δθ` with respect to readings in the holds before and after, which contribute to the bias.
     pub(crate) fn by_readings_at_ends(&self, readings: &[Matrix3xX<f64>; 2]) -> Matrix3xX<f64> {
         let [start, end] = self.drift.map(|end| self.correction * Matrix3::from_diagonal(&end.share));
         self.by_start * start * &readings[0] + self.by_end * end * &readings[1]
     }
 
-    /// How `δθ` follows a g-sensitivity of these entries together that the bias of the holds knows nothing of.
+    /// Derivative of `δθ` with respect to a g-sensitivity that does not affect the bias of the holds.
     pub(crate) fn by_g_sensitivity(&self, entries: &Matrix3<f64>) -> Vector3<f64> {
         let rates = self.correction * entries;
         -(0..3).map(|column| self.by_force[column] * rates.column(column)).sum::<Vector3<f64>>()
     }
 
-    /// Covariance of `δθ` with that of the rotation before, from the noise of the mean in the hold between them, by which both take the bias to be.
+    /// Covariance of `δθ` with that of the rotation before. Both use the bias from the hold between them, and share the noise of its mean.
     pub(crate) fn noise_with(&self, before: &Self) -> Matrix3<f64> {
         let common = &self.drift[0];
         let noise = common.share.component_mul(&common.share).component_mul(&common.variance);
@@ -195,7 +197,7 @@ impl IntegratedRotation {
         let thermal = &imu.thermal;
         let tau_k = thermal.tau_k(mean_temperature_c(&self.drift));
         let factor = thermal.gyroscope.gain_factor(tau_k);
-        // a reading that is larger by δy means a rate that is smaller by M δy, less what the holds take for bias of it
+        // a reading larger by δy means a rate smaller by M δy, less the part that the holds attribute to the bias
         let own =
             |sums: &[Matrix3<f64>; 3], row: usize, column: usize, still: fn(&LocalBias) -> &Vector3<f64>| {
                 let [start, end] = [0, 1].map(|k| self.drift[k].share[row] * still(&self.drift[k])[column]);
@@ -203,7 +205,7 @@ impl IntegratedRotation {
             };
         let entry =
             |row: usize, column: usize| own(&self.by_rate, row, column, |end| &end.rate) * factor[row];
-        // a bias that is larger by the first in the hold before and by the second in the hold after
+        // a bias larger by the first in the hold before, and by the second in the hold after
         let bias = |axis: usize, by: [f64; 2]| {
             let [start, end] = self.drift.map(|end| end.share[axis]);
             let left = self.by_start * ((1.0 - start) * by[0]) + self.by_end * ((1.0 - end) * by[1]);

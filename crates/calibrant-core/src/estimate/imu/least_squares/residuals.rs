@@ -1,4 +1,4 @@
-//! The residuals of the model at a state, and χ² of them. `gauss_newton` lists them.
+//! The residuals of the model at a state, and their χ². `gauss_newton` lists them.
 
 use crate::estimate::imu::least_squares::sphere_logarithm::Arc;
 use crate::estimate::imu::model::{GravityResidual, GravityResiduals, ImuModel, RotationData, State};
@@ -8,11 +8,11 @@ use nalgebra::{Matrix2, Matrix2xX, Matrix3, Vector3};
 use rayon::prelude::*;
 
 impl ImuModel<'_> {
-    /// What a rotation says at a state; `None` where the gyroscope's matrix is singular.
+    /// The residual of a rotation at a state. `None` if the gyroscope's matrix is singular.
     pub(crate) fn gravity_residual(&self, data: &RotationData<'_>, state: &State) -> Option<GravityResidual> {
         let rotation = data.samples.integrate(&state.imu, &self.gyroscope_noise.of_sample)?;
         let (before, to) = (state.forces[data.from], state.forces[data.from + 1]);
-        // where the Earth turns gravity meanwhile
+        // gravity after the Earth's rotation during this time
         let from = before + self.earth.rate(data.from, &before).cross(&before) * data.samples.duration_s();
         let back = rotation.start_from_end.transpose();
         let arc = Arc::of(&(back * from / self.gravity), &(to / self.gravity));
@@ -45,7 +45,7 @@ impl ImuModel<'_> {
         variance.try_inverse().unwrap_or_else(Matrix2::zeros)
     }
 
-    /// All rotations that can be integrated.
+    /// The residuals of all rotations that can be integrated.
     pub(crate) fn gravity_residuals(&self, state: &State) -> Option<GravityResiduals> {
         self.rotations
             .par_iter()

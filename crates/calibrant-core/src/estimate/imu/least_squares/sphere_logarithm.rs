@@ -1,26 +1,26 @@
-//! The arc by which one direction misses another: the logarithm on the sphere, with its derivatives.
+//! The arc from one direction to another: the logarithm on the sphere, with its derivatives.
 //!
-//! For unit vectors `u` and `t` at an angle θ, the arc is `θ n`, with `n` the direction across `t` in which `u` lies. The part of `u` across `t` alone, `sin θ n`, is the same as far as it is short,
-//! but zero again at 180°: a rotation that ends upside down would fit.
+//! For unit vectors `u` and `t` at an angle θ, the arc is `θ n`, with `n` the direction across `t` in which `u` lies. The projection of `u` across `t`,
+//! `sin θ n`, agrees with it for small angles. But it is zero again at 180°, and a rotation that ends upside down would fit.
 
 use crate::estimate::tangent_plane::tangents;
 use nalgebra::{Matrix2, Matrix2x3, Vector2, Vector3};
 
-/// Near 180° the direction `n` turns ever faster with `u`; it is taken to turn no faster than where `sin θ` is this.
+/// Least `sin θ` in the derivative of `n`. Near 180° this derivative grows without bound.
 const LEAST_SINE: f64 = 0.05;
 
 /// The arc from a direction to another.
 pub(crate) struct Arc {
-    /// `θ n` in the tangents of the direction that is missed, rad.
+    /// `θ n` in the tangent plane of the target direction, rad.
     pub(crate) error: Vector2<f64>,
-    /// Derivative with respect to the direction that misses, a unit vector.
+    /// Derivative with respect to `u`, a unit vector.
     pub(crate) by_missing: Matrix2x3<f64>,
-    /// Derivative with respect to turning the direction that is missed along its tangents.
+    /// Derivative with respect to a rotation of the target direction along its tangents.
     pub(crate) by_missed: Matrix2<f64>,
 }
 
 impl Arc {
-    /// `missing` and `missed` are unit vectors.
+    /// `missing` is `u`, and `missed` the target `t`. Both are unit vectors.
     pub(crate) fn of(missing: &Vector3<f64>, missed: &Vector3<f64>) -> Self {
         let across = tangents(missed);
         let part = across.tr_mul(missing);

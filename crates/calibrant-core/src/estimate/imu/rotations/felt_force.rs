@@ -1,10 +1,10 @@
-//! The specific force that the gyroscope feels.
+//! The specific force at the gyroscope's samples, which acts through the g-sensitivity.
 
 use crate::sensor::{Recording, SensorParameters, interpolated, times};
 use nalgebra::Vector3;
 use rayon::prelude::*;
 
-/// Samples that one thread takes at a time.
+/// Number of samples of one piece of work of a thread.
 const PIECE: usize = 4096;
 
 /// The specific force at the gyroscope's sample times.
@@ -16,7 +16,7 @@ pub(crate) fn interpolated_forces(
     let correction = sensor.matrix.try_inverse()?;
     let force = |k: usize| times(&correction, &(accelerometer.readings[k] - sensor.bias));
     let at = |k: usize| interpolated(&accelerometer.times_s, force, gyroscope.times_s[k], k);
-    // zero only where the accelerometer has no sample at all
+    // zero only for an accelerometer without samples
     let felt = |k: usize| at(k).unwrap_or_else(Vector3::zeros);
     Some((0..gyroscope.len()).into_par_iter().with_min_len(PIECE).map(felt).collect())
 }

@@ -1,4 +1,4 @@
-//! What the gyroscope recorded between the stationary intervals: rotations, and turns of known angle.
+//! The gyroscope between the stationary intervals: rotations, and turns of known angle.
 
 pub(crate) mod felt_force;
 pub(crate) mod movement;

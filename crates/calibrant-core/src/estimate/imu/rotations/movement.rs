@@ -1,4 +1,4 @@
-//! What lies between the stationary intervals: rotations, and turns of known angle.
+//! The movements between the stationary intervals: rotations, and turns of known angle.
 
 use crate::error::Result;
 use crate::estimate::imu::model::{GyroscopeNoise, HoldData, RotationData, TurnData};
@@ -11,18 +11,18 @@ use crate::motion::Hold;
 use crate::sensor::{ImuParameters, Recording, SensorParameters};
 use nalgebra::Vector3;
 
-/// The recording between the holds that are used.
+/// The recording between the used holds.
 pub(crate) struct Movement<'a> {
     pub(crate) spans: Vec<Span>,
     pub(crate) integrable: Integrable<'a>,
-    /// Specific force at the gyroscope's times, where turns or the gyroscope need it.
+    /// Specific force at the gyroscope's times, if turns or the g-sensitivity need it.
     forces: Option<Vec<Vector3<f64>>>,
-    /// Does the gyroscope feel it?
+    /// Does the gyroscope have a g-sensitivity?
     feels: bool,
 }
 
 impl<'a> Movement<'a> {
-    /// `accelerometer`: at the reference temperature, with what is known of it by itself.
+    /// `accelerometer`: the estimate from the holds alone, at the reference temperature.
     pub(crate) fn of(
         problem: &ImuProblem<'a>,
         (accelerometer, sensor): (&Recording, &SensorParameters),
@@ -34,7 +34,7 @@ impl<'a> Movement<'a> {
         let needs_forces = feels || !setup.turns.is_empty();
         let forces = needs_forces.then(|| interpolated_forces(accelerometer, gyroscope, sensor)).flatten();
         let spans = match setup.directions {
-            // the sensor was put down anew on each face: what it went through in between says less than the turns
+            // the sensor was put on each face anew: the movements in between determine less than the turns
             Some(_) if !setup.turns.is_empty() => Vec::new(),
             _ => rotation_spans(gyroscope, holds),
         };
@@ -47,7 +47,7 @@ impl<'a> Movement<'a> {
         self.integrable.rotations(self.forces.as_deref().filter(|_| self.feels), &self.spans, holds)
     }
 
-    /// The turns of known angle. `start`: the IMU as far as it is known, and the temperatures.
+    /// The turns of known angle. `start`: the initial IMU, and the temperatures.
     pub(crate) fn turns(
         &self,
         problem: &ImuProblem<'_>,
@@ -57,7 +57,7 @@ impl<'a> Movement<'a> {
         turn_data(problem, &self.integrable, noise, self.forces.as_deref(), start)
     }
 
-    /// Why rotations cannot be integrated, of each that cannot.
+    /// The rotations that cannot be integrated, with the reason.
     pub(crate) fn obstacles(&self) -> Vec<String> {
         self.spans.iter().filter_map(|span| self.integrable.obstacle(span)).collect()
     }

@@ -6,11 +6,11 @@ use crate::sensor::{Recording, Saturation};
 use nalgebra::Vector3;
 use std::ops::Range;
 
-/// A rotation begins this long before the end of a hold, s: a hand begins to turn so gently that the first milliradians look still.
+/// A rotation begins this time before the end of a hold, s. A hand begins so gently that the first milliradians look stationary.
 const MARGIN_S: f64 = 0.3;
 
-/// What a saturated accelerometer lacks for less than this in a rotation does not matter, s: with 1 g cut off and the g-sensitivity of common sensors, 2e-4
-/// (rad/s)/(m/s²), the gyroscope adds up to 0.1 mrad in it.
+/// A shorter saturation of the accelerometer in a rotation does not matter, s. With 1 g cut off and a common g-sensitivity of 2e-4 (rad/s)/(m/s²),
+/// the error is 0.1 mrad.
 const BRIEF_S: f64 = 0.05;
 
 /// The time from shortly before the end of a hold to shortly after the start of the next.
@@ -19,7 +19,7 @@ pub(crate) struct Span {
     pub(crate) start_s: f64,
     /// End, s: of the last sample, where the gyroscope covers it.
     pub(crate) end_s: f64,
-    /// The gyroscope's samples in it and one beside it on each side.
+    /// The gyroscope's samples in it, and one more on each side.
     samples: Range<usize>,
     /// Does the gyroscope's recording begin before and end after it?
     covered: bool,
@@ -51,12 +51,12 @@ pub(crate) struct Integrable<'a> {
     pub(crate) gyroscope: &'a Recording,
     gap_s: f64,
     saturations: Vec<Saturation>,
-    /// The accelerometer as it was read, where the gyroscope feels the specific force, with the ends of its range that it touches.
+    /// The accelerometer before spikes were replaced, with the ends of its range. Only for a gyroscope with g-sensitivity.
     felt: Option<(&'a Recording, Vec<Saturation>)>,
 }
 
 impl<'a> Integrable<'a> {
-    /// `felt`: the accelerometer as it was read, where the gyroscope feels the specific force.
+    /// `felt`: the accelerometer before spikes were replaced, for a gyroscope with g-sensitivity.
     pub(crate) fn of(gyroscope: &'a Recording, felt: Option<&'a Recording>) -> Self {
         let (of_gyroscope, felt) = rayon::join(
             || (gyroscope.gap_s(), gyroscope.saturations()),
@@ -87,7 +87,7 @@ impl<'a> Integrable<'a> {
         spans.iter().enumerate().map(rotation).collect()
     }
 
-    /// Why a span cannot be integrated; nothing where it can.
+    /// Why a span cannot be integrated. `None` if it can.
     pub(crate) fn obstacle(&self, span: &Span) -> Option<String> {
         let times = &self.gyroscope.times_s;
         if !span.covered {
@@ -109,11 +109,11 @@ impl<'a> Integrable<'a> {
         self.saturation(&span.samples)
     }
 
-    /// Which sensor stops at the end of its range in these samples so that they cannot be integrated, in words.
+    /// The sensor that saturates in these samples, in words. They cannot be integrated.
     pub(crate) fn saturation(&self, span: &Range<usize>) -> Option<String> {
         let readings = &self.gyroscope.readings[span.clone()];
         if let Some(end) = self.saturations.iter().find(|end| end.is_reached(readings)) {
-            return Some(format!("axis {} of the gyroscope saturates in it", end.axis));
+            return Some(format!("axis {} of the gyroscope saturates", end.axis));
         }
         let (accelerometer, ends) = self.felt.as_ref()?;
         let times = &self.gyroscope.times_s;
@@ -123,7 +123,7 @@ impl<'a> Integrable<'a> {
         let lasts = |end: &&Saturation| end.touches(readings) as f64 > brief;
         let end = ends.iter().find(lasts)?;
         Some(format!(
-            "axis {} of the accelerometer saturates in it, so that the force that the gyroscope feels is not known",
+            "axis {} of the accelerometer saturates, and the specific force for the g-sensitivity is unknown",
             end.axis
         ))
     }

@@ -65,7 +65,7 @@ pub(crate) fn turn_data(
             let duration_s = times[times.len() - 1] - times[0];
             // an axis that hardly turns reads as in a hold
             variance += noise.of_mean * (duration_s * duration_s);
-            // the gain, roughly: what the readings add up to beyond their bias, over the angle
+            // a rough gain: the integral of the readings beyond their bias, over the angle
             let temperature_c = temperature.mean(turn.start_s, turn.end_s);
             let bias = start.at(temperature_c).gyroscope.bias * duration_s;
             let gain = (integral - bias).norm() / turn.angle_rad.abs();

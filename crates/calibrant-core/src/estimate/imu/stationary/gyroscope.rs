@@ -13,14 +13,14 @@ use rayon::prelude::*;
 
 /// The gyroscope in the holds that are used.
 pub(crate) struct StationaryGyroscope {
-    /// Mean reading in each hold, but for those in which it turns or has no samples.
+    /// Mean reading in each hold. `None` for a hold in which it turns or has no samples.
     pub(crate) readings: Vec<Option<MeanReading>>,
-    /// The same with those in which it turns.
+    /// Mean reading in each hold, including those in which it turns.
     pub(crate) measured: Vec<Option<MeanReading>>,
     /// The rate of each hold in which it turns, in the unit of the readings.
     pub(crate) turning: Vec<Option<f64>>,
     pub(crate) noise: GyroscopeNoise,
-    /// Where the noise of a sample comes from.
+    /// Source of the noise of a sample, in words.
     pub(crate) noise_source: NoiseSource,
     /// Axes whose steps are coarse.
     pub(crate) coarse: Vec<CoarseAxis>,
@@ -29,7 +29,7 @@ pub(crate) struct StationaryGyroscope {
 }
 
 impl StationaryGyroscope {
-    /// Takes its means in these holds. `white_noise`: of a sample, as a long hold shows it.
+    /// Computes its means in these holds. `white_noise`: that of a sample, from a long hold.
     pub(crate) fn measure(
         problem: &ImuProblem<'_>,
         gyroscope: &Recording,
@@ -63,7 +63,7 @@ impl StationaryGyroscope {
     }
 }
 
-/// Noise of a gyroscope's sample: that of the datasheet, else what a long hold shows, else the scatter within holds.
+/// Noise of a gyroscope's sample: from the datasheet, else from a long hold, else the scatter within holds.
 fn sample_noise(
     gyroscope: &Gyroscope,
     white_noise: Option<WhiteNoise>,

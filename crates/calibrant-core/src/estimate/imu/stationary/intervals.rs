@@ -1,8 +1,8 @@
-//! Stationary intervals: where both sensors of an IMU are still.
+//! Stationary intervals, in which neither sensor of an IMU shows a movement.
 //!
-//! An accelerometer does not see a turn about the vertical, nor the first milliradians of any other. Its holds then reach into turns, and the
-//! gyroscope's mean in them is no bias. Where the gyroscope is calm is found in its own readings, in the same way. A calm segment whose mean is
-//! far from the others' is a turn at a steady rate.
+//! An accelerometer does not see a rotation about the vertical, nor the first milliradians of any other. Its holds then include parts of rotations,
+//! in which the gyroscope's mean is not its bias. The same detection finds calm segments of the gyroscope. A calm segment whose mean is far from
+//! that of the others is a rotation at a steady rate.
 
 use crate::error::{Error, InputError, Refusal, Result};
 use crate::estimate::holds::{as_recorded, find_clean_holds, holds_between, median};
@@ -10,12 +10,13 @@ use crate::motion::Hold;
 use crate::sensor::{ImuRecording, Recording, SensorKind};
 use nalgebra::Vector3;
 
-/// The gyroscope turns in a calm segment whose mean is off the others' median by more than this share of the recording's range.
+/// The gyroscope turns in a calm segment if its mean differs from the median of the others by more than this share of the recording's range.
 const TURNING_SHARE: f64 = 0.02;
 
-/// Finds the holds of at least `minimum_s` in the recording of an IMU: those of its accelerometer, cut down to what is still for its gyroscope too.
+/// Finds the holds of at least `minimum_s` in the recording of an IMU: holds of the accelerometer, shortened to those parts in which the
+/// gyroscope is calm too.
 ///
-/// Spikes neither divide a hold nor count in its mean. A hold in which the gyroscope is nowhere calm for long enough, or was not recorded, stays as the accelerometer has it.
+/// Spikes neither divide a hold nor count in its mean. A hold is not shortened if the gyroscope is never calm in it for long enough, or has no samples.
 ///
 /// # Errors
 /// [`Error::Recording`] where there is no accelerometer, or its rate is too low for holds this short.
@@ -26,7 +27,7 @@ pub fn find_imu_holds(recording: &ImuRecording, minimum_s: f64) -> Result<Vec<Ho
     Ok(as_recorded(holds, of_accelerometer.map(|(_, spikes)| spikes)))
 }
 
-/// The same in a recording from which spikes were taken out before ([`ImuRecording::without_spikes`]): they are not looked for again.
+/// [`find_imu_holds`] in a recording whose spikes were removed before ([`ImuRecording::without_spikes`]).
 ///
 /// # Errors
 /// As [`find_imu_holds`].
@@ -62,7 +63,7 @@ pub fn find_clean_imu_holds(recording: &ImuRecording, minimum_s: f64) -> Result<
     holds_between(accelerometer, &intervals)
 }
 
-/// Which of its calm segments does the gyroscope turn in?
+/// In which of its calm segments does the gyroscope turn?
 fn turning(gyroscope: &Recording, calm: &[Hold]) -> Vec<bool> {
     let [low, high] = gyroscope.extremes();
     if calm.is_empty() {

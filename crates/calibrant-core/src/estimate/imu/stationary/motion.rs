@@ -1,20 +1,20 @@
 //! Motion in holds: the accelerometer does not see a turn about the vertical.
 //!
-//! Holds that are found are still for both sensors, those that are given may not be. What the gyroscope shows in such a hold is no bias; the
-//! accelerometer's mean may be right.
+//! In detected holds, both sensors are stationary. In given holds, the gyroscope may turn. Its mean there is not its bias, but the accelerometer's
+//! mean may be right.
 
 use crate::estimate::holds::median;
 use crate::estimate::imu::stationary::scatter::restless_from;
 use crate::sensor::{Axis, MeanReading, Recording};
 use nalgebra::Vector3;
 
-/// The gyroscope turns in a hold whose mean is off the median of all by this many median deviations, and by [`TURNING_SHARE`].
+/// Least distance of a turning hold's mean from the median of all holds, in median deviations. [`TURNING_SHARE`] must be exceeded too.
 const DEVIATIONS: f64 = 12.0;
 
-/// The mean of a hold in which it turns is off by this share of the recording's range. A bias that drifts is not.
+/// Least distance of a turning hold's mean, as a share of the recording's range. A drift of the bias stays below.
 const TURNING_SHARE: f64 = 0.005;
 
-/// Of fewer holds none is the exception.
+/// Fewest holds in which an exception can be found.
 const FEWEST: usize = 4;
 
 /// The rate, root mean square, of each hold in which the gyroscope turns, in the unit of its readings. `drifts`: does its bias follow temperature?
@@ -49,6 +49,6 @@ pub(crate) fn turning_rates(
             }
         }
     }
-    // where most holds are restless, none is an exception
+    // if most holds are restless, none is an exception
     if 2 * turning.iter().flatten().count() >= readings.iter().flatten().count() { none } else { turning }
 }

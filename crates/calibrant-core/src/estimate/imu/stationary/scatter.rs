@@ -5,12 +5,12 @@ use crate::motion::Hold;
 use crate::sensor::{MeanReading, Recording};
 use nalgebra::Vector3;
 
-/// The gyroscope between the times of a hold; `None` with fewer than two samples.
+/// The gyroscope's samples in a hold. `None` for fewer than two.
 pub(crate) fn mean_in_hold(recording: &Recording, hold: &Hold) -> Option<MeanReading> {
     recording.mean_between(hold.start_s, hold.end_s).filter(|still| still.samples > 1)
 }
 
-/// Standard deviation of a sample about the mean of its hold, but for holds that scatter so much more than half of them that the gyroscope turns there.
+/// Standard deviation of a sample about the mean of its hold, without holds in which the gyroscope turns.
 pub(crate) fn usual_scatter(readings: &[Option<MeanReading>], gyroscope: &Recording) -> Vector3<f64> {
     let sds: Vec<Vector3<f64>> =
         readings.iter().flatten().map(|still| MeanReading::pooled_sd([still])).collect();
@@ -23,10 +23,12 @@ pub(crate) fn usual_scatter(readings: &[Option<MeanReading>], gyroscope: &Record
     MeanReading::pooled_sd(calm.map(|(still, _)| still))
 }
 
-/// The gyroscope turns in a hold in which it scatters this many times as much as in half of the holds.
+/// The gyroscope turns in a hold if it scatters there by this multiple of the median hold.
 const RESTLESS: f64 = 4.0;
 
-/// From which standard deviation of its samples on the gyroscope turns in a hold, by those in all of them, at least one; coarse steps scatter by themselves.
+/// Least standard deviation of the samples of a hold in which the gyroscope turns, from those of all holds (at least one).
+///
+/// Coarse steps scatter by themselves, and are allowed for.
 pub(crate) fn restless_from(sds: &[Vector3<f64>], gyroscope: &Recording) -> Vector3<f64> {
     let step = gyroscope.resolution();
     Vector3::from_fn(|axis, _| RESTLESS * median(sds.iter().map(|sd| sd[axis]).collect()).max(step[axis]))
