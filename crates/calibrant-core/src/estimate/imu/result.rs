@@ -1,7 +1,7 @@
 //! What the calibration of an IMU gives.
 
 use crate::diagnostic::{Change, Diagnostic};
-use crate::estimate::imu::clock::rate::ClockRate;
+use crate::estimate::imu::clock::ClockRate;
 use crate::estimate::imu::problem::NoiseSource;
 use crate::estimate::result::{CalibrationStatus, HoldCalibration};
 use crate::estimate::uncalibrated::Uncalibrated;
