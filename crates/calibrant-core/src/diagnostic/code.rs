@@ -78,10 +78,6 @@ codes! {
         "Single samples far off those beside them, or invalid readings, were taken out."
         "A sample is off the median of the nine about it by more than 7 robust standard deviations of the difference of two samples; of a movement by 12."
         "Look for a loose contact, or for bytes that are lost on the way.";
-    SkewedSpikes "skewed-spikes" Warning
-        "Single samples in the holds are off to one side. They move the means and the bias."
-        "The samples beyond 4 standard deviations are far more on one side, and in nearly all holds."
-        "Look for a loose contact, or for bytes that are lost on the way.";
     CoarseSteps "coarse-steps" Warning
         "The readings come in steps coarser than twice their noise. The mean of a hold is off, however long it is."
         "The error of a mean by rounding exceeds a quarter of what noise leaves of it."
@@ -236,16 +232,12 @@ codes! {
         "Correct its times, axis and angle.";
     KnownContradicted "known-contradicted" Warning
         "The data contradict what `[known]` says of a parameter."
-        "It is off by more than 4.5 of its standard deviations, or by 6 of the fit without it."
+        "It is off by more than 6 standard deviations from the fit without what is known."
         "Correct the value and its unit, or leave it out.";
     ChiSquaredLarge "chi-squared-large" Warning
         "The data contradict what was given. The standard deviations are too small."
         "χ² exceeds its degrees of freedom by 6 standard deviations."
         "Check terms in [known], directions, turns and noise.";
-    GravityMissedMore "gravity-missed-more" Warning
-        "Gravity after a rotation is missed by more than before the calibration."
-        "The root mean square of the angles is larger."
-        "Check what was given: turns, directions, [known].";
     GainImplausible "gain-implausible" Warning
         "A gain of readings in SI is far from 1."
         "It is below 0.8 or above 1.25."
@@ -263,13 +255,9 @@ codes! {
         "They are more than 1.15 times as large."
         "Give holds.latitude_deg.";
     NoiseOutliers "noise-outliers" Warning
-        "Samples far off the others were left out of the noise."
-        "They are off the median of the nine about them by more than 8 robust standard deviations."
+        "Samples far off the others were left out of the noise, or are too many for that."
+        "They are off the median of the nine about them by more than 8 robust standard deviations. Up to one sample in fifty is left out."
         "Look for a loose contact, a lost bit, or a knock.";
-    NoiseSpikes "noise-spikes" Warning
-        "There are too many spikes to leave them out. The noise is theirs."
-        "More than one sample in fifty is an outlier."
-        "Look for a loose contact, or for bits that are lost on the way.";
     SamplesMissing "samples-missing" Warning
         "Samples are missing. The others are taken as if they followed one another."
         "The sample times have holes of one or a few intervals."

@@ -83,17 +83,6 @@ diagnostics! {
         time_s: f64 = "Its time, s.",
         deviations: f64 = "How far it is off, in standard deviations of a sample's noise; infinite where there is none.",
     }
-    /// Single samples are off to one side.
-    SkewedSpikes {
-        sensor_kind: SensorKind = "The sensor.",
-        axis: Axis = "The axis.",
-        unit: ReadingUnit = "Unit of its readings.",
-        far_deviations: f64 = "Standard deviations beyond which samples count.",
-        samples_above: f64 = "Samples that are so far above the others.",
-        samples_below: f64 = "Samples that are so far below the others.",
-        shift: f64 = "By how much they move the means.",
-        times_noise: f64 = "The same over what noise does to the mean of all holds.",
-    }
     /// Readings come in coarse steps.
     CoarseSteps {
         sensor_kind: SensorKind = "The sensor.",
@@ -254,8 +243,6 @@ diagnostics! {
     KnownContradicted { known: KnownMismatch = "The parameter." }
     /// The data contradict what was given.
     ChiSquaredLarge { chi2: f64 = "χ².", degrees_of_freedom: f64 = "Degrees of freedom." }
-    /// Gravity is missed by more than before.
-    GravityMissedMore { after_rad: f64 = "After the calibration, rad.", before_rad: f64 = "Before, rad." }
     /// A gain is implausible.
     GainImplausible {
         sensor_kind: SensorKind = "The sensor.",
@@ -282,7 +269,7 @@ diagnostics! {
         of_g_sensitivity: bool = "Is it the g-sensitivity that suffers most, and not the gyroscope's matrix?",
         times: f64 = "How many times larger they are.",
     }
-    /// Outliers were left out of the noise.
+    /// Outliers are in the noise, or were left out of it.
     NoiseOutliers {
         sensor_kind: SensorKind = "The sensor.",
         axis: Axis = "The axis.",
@@ -292,18 +279,8 @@ diagnostics! {
         reading: f64 = "The one that is farthest off.",
         time_s: f64 = "Its time, s.",
         deviations: f64 = "How far it is off, in usual differences of two samples.",
+        left_out: bool = "Were they left out? Not where they are too many.",
         white_noise_ratio: Option<f64> = "White noise with them over that without.",
-    }
-    /// There are too many spikes to leave out.
-    NoiseSpikes {
-        sensor_kind: SensorKind = "The sensor.",
-        axis: Axis = "The axis.",
-        unit: ReadingUnit = "Unit of its readings.",
-        outliers: usize = "How many.",
-        samples: usize = "Of how many samples.",
-        reading: f64 = "The one that is farthest off.",
-        time_s: f64 = "Its time, s.",
-        deviations: f64 = "How far it is off, in usual differences of two samples.",
     }
     /// Samples are missing.
     SamplesMissing { missing_share: f64 = "Their share." }

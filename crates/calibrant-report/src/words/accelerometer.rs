@@ -14,26 +14,6 @@ pub(super) fn message(diagnostic: &Diagnostic) -> Option<String> {
         Diagnostic::Spikes { sensor_kind, unit, replaced, cut, axis, reading, time_s, deviations } => {
             spikes(*sensor_kind, *unit, (*replaced, *cut), *axis, (*reading, *time_s, *deviations))
         }
-        Diagnostic::SkewedSpikes {
-            sensor_kind,
-            axis,
-            unit,
-            far_deviations,
-            samples_above,
-            samples_below,
-            shift,
-            times_noise,
-        } => {
-            let unit = unit.symbol();
-            let (side, other) = if *shift > 0.0 { ("above", "below") } else { ("below", "above") };
-            format!(
-                "{sensor_kind} {axis}: {} single samples in the holds are more than {far_deviations} standard deviations {side} the others, and {} {other}: noise has as many on either side. They move the \
-                 means, and with them the bias, by {shift:+.1e} {unit}, which is {times_noise:.0} times what noise does to the mean of all holds. A loose contact, bytes lost on the way? They are too near \
-                 the noise to be left out",
-                samples_above.max(*samples_below),
-                samples_above.min(*samples_below),
-            )
-        }
         Diagnostic::CoarseSteps { sensor_kind, axis, unit, step, noise, mean_sd } => {
             let found = CoarseAxis { axis: *axis, step: *step, noise: *noise, mean_sd: *mean_sd };
             let found = coarse_axis(*sensor_kind, *unit, &found);

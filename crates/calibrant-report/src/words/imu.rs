@@ -40,11 +40,6 @@ pub(super) fn message(diagnostic: &Diagnostic) -> Option<String> {
             angle_rad.to_degrees(),
             if *is_mirrored { ", and its axes point the other way" } else { "" }
         ),
-        Diagnostic::GravityMissedMore { after_rad, before_rad } => format!(
-            "gravity after a rotation is missed by more than before the calibration, {:.2}° in place of {:.2}°: something that was given does not fit the rotations",
-            after_rad.to_degrees(),
-            before_rad.to_degrees()
-        ),
         Diagnostic::GainImplausible { sensor_kind, axis, gain, unit } => format!(
             "the {sensor_kind} shows {gain:.3} of what there is along its axis {axis}, for readings in {} it should be near 1: are unit, sample rate, order and \
              direction of the axes right, and what was given of turns and faces?",

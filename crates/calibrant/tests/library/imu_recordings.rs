@@ -249,7 +249,10 @@ fn a_known_bias_is_kept_and_a_prior_shares() {
     let setup = ImuSetup { known: vec![prior], ..ImuSetup::default() };
     let calibration = run_imu(&recording, &Gyroscope::default(), &setup, unit).expect("determined");
     let message = messages(&calibration.warnings).join("; ");
-    assert!(message.contains("the data contradict what [known] says of gyroscope.bias.x"), "{message}");
+    assert!(
+        message.contains("the recording contradicts what [known] says of gyroscope.bias.x: 0.1"),
+        "{message}"
+    );
     assert!(message.contains("degrees of freedom: the data contradict"), "{message}");
 
     // a value far off is refused whatever the fit with it would give; a third of that converges, with a
