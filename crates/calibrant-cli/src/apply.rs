@@ -11,7 +11,6 @@ use calibrant::io::{
 use calibrant::report::number_format;
 use calibrant::sensor::{
     CalibratedImu, CorrectedSensor, ImuCorrection, ImuRecording, ReadingUnit, Recording, SensorKind,
-    WithoutForce,
 };
 use std::path::PathBuf;
 
@@ -90,9 +89,6 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
             number_format::short(spikes.time_s)
         ));
     }
-    if let Some(unknown) = &corrected.without_force {
-        console::warn(&without_force(unknown));
-    }
     write_corrected_recording(&arguments.output, &corrected)?;
     console::print(&format!("{}: {}\n", arguments.calibration.display(), in_words(&imu)));
     for (sensor_kind, found) in
@@ -104,19 +100,6 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     }
     console::print(&format!("{}\n", arguments.output.display()));
     Ok(Exit::DONE)
-}
-
-/// The warning about gyroscope samples without a specific force.
-fn without_force(unknown: &WithoutForce) -> String {
-    let (start, end) = unknown.span_s;
-    format!(
-        "the accelerometer has no data at {} of the gyroscope, from {} to {} s. The nearest known specific force corrects their g-sensitivity, with an error of up to {} rad/s. \
-         The standard uncertainty includes this error.",
-        number_format::counted(unknown.samples, "sample"),
-        number_format::short(start),
-        number_format::short(end),
-        number_format::significant(unknown.most_radps, 2)
-    )
 }
 
 /// Smallest and largest of some values.

@@ -5,8 +5,8 @@ use calibrant::diagnostic::Diagnostic;
 use calibrant::error::{InputError, Refusal};
 use calibrant::estimate::{find_holds, find_imu_holds};
 use calibrant::motion::Hold;
-use calibrant::noise::{Segment, without_outliers};
-use calibrant::sensor::{ImuRecording, Recording, SensorKind};
+use calibrant::noise::Segment;
+use calibrant::sensor::{ImuRecording, Recording};
 
 /// Shortest hold of the search, s.
 const SHORTEST_HOLD_S: f64 = 1.0;
@@ -20,13 +20,10 @@ const MOST: f64 = 0.9;
 ///
 /// A spike is not a movement, and does not divide a hold.
 pub(super) fn holds(imu: &ImuRecording) -> calibrant::Result<Vec<Hold>> {
-    let [accelerometer, gyroscope] =
-        SensorKind::ALL.map(|sensor_kind| imu.sensor(sensor_kind).map(without_outliers));
-    match (accelerometer, gyroscope) {
-        (None, Some(gyroscope)) => find_holds(&gyroscope, SHORTEST_HOLD_S),
-        (accelerometer, gyroscope) => {
-            find_imu_holds(&ImuRecording { accelerometer, gyroscope, temperature_c: None }, SHORTEST_HOLD_S)
-        }
+    let (clean, _) = imu.without_spikes();
+    match (&clean.accelerometer, &clean.gyroscope) {
+        (None, Some(gyroscope)) => find_holds(gyroscope, SHORTEST_HOLD_S),
+        _ => find_imu_holds(&clean, SHORTEST_HOLD_S),
     }
 }
 

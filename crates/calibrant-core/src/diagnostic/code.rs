@@ -78,10 +78,6 @@ codes! {
         "Spikes were replaced, or invalid samples were removed."
         "A spike is far from the median of nine neighbouring samples. The limit is 7 robust standard deviations of the difference of two samples, and 12 in a movement."
         "Look for a loose contact, or for bytes that are lost on the way.";
-    SkewedSpikes "skewed-spikes" Warning
-        "Single samples in the holds lie far to one side. They shift the means and the bias."
-        "Far more samples lie beyond 4 standard deviations on one side than on the other, in nearly all holds."
-        "Look for a loose contact, or for bytes that are lost on the way.";
     CoarseSteps "coarse-steps" Warning
         "The readings come in steps of more than twice their noise. The mean of a hold has an error, however long the hold is."
         "Rounding moves the mean of a hold by more than a quarter of the standard deviation that noise gives it."
@@ -236,16 +232,12 @@ codes! {
         "Correct its times, axis and angle.";
     KnownContradicted "known-contradicted" Warning
         "The data contradict the value of a parameter in `[known]`."
-        "The difference exceeds 4.5 of its standard deviations, or 6 of the fit without it."
+        "The difference exceeds 6 standard deviations of the fit without the given values."
         "Correct the value or its unit, or remove it.";
     ChiSquaredLarge "chi-squared-large" Warning
         "The data contradict a given value. The standard deviations are too small."
         "χ² exceeds its degrees of freedom by 6 standard deviations."
         "Check terms in [known], directions, turns and noise.";
-    GravityMissedMore "gravity-missed-more" Warning
-        "The rotation errors are larger than before the calibration."
-        "Their root mean square is larger."
-        "Check the given values: turns, directions, [known].";
     GainImplausible "gain-implausible" Warning
         "A gain of readings in SI is far from 1."
         "It is below 0.8 or above 1.25."
@@ -263,13 +255,9 @@ codes! {
         "Some are more than 1.15 times as large."
         "Give holds.latitude_deg.";
     NoiseOutliers "noise-outliers" Warning
-        "Outliers were removed before the noise was estimated."
-        "They are more than 8 robust standard deviations from the median of nine neighbouring samples."
+        "Outliers were removed before the noise was estimated. Or they are too many to remove, and the noise includes them."
+        "They are more than 8 robust standard deviations from the median of nine neighbouring samples. Up to one sample in fifty is removed."
         "Look for a loose contact, a lost bit, or a knock.";
-    NoiseSpikes "noise-spikes" Warning
-        "The recording has too many spikes to remove. The stated noise includes them."
-        "More than one sample in fifty is an outlier."
-        "Look for a loose contact, or for bits lost on the way.";
     SamplesMissing "samples-missing" Warning
         "Samples are missing. The others are treated as consecutive samples."
         "The sample times have gaps of one or a few intervals."

@@ -23,7 +23,7 @@ pub use code::{Code, CodeEntry};
 pub(crate) use direction::AGREES_RAD;
 pub use faces::{FaceMismatch, FacePointing};
 pub use hold_span::{HoldLeftOut, HoldSpan};
-pub use known::{KnownEvidence, KnownMismatch};
+pub use known::KnownMismatch;
 pub use late_times::{late, repair};
 pub use lost_holds::LostHolds;
 pub use markdown::table_as_markdown;

@@ -83,17 +83,6 @@ diagnostics! {
         time_s: f64 = "Its time, s.",
         deviations: f64 = "Its distance from its neighbours, in standard deviations of a sample's noise. Infinite where the noise is zero.",
     }
-    /// Single samples lie far to one side.
-    SkewedSpikes {
-        sensor_kind: SensorKind = "The sensor.",
-        axis: Axis = "The axis.",
-        unit: ReadingUnit = "Unit of its readings.",
-        far_deviations: f64 = "Standard deviations beyond which samples count.",
-        samples_above: f64 = "Number of samples that are farther above the others.",
-        samples_below: f64 = "Number of samples that are farther below the others.",
-        shift: f64 = "By how much they shift the means.",
-        times_noise: f64 = "The shift over the standard deviation of the mean of all holds.",
-    }
     /// Readings come in coarse steps.
     CoarseSteps {
         sensor_kind: SensorKind = "The sensor.",
@@ -254,8 +243,6 @@ diagnostics! {
     KnownContradicted { known: KnownMismatch = "The parameter." }
     /// The data contradict a given value.
     ChiSquaredLarge { chi2: f64 = "χ².", degrees_of_freedom: f64 = "Degrees of freedom." }
-    /// The rotation errors are larger than before the calibration.
-    GravityMissedMore { after_rad: f64 = "Root mean square after the calibration, rad.", before_rad: f64 = "Root mean square before, rad." }
     /// A gain is implausible.
     GainImplausible {
         sensor_kind: SensorKind = "The sensor.",
@@ -282,7 +269,7 @@ diagnostics! {
         of_g_sensitivity: bool = "Is the g-sensitivity affected most, and not the gyroscope's matrix?",
         times: f64 = "Largest ratio of the standard deviations.",
     }
-    /// Outliers were removed before the noise was estimated.
+    /// Outliers were removed before the noise was estimated, or are too many for that.
     NoiseOutliers {
         sensor_kind: SensorKind = "The sensor.",
         axis: Axis = "The axis.",
@@ -292,18 +279,8 @@ diagnostics! {
         reading: f64 = "Reading of the sample that is farthest from its neighbours.",
         time_s: f64 = "Its time, s.",
         deviations: f64 = "Its distance from its neighbours, in usual differences of two samples.",
+        left_out: bool = "Were they removed? They are not where they are too many.",
         white_noise_ratio: Option<f64> = "White noise with the outliers over white noise without them.",
-    }
-    /// The recording has too many spikes to remove.
-    NoiseSpikes {
-        sensor_kind: SensorKind = "The sensor.",
-        axis: Axis = "The axis.",
-        unit: ReadingUnit = "Unit of its readings.",
-        outliers: usize = "Their number.",
-        samples: usize = "Number of samples.",
-        reading: f64 = "Reading of the sample that is farthest from its neighbours.",
-        time_s: f64 = "Its time, s.",
-        deviations: f64 = "Its distance from its neighbours, in usual differences of two samples.",
     }
     /// Samples are missing.
     SamplesMissing { missing_share: f64 = "Share of the samples." }

@@ -29,7 +29,6 @@ mod quantisation;
 mod quantised_noise;
 mod result;
 mod settings;
-mod skewed_spikes;
 pub(crate) mod statistics;
 mod tangent_plane;
 mod uncalibrated;

@@ -101,12 +101,6 @@ impl AllanDeviation {
             .collect();
         Ok(Self { interval_s, samples: n, points })
     }
-
-    /// The point of the lowest deviation.
-    #[must_use]
-    pub fn minimum(&self) -> Option<&AllanPoint> {
-        self.points.iter().min_by(|a, b| a.deviation.total_cmp(&b.deviation))
-    }
 }
 
 impl AllanPoint {

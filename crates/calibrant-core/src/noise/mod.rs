@@ -90,7 +90,7 @@ pub use coefficient_unit::{CoefficientUnit, coefficient_units};
 pub use confidence::CONFIDENCE;
 pub use linear_drift::Drift;
 pub use noise_model::NoiseModel;
-pub use outliers::{Outliers, without_outliers};
+pub use outliers::Outliers;
 pub use power_law::PowerLaw;
 pub use segment::Segment;
 pub use sensor_noise::{AxisNoise, SensorNoise};

@@ -22,8 +22,6 @@
 //! and N neither gains nor loses. A median would vary less, and repeat its neighbours' errors. Where the
 //! readings wander or are filtered, no sample far away is like it, and the median is used.
 
-use crate::sensor::Recording;
-
 /// Number of samples, the examined one included, whose median is compared with it.
 const WINDOW_SAMPLES: usize = 9;
 /// Threshold for an outlier in robust standard deviations of the difference of two successive samples. It is
@@ -89,20 +87,6 @@ pub(super) fn find(values: &[f64]) -> Option<Found> {
         without: few.then(|| replaced(values, &found, &isolated)),
         samples,
     })
-}
-
-/// The recording without its isolated outliers, wherever they are. The search for holds uses it: a spike of
-/// 20 m/s² divides a hold of ten minutes.
-#[must_use]
-pub fn without_outliers(recording: &Recording) -> Recording {
-    let mut without = recording.clone();
-    for axis in recording.active_axes().iter().map(|axis| axis.index()) {
-        let values: Vec<f64> = recording.readings.iter().map(|reading| reading[axis]).collect();
-        for sample in OutlierCandidates::of(&values).iter().flat_map(OutlierCandidates::isolated) {
-            without.readings[sample.k][axis] = sample.median;
-        }
-    }
-    without
 }
 
 /// The values that are far off.

@@ -209,18 +209,6 @@ impl SensorNoise {
         let (sensor_kind, unit, samples) = (self.sensor_kind, self.unit, self.segment.samples());
         let (outliers, reading, time_s) = (found.samples.len(), found.largest, found.time_s);
         let (axis, deviations, fit) = (axis.axis, found.deviations, &axis.fit);
-        if !found.left_out {
-            return Diagnostic::NoiseSpikes {
-                sensor_kind,
-                axis,
-                unit,
-                outliers,
-                samples,
-                reading,
-                time_s,
-                deviations,
-            };
-        }
         let white = fit.model.white_noise_per_sample(self.segment.rate_hz());
         let white_noise_ratio = white.zip(found.white_with_them).map(|(without, with)| with / without);
         Diagnostic::NoiseOutliers {
@@ -232,7 +220,8 @@ impl SensorNoise {
             reading,
             time_s,
             deviations,
-            white_noise_ratio,
+            left_out: found.left_out,
+            white_noise_ratio: white_noise_ratio.filter(|_| found.left_out),
         }
     }
 

@@ -6,7 +6,6 @@
 //! Where biases and gains follow temperature, all of this is at the temperature of each sample.
 
 use super::entry_vector::{self, ENTRIES, EntryMatrix};
-use super::missing_specific_force::{MissingForce, unknown_force_variance};
 use super::{
     CalibratedImu, CorrectedRecording, CorrectedSensor, Correction, HIGHEST_ORDER, ImuParameters,
     ImuQuantity, ImuRecording, Recording, SensorKind, Temperatures, ThermalPart, interpolated, times,
@@ -228,8 +227,7 @@ impl ImuCorrection {
     /// A corrected recording: every sensor that the calibration and the recording both have.
     ///
     /// Where the sensors' times differ, the specific force at a sample of the gyroscope is interpolated.
-    /// Where the accelerometer has no sample within two of its intervals, the nearest is taken, or the line
-    /// across a gap. The uncertainty then allows for gravity in any other direction.
+    /// Where the accelerometer has no sample nearby, the nearest is taken, or the line across a gap.
     ///
     /// # Errors
     /// [`Error::Recording`] where the readings are in another unit than the calibration's. Also where the
@@ -281,7 +279,6 @@ impl ImuCorrection {
         let accelerometer = recording.accelerometer.as_ref().filter(|_| self.accelerometer.is_some());
         let accelerometer =
             accelerometer.map(|readings| self.correct_forces(readings, temperatures)).transpose()?;
-        let mut without_force = None;
         let gyroscope = match recording.gyroscope.as_ref().filter(|_| self.gyroscope.is_some()) {
             None => None,
             Some(readings) => {
@@ -294,18 +291,16 @@ impl ImuCorrection {
                     )));
                 }
                 let felt = felt.filter(|_| needed);
-                let found = MissingForce::of(readings, felt);
-                without_force = found.summary(readings, &self.by_unknown_force());
                 let same = |felt: &&Recording| {
                     !recording.accelerometer.as_ref().is_some_and(|of| ptr::eq(of, *felt))
                 };
                 let other =
                     felt.filter(same).map(|felt| self.correct_forces(felt, temperatures)).transpose()?;
                 let forces = other.as_ref().or(accelerometer.as_ref());
-                Some(self.correct_rates(readings, forces, temperatures, &found)?)
+                Some(self.correct_rates(readings, forces, temperatures)?)
             }
         };
-        Ok(CorrectedRecording { accelerometer, gyroscope, without_force })
+        Ok(CorrectedRecording { accelerometer, gyroscope })
     }
 
     fn correct_forces<'a>(
@@ -324,7 +319,6 @@ impl ImuCorrection {
         readings: &'a Recording,
         forces: Option<&CorrectedSensor<'_>>,
         temperatures: Option<&Temperatures<'_>>,
-        missing_force: &MissingForce,
     ) -> Result<CorrectedSensor<'a>> {
         let force_at = |k: usize| match forces {
             None => Vector3::zeros(),
@@ -334,21 +328,8 @@ impl ImuCorrection {
         self.corrected(readings, temperatures, |here, k| {
             let force = force_at(k);
             let rate = here.rate(&readings.readings[k], &force)?;
-            let sd = here.rate_sd(&rate, &force);
-            let sd = match missing_force.has(k) {
-                true => sd.map(|sd| {
-                    let unknown = unknown_force_variance(&here.by_unknown_force(), &force);
-                    (sd.component_mul(&sd) + unknown).map(sqrt)
-                }),
-                false => sd,
-            };
-            Some((rate, sd))
+            Some((rate, here.rate_sd(&rate, &force)))
         })
-    }
-
-    /// The matrix from an error of the specific force to an error of the corrected rate.
-    fn by_unknown_force(&self) -> Matrix3<f64> {
-        self.gyroscope.map_or_else(Matrix3::zeros, |correction| correction.matrix * self.g_sensitivity)
     }
 
     /// Each sample with the correction at its temperature.

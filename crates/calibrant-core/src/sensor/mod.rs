@@ -20,7 +20,6 @@ mod imu_correction;
 mod imu_thermal;
 mod interpolation;
 mod mean_reading;
-mod missing_specific_force;
 mod parameters;
 mod quantisation_step;
 mod recording;
@@ -45,7 +44,6 @@ pub use imu::{CalibratedImu, Condition, ImuParameters, ImuQuantity, ImuRecording
 pub use imu_correction::ImuCorrection;
 pub use interpolation::interpolated;
 pub use mean_reading::MeanReading;
-pub use missing_specific_force::WithoutForce;
 pub use parameters::{ParameterList, Quantity, SensorModel, SensorParameters};
 pub use recording::Recording;
 pub(crate) use recording::gap_s;

@@ -14,27 +14,6 @@ pub(super) fn message(diagnostic: &Diagnostic) -> Option<String> {
         Diagnostic::Spikes { sensor_kind, unit, replaced, cut, axis, reading, time_s, deviations } => {
             spikes(*sensor_kind, *unit, (*replaced, *cut), *axis, (*reading, *time_s, *deviations))
         }
-        Diagnostic::SkewedSpikes {
-            sensor_kind,
-            axis,
-            unit,
-            far_deviations,
-            samples_above,
-            samples_below,
-            shift,
-            times_noise,
-        } => {
-            let unit = unit.symbol();
-            let (side, other) = if *shift > 0.0 { ("above", "below") } else { ("below", "above") };
-            format!(
-                "{sensor_kind} {axis}: in the holds, {} single samples lie more than {far_deviations} standard deviations {side} the others, and {} {other}. \
-                 Noise has equal numbers on both sides. These samples shift the means, and the bias, by {shift:+.1e} {unit}. \
-                 That is {times_noise:.0} times the standard deviation of the mean of all holds. They are too near the noise to be removed. \
-                 Look for a loose contact, or for bytes lost on the way.",
-                samples_above.max(*samples_below),
-                samples_above.min(*samples_below),
-            )
-        }
         Diagnostic::CoarseSteps { sensor_kind, axis, unit, step, noise, mean_sd } => {
             let found = CoarseAxis { axis: *axis, step: *step, noise: *noise, mean_sd: *mean_sd };
             let coarse = coarse_axis(*sensor_kind, *unit, &found);

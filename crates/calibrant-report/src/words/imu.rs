@@ -40,11 +40,6 @@ pub(super) fn message(diagnostic: &Diagnostic) -> Option<String> {
             angle_rad.to_degrees(),
             if *is_mirrored { ". Its axes point the opposite way" } else { "" }
         ),
-        Diagnostic::GravityMissedMore { after_rad, before_rad } => format!(
-            "the rotation errors are larger than before the calibration: {:.2}° rms, before {:.2}°. A given value contradicts the rotations. Check turns, directions and [known].",
-            after_rad.to_degrees(),
-            before_rad.to_degrees()
-        ),
         Diagnostic::GainImplausible { sensor_kind, axis, gain, unit } => format!(
             "the gain of the {sensor_kind}'s axis {axis} is {gain:.3}. For readings in {} it should be near 1. Check unit, sample rate, order and \
              direction of the axes, and the given turns and faces.",

@@ -5,22 +5,6 @@ use calibrant_core::diagnostic::Diagnostic;
 
 pub(super) fn message(diagnostic: &Diagnostic) -> Option<String> {
     Some(match diagnostic {
-        Diagnostic::NoiseSpikes {
-            sensor_kind,
-            axis,
-            unit,
-            outliers,
-            samples,
-            reading,
-            time_s,
-            deviations,
-        } => {
-            let farthest = farthest(*reading, unit.symbol(), *time_s, *deviations);
-            format!(
-                "{sensor_kind} {axis}: {outliers} of {samples} samples are spikes ({farthest}). More than one sample in fifty is a spike: these are too many to remove. The stated noise includes them. \
-                 Look for a loose contact, or for bits lost on the way."
-            )
-        }
         Diagnostic::NoiseOutliers {
             sensor_kind,
             axis,
@@ -30,9 +14,16 @@ pub(super) fn message(diagnostic: &Diagnostic) -> Option<String> {
             reading,
             time_s,
             deviations,
+            left_out,
             white_noise_ratio,
         } => {
             let farthest = farthest(*reading, unit.symbol(), *time_s, *deviations);
+            if !left_out {
+                return Some(format!(
+                    "{sensor_kind} {axis}: {outliers} of {samples} samples are sparks ({farthest}): single samples far off, too many to be left out, which one in fifty would be; what is stated is their \
+                     noise, not that of the others. Look for their cause: a loose contact, bits lost on the way?"
+                ));
+            }
             let is_one = *outliers == 1;
             let with_them = match white_noise_ratio {
                 Some(ratio) => format!(

@@ -246,7 +246,10 @@ fn a_known_bias_is_kept_and_a_prior_shares() {
     let setup = ImuSetup { known: vec![prior], ..ImuSetup::default() };
     let calibration = run_imu(&recording, &Gyroscope::default(), &setup, unit).expect("determined");
     let message = messages(&calibration.warnings).join("; ");
-    assert!(message.contains("the data contradict gyroscope.bias.x in [known]"), "{message}");
+    assert!(
+        message.contains("the recording contradicts gyroscope.bias.x in [known]: the given value is 0.1"),
+        "{message}"
+    );
     assert!(message.contains("degrees of freedom. The data contradict"), "{message}");
 
     // a value far off is refused whatever the fit with it would give; a third of that converges, with a

@@ -127,45 +127,6 @@ fn spikes_divide_no_hold_and_shift_no_estimate() {
     }
 }
 
-/// One sample in a hundred is off by the same amount, too near the noise to be removed. The bias is off by
-/// four standard deviations and more.
-#[test]
-fn spikes_of_one_sign_are_named_with_what_they_do_to_the_bias() {
-    let one_sided = |of: &Calibration| -> Vec<String> {
-        messages(&of.warnings).into_iter().filter(|warning| warning.contains("single samples lie")).collect()
-    };
-    let recording = simulated(6);
-    let clean = run(&recording, &ImuSetup::default());
-    let simulation = ImuSimulation::default();
-    for (of, noise) in [
-        (SensorKind::Accelerometer, simulation.accelerometer_noise),
-        (SensorKind::Gyroscope, simulation.gyroscope_noise),
-    ] {
-        for size in [-9.0, -8.0, 7.0, 8.0, 9.0, 10.0] {
-            let mut damaged = recording.clone();
-            let mut rng = stream(3, Purpose::Sensor, 0);
-            for reading in &mut sensor(&mut damaged, of).readings {
-                if rng.random::<f64>() < 0.01 {
-                    reading.z += size * noise;
-                }
-            }
-            let found = run(&damaged, &ImuSetup::default());
-            let shift = worst_shift(&found, &clean);
-            assert!(shift > if of == SensorKind::Gyroscope { 4.0 } else { 0.5 }, "{of} {size}: {shift}");
-            let message = one_sided(&found);
-            let side = if size > 0.0 { "above the others, and" } else { "below the others, and" };
-            assert!(message.len() == 1 && message[0].contains(side), "{of} {size}: {message:?}");
-            assert!(message[0].starts_with(&format!("{of} z: ")), "{message:?}");
-            // by a hundredth of their size, and no more than the part beyond four standard deviations
-            let (_, by) = message[0].split_once("the bias, by ").expect("how far");
-            let by: f64 = by.split(' ').next().and_then(|number| number.parse().ok()).expect("a number");
-            assert!((0.7..1.3).contains(&(by / (0.01 * size * noise))), "{of} {size}: {by}");
-        }
-    }
-    let honest = (0..200).into_par_iter().map(|k| one_sided(&run(&simulated(100 + k), &ImuSetup::default())));
-    assert_eq!(honest.flatten().collect::<Vec<_>>(), Vec::<String>::new());
-}
-
 /// A spike of 500 standard deviations in a turn is 0.1 rad/s for 10 ms.
 #[test]
 fn a_spike_of_the_gyroscope_in_a_rotation_is_replaced() {

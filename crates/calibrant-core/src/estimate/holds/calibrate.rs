@@ -2,7 +2,6 @@
 
 use super::coarse_steps::coarse_steps;
 use super::hold_detection::{beyond, find_clean_holds, holds_between};
-use super::holds_with_pauses::with_pauses;
 use super::low_pass_filtered::{holds_lost_to_filter, with_filter};
 use super::residuals::magnitude_rms;
 use super::robust_weights::{self, Robust};
@@ -13,13 +12,12 @@ use crate::diagnostic::{Diagnostic, HoldLeftOut};
 use crate::error::{Error, InputError, Refusal, Result};
 use crate::estimate::gravity_error::gravity_slope;
 use crate::estimate::quantisation::of_means;
-use crate::estimate::skewed_spikes::skewed_spikes;
 use crate::estimate::{
     Calibration, CalibrationProblem, CalibrationSettings, FitStatistics, HoldCalibration, HoldResult,
     Recovered, Uncalibrated, coarse_axes_in, statistics,
 };
 use crate::motion::Hold;
-use crate::sensor::{ImuParameters, Recording, SensorKind, SensorModel, SensorParameters};
+use crate::sensor::{ImuParameters, Recording, SensorModel, SensorParameters};
 use nalgebra::{Matrix3, Vector3};
 
 /// Calibrates from holds of a recording without spikes. `as_read`: the same samples before spikes were replaced, which show saturation.
@@ -45,8 +43,6 @@ pub(in crate::estimate) fn calibrate(
     let sound: Vec<usize> = (0..holds.len()).filter(|&j| clipped[j].is_none()).collect();
     let coarse = coarse_axes_in(as_read, sound.iter().map(|&j| &holds[j]));
     let of_mean = of_means(&coarse);
-    let skewed_spikes =
-        skewed_spikes(problem.recording, SensorKind::Accelerometer, sound.iter().map(|&j| &holds[j]));
     let found = setup.intervals_s.is_none().then_some((problem.recording, setup.minimum_hold_s));
     let lost = found
         .and_then(|(recording, minimum_s)| holds_lost_to_filter(recording, &holds, minimum_s))
@@ -57,16 +53,13 @@ pub(in crate::estimate) fn calibrate(
     }
     .map_err(|error| with_clipped(error, &clipped, as_read))
     .map_err(|error| match found {
-        Some((recording, minimum_s)) => {
-            with_pauses(with_filter(error, recording, &holds, minimum_s), recording)
-        }
+        Some((recording, minimum_s)) => with_filter(error, recording, &holds, minimum_s),
         None => error,
     })?;
     let reasons = clipped.iter().map(|end| end.map(|end| clipped_reason(&end, as_read))).collect();
     let mut calibration = assemble(problem, setup, holds, reasons, robust);
     calibration.warnings.extend(lost);
     calibration.warnings.extend(coarse_steps(&coarse, as_read));
-    calibration.warnings.extend(skewed_spikes);
     calibration.warnings.extend(beyond(as_read, setup.intervals_s.as_deref().unwrap_or_default()));
     Ok(Calibration { datasheet_prior: settings.datasheet_prior, ..calibration })
 }

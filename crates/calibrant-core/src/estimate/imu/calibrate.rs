@@ -6,7 +6,7 @@ use crate::estimate::imu::checks::known_terms::{self, Contradiction};
 use crate::estimate::imu::problem::{ImuProblem, ImuSetup};
 use crate::estimate::imu::solver::solve_imu;
 use crate::estimate::imu::white_noise_search::WhiteNoiseSearch;
-use crate::estimate::result::{Calibration, CalibrationStatus};
+use crate::estimate::result::Calibration;
 use crate::estimate::settings::CalibrationSettings;
 use crate::estimate::unknown_latitude::unknown_latitude;
 
@@ -70,15 +70,6 @@ fn of_clean(
     }
     known.iter().try_for_each(known_terms::check)?;
     let outcome = solve_imu(problem, settings, white_noise);
-    // fixed values have no residuals
-    let fixed = known.iter().any(|known| known.sd.is_none());
-    if let Ok(found) = &outcome
-        && !fixed
-        && found.status == CalibrationStatus::Converged
-        && found.warnings.is_empty()
-    {
-        return outcome;
-    }
     let contradictions = contradictions(problem, settings, white_noise);
     let absurd = contradictions.iter().any(|term| term.is_absurd);
     let stated = contradictions.into_iter().map(|term| term.known);

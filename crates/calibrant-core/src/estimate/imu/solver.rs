@@ -74,10 +74,8 @@ fn stages(
         prior,
         quantities,
     };
-    let turns = match setup.directions {
-        Some(_) => wrong_turns::check(problem.gyroscope, &initial.imu, &model.turns, &setup.turns)?,
-        None => None,
-    };
+    let on_faces = setup.directions.is_some();
+    let turns = wrong_turns::check(problem.gyroscope, &initial.imu, &model.turns, &setup.turns, on_faces)?;
     // alignment of the two sensors
     let state = State { imu: initial.imu, forces: used.forces.clone() };
     let (state, axes) = align_sensors(problem, &model, state, &first.holds).map_err(explained)?;
@@ -124,7 +122,7 @@ fn stages(
         model: &model,
         fit: &solution.fit,
         axes: axes.as_ref(),
-        turns: turns.into_iter().collect(),
+        turns,
         clock,
         calibration: &calibration,
     });

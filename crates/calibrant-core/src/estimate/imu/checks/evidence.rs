@@ -31,7 +31,7 @@ pub(crate) struct Evidence<'a> {
     pub(crate) fit: &'a Fit,
     /// The gyroscope's axes, where they are not the accelerometer's.
     pub(crate) axes: Option<&'a Axes>,
-    /// What the turns on known faces said before the fit.
+    /// What the turns of known angle said before the fit.
     pub(crate) turns: Diagnostics,
     /// The gyroscope's clock beside the accelerometer's.
     pub(crate) clock: Option<ClockDifference>,

@@ -3,7 +3,7 @@
 //! A given term that is far off makes the problem strongly nonlinear. Where the fit with it ends then depends on rounding.
 //! So an absurd term is judged by the fit without it alone. It is an error, whatever the fit with it gives.
 
-use crate::diagnostic::{KnownEvidence, KnownMismatch};
+use crate::diagnostic::KnownMismatch;
 use crate::error::{Error, InputError, Refusal, Result};
 use crate::estimate::imu::problem::KnownTerm;
 use crate::estimate::result::Calibration;
@@ -62,7 +62,8 @@ pub(crate) fn contradicted(known: &[KnownTerm], without: &Calibration) -> Vec<Co
             known: KnownMismatch {
                 parameter: known.quantity.name(),
                 given: known.value,
-                evidence: KnownEvidence::RecordingAlone { value: found, sd },
+                found,
+                found_sd: sd,
             },
             is_absurd: pull * share(known.quantity, without, gravity) > ABSURD,
         })

@@ -2,13 +2,12 @@
 
 use crate::estimate::imu::checks::evidence::{Diagnostics, Evidence};
 use crate::estimate::imu::checks::{
-    axis_order, changes, chi_squared, coarse_steps, convergence, extrapolation, gains, gravity_residuals,
-    gyroscope_noise, hold_intervals, holds_left_out, known_values, motion_in_hold, rotations_left_out,
-    skewed_spikes, time_offset, turns_of_known_angle,
+    axis_order, changes, chi_squared, coarse_steps, convergence, extrapolation, gains, gyroscope_noise,
+    hold_intervals, holds_left_out, motion_in_hold, rotations_left_out, time_offset, turns_of_known_angle,
 };
 
 /// Every check, in order.
-const CHECKS: [fn(&Evidence<'_>) -> Diagnostics; 18] = [
+const CHECKS: [fn(&Evidence<'_>) -> Diagnostics; 15] = [
     time_offset::check,
     changes::check,
     holds_left_out::check,
@@ -19,13 +18,10 @@ const CHECKS: [fn(&Evidence<'_>) -> Diagnostics; 18] = [
     axis_order::check,
     rotations_left_out::check,
     turns_of_known_angle::check,
-    known_values::check,
     chi_squared::check,
-    gravity_residuals::check,
     gains::check,
     gyroscope_noise::check,
     coarse_steps::check,
-    skewed_spikes::check,
     extrapolation::check,
 ];
 

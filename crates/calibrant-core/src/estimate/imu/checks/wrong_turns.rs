@@ -1,33 +1,47 @@
-//! Turns of known angle on known faces that the gyroscope contradicts: swapped, of another angle, or read in another unit.
+//! Turns of known angle that the gyroscope contradicts: swapped, of another angle, or read in another unit.
 //!
 //! A turn adds up to `S φ e`, and the errors of a sensor are a few per cent of its angle and some degrees of its axis, twice where both sensors have them. How the sensor sits in the
 //! frame of the directions the faces tell. A gyroscope whose axes are all
 //! turned alike against the accelerometer's sits otherwise in its housing; no sensor is a mirror image of another.
+//!
+//! On known faces such turns are refused. Else the rotations between the holds say something of the gyroscope, too, and the user is warned.
 
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{AGREES_RAD, Diagnostic, TurnMismatch, UnitMistake};
 use crate::error::{Error, InputError, Refusal, Result};
 use crate::estimate::imu::alignment::axes::{axis_names, orders};
-use crate::estimate::imu::checks::turn_angles::{factor, is_another, shows_another};
+use crate::estimate::imu::checks::evidence::Diagnostics;
 use crate::estimate::imu::model::TurnData;
 use crate::estimate::imu::problem::{Gyroscope, Turn};
 use crate::sensor::{ImuParameters, ReadingUnit};
 use nalgebra::{Matrix3, Vector3};
 
-/// All turns may show this share of their angle, where the range is not the one that was set. The fit warns of it.
+/// All turns may show this share of their angle, where the range is not the one that was set. A warning says so.
 const PLAUSIBLE_SHARES: std::ops::RangeInclusive<f64> = 0.55..=1.8;
 
-/// Refuses turns that the gyroscope contradicts; warns where its axes are the accelerometer's in another order. `imu`: the accelerometer, and the gyroscope's bias.
+/// Readings in SI show another turn where their angle is off by more than this share.
+const OTHER_TURN_SHARE: f64 = 0.25;
+
+/// A factor is taken for 180/π where it is as close as this share.
+const NEAR_DEGREES: f64 = 0.1;
+
+/// Refuses turns on known faces that the gyroscope contradicts, and warns of others; warns where its axes are the accelerometer's in another order. `imu`: the accelerometer, and the gyroscope's
+/// bias.
 pub(crate) fn check(
     gyroscope: &Gyroscope,
     imu: &ImuParameters,
     data: &[TurnData],
     turns: &[Turn],
-) -> Result<Option<Diagnostic>> {
+    on_faces: bool,
+) -> Result<Diagnostics> {
     let Some(shown) = ShownTurns::of(gyroscope, imu, data).filter(|_| !data.is_empty()) else {
-        return Ok(None);
+        return Ok(Vec::new());
     };
     let share = shown.same_share().filter(|_| gyroscope.unit != ReadingUnit::Counts);
-    if let Some(share) = share.filter(|share| !PLAUSIBLE_SHARES.contains(share)) {
+    let unlike = share.filter(|share| (share - 1.0).abs() > OTHER_TURN_SHARE);
+    if let Some(share) = unlike {
+        if !on_faces || PLAUSIBLE_SHARES.contains(&share) {
+            return Ok(vec![Diagnostic::TurnShare { share, mistake: factor(share) }]);
+        }
         let help = if share < 0.0 {
             "angles are right-handed about the axis: is the sign of the angle of the turns right (gyroscope.turn_angle_deg, angle_deg)? else change the sign of the gyroscope's columns"
         } else {
@@ -40,21 +54,27 @@ pub(crate) fn check(
     let share = share.unwrap_or(1.0);
     let wrong = shown.wrong(&Matrix3::identity(), share);
     if wrong.is_empty() {
-        return Ok(None);
+        return Ok(Vec::new());
     }
     let alike = |order: &&Matrix3<f64>| order.determinant() > 0.0 && shown.wrong(order, share).is_empty();
     let orders = orders();
     let mut alike = orders.iter().filter(alike);
     if let (Some(order), None) = (alike.next(), alike.next()) {
-        return Ok(Some(Diagnostic::AxesInOtherOrder { order: axis_names(order), by_turns: true }));
+        // else the rotations show it
+        let stated =
+            on_faces.then(|| Diagnostic::AxesInOtherOrder { order: axis_names(order), by_turns: true });
+        return Ok(stated.into_iter().collect());
     }
-    let one = |&k: &usize| {
+    let mismatch = |&k: &usize| {
         let (turned, by) = (&shown.in_frame[k], &data[k].angle);
-        let why =
-            factor(turned.dot(by) / by.norm_squared()).map_or_else(String::new, |why| format!(", {why}"));
-        format!("{}{why}", shows_another(k, &turns[k], turned))
+        let mistake = factor(turned.dot(by) / by.norm_squared());
+        (shows_another(k, &turns[k], turned), mistake)
     };
-    let all: Vec<String> = wrong.iter().map(one).collect();
+    let mismatches = wrong.iter().map(mismatch);
+    if !on_faces {
+        let warning = |(turn, mistake)| Diagnostic::TurnUnlikeGiven { turn, mistake };
+        return Ok(mismatches.map(warning).collect());
+    }
     let exchanged = wrong.iter().all(|&k| wrong.iter().any(|&other| other != k && shown.is(k, other, share)));
     let help = if exchanged {
         "exchange these turns (x_rot, y_rot, z_rot in a list of sections, gyroscope.turns), or the gyroscope's columns"
@@ -62,7 +82,45 @@ pub(crate) fn check(
         "correct axis, angle or times of the turn (x_rot, y_rot, z_rot in a list of sections, gyroscope.turns); where an axis of the gyroscope reads with the opposite sign, change the \
          sign of its column"
     };
-    Err(Error::experiment(InputError::new(Refusal::TurnsContradicted, all.join("; "), help)))
+    let words = |(turn, mistake): (TurnMismatch, Option<UnitMistake>)| match mistake {
+        Some(mistake) => format!("{turn}, {mistake}"),
+        None => turn.to_string(),
+    };
+    Err(Error::experiment(InputError::new(
+        Refusal::TurnsContradicted,
+        mismatches.map(words).collect::<Vec<_>>().join("; "),
+        help,
+    )))
+}
+
+/// What a factor between the angle that the gyroscope shows and the one that was given tells, if it is that between degrees and radians.
+fn factor(share: f64) -> Option<UnitMistake> {
+    const DEGREES: f64 = 180.0 / std::f64::consts::PI;
+    let near = |factor: f64| (share / factor - 1.0).abs() < NEAR_DEGREES;
+    if near(DEGREES) {
+        return Some(UnitMistake::DegreesAsRadians);
+    }
+    near(1.0 / DEGREES).then_some(UnitMistake::RadiansAsDegrees)
+}
+
+/// Is what readings in SI show of a turn another one, by its angle or by its axis? Errors of a few degrees and per cent in both sensors are none.
+fn is_another(shown: &Vector3<f64>, given: &Vector3<f64>) -> bool {
+    (shown.norm() / given.norm() - 1.0).abs() > OTHER_TURN_SHARE || shown.angle(given) > AGREES_RAD
+}
+
+/// What was given of a turn, and what is shown of it, rad.
+fn shows_another(number: usize, turn: &Turn, shown: &Vector3<f64>) -> TurnMismatch {
+    // about the axis as it was named
+    let along = shown.dot(&turn.axis);
+    let sign = if along.abs() > 0.5 * shown.norm() { along.signum() } else { turn.angle_rad.signum() };
+    let about = (sign * shown).try_normalize(0.0).unwrap_or(turn.axis);
+    TurnMismatch {
+        turn: turn.span(number),
+        given_rad: turn.angle_rad,
+        given_about: turn.axis,
+        shown_rad: sign * shown.norm(),
+        shown_about: about,
+    }
 }
 
 /// What the gyroscope shows of each turn.

@@ -19,11 +19,10 @@ use crate::estimate::imu::initial::face_statistics::{chi2_of_face, face_degrees,
 use crate::estimate::imu::problem::ImuProblem;
 use crate::estimate::quantisation::{coarse_axes_in, of_means};
 use crate::estimate::result::{HoldCalibration, HoldResult};
-use crate::estimate::skewed_spikes::skewed_spikes;
 use crate::estimate::uncalibrated::Uncalibrated;
 use crate::information;
 use crate::motion::Hold;
-use crate::sensor::{ParameterList, Recording, SensorKind, SensorParameters, SensorThermal};
+use crate::sensor::{ParameterList, Recording, SensorParameters, SensorThermal};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
 /// If faces scatter by more than this share of gravity, a direction is wrong. Bad alignment does not explain it.
@@ -137,7 +136,6 @@ pub(crate) fn from_faces(
             .chain(scattered)
             .chain(of_tilt)
             .chain(coarse_steps(&coarse, as_read))
-            .chain(skewed_spikes(recording, SensorKind::Accelerometer, &usable))
             .collect(),
         holds,
         thermal: SensorThermal::default(),

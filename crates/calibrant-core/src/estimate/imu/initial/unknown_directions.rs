@@ -2,7 +2,7 @@
 
 use crate::diagnostic::Diagnostic;
 use crate::error::{Error, InputError, Refusal, Result};
-use crate::estimate::holds::{self, HoldsSetup, holds_lost_to_filter, with_filter, with_pauses};
+use crate::estimate::holds::{self, HoldsSetup, holds_lost_to_filter, with_filter};
 use crate::estimate::imu::checks::swapped_sensors::with_swapped_sensors;
 use crate::estimate::imu::initial::accelerometer::InitialAccelerometer;
 use crate::estimate::imu::problem::ImuProblem;
@@ -37,7 +37,7 @@ pub(crate) fn from_unknown_directions(
     let alone = CalibrationProblem { sensor: problem.accelerometer, recording, stimulus };
     let mut first = holds::calibrate(&alone, &setup, settings, as_read).map_err(|error| match detected {
         true => {
-            let error = with_pauses(with_filter(error, as_read, &found, minimum_s), as_read);
+            let error = with_filter(error, as_read, &found, minimum_s);
             with_swapped_sensors(error, problem.recording, minimum_s)
         }
         false => error,
