@@ -20,8 +20,8 @@ pub(super) fn message(diagnostic: &Diagnostic) -> Option<String> {
             let farthest = farthest(*reading, unit.symbol(), *time_s, *deviations);
             if !left_out {
                 return Some(format!(
-                    "{sensor_kind} {axis}: {outliers} of {samples} samples are sparks ({farthest}): single samples far off, too many to be left out, which one in fifty would be; what is stated is their \
-                     noise, not that of the others. Look for their cause: a loose contact, bits lost on the way?"
+                    "{sensor_kind} {axis}: {outliers} of {samples} samples are spikes ({farthest}). More than one sample in fifty is a spike: these are too many to remove. The stated noise includes them. \
+                     Look for a loose contact, or for bits lost on the way."
                 ));
             }
             let is_one = *outliers == 1;
