@@ -59,7 +59,7 @@ fn a_sensor_that_cannot_be_read_is_not_left_out() {
     bench
         .run("apply truth.json alone.csv -o corrected.csv")
         .done()
-        .says("the recording has no gyroscope: nothing of it is corrected");
+        .says("the recording has no gyroscope; only the other sensor is corrected");
 }
 
 /// Readings in deg/s are not corrected as rad/s because the calibration is in rad/s.
@@ -137,7 +137,7 @@ fn a_calibration_of_one_sensor_reads_one_sensor() {
     // the other sensor's unit does not matter where that sensor is ignored
     bench.write("whole.csv", rows("t_s,ax_mps2,ay_mps2,az_mps2,gx,gy,gz", 1.0));
     let done = bench.run("apply acc.json whole.csv -o x.csv").done();
-    done.says("the calibration has no gyroscope: its readings are left out");
+    done.says("the calibration has no gyroscope; its readings are not written");
     assert!(bench.read("x.csv").starts_with("t_s,ax_mps2,ay_mps2,az_mps2\n"));
 }
 
@@ -199,7 +199,7 @@ fn a_force_that_is_not_known_is_said() {
     bench.write("gyr.csv", sensor("t_s,gx_radps,gy_radps,gz_radps", 200, 0.0, [0.1, 0.2, 0.3]));
     let done = bench.run("apply truth.json acc.csv --gyroscope gyr.csv -o x.csv").done();
     // the last sample of the accelerometer is at 0.49 s, and serves to 0.51 s
-    done.says("the accelerometer has no data at 148 samples of the gyroscope, from 0.52 to 1.99 s: their g-sensitivity");
+    done.says("the accelerometer has no data at 148 samples of the gyroscope, from 0.52 to 1.99 s. The nearest known specific force");
     done.says("acc.csv: accelerometer: it was recorded from 0 to 0.49 s, the gyroscope from 0 to 1.99 s: 0.49 s of both");
     bench.write("gyr.csv", sensor("t_s,gx_radps,gy_radps,gz_radps", 50, 0.0, [0.1, 0.2, 0.3]));
     let done = bench.run("apply truth.json acc.csv --gyroscope gyr.csv -o x.csv").done();
