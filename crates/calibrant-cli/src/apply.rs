@@ -10,8 +10,8 @@ use calibrant::io::{
 };
 use calibrant::report::number_format;
 use calibrant::sensor::{
-    CalibratedImu, CorrectedSensor, ImuCorrection, ImuRecording, ReadingUnit, Recording, SensorKind,
-    WithoutForce,
+    CalibratedImu, CorrectedSensor, ImuCorrection, ImuRecording, MissingSpecificForce, ReadingUnit,
+    Recording, SensorKind,
 };
 use std::path::PathBuf;
 
@@ -90,8 +90,8 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
             number_format::short(spikes.time_s)
         ));
     }
-    if let Some(unknown) = &corrected.without_force {
-        console::warn(&without_force(unknown));
+    if let Some(unknown) = &corrected.missing_specific_force {
+        console::warn(&force_warning(unknown));
     }
     write_corrected_recording(&arguments.output, &corrected)?;
     console::print(&format!("{}: {}\n", arguments.calibration.display(), in_words(&imu)));
@@ -107,7 +107,7 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
 }
 
 /// The warning about gyroscope samples without a specific force.
-fn without_force(unknown: &WithoutForce) -> String {
+fn force_warning(unknown: &MissingSpecificForce) -> String {
     let (start, end) = unknown.span_s;
     format!(
         "the accelerometer has no data at {} of the gyroscope, from {} to {} s. The nearest known specific force corrects their g-sensitivity, with an error of up to {} rad/s. \

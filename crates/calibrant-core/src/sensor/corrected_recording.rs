@@ -1,6 +1,6 @@
 //! The data type of a recording after its correction: corrected values, with their standard uncertainty.
 
-use super::WithoutForce;
+use super::MissingSpecificForce;
 use nalgebra::Vector3;
 
 /// A corrected recording of an IMU.
@@ -12,7 +12,7 @@ pub struct CorrectedRecording<'a> {
     pub gyroscope: Option<CorrectedSensor<'a>>,
     /// Where the correction of the g-sensitivity lacks a specific force. `None` where the accelerometer has
     /// data at every sample of the gyroscope, or where the correction does not need them.
-    pub without_force: Option<WithoutForce>,
+    pub missing_specific_force: Option<MissingSpecificForce>,
 }
 
 /// Corrected readings of one sensor over time.

@@ -281,7 +281,7 @@ impl ImuCorrection {
         let accelerometer = recording.accelerometer.as_ref().filter(|_| self.accelerometer.is_some());
         let accelerometer =
             accelerometer.map(|readings| self.correct_forces(readings, temperatures)).transpose()?;
-        let mut without_force = None;
+        let mut missing_specific_force = None;
         let gyroscope = match recording.gyroscope.as_ref().filter(|_| self.gyroscope.is_some()) {
             None => None,
             Some(readings) => {
@@ -295,7 +295,7 @@ impl ImuCorrection {
                 }
                 let felt = felt.filter(|_| needed);
                 let found = MissingForce::of(readings, felt);
-                without_force = found.summary(readings, &self.by_unknown_force());
+                missing_specific_force = found.summary(readings, &self.by_unknown_force());
                 let same = |felt: &&Recording| {
                     !recording.accelerometer.as_ref().is_some_and(|of| ptr::eq(of, *felt))
                 };
@@ -305,7 +305,7 @@ impl ImuCorrection {
                 Some(self.correct_rates(readings, forces, temperatures, &found)?)
             }
         };
-        Ok(CorrectedRecording { accelerometer, gyroscope, without_force })
+        Ok(CorrectedRecording { accelerometer, gyroscope, missing_specific_force })
     }
 
     fn correct_forces<'a>(

@@ -14,7 +14,7 @@ const GRAVITY_MPS2: f64 = 9.81;
 
 /// Where a gyroscope's g-sensitivity was corrected with a specific force that is not known.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct WithoutForce {
+pub struct MissingSpecificForce {
     /// Number of samples of the gyroscope.
     pub samples: usize,
     /// Time of the first and of the last of them, s. Other samples may lie between.
@@ -48,17 +48,21 @@ impl MissingForce {
     }
 
     /// `by_force` is the matrix from an error of the force to an error of the rate.
-    pub(super) fn summary(&self, readings: &Recording, by_force: &Matrix3<f64>) -> Option<WithoutForce> {
+    pub(super) fn summary(
+        &self,
+        readings: &Recording,
+        by_force: &Matrix3<f64>,
+    ) -> Option<MissingSpecificForce> {
         let mut times =
             self.0.iter().zip(&readings.times_s).filter(|(unknown, _)| **unknown).map(|(_, t)| *t);
         let first = times.next()?;
         let (samples, last) = times.fold((1, first), |(samples, _), t| (samples + 1, t));
         let most = by_force.row_iter().map(|row| row.norm()).fold(0.0, f64::max);
-        Some(WithoutForce { samples, span_s: (first, last), most_radps: 2.0 * GRAVITY_MPS2 * most })
+        Some(MissingSpecificForce { samples, span_s: (first, last), most_radps: 2.0 * GRAVITY_MPS2 * most })
     }
 }
 
-/// Variance of the rate along each axis from a force of which only the last value is known.
+/// Variance of the rate along each axis, from a force whose last value alone is known.
 pub(super) fn unknown_force_variance(by_force: &Matrix3<f64>, force: &Vector3<f64>) -> Vector3<f64> {
     let of_last = by_force * force;
     let of_gravity =
@@ -101,7 +105,7 @@ mod tests {
             temperature_c: None,
         };
         let found = correction.apply(&imu, &recording).expect("both there");
-        let unknown = found.without_force.expect("a gap and the end");
+        let unknown = found.missing_specific_force.expect("a gap and the end");
         assert_eq!((unknown.samples, unknown.span_s), (5, (4.1, 20.0)));
         let sd = found.gyroscope.expect("there").sd.expect("known");
         let known = [1, 5, 6].map(|k| (sd[k] - sd[0]).amax());

@@ -45,7 +45,7 @@ pub use imu::{CalibratedImu, Condition, ImuParameters, ImuQuantity, ImuRecording
 pub use imu_correction::ImuCorrection;
 pub use interpolation::interpolated;
 pub use mean_reading::MeanReading;
-pub use missing_specific_force::WithoutForce;
+pub use missing_specific_force::MissingSpecificForce;
 pub use parameters::{ParameterList, Quantity, SensorModel, SensorParameters};
 pub use recording::Recording;
 pub(crate) use recording::gap_s;

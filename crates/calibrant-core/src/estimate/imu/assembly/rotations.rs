@@ -8,7 +8,7 @@ use crate::estimate::imu::variance_components::solution::Solution;
 use crate::sensor::ImuParameters;
 use rayon::prelude::*;
 
-/// Each rotation at a solution. `before`: the IMU before its calibration; `numbers`: those of the holds.
+/// Each rotation at a solution. `before`: the IMU before its calibration. `numbers`: those of the holds.
 pub(crate) fn rotation_results(
     model: &ImuModel<'_>,
     solution: &Solution,
