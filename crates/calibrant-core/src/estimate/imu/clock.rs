@@ -13,6 +13,7 @@
 //! `mackinnon1985`
 
 use crate::estimate::holds::median;
+use crate::estimate::imu::clock_rate::ClockRate;
 use crate::estimate::imu::least_squares::integration::exponential;
 use crate::estimate::imu::model::{ImuModel, RotationData, State};
 use crate::sensor::{Correction, Recording, interpolated};
@@ -67,15 +68,6 @@ const NO_ARM: f64 = 0.04;
 
 /// `Φ` falls by this share of `∫ |u|² dt` per s at least, or the root is another one.
 const FALLS: f64 = 0.25;
-
-/// The gyroscope's clock beside the accelerometer's, where they go at different rates.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ClockRate {
-    /// By this share of the time the gyroscope's goes faster, and by this share its gains are too large if the accelerometer's is right.
-    pub faster: f64,
-    /// Standard deviation.
-    pub sd: f64,
-}
 
 /// By how much the gyroscope's times are later than the accelerometer's: `offset_s + skew (t − at_s)`.
 #[derive(Debug, Clone, Copy, PartialEq)]
