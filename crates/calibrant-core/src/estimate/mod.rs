@@ -7,7 +7,8 @@
 //! ```
 //!
 //! [`Trust`](crate::motion::Trust) in the commanded motion chooses between the report's problems (5), (6) and (3). A static calibration has an
-//! unknown direction for each hold instead of a chain ([`HoldsSetup`]). Both end in a [`Calibration`].
+//! unknown direction for each hold instead of a chain ([`HoldsSetup`]). An IMU ([`ImuProblem`])
+//! adds rotations of its gyroscope. All end in a [`Calibration`].
 //!
 //! The covariance is the inverse of the information `F` of the parameters after motion or directions are eliminated (Schur complement,
 //! [`arrowhead`](crate::arrowhead)). It holds to first order, for white Gaussian noise of the assumed size. [`FitStatistics`] state whether the data

@@ -246,16 +246,13 @@ fn a_latency_is_told_with_its_length() {
 #[test]
 fn clocks_too_far_apart_for_a_fit_are_told_too() {
     (0..6_u64).into_par_iter().for_each(|k| {
-        let (lag, rate) = [(4.0, 0.0), (-12.0, 0.0), (1.0, 0.03)][k as usize % 3];
-        let outcome = run(&pair(k, |t| t * (1.0 + rate) + lag).1);
+        let lag = [4.0, -12.0][k as usize % 2];
+        let outcome = run(&pair(k, |t| t + lag).1);
         let Err(error @ (Error::Recording(_) | Error::NotIdentifiable(_))) = outcome else {
-            panic!("{lag} {rate}: determined")
+            panic!("{lag}: determined")
         };
         let words = error.to_string();
         let reported = number(&words, "the gyroscope is about ");
-        assert!((reported - lag.abs()).abs() < 0.3, "{lag} {rate}: {words}");
-        if rate > 0.0 {
-            assert!((number(&words, "first sample by ") - 1.0 / (1.0 + rate)).abs() < 5e-3, "{words}");
-        }
+        assert!((reported - lag.abs()).abs() < 0.3, "{lag}: {words}");
     });
 }

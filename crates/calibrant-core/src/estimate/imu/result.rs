@@ -1,6 +1,6 @@
 //! The results of a gyroscope, in addition to its parameters.
 
-use crate::estimate::imu::clock::rate::ClockRate;
+use crate::estimate::imu::clock_rate::ClockRate;
 use crate::estimate::imu::problem::NoiseSource;
 use crate::estimate::uncalibrated::Uncalibrated;
 use crate::sensor::ReadingUnit;

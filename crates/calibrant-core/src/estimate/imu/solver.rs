@@ -15,7 +15,7 @@ use crate::estimate::imu::checks::identifiability::{self, with_obstacles};
 use crate::estimate::imu::checks::list::all_checks;
 use crate::estimate::imu::checks::time_offset_by_activity::with_time_offset;
 use crate::estimate::imu::checks::wrong_turns;
-use crate::estimate::imu::clock::difference::ClockDifference;
+use crate::estimate::imu::clock::ClockDifference;
 use crate::estimate::imu::covariance::Uncertainty;
 use crate::estimate::imu::earth_rate::EarthRate;
 use crate::estimate::imu::estimated::{estimated_quantities, prior_of};

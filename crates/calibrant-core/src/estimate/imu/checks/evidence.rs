@@ -5,7 +5,7 @@
 
 use crate::diagnostic::Diagnostic;
 use crate::estimate::imu::alignment::axes::Axes;
-use crate::estimate::imu::clock::difference::ClockDifference;
+use crate::estimate::imu::clock::ClockDifference;
 use crate::estimate::imu::initial::accelerometer::{InitialAccelerometer, UsedHolds};
 use crate::estimate::imu::model::{Fit, ImuModel};
 use crate::estimate::imu::problem::ImuProblem;

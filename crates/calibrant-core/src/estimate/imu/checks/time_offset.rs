@@ -4,7 +4,7 @@
 
 use crate::diagnostic::Diagnostic;
 use crate::estimate::imu::checks::evidence::{Diagnostics, Evidence};
-use crate::estimate::imu::clock::difference::ClockDifference;
+use crate::estimate::imu::clock::ClockDifference;
 use crate::sensor::Recording;
 
 /// An offset of fewer sample intervals does not matter.

@@ -1,7 +1,7 @@
 //! When the sensors move: a first look at their clocks, that needs no calibration.
 //!
-//! An accelerometer that is turned reads another part of gravity from moment to moment, `|ḟ| = |ω × f|`, so that how fast it changes and the rate of the gyroscope rise and fall together. The lag and the
-//! growth at which they do most are searched for, to a fraction of a second: where the clocks are so far apart no fit may be left to tell (`time_offset`).
+//! An accelerometer that is turned reads another part of gravity from moment to moment, `|ḟ| = |ω × f|`, so that how fast it changes and the rate of the gyroscope rise and fall together. The offset
+//! at which they do most is searched for, to a fraction of a second: where the clocks are so far apart no fit may be left to show it (`time_offset`).
 
 use crate::diagnostic::{late, repair};
 use crate::error::{Error, InputError, NotIdentifiable};
@@ -10,17 +10,14 @@ use crate::sensor::{ImuRecording, Recording};
 use nalgebra::Vector3;
 use rayon::prelude::*;
 
-/// Width of a bin in the first search, s. It is more in a recording of more bins than [`MOST_BINS`].
-const BIN_S: f64 = 0.2;
+/// Width of a bin, s. It is more in a recording of more bins than [`MOST_BINS`].
+const BIN_S: f64 = 0.1;
 
 /// Largest number of bins.
-const MOST_BINS: f64 = 2000.0;
+const MOST_BINS: f64 = 20_000.0;
 
 /// Largest offset that is looked for, s.
 const LARGEST_OFFSET_S: f64 = 30.0;
-
-/// Largest skew that is looked for.
-const LARGEST_SKEW: f64 = 0.03;
 
 /// Both sensors must move alike to this correlation.
 const ALIKE: f64 = 0.6;
@@ -33,9 +30,6 @@ const UNIQUE: f64 = 0.05;
 
 /// An offset is far from the best beyond this, s.
 const FAR_S: f64 = 1.0;
-
-/// The second search is this many times as fine.
-const FINER: f64 = 4.0;
 
 /// How a sensor moves in each bin of the time.
 struct MotionActivity {
@@ -85,12 +79,11 @@ impl MotionActivity {
         ])
     }
 
-    /// Correlation with another sensor whose times are later by `offset_s + skew (t − at_s)`; −1 where they share less than half of the time.
-    fn correlation(&self, other: &Self, at_s: f64, offset_s: f64, skew: f64) -> f64 {
+    /// Correlation with another sensor whose times are later by `offset_s`; −1 where they share less than half of the time.
+    fn correlation(&self, other: &Self, offset_s: f64) -> f64 {
         let (mut both, mut own, mut others, mut count) = (0.0, 0.0, 0.0, 0);
         for (k, value) in self.values.iter().enumerate() {
-            let t = self.from_s + k as f64 * self.bin_s;
-            let place = (t + offset_s + skew * (t - at_s) - other.from_s) / other.bin_s + 0.5;
+            let place = (self.from_s + offset_s - other.from_s) / self.bin_s + k as f64 + 0.5;
             if place < 0.0 {
                 continue;
             }
@@ -106,7 +99,7 @@ impl MotionActivity {
 }
 
 /// Says by how much the gyroscope's times are off, where the sensors move alike at another lag and not as recorded.
-pub(crate) fn shifted(recording: &ImuRecording) -> Option<String> {
+fn shifted(recording: &ImuRecording) -> Option<String> {
     let ends = |recording: &Recording| Some((*recording.times_s.first()?, *recording.times_s.last()?));
     let (first, last) = ends(recording.accelerometer.as_ref()?)?;
     let (other_first, other_last) = ends(recording.gyroscope.as_ref()?)?;
@@ -114,51 +107,21 @@ pub(crate) fn shifted(recording: &ImuRecording) -> Option<String> {
     if last - first < FAR_S || other_last - other_first < FAR_S {
         return None;
     }
-    let at_s = 0.5 * (first + last);
     let [accelerometer, gyroscope] = MotionActivity::of_both(recording, bin_s)?;
-    let step = 2.0 * bin_s / (last - first);
-    let all = |most: f64, step: f64| {
-        let count = (most / step) as i32;
-        move || (-count..=count).map(move |k| f64::from(k) * step)
+    let count = (LARGEST_OFFSET_S / bin_s) as i32;
+    let judged = |k: i32| {
+        let offset_s = f64::from(k) * bin_s;
+        (accelerometer.correlation(&gyroscope, offset_s), offset_s)
     };
-    let (offsets, skews) = (all(LARGEST_OFFSET_S, bin_s), all(LARGEST_SKEW, step));
-    let tries: Vec<(f64, f64)> =
-        skews().flat_map(|skew| offsets().map(move |offset_s| (offset_s, skew))).collect();
-    let judged = |[one, other]: [&MotionActivity; 2], tries: Vec<(f64, f64)>| -> Vec<(f64, f64, f64)> {
-        let alike =
-            |(offset_s, skew): (f64, f64)| (one.correlation(other, at_s, offset_s, skew), offset_s, skew);
-        tries.into_par_iter().map(alike).collect()
-    };
-    let best =
-        |judged: &[(f64, f64, f64)]| judged.iter().copied().max_by(|one, other| one.0.total_cmp(&other.0));
-    let roughly = judged([&accelerometer, &gyroscope], tries);
-    let (most, offset_s, skew) = best(&roughly)?;
-    let is_far = |other: &&(f64, f64, f64)| (other.1 - offset_s).abs() > FAR_S;
-    let is_unique = roughly.iter().filter(is_far).all(|other| other.0 < most - UNIQUE);
-    let fine = bin_s / FINER;
-    let [accelerometer, gyroscope] = MotionActivity::of_both(recording, fine)?;
-    let as_recorded = accelerometer.correlation(&gyroscope, at_s, 0.0, 0.0);
-    let (offsets, skews) = (all(bin_s, fine), all(step, step / FINER));
-    let near = skews().flat_map(|by| offsets().map(move |more_s| (offset_s + more_s, skew + by))).collect();
-    let (alike, offset_s, skew) = best(&judged([&accelerometer, &gyroscope], near))?;
-    if !is_unique || alike < ALIKE.max(as_recorded + BETTER) {
-        return None;
-    }
-    let ends = [first, last].map(|t| offset_s + skew * (t - at_s));
-    let grows = (ends[1] - ends[0]).abs() > 2.0 * bin_s;
-    let words = |offset_s: f64| late(1e-3 * offset_s, 1).replace(" ms", " s");
-    Some(match grows {
-        true => format!(
-            "by when they move, the gyroscope is about {} than the accelerometer at the beginning and {} at the end: {}",
-            words(ends[0]),
-            words(ends[1]),
-            repair(ends[0], skew, 1)
-        ),
-        false => format!(
-            "by when they move, the gyroscope is about {} than the accelerometer: {}",
-            words(offset_s),
-            repair(offset_s, 0.0, 1)
-        ),
+    let judged: Vec<(f64, f64)> = (-count..=count).into_par_iter().map(judged).collect();
+    let (alike, offset_s) = judged.iter().copied().max_by(|one, other| one.0.total_cmp(&other.0))?;
+    let is_far = |other: &&(f64, f64)| (other.1 - offset_s).abs() > FAR_S;
+    let is_unique = judged.iter().filter(is_far).all(|other| other.0 < alike - UNIQUE);
+    let as_recorded = accelerometer.correlation(&gyroscope, 0.0);
+    (is_unique && alike >= ALIKE.max(as_recorded + BETTER)).then(|| {
+        let words = late(1e-3 * offset_s, 1).replace(" ms", " s");
+        let repair = repair(offset_s, 0.0, 1);
+        format!("by when they move, the gyroscope is about {words} than the accelerometer: {repair}")
     })
 }
 

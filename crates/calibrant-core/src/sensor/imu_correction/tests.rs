@@ -1,0 +1,101 @@
+//! Tests of the correction on readings whose truth is known.
+
+use super::*;
+use crate::sensor::ReadingUnit;
+use crate::sensor::gauge_change::tests::imu;
+use crate::sensor::reference_temperature::tests::warm;
+
+fn readings(imu: &CalibratedImu) -> (Vector3<f64>, Vector3<f64>) {
+    let (force, rate) = (Vector3::new(1.0, -5.0, 8.0), Vector3::new(0.4, -1.2, 0.3));
+    let gyroscope = imu.parameters.gyroscope.reading(&rate) + imu.parameters.g_sensitivity * force;
+    (imu.parameters.accelerometer.reading(&force), gyroscope)
+}
+
+#[test]
+fn the_correction_undoes_the_readings() {
+    let imu = imu();
+    let (y_a, y_g) = readings(&imu);
+    let correction = ImuCorrection::of(&imu).expect("regular");
+    let force = correction.force(&y_a).expect("there");
+    assert!((force - Vector3::new(1.0, -5.0, 8.0)).amax() < 1e-11);
+    assert!((correction.rate(&y_g, &force).expect("there") - Vector3::new(0.4, -1.2, 0.3)).amax() < 1e-11);
+}
+
+#[test]
+fn its_uncertainty_is_that_of_differences() {
+    is_that_of_differences(&imu(), 25.0);
+}
+
+#[test]
+fn its_uncertainty_is_that_of_differences_at_other_temperatures_too() {
+    for temperature in [12.0, 25.0, 41.0] {
+        is_that_of_differences(&warm(), temperature);
+    }
+}
+
+fn is_that_of_differences(imu: &CalibratedImu, temperature_c: f64) {
+    let (y_a, y_g) = readings(imu);
+    let corrected = |imu: &CalibratedImu| {
+        let correction = ImuCorrection::of(imu).and_then(|of| of.at(temperature_c)).expect("regular");
+        let force = correction.force(&y_a).expect("there");
+        (force, correction.rate(&y_g, &force).expect("there"))
+    };
+    let columns: Vec<_> = imu
+        .quantities
+        .iter()
+        .map(|&quantity| {
+            let moved = |step: f64| {
+                let mut moved = imu.clone();
+                quantity.add_to(&mut moved.parameters, step);
+                corrected(&moved)
+            };
+            let h = if matches!(quantity, ImuQuantity::Thermal(..)) { 1e-6 } else { 1e-3 };
+            let (up, down) = (moved(h), moved(-h));
+            ((up.0 - down.0) / (2.0 * h), (up.1 - down.1) / (2.0 * h))
+        })
+        .collect();
+    let sigma = imu.covariance.as_ref().expect("there");
+    let sd = |of: &dyn Fn(usize) -> f64| {
+        let row = nalgebra::DVector::from_fn(columns.len(), |k, _| of(k));
+        row.dot(&(sigma * &row)).sqrt()
+    };
+    let correction = ImuCorrection::of(imu).and_then(|of| of.at(temperature_c)).expect("regular");
+    let (force, rate) = corrected(imu);
+    for axis in 0..3 {
+        let expected = (sd(&|k| columns[k].0[axis]), sd(&|k| columns[k].1[axis]));
+        let found = (
+            correction.force_sd(&force).expect("known")[axis],
+            correction.rate_sd(&rate, &force).expect("known")[axis],
+        );
+        assert!((found.0 / expected.0 - 1.0).abs() < 1e-5, "{found:?} {expected:?}");
+        assert!((found.1 / expected.1 - 1.0).abs() < 1e-5, "{found:?} {expected:?}");
+    }
+}
+
+#[test]
+fn the_force_is_interpolated_at_the_gyroscopes_times() {
+    let imu = imu();
+    let (y_a, y_g) = readings(&imu);
+    let sensor_kind = |times_s: Vec<f64>, reading| Recording {
+        readings: vec![reading; times_s.len()],
+        times_s,
+        axes: 3,
+        unit: ReadingUnit::Counts,
+    };
+    let mut recording = ImuRecording {
+        accelerometer: Some(sensor_kind(vec![0.0, 1.0, 2.0], y_a)),
+        gyroscope: Some(sensor_kind(vec![-1.0, 0.5, 1.0, 7.0], y_g)),
+        temperature_c: None,
+    };
+    let correction = ImuCorrection::of(&imu).expect("regular");
+    let found = correction.apply(&imu, &recording).expect("both there").gyroscope.expect("there");
+    assert_eq!(found.values.len(), 4);
+    assert!(found.values.iter().all(|rate| (rate - Vector3::new(0.4, -1.2, 0.3)).amax() < 1e-10));
+    assert_eq!(found.sd.expect("known").len(), 4);
+    recording.accelerometer = None;
+    let error = correction.apply(&imu, &recording).expect_err("g-sensitivity").to_string();
+    assert!(error.contains("has no accelerometer"), "{error}");
+    let of_si = CalibratedImu { gyroscope_unit: Some(ReadingUnit::RadianPerSecond), ..imu };
+    let error = correction.apply(&of_si, &recording).expect_err("another unit");
+    assert!(error.is_invalid_recording() && error.to_string().contains("in counts, the calibration is of"));
+}
