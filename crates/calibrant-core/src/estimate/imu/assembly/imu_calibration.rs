@@ -6,7 +6,7 @@ use crate::estimate::imu::assembly::gyroscope_before::{gyroscope_before, with_pl
 use crate::estimate::imu::assembly::holds::hold_results;
 use crate::estimate::imu::assembly::rotations::rotation_results;
 use crate::estimate::imu::assembly::stationary::stationary_result;
-use crate::estimate::imu::clock::ClockRate;
+use crate::estimate::imu::clock_rate::ClockRate;
 use crate::estimate::imu::covariance::Uncertainty;
 use crate::estimate::imu::initial::accelerometer::InitialAccelerometer;
 use crate::estimate::imu::model::{ImuModel, TurnData, singular};
