@@ -1,5 +1,5 @@
 //! The linear-algebra kernel: it factors a block chain with a border in time and memory linear in its length.
-//! It knows nothing of sensors and uses only nalgebra.
+//! It does not depend on sensors, and uses only nalgebra.
 //!
 //! Gauss–Newton on a chain of nodes `a_0 … a_N` (blocks of size D) and a border of parameters `p` (size P)
 //! gives an arrowhead. Its normal equations are block tridiagonal in `a` and bordered by `p`. Two kinds of
@@ -198,7 +198,7 @@ impl<const D: usize, const P: usize> Arrowhead<D, P> {
 
     /// The border's step `(F + damping · diag F)⁻¹ g`; `None` where `F` is not positive definite.
     ///
-    /// `F` is scaled to unit diagonal first, so that the units of the parameters do not matter.
+    /// `F` is first scaled to unit diagonal. The units of the parameters then do not matter.
     #[must_use]
     pub fn border_step(&self, damping: f64) -> Option<SVector<f64, P>> {
         let f = &self.information;

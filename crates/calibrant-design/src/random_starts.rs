@@ -14,7 +14,7 @@ use nalgebra::SVector;
 use rand::RngExt;
 
 /// A factor far beyond every limit.
-const STRETCH: f64 = 1e6;
+const FAR_FACTOR: f64 = 1e6;
 /// Number of attempts to move a corner aside that leaves parameters undetermined.
 const ATTEMPTS: usize = 5;
 /// Part of the way by which such a corner is moved aside.
@@ -37,8 +37,8 @@ impl<const D: usize, const P: usize> Part<D, P> {
             if region.limits.start.is_some() || region.limits.end.is_some() {
                 continue;
             }
-            let stretched: Vec<f64> = nodes.iter().map(|node| node[k] * STRETCH).collect();
-            let factor = STRETCH / (1.0 + region.breach(&stretched));
+            let stretched: Vec<f64> = nodes.iter().map(|node| node[k] * FAR_FACTOR).collect();
+            let factor = FAR_FACTOR / (1.0 + region.breach(&stretched));
             nodes.iter_mut().for_each(|node| node[k] *= factor);
         }
         self.restored(nodes)

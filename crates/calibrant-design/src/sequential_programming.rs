@@ -20,7 +20,7 @@ use super::{DesignSettings, DesignStatus, hessian};
 use calibrant_core::information::{Criterion, Linearised, covariance};
 use nalgebra::{DMatrix, SMatrix, SVector};
 
-/// The end of one start.
+/// The result of one start of the search.
 #[derive(Debug, Clone)]
 pub(super) struct LocalOptimum<const D: usize> {
     pub(super) nodes: Nodes<D>,

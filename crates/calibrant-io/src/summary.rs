@@ -65,7 +65,7 @@ pub fn calibrations_json<'a>(
     format!("[\n{}\n]\n", recordings.into_iter().map(entry).collect::<Vec<_>>().join(",\n"))
 }
 
-/// The part of a calibration that is kept where there are thousands.
+/// The part of a calibration that is kept in memory until `summary.csv` is written.
 #[derive(Debug, Clone)]
 pub struct Summary {
     status: CalibrationStatus,

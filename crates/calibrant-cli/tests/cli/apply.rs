@@ -59,7 +59,7 @@ fn a_sensor_that_cannot_be_read_is_not_left_out() {
     bench
         .run("apply truth.json alone.csv -o corrected.csv")
         .done()
-        .says("the recording has no gyroscope: nothing of it is corrected");
+        .says("the recording has no gyroscope; only the other sensor is corrected");
 }
 
 /// Readings in deg/s are not corrected as rad/s because the calibration is in rad/s.
@@ -137,7 +137,7 @@ fn a_calibration_of_one_sensor_reads_one_sensor() {
     // the other sensor's unit does not matter where that sensor is ignored
     bench.write("whole.csv", rows("t_s,ax_mps2,ay_mps2,az_mps2,gx,gy,gz", 1.0));
     let done = bench.run("apply acc.json whole.csv -o x.csv").done();
-    done.says("the calibration has no gyroscope: its readings are left out");
+    done.says("the calibration has no gyroscope; its readings are not written");
     assert!(bench.read("x.csv").starts_with("t_s,ax_mps2,ay_mps2,az_mps2\n"));
 }
 

@@ -29,7 +29,7 @@ fn a_ferraris_session_that_cannot_be_is_refused_and_another_mounting_is_told() {
         2,
         &[
             "y_rot (",
-            "is given as 360.0° about y, and the gyroscope shows 360° about x",
+            "is given as 360.0° about y, but the gyroscope shows 360° about x",
             "exchange these turns",
         ],
     );

@@ -33,7 +33,7 @@ fn counts_are_simulated_with_gains_alone_and_turns_do_not_overlap() {
     bench.preset("imu-counts", "counts.toml", &[]);
     let wrote = bench.run("init imu-counts -o written.toml").done();
     wrote.says(
-        "calibrant calibrate written.toml RECORDING -o DIR (calibrant simulate written.toml needs its gains)",
+        "calibrant calibrate written.toml RECORDING -o DIR (calibrant simulate written.toml needs the gains)",
     );
     bench.refuses(
         "simulate counts.toml -o sim",
@@ -134,15 +134,15 @@ fn faces_whose_directions_the_readings_contradict_are_named() {
         bench.write("given.toml", table.replacen(r#""x", "-x", "y", "-y", "z", "-z""#, directions, 1));
         "calibrate given.toml table/recording.csv -o out"
     };
-    let second = "hold 2 (19.0 to 24.0 s) is given with x up, and the accelerometer shows -x up";
+    let second = "hold 2 (19.0 to 24.0 s) is given with x up, but the accelerometer shows -x up";
     bench.refuses(given(r#""x", "x", "y", "-y", "z", "-z""#), 2, &[second, "correct the directions"]);
     // whatever face alignment is given
     let met = table.replacen("[holds]", "[holds]\nface_sd_deg = 0.1", 1);
     bench.write("met.toml", met.replacen(r#""x", "-x""#, r#""x", "x""#, 1));
     bench.refuses("calibrate met.toml table/recording.csv -o out", 2, &[second]);
-    let first = "hold 1 (1.0 to 6.0 s) is given with -x up, and the accelerometer shows x up";
+    let first = "hold 1 (1.0 to 6.0 s) is given with -x up, but the accelerometer shows x up";
     bench.refuses(given(r#""-x", "x", "y", "-y", "z", "-z""#), 2, &[first, second]);
-    let third = "hold 3 (27.0 to 32.0 s) is given with z up, and the accelerometer shows y up";
+    let third = "hold 3 (27.0 to 32.0 s) is given with z up, but the accelerometer shows y up";
     bench.refuses(given(r#""x", "-x", "z", "-y", "y", "-z""#), 2, &[third, "hold 5 (53.0 to 58.0 s)"]);
     let opposite = "every direction is the opposite";
     bench.refuses(given(r#""-x", "x", "-y", "y", "-z", "z""#), 2, &[opposite, "gravity in place of"]);
@@ -238,7 +238,7 @@ fn turns_that_are_missing_and_values_that_are_absurd_are_named() {
     let outcome = bench.run(sign);
     assert!(!outcome.stderr.contains("turn 2"), "{}", outcome.stderr);
     bench.write("axis.toml", table.replacen("end_s = 11.0, axis = \"x\"", "end_s = 11.0, axis = \"y\"", 1));
-    let first = "turn 1 (7.0 to 11.0 s) is given as 360.0° about y, and the gyroscope shows 360° about x";
+    let first = "turn 1 (7.0 to 11.0 s) is given as 360.0° about y, but the gyroscope shows 360° about x";
     bench.refuses("calibrate axis.toml table/recording.csv -o out", 2, &[first]);
 
     // a fault of all turns is not the fault of each

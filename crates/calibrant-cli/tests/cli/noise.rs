@@ -135,7 +135,11 @@ fn spikes_neither_divide_a_hold_nor_change_its_noise() {
     let outcome = bench.run("noise many.csv --hold 0 120 -o result").done();
     outcome.says("accelerometer x: 300 of 12000 samples are spikes");
     outcome.says("too many to remove");
-    assert!(!outcome.stderr.contains("filtered") && !outcome.stderr.contains("moves"), "{}", outcome.stderr);
+    assert!(
+        !outcome.stderr.contains("behind a filter") && !outcome.stderr.contains("moves"),
+        "{}",
+        outcome.stderr
+    );
     assert!(
         outcome.stdout.contains("no noise for an experiment file: there are too many spikes"),
         "{}",
@@ -159,7 +163,7 @@ fn noise_of_a_sensor_that_moves_is_not_for_use() {
     bench.write("step.csv", disturbed(12_000, step));
     for name in ["burst", "step"] {
         let outcome = bench.run(&format!("noise {name}.csv --hold 0 120 -o {name}")).done();
-        outcome.says("warning: the sensor moves in");
+        outcome.says("warning: the sensor moves or vibrates in");
         assert!(!outcome.stdout.contains("noise_mps2"), "{}", outcome.stdout);
         let why = "no noise for an experiment file: the sensor moves in the given interval";
         assert!(outcome.stdout.contains(why), "{}", outcome.stdout);
@@ -209,9 +213,9 @@ fn a_turn_at_a_steady_rate_is_no_hold_of_an_imu() {
         assert!(first < 50 && (1450..1520).contains(&end), "{sensor}: {first} to {end}");
         // a given interval is used; a warning reports the movement, in the results too
         let outcome = bench.run(&format!("noise imu.csv --sensor {sensor} --hold 12 40 --json")).done();
-        outcome.says("warning: the sensor moves in 25.");
+        outcome.says("warning: the sensor moves or vibrates in 25.");
         outcome.says("of the 28.0 s given with --hold");
-        assert!(outcome.stdout.contains("the sensor moves in 25."), "{}", outcome.stdout);
+        assert!(outcome.stdout.contains("the sensor moves or vibrates in 25."), "{}", outcome.stdout);
         assert!(
             !bench
                 .run(&format!("noise imu.csv --sensor {sensor} --hold 2 14"))
@@ -241,7 +245,7 @@ fn an_interval_that_is_given_holds_still_or_is_said_to_move() {
         let outcome = bench.run(&format!("noise still.csv --hold {interval}")).done();
         assert!(!outcome.stderr.contains("moves"), "{interval}: {}", outcome.stderr);
     }
-    bench.run("noise turned.csv --hold 0 60").done().says("warning: the sensor moves in 1.");
+    bench.run("noise turned.csv --hold 0 60").done().says("warning: the sensor moves or vibrates in 1.");
 }
 
 /// The text without the lines that repeat the key of `line`.

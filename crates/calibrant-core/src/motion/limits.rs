@@ -14,7 +14,7 @@ pub enum Rest {
     Both,
 }
 
-/// Symmetric limits per axis; `None` where there is none.
+/// Symmetric limits per axis. `None`: no limit.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Limits {
     /// Largest acceleration, m/s².

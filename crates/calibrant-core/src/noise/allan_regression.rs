@@ -16,7 +16,7 @@ pub(super) const SIGNIFICANT: f64 = 3.0;
 const NEGLIGIBLE: [f64; PROCESSES] = [SIGNIFICANT, 2.0, 2.0, 2.0];
 /// Bias instability and rate random walk are separable if χ² differs by at least this when one replaces the
 /// other.
-const TOLD_APART: f64 = 3.0;
+const SEPARABLE_CHI2: f64 = 3.0;
 /// Below this probability the processes do not explain the Allan deviation.
 pub(super) const MISFIT: f64 = 1e-3;
 /// Probability that a coefficient that is not determined exceeds its limit.
@@ -298,7 +298,7 @@ impl<'a> Regression<'a> {
             self.active.iter().map(|&a| if a == process { other } else { a }).collect();
         active.sort_unstable();
         let swapped = Self::of(self.moments, self.observed, self.first, &active, self.filtered);
-        (swapped.theta[other] > 0.0 && swapped.chi2 < self.chi2 + TOLD_APART).then_some(other)
+        (swapped.theta[other] > 0.0 && swapped.chi2 < self.chi2 + SEPARABLE_CHI2).then_some(other)
     }
 
     /// Upper limit of the square of the coefficient of active process `i`.

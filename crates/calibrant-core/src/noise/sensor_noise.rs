@@ -12,7 +12,7 @@ use rayon::prelude::*;
 
 /// A sample's standard deviation that exceeds the white noise by this factor is worth a word: not all of it averages out.
 const BEYOND_WHITE: f64 = 1.15;
-/// Below this probability of its misfit, Allan deviations of noise, whose χ² has a heavier tail than that of the distribution, are out of the question.
+/// Probability of the misfit below which the processes do not explain the Allan deviation. Its χ² has a heavier tail than the distribution.
 const HOPELESS: f64 = 1e-9;
 /// Jitter of the sample times that is worth a word.
 const JITTER: f64 = 0.2;
@@ -30,7 +30,7 @@ pub struct SensorNoise {
     pub segment: Segment,
     /// A result for each axis.
     pub axes: Vec<AxisNoise>,
-    /// Why the white noise is not that of a sensor at rest, where it is not: there are too many outliers, no process explains it, or whoever knows better says that the sensor moves.
+    /// Why the white noise is not that of a sensor at rest: too many outliers, no process explains it, or the caller states that the sensor moves.
     pub caveat: Option<String>,
     /// What the user should know.
     pub warnings: Vec<Diagnostic>,
@@ -47,15 +47,15 @@ pub struct AxisNoise {
     pub fit: NoiseFit,
     /// Standard deviation of the samples about their mean, in the unit of the readings.
     pub sample_sd: f64,
-    /// Samples that were left out of all this, or are too many to be; `None` without any.
+    /// Outliers. They are removed, unless there are too many. `None` without any.
     pub outliers: Option<Outliers>,
 }
 
 impl SensorNoise {
-    /// The noise of a recording within a stretch in which the sensor is at rest.
+    /// The noise of a recording within a segment at rest.
     ///
     /// # Errors
-    /// [`Error::Recording`](crate::Error::Recording) where the stretch is too short or an axis never changes.
+    /// [`Error::Recording`](crate::Error::Recording) if the segment is too short, or an axis never changes.
     ///
     /// # Examples
     /// ```
@@ -132,7 +132,7 @@ impl SensorNoise {
             Ok((noise, caveat))
         };
         let axes: Vec<Result<_>> = recording.active_axes().par_iter().map(axis).collect();
-        // the first axis of which there is no noise is named, whichever is tried first
+        // the error names the first axis without noise, in any order of the threads
         let axes: Vec<(AxisNoise, Option<String>)> = axes.into_iter().collect::<Result<_>>()?;
         let caveat = axes.iter().find_map(|(_, caveat)| caveat.clone());
         let axes: Vec<AxisNoise> = axes.into_iter().map(|(axis, _)| axis).collect();
@@ -199,7 +199,7 @@ impl SensorNoise {
         self.axes.iter().all(|axis| axis.fit.explains())
     }
 
-    /// What to know of each axis with outliers; they are among the [`warnings`](Self::warnings), too.
+    /// The warnings about outliers, by axis. [`warnings`](Self::warnings) includes them.
     #[must_use]
     pub fn of_outliers(&self) -> Vec<Diagnostic> {
         self.axes.iter().filter_map(|axis| Some(self.of_outliers_on(axis, axis.outliers.as_ref()?))).collect()

@@ -16,7 +16,7 @@ pub struct Parameter {
 }
 
 impl Parameter {
-    /// A quantity of which the datasheet says nothing, for readings in this unit.
+    /// A quantity without datasheet values, for readings in this unit.
     #[must_use]
     pub fn undescribed(quantity: ImuQuantity, reading: ReadingUnit) -> Self {
         Self { name: quantity.name(), unit: quantity.unit(reading), nominal: None, spread: None }

@@ -16,7 +16,7 @@ use crate::error::{Error, InputError, Refusal, Result};
 use nalgebra::{DMatrix, Matrix3, Vector3};
 
 /// `S R` in a gauge, and `R`.
-struct Turned {
+struct RotatedImu {
     imu: ImuParameters,
     rotation: Matrix3<f64>,
     gauge: Gauge,
@@ -82,7 +82,7 @@ impl Gauge {
     }
 }
 
-impl Turned {
+impl RotatedImu {
     fn new(imu: &ImuParameters, reference: SensorKind, gauge: Gauge) -> Result<Self> {
         let sensor = imu.sensor(reference);
         let reject = |message: String, help: &str| {
@@ -109,13 +109,13 @@ impl Turned {
             );
         };
         let rotation = if target == sensor.matrix { Matrix3::identity() } else { u * v_t };
-        let mut turned = *imu;
-        turned.accelerometer.matrix *= rotation;
-        turned.gyroscope.matrix *= rotation;
-        turned.g_sensitivity *= rotation;
+        let mut rotated = *imu;
+        rotated.accelerometer.matrix *= rotation;
+        rotated.gyroscope.matrix *= rotation;
+        rotated.g_sensitivity *= rotation;
         match reference {
-            SensorKind::Accelerometer => turned.accelerometer.matrix = target,
-            SensorKind::Gyroscope => turned.gyroscope.matrix = target,
+            SensorKind::Accelerometer => rotated.accelerometer.matrix = target,
+            SensorKind::Gyroscope => rotated.gyroscope.matrix = target,
         }
         let column = |k: usize| gauge.residuals(&(target * unit(k).cross_matrix()));
         let derivative = Matrix3::from_columns(&[column(0), column(1), column(2)]);
@@ -125,7 +125,7 @@ impl Turned {
                 "choose another gauge",
             );
         };
-        Ok(Self { imu: turned, rotation, gauge, reference, restoring: -inverse })
+        Ok(Self { imu: rotated, rotation, gauge, reference, restoring: -inverse })
     }
 
     /// The effect of a small step of the entries.
@@ -140,7 +140,7 @@ impl Turned {
         out
     }
 
-    /// Derivative of the turned entries with respect to the entries.
+    /// Derivative of the rotated entries with respect to the entries.
     fn jacobian(&self) -> EntryMatrix {
         entry_vector::jacobian(|step| self.step(step))
     }
@@ -181,7 +181,7 @@ impl CalibratedImu {
     /// };
     /// let lower = imu.in_gauge(Gauge::Lower)?.parameters;
     /// assert_eq!(lower.accelerometer.matrix[(0, 1)], 0.0);
-    /// assert!((lower.gyroscope.matrix[(1, 0)] - 0.01).abs() < 1e-4, "the gyroscope turned with it");
+    /// assert!((lower.gyroscope.matrix[(1, 0)] - 0.01).abs() < 1e-4, "the gyroscope rotated with it");
     /// # Ok::<(), calibrant_core::Error>(())
     /// ```
     pub fn in_gauge(&self, gauge: Gauge) -> Result<Self> {
@@ -193,10 +193,10 @@ impl CalibratedImu {
     /// # Errors
     /// As [`in_gauge`](Self::in_gauge).
     pub fn in_gauge_of(&self, reference: SensorKind, gauge: Gauge) -> Result<Self> {
-        let turned = Turned::new(&self.parameters, reference, gauge)?;
-        let quantities = self.turned_quantities(&turned);
+        let rotated = RotatedImu::new(&self.parameters, reference, gauge)?;
+        let quantities = self.rotated_quantities(&rotated);
         let covariance = entry_vector::covariance(self).map(|sigma| {
-            let jacobian = turned.jacobian();
+            let jacobian = rotated.jacobian();
             let sigma = jacobian * sigma * jacobian.transpose();
             // the first entry of a quantity gives its value: both entries of a symmetric pair are the same
             let place: Vec<usize> =
@@ -206,7 +206,7 @@ impl CalibratedImu {
             })
         });
         Ok(Self {
-            parameters: turned.imu,
+            parameters: rotated.imu,
             quantities,
             covariance,
             frame: format!(
@@ -219,13 +219,13 @@ impl CalibratedImu {
 
     /// The quantities of the covariance after the rotation: all that a listed quantity of the sensor can
     /// contribute to.
-    fn turned_quantities(&self, turned: &Turned) -> Vec<ImuQuantity> {
+    fn rotated_quantities(&self, rotated: &RotatedImu) -> Vec<ImuQuantity> {
         let has_matrix =
             |sensor_kind| self.quantities.iter().any(|quantity| quantity.in_matrix_of(sensor_kind));
         // a diagonal matrix stays diagonal where the quantities contain only its diagonal
-        let still = turned.rotation == Matrix3::identity()
+        let still = rotated.rotation == Matrix3::identity()
             && self.quantities.iter().all(|quantity| {
-                !quantity.in_matrix_of(turned.reference)
+                !quantity.in_matrix_of(rotated.reference)
                     || matches!(quantity, ImuQuantity::Of(_, Quantity::Scale(_)))
             });
         let mut list = Vec::new();
@@ -246,8 +246,8 @@ impl CalibratedImu {
             }
             if still {
                 list.extend(listed(true));
-            } else if sensor_kind == turned.reference {
-                let form = turned.gauge.parameter_list(SensorModel::Full);
+            } else if sensor_kind == rotated.reference {
+                let form = rotated.gauge.parameter_list(SensorModel::Full);
                 let matrix =
                     form.quantities().iter().filter(|quantity| !matches!(quantity, Quantity::Bias(_)));
                 list.extend(matrix.map(|&quantity| of(quantity)));
@@ -328,14 +328,14 @@ pub(super) mod tests {
         let parameters = imu().parameters;
         for reference in SensorKind::ALL {
             for gauge in [Gauge::Lower, Gauge::Upper, Gauge::Symmetric] {
-                let jacobian = Turned::new(&parameters, reference, gauge).expect("regular").jacobian();
+                let jacobian = RotatedImu::new(&parameters, reference, gauge).expect("regular").jacobian();
                 for entry in 0..ENTRIES {
                     let h = if entry < 24 { 1e-3 } else { 1e-5 };
                     let at = |step: f64| {
                         let mut moved = entry_vector::from_parameters(&parameters);
                         moved[entry] += step;
                         entry_vector::from_parameters(
-                            &Turned::new(&entry_vector::to_imu(&moved), reference, gauge)
+                            &RotatedImu::new(&entry_vector::to_imu(&moved), reference, gauge)
                                 .expect("regular")
                                 .imu,
                         )
@@ -370,8 +370,11 @@ pub(super) mod tests {
             .map(|&quantity| ImuQuantity::Of(SensorKind::Accelerometer, quantity))
             .collect();
         one.covariance = Some(DMatrix::identity(6, 6));
-        let turned = one.in_gauge(Gauge::Upper).expect("regular");
-        assert_eq!((turned.quantities, turned.covariance), (one.quantities.clone(), one.covariance.clone()));
+        let rotated = one.in_gauge(Gauge::Upper).expect("regular");
+        assert_eq!(
+            (rotated.quantities, rotated.covariance),
+            (one.quantities.clone(), one.covariance.clone())
+        );
         one.parameters.accelerometer.matrix[(0, 0)] = -1.0;
         assert!(one.in_gauge(Gauge::Upper).expect_err("left-handed").to_string().contains("left-handed"));
     }

@@ -191,7 +191,7 @@ impl ImuQuantity {
         }
     }
 
-    /// Is it of a bias, so that readings move by it whatever the stimulus?
+    /// Is it a term of a bias? It then moves readings for any stimulus.
     #[must_use]
     pub fn is_of_bias(self) -> bool {
         match self {

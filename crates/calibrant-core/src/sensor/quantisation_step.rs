@@ -17,7 +17,7 @@ const FEWEST_STEPS: usize = 8;
 const MOST_STEPS: usize = 8192;
 
 impl Recording {
-    /// The step of which the readings of each axis are multiples, in their unit; 0 where there is none.
+    /// The quantisation step of each axis, in the unit of the readings. The readings are multiples of it. 0 without a step.
     ///
     /// It is the smallest change from one sample to the next, if the other small changes are multiples of it.
     /// A long recording is examined at some thousands of changes, spread evenly over it.

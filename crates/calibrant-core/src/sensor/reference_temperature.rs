@@ -16,13 +16,13 @@ use nalgebra::{DMatrix, Matrix3, Vector3};
 const SYMMETRIC: f64 = 1e-12;
 
 /// The parameters about another reference, and their derivatives with respect to those before.
-struct Referred {
+struct AtReference {
     before: ImuParameters,
     after: ImuParameters,
     change_k: f64,
 }
 
-impl Referred {
+impl AtReference {
     fn new(imu: &ImuParameters, reference_c: f64) -> Result<Self> {
         let change_k = imu.thermal.tau_k(reference_c);
         let mut after = *imu;
@@ -116,8 +116,8 @@ impl CalibratedImu {
         if self.parameters.thermal.reference_c == reference_c {
             return Ok(self.clone());
         }
-        let referred = Referred::new(&self.parameters, reference_c)?;
-        let jacobian = referred.jacobian();
+        let converted = AtReference::new(&self.parameters, reference_c)?;
+        let jacobian = converted.jacobian();
         let quantities = self.referred_quantities(&jacobian);
         let covariance = entry_vector::covariance(self).map(|sigma| {
             let sigma = jacobian * sigma * jacobian.transpose();
@@ -127,8 +127,8 @@ impl CalibratedImu {
                 0.5 * (sigma[(place[i], place[j])] + sigma[(place[j], place[i])])
             })
         });
-        let frame = self.referred_frame(&referred.after);
-        Ok(Self { parameters: referred.after, quantities, covariance, frame, ..*self })
+        let frame = self.referred_frame(&converted.after);
+        Ok(Self { parameters: converted.after, quantities, covariance, frame, ..*self })
     }
 
     /// The true frame in words. A frame that a symmetric matrix fixes stays where it is. Gains that follow
@@ -241,14 +241,14 @@ pub(super) mod tests {
     #[test]
     fn the_jacobian_is_that_of_differences() {
         let parameters = warm().parameters;
-        let jacobian = Referred::new(&parameters, 43.0).expect("positive gains").jacobian();
+        let jacobian = AtReference::new(&parameters, 43.0).expect("positive gains").jacobian();
         for entry in 0..ENTRIES {
             let h = if entry < 24 { 1e-2 } else { 1e-6 };
             let at = |step: f64| {
                 let mut moved = entry_vector::from_parameters(&parameters);
                 moved[entry] += step;
                 entry_vector::from_parameters(
-                    &Referred::new(&entry_vector::to_imu(&moved), 43.0).expect("positive gains").after,
+                    &AtReference::new(&entry_vector::to_imu(&moved), 43.0).expect("positive gains").after,
                 )
             };
             let difference = (at(h) - at(-h)) / (2.0 * h);

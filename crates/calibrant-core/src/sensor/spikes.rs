@@ -8,7 +8,7 @@
 //! # What a spike is
 //! In a hold, a spike is far from the median of the nine samples about it (Hampel, `hampel1974`). The
 //! threshold is [`STILL_DEVIATIONS`] robust standard deviations of the difference of two successive samples.
-//! The sensor must be stationary for [`STILL_S`] on both sides. A knock while the sensor is put down is as
+//! The sensor must be stationary for [`REST_MARGIN_S`] on both sides. A knock while the sensor is put down is as
 //! far off, but a movement is near.
 //!
 //! In a movement, only the gyroscope is examined: an accelerometer's movements count for nothing. A spike has
@@ -39,33 +39,33 @@ const CANDIDATE: f64 = 0.7;
 const AT_ONCE: usize = 64;
 /// Number of samples, the examined one included, whose median is compared with it.
 const WINDOW_SAMPLES: usize = 9;
-/// Samples near their median are off it by fewer deviations than this.
+/// Largest distance of a normal sample from its median, in deviations.
 const NEAR_DEVIATIONS: f64 = 4.0;
 /// A knock is several samples: one deviating sample beside it rules out a spike, unless the sample is this
 /// many thresholds off. Two rule it out always.
 const BEYOND_A_KNOCK: f64 = 3.0;
-/// Time on both sides for which samples must be near the same median, s.
-const STILL_S: f64 = 0.8;
+/// Time at rest before and after a spike: samples must be near the same median, s.
+const REST_MARGIN_S: f64 = 0.8;
 /// One in this number of the samples on both sides may be another spike.
 const OTHER_SPIKES_ONE_IN: usize = 25;
-/// Neighbours on each side whose second differences measure the roughness of a movement. The two next to a
+/// Distances of the neighbours whose second differences measure the roughness of a movement. The two next to a
 /// spike have half of its own.
-const BESIDE: std::ops::RangeInclusive<usize> = 2..=10;
+const NEIGHBOUR_LAGS: std::ops::RangeInclusive<usize> = 2..=10;
 /// Number of these neighbours on both sides.
 const NEIGHBOURS: usize = 18;
 /// The second difference of a spike exceeds all but three of those beside it by this factor: another spike
 /// has three.
 const STANDS_OUT: f64 = 4.0;
-/// The second differences next to a spike are this share of its own, less this many deviations of noise. The
+/// Second differences next to a spike, of opposite sign: least share of its own, less a number of deviations of noise. The
 /// share is a half without noise, a third in a turn of three samples.
-const OPPOSITE: (f64, f64) = (0.4, 1.5);
+const FLANK_SHARE: (f64, f64) = (0.4, 1.5);
 /// For noise of finite variance: ratio of samples between half a distance and the distance to samples beyond
 /// it.
 const HEAVY_TAIL: usize = 3;
 /// Where more than one sample in this number is off, the sensor does not alternate between holds and turns.
 const MOST_SPIKES_ONE_IN: usize = 50;
 /// Standard deviation of normal noise over the median of its absolute deviations.
-const MAD: f64 = 1.4826;
+const SD_OVER_MAD: f64 = 1.4826;
 /// Number of samples from which the usual size of steps and deviations is taken.
 const MEDIAN_SAMPLES: usize = 2048;
 /// Binary orders of magnitude between readings and an invalid sample.
@@ -84,7 +84,7 @@ pub struct Spikes {
     pub time_s: f64,
     /// Its reading, in the unit of the readings.
     pub reading: f64,
-    /// How far it is off, in standard deviations of a sample's noise; infinite where there is none.
+    /// Its distance from its neighbours, in standard deviations of a sample's noise. Infinite without noise.
     pub deviations: f64,
 }
 
@@ -116,7 +116,7 @@ impl Recording {
     pub fn without_spikes(&self, sensor_kind: SensorKind) -> (Cow<'_, Self>, Option<Spikes>) {
         let axes = self.active_axes();
         // as a hold is measured: where the sensor pauses, the number of samples is the same
-        let still = (STILL_S * self.rate_hz()).round() as usize;
+        let still = (REST_MARGIN_S * self.rate_hz()).round() as usize;
         let found: Vec<Found> =
             axes.par_iter().map(|axis| AxisReadings::new(self, *axis, sensor_kind, still).found()).collect();
         let every = found.iter().zip(axes);
@@ -208,7 +208,7 @@ impl<'a> AxisReadings<'a> {
         if typical == 0.0 {
             least = steps().fold(f64::INFINITY, finest);
         }
-        let scale = (MAD * typical).max(if least.is_finite() { least } else { 0.0 });
+        let scale = (SD_OVER_MAD * typical).max(if least.is_finite() { least } else { 0.0 });
         let (times_s, moves) = (recording.times_s.as_slice(), sensor_kind == SensorKind::Gyroscope);
         Self { times_s, values, scale, still: still.max(WINDOW_SAMPLES / 2), moves }
     }
@@ -321,19 +321,19 @@ impl<'a> AxisReadings<'a> {
 
     /// Distance of a sample in a movement from the line between its neighbours, if larger than this.
     fn off_the_moving(&self, k: usize, least: f64) -> Option<f64> {
-        let reach = BESIDE.end() + 1;
+        let reach = NEIGHBOUR_LAGS.end() + 1;
         if k < reach || k + reach >= self.values.len() {
             return None;
         }
         let bend = |k: usize| self.values[k] - 0.5 * (self.values[k - 1] + self.values[k + 1]);
         let own = bend(k);
         let size = own.abs();
-        let half = OPPOSITE.0 * size - OPPOSITE.1 * self.scale;
+        let half = FLANK_SHARE.0 * size - FLANK_SHARE.1 * self.scale;
         if size <= least || [k - 1, k + 1].iter().any(|&beside| -bend(beside) * own.signum() < half) {
             return None;
         }
         let mut others = [0.0; NEIGHBOURS];
-        let beside = BESIDE.flat_map(|apart| [k - apart, k + apart]);
+        let beside = NEIGHBOUR_LAGS.flat_map(|apart| [k - apart, k + apart]);
         others.iter_mut().zip(beside).for_each(|(other, k)| *other = bend(k).abs());
         let rough = *others.select_nth_unstable_by(NEIGHBOURS - 4, f64::total_cmp).1;
         (size > STANDS_OUT * rough).then_some(size)

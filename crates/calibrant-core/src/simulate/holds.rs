@@ -1,4 +1,4 @@
-//! Simulated recordings of a sensor that is held still in several orientations and turned by hand in between.
+//! Simulated recordings of a sensor: holds in several orientations, with rotations by hand in between.
 
 use super::Rng;
 use crate::sensor::{ReadingUnit, Recording, SensorParameters};

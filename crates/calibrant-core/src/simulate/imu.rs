@@ -1,4 +1,4 @@
-//! Simulated recordings of an IMU that is held still in several orientations and turned by hand in between.
+//! Simulated recordings of an IMU: holds in several orientations, with rotations by hand in between.
 
 use super::imu_stimuli::Stimuli;
 use super::{ImuSimulation, Rng};

@@ -100,7 +100,7 @@ pub fn simulate_table(
     stimuli.record(imu, setup, rng)
 }
 
-/// The attitude on the first face, so that the recording begins there.
+/// The attitude on the first face, where the recording begins.
 fn first_face(steps: &[TableStep]) -> UnitQuaternion<f64> {
     let first = steps.iter().find_map(|step| match step.action {
         TableAction::Hold(direction) => Some(direction),

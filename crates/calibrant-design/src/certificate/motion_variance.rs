@@ -86,7 +86,7 @@ const MOST_WITH_STATES_AND_MEAN: usize = 30;
 /// Most intervals whose bounds are tightened by linear programs.
 const MOST_TIGHTENED: usize = 30;
 /// Number of intervals of a segment.
-const STRETCH: usize = 8;
+const SEGMENT_INTERVALS: usize = 8;
 /// Largest number of different segments that are relaxed.
 const MOST_SEGMENTS: usize = 12;
 
@@ -199,8 +199,8 @@ fn segments(
     let mut total =
         MotionVarianceBound { value: 0.0, kind: BoundKind::Stretches, solved: true, correction: 0.0 };
     let mut known: Vec<(std::ops::Range<usize>, MotionVarianceBound)> = Vec::new();
-    for first in (0..n).step_by(STRETCH) {
-        let range = first..(first + STRETCH).min(n);
+    for first in (0..n).step_by(SEGMENT_INTERVALS) {
+        let range = first..(first + SEGMENT_INTERVALS).min(n);
         let same =
             |other: &std::ops::Range<usize>| !moves && chain.sums[other.clone()] == chain.sums[range.clone()];
         let part = if let Some((_, part)) = known.iter().find(|(other, _)| same(other)) {

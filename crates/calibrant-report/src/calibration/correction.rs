@@ -99,16 +99,16 @@ fn frame_in_words(calibration: &Calibration) -> &'static str {
     };
     match gauge {
         "lower" => {
-            "Gravity alone does not fix the true frame. Gauge lower (as Kalibr): S and C are lower triangular, the true x axis \
-             lies along the sensor's x axis and the true y axis in its x–y plane."
+            "Gravity alone does not fix the true frame. Gauge lower (as Kalibr): S and C are lower triangular. The true x axis \
+             lies along the sensor's x axis, and the true y axis in its x–y plane."
         }
         "upper" => {
-            "Gravity alone does not fix the true frame. Gauge upper (as imu_tk): S and C are upper triangular, the true z axis \
-             lies along the sensor's z axis and the true y axis in its y–z plane."
+            "Gravity alone does not fix the true frame. Gauge upper (as imu_tk): S and C are upper triangular. The true z axis \
+             lies along the sensor's z axis, and the true y axis in its y–z plane."
         }
         _ => {
-            "Gravity alone does not fix the true frame. Gauge symmetric: S and C are symmetric, the true frame follows the three \
-             sensor axes as closely as possible together."
+            "Gravity alone does not fix the true frame. Gauge symmetric: S and C are symmetric, and the true frame is as close as possible to all three \
+             sensor axes."
         }
     }
 }

@@ -37,7 +37,7 @@ pub(crate) fn holds_before_and_after(holds: &HoldCalibration) -> Option<Figure> 
         dots(AFTER, colour::BLUE, Shape::Circle, 3.0, after(true));
         let left_out = after(false);
         if !left_out.is_empty() {
-            dots("after, left out", colour::VERMILLION, Shape::Cross, 4.5, left_out);
+            dots("after, not used", colour::VERMILLION, Shape::Cross, 4.5, left_out);
         }
         panel.y_includes.push(0.0);
         panel

@@ -72,7 +72,7 @@ pub(crate) fn still_gyroscope(
             let left_out = at(Some(false));
             if !left_out.is_empty() {
                 let mark = Mark::Dots { shape: Shape::Cross, radius: 4.5 };
-                panel = panel.with(Series::new("hold, left out", colour::VERMILLION, mark, left_out));
+                panel = panel.with(Series::new("hold, not used", colour::VERMILLION, mark, left_out));
             }
             panel
         })

@@ -10,7 +10,7 @@ use calibrant_core::sensor::Recording;
 /// Legend of a hold that was used.
 const USED: &str = "hold";
 /// Legend of a hold that was not used.
-const LEFT_OUT: &str = "hold, left out";
+const LEFT_OUT: &str = "hold, not used";
 
 /// The recording of each axis with the holds shaded.
 pub(crate) fn recording_overview(holds: &HoldCalibration, recording: &Recording) -> Figure {
@@ -74,7 +74,7 @@ pub(crate) fn hold_residuals(holds: &HoldCalibration) -> Figure {
     let left_out = of(false);
     if !left_out.is_empty() {
         let mark = Mark::Dots { shape: Shape::Cross, radius: 5.0 };
-        panel = panel.with(Series::new("left out", colour::VERMILLION, mark, left_out));
+        panel = panel.with(Series::new("not used", colour::VERMILLION, mark, left_out));
     }
     let caption = "Gravity residual of each hold. Good: about nineteen in twenty within their \
                    bars, and no trend with the number of the hold (a trend is drift, for example with temperature). Each bar allows for the \

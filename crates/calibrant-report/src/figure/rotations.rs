@@ -33,7 +33,7 @@ pub(crate) fn rotation_errors(rotations: &[RotationResult]) -> Option<Figure> {
             &|r| r.used.then_some(1),
         ));
         if shown.iter().any(|rotation| !rotation.used) {
-            panel = panel.with(dots("after, left out", colour::VERMILLION, Shape::Cross, 5.0, &|r| {
+            panel = panel.with(dots("after, not used", colour::VERMILLION, Shape::Cross, 5.0, &|r| {
                 (!r.used).then_some(1)
             }));
         }

@@ -63,7 +63,7 @@ pub(crate) fn bias_over_temperature(
             let left_out = at(false);
             if !left_out.is_empty() {
                 panel = panel.with(Series::new(
-                    "hold, left out",
+                    "hold, not used",
                     colour::VERMILLION,
                     mark(Shape::Cross, 4.5),
                     left_out,

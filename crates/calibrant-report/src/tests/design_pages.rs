@@ -45,7 +45,7 @@ fn a_design_shows_every_number_of_the_result() {
         "Correlation of the estimates",
         "18 of 30 starts",
         "Moment relaxation",
-        "100 %: holds the motion back",
+        "100 %: the limit is active",
     ] {
         assert!(html.contains(text), "{text}");
     }

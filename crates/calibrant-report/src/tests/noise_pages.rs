@@ -87,6 +87,6 @@ fn a_filters_share_is_not_called_quantisation() {
     assert!(filtered > 0, "{:?}", resonant.warnings);
     let html = page(&resonant);
     assert_sound(&html);
-    assert!(html.contains("share of a filter") && html.contains("and no quantisation"));
+    assert!(html.contains("share of a filter") && html.contains("not from quantisation"));
     assert!(!page(&noise(sensor_kind, unit, 0.0)).contains("share of a filter"));
 }

@@ -48,7 +48,8 @@ fn each_experiment_alone_makes_a_page() {
         Studies { design: all.design.clone(), ..Studies::default() },
         Studies { noisy: all.noisy.clone(), ..Studies::default() },
     ];
-    for (page, figure) in pages.iter().zip(["Nothing was run", "Figure 7 of", "Figure 10 of", "Figure 13 of"])
+    for (page, figure) in
+        pages.iter().zip(["No study was run", "Figure 7 of", "Figure 10 of", "Figure 13 of"])
     {
         let html = study_report(page, &about());
         assert_sound(&html);

@@ -120,7 +120,7 @@ fn faces_that_are_all_turned_alike_are_named() {
     }
     let message = named(&run(&recording, &setup).expect("determined"));
     assert_eq!(message.len(), 1);
-    let first = "hold 1 (0.0 to 5.0 s) is given with y up, and the accelerometer shows x up; hold 2 (14.0 to 19.0 s) is given with -y up";
+    let first = "hold 1 (0.0 to 5.0 s) is given with y up, but the accelerometer shows x up; hold 2 (14.0 to 19.0 s) is given with -y up";
     assert!(message[0].starts_with(first), "{message:?}");
     assert!(message[0].contains("hold 6"), "{message:?}");
 }

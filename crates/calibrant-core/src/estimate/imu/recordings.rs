@@ -1,11 +1,11 @@
-//! Both recordings of an IMU: of three axes, in the units that are expected, and sound.
+//! Both recordings of an IMU, checked: three axes, expected units, usable samples.
 
 use crate::error::{Error, InputError, Refusal, Result};
 use crate::estimate::imu::problem::ImuProblem;
 use crate::estimate::problem::{CalibrationProblem, Stimulus, sound};
 use crate::sensor::{Axis, Recording, SensorKind};
 
-/// Both recordings, of three axes and the units that are expected.
+/// Both recordings, with three axes and the expected units.
 pub(in crate::estimate) fn recordings<'a>(
     problem: &ImuProblem<'a>,
 ) -> Result<(&'a Recording, &'a Recording)> {

@@ -1,9 +1,9 @@
 //! The calibration of an IMU, stage by stage (`tedaldi2014`).
 //!
 //! 1. Stationary intervals: the accelerometer's holds, and the gyroscope's means in them.
-//! 2. Initial values: the accelerometer by itself, the gyroscope's bias.
-//! 3. Alignment of the two sensors, by the rotations between the holds.
-//! 4. Least squares of all, with the variance components as weights.
+//! 2. Initial values: the accelerometer alone, the gyroscope's bias.
+//! 3. Alignment of the two sensors, from the rotations between the holds.
+//! 4. Least squares of all data, with the variance components as weights.
 //! 5. Covariance, result and checks.
 
 use crate::error::{Error, Result};
@@ -32,7 +32,7 @@ use crate::estimate::imu::white_noise_search::WhiteNoiseSearch;
 use crate::estimate::result::Calibration;
 use crate::estimate::settings::CalibrationSettings;
 
-/// Calibrates an IMU. `white_noise` is found while the accelerometer is fitted.
+/// Calibrates an IMU. The search `white_noise` runs while the accelerometer is fitted.
 pub(crate) fn solve_imu(
     problem: &ImuProblem<'_>,
     settings: &CalibrationSettings,

@@ -1,4 +1,4 @@
-//! The gyroscope's white noise, where it is still to be found when a calibration begins.
+//! A search for the gyroscope's white noise that runs during the calibration.
 
 use crate::estimate::imu::problem::WhiteNoise;
 use std::fmt;
@@ -6,7 +6,7 @@ use std::sync::LazyLock;
 
 type Search<'a> = Box<dyn FnOnce() -> Option<WhiteNoise> + Send + 'a>;
 
-/// A search for the gyroscope's white noise. It runs once, when its result is first asked for.
+/// A search for the gyroscope's white noise. It runs once, at the first request for its result.
 ///
 /// # Examples
 /// ```
@@ -20,19 +20,19 @@ type Search<'a> = Box<dyn FnOnce() -> Option<WhiteNoise> + Send + 'a>;
 pub struct WhiteNoiseSearch<'a>(LazyLock<Option<WhiteNoise>, Search<'a>>);
 
 impl<'a> WhiteNoiseSearch<'a> {
-    /// A search that is still to run. It gives `None` where no hold shows the white noise.
+    /// A search that has not run yet. It returns `None` if no hold shows the white noise.
     #[must_use]
     pub fn new(search: impl FnOnce() -> Option<WhiteNoise> + Send + 'a) -> Self {
         Self(LazyLock::new(Box::new(search)))
     }
 
-    /// White noise that is known already, or known not to be found.
+    /// A search with a known result.
     #[must_use]
     pub fn known(white_noise: Option<WhiteNoise>) -> Self {
         Self::new(move || white_noise)
     }
 
-    /// What the search finds. The first caller runs it; who calls meanwhile waits.
+    /// The result of the search. The first caller runs it, and other callers wait.
     #[must_use]
     pub fn result(&self) -> Option<WhiteNoise> {
         *LazyLock::force(&self.0)

@@ -1,6 +1,7 @@
-//! Errors that are as large as predicted, and confirm nothing.
+//! Caveats of a calibration: why errors of the predicted size may confirm nothing.
 //!
-//! A sensor that changes within a recording scatters more, which is predicted; clocks of different rates give gains that are wrong by the same share in all rotations; errors that do not count are not among those that are as predicted.
+//! A change of a sensor enlarges the scatter, and the prediction includes this scatter. Clocks of different rates give a common error of all gains.
+//! Outliers are not among the errors that agree with the prediction.
 
 use super::caveat::Caveat;
 use super::unused_error::{ErrorKind, UnusedError};
@@ -8,12 +9,12 @@ use crate::estimate::change::longest_run;
 use crate::estimate::{Calibration, Change, Changed, ClockRate};
 use crate::sensor::SensorKind;
 
-/// Fewest errors that are several.
+/// Fewest outliers that are too many.
 const FEWEST_UNUSED: usize = 3;
-/// Least share of all errors that they are.
+/// Least share of outliers that is too many.
 const LEAST_UNUSED_SHARE: f64 = 0.05;
 
-/// What a calibration itself gives reason to doubt.
+/// The caveats of a calibration itself.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Caveats {
     changes: Vec<Change>,
@@ -44,7 +45,7 @@ impl Caveats {
         }
     }
 
-    /// The reason to doubt errors of a kind, in order of time.
+    /// The caveat about errors of one kind, which are in order of time.
     pub(super) fn about(&self, kind: ErrorKind, errors: &[UnusedError]) -> Option<Caveat> {
         let concerns = |change: &&Change| match (change.sensor_kind, change.of) {
             (SensorKind::Accelerometer, _) => matches!(kind, ErrorKind::Magnitude | ErrorKind::Rotation),
@@ -73,7 +74,7 @@ impl Caveats {
     }
 }
 
-/// A run of those that were left out, of their begins and ends.
+/// A run of unused items, from the begin of the first to the end of the last.
 fn left_out(times: &[(bool, f64, f64)]) -> Option<Caveat> {
     let run = longest_run(times.iter().map(|(left_out, ..)| *left_out))?;
     let (_, start_s, _) = times.get(run.start)?;

@@ -380,7 +380,7 @@ fn spikes_nearby_are_doubted_and_heavy_tails_widen_the_interval() {
     for seed in 0..20 {
         assert_eq!(caveat(&|_| 0.0, seed), "");
         let spikes = caveat(&|k| if k % 25 == 3 { 1.6 } else { 0.0 }, seed);
-        assert!(spikes.contains("sparks"), "{seed}: {spikes}");
+        assert!(spikes.contains("spikes"), "{seed}: {spikes}");
     }
     // Laplace's distribution has an excess kurtosis of 3: the variance of a variance is 5/2 of Gauss's
     let laplace = |seed: u64| {

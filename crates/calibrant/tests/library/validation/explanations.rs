@@ -59,7 +59,7 @@ fn a_bias_of_the_accelerometer_that_has_moved_is_told_with_its_size() {
         inside += u64::from(missed.amax() < 4.0);
         let sentences = validation_sentences(&validation);
         assert!(sentences[0].starts_with("The accelerometer's bias has moved by "), "{sentences:#?}");
-        assert!(sentences.iter().all(|sentence| !sentence.contains("multiply")), "{sentences:#?}");
+        assert!(sentences.iter().all(|sentence| !sentence.contains("ultiply")), "{sentences:#?}");
     }
     println!("{reported} of {COUNT}, {inside} within 4 sd");
     assert!(reported > 54 && inside == reported, "{reported} of {COUNT}, {inside} within 4 sd");
@@ -106,7 +106,7 @@ fn a_gain_of_the_gyroscope_that_has_changed_is_told_with_its_size() {
         let missed = (change - nalgebra::Vector3::new(0.0, 0.01, 0.0)).component_div(sd);
         assert!(missed.amax() < 5.0, "{change:?} {sd:?}");
         let sentences = validation_sentences(&validation);
-        assert!(sentences.iter().all(|sentence| !sentence.contains("multiply")), "{sentences:#?}");
+        assert!(sentences.iter().all(|sentence| !sentence.contains("ultiply")), "{sentences:#?}");
     }
     println!("{reported} of {COUNT}");
     assert!(reported > 54, "{reported} of {COUNT}");
@@ -219,7 +219,7 @@ fn a_bias_and_a_gain_that_have_changed_together_are_both_told() {
         assert!(
             sentences
                 .iter()
-                .all(|says| !says.contains("multiply") && !says.contains("no covariance explains")),
+                .all(|says| !says.contains("ultiply") && !says.contains("no covariance explains")),
             "{sentences:#?}"
         );
     }
@@ -279,7 +279,7 @@ fn temperatures_beyond_the_calibrations_are_told() {
     let sentences = validation_sentences(&reported);
     println!("{sentences:#?}");
     assert!(sentences[0].starts_with("This recording was made at 55.0 to 60.0 °C, the calibration at 20."));
-    assert!(sentences.iter().all(|sentence| !sentence.contains("multiply")), "{sentences:#?}");
+    assert!(sentences.iter().all(|sentence| !sentence.contains("ultiply")), "{sentences:#?}");
     // within them the cause is another
     let inside = tried([22.0, 44.0], 0.05);
     assert!(

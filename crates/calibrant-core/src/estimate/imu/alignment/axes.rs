@@ -8,7 +8,7 @@ pub(crate) enum Axes {
     /// The axes along the accelerometer's x, y and z, such as `-y`.
     InOrder([String; 3]),
     /// Rotated by some angle.
-    Turned,
+    Rotated,
 }
 
 /// All orders and signs of three axes.

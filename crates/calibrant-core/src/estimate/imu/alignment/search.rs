@@ -77,7 +77,7 @@ pub(crate) fn find_alignment(
         (median_rad <= WRONG_RAD).then(|| Alignment {
             imu: with(matrix),
             median_rad,
-            axes: Some(Axes::Turned),
+            axes: Some(Axes::Rotated),
         })
     };
     if let Some(matrix) = nominal {

@@ -7,7 +7,7 @@ use crate::estimate::uncalibrated::Uncalibrated;
 use crate::sensor::{ImuParameters, ReadingUnit, Thermal};
 use nalgebra::Matrix3;
 
-/// The gyroscope before: the datasheet's gain and the mean reading at rest; where the gain had to be found, one for all axes.
+/// The gyroscope before its calibration: the datasheet's gain and the mean reading at rest. Without a datasheet, one gain for all axes.
 pub(crate) fn gyroscope_before(
     gyroscope: &Gyroscope,
     holds: &[HoldData],
@@ -23,7 +23,7 @@ pub(crate) fn gyroscope_before(
         }
         ReadingUnit::Counts => {
             let gain = |matrix: &Matrix3<f64>| matrix.row_iter().map(|row| row.norm()).sum::<f64>() / 3.0;
-            // the search for a start keeps the order of the axes, its gain is a rough one
+            // the search finds the order of the axes, but only a rough gain
             sensor.matrix *= gain(&estimate.gyroscope.matrix) / gain(&sensor.matrix);
             "one gain for all axes, the mean of those found, less the mean reading at rest"
         }
@@ -32,7 +32,7 @@ pub(crate) fn gyroscope_before(
     Uncalibrated { sensor, source: source.to_owned() }
 }
 
-/// The IMU with this gyroscope, of which nothing else is known.
+/// The IMU with this gyroscope, and no other error.
 pub(crate) fn with_plain_gyroscope(imu: &ImuParameters, gyroscope: &Uncalibrated) -> ImuParameters {
     ImuParameters {
         gyroscope: gyroscope.sensor,

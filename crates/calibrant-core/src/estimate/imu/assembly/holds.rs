@@ -1,7 +1,7 @@
-//! The holds in the result: gravity's magnitude in them by the parameters of the whole IMU.
+//! The holds in the result, with gravity residuals by the parameters of the whole IMU.
 //!
-//! Which holds are left out is decided by the accelerometer's own static fit. What is written of them is by the parameters of the least squares of
-//! all, which rotations and known terms pull a little away from that fit.
+//! The accelerometer's static fit decides which holds are used. The residuals in the result use the parameters of the whole least squares. Rotations and
+//! known terms move these slightly away from the static fit.
 
 use crate::error::Result;
 use crate::estimate::holds::magnitude_rms;
@@ -26,7 +26,7 @@ pub(crate) fn hold_results(
         holds.holds[j].force_mps2 = *force;
     }
     correct(&mut holds, &state.imu, temperature)?;
-    // of faces the fit of these knows it
+    // for faces, their own fit determines it
     if first.alignment.is_none() {
         let of_accelerometer = |k: &usize| model.quantities[*k].sensor_kind() == SensorKind::Accelerometer;
         let known = |k: &usize| model.prior.as_ref().is_some_and(|(_, weight)| weight[*k] > 0.0);
@@ -37,7 +37,8 @@ pub(crate) fn hold_results(
     Ok(holds)
 }
 
-/// Gives each hold what the accelerometer of an IMU makes of its mean. Its studentised residual stays that of the static fit, which alone knows how much of it a hold takes up itself.
+/// Sets the corrected mean and the gravity residual of each hold. The studentised residual stays that of the static fit, since only that fit knows the
+/// influence of a hold on itself.
 fn correct(
     holds: &mut HoldCalibration,
     imu: &ImuParameters,

@@ -1,4 +1,4 @@
-//! Puts the result together, and nothing else.
+//! Assembles the result, and computes nothing else.
 
 use crate::diagnostic::Change;
 use crate::error::Result;
@@ -19,22 +19,22 @@ use crate::estimate::imu::variance_components::solution::Solution;
 use crate::estimate::result::{Calibration, FitStatistics, HoldCalibration, HoldResult, Recovered};
 use crate::sensor::{ImuParameters, ImuQuantity, Parameter, SensorKind};
 
-/// Everything that the result is put together from.
+/// The parts of the result.
 pub(crate) struct Finished<'a> {
     pub(crate) problem: &'a ImuProblem<'a>,
     pub(crate) accelerometer: &'a InitialAccelerometer,
     pub(crate) temperature: &'a RecordingTemperature<'a>,
-    /// Numbers of the holds that are used.
+    /// Numbers of the used holds.
     pub(crate) numbers: &'a [usize],
     pub(crate) gyroscope: &'a StationaryGyroscope,
     pub(crate) movement: &'a Movement<'a>,
-    /// The IMU as it was known before the least squares.
+    /// The IMU before the least squares.
     pub(crate) start: &'a ImuParameters,
     pub(crate) model: &'a ImuModel<'a>,
     pub(crate) solution: &'a Solution,
     pub(crate) uncertainty: Uncertainty,
     pub(crate) clock: Option<ClockRate>,
-    /// The sensors that change.
+    /// Changes of the sensors.
     pub(crate) changes: Vec<Change>,
 }
 
@@ -106,7 +106,7 @@ fn degrees_of_freedom(model: &ImuModel<'_>, rotations: &[RotationResult]) -> usi
     equations.saturating_sub(unknowns)
 }
 
-/// The turns of known angle, as the calibrated gyroscope shows them.
+/// The turns of known angle, measured with the calibrated gyroscope.
 fn turn_results(model: &ImuModel<'_>, turns: &[Turn], imu: &ImuParameters) -> Result<Vec<TurnResult>> {
     let result = |(data, turn): (&TurnData, &Turn)| {
         let correction = imu.at(data.temperature_c).gyroscope.matrix.try_inverse().ok_or_else(singular)?;

@@ -1,4 +1,4 @@
-//! The parts of the result, and the result put together from them.
+//! Assembly of the result from its parts.
 
 pub(crate) mod gyroscope_before;
 pub(crate) mod holds;

@@ -8,7 +8,7 @@ use crate::estimate::imu::variance_components::solution::Solution;
 use crate::sensor::ImuParameters;
 use rayon::prelude::*;
 
-/// Each rotation at a solution. `before`: the IMU before its calibration; `numbers`: those of the holds.
+/// Each rotation at a solution. `before`: the IMU before its calibration. `numbers`: those of the holds.
 pub(crate) fn rotation_results(
     model: &ImuModel<'_>,
     solution: &Solution,
@@ -35,7 +35,7 @@ pub(crate) fn rotation_results(
             let reason = match movement.integrable.obstacle(span) {
                 Some(obstacle) => Some(obstacle),
                 None if !data.counts => Some(format!(
-                    "it misses gravity by {:.2}°, {studentised:.1} standard deviations",
+                    "its error is {:.2}°, {studentised:.1} standard deviations",
                     after.map_or(0.0, &angle).to_degrees()
                 )),
                 None => None,

@@ -1,4 +1,4 @@
-//! The gyroscope in the stationary intervals, by the result.
+//! The gyroscope in the stationary intervals, in the result.
 
 use crate::error::Result;
 use crate::estimate::imu::model::{GyroscopeNoise, HoldData, ImuModel, State, singular};
@@ -7,7 +7,7 @@ use crate::estimate::imu::stationary::gyroscope::StationaryGyroscope;
 use crate::sensor::{Correction, ImuParameters};
 use nalgebra::Vector3;
 
-/// What it shows there. `before`: the IMU before its calibration; `vertical_rate`: the Earth's about the vertical over gravity, where it is known.
+/// Its mean rates and noise there. `before`: the IMU before its calibration. `vertical_rate`: the Earth's rate about the vertical over gravity, if known.
 pub(crate) fn stationary_result(
     model: &ImuModel<'_>,
     (state, between): (&State, &Vector3<f64>),
@@ -26,7 +26,7 @@ pub(crate) fn stationary_result(
     })
 }
 
-/// The scatter between holds, with that by the Earth's rate beyond what was given.
+/// The between-hold scatter, with the part from the unknown Earth's rate.
 fn between_holds_sd(model: &ImuModel<'_>, state: &State, between: &Vector3<f64>) -> Vector3<f64> {
     let found = |(j, hold): (usize, &HoldData)| {
         let rate = model.earth.rate_found(j, &state.forces[j]);
@@ -36,7 +36,7 @@ fn between_holds_sd(model: &ImuModel<'_>, state: &State, between: &Vector3<f64>)
     (squares / model.holds.len() as f64 + between.component_mul(between)).map(f64::sqrt)
 }
 
-/// The mean rate that an IMU's gyroscope shows in the holds, root mean square over them; `None` where its matrix is singular.
+/// Root mean square over the holds of the gyroscope's mean rate. `None` if its matrix is singular.
 fn rate_rms(
     model: &ImuModel<'_>,
     forces: &[Vector3<f64>],

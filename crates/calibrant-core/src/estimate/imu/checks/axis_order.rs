@@ -9,7 +9,7 @@ use nalgebra::{Matrix3, Rotation3, Vector3};
 pub(crate) fn check(evidence: &Evidence<'_>) -> Diagnostics {
     let stated = evidence.axes.map(|axes| match axes {
         Axes::InOrder(order) => Diagnostic::AxesInOtherOrder { order: order.clone(), by_turns: false },
-        Axes::Turned => mounting(&evidence.calibration.imu.gyroscope.matrix),
+        Axes::Rotated => mounting(&evidence.calibration.imu.gyroscope.matrix),
     });
     stated.into_iter().collect()
 }
