@@ -21,6 +21,7 @@ mod comparison;
 mod earth;
 mod gravity_error;
 mod gravity_off_earth;
+mod hold_result;
 mod holds;
 mod imu;
 mod motion;
@@ -38,6 +39,7 @@ mod validation;
 pub use crate::diagnostic::{Change, Changed, Course};
 pub use calibrate::calibrate;
 pub use comparison::{ComparedQuantity, Comparison, OverallDifference};
+pub use hold_result::{FaceTilt, HoldCalibration, HoldResult, TiltSource};
 pub use holds::{
     Coverage, ExpectedCalibration, HoldsSetup, clipped_holds, coverage, expected_calibration,
     find_clean_holds, find_holds, holds_between, holds_lost_to_filter,

@@ -1,9 +1,9 @@
 //! The result of a calibration.
 
+use super::hold_result::{HoldCalibration, HoldResult};
 use super::imu::{GyroscopeCalibration, RotationResult, TurnResult};
-use super::uncalibrated::Uncalibrated;
-use crate::diagnostic::{Change, Diagnostic, HoldLeftOut};
-use crate::motion::{Gravity, Hold, JerkControlledMotion};
+use crate::diagnostic::{Change, Diagnostic};
+use crate::motion::JerkControlledMotion;
 use crate::sensor::{
     Axis, CalibratedImu, Gauge, ImuParameters, ImuQuantity, Parameter, Quantity, ReadingUnit, SensorKind,
     SensorModel,
@@ -303,134 +303,4 @@ pub struct RecoveredMotion {
     pub residuals: Vec<Vector3<f64>>,
     /// Index into the recording of the first residual's sample: the samples within the motion are contiguous.
     pub first_sample: usize,
-}
-
-/// The results of a static calibration, in addition to the parameters.
-#[derive(Debug, Clone)]
-pub struct HoldCalibration {
-    /// The holds, in order of time.
-    pub holds: Vec<HoldResult>,
-    /// Gravity that was assumed.
-    pub gravity: Gravity,
-    /// Gauge of the parameters.
-    pub gauge: Gauge,
-    /// Between-hold standard deviation: that of a hold's mean beyond the noise of its samples, m/s². With known directions, along these.
-    pub between_holds_sd_mps2: f64,
-    /// Does the scatter between holds exceed the noise within them? It then decides the covariance.
-    pub between_holds_dominates: bool,
-    /// Face alignment. `None` if only the magnitude of gravity is known.
-    pub tilt: Option<FaceTilt>,
-    /// Root mean square over the used holds of the corrected magnitude less gravity, m/s².
-    pub magnitude_residual_rms_mps2: f64,
-    /// Degrees of freedom of the magnitudes of the used holds, after the accelerometer's parameters and their priors. With 0, the fit is exact and
-    /// checks nothing.
-    pub degrees_of_freedom: usize,
-    /// Condition number of the information on the parameters, each scaled by its own standard deviation when the others are known.
-    pub condition_number: f64,
-    /// Were the holds found in the recording (or given by the user)?
-    pub detected: bool,
-    /// The accelerometer before its calibration.
-    pub before: Uncalibrated,
-    /// Mean temperature of each hold, °C, if the model has temperature terms.
-    pub temperatures_c: Option<Vec<f64>>,
-    /// A change of the accelerometer within the recording. `None` without evidence, and for known directions.
-    pub change: Option<Box<Change>>,
-}
-
-impl HoldCalibration {
-    /// Gravity residual of a hold before the calibration, m/s². `None` if it is not known.
-    #[must_use]
-    pub fn magnitude_residual_before_mps2(&self, hold: &Hold) -> Option<f64> {
-        let residual = self.before.stimulus(&hold.mean)?.norm() - self.gravity.magnitude_mps2;
-        residual.is_finite().then_some(residual)
-    }
-
-    /// Root mean square of the gravity residuals before the calibration, over the used holds, m/s². `None` if it is not known.
-    #[must_use]
-    pub fn magnitude_residual_rms_before_mps2(&self) -> Option<f64> {
-        let used: Vec<f64> = self
-            .holds
-            .iter()
-            .filter(|result| result.used)
-            .map(|result| self.magnitude_residual_before_mps2(&result.hold))
-            .collect::<Option<_>>()?;
-        (!used.is_empty()).then(|| (used.iter().map(|e| e * e).sum::<f64>() / used.len() as f64).sqrt())
-    }
-}
-
-/// Face alignment: how well the sensor was placed on its faces.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct FaceTilt {
-    /// Standard deviation of the tilt about each axis, rad.
-    pub sd_rad: f64,
-    /// The source of this value.
-    pub source: TiltSource,
-    /// Degrees of freedom of its estimate from the scatter, or 0 if it was not estimated.
-    pub degrees_of_freedom: usize,
-}
-
-/// The source of the face alignment.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum TiltSource {
-    /// It was given.
-    Given,
-    /// The scatter of the faces.
-    Recording,
-    /// The faces are too few, and half a degree is assumed.
-    Assumed,
-}
-
-impl TiltSource {
-    /// In one word.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Given => "given",
-            Self::Recording => "scatter",
-            Self::Assumed => "assumed",
-        }
-    }
-}
-
-impl FaceTilt {
-    /// The source, in words.
-    #[must_use]
-    pub fn source_in_words(&self) -> String {
-        match self.source {
-            TiltSource::Given => "as given".into(),
-            TiltSource::Recording => {
-                format!("by their scatter, {} degrees of freedom", self.degrees_of_freedom)
-            }
-            TiltSource::Assumed => "assumed, since the faces are too few".into(),
-        }
-    }
-}
-
-/// One hold and its fit.
-#[derive(Debug, Clone)]
-pub struct HoldResult {
-    /// The hold.
-    pub hold: Hold,
-    /// Estimated specific force, m/s².
-    pub force_mps2: Vector3<f64>,
-    /// Magnitude of the mean reading less gravity, corrected with the parameters of the result, m/s².
-    pub magnitude_residual_mps2: f64,
-    /// The magnitude residual in its expected standard deviations, without the hold's own influence (studentised).
-    pub studentised_residual: f64,
-    /// Was it used? An outlier is reported and not used.
-    pub used: bool,
-    /// Why it was not used, if that does not follow from its residual: the sensor saturates.
-    pub reason: Option<HoldLeftOut>,
-}
-
-impl HoldResult {
-    /// Why it was not used. `None` if it was used.
-    #[must_use]
-    pub fn why_left_out(&self) -> Option<HoldLeftOut> {
-        let by_residual = HoldLeftOut::MagnitudeOff {
-            residual_mps2: self.magnitude_residual_mps2,
-            studentised: self.studentised_residual,
-        };
-        (!self.used).then(|| self.reason.unwrap_or(by_residual))
-    }
 }

@@ -1,6 +1,7 @@
 //! Alignment of the two sensors: a rough matrix of the gyroscope in the accelerometer's frame.
 
 use crate::error::{Error, Result};
+use crate::estimate::hold_result::HoldCalibration;
 use crate::estimate::imu::alignment::axes::Axes;
 use crate::estimate::imu::alignment::search::find_alignment;
 use crate::estimate::imu::checks::identifiability::undetermined;
@@ -8,7 +9,6 @@ use crate::estimate::imu::checks::missed_gravity;
 use crate::estimate::imu::estimated::set_fixed;
 use crate::estimate::imu::model::{ImuModel, State};
 use crate::estimate::imu::problem::ImuProblem;
-use crate::estimate::result::HoldCalibration;
 use crate::sensor::ReadingUnit;
 use nalgebra::Matrix3;
 

@@ -4,12 +4,12 @@
 //! known terms move these slightly away from the static fit.
 
 use crate::error::Result;
+use crate::estimate::hold_result::HoldCalibration;
 use crate::estimate::holds::magnitude_rms;
 use crate::estimate::imu::initial::accelerometer::InitialAccelerometer;
 use crate::estimate::imu::model::{ImuModel, State, singular};
 use crate::estimate::imu::problem::ImuProblem;
 use crate::estimate::imu::temperature::RecordingTemperature;
-use crate::estimate::result::HoldCalibration;
 use crate::estimate::uncalibrated::Uncalibrated;
 use crate::sensor::{Correction, ImuParameters, SensorKind};
 

@@ -2,6 +2,7 @@
 
 use crate::diagnostic::Change;
 use crate::error::Result;
+use crate::estimate::hold_result::{HoldCalibration, HoldResult};
 use crate::estimate::imu::assembly::gyroscope_before::{gyroscope_before, with_plain_gyroscope};
 use crate::estimate::imu::assembly::holds::hold_results;
 use crate::estimate::imu::assembly::rotations::rotation_results;
@@ -16,7 +17,7 @@ use crate::estimate::imu::rotations::movement::Movement;
 use crate::estimate::imu::stationary::gyroscope::StationaryGyroscope;
 use crate::estimate::imu::temperature::RecordingTemperature;
 use crate::estimate::imu::variance_components::solution::Solution;
-use crate::estimate::result::{Calibration, FitStatistics, HoldCalibration, HoldResult, Recovered};
+use crate::estimate::result::{Calibration, FitStatistics, Recovered};
 use crate::sensor::{ImuParameters, ImuQuantity, Parameter, SensorKind};
 
 /// The parts of the result.

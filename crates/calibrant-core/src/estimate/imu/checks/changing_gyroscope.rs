@@ -2,8 +2,8 @@
 
 use crate::diagnostic::{Change, Changed};
 use crate::estimate::change::Series;
+use crate::estimate::hold_result::HoldCalibration;
 use crate::estimate::imu::model::{Fit, GravityResidual, ImuModel};
-use crate::estimate::result::HoldCalibration;
 use crate::motion::Hold;
 use crate::sensor::{Axis, Condition, ImuQuantity, MeanReading, Quantity, SensorKind};
 use nalgebra::{DMatrix, DVector, Matrix2, Matrix2x3, Matrix3, Vector2, Vector3};

@@ -1,10 +1,10 @@
 //! Gravity that half of the rotations miss, whatever the gyroscope's matrix.
 
 use crate::error::{Error, InputError, Refusal, Result};
+use crate::estimate::hold_result::HoldCalibration;
 use crate::estimate::imu::alignment::coarse_rotations::WRONG_RAD;
 use crate::estimate::imu::checks::{axes_without_rotation, gyroscope_unit};
 use crate::estimate::imu::model::{ImuModel, State};
-use crate::estimate::result::HoldCalibration;
 use crate::sensor::ReadingUnit;
 
 /// Holds that scatter by more than this share of gravity are none.

@@ -1,8 +1,8 @@
 //! The initial values of the accelerometer, from its readings alone.
 
 use crate::diagnostic::Diagnostic;
+use crate::estimate::hold_result::HoldCalibration;
 use crate::estimate::imu::initial::face_alignment::{FaceAlignment, FaceScatter};
-use crate::estimate::result::HoldCalibration;
 use crate::motion::Hold;
 use crate::sensor::{Recording, SensorParameters, SensorThermal};
 use nalgebra::{Matrix3, Vector3};

@@ -17,7 +17,7 @@
 
 use crate::diagnostic::Diagnostic;
 use crate::estimate::between_hold_variance::excess;
-use crate::estimate::result::{FaceTilt, TiltSource};
+use crate::estimate::hold_result::{FaceTilt, TiltSource};
 use nalgebra::{Matrix3, Vector3};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 

@@ -2,6 +2,7 @@
 //!
 //! Its gain and the order of its axes come from the rotations (`alignment`).
 
+use crate::estimate::hold_result::HoldResult;
 use crate::estimate::imu::estimated::set_fixed;
 use crate::estimate::imu::initial::accelerometer::{InitialAccelerometer, UsedHolds};
 use crate::estimate::imu::model::{HoldData, Prior};
@@ -11,7 +12,6 @@ use crate::estimate::imu::temperature::RecordingTemperature;
 use crate::estimate::imu::variance_components::between_holds::{
     Explanation, Means, between_sd, set_gyroscope_means,
 };
-use crate::estimate::result::HoldResult;
 use crate::sensor::{
     ImuParameters, ImuQuantity, ReadingUnit, SensorKind, SensorParameters, Thermal, ThermalTerm,
 };

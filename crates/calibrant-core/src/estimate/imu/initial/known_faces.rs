@@ -6,6 +6,7 @@
 use crate::diagnostic::{Diagnostic, HoldSpan};
 use crate::error::{Error, InputError, NotIdentifiable, Refusal, Result, UndeterminedGroup};
 use crate::estimate::gravity_off_earth::gravity_off_earth;
+use crate::estimate::hold_result::{HoldCalibration, HoldResult};
 use crate::estimate::holds::{
     clipped_holds, clipped_reason, coarse_steps, holds_between, left_out, magnitude_rms, with_clipped,
 };
@@ -18,7 +19,6 @@ use crate::estimate::imu::initial::face_alignment::{Chi2, FaceAlignment, FaceSca
 use crate::estimate::imu::initial::face_statistics::{chi2_of_face, face_degrees, noise_rad2};
 use crate::estimate::imu::problem::ImuProblem;
 use crate::estimate::quantisation::{coarse_axes_in, of_means};
-use crate::estimate::result::{HoldCalibration, HoldResult};
 use crate::estimate::uncalibrated::Uncalibrated;
 use crate::information;
 use crate::motion::Hold;

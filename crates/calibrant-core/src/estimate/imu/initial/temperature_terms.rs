@@ -6,6 +6,7 @@
 
 use crate::error::Result;
 use crate::estimate::between_hold_variance::excess;
+use crate::estimate::hold_result::HoldCalibration;
 use crate::estimate::holds::{critical, left_out, magnitude_rms};
 use crate::estimate::imu::checks::identifiability;
 use crate::estimate::imu::earth_rate::EarthRate;
@@ -16,7 +17,6 @@ use crate::estimate::imu::initial::face_statistics::{chi2_of_face, face_degrees,
 use crate::estimate::imu::model::{Fit, GyroscopeNoise, HoldData, ImuModel, State, singular};
 use crate::estimate::imu::problem::ImuProblem;
 use crate::estimate::imu::temperature::{RecordingTemperature, at_reference};
-use crate::estimate::result::HoldCalibration;
 use crate::estimate::settings::CalibrationSettings;
 use crate::motion::Hold;
 use crate::sensor::{ImuParameters, ImuQuantity, Quantity, Recording, SensorKind};
