@@ -170,7 +170,7 @@ fn a_motion_of_ones_own_is_judged() {
     let outcome = bench.run(&format!("design arm.toml {QUICK} --evaluate fast.csv -o f")).done();
     for words in [
         "BROKEN: velocity of axis x is 12.50 m/s at 1.000 s, 2.500 beyond the limit of 10.00 (25.0 %)",
-        "fast.csv has 3 intervals over 6 s, the experiment 10 over 10 s",
+        "fast.csv has 3 intervals over 6 s, but the experiment has 10 over 10 s",
     ] {
         let stdout = outcome.stdout.split_whitespace().collect::<Vec<_>>().join(" ");
         assert!(stdout.contains(words), "{words}\n{stdout}");

@@ -6,7 +6,7 @@ use serde_json::Value;
 #[test]
 fn a_simulated_imu_is_found_again_and_its_noise_in_a_long_hold() {
     let bench = Bench::new();
-    let long = "minimum_hold_s = 1.0         # shortest";
+    let long = "minimum_hold_s = 1.0         # duration";
     bench.preset("imu", "imu.toml", &[(long, &format!("poses = 14\nhold_s = 25.0\nrate_hz = 50.0\n{long}"))]);
     bench.run("simulate imu.toml --seed 8 -o sim").done();
     let outcome = bench.run("calibrate imu.toml sim/recording.csv -o out").done();
