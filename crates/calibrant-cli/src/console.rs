@@ -66,14 +66,6 @@ pub(crate) fn noted(found: &Note) {
     say(&found.to_string());
 }
 
-/// The same for one of several recordings. Its findings are printed with the name of its folder.
-pub(crate) fn noted_of(folder: &str, found: &Note) {
-    match found {
-        Note::Finding { finding: what, .. } => finding(folder, what),
-        _ => noted(found),
-    }
-}
-
 /// Warns where temperatures lie far beyond those at which a calibration was made.
 pub(crate) fn warn_beyond(imu: &CalibratedImu, range_c: [f64; 2]) {
     if let Some(words) = extrapolation_in_words(&imu.parameters.thermal, range_c) {

@@ -158,7 +158,7 @@ struct RotationFields<'a> {
     error_before_rad: Option<f64>,
     studentised: Option<f64>,
     used: bool,
-    reason: Option<&'a str>,
+    reason: Option<String>,
 }
 
 impl<'a> RotationFields<'a> {
@@ -175,7 +175,7 @@ impl<'a> RotationFields<'a> {
             error_before_rad: found(rotation.error_before_rad),
             studentised: found(rotation.studentised),
             used: rotation.used,
-            reason: rotation.reason.as_deref(),
+            reason: rotation.reason.map(|reason| reason.to_string()),
         }
     }
 }

@@ -68,7 +68,7 @@ fn of_rotations(diagnostic: &Diagnostic) -> Option<String> {
     Some(match diagnostic {
         Diagnostic::RotationLeftOut { from_hold, to_hold, start_s, end_s, reason, .. } => format!(
             "the rotation from hold {from_hold} to hold {to_hold} ({start_s:.1} to {end_s:.1} s) was left out: {}",
-            reason.0
+            reason
         ),
         Diagnostic::RotationsLeftOutInARow { rotations, start_s, end_s } => format!(
             "the {rotations} rotations from {start_s:.1} to {end_s:.1} s were left out one after another, which is no chance: did the gyroscope saturate there, or one of the sensors change?"

@@ -1,5 +1,6 @@
 //! What the calibration of an IMU gives.
 
+use crate::diagnostic::RotationReason;
 use crate::diagnostic::{Change, Diagnostic};
 use crate::estimate::imu::clock::rate::ClockRate;
 use crate::estimate::imu::problem::NoiseSource;
@@ -103,8 +104,8 @@ pub struct RotationResult {
     pub studentised: f64,
     /// Was it used?
     pub used: bool,
-    /// Why it was not used, in words.
-    pub reason: Option<String>,
+    /// Why it was not used.
+    pub reason: Option<RotationReason>,
 }
 
 /// A turn of known angle and its fit.

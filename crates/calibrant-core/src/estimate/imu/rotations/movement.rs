@@ -1,5 +1,6 @@
 //! What lies between the stationary intervals: rotations, and turns of known angle.
 
+use crate::diagnostic::RotationReason;
 use crate::error::Result;
 use crate::estimate::imu::model::{GyroscopeNoise, HoldData, RotationData, TurnData};
 use crate::estimate::imu::problem::ImuProblem;
@@ -58,7 +59,7 @@ impl<'a> Movement<'a> {
     }
 
     /// Why rotations cannot be integrated, of each that cannot.
-    pub(crate) fn obstacles(&self) -> Vec<String> {
+    pub(crate) fn obstacles(&self) -> Vec<RotationReason> {
         self.spans.iter().filter_map(|span| self.integrable.obstacle(span)).collect()
     }
 }
