@@ -1,4 +1,4 @@
-//! `calibrant apply`: corrects a recording, and writes the correction's standard uncertainty.
+//! `calibrant apply`: corrects a recording, and writes the standard uncertainty of the correction.
 
 use crate::calibration_file::{Reading, in_words};
 use crate::{Exit, console, output_places};
@@ -15,27 +15,27 @@ use calibrant::sensor::{
 };
 use std::path::PathBuf;
 
-/// Correct a recording with a calibration: true specific force and angular rate, with the correction's standard uncertainty.
+/// Correct a recording with a calibration. The result is specific force and angular rate, with their standard uncertainty.
 ///
-/// Writes CSV with the columns t_s,ax_mps2,…,ax_sd_mps2,…,gx_radps,…,gx_sd_radps,…. The uncertainty is that of the calibration: the same error in every sample,
-/// which does not average out; the noise of a sample is not in it.
+/// Writes CSV with the columns t_s,ax_mps2,…,ax_sd_mps2,…,gx_radps,…,gx_sd_radps,…. The uncertainty is that of the calibration. Its error is
+/// the same in every sample, and does not average out. It does not include the noise of a sample.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
     /// The calibration, in any format that `calibrant convert` reads.
     calibration: PathBuf,
     /// The recording, in any format that `calibrant inspect` knows.
     recording: PathBuf,
-    /// The gyroscope's file, where the sensors have a file each (imu_tk).
+    /// The gyroscope's file, if each sensor has its own file (imu_tk).
     #[arg(long, value_name = "FILE")]
     gyroscope: Option<PathBuf>,
     #[command(flatten)]
     file: crate::recording_options::RecordingOptions,
-    /// Experiment file whose [columns] say what is what in the recording.
+    /// Experiment file whose [columns] name the columns of the recording.
     #[arg(long, value_name = "EXPERIMENT")]
     columns: Option<PathBuf>,
     #[command(flatten)]
     reading: Reading,
-    /// The temperature, °C, where the calibration follows it and the recording does not have it (or another).
+    /// Temperature of the recording, °C, for a calibration with temperature terms. It replaces that of the recording.
     #[arg(long, value_name = "CELSIUS", allow_negative_numbers = true, value_parser = crate::recording_options::celsius)]
     temperature: Option<f64>,
     /// Where to write the corrected recording.
@@ -57,7 +57,7 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
             let sensor = recording.accelerometer.as_ref().or(recording.gyroscope.as_ref());
             recording.temperature_c = Some(vec![temperature_c; sensor.map_or(0, Recording::len)]);
         }
-        Some(_) => console::note("--temperature is not used: the calibration does not follow temperature"),
+        Some(_) => console::note("--temperature is not used: the calibration has no temperature terms"),
         None => {}
     }
     let (clean, spikes) = recording.without_spikes();
@@ -66,11 +66,11 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
         .map_err(|error| error.in_recording(&arguments.recording))?;
     for sensor_kind in SensorKind::ALL {
         match (imu.unit(sensor_kind), recording.sensor(sensor_kind)) {
-            (Some(_), None) => {
-                console::note(&format!("the recording has no {sensor_kind}: nothing of it is corrected"))
-            }
+            (Some(_), None) => console::note(&format!(
+                "the recording has no {sensor_kind}; only the other sensor is corrected"
+            )),
             (None, Some(_)) => {
-                console::warn(&format!("the calibration has no {sensor_kind}: its readings are left out"));
+                console::warn(&format!("the calibration has no {sensor_kind}; its readings are not written"));
             }
             _ => {}
         }
@@ -82,11 +82,11 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     }
     for (sensor_kind, spikes) in spikes {
         let what = match spikes.samples.len() + spikes.cut.len() {
-            1 => "1 sample is far off those beside it".to_owned(),
-            count => format!("{} are far off those beside them", number_format::counted(count, "sample")),
+            1 => "1 sample is a spike".to_owned(),
+            count => format!("{} are spikes", number_format::counted(count, "sample")),
         };
         console::warn(&format!(
-            "{sensor_kind}: {what} ({} s): corrected as recorded, and no force that the gyroscope feels; a loose contact, or a byte lost on the way?",
+            "{sensor_kind}: {what} ({} s). The correction is applied as usual, but these samples do not correct the g-sensitivity. Look for a loose contact, or for bytes lost on the way.",
             number_format::short(spikes.time_s)
         ));
     }
@@ -106,12 +106,12 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     Ok(Exit::DONE)
 }
 
-/// The warning about a g-sensitivity that was corrected where the accelerometer has no data.
+/// The warning about gyroscope samples without a specific force.
 fn without_force(unknown: &WithoutForce) -> String {
     let (start, end) = unknown.span_s;
     format!(
-        "the accelerometer has no data at {} of the gyroscope, from {} to {} s: their g-sensitivity is corrected with the nearest specific force that is known, and may be off by up to {} rad/s; \
-         their standard uncertainty has that in it",
+        "the accelerometer has no data at {} of the gyroscope, from {} to {} s. The nearest known specific force corrects their g-sensitivity, with an error of up to {} rad/s. \
+         The standard uncertainty includes this error.",
         number_format::counted(unknown.samples, "sample"),
         number_format::short(start),
         number_format::short(end),
@@ -119,7 +119,7 @@ fn without_force(unknown: &WithoutForce) -> String {
     )
 }
 
-/// Least and greatest of some values.
+/// Smallest and largest of some values.
 fn range(values: &[f64]) -> Option<[f64; 2]> {
     values.iter().map(|&t| [t, t]).reduce(|[low, high], [t, _]| [low.min(t), high.max(t)])
 }
@@ -136,11 +136,11 @@ fn read_for(imu: &CalibratedImu, arguments: &Arguments) -> calibrant::Result<Imu
     Ok(file.recording)
 }
 
-/// Reads the file. The user must give a unit that it does not state, unless the calibration is in counts: it
-/// corrects counts.
+/// Reads the file. The user must give a unit that the file does not state. A calibration in counts needs no unit:
+/// it corrects counts.
 fn read(imu: &CalibratedImu, arguments: &Arguments) -> calibrant::Result<ImuFile> {
     let options = ImuReadOptions {
-        // a sensor that the calibration does not have is ignored, whatever its unit
+        // a sensor without calibration is ignored, whatever its unit
         counts_unless_stated: SensorKind::ALL
             .map(|sensor_kind| imu.unit(sensor_kind).is_none_or(|unit| unit == ReadingUnit::Counts)),
         ..arguments.file.with_columns(arguments.columns.as_deref())?
@@ -162,8 +162,7 @@ fn alone(imu: &CalibratedImu) -> Option<SensorKind> {
     }
 }
 
-/// Returns an error for a sensor that has columns, but none that can be used: it would be missing from the
-/// result.
+/// Returns an error for a sensor whose columns cannot be used. It would be missing from the result.
 fn check_usable(file: &ImuFile, sensor_kind: SensorKind) -> calibrant::Result<()> {
     let is_of = |meaning| matches!(meaning, ColumnMeaning::Reading(of, _) if of == sensor_kind);
     let unused = file.columns.iter().filter(|column| is_of(column.meaning));
@@ -172,13 +171,13 @@ fn check_usable(file: &ImuFile, sensor_kind: SensorKind) -> calibrant::Result<()
         Some(why) => Err(Error::Recording(Box::new(InputError::new(
             Refusal::ColumnMissing,
             format!("the {sensor_kind} has columns, but they cannot be used: {why}"),
-            format!("export it again, or take the {sensor_kind}'s columns out of the file"),
+            format!("export it again, or remove the {sensor_kind}'s columns from the file"),
         )))),
         None => Ok(()),
     }
 }
 
-/// Samples, size and uncertainty of one sensor in a line or two.
+/// Number of samples, mean magnitude and uncertainty of one sensor.
 fn summary(sensor_kind: SensorKind, corrected: &CorrectedSensor<'_>) -> String {
     let unit = sensor_kind.stimulus_unit().symbol();
     let samples = corrected.values.len();
@@ -196,7 +195,7 @@ fn summary(sensor_kind: SensorKind, corrected: &CorrectedSensor<'_>) -> String {
             largest.join(", ")
         ));
     } else {
-        text.push_str("  its uncertainty is not known: the calibration has no covariance of it\n");
+        text.push_str("  its uncertainty is not known: the calibration has no covariance for it\n");
     }
     text
 }

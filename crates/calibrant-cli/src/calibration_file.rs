@@ -1,4 +1,4 @@
-//! The options of all commands that read a calibration, in whatever format.
+//! The options of all commands that read a calibration, in any format.
 
 use crate::console;
 use calibrant::Result;
@@ -6,7 +6,7 @@ use calibrant::io::{CalibratedImuFile, ConventionOptions, ImuFormat, RawUnits, r
 use calibrant::sensor::{CalibratedImu, SensorKind};
 use std::path::Path;
 
-/// A format on the command line.
+/// The name of a format on the command line.
 #[derive(Clone, Copy, clap::ValueEnum)]
 pub(crate) enum Format {
     /// calibrant JSON.
@@ -18,7 +18,7 @@ pub(crate) enum Format {
     ImuTk,
     /// imucal's JSON.
     Imucal,
-    /// A C header with the correction (ours only, where it is read).
+    /// A C header with the correction (reading: only headers that calibrant wrote).
     C,
 }
 
@@ -34,16 +34,16 @@ impl From<Format> for ImuFormat {
     }
 }
 
-/// How calibrations are read where their files do not say everything.
+/// What the file of a calibration may not state itself.
 #[derive(clap::Args)]
 pub(crate) struct Reading {
     /// Format of the calibration (default: by its content).
     #[arg(long, value_enum)]
     pub(crate) from: Option<Format>,
-    /// Unit of the readings where the file does not say (imu_tk's, some of imucal's).
+    /// Unit of the readings, if the file does not state it (imu_tk, some files of imucal).
     #[arg(long, value_enum)]
     pub(crate) unit: Option<Unit>,
-    /// The sensor that a file of one sensor is of, where it does not say (imu_tk's).
+    /// Sensor of a file of one sensor, if the file does not state it (imu_tk).
     #[arg(long, value_enum)]
     sensor: Option<Sensor>,
 }
@@ -73,7 +73,7 @@ impl Reading {
         })
     }
 
-    /// Reads a calibration, and prints what its reader found.
+    /// Reads a calibration, and prints the findings of its reader.
     pub(crate) fn read(&self, path: &Path) -> Result<CalibratedImuFile> {
         let options = ConventionOptions {
             format: self.from.map(ImuFormat::from),
@@ -91,7 +91,7 @@ impl Reading {
     }
 }
 
-/// A calibration in a line: its sensors with their units, whether it has a covariance.
+/// A calibration in one line: sensors, units, terms, covariance.
 pub(crate) fn in_words(imu: &CalibratedImu) -> String {
     let mut words: Vec<String> = SensorKind::ALL
         .into_iter()

@@ -1,4 +1,4 @@
-//! `calibrant compare`: two calibrations side by side, whatever their conventions.
+//! `calibrant compare`: compares two calibrations, whatever their conventions.
 
 use crate::calibration_file::{Reading, in_words};
 use crate::{Exit, console};
@@ -10,10 +10,10 @@ use calibrant::report::number_format;
 use calibrant::sensor::InvariantValue;
 use std::path::PathBuf;
 
-/// Compare two calibrations by what does not depend on the true frame: gains, angles between axes, biases, g-sensitivity.
+/// Compare two calibrations by quantities that do not depend on the true frame: gains, angles between axes, biases, g-sensitivity.
 ///
-/// Any two formats that `calibrant convert` reads, and the truth.json of a simulation: its values are exact. The difference is also given in joint standard
-/// deviations where there is a covariance, and as one χ² of all parameters.
+/// Each file is in a format that `calibrant convert` reads, or the truth.json of a simulation, whose values are exact. With a covariance, the
+/// difference is also given in standard deviations, and as one χ² of all parameters.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
     /// The first calibration.
@@ -22,7 +22,7 @@ pub(crate) struct Arguments {
     b: PathBuf,
     #[command(flatten)]
     reading: Reading,
-    /// Print JSON in place of the table.
+    /// Print JSON instead of the table.
     #[arg(long)]
     json: bool,
 }
@@ -85,7 +85,7 @@ fn row(quantity: &ComparedQuantity) -> Vec<String> {
         (false, true) => quantity.unit_a.to_owned(),
         (false, false) => format!("{} | {}", quantity.unit_a, quantity.unit_b),
     };
-    // a difference that rounding alone makes does not count
+    // a difference by rounding does not count
     let rounding = 1e-12 * quantity.a.value.abs().max(quantity.b.value.abs());
     let equal = quantity.difference.is_some_and(|difference| difference.abs() <= rounding);
     let [difference, in_sd] =

@@ -1,8 +1,6 @@
 //! Console output: tables on stdout, errors, notes and progress on stderr.
 
-mod accelerometer;
 mod calibration;
-mod imu;
 mod table;
 mod validation;
 
@@ -18,7 +16,7 @@ use miette::{LabeledSpan, MietteDiagnostic, NamedSource, Report};
 use std::io::Write;
 use std::path::Path;
 
-/// Prints to stdout; a reader that has gone away (`| head`) is no error.
+/// Prints to stdout. A closed reader (`| head`) is not an error.
 pub(crate) fn print(text: &str) {
     let mut out = std::io::stdout();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
@@ -40,12 +38,12 @@ pub(crate) fn warn(text: &str) {
     let _ = writeln!(std::io::stderr(), "warning: {text}");
 }
 
-/// Prints to stderr that a diagnostic of this code occurred, which is denied.
+/// Prints a denied diagnostic to stderr.
 pub(crate) fn denied(code: &str, text: &str) {
     let _ = writeln!(std::io::stderr(), "error: denied: {code}: {text}");
 }
 
-/// Prints a finding about a recording: a note, or a warning where results become doubtful.
+/// Prints a finding about a recording, as a note or a warning.
 pub(crate) fn finding(file: &str, finding: &Finding) {
     let say = if finding.is_warning() { warn } else { note };
     say(&format!("{file}: {finding}"));
@@ -60,13 +58,13 @@ pub(crate) fn findings(findings: &[Finding], file: &str, gyroscope: Option<&str>
     }
 }
 
-/// Says what a pipeline noticed.
+/// Prints the notes of a pipeline.
 pub(crate) fn noted(found: &Note) {
     let say = if found.is_warning() { warn } else { note };
     say(&found.to_string());
 }
 
-/// Warns where temperatures lie far beyond those at which a calibration was made.
+/// Warns about temperatures far beyond those of the calibration.
 pub(crate) fn warn_beyond(imu: &CalibratedImu, range_c: [f64; 2]) {
     if let Some(words) = extrapolation_in_words(&imu.parameters.thermal, range_c) {
         warn(&words);
@@ -107,7 +105,7 @@ pub(crate) fn error_in(found: &Error, recording: &Path) {
     }
 }
 
-/// A progress bar on stderr; invisible where stderr is not a terminal.
+/// A progress bar on stderr. It is invisible if stderr is not a terminal.
 pub(crate) fn progress(length: u64, what: &str) -> ProgressBar {
     let bar = ProgressBar::new(length);
     let template = format!("{{spinner}} {what} [{{bar:30}}] {{human_pos}}/{{human_len}} {{per_sec}} {{eta}}");

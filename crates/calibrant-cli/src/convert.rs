@@ -1,4 +1,4 @@
-//! `calibrant convert`: writes a calibration in another convention.
+//! `calibrant convert`: writes a calibration in another format.
 
 use crate::calibration_file::{Format, Reading, in_words};
 use crate::{Exit, console, output_places};
@@ -8,16 +8,16 @@ use calibrant::io::{ImuFormat, ImuNoise, read_kalibr_noise, read_measured_noise,
 use calibrant::sensor::{CalibratedImu, Gauge, SensorKind};
 use std::path::{Path, PathBuf};
 
-/// Convert a calibration between conventions: calibrant JSON, Kalibr, imu_tk, imucal, C header.
+/// Convert a calibration between formats: calibrant JSON, Kalibr, imu_tk, imucal, C header.
 ///
-/// The correction stays the same to the last digits; what a format cannot carry is said, and refused where the correction would be another. imu_tk has one file
-/// for each sensor: NAME.calib stands for NAME_acc.calib and NAME_gyro.calib. With --sensor, one sensor of a whole IMU is written alone.
+/// The correction stays the same to the last digits. The command reports what a format cannot store, and refuses where the correction would change. imu_tk has one
+/// file for each sensor: NAME.calib stands for NAME_acc.calib and NAME_gyro.calib. With --sensor, one sensor of an IMU is written alone.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
     /// The calibration.
     #[arg(value_name = "IN")]
     input: PathBuf,
-    /// Where to write it; its format follows from the extension: .json (calibrant), .yaml (Kalibr), .calib (imu_tk), .h (C).
+    /// Output file. The extension gives the format: .json (calibrant), .yaml (Kalibr), .calib (imu_tk), .h (C).
     #[arg(value_name = "OUT")]
     output: PathBuf,
     #[command(flatten)]
@@ -25,16 +25,16 @@ pub(crate) struct Arguments {
     /// Format of OUT.
     #[arg(long, value_enum)]
     to: Option<Format>,
-    /// Turn the true frame of both sensors into this gauge of the accelerometer.
+    /// Rotate the true frame of both sensors into this gauge of the accelerometer.
     #[arg(long, value_enum)]
     gauge: Option<GaugeName>,
-    /// Noise densities to put into OUT: noise.json as `calibrant noise` writes it, or a Kalibr imu.yaml. Given again, a file adds what those before it have not.
+    /// Noise densities for OUT: the noise.json of `calibrant noise`, or an imu.yaml of Kalibr. Repeatable: a file adds what the earlier ones lack.
     #[arg(long, value_name = "FILE")]
     noise: Vec<PathBuf>,
-    /// Leave the gyroscope's g-sensitivity out: the correction changes.
+    /// Omit the gyroscope's g-sensitivity. This changes the correction.
     #[arg(long)]
     drop_g_sensitivity: bool,
-    /// Take biases and gains as they are at this temperature, °C, and leave out what temperature does to them.
+    /// Evaluate biases and gains at this temperature, °C, and omit the temperature terms.
     #[arg(long, value_name = "CELSIUS", allow_negative_numbers = true, value_parser = crate::recording_options::celsius)]
     temperature: Option<f64>,
 }
@@ -45,7 +45,7 @@ enum GaugeName {
     Lower,
     /// Upper triangular: true z along the accelerometer's z axis (imu_tk).
     Upper,
-    /// Symmetric: as close as possible to all three axes.
+    /// Symmetric: the true axes as close as possible to all three sensitive axes.
     Symmetric,
 }
 
@@ -84,7 +84,7 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
         if largest > 0.0 {
             let unit = file.imu.gyroscope_unit.map_or("", |unit| unit.symbol());
             console::warn(&format!(
-                "the g-sensitivity is left out: readings of the gyroscope are off by up to {:.2e} {unit} at 1 g",
+                "the g-sensitivity is omitted. Readings of the gyroscope have errors up to {:.2e} {unit} at 1 g.",
                 9.80665 * largest
             ));
         }
@@ -96,12 +96,12 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     if let Some(temperature_c) = arguments.temperature {
         if file.imu.follows_temperature() {
             console::note(&format!(
-                "biases and gains are those at {temperature_c} °C; at others the correction changes"
+                "biases and gains are those at {temperature_c} °C. At other temperatures, the correction changes."
             ));
             console::warn_beyond(&file.imu, [temperature_c; 2]);
             file.imu = file.imu.at(temperature_c)?;
         } else {
-            console::note("--temperature is not used: this calibration does not follow temperature");
+            console::note("--temperature is not used: this calibration has no temperature terms");
         }
     }
     if let Some(gauge) = arguments.gauge {
@@ -122,7 +122,7 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     Ok(Exit::DONE)
 }
 
-/// The noise densities of these files together.
+/// The noise densities of all these files.
 fn densities(paths: &[PathBuf], imu: &CalibratedImu) -> calibrant::Result<Option<ImuNoise>> {
     let mut all: Option<ImuNoise> = None;
     for path in paths {

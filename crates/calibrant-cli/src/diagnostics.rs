@@ -1,17 +1,17 @@
-//! Diagnostics of results: which are printed, and which set the exit status.
+//! Which diagnostics are printed, and which set the exit status.
 
 use crate::{Exit, console};
 use calibrant::diagnostic::{Code, Diagnostic, Severity};
 use calibrant::pipeline::Note;
 use calibrant::report::message;
 
-/// Names as similar as this are suggested.
+/// Least similarity of a name that is suggested.
 const SIMILAR: f64 = 0.8;
 
-/// What the user denies and allows.
+/// The diagnostics that the user denies and allows.
 #[derive(clap::Args)]
 pub(crate) struct Rules {
-    /// Exit with status 1 where this diagnostic occurs; `warnings` denies all. The results are written. Repeatable; docs/diagnostics.md lists the codes.
+    /// Exit with status 1 if this diagnostic occurs; `warnings` stands for all. The results are written nevertheless. Repeatable. docs/diagnostics.md lists the codes.
     #[arg(long, value_name = "CODE", value_parser = denied)]
     deny: Vec<Denied>,
     /// Do not print this diagnostic, and do not deny it. JSON keeps it with the severity `allowed`. Repeatable.
@@ -19,7 +19,7 @@ pub(crate) struct Rules {
     allow: Vec<Code>,
 }
 
-/// What is denied.
+/// A denied diagnostic, or all.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Denied {
     /// All warnings.
@@ -34,7 +34,7 @@ impl Rules {
         &self.allow
     }
 
-    /// Prints the diagnostics of a result that are not allowed, and gives the exit status that they set. `prefix` stands before each.
+    /// Prints the diagnostics that are not allowed. Returns the exit status that they set. `prefix` stands before each.
     pub(crate) fn show(&self, diagnostics: &[Diagnostic], prefix: &str) -> Exit {
         let mut exit = Exit::DONE;
         for diagnostic in diagnostics.iter().filter(|found| !self.allow.contains(&found.code())) {

@@ -10,7 +10,7 @@ pub(crate) struct Exit(pub(crate) u8);
 impl Exit {
     /// The command did its work.
     pub(crate) const DONE: Exit = Exit(0);
-    /// Done, but a diagnostic that is denied occurred.
+    /// Done, but a denied diagnostic occurred.
     pub(crate) const DENIED: Exit = Exit(1);
     /// Bad usage or experiment file, or a result that cannot be written.
     pub(crate) const USAGE: Exit = Exit(2);
@@ -20,7 +20,7 @@ impl Exit {
     /// did not converge.
     pub(crate) const NOT_IDENTIFIABLE: Exit = Exit(4);
 
-    /// The exit status of a calibration. One that did not converge has determined nothing.
+    /// The exit status of a calibration. It has determined nothing if it did not converge.
     pub(crate) fn of_status(status: CalibrationStatus) -> Exit {
         if status == CalibrationStatus::Converged { Exit::DONE } else { Exit::NOT_IDENTIFIABLE }
     }

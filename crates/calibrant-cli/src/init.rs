@@ -1,4 +1,4 @@
-//! `calibrant init`: writes a commented experiment file to start from.
+//! `calibrant init`: writes a commented experiment file.
 
 use crate::{Exit, console};
 use calibrant::Error;
@@ -6,16 +6,16 @@ use calibrant::error::{InputError, Refusal};
 use calibrant::io::{Experiment, PRESETS, preset, write_atomically};
 use std::path::PathBuf;
 
-/// Write a commented experiment file to start from.
+/// Write a commented experiment file, to be edited.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
-    /// Which one: report, report-unknown, report-noisy, static-poses, static-poses-counts, imu, imu-counts, ferraris.
+    /// The preset: report, report-unknown, report-noisy, static-poses, static-poses-counts, imu, imu-counts, ferraris.
     #[arg(default_value = "report")]
     preset: String,
     /// Where to write it (default: stdout).
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Replace the file if there is one.
+    /// Replace an existing file.
     #[arg(long)]
     force: bool,
 }
@@ -42,14 +42,14 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
         Some(path) => {
             write_atomically(path, |out| out.write_all(text.as_bytes()))?;
             let file = path.display();
-            // counts of an unknown gain can be calibrated, not simulated
+            // counts of unknown gain can be calibrated, but not simulated
             let simulable =
                 Experiment::parse(text, None).is_ok_and(|experiment| experiment.sensor.gain.is_some());
             console::note(&if simulable {
-                format!("wrote {file}; edit it, then: calibrant simulate {file} -o DIR")
+                format!("wrote {file}. Edit it, then run: calibrant simulate {file} -o DIR")
             } else {
                 format!(
-                    "wrote {file}; edit it, then: calibrant calibrate {file} RECORDING -o DIR (calibrant simulate {file} needs its gains)"
+                    "wrote {file}. Edit it, then run: calibrant calibrate {file} RECORDING -o DIR (calibrant simulate {file} needs the gains)"
                 )
             });
         }

@@ -1,4 +1,4 @@
-//! `calibrant inspect`: shows what a recording contains, and what a calibration from it can determine.
+//! `calibrant inspect`: shows what a recording contains, and how good a calibration from it can be.
 
 use crate::recording_options::RecordingOptions;
 use crate::{Exit, console};
@@ -12,30 +12,30 @@ use calibrant::report::{coarse_axis, spikes_taken_out};
 use calibrant::sensor::{Axis, ReadingUnit, Saturation, SensorKind, Spikes};
 use std::path::{Path, PathBuf};
 
-/// Names of columns are cut to this number of characters.
+/// Largest number of characters of a column's name in the table.
 const LONGEST_NAME: usize = 40;
 /// Largest number of unused columns that are shown.
 const MOST_COLUMNS: usize = 50;
 
-/// Say what a recording of an IMU holds, before anything is calibrated.
+/// Show what a recording contains, before you calibrate from it.
 ///
-/// Format, columns with their units and what is used or why not, sampling, gaps, saturation, ranges, the holds and how their directions
-/// cover the sphere, and the standard deviations that a calibration of the accelerometer may be expected to have.
+/// Prints the format, the columns with units and use, sampling, gaps, saturation and ranges. Prints the holds, how their directions cover the
+/// sphere, and the standard deviations to expect of a calibration of the accelerometer.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
     /// The recording: MT Manager, Movella DOT, EuRoC, imucal, CSV, ROS 2 MCAP, Parquet; or the accelerometer's file of a pair.
     file: PathBuf,
     /// The gyroscope's file of a pair (imu_tk).
     second: Option<PathBuf>,
-    /// The same, as `calibrate` and `apply` take it.
+    /// The gyroscope's file, as `calibrate` and `apply` take it.
     #[arg(long, value_name = "FILE", conflicts_with = "second")]
     gyroscope: Option<PathBuf>,
     #[command(flatten)]
     reading: RecordingOptions,
-    /// Experiment file whose [columns] say what is what.
+    /// Experiment file whose [columns] name the columns.
     #[arg(long, value_name = "EXPERIMENT")]
     columns: Option<PathBuf>,
-    /// Print everything as JSON.
+    /// Print JSON instead of text.
     #[arg(long)]
     json: bool,
 }
@@ -87,7 +87,7 @@ fn text(file: &ImuFile, inspection: &Inspection, arguments: &Arguments) -> Strin
     }
     match &inspection.holds {
         Some(Ok(found)) => text.push_str(&holds(found, inspection)),
-        Some(Err(why)) => text.push_str(&format!("\nHolds were not looked for: {why}\n")),
+        Some(Err(why)) => text.push_str(&format!("\nNo search for holds: {why}\n")),
         None => text.push_str("\nWithout an accelerometer there are no holds.\n"),
     }
     text
@@ -131,7 +131,7 @@ fn columns(columns: &[ImuColumn]) -> String {
 
 fn sampling(sensor: &SensorInspection) -> String {
     let (start, end) = sensor.span_s;
-    // seconds since 1970 have too many digits to show how long a recording is
+    // seconds since 1970 hide the duration behind many digits
     let span = match end.abs() < 1e5 {
         true => format!("from {} to {} s", short(start), short(end)),
         false => format!("from {start} s on, over {} s", short(end - start)),
@@ -145,7 +145,7 @@ fn sampling(sensor: &SensorInspection) -> String {
         true => format!("{} % of the samples missing, {gaps}", significant(100.0 * sensor.missing, 2)),
         false => gaps,
     };
-    // a nanosecond and less is rounding, as are the last digits of a time long after the clock began
+    // a nanosecond is rounding, and so are the last digits of a late time
     let jitter = if sensor.jitter_s < 1e-9_f64.max(f64::EPSILON * end.abs()) {
         "none".into()
     } else {
@@ -181,7 +181,7 @@ fn holds(found: &HoldsInspection, inspection: &Inspection) -> String {
     let total: f64 = found.holds.iter().map(Hold::duration_s).sum();
     let longest = Hold::longest(&found.holds).map_or(0.0, |number| found.holds[number].duration_s());
     let mut text = match found.holds.len() {
-        0 => "\nNo holds found: the sensor is nowhere still for a second.\n".to_owned(),
+        0 => "\nNo holds found: the sensor is never at rest for a second.\n".to_owned(),
         n => format!(
             "\n{n} hold{} found, {} s altogether, the longest {} s\n",
             if n == 1 { "" } else { "s" },
@@ -201,7 +201,7 @@ fn holds(found: &HoldsInspection, inspection: &Inspection) -> String {
             .collect();
         if !numbers.is_empty() {
             text.push_str(&format!(
-                "  the accelerometer's axis {axis} saturates in hold{} {}: not counted here, and left out of a calibration\n",
+                "  the accelerometer's axis {axis} saturates in hold{} {}: not counted here, and not used in a calibration\n",
                 if numbers.len() == 1 { "" } else { "s" },
                 numbers.join(", ")
             ));
@@ -222,13 +222,13 @@ fn holds(found: &HoldsInspection, inspection: &Inspection) -> String {
             .filter_map(|(name, there)| (!there).then_some(name))
             .collect();
         text.push_str(&format!(
-            "  directions: the emptiest place is {}° from the nearest hold, at {}{}\n",
+            "  directions: the largest gap is {}° from the nearest hold, at {}{}\n",
             significant(coverage.gap_rad.to_degrees(), 2),
             direction(&coverage.emptiest),
             if missing.is_empty() {
                 String::new()
             } else {
-                format!("; none within 30° of {}", missing.join(", "))
+                format!("; no hold within 30° of {}", missing.join(", "))
             }
         ));
     }
@@ -269,10 +269,10 @@ fn holds(found: &HoldsInspection, inspection: &Inspection) -> String {
                     vec![quantity.name(), si, own]
                 })
                 .collect();
-            text.push_str("\nExpected standard deviations of the accelerometer (upper gauge, full model), if noise is all there is\n");
+            text.push_str("\nExpected standard deviations of the accelerometer (upper gauge, full model), from noise alone\n");
             text.push_str(&console::table(&["parameter", "sd", ""], &rows));
             text.push_str(&format!(
-                "  condition number {}; what else scatters between holds comes on top, and `calibrate` finds it\n",
+                "  condition number {}; scatter between holds adds to these, and `calibrate` estimates it\n",
                 significant(expected.condition_number, 3)
             ));
         }

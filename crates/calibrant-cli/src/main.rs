@@ -21,10 +21,10 @@ use clap::{Parser, Subcommand};
 use exit::Exit;
 use std::process::ExitCode;
 
-/// Calibrate inertial sensors: parameters with an honest covariance from a recording, and the best motion to record.
+/// Calibrate accelerometers, gyroscopes and IMUs from a recording, and design the best motion to record.
 ///
-/// Exit status: 0 done; 1 done, but a diagnostic occurred that `calibrate --deny` denies; 2 bad usage or experiment file, or a result that cannot be written; 3 bad recording; 4 the data or the motion cannot determine
-/// the parameters, the limits admit no motion, or the iteration did not converge.
+/// Exit status: 0: done. 1: done, but a diagnostic occurred that `calibrate --deny` names. 2: the usage or the experiment file is wrong, or a result cannot be written. 3: the recording is unusable. 4: the data or the motion
+/// do not determine the parameters, the limits admit no motion, or the iteration did not converge.
 #[derive(Parser)]
 #[command(name = "calibrant", version, about, long_about, arg_required_else_help = true)]
 struct Cli {
@@ -76,9 +76,9 @@ fn main() -> ExitCode {
     ExitCode::from(exit.0)
 }
 
-/// Keeps the memory of lists of samples for further use. The allocator of glibc returns large blocks to the
-/// system as soon as they are free, and takes the next anew, page by page. It keeps them once one of nearly
-/// 32 MB, untouched, has been allocated and freed. No other library needs this.
+/// Makes the allocator of glibc keep large blocks. It otherwise returns each freed block to the system, and takes
+/// the next page by page. It keeps them after one block of nearly 32 MB has been allocated and freed. Other C
+/// libraries do not need this.
 fn keep_large_blocks() {
     drop(std::hint::black_box(Vec::<u8>::with_capacity(31 << 20)));
 }

@@ -1,4 +1,4 @@
-//! `calibrant noise`: determines the Allan deviation and noise of a sensor at rest.
+//! `calibrant noise`: estimates the Allan deviation and the noise of a sensor at rest.
 
 mod arguments;
 mod holds;
@@ -53,7 +53,7 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
         }
         let moving = arguments.hold.as_ref().and_then(|_| holds::moves(&holds, &found.segment));
         if let Some(moving) = moving {
-            found.caveat = Some("the sensor moves in the interval that was given".into());
+            found.caveat = Some("the sensor moves in the given interval".into());
             found.warnings.push(moving);
         }
         Ok(found)
@@ -63,7 +63,7 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     for sensor in &there {
         match of_sensor(sensor) {
             Ok(found) => noise.push(found),
-            // with two sensors, the other still has its noise
+            // the other sensor may still have its noise
             Err(error) if there.len() > 1 && failed.is_none() => failed = Some((sensor.0, error)),
             Err(error) => return Err(in_file(error)),
         }
@@ -99,7 +99,7 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     Ok(Exit::DONE)
 }
 
-/// The files, for noise.json: a single one, or the accelerometer's and the gyroscope's.
+/// The input files, for noise.json.
 fn inputs(arguments: &Arguments, file: &ImuFile, of_one: SensorKind) -> Vec<Input> {
     let input = |path: &Path, sha256: &str, sensor_kind: SensorKind| {
         Input::of(path, sha256, file.recording.sensor(sensor_kind))
@@ -128,7 +128,7 @@ fn about(arguments: &Arguments, file: &ImuFile, inputs: &[Input], examined: Opti
     let hold = match (&arguments.hold, examined) {
         (Some(_), _) => "as given".into(),
         (None, Some(examined)) => examined,
-        (None, None) => "the longest that was found".into(),
+        (None, None) => "the longest".into(),
     };
     About {
         title: format!("Noise from {}", of_inputs(&|input| input.file.clone())),
@@ -153,7 +153,7 @@ fn no_sensor(sensor_kind: SensorKind) -> Error {
     Error::Recording(Box::new(input_error))
 }
 
-/// --gain is that of --sensor, else of the accelerometer; --gyroscope-gain is the gyroscope's.
+/// The gains by sensor. `--gain` is that of `--sensor`, or of the accelerometer. `--gyroscope-gain` is the gyroscope's.
 fn gains(arguments: &Arguments) -> calibrant::Result<Gains> {
     let asked = arguments.sensor.map_or(SensorKind::Accelerometer, SensorKind::from);
     let mut gains = Gains::new();
@@ -167,7 +167,7 @@ fn gains(arguments: &Arguments) -> calibrant::Result<Gains> {
             return Err(Error::Experiment(Box::new(InputError::new(
                 Refusal::OptionsContradict,
                 message,
-                "leave one of them away",
+                "omit one of them",
             ))));
         }
         gains.push((sensor_kind, gain));

@@ -1,11 +1,11 @@
-//! Checks of the places for results, before the work is done.
+//! Checks of the output directories, before the work begins.
 
 use calibrant::error::{InputError, Refusal};
 use calibrant::{Error, Result};
 use std::io;
 use std::path::Path;
 
-/// Returns an error where DIR is no directory and cannot become one, because a file is in the way.
+/// Returns an error if DIR cannot become a directory, because a file has its name.
 pub(crate) fn check_directory(directory: &Path) -> Result<()> {
     let Some(place) = directory.ancestors().find(|place| place.exists()) else { return Ok(()) };
     if place.is_dir() {
@@ -16,7 +16,7 @@ pub(crate) fn check_directory(directory: &Path) -> Result<()> {
     Err(Error::Output { path: directory.to_path_buf(), source })
 }
 
-/// Refuses to write to a file that was read.
+/// Refuses to replace an input file.
 pub(crate) fn check_not_input(output: &Path, inputs: &[&Path]) -> Result<()> {
     if inputs.iter().any(|input| same_file(input, output)) {
         let input_error = InputError::new(
@@ -29,7 +29,7 @@ pub(crate) fn check_not_input(output: &Path, inputs: &[&Path]) -> Result<()> {
     Ok(())
 }
 
-/// Do both paths lead to one file?
+/// Do both paths name the same file?
 pub(crate) fn same_file(one: &Path, other: &Path) -> bool {
     matches!((one.canonicalize(), other.canonicalize()), (Ok(one), Ok(other)) if one == other)
 }

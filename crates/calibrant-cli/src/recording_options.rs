@@ -1,4 +1,4 @@
-//! The options of all commands that read a recording: what its file does not state itself.
+//! The options of all commands that read a recording. They state what its file does not.
 
 use calibrant::io::{FileFormat, ImuReadOptions, ImuUnit, TimeUnit, read_columns};
 use calibrant::sensor::{SensorKind, WORKING_C};
@@ -6,28 +6,28 @@ use std::path::Path;
 
 #[derive(clap::Args, Clone)]
 pub(crate) struct RecordingOptions {
-    /// The format: mt-manager, movella-dot, euroc, imu-tk, imucal, csv, mcap or parquet (default: by content).
+    /// Format: mt-manager, movella-dot, euroc, imu-tk, imucal, csv, mcap or parquet (default: by content).
     #[arg(long, value_parser = format)]
     format: Option<FileFormat>,
-    /// Unit of the accelerometer where the file does not say: m/s2, g, mg or counts.
+    /// Unit of the accelerometer, if the file does not state it: m/s2, g, mg or counts.
     #[arg(long, value_name = "UNIT", value_parser = accelerometer_unit)]
     accelerometer_unit: Option<ImuUnit>,
-    /// Unit of the gyroscope where the file does not say: rad/s, deg/s, mdps or counts.
+    /// Unit of the gyroscope, if the file does not state it: rad/s, deg/s, mdps or counts.
     #[arg(long, value_name = "UNIT", value_parser = gyroscope_unit)]
     gyroscope_unit: Option<ImuUnit>,
-    /// Unit of the time column where its name does not say: s, ms, us or ns; samples for a counter.
+    /// Unit of the time column, if its name does not state it: s, ms, us or ns; samples for a counter.
     #[arg(long, value_name = "UNIT", value_parser = time_unit)]
     time_unit: Option<TimeUnit>,
     /// Sample rate, Hz, for files without sample times.
     #[arg(long, value_name = "HZ")]
     rate_hz: Option<f64>,
-    /// Topic of a bag that has more than one IMU.
+    /// Topic of the IMU, in a bag with several IMUs.
     #[arg(long)]
     topic: Option<String>,
 }
 
 impl RecordingOptions {
-    /// The options in the form of the readers.
+    /// The options, as the readers take them.
     pub(crate) fn options(&self) -> ImuReadOptions {
         ImuReadOptions {
             format: self.format,

@@ -1,4 +1,4 @@
-//! `calibrant study`: simulates many sensors, and compares truth and estimate.
+//! `calibrant study`: simulates many sensors, and compares estimates with the truth.
 
 mod plan;
 mod table;
@@ -15,11 +15,11 @@ use std::path::PathBuf;
 /// The experiment without a file: the report's chapters 3 and 4.
 const DEFAULT: &str = "report";
 
-/// Simulate many sensors: what calibrations promise beside what they deliver, and how much better the optimal motion is than a random one.
+/// Simulate many sensors. Compare predicted and realised errors of their calibrations, and the optimal motion with a random one.
 ///
-/// Each sensor is calibrated on a random motion, the best motion is designed at its estimate, and it is calibrated again on that. Where no motion can be
-/// designed (trust "unknown", or limits that do not bound it) the sensors are calibrated once. Without EXPERIMENT: the report's chapters 3 and 4,
-/// everything that `calibrant init report` describes. Writes study.json and report.html.
+/// Each sensor is calibrated on a random motion. The best motion is designed at this estimate, and the sensor is calibrated on it. If no motion can be
+/// designed (trust "unknown", or limits that do not bound it), the sensors are calibrated once. Without EXPERIMENT, the command repeats chapters 3 and 4
+/// of the report, which `calibrant init report` describes. Writes study.json and report.html.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
     /// The experiment file (default: the preset report; see `calibrant init`).
@@ -27,16 +27,16 @@ pub(crate) struct Arguments {
     /// The initial motion of every sensor (default: a random one for each).
     #[arg(long, value_name = "CSV")]
     motion: Option<PathBuf>,
-    /// Number of sensors of every experiment (default: those in [study]).
+    /// Number of sensors of every experiment (default: from [study]).
     #[arg(long, value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
     sensors: Option<u32>,
-    /// Starts of each sensor's design (default: those in [study], or in [design]).
+    /// Starts of each sensor's design (default: from [study] or [design]).
     #[arg(long, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     starts: Option<u32>,
-    /// Seed of everything random (default: the one in [study]).
+    /// Seed of all random numbers (default: from [study]).
     #[arg(long, allow_negative_numbers = true)]
     seed: Option<u64>,
-    /// Print study.json on stdout in place of the tables.
+    /// Print study.json on stdout instead of the tables.
     #[arg(long)]
     json: bool,
     /// Directory for the results.

@@ -197,7 +197,7 @@ impl UndeterminedGroup {
         match self.parameters.as_slice() {
             [] => None,
             [one] => Some(format!("{one} is not determined")),
-            [one, two] => Some(format!("{one} and {two} cannot be told apart")),
+            [one, two] => Some(format!("{one} and {two} cannot be separated")),
             many => Some(format!(
                 "{} combination{} of {} left free",
                 self.free_combinations,

@@ -32,15 +32,16 @@ impl Design {
             let sd = (certificate.gap / (2.0 * self.parameters.len() as f64)).exp_m1();
             let typical = if sd < 1.0 { percent(sd) } else { format!("a factor of {}", short(1.0 + sd)) };
             format!(
-                "No admissible motion can bring criterion D below {}; this one is within {} nats of that, {typical} in a typical standard deviation",
+                "No admissible motion can bring criterion D below {}; this motion is within {} nats of the bound, {typical} in a typical standard deviation",
                 short(certificate.lower_bound),
                 short(certificate.gap.max(0.0)),
             )
         } else {
             let gap = certificate.gap;
-            let near = if gap < 1.0 { format!("within {} of that", percent(gap)) } else { times(1.0 + gap) };
+            let near =
+                if gap < 1.0 { format!("within {} of the bound", percent(gap)) } else { times(1.0 + gap) };
             format!(
-                "No admissible motion can bring criterion {letter} below {}; this one has {}, {near}",
+                "No admissible motion can bring criterion {letter} below {}; this motion has {}, {near}",
                 short(certificate.lower_bound),
                 short(value),
             )
@@ -62,11 +63,13 @@ impl Design {
             unit(self.parameters[k].unit)
         );
         if excess(k) < 5e-4 {
-            return format!("{bound}; this one gives it that, and every other parameter its least sd too.");
+            return format!(
+                "{bound}; this motion reaches that bound, and the bounds of all other parameters."
+            );
         }
-        let others = if sd.len() > 1 { ", and every other parameter is closer to its bound" } else { "" };
+        let others = if sd.len() > 1 { ". All other parameters are closer to their bounds" } else { "" };
         let more = if excess(k) < 1.0 { percent(excess(k)) + " more" } else { times(1.0 + excess(k)) };
-        format!("{bound}; this one gives {}, {more}{others}.", short(sd[k]))
+        format!("{bound}; this motion gives {}, {more}{others}.", short(sd[k]))
     }
 
     fn uncertified(&self) -> String {
@@ -117,7 +120,7 @@ fn times(factor: f64) -> String {
         f if f < 999.5 => format!("{f:.0}"),
         f => short(f),
     };
-    format!("{number} times that")
+    format!("{number} times the bound")
 }
 
 /// A relative difference below one, at least 0.01 %: `0.32 %`.

@@ -1,24 +1,28 @@
-//! Reads `calibration.json` of an earlier calibration. It is the prior knowledge of a sensor for the next
-//! design.
+//! Reads the accelerometer of an earlier `calibration.json`. It is the prior knowledge of a sensor for the
+//! next design.
 
-use super::json;
+use super::convention::read_estimates;
 use super::text_decoding::{self, Checked};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::information::covariance;
-use calibrant_core::sensor::{ParameterList, Quantity, ReadingUnit, SensorParameters};
+use calibrant_core::sensor::{
+    ImuQuantity, ParameterList, Quantity, ReadingUnit, SensorKind, SensorParameters,
+};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
-use serde::Deserialize;
 use std::path::{Path, PathBuf};
 
 /// Largest calibration file, bytes. The file holds the motion, but not the residuals.
 const LARGEST: u64 = 1 << 30;
+
+/// The beginning of the names of an accelerometer's parameters.
+const ACCELEROMETER: &str = "accelerometer.";
 
 /// The parameters of an earlier calibration.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EarlierCalibration {
     /// The file, where it came from one.
     pub file: Option<PathBuf>,
-    /// Name and unit of each parameter.
+    /// Name and unit of each parameter of the accelerometer: `bias.x`.
     pub parameters: Vec<(String, String)>,
     /// Estimates, in the order of the parameters.
     pub values: Vec<f64>,
@@ -32,10 +36,8 @@ pub struct EarlierCalibration {
 /// Reads a `calibration.json` that [`write_calibration`](super::write_calibration) wrote.
 ///
 /// # Errors
-/// [`Error::Experiment`] with the file, and line and column where the JSON itself is broken. The file cannot
-/// be read or is not JSON. It has another schema, or no calibration at all. A field is missing. The
-/// calibration did not converge. A value or a covariance is not finite. The covariance has the wrong size, is
-/// not symmetric or not positive definite.
+/// [`Error::Experiment`] with the file, as [`read_calibrated_imu`](super::read_calibrated_imu). Also where it
+/// has no accelerometer, no covariance, or one that is not positive definite.
 pub fn read_calibration(path: &Path) -> Result<EarlierCalibration> {
     let bytes = text_decoding::read_bytes(path, LARGEST, "the calibration")
         .map_err(|input_error| Error::experiment(*input_error))?;
@@ -53,8 +55,10 @@ pub fn read_calibration(path: &Path) -> Result<EarlierCalibration> {
 /// # Examples
 /// ```
 /// use calibrant_io::parse_calibration;
-/// let json = r#"{ "schema": 1, "status": "converged", "covariance": [[4e-4]],
-///                 "parameters": [{ "name": "bias.x", "unit": "m/s²", "value": 0.1, "sd": 0.02 }] }"#;
+/// let json = r#"{ "schema": 2, "status": "converged", "direction": "true to raw", "frame": "its own",
+///                 "accelerometer": { "reading_unit": "m/s²", "bias_mps2": [0.1], "matrix": [[1.0]] },
+///                 "covariance": [[4e-4]],
+///                 "parameters": [{ "name": "accelerometer.bias.x", "unit": "m/s²", "value": 0.1, "sd": 0.02 }] }"#;
 /// let calibration = parse_calibration(json.as_bytes())?;
 /// assert!((calibration.information()[(0, 0)] - 2500.0).abs() < 1e-9);
 /// # Ok::<(), calibrant_core::Error>(())
@@ -125,109 +129,33 @@ impl EarlierCalibration {
         for (quantity, value) in list.quantities().iter().zip(&self.values) {
             quantity.add_to(&mut sensor, *value);
         }
-        if sensor.matrix.try_inverse().is_none() {
-            return reject(
-                "its scale factors make a sensor that reports nothing: the matrix S is singular".into(),
-                "calibrate again",
-            );
-        }
         Ok(sensor)
     }
 }
 
-/// The fields that are read. All are optional, so that the reader can name what is missing.
-#[derive(Deserialize)]
-struct File {
-    schema: Option<serde_json::Value>,
-    status: Option<String>,
-    seed: Option<serde_json::Value>,
-    parameters: Option<Vec<ParameterFields>>,
-    covariance: Option<Vec<Vec<Option<f64>>>>,
-    prior: Option<String>,
-}
-
-#[derive(Deserialize)]
-struct ParameterFields {
-    name: Option<String>,
-    unit: Option<String>,
-    value: Option<f64>,
-}
-
-pub(super) fn parse(bytes: &[u8]) -> Checked<EarlierCalibration> {
-    /// The remedy for a broken file.
+fn parse(bytes: &[u8]) -> Checked<EarlierCalibration> {
+    /// The remedy for a file that is no prior.
     const AGAIN: &str = "give a calibration.json that `calibrant calibrate` wrote";
-    let reject =
-        |message: String| Err(Box::new(InputError::new(Refusal::CalibrationInvalid, message, AGAIN)));
-    let text = text_decoding::as_text(bytes)?;
-    let file: File =
-        serde_json::from_str(text).map_err(|error| json::broken(&error, "a calibration.json", AGAIN))?;
-    match file.schema {
-        Some(schema) if schema == 1 => (),
-        Some(schema) => {
-            return reject(format!("schema {schema} of calibration.json is not known to this version"));
-        }
-        None => return reject("this is no calibration: the field `schema` is missing".into()),
-    }
-    let missing = |field: &str| {
-        InputError::new(Refusal::CalibrationInvalid, format!("the field `{field}` is missing"), AGAIN)
+    let reject = |message: &str| Err(Box::new(InputError::new(Refusal::CalibrationInvalid, message, AGAIN)));
+    let (imu, has_datasheet_prior) = read_estimates(text_decoding::as_text(bytes)?)?;
+    let imu = imu.only(SensorKind::Accelerometer);
+    let Some(unit) = imu.accelerometer_unit.filter(|_| !imu.quantities.is_empty()) else {
+        return reject("it has no parameters of an accelerometer");
     };
-    if file.status.is_none() && file.seed.is_some() {
-        return reject("this is the truth of a simulation, not a calibration: it has no covariance".into());
-    }
-    let status = file.status.ok_or_else(|| missing("status"))?;
-    let parameters = file.parameters.ok_or_else(|| missing("parameters"))?;
-    let covariance_rows = file.covariance.ok_or_else(|| missing("covariance"))?;
-    if status != "converged" {
-        let message = format!("this calibration did not converge: its status is \"{status}\"");
-        return Err(InputError::new(
-            Refusal::CalibrationUnusable,
-            message,
-            "calibrate again; its report says what is wrong",
-        )
-        .into());
-    }
-    let (mut names, mut values) = (Vec::new(), Vec::new());
-    for (i, parameter) in parameters.into_iter().enumerate() {
-        let field = |field: &str| missing(&format!("parameters[{i}].{field}"));
-        let name = parameter.name.ok_or_else(|| field("name"))?;
-        let unit = parameter.unit.ok_or_else(|| field("unit"))?;
-        let value = parameter.value.ok_or_else(|| field("value"))?;
-        names.push((name, unit));
-        values.push(value);
-    }
-    let size = values.len();
-    if size == 0 {
-        return reject("it has no parameters".into());
-    }
-    if covariance_rows.len() != size || covariance_rows.iter().any(|row| row.len() != size) {
-        return reject(format!("the covariance is not {size} × {size}, one row for each parameter"));
-    }
-    let entry = |i: usize, j: usize| covariance_rows[i][j].unwrap_or(f64::NAN);
-    let matrix = DMatrix::from_fn(size, size, entry);
-    for i in 0..size {
-        for j in 0..=i {
-            let scale = (matrix[(i, i)] * matrix[(j, j)]).sqrt();
-            if !matrix[(i, j)].is_finite() {
-                return reject(format!("entry ({}, {}) of the covariance is not a number", i + 1, j + 1));
-            }
-            if (matrix[(i, j)] - matrix[(j, i)]).abs() > 1e-9 * scale {
-                return reject(format!(
-                    "the covariance is not symmetric: entries ({0}, {1}) and ({1}, {0}) differ",
-                    i + 1,
-                    j + 1
-                ));
-            }
-        }
-    }
+    let Some(matrix) = imu.covariance else { return reject("the field `covariance` is missing") };
     let Some(information) = covariance(&matrix) else {
-        return reject("the covariance is not positive definite, so it is no covariance".into());
+        return reject("the covariance is not positive definite, so it is no covariance");
+    };
+    let described = |quantity: &ImuQuantity| {
+        let name = quantity.name().trim_start_matches(ACCELEROMETER).to_owned();
+        (name, quantity.unit(unit).to_owned())
     };
     Ok(EarlierCalibration {
         file: None,
-        parameters: names,
-        values,
+        parameters: imu.quantities.iter().map(described).collect(),
+        values: imu.quantities.iter().map(|quantity| quantity.value(&imu.parameters)).collect(),
         covariance: matrix,
-        has_datasheet_prior: file.prior.as_deref() == Some("datasheet"),
+        has_datasheet_prior,
         information,
     })
 }

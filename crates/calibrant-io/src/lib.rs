@@ -6,9 +6,8 @@
 //! | `recording.csv` and other recordings | [`read_recording`] | [`write_recording`] |
 //! | recordings of a whole IMU, in many formats | [`read_imu_recording`], [`read_imu_pair`] | [`inspection_json`] |
 //! | `motion.csv` | [`read_motion`] | [`write_motion`] |
-//! | `calibration.json` | [`read_calibration`], as what is known before a design | [`write_calibration`] |
-//! | `calibration.json` of a whole IMU | [`read_calibrated_imu`] | [`write_imu_calibration`] |
-//! | calibrations of an IMU, ours and of other programs | [`read_calibrated_imu`] | [`write_calibrated_imu`] |
+//! | `calibration.json` | [`read_calibrated_imu`]; [`read_calibration`], as what is known before a design | [`write_calibration`] |
+//! | calibrations, ours and of other programs | [`read_calibrated_imu`] | [`write_calibrated_imu`] |
 //! | corrected recordings, comparisons | | [`write_corrected_recording`], [`comparison_json`] |
 //! | `design.json`, `motion_dense.csv` | | [`write_design`], [`write_dense_motion`] |
 //! | `evaluation.json`, `sweep.json`, `sweep.csv` | | [`write_evaluation`], [`write_sweep`], [`write_sweep_csv`] |
@@ -35,8 +34,9 @@ mod evaluation;
 mod experiment;
 mod experiment_presets;
 mod ferraris_sections;
+mod gyroscope;
 mod holds;
-mod imu_calibration;
+mod input;
 mod inspection;
 mod json;
 mod motion;
@@ -51,7 +51,7 @@ mod truth;
 mod validation;
 
 pub use atomic_output::write_atomically;
-pub use calibration::{Input, calibration_json, file_name, write_calibration};
+pub use calibration::{calibration_json, write_calibration};
 pub use comparison::comparison_json;
 pub use convention::{
     CalibratedImuFile, ConventionOptions, ImuFormat, ImuNoise, RawUnits, WrittenImu, calibrated_imu_texts,
@@ -69,7 +69,7 @@ pub use experiment::{
 };
 pub use experiment_presets::{PRESETS, preset};
 pub use ferraris_sections::{Section, SectionKind, parse_sections, read_sections};
-pub use imu_calibration::{imu_calibration_json, write_imu_calibration};
+pub use input::{Input, file_name};
 pub use inspection::{HoldsInspection, Inspection, SensorInspection, inspect, inspection_json};
 pub use motion::{parse_motion, read_motion, write_motion};
 pub use noise::{NoiseLine, noise_json, noise_line, write_noise};

@@ -1,7 +1,7 @@
 //! Writes `noise.json`: the noise of a sensor at rest, its Allan deviation and its coefficients.
 
-use super::calibration::Input;
 use super::diagnostics::{DiagnosticFields, DiagnosticWords};
+use super::input::Input;
 use super::json;
 use calibrant_core::error::Result;
 use calibrant_core::noise::{

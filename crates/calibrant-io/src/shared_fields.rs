@@ -1,8 +1,8 @@
 //! Fields that several of the JSON files share.
 
-use calibrant_core::estimate::{Calibration, FitStatistics, Whiteness};
+use calibrant_core::estimate::{FitStatistics, Whiteness};
 use calibrant_core::motion::JerkControlledMotion;
-use calibrant_core::sensor::{Axis, Parameter, ParameterList, ReadingUnit, SensorParameters};
+use calibrant_core::sensor::{Axis, Parameter, ReadingUnit};
 use nalgebra::{DMatrix, Matrix3, Vector3};
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
@@ -18,16 +18,6 @@ impl<T> InUnit<T> {
     /// A value in the unit of the readings.
     pub(super) fn new(name: &'static str, unit: ReadingUnit, value: T) -> Self {
         Self { name, ending: unit.suffix(), value }
-    }
-
-    /// A value in the unit of the readings per m/s²; a pure number where they are in m/s².
-    pub(super) fn gain(name: &'static str, unit: ReadingUnit, value: T) -> Self {
-        Self { name, ending: if unit == ReadingUnit::Counts { "counts_per_mps2" } else { "" }, value }
-    }
-
-    /// A value in m/s² per unit of the readings; a pure number where they are in m/s².
-    pub(super) fn inverse_gain(name: &'static str, unit: ReadingUnit, value: T) -> Self {
-        Self { name, ending: if unit == ReadingUnit::Counts { "mps2_per_count" } else { "" }, value }
     }
 }
 
@@ -65,42 +55,6 @@ pub(super) fn axes_of(parameters: &[Parameter]) -> usize {
     parameters.iter().filter(|parameter| parameter.name.starts_with("bias.")).count().clamp(1, 3)
 }
 
-/// True values of parameters, found by name.
-pub(super) fn values_of(
-    parameters: &[Parameter],
-    list: &ParameterList,
-    sensor: &SensorParameters,
-) -> Vec<Option<f64>> {
-    let value =
-        |parameter: &Parameter| Some(list.quantities()[list.position(&parameter.name)?].value(sensor));
-    parameters.iter().map(value).collect()
-}
-
-/// An estimated parameter.
-#[derive(Serialize)]
-pub(super) struct EstimateFields {
-    name: String,
-    unit: &'static str,
-    value: f64,
-    sd: f64,
-    nominal: Option<f64>,
-    spread_sd: Option<f64>,
-}
-
-impl EstimateFields {
-    pub(super) fn all(calibration: &Calibration) -> Vec<Self> {
-        let fields = |((parameter, &value), sd): ((&Parameter, &f64), f64)| Self {
-            name: parameter.name.clone(),
-            unit: parameter.unit,
-            value,
-            sd,
-            nominal: parameter.nominal,
-            spread_sd: parameter.spread,
-        };
-        calibration.parameters.iter().zip(&calibration.values).zip(calibration.sd()).map(fields).collect()
-    }
-}
-
 /// Nodes of a motion and what follows from them.
 #[derive(Serialize)]
 pub(super) struct MotionFields {
@@ -133,11 +87,12 @@ pub(super) struct FitFields {
     degrees_of_freedom: usize,
     p_value: Option<f64>,
     #[serde(flatten)]
-    residual_rms: InUnit<Vec<f64>>,
+    residual_rms: Option<InUnit<Vec<f64>>>,
     #[serde(flatten)]
-    assumed_noise: InUnit<Option<Vec<f64>>>,
+    assumed_noise: Option<InUnit<Vec<f64>>>,
     #[serde(flatten)]
-    noise_estimate: InUnit<Option<Vec<f64>>>,
+    noise_estimate: Option<InUnit<Vec<f64>>>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
     whiteness: Vec<WhitenessFields>,
 }
 
@@ -157,14 +112,16 @@ impl FitFields {
             lags: test.lags,
             p_value: test.p_value,
         };
-        let optional = |noise: &Option<Vector3<f64>>| noise.as_ref().map(|noise| per_axis(noise, axes));
+        let field = |name, values: &Option<Vector3<f64>>| {
+            values.as_ref().map(|values| InUnit::new(name, unit, per_axis(values, axes)))
+        };
         Self {
             chi2: fit.chi2,
             degrees_of_freedom: fit.degrees_of_freedom,
             p_value: fit.p_value,
-            residual_rms: InUnit::new("residual_rms", unit, per_axis(&fit.residual_rms, axes)),
-            assumed_noise: InUnit::new("assumed_noise", unit, optional(&fit.assumed_noise)),
-            noise_estimate: InUnit::new("noise_estimate", unit, optional(&fit.noise_estimate)),
+            residual_rms: field("residual_rms", &fit.residual_rms),
+            assumed_noise: field("assumed_noise", &fit.assumed_noise),
+            noise_estimate: field("noise_estimate", &fit.noise_estimate),
             whiteness: Axis::ALL.iter().zip(&fit.whiteness).map(whiteness).collect(),
         }
     }

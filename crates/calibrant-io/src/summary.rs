@@ -3,7 +3,7 @@
 use super::atomic_output::write_atomically;
 use super::json::to_json;
 use calibrant_core::error::{Error, Refusal, Result};
-use calibrant_core::estimate::{Calibration, CalibrationStatus, ImuCalibration, Recovered};
+use calibrant_core::estimate::{Calibration, CalibrationStatus};
 use calibrant_core::sensor::Parameter;
 use std::io;
 use std::path::Path;
@@ -84,11 +84,30 @@ struct Estimate {
 }
 
 impl Summary {
-    /// The summary of an accelerometer: the number of warnings, χ², degrees of freedom, p-value and the
-    /// parameters. From holds also the root mean square of `|f| − g`.
+    /// The summary of a calibration: the number of warnings, of holds and rotations and how many of them were
+    /// used, the root mean square of `|f| − g` in the holds and of the rotation errors, χ² with its degrees of
+    /// freedom and p-value, and the parameters. A motion has no holds, an accelerometer no rotations.
     #[must_use]
     pub fn of(calibration: &Calibration) -> Self {
+        let mut quality = vec![("warnings", calibration.warnings.len().to_string())];
+        if let Some(holds) = calibration.holds() {
+            // holds that only just determine the accelerometer leave no residual
+            let magnitude = (holds.degrees_of_freedom > 0).then_some(holds.magnitude_residual_rms_mps2);
+            quality.push(("holds", holds.holds.len().to_string()));
+            quality.push(("holds_used", holds.holds.iter().filter(|hold| hold.used).count().to_string()));
+            quality.push(("magnitude_rms_mps2", number(magnitude)));
+        }
+        if calibration.gyroscope.is_some() {
+            let rotations = calibration.rotations();
+            let used = rotations.iter().filter(|rotation| rotation.used).count();
+            quality.push(("rotations", rotations.len().to_string()));
+            quality.push(("rotations_used", used.to_string()));
+            quality.push(("rotation_rms_rad", number((used > 0).then(|| calibration.rotation_rms_rad()))));
+        }
         let fit = &calibration.fit;
+        quality.push(("chi2", number(Some(fit.chi2))));
+        quality.push(("degrees_of_freedom", fit.degrees_of_freedom.to_string()));
+        quality.push(("p_value", number(fit.p_value)));
         let estimates = calibration.values.iter().zip(calibration.sd());
         let estimate = |(parameter, (value, sd)): (&Parameter, (&f64, f64))| Estimate {
             name: parameter.name.clone(),
@@ -96,53 +115,10 @@ impl Summary {
             value: *value,
             sd,
         };
-        let mut quality = vec![
-            ("warnings", calibration.warnings.len().to_string()),
-            ("chi2", number(Some(fit.chi2))),
-            ("degrees_of_freedom", fit.degrees_of_freedom.to_string()),
-            ("p_value", number(fit.p_value)),
-        ];
-        if let Recovered::Holds(holds) = &calibration.recovered {
-            quality.push(("magnitude_rms_mps2", number(Some(holds.magnitude_residual_rms_mps2))));
-        }
         Self {
             status: calibration.status,
             quality,
             parameters: calibration.parameters.iter().zip(estimates).map(estimate).collect(),
-        }
-    }
-
-    /// The summary of an IMU: the number of warnings, holds and rotations, and how many of them were used.
-    /// Also the root mean square of `|f| − g` in the holds, and of the rotation errors, and the parameters.
-    #[must_use]
-    pub fn of_imu(calibration: &ImuCalibration) -> Self {
-        let (holds, rotations) = (&calibration.holds.holds, &calibration.rotations);
-        let good_holds = holds.iter().filter(|hold| hold.used).count();
-        let good_rotations = rotations.iter().filter(|rotation| rotation.used).count();
-        // holds that only just determine the accelerometer leave no residual
-        let checked = calibration.holds.degrees_of_freedom > 0;
-        let magnitude = checked.then_some(calibration.holds.magnitude_residual_rms_mps2);
-        let angle = (good_rotations > 0).then(|| calibration.rotation_rms_rad());
-        let estimates = calibration.values.iter().zip(calibration.sd());
-        let parameters =
-            calibration.quantities.iter().zip(estimates).map(|(quantity, (value, sd))| Estimate {
-                name: quantity.name(),
-                ending: ending(calibration.unit_of(*quantity)),
-                value: *value,
-                sd,
-            });
-        Self {
-            status: calibration.status,
-            quality: vec![
-                ("warnings", calibration.warnings.len().to_string()),
-                ("holds", holds.len().to_string()),
-                ("holds_used", good_holds.to_string()),
-                ("rotations", rotations.len().to_string()),
-                ("rotations_used", good_rotations.to_string()),
-                ("magnitude_rms_mps2", number(magnitude)),
-                ("rotation_rms_rad", number(angle)),
-            ],
-            parameters: parameters.collect(),
         }
     }
 }
@@ -150,7 +126,7 @@ impl Summary {
 /// Writes `summary.csv`: file, recording, status, error, its code, the quality of the calibration ([`Summary`]), then
 /// value and standard deviation of each parameter.
 ///
-/// Units are in the header (`bias.x_mps2`, `bias.x_sd_mps2`; nothing for pure numbers). A recording without a calibration has status
+/// Units are in the header (`accelerometer.bias.x_mps2`, `accelerometer.bias.x_sd_mps2`; nothing for pure numbers). A recording without a calibration has status
 /// `error`, the reason, the code of that, and empty fields.
 ///
 /// # Errors

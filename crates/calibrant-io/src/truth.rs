@@ -128,7 +128,7 @@ struct TrueParameter {
 impl TruthFile {
     fn of(seed: u64, list: &ParameterList, unit: ReadingUnit, truth: &SensorParameters) -> Self {
         let parameter = |quantity: &Quantity| TrueParameter {
-            name: quantity.name(),
+            name: ImuQuantity::Of(SensorKind::Accelerometer, *quantity).name(),
             unit: quantity.unit(unit),
             value: quantity.value(truth),
         };

@@ -1,4 +1,4 @@
-//! The report page on a user's own motion: its predicted results beside the best motion and the limits.
+//! The report page on a user's motion, compared with the best motion and the limits.
 
 use super::About;
 use super::design::{axes, limit_table, promised_table, times, undetermined_items, violation};
@@ -16,14 +16,13 @@ use nalgebra::Vector3;
 
 /// A motion is as good as the best if all its standard deviations are within this factor.
 const AS_GOOD: f64 = 1.05;
-/// An efficiency above this hides what single parameters would gain.
+/// An efficiency above this may hide large improvements of single parameters.
 const BLIND: f64 = 0.8;
-/// Beyond this factor, the better motion is worth the effort.
+/// A better motion is worth the effort beyond this factor.
 const WORTH_IT: f64 = 1.5;
 
-/// A user's own motion as one HTML file. It shows whether the motion is good, and its predicted standard
-/// deviations beside those of the best motion found. It lists the limits that the motion breaks and the
-/// parameters that it leaves undetermined.
+/// A user's motion as one HTML file: a verdict, and its predicted standard deviations beside those of the best motion
+/// found. It lists broken limits and undetermined parameters.
 ///
 /// Self-contained as [`calibration_report`](super::calibration_report) is.
 #[must_use]
@@ -37,8 +36,8 @@ pub fn evaluation_report(assessment: &Assessment, about: &About) -> String {
     let (own, parameters) = (&assessment.evaluation, &assessment.parameters);
     let optimum = assessment.optimum.as_ref().ok();
     page.section(
-        "What the motion promises",
-        "Standard deviations that a calibration from a recording of the motion will state.",
+        "Predicted standard deviations",
+        "A calibration from a recording of the motion has these standard deviations.",
     );
     match optimum {
         Some(design) => {
@@ -55,7 +54,7 @@ pub fn evaluation_report(assessment: &Assessment, about: &About) -> String {
     page.push(criterion_table(assessment));
 
     let (axes, limits) = (axes(parameters), drawn_limits(&assessment.limits));
-    page.section("The motion", "What the arm has to do, per axis, beside the limits.");
+    page.section("The motion", "The motion of the arm on each axis, with the limits.");
     let mut motions = vec![Drawn::before("your motion", &own.motion)];
     motions.extend(optimum.map(|design| Drawn::after("optimal", &design.optimal.motion)));
     page.push(jerk_and_acceleration("Jerk (a) and acceleration (b)", &motions, axes, &limits).html());
@@ -63,10 +62,10 @@ pub fn evaluation_report(assessment: &Assessment, about: &About) -> String {
     if let Some(figure) = states(&motions, axes, &limits) {
         page.push(figure.html());
     }
-    page.subsection("Limits and how far they are used");
+    page.subsection("Use of the limits");
     page.push(limit_table(&assessment.limits, "motion"));
 
-    page.section("Confidence", "How certain the parameters will be, and which errors come together.");
+    page.section("Confidence", "The uncertainty of the parameters, and which errors are correlated.");
     let best = optimum.map(|design| ("optimal", &design.optimal));
     let ellipses = confidence_ellipses(parameters, ("your motion", own), best);
     if let Some(figure) = ellipses {
@@ -87,7 +86,7 @@ fn verdict(assessment: &Assessment, about: &About) -> String {
         Ok(design) if determined => compared(assessment, design, &mut sentences),
         Ok(_) => None,
         Err(why) => {
-            sentences.push(format!("There is no best motion to compare with: {why}."));
+            sentences.push(format!("No best motion is available for a comparison: {why}."));
             None
         }
     };
@@ -98,14 +97,15 @@ fn verdict(assessment: &Assessment, about: &About) -> String {
         _ if !determined => {
             sentences.insert(
                 0,
-                "No recording of it can calibrate the sensor: it leaves parameters undetermined.".into(),
+                "No recording of this motion can calibrate the sensor: it leaves parameters undetermined."
+                    .into(),
             );
             ("bad", "✗ Useless for calibration.")
         }
         _ if !broken.is_empty() => ("bad", "✗ Breaks limits."),
         Some(factor) if factor <= AS_GOOD => ("good", "✓ As good as the best motion found."),
         Some(factor) if factor <= WORTH_IT => ("good", "✓ Usable, a little better is possible."),
-        Some(_) => ("caution", "! Usable, but a better motion is worth it."),
+        Some(_) => ("caution", "! Usable, but a better motion is worth the effort."),
         None => ("good", "✓ Usable."),
     };
     let remarks = [
@@ -116,7 +116,7 @@ fn verdict(assessment: &Assessment, about: &About) -> String {
     verdict_box(class, word, &sentences.join(" "), &remarks)
 }
 
-/// States how the motion compares; returns the largest factor that the best motion gains.
+/// Adds the comparison with the best motion. Returns the largest factor of improvement.
 fn compared(assessment: &Assessment, design: &Design, sentences: &mut Vec<String>) -> Option<f64> {
     let factors =
         assessment.evaluation.sd().into_iter().zip(design.optimal.sd()).map(|(own, best)| own / best);
@@ -127,29 +127,31 @@ fn compared(assessment: &Assessment, design: &Design, sentences: &mut Vec<String
         .filter(|(_, factor)| factor.is_finite())
         .max_by(|a, b| a.1.total_cmp(&b.1))?;
     sentences.push(if most <= AS_GOOD {
-        "No parameter would gain more than a few per cent from the best motion found.".to_string()
+        "The best motion found improves no parameter by more than a few per cent.".to_string()
     } else {
         format!(
-            "The best motion found would make the standard deviation of {} {} times smaller; other parameters gain less, or as much.",
+            "The best motion found makes the standard deviation of {} {} times smaller. Other parameters improve at most as much.",
             parameter.name,
             times(most).trim_end_matches(" ×")
         )
     });
     if let Some(efficiency) = assessment.efficiency() {
         let mut sentence = format!(
-            "By criterion {}, its efficiency is {}: what it tells in 100 recordings, the best motion tells in {}",
+            "By criterion {}, its efficiency is {}: 100 recordings of it give as much information as {} of the best motion",
             assessment.criterion.letter(),
             number_format::percent(efficiency),
             number_format::significant(100.0 * efficiency, 2)
         );
         if let Some(certain) = assessment.certain_efficiency() {
-            sentence
-                .push_str(&format!("; against the lower bound it is {}", number_format::percent(certain)));
+            sentence.push_str(&format!(
+                ". Against the lower bound, the efficiency is {}",
+                number_format::percent(certain)
+            ));
         }
         sentences.push(sentence + ".");
         if efficiency > BLIND && most > WORTH_IT {
             sentences.push(
-                "The criterion hardly sees the difference because it is dominated by parameters that no motion improves: judge by the standard \
+                "The criterion hardly shows the difference, since parameters that no motion improves dominate it. Judge by the standard \
                  deviations."
                     .to_string(),
             );
@@ -160,7 +162,7 @@ fn compared(assessment: &Assessment, design: &Design, sentences: &mut Vec<String
 
 fn not_alike(other: &OtherSetting) -> String {
     format!(
-        "Mind that the motion takes {} s in {}, while the best motion is for the experiment's {} s in {}.",
+        "The motion takes {} s in {}, but the best motion is for the experiment's {} s in {}.",
         number_format::short(other.duration_s),
         number_format::counted(other.intervals, "interval"),
         number_format::short(other.experiment_duration_s),

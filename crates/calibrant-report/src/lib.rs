@@ -4,33 +4,28 @@
 //! figures. Cells of tables already have their digits ([`number_format`]). Figures are data (`figure`) until
 //! the page is written.
 
-mod before_after;
 mod calibration;
 mod design;
 mod evaluation;
 mod figure;
-mod fit;
-mod holds;
 mod html;
-mod imu;
 mod noise;
 pub mod number_format;
-mod parameters;
 mod report_context;
 mod study;
 mod sweep;
 mod table;
 mod validation;
-mod verdict;
 mod words;
 
 #[cfg(test)]
 mod tests;
 
-pub use calibration::calibration_report;
+pub use calibration::{
+    calibration_quality, calibration_report, over_the_gain, temperature_in_words, used_in_words,
+};
 pub use design::design_report;
 pub use evaluation::evaluation_report;
-pub use imu::{imu_calibration_report, imu_quality, over_the_gain, temperature_in_words};
 pub use noise::{coefficient_name, noise_report};
 pub use report_context::About;
 pub use study::study_report;

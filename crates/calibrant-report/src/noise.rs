@@ -9,12 +9,12 @@ use crate::words::message;
 use calibrant_core::noise::{AxisNoise, Coefficient, PowerLaw, SensorNoise, coefficient_units};
 use rayon::prelude::*;
 
-/// Samples are disturbed if they scatter more than white noise by this factor.
+/// Samples are disturbed if they scatter by more than this factor times white noise.
 const DISTURBED: f64 = 1.05;
-/// Samples are correlated if they scatter less than white noise by this factor.
+/// Samples are correlated if they scatter by less than this factor times white noise.
 const FILTERED: f64 = 0.95;
 
-/// The noise of one or two sensors as one HTML file: what is determined, the Allan deviation plots, tables in SI and in customary units.
+/// The noise of one or two sensors as one HTML file: verdict, Allan deviation plots, tables in SI and in customary units.
 ///
 /// Self-contained as [`calibration_report`](super::calibration_report) is.
 #[must_use]
@@ -72,7 +72,7 @@ pub fn coefficient_name(noise: &SensorNoise, process: PowerLaw) -> &'static str 
 fn coefficient_table(noise: &SensorNoise) -> String {
     let mut table = Table::new(
         "",
-        &["", "value ± sd", "95 % interval, and the same in customary units; or why it is not determined"],
+        &["", "value ± sd", "95 % interval, also in customary units; or the reason why it is not determined"],
     );
     for process in [PowerLaw::White, PowerLaw::Flicker, PowerLaw::RandomWalk, PowerLaw::Quantisation] {
         for axis in &noise.axes {
@@ -170,11 +170,11 @@ fn verdict(noise: &[SensorNoise], about: &About) -> String {
     let slow = determined(PowerLaw::Flicker) + determined(PowerLaw::RandomWalk);
     let doubtful = noise.iter().any(|sensor_kind| sensor_kind.caveat.is_some());
     let (class, word) = match () {
-        () if doubtful => ("bad", "✗ This is not the noise of a sensor at rest alone."),
-        () if !explained => ("bad", "✗ The noise is not explained."),
+        () if doubtful => ("bad", "✗ This is not only the noise of a sensor at rest."),
+        () if !explained => ("bad", "✗ The model does not explain the noise."),
         () if drifts || determined(PowerLaw::White) < total => ("caution", "! Look closer."),
         () if slow == 0 => {
-            ("caution", "! White noise is determined; for the slow noises the recording is too short.")
+            ("caution", "! White noise is determined. The recording is too short for slow noise.")
         }
         () => ("good", "✓ White noise and slow noise are determined."),
     };

@@ -1,4 +1,4 @@
-//! The report page on a sweep: the best designs as one quantity of the experiment changes.
+//! The report page on a sweep: the best designs for several values of one quantity.
 
 use super::About;
 use super::design::{above, status};
@@ -9,7 +9,7 @@ use super::table::{Cell, Table};
 use calibrant_core::information::Criterion;
 use calibrant_design::{DesignStatus, Sweep, SweepPoint};
 
-/// A sweep as one HTML file: the gain by the change in a sentence, the curves, a table of all values.
+/// A sweep as one HTML file: the effect of the quantity in a sentence, the curves, a table of all values.
 ///
 /// Self-contained as [`calibration_report`](super::calibration_report) is.
 #[must_use]
@@ -22,13 +22,13 @@ pub fn sweep_report(sweep: &Sweep, about: &About) -> String {
 
     page.section(
         "Curves",
-        "For each value the best motion was designed; shown is the standard deviation that a calibration from one recording of it will state.",
+        "The best motion was designed for each value. The figure shows the standard deviation of a calibration from one recording of it.",
     );
     page.push(sweep_curves(sweep).html());
     page.section(
         "Table",
         &format!(
-            "Minimised was criterion {}, {}{}.",
+            "The design minimises criterion {}, {}{}.",
             sweep.criterion.letter(),
             sweep.criterion.formula(),
             sweep.criterion.scaling()
@@ -65,7 +65,7 @@ fn verdict(sweep: &Sweep, about: &About) -> String {
     )
 }
 
-/// The gain by the change: the parameter that profits most, from the least value to the most.
+/// The effect of the quantity on the parameter that depends on it most, from the smallest value to the largest.
 fn worth(sweep: &Sweep) -> Option<String> {
     let mut points: Vec<&SweepPoint> = sweep.points.iter().filter(|point| point.outcome.is_ok()).collect();
     points.sort_by(|a, b| a.value.total_cmp(&b.value));
@@ -92,19 +92,19 @@ fn worth(sweep: &Sweep) -> Option<String> {
     if doublings >= 0.5 {
         let ratio = (low[p] / high[p]).powf(1.0 / doublings);
         sentence.push_str(&match ratio {
-            _ if (ratio - 1.0).abs() < 5e-3 => ": it hardly depends on it".to_string(),
+            _ if (ratio - 1.0).abs() < 5e-3 => ". It hardly depends on this quantity".to_string(),
             _ if ratio > 1.0 => {
-                format!(": on average, each doubling divides it by {}", number_format::significant(ratio, 3))
+                format!(". On average, each doubling divides it by {}", number_format::significant(ratio, 3))
             }
             _ => format!(
-                ": on average, each doubling multiplies it by {}",
+                ". On average, each doubling multiplies it by {}",
                 number_format::significant(1.0 / ratio, 3)
             ),
         });
     }
     sentence.push('.');
     if sweep.parameters.len() > 1 {
-        sentence.push_str(" The other parameters change less, or as much.");
+        sentence.push_str(" The other parameters change at most as much.");
     }
     Some(sentence)
 }

@@ -34,7 +34,7 @@ impl Table {
 
     /// A table of numbers, each with its meaning.
     pub(super) fn explained() -> Self {
-        Self::new("", &["", "value", "what it means"])
+        Self::new("", &["", "value", "meaning"])
     }
 
     /// Appends a number with its meaning.

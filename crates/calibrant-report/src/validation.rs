@@ -11,15 +11,15 @@ use calibrant_core::estimate::{
 };
 use calibrant_core::sensor::SensorKind;
 
-/// Number of errors that are named one by one; the others are counted.
+/// Largest number of errors that are named one by one. The others are counted.
 const NAMED: usize = 5;
-/// Beyond this factor, the covariance is not the reason.
-const ANOTHER: f64 = 30.0;
+/// Errors beyond this factor have another cause than the covariance.
+const OTHER_CAUSE: f64 = 30.0;
 
-/// The result of a validation, a sentence for each kind of error: do the errors agree with the covariance?
+/// The result of a validation, with a verdict for each kind of error: is the covariance consistent with the errors?
 #[must_use]
 pub fn validation_sentences(validation: &Validation) -> Vec<String> {
-    // in another unit, noise and bias are those of the unit
+    // a wrong unit explains noise and bias
     let in_unit = validation.reasons.iter().all(|of| !matches!(of, LikelyExplanation::AngularUnit { .. }));
     let other = validation.noise.iter().filter(|noise| noise.differs());
     let mut sentences: Vec<String> = other
@@ -30,10 +30,10 @@ pub fn validation_sentences(validation: &Validation) -> Vec<String> {
     let explained =
         |errors: &ValidatedErrors| validation.reasons.iter().any(|reason| reason.explains(errors.kind));
     let beyond = |errors: &ValidatedErrors| {
-        errors.verdict == CovarianceVerdict::TooSmall && errors.factor > ANOTHER && !explained(errors)
+        errors.verdict == CovarianceVerdict::TooSmall && errors.factor > OTHER_CAUSE && !explained(errors)
     };
     let any_beyond = validation.kinds.iter().any(beyond);
-    // with another sensor, or another order of the axes, the bias has not moved
+    // with another sensor or other axes, the bias has not moved
     sentences.extend(validation.bias_shift.as_ref().filter(|_| in_unit && !any_beyond).map(bias));
     for errors in &validation.kinds {
         let cause = match errors {
@@ -47,8 +47,8 @@ pub fn validation_sentences(validation: &Validation) -> Vec<String> {
         sentences.extend(outlying.iter().take(NAMED).map(|error| stands_out(errors.kind, error)));
         if outlying.len() > NAMED {
             sentences.push(match outlying.len() - NAMED {
-                1 => "One more does not count either.".into(),
-                more => format!("{more} more do not count either."),
+                1 => "One more is not counted either.".into(),
+                more => format!("{more} more are not counted either."),
             });
         }
     }
@@ -70,7 +70,7 @@ pub fn validation_heading(validation: &Validation) -> String {
     }
 }
 
-/// Header and rows of what a validation found: errors, number, rms, predicted, χ² of n, p-value, factor.
+/// Header and rows of the table: errors, number, rms, predicted, χ² of n, p-value, factor.
 #[must_use]
 pub fn validation_rows(validation: &Validation) -> ([&'static str; 7], Vec<[String; 7]>) {
     let header = ["error of", "number", "rms", "predicted", "χ² of n", "p-value", "factor (99 %)"];
@@ -89,7 +89,7 @@ pub fn validation_rows(validation: &Validation) -> ([&'static str; 7], Vec<[Stri
         ]);
         if let Some(part) = errors.parameters {
             rows.push([
-                "– by the parameters".into(),
+                "– through the parameters".into(),
                 number_format::UNKNOWN.into(),
                 number_format::UNKNOWN.into(),
                 number_format::UNKNOWN.into(),
@@ -102,15 +102,15 @@ pub fn validation_rows(validation: &Validation) -> ([&'static str; 7], Vec<[Stri
     (header, rows)
 }
 
-/// The section on all validations of a calibration; nothing where there is none.
+/// The section on all validations of a calibration. Without a validation there is no section.
 pub(super) fn validation_section(page: &mut Page, validations: &[Validation]) {
     if validations.is_empty() {
         return;
     }
     page.section(
         "Validation",
-        "Errors on data that were not used, beside what the calibration predicts of them: its covariance, the noise, and the scatter between holds and \
-         rotations. The factor is that by which the standard deviations are off, 1 if they are right, with its 99 % confidence interval.",
+        "Errors on data that the calibration did not use, and the errors that it predicts. The prediction includes the covariance, the noise, and the scatter between holds and \
+         rotations. The factor is errors over prediction: 1 if the standard deviations are right. It has a 99 % confidence interval.",
     );
     for validation in validations {
         page.subsection(&validation_heading(validation));
@@ -167,57 +167,63 @@ fn sentence(errors: &ValidatedErrors, cause: Cause) -> String {
     let (rms, predicted) = (measured(kind, errors.rms), measured(kind, errors.predicted_rms));
     let misses = match kind {
         ErrorKind::Magnitude => {
-            format!("On {} not used, |f| misses gravity by {rms} rms", count_that_were(count, "hold"))
+            format!("In {}, the gravity residual is {rms} rms", number_format::counted(count, "unused hold"))
         }
         ErrorKind::Rate => {
-            format!("In {} not used, the corrected rate is off by {rms} rms", count_that_were(count, "hold"))
+            format!(
+                "In {}, the error of the corrected rate is {rms} rms",
+                number_format::counted(count, "unused hold")
+            )
         }
         ErrorKind::Rotation => {
-            format!("After {} not used, gravity is missed by {rms} rms", count_that_were(count, "rotation"))
+            format!(
+                "In {}, the rotation error is {rms} rms",
+                number_format::counted(count, "unused rotation")
+            )
         }
     };
     let two = |value: f64| number_format::significant(value, 2);
     let (low, high) = errors.factor_interval;
     let caveat = match (errors.verdict, errors.parameters) {
         (CovarianceVerdict::Believed, _) => {
-            format!("the covariance is to be believed (the factor is between {} and {})", two(low), two(high))
+            format!("The covariance is consistent with the errors (factor {} to {})", two(low), two(high))
         }
         (CovarianceVerdict::LargerThanNeeded, _) => format!(
-            "{} times what was predicted: the standard deviations are larger than need be (the factor is between {} and {})",
+            "The errors are {} times the predicted errors. The standard deviations are larger than necessary (factor {} to {})",
             two(errors.factor),
             two(low),
             two(high)
         ),
         (CovarianceVerdict::TooFew, _) => {
-            format!("too few to tell (the factor is anywhere between {} and {})", two(low), two(high))
+            format!("The data are too few for a verdict (factor {} to {})", two(low), two(high))
         }
         (CovarianceVerdict::Doubtful, _) => format!(
-            "as predicted (the factor is between {} and {}), but not to be believed: {}",
+            "The errors are as predicted (factor {} to {}), but they confirm nothing: {}",
             two(low),
             two(high),
             errors.caveat.as_ref().map_or_else(String::new, |caveat| why(caveat, errors))
         ),
         (CovarianceVerdict::TooSmall, _) if cause == Cause::Reported => format!(
-            "{} times what was predicted; the reason that is told above is a likelier one than the covariance",
+            "The errors are {} times the predicted errors. The cause named above is more likely than the covariance",
             two(errors.factor)
         ),
         (CovarianceVerdict::TooSmall, _) if cause == Cause::Beside => format!(
-            "{} times what was predicted; where other errors are beyond any covariance, it is not to be judged by these",
+            "The errors are {} times the predicted errors. They do not judge the covariance, since no covariance explains the other errors",
             two(errors.factor)
         ),
         (CovarianceVerdict::TooSmall, _) if cause == Cause::Another => format!(
-            "{} times what was predicted, which no covariance explains: is it the same sensor, in the same units, its axes in the same order, and nothing changed or damaged \
+            "The errors are {} times the predicted errors, which no covariance explains. Is it the same sensor, with the same units and axes? Was it changed or damaged \
              since?",
             two(errors.factor)
         ),
         (CovarianceVerdict::TooSmall, Some(part)) if low <= 1.0 => format!(
-            "but what the errors have in common through the parameters is {} times what was predicted: the parameters' covariance is too small; multiply their \
+            "But the part of the errors that the parameters cause is {} times the predicted part. The parameters' covariance is too small. Multiply their \
              standard deviations by about that (factor {})",
             two((part.chi2 / part.degrees_of_freedom as f64).sqrt()),
             between(part.factor, part.factor_interval)
         ),
         (CovarianceVerdict::TooSmall, _) => format!(
-            "{} times what was predicted: the covariance is too small; multiply the standard deviations by about {} (between {} and {})",
+            "The errors are {} times the predicted errors. The covariance is too small. Multiply the standard deviations by about {} ({} to {})",
             two(errors.factor),
             two(errors.factor),
             two(low),
@@ -225,14 +231,10 @@ fn sentence(errors: &ValidatedErrors, cause: Cause) -> String {
         ),
     };
     let end = if caveat.ends_with('?') { "" } else { "." };
-    format!("{misses}, {predicted} predicted: {caveat}{end}")
+    format!("{misses}, predicted {predicted}. {caveat}{end}")
 }
 
-fn count_that_were(count: usize, what: &str) -> String {
-    format!("{} that {}", number_format::counted(count, what), if count == 1 { "was" } else { "were" })
-}
-
-/// Why errors as large as predicted confirm nothing.
+/// Why errors of the predicted size confirm nothing.
 fn why(caveat: &Caveat, errors: &ValidatedErrors) -> String {
     let what = match errors.kind {
         ErrorKind::Magnitude | ErrorKind::Rate => "hold",
@@ -243,25 +245,25 @@ fn why(caveat: &Caveat, errors: &ValidatedErrors) -> String {
     };
     match caveat {
         Caveat::Change(change) => {
-            format!("{}, and what is predicted has the scatter in it that this makes", headline(change))
+            format!("{}, and the prediction includes the scatter of this change", headline(change))
         }
         Caveat::Clocks(ClockRate { faster, sd }) => format!(
-            "the clocks of the sensors go at different rates, by {:.4} ± {:.4} %: gains are wrong by this share in all rotations alike",
+            "the clocks of the sensors run at different rates, by {:.4} ± {:.4} %. The gains are wrong by this percentage in all rotations alike",
             100.0 * faster.abs(),
             100.0 * sd
         ),
         Caveat::LeftOut { count, start_s, end_s } => format!(
-            "the calibration left out {count} in a row, {}, which is no chance, and speaks for the others only",
+            "the calibration did not use {count} in a row, {}. This is not by chance, and the calibration holds only for the others",
             from_to(*start_s, *end_s)
         ),
         Caveat::InARow { count, start_s, end_s } => format!(
-            "{} in a row, {}, {} not count, which is no chance: did the sensor change there?",
+            "{} in a row, {}, {} not counted. This is not by chance. Did the sensor change there?",
             number_format::counted(*count, what),
             from_to(*start_s, *end_s),
-            if *count == 1 { "does" } else { "do" }
+            if *count == 1 { "is" } else { "are" }
         ),
         Caveat::Several { count } => format!(
-            "{} of {} do not count, too many for a chance",
+            "{} of {} are not counted, which is too many to be chance",
             number_format::counted(*count, what),
             errors.errors.len()
         ),
@@ -272,15 +274,15 @@ fn other_noise(noise: &NoiseRatio) -> String {
     let ratio = number_format::significant(noise.overall(), 2);
     if let Some(coarse) = noise.coarse {
         return format!(
-            "The {}'s readings come in steps of {} {} here, coarser than their noise (a wider range, or rounded?): they scatter {ratio} times as in the calibration's recording. What is \
-             predicted goes with that, which is no reason to distrust the calibration.",
+            "The {}'s readings come in steps of {} {} here, coarser than their noise (a wider range, or rounded?). They scatter {ratio} times as much as in the calibration's recording. \
+             The prediction includes that. It is no reason to distrust the calibration.",
             noise.sensor_kind,
             number_format::significant(coarse.step, 2),
             coarse.unit.symbol()
         );
     }
     format!(
-        "The {}'s noise is {} times that of the calibration's recording (another range, bandwidth or filter?): what is predicted goes with the noise found here, which is no reason to \
+        "The {}'s noise is {} times that of the calibration's recording (another range, bandwidth or filter?). The prediction uses the noise of this recording. It is no reason to \
          distrust the calibration.",
         noise.sensor_kind, ratio
     )
@@ -295,7 +297,7 @@ fn likely_explanation(reason: &LikelyExplanation) -> String {
     };
     match reason {
         LikelyExplanation::Temperature { calibrated_c, here_c } => format!(
-            "This recording was made at {} °C in the mean, the calibration at {} °C and without temperature terms: what differs has its likely reason in that. Calibrate over the temperatures of \
+            "This recording was made at a mean of {} °C, the calibration at {} °C and without temperature terms. This is the likely cause of the differences. Calibrate over the temperatures of \
              use, with [temperature].",
             number_format::fixed(*here_c, 1),
             number_format::fixed(*calibrated_c, 1)
@@ -306,26 +308,26 @@ fn likely_explanation(reason: &LikelyExplanation) -> String {
                 false => format!("{} to {}", number_format::fixed(*low, 1), number_format::fixed(*high, 1)),
             };
             format!(
-                "This recording was made at {} °C, the calibration at {} °C: beyond these its temperature terms are extrapolated, and what differs has its likely reason in that. Calibrate over \
+                "This recording was made at {} °C, the calibration at {} °C. The temperature terms are extrapolated, which is the likely cause of the differences. Calibrate over \
                  the temperatures of use.",
                 between(here_c),
                 between(calibrated_c)
             )
         }
         LikelyExplanation::AccelerometerBias { shift_mps2, sd_mps2 } => format!(
-            "The accelerometer's bias has moved by {} mm/s² since the calibration, up to {} standard deviations; that explains how |f| misses gravity. Calibrate it again.",
+            "The accelerometer's bias has moved by {} mm/s² since the calibration, up to {} standard deviations. That explains the gravity residuals. Calibrate it again.",
             list(shift_mps2, 1e3),
             most(shift_mps2, sd_mps2)
         ),
         LikelyExplanation::AccelerometerGain { change, sd } => format!(
-            "The accelerometer's gains have changed by {} % since the calibration, up to {} standard deviations; that explains how |f| misses gravity. Calibrate it again.",
+            "The accelerometer's gains have changed by {} % since the calibration, up to {} standard deviations. That explains the gravity residuals. Calibrate it again.",
             list(change, 100.0),
             most(change, sd)
         ),
         LikelyExplanation::AccelerometerBiasAndGain { shift_mps2, shift_sd_mps2, change, change_sd } => {
             format!(
-                "Since the calibration the accelerometer's bias has moved by {} mm/s², up to {} standard deviations, and its gains have changed by {} %, up to {}; both together explain how |f| misses \
-             gravity. Calibrate it again.",
+                "Since the calibration the accelerometer's bias has moved by {} mm/s², up to {} standard deviations. Its gains have changed by {} %, up to {}. Both together explain the gravity \
+             residuals. Calibrate it again.",
                 list(shift_mps2, 1e3),
                 most(shift_mps2, shift_sd_mps2),
                 list(change, 100.0),
@@ -333,14 +335,14 @@ fn likely_explanation(reason: &LikelyExplanation) -> String {
             )
         }
         LikelyExplanation::GyroscopeGain { change, sd } => format!(
-            "The gyroscope's gains have changed by {} % since the calibration (or its clock by as much), up to {} standard deviations; that explains how rotations miss gravity. Calibrate it again.",
+            "The gyroscope's gains have changed by {} % since the calibration (or its clock by as much), up to {} standard deviations. That explains the rotation errors. Calibrate it again.",
             list(change, 100.0),
             most(change, sd)
         ),
         LikelyExplanation::AngularUnit { factor } => {
             let (really, stated) = if *factor < 1.0 { ("deg/s", "rad/s") } else { ("rad/s", "deg/s") };
             format!(
-                "The gyroscope's readings are 57.3 times too {}: they are likely in {really}, and stated to be in {stated}. In {really} gravity is carried rightly.",
+                "The gyroscope's readings are 57.3 times too {}: they are likely in {really}, but stated in {stated}. In {really}, the propagated gravity is right.",
                 if *factor < 1.0 { "large" } else { "small" }
             )
         }
@@ -349,14 +351,14 @@ fn likely_explanation(reason: &LikelyExplanation) -> String {
 
 fn bias(shift: &BiasShift) -> String {
     if !shift.moved {
-        return "The gyroscope's bias is that of the calibration, within its uncertainty.".into();
+        return "The gyroscope's bias agrees with the calibration, within its uncertainty.".into();
     }
     let degrees = |value: f64| number_format::significant(value.to_degrees(), 2);
     let values: Vec<String> = shift.shift_radps.iter().map(|value| degrees(*value)).collect();
     let most = shift.shift_radps.component_div(&shift.sd_radps).amax();
     format!(
-        "The gyroscope's bias has moved by {} °/s since the calibration, up to {} standard deviations: determine it anew where it is used. Rates and rotations are judged \
-         with the bias it has moved to.",
+        "The gyroscope's bias has moved by {} °/s since the calibration, up to {} standard deviations. Estimate it again where the gyroscope is used. Rates and rotations are judged \
+         with the new bias.",
         values.join(", "),
         number_format::significant(most, 2)
     )
@@ -367,12 +369,13 @@ fn stands_out(kind: ErrorKind, error: &UnusedError) -> String {
         Some(from) => format!("The rotation from hold {} to hold {}", from + 1, error.hold + 1),
         None => format!("Hold {}", error.hold + 1),
     };
-    let missed = match kind {
-        ErrorKind::Rate => "shows a rate of",
-        ErrorKind::Magnitude | ErrorKind::Rotation => "misses gravity by",
+    let has = match kind {
+        ErrorKind::Rate => "has a rate error of",
+        ErrorKind::Magnitude => "has a gravity residual of",
+        ErrorKind::Rotation => "has an error of",
     };
     format!(
-        "{name} ({} to {} s) {missed} {}, {} times what was predicted, and does not count.",
+        "{name} ({} to {} s) {has} {}, {} times the predicted one. It is not counted.",
         number_format::fixed(error.start_s, 1),
         number_format::fixed(error.end_s, 1),
         measured(kind, error.error.norm()),
@@ -383,7 +386,7 @@ fn stands_out(kind: ErrorKind, error: &UnusedError) -> String {
 fn failure(fold: &FailedFold) -> String {
     let (first, last) = (fold.holds.0 + 1, fold.holds.1 + 1);
     let holds = if first == last { format!("Hold {first}") } else { format!("Holds {first} to {last}") };
-    format!("{holds} could not be predicted from the others: {}.", fold.reason)
+    format!("{holds} could not be predicted from the other holds: {}.", fold.reason)
 }
 
 #[cfg(test)]
@@ -411,9 +414,9 @@ mod tests {
     fn a_question_has_no_full_stop_and_an_angle_ends_at_half_a_revolution() {
         let stated = sentence(&errors(100.0, 1.0), Cause::Another);
         assert!(stated.ends_with("or damaged since?"), "{stated}");
-        assert!(stated.contains("gravity is missed by 57° rms, more than 180° predicted: "), "{stated}");
+        assert!(stated.contains("the rotation error is 57° rms, predicted more than 180°. "), "{stated}");
         let stated = sentence(&errors(3.0, 98_966_f64.to_radians()), Cause::Covariance);
-        assert!(stated.ends_with("(between 2.7 and 3.3)."), "{stated}");
-        assert!(stated.contains("gravity is missed by more than 180° rms"), "{stated}");
+        assert!(stated.ends_with("(2.7 to 3.3)."), "{stated}");
+        assert!(stated.contains("the rotation error is more than 180° rms"), "{stated}");
     }
 }

@@ -1,4 +1,4 @@
-//! Diagnostics in words: the one place where their sentences are made.
+//! Diagnostics in words. Their sentences are made here and nowhere else.
 
 mod accelerometer;
 mod change;
@@ -14,20 +14,22 @@ pub use spikes::spikes_taken_out;
 
 use calibrant_core::diagnostic::Diagnostic;
 
-/// A diagnostic in words, for the user: what was seen, and what to do.
+/// A diagnostic in words, for the user: what was found, and what to do.
+///
+/// It starts with a small letter, since `warning:` or the name of a file stands before it.
 ///
 /// # Examples
 /// ```
 /// use calibrant_core::diagnostic::Diagnostic;
 /// use calibrant_core::sensor::Axis;
-/// let found = Diagnostic::ScaleNegative { axis: Axis::Y };
-/// assert_eq!(found.code().name(), "scale-negative");
-/// assert_eq!(calibrant_report::message(&found), "the scale factor of axis y is negative: is the axis reversed?");
+/// let diagnostic = Diagnostic::ScaleNegative { axis: Axis::Y };
+/// assert_eq!(diagnostic.code().name(), "scale-negative");
+/// assert_eq!(calibrant_report::message(&diagnostic), "the scale factor of axis y is negative. Is the axis reversed?");
 /// ```
 #[must_use]
 pub fn message(diagnostic: &Diagnostic) -> String {
     let areas = [accelerometer::message, motion::message, imu::message, noise::message];
     let words = areas.into_iter().find_map(|message| message(diagnostic));
-    // a code that is newer than these words
+    // a code without words here
     words.unwrap_or_else(|| diagnostic.code().entry().meaning.to_owned())
 }

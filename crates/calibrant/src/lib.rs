@@ -28,7 +28,7 @@
 //! | readings over time | [`sensor::Recording`] |
 //! | a commanded motion and the trust in it | [`motion::CommandedMotion`], [`motion::JerkControlledMotion`] |
 //! | the problem, and how to solve it | [`estimate::CalibrationProblem`], [`estimate::CalibrationSettings`] |
-//! | estimates, covariance, fit, recovered motion | [`estimate::Calibration`] |
+//! | estimates, covariance, fit, recovered motion or holds, and what a gyroscope adds | [`estimate::Calibration`] |
 //! | an IMU calibrated here or elsewhere, its correction, two of them compared | [`sensor::CalibratedImu`], [`sensor::ImuCorrection`], [`estimate::Comparison`] |
 //! | the motion to find, and how | [`design::DesignProblem`], [`design::DesignSettings`] |
 //! | the best motion, what it promises, and the proof | [`design::Design`], [`design::Certificate`] |

@@ -8,45 +8,45 @@ use std::path::PathBuf;
 
 /// Calibrate sensors from their recordings.
 ///
-/// Writes calibration.json and report.html into DIR; with several recordings into a subfolder of DIR for each, named after its file, and
-/// DIR/summary.csv. One bad recording does not stop the others; the exit status is then the highest of all.
-/// Warnings have codes: --deny CODE makes the exit status 1, --allow CODE silences one.
+/// Writes calibration.json and report.html into DIR. Several recordings get a subfolder of DIR each, named after the file, and one
+/// DIR/summary.csv. One bad recording does not stop the others. The exit status is the highest of all.
+/// Each warning has a code: --deny CODE sets the exit status 1, --allow CODE silences the warning.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
     /// The experiment file (see `calibrant init`).
     pub(super) experiment: PathBuf,
-    /// Recordings: CSV with header t_s,ax,ay,az, text with columns t x y z, or any file that `calibrant inspect` reads.
+    /// Recordings: CSV with the header t_s,ax,ay,az, text with columns t x y z, or any file that `calibrant inspect` reads.
     #[arg(required = true)]
     pub(super) recordings: Vec<PathBuf>,
-    /// The commanded motion (nodes: t_s,ax_mps2,ay_mps2,az_mps2); a [holds] experiment needs none.
+    /// The commanded motion, one row for each node: t_s,ax_mps2,ay_mps2,az_mps2. A [holds] experiment needs none.
     #[arg(long, value_name = "CSV")]
     pub(super) motion: Option<PathBuf>,
-    /// The gyroscope's file, where an IMU's sensors have a file each (imu_tk); with several recordings once for each, in their order.
+    /// The gyroscope's file, if each sensor of the IMU has its own file (imu_tk). Give it once for each recording, in their order.
     #[arg(long, value_name = "FILE")]
     pub(super) gyroscope: Vec<PathBuf>,
-    /// List of the sections of a Ferraris session (JSON, as imucal writes it): faces and turns.
+    /// Sections of a Ferraris session, faces and turns: JSON, as imucal writes it.
     #[arg(long, value_name = "JSON")]
     pub(super) sections: Option<PathBuf>,
-    /// Another recording of the sensor, to see whether the covariance is to be believed: errors on its holds and rotations beside what was predicted of them.
+    /// Another recording of the sensor, to validate the covariance. The command compares the errors on its holds and rotations with the predicted errors.
     #[arg(long, value_name = "FILE")]
     pub(super) validate: Option<PathBuf>,
-    /// The gyroscope's file of that recording, where it has one.
+    /// The gyroscope's file of that recording, if there is one.
     #[arg(long, value_name = "FILE", requires = "validate")]
     pub(super) validate_gyroscope: Option<PathBuf>,
-    /// The same without another recording: leave out each of K blocks of the holds in turn, and predict it from the others.
+    /// Validate without another recording: each of K blocks of holds is predicted from the others.
     #[arg(long, value_name = "K")]
     pub(super) folds: Option<usize>,
     #[command(flatten)]
     pub(super) reading: RecordingOptions,
-    /// Unit of the readings where the file does not say.
+    /// Unit of the readings, if the file does not state it.
     #[arg(long, value_enum)]
     pub(super) unit: Option<Unit>,
     #[command(flatten)]
     pub(super) rules: Rules,
-    /// Write no report.html: where there are many sensors, and time counts.
+    /// Write no report.html. This saves time with many sensors.
     #[arg(long)]
     pub(super) no_report: bool,
-    /// Print calibration.json on stdout in place of the tables; for several recordings an array with the file of each, and its calibration or its error.
+    /// Print calibration.json on stdout instead of the tables. Several recordings give an array: the file of each, and its calibration or its error.
     #[arg(long)]
     pub(super) json: bool,
     /// Directory for the results.
@@ -54,11 +54,11 @@ pub(crate) struct Arguments {
     pub(super) output: PathBuf,
 }
 
-/// Names of the files that are written.
+/// Names of the output files.
 const RESULTS: [&str; 3] = ["calibration.json", "report.html", "summary.csv"];
 
 impl Arguments {
-    /// Refuses to write results of these folders of DIR where something was read.
+    /// Refuses output files in these folders of DIR that are input files.
     pub(super) fn check_inputs(&self, folders: &[String]) -> calibrant::Result<()> {
         let others =
             [&self.motion, &self.sections, &self.validate, &self.validate_gyroscope].into_iter().flatten();
@@ -73,7 +73,7 @@ impl Arguments {
         Ok(())
     }
 
-    /// The file to look at.
+    /// The file that the command names at its end.
     pub(super) fn main_result(&self) -> PathBuf {
         self.output.join(if self.no_report { "calibration.json" } else { "report.html" })
     }

@@ -1,4 +1,4 @@
-//! Several recordings in one call, each calibrated by itself: none stops the others.
+//! Several recordings in one call. Each is calibrated by itself, and none stops the others.
 
 use super::job::Job;
 use super::quality;
@@ -11,25 +11,25 @@ use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// What came of a recording.
+/// The outcome of a recording.
 struct Outcome {
-    /// What was noticed.
+    /// Notes and warnings about the recording.
     notes: Vec<Note>,
     calibrated: calibrant::Result<Calibrated>,
 }
 
-/// What is told of a calibration.
+/// The part of a calibration that is kept for the tables.
 struct Calibrated {
     status: CalibrationStatus,
     warnings: Vec<Diagnostic>,
     /// Cells of the table between the status and the number of warnings.
     cells: Vec<String>,
     summary: Summary,
-    /// calibration.json, where it is to be printed.
+    /// calibration.json, if it is to be printed.
     json: Option<String>,
 }
 
-/// Calibrates from a recording and writes the results into this directory; what is to be said of it is kept.
+/// Calibrates from a recording and writes the results into this directory. Returns what is to be printed.
 fn calibrate(job: &Job<'_>, source: &Source, directory: &Path) -> Outcome {
     let mut notes = Vec::new();
     let calibrated = job.run(source, directory, &mut notes).map(|outcome| Calibrated {
@@ -42,7 +42,7 @@ fn calibrate(job: &Job<'_>, source: &Source, directory: &Path) -> Outcome {
     Outcome { notes, calibrated }
 }
 
-/// Calibrates all recordings, then says what came of each.
+/// Calibrates from all recordings, then prints the outcome of each.
 pub(super) fn run(job: &Job<'_>) -> calibrant::Result<Exit> {
     let (arguments, columns) = (job.arguments, quality::columns(job.is_imu));
     let folders = folders(&arguments.recordings);
@@ -109,8 +109,10 @@ pub(super) fn run(job: &Job<'_>) -> calibrant::Result<Exit> {
     Ok(exit)
 }
 
-/// All results in order, from a thread for each processor. These are not rayon's: where a calibration waits for its parts there, a thread of rayon's takes up what else it
-/// finds, which must not be whole recordings, one upon the other in its memory.
+/// All results in order, from one thread for each processor.
+///
+/// These are not threads of rayon. A thread of rayon that waits takes up other work, which could be a whole recording. The recordings would then
+/// pile up in memory.
 fn in_parallel<T: Send>(count: usize, of: impl Fn(usize) -> T + Sync) -> Vec<T> {
     let next = AtomicUsize::new(0);
     let work = || {
@@ -130,8 +132,8 @@ fn in_parallel<T: Send>(count: usize, of: impl Fn(usize) -> T + Sync) -> Vec<T> 
     results.into_iter().map(|(_, result)| result).collect()
 }
 
-/// A subfolder for each recording: its name without ending, with a number where names repeat (capitals or not: not every file system
-/// tells them apart), or where another file of DIR has that name.
+/// A subfolder for each recording: the file's name without its ending. A number is added if the name repeats, or if another file of DIR has it.
+/// Capitals do not count, since not every file system distinguishes them.
 fn folders(recordings: &[PathBuf]) -> Vec<String> {
     let mut seen = HashSet::from(["summary.csv".to_owned()]);
     let mut taken: HashSet<String> = recordings.iter().map(|path| stem(path).to_lowercase()).collect();
@@ -152,6 +154,6 @@ fn folders(recordings: &[PathBuf]) -> Vec<String> {
 /// The name of a recording's file without its ending.
 fn stem(path: &Path) -> String {
     let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
-    // `...csv` is a name without its ending, too: `..`
+    // the file name `...csv` leaves `..`
     stem.filter(|stem| stem != "." && stem != "..").unwrap_or_else(|| "recording".into())
 }

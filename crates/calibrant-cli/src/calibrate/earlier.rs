@@ -1,14 +1,14 @@
-//! Results of an earlier run beside those of this one.
+//! Files of an earlier run in the output directory.
 
 use crate::console;
 use std::path::Path;
 
-/// A warning where a report is there that is not of the calibration beside it.
+/// A warning about a report that belongs to an earlier calibration.
 pub(super) fn earlier_report(directory: &Path) -> Option<String> {
     earlier(&directory.join("report.html"), "calibration: --no-report writes none")
 }
 
-/// What is left of an earlier run is not the result of one that failed.
+/// A warning about a calibration of an earlier run, where this run failed.
 pub(super) fn warn_of_earlier_result(directory: &Path) {
     let words = earlier(&directory.join("calibration.json"), "recording: this one has none");
     words.iter().for_each(|words| console::warn(words));

@@ -1,4 +1,4 @@
-//! What all recordings of a call share, whatever the sensor.
+//! What all recordings of a call share.
 
 use super::arguments::{Arguments, Unit};
 use super::earlier::earlier_report;
@@ -9,7 +9,7 @@ use calibrant::pipeline::{Note, Outcome, Pipeline, PipelineOptions, Source};
 use calibrant::sensor::ReadingUnit;
 use std::path::Path;
 
-/// The pipeline, and the recordings to send through it.
+/// The pipeline and its recordings.
 pub(super) struct Job<'a> {
     pub(super) arguments: &'a Arguments,
     pub(super) sources: Vec<Source>,
@@ -26,7 +26,7 @@ impl<'a> Job<'a> {
         Ok(Self { arguments, sources, is_imu: experiment.imu.is_some(), pipeline })
     }
 
-    /// Calibrates from a recording and writes the results. What is noticed goes to `notes`, even where it fails.
+    /// Calibrates from a recording and writes the results. Adds notes and warnings to `notes`, even if it fails.
     pub(super) fn run(
         &self,
         source: &Source,

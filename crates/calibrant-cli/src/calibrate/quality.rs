@@ -1,7 +1,6 @@
 //! How good a calibration is, in the cells of a row: for tables of several recordings.
 
-use calibrant::estimate::{Calibration, ImuCalibration};
-use calibrant::pipeline::SensorCalibration;
+use calibrant::estimate::Calibration;
 use calibrant::report::number_format;
 
 /// The columns between the status and the number of warnings.
@@ -13,28 +12,20 @@ pub(super) fn columns(is_imu: bool) -> &'static [&'static str] {
 }
 
 /// The cells of these columns.
-pub(super) fn cells(calibration: &SensorCalibration) -> Vec<String> {
-    match calibration {
-        SensorCalibration::Accelerometer(calibration) => of_accelerometer(calibration),
-        SensorCalibration::Imu(calibration) => of_imu(calibration),
+pub(super) fn cells(calibration: &Calibration) -> Vec<String> {
+    let unknown = || "–".to_owned();
+    if calibration.gyroscope.is_none() {
+        return vec![calibration.fit.p_value.map_or_else(unknown, number_format::probability)];
     }
-}
-
-fn of_accelerometer(calibration: &Calibration) -> Vec<String> {
-    vec![calibration.fit.p_value.map_or_else(|| "–".into(), number_format::probability)]
-}
-
-fn of_imu(calibration: &ImuCalibration) -> Vec<String> {
-    let magnitude = calibration.holds.magnitude_residual_rms_mps2;
+    let checked = calibration.holds().filter(|holds| holds.degrees_of_freedom > 0);
     vec![
-        share(calibration.holds.holds.iter().map(|hold| hold.used)),
-        share(calibration.rotations.iter().map(|rotation| rotation.used)),
-        match calibration.holds.degrees_of_freedom {
-            0 => "–".into(),
-            _ => number_format::significant(1e3 * magnitude, 3),
-        },
-        match calibration.rotations.is_empty() {
-            true => "–".into(),
+        share(calibration.hold_results().iter().map(|hold| hold.used)),
+        share(calibration.rotations().iter().map(|rotation| rotation.used)),
+        checked.map_or_else(unknown, |holds| {
+            number_format::significant(1e3 * holds.magnitude_residual_rms_mps2, 3)
+        }),
+        match calibration.rotations().is_empty() {
+            true => unknown(),
             false => number_format::significant(calibration.rotation_rms_rad().to_degrees(), 2),
         },
     ]

@@ -1,4 +1,4 @@
-//! The recordings of a call, and what cannot be asked of several.
+//! The recordings of a call, and options that need a single recording.
 
 use super::arguments::Arguments;
 use crate::output_places::same_file;
@@ -8,7 +8,7 @@ use calibrant::io::{Experiment, Plan};
 use calibrant::pipeline::Source;
 use calibrant::report::number_format;
 
-/// The recordings, those of an IMU with their gyroscopes' files.
+/// The recordings, with the gyroscope's file where there is one.
 pub(super) fn sources(arguments: &Arguments, experiment: &Experiment) -> calibrant::Result<Vec<Source>> {
     let sources = match experiment.imu {
         Some(_) => with_gyroscopes(arguments)?,
@@ -41,7 +41,7 @@ fn with_gyroscopes(arguments: &Arguments) -> calibrant::Result<Vec<Source>> {
     Ok(recordings.iter().zip(gyroscopes).map(source).collect())
 }
 
-/// Refuses what makes sense for one recording only.
+/// Refuses options for one recording where there are several.
 fn check_several(arguments: &Arguments, experiment: &Experiment) -> calibrant::Result<()> {
     if arguments.validate.is_some() || arguments.folds.is_some() {
         return refuse(
@@ -58,7 +58,7 @@ fn check_several(arguments: &Arguments, experiment: &Experiment) -> calibrant::R
     Ok(())
 }
 
-/// Refuses a recording that is the commanded motion, too.
+/// Refuses a recording that is also the commanded motion.
 pub(super) fn check_motion(arguments: &Arguments, experiment: &Experiment) -> calibrant::Result<()> {
     let (Some(motion), None, Plan::Motion(_)) = (&arguments.motion, &experiment.imu, &experiment.plan) else {
         return Ok(());

@@ -1,18 +1,20 @@
-//! Options that are given and not used.
+//! Options that the experiment does not use.
 
 use super::arguments::Arguments;
 use crate::console;
 use calibrant::io::{Experiment, Plan};
 
-/// Warns of options that are for another kind of experiment.
+/// Warns about options for another kind of experiment.
 pub(super) fn warn(arguments: &Arguments, experiment: &Experiment) {
     let motion = arguments.motion.is_some();
     if experiment.imu.is_some() {
         if arguments.unit.is_some() {
-            console::warn("--unit is not used for an IMU: say --accelerometer-unit and --gyroscope-unit");
+            console::warn("--unit is not used for an IMU: give --accelerometer-unit and --gyroscope-unit");
         }
         if motion {
-            console::warn("--motion is not used: an IMU is calibrated from holds and what lies between them");
+            console::warn(
+                "--motion is not used: an IMU is calibrated from holds and the rotations between them",
+            );
         }
         return;
     }

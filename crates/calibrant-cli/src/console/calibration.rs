@@ -1,15 +1,163 @@
-//! A calibration on stdout, whatever the sensor.
+//! The tables of a calibration on stdout.
 
-use super::accelerometer::accelerometer_calibration;
-use super::imu::imu_calibration;
+use super::table::table;
 use super::validation::validations;
-use calibrant::pipeline::{Outcome, SensorCalibration};
+use calibrant::estimate::{Calibration, GyroscopeInHolds, HoldCalibration};
+use calibrant::pipeline::Outcome;
+use calibrant::report::{
+    calibration_quality, number_format, over_the_gain, temperature_in_words, used_in_words,
+};
+use calibrant::sensor::{Axis, SensorKind};
+use nalgebra::Vector3;
 
-/// What was used, the parameters, how good they are, and how they fare on other data.
+/// The used data, the parameters, their quality, and the validation.
 pub(crate) fn calibration(outcome: &Outcome) -> String {
-    let text = match &outcome.calibration {
-        SensorCalibration::Accelerometer(calibration) => accelerometer_calibration(calibration),
-        SensorCalibration::Imu(calibration) => imu_calibration(calibration),
-    };
-    text + &validations(&outcome.validations)
+    of_calibration(&outcome.calibration) + &validations(&outcome.validations)
 }
+
+fn of_calibration(calibration: &Calibration) -> String {
+    let mut text = String::new();
+    let mut line = |words: &str| text.push_str(&format!("  {words}\n"));
+    used(calibration).iter().for_each(|words| line(words));
+    for &sensor_kind in calibration.sensor_kinds() {
+        text.push('\n');
+        text.push_str(&parameters(calibration, sensor_kind));
+    }
+    text.push('\n');
+    let mut line = |words: &str| text.push_str(&format!("  {words}\n"));
+    if let Some(words) = temperature_in_words(calibration) {
+        line(&words);
+    }
+    calibration_quality(calibration).split("; ").filter(|part| !part.is_empty()).for_each(&mut line);
+    if let Some(holds) = calibration.holds() {
+        line(&conditions(holds));
+        line(&uncertainty(holds));
+    }
+    noise(calibration).iter().for_each(|words| line(words));
+    line(&fit(calibration));
+    text
+}
+
+/// Holds, rotations and turns, and which of them were not used.
+fn used(calibration: &Calibration) -> Vec<String> {
+    let (rotations, turns) = (calibration.rotations(), calibration.turns());
+    let count = |used: usize, what: &str, left_out: Vec<String>| {
+        let all = number_format::counted(used + left_out.len(), what);
+        match left_out.len() {
+            0 => format!("{all}, all used"),
+            _ => format!("{all}, {used} used; not used: {}", left_out.join(", ")),
+        }
+    };
+    if calibration.holds().is_none() {
+        return vec![used_in_words(calibration)];
+    }
+    let holds = calibration.hold_results();
+    let bad = (0..holds.len()).filter(|&k| !holds[k].used).map(|k| (k + 1).to_string());
+    let mut lines = vec![count(holds.iter().filter(|hold| hold.used).count(), "hold", bad.collect())];
+    if !rotations.is_empty() {
+        let bad = rotations.iter().filter(|rotation| !rotation.used);
+        let bad = bad.map(|rotation| format!("{} → {}", rotation.from_hold + 1, rotation.to_hold + 1));
+        let good = rotations.iter().filter(|rotation| rotation.used).count();
+        lines.push(count(good, "rotation", bad.collect()));
+    }
+    if !turns.is_empty() {
+        lines.push(format!("{} of known angle", number_format::counted(turns.len(), "turn")));
+    }
+    lines
+}
+
+/// The parameters of a sensor, with their nominal values and priors.
+fn parameters(calibration: &Calibration, sensor_kind: SensorKind) -> String {
+    let places = calibration.places_of(sensor_kind);
+    let any = |known: &dyn Fn(usize) -> bool| places.iter().any(|&k| known(k));
+    let with_nominal = any(&|k| calibration.parameters[k].nominal.is_some());
+    let with_spread = any(&|k| calibration.parameters[k].spread.is_some());
+    let with_prior = any(&|k| calibration.known_beforehand(k).is_some());
+    let optional = [(with_nominal, "nominal"), (with_spread, "datasheet sd"), (with_prior, "from prior")];
+    let mut header = vec!["parameter", "estimate ± sd", "unit", "over the gain"];
+    header.extend(optional.iter().filter(|(there, _)| *there).map(|(_, name)| *name));
+    let sd = calibration.sd();
+    let rows: Vec<Vec<String>> = places
+        .into_iter()
+        .map(|k| {
+            let parameter = &calibration.parameters[k];
+            let cells = [
+                parameter.nominal.map(|nominal| number_format::significant(nominal, 6)),
+                parameter.spread.map(|spread| number_format::significant(spread, 3)),
+                calibration.known_beforehand(k).map(|share| format!("{:.0} %", 100.0 * share)),
+            ];
+            let cells = cells.into_iter().zip(&optional).filter(|(_, (there, _))| *there);
+            let mut row = vec![
+                parameter.name.clone(),
+                number_format::with_sd(calibration.values[k], sd[k]),
+                parameter.unit.to_owned(),
+                over_the_gain(calibration, calibration.quantities[k], sd[k]),
+            ];
+            row.extend(cells.map(|(cell, _)| cell.unwrap_or_else(|| "–".to_owned())));
+            row
+        })
+        .collect();
+    table(&header, &rows)
+}
+
+/// Gravity, and how evenly the holds determine the accelerometer.
+fn conditions(holds: &HoldCalibration) -> String {
+    format!(
+        "gravity {} m/s²; condition number of the {} holds {}",
+        number_format::with_sd_or_exact(holds.gravity.magnitude_mps2, holds.gravity.sd_mps2),
+        if holds.detected { "detected" } else { "given" },
+        number_format::significant(holds.condition_number, 3),
+    )
+}
+
+/// The source of the standard deviations of an accelerometer.
+fn uncertainty(holds: &HoldCalibration) -> String {
+    match holds.between_holds_dominates {
+        true => format!(
+            "the scatter between holds decides the standard deviations: {} mm/s² beyond the noise within them",
+            number_format::significant(1e3 * holds.between_holds_sd_mps2, 3)
+        ),
+        false => {
+            "the noise within holds explains the scatter between them, and decides the standard deviations"
+                .into()
+        }
+    }
+}
+
+/// Noise of a sample of each sensor.
+fn noise(calibration: &Calibration) -> Vec<String> {
+    let axes = &Axis::ALL[..calibration.axes()];
+    let list = |noise: &Vector3<f64>, sensor_kind: SensorKind| {
+        let numbers: Vec<String> =
+            axes.iter().map(|axis| number_format::significant(noise[axis.index()], 3)).collect();
+        format!("{} {}", numbers.join(", "), calibration.unit(sensor_kind).symbol())
+    };
+    let of_accelerometer = calibration.fit.noise_estimate.map(|found| {
+        let found = list(&found, SensorKind::Accelerometer);
+        let assumed = calibration.fit.assumed_noise.map_or_else(String::new, |noise| {
+            format!(" (assumed {})", list(&noise, SensorKind::Accelerometer))
+        });
+        format!("noise of an accelerometer sample {found}{assumed}")
+    });
+    let of_gyroscope = calibration.gyroscope.as_ref().map(|gyroscope| {
+        let GyroscopeInHolds { noise, noise_source, .. } = &gyroscope.still;
+        format!("noise of a gyroscope sample {}, from: {noise_source}", list(noise, SensorKind::Gyroscope))
+    });
+    of_accelerometer.into_iter().chain(of_gyroscope).collect()
+}
+
+/// How the estimation ended.
+fn fit(calibration: &Calibration) -> String {
+    let fit = &calibration.fit;
+    format!(
+        "{} after {}; χ² {} with {} degrees of freedom{}",
+        calibration.status.name(),
+        number_format::counted(calibration.iterations, "iteration"),
+        number_format::significant(fit.chi2, 5),
+        number_format::count(fit.degrees_of_freedom),
+        if fit.p_value.is_some() { "" } else { ", weights from the data" }
+    )
+}
+
+#[cfg(test)]
+mod tests;

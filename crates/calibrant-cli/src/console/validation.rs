@@ -4,7 +4,7 @@ use super::table::table;
 use calibrant::estimate::Validation;
 use calibrant::report::{validation_heading, validation_rows, validation_sentences};
 
-/// A table and its sentences for each validation; nothing where there is none.
+/// A table and its sentences for each validation.
 pub(crate) fn validations(validations: &[Validation]) -> String {
     let mut text = String::new();
     for validation in validations {

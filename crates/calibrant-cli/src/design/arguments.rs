@@ -4,40 +4,40 @@ use super::sweep_request as sweep;
 use calibrant::io::CriterionLetter;
 use std::path::PathBuf;
 
-/// Find the motion whose recording will determine the parameters best, and prove how close to the best possible it is.
+/// Design the motion whose recording determines the parameters best, with a bound that no other motion can beat.
 ///
-/// Writes design.json, motion.csv (what `simulate` and `calibrate` take as --motion) and report.html into DIR. With --evaluate, evaluation.json and evaluation.html too; with
-/// --sweep, sweep.json, sweep.csv and report.html instead.
+/// Writes design.json, motion.csv and report.html into DIR. `simulate` and `calibrate` take motion.csv as --motion. --evaluate adds evaluation.json and
+/// evaluation.html. --sweep writes sweep.json, sweep.csv and report.html instead.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
     /// The experiment file, with a [motion] (see `calibrant init`).
     pub(super) experiment: PathBuf,
-    /// An earlier calibration.json of this sensor: the design begins at its estimate, and what it knows counts. Several add up; the last gives the values.
+    /// An earlier calibration.json of this sensor. The design starts at its estimate, and uses its information. Repeatable: the information adds up, and the last file gives the estimate.
     #[arg(long, value_name = "JSON")]
     pub(super) from: Vec<PathBuf>,
-    /// Write motion_dense.csv too: position, velocity, acceleration and jerk at this rate.
+    /// Also write motion_dense.csv: position, velocity, acceleration and jerk at this rate.
     #[arg(long, value_name = "HZ", value_parser = rate, conflicts_with = "sweep")]
     pub(super) sample_rate: Option<f64>,
-    /// Is this motion any good? What it tells, beside the best one, and which limits it breaks.
+    /// Evaluate this motion: its information against that of the best motion, and the limits that it breaks.
     #[arg(long, value_name = "CSV", conflicts_with = "sweep")]
     pub(super) evaluate: Option<PathBuf>,
-    /// What can be had as one thing changes: duration=5,10,20, or FROM:TO:COUNT (geometric; FROM:TO:COUNT:linear); also acceleration, jerk, intercept,
-    /// velocity, displacement, rate, noise.
+    /// Design for several values of one quantity: duration=5,10,20, or duration=FROM:TO:COUNT (geometric), or FROM:TO:COUNT:linear. Other quantities:
+    /// acceleration, jerk, intercept, velocity, displacement, rate, noise.
     #[arg(long, value_name = "NAME=VALUES", value_parser = sweep::parse)]
     pub(super) sweep: Option<sweep::Request>,
-    /// What is minimised: A, D, E, M, c or I (default: the one in [design]).
+    /// Criterion to minimise: A, D, E, M, c or I (default: from [design]).
     #[arg(long, value_name = "LETTER", value_parser = letter)]
     pub(super) criterion: Option<CriterionLetter>,
-    /// Number of starts (default: the one in [design]).
+    /// Number of starts of the search (default: from [design]).
     #[arg(long, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pub(super) starts: Option<u32>,
-    /// Seed of the random starts (default: the one in [design]).
+    /// Seed of the random starts (default: from [design]).
     #[arg(long, allow_negative_numbers = true)]
     pub(super) seed: Option<u64>,
-    /// Do without the bound that no admissible motion can beat; it takes most of the time.
+    /// Skip the bound that no admissible motion can beat. It takes most of the time.
     #[arg(long)]
     pub(super) no_certificate: bool,
-    /// Print design.json on stdout in place of the tables.
+    /// Print design.json on stdout instead of the tables.
     #[arg(long)]
     pub(super) json: bool,
     /// Directory for the results.

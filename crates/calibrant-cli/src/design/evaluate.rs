@@ -1,4 +1,4 @@
-//! `calibrant design --evaluate`: judges a user's own motion.
+//! `calibrant design --evaluate`: compares a user's motion with the best one.
 
 use super::Arguments;
 use super::job::{Job, in_file};
@@ -53,7 +53,7 @@ pub(super) fn run(
     let optimum = match &assessment.optimum {
         Ok(design) => exit_of(design),
         Err(why) => {
-            console::warn(&format!("there is nothing to compare with: {why}"));
+            console::warn(&format!("the motion is not compared with the best one: {why}"));
             Exit::NOT_IDENTIFIABLE
         }
     };
@@ -94,7 +94,7 @@ fn text(assessment: &Assessment, path: &Path) -> String {
     text.push_str(&console::table(&header, &rows));
     if let Some(other) = &assessment.other_setting {
         text.push_str(&super::table::wrapped(&format!(
-            "{} has {} over {} s, the experiment {} over {} s: the optimum is that of the experiment, so part of the difference is due to that.",
+            "{} has {} over {} s, but the experiment has {} over {} s. The optimum is that of the experiment, which explains part of the difference.",
             path.display(),
             counted(other.intervals, "interval"),
             short(other.duration_s),
@@ -104,10 +104,7 @@ fn text(assessment: &Assessment, path: &Path) -> String {
     }
     if let Some(efficiency) = assessment.efficiency() {
         let certain = assessment.certain_efficiency().map_or_else(String::new, |certain| {
-            format!(
-                " (at least {} % of what any admissible motion could do)",
-                significant(100.0 * certain, 3)
-            )
+            format!(" (at least {} % of any admissible motion)", significant(100.0 * certain, 3))
         });
         text.push_str(&super::table::wrapped(&format!(
             "Efficiency {} % of the best motion found{certain}: {}.",
@@ -129,12 +126,12 @@ fn text(assessment: &Assessment, path: &Path) -> String {
 /// The meaning of an efficiency.
 fn recordings(efficiency: f64) -> String {
     if efficiency > 1.0 + 1e-6 {
-        "it is better than the best motion within the limits".into()
+        "the motion is better than the best motion within the limits".into()
     } else if efficiency > 0.99 {
-        "as good as it gets".into()
+        "no better motion exists".into()
     } else {
         format!(
-            "it takes {} recordings of it to learn what one of the best motion tells",
+            "{} recordings of this motion give as much information as one of the best motion",
             significant(1.0 / efficiency, 3)
         )
     }

@@ -79,7 +79,7 @@ impl Job {
     }
 }
 
-/// Warns where calibrations whose information adds up are of different sensors, or the same one twice.
+/// Warns about earlier calibrations of different sensors, or the same calibration twice. Their information adds up.
 fn warn_of_strangers(earlier: &[EarlierCalibration]) {
     let name = |calibration: &EarlierCalibration| {
         calibration.file.as_ref().map_or_else(String::new, |file| file.display().to_string())
@@ -90,7 +90,7 @@ fn warn_of_strangers(earlier: &[EarlierCalibration]) {
         };
         if let Some(other) = earlier[..number].iter().find(same) {
             console::warn(&format!(
-                "{} and {} say the same to the last digit; if they are of one recording, what it knows counts twice: name it once",
+                "{} and {} are equal to the last digit. If they are of one recording, its information counts twice. Name it once.",
                 name(other),
                 name(calibration)
             ));
@@ -99,11 +99,11 @@ fn warn_of_strangers(earlier: &[EarlierCalibration]) {
     let Some((last, others)) = earlier.split_last() else { return };
     for other in others {
         let degrees_of_freedom = last.values.len() as f64;
-        // far beyond chance: mean and variance of χ² are k and 2k
+        // significant: mean and variance of χ² are k and 2k
         let most = degrees_of_freedom + 6.0 * (2.0 * degrees_of_freedom).sqrt();
         if let Some(chi2) = last.chi2_against(other).filter(|chi2| *chi2 > most) {
             console::warn(&format!(
-                "{} and {} disagree beyond their uncertainty (χ² {} for {degrees_of_freedom} parameters): are they of the same sensor?",
+                "{} and {} differ by more than their uncertainty (χ² {} for {degrees_of_freedom} parameters). Are they of the same sensor?",
                 name(other),
                 name(last),
                 number_format::significant(chi2, 3)

@@ -15,7 +15,7 @@ pub(super) fn write(
     design: &Design,
 ) -> calibrant::Result<()> {
     let (output, axes) = (&arguments.output, problem.sensor.axes);
-    // outputs that may be refused come first
+    // outputs that can fail come first
     if let Some(rate_hz) = arguments.sample_rate {
         write_dense_motion(&output.join("motion_dense.csv"), &design.optimal.motion, axes, rate_hz)?;
     }
@@ -30,7 +30,7 @@ pub(super) fn write(
 pub(super) fn exit_of(design: &Design) -> Exit {
     if design.status != DesignStatus::Converged && design.optimal.covariance.is_some() {
         console::warn(&format!(
-            "the search ended as \"{}\": the motion is admissible, but a better one may be near (raise --starts, or loosen what is very tight)",
+            "the search ended with the status \"{}\". The motion is admissible, but a better one may be near (increase --starts, or loosen very tight limits)",
             design.status.name()
         ));
     }

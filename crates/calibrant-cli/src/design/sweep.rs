@@ -1,4 +1,4 @@
-//! `calibrant design --sweep`: designs the best motion as one quantity of the experiment changes.
+//! `calibrant design --sweep`: designs the best motion for several values of one quantity.
 
 use super::Arguments;
 use super::job::{Job, in_file};
@@ -63,7 +63,7 @@ fn say(swept: &Sweep) {
         match &point.outcome {
             Err(why) => console::warn(&format!("{name} {} {unit}: {why}", short(point.value))),
             Ok(design) if design.status != DesignStatus::Converged => console::warn(&format!(
-                "{name} {} {unit}: the search ended as \"{}\"; a better motion may be near",
+                "{name} {} {unit}: the search ended with the status \"{}\"; a better motion may be near",
                 short(point.value),
                 design.status.name()
             )),

@@ -5,7 +5,7 @@ use calibrant::design::{AT_BEST, Design, LimitUse, limit_use};
 use calibrant::information::Criterion;
 use calibrant::report::number_format::{counted, short, significant};
 
-/// Before, after and the bound, parameter by parameter; the criterion; the starts; the words of the
+/// Initial and optimal motion and the bound for each parameter, the criterion, the starts, and the statement of the
 /// certificate.
 pub(crate) fn design(design: &Design) -> String {
     let (before, after) = (design.initial.sd(), design.optimal.sd());
@@ -30,7 +30,7 @@ pub(crate) fn design(design: &Design) -> String {
     let axes = design.parameters.iter().filter(|parameter| parameter.name.starts_with("bias.")).count();
     let reached = reached(&limit_use(&design.limits, axes, &design.optimal.motion));
     if !reached.is_empty() {
-        text.push_str(&format!("  the motion goes to its limits of {reached}\n"));
+        text.push_str(&format!("  the motion reaches its limits of {reached}\n"));
     }
     text + "\n" + &wrapped(&design.statement())
 }
@@ -65,7 +65,7 @@ fn starts(design: &Design) -> String {
     )
 }
 
-/// The limits that a motion reaches within a thousandth.
+/// The limits that a motion reaches to within a thousandth.
 fn reached(uses: &[LimitUse]) -> String {
     let mut names: Vec<&str> = uses
         .iter()
@@ -77,7 +77,7 @@ fn reached(uses: &[LimitUse]) -> String {
     names.join(", ")
 }
 
-/// How far above a bound: in percent, for criterion D in nats.
+/// The gap to a bound: in percent, or in nats for criterion D.
 pub(crate) fn gap(criterion: &Criterion, gap: f64) -> String {
     let gap = gap.max(0.0);
     match criterion {

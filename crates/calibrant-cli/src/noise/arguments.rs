@@ -5,38 +5,38 @@ use calibrant::sensor::SensorKind;
 use nalgebra::Vector3;
 use std::path::PathBuf;
 
-/// Find the noise of a sensor at rest: Allan deviation, random walks, bias instability.
+/// Estimate the noise of a sensor at rest: Allan deviation, random walks, bias instability.
 ///
-/// Both sensors of an IMU, or the one that was recorded. The longest hold of the recording is examined, or the interval of --hold. What the recording is too
-/// short to tell is reported as not determined. Writes noise.json and report.html into DIR.
+/// Examines the longest hold of the recording, or the interval of --hold, for both sensors of an IMU. A coefficient that the recording is too short to determine
+/// is reported as not determined. Writes noise.json and report.html into DIR.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
-    /// Recording, in any format that `calibrant inspect` knows, or of one sensor alone: columns t x y z.
+    /// Recording, in any format that `calibrant inspect` knows, or columns t x y z of one sensor.
     pub(super) recording: PathBuf,
-    /// The gyroscope's file, where the sensors have a file each (imu_tk).
+    /// The gyroscope's file, if each sensor has its own file (imu_tk).
     #[arg(long, value_name = "FILE")]
     pub(super) gyroscope: Option<PathBuf>,
-    /// Examine this sensor alone; it is also what columns t x y z are readings of (default: the accelerometer's).
+    /// Examine only this sensor. It is also the sensor of columns t x y z (default: accelerometer).
     #[arg(long, value_enum)]
     pub(super) sensor: Option<SensorChoice>,
-    /// Unit of the readings of the accelerometer, or of --sensor, where the file does not say: m/s2, g, mg, rad/s, deg/s, mdps or counts.
+    /// Unit of the accelerometer, or of --sensor, if the file does not state it: m/s2, g, mg, rad/s, deg/s, mdps or counts.
     #[arg(long, value_parser = crate::recording_options::any_unit)]
     pub(super) unit: Option<ImuUnit>,
     #[command(flatten)]
     pub(super) reading: crate::recording_options::RecordingOptions,
-    /// Experiment file whose [columns] say what is what.
+    /// Experiment file whose [columns] name the columns.
     #[arg(long, value_name = "EXPERIMENT")]
     pub(super) columns: Option<PathBuf>,
-    /// Nominal gain of the accelerometer, or of --sensor, in counts per m/s² or rad/s (one number or x,y,z): states the noise of readings in counts in SI and customary units.
+    /// Nominal gain of the accelerometer, or of --sensor, in counts per m/s² or rad/s: one number or x,y,z. With it, the noise of counts is stated in SI and customary units.
     #[arg(long, value_name = "GAIN", value_delimiter = ',', num_args = 1..=3, allow_negative_numbers = true)]
     pub(super) gain: Vec<f64>,
-    /// The same of the gyroscope, beside the accelerometer's.
+    /// Nominal gain of the gyroscope, in addition to the accelerometer's.
     #[arg(long, value_name = "GAIN", value_delimiter = ',', num_args = 1..=3, allow_negative_numbers = true)]
     pub(super) gyroscope_gain: Vec<f64>,
     /// Start and end of the interval at rest, s (default: the longest hold that is found).
     #[arg(long, num_args = 2, value_names = ["START", "END"], allow_negative_numbers = true)]
     pub(super) hold: Option<Vec<f64>>,
-    /// Print noise.json on stdout in place of the tables.
+    /// Print noise.json on stdout instead of the tables.
     #[arg(long)]
     pub(super) json: bool,
     /// Directory for noise.json and report.html.

@@ -1,4 +1,4 @@
-//! Finds where the sensor is at rest: the longest hold, or whether it moves in a given interval.
+//! The part of a recording at rest: its longest hold, or a given interval that is checked for movement.
 
 use calibrant::Error;
 use calibrant::diagnostic::Diagnostic;
@@ -12,13 +12,13 @@ use calibrant::sensor::{ImuRecording, Recording, SensorKind};
 const SHORTEST_HOLD_S: f64 = 1.0;
 /// The hold detector may cut off this much of a hold at each end, s.
 const TRIMMED_S: f64 = 0.5;
-/// Where less than this share of a recording is examined, the table says so.
+/// The table states the examined part if it is below this share of the recording.
 const MOST: f64 = 0.9;
 
-/// The holds, in which both sensors are stationary, or the one that was recorded. A gyroscope alone is as
-/// calm in a turn at a steady rate.
+/// The holds. All recorded sensors are stationary in a hold. A gyroscope alone does not show a rotation at a steady
+/// rate.
 ///
-/// A spike does not divide a hold: it is no movement.
+/// A spike is not a movement, and does not divide a hold.
 pub(super) fn holds(imu: &ImuRecording) -> calibrant::Result<Vec<Hold>> {
     let [accelerometer, gyroscope] =
         SensorKind::ALL.map(|sensor_kind| imu.sensor(sensor_kind).map(without_outliers));
@@ -36,12 +36,12 @@ pub(super) fn longest(holds: &[Hold]) -> calibrant::Result<&Hold> {
         Error::Recording(Box::new(InputError::new(
             Refusal::HoldsMissing,
             format!("no hold of {SHORTEST_HOLD_S} s or more is found"),
-            "noise needs the sensor at rest; if it was, give the interval with --hold START END",
+            "noise needs a sensor at rest; if it was at rest, give the interval with --hold START END",
         )))
     })
 }
 
-/// The part of the recording that was examined, in words; nothing where that is nearly all of it.
+/// The examined part of the recording, in words. `None` if it is nearly all of it.
 pub(super) fn examined(holds: &[Hold], segment: &Segment, recording: &Recording) -> Option<String> {
     let (first, last) = recording.times_s.first().zip(recording.times_s.last())?;
     let (used_s, recorded_s) = (segment.duration_s(), last - first);
@@ -51,13 +51,13 @@ pub(super) fn examined(holds: &[Hold], segment: &Segment, recording: &Recording)
             n => format!("the longest of {n} holds"),
         };
         format!(
-            "{used_s:.1} of the {recorded_s:.1} s recorded, {hold}: elsewhere the sensor moves, is shaken, or has no samples (--hold START END takes another interval)"
+            "{used_s:.1} of the {recorded_s:.1} s recorded, {hold}. Elsewhere the sensor moves, vibrates, or has no samples (--hold START END chooses another interval)"
         )
     })
 }
 
-/// A warning where the sensor moves in an interval that was given as at rest. The interval contains more than
-/// one hold, or is longer than a hold.
+/// A warning if the sensor moves in the given interval. The interval then contains more than one hold, or is longer
+/// than its hold.
 pub(super) fn moves(holds: &[Hold], given: &Segment) -> Option<Diagnostic> {
     if holds.is_empty() {
         return None;

@@ -1,4 +1,4 @@
-//! Reads the recording for `calibrant noise`, whatever its format, with the user's options.
+//! Reads the recording for `calibrant noise`, in any format, with the user's options.
 
 use super::arguments::{Arguments, Gains};
 use calibrant::Error;
@@ -18,7 +18,7 @@ pub(super) fn read(
         Some(gyroscope) => read_imu_pair(&arguments.recording, gyroscope, options),
         None => read_imu_sensor(&arguments.recording, sensor_kind, options),
     };
-    // a gain is one of counts: it gives the unit where the file does not
+    // a gain implies counts, if the file states no unit
     let counted = || {
         gains
             .iter()
@@ -42,7 +42,7 @@ pub(super) fn read(
                     "--gain is one of counts, but the file gives the {sensor_kind} in {}",
                     unit.symbol()
                 ),
-                "leave --gain away",
+                "omit --gain",
             ),
             None => error,
         }
@@ -68,7 +68,7 @@ fn options(arguments: &Arguments, sensor_kind: SensorKind) -> calibrant::Result<
                 unit.symbol(),
                 other.symbol()
             ),
-            "leave one of them away",
+            "omit one of them",
         )),
         None => Ok(options.with_unit(sensor_kind, Some(unit))),
     }

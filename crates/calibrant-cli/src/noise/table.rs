@@ -1,12 +1,12 @@
-//! The table of a sensor's noise on stdout.
+//! The table of a sensor's noise.
 
 use crate::console;
 use calibrant::io::noise_line;
 use calibrant::noise::{Coefficient, CoefficientUnit, PowerLaw, SensorNoise, coefficient_units};
 use calibrant::report::{coefficient_name, number_format};
 
-/// Coefficients, samples, and why something is not determined. `examined` names the part of the recording
-/// that was used.
+/// Coefficients, noise of one sample, and why a coefficient is not determined. `examined` names the examined part of
+/// the recording.
 pub(super) fn noise_table(noise: &SensorNoise, examined: Option<&str>) -> String {
     let segment = &noise.segment;
     let mut text = format!(
@@ -90,15 +90,15 @@ pub(super) fn noise_table(noise: &SensorNoise, examined: Option<&str>) -> String
         unit = noise.unit.symbol()
     ));
     text.push_str(&match (noise_line(noise), &noise.caveat) {
-        (_, Some(caveat)) => format!("  nothing for an experiment file: {caveat}\n\n"),
+        (_, Some(caveat)) => format!("  no noise for an experiment file: {caveat}\n\n"),
         (None, None) => {
-            "  nothing for an experiment file: white noise is not determined on all axes\n\n".to_owned()
+            "  no noise for an experiment file: white noise is not determined on all axes\n\n".to_owned()
         }
         (Some(found), None) => {
             let but = if noise.explains() {
                 ""
             } else {
-                "\n  (but the noise is not explained: see the warnings before you use it)"
+                "\n  (the model does not explain the noise: read the warnings before you use it)"
             };
             format!("  for an experiment file, in [{}]: {}{but}\n\n", found.section, found.line)
         }

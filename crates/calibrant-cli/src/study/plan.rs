@@ -1,4 +1,4 @@
-//! The studies that an experiment file and the options ask for.
+//! The studies that the experiment file and the options describe.
 
 use crate::simulate::commanded_motion;
 use calibrant::design::limit_use;
@@ -9,7 +9,7 @@ use calibrant::sensor::SensorParameters;
 use calibrant::study::{DesignStudyProblem, StudiesProblem, StudyProblem, StudySettings};
 use std::path::Path;
 
-/// The options of the command line beyond the file.
+/// The options of the command line that replace values of the file.
 pub(super) struct Choice<'a> {
     pub(super) motion: Option<&'a Path>,
     pub(super) sensors: Option<usize>,
@@ -17,7 +17,7 @@ pub(super) struct Choice<'a> {
     pub(super) starts: Option<usize>,
 }
 
-/// Inputs that the studies need and do not make themselves.
+/// The inputs of the studies.
 pub(super) struct Material<'a> {
     experiment: &'a Experiment,
     plan: &'a MotionPlan,
@@ -118,7 +118,7 @@ impl<'a> Material<'a> {
     }
 }
 
-/// Warns where a given motion breaks the limits that the best one keeps, which makes the comparison unfair.
+/// Warns if the given motion breaks limits. The best motion keeps them, which makes the comparison unfair.
 fn beyond_limits(experiment: &Experiment, motion: &JerkControlledMotion) -> Option<String> {
     let limits = experiment.limits.within_range(experiment.sensor.range_mps2);
     let broken: Vec<String> = limit_use(&limits, experiment.sensor.axes, motion)

@@ -4,7 +4,7 @@ use crate::console;
 use calibrant::report::number_format;
 use calibrant::study::{DesignStudy, Factor, Improvement, ParameterSummary, Studies, Study};
 
-/// A table for each study, and the studies that were not run.
+/// A table for each study, and the studies that did not run.
 pub(super) fn studies(studies: &Studies) -> String {
     let mut parts = Vec::new();
     parts.extend(studies.calibration.as_ref().map(calibration));
@@ -29,7 +29,7 @@ fn calibration(study: &Study) -> String {
         })
         .collect();
     let header =
-        ["parameter", "unit", "predicted sd", "realised rms error", "ratio", "95 % intervals that hold"];
+        ["parameter", "unit", "predicted sd", "realised rms error", "ratio", "coverage of 95 % intervals"];
     let title = format!(
         "{}, trust {}, {} intervals, {} Hz, seed {}\n",
         sensors(study.outcomes.len()),

@@ -39,11 +39,11 @@ fn one_bad_recording_does_not_stop_the_others() {
     let rows: Vec<&str> = summary.lines().collect();
     assert!(
         rows[0].starts_with(
-            "file,recording,status,error,code,warnings,chi2,degrees_of_freedom,p_value,bias.x_mps2,bias.x_sd_mps2,bias.y_mps2,"
+            "file,recording,status,error,code,warnings,chi2,degrees_of_freedom,p_value,accelerometer.bias.x_mps2,accelerometer.bias.x_sd_mps2,"
         ),
         "{summary}"
     );
-    assert!(rows[0].ends_with(",scale.z,scale.z_sd"), "{summary}");
+    assert!(rows[0].ends_with(",accelerometer.scale.z,accelerometer.scale.z_sd"), "{summary}");
     let starts = [
         "a,a.csv,converged,,",
         "b,b.csv,error,\"b.csv:5:5: \"\"oops\"\" in column",
@@ -54,7 +54,7 @@ fn one_bad_recording_does_not_stop_the_others() {
     for (row, start) in rows[1..].iter().zip(starts) {
         assert!(row.starts_with(start), "{row}");
     }
-    let values: Vec<&str> = rows[3].split(',').skip(8).collect();
+    let values: Vec<&str> = rows[3].split(',').skip(9).collect();
     let calibration = bench.read("result/c/calibration.json");
     assert_eq!(values.len(), 12, "{summary}");
     for (pair, field) in values.chunks(2).flat_map(|pair| [(pair[0], "value"), (pair[1], "sd")]) {
@@ -86,7 +86,7 @@ fn files_of_one_name_do_not_collide() {
     bench.run(&command).done().says("note: rec-3 is two/rec.csv: the name is taken");
     let value = |folder: &str| {
         let calibration = bench.json(&format!("result/{folder}/calibration.json"));
-        (calibration["input"]["file"].to_string(), calibration["input"]["sha256"].to_string())
+        (calibration["inputs"][0]["file"].to_string(), calibration["inputs"][0]["sha256"].to_string())
     };
     let (one, two, dash, three) = (value("rec"), value("rec-3"), value("rec-2"), value("rec-4"));
     assert_eq!((one.0.as_str(), two.0.as_str()), ("\"rec.csv\"", "\"rec.csv\""));

@@ -61,7 +61,7 @@ fn what_a_format_cannot_carry_is_refused_or_said() {
     );
     let message =
         bench.run("convert shimmer.json imu.calib --drop-g-sensitivity --gauge upper").done().stderr;
-    assert!(message.contains("warning: the g-sensitivity is left out"), "{message}");
+    assert!(message.contains("warning: the g-sensitivity is omitted"), "{message}");
     assert!(bench.read("imu_acc.calib").contains("# readings in: counts"));
     assert!(bench.read("imu_gyro.calib").contains("# sensor: gyroscope"));
     let done = bench.run("convert imu.calib pair.json").done();

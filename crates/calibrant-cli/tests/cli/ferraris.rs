@@ -36,7 +36,7 @@ fn a_ferraris_session_that_cannot_be_is_refused_and_another_mounting_is_told() {
     bench.refuses(
         &exchanged("x_rot", "x_p"),
         2,
-        &["is given as 360.0° about x, and the gyroscope shows", "correct axis, angle or times"],
+        &["is given as 360.0° about x, but the gyroscope shows", "correct axis, angle or times"],
     );
     bench.write("sections.json", list);
     // no turn is exact, and gravity is that of the Earth
@@ -74,7 +74,7 @@ fn a_ferraris_session_that_cannot_be_is_refused_and_another_mounting_is_told() {
     let degrees = columns("degrees.csv", &|row| {
         row.iter().enumerate().map(|(k, y)| if k > 3 { y.to_degrees() } else { *y }).collect()
     });
-    bench.refuses(&degrees, 3, &["180/π times", "read as rad/s"]);
+    bench.refuses(&degrees, 3, &["a ratio of about 180/π", "read as rad/s"]);
     let heavy = columns("heavy.csv", &|row| {
         row.iter().enumerate().map(|(k, y)| if (1..4).contains(&k) { y * 9.806_65 } else { *y }).collect()
     });
@@ -84,7 +84,7 @@ fn a_ferraris_session_that_cannot_be_is_refused_and_another_mounting_is_told() {
     // both sensors turned alike in their housing, and the gyroscope alone: both are possible
     let both = columns("both.csv", &chosen([0, 2, 3, 1, 5, 6, 4]));
     let reported = bench.run(&both).done();
-    reported.says("all directions are turned alike");
+    reported.says("All directions are rotated in the same way");
     assert!(!reported.stderr.contains("turn 1"), "{}", reported.stderr);
     let one = columns("one.csv", &chosen([0, 1, 2, 3, 5, 6, 4]));
     bench.run(&one).done().says("along x, y and z of the accelerometer lie z, x and y of the gyroscope");
@@ -100,7 +100,7 @@ fn how_well_the_faces_were_met_is_told() {
     bench.run("simulate tilted.toml --seed 3 -o tilted").done();
     let given = bench.run("calibrate tilted.toml tilted/recording.csv -o given").done();
     assert!(
-        given.stdout.contains("the faces were met within 0.50° about each axis, as given"),
+        given.stdout.contains("the face alignment is 0.50° about each axis, as given"),
         "{}",
         given.stdout
     );
@@ -115,7 +115,7 @@ fn how_well_the_faces_were_met_is_told() {
     assert!(
         page.contains("tilt of the faces, sd") && page.contains("by their scatter, 6 degrees of freedom")
     );
-    assert!(page.contains("too little left to tell it"));
+    assert!(page.contains("repeat each face"));
     bench.refuses(
         &format!("calibrate {} tilted/recording.csv -o no", {
             bench.write("wrong.toml", table.replacen("[holds]", "[holds]\nface_sd_deg = 12.0", 1));

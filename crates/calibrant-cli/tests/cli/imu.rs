@@ -148,9 +148,12 @@ fn faces_whose_directions_the_readings_contradict_are_named() {
     bench.refuses(given(r#""-x", "x", "-y", "y", "-z", "z""#), 2, &[opposite, "gravity in place of"]);
     // a direction that is wrong by 20°: with two faces for each axis, either may be the wrong one
     let tilted = bench.run(given(r#"[0.94, 0.34, 0.0], "-x", "y", "-y", "z", "-z""#));
-    tilted.says("least of all fits hold 1 (1.0 to 6.0 s), or hold 2 (19.0 to 24.0 s)");
+    tilted.says("in hold 1 (1.0 to 6.0 s), or hold 2 (19.0 to 24.0 s)");
     // all faces turned together: the sensor sits otherwise in its housing, and the program says so
-    bench.run(given(r#""y", "-y", "z", "-z", "x", "-x""#)).done().says("all directions are turned alike");
+    bench
+        .run(given(r#""y", "-y", "z", "-z", "x", "-x""#))
+        .done()
+        .says("All directions are rotated in the same way");
 }
 
 /// A spike in the hold whose Allan deviation gives the noise of the gyroscope's samples.
@@ -186,7 +189,7 @@ fn an_outlier_of_the_gyroscope_is_not_taken_for_its_noise() {
     let (spiked, message, stderr) = noise("spark.csv");
     assert!((spiked / clean - 1.0).abs() < 0.01, "{spiked} {clean}: {message}");
     assert!(
-        stderr.contains("gyroscope: 1 sample far off those beside it was left out")
+        stderr.contains("gyroscope: 1 sample is a spike and was replaced")
             && stderr.contains("15 standard deviations"),
         "{stderr}"
     );
@@ -229,7 +232,7 @@ fn turns_that_are_missing_and_values_that_are_absurd_are_named() {
         "sign.toml",
         table.replacen("axis = \"x\", angle_deg = 360.0", "axis = \"x\", angle_deg = -360.0", 1),
     );
-    let first = "turn 1 (7.0 to 11.0 s) is given as -360.0° about x, and the gyroscope shows 360° about x";
+    let first = "turn 1 (7.0 to 11.0 s) is given as -360.0° about x, but the gyroscope shows 360° about x";
     let sign = "calibrate sign.toml table/recording.csv -o out";
     bench.refuses(sign, 2, &[first, "correct axis, angle or times of the turn"]);
     let outcome = bench.run(sign);
@@ -261,13 +264,13 @@ fn turns_that_are_missing_and_values_that_are_absurd_are_named() {
             "radians.toml",
             99,
             3,
-            "of the angle of every turn: 180/π times. Is the angle in radians, where degrees are meant",
+            "of the angle of every turn: a ratio of about 180/π. Is the angle in radians where degrees are expected",
         ),
         (
             "one.toml",
             1,
             2,
-            "turn 1 (7.0 to 11.0 s) is given as 6.3° about x, and the gyroscope shows 360° about x, 180/π times. Is the angle in radians",
+            "turn 1 (7.0 to 11.0 s) is given as 6.3° about x, but the gyroscope shows 360° about x, a ratio of about 180/π. Is the angle in radians",
         ),
     ] {
         bench.write(name, radians(count));
@@ -289,17 +292,17 @@ fn turns_that_are_missing_and_values_that_are_absurd_are_named() {
         ("accelerometer.bias.x", "100.0"),
         ("accelerometer.scale.x", "0.0"),
     ] {
-        let says = format!("the recording contradicts what [known] says of {what}: {value}");
+        let says = format!("the recording contradicts {what} in [known]: the given value is {value}");
         bench.refuses(
             known(&format!("\"{what}\" = {value}")),
             2,
-            &[&says, "where the recording alone gives", "correct the value in [known]"],
+            &[&says, "but the recording alone gives", "correct the value in [known]"],
         );
     }
     let prior = known("\"gyroscope.scale.x\" = { value = 1.0, sd = 1e-200 }");
     bench.refuses(prior, 2, &["`known.term.sd`: 1e-200 is out of range", "from 1e-12"]);
     let outcome = bench.run(known("\"accelerometer.bias.x\" = 0.5")).done();
-    outcome.says("warning: the recording contradicts what [known] says of accelerometer.bias.x");
+    outcome.says("warning: the recording contradicts accelerometer.bias.x in [known]");
 
     // a gyroscope that senses no turn about two axes
     let dead: Vec<String> = bench

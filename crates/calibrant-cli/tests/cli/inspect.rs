@@ -43,7 +43,7 @@ fn a_recording_is_described_before_it_is_calibrated() {
         "50.000 Hz",
         "no gaps",
         "12 holds found",
-        "directions: the emptiest place is",
+        "directions: the largest gap is",
         "gyroscope in the holds: mean ",
         "Expected standard deviations of the accelerometer",
         "matrix.yz",
@@ -119,7 +119,7 @@ fn holds_in_which_the_accelerometer_saturates_are_named() {
     bench.write("imu.csv", text.lines().map(cut).collect::<String>());
     let stdout = bench.run("inspect imu.csv").done().stdout;
     // sin(0.7 k) cos(1.9 k) is above 0.3 for k = 3, 5, 8 and 10
-    let message = "the accelerometer's axis x saturates in holds 4, 6, 9, 11: not counted here, and left out of a calibration";
+    let message = "the accelerometer's axis x saturates in holds 4, 6, 9, 11: not counted here, and not used in a calibration";
     assert!(stdout.contains(message), "{stdout}");
     bench.write("inspection.json", bench.run("inspect imu.csv --json").done().stdout);
     let table = &bench.json("inspection.json")["holds"]["table"];

@@ -50,7 +50,7 @@ fn holds_that_a_filter_breaks_up_are_told_with_what_to_do() {
         outcome.says(FILTER);
         outcome.says(HELP);
         if found > 9 {
-            outcome.says(&format!("besides {found} holds, {} stretches look still", 24 - found));
+            outcome.says(&format!("{found} holds are found. {} other segments look stationary", 24 - found));
         }
     }
     // the holds are there: where they are given, they calibrate the sensor

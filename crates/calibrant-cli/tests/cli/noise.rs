@@ -86,9 +86,10 @@ fn an_outlier_is_named_and_left_out() {
     let ((expected, clean), (found, outcome)) = (n("still.csv"), n("spark.csv"));
     assert!((found / expected - 1.0).abs() < 0.01, "{found} {expected}");
     assert!(!clean.stderr.contains("outlier"), "{}", clean.stderr);
-    outcome
-        .says("warning: accelerometer x: 1 of 6000 samples is an outlier (the farthest 20 m/s² at 30.000 s");
-    outcome.says("was left out; with it N would be");
+    outcome.says(
+        "warning: accelerometer x: 1 of 6000 samples is an outlier (the farthest is 20 m/s² at 30.000 s",
+    );
+    outcome.says("With it, N would be");
 }
 
 /// A recording of this number of samples with an addition to x in some samples.
@@ -132,16 +133,16 @@ fn spikes_neither_divide_a_hold_nor_change_its_noise() {
     // more than one in fifty are reported for what they are, and N is not usable
     bench.write("many.csv", disturbed(12_000, |k| if k % 40 == 7 { 20.0 } else { 0.0 }));
     let outcome = bench.run("noise many.csv --hold 0 120 -o result").done();
-    outcome.says("accelerometer x: 300 of 12000 samples are sparks");
-    outcome.says("too many to be left out");
+    outcome.says("accelerometer x: 300 of 12000 samples are spikes");
+    outcome.says("too many to remove");
     assert!(!outcome.stderr.contains("filtered") && !outcome.stderr.contains("moves"), "{}", outcome.stderr);
     assert!(
-        outcome.stdout.contains("nothing for an experiment file: there are too many sparks"),
+        outcome.stdout.contains("no noise for an experiment file: there are too many spikes"),
         "{}",
         outcome.stdout
     );
     assert!(bench.json("result/noise.json")["sensors"][0]["experiment"].is_null());
-    assert!(bench.read("result/report.html").contains("This is not the noise of a sensor at rest"));
+    assert!(bench.read("result/report.html").contains("This is not only the noise of a sensor at rest"));
 }
 
 #[test]
@@ -160,10 +161,12 @@ fn noise_of_a_sensor_that_moves_is_not_for_use() {
         let outcome = bench.run(&format!("noise {name}.csv --hold 0 120 -o {name}")).done();
         outcome.says("warning: the sensor moves in");
         assert!(!outcome.stdout.contains("noise_mps2"), "{}", outcome.stdout);
-        let why = "nothing for an experiment file: the sensor moves in the interval that was given";
+        let why = "no noise for an experiment file: the sensor moves in the given interval";
         assert!(outcome.stdout.contains(why), "{}", outcome.stdout);
         assert!(
-            bench.read(&format!("{name}/report.html")).contains("This is not the noise of a sensor at rest")
+            bench
+                .read(&format!("{name}/report.html"))
+                .contains("This is not only the noise of a sensor at rest")
         );
         bench.refuses(
             &format!("convert imu.json imu.yaml --noise {name}/noise.json"),

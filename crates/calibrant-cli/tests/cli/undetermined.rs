@@ -27,7 +27,7 @@ fn an_axis_that_does_not_move() {
         4,
         &[
             "still/recording.csv: the data cannot determine the parameters",
-            "bias.y and scale.y cannot be told apart: axis y does not move, its acceleration is 2 m/s² throughout",
+            "bias.y and scale.y cannot be separated: axis y does not move, its acceleration is 2 m/s² throughout",
             "move the sensor along axis y",
         ],
     );
@@ -46,7 +46,7 @@ fn equal_ends_of_an_unknown_motion() {
         "calibrate experiment.toml simulated/recording.csv --motion ends.csv -o result",
         4,
         &[
-            "bias.z and scale.z cannot be told apart",
+            "bias.z and scale.z cannot be separated",
             "axis z has the same acceleration, 1.5 m/s², at both ends",
         ],
     );

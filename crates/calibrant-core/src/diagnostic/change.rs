@@ -1,29 +1,29 @@
-//! A change of a sensor within a recording: of what, when and by how much.
+//! A change of a sensor within a recording: what changes, when, and by how much.
 
 use crate::diagnostic::parts::{Part, Parts};
 use crate::sensor::SensorKind;
 use nalgebra::Vector3;
 
-/// A sensor that is not the same throughout a recording.
+/// A sensor that changes within a recording.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Change {
     /// The sensor.
     pub sensor_kind: SensorKind,
-    /// What of it changes.
+    /// The property that changes.
     pub of: Changed,
-    /// What explains the residuals nearly as well in its place.
+    /// Another property whose change explains the residuals nearly as well.
     pub instead: Option<Changed>,
     /// When.
     pub course: Course,
-    /// By how much, from before to after, or from begin to end; per axis, in the unit of [`Changed`].
+    /// The difference of after and before, or of end and begin. For each axis, in the unit of [`Changed`].
     pub amount: Vector3<f64>,
-    /// Its standard deviation; zero for an axis of which nothing is known.
+    /// Its standard deviation, or zero for an axis that the data do not determine.
     pub sd: Vector3<f64>,
-    /// Probability of a change at least as significant, at any time, in a sensor that does not change.
+    /// p-value of the change, over all times at which it might occur.
     pub p_value: f64,
 }
 
-/// What of a sensor changes.
+/// The property of a sensor that changes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Changed {
     /// Its bias, m/s² or rad/s.
@@ -34,21 +34,21 @@ pub enum Changed {
     Axes,
 }
 
-/// How a change runs.
+/// The course of a change in time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Course {
     /// All at once.
     Step {
         /// Number of the last hold before it, from 0.
         before: usize,
-        /// Number of the first hold after it; the same where it is seen in the rotations beside that hold.
+        /// Number of the first hold after it. It equals `before` if the change lies within that hold.
         after: usize,
         /// About when, s.
         time_s: f64,
     },
-    /// All along, as time.
+    /// Proportional to time.
     Drift,
-    /// There and back: the amount is that of the holds in between against those before and after.
+    /// There and back. The amount is that of the holds in between, against those before and after.
     Episode {
         /// Number of the first hold of it, from 0.
         first: usize,
@@ -62,11 +62,11 @@ pub enum Course {
 }
 
 impl Change {
-    /// The largest amount on an axis in its standard deviations.
+    /// The largest amount of an axis, in its standard deviations.
     #[must_use]
     pub fn in_sd(&self) -> f64 {
-        let of = |(amount, sd): (&f64, &f64)| if *sd > 0.0 { amount.abs() / sd } else { 0.0 };
-        self.amount.iter().zip(&self.sd).map(of).fold(0.0, f64::max)
+        let ratio = |(amount, sd): (&f64, &f64)| if *sd > 0.0 { amount.abs() / sd } else { 0.0 };
+        self.amount.iter().zip(&self.sd).map(ratio).fold(0.0, f64::max)
     }
 }
 

@@ -1,10 +1,10 @@
-//! The codes of all diagnostics: one table of what each means, how it is decided, and what to do.
+//! The codes of all diagnostics. One table states what each means, how it is decided, and what to do.
 //!
 //! `docs/diagnostics.md` is made from this table.
 
 use crate::diagnostic::severity::Severity;
 
-/// What the table says of a code.
+/// The entry of a code in the table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct CodeEntry {
     /// Its name, which never changes: `hold-moved`.
@@ -32,7 +32,7 @@ macro_rules! codes {
             /// All codes, in the order of the table.
             pub const ALL: &'static [Self] = &[$(Self::$code,)*];
 
-            /// What the table says of it.
+            /// Its entry in the table.
             #[must_use]
             pub fn entry(self) -> CodeEntry {
                 match self {
@@ -71,55 +71,55 @@ impl Code {
 
 codes! {
     NotConverged "not-converged" Warning
-        "The iteration did not converge. The numbers are the best found, not the optimum."
+        "The iteration did not converge. The numbers are the best that it found, not the optimum."
         "The status of the result is not `converged`."
         "Look at the other diagnostics. Record more holds or rotations.";
     Spikes "spikes" Warning
-        "Single samples far off those beside them, or invalid readings, were taken out."
-        "A sample is off the median of the nine about it by more than 7 robust standard deviations of the difference of two samples; of a movement by 12."
+        "Spikes were replaced, or invalid samples were removed."
+        "A spike is far from the median of nine neighbouring samples. The limit is 7 robust standard deviations of the difference of two samples, and 12 in a movement."
         "Look for a loose contact, or for bytes that are lost on the way.";
     SkewedSpikes "skewed-spikes" Warning
-        "Single samples in the holds are off to one side. They move the means and the bias."
-        "The samples beyond 4 standard deviations are far more on one side, and in nearly all holds."
+        "Single samples in the holds lie far to one side. They shift the means and the bias."
+        "Far more samples lie beyond 4 standard deviations on one side than on the other, in nearly all holds."
         "Look for a loose contact, or for bytes that are lost on the way.";
     CoarseSteps "coarse-steps" Warning
-        "The readings come in steps coarser than twice their noise. The mean of a hold is off, however long it is."
-        "The error of a mean by rounding exceeds a quarter of what noise leaves of it."
+        "The readings come in steps of more than twice their noise. The mean of a hold has an error, however long the hold is."
+        "Rounding moves the mean of a hold by more than a quarter of the standard deviation that noise gives it."
         "Choose a smaller range, or write more digits to the file.";
     GravityOffEarth "gravity-off-earth" Warning
-        "Gravity is given as the Earth has it nowhere. All gains of the accelerometer are off by as much."
-        "The value lies outside what the Earth's surface has."
+        "The given gravity occurs nowhere on the Earth. All gains of the accelerometer are wrong by the same ratio."
+        "The value lies outside the range of the Earth's surface."
         "Correct holds.gravity_mps2.";
     GravityUnusual "gravity-unusual" Warning
-        "Gravity is given as another value than that of the Earth. Results are in its unit."
+        "The given gravity is not that of the Earth. Results are in the unit that makes it true."
         "The value is below 9.7 or above 9.9 m/s²."
         "Correct holds.gravity_mps2, or read the results in that unit.";
     HoldLeftOut "hold-left-out" Warning
-        "A hold was left out."
-        "The accelerometer saturates in it, or the magnitude of its mean is off by too many standard deviations."
+        "A hold is not used."
+        "The accelerometer saturates in it, or the magnitude of its mean has too large an error, in standard deviations."
         "Look at the hold in the report. Record with a larger range, or hold the sensor still.";
     HoldsLeftOutInARow "holds-left-out-in-a-row" Warning
-        "Several holds were left out one after another. That is no chance."
-        "So long a run of holds left out is improbable, and no change of the sensor explains it."
-        "Calibrate these holds apart (holds.intervals_s) and compare.";
+        "Several consecutive holds are not used. This is not by chance."
+        "So long a run of unused holds is improbable, and no change of the sensor explains it."
+        "Calibrate these holds separately (holds.intervals_s) and compare.";
     HoldBeyondRecording "hold-beyond-recording" Warning
-        "An interval that was given as a hold reaches beyond the recording."
-        "More than a rounding of its times lies outside."
+        "A given hold reaches beyond the recording."
+        "More of it lies outside than rounding of the times explains."
         "Correct holds.intervals_s.";
     HoldMoved "hold-moved" Warning
-        "The gyroscope turns in a hold. Its readings there are not taken for its bias."
+        "The gyroscope turns in a hold. Its readings there are not used for its bias."
         "Its mean rate in the hold differs from that in the others by more than their scatter."
-        "Correct holds.intervals_s, or leave them away so that holds are looked for.";
+        "Correct holds.intervals_s, or remove that key: the program then finds the holds.";
     HoldsLostToFilter "holds-lost-to-filter" Warning
-        "Neighbouring samples are strongly correlated, as behind a slow low-pass filter. That breaks holds up."
-        "Several stretches look still but are no holds, and samples four apart differ much more than neighbours."
+        "Neighbouring samples are strongly correlated, as behind a slow low-pass filter. This breaks up holds."
+        "Several segments look stationary but are too short for holds. Samples four apart differ much more than neighbours."
         "Give holds.intervals_s, hold longer, or record with a wider bandwidth.";
     HoldsSpreadLittle "holds-spread-little" Warning
-        "The orientations of the holds do not spread enough to tell some parameters apart."
+        "The directions of the holds are too similar. The data hardly separate some parameters."
         "The condition number of the scaled information is large."
-        "Add holds in other orientations.";
+        "Add holds in other directions.";
     HoldsScatter "holds-scatter" Warning
-        "The holds scatter much beyond their noise: something moves, drifts, clips or is not gravity."
+        "The holds scatter far beyond their noise. The cause is movement, drift, saturation, or a force other than gravity."
         "The standard deviation between holds is more than 20 mm/s²."
         "Hold the sensor still, let it warm up, and check its range.";
     OrientationMissing "orientation-missing" Warning
@@ -127,47 +127,47 @@ codes! {
         "No hold is within 60° of that direction."
         "Add a hold there.";
     NothingToCheck "nothing-to-check" Warning
-        "There are as many unknowns as data. Nothing is left to check the fit with."
+        "There are as many unknowns as data. No data are left to check the fit."
         "The fit has no degrees of freedom."
         "Add holds, or record more samples.";
     FewDegreesOfFreedom "few-degrees-of-freedom" Warning
-        "There are few more holds than parameters. The standard deviations themselves are not well known."
+        "There are hardly more holds than parameters. The standard deviations themselves are uncertain."
         "The fit has fewer than 5 degrees of freedom."
         "Add holds.";
     NoiseNotAsGiven "noise-not-as-given" Warning
-        "The noise within the holds is not the one that was given."
-        "The ratio of both is below 0.5 or above 2."
+        "The noise within the holds differs from the given noise."
+        "Their ratio is below 0.5 or above 2."
         "Correct the noise in the experiment file.";
     ParameterImplausible "parameter-implausible" Warning
         "A parameter is far from its nominal value. A mistake is more likely than a rare sensor."
-        "It is more than 10 datasheet standard deviations off."
-        "Check the unit of the recording, gravity, the order and the direction of the axes.";
+        "The difference exceeds 10 datasheet standard deviations."
+        "Check the unit of the recording, gravity, and the order and direction of the axes.";
     FacesTurned "faces-turned" Warning
-        "All directions of the holds are turned alike against what the accelerometer shows."
-        "Readings in SI show another axis up than was given."
-        "Correct the directions, unless the sensor is mounted so.";
+        "All given directions of the holds differ from the accelerometer's by one rotation."
+        "Readings in SI show a different axis up than the given one."
+        "Correct the directions, unless the sensor is mounted that way.";
     FaceBrief "face-brief" Warning
-        "A face was held for a few samples only."
-        "It has fewer samples than a face that is held for seconds."
+        "A face was held for only a few samples."
+        "It has too few samples for a hold of seconds."
         "Correct its times.";
     FacesScatter "faces-scatter" Warning
         "The faces scatter far beyond their noise."
-        "The scatter exceeds what faces by hand have."
+        "The scatter exceeds that of faces set by hand."
         "Correct directions and times of the holds.";
     TiltContradicted "tilt-contradicted" Warning
-        "The faces show another tilt than was given."
-        "Their χ² with the given tilt is too large or too small by chance."
+        "The face alignment differs from the given one."
+        "The χ² of the faces is too large or too small for the given alignment."
         "Correct holds.face_sd_deg.";
     TiltAssumed "tilt-assumed" Warning
-        "The faces are too few to tell how well they were aligned. A tilt is assumed."
-        "The faces leave no degrees of freedom for it."
+        "The faces are too few to estimate their alignment. The program assumes a value."
+        "No degrees of freedom are left for it."
         "Give holds.face_sd_deg, or hold more faces.";
     SensorChanged "sensor-changed" Warning
         "A sensor changes within the recording. The estimates are a mean of before and after."
         "A score test of the residuals in the order of time finds a step, a drift or an episode."
-        "Calibrate the parts apart (holds.intervals_s) and compare. Let the sensor warm up.";
+        "Calibrate the parts separately (holds.intervals_s) and compare. Let the sensor warm up.";
     SamplesOutsideMotion "samples-outside-motion" Warning
-        "Samples lie outside the commanded motion. They were not used."
+        "Samples lie outside the commanded motion. They are not used."
         "Their times are before its begin or after its end."
         "Check that both clocks start together.";
     MotionNotRecorded "motion-not-recorded" Warning
@@ -177,143 +177,143 @@ codes! {
     FitWorseThanNoise "fit-worse-than-noise" Warning
         "The fit is worse than the noise explains. The standard deviations are too small."
         "The p-value of χ² is below 0.001."
-        "Check that both clocks run alike, that the motion was the commanded one, and the noise.";
+        "Check the clocks, the commanded motion, and the noise.";
     FitBetterThanNoise "fit-better-than-noise" Warning
         "The fit is better than the noise explains. The standard deviations are too large."
         "The p-value of χ² is above 0.999."
         "Correct the noise in the experiment file.";
     ResidualsNotWhite "residuals-not-white" Warning
-        "The residuals of an axis are correlated. Something is left unmodelled."
+        "The residuals of an axis are correlated. The model does not explain all of the signal."
         "The p-value of the Ljung–Box test is below 0.0001."
         "Check clocks and motion.";
     EstimateBiased "estimate-biased" Warning
-        "The joint estimate of motion and parameters is biased."
+        "An estimate is biased, since the motion is estimated with it."
         "The second-order bias exceeds 0.3 standard deviations."
         "Calibrate on a shorter motion, or with less process noise.";
     WeakerThanDatasheet "weaker-than-datasheet" Warning
-        "The recording says less of a parameter than the datasheet."
+        "The recording determines a parameter less well than the datasheet."
         "Its standard deviation exceeds the datasheet's spread."
-        "Record longer, or a motion that excites it.";
+        "Record for longer, or use a motion that excites the parameter.";
     ScaleNegative "scale-negative" Warning
         "A scale factor is negative."
         "The estimate is below zero."
         "Check the direction of the axis.";
     TimeOffset "time-offset" Warning
         "The gyroscope shows movements earlier or later than the accelerometer."
-        "The offset is certain, and more than 5 ms and 1.5 sample intervals."
+        "The offset is significant, and exceeds both 5 ms and 1.5 sample intervals."
         "Correct the gyroscope's times by the offset.";
     ClockSkew "clock-skew" Warning
-        "The clocks of the two sensors go at different rates."
-        "The skew is certain, and larger than what matters."
+        "The clocks of the two sensors run at different rates."
+        "The skew is significant, and large enough to affect the result."
         "Correct the gyroscope's times by offset and skew.";
     AxesInOtherOrder "axes-in-other-order" Warning
-        "The gyroscope's axes are the accelerometer's in another order."
-        "The rotations or turns fit with that order alone."
+        "The gyroscope's axes are in another order than the accelerometer's."
+        "The rotations or turns fit only with that order."
         "Correct the columns, or keep the order in mind.";
     GyroscopeTurned "gyroscope-turned" Warning
-        "The gyroscope is turned against the accelerometer."
+        "The gyroscope is mounted with a rotation against the accelerometer."
         "The rotations fit with that mounting, and not with the axes as recorded."
         "Correct the columns, or keep the mounting in mind.";
     RotationLeftOut "rotation-left-out" Warning
-        "A rotation was left out."
-        "It cannot be integrated, or it misses gravity by too many standard deviations."
+        "A rotation is not used."
+        "It cannot be integrated, or its rotation error has too many standard deviations."
         "Look at the rotation in the report. Record with a larger range, without pauses.";
     RotationsLeftOutInARow "rotations-left-out-in-a-row" Warning
-        "Several rotations were left out one after another. That is no chance."
-        "So long a run is improbable, and no change of a sensor explains it."
-        "Did the gyroscope saturate there, or one of the sensors change?";
+        "Several consecutive rotations are not used. This is not by chance."
+        "So long a run of unused rotations is improbable, and no change of a sensor explains it."
+        "Check whether the gyroscope saturates there, or a sensor changes.";
     TurnShare "turn-share" Warning
         "The gyroscope shows the same share of the angle of every turn."
         "The share differs from 1 by more than a quarter, and is the same for all turns."
         "Correct the angle of the turns, the sample rate, or the gyroscope's unit.";
     TurnUnlikeGiven "turn-unlike-given" Warning
-        "The gyroscope shows another turn than was given."
-        "Angle or axis are off by far more than any sensor is."
+        "The gyroscope shows a different turn from the given one."
+        "The difference in angle or axis exceeds any error of a sensor."
         "Correct its angle, its axis or its times.";
     TurnContradicted "turn-contradicted" Warning
-        "A turn of known angle does not fit the other data."
-        "It is off by more than 4.5 standard deviations."
+        "A turn of known angle contradicts the other data."
+        "The difference exceeds 4.5 standard deviations."
         "Correct its times, axis and angle.";
     KnownContradicted "known-contradicted" Warning
-        "The data contradict what `[known]` says of a parameter."
-        "It is off by more than 4.5 of its standard deviations, or by 6 of the fit without it."
-        "Correct the value and its unit, or leave it out.";
+        "The data contradict the value of a parameter in `[known]`."
+        "The difference exceeds 4.5 of its standard deviations, or 6 of the fit without it."
+        "Correct the value or its unit, or remove it.";
     ChiSquaredLarge "chi-squared-large" Warning
-        "The data contradict what was given. The standard deviations are too small."
+        "The data contradict a given value. The standard deviations are too small."
         "χ² exceeds its degrees of freedom by 6 standard deviations."
         "Check terms in [known], directions, turns and noise.";
     GravityMissedMore "gravity-missed-more" Warning
-        "Gravity after a rotation is missed by more than before the calibration."
-        "The root mean square of the angles is larger."
-        "Check what was given: turns, directions, [known].";
+        "The rotation errors are larger than before the calibration."
+        "Their root mean square is larger."
+        "Check the given values: turns, directions, [known].";
     GainImplausible "gain-implausible" Warning
         "A gain of readings in SI is far from 1."
         "It is below 0.8 or above 1.25."
         "Check unit, sample rate, order and direction of the axes, turns and faces.";
     TemperatureExtrapolated "temperature-extrapolated" Warning
-        "The recording goes beyond the temperatures of its holds. There the polynomials extrapolate."
-        "The coldest or the hottest sample is far outside."
-        "Hold the sensor still over the whole range of temperatures.";
+        "The recording goes beyond the temperatures of its holds. The polynomials extrapolate there."
+        "The coldest or the hottest sample lies far outside."
+        "Make holds over the whole range of temperatures.";
     ReferenceExtrapolated "reference-extrapolated" Warning
         "The reference temperature lies beyond the temperatures of the holds."
-        "It is far outside."
+        "It lies far outside."
         "Choose another reference, or record at that temperature.";
     LatitudeUnknown "latitude-unknown" Warning
-        "The Earth's rate is not known without the latitude. Standard deviations become larger."
-        "They are more than 1.15 times as large."
+        "The latitude is not given, and the Earth's rate is unknown. This makes standard deviations larger."
+        "Some are more than 1.15 times as large."
         "Give holds.latitude_deg.";
     NoiseOutliers "noise-outliers" Warning
-        "Samples far off the others were left out of the noise."
-        "They are off the median of the nine about them by more than 8 robust standard deviations."
+        "Outliers were removed before the noise was estimated."
+        "They are more than 8 robust standard deviations from the median of nine neighbouring samples."
         "Look for a loose contact, a lost bit, or a knock.";
     NoiseSpikes "noise-spikes" Warning
-        "There are too many spikes to leave them out. The noise is theirs."
+        "The recording has too many spikes to remove. The stated noise includes them."
         "More than one sample in fifty is an outlier."
-        "Look for a loose contact, or for bits that are lost on the way.";
+        "Look for a loose contact, or for bits lost on the way.";
     SamplesMissing "samples-missing" Warning
-        "Samples are missing. The others are taken as if they followed one another."
-        "The sample times have holes of one or a few intervals."
-        "Look for what loses samples.";
+        "Samples are missing. The others are treated as consecutive samples."
+        "The sample times have gaps of one or a few intervals."
+        "Find the part of the data path that loses samples.";
     SampleTimesVary "sample-times-vary" Warning
         "The sample times vary. Short cluster times are less certain than stated."
         "They vary by more than a fifth of the interval."
         "Take the times from the sensor's clock.";
     NoiseInParts "noise-in-parts" Warning
         "Gaps cut the hold into parts. The longest was examined."
-        "A step of time is longer than five usual ones."
+        "A gap is longer than five usual sample intervals."
         "Record without gaps.";
     NoiseDrifts "noise-drifts" Warning
-        "An axis drifts. The drift was subtracted."
-        "It is more than its noise explains."
+        "An axis drifts. The drift is subtracted."
+        "The drift is larger than the noise explains."
         "Let the sensor warm up.";
     NoiseUnexplained "noise-unexplained" Warning
-        "No sum of the processes explains the Allan deviation."
+        "No combination of the noise processes explains the Allan deviation."
         "The χ² of the fit is too large."
         "Look for vibration. Do not trust the intervals.";
     NoiseFiltered "noise-filtered" Warning
-        "Neighbouring samples are correlated, as behind a filter in the sensor. The noise is that before the filter."
-        "Short cluster times have less noise than white noise gives."
-        "Nothing, where means of many samples are used.";
+        "Neighbouring samples are correlated, as behind a filter in the sensor. The stated noise is that before the filter."
+        "The noise at short cluster times is below that of white noise."
+        "Nothing, if you use means of many samples.";
     ShortTimesUnexplained "short-times-unexplained" Warning
-        "No sum of the processes explains short cluster times. They were not fitted."
-        "The fit is good only without them."
+        "No combination of the noise processes explains short cluster times. They are not fitted."
+        "The fit is good without them, and not with them."
         "Look for vibration or a filter.";
     NoiseVibration "noise-vibration" Warning
-        "The spectrum has a line. The noise is that beside it."
-        "A peak is beyond chance, and has a hundredth of the variance of the samples."
-        "Look for vibration, or the hum of the mains.";
+        "The spectrum has a line. The stated noise excludes it."
+        "A peak is significant, and has at least a hundredth of the variance of the samples."
+        "Look for vibration, or for mains hum.";
     NoiseBeyondWhite "noise-beyond-white" Warning
         "Part of the noise does not average out like independent samples."
         "The standard deviation of the samples exceeds the white noise by 15 %."
         "Take the noise from the Allan deviation, not from the samples.";
     ResolutionCoarse "resolution-coarse" Warning
-        "The resolution is coarser than the noise. What is stated is rounding as much as noise."
+        "The resolution is coarser than the noise. The stated noise is partly rounding."
         "The smallest step exceeds the standard deviation of the samples."
         "Choose a smaller range, or write more digits to the file.";
     NoiseHoldMoves "noise-hold-moves" Warning
-        "The sensor moves in the interval that was given as at rest."
-        "Holds that are found in it leave part of it uncovered."
-        "Leave --hold away, or choose an interval at rest.";
+        "The sensor moves in the interval that --hold gives."
+        "The holds found in it do not cover all of it."
+        "Omit --hold, or choose an interval at rest.";
     ColumnsIgnored "columns-ignored" Note
         "Columns of a recording are not used."
         "They hold nothing that is needed, or they are those of the other file's sensor."

@@ -3,7 +3,9 @@
 use crate::sensor::Axis;
 use nalgebra::Vector3;
 
-/// Two directions agree within this, rad. Faces by hand, unknown gains and non-orthogonality stay well below it; mistakes are 90° or 180°.
+/// Two directions agree within this angle, rad.
+///
+/// Faces by hand, unknown gains and non-orthogonality stay well below it. Mistakes are 90° or 180°.
 pub(crate) const AGREES_RAD: f64 = 0.5;
 
 /// A direction in words: `-x`, or its components.

@@ -1,4 +1,4 @@
-//! Faces that a diagnostic is about.
+//! The faces of a diagnostic.
 
 use crate::diagnostic::direction::direction_in_words;
 use crate::diagnostic::hold_span::HoldSpan;
@@ -22,7 +22,7 @@ impl Part for FacePointing {
     }
 }
 
-/// A hold in which the accelerometer shows another direction up than was given.
+/// A hold whose given direction differs from the accelerometer's.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FaceMismatch {
     /// The hold.
@@ -37,7 +37,7 @@ impl fmt::Display for FaceMismatch {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
-            "{} is given with {} up, and the accelerometer shows {} up",
+            "{} is given with {} up, but the accelerometer shows {} up",
             self.hold,
             direction_in_words(&self.given),
             direction_in_words(&self.shown)

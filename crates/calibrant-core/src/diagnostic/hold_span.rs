@@ -1,4 +1,4 @@
-//! A hold that a diagnostic is about, and why it was left out.
+//! A hold that a diagnostic is about, and why it is not used.
 
 use crate::diagnostic::parts::{Part, Parts};
 use crate::motion::Hold;
@@ -17,7 +17,7 @@ pub struct HoldSpan {
 }
 
 impl HoldSpan {
-    /// Of a hold and its number, from 0.
+    /// The span of a hold. `number`: counted from 0.
     #[must_use]
     pub fn of(number: usize, hold: &Hold) -> Self {
         Self { number: number + 1, start_s: hold.start_s, end_s: hold.end_s }
@@ -42,7 +42,7 @@ impl Part for HoldSpan {
     }
 }
 
-/// Why a hold was left out.
+/// Why a hold is not used.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum HoldLeftOut {
     /// The accelerometer saturates in it.
@@ -54,27 +54,27 @@ pub enum HoldLeftOut {
         /// Unit of the reading.
         unit: ReadingUnit,
     },
-    /// Its magnitude does not fit.
+    /// The magnitude of its mean contradicts gravity.
     MagnitudeOff {
-        /// By how much, m/s².
+        /// Gravity residual, m/s².
         residual_mps2: f64,
         /// The same in standard deviations expected of it.
         studentised: f64,
     },
 }
 
-/// As files state it.
+/// The reason as files state it.
 impl fmt::Display for HoldLeftOut {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Saturated { axis, reading, unit } => write!(
                 f,
-                "axis {axis} of the accelerometer saturates in it, at {reading} {}; record with a larger range, or tilt that axis away from the vertical there",
+                "axis {axis} of the accelerometer saturates at {reading} {}; record with a larger range, or tilt that axis away from the vertical",
                 unit.symbol()
             ),
             Self::MagnitudeOff { residual_mps2, studentised } => write!(
                 f,
-                "its magnitude is off by {:.3} mm/s², {:.1} standard deviations",
+                "its gravity residual is {:.3} mm/s², {:.1} standard deviations",
                 1e3 * residual_mps2,
                 studentised.abs()
             ),

@@ -1,20 +1,20 @@
-//! A parameter of which the data contradict what is known.
+//! A parameter whose given value the data contradict.
 
 use crate::diagnostic::parts::{Part, Parts};
 use std::fmt;
 
-/// A parameter of which the data contradict what `[known]` says.
+/// A parameter whose value in `[known]` the data contradict.
 #[derive(Debug, Clone, PartialEq)]
 pub struct KnownMismatch {
     /// Its name.
     pub parameter: String,
-    /// What `[known]` says.
+    /// Its value in `[known]`.
     pub given: f64,
-    /// How it was seen.
+    /// The evidence.
     pub evidence: KnownEvidence,
 }
 
-/// How data contradict what is known.
+/// How the data contradict a given value.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum KnownEvidence {
     /// The result is off by this many standard deviations of the prior.
@@ -34,11 +34,11 @@ impl fmt::Display for KnownMismatch {
         match self.evidence {
             KnownEvidence::Deviations(deviations) => write!(
                 f,
-                "the data contradict what [known] says of {name}: {deviations:.0} standard deviations from {given}"
+                "the data contradict {name} in [known]: the estimate is {deviations:.0} standard deviations from {given}"
             ),
             KnownEvidence::RecordingAlone { value, sd } => write!(
                 f,
-                "the recording contradicts what [known] says of {name}: {given:?}, where the recording alone gives {value:.5} ± {sd:.1e}"
+                "the recording contradicts {name} in [known]: the given value is {given:?}, but the recording alone gives {value:.5} ± {sd:.1e}"
             ),
         }
     }

@@ -1,4 +1,4 @@
-//! Times of the gyroscope that are off, and what puts them right, in words.
+//! A time offset of the gyroscope, and its correction, in words.
 
 /// `12.3 ms later`.
 #[must_use]
@@ -6,7 +6,9 @@ pub fn late(offset_s: f64, digits: usize) -> String {
     format!("{:.digits$} ms {}", 1e3 * offset_s.abs(), if offset_s > 0.0 { "later" } else { "earlier" })
 }
 
-/// What puts the gyroscope's times right that are late by this at the first sample and later by `skew` with each second.
+/// How to correct the gyroscope's times.
+///
+/// `first_s`: how late the first sample is, s. `skew`: how much later the times become in each second.
 #[must_use]
 pub fn repair(first_s: f64, skew: f64, digits: usize) -> String {
     let shift = match first_s > 0.0 {

@@ -3,12 +3,12 @@
 use crate::diagnostic::parts::{Part, Parts};
 use std::fmt;
 
-/// Stretches that look still and are no holds, since neighbouring samples are strongly correlated.
+/// Segments that look stationary but are no holds, because neighbouring samples are strongly correlated.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LostHolds {
     /// Holds that were found.
     pub holds: usize,
-    /// Stretches that look still besides.
+    /// Other segments that look stationary.
     pub stretches: usize,
     /// Shortest hold, s.
     pub minimum_s: f64,
@@ -16,22 +16,23 @@ pub struct LostHolds {
 
 impl LostHolds {
     /// Why the holds are broken up.
-    pub(crate) const REASON: &'static str = "neighbouring samples are strongly correlated, as behind a low-pass filter far below the sample rate, which breaks holds up";
+    pub(crate) const REASON: &'static str =
+        "neighbouring samples are strongly correlated, as behind a low-pass filter far below the sample rate";
     /// What to do about it.
     pub(crate) const HELP: &'static str =
         "give holds.intervals_s, hold longer, or record with a wider bandwidth";
 }
 
-/// As files state it.
+/// The loss as files state it.
 impl fmt::Display for LostHolds {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.holds {
-            1 => write!(f, "besides 1 hold")?,
-            count => write!(f, "besides {count} holds")?,
+            1 => write!(f, "1 hold is found")?,
+            count => write!(f, "{count} holds are found")?,
         }
         write!(
             f,
-            ", {} stretches look still, but each for less than {} s or not throughout: {}: {}",
+            ". {} other segments look stationary, but not for {} s without interruption: {}. Remedy: {}.",
             self.stretches,
             self.minimum_s,
             Self::REASON,

@@ -1,4 +1,4 @@
-//! What a diagnostic is about and its numbers, gathered from its fields.
+//! Subject and numbers of a diagnostic, gathered from its fields.
 
 use crate::sensor::{Axis, ReadingUnit, SensorKind};
 
@@ -37,7 +37,7 @@ impl<T: Part> Part for Vec<T> {
     fn add_to(&self, parts: &mut Parts, key: &'static str) {
         let mut own = Parts::default();
         self.iter().for_each(|part| part.add_to(&mut own, key));
-        // of several there is no one number
+        // a list has no single number
         if !own.subject.is_empty() {
             parts.subject.push(own.subject.join(", "));
         }

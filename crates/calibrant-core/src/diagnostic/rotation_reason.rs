@@ -1,4 +1,4 @@
-//! Why a rotation was left out.
+//! Why a rotation is not used.
 
 use crate::diagnostic::parts::{Part, Parts};
 use crate::sensor::{Axis, SensorKind};

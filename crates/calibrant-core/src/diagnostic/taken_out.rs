@@ -1,10 +1,10 @@
-//! The diagnostic of spikes that were taken out of a recording.
+//! The diagnostic of spikes and invalid samples.
 
 use crate::diagnostic::value::Diagnostic;
 use crate::sensor::{ReadingUnit, SensorKind, Spikes};
 
 impl Diagnostic {
-    /// Of the spikes of a sensor whose readings are in this unit.
+    /// The diagnostic of a sensor's spikes. `unit`: that of its readings.
     #[must_use]
     pub fn spikes(spikes: &Spikes, sensor_kind: SensorKind, unit: ReadingUnit) -> Self {
         Self::Spikes {

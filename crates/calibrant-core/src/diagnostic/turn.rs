@@ -1,4 +1,4 @@
-//! A turn of known angle that a diagnostic is about.
+//! The turn of known angle that a diagnostic names.
 
 use crate::diagnostic::direction::direction_in_words;
 use crate::diagnostic::parts::{Part, Parts};
@@ -41,7 +41,7 @@ impl Part for TurnSpan {
     }
 }
 
-/// A turn that is given, and that which the gyroscope shows in its place.
+/// A given turn, and the turn that the gyroscope shows instead.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TurnMismatch {
     /// The turn.
@@ -60,7 +60,7 @@ impl fmt::Display for TurnMismatch {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
-            "{} is given as {:.1}° about {}, and the gyroscope shows {:.0}° about {}",
+            "{} is given as {:.1}° about {}, but the gyroscope shows {:.0}° about {}",
             self.turn,
             self.given_rad.to_degrees(),
             direction_in_words(&self.given_about),
@@ -90,9 +90,9 @@ impl fmt::Display for UnitMistake {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::DegreesAsRadians => {
-                "180/π times. Is the angle in radians, where degrees are meant (angle_deg = 360.0 for a whole turn), or are the gyroscope's readings in deg/s and read as rad/s?"
+                "a ratio of about 180/π. Is the angle in radians where degrees are expected (angle_deg = 360.0 for a whole turn)? Or are readings in deg/s read as rad/s?"
             }
-            Self::RadiansAsDegrees => "π/180 of it. Are the gyroscope's readings in rad/s and read as deg/s?",
+            Self::RadiansAsDegrees => "a ratio of about π/180. Are the gyroscope's readings in rad/s, and read as deg/s?",
         })
     }
 }

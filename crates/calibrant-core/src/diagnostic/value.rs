@@ -1,6 +1,6 @@
 //! What a user should know about a result, as values.
 //!
-//! A diagnostic has a code, what it is about, and numbers. It has no sentence: `calibrant_report::message` makes that.
+//! A diagnostic has a code, a subject and numbers. Its sentence is made by `calibrant_report::message`.
 
 use crate::diagnostic::change::Change;
 use crate::diagnostic::code::Code;
@@ -55,7 +55,7 @@ impl Diagnostic {
         self.code().severity()
     }
 
-    /// What it is about: `gyroscope axis x`, `hold 3`; `None` where that is the whole result.
+    /// Its subject, such as `gyroscope axis x` or `hold 3`. `None`: the whole result.
     #[must_use]
     pub fn subject(&self) -> Option<String> {
         let subject = self.parts().subject;
@@ -72,27 +72,27 @@ impl Diagnostic {
 diagnostics! {
     /// The iteration did not converge.
     NotConverged { status: &'static str = "The status." }
-    /// Spikes and invalid readings were taken out.
+    /// Spikes were replaced, or invalid samples removed.
     Spikes {
         sensor_kind: SensorKind = "The sensor.",
         unit: ReadingUnit = "Unit of its readings.",
-        replaced: usize = "Samples that were replaced.",
-        cut: usize = "Samples that were cut out.",
-        axis: Axis = "Axis of the one that is farthest off.",
+        replaced: usize = "Number of samples that were replaced.",
+        cut: usize = "Number of samples that were removed.",
+        axis: Axis = "Axis of the sample that is farthest from its neighbours.",
         reading: f64 = "Its reading.",
         time_s: f64 = "Its time, s.",
-        deviations: f64 = "How far it is off, in standard deviations of a sample's noise; infinite where there is none.",
+        deviations: f64 = "Its distance from its neighbours, in standard deviations of a sample's noise. Infinite where the noise is zero.",
     }
-    /// Single samples are off to one side.
+    /// Single samples lie far to one side.
     SkewedSpikes {
         sensor_kind: SensorKind = "The sensor.",
         axis: Axis = "The axis.",
         unit: ReadingUnit = "Unit of its readings.",
         far_deviations: f64 = "Standard deviations beyond which samples count.",
-        samples_above: f64 = "Samples that are so far above the others.",
-        samples_below: f64 = "Samples that are so far below the others.",
-        shift: f64 = "By how much they move the means.",
-        times_noise: f64 = "The same over what noise does to the mean of all holds.",
+        samples_above: f64 = "Number of samples that are farther above the others.",
+        samples_below: f64 = "Number of samples that are farther below the others.",
+        shift: f64 = "By how much they shift the means.",
+        times_noise: f64 = "The shift over the standard deviation of the mean of all holds.",
     }
     /// Readings come in coarse steps.
     CoarseSteps {
@@ -100,22 +100,22 @@ diagnostics! {
         axis: Axis = "The axis.",
         unit: ReadingUnit = "Unit of its readings.",
         step: f64 = "The step.",
-        noise: f64 = "The noise before rounding; 0 where it is too small to be seen.",
-        mean_sd: f64 = "By how much the mean of a hold is off.",
+        noise: f64 = "The noise before rounding, or 0 where it is too small to be seen.",
+        mean_sd: f64 = "Error of the mean of a hold.",
     }
-    /// Gravity is given as the Earth has it nowhere.
+    /// The given gravity occurs nowhere on the Earth.
     GravityOffEarth {
         gravity_mps2: f64 = "Gravity as given, m/s².",
         least_mps2: f64 = "The least on the Earth's surface, m/s².",
         most_mps2: f64 = "The most on the Earth's surface, m/s².",
     }
-    /// Gravity is given as an unusual value.
+    /// The given gravity is unusual.
     GravityUnusual { gravity_mps2: f64 = "Gravity as given, m/s²." }
-    /// A hold was left out.
+    /// A hold is not used.
     HoldLeftOut { hold: HoldSpan = "The hold.", why: HoldLeftOut = "Why." }
-    /// Holds were left out one after another.
+    /// Consecutive holds are not used.
     HoldsLeftOutInARow {
-        holds: usize = "How many.",
+        holds: usize = "Number of holds.",
         start_s: f64 = "Begin of the first, s.",
         end_s: f64 = "End of the last, s.",
     }
@@ -126,58 +126,58 @@ diagnostics! {
         end_s: f64 = "Its end as given, s.",
         recording_start_s: f64 = "First sample of the recording, s.",
         recording_end_s: f64 = "Last sample of the recording, s.",
-        common_s: f64 = "What counts of it, s.",
+        common_s: f64 = "Duration within the recording, s.",
     }
     /// The gyroscope turns in a hold.
     HoldMoved { hold: HoldSpan = "The hold.", rate_rms: f64 = "Root mean square of its rate.", unit: ReadingUnit = "Unit of the rate." }
-    /// A low-pass filter breaks holds up.
-    HoldsLostToFilter { lost: LostHolds = "How many." }
-    /// The holds do not spread enough.
-    HoldsSpreadLittle { condition_number: f64 = "Condition number.", parameters: Vec<String> = "What can hardly be told apart." }
+    /// A low-pass filter breaks up holds.
+    HoldsLostToFilter { lost: LostHolds = "Their number." }
+    /// The directions of the holds are too similar.
+    HoldsSpreadLittle { condition_number: f64 = "Condition number.", parameters: Vec<String> = "The parameters that the data hardly separate." }
     /// The holds scatter beyond their noise.
     HoldsScatter { between_holds_sd_mps2: f64 = "Standard deviation between holds, m/s²." }
-    /// No hold has these orientations.
-    OrientationMissing { missing: Vec<FacePointing> = "The orientations." }
-    /// Nothing is left to check the fit with.
+    /// No hold has these directions.
+    OrientationMissing { missing: Vec<FacePointing> = "The directions." }
+    /// No data are left to check the fit.
     NothingToCheck {
-        holds: Option<usize> = "How many holds, where there are holds.",
-        parameters: usize = "How many parameters.",
+        holds: Option<usize> = "Number of holds, where the recording consists of holds.",
+        parameters: usize = "Number of parameters.",
     }
     /// The fit has few degrees of freedom.
-    FewDegreesOfFreedom { degrees_of_freedom: usize = "How many." }
-    /// The noise within holds is not the one that was given.
+    FewDegreesOfFreedom { degrees_of_freedom: usize = "Their number." }
+    /// The noise within holds differs from the given noise.
     NoiseNotAsGiven {
         sensor_kind: SensorKind = "The sensor.",
         axis: Axis = "The axis.",
-        ratio: f64 = "Noise within the holds over that which was given.",
+        ratio: f64 = "Noise within the holds over the given noise.",
     }
     /// A parameter is far from its nominal value.
-    ParameterImplausible { parameter: String = "Its name.", deviations: f64 = "By how many datasheet standard deviations." }
-    /// All directions of the holds are turned alike.
+    ParameterImplausible { parameter: String = "Its name.", deviations: f64 = "The difference, in datasheet standard deviations." }
+    /// All given directions of the holds differ by one rotation from the accelerometer's.
     FacesTurned { faces: Vec<FaceMismatch> = "The holds." }
-    /// A face was held for a few samples only.
+    /// A face was held for only a few samples.
     FaceBrief { hold: HoldSpan = "The hold.", samples: usize = "Its samples." }
     /// The faces scatter.
     FacesScatter {
         tilt_rad: f64 = "Scatter of their directions, rad.",
         along_mps2: f64 = "Scatter along gravity, m/s².",
-        worst_rad: f64 = "By how much the worst is off, rad.",
-        worst: Vec<HoldSpan> = "Those that fit least.",
+        worst_rad: f64 = "Largest error, rad.",
+        worst: Vec<HoldSpan> = "The faces with the largest error.",
     }
-    /// The faces show another tilt than was given.
-    TiltContradicted { shown_rad: f64 = "The tilt that they show, rad.", given_rad: f64 = "The tilt that was given, rad." }
-    /// A tilt is assumed.
-    TiltAssumed { faces: usize = "How many faces.", tilt_rad: f64 = "The tilt, rad." }
+    /// The face alignment differs from the given one.
+    TiltContradicted { shown_rad: f64 = "Standard deviation of the tilt that the faces show, rad.", given_rad: f64 = "Given standard deviation of the tilt, rad." }
+    /// The face alignment is assumed.
+    TiltAssumed { faces: usize = "Number of faces.", tilt_rad: f64 = "Standard deviation of the tilt, rad." }
     /// A sensor changes within the recording.
     SensorChanged {
         change: Change = "The change.",
-        coldest_c: Option<f64> = "The coldest sample, °C, where temperatures are known and nothing follows them.",
+        coldest_c: Option<f64> = "The coldest sample, °C. `None`: the temperature is unknown, or the model follows it.",
         hottest_c: Option<f64> = "The hottest sample, °C.",
     }
     /// Samples lie outside the motion.
     SamplesOutsideMotion {
-        outside: usize = "How many.",
-        samples: usize = "How many there are.",
+        outside: usize = "Number of samples outside.",
+        samples: usize = "Number of samples.",
         motion_start_s: f64 = "Begin of the motion, s.",
         motion_end_s: f64 = "End of the motion, s.",
     }
@@ -193,21 +193,21 @@ diagnostics! {
     FitBetterThanNoise { p_value: f64 = "p-value of χ².", noise_ratio: f64 = "Residual noise over the assumed one." }
     /// Residuals are not white.
     ResidualsNotWhite { axis: Axis = "The axis.", p_value: f64 = "p-value of the Ljung–Box test." }
-    /// The joint estimate is biased.
-    EstimateBiased { parameter: String = "The parameter that is biased most.", deviations: f64 = "By how many standard deviations." }
-    /// The recording says less than the datasheet.
-    WeakerThanDatasheet { parameters: Vec<String> = "Of these parameters." }
+    /// An estimate is biased, since the motion is estimated with it.
+    EstimateBiased { parameter: String = "The parameter with the largest bias.", deviations: f64 = "The bias, in standard deviations." }
+    /// The recording determines parameters less well than the datasheet.
+    WeakerThanDatasheet { parameters: Vec<String> = "The parameters." }
     /// A scale factor is negative.
     ScaleNegative { axis: Axis = "The axis." }
-    /// The gyroscope's times are off.
+    /// The gyroscope's times have an offset.
     TimeOffset {
         offset_s: f64 = "By how much the gyroscope is late, s.",
         offset_sd_s: f64 = "Its standard deviation, s.",
     }
-    /// The clocks go at different rates.
+    /// The clocks run at different rates.
     ClockSkew {
         first_offset_s: f64 = "By how much the gyroscope is late at its first sample, s.",
-        last_offset_s: f64 = "By how much it is late at its last sample, s.",
+        last_offset_s: f64 = "By how much the gyroscope is late at its last sample, s.",
         skew: f64 = "How much later it becomes with each second.",
         skew_sd: f64 = "Its standard deviation.",
     }
@@ -216,46 +216,46 @@ diagnostics! {
         order: [String; 3] = "The gyroscope's axis along each of the accelerometer's.",
         by_turns: bool = "Do turns of known angle show it?",
     }
-    /// The gyroscope is turned against the accelerometer.
+    /// The gyroscope is mounted with a rotation against the accelerometer.
     GyroscopeTurned {
-        angle_rad: f64 = "By this angle, rad.",
-        about_x: f64 = "Axis of the turn, along x.",
-        about_y: f64 = "Axis of the turn, along y.",
-        about_z: f64 = "Axis of the turn, along z.",
-        is_mirrored: bool = "Do its axes point the other way?",
+        angle_rad: f64 = "Angle of the rotation, rad.",
+        about_x: f64 = "Axis of the rotation, along x.",
+        about_y: f64 = "Axis of the rotation, along y.",
+        about_z: f64 = "Axis of the rotation, along z.",
+        is_mirrored: bool = "Do its axes point the opposite way?",
     }
-    /// A rotation was left out.
+    /// A rotation is not used.
     RotationLeftOut {
         from_hold: usize = "Number of the hold before it, from 1.",
         to_hold: usize = "Number of the hold after it, from 1.",
         start_s: f64 = "Begin, s.",
         end_s: f64 = "End, s.",
-        error_rad: Option<f64> = "By how much it misses gravity, rad, where it can be integrated.",
-        deviations: Option<f64> = "The same in standard deviations expected of it.",
+        error_rad: Option<f64> = "Rotation error, rad, where the rotation can be integrated.",
+        deviations: Option<f64> = "The rotation error in its expected standard deviations.",
         reason: RotationReason = "Why.",
     }
-    /// Rotations were left out one after another.
+    /// Consecutive rotations are not used.
     RotationsLeftOutInARow {
-        rotations: usize = "How many.",
+        rotations: usize = "Their number.",
         start_s: f64 = "Begin of the first, s.",
         end_s: f64 = "End of the last, s.",
     }
     /// All turns show the same share of their angle.
-    TurnShare { share: f64 = "The share.", mistake: Option<UnitMistake> = "The mistake of units that the share tells." }
-    /// A turn is another one than was given.
-    TurnUnlikeGiven { turn: TurnMismatch = "The turn.", mistake: Option<UnitMistake> = "The mistake of units that tells why." }
-    /// A turn does not fit the other data.
+    TurnShare { share: f64 = "The share.", mistake: Option<UnitMistake> = "The mistake of units that explains the share." }
+    /// The gyroscope shows a different turn from the given one.
+    TurnUnlikeGiven { turn: TurnMismatch = "The turn.", mistake: Option<UnitMistake> = "The mistake of units that explains the difference." }
+    /// A turn contradicts the other data.
     TurnContradicted {
         turn: TurnSpan = "The turn.",
         angle_rad: f64 = "Its angle as given, rad.",
-        deviations: f64 = "By how many standard deviations it is off.",
+        deviations: f64 = "The difference, in standard deviations.",
     }
-    /// The data contradict what is known of a parameter.
+    /// The data contradict the given value of a parameter.
     KnownContradicted { known: KnownMismatch = "The parameter." }
-    /// The data contradict what was given.
+    /// The data contradict a given value.
     ChiSquaredLarge { chi2: f64 = "χ².", degrees_of_freedom: f64 = "Degrees of freedom." }
-    /// Gravity is missed by more than before.
-    GravityMissedMore { after_rad: f64 = "After the calibration, rad.", before_rad: f64 = "Before, rad." }
+    /// The rotation errors are larger than before the calibration.
+    GravityMissedMore { after_rad: f64 = "Root mean square after the calibration, rad.", before_rad: f64 = "Root mean square before, rad." }
     /// A gain is implausible.
     GainImplausible {
         sensor_kind: SensorKind = "The sensor.",
@@ -265,8 +265,8 @@ diagnostics! {
     }
     /// The recording goes beyond the temperatures of its holds.
     TemperatureExtrapolated {
-        coldest_c: f64 = "Coldest of the recording, °C.",
-        hottest_c: f64 = "Hottest of the recording, °C.",
+        coldest_c: f64 = "Lowest temperature of the recording, °C.",
+        hottest_c: f64 = "Highest temperature of the recording, °C.",
         holds_coldest_c: f64 = "Coldest of the holds, °C.",
         holds_hottest_c: f64 = "Hottest of the holds, °C.",
     }
@@ -279,47 +279,47 @@ diagnostics! {
     /// An unknown latitude makes standard deviations larger.
     LatitudeUnknown {
         earth_rate_radps: f64 = "The Earth's rate, rad/s.",
-        of_g_sensitivity: bool = "Is it the g-sensitivity that suffers most, and not the gyroscope's matrix?",
-        times: f64 = "How many times larger they are.",
+        of_g_sensitivity: bool = "Is the g-sensitivity affected most, and not the gyroscope's matrix?",
+        times: f64 = "Largest ratio of the standard deviations.",
     }
-    /// Outliers were left out of the noise.
+    /// Outliers were removed before the noise was estimated.
     NoiseOutliers {
         sensor_kind: SensorKind = "The sensor.",
         axis: Axis = "The axis.",
         unit: ReadingUnit = "Unit of its readings.",
-        outliers: usize = "How many.",
-        samples: usize = "Of how many samples.",
-        reading: f64 = "The one that is farthest off.",
+        outliers: usize = "Their number.",
+        samples: usize = "Number of samples.",
+        reading: f64 = "Reading of the sample that is farthest from its neighbours.",
         time_s: f64 = "Its time, s.",
-        deviations: f64 = "How far it is off, in usual differences of two samples.",
-        white_noise_ratio: Option<f64> = "White noise with them over that without.",
+        deviations: f64 = "Its distance from its neighbours, in usual differences of two samples.",
+        white_noise_ratio: Option<f64> = "White noise with the outliers over white noise without them.",
     }
-    /// There are too many spikes to leave out.
+    /// The recording has too many spikes to remove.
     NoiseSpikes {
         sensor_kind: SensorKind = "The sensor.",
         axis: Axis = "The axis.",
         unit: ReadingUnit = "Unit of its readings.",
-        outliers: usize = "How many.",
-        samples: usize = "Of how many samples.",
-        reading: f64 = "The one that is farthest off.",
+        outliers: usize = "Their number.",
+        samples: usize = "Number of samples.",
+        reading: f64 = "Reading of the sample that is farthest from its neighbours.",
         time_s: f64 = "Its time, s.",
-        deviations: f64 = "How far it is off, in usual differences of two samples.",
+        deviations: f64 = "Its distance from its neighbours, in usual differences of two samples.",
     }
     /// Samples are missing.
-    SamplesMissing { missing_share: f64 = "Their share." }
+    SamplesMissing { missing_share: f64 = "Share of the samples." }
     /// The sample times vary.
-    SampleTimesVary { jitter: f64 = "By this share of the interval." }
+    SampleTimesVary { jitter: f64 = "Largest variation, as a share of the interval." }
     /// Gaps cut the hold.
-    NoiseInParts { parts: usize = "How many parts.", longest_s: f64 = "The longest, s." }
+    NoiseInParts { parts: usize = "Number of parts.", longest_s: f64 = "Duration of the longest part, s." }
     /// An axis drifts.
     NoiseDrifts {
         sensor_kind: SensorKind = "The sensor.",
         axis: Axis = "The axis.",
         unit: ReadingUnit = "Unit of its readings.",
-        drift_per_s: f64 = "By how much in a second.",
-        deviations: f64 = "The same in standard deviations of what its noise explains.",
+        drift_per_s: f64 = "Drift in one second.",
+        deviations: f64 = "The drift, in standard deviations of the drift that its noise explains.",
     }
-    /// No sum of the processes explains the Allan deviation.
+    /// No combination of the noise processes explains the Allan deviation.
     NoiseUnexplained {
         sensor_kind: SensorKind = "The sensor.",
         axis: Axis = "The axis.",
@@ -330,13 +330,13 @@ diagnostics! {
     NoiseFiltered {
         sensor_kind: SensorKind = "The sensor.",
         axis: Axis = "The axis.",
-        correlated_s: f64 = "Samples less apart than this are correlated, s.",
+        correlated_s: f64 = "Samples closer in time than this are correlated, s.",
     }
-    /// Short cluster times were not fitted.
+    /// Short cluster times are not fitted.
     ShortTimesUnexplained {
         sensor_kind: SensorKind = "The sensor.",
         axis: Axis = "The axis.",
-        shortest_tau_s: f64 = "The shortest that was, s.",
+        shortest_tau_s: f64 = "Shortest cluster time of the fit, s.",
     }
     /// The spectrum has a line.
     NoiseVibration {
@@ -361,6 +361,6 @@ diagnostics! {
         unit: ReadingUnit = "Unit of its readings.",
         step: f64 = "The smallest step.",
     }
-    /// The sensor moves in the interval that was given.
+    /// The sensor moves in the given interval.
     NoiseHoldMoves { moving_s: f64 = "For how long it moves, s.", given_s: f64 = "Duration of the interval, s." }
 }

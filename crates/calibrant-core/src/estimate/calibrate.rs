@@ -1,8 +1,6 @@
 //! Calibrates a sensor, whatever its stimulus.
 
-use super::{
-    Calibration, CalibrationProblem, CalibrationSettings, HoldCalibration, Recovered, Stimulus, holds, motion,
-};
+use super::{Calibration, CalibrationProblem, CalibrationSettings, Change, Stimulus, holds, motion};
 use crate::diagnostic::Diagnostic;
 use crate::error::Result;
 use crate::sensor::SensorKind;
@@ -64,10 +62,12 @@ pub fn calibrate(problem: &CalibrationProblem<'_>, settings: &CalibrationSetting
             let found =
                 spikes.map(|spikes| Diagnostic::spikes(&spikes, SensorKind::Accelerometer, recording.unit));
             calibration.warnings.splice(0..0, found);
-            if let Recovered::Holds(HoldCalibration { change: Some(change), .. }) = &calibration.recovered {
-                let (change, coldest_c, hottest_c) = (**change, None, None);
-                calibration.warnings.push(Diagnostic::SensorChanged { change, coldest_c, hottest_c });
-            }
+            let changed = |change: &Change| Diagnostic::SensorChanged {
+                change: *change,
+                coldest_c: None,
+                hottest_c: None,
+            };
+            calibration.warnings.extend(calibration.changes.iter().map(changed));
             Ok(calibration)
         }
     }

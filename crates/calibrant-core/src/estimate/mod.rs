@@ -43,8 +43,8 @@ pub use holds::{
     find_clean_holds, find_holds, holds_between, holds_lost_to_filter,
 };
 pub use imu::{
-    ClockRate, Gyroscope, GyroscopeInHolds, ImuCalibration, ImuProblem, ImuSetup, KnownTerm, NoiseSource,
-    RotationResult, ThermalModel, Turn, TurnResult, WhiteNoise, WhiteNoiseSearch, calibrate_imu,
+    ClockRate, Gyroscope, GyroscopeCalibration, GyroscopeInHolds, ImuProblem, ImuSetup, KnownTerm,
+    NoiseSource, RotationResult, ThermalModel, Turn, TurnResult, WhiteNoise, WhiteNoiseSearch, calibrate_imu,
     calibrate_imu_with, find_clean_imu_holds, find_imu_holds, swapped_sensors,
 };
 pub use problem::{CalibrationProblem, Stimulus};
@@ -55,5 +55,5 @@ pub use uncalibrated::Uncalibrated;
 pub use validation::{
     BiasShift, Caveat, CoarseStep, CovarianceVerdict, ErrorKind, FailedFold, LikelyExplanation, NoiseRatio,
     ParameterPart, UnusedError, ValidatedErrors, Validation, ValidationSource, cross_validate,
-    cross_validate_imu, noise_in_common, other_temperature, readings_in_common, validate, validate_imu,
+    cross_validate_imu, other_temperature, validate, validate_imu,
 };

@@ -1,6 +1,6 @@
 //! What an unknown latitude does to the uncertainty of a calibration.
 
-use super::ImuCalibration;
+use super::Calibration;
 use crate::diagnostic::Diagnostic;
 use crate::motion::EARTH_RATE_RADPS;
 use crate::sensor::ImuQuantity;
@@ -9,8 +9,8 @@ use crate::sensor::ImuQuantity;
 const SIZEABLE: f64 = 1.15;
 
 /// What to say where an unknown latitude is a sizeable part of the uncertainty.
-pub(super) fn unknown_latitude(calibration: &ImuCalibration) -> Option<Diagnostic> {
-    let slope = calibration.of_vertical.as_ref()?;
+pub(super) fn unknown_latitude(calibration: &Calibration) -> Option<Diagnostic> {
+    let slope = calibration.gyroscope.as_ref()?.of_vertical.as_ref()?;
     let larger = |(slope, variance): (&f64, &f64)| {
         let without = (variance - slope.powi(2)).max(f64::MIN_POSITIVE);
         (variance / without).sqrt()

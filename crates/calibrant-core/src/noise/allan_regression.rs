@@ -317,7 +317,7 @@ impl<'a> Regression<'a> {
         let name = |a: usize| [short, "white noise", "bias instability", "rate random walk"][a];
         let here = process as usize;
         let apart = format!(
-            "bias instability and rate random walk cannot be told apart with cluster times up to {longest}: record for longer"
+            "bias instability and rate random walk cannot be separated with cluster times up to {longest}: record for longer"
         );
         if self.filtered && here == QUANTISATION {
             return "the samples are filtered, and what a filter takes from short cluster times hides it"

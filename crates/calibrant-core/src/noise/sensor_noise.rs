@@ -304,7 +304,7 @@ impl AxisNoise {
     fn caveat(&self, values: &[f64]) -> Option<String> {
         let spikes = self.outliers.as_ref().is_some_and(|outliers| !outliers.left_out);
         if spikes {
-            return Some("there are too many sparks".into());
+            return Some("there are too many spikes".into());
         }
         if Tails::of(values).reach_far() {
             return Some(format!(

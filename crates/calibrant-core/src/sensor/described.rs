@@ -1,6 +1,6 @@
 //! Parameters as tables show them: name, unit, nominal value and datasheet spread.
 
-use super::{Axis, ParameterList, Quantity, Sensor, SensorParameters};
+use super::{Axis, ImuQuantity, ParameterList, Quantity, ReadingUnit, Sensor, SensorKind, SensorParameters};
 
 /// One parameter as tables show it.
 #[derive(Debug, Clone, PartialEq)]
@@ -15,7 +15,28 @@ pub struct Parameter {
     pub spread: Option<f64>,
 }
 
+impl Parameter {
+    /// A quantity of which the datasheet says nothing, for readings in this unit.
+    #[must_use]
+    pub fn undescribed(quantity: ImuQuantity, reading: ReadingUnit) -> Self {
+        Self { name: quantity.name(), unit: quantity.unit(reading), nominal: None, spread: None }
+    }
+}
+
 impl ParameterList {
+    /// The same quantities, as those of the accelerometer of an IMU.
+    #[must_use]
+    pub fn of_accelerometer(&self) -> Vec<ImuQuantity> {
+        self.quantities().iter().map(|of| ImuQuantity::Of(SensorKind::Accelerometer, *of)).collect()
+    }
+
+    /// As [`describe`](Self::describe), under the names of an IMU's accelerometer.
+    #[must_use]
+    pub fn describe_accelerometer(&self, sensor: &Sensor, like: &SensorParameters) -> Vec<Parameter> {
+        let described = self.describe(sensor, like).into_iter().zip(self.of_accelerometer());
+        described.map(|(parameter, of)| Parameter { name: of.name(), ..parameter }).collect()
+    }
+
     /// Name, unit, nominal value and datasheet spread of each parameter. The gains of `like` turn relative
     /// spreads into spreads of the readings. `like` is the nominal sensor, or the estimate where no nominal
     /// gain is known.

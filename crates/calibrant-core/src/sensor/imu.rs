@@ -64,6 +64,13 @@ impl ImuRecording {
     }
 }
 
+impl From<Recording> for ImuRecording {
+    /// The recording of an accelerometer alone.
+    fn from(accelerometer: Recording) -> Self {
+        Self { accelerometer: Some(accelerometer), gyroscope: None, temperature_c: None }
+    }
+}
+
 /// The values of an IMU's parameters.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ImuParameters {

@@ -76,14 +76,16 @@ pub fn run_study(
         .collect::<Result<Vec<_>>>()?;
     let triples: Vec<_> =
         outcomes.iter().map(|outcome| (&outcome.truth[..], &outcome.values[..], &outcome.sd[..])).collect();
+    let nominal = problem.sensor.nominal().unwrap_or(single.calibration.imu.accelerometer);
+    let parameters = list.describe(problem.sensor, &nominal);
     Ok(Study {
         sensor: problem.sensor.clone(),
-        parameters: single.calibration.parameters.clone(),
         trust: problem.command.trust.name(),
         seed: settings.seed,
         rate_hz: problem.rate_hz,
         motion: problem.command.motion.clone(),
-        summary: summarise(&single.calibration.parameters, &triples),
+        summary: summarise(&parameters, &triples),
+        parameters,
         outcomes,
         single,
         fine,

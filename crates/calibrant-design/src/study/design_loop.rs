@@ -146,8 +146,11 @@ fn go_round(
     };
     let before = calibrate_on(problem, settings, &truth, &first, &mut rng)?;
 
-    let prior = settings.calibration.datasheet_prior.then(|| datasheet_information(sensor, &before.sensor));
-    let at_estimate = problem.design_at(before.sensor, prior);
+    let prior = settings
+        .calibration
+        .datasheet_prior
+        .then(|| datasheet_information(sensor, &before.imu.accelerometer));
+    let at_estimate = problem.design_at(before.imu.accelerometer, prior);
     let how = DesignSettings {
         seed,
         certificate: settings.design.certificate && index == 0,

@@ -1,23 +1,25 @@
-//! calibrant JSON, schema 2: reads and writes a whole IMU, with everything.
+//! calibrant JSON, schema 2: reads and writes an IMU or one of its sensors, with everything.
 //!
 //! The direction is true → raw. The frame is in words, and by `gauge` where the matrix of the reference
 //! sensor has such a form. The reference sensor is the accelerometer where there is one. Units are in the
 //! names of the fields. The file carries everything: covariance, g-sensitivity, counts, noise densities, the
 //! hashes of the recordings. Numbers have the fewest digits that read back to the same bits. The reader also
-//! takes schema 1, `calibration.json` of one accelerometer, and `truth.json` of a simulation.
+//! takes `truth.json` of a simulation.
 
 use super::arrays::missing;
 use super::imu_noise::ImuNoise;
 use super::json_core::ImuCore;
+use super::usable_calibration::usable;
 use super::words::input_error;
-use super::{CalibratedImuFile, ImuFormat, schema_one, truth};
+use super::{CalibratedImuFile, ImuFormat, truth};
 use crate::json;
 use crate::text_decoding::Checked;
-use calibrant_core::error::Refusal;
+use calibrant_core::error::{InputError, Refusal};
+use calibrant_core::sensor::CalibratedImu;
 use serde::{Deserialize, Serialize};
 
 /// The kind of file that the field `kind` names.
-const KIND: &str = "calibrated IMU";
+const KIND: &str = "calibration";
 /// The remedy for a broken file.
 const HELP: &str = "give a file that calibrant wrote";
 
@@ -50,6 +52,7 @@ struct File {
 struct Header {
     schema: Option<serde_json::Value>,
     status: Option<String>,
+    prior: Option<String>,
     /// Only the file of a simulation has one.
     seed: Option<serde_json::Value>,
     noise: Option<NoiseFields>,
@@ -72,40 +75,90 @@ struct NoiseFields {
 pub(super) fn write(file: &CalibratedImuFile) -> String {
     json::to_json(&File {
         heading: Heading::new(),
-        core: ImuCore::of(&file.imu, &file.inputs),
+        core: ImuCore::of(&file.imu, 3, &file.inputs),
         noise: file.noise.as_ref().map(NoiseFields::of),
     })
 }
 
 pub(super) fn read(text: &str) -> Checked<CalibratedImuFile> {
-    let broken = |error: &serde_json::Error| json::broken(error, "a calibration of calibrant", HELP);
-    let header: Header = serde_json::from_str(text).map_err(|error| broken(&error))?;
-    match header.schema {
-        Some(schema) if schema == 1 && header.seed.is_some() => return truth::read(text),
-        Some(schema) if schema == 1 => return schema_one::read(text),
-        Some(schema) if schema == 2 => (),
-        Some(schema) => {
-            let message = format!("schema {schema} of a calibration is not known to this version");
-            return Err(input_error(
-                Refusal::CalibrationInvalid,
-                message,
-                "1 and 2 are; use a newer calibrant",
-            ));
-        }
-        None => return Err(missing("schema")),
+    let header = Header::of(text)?;
+    if header.is_truth() {
+        return truth::read(text);
     }
-    if let Some(status) = header.status.filter(|status| status != "converged") {
-        let message = format!("this calibration did not converge: its status is \"{status}\"");
+    let core = header.core(text)?;
+    if core.has_one_axis() {
         return Err(input_error(
-            Refusal::CalibrationInvalid,
-            message,
-            "calibrate again; its report says what is wrong",
+            Refusal::CalibrationUnsuited,
+            "this is the calibration of a sensor with one axis; an IMU has three",
+            "use its parameters from the file itself",
         ));
     }
-    let core: ImuCore = serde_json::from_str(text).map_err(|error| broken(&error))?;
     let (imu, inputs) = core.into_imu()?;
     let noise = header.noise.map(NoiseFields::into_noise).transpose()?;
     Ok(CalibratedImuFile { imu, noise, inputs, format: ImuFormat::CalibrantJson, findings: Vec::new() })
+}
+
+/// The calibrated sensors of a `calibration.json`, also one of a single axis, and whether the datasheet was
+/// their prior.
+pub(crate) fn read_estimates(text: &str) -> Checked<(CalibratedImu, bool)> {
+    let header = Header::of(text)?;
+    if header.is_truth() {
+        let message = "this is the truth of a simulation, not a calibration: it has no covariance";
+        return Err(input_error(
+            Refusal::CalibrationInvalid,
+            message,
+            "give a calibration.json that `calibrant calibrate` wrote",
+        ));
+    }
+    let (imu, _) = header.core(text)?.into_imu()?;
+    usable(&imu)?;
+    Ok((imu, header.prior.as_deref() == Some("datasheet")))
+}
+
+impl Header {
+    fn of(text: &str) -> Checked<Self> {
+        serde_json::from_str(text).map_err(|error| broken(&error))
+    }
+
+    /// Is it the file of a simulation? Only that has a seed, and its own schema.
+    fn is_truth(&self) -> bool {
+        self.seed.is_some() && self.schema.as_ref().is_some_and(|schema| *schema == 1)
+    }
+
+    /// The core of a file of this schema, of a calibration that converged.
+    fn core(&self, text: &str) -> Checked<ImuCore> {
+        match &self.schema {
+            Some(schema) if *schema == 2 => (),
+            Some(schema) if *schema == 1 => return Err(obsolete()),
+            Some(schema) => {
+                let message = format!("schema {schema} of a calibration is not known to this version");
+                return Err(input_error(Refusal::CalibrationInvalid, message, "use a newer calibrant"));
+            }
+            None => return Err(missing("schema")),
+        }
+        if let Some(status) = self.status.as_ref().filter(|status| *status != "converged") {
+            let message = format!("this calibration did not converge: its status is \"{status}\"");
+            return Err(input_error(
+                Refusal::CalibrationInvalid,
+                message,
+                "calibrate again; its report says what is wrong",
+            ));
+        }
+        serde_json::from_str(text).map_err(|error| broken(&error))
+    }
+}
+
+fn broken(error: &serde_json::Error) -> Box<InputError> {
+    json::broken(error, "a calibration of calibrant", HELP).into()
+}
+
+/// The error for a file of schema 1, in which earlier versions wrote the calibration of an accelerometer.
+fn obsolete() -> Box<InputError> {
+    input_error(
+        Refusal::CalibrationInvalid,
+        "schema 1 of calibration.json is that of an earlier calibrant: its parameters have other names",
+        "calibrate the recording again with this version",
+    )
 }
 
 impl NoiseFields {

@@ -2,7 +2,7 @@
 
 use super::format::ImuFormat;
 use super::imu_noise::ImuNoise;
-use crate::calibration::Input;
+use crate::input::Input;
 use calibrant_core::sensor::CalibratedImu;
 use std::path::PathBuf;
 

@@ -8,8 +8,7 @@ use std::path::Path;
 /// A format of calibrations.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ImuFormat {
-    /// Our own, with everything: schema 2 for an IMU. The reader also takes schema 1, `calibration.json` of
-    /// one accelerometer, and `truth.json` of a simulation.
+    /// Our own, with everything. The reader also takes `truth.json` of a simulation.
     CalibrantJson,
     /// Kalibr's `imu.yaml` with the scale-misalignment model.
     Kalibr,

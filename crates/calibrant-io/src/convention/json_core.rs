@@ -5,13 +5,14 @@
 //! list of parameters has the quantities of the covariance. The reader refuses a file where they contradict
 //! each other.
 
-use super::super::calibration::Input;
+use super::super::input::Input;
 use super::arrays::{Rows, matrix3, missing, rows, vector3};
 use super::temperature::TemperatureCore;
 use super::words::input_error;
-use crate::shared_fields::matrix_rows;
+use crate::shared_fields::{block, matrix_rows, per_axis};
 use crate::text_decoding::Checked;
 use calibrant_core::error::Refusal;
+use calibrant_core::estimate::Calibration;
 use calibrant_core::sensor::{
     CalibratedImu, Correction, Gauge, ImuParameters, ImuQuantity, Quantity, ReadingUnit, SensorKind,
     SensorParameters,
@@ -83,23 +84,29 @@ struct ParameterCore {
     value: Option<f64>,
     sd: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none", skip_deserializing)]
+    nominal: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none", skip_deserializing)]
+    spread_sd: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none", skip_deserializing)]
     prior_share: Option<f64>,
 }
 
 impl ImuCore {
-    /// The fields of a calibrated IMU.
-    pub(crate) fn of(imu: &CalibratedImu, inputs: &[Input]) -> Self {
+    /// The fields of a calibrated IMU, or of an accelerometer with this number of axes.
+    pub(crate) fn of(imu: &CalibratedImu, axes: usize, inputs: &[Input]) -> Self {
         let sd = |k: usize| imu.covariance.as_ref().map(|sigma| sigma[(k, k)].max(0.0).sqrt());
         let parameter = |(k, &quantity): (usize, &ImuQuantity)| ParameterCore {
             name: Some(quantity.name()),
             unit: Some(quantity.unit(unit_of(imu, quantity.sensor_kind())).into()),
             value: Some(quantity.value(&imu.parameters)),
             sd: sd(k),
+            nominal: None,
+            spread_sd: None,
             prior_share: None,
         };
         let optional = |rows: Rows| rows.into_iter().map(|row| row.into_iter().map(Some).collect()).collect();
         let sensor_kind = |sensor_kind| {
-            imu.unit(sensor_kind).map(|unit| SensorCore::of(sensor_kind, unit, &imu.parameters))
+            imu.unit(sensor_kind).map(|unit| SensorCore::of(sensor_kind, unit, &imu.parameters, axes))
         };
         Self {
             direction: Some(DIRECTION.into()),
@@ -117,12 +124,22 @@ impl ImuCore {
         }
     }
 
-    /// The same, with the share of each parameter's information that came from its prior.
-    pub(crate) fn with_prior_share(mut self, prior_share: &[f64]) -> Self {
-        for (parameter, share) in self.parameters.iter_mut().flatten().zip(prior_share) {
-            parameter.prior_share = Some(*share);
+    /// The same, with what was known of each parameter beforehand: by the datasheet, and by its prior.
+    pub(crate) fn with_knowledge(mut self, calibration: &Calibration) -> Self {
+        for (k, fields) in self.parameters.iter_mut().flatten().enumerate() {
+            let described = &calibration.parameters[k];
+            (fields.nominal, fields.spread_sd) = (described.nominal, described.spread);
+            fields.prior_share = calibration.prior_share.get(k).copied();
         }
         self
+    }
+
+    /// Is the accelerometer one of a single axis?
+    pub(super) fn has_one_axis(&self) -> bool {
+        let is_one = |bias: &Option<Vec<f64>>| bias.as_ref().is_some_and(|bias| bias.len() == 1);
+        self.accelerometer
+            .as_ref()
+            .is_some_and(|fields| is_one(&fields.bias_mps2) || is_one(&fields.bias_counts))
     }
 
     /// The IMU that the fields describe, and its recordings.
@@ -189,9 +206,9 @@ impl ImuCore {
 }
 
 impl SensorCore {
-    fn of(sensor_kind: SensorKind, unit: ReadingUnit, imu: &ImuParameters) -> Self {
+    fn of(sensor_kind: SensorKind, unit: ReadingUnit, imu: &ImuParameters, axes: usize) -> Self {
         let sensor = imu.sensor(sensor_kind);
-        let (bias, matrix) = (Some(sensor.bias.iter().copied().collect()), Some(rows(&sensor.matrix)));
+        let (bias, matrix) = (Some(per_axis(&sensor.bias, axes)), Some(block(&sensor.matrix, axes)));
         let g_sensitivity = (sensor_kind == SensorKind::Gyroscope).then(|| rows(&imu.g_sensitivity));
         let mut fields = Self { reading_unit: unit.symbol().into(), ..Self::default() };
         match unit {
@@ -209,7 +226,7 @@ impl SensorCore {
             _ => fields.g_sensitivity_radps_per_mps2 = g_sensitivity,
         }
         fields.correction =
-            Correction::of(sensor).map(|correction| CorrectionCore::of(sensor_kind, unit, &correction));
+            Correction::of(sensor).map(|correction| CorrectionCore::of(sensor_kind, unit, &correction, axes));
         fields
     }
 
@@ -245,9 +262,12 @@ impl SensorCore {
         let field = |name: &str| format!("{sensor_kind}.{name}");
         let bias = bias.ok_or_else(|| missing(&field(bias_name)))?;
         let matrix = matrix.ok_or_else(|| missing(&field(matrix_name)))?;
-        let sensor = SensorParameters {
-            bias: vector3(&bias, &field(bias_name))?,
-            matrix: matrix3(&matrix, &field(matrix_name))?,
+        let sensor = match (bias.as_slice(), matrix.as_slice()) {
+            ([bias], [row]) if row.len() == 1 => of_one_axis(*bias, row[0]),
+            _ => SensorParameters {
+                bias: vector3(&bias, &field(bias_name))?,
+                matrix: matrix3(&matrix, &field(matrix_name))?,
+            },
         };
         // a gyroscope without a g-sensitivity has the matrix zero
         let g_sensitivity = match (sensor_kind, g_sensitivity) {
@@ -258,9 +278,16 @@ impl SensorCore {
     }
 }
 
+/// A sensor whose other axes count as perfect.
+fn of_one_axis(bias: f64, scale: f64) -> SensorParameters {
+    let mut sensor = SensorParameters::identity();
+    (sensor.bias.x, sensor.matrix[(0, 0)]) = (bias, scale);
+    sensor
+}
+
 impl CorrectionCore {
-    fn of(sensor_kind: SensorKind, unit: ReadingUnit, correction: &Correction) -> Self {
-        let matrix = Some(rows(&correction.matrix));
+    fn of(sensor_kind: SensorKind, unit: ReadingUnit, correction: &Correction, axes: usize) -> Self {
+        let matrix = Some(block(&correction.matrix, axes));
         let direction = match sensor_kind {
             SensorKind::Accelerometer => "raw to true: f = C (y_a - b_a); matrix is C, the inverse of S",
             SensorKind::Gyroscope => "raw to true: w = C (y_g - b_g - G f); matrix is C, the inverse of S",

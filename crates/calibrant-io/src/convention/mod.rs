@@ -27,14 +27,13 @@ mod kalibr;
 mod measured_noise;
 mod options;
 mod read;
-mod schema_one;
 mod temperature;
 mod truth;
 mod usable_calibration;
 mod words;
 mod write;
 
-pub(crate) use calibrant_json::Heading;
+pub(crate) use calibrant_json::{Heading, read_estimates};
 pub use file::{CalibratedImuFile, WrittenImu};
 pub use format::ImuFormat;
 pub use imu_noise::ImuNoise;

@@ -36,15 +36,6 @@ struct Value {
     value: f64,
 }
 
-impl Value {
-    /// Its name among those of an IMU: the names of a single accelerometer have no sensor.
-    fn full_name(&self) -> String {
-        let of_imu =
-            SensorKind::ALL.iter().any(|sensor_kind| self.name.starts_with(&format!("{sensor_kind}.")));
-        if of_imu { self.name.clone() } else { format!("{}.{}", SensorKind::Accelerometer, self.name) }
-    }
-}
-
 pub(super) fn read(text: &str) -> Checked<CalibratedImuFile> {
     let file: File = serde_json::from_str(text).map_err(|error| json::broken(&error, KIND, HELP))?;
     file.convention.iter().try_for_each(|stated| check_direction("convention", stated))?;
@@ -60,7 +51,7 @@ pub(super) fn read(text: &str) -> Checked<CalibratedImuFile> {
             HELP,
         ));
     }
-    let names: Vec<String> = listed.iter().map(Value::full_name).collect();
+    let names: Vec<String> = listed.iter().map(|value| value.name.clone()).collect();
     let of = |sensor_kind: SensorKind| {
         listed.iter().zip(&names).filter(move |(_, name)| name.starts_with(sensor_kind.name()))
     };
@@ -92,13 +83,9 @@ pub(super) fn read(text: &str) -> Checked<CalibratedImuFile> {
     let symmetric = (file.gauge.as_deref() == Some(Gauge::Symmetric.name())).then_some(&names);
     let estimated = listed.len();
     for (i, value) in listed.iter().chain(&file.fixed).enumerate() {
-        let name = value.full_name();
-        let quantity = quantity_of(&name, &imu, symmetric).ok_or_else(|| {
-            input_error(
-                Refusal::CalibrationInvalid,
-                format!("\"{}\" is no parameter of a sensor", value.name),
-                HELP,
-            )
+        let name = &value.name;
+        let quantity = quantity_of(name, &imu, symmetric).ok_or_else(|| {
+            input_error(Refusal::CalibrationInvalid, format!("\"{name}\" is no parameter of a sensor"), HELP)
         })?;
         let wanted =
             quantity.unit(imu.unit(quantity.sensor_kind()).unwrap_or(quantity.sensor_kind().stimulus_unit()));

@@ -6,7 +6,7 @@ use super::number_range::Bounds;
 use super::toml_document::{Entry, Section};
 use crate::ImuUnit;
 use calibrant_core::error::Result;
-use calibrant_core::estimate::{Gyroscope, HoldsSetup, ImuSetup, KnownTerm, ThermalModel, Turn};
+use calibrant_core::estimate::{Gyroscope, ImuSetup, KnownTerm, ThermalModel, Turn};
 use calibrant_core::sensor::{ImuQuantity, ReadingUnit, SensorModel};
 use nalgebra::Vector3;
 
@@ -52,13 +52,7 @@ impl ImuPlan {
     #[must_use]
     pub fn setup(&self, holds: &HoldsPlan) -> ImuSetup {
         ImuSetup {
-            holds: HoldsSetup {
-                gravity: holds.gravity,
-                gauge: holds.gauge,
-                intervals_s: holds.intervals_s.clone(),
-                minimum_hold_s: holds.minimum_hold_s,
-                found: None,
-            },
+            holds: holds.setup(),
             latitude_deg: holds.latitude_deg,
             directions: holds.directions.clone(),
             face_sd_rad: holds.face_sd_rad,

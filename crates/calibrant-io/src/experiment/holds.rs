@@ -5,6 +5,7 @@ use super::motion::RATE_HZ;
 use super::number_range::Bounds;
 use super::toml_document::{Entry, Section};
 use calibrant_core::error::Result;
+use calibrant_core::estimate::HoldsSetup;
 use calibrant_core::motion::Gravity;
 use calibrant_core::sensor::Gauge;
 use calibrant_core::simulate::{MOST_SAMPLES, TURN_S};
@@ -52,6 +53,20 @@ pub struct HoldsPlan {
     pub hold_s: f64,
     /// Sample rate of a simulated recording, Hz.
     pub rate_hz: f64,
+}
+
+impl HoldsPlan {
+    /// The setup of such a recording.
+    #[must_use]
+    pub fn setup(&self) -> HoldsSetup {
+        HoldsSetup {
+            gravity: self.gravity,
+            gauge: self.gauge,
+            intervals_s: self.intervals_s.clone(),
+            minimum_hold_s: self.minimum_hold_s,
+            found: None,
+        }
+    }
 }
 
 /// Reads `[holds]`. The gyroscope of an IMU senses Earth's rate: a latitude beside a value of gravity serves

@@ -1,6 +1,6 @@
 //! The fields of a calibration study: truth and estimate of a population of simulated sensors.
 
-use crate::shared_fields::{FitFields, MotionFields, axes_of, values_of};
+use crate::shared_fields::{FitFields, MotionFields, axes_of};
 use calibrant_core::estimate::Recovered;
 use calibrant_core::sensor::{Parameter, ParameterList};
 use calibrant_design::study::{ParameterSummary, SensorOutcome, SingleCase, Study};
@@ -63,7 +63,7 @@ struct CaseFields {
 struct CaseParameter {
     name: String,
     unit: &'static str,
-    truth: Option<f64>,
+    truth: f64,
     value: f64,
     sd: f64,
 }
@@ -121,17 +121,15 @@ impl<'a> SummaryFields<'a> {
 impl CaseFields {
     fn of(case: &SingleCase, list: &ParameterList, axes: usize) -> Self {
         let calibration = &case.calibration;
-        let truth = values_of(&calibration.parameters, list, &case.truth);
         let estimates = calibration.values.iter().zip(calibration.sd());
-        let parameters = calibration
-            .parameters
+        let parameters = list
+            .quantities()
             .iter()
-            .zip(truth)
             .zip(estimates)
-            .map(|((parameter, truth), (&value, sd))| CaseParameter {
-                name: parameter.name.clone(),
-                unit: parameter.unit,
-                truth,
+            .map(|(quantity, (&value, sd))| CaseParameter {
+                name: quantity.name(),
+                unit: quantity.unit(calibration.accelerometer_unit),
+                truth: quantity.value(&case.truth),
                 value,
                 sd,
             })
@@ -141,7 +139,7 @@ impl CaseFields {
             samples: case.recording.len(),
             status: calibration.status.name(),
             parameters,
-            fit: FitFields::of(&calibration.fit, calibration.unit, axes),
+            fit: FitFields::of(&calibration.fit, calibration.accelerometer_unit, axes),
             true_motion: MotionFields::of(&case.true_motion, axes, None),
             recovered_motion: match &calibration.recovered {
                 Recovered::Motion(recovered) => {

@@ -10,7 +10,9 @@ use motion::{Gravity, Hold, JerkControlledMotion};
 use nalgebra::{DMatrix, Matrix3, Vector3};
 use rand_chacha::{ChaCha8Rng, rand_core::SeedableRng};
 use rand_distr::{Distribution, StandardNormal};
-use sensor::{Gauge, ReadingUnit, Recording, Sensor, SensorModel, SensorParameters};
+use sensor::{
+    Gauge, ImuParameters, ImuRecording, ReadingUnit, Recording, Sensor, SensorModel, SensorParameters,
+};
 use study::{ParameterSummary, SensorOutcome, SingleCase, Study};
 
 /// Noise of one sample, m/s².
@@ -109,30 +111,38 @@ fn calibrated(
         status: CalibrationStatus::Converged,
         iterations: 5,
         gradient_norm: 3.2e-11,
-        parameters: list.describe(datasheet, &SensorParameters::identity()),
+        quantities: list.of_accelerometer(),
+        parameters: list.describe_accelerometer(datasheet, &SensorParameters::identity()),
         values: list.quantities().iter().map(|quantity| quantity.value(&estimate)).collect(),
         covariance,
-        sensor: estimate,
-        unit: recording.unit,
+        prior_share: Vec::new(),
+        datasheet_prior: false,
+        imu: ImuParameters { accelerometer: estimate, ..ImuParameters::identity() },
+        accelerometer_unit: recording.unit,
         fit: FitStatistics {
             chi2: degrees_of_freedom as f64 * 1.013,
             degrees_of_freedom,
             p_value: Some(0.417),
-            residual_rms: rms,
+            residual_rms: Some(rms),
             assumed_noise: Some(Vector3::repeat(NOISE)),
             noise_estimate: Some(rms * 1.02),
             whiteness: vec![Whiteness { statistic: 17.3, lags: 20, p_value: 0.63 }; axes],
         },
-        recovered: Recovered::Motion(RecoveredMotion { motion, acceleration_sd_mps2, trust: "unknown" }),
-        residuals,
-        first_sample: 0,
-        datasheet_prior: false,
+        recovered: Recovered::Motion(RecoveredMotion {
+            motion,
+            acceleration_sd_mps2,
+            trust: "unknown",
+            residuals,
+            first_sample: 0,
+        }),
+        gyroscope: None,
+        changes: Vec::new(),
         warnings: Vec::new(),
     }
 }
 
 /// A static calibration of a sensor in counts: 38 holds, one of them bad.
-pub(crate) fn hold_case(count: usize, samples_per_hold: usize) -> (Calibration, Recording) {
+pub(crate) fn hold_case(count: usize, samples_per_hold: usize) -> (Calibration, ImuRecording) {
     let mut dice = Dice::new(38);
     let mut datasheet = Sensor::triaxial(SensorModel::Full);
     datasheet.unit = ReadingUnit::Counts;
@@ -195,16 +205,19 @@ pub(crate) fn hold_case(count: usize, samples_per_hold: usize) -> (Calibration, 
         status: CalibrationStatus::Converged,
         iterations: 6,
         gradient_norm: 4e-9,
-        parameters: list.describe(&datasheet, &truth),
+        quantities: list.of_accelerometer(),
+        parameters: list.describe_accelerometer(&datasheet, &truth),
         values: list.quantities().iter().map(|quantity| quantity.value(&truth)).collect(),
         covariance,
-        sensor: truth,
-        unit: ReadingUnit::Counts,
+        prior_share: Vec::new(),
+        datasheet_prior: false,
+        imu: ImuParameters { accelerometer: truth, ..ImuParameters::identity() },
+        accelerometer_unit: ReadingUnit::Counts,
         fit: FitStatistics {
             chi2: 28.0,
             degrees_of_freedom: count.saturating_sub(10),
             p_value: None,
-            residual_rms: Vector3::repeat(0.42),
+            residual_rms: Some(Vector3::repeat(0.42)),
             assumed_noise: None,
             noise_estimate: Some(Vector3::repeat(3.3)),
             whiteness: Vec::new(),
@@ -221,17 +234,17 @@ pub(crate) fn hold_case(count: usize, samples_per_hold: usize) -> (Calibration, 
             condition_number: 17.4,
             detected: true,
             before: Uncalibrated::accelerometer(&nothing_given, &truth),
+            temperatures_c: None,
             change: None,
         }),
-        residuals: Vec::new(),
-        first_sample: 0,
-        datasheet_prior: false,
+        gyroscope: None,
+        changes: Vec::new(),
         warnings: vec![Diagnostic::HoldLeftOut {
             hold: HoldSpan { number: 18, start_s: 170.0, end_s: 175.0 },
             why: HoldLeftOut::MagnitudeOff { residual_mps2: 0.1, studentised: 21.0 },
         }],
     };
-    (calibration, recording)
+    (calibration, recording.into())
 }
 
 fn push(recording: &mut Recording, reading: Vector3<f64>, rate: f64) {
@@ -245,7 +258,7 @@ pub(crate) fn study(sensors: usize) -> Study {
     let single = motion_case(3, 14, 2.0, 4);
     let fine = motion_case(3, 14, 10.0, 4);
     let datasheet = Sensor::memsic_mxd2020u();
-    let parameters = single.calibration.parameters.clone();
+    let parameters = datasheet.parameter_list().describe(&datasheet, &SensorParameters::identity());
     let sd = [8e-5, 6e-5, 9e-5, 4e-5, 7e-5, 5e-5];
     let outcomes: Vec<SensorOutcome> = (0..sensors)
         .map(|_| {

@@ -2,7 +2,7 @@
 
 use super::{estimate, motion, sensor};
 use estimate::{
-    CalibrationSettings, Gyroscope, HoldsSetup, ImuCalibration, ImuProblem, ImuSetup, KnownTerm, Turn,
+    Calibration, CalibrationSettings, Gyroscope, HoldsSetup, ImuProblem, ImuSetup, KnownTerm, Turn,
     calibrate_imu,
 };
 use motion::Gravity;
@@ -28,7 +28,7 @@ pub(crate) const DISTURBED: usize = 5;
 /// The recording and its calibration.
 pub(crate) struct ImuCase {
     pub(crate) recording: ImuRecording,
-    pub(crate) calibration: ImuCalibration,
+    pub(crate) calibration: Calibration,
 }
 
 /// An IMU in counts through this number of holds. A disturbance falls into one rotation, the last rotation is

@@ -4,8 +4,7 @@
 use calibrant_core::{estimate, information, motion, sensor, simulate};
 use calibrant_design::{self as design, study};
 use calibrant_report::{
-    About, calibration_report, design_report, evaluation_report, imu_calibration_report, study_report,
-    sweep_report,
+    About, calibration_report, design_report, evaluation_report, study_report, sweep_report,
 };
 use std::path::PathBuf;
 
@@ -42,16 +41,25 @@ fn main() -> std::io::Result<()> {
         true_motion: Some(case.true_motion.clone()),
         ..about("Calibration of a simulated sensor", "recording <7>.csv", case.recording.len())
     };
-    write("motion.html", calibration_report(&case.calibration, &case.recording, &simulated))?;
+    write(
+        "motion.html",
+        calibration_report(&case.calibration, &case.recording.clone().into(), &[], &simulated),
+    )?;
 
     let mut blind = about("Calibration of sensor 7", "sensor7.csv", case.recording.len());
     blind.findings = vec!["3 samples are missing between 12.5 s and 14.5 s".to_string()];
-    write("motion_blind.html", calibration_report(&case.calibration, &case.recording, &blind))?;
+    write(
+        "motion_blind.html",
+        calibration_report(&case.calibration, &case.recording.clone().into(), &[], &blind),
+    )?;
 
     let case = fakes::motion_case(1, 5, 10.0, 9);
     let simulated =
         About { truth: Some(case.truth), ..about("A uniaxial sensor", "uniaxial.csv", case.recording.len()) };
-    write("uniaxial.html", calibration_report(&case.calibration, &case.recording, &simulated))?;
+    write(
+        "uniaxial.html",
+        calibration_report(&case.calibration, &case.recording.clone().into(), &[], &simulated),
+    )?;
 
     let (calibration, recording) = fakes::hold_case(38, 300);
     write(
@@ -59,7 +67,12 @@ fn main() -> std::io::Result<()> {
         calibration_report(
             &calibration,
             &recording,
-            &about("Static calibration", "mti.csv", recording.len()),
+            &[],
+            &about(
+                "Static calibration",
+                "mti.csv",
+                recording.accelerometer.as_ref().map_or(0, sensor::Recording::len),
+            ),
         ),
     )?;
 
@@ -67,7 +80,7 @@ fn main() -> std::io::Result<()> {
     println!("imu: rotation {} is disturbed", imus::DISTURBED + 1);
     let samples = case.recording.gyroscope.as_ref().map_or(0, sensor::Recording::len);
     let imu_about = about("A whole IMU, turned by hand", "imu.csv", samples);
-    write("imu.html", imu_calibration_report(&case.calibration, &case.recording, &[], &imu_about))?;
+    write("imu.html", calibration_report(&case.calibration, &case.recording, &[], &imu_about))?;
 
     let (sensor, limits) = (sensor::Sensor::memsic_mxd2020u(), designs::arm());
     let problem = designs::problem(&sensor, &limits);
@@ -87,7 +100,8 @@ fn main() -> std::io::Result<()> {
         "long.html",
         calibration_report(
             &case.calibration,
-            &case.recording,
+            &case.recording.clone().into(),
+            &[],
             &about("A long recording", "long.csv", case.recording.len()),
         ),
     )?;

@@ -1,13 +1,13 @@
-//! The table of limits, and how far a motion uses them.
+//! The table of limits, and their use by a motion.
 
 use crate::number_format;
 use crate::table::{Cell, Table};
 use calibrant_design::{LimitKind, LimitUse};
 
-/// A limit that is used to at least this share limits the motion.
+/// A limit is active from this share of its use on.
 const ACTIVE: f64 = 0.9999;
 
-/// One row for each limit of each axis, at the time when the motion is worst.
+/// One row for each limit of each axis, at the time of its largest use.
 pub(crate) fn limit_table(uses: &[LimitUse], name: &str) -> String {
     let reached = format!("largest of the {name}");
     let columns = ["limit", "axis", "unit", "allowed", reached.as_str(), "at time (s)", "used"];
@@ -58,7 +58,7 @@ fn line(found: &LimitUse) -> [String; 6] {
             format!("broken by {} {}", number_format::significant(found.excess(), 3), found.kind.unit())
         }
         () if prescribed => "kept".to_string(),
-        () if share >= ACTIVE => "100 %: holds the motion back".to_string(),
+        () if share >= ACTIVE => "100 %: the limit is active".to_string(),
         () => number_format::percent(share),
     };
     let allowed = match found.kind {

@@ -1,5 +1,4 @@
-//! The report page on a design: how good the motion is, what it promises, what the arm must do, how it was
-//! found.
+//! The report page on a design: verdict, predicted standard deviations, motion, search.
 
 mod axes;
 mod limits;
@@ -23,9 +22,8 @@ use calibrant_design::{Design, limit_use};
 use predicted_sd::criterion_table;
 use verdict::verdict;
 
-/// A design as one HTML file: the certificate in words, and the predicted standard deviations beside those of
-/// the initial motion. Also the motions with their limits, confidence ellipses, correlations, and the starts
-/// of the search.
+/// A design as one HTML file: the certificate in words, the predicted standard deviations of initial and optimal motion,
+/// the motions with their limits, confidence ellipses, correlations, and the starts of the search.
 ///
 /// Self-contained as [`calibration_report`](super::calibration_report) is.
 #[must_use]
@@ -37,7 +35,7 @@ pub fn design_report(design: &Design, about: &About) -> String {
     page.push(verdict(design, about));
 
     page.section(
-        "What the motion promises",
+        "Predicted standard deviations",
         "Standard deviations that a calibration from a recording of the motion will state. The initial motion is what experience would \
          choose: random, within a tenth of the limits.",
     );
@@ -48,7 +46,7 @@ pub fn design_report(design: &Design, about: &About) -> String {
         design.certificate.as_ref().map(|certificate| certificate.sd_lower_bound.as_slice()),
     ));
     page.paragraph(&format!(
-        "What was minimised: criterion {}, {} (C is the covariance of the parameters{}).",
+        "The design minimises criterion {}, {} (C is the covariance of the parameters{}).",
         design.criterion.letter(),
         design.criterion.formula(),
         design.criterion.scaling()
@@ -57,15 +55,13 @@ pub fn design_report(design: &Design, about: &About) -> String {
     if let Some(certificate) = &design.certificate {
         page.subsection("The lower bound");
         page.paragraph(&certificate.explanation);
-        page.paragraph(
-            "Each standard deviation has a bound of its own; one motion need not reach them all at once.",
-        );
+        page.paragraph("Each standard deviation has its own bound. One motion need not reach all of them.");
     }
 
     let axes = axes(&design.parameters);
     page.section(
         "The motion",
-        "What the arm has to do, per axis, beside the limits that it has to keep at all times.",
+        "The motion of the arm on each axis, with the limits that it keeps at all times.",
     );
     let motions =
         [Drawn::before("initial", &design.initial.motion), Drawn::after("optimal", &design.optimal.motion)];
@@ -75,10 +71,10 @@ pub fn design_report(design: &Design, about: &About) -> String {
     if let Some(figure) = states(&motions, axes, &design.limits) {
         page.push(figure.html());
     }
-    page.subsection("Limits and how far they are used");
+    page.subsection("Use of the limits");
     page.push(limit_table(&limit_use(&design.limits, axes.len(), &design.optimal.motion), "optimal motion"));
 
-    page.section("Confidence", "How certain the parameters will be, and which errors come together.");
+    page.section("Confidence", "The uncertainty of the parameters, and which errors are correlated.");
     if let Some(figure) = confidence_ellipses(
         &design.parameters,
         ("initial", &design.initial),
@@ -98,7 +94,7 @@ pub fn design_report(design: &Design, about: &About) -> String {
 
 fn search(page: &mut Page, design: &Design) {
     page.paragraph(
-        "The problem has many local optima, so the search begins at many random motions, the initial one among them, and keeps the best.",
+        "The problem has many local optima. The search starts at many random motions and at the initial one, and keeps the best result.",
     );
     if design.starts.is_empty() {
         page.paragraph("There is no record of the starts.");

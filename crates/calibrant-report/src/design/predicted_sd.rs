@@ -1,4 +1,4 @@
-//! The table of predicted standard deviations of two motions beside each other.
+//! The table of predicted standard deviations of two motions.
 
 use crate::figure::DisplayUnit;
 use crate::number_format;
@@ -93,7 +93,7 @@ pub(crate) fn above(excess: f64) -> String {
 pub(crate) fn criterion_table(design: &Design) -> String {
     let nats = matches!(design.criterion, Criterion::D(_));
     let shown = |value: f64| Cell::Number(number_format::significant(value, 6));
-    let mut table = Table::new("", &["criterion", "value", "what it means"]);
+    let mut table = Table::new("", &["criterion", "value", "meaning"]);
     let mut row = |name: &str, value: Cell, meaning: String| {
         table.row(vec![Cell::Name(name.to_string()), value, Cell::Words(meaning)]);
     };
@@ -122,7 +122,9 @@ pub(crate) fn criterion_table(design: &Design) -> String {
         row(
             "lower bound",
             shown(certificate.lower_bound),
-            format!("No admissible motion is below it; the optimal motion is at most {gap} above it."),
+            format!(
+                "No admissible motion is below this bound. The optimal motion is at most {gap} above it."
+            ),
         );
     }
     table.html()

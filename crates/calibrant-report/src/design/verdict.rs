@@ -1,4 +1,4 @@
-//! The verdict on a design: how good is this motion, and how is that shown?
+//! The verdict on a design: how good is the motion, and what is the evidence?
 
 use super::axes;
 use super::predicted_sd::{above, times};
@@ -32,7 +32,7 @@ pub(super) fn verdict(design: &Design, about: &About) -> String {
 fn judge(design: &Design, broken: &[String]) -> (&'static str, String, Vec<String>) {
     if design.optimal.covariance.is_none() {
         let what = "No recording of this motion can calibrate the sensor: it leaves parameters undetermined. Loosen the limits, or \
-                    move the axes that are named.";
+                    move the named axes.";
         return ("bad", "✗ Useless for calibration.".into(), vec![what.to_string()]);
     }
     let mut sentences = Vec::new();
@@ -42,7 +42,7 @@ fn judge(design: &Design, broken: &[String]) -> (&'static str, String, Vec<Strin
     let nearest = design.certificate.as_ref().map(|certificate| bound(design, certificate, &mut sentences));
     if design.certificate.is_none() {
         sentences.push(
-            "No lower bound is given, so a better motion is not ruled out; how often the starts of the search agree is the only hint."
+            "The design has no lower bound, so a better motion is not ruled out. The only evidence is how many starts of the search agree."
                 .to_string(),
         );
     }
@@ -71,7 +71,7 @@ fn unfinished(status: DesignStatus) -> Option<&'static str> {
     }
 }
 
-/// States what the certificate proves; returns how far the worst parameter is from its bound.
+/// Adds what the certificate proves. Returns the distance of the worst parameter from its bound.
 fn bound(design: &Design, certificate: &Certificate, sentences: &mut Vec<String>) -> f64 {
     let excess: Vec<(&Parameter, f64, f64)> = design
         .parameters
@@ -84,7 +84,7 @@ fn bound(design: &Design, certificate: &Certificate, sentences: &mut Vec<String>
     let Some(&(parameter, sd, least)) = excess.iter().max_by(|a, b| (a.1 / a.2).total_cmp(&(b.1 / b.2)))
     else {
         sentences.push(format!(
-            "No admissible motion can bring criterion {} below {}; this one is at most {} above it.",
+            "No admissible motion can bring criterion {} below {}; this motion is at most {} above it.",
             design.criterion.letter(),
             number_format::significant(certificate.lower_bound, 5),
             gap(&design.criterion, certificate.gap)
@@ -95,23 +95,23 @@ fn bound(design: &Design, certificate: &Certificate, sentences: &mut Vec<String>
     let shown =
         |value: f64| format!("{} {}", number_format::significant(value * unit.factor, 4), unit.symbol);
     sentences.push(format!(
-        "No motion within the limits can give {} a standard deviation below {}; this one gives {}, {}.",
+        "No motion within the limits can give {} a standard deviation below {}; this motion gives {}, {}.",
         parameter.name,
         shown(least).trim_end(),
         shown(sd).trim_end(),
         match sd / least - 1.0 {
-            excess if excess < 5e-5 => "less than 0.01 % above that".to_string(),
-            excess if excess < 1.0 => format!("{} above that", number_format::percent(excess)),
-            excess => format!("{} times that", number_format::significant(1.0 + excess, 2)),
+            excess if excess < 5e-5 => "less than 0.01 % above the bound".to_string(),
+            excess if excess < 1.0 => format!("{} above the bound", number_format::percent(excess)),
+            excess => format!("{} times the bound", number_format::significant(1.0 + excess, 2)),
         }
     ));
     if excess.len() > 1 {
-        sentences.push("All other parameters are as near to their bounds or nearer.".to_string());
+        sentences.push("All other parameters are at least as near to their bounds.".to_string());
     }
     let farthest = sd / least - 1.0;
     if farthest > PROVED {
         sentences.push(
-            "The bound itself may be lower than any motion can reach (see below), so the distance need not be the motion's fault."
+            "The bound itself may be lower than any motion can reach (see below). A better motion need not exist."
                 .to_string(),
         );
     }
@@ -137,7 +137,7 @@ fn improvement(design: &Design) -> Option<String> {
     let least = factors.iter().min_by(|a, b| a.1.total_cmp(&b.1))?;
     let most = factors.iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
     let mut sentence = format!(
-        "Against the initial motion, standard deviations shrink by a factor of {} ({}) to {} ({}).",
+        "Compared with the initial motion, standard deviations shrink by a factor of {} ({}) to {} ({}).",
         times(least.1).trim_end_matches(" ×"),
         least.0,
         times(most.1).trim_end_matches(" ×"),
@@ -154,13 +154,13 @@ fn improvement(design: &Design) -> Option<String> {
         .collect();
     if !exhausted.is_empty() && exhausted.len() < factors.len() {
         sentence.push_str(&format!(
-            " For {} there was nothing to gain: the initial motion is as good as any.",
+            " No motion improves {}: the initial motion is already at the bound.",
             exhausted.join(", ")
         ));
     }
     if least.1 < 0.995 {
         sentence.push_str(
-            " A factor below 1: this parameter pays for the others, because the criterion weighs them more.",
+            " A factor below 1 means that this parameter gets worse, because the criterion weights the others more.",
         );
     }
     Some(sentence)

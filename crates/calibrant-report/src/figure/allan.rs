@@ -19,9 +19,9 @@ pub(crate) fn allan_figure(noise: &SensorNoise) -> Figure {
     let extremes: Vec<f64> =
         panels.iter().filter_map(Panel::ranges).flat_map(|[_, (low, high)]| [low, high]).collect();
     panels.iter_mut().for_each(|panel| panel.y_includes.clone_from(&extremes));
-    let caption = "Markers: overlapping Allan deviation; band: its 95 % bounds, wide where the recording has few clusters of that length. Black: the fit. \
+    let caption = "Markers: overlapping Allan deviation. Band: its 95 % bounds, wide for cluster times with few clusters. Black: the fit. \
                    Dashed: its parts, each with its slope: −1 quantisation, −½ white noise (N is its value at 1 s), 0 bias instability (0.664 B), \
-                   +½ rate random walk (K √(τ/3)). A part that is drawn but not determined in the table is too uncertain to be given a value.";
+                   +½ rate random walk (K √(τ/3)). A part that is drawn, but not determined in the table, is too uncertain for a value.";
     let mut caption = caption.to_string();
     let mut add = |applies: bool, sentence: &str| {
         if applies {
@@ -33,15 +33,12 @@ pub(crate) fn allan_figure(noise: &SensorNoise) -> Figure {
     let any = |of: fn(&AxisNoise) -> bool| noise.axes.iter().any(of);
     add(
         panels.iter().any(has_filter),
-        "Where samples are filtered, slope −1 is what the filter adds to short cluster times, and no quantisation.",
+        "The samples are filtered: slope −1 at short cluster times comes from the filter, not from quantisation.",
     );
-    add(
-        any(|axis| axis.fit.vibration.is_some()),
-        "The markers have the vibration in them; the fit is to what remains without it.",
-    );
+    add(any(|axis| axis.fit.vibration.is_some()), "The markers include the vibration. The fit excludes it.");
     add(
         any(|axis| axis.fit.drift.is_significant()),
-        "A linear drift (slope +1) is drawn apart: it is no noise, and the fit is to what remains without it.",
+        "A linear drift (slope +1) has its own line. It is not noise, and the fit excludes it.",
     );
     Figure::new(format!("Allan deviation of the {}", noise.sensor_kind), panels, caption).with_columns(2)
 }

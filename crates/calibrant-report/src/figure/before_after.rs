@@ -4,10 +4,8 @@ use super::panel::{Mark, Panel, Series, Shape};
 use super::point_thinning::{is_thinned, thinned, thinned_dots};
 use super::unit::DisplayUnit;
 use super::{Figure, colour};
-use calibrant_core::estimate::{HoldCalibration, ImuCalibration};
-use calibrant_core::sensor::{
-    Axis, CalibratedImu, Correction, ImuCorrection, ImuRecording, Recording, SensorParameters,
-};
+use calibrant_core::estimate::{Calibration, HoldCalibration, Uncalibrated};
+use calibrant_core::sensor::{Axis, CalibratedImu, Correction, ImuCorrection, ImuRecording, Recording};
 use nalgebra::Vector3;
 
 /// Legend of readings before the correction.
@@ -52,47 +50,47 @@ pub(crate) fn holds_before_and_after(holds: &HoldCalibration) -> Option<Figure> 
     let unit = DisplayUnit::suited_to("m/s²", residuals);
     let alone = Panel::new("after alone", "hold", unit.label("|f| − g"));
     let caption = format!(
-        "Magnitude of the mean reading of each hold less gravity. Before: {}. Good: on the left the blue lies on zero however far the orange squares are off (errors that depend on the \
-         orientation), on the right it scatters about zero without a pattern.",
+        "Magnitude of the mean reading of each hold less gravity. Before: {}. Good: on the left, the blue markers lie on zero, wherever the orange squares are (errors that depend on the \
+         orientation). On the right, they scatter about zero without a pattern.",
         holds.before.source
     );
     let panels = vec![with_after(both, 1.0), with_after(alone, unit.factor)];
     Some(Figure::new("Gravity in each hold, before and after", panels, caption).with_columns(2))
 }
 
-/// Magnitude of the specific force over a whole recording, before and after.
-pub(crate) fn force_before_and_after(
+/// Magnitude of the specific force over a whole recording, before and after. Of an IMU also the change of its
+/// angular rate by the correction.
+pub(crate) fn recording_before_and_after(
+    calibration: &Calibration,
     holds: &HoldCalibration,
-    sensor: &SensorParameters,
-    recording: &Recording,
+    recording: &ImuRecording,
 ) -> Option<Figure> {
-    let after = Correction::of(sensor)?;
-    let corrected: Vec<Vector3<f64>> =
-        recording.readings.iter().map(|reading| after.apply(reading)).collect();
-    let panels = force_panels(holds, &corrected, recording)?;
-    let caption = caption(recording, &format!("Before: {}.", holds.before.source), "");
-    Some(Figure::new("The recording, before and after", panels, caption).with_columns(2))
-}
-
-/// The same of an IMU, and the change of its angular rate by the correction.
-pub(crate) fn imu_before_and_after(calibration: &ImuCalibration, recording: &ImuRecording) -> Option<Figure> {
-    let (accelerometer, gyroscope) = (recording.accelerometer.as_ref()?, recording.gyroscope.as_ref()?);
+    let accelerometer = recording.accelerometer.as_ref()?;
     // the figure needs the values only, not their uncertainty
     let imu = CalibratedImu { covariance: None, ..calibration.calibrated() };
     let corrected = ImuCorrection::of(&imu).ok()?.apply(&imu, recording).ok()?;
     let forces = corrected.accelerometer?;
-    let (forces, rates) = rayon::join(
-        || force_panels(&calibration.holds, &forces.values, accelerometer),
-        || rate_panels(calibration, &corrected.gyroscope?.values, gyroscope),
-    );
-    let panels = forces?.into_iter().chain(rates?).collect();
-    let before = format!(
-        "Before, accelerometer: {}; gyroscope: {}.",
-        calibration.holds.before.source, calibration.gyroscope_before.source
-    );
-    let rates = " The correction of the gyroscope is far smaller than the rates, so its change is shown: nothing at rest but the g-sensitivity, and in the turns what misalignment \
-                 and the gains of the axes make of the rate.";
-    let caption = caption(gyroscope, &before, rates);
+    let rates = || {
+        rate_panels(
+            &calibration.gyroscope.as_ref()?.before,
+            &corrected.gyroscope?.values,
+            recording.gyroscope.as_ref()?,
+        )
+    };
+    let (forces, rates) = rayon::join(|| force_panels(holds, &forces.values, accelerometer), rates);
+    let (before, rates_in_words) = match &calibration.gyroscope {
+        None => (format!("Before: {}.", holds.before.source), ""),
+        Some(gyroscope) => (
+            format!(
+                "Before, accelerometer: {}; gyroscope: {}.",
+                holds.before.source, gyroscope.before.source
+            ),
+            " The correction of the gyroscope is far smaller than the rates, so its change is shown. At rest, only the g-sensitivity changes the rate. In rotations, misalignment \
+             and gains change it, too.",
+        ),
+    };
+    let panels = forces?.into_iter().chain(rates.into_iter().flatten()).collect();
+    let caption = caption(recording.gyroscope.as_ref().unwrap_or(accelerometer), &before, rates_in_words);
     Some(Figure::new("The recording, before and after", panels, caption).with_columns(2))
 }
 
@@ -137,12 +135,8 @@ fn force_panels(
 }
 
 /// The rate after the correction, and the change by it. `after` are the corrected readings.
-fn rate_panels(
-    calibration: &ImuCalibration,
-    after: &[Vector3<f64>],
-    recording: &Recording,
-) -> Option<Vec<Panel>> {
-    let before = Correction::of(&calibration.gyroscope_before.sensor)?;
+fn rate_panels(before: &Uncalibrated, after: &[Vector3<f64>], recording: &Recording) -> Option<Vec<Panel>> {
+    let before = Correction::of(&before.sensor)?;
     let after = || recording.times_s.iter().copied().zip(after);
     let thin = Mark::Line { width: 0.9, dashes: "" };
     let magnitude = thinned(after().map(|(t, rate)| (t, rate.norm().to_degrees())));
@@ -152,7 +146,7 @@ fn rate_panels(
         thin,
         magnitude,
     ));
-    let mut change = Panel::new("what the correction changes", "time (s)", "ω after − before (°/s)");
+    let mut change = Panel::new("change by the correction", "time (s)", "ω after − before (°/s)");
     for (axis, colour) in Axis::ALL.into_iter().zip([colour::VERMILLION, colour::GREEN, colour::SKY]) {
         let row = before.matrix.row(axis.index()).transpose();
         let difference = thinned(after().zip(&recording.readings).map(|((t, after), reading)| {
@@ -165,7 +159,7 @@ fn rate_panels(
 
 fn caption(recording: &Recording, before: &str, more: &str) -> String {
     let mut caption = format!(
-        "Magnitude of the specific force, of all samples and of those in holds. {before} Good: in the holds the blue lies on g from the first to the last, and its width is \
+        "Magnitude of the specific force, of all samples and of those in holds. {before} Good: in all holds the blue points lie on g, and their width is \
          the noise of the samples.{more}"
     );
     if is_thinned(recording.len()) {

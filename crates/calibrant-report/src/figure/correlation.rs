@@ -44,12 +44,12 @@ pub(crate) fn correlation_map_of(names: &[&str], covariance: &DMatrix<f64>) -> S
         stops.join(",")
     );
     let mut caption =
-        "Good: small numbers off the diagonal. Near ±1 the data hardly tell two parameters apart: only their sum or \
-                   difference is well known, and a different motion or more orientations would help. Estimates of different \
-                   axes are independent where nothing couples them."
+        "Good: small numbers off the diagonal. Near ±1 the data hardly separate two parameters: only their sum or \
+                   difference is well known. A different motion or more orientations would help. Estimates of different \
+                   axes are independent unless the model couples them."
             .to_string();
     if numbered {
-        caption.push_str(" Numbers below 0.1 are left out; columns have the numbers of the rows.");
+        caption.push_str(" Numbers below 0.1 are not shown. Columns have the numbers of the rows.");
     }
     format!(
         "<figure><h3>Correlation of the estimates</h3>{scale}{map}<figcaption>{}</figcaption></figure>",

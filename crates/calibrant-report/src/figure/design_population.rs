@@ -52,10 +52,10 @@ pub(crate) fn optimal_motions(title: &str, study: &DesignStudy, axes: &[Axis]) -
         })
         .collect();
     let caption = format!(
-        "Is there one best motion? Each later line is drawn thinner, so that all can be seen where they coincide. {} A motion and its \
-         mirror image tell the same, and so does the same motion on another axis with the same limits: where only those appear, there is one \
-         best motion. The report sees this too. Its curves look sinusoidal; \
-         where these do not, the limits above do not ask for it. It starts each design from one motion, here each is the best of {} start{}.",
+        "Is there one best motion? Each later line is thinner, which keeps lines visible where they coincide. {} A motion, its \
+         mirror image, and the same motion on another axis with the same limits give the same information. If only these appear, there is one \
+         best motion. The report finds this too. Its curves look sinusoidal. \
+         Other curves follow from other limits. The report starts each design from one motion. Here each is the best of {} start{}.",
         alike.join(" "),
         study.starts,
         if study.starts == 1 { "" } else { "s" }
@@ -113,8 +113,8 @@ pub(crate) fn traces(title: &str, study: &DesignStudy) -> Figure {
     panel.log_y = true;
     let trace = &study.trace;
     let caption = format!(
-        "Sum of the variances of all biases and scale factors, in SI units, as each calibration states it; mind the logarithmic axis. What to \
-         see: whatever the initial motion was (from {} to {}), the optimal ones end on one level (median {}).{}",
+        "Sum of the variances of all biases and scale factors, in SI units, as each calibration states it. The axis is logarithmic. \
+         Whatever the initial motion (from {} to {}), the optimal motions reach one level (median {}).{}",
         number_format::significant(trace.initial.least, 2),
         number_format::significant(trace.initial.most, 2),
         number_format::significant(trace.optimal.median, 3),
@@ -161,11 +161,11 @@ pub(crate) fn absolute_errors(title: &str, study: &DesignStudy) -> Figure {
             panels.push(panel);
         }
     }
-    let mut caption = "How far each estimate is from the truth. What to see: with the optimal motion, errors are smaller on average by the factors of \
-                       the table above; single sensors may be lucky with a poor motion."
+    let mut caption = "Distance of each estimate from the truth. With the optimal motion, errors are smaller on average by the factors of \
+                       the table above. Single sensors may be lucky with a poor motion."
         .to_string();
     if logarithmic {
-        caption.push_str(" Axes are logarithmic where the two differ by more than a factor of four; the report's are linear.");
+        caption.push_str(" Axes are logarithmic if the two motions differ by more than a factor of four. The report's axes are linear.");
     }
     caption.push_str(&subset(study.outcomes.len(), sensors.len()));
     let columns = if study.parameters.len() == 2 { 2 } else { 3 };

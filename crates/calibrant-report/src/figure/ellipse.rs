@@ -60,12 +60,12 @@ pub(crate) fn confidence_ellipses(
     }
     let columns = if pairs.len() == 1 { 2 } else { 3 };
     let mut caption = "In 95 of 100 calibrations, the errors of bias and scale factor together lie within the ellipse. Good: small, and \
-                       upright rather than tilted (a tilted one means that an error of one is mistaken for an error of the other)."
+                       upright rather than tilted. A tilted ellipse means that the data confuse errors of the two."
         .to_string();
     if magnified {
         together.append(&mut alone);
         caption.push_str(&format!(
-            " The two differ so much in size that the {} one is shown again by itself, magnified: mind its axes.",
+            " The {} ellipse is much smaller, and is shown again on its own axes, magnified.",
             after_name
         ));
     }

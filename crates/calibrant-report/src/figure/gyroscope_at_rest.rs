@@ -2,7 +2,7 @@
 
 use super::panel::{Mark, Panel, Series, Shape};
 use super::{Figure, colour};
-use calibrant_core::estimate::ImuCalibration;
+use calibrant_core::estimate::{Calibration, HoldCalibration};
 use calibrant_core::sensor::{Axis, Correction, Recording};
 use nalgebra::Vector3;
 
@@ -11,15 +11,19 @@ const SLOW_DEGPS: f64 = 0.02;
 
 /// The mean rate of the corrected gyroscope in each hold. It should be zero. Beside it is what noise and
 /// scatter explain. `None` where no hold has readings of the gyroscope.
-pub(crate) fn still_gyroscope(calibration: &ImuCalibration, gyroscope: &Recording) -> Option<Figure> {
-    let means: Vec<Mean> = calibration
-        .holds
+pub(crate) fn still_gyroscope(
+    calibration: &Calibration,
+    holds: &HoldCalibration,
+    gyroscope: &Recording,
+) -> Option<Figure> {
+    let at_rest = &calibration.gyroscope.as_ref()?.still;
+    let means: Vec<Mean> = holds
         .holds
         .iter()
         .enumerate()
         .filter_map(|(j, hold)| {
             let still = gyroscope.mean_between(hold.hold.start_s, hold.hold.end_s)?;
-            let temperature_c = calibration.hold_temperatures_c.as_ref().map(|temperatures| temperatures[j]);
+            let temperature_c = holds.temperatures_c.as_ref().map(|temperatures| temperatures[j]);
             let imu = temperature_c.map_or(calibration.imu, |temperature| calibration.imu.at(temperature));
             let correction = Correction::of(&imu.gyroscope)?;
             let felt = calibration.imu.g_sensitivity * hold.force_mps2;
@@ -41,8 +45,8 @@ pub(crate) fn still_gyroscope(calibration: &ImuCalibration, gyroscope: &Recordin
         .iter()
         .map(|axis| {
             let k = axis.index();
-            let noise = |mean: &Mean| degps(&calibration.still.noise, k) / (mean.samples as f64).sqrt();
-            let between = degps(&calibration.still.between_holds_sd, k);
+            let noise = |mean: &Mean| degps(&at_rest.noise, k) / (mean.samples as f64).sqrt();
+            let between = degps(&at_rest.between_holds_sd, k);
             let twice =
                 |sd: &dyn Fn(&Mean) -> f64| means.iter().map(|mean| 2.0 * factor * sd(mean)).collect();
             let at = |used: Option<bool>| -> Vec<(f64, f64)> {
@@ -73,9 +77,9 @@ pub(crate) fn still_gyroscope(calibration: &ImuCalibration, gyroscope: &Recordin
             panel
         })
         .collect();
-    let caption = "Mean of the corrected gyroscope in each hold, which should be zero. Good: no trend, nineteen in twenty within the band. Bars far shorter \
-                   than the band: the bias wanders from hold to hold (temperature, supply, the Earth's rotation of 15 °/h) by more than noise explains, \
-                   and longer holds will not determine it better. The stated standard deviations take the wander into account.";
+    let caption = "Mean of the corrected gyroscope in each hold, which should be zero. Good: no trend, and nineteen in twenty within the band. If the bars are far shorter \
+                   than the band, the bias wanders from hold to hold by more than noise explains (temperature, supply, the Earth's rate of 15 °/h). \
+                   Longer holds will not determine it better. The stated standard deviations include the wander.";
     Some(Figure::new("The gyroscope at rest", panels, caption))
 }
 

@@ -39,7 +39,7 @@ pub(crate) fn recording_overview(holds: &HoldCalibration, recording: &Recording)
             }
         })
         .collect();
-    let mut caption = "Good: every plateau is shaded and nothing else is; the first and last moments of a plateau may stay out."
+    let mut caption = "Good: every plateau is shaded, and nothing else. The first and last moments of a plateau may be unshaded."
         .to_string();
     if is_thinned(recording.len()) {
         caption.push_str(" The smallest and the largest reading of each pixel column are drawn.");
@@ -76,8 +76,8 @@ pub(crate) fn hold_residuals(holds: &HoldCalibration) -> Figure {
         let mark = Mark::Dots { shape: Shape::Cross, radius: 5.0 };
         panel = panel.with(Series::new("left out", colour::VERMILLION, mark, left_out));
     }
-    let caption = "How far the corrected mean reading of each hold is from gravity. Good: about nineteen in twenty within their \
-                   bars, no trend with the number of the hold (a trend is drift, for example with temperature). The bars have the \
-                   hold's own influence on the fit taken out: a hold that nothing else checks has a short one.";
+    let caption = "Gravity residual of each hold. Good: about nineteen in twenty within their \
+                   bars, and no trend with the number of the hold (a trend is drift, for example with temperature). Each bar allows for the \
+                   hold's own influence on the fit: a hold that no other hold checks has a short bar.";
     Figure::new("Magnitude residual of each hold", vec![panel], caption)
 }

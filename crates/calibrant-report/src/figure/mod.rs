@@ -31,7 +31,7 @@ mod unit;
 mod validation;
 
 pub(super) use allan::allan_figure;
-pub(super) use before_after::{force_before_and_after, holds_before_and_after, imu_before_and_after};
+pub(super) use before_after::{holds_before_and_after, recording_before_and_after};
 pub(super) use clipping::renumbered;
 pub(super) use correlation::{correlation_map, correlation_map_of};
 pub(super) use design_population::{absolute_errors, optimal_motions, traces};

@@ -20,10 +20,10 @@ pub(crate) fn acceleration_figure(
     recording: &Recording,
     truth: Option<&JerkControlledMotion>,
 ) -> Figure {
-    let counts = calibration.unit == ReadingUnit::Counts;
-    let correction = if counts { Correction::of(&calibration.sensor) } else { None };
-    let first = calibration.first_sample.min(recording.len());
-    let end = match calibration.residuals.len() {
+    let counts = calibration.accelerometer_unit == ReadingUnit::Counts;
+    let correction = if counts { Correction::of(&calibration.imu.accelerometer) } else { None };
+    let first = recovered.first_sample.min(recording.len());
+    let end = match recovered.residuals.len() {
         0 => recording.len(),
         used => (first + used).min(recording.len()),
     };
@@ -51,8 +51,8 @@ pub(crate) fn acceleration_figure(
     });
     let mut caption = match (truth.is_some(), counts) {
         (true, _) => {
-            "Good: the dashed line lies on the solid one. The readings lie beside both by the sensor's bias and \
-             scale error, which is what the calibration takes out."
+            "Good: the dashed line lies on the solid one. The readings differ from both by the sensor's bias and \
+             scale error, which the calibration corrects."
         }
         (false, false) => {
             "Good: the estimated line follows the readings everywhere, apart from a constant shift (the bias) and a \
@@ -64,8 +64,7 @@ pub(crate) fn acceleration_figure(
     }
     .to_string();
     if is_thinned(end.saturating_sub(first)) {
-        caption
-            .push_str(" Of the many readings, the smallest and the largest of each pixel column are drawn.");
+        caption.push_str(" Only the smallest and the largest reading of each pixel column are drawn.");
     }
     Figure::new(title, panels, caption)
 }
@@ -116,12 +115,12 @@ pub(crate) fn motion_error_figure(
         (
             "Error of the recovered acceleration",
             "Good: nearly all points lie within the band. Neighbouring points move together because errors of bias and \
-             scale are common to all of them; known ends have no error.",
+             scale are common to all of them. Known ends have no error.",
         )
     } else {
         (
             "Uncertainty of the recovered acceleration",
-            "The band is two standard deviations of each node's acceleration; it closes where the acceleration was known.",
+            "The band is two standard deviations of each node's acceleration. It closes where the acceleration was known.",
         )
     };
     Some(Figure::new(title, panels, caption))
@@ -149,7 +148,7 @@ pub(crate) fn state_and_jerk_figure(
     let columns = if recording.axes == 1 { 2 } else { 3 };
     let good = if truth.is_some() { " Good: the dashed steps cover the solid ones." } else { "" };
     let caption = format!(
-        "Acceleration in interval i is α(t) = xᵢ + uᵢ t: uᵢ is the jerk, xᵢ the line's intercept at t = 0, which grows with \
+        "Acceleration in interval i is α(t) = xᵢ + uᵢ t. uᵢ is the jerk, and xᵢ the line's intercept at t = 0. The intercept grows with \
          the interval's distance from the start.{good}"
     );
     Figure::new(title, panels, caption).with_columns(columns)

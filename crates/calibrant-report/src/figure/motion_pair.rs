@@ -111,15 +111,15 @@ pub(crate) fn jerk_and_acceleration(
     limits: &Limits,
 ) -> Figure {
     let caption = "(a) Jerk, constant in each interval. (b) Acceleration, its integral. A good motion uses the limits: \
-                   where a curve touches a dashed line, that limit holds it back and widening it would help most.";
+                   where a curve touches a dashed line, the limit is active. Widening that limit would help most.";
     figure(title, &[Profile::Jerk, Profile::Acceleration], motions, axes, limits, caption)
 }
 
 /// The report's state, where it is limited: the intercept of each interval's line at t = 0.
 pub(crate) fn states(motions: &[Drawn<'_>], axes: &[Axis], limits: &Limits) -> Option<Figure> {
     limits.intercept_mps2?;
-    let caption = "Acceleration in interval i is α(t) = xᵢ + uᵢ t. A limit on xᵢ, the line's value at t = 0, holds late intervals back more than \
-                   early ones, which no arm does: limit acceleration, velocity and displacement unless you compare with the report.";
+    let caption = "Acceleration in interval i is α(t) = xᵢ + uᵢ t. A limit on xᵢ, the line's value at t = 0, restricts late intervals more than \
+                   early ones. No arm has such a limit. Limit acceleration, velocity and displacement unless you compare with the report.";
     Some(figure("States xᵢ, which the report limits", &[Profile::Intercept], motions, axes, limits, caption))
 }
 
@@ -127,7 +127,7 @@ pub(crate) fn states(motions: &[Drawn<'_>], axes: &[Axis], limits: &Limits) -> O
 pub(crate) fn velocity_and_displacement(motions: &[Drawn<'_>], axes: &[Axis], limits: &Limits) -> Figure {
     let bounded = limits.velocity_mps.is_some() || limits.displacement_m.is_some();
     let caption = format!(
-        "From rest at the origin. {} Peaks may lie between the nodes, so the curves are drawn there too.",
+        "From rest at the origin. {} The curves include peaks between the nodes.",
         if bounded {
             "Good: the curves stay between the dashed lines."
         } else {

@@ -60,7 +60,7 @@ pub(crate) fn parameters_against_truth(study: &Study) -> Figure {
         .collect();
     let caption = format!(
         "One marker for each sensor and axis. Good: all on the line. Errors much smaller than the spread of the sensors cannot be \
-         seen here; the next figure shows them.{}",
+         seen here. The next figure shows them.{}",
         subset(study, sensors.len())
     );
     let columns = if panels.len() > 2 { 3 } else { 2 };

@@ -4,15 +4,20 @@ use super::panel::{Mark, Panel, Series, Shape};
 use super::point_thinning::{is_thinned, thinned};
 use super::unit::DisplayUnit;
 use super::{Figure, colour};
-use calibrant_core::estimate::Calibration;
+use calibrant_core::estimate::{Calibration, RecoveredMotion};
 use calibrant_core::sensor::{Axis, Recording};
+use nalgebra::Vector3;
 
 /// Residuals of each axis over time.
-pub(crate) fn residuals_over_time(calibration: &Calibration, recording: &Recording) -> Figure {
+pub(crate) fn residuals_over_time(
+    calibration: &Calibration,
+    motion: &RecoveredMotion,
+    recording: &Recording,
+) -> Figure {
     let unit = unit_of(calibration);
-    let times = recording.times_s.get(calibration.first_sample..).unwrap_or_default();
-    let panels = panels(calibration, recording, "time (s)", &unit.label("residual"), |axis, panel| {
-        let values = residuals(calibration, axis, unit);
+    let times = recording.times_s.get(motion.first_sample..).unwrap_or_default();
+    let panels = panels(motion, recording, "time (s)", &unit.label("residual"), |axis, panel| {
+        let values = residuals(motion, axis, unit);
         let points: Vec<_> = times.iter().copied().zip(values).collect();
         let span = points.first().zip(points.last()).map(|(first, last)| [first.0, last.0]);
         let many = is_thinned(points.len());
@@ -32,12 +37,12 @@ pub(crate) fn residuals_over_time(calibration: &Calibration, recording: &Recordi
         }
         panel
     });
-    let mut caption = "Reading less model. Good: a structureless band about zero, of the same width everywhere, with about one \
-                       point in twenty outside the dashed lines. A wave or a step means that the model misses something."
+    let mut caption = "Reading less model. Good: a band without structure about zero, of the same width everywhere, with about one \
+                       point in twenty outside the dashed lines. A wave or a step is an error of the model."
         .to_string();
-    if is_thinned(calibration.residuals.len()) {
+    if is_thinned(motion.residuals.len()) {
         caption.push_str(
-            " Drawn are the smallest and the largest residual of each pixel column, so the band shows the extremes and looks \
+            " Only the smallest and the largest residual of each pixel column are drawn, so the band shows the extremes and looks \
              wider than ±2 sd.",
         );
     }
@@ -45,43 +50,47 @@ pub(crate) fn residuals_over_time(calibration: &Calibration, recording: &Recordi
 }
 
 /// Histogram of each axis' residuals with the normal curve of the noise.
-pub(crate) fn histograms(calibration: &Calibration, recording: &Recording) -> Figure {
+pub(crate) fn histograms(
+    calibration: &Calibration,
+    motion: &RecoveredMotion,
+    recording: &Recording,
+) -> Figure {
     let unit = unit_of(calibration);
-    let panels =
-        panels(calibration, recording, &unit.label("residual"), "number of samples", |axis, panel| {
-            let values: Vec<f64> = residuals(calibration, axis, unit).filter(|v| v.is_finite()).collect();
-            let Some(bins) = Histogram::of(&values, bin_count(values.len())) else { return panel };
-            let mut panel = panel.with(Series::new("residuals", colour::SKY, Mark::Area, bins.outline()));
-            if let Some(sd) = noise(calibration, axis, unit) {
-                let reach = (4.0 * sd)
-                    .max(bins.low.abs())
-                    .max((bins.low + bins.width * bins.counts.len() as f64).abs());
-                let reach = reach.min(6.0 * sd);
-                let area = values.len() as f64 * bins.width;
-                let curve = (0..=120)
-                    .map(|i| reach * (f64::from(i) / 60.0 - 1.0))
-                    .map(|x| {
-                        (x, area * (-0.5 * (x / sd).powi(2)).exp() / (sd * std::f64::consts::TAU.sqrt()))
-                    })
-                    .collect();
-                panel = panel.with(Series::line(
-                    &format!("normal curve of the {} noise", noise_word(calibration)),
-                    colour::VERMILLION,
-                    curve,
-                ));
-            }
-            panel
-        });
-    let caption = "Good: the bars follow the curve. Narrower bars mean that the noise is smaller than assumed, wider ones that it \
-                   is larger or that the model misses something; long tails are outliers.";
+    let panels = panels(motion, recording, &unit.label("residual"), "number of samples", |axis, panel| {
+        let values: Vec<f64> = residuals(motion, axis, unit).filter(|v| v.is_finite()).collect();
+        let Some(bins) = Histogram::of(&values, bin_count(values.len())) else { return panel };
+        let mut panel = panel.with(Series::new("residuals", colour::SKY, Mark::Area, bins.outline()));
+        if let Some(sd) = noise(calibration, axis, unit) {
+            let reach =
+                (4.0 * sd).max(bins.low.abs()).max((bins.low + bins.width * bins.counts.len() as f64).abs());
+            let reach = reach.min(6.0 * sd);
+            let area = values.len() as f64 * bins.width;
+            let curve = (0..=120)
+                .map(|i| reach * (f64::from(i) / 60.0 - 1.0))
+                .map(|x| (x, area * (-0.5 * (x / sd).powi(2)).exp() / (sd * std::f64::consts::TAU.sqrt())))
+                .collect();
+            panel = panel.with(Series::line(
+                &format!("normal curve of the {} noise", noise_word(calibration)),
+                colour::VERMILLION,
+                curve,
+            ));
+        }
+        panel
+    });
+    let caption = "Good: the bars follow the curve. Narrower bars mean that the noise is smaller than assumed. Wider bars mean that it \
+                   is larger, or that the model has an error. Long tails are outliers.";
     Figure::new("Distribution of the residuals", panels, caption)
 }
 
 /// Autocorrelation of each axis' residuals with the band of white noise.
-pub(crate) fn autocorrelations(calibration: &Calibration, recording: &Recording) -> Figure {
+pub(crate) fn autocorrelations(
+    calibration: &Calibration,
+    motion: &RecoveredMotion,
+    recording: &Recording,
+) -> Figure {
     let unit = unit_of(calibration);
-    let panels = panels(calibration, recording, "lag (samples)", "autocorrelation", |axis, mut panel| {
-        let values: Vec<f64> = residuals(calibration, axis, unit).collect();
+    let panels = panels(motion, recording, "lag (samples)", "autocorrelation", |axis, mut panel| {
+        let values: Vec<f64> = residuals(motion, axis, unit).collect();
         let correlation = autocorrelation(&values, (values.len() / 4).min(40));
         let stems: Vec<_> = correlation.iter().enumerate().map(|(i, &r)| ((i + 1) as f64, r)).collect();
         let Some(last) = stems.last().map(|stem| stem.0) else { return panel };
@@ -95,19 +104,19 @@ pub(crate) fn autocorrelations(calibration: &Calibration, recording: &Recording)
             )
             .with(Series::new("autocorrelation", colour::BLUE, Mark::Stems, stems))
     });
-    let caption = "Good: about nineteen in twenty stems end within the band. Many long stems mean coloured noise or a model error; \
-                   then the standard deviations of the parameters are too small.";
+    let caption = "Good: about nineteen in twenty stems end within the band. Many long stems mean coloured noise or a model error. \
+                   The standard deviations of the parameters are then too small.";
     Figure::new("Autocorrelation of the residuals", panels, caption)
 }
 
 fn panels(
-    calibration: &Calibration,
+    motion: &RecoveredMotion,
     recording: &Recording,
     x_label: &str,
     y_label: &str,
     fill: impl Fn(Axis, Panel) -> Panel,
 ) -> Vec<Panel> {
-    let empty = if calibration.residuals.is_empty() { "no residuals" } else { "too few residuals" };
+    let empty = if motion.residuals.is_empty() { "no residuals" } else { "too few residuals" };
     recording
         .active_axes()
         .iter()
@@ -119,12 +128,12 @@ fn panels(
 }
 
 fn unit_of(calibration: &Calibration) -> DisplayUnit {
-    let rms = calibration.fit.residual_rms;
-    DisplayUnit::suited_to(calibration.unit.symbol(), rms.iter().map(|rms| 3.0 * rms))
+    let rms = calibration.fit.residual_rms.unwrap_or_else(Vector3::zeros);
+    DisplayUnit::suited_to(calibration.accelerometer_unit.symbol(), rms.iter().map(|rms| 3.0 * rms))
 }
 
-fn residuals(calibration: &Calibration, axis: Axis, unit: DisplayUnit) -> impl Iterator<Item = f64> + '_ {
-    calibration.residuals.iter().map(move |residual| residual[axis.index()] * unit.factor)
+fn residuals(motion: &RecoveredMotion, axis: Axis, unit: DisplayUnit) -> impl Iterator<Item = f64> + '_ {
+    motion.residuals.iter().map(move |residual| residual[axis.index()] * unit.factor)
 }
 
 fn noise(calibration: &Calibration, axis: Axis, unit: DisplayUnit) -> Option<f64> {

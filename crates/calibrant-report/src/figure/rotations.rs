@@ -1,4 +1,4 @@
-//! The figure of rotation errors: gravity after each rotation of a whole IMU.
+//! The figure of the rotation errors of an IMU.
 
 use super::panel::{Mark, Panel, Series, Shape};
 use super::{Figure, colour};
@@ -16,7 +16,7 @@ pub(crate) fn rotation_errors(rotations: &[RotationResult]) -> Option<Figure> {
     let of = |label: &str, x: fn(&RotationResult) -> f64| {
         let pair =
             |r: &RotationResult| [r.error_before_rad, r.error_rad].map(|error| (x(r), error.to_degrees()));
-        let mut panel = Panel::new("", label, "gravity missed by (°)");
+        let mut panel = Panel::new("", label, "rotation error (°)");
         for rotation in &shown {
             let line = Mark::Line { width: 0.8, dashes: "" };
             panel = panel.with(Series::new("", colour::GREY, line, pair(rotation).to_vec()));
@@ -47,11 +47,11 @@ pub(crate) fn rotation_errors(rotations: &[RotationResult]) -> Option<Figure> {
     };
     let panels = vec![
         of("time (s)", |rotation| 0.5 * (rotation.start_s + rotation.end_s)),
-        of("angle turned through (°)", |rotation| rotation.path_rad.to_degrees()),
+        of("path of the rotation (°)", |rotation| rotation.path_rad.to_degrees()),
     ];
-    let caption = "The gyroscope carries gravity from the hold before a rotation to the hold after it; the angle by which it misses \
-                   gravity as the accelerometer finds it there, one pair of markers for each rotation. Before: with one bias and one gain for all axes, \
-                   or the datasheet's. Good: the blue ones far below the orange, without a trend; errors that grow to the right come from the gyroscope's \
-                   gains, those that do not from noise and a wandering bias.";
-    Some(Figure::new("Gravity after each rotation", panels, caption).with_columns(2))
+    let caption = "The gyroscope propagates gravity from the hold before a rotation to the hold after it. The rotation error is the angle to the gravity that \
+                   the accelerometer measures there. Each rotation has a pair of markers. Before: with one bias and one gain for all axes, \
+                   or the datasheet's. Good: the blue markers are far below the orange ones, without a trend. Errors that grow to the right come from the gyroscope's \
+                   gains. Other errors come from noise and a wandering bias.";
+    Some(Figure::new("Rotation errors", panels, caption).with_columns(2))
 }

@@ -23,11 +23,11 @@ pub(crate) fn hold_directions(holds: &HoldCalibration) -> String {
         if holds.holds.iter().all(|hold| hold.used) {
             String::new()
         } else {
-            format!("<li>{}left out</li>", key(&cross(17.0, 7.0)))
+            format!("<li>{}not used</li>", key(&cross(17.0, 7.0)))
         }
     );
     let caption = "Specific force over its magnitude in the true frame, with the number of the hold. Both halves are seen from \
-                   +z, equal areas on the sphere are equal areas here, rings are 30° apart, and the rim is z = 0. Good: points in \
+                   +z. Equal areas on the sphere are equal areas here. Rings are 30° apart, and the rim is z = 0. Good: points in \
                    all parts of both halves. An empty region is a direction in which the calibration extrapolates.";
     framed("Orientations of the holds", &legend, &hemispheres, 2, caption)
 }

@@ -48,8 +48,8 @@ pub(crate) fn start_values(starts: &[StartOutcome], criterion: &Criterion) -> Op
             panel
         })
         .collect();
-    let caption = "One marker for each start of the search, best first. Many at zero: the best motion was found again and again, so it is \
-                   hardly missed by bad luck. Steps: the problem has several local optima; mirrored motions are the same optimum. Only one \
-                   at zero: ask for more starts.";
+    let caption = "One marker for each start of the search, best first. Many at zero: many starts found the best motion, so a better one is \
+                   unlikely. Steps: the problem has several local optima. Mirrored motions are the same optimum. Only one \
+                   at zero: use more starts.";
     Some(Figure::new("Values of the starts, sorted", panels, caption))
 }

@@ -38,10 +38,10 @@ pub(crate) fn trace_map(surface: &TraceSurface) -> String {
     };
     let caption = format!(
         "A uniaxial sensor and two intervals of {} s, at {} Hz, starting at {} m/s²: decimal logarithm of the sum of the variances of bias \
-         and scale factor (in SI units) over the jerks of both intervals. What to see: a peak where both jerks vanish, because a sensor \
-         that hardly moves tells nothing of its scale factor (at zero it tells nothing at all), and the smallest values in corners, \
-         where the jerks are largest: the optimum lies on the limits. Edges of the bands are contours. The report estimates at each \
-         point, draws a surface in space, and does not say which logarithm it takes; the trace needs no estimation, as it follows from \
+         and scale factor (in SI units) over the jerks of both intervals. The peak lies where both jerks vanish: a sensor \
+         that hardly moves does not determine its scale factor. The smallest values lie in corners, \
+         where the jerks are largest, so the optimum lies on the limits. Edges of the bands are contours. The report estimates at each \
+         point, draws a surface in space, and does not name its logarithm. The trace needs no estimation: it follows from \
          the motion alone.",
         number_format::short(settings.interval_s),
         number_format::short(settings.rate_hz),

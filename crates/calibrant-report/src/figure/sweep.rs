@@ -73,12 +73,12 @@ pub(crate) fn sweep_curves(sweep: &Sweep) -> Figure {
             Some(panel)
         })
         .collect();
-    let mut caption = "Each marker is a design of its own. Where a curve falls, changing the value pays; where it is flat, something else holds the \
-                       motion back. Curves that coincide are drawn as one."
+    let mut caption = "Each marker is one design. Where a curve falls, a change of the value helps. Where it is flat, another limit is \
+                       active. Curves that coincide are drawn as one."
         .to_string();
     if bounded {
         caption.push_str(
-            " Dashed: what no motion can beat; where it meets the curve, the design is proved optimal.",
+            " Dashed: the bound that no motion can beat. Where it touches the curve, the design is proved optimal.",
         );
     }
     if panels.iter().any(|panel| panel.log_x || panel.log_y) {

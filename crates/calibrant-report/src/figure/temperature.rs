@@ -2,7 +2,7 @@
 
 use super::panel::{Mark, Panel, Series, Shape};
 use super::{Figure, colour};
-use calibrant_core::estimate::ImuCalibration;
+use calibrant_core::estimate::{Calibration, HoldCalibration};
 use calibrant_core::sensor::{Axis, Recording};
 use nalgebra::Vector3;
 
@@ -11,12 +11,16 @@ const POINTS: usize = 60;
 
 /// Mean of the gyroscope's readings in each hold over its temperature, less its response to gravity, and the
 /// fitted polynomial. `None` where nothing follows temperature.
-pub(crate) fn bias_over_temperature(calibration: &ImuCalibration, gyroscope: &Recording) -> Option<Figure> {
-    let temperatures = calibration.hold_temperatures_c.as_ref()?;
+pub(crate) fn bias_over_temperature(
+    calibration: &Calibration,
+    holds: &HoldCalibration,
+    gyroscope: &Recording,
+) -> Option<Figure> {
+    let at_rest = &calibration.gyroscope.as_ref()?.still;
+    let temperatures = holds.temperatures_c.as_ref()?;
     let [low, high] = calibration.imu.thermal.range_c?;
     let imu = &calibration.imu;
-    let holds: Vec<(f64, Vector3<f64>, usize, bool)> = calibration
-        .holds
+    let means: Vec<(f64, Vector3<f64>, usize, bool)> = holds
         .holds
         .iter()
         .zip(temperatures)
@@ -33,14 +37,14 @@ pub(crate) fn bias_over_temperature(calibration: &ImuCalibration, gyroscope: &Re
             // relative to the bias at the reference, so that counts and rates look alike
             let degps = |reading: f64| ((reading - imu.gyroscope.bias[k]) / gain[k]).to_degrees();
             let twice = |samples: usize| {
-                let noise = calibration.still.noise[k] / (samples as f64).sqrt();
-                (2.0 * noise.hypot(calibration.still.between_holds_sd[k]) / gain[k]).to_degrees()
+                let noise = at_rest.noise[k] / (samples as f64).sqrt();
+                (2.0 * noise.hypot(at_rest.between_holds_sd[k]) / gain[k]).to_degrees()
             };
             let at = |used: bool| -> Vec<(f64, f64)> {
-                let chosen = holds.iter().filter(|hold| hold.3 == used);
+                let chosen = means.iter().filter(|hold| hold.3 == used);
                 chosen.map(|(temperature, mean, ..)| (*temperature, degps(mean[k]))).collect()
             };
-            let all = holds.iter().map(|(temperature, mean, ..)| (*temperature, degps(mean[k]))).collect();
+            let all = means.iter().map(|(temperature, mean, ..)| (*temperature, degps(mean[k]))).collect();
             let fitted = (0..=POINTS)
                 .map(|i| {
                     let temperature = low + (high - low) * i as f64 / POINTS as f64;
@@ -52,7 +56,7 @@ pub(crate) fn bias_over_temperature(calibration: &ImuCalibration, gyroscope: &Re
                 Panel::new(format!("axis {axis}"), "temperature (°C)", "bias less that at T₀ (°/s)")
                     .with(
                         Series::new("±2 sd", colour::GREY, Mark::ErrorBars, all)
-                            .with_spread(holds.iter().map(|hold| twice(hold.2)).collect()),
+                            .with_spread(means.iter().map(|hold| twice(hold.2)).collect()),
                     )
                     .with(Series::line("polynomial", colour::SKY, fitted))
                     .with(Series::new("hold", colour::BLUE, mark(Shape::Circle, 2.8), at(true)));
@@ -68,7 +72,7 @@ pub(crate) fn bias_over_temperature(calibration: &ImuCalibration, gyroscope: &Re
             panel
         })
         .collect();
-    let caption = "Mean of the gyroscope in each hold over its temperature, and the polynomial that was fitted. Good: nineteen bars in twenty meet the line, \
-                   with no bend that it does not follow. Where the bars leave it together, raise the order; beyond the holds it is not known.";
+    let caption = "Mean of the gyroscope in each hold over its temperature, and the fitted polynomial. Good: nineteen bars in twenty touch the line, \
+                   and the line follows every bend. If neighbouring bars miss the line together, raise the order. Beyond the holds the line is an extrapolation.";
     Some(Figure::new("The gyroscope's bias over temperature", panels, caption))
 }

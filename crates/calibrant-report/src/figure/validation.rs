@@ -9,9 +9,9 @@ use calibrant_core::estimate::{ErrorKind, ValidatedErrors, Validation};
 pub(crate) fn validation_errors(validation: &Validation) -> Figure {
     let panels: Vec<Panel> = validation.kinds.iter().flat_map(panels).collect();
     let columns = if panels.len() > 1 { 3 } else { 1 };
-    let caption = "Each marker is an error, each bar twice the standard deviation that was predicted of it. Good: about nineteen in twenty within their bars, without a trend over \
-                   time. Most of them well within the bars: the standard deviations are larger than need be.";
-    Figure::new("Errors on data that were not used", panels, caption).with_columns(columns)
+    let caption = "Each marker is an error. Each bar is twice its predicted standard deviation. Good: about nineteen in twenty within their bars, without a trend over \
+                   time. If most are well within the bars, the standard deviations are larger than necessary.";
+    Figure::new("Errors on unused data", panels, caption).with_columns(columns)
 }
 
 fn panels(errors: &ValidatedErrors) -> Vec<Panel> {
@@ -21,7 +21,7 @@ fn panels(errors: &ValidatedErrors) -> Vec<Panel> {
             (&["rate in holds, x", "rate in holds, y", "rate in holds, z"], "corrected rate (°/s)")
         }
         ErrorKind::Rotation => {
-            (&["after rotations, one way across", "after rotations, the other way"], "gravity missed by (°)")
+            (&["after rotations, one way across", "after rotations, the other way"], "rotation error (°)")
         }
     };
     let largest = errors.errors.iter().map(|error| error.error.amax().max(2.0 * error.predicted_sd.amax()));
@@ -49,8 +49,7 @@ fn panels(errors: &ValidatedErrors) -> Vec<Panel> {
         let outlying = points(false);
         if !outlying.is_empty() {
             let cross = Mark::Dots { shape: Shape::Cross, radius: 5.0 };
-            panel =
-                panel.with(Series::new("stands out, does not count", colour::VERMILLION, cross, outlying));
+            panel = panel.with(Series::new("outlier, not counted", colour::VERMILLION, cross, outlying));
         }
         panel
     };

@@ -1,21 +1,22 @@
 //! The chapter on calibrations of a population of sensors: the report's chapter 3.
 
+use crate::calibration::parameter_table;
 use crate::figure::{
     DisplayUnit, acceleration_figure, motion_error_figure, p_values, parameter_errors,
     parameters_against_truth, standardised_errors, state_and_jerk_figure,
 };
 use crate::html::Page;
 use crate::number_format;
-use crate::parameters::parameter_table;
 use crate::table::{Cell, Table};
 use calibrant_core::estimate::Recovered;
+use calibrant_core::sensor::SensorKind;
 use calibrant_design::study::{SingleCase, Study};
 
 /// The report's chapter 3: calibrations of many sensors, and one of them in detail (Figures 4 to 6).
 pub(super) fn chapter(page: &mut Page, study: &Study) {
     page.section(
         "Calibration of a population",
-        "Each sensor is moved by the same command, recorded and calibrated; truth and estimate are compared.",
+        "Each sensor makes the same commanded motion, is recorded and calibrated. Then the estimate is compared with the truth.",
     );
     page.push(settings(study));
     page.subsection("One sensor in detail");
@@ -26,8 +27,8 @@ pub(super) fn chapter(page: &mut Page, study: &Study) {
     fine(page, &study.fine);
     page.subsection("All sensors");
     page.paragraph(
-        "If the calibrations are honest, the realised error equals the stated standard deviation, the mean error is near zero, and \
-         95 % of the intervals hold the truth.",
+        "If the covariances are right, the realised error equals the stated standard deviation, the mean error is near zero, and \
+         95 % of the intervals contain the truth.",
     );
     page.push(summary_table(study));
     page.push(parameters_against_truth(study).html());
@@ -47,7 +48,7 @@ fn rates(what: &str, case: &SingleCase) -> String {
 }
 
 fn single(page: &mut Page, case: &SingleCase) {
-    page.push(parameter_table(&case.calibration, Some(&case.truth)));
+    page.push(parameter_table(&case.calibration, SensorKind::Accelerometer, Some(&case.truth)));
     if let Recovered::Motion(recovered) = &case.calibration.recovered {
         let title = "Figure 4 of the report: actual, measured and estimated acceleration";
         let truth = Some(&case.true_motion);
@@ -59,14 +60,14 @@ fn single(page: &mut Page, case: &SingleCase) {
 }
 
 fn fine(page: &mut Page, case: &SingleCase) {
-    page.push(parameter_table(&case.calibration, Some(&case.truth)));
+    page.push(parameter_table(&case.calibration, SensorKind::Accelerometer, Some(&case.truth)));
     if let Recovered::Motion(recovered) = &case.calibration.recovered {
         let title = "Figure 5 of the report: actual and estimated states and inputs";
         page.push(state_and_jerk_figure(title, recovered, &case.recording, Some(&case.true_motion)).html());
     }
 }
 
-/// The verdict on the population: is it good, and why.
+/// The verdict on the population: are the covariances right, and why.
 pub(super) fn judge(study: &Study) -> (bool, String) {
     let all = study.outcomes.len();
     let converged = study.outcomes.iter().filter(|outcome| outcome.status == "converged").count();
@@ -79,12 +80,12 @@ pub(super) fn judge(study: &Study) -> (bool, String) {
         "There is nothing to judge.".to_string()
     } else if honest {
         format!(
-            "95 % intervals hold the truth in {} of the cases, as they should.",
+            "95 % intervals contain the truth in {} of the cases, as expected.",
             number_format::percent(coverage)
         )
     } else {
         format!(
-            "95 % intervals hold the truth in {} of the cases, beyond what chance explains: the stated standard deviations are too {}.",
+            "95 % intervals contain the truth in {} of the cases, which chance does not explain. The stated standard deviations are too {}.",
             number_format::percent(coverage),
             if coverage < 0.95 { "small" } else { "large" }
         )

@@ -12,10 +12,10 @@ use crate::table::{Cell, Table};
 use calibrant_design::limit_use;
 use calibrant_design::study::{DesignStudy, Factor, ParameterSummary};
 
-/// Beyond this many standard errors, promise and delivery differ by more than chance.
+/// Predicted and realised factors differ significantly beyond this number of standard errors.
 const CHANCE: f64 = 3.0;
 
-/// The title of a chapter and of its figures.
+/// The titles of a chapter and of its figures.
 pub(super) struct Chapter {
     heading: &'static str,
     lead: &'static str,
@@ -38,7 +38,7 @@ pub(super) const OPTIMAL: Chapter = Chapter {
 
 /// The report's section 4.3.
 pub(super) const NOISY: Chapter = Chapter {
-    heading: "The same with process noise",
+    heading: "Initial against optimal motion, with process noise",
     lead: "The arm follows its command only up to noise on the jerk, which is estimated along with the parameters. Motions and figures are those of the \
            section before.",
     motion: "As Figure 8, with process noise: initial against optimal jerk (a) and acceleration (b), first sensor",
@@ -52,7 +52,7 @@ pub(super) fn chapter(page: &mut Page, study: &DesignStudy, chapter: &Chapter) {
     page.section(chapter.heading, chapter.lead);
     page.push(settings(study));
 
-    page.subsection("How much is gained");
+    page.subsection("Improvement");
     page.paragraph(
         "Promised: standard deviations that the calibrations state (root mean square over the sensors). Realised: errors of the estimates (the same \
          mean). Factors are initial over optimal, above 1 is better, ± one standard error from so many sensors. Good: promised and realised \
@@ -82,7 +82,7 @@ pub(super) fn chapter(page: &mut Page, study: &DesignStudy, chapter: &Chapter) {
     }
 }
 
-/// The verdict of the study, in one line: is it good, and why.
+/// The verdict on the study: is the result as predicted, and why.
 pub(super) fn judge(name: &str, study: &DesignStudy) -> (bool, String) {
     let all = study.outcomes.len();
     let better = study.outcomes.iter().filter(|o| o.optimal.trace <= o.initial.trace).count();
@@ -91,7 +91,7 @@ pub(super) fn judge(name: &str, study: &DesignStudy) -> (bool, String) {
     };
     let gain = match study.summary.iter().max_by(by_gain) {
         Some(entry) => format!(
-            " The most is gained for {}: a factor of {} promised, {} realised.",
+            " The largest improvement is that of {}: a factor of {} predicted, {} realised.",
             entry.optimal.name,
             factor(&entry.predicted),
             factor(&entry.realised)
@@ -100,13 +100,13 @@ pub(super) fn judge(name: &str, study: &DesignStudy) -> (bool, String) {
     };
     let kept = study.summary.iter().all(agrees);
     let kept_words = if kept {
-        "Promised and realised factors agree within chance."
+        "Predicted and realised factors agree."
     } else {
-        "For some parameter, promised and realised factors differ by more than chance explains."
+        "For some parameter, predicted and realised factors differ by more than chance explains."
     };
     let coverage = coverage(study);
     let sentence = format!(
-        "{name}: the trace of the covariance is smaller than with the initial motion for {} of {} sensors.{gain} {kept_words} 95 % intervals hold \
+        "{name}: the trace of the covariance is smaller than with the initial motion for {} of {} sensors.{gain} {kept_words} 95 % intervals contain \
          the truth in {} of the cases.",
         number_format::count(better),
         number_format::count(all),
@@ -139,9 +139,9 @@ fn improvement_table(study: &DesignStudy) -> String {
     let columns = [
         "parameter",
         "unit",
-        "promised sd, initial",
-        "promised sd, optimal",
-        "promised factor",
+        "predicted sd, initial",
+        "predicted sd, optimal",
+        "predicted factor",
         "realised error, initial",
         "realised error, optimal",
         "realised factor",

@@ -13,8 +13,8 @@ use calibrant_design::study::Studies;
 /// show calibrations, 7 the surface of the trace, and 8 to 11 initial against optimal motion. Figures 13 and
 /// 14 show the latter with process noise.
 ///
-/// Self-contained as [`calibration_report`](super::calibration_report) is. Of a large population, the figures
-/// that show sensors one by one show an evenly spread part, and say so.
+/// The file is self-contained, as [`calibration_report`](super::calibration_report) is. Figures of single sensors show
+/// an evenly spread part of a large population, and state that.
 #[must_use]
 pub fn study_report(studies: &Studies, about: &About) -> String {
     let mut judged = Vec::new();
@@ -30,8 +30,8 @@ pub fn study_report(studies: &Studies, about: &About) -> String {
     }
     if let Some(surface) = &studies.surface {
         page.section(
-            "What is to be minimised",
-            "Before a motion is designed: how the trace of the covariance depends on the motion, in the simplest case.",
+            "The criterion",
+            "How the trace of the covariance depends on the motion, in the simplest case.",
         );
         page.push(trace_map(surface));
     }
@@ -54,13 +54,13 @@ fn headed(about: &About, judged: &[(bool, String)], remarks: &[String]) -> Page 
     page.push(format!("<h1>{}</h1>", escape(title(about))));
     page.push(facts(about.facts.iter().map(|(label, value)| (label.as_str(), value.as_str()))));
     let good = !judged.is_empty() && judged.iter().all(|(good, _)| *good);
-    let (class, word) = if good { ("good", "✓ As promised.") } else { ("caution", "! Look closer.") };
+    let (class, word) = if good { ("good", "✓ As predicted.") } else { ("caution", "! Look closer.") };
     let lists = [("Not run", remarks.to_vec()), ("Findings", about.findings.clone())];
     match judged {
         [(_, sentence)] => page.push(verdict_box(class, word, sentence, &lists)),
         _ => {
             let sentences: Vec<String> = judged.iter().map(|(_, sentence)| sentence.clone()).collect();
-            let what = if judged.is_empty() { "Nothing was run." } else { "" };
+            let what = if judged.is_empty() { "No study was run." } else { "" };
             page.push(verdict_box(class, word, what, &lists).replacen(
                 "</p>",
                 &format!("</p>{}", list(&sentences)),

@@ -26,7 +26,7 @@ pub(super) fn settings(study: &DesignStudy) -> String {
     row("trust in the motion", trust(study));
     row("limits", limits(study, axes));
     row(
-        "what is minimised",
+        "criterion",
         format!(
             "criterion {}, {}{}",
             study.criterion.letter(),
@@ -52,7 +52,7 @@ fn trust(study: &DesignStudy) -> String {
         KnownEnds::Both => "the accelerations at both ends are known",
     };
     match study.trust {
-        Trust::Known => "known: the arm does exactly what is commanded".to_string(),
+        Trust::Known => "known: the arm makes exactly the commanded motion".to_string(),
         Trust::Noisy(noise) => format!(
             "noisy: noise of sd {} m/s³ + {} |u| on the jerk; {ends}",
             number_format::short(noise.floor_mps3),

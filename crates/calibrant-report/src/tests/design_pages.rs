@@ -157,7 +157,7 @@ fn an_evaluation_compares_with_the_optimum_and_names_what_is_broken() {
         "{gain}"
     );
     let efficiency = number_format::percent(assessment.efficiency().expect("both determined"));
-    assert!(html.contains("a better motion is worth it") && html.contains(&efficiency));
+    assert!(html.contains("a better motion is worth the effort") && html.contains(&efficiency));
 
     // twice as wide breaks the displacement, and there may be nothing to compare with
     let nodes = own.acceleration_mps2().iter().map(|a| a * 2.0).collect();

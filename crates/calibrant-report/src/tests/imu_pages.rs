@@ -1,14 +1,18 @@
 //! Tests of the pages on a whole IMU.
 
-use super::super::{About, imu_calibration_report, number_format};
+use super::super::{About, calibration_report, number_format};
 use super::{about, assert_sound, estimate, motion, sensor};
 use calibrant_core::diagnostic::RotationReason;
-use calibrant_core::estimate::CalibrationStatus;
+use calibrant_core::estimate::{Calibration, CalibrationStatus, GyroscopeCalibration, Recovered};
 use calibrant_core::noise::{Segment, SensorNoise};
 use calibrant_core::sensor::{ImuRecording, SensorKind};
 
 #[path = "../../examples/report_gallery/imus.rs"]
 mod imus;
+
+fn gyroscope_of(calibration: &mut Calibration) -> &mut GyroscopeCalibration {
+    calibration.gyroscope.as_mut().expect("an IMU")
+}
 
 #[test]
 fn a_page_shows_both_sensors_the_holds_the_rotations_and_the_turns() {
@@ -16,7 +20,7 @@ fn a_page_shows_both_sensors_the_holds_the_rotations_and_the_turns() {
     let gyroscope = case.recording.gyroscope.as_ref().expect("recorded");
     let segment = Segment::between(gyroscope, 0.0, 2.0).expect("long enough");
     let noise = SensorNoise::of(SensorKind::Gyroscope, gyroscope, segment).expect("noisy");
-    let html = imu_calibration_report(&case.calibration, &case.recording, &[noise], &about());
+    let html = calibration_report(&case.calibration, &case.recording, &[noise], &about());
     assert_sound(&html);
     let text = html.replace("<th scope=\"row\">", "");
     for quantity in &case.calibration.quantities {
@@ -28,9 +32,9 @@ fn a_page_shows_both_sensors_the_holds_the_rotations_and_the_turns() {
     let from = imus::DISTURBED + 1;
     for says in [
         "from 14 of 14 holds, 12 of 13 rotations between them and 1 turn of known angle",
-        "After a rotation, gravity is met within",
+        "The rotation error is",
         "The gains are known to",
-        "known beforehand",
+        "from prior",
         "z of both sensors",
         "ω = C_g (y_g − b_g − Γ f)",
         "C_g = [[",
@@ -41,8 +45,8 @@ fn a_page_shows_both_sensors_the_holds_the_rotations_and_the_turns() {
         "what the correction changes",
         "Magnitude residual of each hold",
         "The gyroscope at rest",
-        "Gravity after each rotation",
-        "gravity missed by (°)",
+        "Rotation errors",
+        "rotation error (°)",
         "after, left out",
         &format!("{from} → {}</th>", from + 1),
         "no: it misses gravity by",
@@ -61,7 +65,8 @@ fn a_page_shows_both_sensors_the_holds_the_rotations_and_the_turns() {
 #[test]
 fn the_magnitude_before_is_that_of_plain_readings() {
     let case = imus::imu_case(14, 1);
-    let (holds, imu) = (&case.calibration.holds, &case.calibration.imu.accelerometer);
+    let holds = case.calibration.holds().expect("held");
+    let imu = &case.calibration.imu.accelerometer;
     let readings = &case.recording.accelerometer.as_ref().expect("recorded").readings;
     let bias = (imu.bias.x + imu.bias.y + imu.bias.z) / 3.0;
     let gain = imu.matrix.row_iter().map(|row| row.norm()).sum::<f64>() / 3.0;
@@ -77,7 +82,7 @@ fn the_magnitude_before_is_that_of_plain_readings() {
     let rms = (squares / holds.holds.len() as f64).sqrt();
     let found = holds.magnitude_residual_rms_before_mps2().expect("regular");
     assert!((found / rms - 1.0).abs() < 1e-9 && rms > 0.5, "{found} beside {rms}");
-    let html = imu_calibration_report(&case.calibration, &case.recording, &[], &about());
+    let html = calibration_report(&case.calibration, &case.recording, &[], &about());
     let [before, after] =
         [found, holds.magnitude_residual_rms_mps2].map(|v| number_format::significant(v, 3));
     assert!(html.contains(&format!("{before} → {after} m/s², ")), "{before} → {after}");
@@ -87,8 +92,8 @@ fn the_magnitude_before_is_that_of_plain_readings() {
 fn the_verdict_follows_the_status_the_warnings_and_the_prior() {
     let case = imus::imu_case(14, 1);
     let mut calibration = case.calibration;
-    let page = |calibration: &estimate::ImuCalibration| {
-        let html = imu_calibration_report(calibration, &case.recording, &[], &about());
+    let page = |calibration: &Calibration| {
+        let html = calibration_report(calibration, &case.recording, &[], &about());
         assert_sound(&html);
         html
     };
@@ -97,10 +102,13 @@ fn the_verdict_follows_the_status_the_warnings_and_the_prior() {
     calibration.prior_share.fill(0.0);
     assert!(page(&calibration).contains("verdict good"));
     calibration.prior_share[0] = 0.9;
-    assert!(page(&calibration).contains("less than what was known beforehand about accelerometer.bias.x."));
+    assert!(page(&calibration).contains("less information than the prior about accelerometer.bias.x."));
     calibration.prior_share[0] = 0.0;
     assert!(!page(&calibration).contains("nown beforehand"));
-    calibration.rotations.iter_mut().for_each(|rotation| rotation.error_before_rad = rotation.error_rad);
+    gyroscope_of(&mut calibration)
+        .rotations
+        .iter_mut()
+        .for_each(|rotation| rotation.error_before_rad = rotation.error_rad);
     assert!(page(&calibration).contains("hardly improves the rotations"));
     calibration.status = CalibrationStatus::Stalled;
     assert!(page(&calibration).contains("verdict bad"));
@@ -110,29 +118,28 @@ fn the_verdict_follows_the_status_the_warnings_and_the_prior() {
 fn degenerate_results_and_hostile_words_are_reported_without_harm() {
     let case = imus::imu_case(14, 1);
     let mut calibration = case.calibration;
-    for rotation in &mut calibration.rotations {
+    for rotation in &mut gyroscope_of(&mut calibration).rotations {
         (rotation.used, rotation.path_rad) = (false, 0.0);
         rotation.reason = Some(RotationReason::SamplesMissing);
     }
     let hostile = About { findings: vec!["a<b>&\"c\"".into()], ..About::default() };
-    let html = imu_calibration_report(&calibration, &ImuRecording::default(), &[], &hostile);
+    let html = calibration_report(&calibration, &ImuRecording::default(), &[], &hostile);
     assert_sound(&html);
     assert!(html.contains("a&lt;b&gt;&amp;&quot;c&quot;"));
-    assert!(
-        html.contains("no: the gyroscope has too few samples")
-            && !html.contains("Gravity after each rotation")
-    );
+    assert!(html.contains("no: the gyroscope has too few samples") && !html.contains("Rotation errors"));
 
-    calibration.rotations.clear();
-    calibration.turns.clear();
-    calibration.holds.holds.clear();
+    gyroscope_of(&mut calibration).rotations.clear();
+    gyroscope_of(&mut calibration).turns.clear();
+    if let Recovered::Holds(holds) = &mut calibration.recovered {
+        holds.holds.clear();
+    }
     calibration.covariance.fill(f64::NAN);
     calibration.values.fill(f64::INFINITY);
-    calibration.still.noise.fill(f64::NAN);
-    assert_sound(&imu_calibration_report(&calibration, &case.recording, &[], &about()));
+    gyroscope_of(&mut calibration).still.noise.fill(f64::NAN);
+    assert_sound(&calibration_report(&calibration, &case.recording, &[], &about()));
 
     calibration.imu.gyroscope.matrix.fill(0.0);
-    let html = imu_calibration_report(&calibration, &case.recording, &[], &about());
+    let html = calibration_report(&calibration, &case.recording, &[], &about());
     assert_sound(&html);
     assert!(html.contains("there is no correction"));
 }

@@ -1,4 +1,4 @@
-//! What is said of holds, faces and recordings.
+//! Sentences about holds, faces and readings.
 
 use super::change::change;
 use super::spikes::spikes;
@@ -9,7 +9,7 @@ use calibrant_core::sensor::{ReadingUnit, SensorKind};
 pub(super) fn message(diagnostic: &Diagnostic) -> Option<String> {
     Some(match diagnostic {
         Diagnostic::NotConverged { status } => format!(
-            "the iteration did not converge ({status}): the numbers are the best found, not the optimum"
+            "the iteration did not converge ({status}). The numbers are the best that it found, not the optimum."
         ),
         Diagnostic::Spikes { sensor_kind, unit, replaced, cut, axis, reading, time_s, deviations } => {
             spikes(*sensor_kind, *unit, (*replaced, *cut), *axis, (*reading, *time_s, *deviations))
@@ -27,27 +27,30 @@ pub(super) fn message(diagnostic: &Diagnostic) -> Option<String> {
             let unit = unit.symbol();
             let (side, other) = if *shift > 0.0 { ("above", "below") } else { ("below", "above") };
             format!(
-                "{sensor_kind} {axis}: {} single samples in the holds are more than {far_deviations} standard deviations {side} the others, and {} {other}: noise has as many on either side. They move the \
-                 means, and with them the bias, by {shift:+.1e} {unit}, which is {times_noise:.0} times what noise does to the mean of all holds. A loose contact, bytes lost on the way? They are too near \
-                 the noise to be left out",
+                "{sensor_kind} {axis}: in the holds, {} single samples lie more than {far_deviations} standard deviations {side} the others, and {} {other}. \
+                 Noise has equal numbers on both sides. These samples shift the means, and the bias, by {shift:+.1e} {unit}. \
+                 That is {times_noise:.0} times the standard deviation of the mean of all holds. They are too near the noise to be removed. \
+                 Look for a loose contact, or for bytes lost on the way.",
                 samples_above.max(*samples_below),
                 samples_above.min(*samples_below),
             )
         }
         Diagnostic::CoarseSteps { sensor_kind, axis, unit, step, noise, mean_sd } => {
             let found = CoarseAxis { axis: *axis, step: *step, noise: *noise, mean_sd: *mean_sd };
-            let found = coarse_axis(*sensor_kind, *unit, &found);
-            let known = match sensor_kind {
+            let coarse = coarse_axis(*sensor_kind, *unit, &found);
+            let included = match sensor_kind {
                 SensorKind::Accelerometer => "",
-                SensorKind::Gyroscope => "the standard deviations know of it; ",
+                SensorKind::Gyroscope => " The standard deviations include this error.",
             };
-            format!("{found}; {known}choose a smaller range, or more digits in the file")
+            format!("{coarse}{included} Choose a smaller range, or write more digits to the file.")
         }
         Diagnostic::GravityOffEarth { gravity_mps2, least_mps2, most_mps2 } => format!(
-            "gravity is given as {gravity_mps2} m/s², and on the Earth's surface it is {least_mps2} to {most_mps2}: correct holds.gravity_mps2, or all gains of the accelerometer are off by as much"
+            "gravity is given as {gravity_mps2} m/s², but on the Earth's surface it is {least_mps2} to {most_mps2}. Correct holds.gravity_mps2. Otherwise all gains of the accelerometer are wrong by this ratio."
         ),
         Diagnostic::GravityUnusual { gravity_mps2 } => {
-            format!("gravity is given as {gravity_mps2} m/s²: results are in that unit")
+            format!(
+                "gravity is given as {gravity_mps2} m/s². The results are in the unit that makes this true."
+            )
         }
         Diagnostic::SensorChanged { change: found, coldest_c, hottest_c } => {
             change(found, coldest_c.zip(*hottest_c))
@@ -58,10 +61,10 @@ pub(super) fn message(diagnostic: &Diagnostic) -> Option<String> {
 
 fn of_holds(diagnostic: &Diagnostic) -> Option<String> {
     Some(match diagnostic {
-        Diagnostic::HoldLeftOut { hold, why } => format!("{hold} was left out: {why}"),
+        Diagnostic::HoldLeftOut { hold, why } => format!("{hold} is not used: {why}"),
         Diagnostic::HoldsLeftOutInARow { holds, start_s, end_s } => format!(
-            "the {holds} holds from {start_s:.1} to {end_s:.1} s were left out one after another, which is no chance: the sensor was another one there, or not still; calibrate them apart \
-             (holds.intervals_s) and compare"
+            "the {holds} consecutive holds from {start_s:.1} to {end_s:.1} s are not used. This is not by chance: the sensor changed there, or it was not at rest. \
+             Calibrate these holds separately (holds.intervals_s), and compare."
         ),
         Diagnostic::HoldBeyondRecording {
             hold,
@@ -71,27 +74,27 @@ fn of_holds(diagnostic: &Diagnostic) -> Option<String> {
             recording_end_s,
             common_s,
         } => format!(
-            "hold {hold} is given from {start_s} to {end_s} s, and the recording goes from {recording_start_s} to {recording_end_s} s: only {common_s:.1} s of it count; correct holds.intervals_s"
+            "hold {hold} is given from {start_s} to {end_s} s, but the recording lasts from {recording_start_s} to {recording_end_s} s. Only {common_s:.1} s of the hold count. Correct holds.intervals_s."
         ),
         Diagnostic::HoldsLostToFilter { lost } => lost.to_string(),
         Diagnostic::HoldsSpreadLittle { condition_number, parameters } => format!(
-            "the holds do not spread enough (condition number {condition_number:.0}): {} can hardly be told apart",
+            "the directions of the holds are too similar (condition number {condition_number:.0}). The data hardly separate {}. Add holds in other directions.",
             parameters.join(", ")
         ),
         Diagnostic::HoldsScatter { between_holds_sd_mps2 } => format!(
-            "the holds scatter by {:.0} mm/s² beyond their noise: something moves, drifts, clips or is not gravity",
+            "the holds scatter by {:.0} mm/s² beyond their noise. Look for movement, drift, saturation, or a force other than gravity.",
             1e3 * between_holds_sd_mps2
         ),
         Diagnostic::OrientationMissing { missing } => {
             let missing: Vec<String> = missing.iter().map(pointing).collect();
-            format!("no hold has {}: add one there", missing.join(" or "))
+            format!("no hold has {}. Add one.", missing.join(" or "))
         }
         Diagnostic::NothingToCheck { holds: Some(holds), parameters } => format!(
-            "{holds} holds for {parameters} parameters leave nothing to check the fit with: the standard deviations rest on the noise within the holds \
-             alone and are too small; add holds"
+            "{holds} holds for {parameters} parameters leave no data to check the fit. The standard deviations come from the noise within the holds \
+             alone, and are too small. Add holds."
         ),
         Diagnostic::FewDegreesOfFreedom { degrees_of_freedom } => format!(
-            "only {} than parameters: the standard deviations themselves are known to about {:.0} %",
+            "the recording has only {} than parameters. The standard deviations themselves are uncertain by about {:.0} %. Add holds.",
             match degrees_of_freedom {
                 1 => "one hold more".to_owned(),
                 more => format!("{more} holds more"),
@@ -99,15 +102,14 @@ fn of_holds(diagnostic: &Diagnostic) -> Option<String> {
             100.0 / (2.0 * *degrees_of_freedom as f64).sqrt()
         ),
         Diagnostic::NoiseNotAsGiven { sensor_kind: SensorKind::Accelerometer, axis, ratio } => format!(
-            "the noise of axis {axis} within the holds is {ratio:.2} times the one in the experiment file (not used: the \
-             recording's own is)"
+            "the noise of axis {axis} within the holds is {ratio:.2} times the noise in the experiment file. The noise of the recording is used."
         ),
         Diagnostic::NoiseNotAsGiven { sensor_kind: SensorKind::Gyroscope, axis, ratio } => format!(
-            "the scatter of the gyroscope's axis {axis} within the holds is {ratio:.2} times the noise that was given"
+            "the gyroscope's axis {axis} scatters within the holds by {ratio:.2} times the given noise. Check the noise and its unit."
         ),
         Diagnostic::ParameterImplausible { parameter, deviations } => format!(
-            "{parameter} is {deviations:.0} datasheet standard deviations from its nominal value: check the unit of the recording, gravity, the order and \
-             the direction of the axes"
+            "{parameter} is {deviations:.0} datasheet standard deviations from its nominal value. Check the unit of the recording, gravity, and the order and \
+             direction of the axes."
         ),
         _ => return None,
     })
@@ -118,38 +120,41 @@ fn of_faces(diagnostic: &Diagnostic) -> Option<String> {
         Diagnostic::FacesTurned { faces } => {
             let faces: Vec<String> = faces.iter().map(ToString::to_string).collect();
             format!(
-                "{}: all directions are turned alike; correct them, unless the sensor is mounted so that its axes are not those of the directions, whose frame all results are in",
+                "{}. All directions are rotated in the same way. Correct them, unless the sensor is mounted that way: the results are in the frame of the given directions.",
                 faces.join("; ")
             )
         }
         Diagnostic::FaceBrief { hold, samples } => {
-            format!("{hold} has {samples} samples only: are its times right? A face is held for seconds")
+            format!(
+                "{hold} has only {samples} samples. A face is held for seconds. Check the times of the hold."
+            )
         }
         Diagnostic::FacesScatter { tilt_rad, along_mps2, worst_rad, worst } => {
             let worst: Vec<String> = worst.iter().map(ToString::to_string).collect();
             format!(
-                "the faces scatter by {:.1}° and {along_mps2:.2} m/s² along gravity beyond their noise; by {:.1}° and least of all fits {}: are directions and times of the holds right?",
+                "beyond their noise, the faces scatter by {:.1}° in direction and by {along_mps2:.2} m/s² along gravity. The largest error is {:.1}°, in {}. Check the directions and the times of the holds.",
                 tilt_rad.to_degrees(),
                 worst_rad.to_degrees(),
                 worst.join(", or ")
             )
         }
         Diagnostic::TiltContradicted { shown_rad, given_rad } => {
-            let [by, so] = match shown_rad > given_rad {
-                true => ["by", "the standard deviations are too small"],
-                false => [
+            let (by, remedy) = if shown_rad > given_rad {
+                ("by", "The standard deviations are too small. Correct holds.face_sd_deg.")
+            } else {
+                (
                     "by only",
-                    "the standard deviations are too large; leave the key out, and the scatter of the faces tells it",
-                ],
+                    "The standard deviations are too large. Remove the key: the scatter of the faces then gives the value.",
+                )
             };
             format!(
-                "the faces scatter {by} {:.2}° about each axis, and holds.face_sd_deg says {:.2}°: {so}",
+                "the faces scatter {by} {:.2}° about each axis, but holds.face_sd_deg says {:.2}°. {remedy}",
                 shown_rad.to_degrees(),
                 given_rad.to_degrees()
             )
         }
         Diagnostic::TiltAssumed { faces, tilt_rad } => format!(
-            "{faces} faces are too few to tell how well they were met: {:.1}° about each axis is assumed; add faces, or give holds.face_sd_deg",
+            "{faces} faces are too few to estimate the face alignment. The program assumes {:.1}° about each axis. Add faces, or give holds.face_sd_deg.",
             tilt_rad.to_degrees()
         ),
         _ => return None,
@@ -165,13 +170,13 @@ fn pointing(face: &FacePointing) -> String {
 pub fn coarse_axis(sensor_kind: SensorKind, unit: ReadingUnit, found: &CoarseAxis) -> String {
     let unit = unit.symbol();
     let noise = if found.noise > 0.0 {
-        format!("its noise of about {:.1e} {unit}", found.noise)
+        format!("the noise of about {:.1e} {unit}", found.noise)
     } else {
-        "its noise, which hardly shows".to_owned()
+        "the noise, which hardly shows".to_owned()
     };
     format!(
-        "the readings of axis {} of the {} come in steps of {:.3e} {unit}, coarser than twice {noise}: the mean of a hold is off by about {:.1e} {unit} however \
-         long it is",
+        "the readings of axis {} of the {} come in steps of {:.3e} {unit}, more than twice {noise}. The mean of a hold has an error of about {:.1e} {unit}, however \
+         long the hold is.",
         found.axis,
         sensor_kind.name(),
         found.step,

@@ -1,36 +1,40 @@
-//! A change in words, for whoever has to find its reason.
+//! Sentences about a sensor that changes within a recording.
 
 use calibrant_core::diagnostic::{Change, Changed, Course};
 use calibrant_core::sensor::{Axis, SensorKind};
 use nalgebra::Vector3;
 
-/// A recording that is warmer or colder by this is another one, K.
-const WARMER_K: f64 = 1.0;
+/// Range of temperatures in a recording that can explain a change, K.
+const TEMPERATURE_RANGE_K: f64 = 1.0;
 
-/// What changes, when, by how much, and what to do. `temperature_c`: least and greatest of the recording, where they are known and nothing follows them.
+/// What changes, when, by how much, and what to do.
+///
+/// `temperature_c`: lowest and highest of the recording, °C. `None` where they are unknown, or where the model follows the temperature.
 pub(super) fn change(change: &Change, temperature_c: Option<(f64, f64)>) -> String {
     let reason = match (temperature_c, change.course) {
-        (Some((low, high)), _) if high - low >= WARMER_K => format!(
-            "the temperature goes from {low:.1} to {high:.1} °C, and nothing follows it: set [temperature]; or"
-        ),
-        (_, Course::Drift) => "let the sensor warm up before; or".to_owned(),
+        (Some((low, high)), _) if high - low >= TEMPERATURE_RANGE_K => {
+            format!(
+                "The temperature goes from {low:.1} to {high:.1} °C, and the model ignores it: set [temperature]. Or"
+            )
+        }
+        (_, Course::Drift) => "Let the sensor warm up before the recording. Or".to_owned(),
         (_, Course::Episode { .. }) => {
-            "was it touched, warmed or clamped then, or its supply another?".to_owned()
+            "Was the sensor touched, warmed or clamped then, or did its supply change? Else".to_owned()
         }
         (_, Course::Step { .. }) => format!(
-            "was it knocked, did a mounting slip, did it saturate, was it still warming up{}?",
+            "Was the sensor knocked, did its mounting slip, did it saturate, was it still warming up{}? Else",
             if change.of == Changed::Bias { ", does its bias walk at random" } else { "" }
         ),
     };
-    let apart = match change.course {
-        Course::Drift => "calibrate the first and the second half apart",
-        Course::Episode { .. } => "calibrate without what lies in between",
-        Course::Step { .. } => "calibrate what lies before and after apart",
+    let remedy = match change.course {
+        Course::Drift => "calibrate the first and the second half separately",
+        Course::Episode { .. } => "calibrate without the data in between",
+        Course::Step { .. } => "calibrate the data before and after separately",
     };
     format!(
-        "{}: {}; the estimates are a mean of that, and their standard deviations do not cover it: {reason} {apart} (holds.intervals_s), and compare",
+        "{}: {}. The estimates are a mean over the change, and their standard deviations do not include it. {reason} {remedy} (holds.intervals_s), and compare.",
         headline(change),
-        by_how_much(change)
+        amounts(change)
     )
 }
 
@@ -54,7 +58,8 @@ pub(crate) fn headline(change: &Change) -> String {
     }
 }
 
-fn by_how_much(change: &Change) -> String {
+/// What changes and by how much: `its bias steps by 3.1, −0.2, 0.4 mm/s², up to 12 standard deviations`.
+fn amounts(change: &Change) -> String {
     let what = match change.instead {
         Some(instead) => format!("its {} (or its {})", name(change.of), name(instead)),
         None => format!("its {}", name(change.of)),
@@ -72,24 +77,24 @@ fn by_how_much(change: &Change) -> String {
         (Changed::Axes, _) => (1_f64.to_degrees(), "°"),
     };
     let known: Vec<Axis> = Axis::ALL.into_iter().filter(|axis| change.sd[axis.index()] > 0.0).collect();
-    let amounts = listed(&change.amount, &change.sd, &known, scale);
+    let listed = rounded(&change.amount, &change.sd, &known, scale);
     let on = match known.as_slice() {
         [_, _, _] => String::new(),
         some => format!(" on {}", some.iter().map(Axis::to_string).collect::<Vec<_>>().join(", ")),
     };
-    format!("{what} {moves} {amounts} {unit}{on}, up to {:.0} standard deviations", change.in_sd())
+    format!("{what} {moves} {listed} {unit}{on}, up to {:.0} standard deviations", change.in_sd())
 }
 
-fn name(of: Changed) -> &'static str {
-    match of {
+fn name(changed: Changed) -> &'static str {
+    match changed {
         Changed::Bias => "bias",
         Changed::Gain => "gains",
         Changed::Axes => "axes (against the accelerometer's)",
     }
 }
 
-/// The amounts to the digits that their standard deviations leave.
-fn listed(amount: &Vector3<f64>, sd: &Vector3<f64>, axes: &[Axis], scale: f64) -> String {
+/// The amounts, rounded to the first digit of their standard deviations.
+fn rounded(amount: &Vector3<f64>, sd: &Vector3<f64>, axes: &[Axis], scale: f64) -> String {
     let one = |axis: &Axis| {
         let (amount, sd) = (scale * amount[axis.index()], scale * sd[axis.index()]);
         let decimals = (-sd.log10().floor()).clamp(0.0, 9.0) as usize;

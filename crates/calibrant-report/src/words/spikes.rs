@@ -1,15 +1,16 @@
-//! Spikes that were taken out of a recording, in words.
+//! Sentences about spikes and invalid samples of a recording.
 
 use calibrant_core::sensor::{Axis, ReadingUnit, SensorKind, Spikes};
 
-/// What was taken out of the recording of a sensor, in words.
+/// How many samples of a sensor were replaced or removed, in words.
 #[must_use]
 pub fn spikes_taken_out(found: &Spikes, sensor_kind: SensorKind, unit: ReadingUnit) -> String {
     let counts = (found.samples.len(), found.cut.len());
     spikes(sensor_kind, unit, counts, found.axis, (found.reading, found.time_s, found.deviations))
 }
 
-/// `counts`: of samples that were replaced, and cut out. `farthest`: reading, time in s and deviations of the one that is farthest off.
+/// `counts`: samples that were replaced, and samples that were removed.
+/// The last argument is the sample farthest from its neighbours: reading, time in s, and distance in standard deviations of the noise.
 pub(super) fn spikes(
     sensor_kind: SensorKind,
     unit: ReadingUnit,
@@ -19,37 +20,33 @@ pub(super) fn spikes(
 ) -> String {
     let counted = |count: usize| if count == 1 { "1 sample".into() } else { format!("{count} samples") };
     let what = match counts {
-        (0, 1) => "1 sample cannot be a reading and was cut out".to_owned(),
-        (0, cut) => format!("{} cannot be readings and were cut out", counted(cut)),
+        (0, cut) => invalid(cut, &counted(cut)),
         (spikes, 0) => replaced(spikes, &counted(spikes)),
         (spikes, cut) => {
-            format!(
-                "{}; {} more cannot be readings and were cut out",
-                replaced(spikes, &counted(spikes)),
-                counted(cut)
-            )
+            format!("{}; {}", replaced(spikes, &counted(spikes)), invalid(cut, &format!("{cut} more")))
         }
     };
     let off = if deviations.is_finite() {
         let few = deviations < 1e4;
         let times = if few { format!("{deviations:.0}") } else { format!("{deviations:.1e}") };
-        format!(", {times} standard deviations of the noise off")
+        format!(", {times} standard deviations of the noise from its neighbours")
     } else {
         String::new()
     };
-    // as many digits as the largest of 32 bits
+    // ten digits, as the largest integer of 32 bits has
     let reading: f64 = format!("{reading:.9e}").parse().unwrap_or(reading);
     format!(
-        "{sensor_kind}: {what}; farthest off is {reading:?} {} at {time_s:.3} s on axis {axis}{off}: a loose contact, or a byte lost on the way?",
+        "{sensor_kind}: {what}. The farthest reads {reading:?} {} at {time_s:.3} s on axis {axis}{off}. Look for a loose contact, or for bytes lost on the way.",
         unit.symbol()
     )
 }
 
+fn invalid(count: usize, counted: &str) -> String {
+    let (are, were) = if count == 1 { ("is", "was") } else { ("are", "were") };
+    format!("{counted} {are} invalid and {were} removed")
+}
+
 fn replaced(count: usize, counted: &str) -> String {
-    match count {
-        1 => format!("{counted} far off those beside it was left out, the line between them in its place"),
-        _ => format!(
-            "{counted} far off those beside them were left out, the line between these in the place of each"
-        ),
-    }
+    let (are, were) = if count == 1 { ("is a spike", "was") } else { ("are spikes", "were") };
+    format!("{counted} {are} and {were} replaced by the line between the neighbours")
 }

@@ -1,6 +1,6 @@
-//! Numbers and times as diagnostics of noise state them.
+//! Numbers and times in sentences about noise.
 
-/// A time as people say it: `0.32 s`, `17 s`, `4.2 min`, `1.5 h`.
+/// A time in a handy unit, with two digits: `0.32 s`, `17 s`, `4.2 min`, `1.5 h`.
 pub(super) fn short_time(seconds: f64) -> String {
     match seconds {
         s if s < 120.0 => format!("{} s", two_digits(s)),

@@ -16,8 +16,3 @@ pub(crate) fn with_holds(setup: &HoldsSetup, recording: &ImuRecording) -> HoldsS
     };
     HoldsSetup { found, ..setup.clone() }
 }
-
-/// The setup of another recording of the sensor: intervals that are given are those of the first.
-pub(crate) fn with_holds_of_other(setup: &HoldsSetup, other: &ImuRecording) -> HoldsSetup {
-    with_holds(&HoldsSetup { intervals_s: None, found: None, ..setup.clone() }, other)
-}

@@ -2,7 +2,7 @@
 //!
 //! | stage | what it does | where |
 //! |---|---|---|
-//! | read | reads the files of a [`Source`] | `recorded`, `read_imu` |
+//! | read | reads the files of a [`Source`] | `reader`, `recorded` |
 //! | clean | takes spikes and invalid readings out | `clean` |
 //! | holds | finds the stationary intervals | `holds` |
 //! | noise | examines the longest hold of an IMU | `noise` |
@@ -10,13 +10,13 @@
 //! | validate | tries the calibration on data that it is not from | `validation` |
 //! | report | writes `calibration.json` and `report.html` | `outcome`, `report` |
 //!
-//! Each stage runs once and hands its result on. The stages in their order are in `accelerometer` and `imu`.
+//! Each stage runs once and hands its result on. The stages in their order are in `task`.
 //!
 //! # Examples
 //! A simulated accelerometer that is held still in 24 orientations:
 //! ```
 //! use calibrant::io::{Experiment, preset, write_recording};
-//! use calibrant::pipeline::{Pipeline, PipelineOptions, SensorCalibration, Source};
+//! use calibrant::pipeline::{Pipeline, PipelineOptions, Source};
 //! use calibrant::sensor::{ReadingUnit, SensorParameters};
 //! use calibrant::simulate::{HoldsSimulation, Purpose, simulate_holds, stream};
 //! use nalgebra::Vector3;
@@ -34,33 +34,35 @@
 //! let outcome = pipeline.run(&Source::from_file(&file))?;
 //! outcome.write(directory.path())?;
 //!
-//! let SensorCalibration::Accelerometer(calibration) = &outcome.calibration else { panic!("no gyroscope") };
-//! assert!(calibration.sensor.bias.norm() < 0.01);
+//! assert!(outcome.calibration.imu.accelerometer.bias.norm() < 0.01);
 //! assert!(directory.path().join("report.html").exists());
 //! # Ok::<(), calibrant::Error>(())
 //! ```
 
-mod accelerometer;
 mod clean;
 mod duplicates;
 mod holds;
-mod imu;
+mod kind;
 mod noise;
 mod note;
 mod options;
 mod outcome;
+mod problem;
 mod read_imu;
+mod reader;
 mod recorded;
 mod report;
 mod run;
 mod sections;
+mod setup;
 mod source;
+mod task;
 mod temperature;
 mod validation;
 
 pub use note::Note;
 pub use options::PipelineOptions;
-pub use outcome::{Outcome, SensorCalibration};
+pub use outcome::Outcome;
 pub use run::Pipeline;
 pub use source::Source;
 pub use temperature::extrapolation_in_words;

@@ -1,7 +1,7 @@
 //! The noise of an IMU in its longest hold: the noise of a sample where the experiment does not say it, and a section of the report.
 
 use calibrant_core::error::Result;
-use calibrant_core::estimate::{HoldsSetup, ImuCalibration, WhiteNoise, WhiteNoiseSearch};
+use calibrant_core::estimate::{Calibration, HoldsSetup, WhiteNoise, WhiteNoiseSearch};
 use calibrant_core::motion::Hold;
 use calibrant_core::noise::{Moments, Segment, SensorNoise};
 use calibrant_core::sensor::{ImuRecording, Recording, SensorKind};
@@ -51,7 +51,7 @@ impl NoiseInHold {
     /// The noise of both sensors in m/s² and rad/s.
     pub(crate) fn physical(
         self,
-        calibration: &ImuCalibration,
+        calibration: &Calibration,
         recording: &ImuRecording,
     ) -> Result<Vec<SensorNoise>> {
         let sensors: Vec<SensorNoise> = self.accelerometer.into_iter().chain(self.gyroscope).collect();
@@ -106,11 +106,7 @@ fn long_segment(recording: &Recording, hold: &Hold) -> Option<Segment> {
 }
 
 /// The noise of a sensor in m/s² or rad/s.
-fn physical(
-    noise: SensorNoise,
-    calibration: &ImuCalibration,
-    recording: &ImuRecording,
-) -> Result<SensorNoise> {
+fn physical(noise: SensorNoise, calibration: &Calibration, recording: &ImuRecording) -> Result<SensorNoise> {
     let matrix = calibration.imu.sensor(noise.sensor_kind).matrix;
     let gain = Vector3::from_fn(|axis, _| matrix.row(axis).norm());
     match recording.sensor(noise.sensor_kind) {

@@ -3,30 +3,18 @@
 use super::note::Note;
 use calibrant_core::diagnostic::{Code, Diagnostic};
 use calibrant_core::error::Result;
-use calibrant_core::estimate::{Calibration, CalibrationStatus, ImuCalibration, Validation};
+use calibrant_core::estimate::{Calibration, CalibrationStatus, Validation};
 use calibrant_core::noise::SensorNoise;
 use calibrant_core::sensor::ImuRecording;
-use calibrant_io::{
-    DiagnosticWords, Input, Summary, calibration_json, imu_calibration_json, write_atomically,
-    write_calibration, write_imu_calibration,
-};
-use calibrant_report::{About, calibration_report, imu_calibration_report, message};
+use calibrant_io::{DiagnosticWords, Input, Summary, calibration_json, write_atomically, write_calibration};
+use calibrant_report::{About, calibration_report, message};
 use std::path::Path;
-
-/// A calibration of an accelerometer alone, or of an IMU.
-#[derive(Debug, Clone)]
-pub enum SensorCalibration {
-    /// Of an accelerometer.
-    Accelerometer(Box<Calibration>),
-    /// Of an IMU.
-    Imu(Box<ImuCalibration>),
-}
 
 /// A calibration with everything that stands beside it.
 #[derive(Debug, Clone)]
 pub struct Outcome {
     /// The calibration.
-    pub calibration: SensorCalibration,
+    pub calibration: Calibration,
     /// How it fares on data that it is not from, where the options ask for it.
     pub validations: Vec<Validation>,
     /// The noise of an IMU in its longest hold, in m/s² and rad/s, as the report shows it. Empty without a report.
@@ -47,41 +35,25 @@ impl Outcome {
     /// How the estimation ended.
     #[must_use]
     pub fn status(&self) -> CalibrationStatus {
-        match &self.calibration {
-            SensorCalibration::Accelerometer(calibration) => calibration.status,
-            SensorCalibration::Imu(calibration) => calibration.status,
-        }
+        self.calibration.status
     }
 
     /// The warnings of the calibration.
     #[must_use]
     pub fn warnings(&self) -> &[Diagnostic] {
-        match &self.calibration {
-            SensorCalibration::Accelerometer(calibration) => &calibration.warnings,
-            SensorCalibration::Imu(calibration) => &calibration.warnings,
-        }
+        &self.calibration.warnings
     }
 
     /// A line for a table of many calibrations.
     #[must_use]
     pub fn summary(&self) -> Summary {
-        match &self.calibration {
-            SensorCalibration::Accelerometer(calibration) => Summary::of(calibration),
-            SensorCalibration::Imu(calibration) => Summary::of_imu(calibration),
-        }
+        Summary::of(&self.calibration)
     }
 
     /// The text of `calibration.json`.
     #[must_use]
     pub fn json(&self) -> String {
-        match &self.calibration {
-            SensorCalibration::Accelerometer(calibration) => {
-                calibration_json(calibration, &self.validations, &self.inputs[0], &self.words())
-            }
-            SensorCalibration::Imu(calibration) => {
-                imu_calibration_json(calibration, &self.validations, &self.inputs, &self.words())
-            }
-        }
+        calibration_json(&self.calibration, &self.validations, &self.inputs, &self.words())
     }
 
     /// Writes `calibration.json` into this directory, then `report.html` where the options ask for one. Each file is whole or absent.
@@ -106,26 +78,12 @@ impl Outcome {
 
     fn write_json(&self, directory: &Path) -> Result<()> {
         let path = directory.join("calibration.json");
-        match &self.calibration {
-            SensorCalibration::Accelerometer(calibration) => {
-                write_calibration(&path, calibration, &self.validations, &self.inputs[0], &self.words())
-            }
-            SensorCalibration::Imu(calibration) => {
-                write_imu_calibration(&path, calibration, &self.validations, &self.inputs, &self.words())
-            }
-        }
+        write_calibration(&path, &self.calibration, &self.validations, &self.inputs, &self.words())
     }
 
     /// The text of `report.html`, where one is written.
     fn report_html(&self) -> Option<String> {
         let about = self.about.as_ref()?;
-        match &self.calibration {
-            SensorCalibration::Accelerometer(calibration) => {
-                Some(calibration_report(calibration, self.recording.accelerometer.as_ref()?, about))
-            }
-            SensorCalibration::Imu(calibration) => {
-                Some(imu_calibration_report(calibration, &self.recording, &self.noise, about))
-            }
-        }
+        Some(calibration_report(&self.calibration, &self.recording, &self.noise, about))
     }
 }

@@ -29,11 +29,7 @@ impl Recorded {
     ) -> Result<Self> {
         let file = read_accelerometer(&source.recording, options, device)?;
         Ok(Self {
-            recording: ImuRecording {
-                accelerometer: Some(file.recording),
-                gyroscope: None,
-                temperature_c: None,
-            },
+            recording: file.recording.into(),
             format: None,
             findings: file.findings,
             sha256: vec![file.sha256],

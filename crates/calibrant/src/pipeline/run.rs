@@ -1,11 +1,10 @@
 //! The pipeline, whatever the sensor.
 
-use super::accelerometer::AccelerometerTask;
-use super::imu::ImuTask;
 use super::note::Note;
 use super::options::PipelineOptions;
 use super::outcome::Outcome;
 use super::source::Source;
+use super::task::Task;
 use calibrant_core::error::Result;
 use calibrant_io::Experiment;
 
@@ -16,12 +15,6 @@ pub struct Pipeline<'e> {
     notes: Vec<Note>,
 }
 
-/// What is calibrated.
-enum Task<'e> {
-    Accelerometer(AccelerometerTask<'e>),
-    Imu(ImuTask<'e>),
-}
-
 impl<'e> Pipeline<'e> {
     /// Prepares what all recordings share. It reads the commanded motion of a `[motion]` experiment.
     ///
@@ -29,10 +22,7 @@ impl<'e> Pipeline<'e> {
     /// [`Error::Experiment`](crate::Error::Experiment) where the commanded motion is missing or makes no sense, or where an IMU has no `[holds]`.
     pub fn from_experiment(experiment: &'e Experiment, options: PipelineOptions) -> Result<Self> {
         let mut notes = Vec::new();
-        let task = match &experiment.imu {
-            Some(plan) => Task::Imu(ImuTask::new(experiment, plan, &options)?),
-            None => Task::Accelerometer(AccelerometerTask::new(experiment, &options, &mut notes)?),
-        };
+        let task = Task::new(experiment, &options, &mut notes)?;
         Ok(Self { task, options, notes })
     }
 
@@ -59,9 +49,6 @@ impl<'e> Pipeline<'e> {
     /// [`Error::NotIdentifiable`](crate::Error::NotIdentifiable) names the parameters that it cannot determine;
     /// [`Error::Experiment`](crate::Error::Experiment) where it contradicts the experiment, or where the validation is on the data that were calibrated from.
     pub fn run_noting(&self, source: &Source, notes: &mut Vec<Note>) -> Result<Outcome> {
-        match &self.task {
-            Task::Accelerometer(task) => task.run(source, &self.options, notes),
-            Task::Imu(task) => task.run(source, &self.options, notes),
-        }
+        self.task.run(source, &self.options, notes)
     }
 }

@@ -1,5 +1,6 @@
 //! Where a recording lies.
 
+use calibrant_core::sensor::SensorKind;
 use calibrant_io::file_name;
 use std::path::{Path, PathBuf};
 
@@ -24,6 +25,14 @@ impl Source {
     /// Its files of readings, in the order of the sensors.
     pub(crate) fn files(&self) -> impl Iterator<Item = &Path> {
         std::iter::once(self.recording.as_path()).chain(self.gyroscope.as_deref())
+    }
+
+    /// Its file of readings of a sensor.
+    pub(crate) fn file_of(&self, sensor_kind: SensorKind) -> &Path {
+        match (sensor_kind, &self.gyroscope) {
+            (SensorKind::Gyroscope, Some(gyroscope)) => gyroscope,
+            _ => &self.recording,
+        }
     }
 
     /// The name of the file that something was found in: the gyroscope's, or the other.

@@ -3,13 +3,13 @@
 use crate::common::draw_imu;
 use crate::common::messages;
 use calibrant::estimate::{
-    CalibrationSettings, Gyroscope, ImuCalibration, ImuProblem, ImuSetup, Turn, calibrate_imu,
+    Calibration, CalibrationSettings, Gyroscope, ImuProblem, ImuSetup, Turn, calibrate_imu,
 };
 use calibrant::sensor::{ImuParameters, ImuRecording, Sensor, SensorModel};
 use calibrant::simulate::{ImuSimulation, Purpose, TableAction, TableStep, simulate_table, stream};
 use nalgebra::Vector3;
 
-fn run(recording: &ImuRecording, setup: &ImuSetup) -> calibrant::Result<ImuCalibration> {
+fn run(recording: &ImuRecording, setup: &ImuSetup) -> calibrant::Result<Calibration> {
     let accelerometer = Sensor::triaxial(SensorModel::Full);
     let gyroscope = Gyroscope::default();
     let problem = ImuProblem { accelerometer: &accelerometer, gyroscope: &gyroscope, recording, setup };
@@ -71,7 +71,7 @@ fn a_given_hold_in_which_the_sensor_turns_about_the_vertical_is_named_and_tells_
             "{}",
             message[0]
         );
-        assert!(message[0].contains("correct holds.intervals_s"), "{}", message[0]);
+        assert!(message[0].contains("Correct holds.intervals_s"), "{}", message[0]);
         let off = (calibration.imu.gyroscope.bias - truth.gyroscope.bias).amax();
         assert!(off < 1e-3, "{rate}: the bias is off by {off}");
         let bias_sd = calibration.sd()[12];
@@ -86,8 +86,8 @@ fn a_hold_that_reaches_beyond_the_recording_is_named() {
     let intervals = setup.holds.intervals_s.as_mut().expect("given");
     intervals[5].1 = 7600.0;
     let calibration = run(&recording, &setup).expect("determined");
-    let is_stated = |calibration: &ImuCalibration| {
-        let message = "hold 6 is given from 58 to 7600 s, and the recording goes from -1 to 64 s: only 6.0 s of it count";
+    let is_stated = |calibration: &Calibration| {
+        let message = "hold 6 is given from 58 to 7600 s, but the recording lasts from -1 to 64 s. Only 6.0 s of the hold count";
         messages(&calibration.warnings).iter().filter(|warning| warning.contains(message)).count()
     };
     assert_eq!((is_stated(&within), is_stated(&calibration)), (0, 1), "{:?}", calibration.warnings);
@@ -108,9 +108,11 @@ fn a_turn_that_is_given_twice_is_refused() {
 #[test]
 fn faces_that_are_all_turned_alike_are_named() {
     let (_, recording, mut setup) = table();
-    let named = |calibration: &ImuCalibration| {
+    let named = |calibration: &Calibration| {
         let warnings = messages(&calibration.warnings).into_iter();
-        warnings.filter(|warning| warning.contains("all directions are turned alike")).collect::<Vec<_>>()
+        warnings
+            .filter(|warning| warning.contains("All directions are rotated in the same way"))
+            .collect::<Vec<_>>()
     };
     assert!(named(&run(&recording, &setup).expect("determined")).is_empty());
     for direction in setup.directions.as_mut().expect("given") {

@@ -4,7 +4,7 @@
 use crate::common::draw_imu;
 use crate::common::messages;
 use calibrant::estimate::{
-    CalibrationSettings, CovarianceVerdict, ErrorKind, Gyroscope, HoldsSetup, ImuCalibration, ImuProblem,
+    Calibration, CalibrationSettings, CovarianceVerdict, ErrorKind, Gyroscope, HoldsSetup, ImuProblem,
     ImuSetup, KnownTerm, Turn, calibrate_imu, cross_validate_imu,
 };
 use calibrant::motion::{EARTH_RATE_RADPS, earth_rate};
@@ -43,7 +43,7 @@ impl Bench {
         ImuProblem { accelerometer, gyroscope, recording, setup }
     }
 
-    fn calibrate(&self, recording: &ImuRecording) -> ImuCalibration {
+    fn calibrate(&self, recording: &ImuRecording) -> Calibration {
         calibrate_imu(&self.problem(recording), &CalibrationSettings::default()).expect("determined")
     }
 }
@@ -77,7 +77,7 @@ fn quiet_world(latitude_deg: f64) -> ImuSimulation {
     ImuSimulation { earth_rate_radps: earth_rate(latitude_deg), ..quiet(latitude_deg) }
 }
 
-fn g_sensitivity(calibration: &ImuCalibration) -> Vec<usize> {
+fn g_sensitivity(calibration: &Calibration) -> Vec<usize> {
     let is = |k: &usize| matches!(calibration.quantities[*k], ImuQuantity::GSensitivity(..));
     (0..calibration.quantities.len()).filter(is).collect()
 }
@@ -174,17 +174,17 @@ fn the_vertical_rate_is_in_the_model_and_without_a_latitude_it_is_the_g_sensitiv
         let mut rng = stream(92, Purpose::Sensor, 0);
         let truth = draw_imu(&mut rng);
         let recording = simulate_imu(&truth, &quiet_world(latitude_deg), &mut rng);
-        let off = |calibration: &ImuCalibration| calibration.imu.g_sensitivity - truth.g_sensitivity;
-        let bias = |calibration: &ImuCalibration| calibration.imu.gyroscope.bias - truth.gyroscope.bias;
+        let off = |calibration: &Calibration| calibration.imu.g_sensitivity - truth.g_sensitivity;
+        let bias = |calibration: &Calibration| calibration.imu.gyroscope.bias - truth.gyroscope.bias;
         // the rotations leave an error of the integration of a linear rate
         let close =
-            |calibration: &ImuCalibration| off(calibration).amax() < 2e-9 && bias(calibration).amax() < 2e-8;
+            |calibration: &Calibration| off(calibration).amax() < 2e-9 && bias(calibration).amax() < 2e-8;
         let mut bench = Bench::new(true, Some(latitude_deg));
         let calibration = bench.calibrate(&recording);
         assert!(close(&calibration), "{} {}", off(&calibration), bias(&calibration));
         // the rate about the north remains
         let north = earth_rate(latitude_deg).x.abs();
-        let rms = calibration.still.rate_rms_radps;
+        let rms = calibration.gyroscope.as_ref().expect("an IMU").still.rate_rms_radps;
         assert!((rms - north).abs() < 1e-8, "{rms:e} {north:e}");
         // priors and fixed terms are of the g-sensitivity alone
         for sd in [Some(1e-9), None] {
@@ -221,10 +221,12 @@ fn without_g_sensitivity_the_holds_tell_the_vertical_rate() {
     let truth = ImuParameters { g_sensitivity: Matrix3::zeros(), ..draw_imu(&mut rng) };
     let recording = simulate_imu(&truth, &quiet_world(-70.0), &mut rng);
     let [known, unknown] = [Some(-70.0), None].map(|at| Bench::new(false, at).calibrate(&recording));
-    let bias = |calibration: &ImuCalibration| (calibration.imu.gyroscope.bias - truth.gyroscope.bias).amax();
+    let bias = |calibration: &Calibration| (calibration.imu.gyroscope.bias - truth.gyroscope.bias).amax();
     assert!(bias(&known) < 2e-8 && bias(&unknown) < 2e-8, "{:e} {:e}", bias(&known), bias(&unknown));
     // what is not given counts as scatter in another recording
-    let scatter = |calibration: &ImuCalibration| calibration.still.between_holds_sd.norm();
+    let scatter = |calibration: &Calibration| {
+        calibration.gyroscope.as_ref().expect("an IMU").still.between_holds_sd.norm()
+    };
     let rate = earth_rate(-70.0);
     let (known, unknown) = (scatter(&known) / rate.x.abs(), scatter(&unknown) / rate.norm());
     assert!((known - 1.0).abs() < 0.02 && (unknown - 1.0).abs() < 0.02, "{known} {unknown}");
@@ -242,7 +244,7 @@ fn where_a_rotation_cannot_be_followed_another_heading_begins() {
     gyroscope.times_s = kept.iter().map(|&k| gyroscope.times_s[k]).collect();
     gyroscope.readings = kept.iter().map(|&k| gyroscope.readings[k]).collect();
     let calibration = Bench::new(true, Some(34.0)).calibrate(&recording);
-    assert_eq!(calibration.rotations.iter().filter(|rotation| !rotation.used).count(), 3);
+    assert_eq!(calibration.rotations().iter().filter(|rotation| !rotation.used).count(), 3);
     let off = (calibration.imu.g_sensitivity - truth.g_sensitivity).amax();
     let bias = (calibration.imu.gyroscope.bias - truth.gyroscope.bias).amax();
     assert!(off < 2e-9 && bias < 2e-8, "{off:e} {bias:e}");

@@ -47,9 +47,9 @@ fn known_motion_equals_ordinary_least_squares() {
             let normal = x.tr_mul(&x).try_inverse().expect("regular");
             let ols = x.clone().svd(true, true).solve(&y, 0.0).expect("solved");
             let sigma = 2e-4;
-            assert!((ols[0] - calibration.sensor.bias[axis]).abs() < 1e-12);
+            assert!((ols[0] - calibration.imu.accelerometer.bias[axis]).abs() < 1e-12);
             for (c, &column) in columns.iter().enumerate() {
-                let difference = ols[1 + c] - calibration.sensor.matrix[(axis, column)];
+                let difference = ols[1 + c] - calibration.imu.accelerometer.matrix[(axis, column)];
                 assert!(difference.abs() < 1e-12, "{model:?} {axis}{column}: {difference}");
             }
             let sd = calibration.sd()[axis];
@@ -181,15 +181,15 @@ fn a_still_axis_is_named() {
         (
             SensorModel::ScaleBias,
             Trust::Known,
-            "bias.y and scale.y cannot be told apart: axis y does not move",
+            "bias.y and scale.y cannot be separated: axis y does not move",
         ),
         (
             SensorModel::ScaleBias,
             Trust::Noisy(InputNoise { floor_mps3: 0.01, ratio: 0.01 }),
-            "bias.y and scale.y cannot be told apart: axis y does not move",
+            "bias.y and scale.y cannot be separated: axis y does not move",
         ),
         (SensorModel::ScaleBias, Trust::Unknown, "axis y has the same acceleration, 2 m/s², at both ends"),
-        (SensorModel::Full, Trust::Known, "bias.z and matrix.zy cannot be told apart: axis y does not move"),
+        (SensorModel::Full, Trust::Known, "bias.z and matrix.zy cannot be separated: axis y does not move"),
         (SensorModel::Full, Trust::Unknown, "only the two known ends speak of the sensor"),
     ] {
         let case = Case::with_motion(model, trust, motion.clone(), 10.0, 1);

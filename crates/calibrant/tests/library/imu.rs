@@ -1,7 +1,7 @@
 //! Tests of a whole IMU: against other programs on real recordings, and against the truth on simulated ones.
 
 use crate::common::{draw_feeling_imu, run_imu};
-use calibrant::estimate::{CalibrationStatus, Gyroscope, HoldsSetup, ImuCalibration, ImuSetup, Turn};
+use calibrant::estimate::{Calibration, CalibrationStatus, Gyroscope, HoldsSetup, ImuSetup, Turn};
 use calibrant::io::{ImuReadOptions, ImuUnit, SectionKind, read_imu_recording, read_sections};
 use calibrant::motion::earth_rate;
 use calibrant::sensor::ReadingUnit;
@@ -9,7 +9,7 @@ use calibrant::simulate::{ImuSimulation, Purpose, simulate_imu, stream};
 use nalgebra::Matrix3;
 use rayon::prelude::*;
 
-fn xsens(g_sensitivity: bool) -> Option<ImuCalibration> {
+fn xsens(g_sensitivity: bool) -> Option<Calibration> {
     let (recording, gravity) = crate::common::xsens()?;
     let unit = ReadingUnit::Counts;
     let setup = ImuSetup { holds: HoldsSetup { gravity, ..HoldsSetup::default() }, ..ImuSetup::default() };
@@ -23,7 +23,7 @@ fn xsens_mti_agrees_with_imu_tk_and_leaves_less_error_after_each_rotation() {
     for g_sensitivity in [false, true] {
         let Some(calibration) = xsens(g_sensitivity) else { return };
         assert_eq!(calibration.status, CalibrationStatus::Converged);
-        assert_eq!(calibration.rotations.len(), 37);
+        assert_eq!(calibration.rotations().len(), 37);
         let correction = calibration.imu.gyroscope.matrix.try_inverse().expect("regular");
         for (axis, gain) in [4777.956, 4764.207, 4773.657].into_iter().enumerate() {
             let own = 1.0 / correction[(axis, axis)];
@@ -103,7 +103,7 @@ fn a_ferraris_session_agrees_with_imucal() {
         let place = calibration.quantities.iter().position(|quantity| quantity.name() == name).expect(name);
         calibration.sd()[place]
     };
-    let tilt = calibration.holds.tilt.expect("faces");
+    let tilt = calibration.holds().expect("held").tilt.expect("faces");
     let imu = &calibration.imu;
     for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
         let gain = imu.accelerometer.matrix.row(axis).norm();
@@ -121,7 +121,7 @@ fn a_ferraris_session_agrees_with_imucal() {
         assert!((bias - theirs).abs() < 2.0 * bias_sd, "b_a {name}: {bias} beside {theirs}, sd {bias_sd}");
         // both take the middle of two faces. A tilt leaks into the reading across them through the cross-axis
         // terms. There calibrant corrects it
-        let faces = &calibration.holds.holds[2 * axis..2 * axis + 2];
+        let faces = &calibration.hold_results()[2 * axis..2 * axis + 2];
         let middle = 0.5 * (faces[0].hold.mean + faces[1].hold.mean);
         assert!((middle[axis] - theirs).abs() < 1e-8, "b_a {name}: {} beside {theirs}", middle[axis]);
         let left =

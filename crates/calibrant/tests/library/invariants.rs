@@ -59,9 +59,9 @@ proptest! {
         let sd = one.sd();
         for axis in 0..3 {
             let from = (axis + 1) % 3;
-            prop_assert!((one.sensor.bias[from] - other.sensor.bias[axis]).abs() < 1e-5 * sd[from]);
+            prop_assert!((one.imu.accelerometer.bias[from] - other.imu.accelerometer.bias[axis]).abs() < 1e-5 * sd[from]);
             for column in 0..3 {
-                let difference = one.sensor.matrix[(from, (column + 1) % 3)] - other.sensor.matrix[(axis, column)];
+                let difference = one.imu.accelerometer.matrix[(from, (column + 1) % 3)] - other.imu.accelerometer.matrix[(axis, column)];
                 prop_assert!(difference.abs() < 1e-5 * sd[3 + from].max(1e-12), "{difference}");
             }
         }

@@ -3,8 +3,8 @@
 use crate::common::draw_imu;
 use crate::common::messages;
 use calibrant::estimate::{
-    CalibrationSettings, CalibrationStatus, Gyroscope, ImuCalibration, ImuProblem, ImuSetup, TiltSource,
-    Turn, calibrate_imu,
+    Calibration, CalibrationSettings, CalibrationStatus, Gyroscope, ImuProblem, ImuSetup, TiltSource, Turn,
+    calibrate_imu,
 };
 use calibrant::sensor::{
     ImuParameters, ImuQuantity, ImuRecording, Quantity, Sensor, SensorKind, SensorModel,
@@ -13,7 +13,7 @@ use calibrant::simulate::{ImuSimulation, Purpose, TableAction, TableStep, simula
 use nalgebra::{Matrix3, Vector3};
 use rayon::prelude::*;
 
-fn run(recording: &ImuRecording, setup: &ImuSetup) -> calibrant::Result<ImuCalibration> {
+fn run(recording: &ImuRecording, setup: &ImuSetup) -> calibrant::Result<Calibration> {
     let accelerometer = Sensor::triaxial(SensorModel::Full);
     let gyroscope = Gyroscope { g_sensitivity: true, ..Gyroscope::default() };
     let problem = ImuProblem { accelerometer: &accelerometer, gyroscope: &gyroscope, recording, setup };
@@ -226,13 +226,13 @@ fn how_well_the_faces_were_met_is_given_or_told_by_their_scatter_or_assumed() {
         run(&simulate_table(&truth, &steps, &simulation, &mut rng), &setup).expect("determined")
     };
     let many: Vec<Vector3<f64>> = std::iter::repeat_with(six).take(8).flatten().collect();
-    let found = tilted(&many, 0.4, None).holds.tilt.expect("faces");
+    let found = tilted(&many, 0.4, None).holds().expect("held").tilt.expect("faces");
     assert_eq!((found.source, found.degrees_of_freedom), (TiltSource::Recording, 3 * 48 - 12 - 42));
     // of 90 degrees of freedom: 7.5 % is a standard deviation
     assert!((found.sd_rad.to_degrees() / 0.4 - 1.0).abs() < 0.25, "{}", found.sd_rad.to_degrees());
     let six = six();
     let calibration = tilted(&six, 0.4, Some(0.3));
-    let given = calibration.holds.tilt.expect("faces");
+    let given = calibration.holds().expect("held").tilt.expect("faces");
     assert_eq!((given.source, given.degrees_of_freedom), (TiltSource::Given, 0));
     assert_eq!(given.sd_rad, 0.3_f64.to_radians());
     assert!(calibration.warnings.is_empty(), "{:?}", calibration.warnings);
@@ -261,9 +261,9 @@ fn how_well_the_faces_were_met_is_given_or_told_by_their_scatter_or_assumed() {
     let by = large.imu.accelerometer.matrix / free.imu.accelerometer.matrix[(0, 0)];
     assert!((by[(0, 0)] - 1.0).abs() < 1e-6, "{by}");
     let few = tilted(&[six[0], six[2], six[4], six[5]], 0.4, None);
-    let assumed = few.holds.tilt.expect("faces");
+    let assumed = few.holds().expect("held").tilt.expect("faces");
     assert_eq!((assumed.source, assumed.sd_rad), (TiltSource::Assumed, 0.5_f64.to_radians()));
     assert!(
-        messages(&few.warnings).join("; ").contains("4 faces are too few to tell how well they were met")
+        messages(&few.warnings).join("; ").contains("4 faces are too few to estimate the face alignment")
     );
 }

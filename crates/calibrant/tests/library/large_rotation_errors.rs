@@ -2,9 +2,7 @@
 //! found is small again.
 
 use crate::common::messages;
-use calibrant::estimate::{
-    CalibrationSettings, Gyroscope, ImuCalibration, ImuProblem, ImuSetup, calibrate_imu,
-};
+use calibrant::estimate::{Calibration, CalibrationSettings, Gyroscope, ImuProblem, ImuSetup, calibrate_imu};
 use calibrant::sensor::{ImuParameters, ImuRecording, Sensor, SensorModel};
 use calibrant::simulate::{
     ImuSimulation, Purpose, TableAction, TableStep, simulate_imu, simulate_table, stream,
@@ -12,7 +10,7 @@ use calibrant::simulate::{
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::PI;
 
-fn calibrate(recording: &ImuRecording, model: SensorModel) -> ImuCalibration {
+fn calibrate(recording: &ImuRecording, model: SensorModel) -> Calibration {
     let (accelerometer, gyroscope) = (Sensor::triaxial(model), Gyroscope::default());
     let problem = ImuProblem {
         accelerometer: &accelerometer,
@@ -37,10 +35,10 @@ fn a_rotation_that_ends_upside_down_is_left_out_with_its_angle() {
     let setup = ImuSimulation::default();
     let clean = simulate_imu(&imu(), &setup, &mut stream(1, Purpose::Sensor, 0));
     let calibration = calibrate(&clean, SensorModel::Full);
-    assert!(calibration.rotations.iter().all(|rotation| rotation.used));
+    assert!(calibration.rotations().iter().all(|rotation| rotation.used));
     for angle in [2.0, 2.5, PI] {
         let mut recording = clean.clone();
-        let hold = calibration.holds.holds[7].hold.clone();
+        let hold = calibration.hold_results()[7].hold.clone();
         let gyroscope = recording.gyroscope.as_mut().expect("there");
         // just before the hold that was found; across gravity; for a tenth of a second, as one sample is a
         // spike
@@ -51,14 +49,14 @@ fn a_rotation_that_ends_upside_down_is_left_out_with_its_angle() {
         }
         let found = calibrate(&recording, SensorModel::Full);
         let rotation = found
-            .rotations
+            .rotations()
             .iter()
             .find(|rotation| (rotation.start_s..rotation.end_s).contains(&gyroscope_time(&recording, at)))
             .expect("there");
         assert!(!rotation.used, "{angle}: {rotation:?}");
         let missed = rotation.error_rad;
         assert!((missed - angle).abs() < 0.03, "{angle}: missed by {missed}");
-        assert_eq!(found.rotations.iter().filter(|rotation| !rotation.used).count(), 1);
+        assert_eq!(found.rotations().iter().filter(|rotation| !rotation.used).count(), 1);
         let (one, other) = (found.imu.gyroscope.matrix, calibration.imu.gyroscope.matrix);
         assert!((one - other).amax() < 3e-4, "{angle}: {}", one - other);
     }
@@ -106,5 +104,5 @@ fn an_axis_that_points_the_other_way_is_found_where_all_turns_about_it_are_right
         "{one} {other}"
     );
     assert!(messages(&turned.warnings).iter().any(|warning| warning.contains("-x")), "{:?}", turned.warnings);
-    assert!(turned.rotations.iter().all(|rotation| rotation.used));
+    assert!(turned.rotations().iter().all(|rotation| rotation.used));
 }

@@ -19,6 +19,7 @@ mod large_rotation_errors;
 mod mounting;
 mod noise;
 mod pipeline;
+mod priors;
 mod quantisation;
 mod saturation;
 mod sensor_change;

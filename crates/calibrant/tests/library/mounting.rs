@@ -2,12 +2,12 @@
 
 use crate::common::messages;
 use crate::common::{draw_imu, normal, run_imu};
-use calibrant::estimate::{Gyroscope, ImuCalibration, ImuSetup};
+use calibrant::estimate::{Calibration, Gyroscope, ImuSetup};
 use calibrant::sensor::{ImuParameters, ImuRecording, ReadingUnit};
 use calibrant::simulate::{ImuSimulation, Purpose, simulate_imu, stream};
 use nalgebra::{Matrix3, Rotation3, Unit, UnitQuaternion, Vector4};
 
-fn run(recording: &ImuRecording, unit: ReadingUnit) -> calibrant::Result<ImuCalibration> {
+fn run(recording: &ImuRecording, unit: ReadingUnit) -> calibrant::Result<Calibration> {
     let gyroscope = Gyroscope { unit, ..Gyroscope::default() };
     run_imu(recording, &gyroscope, &ImuSetup::default(), ReadingUnit::MetrePerSecondSquared)
 }
@@ -43,8 +43,8 @@ fn every_attitude_is_found() {
         let calibration = run(&recording, unit).unwrap_or_else(|error| panic!("{number}: {error}"));
         let error = (calibration.imu.gyroscope.matrix / gain - truth.gyroscope.matrix).amax();
         assert!(error < 5e-3, "{number}: {error}");
-        let used = calibration.rotations.iter().filter(|rotation| rotation.used).count();
-        assert!(used + 1 >= calibration.rotations.len(), "{number}: {used} rotations used");
+        let used = calibration.rotations().iter().filter(|rotation| rotation.used).count();
+        assert!(used + 1 >= calibration.rotations().len(), "{number}: {used} rotations used");
     }
 }
 
@@ -52,7 +52,8 @@ fn every_attitude_is_found() {
 fn the_angle_and_the_axis_are_told() {
     let (_, recording) = turned(3, &Rotation3::from_euler_angles(0.0, 0.0, 0.7).into_inner());
     let calibration = run(&recording, ReadingUnit::RadianPerSecond).expect("determined");
-    let reported = "the gyroscope is turned by 40° against the accelerometer, about the axis (";
+    let reported =
+        "the gyroscope is mounted with a rotation of 40° against the accelerometer, about the axis (";
     assert!(
         messages(&calibration.warnings).iter().any(|message| message.contains(reported)),
         "{:#?}",

@@ -3,8 +3,7 @@
 use crate::common::messages;
 use crate::common::{draw_imu, normal};
 use calibrant::estimate::{
-    CalibrationSettings, CalibrationStatus, Gyroscope, ImuCalibration, ImuProblem, ImuSetup, Turn,
-    calibrate_imu,
+    Calibration, CalibrationSettings, CalibrationStatus, Gyroscope, ImuProblem, ImuSetup, Turn, calibrate_imu,
 };
 use calibrant::sensor::{ImuParameters, ImuRecording, Sensor, SensorModel};
 use calibrant::simulate::{
@@ -24,7 +23,7 @@ fn round(recording: &mut ImuRecording, step: f64) {
     readings.iter_mut().for_each(|y| *y = y.map(|rate| (rate / step).round() * step));
 }
 
-fn run(recording: &ImuRecording, setup: &ImuSetup) -> calibrant::Result<ImuCalibration> {
+fn run(recording: &ImuRecording, setup: &ImuSetup) -> calibrant::Result<Calibration> {
     let accelerometer = Sensor::triaxial(SensorModel::Full);
     let gyroscope = Gyroscope { g_sensitivity: true, ..Gyroscope::default() };
     let problem = ImuProblem { accelerometer: &accelerometer, gyroscope: &gyroscope, recording, setup };
@@ -122,10 +121,10 @@ fn coarse_steps_are_named_with_the_noise_and_fine_ones_are_not() {
                 format!("the readings of axis {axis} of the gyroscope come in steps of {words} rad/s");
             assert!(message(step).contains(&expected), "{}", message(step));
         }
-        assert!(message(step).contains("however long it is"), "{}", message(step));
+        assert!(message(step).contains("however long the hold is"), "{}", message(step));
     }
     assert!(
-        message(0.01).contains("its noise of about 2.") || message(0.01).contains("its noise of about 1."),
+        message(0.01).contains("the noise of about 2.") || message(0.01).contains("the noise of about 1."),
         "{}",
         message(0.01)
     );

@@ -3,10 +3,10 @@
 
 use crate::common::WORDS;
 use calibrant::estimate::{
-    CalibrationSettings, CalibrationStatus, Comparison, Gyroscope, ImuCalibration, ImuProblem, ImuSetup,
+    Calibration, CalibrationSettings, CalibrationStatus, Comparison, Gyroscope, ImuProblem, ImuSetup,
     KnownTerm, ThermalModel, Turn, calibrate_imu,
 };
-use calibrant::io::{ConventionOptions, imu_calibration_json, parse_calibrated_imu};
+use calibrant::io::{ConventionOptions, calibration_json, parse_calibrated_imu};
 use calibrant::sensor::{
     CalibratedImu, Gauge, ImuCorrection, ImuParameters, ImuQuantity, ImuRecording, Sensor, SensorKind,
     SensorModel, SensorParameters, Thermal,
@@ -46,7 +46,7 @@ fn draw(model: &ThermalModel, rng: &mut Rng) -> ImuParameters {
     imu
 }
 
-fn run(recording: &ImuRecording, setup: &ImuSetup) -> calibrant::Result<ImuCalibration> {
+fn run(recording: &ImuRecording, setup: &ImuSetup) -> calibrant::Result<Calibration> {
     let (accelerometer, gyroscope) = (Sensor::triaxial(SensorModel::Full), Gyroscope::default());
     let problem = ImuProblem { accelerometer: &accelerometer, gyroscope: &gyroscope, recording, setup };
     calibrate_imu(&problem, &CalibrationSettings::default())
@@ -191,7 +191,7 @@ fn quantity(name: &str) -> ImuQuantity {
     all.into_iter().find(|quantity| quantity.name() == name).expect(name)
 }
 
-fn place(calibration: &ImuCalibration, name: &str) -> usize {
+fn place(calibration: &Calibration, name: &str) -> usize {
     calibration.quantities.iter().position(|quantity| quantity.name() == name).expect(name)
 }
 
@@ -299,16 +299,20 @@ fn no_hold_is_thrown_away_for_its_temperature_and_a_bad_one_still_is() {
         cold.readings[jump..].copy_from_slice(&warm.readings[jump..]);
     }
     recording.temperature_c.as_mut().expect("simulated")[jump..].fill(45.0);
-    let left_out = |calibration: &ImuCalibration| -> Vec<usize> {
-        let holds = calibration.holds.holds.iter().enumerate();
+    let left_out = |calibration: &Calibration| -> Vec<usize> {
+        let holds = calibration.hold_results().iter().enumerate();
         holds.filter_map(|(j, hold)| (!hold.used).then_some(j)).collect()
     };
     // the warm ones do not fit a calibration without terms
     let blind = run(&recording, &ImuSetup::default()).expect("determined");
     assert_eq!(left_out(&blind), [24, 25, 26, 27, 28, 29]);
     let clean = run(&recording, &setup(model)).expect("determined");
-    assert!(clean.holds.holds.iter().all(|hold| hold.used));
-    assert!(clean.holds.between_holds_sd_mps2 < 1e-3, "{}", clean.holds.between_holds_sd_mps2);
+    assert!(clean.hold_results().iter().all(|hold| hold.used));
+    assert!(
+        clean.holds().expect("held").between_holds_sd_mps2 < 1e-3,
+        "{}",
+        clean.holds().expect("held").between_holds_sd_mps2
+    );
     for quantity in model.quantities() {
         let k = place(&clean, &quantity.name());
         let z = (clean.values[k] - quantity.value(&truth)) / clean.sd()[k];
@@ -316,7 +320,7 @@ fn no_hold_is_thrown_away_for_its_temperature_and_a_bad_one_still_is() {
     }
     assert_eq!(clean.imu.thermal.range_c.expect("known").map(f64::round), [20.0, 45.0]);
 
-    let bad = &clean.holds.holds[11].hold;
+    let bad = &clean.hold_results()[11].hold;
     let accelerometer = recording.accelerometer.as_mut().expect("there");
     for (t, reading) in accelerometer.times_s.iter().zip(&mut accelerometer.readings) {
         if (bad.start_s..=bad.end_s).contains(t) {
@@ -333,7 +337,7 @@ fn a_calibration_keeps_its_terms_in_its_file() {
     let (_, recording) = recorded(&ALL_TO_2, [20.0, 45.0]);
     let linear = ThermalModel { accelerometer_bias: 1, ..GYROSCOPE_BIAS };
     let calibration = run(&recording, &setup(linear)).expect("determined");
-    let text = imu_calibration_json(&calibration, &[], &[], &WORDS);
+    let text = calibration_json(&calibration, &[], &[], &WORDS);
     let back = parse_calibrated_imu(text.as_bytes(), &ConventionOptions::default()).expect("ours");
     assert_eq!(back.imu, calibration.calibrated());
     let message = text.replace("\"reference_c\": 32.0", "\"reference_c\": 3200.0");
@@ -381,7 +385,11 @@ fn terms_are_found_where_the_directions_of_the_holds_are_known() {
     setup.directions = Some(starts.iter().map(|start| at(start + 1.0).normalize()).collect());
     let calibration = run(&recording, &setup).expect("determined");
     assert!(calibration.quantities.len() == 12 + 12 + 9 + 3, "{}", calibration.quantities.len());
-    assert!(calibration.holds.between_holds_sd_mps2 < 1e-3, "{}", calibration.holds.between_holds_sd_mps2);
+    assert!(
+        calibration.holds().expect("held").between_holds_sd_mps2 < 1e-3,
+        "{}",
+        calibration.holds().expect("held").between_holds_sd_mps2
+    );
     let sd = calibration.sd();
     let z = calibration.quantities.iter().zip(&calibration.values).zip(&sd);
     let z: Vec<f64> = z.map(|((quantity, value), sd)| (value - quantity.value(&truth)) / sd).collect();

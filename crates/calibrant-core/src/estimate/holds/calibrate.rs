@@ -19,7 +19,7 @@ use crate::estimate::{
     Recovered, Uncalibrated, coarse_axes_in, statistics,
 };
 use crate::motion::Hold;
-use crate::sensor::{ImuParameters, ImuQuantity, Recording, SensorKind, SensorModel, SensorParameters};
+use crate::sensor::{ImuParameters, Recording, SensorKind, SensorModel, SensorParameters};
 use nalgebra::{Matrix3, Vector3};
 
 /// Calibrates from holds, spikes taken out. `as_read` is the recording before anything was corrected in it, of the same samples: it tells which holds are clipped.
@@ -83,8 +83,7 @@ fn assemble(
     let sensor = robust.sensor;
     let g = setup.gravity;
     let mut covariance = robust.covariance.clone();
-    let quantities: Vec<ImuQuantity> =
-        list.quantities().iter().map(|of| ImuQuantity::Of(SensorKind::Accelerometer, *of)).collect();
+    let quantities = list.of_accelerometer();
     let imu = ImuParameters { accelerometer: sensor, ..ImuParameters::identity() };
     let slope = gravity_slope(&quantities, &imu, &g);
     covariance += &slope * slope.transpose() * (g.sd_mps2 * g.sd_mps2);
@@ -120,7 +119,7 @@ fn assemble(
         } else {
             statistics::chi2_p_value(robust.chi2, degrees_of_freedom)
         },
-        residual_rms: residual_rms.map(f64::sqrt),
+        residual_rms: Some(residual_rms.map(f64::sqrt)),
         assumed_noise: problem.sensor.noise(&sensor.matrix.diagonal()),
         noise_estimate: Some(robust.within_sd),
         whiteness: Vec::new(),
@@ -133,11 +132,14 @@ fn assemble(
         status: robust.status,
         iterations: robust.iterations,
         gradient_norm: robust.gradient_norm,
-        parameters: list.describe(problem.sensor, &nominal),
+        parameters: list.describe_accelerometer(problem.sensor, &nominal),
+        quantities,
         values: list.quantities().iter().map(|quantity| quantity.value(&sensor)).collect(),
         covariance,
-        sensor,
-        unit: problem.sensor.unit,
+        prior_share: Vec::new(),
+        datasheet_prior: false,
+        imu,
+        accelerometer_unit: problem.sensor.unit,
         fit,
         recovered: Recovered::Holds(HoldCalibration {
             holds: results,
@@ -151,11 +153,11 @@ fn assemble(
             condition_number: robust.condition_number,
             detected: setup.intervals_s.is_none(),
             before: Uncalibrated::accelerometer(problem.sensor, &sensor),
+            temperatures_c: None,
             change: change.map(Box::new),
         }),
-        residuals: Vec::new(),
-        first_sample: 0,
-        datasheet_prior: false,
+        gyroscope: None,
+        changes: change.into_iter().collect(),
         warnings: Vec::new(),
     };
     calibration.warnings = verdict::warnings(&calibration, &robust.weakest);

@@ -25,7 +25,9 @@ pub(super) struct Fit<const P: usize> {
     pub(super) information: SMatrix<f64, P, P>,
     /// Diagonal of the information before the directions were eliminated.
     pub(super) unreduced: SVector<f64, P>,
+    /// That of the data and of the prior.
     pub(super) chi2: f64,
+    pub(super) prior_chi2: f64,
     pub(super) status: CalibrationStatus,
     pub(super) iterations: usize,
     pub(super) gradient_norm: f64,
@@ -52,11 +54,14 @@ impl<const P: usize> Directions<'_, P> {
                 r.component_mul(&r).dot(weight)
             })
             .sum();
-        let prior = self.prior.as_ref().map_or(0.0, |(mean, weight)| {
+        data + self.prior_chi2(sensor)
+    }
+
+    fn prior_chi2(&self, sensor: &SensorParameters) -> f64 {
+        self.prior.as_ref().map_or(0.0, |(mean, weight)| {
             let off = mean - self.values(sensor);
             off.component_mul(&off).dot(weight)
-        });
-        data + prior
+        })
     }
 
     fn values(&self, sensor: &SensorParameters) -> SVector<f64, P> {
@@ -160,6 +165,7 @@ impl<const P: usize> Directions<'_, P> {
             }
         }
         Some(Fit {
+            prior_chi2: self.prior_chi2(&sensor),
             sensor,
             forces,
             information: system.information,

@@ -26,6 +26,7 @@ mod calibrate;
 mod coarse_steps;
 mod expected_accuracy;
 mod fit;
+mod hardly_determined;
 mod hold_detection;
 mod holds_with_pauses;
 mod low_pass_filtered;
@@ -34,13 +35,15 @@ mod residuals;
 mod robust_weights;
 mod saturated_holds;
 mod setup;
+mod sphere;
 mod verdict;
 
 pub(super) use calibrate::calibrate;
 pub(super) use coarse_steps::coarse_steps;
 pub(super) use residuals::magnitude_rms;
-pub(super) use robust_weights::{critical, sphere};
+pub(super) use robust_weights::critical;
 pub(super) use saturated_holds::{reason as clipped_reason, with_clipped};
+pub(super) use sphere::sphere;
 pub(super) use verdict::left_out;
 
 pub use expected_accuracy::{ExpectedCalibration, expected_calibration};

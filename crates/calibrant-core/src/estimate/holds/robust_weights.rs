@@ -1,7 +1,12 @@
 //! Weights of the holds: scatter within and between holds, and the holds that must be left out.
+//!
+//! A prior adds information and weighs no hold: the weights are those of the fit without it. Only where the holds leave something open
+//! do they come from the fit with the prior. There `n − tr(Σ F)` degrees of freedom are left to n holds of information F, with Σ the covariance.
 
 use super::HoldsSetup;
 use super::fit::{Directions, Fit};
+use super::hardly_determined::hardly_determined;
+use super::sphere::sphere;
 use super::verdict::explain;
 use crate::error::{Error, InputError, NotIdentifiable, Refusal, Result};
 use crate::estimate::between_hold_variance::excess;
@@ -10,7 +15,7 @@ use crate::estimate::{CalibrationProblem, CalibrationSettings, CalibrationStatus
 use crate::information;
 use crate::motion::Hold;
 use crate::sensor::{ParameterList, SensorParameters};
-use nalgebra::{DMatrix, DVector, Matrix3, SVector, Vector3, Vector4};
+use nalgebra::{DMatrix, DVector, Matrix3, SVector, Vector3};
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
 /// A hold is left out when a residual as large as its own would be seen in fewer than this share of recordings.
@@ -61,11 +66,14 @@ struct Weighted<const P: usize> {
     fit: Fit<P>,
     covariance: DMatrix<f64>,
     between: f64,
+    /// Degrees of freedom that the holds leave.
+    degrees: f64,
     /// The sensor whose gains turned `between` into the unit of the readings.
     gains_of: SensorParameters,
 }
 
 /// The holds with what weighs them.
+#[derive(Clone)]
 struct Problem<'a, const P: usize> {
     holds: &'a [Hold],
     /// Places of those that may be used.
@@ -108,7 +116,14 @@ pub(super) fn fit<const P: usize>(
         settings,
     };
     problem.information(&start)?;
-    problem.run(&start)
+    let without = Problem { prior: None, ..problem.clone() };
+    if problem.prior.is_none() || without.information(&start).is_err() {
+        let (used, weighted) = problem.select(&start)?;
+        return Ok(problem.summarise(used, weighted));
+    }
+    let (used, weighted) = without.select(&start)?;
+    let weighted = problem.with_weights_of(&used, &weighted)?;
+    Ok(problem.summarise(used, weighted))
 }
 
 /// The sensor that the holds look like, their scatter, and the information that they would give on its parameters.
@@ -143,32 +158,6 @@ fn too_few(holds: &[Hold], list: &ParameterList) -> NotIdentifiable {
     NotIdentifiable { groups: vec![explain(holds, list, &[], 0)] }
 }
 
-/// Centre and radius of the sphere through the means, by linear least squares on `|y|² = 2 c·y + const`.
-pub(in crate::estimate) fn sphere(holds: &[Hold], gravity: f64) -> Option<SensorParameters> {
-    if holds.len() < 4 {
-        return None;
-    }
-    let center = holds.iter().map(|hold| hold.mean).sum::<Vector3<f64>>() / holds.len() as f64;
-    let size = holds.iter().map(|hold| (hold.mean - center).norm()).fold(0.0, f64::max);
-    if size <= 0.0 {
-        return None;
-    }
-    let rows: Vec<Vector4<f64>> = holds.iter().map(|hold| ((hold.mean - center) / size).push(1.0)).collect();
-    let normal: nalgebra::Matrix4<f64> = rows.iter().map(|row| row * row.transpose()).sum();
-    let rhs: Vector4<f64> = rows.iter().map(|row| row * row.xyz().norm_squared()).sum();
-    let eigenvalues = normal.symmetric_eigenvalues();
-    if eigenvalues.min() <= 1e-8 * eigenvalues.max() {
-        return None;
-    }
-    let solution = normal.cholesky()?.solve(&rhs);
-    let c = solution.xyz() / 2.0;
-    let radius = (solution.w + c.norm_squared()).sqrt();
-    (radius.is_finite() && radius > 0.0).then(|| SensorParameters {
-        bias: center + c * size,
-        matrix: Matrix3::identity() * (radius * size / gravity),
-    })
-}
-
 /// Standard deviation of samples within holds, pooled over the holds, not below the rounding of the readings.
 fn pooled_sd(holds: &[Hold], start: &SensorParameters, gravity: f64) -> Vector3<f64> {
     let pooled = Hold::pooled_sd(holds);
@@ -176,6 +165,11 @@ fn pooled_sd(holds: &[Hold], start: &SensorParameters, gravity: f64) -> Vector3<
 }
 
 impl<const P: usize> Problem<'_, P> {
+    /// Number of parameters of which something is known beforehand.
+    fn priors(&self) -> usize {
+        self.prior.map_or(0, |(_, weight)| weight.iter().filter(|weight| **weight > 0.0).count())
+    }
+
     /// Variance of a hold's mean, per axis.
     fn variance(&self, hold: &Hold, between: f64, sensor: &SensorParameters) -> Vector3<f64> {
         Vector3::from_fn(|axis, _| {
@@ -216,7 +210,9 @@ impl<const P: usize> Problem<'_, P> {
         let information = DMatrix::from_fn(P, P, |i, j| fit.information[(i, j)]);
         let groups = information::undetermined(&information, &DVector::from_fn(P, |i, _| fit.unreduced[i]));
         if groups.is_empty() {
-            return match hardly_determined(&information) {
+            let prior =
+                self.prior.map_or(DVector::zeros(P), |(_, weight)| DVector::from_fn(P, |k, _| weight[k]));
+            return match hardly_determined(&information, &prior) {
                 tangled if tangled.is_empty() => Ok(information),
                 tangled => {
                     let group = explain(&holds, &self.list, &tangled, 1);
@@ -231,14 +227,14 @@ impl<const P: usize> Problem<'_, P> {
         Err(Error::NotIdentifiable(Box::new(NotIdentifiable { groups })))
     }
 
-    fn run(&self, start: &SensorParameters) -> Result<Robust> {
+    /// The holds that are used, and the fit of these.
+    fn select(&self, start: &SensorParameters) -> Result<(Vec<bool>, Weighted<P>)> {
         let mut used = self.first_guess(start);
         let mut weighted = self.weigh(&used, start)?;
         // one change at a time: leave out the worst hold that is too bad, take back the best that is not
         for _ in 0..3 * self.sound.len() {
             let studentised = self.studentise(&used, &weighted, &self.magnitudes(&weighted));
-            let count = used.iter().filter(|used| **used).count();
-            let limit = critical(self.sound.len(), count.saturating_sub(P));
+            let limit = critical(self.sound.len(), weighted.degrees as usize);
             let worst = (0..used.len())
                 .filter(|&j| used[j] && studentised[j].abs() > limit)
                 .max_by(|&a, &b| studentised[a].abs().total_cmp(&studentised[b].abs()));
@@ -246,14 +242,14 @@ impl<const P: usize> Problem<'_, P> {
                 .filter(|&j| !used[j] && studentised[j].abs() <= limit)
                 .min_by(|&a, &b| studentised[a].abs().total_cmp(&studentised[b].abs()));
             match (worst, best) {
-                (Some(j), _) if count > P + 2 => used[j] = false,
+                (Some(j), _) if weighted.degrees > 2.0 => used[j] = false,
                 (_, Some(j)) => used[j] = true,
                 _ => break,
             }
             weighted = self.weigh(&used, &weighted.fit.sensor)?;
         }
         self.plausible(&used, &weighted)?;
-        Ok(self.summarise(used, weighted))
+        Ok((used, weighted))
     }
 
     /// Do the holds look like gravity at all?
@@ -331,36 +327,63 @@ impl<const P: usize> Problem<'_, P> {
 
     /// Fits the used holds with the scatter between holds that makes χ² equal its degrees of freedom.
     fn weigh(&self, used: &[bool], start: &SensorParameters) -> Result<Weighted<P>> {
-        let chosen: Vec<usize> = (0..used.len()).filter(|&j| used[j]).collect();
-        let degrees = chosen.len().saturating_sub(P) as f64;
-        let at = |between: f64, gains_of: &SensorParameters, from: &SensorParameters| {
-            self.directions(&chosen, &|_| 1.0, between, gains_of).fit(from, self.settings)
-        };
-        let singular = || {
-            Error::recording(InputError::new(
-                Refusal::FitFailed,
-                "the fit of the holds breaks down: the estimated matrix becomes singular",
-                "check the unit of the recording and that the holds are what they should be",
-            ))
-        };
+        let chosen = chosen(used);
         let rms = |fit: &Fit<P>| {
             let residuals = self.magnitude_residuals(&fit.sensor);
             let squares: f64 = chosen.iter().map(|&j| residuals[j].powi(2)).sum();
             (squares / chosen.len() as f64).sqrt().max(1e-12 * self.gravity)
         };
+        // with a prior, the degrees of freedom follow the fit, so that χ² is scaled to one number of them
+        let degrees = match self.prior {
+            None => chosen.len().saturating_sub(P),
+            Some(_) => chosen.len(),
+        } as f64;
         // the gains are those of the fit without a scatter between holds, in which they are of no account
         let (mut gains_of, mut from) = (None, *start);
         let (between, fit) = excess(degrees, rms, |between| {
-            let fit = at(between, gains_of.as_ref().unwrap_or(start), &from)?;
+            let directions = self.directions(&chosen, &|_| 1.0, between, gains_of.as_ref().unwrap_or(start));
+            let fit = directions.fit(&from, self.settings)?;
             gains_of.get_or_insert(fit.sensor);
             from = fit.sensor;
-            Some((fit.chi2, fit))
+            let chi2 = match self.prior {
+                None => fit.chi2,
+                Some(_) => {
+                    (fit.chi2 - fit.prior_chi2) * degrees
+                        / self.degrees_left(chosen.len(), &covariance_of(&fit)?)
+                }
+            };
+            Some((chi2, fit))
         })
         .ok_or_else(singular)?;
-        let gains_of = gains_of.unwrap_or(*start);
-        let information = DMatrix::from_fn(P, P, |i, j| fit.information[(i, j)]);
-        let covariance = information::covariance(&information).ok_or_else(singular)?;
-        Ok(Weighted { fit, covariance, between, gains_of })
+        self.weighted(chosen.len(), fit, between, gains_of.unwrap_or(*start))
+    }
+
+    /// The fit of the used holds, with weights that were found without the prior.
+    fn with_weights_of(&self, used: &[bool], without: &Weighted<P>) -> Result<Weighted<P>> {
+        let chosen = chosen(used);
+        let directions = self.directions(&chosen, &|_| 1.0, without.between, &without.gains_of);
+        let fit = directions.fit(&without.fit.sensor, self.settings).ok_or_else(singular)?;
+        self.weighted(chosen.len(), fit, without.between, without.gains_of)
+    }
+
+    fn weighted(
+        &self,
+        count: usize,
+        fit: Fit<P>,
+        between: f64,
+        gains_of: SensorParameters,
+    ) -> Result<Weighted<P>> {
+        let covariance = covariance_of(&fit).ok_or_else(singular)?;
+        let degrees = self.degrees_left(count, &covariance);
+        Ok(Weighted { fit, covariance, between, degrees, gains_of })
+    }
+
+    /// Degrees of freedom that holds leave: their number less `tr(Σ F)`, the parameters that they determine.
+    fn degrees_left(&self, count: usize, covariance: &DMatrix<f64>) -> f64 {
+        let of_prior = self.prior.map_or(0.0, |(_, weight)| {
+            (0..P).map(|k| (weight[k] * covariance[(k, k)]).clamp(0.0, 1.0)).sum()
+        });
+        (count as f64 - (P as f64 - of_prior)).max(0.0)
     }
 
     fn magnitudes(&self, weighted: &Weighted<P>) -> Vec<Magnitude> {
@@ -386,9 +409,9 @@ impl<const P: usize> Problem<'_, P> {
 
     /// Residual of each hold in standard deviations expected of it, its own influence removed.
     fn studentise(&self, used: &[bool], weighted: &Weighted<P>, magnitudes: &[Magnitude]) -> Vec<f64> {
-        let count = used.iter().filter(|used| **used).count();
-        let degrees = count.saturating_sub(P) as f64;
-        let scatter = if degrees > 0.0 { (weighted.fit.chi2 / degrees).max(f64::MIN_POSITIVE) } else { 1.0 };
+        let degrees = weighted.degrees;
+        let chi2 = weighted.fit.chi2 - weighted.fit.prior_chi2;
+        let scatter = if degrees > 0.0 { (chi2 / degrees).max(f64::MIN_POSITIVE) } else { 1.0 };
         magnitudes
             .iter()
             .zip(used)
@@ -416,9 +439,9 @@ impl<const P: usize> Problem<'_, P> {
         let eigen = scaled.symmetric_eigen();
         let weakest = eigen.eigenvalues.imin();
         let direction = eigen.eigenvectors.column(weakest);
-        let names = self.list.names();
+        let quantities = self.list.of_accelerometer();
         let shares: Vec<String> =
-            (0..P).filter(|&k| direction[k].powi(2) > 0.1).map(|k| names[k].clone()).collect();
+            (0..P).filter(|&k| direction[k].powi(2) > 0.1).map(|k| quantities[k].name()).collect();
         let every = self.directions(&(0..self.holds.len()).collect::<Vec<_>>(), &|_| 1.0, 0.0, &fit.sensor);
         // the directions of the fit for the holds that were used, those of the correction for the others
         let mut forces =
@@ -436,7 +459,7 @@ impl<const P: usize> Problem<'_, P> {
             weakest: shares,
             covariance: covariance.clone(),
             chi2: fit.chi2,
-            degrees_of_freedom: used.iter().filter(|used| **used).count().saturating_sub(P),
+            degrees_of_freedom: (chosen(&used).len() + self.priors()).saturating_sub(P),
             within_sd: self.within,
             between_holds_sd: *between,
             status: fit.status,
@@ -447,26 +470,21 @@ impl<const P: usize> Problem<'_, P> {
     }
 }
 
-/// A condition number at which the data no longer determine a combination: the noise in the directions of the holds then decides it.
-const LARGEST_CONDITION: f64 = 1e5;
+fn singular() -> Error {
+    Error::recording(InputError::new(
+        Refusal::FitFailed,
+        "the fit of the holds breaks down: the estimated matrix becomes singular",
+        "check the unit of the recording and that the holds are what they should be",
+    ))
+}
 
-/// Parameters that make up the combinations whose information, scaled, is a vanishing part of the best.
-fn hardly_determined(information: &DMatrix<f64>) -> Vec<usize> {
-    let size = information.nrows();
-    let scaled = DMatrix::from_fn(size, size, |i, j| {
-        information[(i, j)] / (information[(i, i)] * information[(j, j)]).sqrt()
-    });
-    let eigen = scaled.symmetric_eigen();
-    let floor = eigen.eigenvalues.max() / LARGEST_CONDITION;
-    (0..size)
-        .filter(|&k| {
-            let share: f64 = (0..size)
-                .filter(|&e| eigen.eigenvalues[e] < floor)
-                .map(|e| eigen.eigenvectors[(k, e)].powi(2))
-                .sum();
-            share > 0.1
-        })
-        .collect()
+fn covariance_of<const P: usize>(fit: &Fit<P>) -> Option<DMatrix<f64>> {
+    information::covariance(&DMatrix::from_fn(P, P, |i, j| fit.information[(i, j)]))
+}
+
+/// Places of the holds that are used.
+fn chosen(used: &[bool]) -> Vec<usize> {
+    (0..used.len()).filter(|&j| used[j]).collect()
 }
 
 /// Largest studentised residual that chance explains, among so many holds.

@@ -4,10 +4,9 @@ use crate::diagnostic::Diagnostic;
 use crate::error::{Error, InputError, Refusal, Result};
 use crate::estimate::imu::checks::known_terms::{self, Contradiction};
 use crate::estimate::imu::problem::{ImuProblem, ImuSetup};
-use crate::estimate::imu::result::ImuCalibration;
 use crate::estimate::imu::solver::solve_imu;
 use crate::estimate::imu::white_noise_search::WhiteNoiseSearch;
-use crate::estimate::result::CalibrationStatus;
+use crate::estimate::result::{Calibration, CalibrationStatus};
 use crate::estimate::settings::CalibrationSettings;
 use crate::estimate::unknown_latitude::unknown_latitude;
 
@@ -17,7 +16,7 @@ use crate::estimate::unknown_latitude::unknown_latitude;
 /// [`Error::Recording`](crate::Error::Recording) where a sensor's recording is missing or is none, where gyroscope and accelerometer do not overlap, or where the
 /// gyroscope's readings cannot be angular rates in the unit given; [`Error::Experiment`](crate::Error::Experiment) where the readings contradict the directions of
 /// the holds or what is known beforehand; [`Error::NotIdentifiable`](crate::Error::NotIdentifiable) names what the holds or the rotations do not determine, and what would.
-pub fn calibrate_imu(problem: &ImuProblem<'_>, settings: &CalibrationSettings) -> Result<ImuCalibration> {
+pub fn calibrate_imu(problem: &ImuProblem<'_>, settings: &CalibrationSettings) -> Result<Calibration> {
     calibrate_imu_with(problem, settings, &WhiteNoiseSearch::known(problem.setup.white_noise))
 }
 
@@ -33,7 +32,7 @@ pub fn calibrate_imu_with(
     problem: &ImuProblem<'_>,
     settings: &CalibrationSettings,
     white_noise: &WhiteNoiseSearch<'_>,
-) -> Result<ImuCalibration> {
+) -> Result<Calibration> {
     let mut calibration = match problem.setup.holds.found {
         Some(_) => of_clean(problem, settings, white_noise)?,
         None => without_outliers(problem, settings, white_noise)?,
@@ -47,7 +46,7 @@ fn without_outliers(
     problem: &ImuProblem<'_>,
     settings: &CalibrationSettings,
     white_noise: &WhiteNoiseSearch<'_>,
-) -> Result<ImuCalibration> {
+) -> Result<Calibration> {
     let (recording, outliers) = problem.recording.without_spikes();
     let mut calibration = of_clean(&ImuProblem { recording: &recording, ..*problem }, settings, white_noise)?;
     let found = outliers.iter().filter_map(|(sensor_kind, outliers)| {
@@ -63,7 +62,7 @@ fn of_clean(
     problem: &ImuProblem<'_>,
     settings: &CalibrationSettings,
     white_noise: &WhiteNoiseSearch<'_>,
-) -> Result<ImuCalibration> {
+) -> Result<Calibration> {
     let known = &problem.setup.known;
     if known.is_empty() {
         return solve_imu(problem, settings, white_noise);

@@ -43,7 +43,7 @@ pub use clock::rate::ClockRate;
 pub use problem::{Gyroscope, ImuProblem, ImuSetup, KnownTerm, NoiseSource, ThermalModel, Turn, WhiteNoise};
 pub(super) use propagated_gravity::{GravityPropagation, GyroscopeAtRest, PropagatedGravity, StationaryMean};
 pub(super) use recordings::recordings;
-pub use result::{GyroscopeInHolds, ImuCalibration, RotationResult, TurnResult};
+pub use result::{GyroscopeCalibration, GyroscopeInHolds, RotationResult, TurnResult};
 pub use stationary::intervals::{find_clean_imu_holds, find_imu_holds};
 pub(super) use temperature::needed_temperatures;
 pub use white_noise_search::WhiteNoiseSearch;

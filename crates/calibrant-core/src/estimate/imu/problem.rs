@@ -69,6 +69,11 @@ pub struct ImuSetup {
 }
 
 impl ImuSetup {
+    /// A recording of which nothing but its holds is known.
+    pub(in crate::estimate) fn from_holds(holds: &HoldsSetup) -> Self {
+        Self { holds: holds.clone(), ..Self::default() }
+    }
+
     /// The Earth's rate about the vertical over gravity, `Ω sin φ/g`, (rad/s)/(m/s²): at rest an IMU turns by this times the specific force. Zero where the latitude is not known.
     pub(in crate::estimate) fn vertical_rate(&self) -> f64 {
         let rate = self.latitude_deg.map_or(0.0, |latitude_deg| earth_rate(latitude_deg).z);

@@ -24,12 +24,12 @@ use crate::estimate::imu::initial::gyroscope::{explained_means, initial_values};
 use crate::estimate::imu::model::{ImuModel, State};
 use crate::estimate::imu::problem::ImuProblem;
 use crate::estimate::imu::recordings::recordings;
-use crate::estimate::imu::result::ImuCalibration;
 use crate::estimate::imu::rotations::movement::Movement;
 use crate::estimate::imu::stationary::gyroscope::StationaryGyroscope;
 use crate::estimate::imu::variance_components::bias_drift::follow_drift;
 use crate::estimate::imu::variance_components::solution::solve;
 use crate::estimate::imu::white_noise_search::WhiteNoiseSearch;
+use crate::estimate::result::Calibration;
 use crate::estimate::settings::CalibrationSettings;
 
 /// Calibrates an IMU. `white_noise` is found while the accelerometer is fitted.
@@ -37,7 +37,7 @@ pub(crate) fn solve_imu(
     problem: &ImuProblem<'_>,
     settings: &CalibrationSettings,
     white_noise: &WhiteNoiseSearch<'_>,
-) -> Result<ImuCalibration> {
+) -> Result<Calibration> {
     stages(problem, settings, white_noise).map_err(|error| with_time_offset(error, problem.recording))
 }
 
@@ -45,7 +45,7 @@ fn stages(
     problem: &ImuProblem<'_>,
     settings: &CalibrationSettings,
     white_noise: &WhiteNoiseSearch<'_>,
-) -> Result<ImuCalibration> {
+) -> Result<Calibration> {
     let setup = problem.setup;
     let (as_read, gyroscope_recording) = recordings(problem)?;
     // stationary intervals and initial values
@@ -128,5 +128,5 @@ fn stages(
         clock,
         calibration: &calibration,
     });
-    Ok(ImuCalibration { warnings, ..calibration })
+    Ok(Calibration { warnings, ..calibration })
 }

@@ -18,7 +18,7 @@ use super::{
 use crate::error::{Error, InputError, NotIdentifiable, Refusal, Result};
 use crate::information::chain_model::FULL_SLOTS;
 use crate::motion::{CommandedMotion, JerkControlledMotion, Trust};
-use crate::sensor::{Axis, SensorModel, SensorParameters};
+use crate::sensor::{Axis, ImuParameters, SensorModel, SensorParameters};
 use chain::{Solved, solve};
 use context::Context;
 use nalgebra::{DMatrix, Matrix3, Vector3};
@@ -84,7 +84,9 @@ fn solve_axes(context: &Context<'_>) -> Result<Solved> {
 fn assemble(context: &Context<'_>, solved: Solved, first_sample: usize) -> Result<Calibration> {
     let problem = context.problem;
     let list = problem.sensor.parameter_list();
-    let mut sensor = SensorParameters { bias: Vector3::zeros(), matrix: Matrix3::zeros() };
+    // axes that the sensor does not have count as perfect
+    let absent = Vector3::from_fn(|k, _| if k < problem.sensor.axes { 0.0 } else { 1.0 });
+    let mut sensor = SensorParameters { bias: Vector3::zeros(), matrix: Matrix3::from_diagonal(&absent) };
     for (quantity, value) in list.quantities().iter().zip(&solved.values) {
         quantity.add_to(&mut sensor, *value);
     }
@@ -114,22 +116,23 @@ fn assemble(context: &Context<'_>, solved: Solved, first_sample: usize) -> Resul
         chi2: solved.chi2,
         degrees_of_freedom: solved.degrees_of_freedom,
         p_value: statistics::chi2_p_value(solved.chi2, solved.degrees_of_freedom),
-        residual_rms: Vector3::zeros(),
+        residual_rms: None,
         assumed_noise: Some(context.noise),
         noise_estimate: None,
         whiteness: Vec::new(),
     };
-    let mut noise_estimate = Vector3::zeros();
+    let (mut residual_rms, mut noise_estimate) = (Vector3::zeros(), Vector3::zeros());
     for &axis in problem.sensor.active_axes() {
         let k = axis.index();
         let own: Vec<f64> = residuals.iter().map(|r| r[k]).collect();
         let squares = statistics::dot(&own, &own);
-        fit.residual_rms[k] = (squares / samples).sqrt();
+        residual_rms[k] = (squares / samples).sqrt();
         let left = samples - solved.leverage[k];
         noise_estimate[k] = if left > 0.5 { (squares / left).sqrt() } else { f64::NAN };
         let shortfall: Vec<f64> = solved.shortfall.iter().map(|c| c[k]).collect();
         fit.whiteness.extend(statistics::ljung_box(&own, &shortfall, solved.leverage[k]));
     }
+    fit.residual_rms = Some(residual_rms);
     if noise_estimate.iter().all(|noise| noise.is_finite()) {
         fit.noise_estimate = Some(noise_estimate);
     }
@@ -138,20 +141,24 @@ fn assemble(context: &Context<'_>, solved: Solved, first_sample: usize) -> Resul
         status: solved.status,
         iterations: solved.iterations,
         gradient_norm: solved.gradient_norm,
-        parameters: list.describe(problem.sensor, &nominal),
+        quantities: list.of_accelerometer(),
+        parameters: list.describe_accelerometer(problem.sensor, &nominal),
         values: solved.values,
         covariance: solved.covariance,
-        sensor,
-        unit: problem.sensor.unit,
+        prior_share: Vec::new(),
+        datasheet_prior: context.settings.datasheet_prior,
+        imu: ImuParameters { accelerometer: sensor, ..ImuParameters::identity() },
+        accelerometer_unit: problem.sensor.unit,
         fit,
         recovered: Recovered::Motion(RecoveredMotion {
             motion,
             acceleration_sd_mps2: solved.node_sd,
             trust: context.command.trust.name(),
+            residuals,
+            first_sample,
         }),
-        residuals,
-        first_sample,
-        datasheet_prior: context.settings.datasheet_prior,
+        gyroscope: None,
+        changes: Vec::new(),
         warnings: Vec::new(),
     };
     verdict::respond(context, &calibration)?;

@@ -8,7 +8,7 @@ use crate::information::{MotionFacts, Undetermined, explain as explain_motion};
 
 pub(super) use crate::information::View;
 
-/// Says why these groups of parameters cannot be told apart. `slots` are the chain's parameters in the list.
+/// Says why these groups of parameters cannot be separated. `slots` are the chain's parameters in the list.
 pub(super) fn explain(
     context: &Context<'_>,
     groups: &[Undetermined],

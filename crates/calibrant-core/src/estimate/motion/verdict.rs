@@ -6,7 +6,7 @@ use crate::diagnostic::Diagnostic;
 use crate::error::UndeterminedGroup;
 use crate::estimate::CalibrationStatus;
 use crate::estimate::statistics::implausible;
-use crate::sensor::Axis;
+use crate::sensor::{Axis, ImuQuantity, Quantity, SensorKind};
 
 /// Warnings about a fit.
 pub(super) fn warnings(context: &Context<'_>, calibration: &Calibration, bias: &[f64]) -> Vec<Diagnostic> {
@@ -71,7 +71,9 @@ fn weak(calibration: &Calibration) -> Option<Diagnostic> {
 }
 
 fn negative_scale(calibration: &Calibration) -> Option<Axis> {
-    Axis::ALL.into_iter().find(|axis| calibration.sensor.matrix[(axis.index(), axis.index())] < 0.0)
+    Axis::ALL
+        .into_iter()
+        .find(|axis| calibration.imu.accelerometer.matrix[(axis.index(), axis.index())] < 0.0)
 }
 
 /// Motion that was not recorded.
@@ -108,14 +110,14 @@ fn biased(calibration: &Calibration, bias: &[f64]) -> Option<Diagnostic> {
 pub(super) fn respond(context: &Context<'_>, calibration: &Calibration) -> Result<()> {
     let sd = calibration.sd();
     for &axis in context.problem.sensor.active_axes() {
-        let name = format!("scale.{axis}");
-        let Some(k) = calibration.parameters.iter().position(|parameter| parameter.name == name) else {
+        let scale = ImuQuantity::Of(SensorKind::Accelerometer, Quantity::Scale(axis));
+        let Some(k) = calibration.quantities.iter().position(|quantity| *quantity == scale) else {
             continue;
         };
         if calibration.values[k].abs() < 3.0 * sd[k] && calibration.status == CalibrationStatus::Converged {
             let noisy = matches!(context.command.trust, Trust::Noisy(_));
             return Err(Error::undetermined(UndeterminedGroup {
-                parameters: vec![name],
+                parameters: vec![Quantity::Scale(axis).name()],
                 free_combinations: 1,
                 reason: format!(
                     "the reading of axis {axis} does not follow the motion: the scale factor is zero within its noise{}",

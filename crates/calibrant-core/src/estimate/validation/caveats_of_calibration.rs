@@ -5,7 +5,7 @@
 use super::caveat::Caveat;
 use super::unused_error::{ErrorKind, UnusedError};
 use crate::estimate::change::longest_run;
-use crate::estimate::{Change, Changed, ClockRate, HoldCalibration, ImuCalibration};
+use crate::estimate::{Calibration, Change, Changed, ClockRate};
 use crate::sensor::SensorKind;
 
 /// Fewest errors that are several.
@@ -23,33 +23,24 @@ pub(super) struct Caveats {
 }
 
 impl Caveats {
-    pub(super) fn of_imu(calibration: &ImuCalibration) -> Self {
-        let times: Vec<(bool, f64, f64)> = calibration
-            .rotations
+    pub(super) fn of(calibration: &Calibration) -> Self {
+        let holds: Vec<(bool, f64, f64)> = calibration
+            .hold_results()
+            .iter()
+            .filter(|result| result.reason.is_none())
+            .map(|result| (!result.used, result.hold.start_s, result.hold.end_s))
+            .collect();
+        let rotations: Vec<(bool, f64, f64)> = calibration
+            .rotations()
             .iter()
             .filter(|rotation| rotation.is_integrated())
             .map(|rotation| (!rotation.used, rotation.start_s, rotation.end_s))
             .collect();
         Self {
             changes: calibration.changes.clone(),
-            clocks: calibration.clocks,
-            rotations: left_out(&times),
-            ..Self::of_holds(&calibration.holds)
-        }
-    }
-
-    pub(super) fn of_holds(holds: &HoldCalibration) -> Self {
-        let times: Vec<(bool, f64, f64)> = holds
-            .holds
-            .iter()
-            .filter(|result| result.reason.is_none())
-            .map(|result| (!result.used, result.hold.start_s, result.hold.end_s))
-            .collect();
-        Self {
-            changes: holds.change.as_deref().copied().into_iter().collect(),
-            clocks: None,
-            holds: left_out(&times),
-            rotations: None,
+            clocks: calibration.gyroscope.as_ref().and_then(|gyroscope| gyroscope.clocks),
+            holds: left_out(&holds),
+            rotations: left_out(&rotations),
         }
     }
 

@@ -2,7 +2,7 @@
 
 use super::caveats_of_calibration::Caveats;
 use super::folds::{Block, blocks, sorted};
-use super::inputs::{of_holds, singular, temperatures};
+use super::inputs::{from_holds, of_holds, singular, temperatures};
 use super::judgement::judged;
 use super::prediction::Prediction;
 use super::prediction_errors::{Errors, Unused};
@@ -10,11 +10,12 @@ use super::{Validation, ValidationSource};
 use crate::error::{Error, InputError, Refusal, Result};
 use crate::estimate::imu::recordings;
 use crate::estimate::{
-    Calibration, CalibrationProblem, CalibrationSettings, CalibrationStatus, HoldCalibration, HoldsSetup,
-    ImuCalibration, ImuProblem, ImuSetup, Stimulus, calibrate, calibrate_imu,
+    Calibration, CalibrationProblem, CalibrationSettings, CalibrationStatus, HoldsSetup, ImuProblem,
+    ImuSetup, Stimulus, calibrate, calibrate_imu,
 };
 use crate::motion::Hold;
 use crate::sensor::ImuRecording;
+use nalgebra::Vector3;
 use rayon::prelude::*;
 
 /// Leaves out each of so many contiguous blocks of the holds that the calibration of an IMU used, and predicts it from the others.
@@ -23,7 +24,7 @@ use rayon::prelude::*;
 /// [`Error::Experiment`](crate::Error::Experiment) for a number of folds below 2 or above that of the used holds, where the directions of the holds are known;
 /// [`Error::Recording`](crate::Error::Recording) where no block can be predicted from the others (it says why). A single block that cannot is in the result.
 pub fn cross_validate_imu(
-    calibration: &ImuCalibration,
+    calibration: &Calibration,
     problem: &ImuProblem<'_>,
     settings: &CalibrationSettings,
     folds: usize,
@@ -33,11 +34,11 @@ pub fn cross_validate_imu(
 
 /// The same; the tests tamper with what each calibration claims.
 fn cross_validated_imu(
-    calibration: &ImuCalibration,
+    calibration: &Calibration,
     problem: &ImuProblem<'_>,
     settings: &CalibrationSettings,
     folds: usize,
-    tamper: &(dyn Fn(&mut ImuCalibration) + Sync),
+    tamper: &(dyn Fn(&mut Calibration) + Sync),
 ) -> Result<Validation> {
     if problem.setup.directions.is_some() {
         return Err(Error::experiment(InputError::new(
@@ -47,6 +48,8 @@ fn cross_validated_imu(
         )));
     }
     let (accelerometer, gyroscope) = recordings(problem)?;
+    let all: Vec<Hold> = calibration.hold_results().iter().map(|result| result.hold.clone()).collect();
+    let still_noise = calibration.gyroscope.as_ref().map(|gyroscope| gyroscope.still.noise);
     let train = |block: &Block| {
         let setup = without(block, problem.setup);
         let recording = ImuRecording { gyroscope: Some(block.cut(gyroscope)), ..problem.recording.clone() };
@@ -55,16 +58,15 @@ fn cross_validated_imu(
         converged(trained.status)?;
         tamper(&mut trained);
         // noise is that of all holds
-        let still_noise = calibration.still.noise;
-        Ok(Prediction { still_noise, ..Prediction::of_imu(&trained, &setup) })
+        let still_noise = still_noise.unwrap_or_else(Vector3::zeros);
+        Ok(Prediction { still_noise, ..Prediction::of(&trained, from_holds(&trained)?, &setup) })
     };
-    let all: Vec<Hold> = calibration.holds.holds.iter().map(|result| result.hold.clone()).collect();
     let data = Unused {
         gyroscope: Some(gyroscope),
         temperatures: temperatures(calibration, problem)?,
         ..Unused::of_accelerometer(accelerometer, &all)
     };
-    crossed(&calibration.holds, folds, &data, &Caveats::of_imu(calibration), &train)
+    crossed(calibration, folds, &data, &train)
 }
 
 /// Leaves out each of so many contiguous blocks of the holds that the calibration of an accelerometer used, and predicts it from the others.
@@ -77,31 +79,29 @@ pub fn cross_validate(
     settings: &CalibrationSettings,
     folds: usize,
 ) -> Result<Validation> {
-    let (setup, found) = of_holds(calibration, problem)?;
-    let list = setup.gauge.parameter_list(problem.sensor.model);
+    let (setup, _) = of_holds(calibration, problem)?;
     let train = |block: &Block| {
         let setup = HoldsSetup { intervals_s: Some(block.others.clone()), ..setup.clone() };
         let problem = CalibrationProblem { stimulus: Stimulus::Holds(&setup), ..*problem };
         let trained = calibrate(&problem, settings)?;
         converged(trained.status)?;
-        let (_, found) = of_holds(&trained, &problem)?;
-        Ok(Prediction::of_accelerometer(&trained, found, &list, &setup.gravity))
+        Ok(Prediction::of(&trained, from_holds(&trained)?, &ImuSetup::from_holds(&setup)))
     };
-    let all: Vec<Hold> = found.holds.iter().map(|result| result.hold.clone()).collect();
+    let all: Vec<Hold> = calibration.hold_results().iter().map(|result| result.hold.clone()).collect();
     let data = Unused::of_accelerometer(problem.recording, &all);
-    crossed(found, folds, &data, &Caveats::of_holds(found), &train)
+    crossed(calibration, folds, &data, &train)
 }
 
 /// The errors of each block by the claim without it.
 fn crossed(
-    found: &HoldCalibration,
+    calibration: &Calibration,
     folds: usize,
     data: &Unused<'_>,
-    caveats: &Caveats,
     train: &(dyn Fn(&Block) -> Result<Prediction> + Sync),
 ) -> Result<Validation> {
+    let results = calibration.hold_results();
     let used: Vec<(usize, &Hold)> =
-        data.holds.iter().copied().filter(|(number, _)| found.holds[*number].used).collect();
+        data.holds.iter().copied().filter(|(number, _)| results[*number].used).collect();
     let holds: Vec<&Hold> = used.iter().map(|(_, hold)| *hold).collect();
     let blocks = blocks(&holds, folds)?;
     let outcomes: Vec<Result<(Prediction, Errors)>> = blocks
@@ -118,7 +118,7 @@ fn crossed(
     let (done, failed) = sorted(&blocks, &numbers, outcomes)?;
     let (predictions, errors): (Vec<Prediction>, Vec<Errors>) = done.into_iter().unzip();
     let Some(prediction) = predictions.last() else { return Err(singular()) };
-    Ok(judged(ValidationSource::Folds { folds, failed }, errors, prediction, caveats))
+    Ok(judged(ValidationSource::Folds { folds, failed }, errors, prediction, &Caveats::of(calibration)))
 }
 
 /// What is known of the recording, without a block of its holds.
@@ -143,7 +143,7 @@ fn converged(status: CalibrationStatus) -> Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::estimate::{CovarianceVerdict, ErrorKind, Gyroscope};
+    use crate::estimate::{CovarianceVerdict, ErrorKind, Gyroscope, Recovered};
     use crate::sensor::{ImuParameters, Sensor, SensorModel};
     use crate::simulate::{ImuSimulation, Purpose, simulate_imu, stream};
     use nalgebra::Vector3;
@@ -182,9 +182,11 @@ mod tests {
             };
             let settings = CalibrationSettings::default();
             let whole = calibrate_imu(&problem, &settings).expect("determined");
-            let halved = |calibration: &mut ImuCalibration| {
+            let halved = |calibration: &mut Calibration| {
                 calibration.covariance *= 0.25;
-                calibration.holds.between_holds_sd_mps2 *= 0.5;
+                if let Recovered::Holds(holds) = &mut calibration.recovered {
+                    holds.between_holds_sd_mps2 *= 0.5;
+                }
             };
             for (k, validation) in [
                 cross_validated_imu(&whole, &problem, &settings, 6, &|_| ()),

@@ -15,7 +15,7 @@ use super::result::Validation;
 use super::statistics::{Degrees, degrees_behind};
 use super::unused_error::ErrorKind;
 use super::whitened_errors::{Shift, Whitened};
-use crate::estimate::ImuCalibration;
+use crate::estimate::Calibration;
 use crate::estimate::holds::median;
 use crate::sensor::{ImuQuantity, ImuRecording, Quantity, ReadingUnit, Recording, SensorKind};
 use nalgebra::{DMatrix, Vector3};
@@ -30,12 +30,12 @@ const SAME_K: f64 = 3.0;
 /// A difference of temperature, where a calibration without temperature terms was tried on another recording: both have temperatures, and something is not as predicted.
 #[must_use]
 pub fn other_temperature(
-    calibration: &ImuCalibration,
+    calibration: &Calibration,
     validation: &Validation,
     calibrated: &ImuRecording,
     here: &ImuRecording,
 ) -> Option<LikelyExplanation> {
-    if calibration.hold_temperatures_c.is_some() || !is_wrong(validation) {
+    if calibration.holds().is_some_and(|holds| holds.temperatures_c.is_some()) || !is_wrong(validation) {
         return None;
     }
     let mean = |recording: &ImuRecording| {

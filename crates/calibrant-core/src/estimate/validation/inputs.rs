@@ -2,19 +2,17 @@
 
 use crate::error::{Error, InputError, Refusal, Result};
 use crate::estimate::imu::needed_temperatures;
-use crate::estimate::{
-    Calibration, CalibrationProblem, HoldCalibration, HoldsSetup, ImuCalibration, ImuProblem, Recovered,
-    Stimulus,
-};
+use crate::estimate::{Calibration, CalibrationProblem, HoldCalibration, HoldsSetup, ImuProblem, Stimulus};
 use crate::motion::Hold;
 use crate::sensor::Temperatures;
 
 /// The temperatures of a recording, where the calibration follows them.
 pub(super) fn temperatures<'a>(
-    calibration: &ImuCalibration,
+    calibration: &Calibration,
     problem: &ImuProblem<'a>,
 ) -> Result<Option<Temperatures<'a>>> {
-    calibration.hold_temperatures_c.as_ref().map(|_| needed_temperatures(problem.recording)).transpose()
+    let follows = from_holds(calibration)?.temperatures_c.is_some();
+    follows.then(|| needed_temperatures(problem.recording)).transpose()
 }
 
 /// The holds, of which there are some.
@@ -29,19 +27,28 @@ pub(super) fn at_least_one(holds: Vec<Hold>, setup: &HoldsSetup) -> Result<Vec<H
     Ok(holds)
 }
 
+/// What a calibration found of its holds.
+pub(super) fn from_holds(calibration: &Calibration) -> Result<&HoldCalibration> {
+    calibration.holds().ok_or_else(without_holds)
+}
+
 /// How holds are to be treated, and what a calibration found of them.
 pub(super) fn of_holds<'a>(
     calibration: &'a Calibration,
     problem: &CalibrationProblem<'a>,
 ) -> Result<(&'a HoldsSetup, &'a HoldCalibration)> {
-    match (&problem.stimulus, &calibration.recovered) {
-        (Stimulus::Holds(setup), Recovered::Holds(found)) => Ok((setup, found)),
-        _ => Err(Error::experiment(InputError::new(
-            Refusal::ValidationImpossible,
-            "only a calibration from holds can be validated: a commanded motion gives no errors of which anything is known",
-            "record the sensor held still in several orientations, and use [holds]",
-        ))),
+    match problem.stimulus {
+        Stimulus::Holds(setup) => Ok((setup, from_holds(calibration)?)),
+        Stimulus::Motion(_) => Err(without_holds()),
     }
+}
+
+fn without_holds() -> Error {
+    Error::experiment(InputError::new(
+        Refusal::ValidationImpossible,
+        "only a calibration from holds can be validated: a commanded motion gives no errors of which anything is known",
+        "record the sensor held still in several orientations, and use [holds]",
+    ))
 }
 
 pub(super) fn singular() -> Error {

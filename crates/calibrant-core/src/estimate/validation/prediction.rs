@@ -3,9 +3,9 @@
 use super::statistics::Degrees;
 use crate::estimate::earth::{UNKNOWN_SD_RADPS, vertical_slope};
 use crate::estimate::gravity_error::gravity_slope;
-use crate::estimate::{Calibration, HoldCalibration, ImuCalibration, ImuSetup};
+use crate::estimate::{Calibration, GyroscopeInHolds, HoldCalibration, ImuSetup};
 use crate::motion::{Gravity, Hold};
-use crate::sensor::{Axis, ImuParameters, ImuQuantity, ParameterList, Quantity, SensorKind, ThermalPart};
+use crate::sensor::{Axis, ImuParameters, ImuQuantity, Quantity, SensorKind, ThermalPart};
 use nalgebra::{DMatrix, Matrix3, Vector3};
 
 /// The claim of a calibration.
@@ -42,15 +42,16 @@ pub(super) struct Prediction {
 }
 
 impl Prediction {
-    /// What a calibrated IMU claims of a recording made under this gravity, at this latitude.
+    /// What a calibration from these holds claims of a recording made under this gravity, at this latitude.
     ///
     /// Where gravity is the one of the calibration, its uncertainty moves corrected and true magnitude alike and is left out; where it is another, both count. So with a latitude that is not known:
     /// it is the calibration's, or that of the calibration is known.
-    pub(super) fn of_imu(calibration: &ImuCalibration, setup: &ImuSetup) -> Self {
-        let gravity = &setup.holds.gravity;
-        let holds = &calibration.holds;
+    pub(super) fn of(calibration: &Calibration, holds: &HoldCalibration, setup: &ImuSetup) -> Self {
+        let gyroscope = calibration.gyroscope.as_deref();
+        let still = gyroscope.map(|gyroscope| &gyroscope.still);
+        let of_still = |of: fn(&GyroscopeInHolds) -> Vector3<f64>| still.map_or_else(Vector3::zeros, of);
         let used = holds.holds.iter().filter(|hold| hold.used).count();
-        let rotations = calibration.rotations.iter().filter(|rotation| rotation.used).count();
+        let rotations = calibration.rotations().iter().filter(|rotation| rotation.used).count();
         let known = |quantity: &&ImuQuantity| quantity.sensor_kind() == SensorKind::Accelerometer;
         let accelerometer = calibration.quantities.iter().filter(known).count();
         let matrix = |quantity: &&ImuQuantity| match quantity {
@@ -60,7 +61,7 @@ impl Prediction {
         };
         let of_rotations = calibration.quantities.iter().filter(matrix).count();
         // of an axis at rest: bias, its temperature terms, g-sensitivity
-        let of_still = |axis: usize| {
+        let unknowns_at_rest = |axis: usize| {
             let of_axis = |quantity: &&ImuQuantity| match quantity {
                 ImuQuantity::Thermal(SensorKind::Gyroscope, term) => {
                     term.part == ThermalPart::Bias && term.axis.index() == axis
@@ -73,56 +74,30 @@ impl Prediction {
         Self {
             imu: calibration.imu,
             quantities: calibration.quantities.clone(),
-            covariance: without_place(calibration, setup),
-            gravity_mps2: gravity.magnitude_mps2,
+            covariance: without_place(calibration, holds, setup),
+            gravity_mps2: setup.holds.gravity.magnitude_mps2,
             vertical_rate: setup.vertical_rate(),
-            north_sd_radps: match (calibration.latitude_deg, setup.latitude_deg) {
-                (None, None) => calibration.north_rms_radps,
+            north_sd_radps: match gyroscope {
+                Some(gyroscope) if gyroscope.latitude_deg.is_none() && setup.latitude_deg.is_none() => {
+                    gyroscope.north_rms_radps
+                }
                 _ => setup.north_sd(),
             },
-            between_holds_sd_mps2: between(calibration),
+            // how well the sensor was placed on known faces is no property of the sensor
+            between_holds_sd_mps2: if calibration.frame_is_known() {
+                0.0
+            } else {
+                holds.between_holds_sd_mps2
+            },
             holds_degrees: Degrees::of_scatter(used, accelerometer),
             within: within(holds),
-            still_noise: calibration.still.noise,
-            still_within: calibration.still.within_holds_sd,
-            still_sd: calibration.still.between_holds_sd,
-            still_degrees: std::array::from_fn(|axis| Degrees::of_scatter(used, of_still(axis))),
+            still_noise: of_still(|still| still.noise),
+            still_within: of_still(|still| still.within_holds_sd),
+            still_sd: of_still(|still| still.between_holds_sd),
+            still_degrees: std::array::from_fn(|axis| Degrees::of_scatter(used, unknowns_at_rest(axis))),
             inverse_hold_s: inverse_hold_s(holds),
-            rotation_sd_rad: calibration.between_rotations_sd_rad,
+            rotation_sd_rad: gyroscope.map_or(0.0, |gyroscope| gyroscope.between_rotations_sd_rad),
             rotation_degrees: Degrees::of_scatter(2 * rotations, of_rotations),
-            of_steps: Vector3::zeros(),
-        }
-    }
-
-    /// What a static calibration of an accelerometer claims.
-    pub(super) fn of_accelerometer(
-        calibration: &Calibration,
-        holds: &HoldCalibration,
-        list: &ParameterList,
-        gravity: &Gravity,
-    ) -> Self {
-        let imu = ImuParameters { accelerometer: calibration.sensor, ..ImuParameters::identity() };
-        let quantities: Vec<ImuQuantity> =
-            list.quantities().iter().map(|of| ImuQuantity::Of(SensorKind::Accelerometer, *of)).collect();
-        let covariance = recentred(&calibration.covariance, &quantities, &imu, &holds.gravity, gravity);
-        let used = holds.holds.iter().filter(|hold| hold.used).count();
-        Self {
-            imu,
-            covariance,
-            gravity_mps2: gravity.magnitude_mps2,
-            vertical_rate: 0.0,
-            north_sd_radps: 0.0,
-            between_holds_sd_mps2: holds.between_holds_sd_mps2,
-            holds_degrees: Degrees::of_scatter(used, quantities.len()),
-            quantities,
-            within: within(holds),
-            still_noise: Vector3::zeros(),
-            still_within: Vector3::zeros(),
-            still_sd: Vector3::zeros(),
-            still_degrees: [Degrees::of_scatter(0, 0); 3],
-            inverse_hold_s: inverse_hold_s(holds),
-            rotation_sd_rad: 0.0,
-            rotation_degrees: Degrees::of_scatter(0, 0),
             of_steps: Vector3::zeros(),
         }
     }
@@ -186,19 +161,15 @@ fn inverse_hold_s(holds: &HoldCalibration) -> f64 {
     sum / f64::from(count.max(1))
 }
 
-/// How well the sensor was placed on known faces is no property of the sensor.
-fn between(calibration: &ImuCalibration) -> f64 {
-    if calibration.frame_is_known() { 0.0 } else { calibration.holds.between_holds_sd_mps2 }
-}
-
-fn without_place(calibration: &ImuCalibration, setup: &ImuSetup) -> DMatrix<f64> {
-    let ImuCalibration { covariance, quantities, imu, holds, .. } = calibration;
+/// The covariance without the uncertainty that gravity and latitude have in common here and there.
+fn without_place(calibration: &Calibration, holds: &HoldCalibration, setup: &ImuSetup) -> DMatrix<f64> {
+    let Calibration { covariance, quantities, imu, prior_share, .. } = calibration;
     let covariance = recentred(covariance, quantities, imu, &holds.gravity, &setup.holds.gravity);
-    match (&calibration.of_vertical, setup.latitude_deg) {
+    let Some(gyroscope) = &calibration.gyroscope else { return covariance };
+    match (&gyroscope.of_vertical, setup.latitude_deg) {
         (Some(slope), None) => covariance - slope * slope.transpose(),
         (None, None) => {
-            let slope =
-                vertical_slope(quantities, &calibration.prior_share, imu, holds.gravity.magnitude_mps2);
+            let slope = vertical_slope(quantities, prior_share, imu, holds.gravity.magnitude_mps2);
             covariance + &slope * slope.transpose() * UNKNOWN_SD_RADPS.powi(2)
         }
         (_, Some(_)) => covariance,

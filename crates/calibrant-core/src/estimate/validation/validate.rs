@@ -2,7 +2,7 @@
 
 use super::caveats_of_calibration::Caveats;
 use super::explanations;
-use super::inputs::{at_least_one, of_holds, singular, temperatures};
+use super::inputs::{at_least_one, from_holds, of_holds, singular, temperatures};
 use super::judgement::judged;
 use super::prediction::Prediction;
 use super::prediction_errors::{Errors, Unused};
@@ -12,7 +12,7 @@ use crate::error::{Error, InputError, Refusal, Result};
 use crate::estimate::holds::median;
 use crate::estimate::imu::recordings;
 use crate::estimate::{
-    Calibration, CalibrationProblem, ImuCalibration, ImuProblem, find_holds, find_imu_holds, holds_between,
+    Calibration, CalibrationProblem, ImuProblem, ImuSetup, find_holds, find_imu_holds, holds_between,
 };
 use crate::sensor::SensorKind;
 
@@ -28,7 +28,7 @@ const OTHER_UNIT: f64 = 0.25;
 ///
 /// # Errors
 /// [`Error::Recording`](crate::Error::Recording) where the recording has no holds, lacks a sensor, is in other units, or is not one of this IMU.
-pub fn validate_imu(calibration: &ImuCalibration, problem: &ImuProblem<'_>) -> Result<Validation> {
+pub fn validate_imu(calibration: &Calibration, problem: &ImuProblem<'_>) -> Result<Validation> {
     let (accelerometer, gyroscope) = recordings(problem)?;
     let setup = &problem.setup.holds;
     let holds = match (&setup.intervals_s, &setup.found) {
@@ -49,8 +49,8 @@ pub fn validate_imu(calibration: &ImuCalibration, problem: &ImuProblem<'_>) -> R
             "both need the same clock: are these files of one recording?",
         )));
     }
-    let prediction = Prediction::of_imu(calibration, problem.setup);
-    on_another(&prediction, unused, &Caveats::of_imu(calibration))
+    let prediction = Prediction::of(calibration, from_holds(calibration)?, problem.setup);
+    on_another(&prediction, unused, &Caveats::of(calibration))
 }
 
 /// Tries the calibration of an accelerometer from holds on another recording of it.
@@ -66,10 +66,9 @@ pub fn validate(calibration: &Calibration, problem: &CalibrationProblem<'_>) -> 
         (None, None) => find_holds(problem.recording, setup.minimum_hold_s)?,
     };
     let holds = at_least_one(holds, setup)?;
-    let list = setup.gauge.parameter_list(problem.sensor.model);
-    let prediction = Prediction::of_accelerometer(calibration, found, &list, &setup.gravity);
+    let prediction = Prediction::of(calibration, found, &ImuSetup::from_holds(setup));
     let unused = Unused::of_accelerometer(problem.recording, &holds);
-    on_another(&prediction, unused, &Caveats::of_holds(found))
+    on_another(&prediction, unused, &Caveats::of(calibration))
 }
 
 fn on_another(prediction: &Prediction, unused: Unused<'_>, caveats: &Caveats) -> Result<Validation> {

@@ -1,8 +1,6 @@
 //! Simulated and recorded IMUs that several tests share.
 
-use calibrant::estimate::{
-    CalibrationSettings, Gyroscope, ImuCalibration, ImuProblem, ImuSetup, calibrate_imu,
-};
+use calibrant::estimate::{Calibration, CalibrationSettings, Gyroscope, ImuProblem, ImuSetup, calibrate_imu};
 use calibrant::io::{ImuReadOptions, ImuUnit, read_imu_pair};
 use calibrant::motion::Gravity;
 use calibrant::sensor::{
@@ -61,7 +59,7 @@ pub(crate) fn run_imu(
     gyroscope: &Gyroscope,
     setup: &ImuSetup,
     unit: ReadingUnit,
-) -> calibrant::Result<ImuCalibration> {
+) -> calibrant::Result<Calibration> {
     let accelerometer = accelerometer(unit);
     let problem = ImuProblem { accelerometer: &accelerometer, gyroscope, recording, setup };
     calibrate_imu(&problem, &CalibrationSettings::default())

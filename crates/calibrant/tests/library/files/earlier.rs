@@ -6,9 +6,10 @@ use calibrant::io::{calibration_json, parse_calibration, read_calibration};
 use calibrant::sensor::{ParameterList, ReadingUnit, SensorModel};
 
 /// A good file of one axis.
-const GOOD: &str = r#"{ "schema": 1, "status": "converged",
-  "parameters": [{ "name": "bias.x", "unit": "m/s²", "value": 0.1, "sd": 0.02 },
-                 { "name": "scale.x", "unit": "1", "value": 1.01, "sd": 0.001 }],
+const GOOD: &str = r#"{ "schema": 2, "status": "converged", "direction": "true to raw", "frame": "its own",
+  "accelerometer": { "reading_unit": "m/s²", "bias_mps2": [0.1], "matrix": [[1.01]] },
+  "parameters": [{ "name": "accelerometer.bias.x", "unit": "m/s²", "value": 0.1, "sd": 0.02 },
+                 { "name": "accelerometer.scale.x", "unit": "1", "value": 1.01, "sd": 0.001 }],
   "covariance": [[4e-4, 1e-6], [1e-6, 1e-6]] }"#;
 
 /// The message about GOOD with one replacement.
@@ -34,11 +35,11 @@ fn what_is_broken_below_is_good_before() {
 fn broken_calibrations_are_refused_with_their_reason() {
     for (from, to, says) in [
         ("{ \"schema\"", "hello { \"schema\"", "line 1, column 1: not valid JSON: expected value"),
-        ("[1e-6, 1e-6]] }", "[1e-6, 1e-6]]", "line 4, column"),
-        ("\"schema\": 1", "\"schema\": 2", "schema 2 of calibration.json is not known to this version"),
-        ("\"schema\": 1", "\"schema\": \"one\"", "schema \"one\" of calibration.json"),
-        ("\"schema\": 1, ", "", "this is no calibration: the field `schema` is missing"),
-        ("\"status\": \"converged\",", "", "the field `status` is missing"),
+        ("[1e-6, 1e-6]] }", "[1e-6, 1e-6]]", "line 5, column"),
+        ("\"schema\": 2", "\"schema\": 3", "schema 3 of a calibration is not known to this version"),
+        ("\"schema\": 2", "\"schema\": 1", "schema 1 of calibration.json is that of an earlier calibrant"),
+        ("\"schema\": 2", "\"schema\": \"one\"", "schema \"one\" of a calibration"),
+        ("\"schema\": 2, ", "", "the field `schema` is missing"),
         ("converged", "stalled", "this calibration did not converge: its status is \"stalled\""),
         ("\"covariance\"", "\"covar\"", "the field `covariance` is missing"),
         ("\"parameters\"", "\"params\"", "the field `parameters` is missing"),
@@ -47,7 +48,7 @@ fn broken_calibrations_are_refused_with_their_reason() {
         (
             "\"value\": 1.01",
             "\"value\": \"1.01\"",
-            "not a calibration.json: invalid type: string \"1.01\", expected f64",
+            "not a calibration of calibrant: invalid type: string \"1.01\", expected f64",
         ),
         ("[[4e-4, 1e-6], ", "[[4e-4], ", "the covariance is not 2 × 2, one row for each parameter"),
         ("[[4e-4, 1e-6], ", "[", "the covariance is not 2 × 2"),
@@ -67,13 +68,15 @@ fn broken_calibrations_are_refused_with_their_reason() {
     }
     assert!(parse_calibration(b"").expect_err("empty").to_string().contains("not valid JSON"));
     assert!(parse_calibration(b"\x00\x01").expect_err("binary").to_string().contains("binary data"));
-    assert!(parse_calibration(b"[]").expect_err("a list").to_string().contains("not a calibration.json"));
     assert!(
-        parse_calibration(b"{\"schema\":1,\"status\":\"converged\",\"parameters\":[],\"covariance\":[]}")
-            .expect_err("nothing in it")
-            .to_string()
-            .contains("it has no parameters")
+        parse_calibration(b"[]").expect_err("a list").to_string().contains("not a calibration of calibrant")
     );
+    let of_gyroscope = GOOD
+        .replace("accelerometer", "gyroscope")
+        .replace("m/s²", "rad/s")
+        .replace("bias_mps2", "bias_radps");
+    let error = parse_calibration(of_gyroscope.as_bytes()).expect_err("no accelerometer");
+    assert!(error.to_string().contains("it has no parameters of an accelerometer"), "{error}");
 }
 
 #[test]
@@ -88,13 +91,9 @@ fn another_sensor_is_refused() {
             .contains("its parameters are bias.x, scale.x, those of the experiment bias.x, bias.y")
     );
     assert!(message(1, ReadingUnit::Counts).contains("bias.x is in m/s² here, in the experiment in counts"));
-    let flat = GOOD.replace("\"value\": 1.01", "\"value\": 0.0");
-    let list = ParameterList::new(1, SensorModel::ScaleBias);
-    let error = parse_calibration(flat.as_bytes())
-        .expect("readable")
-        .sensor_of(&list, ReadingUnit::MetrePerSecondSquared)
-        .expect_err("reports nothing");
-    assert!(error.to_string().contains("the matrix S is singular"), "{error}");
+    let flat = GOOD.replace("1.01", "0.0");
+    let error = parse_calibration(flat.as_bytes()).expect_err("reports nothing");
+    assert!(error.to_string().contains("the matrix of the accelerometer is singular"), "{error}");
 }
 
 #[test]
@@ -109,10 +108,10 @@ fn a_file_that_is_written_is_read_back() {
     let directory = tempfile::tempdir().expect("a directory");
     let path = directory.path().join("calibration.json");
     let calibration = uniaxial();
-    std::fs::write(&path, calibration_json(&calibration, &[], &input(), &WORDS)).expect("written");
+    std::fs::write(&path, calibration_json(&calibration, &[], &[input()], &WORDS)).expect("written");
     let found = read_calibration(&path).expect("read");
     assert_eq!(found.values, calibration.values);
     assert_eq!(found.covariance, calibration.covariance);
     assert_eq!(found.file.as_deref(), Some(path.as_path()));
-    assert!(found.parameters.iter().map(|(name, _)| name).eq(calibration.parameters.iter().map(|p| &p.name)));
+    assert_eq!(found.parameters[1], ("scale.x".to_owned(), "1".to_owned()));
 }

@@ -13,7 +13,9 @@ use calibrant::io::{
     truth_json, write_atomically, write_calibration, write_motion, write_recording, write_summary,
 };
 use calibrant::motion::{Gravity, Hold, JerkControlledMotion};
-use calibrant::sensor::{Gauge, ReadingUnit, Recording, Sensor, SensorModel, SensorParameters};
+use calibrant::sensor::{
+    Gauge, ImuParameters, ReadingUnit, Recording, Sensor, SensorModel, SensorParameters,
+};
 use nalgebra::{DMatrix, Matrix3, Vector3};
 use serde_json::{Value, json};
 use std::path::Path;
@@ -118,30 +120,32 @@ fn calibration(
     recovered: Recovered,
     list: calibrant::sensor::ParameterList,
 ) -> Calibration {
-    let described = list.describe(sensor, &SensorParameters::identity());
+    let described = list.describe_accelerometer(sensor, &SensorParameters::identity());
     let p = described.len();
     Calibration {
         status: CalibrationStatus::Converged,
         iterations: 3,
         gradient_norm: f64::NAN,
         values: list.quantities().iter().map(|quantity| quantity.value(&parameters)).collect(),
+        quantities: list.of_accelerometer(),
         parameters: described,
         covariance: DMatrix::identity(p, p) * 0.25,
-        sensor: parameters,
-        unit: sensor.unit,
+        prior_share: Vec::new(),
+        datasheet_prior: true,
+        imu: ImuParameters { accelerometer: parameters, ..ImuParameters::identity() },
+        accelerometer_unit: sensor.unit,
         fit: FitStatistics {
             chi2: 5.5,
             degrees_of_freedom: 4,
             p_value: None,
-            residual_rms: Vector3::new(1.0, 2.0, 3.0),
+            residual_rms: Some(Vector3::new(1.0, 2.0, 3.0)),
             assumed_noise: None,
             noise_estimate: Some(Vector3::new(4.0, 5.0, 6.0)),
             whiteness: vec![Whiteness { statistic: 1.0, lags: 2, p_value: 0.5 }],
         },
         recovered,
-        residuals: Vec::new(),
-        first_sample: 0,
-        datasheet_prior: true,
+        gyroscope: None,
+        changes: Vec::new(),
         warnings: vec![Diagnostic::WeakerThanDatasheet { parameters: vec!["a \"word\"".into()] }],
     }
 }
@@ -151,8 +155,13 @@ pub(super) fn uniaxial() -> Calibration {
     let sensor = Sensor { axes: 1, ..Sensor::memsic_mxd2020u() };
     let nodes = vec![Vector3::zeros(), Vector3::new(2.0, 0.0, 0.0)];
     let motion = JerkControlledMotion::uniform(1.0, nodes).expect("good");
-    let recovered =
-        RecoveredMotion { motion, acceleration_sd_mps2: vec![Vector3::zeros(); 2], trust: "known" };
+    let recovered = RecoveredMotion {
+        motion,
+        acceleration_sd_mps2: vec![Vector3::zeros(); 2],
+        trust: "known",
+        residuals: Vec::new(),
+        first_sample: 0,
+    };
     let mut parameters = SensorParameters::identity();
     parameters.bias.x = 0.5;
     parameters.matrix[(0, 0)] = 2.0;
@@ -161,31 +170,36 @@ pub(super) fn uniaxial() -> Calibration {
 
 #[test]
 fn calibration_json_of_a_motion() {
-    let text = calibration_json(&uniaxial(), &[], &input(), &WORDS);
+    let text = calibration_json(&uniaxial(), &[], &[input()], &WORDS);
     let json: Value = serde_json::from_str(&text).expect("JSON");
-    assert_eq!(json["schema"], 1);
+    assert_eq!((&json["schema"], &json["kind"]), (&json!(2), &json!("calibration")));
     assert_eq!(json["gradient_norm"], Value::Null, "NaN is null");
-    let bias =
-        json!({"name": "bias.x", "unit": "m/s²", "value": 0.5, "sd": 0.5, "nominal": 0.0, "spread_sd": 0.1});
+    let bias = json!({"name": "accelerometer.bias.x", "unit": "m/s²", "value": 0.5, "sd": 0.5, "nominal": 0.0, "spread_sd": 0.1});
     assert_eq!(json["parameters"][0], bias);
     assert_eq!(json["prior"], "datasheet");
     assert_eq!(json["covariance"], json!([[0.25, 0.0], [0.0, 0.25]]));
     assert_eq!(json["correlation"], json!([[1.0, 0.0], [0.0, 1.0]]));
     assert_eq!(json["fit"]["residual_rms_mps2"], json!([1.0]));
     assert_eq!(json["fit"]["noise_estimate_mps2"], json!([4.0]));
-    assert_eq!(json["fit"]["assumed_noise_mps2"], Value::Null);
+    assert!(json["fit"].get("assumed_noise_mps2").is_none());
     assert_eq!(json["fit"]["whiteness"], json!([{"axis": "x", "statistic": 1.0, "lags": 2, "p_value": 0.5}]));
     assert_eq!(json["motion"]["acceleration_mps2"], json!([[0.0], [2.0]]));
     assert_eq!(json["motion"]["jerk_mps3"], json!([[2.0]]));
-    assert_eq!(json["convention"]["direction"], "true to raw: y = S s + b");
-    assert_eq!(json["convention"]["correction"]["matrix"], json!([[0.5]]));
-    assert_eq!(json["convention"]["correction"]["bias_mps2"], json!([0.5]));
-    assert_eq!(json["input"], json!({"file": "a.csv", "sha256": "00ff", "samples": 7, "rate_hz": 10.0}));
-    assert!(json.get("holds").is_none());
+    assert!(
+        json["direction"].as_str().is_some_and(|direction| direction.starts_with("true to raw: y_a = S_a f"))
+    );
+    assert_eq!(json["frame"], "the axes of the commanded motion");
+    assert_eq!(json["accelerometer"]["matrix"], json!([[2.0]]));
+    assert_eq!(json["accelerometer"]["bias_mps2"], json!([0.5]));
+    assert_eq!(json["accelerometer"]["correction"]["matrix"], json!([[0.5]]));
+    assert_eq!(json["inputs"], json!([{"file": "a.csv", "sha256": "00ff", "samples": 7, "rate_hz": 10.0}]));
+    for absent in ["gauge", "gyroscope", "holds", "still_gyroscope", "rotations", "turns", "validation"] {
+        assert!(json.get(absent).is_none_or(Value::is_null), "{absent}");
+    }
     assert!(text.contains("\"covariance\": [\n    [0.25, 0.0],\n    [0.0, 0.25]\n  ]"), "{text}");
     let directory = tempfile::tempdir().expect("a directory");
     let path = directory.path().join("calibration.json");
-    write_calibration(&path, &uniaxial(), &[], &input(), &WORDS).expect("written");
+    write_calibration(&path, &uniaxial(), &[], &[input()], &WORDS).expect("written");
     assert_eq!(std::fs::read_to_string(path).expect("read"), text, "the same bytes each time");
 }
 
@@ -223,6 +237,7 @@ pub(super) fn holds_in_counts() -> Calibration {
             sensor: SensorParameters::identity(),
             source: "the readings as they are".into(),
         },
+        temperatures_c: None,
         change: None,
     };
     let parameters = SensorParameters {
@@ -235,18 +250,16 @@ pub(super) fn holds_in_counts() -> Calibration {
 
 #[test]
 fn calibration_json_of_holds_in_counts() {
-    let text = calibration_json(&holds_in_counts(), &[], &input(), &WORDS);
+    let text = calibration_json(&holds_in_counts(), &[], &[input()], &WORDS);
     let json: Value = serde_json::from_str(&text).expect("JSON");
     assert_eq!(json["parameters"].as_array().map(Vec::len), Some(9));
     assert_eq!(json["holds"]["table"][0]["mean_counts"], json!([1.0, 2.0, 3.0]));
     assert_eq!(json["holds"]["table"][0]["used"], false);
     assert_eq!(json["holds"]["table"][0]["studentised_residual"], Value::Null);
-    assert_eq!(json["convention"]["gauge"], "upper");
-    assert_eq!(json["convention"]["matrix_counts_per_mps2"][0], json!([2.0, 1.0, 0.0]));
-    let correction = &json["convention"]["correction"];
-    assert_eq!(correction["matrix_mps2_per_count"][0], json!([0.5, -0.125, 0.0]));
-    assert_eq!(correction["imu_tk"]["gains_counts_per_mps2"], json!([2.0, 4.0, 8.0]));
-    assert_eq!(correction["imu_tk"]["misalignment"][0], json!([1.0, -0.5, 0.0]));
+    assert_eq!(json["gauge"], "upper");
+    let accelerometer = &json["accelerometer"];
+    assert_eq!(accelerometer["matrix_counts_per_mps2"][0], json!([2.0, 1.0, 0.0]));
+    assert_eq!(accelerometer["correction"]["matrix_mps2_per_count"][0], json!([0.5, -0.125, 0.0]));
     assert!(json.get("motion").is_none());
 }
 
@@ -257,7 +270,7 @@ fn truth_and_summary() {
     let json: Value = serde_json::from_str(&text).expect("JSON");
     assert_eq!(
         (&json["seed"], &json["parameters"][3]),
-        (&json!(7), &json!({"name": "scale.x", "unit": "1", "value": 1.0}))
+        (&json!(7), &json!({"name": "accelerometer.scale.x", "unit": "1", "value": 1.0}))
     );
 
     let directory = tempfile::tempdir().expect("a directory");
@@ -272,7 +285,7 @@ fn truth_and_summary() {
         SummaryRow { file: "good".into(), recording: "a/good.csv".into(), outcome: Ok(Summary::of(&good)) },
     ];
     write_summary(&path, &rows).expect("written");
-    let expected = "file,recording,status,error,code,warnings,chi2,degrees_of_freedom,p_value,bias.x_mps2,bias.x_sd_mps2,scale.x,scale.x_sd\n\
+    let expected = "file,recording,status,error,code,warnings,chi2,degrees_of_freedom,p_value,accelerometer.bias.x_mps2,accelerometer.bias.x_sd_mps2,accelerometer.scale.x,accelerometer.scale.x_sd\n\
                     \"bad,name\",\"a/bad,name.csv\",error,\"no \"\"rows\"\"\",recording-short,,,,,,,,\n\
                     good,a/good.csv,converged,,,1,5.5,4,,0.5,0.5,2.0,0.5\n";
     assert_eq!(std::fs::read_to_string(path).expect("read"), expected);

@@ -104,7 +104,7 @@ fn a_line_is_named_with_what_it_would_do_to_n() {
         .into_iter()
         .filter(|message| message.contains("a line at 45.4 Hz has "))
         .collect();
-    assert!(message.len() == 1 && message[0].contains("with it N would be 2."), "{:?}", noise.warnings);
+    assert!(message.len() == 1 && message[0].contains("With it, N would be 2."), "{:?}", noise.warnings);
     let none = beside_a_sine(&Moments::of(20_000), false, 45.4, 0.0, 1);
     assert_eq!((&none.axes[0].fit.vibration, none.warnings.len()), (&None, 0));
 }

@@ -243,9 +243,9 @@ fn an_outlier_is_left_out_and_named() {
         .collect();
     assert_eq!(message.len(), 1, "{message:?}");
     for text in [
-        "accelerometer x: 1 of 60000 samples is an outlier (the farthest 20",
+        "accelerometer x: 1 of 60000 samples is an outlier (the farthest is 20",
         "m/s² at 312.340 s",
-        "with it N would be",
+        "With it, N would be",
     ] {
         assert!(message[0].contains(text), "{text}: {}", message[0]);
     }
@@ -337,9 +337,9 @@ fn too_many_spikes_are_called_so_and_heavy_tails_are_not() {
         let mut values = white.clone();
         values.iter_mut().skip(7).step_by(one_in).for_each(|y| *y += 20.0);
         let noise = examine(&values);
-        assert_eq!(noise.caveat.as_deref(), Some("there are too many sparks"), "one in {one_in}");
+        assert_eq!(noise.caveat.as_deref(), Some("there are too many spikes"), "one in {one_in}");
         assert_eq!(noise.warnings.len(), 1, "{:?}", noise.warnings);
-        let message = format!("accelerometer x: {} of 20000 samples are sparks", (n - 7).div_ceil(one_in));
+        let message = format!("accelerometer x: {} of 20000 samples are spikes", (n - 7).div_ceil(one_in));
         assert!(messages(&noise.warnings)[0].contains(&message), "{:?}", noise.warnings);
     }
     // Student's t of three and five degrees of freedom

@@ -3,8 +3,9 @@
 
 use crate::common::normal;
 use calibrant::estimate::{
-    CalibrationSettings, CovarianceVerdict, ErrorKind, Gyroscope, ImuCalibration, ImuProblem, ImuSetup,
-    ValidatedErrors, Validation, calibrate_imu, cross_validate_imu, validate_imu,
+    Calibration, CalibrationSettings, CovarianceVerdict, ErrorKind, Gyroscope, GyroscopeCalibration,
+    HoldCalibration, ImuProblem, ImuSetup, Recovered, ValidatedErrors, Validation, calibrate_imu,
+    cross_validate_imu, validate_imu,
 };
 use calibrant::sensor::{ImuParameters, ImuRecording, Sensor, SensorModel};
 use calibrant::simulate::{ImuSimulation, Rng, simulate_imu};
@@ -34,17 +35,17 @@ impl Bench {
         }
     }
 
-    pub(crate) fn calibrate(&self, recording: &ImuRecording) -> ImuCalibration {
+    pub(crate) fn calibrate(&self, recording: &ImuRecording) -> Calibration {
         calibrate_imu(&self.problem(recording), &CalibrationSettings::default()).expect("determined")
     }
 
-    pub(crate) fn validate(&self, calibration: &ImuCalibration, recording: &ImuRecording) -> Validation {
+    pub(crate) fn validate(&self, calibration: &Calibration, recording: &ImuRecording) -> Validation {
         validate_imu(calibration, &self.problem(recording)).expect("holds")
     }
 
     pub(crate) fn fold(
         &self,
-        calibration: &ImuCalibration,
+        calibration: &Calibration,
         recording: &ImuRecording,
         folds: usize,
     ) -> Validation {
@@ -115,4 +116,17 @@ pub(crate) fn mean(values: impl Iterator<Item = f64>) -> f64 {
 /// Share of the validations with this verdict.
 pub(crate) fn share(of: &[&ValidatedErrors], verdict: CovarianceVerdict) -> f64 {
     mean(of.iter().map(|errors| f64::from(u8::from(errors.verdict == verdict))))
+}
+
+/// What a calibration found of its holds, to tamper with it.
+pub(crate) fn holds_mut(calibration: &mut Calibration) -> &mut HoldCalibration {
+    match &mut calibration.recovered {
+        Recovered::Holds(holds) => holds,
+        Recovered::Motion(_) => panic!("held"),
+    }
+}
+
+/// What a calibration found of its gyroscope, to tamper with it.
+pub(crate) fn gyroscope_mut(calibration: &mut Calibration) -> &mut GyroscopeCalibration {
+    calibration.gyroscope.as_mut().expect("an IMU")
 }

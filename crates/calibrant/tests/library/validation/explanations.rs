@@ -184,7 +184,7 @@ fn another_temperature_is_told_where_nothing_follows_it() {
     assert!(
         sentences
             .iter()
-            .any(|sentence| sentence.contains("at 45.0 °C in the mean, the calibration at 24.5 °C")),
+            .any(|sentence| sentence.contains("at a mean of 45.0 °C, the calibration at 24.5 °C")),
         "{sentences:#?}"
     );
 }

@@ -1,7 +1,6 @@
 //! Tests of validation: calibrations on data that they did not use.
 
 mod bench;
-mod duplicate_recording;
 mod errors;
 mod explanations;
 mod ferraris;

@@ -2,7 +2,7 @@
 
 use crate::common::{draw_imu, normal};
 use crate::validation::bench::{KINDS, bench, mean, share, simulate};
-use calibrant::estimate::{CovarianceVerdict, ErrorKind, ImuCalibration, Validation};
+use calibrant::estimate::{Calibration, CovarianceVerdict, ErrorKind, Validation};
 use calibrant::report::validation_sentences;
 use calibrant::sensor::{ImuParameters, ImuRecording, Recording, SensorKind};
 use calibrant::simulate::{ImuSimulation, Purpose, simulate_imu, stream};
@@ -26,7 +26,7 @@ fn tried(
     on: Times,
     scatter: f64,
     count: u64,
-    tamper: impl Fn(&mut ImuCalibration, &mut ImuParameters) + Sync,
+    tamper: impl Fn(&mut Calibration, &mut ImuParameters) + Sync,
 ) -> Vec<Validation> {
     let usual = ImuSimulation::default();
     let other = ImuSimulation {
@@ -133,7 +133,8 @@ fn what_is_wrong_is_found_in_other_noise() {
             let biases = tried(on, scatter, count, |calibration, truth| {
                 // 5 standard deviations of the difference of two means of 24 holds, of 246 samples each
                 let noise = 2e-3 * 2e-3 / 246.0 * (1.0 + on.gyroscope.powi(2));
-                let between = 2.0 * calibration.still.between_holds_sd.x.powi(2);
+                let between =
+                    2.0 * calibration.gyroscope.as_ref().expect("an IMU").still.between_holds_sd.x.powi(2);
                 truth.gyroscope.bias.x += 5.0 * ((noise + between) / 24.0).sqrt();
             });
             let gain = too_small(&gains, ErrorKind::Rotation);

@@ -15,7 +15,7 @@ fn the_standard_deviations_on_the_xsens_recording_are_to_be_believed() {
         setup: ImuSetup { holds: HoldsSetup { gravity, ..HoldsSetup::default() }, ..ImuSetup::default() },
     };
     let whole = bench.calibrate(&recording);
-    let holds = &whole.holds.holds;
+    let holds = &whole.hold_results();
     let middle = 0.5 * (holds[18].hold.end_s + holds[19].hold.start_s);
     let half = |first: bool| {
         let of = |of: &Option<Recording>| {

@@ -2,10 +2,10 @@
 //! not.
 
 use crate::common::draw_imu;
-use crate::validation::bench::{KINDS, bench, mean, share, simulate};
+use crate::validation::bench::{KINDS, bench, gyroscope_mut, holds_mut, mean, share, simulate};
 use calibrant::estimate::{
-    CalibrationProblem, CalibrationSettings, CovarianceVerdict, ErrorKind, HoldsSetup, ImuCalibration,
-    Stimulus, ValidatedErrors, Validation, calibrate, cross_validate, validate,
+    Calibration, CalibrationProblem, CalibrationSettings, CovarianceVerdict, ErrorKind, HoldsSetup, Stimulus,
+    ValidatedErrors, Validation, calibrate, cross_validate, validate,
 };
 use calibrant::motion::Gravity;
 use calibrant::sensor::{ReadingUnit, Sensor, SensorModel};
@@ -14,7 +14,7 @@ use nalgebra::Vector3;
 use rayon::prelude::*;
 
 /// Truths, and two recordings of each: calibrated from the one and validated on both.
-fn pairs(size: f64, count: u64, tamper: fn(&mut ImuCalibration)) -> Vec<(Validation, Validation)> {
+fn pairs(size: f64, count: u64, tamper: fn(&mut Calibration)) -> Vec<(Validation, Validation)> {
     let simulation = ImuSimulation::default();
     let bench = bench(&simulation);
     (0..count)
@@ -63,9 +63,9 @@ fn an_honest_covariance_is_believed() {
 fn a_covariance_that_is_too_small_is_found_by_its_factor() {
     let found = pairs(1.0, 200, |calibration| {
         calibration.covariance *= 0.25;
-        calibration.holds.between_holds_sd_mps2 *= 0.5;
-        calibration.still.between_holds_sd *= 0.5;
-        calibration.between_rotations_sd_rad *= 0.5;
+        holds_mut(calibration).between_holds_sd_mps2 *= 0.5;
+        gyroscope_mut(calibration).still.between_holds_sd *= 0.5;
+        gyroscope_mut(calibration).between_rotations_sd_rad *= 0.5;
     });
     // with 24 errors and 15 degrees of freedom behind their scatter, chance hides a factor of 2 in nearly
     // half of the cases. P(4 F > F at 99.5 %) is 0.5, 1.0 and 0.96 of the three kinds. Less 4 standard

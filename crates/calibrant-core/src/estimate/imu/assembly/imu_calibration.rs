@@ -11,13 +11,13 @@ use crate::estimate::imu::covariance::Uncertainty;
 use crate::estimate::imu::initial::accelerometer::InitialAccelerometer;
 use crate::estimate::imu::model::{ImuModel, TurnData, singular};
 use crate::estimate::imu::problem::{ImuProblem, Turn};
-use crate::estimate::imu::result::{ImuCalibration, RotationResult, TurnResult};
+use crate::estimate::imu::result::{GyroscopeCalibration, RotationResult, TurnResult};
 use crate::estimate::imu::rotations::movement::Movement;
 use crate::estimate::imu::stationary::gyroscope::StationaryGyroscope;
 use crate::estimate::imu::temperature::RecordingTemperature;
 use crate::estimate::imu::variance_components::solution::Solution;
-use crate::estimate::result::HoldResult;
-use crate::sensor::ImuParameters;
+use crate::estimate::result::{Calibration, FitStatistics, HoldCalibration, HoldResult, Recovered};
+use crate::sensor::{ImuParameters, ImuQuantity, Parameter, SensorKind};
 
 /// Everything that the result is put together from.
 pub(crate) struct Finished<'a> {
@@ -40,7 +40,7 @@ pub(crate) struct Finished<'a> {
 
 impl Finished<'_> {
     /// The result without warnings.
-    pub(crate) fn assemble(self) -> Result<ImuCalibration> {
+    pub(crate) fn assemble(self) -> Result<Calibration> {
         let Self { problem, model, solution, uncertainty, gyroscope, .. } = self;
         let (fit, imu) = (&solution.fit, solution.fit.state.imu);
         let before = gyroscope_before(problem.gyroscope, &model.holds, self.start, &imu);
@@ -50,37 +50,46 @@ impl Finished<'_> {
             hold_results(problem, (self.accelerometer, self.temperature), self.numbers, model, &fit.state)?;
         let of_hold = |hold: &HoldResult| self.temperature.of_hold(&hold.hold);
         let follows = !problem.setup.thermal.is_none();
-        Ok(ImuCalibration {
+        let unit = |quantity: &ImuQuantity| match quantity.sensor_kind() {
+            SensorKind::Accelerometer => problem.accelerometer.unit,
+            SensorKind::Gyroscope => problem.gyroscope.unit,
+        };
+        Ok(Calibration {
             status: fit.status,
             iterations: fit.iterations,
             gradient_norm: fit.gradient_norm,
+            parameters: model.quantities.iter().map(|of| Parameter::undescribed(*of, unit(of))).collect(),
             values: model.quantities.iter().map(|quantity| quantity.value(&imu)).collect(),
             quantities: model.quantities.clone(),
             covariance: uncertainty.covariance,
             prior_share: uncertainty.prior_share,
+            datasheet_prior: false,
             imu,
             accelerometer_unit: problem.accelerometer.unit,
-            gyroscope_unit: problem.gyroscope.unit,
-            latitude_deg: problem.setup.latitude_deg,
-            of_vertical: uncertainty.of_vertical,
-            north_rms_radps: uncertainty.north_rms_radps,
-            chi2: fit.chi2,
-            degrees_of_freedom: degrees_of_freedom(model, &rotations),
-            still: stationary_result(
-                model,
-                (&fit.state, &solution.between),
-                gyroscope,
-                &plain,
-                problem.setup.vertical_rate(),
-            )?,
-            gyroscope_before: before,
-            rotations,
-            between_rotations_sd_rad: model.between_rotations_sd_rad,
-            turns: turn_results(model, &problem.setup.turns, &imu)?,
-            hold_temperatures_c: follows.then(|| holds.holds.iter().map(of_hold).collect()),
+            fit: FitStatistics::of_chi2(fit.chi2, degrees_of_freedom(model, &rotations)),
+            gyroscope: Some(Box::new(GyroscopeCalibration {
+                unit: problem.gyroscope.unit,
+                still: stationary_result(
+                    model,
+                    (&fit.state, &solution.between),
+                    gyroscope,
+                    &plain,
+                    problem.setup.vertical_rate(),
+                )?,
+                before,
+                rotations,
+                between_rotations_sd_rad: model.between_rotations_sd_rad,
+                turns: turn_results(model, &problem.setup.turns, &imu)?,
+                clocks: self.clock,
+                latitude_deg: problem.setup.latitude_deg,
+                of_vertical: uncertainty.of_vertical,
+                north_rms_radps: uncertainty.north_rms_radps,
+            })),
+            recovered: Recovered::Holds(HoldCalibration {
+                temperatures_c: follows.then(|| holds.holds.iter().map(of_hold).collect()),
+                ..holds
+            }),
             changes: self.changes,
-            clocks: self.clock,
-            holds,
             warnings: Vec::new(),
         })
     }

@@ -5,7 +5,7 @@ use crate::estimate::imu::checks::evidence::{Diagnostics, Evidence};
 
 /// Is it far above its degrees of freedom?
 pub(crate) fn check(evidence: &Evidence<'_>) -> Diagnostics {
-    let (chi2, degrees) = (evidence.fit.chi2, evidence.calibration.degrees_of_freedom as f64);
+    let (chi2, degrees) = (evidence.fit.chi2, evidence.calibration.fit.degrees_of_freedom as f64);
     let is_large = degrees > 0.0 && chi2 > degrees + 6.0 * (2.0 * degrees).sqrt();
     is_large
         .then_some(Diagnostic::ChiSquaredLarge { chi2, degrees_of_freedom: degrees })

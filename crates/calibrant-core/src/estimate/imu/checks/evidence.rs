@@ -9,9 +9,9 @@ use crate::estimate::imu::clock::difference::ClockDifference;
 use crate::estimate::imu::initial::accelerometer::{InitialAccelerometer, UsedHolds};
 use crate::estimate::imu::model::{Fit, ImuModel};
 use crate::estimate::imu::problem::ImuProblem;
-use crate::estimate::imu::result::ImuCalibration;
 use crate::estimate::imu::stationary::gyroscope::StationaryGyroscope;
 use crate::estimate::imu::temperature::RecordingTemperature;
+use crate::estimate::result::Calibration;
 use crate::sensor::Recording;
 
 /// What a user should know.
@@ -36,5 +36,5 @@ pub(crate) struct Evidence<'a> {
     /// The gyroscope's clock beside the accelerometer's.
     pub(crate) clock: Option<ClockDifference>,
     /// The result, but for its warnings.
-    pub(crate) calibration: &'a ImuCalibration,
+    pub(crate) calibration: &'a Calibration,
 }

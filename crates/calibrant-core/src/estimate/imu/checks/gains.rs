@@ -3,7 +3,7 @@
 use crate::diagnostic::Diagnostic;
 use crate::estimate::imu::checks::directions::turned_frame;
 use crate::estimate::imu::checks::evidence::{Diagnostics, Evidence};
-use crate::estimate::imu::result::ImuCalibration;
+use crate::estimate::result::Calibration;
 use crate::sensor::{Axis, ReadingUnit, SensorKind};
 
 /// Gains of readings in SI that are plausible.
@@ -15,11 +15,11 @@ pub(crate) fn check(evidence: &Evidence<'_>) -> Diagnostics {
 }
 
 /// Readings in SI have gains near one, each axis along its own.
-fn of_gains(calibration: &ImuCalibration, reordered: bool) -> Diagnostics {
+fn of_gains(calibration: &Calibration, reordered: bool) -> Diagnostics {
     let mut warnings = Vec::new();
     for (sensor_kind, unit) in [
         (SensorKind::Accelerometer, calibration.accelerometer_unit),
-        (SensorKind::Gyroscope, calibration.gyroscope_unit),
+        (SensorKind::Gyroscope, calibration.unit(SensorKind::Gyroscope)),
     ] {
         if unit == ReadingUnit::Counts || (sensor_kind == SensorKind::Gyroscope && reordered) {
             continue;

@@ -10,7 +10,7 @@ const USUAL_RATIOS: std::ops::RangeInclusive<f64> = 0.5..=2.0;
 
 /// Axes that scatter by much more or less in the holds.
 pub(crate) fn check(evidence: &Evidence<'_>) -> Diagnostics {
-    if evidence.calibration.still.noise_source != NoiseSource::Datasheet {
+    if evidence.gyroscope.noise_source != NoiseSource::Datasheet {
         return Vec::new();
     }
     let (scatter, noise) = (&evidence.gyroscope.scatter, &evidence.model.gyroscope_noise.of_sample);

@@ -8,5 +8,5 @@ pub(crate) fn check(evidence: &Evidence<'_>) -> Diagnostics {
     let first = evidence.accelerometer;
     let stated_before = left_out(&first.holds);
     let of_accelerometer = first.warnings.iter().filter(|stated| !stated_before.contains(stated));
-    left_out(&evidence.calibration.holds).into_iter().chain(of_accelerometer.cloned()).collect()
+    evidence.calibration.holds().into_iter().flat_map(left_out).chain(of_accelerometer.cloned()).collect()
 }

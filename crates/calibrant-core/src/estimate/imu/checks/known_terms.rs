@@ -6,7 +6,7 @@
 use crate::diagnostic::{KnownEvidence, KnownMismatch};
 use crate::error::{Error, InputError, Refusal, Result};
 use crate::estimate::imu::problem::KnownTerm;
-use crate::estimate::imu::result::ImuCalibration;
+use crate::estimate::result::Calibration;
 use crate::estimate::result::CalibrationStatus;
 use crate::sensor::{Condition, ImuQuantity, SensorKind};
 use nalgebra::Vector3;
@@ -45,7 +45,7 @@ pub(crate) fn check(known: &KnownTerm) -> Result<()> {
 }
 
 /// The terms that the recording contradicts by far. `without`: the calibration without any of them.
-pub(crate) fn contradicted(known: &[KnownTerm], without: &ImuCalibration) -> Vec<Contradiction> {
+pub(crate) fn contradicted(known: &[KnownTerm], without: &Calibration) -> Vec<Contradiction> {
     if without.status != CalibrationStatus::Converged {
         return Vec::new();
     }
@@ -57,7 +57,7 @@ pub(crate) fn contradicted(known: &[KnownTerm], without: &ImuCalibration) -> Vec
         // the estimate is the mean of both, weighted
         let variance = known.sd.unwrap_or(0.0).powi(2);
         let pull = off * sd * sd / (sd * sd + variance);
-        let gravity = without.holds.gravity.magnitude_mps2;
+        let gravity = without.holds()?.gravity.magnitude_mps2;
         (off > CONTRADICTED * sd.hypot(known.sd.unwrap_or(0.0))).then(|| Contradiction {
             known: KnownMismatch {
                 parameter: known.quantity.name(),
@@ -71,14 +71,15 @@ pub(crate) fn contradicted(known: &[KnownTerm], without: &ImuCalibration) -> Vec
 }
 
 /// By which share of the readings of gravity, or of a slow turn, one unit of a quantity moves them at most.
-fn share(quantity: ImuQuantity, calibration: &ImuCalibration, gravity: f64) -> f64 {
+fn share(quantity: ImuQuantity, calibration: &Calibration, gravity: f64) -> f64 {
     let imu = &calibration.imu;
     let size = match quantity.sensor_kind() {
         SensorKind::Accelerometer => gravity,
         SensorKind::Gyroscope => SLOW_RADPS,
     };
     // without temperatures nothing follows them
-    let temperatures = calibration.hold_temperatures_c.as_deref().unwrap_or(&[0.0]);
+    let temperatures =
+        calibration.holds().and_then(|holds| holds.temperatures_c.as_deref()).unwrap_or(&[0.0]);
     let moved = |(axis, temperature_c): (usize, f64)| {
         let along = Vector3::ith(axis, 1.0);
         let at = Condition { imu, stimulus: along * size, force: along * gravity, temperature_c };

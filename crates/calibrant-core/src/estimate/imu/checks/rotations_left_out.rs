@@ -3,14 +3,15 @@
 use crate::diagnostic::{Changed, Diagnostic, RotationReason};
 use crate::estimate::change::longest_run;
 use crate::estimate::imu::checks::evidence::{Diagnostics, Evidence};
-use crate::estimate::imu::result::{ImuCalibration, RotationResult};
+use crate::estimate::imu::result::RotationResult;
+use crate::estimate::result::Calibration;
 use crate::sensor::SensorKind;
 
 /// Each with its reason, and those that were left out one after another.
 pub(crate) fn check(evidence: &Evidence<'_>) -> Diagnostics {
     let calibration = evidence.calibration;
     let mut warnings = Vec::new();
-    for rotation in calibration.rotations.iter().filter(|rotation| !rotation.used) {
+    for rotation in calibration.rotations().iter().filter(|rotation| !rotation.used) {
         let is_integrated = rotation.is_integrated();
         warnings.push(Diagnostic::RotationLeftOut {
             from_hold: rotation.from_hold + 1,
@@ -27,9 +28,9 @@ pub(crate) fn check(evidence: &Evidence<'_>) -> Diagnostics {
 }
 
 /// Rotations that were left out one after another, where no change explains them.
-fn rotations_in_a_row(calibration: &ImuCalibration) -> Option<Diagnostic> {
+fn rotations_in_a_row(calibration: &Calibration) -> Option<Diagnostic> {
     let rotations: Vec<&RotationResult> =
-        calibration.rotations.iter().filter(|rotation| rotation.is_integrated()).collect();
+        calibration.rotations().iter().filter(|rotation| rotation.is_integrated()).collect();
     let run = longest_run(rotations.iter().map(|rotation| !rotation.used))?;
     let explained = calibration
         .changes

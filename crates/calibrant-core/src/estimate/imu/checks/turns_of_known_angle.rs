@@ -5,8 +5,8 @@ use crate::estimate::imu::checks::evidence::{Diagnostics, Evidence};
 use crate::estimate::imu::checks::turn_angles::{OTHER_TURN_SHARE, factor, is_another, shows_another};
 use crate::estimate::imu::model::{Fit, ImuModel, TurnData};
 use crate::estimate::imu::problem::Turn;
-use crate::estimate::imu::result::ImuCalibration;
-use crate::sensor::ReadingUnit;
+use crate::estimate::result::Calibration;
+use crate::sensor::{ReadingUnit, SensorKind};
 
 /// The data contradict a turn that is off by this many standard deviations.
 const CONTRADICTED_SD: f64 = 4.5;
@@ -16,10 +16,10 @@ pub(crate) fn check(evidence: &Evidence<'_>) -> Diagnostics {
     of_turns(evidence.model, evidence.fit, &evidence.problem.setup.turns, evidence.calibration)
 }
 
-fn of_turns(model: &ImuModel<'_>, fit: &Fit, turns: &[Turn], calibration: &ImuCalibration) -> Diagnostics {
+fn of_turns(model: &ImuModel<'_>, fit: &Fit, turns: &[Turn], calibration: &Calibration) -> Diagnostics {
     let mut warnings = Vec::new();
     let on_faces = calibration.frame_is_known();
-    if calibration.gyroscope_unit != ReadingUnit::Counts {
+    if calibration.unit(SensorKind::Gyroscope) != ReadingUnit::Counts {
         if let Some(share) = same_share(model, fit) {
             return vec![Diagnostic::TurnShare { share, mistake: factor(share) }];
         }

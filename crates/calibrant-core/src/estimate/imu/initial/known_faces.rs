@@ -121,6 +121,7 @@ pub(crate) fn from_faces(
         condition_number: condition,
         detected: false,
         before: Uncalibrated::accelerometer(problem.accelerometer, &sensor),
+        temperatures_c: None,
         change: None,
     };
     Ok(InitialAccelerometer {

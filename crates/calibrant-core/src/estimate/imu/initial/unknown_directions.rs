@@ -60,7 +60,7 @@ pub(crate) fn from_unknown_directions(
     let (thermal, adjusted) = (SensorThermal::default(), None);
     let warnings = first.warnings;
     Ok(InitialAccelerometer {
-        sensor: first.sensor,
+        sensor: first.imu.accelerometer,
         within,
         of_mean,
         holds,

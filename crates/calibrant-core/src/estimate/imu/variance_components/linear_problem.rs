@@ -2,7 +2,9 @@
 
 use crate::error::Result;
 use crate::estimate::imu::model::{GravityResiduals, ImuModel, State, TurnData, singular};
-use crate::estimate::imu::variance_components::rotations::{Rest, RotationWeights, weigh_rotations};
+use crate::estimate::imu::variance_components::rotations::{
+    Rest, RotationWeights, solve_again, weigh_rotations,
+};
 use crate::sensor::{Condition, ImuParameters, ImuQuantity};
 use nalgebra::{DMatrix, DVector, Matrix3xX, Vector3};
 use std::ops::SubAssign;
@@ -67,10 +69,15 @@ fn rest(model: &ImuModel<'_>, state: &State) -> Rest {
         f[(places.len() + k, places.len() + k)] += 1.0;
         g[places.len() + k] -= unknown;
     }
-    let determined = (0..size)
-        .filter(|&i| f[(i, i)] > 0.0 && places.get(i).is_none_or(|&k| is_reported(model, k, imu)))
-        .count();
-    Rest { information: f, rhs: g, determined }
+    let is_determined: Vec<bool> = (0..size)
+        .map(|i| f[(i, i)] > 0.0 && places.get(i).is_none_or(|&k| is_reported(model, k, imu)))
+        .collect();
+    let determined = is_determined.iter().filter(|is| **is).count();
+    let prior = model.prior.as_ref().map(|(_, weight)| {
+        let of_prior = |i: usize| places.get(i).filter(|_| !is_determined[i]).map_or(0.0, |&k| weight[k]);
+        DVector::from_fn(size, |i, _| of_prior(i))
+    });
+    Rest { information: f, rhs: g, determined, prior }
 }
 
 /// Do the data beside the rotations tell a quantity? What the Earth's rate in the holds says of gains is nothing beside these.
@@ -83,7 +90,6 @@ fn is_reported(model: &ImuModel<'_>, place: usize, imu: &ImuParameters) -> bool 
     quantity.is_of_bias()
         || matches!(quantity, ImuQuantity::GSensitivity(..))
         || model.turns.iter().any(of_turn)
-        || model.prior.as_ref().is_some_and(|(_, weight)| weight[place] > 0.0)
 }
 
 /// The weights that a state asks for.
@@ -92,7 +98,23 @@ pub(crate) fn reweigh(
     state: &State,
     residuals: &GravityResiduals,
 ) -> Result<RotationWeights> {
-    let mut weighed = weigh_rotations(model, state, residuals, rest(model, state)).ok_or_else(singular)?;
+    let weighed = weigh_rotations(model, state, residuals, rest(model, state)).ok_or_else(singular)?;
+    Ok(less_earth(weighed, model, state))
+}
+
+/// The same weights, with the step and the covariance of the present model.
+pub(crate) fn with_same_weights(
+    model: &ImuModel<'_>,
+    state: &State,
+    residuals: &GravityResiduals,
+    weighed: RotationWeights,
+) -> Result<RotationWeights> {
+    let weighed = solve_again(model, state, residuals, rest(model, state), weighed).ok_or_else(singular)?;
+    Ok(less_earth(weighed, model, state))
+}
+
+/// Turns `Γ` less what the Earth's rate makes of it into `Γ`.
+fn less_earth(mut weighed: RotationWeights, model: &ImuModel<'_>, state: &State) -> RotationWeights {
     let places = model.gyroscope_places();
     for (i, &k) in places.iter().enumerate() {
         let taken = model.earth.taken_off(model.quantities[k], &state.imu);
@@ -105,5 +127,5 @@ pub(crate) fn reweigh(
             weighed.covariance.column_mut(i).sub_assign(&column);
         }
     }
-    Ok(weighed)
+    weighed
 }

@@ -56,6 +56,7 @@ struct Linear<'a> {
     rest: DMatrix<f64>,
     rest_rhs: DVector<f64>,
     determined: usize,
+    prior: Option<DVector<f64>>,
 }
 
 /// What the data beside the rotations say of the unknowns.
@@ -64,6 +65,8 @@ pub(crate) struct Rest {
     pub(crate) rhs: DVector<f64>,
     /// Number of unknowns that they tell: these take nothing of the rotations.
     pub(crate) determined: usize,
+    /// Inverse variance of each other unknown beforehand, where there is a prior.
+    pub(crate) prior: Option<DVector<f64>>,
 }
 
 /// Weighs the rotations of a problem, given their misses (`None` for those that cannot be used).
@@ -73,29 +76,8 @@ pub(crate) fn weigh_rotations<'a>(
     residuals: &'a [Option<GravityResidual>],
     rest: Rest,
 ) -> Option<RotationWeights> {
-    let places = model.gyroscope_places();
-    let size = rest.rhs.len();
-    let jacobian = |(i, residual): (usize, &'a GravityResidual)| {
-        let of_earth = model.earth.of_rotation(&model.rotations[i], residual, &state.imu, &state.forces);
-        let mut jacobian = Matrix2xX::zeros(size);
-        places
-            .iter()
-            .enumerate()
-            .for_each(|(to, &k)| jacobian.set_column(to, &residual.by_parameters.column(k)));
-        jacobian.columns_mut(places.len(), of_earth.ncols()).copy_from(&of_earth);
-        (residual, jacobian)
-    };
-    let linear = Linear {
-        residuals: residuals
-            .iter()
-            .enumerate()
-            .map(|(i, residual)| Some(jacobian((i, residual.as_ref()?))))
-            .collect(),
-        size,
-        rest: rest.information,
-        rest_rhs: rest.rhs,
-        determined: rest.determined,
-    };
+    let linear = Linear::new(model, state, residuals, rest);
+    let unknowns_of_gyroscope = model.gyroscope_places().len();
     let is_there: Vec<bool> = residuals.iter().map(Option::is_some).collect();
     let all = count(&is_there);
     // those that end upside down are far from where the problem is linear, and a few of them would hide each other
@@ -103,7 +85,7 @@ pub(crate) fn weigh_rotations<'a>(
         .iter()
         .map(|residual| residual.as_ref().is_some_and(|residual| residual.error.norm() < FRAC_PI_2))
         .collect();
-    let are_enough = |used: &[bool]| 2 * count(used) > places.len() + 4;
+    let are_enough = |used: &[bool]| 2 * count(used) > unknowns_of_gyroscope + 4;
     let mut used = if are_enough(&upright) { upright } else { is_there };
     let mut excess;
     let mut solved;
@@ -136,6 +118,20 @@ pub(crate) fn weigh_rotations<'a>(
     }
 }
 
+/// The step and the covariance with weights that are given.
+pub(crate) fn solve_again(
+    model: &ImuModel<'_>,
+    state: &State,
+    residuals: &[Option<GravityResidual>],
+    rest: Rest,
+    weighed: RotationWeights,
+) -> Option<RotationWeights> {
+    let linear = Linear::new(model, state, residuals, rest);
+    let Solved { step, covariance, length, .. } =
+        linear.solve(&weighed.used, weighed.between_rotations_sd_rad)?;
+    Some(RotationWeights { step, covariance, length, ..weighed })
+}
+
 fn count(used: &[bool]) -> usize {
     used.iter().filter(|used| **used).count()
 }
@@ -145,6 +141,40 @@ struct Solved {
     covariance: DMatrix<f64>,
     chi2: f64,
     length: f64,
+}
+
+impl<'a> Linear<'a> {
+    fn new(
+        model: &ImuModel<'_>,
+        state: &State,
+        residuals: &'a [Option<GravityResidual>],
+        rest: Rest,
+    ) -> Self {
+        let places = model.gyroscope_places();
+        let size = rest.rhs.len();
+        let jacobian = |(i, residual): (usize, &'a GravityResidual)| {
+            let of_earth = model.earth.of_rotation(&model.rotations[i], residual, &state.imu, &state.forces);
+            let mut jacobian = Matrix2xX::zeros(size);
+            places
+                .iter()
+                .enumerate()
+                .for_each(|(to, &k)| jacobian.set_column(to, &residual.by_parameters.column(k)));
+            jacobian.columns_mut(places.len(), of_earth.ncols()).copy_from(&of_earth);
+            (residual, jacobian)
+        };
+        Linear {
+            residuals: residuals
+                .iter()
+                .enumerate()
+                .map(|(i, residual)| Some(jacobian((i, residual.as_ref()?))))
+                .collect(),
+            size,
+            rest: rest.information,
+            rest_rhs: rest.rhs,
+            determined: rest.determined,
+            prior: rest.prior,
+        }
+    }
 }
 
 impl Linear<'_> {
@@ -196,12 +226,26 @@ impl Linear<'_> {
 
     /// The excess that makes χ² equal its degrees of freedom, zero where the noise explains the scatter.
     fn excess(&self, used: &[bool]) -> Option<(f64, Solved)> {
+        let equations = 2 * count(used);
+        let open = self.size - self.determined;
+        let degrees = match self.prior {
+            None => equations.saturating_sub(open),
+            Some(_) => equations,
+        } as f64;
         excess(
-            (2 * count(used)).saturating_sub(self.size - self.determined) as f64,
+            degrees,
             |_| USUAL_EXCESS_RAD,
             |excess| {
                 let solved = self.solve(used, excess)?;
-                Some((solved.chi2, solved))
+                let chi2 = match &self.prior {
+                    None => solved.chi2,
+                    // the degrees of freedom follow the fit, so that χ² is scaled to one number of them
+                    Some(weight) => {
+                        let of_prior = weight.dot(&solved.covariance.diagonal());
+                        solved.chi2 * degrees / (degrees - (open as f64 - of_prior)).max(f64::EPSILON)
+                    }
+                };
+                Some((chi2, solved))
             },
         )
     }

@@ -1,11 +1,15 @@
 //! Weights and least squares: the estimate.
+//!
+//! A prior adds information and weighs nothing: the weights are those of the recording alone, where it determines all quantities.
 
 use crate::error::Result;
+use crate::estimate::imu::checks::identifiability;
 use crate::estimate::imu::model::{Fit, GravityResiduals, ImuModel, State, singular};
 use crate::estimate::imu::variance_components::between_holds::Means;
 use crate::estimate::imu::variance_components::iteration::{apply, variance_components};
-use crate::estimate::imu::variance_components::linear_problem::reweigh;
+use crate::estimate::imu::variance_components::linear_problem::{reweigh, with_same_weights};
 use crate::estimate::imu::variance_components::rotations::RotationWeights;
+use crate::estimate::result::CalibrationStatus;
 use crate::estimate::settings::CalibrationSettings;
 use nalgebra::Vector3;
 
@@ -21,8 +25,36 @@ pub(crate) struct Solution {
     pub(crate) between: Vector3<f64>,
 }
 
-/// Variance components with directions fixed, least squares of all, and the rotations' weights once more where directions and parameters go together.
+/// The estimate from a state that is close.
 pub(crate) fn solve(
+    model: &mut ImuModel<'_>,
+    start: (State, GravityResiduals),
+    means: &Means<'_>,
+    between: Vector3<f64>,
+    settings: &CalibrationSettings,
+) -> Result<Solution> {
+    let Some(prior) = model.prior.take() else {
+        return estimate(model, start, means, between, settings);
+    };
+    let state = start.0.clone();
+    let alone = model.linearised(&state, settings)?;
+    if identifiability::check(model, &state, &alone).is_ok() {
+        let Solution { fit, weighed, between } = estimate(model, start, means, between, settings)?;
+        model.prior = Some(prior.clone());
+        let fit = model.fit(fit.state, fit.residuals, settings).ok_or_else(singular)?;
+        if fit.status == CalibrationStatus::Converged {
+            let weighed = with_same_weights(model, &fit.state, &fit.residuals, weighed)?;
+            return Ok(Solution { fit, weighed, between });
+        }
+    }
+    // the recording leaves something open, or contradicts the prior by far
+    model.prior = Some(prior);
+    let residuals = model.gravity_residuals(&state).ok_or_else(singular)?;
+    estimate(model, (state, residuals), means, between, settings)
+}
+
+/// Variance components with directions fixed, least squares of all, and the rotations' weights once more where directions and parameters go together.
+fn estimate(
     model: &mut ImuModel<'_>,
     (mut state, residuals): (State, GravityResiduals),
     means: &Means<'_>,

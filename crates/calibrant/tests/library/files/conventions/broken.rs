@@ -1,8 +1,11 @@
 //! Tests of broken calibrations of every format: refused with the reason, and the place where it is known.
 
 use super::{COUNTS, SI, alone, file, imu};
+use crate::common::WORDS;
+use crate::files::results::{input, uniaxial};
 use calibrant::io::{
-    ConventionOptions, ImuFormat, RawUnits, calibrated_imu_texts, parse_calibrated_imu, read_calibrated_imu,
+    ConventionOptions, ImuFormat, RawUnits, calibrated_imu_texts, calibration_json, parse_calibrated_imu,
+    read_calibrated_imu,
 };
 use calibrant::sensor::{Gauge, SensorKind};
 use proptest::prelude::*;
@@ -68,7 +71,7 @@ fn calibrant_json() {
             (
                 "\"bias_mps2\": [",
                 "\"bias_mps2\": [1e30], \"x\": [",
-                "`accelerometer.bias_mps2` has 1 numbers, not 3",
+                "this is the calibration of a sensor with one axis; an IMU has three",
             ),
             ("\"matrix\": [", "\"matrix\": [[1.0], ", "`accelerometer.matrix` is not 3 × 3"),
             ("\"matrix\": [", "\"matrix\": [null, ", "not a calibration of calibrant: invalid type: null"),
@@ -102,12 +105,14 @@ fn calibrant_json() {
         assert!(message.contains(says), "{to}: {message}");
     }
     // one axis is no IMU
-    let uniaxial = r#"{ "schema": 1, "status": "converged", "covariance": [[4e-4]],
-        "parameters": [{ "name": "bias.x", "unit": "m/s²", "value": 0.1, "sd": 0.02 }] }"#;
-    assert!(
-        message_of(uniaxial, &ConventionOptions::default())
-            .contains("a sensor with one axis; an IMU has three")
-    );
+    let uniaxial = calibration_json(&uniaxial(), &[], &[input()], &WORDS);
+    let message = message_of(&uniaxial, &ConventionOptions::default());
+    assert!(message.contains("a sensor with one axis; an IMU has three"), "{message}");
+    // earlier versions wrote another schema
+    let old = uniaxial.replacen("\"schema\": 2", "\"schema\": 1", 1);
+    let message = message_of(&old, &ConventionOptions::default());
+    assert!(message.contains("schema 1 of calibration.json is that of an earlier calibrant"), "{message}");
+    assert!(message.contains("calibrate the recording again"), "{message}");
 }
 
 #[test]

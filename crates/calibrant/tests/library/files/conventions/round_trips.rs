@@ -82,7 +82,7 @@ fn the_json_says_what_it_means() {
         &calibrant::io::calibrated_imu_texts(&file, ImuFormat::CalibrantJson).expect("everything")[0].1;
     for says in [
         "\"schema\": 2",
-        "\"kind\": \"calibrated IMU\"",
+        "\"kind\": \"calibration\"",
         "\"direction\": \"true to raw: y_a = S_a f + b_a",
         "\"frame\": \"fixed by the upper gauge of the accelerometer",
         "\"gauge\": \"upper\"",
@@ -100,16 +100,19 @@ fn the_json_says_what_it_means() {
 }
 
 #[test]
-fn todays_calibration_json_is_read_as_an_imu() {
+fn the_calibration_of_an_accelerometer_is_read_as_an_imu() {
     let calibration = crate::files::results::holds_in_counts();
-    let text = calibration_json(&calibration, &[], &crate::files::results::input(), &WORDS);
-    let file = parse_calibrated_imu(text.as_bytes(), &ConventionOptions::default()).expect("schema 1");
-    assert_eq!(file.imu.parameters.accelerometer, calibration.sensor);
+    let text = calibration_json(&calibration, &[], &[crate::files::results::input()], &WORDS);
+    let file = parse_calibrated_imu(text.as_bytes(), &ConventionOptions::default()).expect("readable");
+    assert_eq!(file.imu.parameters.accelerometer, calibration.imu.accelerometer);
     assert_eq!(file.imu.covariance.as_ref(), Some(&calibration.covariance));
-    assert_eq!((file.imu.accelerometer_unit, file.imu.gyroscope_unit), (Some(calibration.unit), None));
+    assert_eq!(
+        (file.imu.accelerometer_unit, file.imu.gyroscope_unit),
+        (Some(calibration.accelerometer_unit), None)
+    );
     assert_eq!(file.inputs, [crate::files::results::input()]);
-    assert!(file.imu.frame.contains("gauge of the accelerometer"), "{}", file.imu.frame);
-    // into schema 2 and back
+    assert!(file.imu.frame.contains("the accelerometer's gauge"), "{}", file.imu.frame);
+    // and written again
     assert_eq!(there_and_back(&file, ImuFormat::CalibrantJson), std::slice::from_ref(&file));
     let turned = file.imu.in_gauge(Gauge::Lower).expect("regular");
     let overall = Comparison::of(&file.imu, &turned).overall.expect("covariances");

@@ -1,8 +1,8 @@
 //! The improvement by a calibration, in numbers: errors before and after it.
 
-use super::number_format;
-use super::table::{Cell, Table};
-use calibrant_core::estimate::{HoldCalibration, ImuCalibration};
+use crate::number_format;
+use crate::table::{Cell, Table};
+use calibrant_core::estimate::{Calibration, HoldCalibration};
 
 /// One error: its name, its value before and after, its unit, and its meaning.
 struct Improved {
@@ -13,34 +13,29 @@ struct Improved {
     meaning: &'static str,
 }
 
-/// The magnitude in holds of a static calibration; empty where nothing is left to check it.
-pub(super) fn of_holds(holds: &HoldCalibration) -> String {
-    table(&magnitude(holds).into_iter().collect::<Vec<_>>())
-}
-
-/// The same of an IMU, with its gyroscope at rest and gravity after rotations.
-pub(super) fn of_imu(calibration: &ImuCalibration) -> String {
-    let mut rows: Vec<Improved> = magnitude(&calibration.holds).into_iter().collect();
-    rows.push(Improved {
-        name: "rate shown at rest, rms",
-        before: calibration.still.rate_rms_before_radps.to_degrees(),
-        after: calibration.still.rate_rms_radps.to_degrees(),
+/// Gravity residuals, the gyroscope at rest, and rotation errors. Empty if no data are left to check them.
+pub(super) fn improvements(calibration: &Calibration, holds: &HoldCalibration) -> String {
+    let mut rows: Vec<Improved> = magnitude(holds).into_iter().collect();
+    rows.extend(calibration.gyroscope.as_ref().map(|gyroscope| Improved {
+        name: "rate at rest, rms",
+        before: gyroscope.still.rate_rms_before_radps.to_degrees(),
+        after: gyroscope.still.rate_rms_radps.to_degrees(),
         unit: "°/s",
-        meaning: "Mean rate in each hold, all axes together. Its mean over all holds is taken out before, too: what is left is a bias that wanders, and g-sensitivity.",
-    });
-    if calibration.rotations.iter().any(|rotation| rotation.used) {
+        meaning: "Mean rate in each hold, all axes together. The mean over all holds is subtracted, also before. A wandering bias and g-sensitivity remain.",
+    }));
+    if calibration.rotations().iter().any(|rotation| rotation.used) {
         rows.push(Improved {
-            name: "gravity after a rotation, rms",
+            name: "rotation error, rms",
             before: calibration.rotation_rms_before_rad().to_degrees(),
             after: calibration.rotation_rms_rad().to_degrees(),
             unit: "°",
-            meaning: "Angle between gravity carried by the gyroscope through a rotation and gravity found after it, over the rotations that were used.",
+            meaning: "Angle from the gravity that the gyroscope propagates through a rotation to the measured gravity, over the used rotations.",
         });
     }
     table(&rows)
 }
 
-/// `None` where the fit to the holds is exact, with no more of them than parameters.
+/// `None` if the fit is exact, with no more holds than parameters.
 fn magnitude(holds: &HoldCalibration) -> Option<Improved> {
     (holds.degrees_of_freedom > 0).then_some(())?;
     Some(Improved {
@@ -48,7 +43,7 @@ fn magnitude(holds: &HoldCalibration) -> Option<Improved> {
         before: holds.magnitude_residual_rms_before_mps2()?,
         after: holds.magnitude_residual_rms_mps2,
         unit: "m/s²",
-        meaning: "Magnitude of the mean reading of each hold less gravity, over the holds that were used.",
+        meaning: "Magnitude of the mean reading of each hold less gravity, over the used holds.",
     })
 }
 
@@ -56,7 +51,7 @@ fn table(rows: &[Improved]) -> String {
     if rows.is_empty() {
         return String::new();
     }
-    let mut table = Table::new("", &["", "before → after, smaller by", "what it means"]);
+    let mut table = Table::new("", &["", "before → after, smaller by", "meaning"]);
     for row in rows {
         let factor = row.before / row.after;
         let factor = if factor.is_finite() {

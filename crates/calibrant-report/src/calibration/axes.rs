@@ -1,13 +1,20 @@
-//! The table of gains and angles between the axes of both sensors. No choice of the true frame changes them.
+//! The table of gains and angles between the axes of the sensors. No choice of the true frame changes them.
 
 use crate::number_format;
 use crate::table::{Cell, Table};
-use calibrant_core::estimate::ImuCalibration;
-use calibrant_core::sensor::{Invariant, InvariantValue};
+use calibrant_core::estimate::Calibration;
+use calibrant_core::sensor::{ImuQuantity, Invariant, InvariantValue, Quantity};
 use std::f64::consts::FRAC_PI_2;
 
 /// Angles between axes that should be at right angles, and between those that should be the same.
-pub(super) fn axis_table(calibration: &ImuCalibration) -> String {
+/// `None` where the model has no such angles.
+pub(super) fn axis_table(calibration: &Calibration) -> Option<String> {
+    let is_cross = |quantity: &ImuQuantity| {
+        matches!(quantity, ImuQuantity::Of(_, Quantity::CrossAxis(..) | Quantity::Symmetric(..)))
+    };
+    if calibration.gyroscope.is_none() && !calibration.quantities.iter().any(is_cross) {
+        return None;
+    }
     let mut table = Table::new("", &["angle between", "angle ± sd (°)", "misalignment (mrad)"]);
     for angle in calibration.calibrated().invariants() {
         let name = match angle.invariant {
@@ -17,9 +24,11 @@ pub(super) fn axis_table(calibration: &ImuCalibration) -> String {
         };
         table.row(row(name, &angle));
     }
-    table.html()
-        + "<p>These do not depend on the choice of the true frame. Misalignment: the distance from a right angle, or from the same (or the opposite) \
-           direction for axes of both sensors. An angle near zero has no sd of its own.</p>"
+    Some(
+        table.html()
+            + "<p>These do not depend on the choice of the true frame. Misalignment: the distance from a right angle, or from the same (or the opposite) \
+           direction for axes of both sensors. An angle near zero has no sd of its own.</p>",
+    )
 }
 
 fn row(name: String, angle: &InvariantValue) -> Vec<Cell> {

@@ -1,58 +1,90 @@
-//! The table of the parameters of one sensor of an IMU, also in units of the stimulus.
+//! The table of the parameters of one sensor, also in units of the stimulus.
 
 use crate::figure::DisplayUnit;
 use crate::number_format;
 use crate::table::{Cell, Table};
-use calibrant_core::estimate::ImuCalibration;
-use calibrant_core::sensor::{ImuQuantity, Quantity, ReadingUnit, SensorKind, ThermalPart, ThermalTerm};
+use calibrant_core::estimate::Calibration;
+use calibrant_core::sensor::{
+    ImuQuantity, Quantity, ReadingUnit, SensorKind, SensorParameters, ThermalPart, ThermalTerm,
+};
 
 /// Shares from here on are in %, smaller ones in ppm.
 const PER_CENT: f64 = 1e-3;
 /// Standard gravity, m/s²: 1 g.
 const STANDARD_GRAVITY: f64 = 9.806_65;
 
-/// Name without that of the sensor, estimate and sd, and unit. Also the value over the gain, and the share of
-/// the prior where there is one.
-pub(super) fn parameter_table(calibration: &ImuCalibration, sensor_kind: SensorKind) -> String {
+/// Name without that of the sensor, estimate and sd, unit, and value over the gain. Also the datasheet's
+/// values, the share of the prior, and truth and error, where there are some.
+pub(crate) fn parameter_table(
+    calibration: &Calibration,
+    sensor_kind: SensorKind,
+    truth: Option<&SensorParameters>,
+) -> String {
     let places = calibration.places_of(sensor_kind);
+    let parameters = || places.iter().map(|&k| &calibration.parameters[k]);
+    let with_nominal = parameters().any(|parameter| parameter.nominal.is_some());
+    let with_spread = parameters().any(|parameter| parameter.spread.is_some());
     let with_prior = places.iter().any(|&k| calibration.known_beforehand(k).is_some());
+    let optional = [
+        (with_nominal, &["nominal"][..]),
+        (with_spread, &["datasheet spread", "sd / spread"]),
+        (with_prior, &["from prior"]),
+        (truth.is_some(), &["truth", "error / sd"]),
+    ];
     let mut columns = vec!["parameter", "estimate ± sd", "unit", "over the gain"];
-    if with_prior {
-        columns.push("known beforehand");
-    }
+    columns.extend(optional.iter().filter(|(there, _)| *there).flat_map(|(_, names)| *names));
     let mut table = Table::new("", &columns);
-    let (sd, prefix) = (calibration.sd(), format!("{sensor_kind}."));
-    for k in places {
-        let quantity = calibration.quantities[k];
-        let unit = calibration.unit_of(quantity);
+    let (sds, prefix) = (calibration.sd(), format!("{sensor_kind}."));
+    let number = |value: Option<f64>, show: &dyn Fn(f64) -> String| {
+        Cell::Number(value.map_or(number_format::UNKNOWN.to_string(), show))
+    };
+    for &k in &places {
+        let (quantity, parameter) = (calibration.quantities[k], &calibration.parameters[k]);
+        let (value, sd) = (calibration.values[k], sds[k]);
         let mut row = vec![
-            Cell::Name(quantity.name().trim_start_matches(&prefix).to_string()),
-            Cell::Number(number_format::with_sd(calibration.values[k], sd[k])),
-            Cell::Text(if unit == "1" { "–" } else { unit }.to_string()),
-            Cell::Number(over_the_gain(calibration, quantity, sd[k])),
+            Cell::Name(parameter.name.trim_start_matches(&prefix).to_string()),
+            Cell::Number(number_format::with_sd(value, sd)),
+            Cell::Text(if parameter.unit == "1" { "–" } else { parameter.unit }.to_string()),
+            Cell::Number(over_the_gain(calibration, quantity, sd)),
         ];
+        if with_nominal {
+            row.push(number(parameter.nominal, &number_format::short));
+        }
+        if with_spread {
+            let spread = parameter.spread.filter(|spread| *spread > 0.0);
+            row.push(number(spread, &number_format::short));
+            row.push(number(spread, &|spread| number_format::percent(sd / spread)));
+        }
         if with_prior {
             row.push(match calibration.known_beforehand(k) {
                 Some(share) => Cell::Mark(number_format::percent(share)),
                 None => Cell::Text(number_format::UNKNOWN.to_string()),
             });
         }
+        if let Some(truth) = truth {
+            let truth = match quantity {
+                ImuQuantity::Of(SensorKind::Accelerometer, of) => Some(of.value(truth)),
+                _ => None,
+            };
+            row.push(number(truth, &|truth| number_format::rounded_to(truth, sd)));
+            row.push(number(truth, &|truth| number_format::fixed((value - truth) / sd, 2)));
+        }
         table.row(row);
     }
-    let explanation = if with_prior {
-        "<p>Over the gain: the parameter divided by the gain of its axis, which is what it amounts to in m/s² or rad/s, or as a share of the stimulus. Known beforehand: the share of the information that came from what was given, \
-         not from the data.</p>"
-    } else {
-        "<p>Over the gain: the parameter divided by the gain of its axis, which is what it amounts to in m/s² or rad/s, or as a share of the stimulus.</p>"
-    };
-    table.html() + explanation
+    let mut explanation = "Over the gain: the parameter divided by the gain of its axis. This gives its size in m/s² or rad/s, or as a share of the stimulus.".to_string();
+    if with_prior {
+        explanation.push_str(
+            " From prior: the share of the information that comes from the prior and not from the data.",
+        );
+    }
+    format!("{}<p>{explanation}</p>", table.html())
 }
 
 /// A parameter and its sd divided by the gain of its axis. A bias is then in the unit of the stimulus, a
 /// scale factor is its deviation from 1, and an off-diagonal entry is a share. For readings in counts, biases
-/// and scale factors have only their sd in this form, since counts alone mean nothing.
+/// and scale factors show only their sd, since the value has no meaning in SI.
 #[must_use]
-pub fn over_the_gain(calibration: &ImuCalibration, quantity: ImuQuantity, sd: f64) -> String {
+pub fn over_the_gain(calibration: &Calibration, quantity: ImuQuantity, sd: f64) -> String {
     let sensor_kind = quantity.sensor_kind();
     let imu = &calibration.imu;
     let (axis, of) = match quantity {
@@ -68,10 +100,7 @@ pub fn over_the_gain(calibration: &ImuCalibration, quantity: ImuQuantity, sd: f6
     };
     let gain = imu.sensor(sensor_kind).matrix.row(axis.index()).norm();
     let value = quantity.value(imu);
-    let counts = match sensor_kind {
-        SensorKind::Accelerometer => calibration.accelerometer_unit,
-        SensorKind::Gyroscope => calibration.gyroscope_unit,
-    } == ReadingUnit::Counts;
+    let counts = calibration.unit(sensor_kind) == ReadingUnit::Counts;
     let (unit, value) = match of {
         None => ("(rad/s)/(m/s²)", Some(value / gain)),
         Some(Quantity::Bias(_)) => (sensor_kind.stimulus_unit().symbol(), (!counts).then_some(value / gain)),
@@ -81,9 +110,9 @@ pub fn over_the_gain(calibration: &ImuCalibration, quantity: ImuQuantity, sd: f6
     in_display_unit(unit, "", value, sd / gain)
 }
 
-/// The same of a temperature term: in the unit of the stimulus, or as a share of the gain, per K or K².
+/// A temperature term in the unit of the stimulus, or as a share of the gain, per K or K².
 fn over_temperature(
-    calibration: &ImuCalibration,
+    calibration: &Calibration,
     sensor_kind: SensorKind,
     term: ThermalTerm,
     sd: f64,

@@ -1,6 +1,6 @@
 //! Tests of what is printed for a simulated IMU.
 
-use super::imu_calibration;
+use super::of_calibration;
 use calibrant::{estimate, motion, sensor};
 
 #[path = "../../../../calibrant-report/examples/report_gallery/imus.rs"]
@@ -10,18 +10,18 @@ mod imus;
 fn it_says_what_was_used_what_was_found_and_how_good_it_is() {
     let case = imus::imu_case(14, 1);
     assert!(case.recording.gyroscope.is_some());
-    let text = imu_calibration(&case.calibration);
+    let text = of_calibration(&case.calibration);
     let from = imus::DISTURBED + 1;
     for says in [
         "  14 holds, all used\n",
-        &format!("  13 rotations, 12 used; left out: {from} → {}\n", from + 1),
+        &format!("  13 rotations, 12 used; not used: {from} → {}\n", from + 1),
         "  1 turn of known angle\n",
         "accelerometer.matrix.yz",
         "gyroscope.g_sensitivity.zz",
         "counts/(rad/s)",
         "(°/s)/g",
-        "after a rotation, gravity is met within 0.0",
-        "known turns are met within",
+        "the rotation error is 0.0",
+        "the error of the known turns is",
         "noise of a gyroscope sample ",
         " counts, from: scatter within holds",
         "converged after",

@@ -1,22 +1,25 @@
 //! Tables of the holds of a static calibration.
 
-use super::number_format;
-use super::table::{Cell, Table};
+use crate::number_format;
+use crate::table::{Cell, Table};
 use calibrant_core::estimate::{HoldCalibration, HoldResult};
 use calibrant_core::sensor::ReadingUnit;
 
-/// Fewer magnitudes left to check show no scatter along gravity.
+/// Fewest degrees of freedom that show a scatter along gravity.
 const FEWEST: usize = 3;
-/// Beyond this many standard deviations, a hold that was not used is called an outlier.
+/// An unused hold beyond this number of standard deviations is called an outlier.
 const OUTLYING: f64 = 3.0;
 
-/// What is common to all holds.
+/// The table of what all holds have in common.
 pub(super) fn hold_summary(holds: &HoldCalibration) -> String {
     let used = holds.holds.iter().filter(|hold| hold.used).count();
     let mut table = Table::explained();
     let mut row = |name: &str, value: String, meaning: &str| table.explain(name, value, meaning);
-    let found =
-        if holds.detected { "Found in the recording by its stillness." } else { "As given by the user." };
+    let found = if holds.detected {
+        "Found in the recording as stationary intervals."
+    } else {
+        "As given by the user."
+    };
     row("holds used", format!("{used} of {}", holds.holds.len()), found);
     row(
         "gravity g",
@@ -24,18 +27,18 @@ pub(super) fn hold_summary(holds: &HoldCalibration) -> String {
             sd if sd > 0.0 => format!("{} m/s²", number_format::with_sd(holds.gravity.magnitude_mps2, sd)),
             _ => format!("{} m/s²", number_format::significant(holds.gravity.magnitude_mps2, 6)),
         },
-        "Assumed. An error of g is an error of the same share in all scale factors; its sd is part of theirs.",
+        "Assumed. A relative error of g is the same relative error of all scale factors. Their sd includes that of g.",
     );
     match holds.degrees_of_freedom {
         0 => row(
             "magnitude residual",
-            "nothing left to check".into(),
-            "No more holds than parameters: gravity in them determines the parameters, and is met by that. Add holds.",
+            "no data left to check".into(),
+            "The holds are no more than the parameters, so the fit is exact. Add holds.",
         ),
         _ => row(
             "magnitude residual, rms",
             format!("{} mm/s²", number_format::significant(1e3 * holds.magnitude_residual_rms_mps2, 3)),
-            "Corrected magnitude less g over the holds that were used.",
+            "Corrected magnitude less g, over the used holds.",
         ),
     }
     if let Some(tilt) = &holds.tilt {
@@ -43,7 +46,7 @@ pub(super) fn hold_summary(holds: &HoldCalibration) -> String {
             "tilt of the faces, sd",
             format!("{}°", number_format::significant(tilt.sd_rad.to_degrees(), 2)),
             &format!(
-                "How well each face was met, about each axis: {}. It decides the stated standard deviations of the matrix' cross terms; along gravity a tilt acts by its square only.",
+                "Face alignment about each axis: {}. It decides the standard deviations of the cross-axis terms. Along gravity, only the square of a tilt acts.",
                 tilt.source_in_words()
             ),
         );
@@ -55,24 +58,24 @@ pub(super) fn hold_summary(holds: &HoldCalibration) -> String {
     if nothing {
         row(
             name,
-            "too little left to tell it".into(),
-            "The samples' noise and the tilt decide the stated standard deviations of biases and scale factors. Put each face down twice to see more.",
+            "not determined".into(),
+            "The noise of the samples and the tilt decide the standard deviations of biases and scale factors. To determine it, repeat each face.",
         );
     } else {
         row(
             name,
             format!("{} mm/s²", number_format::significant(1e3 * holds.between_holds_sd_mps2, 3)),
             if holds.between_holds_dominates {
-                "Exceeds what the samples' noise explains, so it decides the stated standard deviations."
+                "It exceeds the noise of the samples, so it decides the standard deviations."
             } else {
-                "Explained by the samples' noise, which decides the stated standard deviations."
+                "The noise of the samples explains it, and decides the standard deviations."
             },
         );
     }
     row(
         "condition number",
         number_format::significant(holds.condition_number, 3),
-        "How unevenly the orientations determine the parameters; below about 100 is good.",
+        "How unevenly the orientations determine the parameters. Below about 100 is good.",
     );
     table.html()
 }

@@ -3,11 +3,11 @@
 use crate::number_format;
 use crate::table::{Cell, Table};
 use calibrant_core::diagnostic::RotationReason;
-use calibrant_core::estimate::{ImuCalibration, RotationResult};
+use calibrant_core::estimate::{Calibration, RotationResult};
 
-/// What is common to all rotations.
-pub(super) fn rotation_summary(calibration: &ImuCalibration) -> String {
-    let rotations = &calibration.rotations;
+/// The table of what all rotations have in common.
+pub(super) fn rotation_summary(calibration: &Calibration) -> String {
+    let rotations = calibration.rotations();
     let used = rotations.iter().filter(|rotation| rotation.used).count();
     let mut table = Table::explained();
     let mut row = |name: &str, value: String, meaning: &str| table.explain(name, value, meaning);
@@ -18,22 +18,22 @@ pub(super) fn rotation_summary(calibration: &ImuCalibration) -> String {
     );
     if used > 0 {
         row(
-            "gravity missed by, rms",
+            "rotation error, rms",
             number_format::missed_angle(calibration.rotation_rms_rad()),
-            "Angle between gravity carried through a rotation and gravity found after it, over the rotations that were used.",
+            "Angle from propagated gravity to measured gravity after a rotation, over the used rotations.",
         );
         row(
-            "the same before",
+            "rotation error before",
             number_format::missed_angle(calibration.rotation_rms_before_rad()),
             "With one bias and one gain for all axes, or the datasheet's.",
         );
     }
-    let excess = calibration.between_rotations_sd_rad;
+    let excess = calibration.gyroscope.as_ref().map_or(0.0, |gyroscope| gyroscope.between_rotations_sd_rad);
     row(
         "beyond the noise, sd per axis",
         number_format::missed_angle(excess),
         if excess > 0.0 {
-            "What the gyroscope's noise does not explain of these errors: a bias that wanders, timing, vibration. It is part of the stated standard deviations."
+            "The part of these errors that the gyroscope's noise does not explain: a wandering bias, timing, vibration. The standard deviations include it."
         } else {
             "The gyroscope's noise explains the errors."
         },
@@ -87,7 +87,7 @@ pub(super) fn rotation_table(rotations: &[RotationResult]) -> String {
 }
 
 /// One row for each turn of known angle.
-pub(super) fn turn_table(calibration: &ImuCalibration) -> String {
+pub(super) fn turn_table(calibration: &Calibration) -> String {
     let columns = [
         "turn",
         "start (s)",
@@ -99,7 +99,7 @@ pub(super) fn turn_table(calibration: &ImuCalibration) -> String {
     ];
     let mut table = Table::new("", &columns);
     let checked = calibration.turns_check_the_gains();
-    for (number, turn) in calibration.turns.iter().enumerate() {
+    for (number, turn) in calibration.turns().iter().enumerate() {
         let axes = |angle: &nalgebra::Vector3<f64>| {
             angle.iter().map(|a| number_format::fixed(a.to_degrees(), 2)).collect::<Vec<_>>().join(", ")
         };

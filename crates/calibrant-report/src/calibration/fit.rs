@@ -1,0 +1,93 @@
+//! The table of the fit: each statistic with its meaning.
+
+use crate::figure::DisplayUnit;
+use crate::number_format;
+use crate::table::Table;
+use calibrant_core::estimate::Calibration;
+use calibrant_core::sensor::Axis;
+use nalgebra::Vector3;
+
+/// The statistics of the fit with one line of explanation each.
+pub(super) fn fit_table(calibration: &Calibration) -> String {
+    let fit = &calibration.fit;
+    let axes = &Axis::ALL[..calibration.axes()];
+    let mut table = Table::explained();
+    let mut row = |name: &str, value: String, meaning: &str| table.explain(name, value, meaning);
+    let status = calibration.status.name().replace('_', " ");
+    row("status", status, "How the iteration ended. Only “converged” is an optimum.");
+    row("iterations", calibration.iterations.to_string(), "Steps of the estimator. A handful is usual.");
+    row(
+        "gradient norm",
+        number_format::significant(calibration.gradient_norm, 2),
+        "Distance from the optimum in standard deviations of the parameters. Good: far below 1.",
+    );
+    row(
+        "χ²",
+        number_format::significant(fit.chi2, 5),
+        match fit.p_value {
+            Some(_) => "Sum of squared residuals over the assumed noise. Good: near the degrees of freedom.",
+            None => {
+                "Sum of weighted squared residuals. The weights come from these data, so it is always near the degrees of freedom and tests nothing."
+            }
+        },
+    );
+    row(
+        "degrees of freedom",
+        number_format::count(fit.degrees_of_freedom),
+        "Number of data less number of unknowns. χ² scatters about it by √(2·dof).",
+    );
+    if let Some(p) = fit.p_value {
+        row(
+            "p-value",
+            number_format::probability(p),
+            "Probability of a χ² at least this large if model and noise are right. Suspicious: below 0.001 and above 0.999.",
+        );
+    }
+    let rms = fit.residual_rms.unwrap_or_else(Vector3::zeros);
+    let unit =
+        DisplayUnit::suited_to(calibration.accelerometer_unit.symbol(), rms.iter().map(|rms| 3.0 * rms));
+    let names = axes.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
+    let per_axis = |values: &Vector3<f64>, factor: f64, symbol: &str| {
+        let number = |axis: &Axis| number_format::significant(values[axis.index()] * factor, 3);
+        format!("{} {symbol}", axes.iter().map(number).collect::<Vec<_>>().join(", "))
+    };
+    let rows = [
+        ("residual rms", fit.residual_rms, "Root mean square of the residuals of each axis."),
+        ("assumed noise", fit.assumed_noise, "Standard deviation of one sample, as χ² assumes it."),
+        (
+            "noise estimate",
+            fit.noise_estimate,
+            "Standard deviation of one sample, from the data. Good: close to the assumed noise, if one was given.",
+        ),
+    ];
+    for (name, values, meaning) in rows {
+        if let Some(values) = values {
+            row(&format!("{name} {names}"), per_axis(&values, unit.factor, unit.symbol), meaning);
+        }
+    }
+    for (test, axis) in fit.whiteness.iter().zip(axes) {
+        row(
+            &format!("whiteness {axis}, p"),
+            number_format::probability(test.p_value),
+            &format!(
+                "Ljung–Box test of {} lags (Q = {}). Below 0.001, the residuals are not white, and the stated sd are too small.",
+                test.lags,
+                number_format::significant(test.statistic, 3)
+            ),
+        );
+    }
+    if let Some(gyroscope) = &calibration.gyroscope {
+        let (still, symbol) = (&gyroscope.still, gyroscope.unit.symbol());
+        row(
+            "gyroscope's noise x, y, z",
+            per_axis(&still.noise, 1.0, symbol),
+            &format!("Standard deviation of one sample, from: {}.", still.noise_source),
+        );
+        row(
+            "between holds x, y, z",
+            per_axis(&still.between_holds_sd, 1.0, symbol),
+            "Standard deviation of the gyroscope's mean from hold to hold, beyond this noise. Causes: a wandering bias, the Earth's rate.",
+        );
+    }
+    table.html()
+}

@@ -1,0 +1,20 @@
+//! The report page on one calibration, of an accelerometer alone or of a whole IMU.
+
+mod axes;
+mod before_after;
+mod correction;
+mod fit;
+mod holds;
+mod motion;
+mod page;
+mod parameters;
+mod quality;
+mod rotations;
+mod temperature;
+mod verdict;
+
+pub use page::calibration_report;
+pub use parameters::over_the_gain;
+pub(super) use parameters::parameter_table;
+pub use quality::{calibration_quality, used_in_words};
+pub use temperature::temperature_in_words;

@@ -1,0 +1,94 @@
+//! The data and the quality of a calibration, in words.
+
+use crate::number_format;
+use calibrant_core::estimate::{Calibration, FaceTilt, Recovered};
+
+/// Below this, a probability counts as evidence against the model.
+const SIGNIFICANT: f64 = 0.001;
+
+/// The data of a calibration: `14 of 14 holds, 12 of 13 rotations between them and 1 turn of known angle`.
+#[must_use]
+pub fn used_in_words(calibration: &Calibration) -> String {
+    let holds = match &calibration.recovered {
+        Recovered::Motion(motion) => {
+            let intervals = number_format::counted(motion.motion.intervals(), "interval");
+            return format!(
+                "{} samples of a motion of {intervals}",
+                number_format::count(motion.residuals.len())
+            );
+        }
+        Recovered::Holds(holds) => &holds.holds,
+    };
+    let used =
+        |used: usize, all: usize, what: &str| format!("{used} of {}", number_format::counted(all, what));
+    let mut from = vec![used(holds.iter().filter(|hold| hold.used).count(), holds.len(), "hold")];
+    let (rotations, turns) = (calibration.rotations(), calibration.turns());
+    if !rotations.is_empty() {
+        let good = rotations.iter().filter(|rotation| rotation.used).count();
+        from.push(used(good, rotations.len(), "rotation") + " between them");
+    }
+    if !turns.is_empty() {
+        from.push(number_format::counted(turns.len(), "turn") + " of known angle");
+    }
+    let last = from.pop().unwrap_or_default();
+    if from.is_empty() { last } else { format!("{} and {last}", from.join(", ")) }
+}
+
+/// Rotation errors, errors of known turns, gravity residuals, and whether the assumed noise explains the data.
+/// Rotation errors before the calibration are named too. The parts are joined by `; `.
+#[must_use]
+pub fn calibration_quality(calibration: &Calibration) -> String {
+    let mut parts = Vec::new();
+    if calibration.rotations().iter().any(|rotation| rotation.used) {
+        parts.push(format!(
+            "the rotation error is {} rms ({} before)",
+            number_format::missed_angle(calibration.rotation_rms_rad()),
+            number_format::missed_angle(calibration.rotation_rms_before_rad())
+        ));
+    }
+    if !calibration.turns().is_empty() && !calibration.turns_check_the_gains() {
+        parts.push("the known turns determine the gains, and no data are left to check these".into());
+    } else if !calibration.turns().is_empty() {
+        let squares =
+            calibration.turns().iter().map(|turn| (turn.measured_rad - turn.angle_rad).norm_squared());
+        let rms = (squares.sum::<f64>() / calibration.turns().len() as f64).sqrt();
+        parts.push(format!("the error of the known turns is {} rms", number_format::missed_angle(rms)));
+    }
+    if let Some(holds) = calibration.holds() {
+        parts.extend(holds.tilt.as_ref().map(face_alignment));
+        parts.push(match holds.degrees_of_freedom {
+            0 => "gravity in the holds determines the accelerometer, and no data are left to check it".into(),
+            _ => format!(
+                "the gravity residual in the holds is {} mm/s² rms",
+                number_format::significant(1e3 * holds.magnitude_residual_rms_mps2, 2)
+            ),
+        });
+    }
+    parts.extend(calibration.fit.p_value.map(noise_explains));
+    parts.join("; ")
+}
+
+/// How well the sensor was placed on its faces.
+fn face_alignment(tilt: &FaceTilt) -> String {
+    if tilt.sd_rad == 0.0 && tilt.degrees_of_freedom > 0 {
+        return "noise alone explains the scatter of the faces, so no tilt shows".into();
+    }
+    let sd = number_format::significant(tilt.sd_rad.to_degrees(), 2);
+    format!("the face alignment is {sd}° about each axis, {}", tilt.source_in_words())
+}
+
+/// Whether model and assumed noise explain the data.
+fn noise_explains(p: f64) -> String {
+    let p_value = number_format::probability(p);
+    if p < SIGNIFICANT {
+        format!(
+            "model and assumed noise do not explain the data (χ² p-value {p_value}): the noise is larger than assumed, or the model misses something"
+        )
+    } else if p > 1.0 - SIGNIFICANT {
+        format!(
+            "the residuals are smaller than the assumed noise allows (χ² p-value {p_value}): the assumed noise and the standard deviations are too large"
+        )
+    } else {
+        format!("model and assumed noise explain the data (χ² p-value {p_value})")
+    }
+}

@@ -1,0 +1,124 @@
+//! The verdict on a calibration: can it be used?
+
+use super::quality::{calibration_quality, used_in_words};
+use crate::words::message;
+use crate::{About, html, number_format};
+use calibrant_core::estimate::{Calibration, CalibrationStatus};
+use calibrant_core::sensor::{Axis, ImuQuantity, Invariant, Quantity, SensorKind};
+
+/// A standard deviation above this share of the datasheet spread means that the recording determined little.
+const HARDLY_DETERMINED: f64 = 0.5;
+/// Above this share of the prior in its information, a parameter is more prior knowledge than data.
+const MOSTLY_PRIOR: f64 = 0.5;
+/// The calibration must lower the rotation errors to this factor or less; otherwise it has not explained
+/// them.
+const IMPROVED: f64 = 0.8;
+
+/// The verdict with its warnings, as one prominent box.
+pub(super) fn verdict(calibration: &Calibration, about: &About) -> String {
+    let remarks: Vec<String> = calibration
+        .warnings
+        .iter()
+        .map(message)
+        .chain(not_improved(calibration))
+        .chain(hardly_determined(calibration))
+        .chain(mostly_prior(calibration))
+        .chain(unchecked(calibration))
+        .collect();
+    let (class, word) = match (calibration.status, remarks.is_empty()) {
+        (CalibrationStatus::Converged, true) => ("good", "✓ Usable."),
+        (CalibrationStatus::Converged, false) => ("caution", "! Usable; read the warnings first."),
+        _ => ("bad", "✗ Do not use: the estimation did not converge."),
+    };
+    let lists = [("Warnings", remarks), ("About the recording", about.findings.clone())];
+    html::verdict_box(class, word, &sentence(calibration), &lists)
+}
+
+fn sentence(calibration: &Calibration) -> String {
+    let sensors = match calibration.gyroscope {
+        None => "The accelerometer was calibrated",
+        Some(_) => "Accelerometer and gyroscope were calibrated together,",
+    };
+    let quality = match calibration_quality(calibration) {
+        quality if quality.is_empty() => String::new(),
+        quality => capitalised(&quality) + ". ",
+    };
+    format!("{sensors} from {}. {quality}{}.", used_in_words(calibration), gains(calibration))
+}
+
+fn capitalised(sentence: &str) -> String {
+    let mut letters = sentence.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().to_string() + letters.as_str())
+}
+
+/// The relative standard deviation of each sensor's gains, on the worst axis.
+fn gains(calibration: &Calibration) -> String {
+    if calibration.axes() == 1 {
+        let scale = ImuQuantity::Of(SensorKind::Accelerometer, Quantity::Scale(Axis::X));
+        let place = calibration.quantities.iter().position(|quantity| *quantity == scale);
+        let share = place.map_or(f64::NAN, |k| calibration.sd()[k] / calibration.values[k].abs());
+        return format!("The gain is known to {}, one standard deviation", number_format::percent(share));
+    }
+    let invariants = calibration.calibrated().invariants();
+    let of_sensor = |&sensor_kind: &SensorKind| {
+        let worst = invariants
+            .iter()
+            .filter(|found| matches!(found.invariant, Invariant::Gain(of, _) if of == sensor_kind))
+            .map(|found| found.sd.unwrap_or(0.0) / found.value)
+            .fold(0.0, f64::max);
+        match calibration.gyroscope {
+            None => number_format::percent(worst),
+            Some(_) => format!("{} ({sensor_kind})", number_format::percent(worst)),
+        }
+    };
+    let known: Vec<String> = calibration.sensor_kinds().iter().map(of_sensor).collect();
+    format!("The gains are known to {}, one standard deviation on the worst axis", known.join(" and "))
+}
+
+fn not_improved(calibration: &Calibration) -> Option<String> {
+    let (after, before) = (calibration.rotation_rms_rad(), calibration.rotation_rms_before_rad());
+    (after > IMPROVED * before).then(|| {
+        "The calibration hardly improves the rotations. Either the gyroscope was good before, or the rotation errors have another cause: \
+         saturation, a delay between the sensors, or a sample rate that is too low."
+            .to_string()
+    })
+}
+
+/// Parameters that are known little better than from the datasheet. Parameters that are known worse have a warning.
+fn hardly_determined(calibration: &Calibration) -> Option<String> {
+    let names: Vec<&str> = calibration
+        .parameters
+        .iter()
+        .zip(calibration.sd())
+        .filter(|(parameter, sd)| {
+            let within = |spread: f64| spread > 0.0 && (HARDLY_DETERMINED * spread..=spread).contains(sd);
+            parameter.spread.is_some_and(within)
+        })
+        .map(|(parameter, _)| parameter.name.as_str())
+        .collect();
+    (!names.is_empty()).then(|| {
+        format!(
+            "The data determine {} hardly better than the datasheet: the standard deviation is more than half the datasheet spread. \
+             Use a motion that excites it more, or record more data.",
+            names.join(", ")
+        )
+    })
+}
+
+fn mostly_prior(calibration: &Calibration) -> Option<String> {
+    let names: Vec<&str> = calibration
+        .parameters
+        .iter()
+        .zip(&calibration.prior_share)
+        .filter(|(_, share)| **share > MOSTLY_PRIOR)
+        .map(|(parameter, _)| parameter.name.as_str())
+        .collect();
+    (!names.is_empty())
+        .then(|| format!("The data give less information than the prior about {}.", names.join(", ")))
+}
+
+/// An accelerometer alone has a warning about this.
+fn unchecked(calibration: &Calibration) -> Option<String> {
+    (calibration.gyroscope.is_some() && calibration.fit.degrees_of_freedom == 0)
+        .then(|| "The data are as many as the unknowns, so nothing checks the fit.".to_string())
+}

@@ -1,0 +1,81 @@
+//! What is known of the motion in one recording.
+
+use super::clean::take_out_outliers;
+use super::holds::with_holds;
+use super::problem::Problem;
+use super::recorded::Recorded;
+use calibrant_core::diagnostic::Diagnostic;
+use calibrant_core::error::Result;
+use calibrant_core::estimate::{
+    CalibrationProblem, Gyroscope, HoldsSetup, ImuProblem, ImuSetup, Stimulus, WhiteNoise,
+};
+use calibrant_core::motion::CommandedMotion;
+use calibrant_core::sensor::{ImuRecording, Sensor};
+
+/// The commanded motion, or what is known of holds, rotations and turns.
+#[derive(Clone)]
+pub(crate) enum Setup<'e> {
+    Motion(CommandedMotion),
+    Holds(HoldsSetup),
+    Imu(&'e Gyroscope, ImuSetup),
+}
+
+impl<'e> Setup<'e> {
+    fn holds_mut(&mut self) -> Option<&mut HoldsSetup> {
+        match self {
+            Self::Motion(_) => None,
+            Self::Holds(holds) => Some(holds),
+            Self::Imu(_, setup) => Some(&mut setup.holds),
+        }
+    }
+
+    /// Takes outliers out of the recording and finds the holds, where there are some. A motion has neither.
+    pub(crate) fn prepare(&mut self, recording: &mut ImuRecording) -> Vec<Diagnostic> {
+        let Some(holds) = self.holds_mut() else { return Vec::new() };
+        let outliers = take_out_outliers(recording);
+        *holds = with_holds(holds, recording);
+        outliers
+    }
+
+    /// The white noise of the gyroscope as this recording shows it.
+    pub(crate) fn set_white_noise(&mut self, white_noise: Option<WhiteNoise>) {
+        if let Self::Imu(_, setup) = self {
+            setup.white_noise = white_noise;
+        }
+    }
+
+    /// The setup of another recording of the sensors. Intervals, turns and known quantities are those of the first.
+    pub(crate) fn of_other(&self) -> Self {
+        match self {
+            Self::Motion(command) => Self::Motion(command.clone()),
+            Self::Holds(holds) => Self::Holds(of_other(holds)),
+            Self::Imu(gyroscope, setup) => {
+                let (holds, latitude_deg) = (of_other(&setup.holds), setup.latitude_deg);
+                Self::Imu(gyroscope, ImuSetup { holds, latitude_deg, ..ImuSetup::default() })
+            }
+        }
+    }
+
+    /// The problem that this is part of.
+    pub(crate) fn problem<'a>(
+        &'a self,
+        accelerometer: &'a Sensor,
+        recorded: &'a Recorded,
+    ) -> Result<Problem<'a>> {
+        let stimulus = match self {
+            Self::Motion(command) => Stimulus::Motion(command),
+            Self::Holds(holds) => Stimulus::Holds(holds),
+            Self::Imu(gyroscope, setup) => {
+                let recording = &recorded.recording;
+                return Ok(Problem::Imu(ImuProblem { accelerometer, gyroscope, recording, setup }));
+            }
+        };
+        let recording = recorded.accelerometer()?;
+        Ok(Problem::Accelerometer(CalibrationProblem { sensor: accelerometer, recording, stimulus }))
+    }
+}
+
+/// Intervals that are given are those of the first recording.
+fn of_other(holds: &HoldsSetup) -> HoldsSetup {
+    HoldsSetup { intervals_s: None, found: None, ..holds.clone() }
+}

@@ -1,0 +1,148 @@
+//! The stages from a recording to a calibration, whatever the sensors.
+
+use super::duplicates::refuse_duplicate;
+use super::kind::Kind;
+use super::noise::NoiseInHold;
+use super::note::Note;
+use super::options::PipelineOptions;
+use super::outcome::Outcome;
+use super::reader::Reader;
+use super::recorded::Recorded;
+use super::report::about;
+use super::setup::Setup;
+use super::source::Source;
+use super::temperature::extrapolation_in_words;
+use super::validation::{on_recording, unless_too_few};
+use calibrant_core::error::Result;
+use calibrant_core::estimate::{Calibration, CalibrationSettings, Validation, other_temperature};
+use calibrant_core::noise::SensorNoise;
+use calibrant_core::sensor::{Sensor, Temperatures};
+use calibrant_io::{Experiment, Prior, file_name};
+use calibrant_report::message;
+
+/// What all recordings share.
+pub(crate) struct Task<'e> {
+    accelerometer: &'e Sensor,
+    kind: Kind<'e>,
+    reader: Reader<'e>,
+    settings: CalibrationSettings,
+}
+
+impl<'e> Task<'e> {
+    /// Reads what all recordings need.
+    pub(crate) fn new(
+        experiment: &'e Experiment,
+        options: &PipelineOptions,
+        notes: &mut Vec<Note>,
+    ) -> Result<Self> {
+        Ok(Self {
+            accelerometer: &experiment.sensor,
+            kind: Kind::of(experiment, options, notes)?,
+            reader: Reader::of(experiment, options),
+            settings: CalibrationSettings {
+                datasheet_prior: experiment.imu.is_none() && experiment.calibrate.prior == Prior::Datasheet,
+                ..CalibrationSettings::default()
+            },
+        })
+    }
+
+    /// Calibrates from one recording.
+    pub(crate) fn run(
+        &self,
+        source: &Source,
+        options: &PipelineOptions,
+        notes: &mut Vec<Note>,
+    ) -> Result<Outcome> {
+        let mut recorded = self.reader.read(source)?;
+        notes.extend(Note::of_findings(&recorded.findings, source));
+        let mut setup = self.kind.setup(source, &recorded.recording, notes)?;
+        let outliers = setup.prepare(&mut recorded.recording);
+        let (mut calibration, noise) = self.calibrate(source, &recorded, &setup, options.report)?;
+        calibration.warnings.splice(0..0, outliers);
+        calibration.warnings.extend(noise.gyroscope.iter().flat_map(SensorNoise::of_outliers));
+        setup.set_white_noise(noise.white_noise);
+        let validations = self.validations(options, &calibration, (&recorded, &setup), notes)?;
+        let inputs = recorded.inputs(source);
+        let (noise, about) = match options.report {
+            false => (Vec::new(), None),
+            true => {
+                let about = calibrant_report::About {
+                    validations: validations.clone(),
+                    ..about(&calibration, &recorded, &inputs, options)
+                };
+                (noise.physical(&calibration, &recorded.recording)?, Some(about))
+            }
+        };
+        Ok(Outcome {
+            calibration,
+            validations,
+            noise,
+            notes: Vec::new(),
+            inputs,
+            recording: recorded.recording,
+            about,
+            allowed: options.allowed.clone(),
+        })
+    }
+
+    /// Calibrates, and finds the noise of an IMU in the longest hold beside that.
+    fn calibrate(
+        &self,
+        source: &Source,
+        recorded: &Recorded,
+        setup: &Setup<'_>,
+        report: bool,
+    ) -> Result<(Calibration, NoiseInHold)> {
+        let problem = setup.problem(self.accelerometer, recorded)?;
+        let (calibration, noise) = problem.calibrate(&self.settings, report);
+        Ok((calibration.map_err(|error| error.in_recording(&source.recording))?, noise))
+    }
+
+    fn validations(
+        &self,
+        options: &PipelineOptions,
+        calibration: &Calibration,
+        (recorded, setup): (&Recorded, &Setup<'_>),
+        notes: &mut Vec<Note>,
+    ) -> Result<Vec<Validation>> {
+        let mut validations = Vec::new();
+        if let Some(other) = &options.validate {
+            validations.push(self.on_other(calibration, (recorded, setup), other, notes)?);
+        }
+        if let Some(folds) = options.folds {
+            let problem = setup.problem(self.accelerometer, recorded)?;
+            let outcome = problem.cross_validate(calibration, &self.settings, folds);
+            validations.extend(unless_too_few(outcome, notes)?);
+        }
+        Ok(validations)
+    }
+
+    /// Tries the calibration on another recording.
+    fn on_other(
+        &self,
+        calibration: &Calibration,
+        (recorded, setup): (&Recorded, &Setup<'_>),
+        source: &Source,
+        notes: &mut Vec<Note>,
+    ) -> Result<Validation> {
+        let path = source.recording.as_path();
+        let warning = |words: String| Note::Warning(format!("{}: {words}", file_name(path)));
+        let mut other = self.reader.read_other(source)?;
+        notes.extend(Note::of_findings(&other.findings, source));
+        let mut setup = setup.of_other();
+        let outliers = setup.prepare(&mut other.recording);
+        notes.extend(outliers.iter().map(|found| warning(message(found))));
+        for &sensor_kind in calibration.sensor_kinds() {
+            let [one, two] = [recorded, &other].map(|recorded| recorded.readings(sensor_kind));
+            refuse_duplicate(sensor_kind, &one, &two, source.file_of(sensor_kind))?;
+        }
+        let problem = setup.problem(self.accelerometer, &other)?;
+        let mut validation = problem.validate(calibration).map_err(|error| error.in_recording(path))?;
+        let temperature = other_temperature(calibration, &validation, &recorded.recording, &other.recording);
+        validation.reasons.extend(temperature);
+        let thermal = &calibration.imu.thermal;
+        let range = Temperatures::of(&other.recording)?.and_then(|temperatures| temperatures.range_c());
+        notes.extend(range.and_then(|range| extrapolation_in_words(thermal, range)).map(warning));
+        Ok(on_recording(path, validation))
+    }
+}
