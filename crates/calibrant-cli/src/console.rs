@@ -64,14 +64,6 @@ pub(crate) fn noted(found: &Note) {
     say(&found.to_string());
 }
 
-/// Prints the notes on one of several recordings, with the name of its folder.
-pub(crate) fn noted_of(folder: &str, found: &Note) {
-    match found {
-        Note::Finding { finding: what, .. } => finding(folder, what),
-        _ => noted(found),
-    }
-}
-
 /// Warns about temperatures far beyond those of the calibration.
 pub(crate) fn warn_beyond(imu: &CalibratedImu, range_c: [f64; 2]) {
     if let Some(words) = extrapolation_in_words(&imu.parameters.thermal, range_c) {

@@ -2,6 +2,7 @@
 
 use crate::{Exit, console};
 use calibrant::diagnostic::{Code, Diagnostic, Severity};
+use calibrant::pipeline::Note;
 use calibrant::report::message;
 
 /// Least similarity of a name that is suggested.
@@ -38,7 +39,7 @@ impl Rules {
         let mut exit = Exit::DONE;
         for diagnostic in diagnostics.iter().filter(|found| !self.allow.contains(&found.code())) {
             let text = format!("{prefix}{}", message(diagnostic));
-            if self.denies(diagnostic) {
+            if self.denies(diagnostic.code()) {
                 exit = Exit::DENIED;
                 console::denied(diagnostic.code().name(), &text);
             } else {
@@ -48,10 +49,30 @@ impl Rules {
         exit
     }
 
-    fn denies(&self, diagnostic: &Diagnostic) -> bool {
-        let is_warning = diagnostic.severity() == Severity::Warning;
-        self.deny.contains(&Denied::Code(diagnostic.code()))
-            || is_warning && self.deny.contains(&Denied::Warnings)
+    /// Prints the notes of a calibration, but for findings that are allowed, and gives the exit status that the findings set. `folder` replaces the name of the file.
+    pub(crate) fn show_notes(&self, notes: &[Note], folder: Option<&str>) -> Exit {
+        let mut exit = Exit::DONE;
+        for note in notes {
+            match note {
+                Note::Finding { finding, .. } if self.allow.contains(&finding.code()) => {}
+                Note::Finding { file, finding } => {
+                    let file = folder.unwrap_or(file);
+                    if self.denies(finding.code()) {
+                        exit = Exit::DENIED;
+                        console::denied(finding.code().name(), &format!("{file}: {finding}"));
+                    } else {
+                        console::finding(file, finding);
+                    }
+                }
+                _ => console::noted(note),
+            }
+        }
+        exit
+    }
+
+    fn denies(&self, code: Code) -> bool {
+        let is_warning = code.severity() == Severity::Warning;
+        self.deny.contains(&Denied::Code(code)) || is_warning && self.deny.contains(&Denied::Warnings)
     }
 }
 

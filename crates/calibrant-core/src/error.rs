@@ -5,7 +5,9 @@
 //! iteration that does not converge is a [`CalibrationStatus`](crate::estimate::CalibrationStatus) in a
 //! complete result.
 
-pub use crate::refusal::Refusal;
+mod refusal;
+
+pub use refusal::Refusal;
 use std::fmt;
 use std::path::{Path, PathBuf};
 

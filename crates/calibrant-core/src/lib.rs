@@ -16,7 +16,6 @@ pub mod estimate;
 pub mod information;
 pub mod motion;
 pub mod noise;
-mod refusal;
 mod root;
 pub mod sensor;
 pub mod simulate;

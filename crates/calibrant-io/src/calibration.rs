@@ -65,7 +65,7 @@ struct CalibrationFile<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     still_gyroscope: Option<StillFields<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    rotations: Option<RotationsFields<'a>>,
+    rotations: Option<RotationsFields>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     turns: Vec<TurnFields>,
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -33,16 +33,16 @@ impl<'a> StillFields<'a> {
 
 /// The rotations between holds.
 #[derive(Serialize)]
-pub(super) struct RotationsFields<'a> {
+pub(super) struct RotationsFields {
     used: usize,
     error_rms_rad: Option<f64>,
     error_before_rms_rad: Option<f64>,
     excess_sd_rad: f64,
-    table: Vec<RotationFields<'a>>,
+    table: Vec<RotationFields>,
 }
 
-impl<'a> RotationsFields<'a> {
-    pub(super) fn of(calibration: &'a Calibration, gyroscope: &'a GyroscopeCalibration) -> Self {
+impl RotationsFields {
+    pub(super) fn of(calibration: &Calibration, gyroscope: &GyroscopeCalibration) -> Self {
         let used = calibration.rotations().iter().filter(|rotation| rotation.used).count();
         let known = |rms: f64| (used > 0).then_some(rms);
         Self {
@@ -56,7 +56,7 @@ impl<'a> RotationsFields<'a> {
 }
 
 #[derive(Serialize)]
-struct RotationFields<'a> {
+struct RotationFields {
     from_hold_index: usize,
     to_hold_index: usize,
     start_s: f64,
@@ -67,11 +67,11 @@ struct RotationFields<'a> {
     error_before_rad: Option<f64>,
     studentised: Option<f64>,
     used: bool,
-    reason: Option<&'a str>,
+    reason: Option<String>,
 }
 
-impl<'a> RotationFields<'a> {
-    fn of(rotation: &'a RotationResult) -> Self {
+impl RotationFields {
+    fn of(rotation: &RotationResult) -> Self {
         let found = |value: f64| rotation.is_integrated().then_some(value);
         Self {
             from_hold_index: rotation.from_hold,
@@ -84,7 +84,7 @@ impl<'a> RotationFields<'a> {
             error_before_rad: found(rotation.error_before_rad),
             studentised: found(rotation.studentised),
             used: rotation.used,
-            reason: rotation.reason.as_deref(),
+            reason: rotation.reason.map(|reason| reason.to_string()),
         }
     }
 }

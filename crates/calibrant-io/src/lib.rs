@@ -74,10 +74,10 @@ pub use inspection::{HoldsInspection, Inspection, SensorInspection, inspect, ins
 pub use motion::{parse_motion, read_motion, write_motion};
 pub use noise::{NoiseLine, noise_json, noise_line, write_noise};
 pub use recording::{
-    ColumnMapping, ColumnMeaning, ColumnUnit, FileFormat, Finding, FindingKind, ImuColumn, ImuFile,
-    ImuReadOptions, ImuUnit, ReadOptions, RecordingFile, SecondFile, TimeUnit, parse_imu_pair,
-    parse_imu_recording, parse_recording, read_accelerometer, read_imu_pair, read_imu_recording,
-    read_imu_sensor, read_recording, write_imu_recording, write_recording,
+    ColumnMapping, ColumnMeaning, ColumnUnit, FileFormat, Finding, ImuColumn, ImuFile, ImuReadOptions,
+    ImuUnit, Noticed, ReadOptions, RecordingFile, SecondFile, TimeUnit, parse_imu_pair, parse_imu_recording,
+    parse_recording, read_accelerometer, read_imu_pair, read_imu_recording, read_imu_sensor, read_recording,
+    write_imu_recording, write_recording,
 };
 pub use study::{study_json, write_study};
 pub use summary::{Failure, Summary, SummaryRow, calibrations_json, write_summary};

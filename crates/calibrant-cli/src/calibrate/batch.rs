@@ -62,7 +62,7 @@ pub(super) fn run(job: &Job<'_>) -> calibrant::Result<Exit> {
 
     let (mut exit, mut rows, mut texts, mut summary) = (Exit::DONE, Vec::new(), Vec::new(), Vec::new());
     for ((path, folder), outcome) in arguments.recordings.iter().zip(&folders).zip(outcomes) {
-        outcome.notes.iter().for_each(|note| console::noted_of(folder, note));
+        exit = exit.max(arguments.rules.show_notes(&outcome.notes, Some(folder)));
         let mut row = vec![folder.clone()];
         let outcome = match outcome.calibrated {
             Ok(calibrated) => {

@@ -10,9 +10,9 @@ pub(super) fn run(job: &Job<'_>, source: &Source) -> Exit {
     let directory = &job.arguments.output;
     let mut notes = Vec::new();
     let outcome = job.run(source, directory, &mut notes);
-    notes.iter().for_each(console::noted);
+    let denied = job.arguments.rules.show_notes(&notes, None);
     match outcome {
-        Ok(outcome) => show(job, &outcome).max(Exit::of_status(outcome.status())),
+        Ok(outcome) => show(job, &outcome).max(denied).max(Exit::of_status(outcome.status())),
         Err(error) => {
             warn_of_earlier_result(directory);
             match job.is_imu {

@@ -54,7 +54,7 @@ fn one_bad_recording_does_not_stop_the_others() {
     for (row, start) in rows[1..].iter().zip(starts) {
         assert!(row.starts_with(start), "{row}");
     }
-    let values: Vec<&str> = rows[3].split(',').skip(8).collect();
+    let values: Vec<&str> = rows[3].split(',').skip(9).collect();
     let calibration = bench.read("result/c/calibration.json");
     assert_eq!(values.len(), 12, "{summary}");
     for (pair, field) in values.chunks(2).flat_map(|pair| [(pair[0], "value"), (pair[1], "sd")]) {

@@ -44,8 +44,7 @@ fn an_accelerometer_is_validated_by_folds_and_on_another_recording() {
         assert_eq!(errors["table"].as_array().map(Vec::len), errors["errors"].as_u64().map(|n| n as usize));
     }
     let report = bench.read("result/report.html");
-    for says in ["> Validation</h2>", "On second.csv", "Errors on unused data", "±2 sd predicted"]
-    {
+    for says in ["> Validation</h2>", "On second.csv", "Errors on unused data", "±2 sd predicted"] {
         assert!(report.contains(says), "{says}");
     }
     // the same data under another name, or a part of them, are no other recording

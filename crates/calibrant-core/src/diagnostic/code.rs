@@ -302,4 +302,76 @@ codes! {
         "The sensor moves in the interval that --hold gives."
         "The holds found in it do not cover all of it."
         "Omit --hold, or choose an interval at rest.";
+    ColumnsIgnored "columns-ignored" Note
+        "Columns of a recording are not used."
+        "They hold nothing that is needed, or they are those of the other file's sensor."
+        "Nothing. Name them in [columns] where they are needed.";
+    UnitUnexpected "unit-unexpected" Note
+        "The recording states another unit than the experiment."
+        "The header's unit is compared with that of the experiment."
+        "Correct sensor.unit, where the header is right.";
+    ValuesMissing "values-missing" Note
+        "Rows without a time or a reading were dropped."
+        "A field is empty or NaN."
+        "Look for what loses values.";
+    RowsRepeated "rows-repeated" Note
+        "Rows that repeat the one before were dropped."
+        "All values are the same."
+        "Look at what writes the file.";
+    TimesRepeated "times-repeated" Note
+        "Rows with the time of the one before were dropped."
+        "The time is the same, the readings are not."
+        "Write times with more digits.";
+    LineTruncated "line-truncated" Note
+        "The last line was cut off and was dropped."
+        "It has no line end, and too few fields or digits."
+        "Nothing.";
+    FileUnfinished "file-unfinished" Warning
+        "A bag has no end. The later part of the recording may be missing."
+        "The container lacks its footer."
+        "Copy it again, or use `mcap recover`.";
+    SamplingGap "sampling-gap" Note
+        "Samples are missing: the time makes a jump."
+        "A step of time is longer than five usual ones."
+        "Look for what loses samples.";
+    SamplingIrregular "sampling-irregular" Note
+        "The time steps vary."
+        "A step is off the usual one by more than a hundredth."
+        "Take the times from the sensor's clock.";
+    AxisStuck "axis-stuck" Note
+        "An axis never changes."
+        "All its readings are the same."
+        "Check its connection.";
+    AxesEqual "axes-equal" Note
+        "Two axes have the same reading in every sample."
+        "All readings are compared."
+        "Look for a column that was written twice.";
+    ReadingsClipped "readings-clipped" Note
+        "Readings may be saturated."
+        "Several in a row have the largest or the smallest value."
+        "Record with a larger range.";
+    ClockSource "clock-source" Note
+        "The sample times are not simply those of a column of seconds."
+        "They follow from a counter, a rate or a large time stamp."
+        "Check the rate that the message names.";
+    ClockDoubtful "clock-doubtful" Warning
+        "The times are most likely in another unit."
+        "The sample rate would be below 2.5 Hz."
+        "Give --time-unit, or correct the name of the column.";
+    FileShorter "file-shorter" Note
+        "A sensor of a pair of files was recorded for a part of the other's time only."
+        "Both cover less than 0.9 of the longer recording."
+        "Give the files of one recording.";
+    FilesApart "files-apart" Warning
+        "The sensors of a pair of files were never recorded at the same time."
+        "Their times have nothing in common."
+        "Give the files of one recording, with times of one clock.";
+    TemperatureGaps "temperature-gaps" Note
+        "The temperature is missing in some rows. It is interpolated."
+        "It is missing for 30 s at most."
+        "Nothing.";
+    TemperatureDoubtful "temperature-doubtful" Warning
+        "The temperature is missing for long, or implausible."
+        "It is missing for more than 30 s, or no sensor works at it."
+        "Check the column of the temperature and its unit.";
 }

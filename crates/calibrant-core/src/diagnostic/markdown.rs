@@ -1,13 +1,13 @@
 //! The tables of codes as a page of the documentation.
 
 use crate::diagnostic::code::Code;
-use crate::refusal::Refusal;
+use crate::error::Refusal;
 
 /// The head of the page.
 const HEAD: &str = "# Diagnostics\n
-<!-- Made from diagnostic/code.rs and refusal.rs of crates/calibrant-core/src: cargo run -p calibrant-core --example diagnostics > docs/diagnostics.md -->\n
-calibrant prints a warning where a result may be wrong. Each warning has a code, which never changes.
-`calibration.json` and `noise.json` list the warnings with code, severity, subject, numbers and message.
+<!-- Made from diagnostic/code.rs and error/refusal.rs of crates/calibrant-core/src: cargo run -p calibrant-core --example diagnostics > docs/diagnostics.md -->\n
+calibrant prints a warning where a result may be wrong, and a note where a reader repaired a recording. Each has a code, which never changes.
+`calibration.json` and `noise.json` list the warnings about the result with code, severity, subject, numbers and message.
 `calibrant calibrate --deny CODE` makes the exit status 1 where a code occurs, `--allow CODE` silences one.
 ";
 

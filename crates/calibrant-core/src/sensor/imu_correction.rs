@@ -72,11 +72,9 @@ impl ImuCorrection {
         let (accelerometer, gyroscope) = (of(SensorKind::Accelerometer)?, of(SensorKind::Gyroscope)?);
         let g_sensitivity = if gyroscope.is_some() { imu.parameters.g_sensitivity } else { Matrix3::zeros() };
         if g_sensitivity != Matrix3::zeros() && accelerometer.is_none() {
-            return Err(Error::experiment(InputError::new(
-                Refusal::ConversionImpossible,
-                "the gyroscope's g-sensitivity cannot be corrected without an accelerometer",
-                "convert the whole IMU, or set the g-sensitivity to zero",
-            )));
+            let message = "the gyroscope's g-sensitivity cannot be corrected without an accelerometer";
+            let help = "convert the whole IMU, or set the g-sensitivity to zero";
+            return Err(Error::experiment(InputError::new(Refusal::ConversionImpossible, message, help)));
         }
         let covariance = entry_vector::covariance(imu).map(Arc::new);
         let known = SensorKind::ALL.map(|sensor_kind| {
@@ -284,11 +282,9 @@ impl ImuCorrection {
             Some(readings) => {
                 let needed = self.g_sensitivity != Matrix3::zeros() || self.covers_g_sensitivity();
                 if needed && accelerometer.is_none() {
-                    return Err(Error::recording(InputError::new(
-                        Refusal::SensorMissing,
-                        "the gyroscope's g-sensitivity is corrected with the specific force, and this recording has no accelerometer",
-                        "give the recording of both sensors",
-                    )));
+                    let message = "the gyroscope's g-sensitivity is corrected with the specific force, and this recording has no accelerometer";
+                    let help = "give the recording of both sensors";
+                    return Err(Error::recording(InputError::new(Refusal::SensorMissing, message, help)));
                 }
                 let felt = felt.filter(|_| needed);
                 let same = |felt: &&Recording| {

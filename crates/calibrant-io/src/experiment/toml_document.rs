@@ -189,7 +189,7 @@ impl<'a> Entry<'a> {
         };
         let unquote =
             matches!(self.value.get_ref(), DeValue::String(text) if text.trim().parse::<f64>().is_ok());
-        let help = if unquote && !needed.contains("string") { "write it without the quotes" } else { help };
+        let help = if unquote { "write it without the quotes" } else { help };
         self.reject(format!("{needed} is needed here, not {found}"), help)
     }
 

@@ -47,14 +47,16 @@ impl FileBeginning {
         let Some(mut pieces) = self.rest.take() else { return Ok(()) };
         self.bytes.append(&mut pieces.cut);
         self.bytes.reserve(pieces.length.saturating_sub(pieces.read) as usize);
+        let mut examined = 0;
         loop {
             // a device or a disk image must not fill the memory
-            if !self.is_binary && self.bytes.contains(&0) {
+            if !self.is_binary && memchr::memchr(0, &self.bytes[examined..]).is_some() {
                 text_decoding::as_text(&self.bytes)?;
             }
             if pieces.ended {
                 return Ok(());
             }
+            examined = self.bytes.len();
             pieces.fill(&mut self.bytes)?;
         }
     }

@@ -1,7 +1,8 @@
 //! The meaning of the columns of a plain text: from its header, or from the contract for text without one.
 
 use super::ReadOptions;
-use super::reader_finding::{Finding, FindingKind};
+use super::finding_words::list;
+use super::reader_finding::{Finding, Noticed};
 use super::row_parser::Layout;
 use crate::delimited_text::{Delimiter, Line};
 use crate::text_decoding::Checked;
@@ -63,11 +64,8 @@ impl Columns {
             .into());
         }
         if columns > needed {
-            let message = format!(
-                "columns {} to {columns} are ignored: there is no header that names them",
-                needed + 1
-            );
-            findings.push(Finding::new(FindingKind::IgnoredColumns, Some(line.number), message));
+            let noticed = Noticed::UnnamedColumnsIgnored(needed + 1, columns);
+            findings.push(Finding::new(noticed).at(Some(line.number)));
         }
         let slots = (0..columns).map(|column| (column < needed).then_some(column)).collect();
         Ok(Self {
@@ -138,26 +136,12 @@ impl Columns {
             .map(|(name, _)| name.clone())
             .collect();
         if !ignored.is_empty() {
-            let message =
-                format!("ignored column{} {}", if ignored.len() == 1 { "" } else { "s" }, list(&ignored, 8));
-            findings.push(Finding::new(FindingKind::IgnoredColumns, Some(line.number), message));
+            findings.push(Finding::new(Noticed::ColumnsIgnored(ignored)).at(Some(line.number)));
         }
         let (unit, factor) = resolve_unit(suffix.unwrap_or(Suffix::None), line, options, findings)?;
         let layout = Layout { delimiter, slots, names, has_header: true, ticks: false };
         Ok(Self { layout, axes: options.axes, unit, factor })
     }
-}
-
-/// Names in back quotes, at most this number of them.
-pub(super) fn list(names: &[String], most: usize) -> String {
-    let shown: Vec<String> = names
-        .iter()
-        .take(most)
-        .map(|name| format!("`{}`", name.chars().take(40).collect::<String>()))
-        .collect();
-    let more = names.len().saturating_sub(most);
-    let more = if more > 0 { format!(" and {more} more") } else { String::new() };
-    shown.join(", ") + &more
 }
 
 /// The unit at the end of a column's name.
@@ -222,12 +206,8 @@ fn resolve_unit(
             .into());
         }
         None if options.expected_unit != unit => {
-            let message = format!(
-                "readings are in {} by their header, the experiment says {}",
-                unit.symbol(),
-                options.expected_unit.symbol()
-            );
-            findings.push(Finding::new(FindingKind::Unit, Some(line.number), message));
+            let noticed = Noticed::UnitUnexpected { stated: unit, expected: options.expected_unit };
+            findings.push(Finding::new(noticed).at(Some(line.number)));
         }
         _ => (),
     }

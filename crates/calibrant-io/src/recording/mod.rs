@@ -15,6 +15,7 @@ mod checksum;
 mod chunked_reader;
 mod columns;
 mod file;
+mod finding_words;
 mod imu;
 mod lost_sign;
 mod options;
@@ -34,5 +35,5 @@ pub use imu::{
 };
 pub use options::ReadOptions;
 pub use read::{parse_recording, read_recording};
-pub use reader_finding::{Finding, FindingKind};
+pub use reader_finding::{Finding, Noticed};
 pub use recording_writer::{write_imu_recording, write_recording};

@@ -2,7 +2,8 @@
 
 use super::checksum::hex_sha256;
 use super::columns::Columns;
-use super::reader_finding::{Finding, count};
+use super::finding_words::count;
+use super::reader_finding::Finding;
 use super::row_reader::Rows;
 use super::size::{LARGEST, estimated_rows};
 use super::{ReadOptions, RecordingFile, lost_sign, recording_quality};

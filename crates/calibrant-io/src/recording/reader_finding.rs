@@ -1,81 +1,235 @@
 //! The findings of a reader: what it noticed in a recording that can be used nevertheless.
 
-use std::fmt;
+use calibrant_core::diagnostic::{Code, Severity};
+use calibrant_core::sensor::{Axis, ReadingUnit, SensorKind};
 
-/// The kind of a finding.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum FindingKind {
-    /// Columns that are not needed were not used.
-    IgnoredColumns,
-    /// The header's unit is not the experiment's.
-    Unit,
-    /// Samples with an empty or NaN value were dropped.
-    Missing,
-    /// Rows that repeat the one before were dropped.
-    DuplicateRow,
-    /// Rows with the time of the one before but another reading were dropped.
-    DuplicateTime,
-    /// The last line was cut off and was dropped.
-    TruncatedLastLine,
-    /// The file ends before its container does: the later part of the recording is missing.
-    Unfinished,
-    /// Samples are missing: the time makes a jump.
-    Gap,
-    /// The time steps vary.
-    IrregularSampling,
-    /// An axis never changes.
-    ConstantAxis,
-    /// Two axes always have the same reading.
-    EqualAxes,
-    /// Readings stay at the extreme value as if clipped there.
-    Saturation,
-    /// The source of the sample times, where it is not simply a column of seconds.
-    Clock,
-    /// A sensor of a pair of files was recorded for a part of the other's time only.
-    ShorterThanOther,
-    /// The sensors of a pair of files were never recorded at the same time.
-    NoCommonTime,
-    /// The sample times are most likely not in the stated unit.
-    DoubtfulClock,
-    /// The temperature is missing in some rows, seldom for long.
-    Temperature,
-    /// The temperature is missing for so long, or is so implausible, that the results that follow it are
-    /// doubtful.
-    DoubtfulTemperature,
-}
-
-/// A finding in a recording: what, where, and the reader's action.
+/// A finding in a recording: what, where, and of which sensor. Its sentence is its `Display`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Finding {
-    /// The kind of finding.
-    pub kind: FindingKind,
+    /// What was noticed.
+    pub noticed: Noticed,
     /// Line of its first occurrence, from 1, where it is about a line.
     pub line: Option<usize>,
-    /// The finding, in words.
-    pub message: String,
+    /// The sensor that it is about, where the recording has two.
+    pub sensor_kind: Option<SensorKind>,
     /// Is it about the gyroscope's file of a pair, not the accelerometer's?
     pub in_second_file: bool,
 }
 
+/// What a reader noticed.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum Noticed {
+    /// Columns of these names are not needed.
+    ColumnsIgnored(Vec<String>),
+    /// Columns from this number to that are not needed, and have no names.
+    UnnamedColumnsIgnored(usize, usize),
+    /// A file of one sensor of a pair has columns of the other, too.
+    OtherSensorIgnored(SensorKind, Vec<String>),
+    /// The header's unit is not the experiment's.
+    UnitUnexpected {
+        /// The header's.
+        stated: ReadingUnit,
+        /// The experiment's.
+        expected: ReadingUnit,
+    },
+    /// So many rows without a time were dropped.
+    TimesMissing(usize),
+    /// So many rows have no reading of the sensor.
+    ReadingsMissing(usize),
+    /// So many samples with an empty or NaN value were dropped.
+    ValuesMissing(usize),
+    /// So many rows that repeat the one before were dropped.
+    RowsRepeated(usize),
+    /// So many rows with the time of the one before but another reading were dropped.
+    TimesRepeated(usize),
+    /// So many samples of the sensor with the time of the one before were dropped.
+    SampleTimesRepeated(usize),
+    /// The last line was cut off and was dropped.
+    LineTruncated,
+    /// The file ends before its container does: the later part of the recording is missing.
+    FileUnfinished {
+        /// Where it was cut off, in words.
+        cut: String,
+        /// Is everything there but the index?
+        is_after_data: bool,
+        /// Messages that were read.
+        messages: usize,
+        /// Their duration, s.
+        duration_s: f64,
+    },
+    /// Samples are missing: the time makes a jump.
+    Gap {
+        /// Its length, s.
+        length_s: f64,
+        /// Time of the sample before it, s.
+        after_s: f64,
+        /// About how many samples are missing.
+        samples: f64,
+    },
+    /// There are more gaps than are listed.
+    MoreGaps {
+        /// How many more.
+        gaps: usize,
+        /// Length of the longest of all, s.
+        longest_s: f64,
+        /// Time of the sample before that one, s.
+        after_s: f64,
+    },
+    /// The time steps vary.
+    SamplingIrregular {
+        /// The shortest, s.
+        least_s: f64,
+        /// The longest that is no gap, s.
+        most_s: f64,
+        /// Rate of most samples, Hz.
+        rate_hz: f64,
+        /// Share of the samples that are missing.
+        missing: f64,
+    },
+    /// An axis never changes.
+    AxisConstant {
+        /// The axis.
+        axis: Axis,
+        /// Its reading.
+        value: f64,
+    },
+    /// Two axes always have the same reading.
+    AxesEqual(Axis, Axis),
+    /// Readings stay at the extreme value as if clipped there.
+    Saturation {
+        /// The axis.
+        axis: Axis,
+        /// Samples in a row.
+        samples: usize,
+        /// Is it the largest value, not the smallest?
+        is_largest: bool,
+        /// The value.
+        value: f64,
+        /// Its unit.
+        unit: ReadingUnit,
+    },
+    /// The times follow from a counter or from the rows.
+    TimesDerived {
+        /// Does the file have a column of times, without values?
+        is_empty: bool,
+        /// Name of the counter's column; without one the rows count.
+        counter: Option<String>,
+        /// The sample rate, Hz.
+        rate_hz: f64,
+        /// The key in the file that states the rate; `None` where the user gives it.
+        stated_by: Option<&'static str>,
+    },
+    /// The times are those of packets. They follow from the rows and this rate, Hz, that was given.
+    PacketTimesReplaced(f64),
+    /// The rate that was given is not needed.
+    RateUnused,
+    /// The clock in this column began anew so many times.
+    ClockWrapped(String, usize),
+    /// The times count from their first.
+    TimesFromFirst {
+        /// Column of the times.
+        column: String,
+        /// The first.
+        first: i128,
+        /// Unit of it.
+        unit: &'static str,
+    },
+    /// The sample times are most likely not in the stated unit.
+    ClockDoubtful {
+        /// Their steps, s.
+        step_s: f64,
+        /// Symbol of the likely unit.
+        unit: &'static str,
+        /// The rate in that unit, Hz.
+        rate_hz: f64,
+    },
+    /// A sensor of a pair of files was recorded for a part of the other's time only, or for nothing of it.
+    FilesApart {
+        /// The sensor that was recorded for less time.
+        shorter: SensorKind,
+        /// Begin and end of its recording, s.
+        shorter_s: (f64, f64),
+        /// Begin and end of the other's, s.
+        longer_s: (f64, f64),
+        /// What both cover, s; not above 0 where that is nothing.
+        common_s: f64,
+    },
+    /// The temperature is missing in some rows.
+    TemperatureMissing {
+        /// How many.
+        missing: usize,
+        /// Of how many rows.
+        rows: usize,
+        /// The longest time without one, s.
+        longest_s: f64,
+    },
+    /// A temperature, °C, is none at which a sensor works.
+    TemperatureImplausible(f64),
+}
+
+/// Longest time without a temperature that needs no warning, s: a sensor warms up within minutes.
+const LONG_WITHOUT_TEMPERATURE_S: f64 = 30.0;
+
 impl Finding {
+    /// Its code, which never changes.
+    #[must_use]
+    pub fn code(&self) -> Code {
+        self.noticed.code()
+    }
+
     /// Is it more than a note: do results of the recording become doubtful?
     #[must_use]
     pub fn is_warning(&self) -> bool {
-        use FindingKind::{DoubtfulClock, DoubtfulTemperature, NoCommonTime, Unfinished};
-        matches!(self.kind, DoubtfulClock | DoubtfulTemperature | NoCommonTime | Unfinished)
+        self.code().severity() == Severity::Warning
     }
 
-    pub(super) fn new(kind: FindingKind, line: Option<usize>, message: String) -> Self {
-        Self { kind, line, message, in_second_file: false }
+    /// A finding about the recording as a whole.
+    pub(super) fn new(noticed: Noticed) -> Self {
+        Self { noticed, line: None, sensor_kind: None, in_second_file: false }
+    }
+
+    /// The same finding, at this line.
+    pub(super) fn at(self, line: Option<usize>) -> Self {
+        Self { line, ..self }
+    }
+
+    /// The same finding, about this sensor.
+    pub(super) fn of(self, sensor_kind: Option<SensorKind>) -> Self {
+        Self { sensor_kind, ..self }
     }
 }
 
-impl fmt::Display for Finding {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if let Some(line) = self.line {
-            write!(f, "line {line}: ")?;
+impl Noticed {
+    fn code(&self) -> Code {
+        match self {
+            Self::ColumnsIgnored(_) | Self::UnnamedColumnsIgnored(..) | Self::OtherSensorIgnored(..) => {
+                Code::ColumnsIgnored
+            }
+            Self::UnitUnexpected { .. } => Code::UnitUnexpected,
+            Self::TimesMissing(_) | Self::ReadingsMissing(_) | Self::ValuesMissing(_) => Code::ValuesMissing,
+            Self::RowsRepeated(_) => Code::RowsRepeated,
+            Self::TimesRepeated(_) | Self::SampleTimesRepeated(_) => Code::TimesRepeated,
+            Self::LineTruncated => Code::LineTruncated,
+            Self::FileUnfinished { .. } => Code::FileUnfinished,
+            Self::Gap { .. } | Self::MoreGaps { .. } => Code::SamplingGap,
+            Self::SamplingIrregular { .. } => Code::SamplingIrregular,
+            Self::AxisConstant { .. } => Code::AxisStuck,
+            Self::AxesEqual(..) => Code::AxesEqual,
+            Self::Saturation { .. } => Code::ReadingsClipped,
+            Self::TimesDerived { .. }
+            | Self::PacketTimesReplaced(_)
+            | Self::RateUnused
+            | Self::ClockWrapped(..)
+            | Self::TimesFromFirst { .. } => Code::ClockSource,
+            Self::ClockDoubtful { .. } => Code::ClockDoubtful,
+            Self::FilesApart { common_s, .. } if *common_s > 0.0 => Code::FileShorter,
+            Self::FilesApart { .. } => Code::FilesApart,
+            Self::TemperatureMissing { longest_s, .. } if *longest_s <= LONG_WITHOUT_TEMPERATURE_S => {
+                Code::TemperatureGaps
+            }
+            Self::TemperatureMissing { .. } | Self::TemperatureImplausible(_) => Code::TemperatureDoubtful,
         }
-        write!(f, "{}", self.message)
     }
 }
 
@@ -93,37 +247,15 @@ impl Tally {
         self.first = self.first.or(line);
     }
 
-    /// One finding for all occurrences; `say` puts the count into words.
+    /// One finding for all occurrences.
     pub(super) fn report(
         &self,
-        kind: FindingKind,
         findings: &mut Vec<Finding>,
-        say: impl Fn(usize) -> String,
+        sensor_kind: Option<SensorKind>,
+        noticed: impl Fn(usize) -> Noticed,
     ) {
         if self.count > 0 {
-            let more = if self.count > 1 { " (first here)" } else { "" };
-            findings.push(Finding::new(kind, self.first, format!("{}{more}", say(self.count))));
+            findings.push(Finding::new(noticed(self.count)).of(sensor_kind).at(self.first));
         }
-    }
-}
-
-/// `1 sample`, `2 samples`.
-pub(super) fn count(number: usize, noun: &str) -> String {
-    format!("{number} {noun}{}", if number == 1 { "" } else { "s" })
-}
-
-/// A time as it stands in the file. It serves where six digits do not distinguish it from its neighbours, as
-/// in seconds since 1970.
-pub(super) fn moment(time_s: f64) -> String {
-    if time_s.abs() < 1e5 { short(time_s) } else { time_s.to_string() }
-}
-
-/// A number in six significant digits, without trailing zeros.
-pub(super) fn short(number: f64) -> String {
-    let rounded = format!("{number:.5e}").parse().unwrap_or(number);
-    if rounded == 0.0 || (1e-4..1e9).contains(&rounded.abs()) {
-        rounded.to_string()
-    } else {
-        format!("{rounded:e}")
     }
 }

@@ -1,7 +1,7 @@
 //! Reads the rows of a recording: one pass over the text, every row checked against the one before.
 
 use super::columns::Columns;
-use super::reader_finding::{Finding, FindingKind, Tally, count};
+use super::reader_finding::{Finding, Noticed, Tally};
 use super::row_parser::RowReader;
 use crate::delimited_text::Line;
 use crate::text_decoding::Checked;
@@ -83,11 +83,9 @@ impl<'c> Rows<'c> {
         Ok(())
     }
 
-    /// Puts the findings into words.
+    /// The findings about the rows.
     pub(super) fn report(&self, findings: &mut Vec<Finding>) {
-        self.missing.report(FindingKind::Missing, findings, |n| {
-            format!("{} with a missing or NaN value dropped", count(n, "sample"))
-        });
+        self.missing.report(findings, None, Noticed::ValuesMissing);
         report_duplicates(&self.duplicate_rows, &self.duplicate_times, findings);
         report_truncated(self.reader.truncated, findings);
     }
@@ -104,19 +102,14 @@ pub(super) fn backwards(before: f64, t: f64) -> InputError {
 
 /// The findings about rows that repeat the one before, or only its time.
 pub(super) fn report_duplicates(rows: &Tally, times: &Tally, findings: &mut Vec<Finding>) {
-    rows.report(FindingKind::DuplicateRow, findings, |n| {
-        format!("{} equal to the one before dropped", count(n, "row"))
-    });
-    times.report(FindingKind::DuplicateTime, findings, |n| {
-        format!("{} with the time of the one before but another reading dropped", count(n, "row"))
-    });
+    rows.report(findings, None, Noticed::RowsRepeated);
+    times.report(findings, None, Noticed::TimesRepeated);
 }
 
 /// The finding about a last line that was cut off.
 pub(super) fn report_truncated(line: Option<usize>, findings: &mut Vec<Finding>) {
     if line.is_some() {
-        let message = "truncated last line dropped".to_owned();
-        findings.push(Finding::new(FindingKind::TruncatedLastLine, line, message));
+        findings.push(Finding::new(Noticed::LineTruncated).at(line));
     }
 }
 

@@ -2,6 +2,7 @@
 
 use crate::number_format;
 use crate::table::{Cell, Table};
+use calibrant_core::diagnostic::RotationReason;
 use calibrant_core::estimate::{Calibration, RotationResult};
 
 /// The table of what all rotations have in common.
@@ -77,7 +78,7 @@ pub(super) fn rotation_table(rotations: &[RotationResult]) -> String {
             cells.push(Cell::Text("yes".to_string()));
             table.row(cells);
         } else {
-            let reason = rotation.reason.as_deref().unwrap_or("it does not fit");
+            let reason = rotation.reason.unwrap_or(RotationReason::Unfit);
             cells.push(Cell::Mark(format!("no: {reason}")));
             table.row_left_out(cells);
         }

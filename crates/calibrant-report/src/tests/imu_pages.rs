@@ -2,6 +2,7 @@
 
 use super::super::{About, calibration_report, number_format};
 use super::{about, assert_sound, estimate, motion, sensor};
+use calibrant_core::diagnostic::RotationReason;
 use calibrant_core::estimate::{Calibration, CalibrationStatus, GyroscopeCalibration, Recovered};
 use calibrant_core::noise::{Segment, SensorNoise};
 use calibrant_core::sensor::{ImuRecording, SensorKind};
@@ -118,11 +119,14 @@ fn degenerate_results_and_hostile_words_are_reported_without_harm() {
     let case = imus::imu_case(14, 1);
     let mut calibration = case.calibration;
     for rotation in &mut gyroscope_of(&mut calibration).rotations {
-        (rotation.used, rotation.path_rad, rotation.reason) = (false, 0.0, Some("a<b>&\"c\"".to_string()));
+        (rotation.used, rotation.path_rad) = (false, 0.0);
+        rotation.reason = Some(RotationReason::SamplesMissing);
     }
-    let html = calibration_report(&calibration, &ImuRecording::default(), &[], &About::default());
+    let hostile = About { findings: vec!["a<b>&\"c\"".into()], ..About::default() };
+    let html = calibration_report(&calibration, &ImuRecording::default(), &[], &hostile);
     assert_sound(&html);
-    assert!(html.contains("no: a&lt;b&gt;&amp;&quot;c&quot;") && !html.contains("Rotation errors"));
+    assert!(html.contains("a&lt;b&gt;&amp;&quot;c&quot;"));
+    assert!(html.contains("no: the gyroscope has too few samples") && !html.contains("Rotation errors"));
 
     gyroscope_of(&mut calibration).rotations.clear();
     gyroscope_of(&mut calibration).turns.clear();

@@ -63,7 +63,7 @@ fn of_rotations(diagnostic: &Diagnostic) -> Option<String> {
     Some(match diagnostic {
         Diagnostic::RotationLeftOut { from_hold, to_hold, start_s, end_s, reason, .. } => format!(
             "the rotation from hold {from_hold} to hold {to_hold} ({start_s:.1} to {end_s:.1} s) is not used: {}",
-            reason.0
+            reason
         ),
         Diagnostic::RotationsLeftOutInARow { rotations, start_s, end_s } => format!(
             "the {rotations} consecutive rotations from {start_s:.1} to {end_s:.1} s are not used. This is not by chance. Did the gyroscope saturate there, or did a sensor change?"

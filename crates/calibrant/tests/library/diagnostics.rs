@@ -46,7 +46,14 @@ fn each_code_has_a_producer_and_words() {
         collect(&workspace().join("crates").join(folder).join("src"), &mut produced);
     }
     collect(&workspace().join("crates/calibrant-report/src/words"), &mut words);
-    for code in Code::ALL {
+    // a finding of a reader has its code in one file, and a sentence for each by an exhaustive match
+    let findings = workspace().join("crates/calibrant-io/src/recording/reader_finding.rs");
+    let findings = std::fs::read_to_string(findings).expect("text");
+    let of_reader = |code: &Code| {
+        let end = |c: char| !c.is_ascii_alphanumeric();
+        findings.split("Code::").skip(1).any(|rest| rest.split(end).next() == Some(&format!("{code:?}")))
+    };
+    for code in Code::ALL.iter().filter(|code| !of_reader(code)) {
         let made = |of: &str| format!("{of}::{code:?} ");
         let is_made = ["Diagnostic", "Self"].iter().any(|of| produced.contains(&made(of)));
         assert!(is_made, "{code:?} is produced nowhere");

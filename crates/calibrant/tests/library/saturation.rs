@@ -3,12 +3,15 @@
 
 use crate::common::{WORDS, messages};
 use crate::common::{draw_imu, normal};
+use calibrant::diagnostic::RotationReason;
 use calibrant::estimate::{
     Calibration, CalibrationProblem, CalibrationSettings, CalibrationStatus, Gyroscope, HoldResult,
     HoldsSetup, ImuProblem, ImuSetup, Recovered, Stimulus, Turn, calibrate, calibrate_imu,
 };
 use calibrant::io::{Input, calibration_json};
-use calibrant::sensor::{Axis, ImuParameters, ImuRecording, ReadingUnit, Recording, Sensor, SensorModel};
+use calibrant::sensor::{
+    Axis, ImuParameters, ImuRecording, ReadingUnit, Recording, Sensor, SensorKind, SensorModel,
+};
 use calibrant::simulate::{
     ImuSimulation, Purpose, Rng, TableAction, TableStep, simulate_imu, simulate_table, stream,
 };
@@ -97,8 +100,8 @@ fn holds_and_rotations_in_which_the_accelerometer_saturates_are_left_out_and_nam
         left_out += usize::from(cut);
     }
     assert!((2..15).contains(&left_out), "{left_out}: the test needs both kinds");
-    let is_named = |reason: &Option<String>| {
-        reason.as_ref().is_some_and(|why| why.starts_with("axis x of the accelerometer saturates"))
+    let is_named = |reason: &Option<RotationReason>| {
+        *reason == Some(RotationReason::Saturated(SensorKind::Accelerometer, Axis::X))
     };
     for rotation in calibration.rotations() {
         let cut = is_cut(&whole, (rotation.start_s, rotation.end_s), limit);

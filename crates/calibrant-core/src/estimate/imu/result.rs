@@ -1,5 +1,6 @@
 //! The results of a gyroscope, in addition to its parameters.
 
+use crate::diagnostic::RotationReason;
 use crate::estimate::imu::clock_rate::ClockRate;
 use crate::estimate::imu::problem::NoiseSource;
 use crate::estimate::uncalibrated::Uncalibrated;
@@ -74,8 +75,8 @@ pub struct RotationResult {
     pub studentised: f64,
     /// Was it used?
     pub used: bool,
-    /// Why it was not used, in words.
-    pub reason: Option<String>,
+    /// Why it was not used.
+    pub reason: Option<RotationReason>,
 }
 
 /// A turn of known angle and its fit.

@@ -5,7 +5,7 @@ use super::column_values::{COUNTER, TEMPERATURE, TIME, slot_of};
 use super::format::FileFormat;
 use super::options::ImuReadOptions;
 use super::unit::{ColumnUnit, TimeUnit};
-use crate::recording::columns::list;
+use crate::recording::finding_words::list;
 use crate::text_decoding::Checked;
 use calibrant_core::error::{InputError, Refusal};
 use calibrant_core::sensor::{Axis, SensorKind};

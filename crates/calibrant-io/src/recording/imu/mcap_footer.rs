@@ -3,7 +3,7 @@
 //! A whole container ends with a record `DataEnd` below the messages, an index, a record `Footer` and the magic bytes once more.
 
 use super::mcap_records::{HEAD, raw_records};
-use crate::recording::reader_finding::{Finding, FindingKind, count, short};
+use crate::recording::reader_finding::{Finding, Noticed};
 use calibrant_core::error::{InputError, Refusal};
 use mcap::MAGIC;
 use mcap::records::op;
@@ -37,17 +37,8 @@ impl Cut {
 
     /// The warning where messages could be read: their number, and their duration, s.
     pub(super) fn finding(&self, messages: usize, duration_s: f64) -> Finding {
-        let lost = match self.is_after_data {
-            true => "no message is missing, only the index is",
-            false => "what was recorded after them is not in the file",
-        };
-        let message = format!(
-            "{}: {} were read, the last one {} s after the first; {lost}; `mcap recover` makes a whole file of it",
-            self.sentence(),
-            count(messages, "message"),
-            short(duration_s)
-        );
-        Finding::new(FindingKind::Unfinished, None, message)
+        let (cut, is_after_data) = (self.sentence(), self.is_after_data);
+        Finding::new(Noticed::FileUnfinished { cut, is_after_data, messages, duration_s })
     }
 
     /// The error where none could be read.

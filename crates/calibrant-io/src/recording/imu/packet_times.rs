@@ -6,7 +6,7 @@
 //! times.
 
 use super::column_values::Samples;
-use crate::recording::reader_finding::{count, short};
+use crate::recording::finding_words::{count, short};
 use calibrant_core::error::{InputError, Refusal};
 use calibrant_core::sensor::SensorKind;
 

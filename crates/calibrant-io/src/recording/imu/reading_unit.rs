@@ -5,7 +5,7 @@ use super::column::ColumnMeaning;
 use super::file_layout::Draft;
 use super::options::ImuReadOptions;
 use super::unit::{ColumnUnit, ImuUnit};
-use crate::recording::reader_finding::short;
+use crate::recording::finding_words::short;
 use crate::text_decoding::Checked;
 use calibrant_core::error::{InputError, Refusal};
 use calibrant_core::sensor::{Axis, Recording, SensorKind};

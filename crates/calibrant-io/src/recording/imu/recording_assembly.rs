@@ -8,15 +8,15 @@ use super::packet_times::Packets;
 use super::reading_unit::{check_gravity, question, stated_unit};
 use super::sample_clock::{self, at};
 use super::unit::{ColumnUnit, ImuUnit};
+use crate::recording::finding_words::count;
 use crate::recording::lost_sign;
-use crate::recording::reader_finding::{Finding, FindingKind, Tally, count, short};
+use crate::recording::reader_finding::{Finding, Noticed, Tally};
 use crate::recording::recording_quality;
 use crate::recording::row_reader::{LineMap, backwards, report_duplicates, report_truncated};
 use crate::text_decoding::Checked;
+use calibrant_core::diagnostic::Code;
 use calibrant_core::error::{InputError, Refusal};
-use calibrant_core::sensor::{
-    ImuRecording, ReadingUnit, Recording, SensorKind, Temperatures, WORKING_C, interpolated,
-};
+use calibrant_core::sensor::{ImuRecording, ReadingUnit, Recording, SensorKind, WORKING_C, interpolated};
 use nalgebra::Vector3;
 use std::iter::once;
 
@@ -67,7 +67,7 @@ pub(super) fn assemble(
         times = sample_clock::of_rows(samples.rows, rate, &mut findings);
         (kept, of_rows) = (Kept { rows: times.len(), dropped: Vec::new() }, Vec::new());
     } else if has_unused_rate {
-        findings.push(sample_clock::rate_not_used());
+        findings.push(Finding::new(Noticed::RateUnused));
     }
     findings.append(&mut of_rows);
     let mut recording = ImuRecording::default();
@@ -92,8 +92,6 @@ pub(super) fn assemble(
     Ok(Assembled { recording, findings })
 }
 
-/// Longest time without a temperature that needs no warning, s: a sensor warms up within minutes.
-const LONG_WITHOUT_TEMPERATURE_S: f64 = 30.0;
 /// The remedy for a recording that is too short.
 const TWO: &str = "a recording needs two samples at least";
 
@@ -214,7 +212,7 @@ fn increasing(
             kept.dropped.push(row);
         }
     }
-    untimed.report(FindingKind::Missing, findings, |n| format!("{} without a time dropped", count(n, "row")));
+    untimed.report(findings, None, Noticed::TimesMissing);
     report_duplicates(&same_rows, &same_times, findings);
     Ok(kept)
 }
@@ -252,15 +250,9 @@ fn readings(
     }
     readings.truncate(times_s.len());
     let recording = Recording { times_s, readings, axes: 3, unit };
-    absent.report(FindingKind::Missing, findings, |n| {
-        format!("{} without a reading of the {sensor_kind}", count(n, "row"))
-    });
-    missing.report(FindingKind::Missing, findings, |n| {
-        format!("{} of the {sensor_kind} with a missing or NaN value dropped", count(n, "sample"))
-    });
-    same_times.report(FindingKind::DuplicateTime, findings, |n| {
-        format!("{} of the {sensor_kind} with the time of the one before dropped", count(n, "sample"))
-    });
+    absent.report(findings, Some(sensor_kind), Noticed::ReadingsMissing);
+    missing.report(findings, Some(sensor_kind), Noticed::ValuesMissing);
+    same_times.report(findings, Some(sensor_kind), Noticed::SampleTimesRepeated);
     if recording.len() < 2 {
         let message = format!(
             "only {} of the {sensor_kind} in {}",
@@ -268,7 +260,7 @@ fn readings(
             count(samples.rows, "row")
         );
         let mut help = vec![TWO.to_owned()];
-        let dropped = findings.iter().filter(|finding| finding.kind != FindingKind::Clock);
+        let dropped = findings.iter().filter(|finding| finding.code() != Code::ClockSource);
         help.extend(dropped.map(ToString::to_string));
         let input_error = InputError::new(Refusal::RecordingShort, message, help.join("; "));
         return Err(samples.last_line.map_or(input_error.clone(), |line| input_error.at_line(line)).into());
@@ -305,18 +297,11 @@ fn temperature(
         let known_at = known.iter().map(|(t, _)| *t);
         let with_ends: Vec<f64> = once(ends.0).chain(known_at).chain(once(ends.1)).collect();
         let longest_s = with_ends.windows(2).map(|t| t[1] - t[0]).fold(0.0, f64::max);
-        let message = format!(
-            "the temperature is missing in {missing} of {}, for up to {} s: it is interpolated between those that have it, and kept constant before the first and after the last",
-            count(kept.len(), "row"),
-            short(longest_s)
-        );
-        let doubtful = longest_s > LONG_WITHOUT_TEMPERATURE_S;
-        let kind = if doubtful { FindingKind::DoubtfulTemperature } else { FindingKind::Temperature };
-        findings.push(Finding::new(kind, None, message));
+        let noticed = Noticed::TemperatureMissing { missing, rows: kept.len(), longest_s };
+        findings.push(Finding::new(noticed));
     }
     if let Some((_, value)) = known.iter().find(|(_, value)| !WORKING_C.contains(value)) {
-        let message = format!("the temperature is {}: {}", short(*value), Temperatures::question(*value));
-        findings.push(Finding::new(FindingKind::DoubtfulTemperature, None, message));
+        findings.push(Finding::new(Noticed::TemperatureImplausible(*value)));
     }
     let (times_s, values_c): (Vec<f64>, Vec<f64>) = known.into_iter().unzip();
     at.iter().enumerate().map(|(k, &t)| interpolated(&times_s, |known| values_c[known], t, k)).collect()
@@ -344,11 +329,9 @@ fn examine(
             let from = findings.len();
             recording_quality::sampling(sensor, rate, lines, findings);
             if !shared {
-                findings[from..]
-                    .iter_mut()
-                    .for_each(|finding| finding.message = format!("{sensor_kind}: {}", finding.message));
+                findings[from..].iter_mut().for_each(|finding| finding.sensor_kind = Some(*sensor_kind));
             }
         }
-        recording_quality::readings(sensor, &format!("{sensor_kind} "), lines, findings);
+        recording_quality::readings(sensor, Some(*sensor_kind), lines, findings);
     }
 }

@@ -5,7 +5,8 @@ use super::column_values::Samples;
 use super::file_layout::Draft;
 use super::options::ImuReadOptions;
 use super::unit::TimeUnit;
-use crate::recording::reader_finding::{Finding, FindingKind, count, short};
+use crate::recording::finding_words::short;
+use crate::recording::reader_finding::{Finding, Noticed};
 use crate::text_decoding::Checked;
 use calibrant_core::error::{InputError, Refusal};
 
@@ -13,8 +14,6 @@ use calibrant_core::error::{InputError, Refusal};
 const EPOCH_S: f64 = 1e8;
 /// Largest plausible time, s.
 const LARGEST_S: f64 = 1e12;
-/// The words for times that count from another beginning than in the file.
-pub(super) const COUNTED: &str = "times count from the first";
 /// A stated rate and a given one may differ by this share.
 const SAME_RATE: f64 = 1e-3;
 
@@ -38,50 +37,31 @@ pub(super) fn times(
         draft.leave_aside(ColumnMeaning::Counter, "there are sample times");
         return of_times(draft, samples, findings);
     }
-    let empty =
-        if times.is_empty() { "the file has no sample times" } else { "its sample times are missing" };
+    let is_empty = !times.is_empty();
     draft.leave_aside(ColumnMeaning::Time, "most of its values are missing");
-    let Some((rate, source)) = rate else {
+    let Some((rate_hz, stated_by)) = rate else {
+        let empty = if is_empty { "its sample times are missing" } else { "the file has no sample times" };
         let answer = "--rate-hz, or rate_hz in [columns]: the sample rate in Hz, as it was set when the recording was made";
         let message = format!("{empty}, and nothing in it says the sample rate");
         return Err(InputError::question(Refusal::RateUnknown, message, vec![answer.into()]).into());
     };
-    if has_counter {
-        let name =
-            draft.column(ColumnMeaning::Counter).map_or_else(String::new, |column| column.name.clone());
-        let message = format!("{empty}: they follow from `{name}` and {} Hz, {source}", short(rate));
-        findings.push(Finding::new(FindingKind::Clock, None, message));
-        return of_counter(draft, samples, rate);
+    let counter = has_counter
+        .then(|| draft.column(ColumnMeaning::Counter).map_or_else(String::new, |column| column.name.clone()));
+    findings.push(Finding::new(Noticed::TimesDerived { is_empty, counter, rate_hz, stated_by }));
+    match has_counter {
+        true => of_counter(draft, samples, rate_hz),
+        false => Ok((0..samples.rows).map(|row| row as f64 / rate_hz).collect()),
     }
-    let message = format!(
-        "{empty} and no counter: they follow from the rows and {} Hz, {source}; lost samples would not show",
-        short(rate)
-    );
-    findings.push(Finding::new(FindingKind::Clock, None, message));
-    Ok((0..samples.rows).map(|row| row as f64 / rate).collect())
 }
 
 /// Times of the rows from the given rate. They replace those in the file, which are not times of samples.
 pub(super) fn of_rows(rows: usize, rate_hz: f64, findings: &mut Vec<Finding>) -> Vec<f64> {
-    let message = format!(
-        "its times are those of packets, not of samples: they follow from the rows and {} Hz, as given; lost samples would not show",
-        short(rate_hz)
-    );
-    findings.push(Finding::new(FindingKind::Clock, None, message));
+    findings.push(Finding::new(Noticed::PacketTimesReplaced(rate_hz)));
     (0..rows).map(|row| row as f64 / rate_hz).collect()
 }
 
-/// The finding about a given rate that the times do not need.
-pub(super) fn rate_not_used() -> Finding {
-    Finding::new(
-        FindingKind::Clock,
-        None,
-        "the rate that was given is not used: the file has sample times".into(),
-    )
-}
-
-/// The stated or given sample rate, and its source.
-fn rate(draft: &Draft, options: &ImuReadOptions) -> Checked<Option<(f64, String)>> {
+/// The stated or given sample rate, and the key that states it.
+fn rate(draft: &Draft, options: &ImuReadOptions) -> Checked<Option<(f64, Option<&'static str>)>> {
     if let Some(rate) = options.rate_hz
         && !(rate.is_finite() && (1e-6..=1e9).contains(&rate))
     {
@@ -101,8 +81,8 @@ fn rate(draft: &Draft, options: &ImuReadOptions) -> Checked<Option<(f64, String)
             );
             Err(InputError::new(Refusal::RateContradicted, message, "leave --rate-hz away").into())
         }
-        (Some(given), None) => Ok(Some((given, "as given".into()))),
-        (_, stated) => Ok(stated.map(|(rate, key)| (rate, format!("its `{key}`")))),
+        (Some(given), None) => Ok(Some((given, None))),
+        (_, stated) => Ok(stated.map(|(rate, key)| (rate, Some(key)))),
     }
 }
 
@@ -113,8 +93,7 @@ fn of_times(draft: &Draft, samples: &mut Samples, findings: &mut Vec<Finding>) -
     let per_second = unit.per_second().unwrap_or(1.0);
     let (mut ticks, wraps) = unwrap(ticks, draft.time_wraps_at);
     if wraps > 0 {
-        let message = format!("`{name}` begins anew {}: counted on", count(wraps, "time"));
-        findings.push(Finding::new(FindingKind::Clock, None, message));
+        findings.push(Finding::new(Noticed::ClockWrapped(name.clone(), wraps)));
     }
     let first = ticks.iter().copied().find(|t| t.is_finite()).unwrap_or(0.0);
     let whole = first.fract() == 0.0 && unit != TimeUnit::Second;
@@ -125,8 +104,8 @@ fn of_times(draft: &Draft, samples: &mut Samples, findings: &mut Vec<Finding>) -
         ticks.iter_mut().for_each(|t| *t -= first);
         let first = (first as i128).saturating_add(samples.origin.into());
         samples.counted_from_ns = first.checked_mul((1e9 / per_second) as i128);
-        let message = format!("{COUNTED}, `{name}` = {first} {}", unit.symbol());
-        findings.push(Finding::new(FindingKind::Clock, None, message));
+        let noticed = Noticed::TimesFromFirst { column: name.clone(), first, unit: unit.symbol() };
+        findings.push(Finding::new(noticed));
     } else if samples.origin != 0 {
         ticks.iter_mut().for_each(|t| *t += samples.origin as f64);
     }

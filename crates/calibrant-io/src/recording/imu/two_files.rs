@@ -3,11 +3,10 @@
 use super::column::{ColumnMeaning, ImuColumn};
 use super::file_layout::Draft;
 use super::read::rows;
-use super::sample_clock::COUNTED;
 use super::text_header::Head;
 use super::text_source::{self, Source};
 use super::{ColumnMapping, FileFormat, ImuFile, ImuReadOptions, SecondFile, imu_tk};
-use crate::recording::reader_finding::{Finding, FindingKind, moment, short};
+use crate::recording::reader_finding::{Finding, Noticed};
 use crate::text_decoding::Checked;
 use calibrant_core::error::{Error, InputError, Result};
 use calibrant_core::sensor::{ImuRecording, Recording, SensorKind};
@@ -101,18 +100,12 @@ fn parse_one(source: Source<'_>, options: &ImuReadOptions, sensor_kind: SensorKi
 fn left_aside(file: &ImuFile, sensor_kind: SensorKind) -> Option<Finding> {
     let is_other =
         |column: &&ImuColumn| matches!(column.meaning, ColumnMeaning::Reading(of, _) if of != sensor_kind);
-    let names: Vec<&str> = file.columns.iter().filter(is_other).map(|column| column.name.as_str()).collect();
+    let names: Vec<String> = file.columns.iter().filter(is_other).map(|column| column.name.clone()).collect();
     let other = match sensor_kind {
         SensorKind::Accelerometer => SensorKind::Gyroscope,
         SensorKind::Gyroscope => SensorKind::Accelerometer,
     };
-    (!names.is_empty()).then(|| {
-        let message = format!(
-            "its own columns of the {other}, {}, are left aside: the {other} is that of the other file",
-            names.join(", ")
-        );
-        Finding::new(FindingKind::IgnoredColumns, None, message)
-    })
+    (!names.is_empty()).then(|| Finding::new(Noticed::OtherSensorIgnored(other, names)))
 }
 
 /// The finding where one of a pair of files covers much less of the time than the other, or nothing of it.
@@ -120,46 +113,25 @@ fn shorter_than_other(first: &ImuRecording, second: &ImuRecording) -> Option<Fin
     let span = |recording: &Recording| Some((*recording.times_s.first()?, *recording.times_s.last()?));
     let (accelerometer, gyroscope) =
         (span(first.accelerometer.as_ref()?)?, span(second.gyroscope.as_ref()?)?);
-    let common = accelerometer.1.min(gyroscope.1) - accelerometer.0.max(gyroscope.0);
+    let common_s = accelerometer.1.min(gyroscope.1) - accelerometer.0.max(gyroscope.0);
     let lengths = [accelerometer, gyroscope].map(|(start, end)| end - start);
     let is_gyroscope = lengths[1] < lengths[0];
-    let (shorter, longer) = if is_gyroscope {
-        (SensorKind::Gyroscope, SensorKind::Accelerometer)
-    } else {
-        (SensorKind::Accelerometer, SensorKind::Gyroscope)
+    let (shorter, shorter_s, longer_s) = match is_gyroscope {
+        true => (SensorKind::Gyroscope, gyroscope, accelerometer),
+        false => (SensorKind::Accelerometer, accelerometer, gyroscope),
     };
-    let of = |sensor_kind: SensorKind| {
-        if sensor_kind == SensorKind::Gyroscope { gyroscope } else { accelerometer }
-    };
-    if common >= COVERED * lengths[0].max(lengths[1]) {
+    if common_s >= COVERED * lengths[0].max(lengths[1]) {
         return None;
     }
-    let words = |(start, end): (f64, f64)| format!("from {} to {} s", moment(start), moment(end));
-    let (kind, shared) = match common > 0.0 {
-        true => (FindingKind::ShorterThanOther, format!("{} s of both", short(common))),
-        false => (
-            FindingKind::NoCommonTime,
-            "no time of both; are they of one recording, and their times of one clock?".to_owned(),
-        ),
-    };
-    let message = format!(
-        "{shorter}: it was recorded {}, the {longer} {}: {shared}",
-        words(of(shorter)),
-        words(of(longer))
-    );
-    Some(Finding { in_second_file: is_gyroscope, ..Finding::new(kind, None, message) })
+    let noticed = Noticed::FilesApart { shorter, shorter_s, longer_s, common_s };
+    Some(Finding { in_second_file: is_gyroscope, ..Finding::new(noticed) })
 }
 
 /// Two files as one recording.
 fn joined(first: ImuFile, mut second: ImuFile) -> ImuFile {
     on_one_clock(&first, &mut second);
     let named = |sensor_kind: SensorKind, file: &ImuFile| -> Vec<Finding> {
-        let named = |mut finding: Finding| {
-            if !finding.message.starts_with(sensor_kind.name()) {
-                finding.message = format!("{sensor_kind}: {}", finding.message);
-            }
-            finding
-        };
+        let named = |finding: Finding| finding.of(Some(sensor_kind));
         file.findings.iter().cloned().chain(left_aside(file, sensor_kind)).map(named).collect()
     };
     let of_second = named(SensorKind::Gyroscope, &second).into_iter();
@@ -188,7 +160,5 @@ fn on_one_clock(first: &ImuFile, second: &mut ImuFile) {
     if let Some(gyroscope) = &mut second.recording.gyroscope {
         gyroscope.times_s.iter_mut().for_each(|t| *t += later_s);
     }
-    second
-        .findings
-        .retain(|finding| !(finding.kind == FindingKind::Clock && finding.message.starts_with(COUNTED)));
+    second.findings.retain(|finding| !matches!(finding.noticed, Noticed::TimesFromFirst { .. }));
 }

@@ -25,7 +25,7 @@ const LAYERS: &[&[&str]] = &[
 /// What each module of calibrant-core may use.
 const MAY_USE: &[(&str, &[&str])] = &[
     ("error", &[]),
-    ("diagnostic", &["sensor", "motion"]),
+    ("diagnostic", &["error", "sensor", "motion"]),
     ("arrowhead", &[]),
     ("root", &[]),
     ("sensor", &["error"]),

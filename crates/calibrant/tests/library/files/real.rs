@@ -1,7 +1,8 @@
 //! Tests of real recordings of accelerometers.
 
 use crate::common::shared_data;
-use calibrant::io::{FindingKind, ReadOptions, read_recording};
+use calibrant::diagnostic::Code;
+use calibrant::io::{ReadOptions, read_recording};
 use calibrant::sensor::ReadingUnit;
 
 #[test]
@@ -14,8 +15,8 @@ fn the_xsens_recording_of_imu_tk_reads_whole() {
     assert_eq!(file.recording.readings[0].as_slice(), [33108.0, 33329.0, 36429.0]);
     assert_eq!(file.recording.times_s.last(), Some(&511.718));
     assert!((file.recording.rate_hz() - 100.0).abs() < 0.2, "{}", file.recording.rate_hz());
-    let kinds: Vec<_> = file.findings.iter().map(|finding| finding.kind).collect();
-    assert_eq!(kinds, [FindingKind::IrregularSampling], "{:?}", file.findings);
+    let kinds: Vec<_> = file.findings.iter().map(|finding| finding.code()).collect();
+    assert_eq!(kinds, [Code::SamplingIrregular], "{:?}", file.findings);
 }
 
 #[test]

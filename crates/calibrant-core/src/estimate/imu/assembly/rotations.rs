@@ -1,5 +1,6 @@
 //! The rotations in the result.
 
+use crate::diagnostic::RotationReason;
 use crate::estimate::imu::least_squares::angular_rate::Path;
 use crate::estimate::imu::model::{GravityResidual, ImuModel, LocalBias, State};
 use crate::estimate::imu::result::RotationResult;
@@ -34,10 +35,10 @@ pub(crate) fn rotation_results(
             let studentised = solution.weighed.studentised.get(i).copied().unwrap_or(f64::INFINITY);
             let reason = match movement.integrable.obstacle(span) {
                 Some(obstacle) => Some(obstacle),
-                None if !data.counts => Some(format!(
-                    "its error is {:.2}°, {studentised:.1} standard deviations",
-                    after.map_or(0.0, &angle).to_degrees()
-                )),
+                None if !data.counts => Some(RotationReason::GravityMissed {
+                    error_rad: after.map_or(0.0, &angle),
+                    deviations: studentised,
+                }),
                 None => None,
             };
             let path = after.map_or_else(Path::default, |_| data.samples.path(&fit.state.imu));

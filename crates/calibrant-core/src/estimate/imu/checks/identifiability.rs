@@ -1,5 +1,6 @@
 //! Are all parameters determined? If not, which, and what would determine them.
 
+use crate::diagnostic::RotationReason;
 use crate::error::{Error, NotIdentifiable, Result, UndeterminedGroup};
 use crate::estimate::imu::checks::axes_in_words::axes_in_words;
 use crate::estimate::imu::model::{Fit, ImuModel, State, TurnData};
@@ -87,7 +88,7 @@ pub(crate) fn undetermined(model: &ImuModel<'_>, groups: &[Undetermined]) -> Not
 }
 
 /// The same error, where rotations were left out before it: it says how many, and why one of them.
-pub(crate) fn with_obstacles(error: Error, obstacles: &[String]) -> Error {
+pub(crate) fn with_obstacles(error: Error, obstacles: &[RotationReason]) -> Error {
     let (Error::NotIdentifiable(undetermined), Some(first)) = (&error, obstacles.first()) else {
         return error;
     };

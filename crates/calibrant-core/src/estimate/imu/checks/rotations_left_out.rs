@@ -20,7 +20,7 @@ pub(crate) fn check(evidence: &Evidence<'_>) -> Diagnostics {
             end_s: rotation.end_s,
             error_rad: is_integrated.then_some(rotation.error_rad),
             deviations: is_integrated.then_some(rotation.studentised),
-            reason: RotationReason(rotation.reason.clone().unwrap_or_else(|| "it does not fit".into())),
+            reason: rotation.reason.unwrap_or(RotationReason::Unfit),
         });
     }
     warnings.extend(rotations_in_a_row(calibration));

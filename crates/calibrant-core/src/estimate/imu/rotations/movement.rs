@@ -1,5 +1,6 @@
 //! The movements between the stationary intervals: rotations, and turns of known angle.
 
+use crate::diagnostic::RotationReason;
 use crate::error::Result;
 use crate::estimate::imu::model::{GyroscopeNoise, HoldData, RotationData, TurnData};
 use crate::estimate::imu::problem::ImuProblem;
@@ -58,7 +59,7 @@ impl<'a> Movement<'a> {
     }
 
     /// The rotations that cannot be integrated, with the reason.
-    pub(crate) fn obstacles(&self) -> Vec<String> {
+    pub(crate) fn obstacles(&self) -> Vec<RotationReason> {
         self.spans.iter().filter_map(|span| self.integrable.obstacle(span)).collect()
     }
 }

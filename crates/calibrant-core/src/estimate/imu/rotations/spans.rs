@@ -1,8 +1,9 @@
 //! The time of each rotation from one stationary interval to the next, and whether it can be integrated.
 
+use crate::diagnostic::RotationReason;
 use crate::estimate::imu::model::{HoldData, LocalBias, RotationData, Samples};
 use crate::motion::Hold;
-use crate::sensor::{Recording, Saturation};
+use crate::sensor::{Recording, Saturation, SensorKind};
 use nalgebra::Vector3;
 use std::ops::Range;
 
@@ -88,32 +89,32 @@ impl<'a> Integrable<'a> {
     }
 
     /// Why a span cannot be integrated. `None` if it can.
-    pub(crate) fn obstacle(&self, span: &Span) -> Option<String> {
+    pub(crate) fn obstacle(&self, span: &Span) -> Option<RotationReason> {
         let times = &self.gyroscope.times_s;
         if !span.covered {
             return Some(match (times.first(), times.last()) {
                 (Some(begin), _) if *begin > span.start_s + MARGIN_S => {
-                    format!("the gyroscope's recording begins only at {begin:.1} s")
+                    RotationReason::GyroscopeBegins(*begin)
                 }
-                (_, Some(end)) => format!("the gyroscope's recording ends at {end:.1} s"),
-                _ => "the gyroscope's recording does not cover it".into(),
+                (_, Some(end)) => RotationReason::GyroscopeEnds(*end),
+                _ => RotationReason::SamplesMissing,
             });
         }
         let longest = times[span.samples.clone()].windows(2).map(|t| t[1] - t[0]).fold(0.0, f64::max);
         if longest > self.gap_s {
-            return Some(format!("the gyroscope pauses for {longest:.3} s in it"));
+            return Some(RotationReason::GyroscopePauses(longest));
         }
         if span.samples.len() < 3 {
-            return Some("the gyroscope has too few samples in it".into());
+            return Some(RotationReason::SamplesMissing);
         }
         self.saturation(&span.samples)
     }
 
-    /// The sensor that saturates in these samples, in words. They cannot be integrated.
-    pub(crate) fn saturation(&self, span: &Range<usize>) -> Option<String> {
+    /// The sensor that saturates in these samples. They cannot be integrated.
+    pub(crate) fn saturation(&self, span: &Range<usize>) -> Option<RotationReason> {
         let readings = &self.gyroscope.readings[span.clone()];
         if let Some(end) = self.saturations.iter().find(|end| end.is_reached(readings)) {
-            return Some(format!("axis {} of the gyroscope saturates", end.axis));
+            return Some(RotationReason::Saturated(SensorKind::Gyroscope, end.axis));
         }
         let (accelerometer, ends) = self.felt.as_ref()?;
         let times = &self.gyroscope.times_s;
@@ -122,9 +123,6 @@ impl<'a> Integrable<'a> {
         let brief = BRIEF_S * readings.len() as f64 / (end_s - start_s);
         let lasts = |end: &&Saturation| end.touches(readings) as f64 > brief;
         let end = ends.iter().find(lasts)?;
-        Some(format!(
-            "axis {} of the accelerometer saturates, and the specific force for the g-sensitivity is unknown",
-            end.axis
-        ))
+        Some(RotationReason::Saturated(SensorKind::Accelerometer, end.axis))
     }
 }

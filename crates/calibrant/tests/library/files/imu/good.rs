@@ -1,8 +1,9 @@
 //! Tests of files that can be used, in every format.
 
 use super::{findings, read, units, used};
+use calibrant::diagnostic::Code;
 use calibrant::io::{
-    ColumnMapping, ColumnUnit, FileFormat, FindingKind, ImuReadOptions, ImuUnit, TimeUnit, parse_imu_pair,
+    ColumnMapping, ColumnUnit, FileFormat, ImuReadOptions, ImuUnit, TimeUnit, parse_imu_pair,
 };
 use calibrant::sensor::{ReadingUnit, Recording};
 use nalgebra::Vector3;
@@ -268,34 +269,38 @@ fn sensors_of_different_rates_may_share_a_file() {
 
 #[test]
 fn what_is_missing_twice_or_cut_off_is_dropped_with_a_word() {
-    use FindingKind::{DuplicateRow, DuplicateTime, Gap, Missing, TruncatedLastLine};
+    use Code::{LineTruncated, RowsRepeated, SamplingGap, TimesRepeated, ValuesMissing};
     let header = "t_s,ax_mps2,ay_mps2,az_mps2,gx_radps,gy_radps,gz_radps\n";
     let row = |t: f64, k: usize| format!("{t},{},{},9.{k},0.{},0.{},0.1{k}\n", k % 3, k % 5, k % 7, k % 4);
     let plain: Vec<String> = (0..20).map(|k| row(0.01 * k as f64, k)).collect();
     for (change, kind, message) in [
-        (",1,1,9.1", Missing, "line 3: 1 sample of the accelerometer with a missing or NaN value dropped"),
-        ("\n0.01,", Missing, "line 3: 1 row without a time dropped"),
+        (
+            ",1,1,9.1",
+            ValuesMissing,
+            "line 3: 1 sample of the accelerometer with a missing or NaN value dropped",
+        ),
+        ("\n0.01,", ValuesMissing, "line 3: 1 row without a time dropped"),
     ] {
         let text = header.to_owned() + &plain.concat();
-        let text = if kind == Missing && change.starts_with(',') {
+        let text = if kind == ValuesMissing && change.starts_with(',') {
             text.replacen(change, ",1,NaN,9.1", 1)
         } else {
             text.replacen(change, "\n,", 1)
         };
         let file = read(&text, &PLAIN);
-        assert_eq!((file.findings[0].kind, findings(&file)[0].as_str()), (kind, message));
+        assert_eq!((file.findings[0].code(), findings(&file)[0].as_str()), (kind, message));
     }
     let twice = header.to_owned() + &plain[..3].concat() + &plain[2..].concat();
     let file = read(&twice, &PLAIN);
-    assert_eq!((file.findings[0].kind, file.rows), (DuplicateRow, 21));
+    assert_eq!((file.findings[0].code(), file.rows), (RowsRepeated, 21));
     assert_eq!(findings(&file), ["line 5: 1 row equal to the one before dropped"]);
     let same_time = header.to_owned() + &plain[..3].concat() + &row(0.02, 9) + &plain[3..].concat();
-    assert_eq!(read(&same_time, &PLAIN).findings[0].kind, DuplicateTime);
+    assert_eq!(read(&same_time, &PLAIN).findings[0].code(), TimesRepeated);
     let cut = header.to_owned() + &plain.concat() + "0.2,1,2";
-    assert_eq!(read(&cut, &PLAIN).findings[0].kind, TruncatedLastLine);
+    assert_eq!(read(&cut, &PLAIN).findings[0].code(), LineTruncated);
     let gap = header.to_owned() + &plain.concat() + &row(5.0, 3);
     let file = read(&gap, &PLAIN);
-    assert_eq!(file.findings[0].kind, Gap);
+    assert_eq!(file.findings[0].code(), SamplingGap);
     assert!(findings(&file)[0].starts_with("line 22: gap of 4.81 s after t = 0.19 s"), "{:?}", file.findings);
 }
 

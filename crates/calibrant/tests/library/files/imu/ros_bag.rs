@@ -1,8 +1,9 @@
 //! Tests of ROS 2 bags, written with the crate `mcap`.
 
 use super::findings;
+use calibrant::diagnostic::Code;
 use calibrant::io::{
-    ColumnMapping, FileFormat, FindingKind, ImuFile, ImuReadOptions, parse_imu_recording, read_imu_recording,
+    ColumnMapping, FileFormat, ImuFile, ImuReadOptions, parse_imu_recording, read_imu_recording,
 };
 use mcap::records::MessageHeader;
 use std::collections::BTreeMap;
@@ -138,10 +139,10 @@ fn a_bag_compressed_with_zstd_reads_the_same() {
 }
 
 /// The warning about the end of a bag.
-fn unfinished(file: &ImuFile) -> Option<&str> {
-    let found = file.findings.iter().find(|finding| finding.kind == FindingKind::Unfinished)?;
+fn unfinished(file: &ImuFile) -> Option<String> {
+    let found = file.findings.iter().find(|finding| finding.code() == Code::FileUnfinished)?;
     assert!(found.is_warning());
-    Some(&found.message)
+    Some(found.to_string())
 }
 
 /// From a bag that is cut off anywhere, the reader takes all messages that end before the cut, and names the

@@ -1,7 +1,8 @@
 //! Tests of files in which each sensor has rows of its own, against an independent reading of the text.
 
 use super::findings;
-use calibrant::io::{FindingKind, ImuFile, ImuReadOptions, parse_imu_recording};
+use calibrant::diagnostic::Code;
+use calibrant::io::{ImuFile, ImuReadOptions, parse_imu_recording};
 use calibrant::sensor::{Recording, SensorKind};
 
 /// The names of the columns.
@@ -78,7 +79,7 @@ fn each_sensor_has_its_own_series() {
             );
         }
         let twice = |finding: &&calibrant::io::Finding| {
-            [FindingKind::DuplicateRow, FindingKind::DuplicateTime].contains(&finding.kind)
+            [Code::RowsRepeated, Code::TimesRepeated].contains(&finding.code())
         };
         assert_eq!(file.findings.iter().find(twice), None, "{what}");
         if what.starts_with("a thermometer") {

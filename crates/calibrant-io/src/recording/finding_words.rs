@@ -1,0 +1,225 @@
+//! The sentences of the findings of a reader, and numbers as messages show them.
+
+use super::reader_finding::{Finding, Noticed};
+use calibrant_core::sensor::{SensorKind, Temperatures};
+use std::fmt;
+
+/// `line 7: 2 rows equal to the one before dropped (first here)`.
+impl fmt::Display for Finding {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(line) = self.line {
+            write!(f, "line {line}: ")?;
+        }
+        let of = self.sensor_kind;
+        match of.filter(|_| !self.noticed.names_sensor()) {
+            Some(sensor_kind) => write!(f, "{sensor_kind}: {}", self.noticed.words(of))?,
+            None => f.write_str(&self.noticed.words(of))?,
+        }
+        match self.noticed.occurrences() {
+            Some(2..) => f.write_str(" (first here)"),
+            _ => Ok(()),
+        }
+    }
+}
+
+impl Noticed {
+    /// Does its sentence name the sensor?
+    fn names_sensor(&self) -> bool {
+        matches!(
+            self,
+            Self::ReadingsMissing(_)
+                | Self::ValuesMissing(_)
+                | Self::SampleTimesRepeated(_)
+                | Self::AxisConstant { .. }
+                | Self::AxesEqual(..)
+                | Self::Saturation { .. }
+                | Self::FilesApart { .. }
+        )
+    }
+
+    /// How often it occurs, where the finding is about several places.
+    fn occurrences(&self) -> Option<usize> {
+        match self {
+            Self::TimesMissing(n)
+            | Self::ReadingsMissing(n)
+            | Self::ValuesMissing(n)
+            | Self::RowsRepeated(n)
+            | Self::TimesRepeated(n)
+            | Self::SampleTimesRepeated(n) => Some(*n),
+            _ => None,
+        }
+    }
+
+    fn words(&self, of: Option<SensorKind>) -> String {
+        let of_the = of.map_or_else(String::new, |of| format!(" of the {of}"));
+        let its = of.map_or_else(String::new, |of| format!("{of} "));
+        match self {
+            Self::ColumnsIgnored(names) => {
+                format!("ignored column{} {}", if names.len() == 1 { "" } else { "s" }, list(names, 8))
+            }
+            Self::UnnamedColumnsIgnored(first, last) => {
+                format!("columns {first} to {last} are ignored: there is no header that names them")
+            }
+            Self::OtherSensorIgnored(other, names) => format!(
+                "its own columns of the {other}, {}, are left aside: the {other} is that of the other file",
+                names.join(", ")
+            ),
+            Self::UnitUnexpected { stated, expected } => format!(
+                "readings are in {} by their header, the experiment says {}",
+                stated.symbol(),
+                expected.symbol()
+            ),
+            Self::TimesMissing(n) => format!("{} without a time dropped", count(*n, "row")),
+            Self::ReadingsMissing(n) => format!("{} without a reading{of_the}", count(*n, "row")),
+            Self::ValuesMissing(n) => {
+                format!("{}{of_the} with a missing or NaN value dropped", count(*n, "sample"))
+            }
+            Self::RowsRepeated(n) => format!("{} equal to the one before dropped", count(*n, "row")),
+            Self::TimesRepeated(n) => {
+                format!("{} with the time of the one before but another reading dropped", count(*n, "row"))
+            }
+            Self::SampleTimesRepeated(n) => {
+                format!("{}{of_the} with the time of the one before dropped", count(*n, "sample"))
+            }
+            Self::LineTruncated => "truncated last line dropped".into(),
+            Self::FileUnfinished { cut, is_after_data, messages, duration_s } => {
+                let lost = match is_after_data {
+                    true => "no message is missing, only the index is",
+                    false => "what was recorded after them is not in the file",
+                };
+                format!(
+                    "{cut}: {} were read, the last one {} s after the first; {lost}; `mcap recover` makes a whole file of it",
+                    count(*messages, "message"),
+                    short(*duration_s)
+                )
+            }
+            Self::Gap { length_s, after_s, samples } => format!(
+                "gap of {} s after t = {} s, about {samples:.0} samples",
+                short(*length_s),
+                moment(*after_s)
+            ),
+            Self::MoreGaps { gaps, longest_s, after_s } => format!(
+                "and {}; the longest is {} s after t = {} s",
+                count(*gaps, "more gap"),
+                short(*longest_s),
+                moment(*after_s)
+            ),
+            Self::SamplingIrregular { least_s, most_s, rate_hz, missing } => {
+                let missing = match *missing > 0.0 {
+                    true => format!("; {:.1} % of the samples are missing", 100.0 * missing),
+                    false => String::new(),
+                };
+                format!(
+                    "sampling is irregular: time steps from {} to {} ms, usually {} ms ({} Hz){missing}",
+                    short(least_s * 1e3),
+                    short(most_s * 1e3),
+                    short(1.0 / rate_hz * 1e3),
+                    short(*rate_hz)
+                )
+            }
+            Self::AxisConstant { axis, value } => {
+                format!("{its}axis {axis} never changes: {} throughout; is it connected?", short(*value))
+            }
+            Self::AxesEqual(one, other) => {
+                format!(
+                    "{its}axes {one} and {other} are the same in every sample: is one column there twice?"
+                )
+            }
+            Self::Saturation { axis, samples, is_largest, value, unit } => format!(
+                "{its}axis {axis} may be saturated: {samples} samples in a row at its {} value {} {}",
+                if *is_largest { "largest" } else { "smallest" },
+                short(*value),
+                unit.symbol()
+            ),
+            Self::TimesDerived { is_empty, counter, rate_hz, stated_by } => {
+                let empty =
+                    if *is_empty { "its sample times are missing" } else { "the file has no sample times" };
+                let source = stated_by.map_or_else(|| "as given".into(), |key| format!("its `{key}`"));
+                let rate = short(*rate_hz);
+                match counter {
+                    Some(name) => format!("{empty}: they follow from `{name}` and {rate} Hz, {source}"),
+                    None => format!(
+                        "{empty} and no counter: they follow from the rows and {rate} Hz, {source}; lost samples would not show"
+                    ),
+                }
+            }
+            Self::PacketTimesReplaced(rate_hz) => format!(
+                "its times are those of packets, not of samples: they follow from the rows and {} Hz, as given; lost samples would not show",
+                short(*rate_hz)
+            ),
+            Self::RateUnused => "the rate that was given is not used: the file has sample times".into(),
+            Self::ClockWrapped(name, wraps) => {
+                format!("`{name}` begins anew {}: counted on", count(*wraps, "time"))
+            }
+            Self::TimesFromFirst { column, first, unit } => {
+                format!("times count from the first, `{column}` = {first} {unit}")
+            }
+            Self::ClockDoubtful { step_s, unit, rate_hz } => format!(
+                "the samples are {} s apart: are the times in {unit}? at {} Hz the name of their column ends in _{}",
+                short(*step_s),
+                short(*rate_hz),
+                unit.replace('µ', "u")
+            ),
+            Self::FilesApart { shorter, shorter_s, longer_s, common_s } => {
+                let longer = match shorter {
+                    SensorKind::Gyroscope => SensorKind::Accelerometer,
+                    SensorKind::Accelerometer => SensorKind::Gyroscope,
+                };
+                let span =
+                    |(start, end): &(f64, f64)| format!("from {} to {} s", moment(*start), moment(*end));
+                let shared = match *common_s > 0.0 {
+                    true => format!("{} s of both", short(*common_s)),
+                    false => {
+                        "no time of both; are they of one recording, and their times of one clock?".into()
+                    }
+                };
+                format!(
+                    "{shorter}: it was recorded {}, the {longer} {}: {shared}",
+                    span(shorter_s),
+                    span(longer_s)
+                )
+            }
+            Self::TemperatureMissing { missing, rows, longest_s } => format!(
+                "the temperature is missing in {missing} of {}, for up to {} s: it is interpolated between those that have it, and kept constant before the first and after the last",
+                count(*rows, "row"),
+                short(*longest_s)
+            ),
+            Self::TemperatureImplausible(value_c) => {
+                format!("the temperature is {}: {}", short(*value_c), Temperatures::question(*value_c))
+            }
+        }
+    }
+}
+
+/// Names in back quotes, at most this number of them.
+pub(super) fn list(names: &[String], most: usize) -> String {
+    let shown: Vec<String> = names
+        .iter()
+        .take(most)
+        .map(|name| format!("`{}`", name.chars().take(40).collect::<String>()))
+        .collect();
+    let more = names.len().saturating_sub(most);
+    let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+    shown.join(", ") + &more
+}
+
+/// `1 sample`, `2 samples`.
+pub(super) fn count(number: usize, noun: &str) -> String {
+    format!("{number} {noun}{}", if number == 1 { "" } else { "s" })
+}
+
+/// A time as it stands in the file. It serves where six digits do not distinguish it from its neighbours, as
+/// in seconds since 1970.
+fn moment(time_s: f64) -> String {
+    if time_s.abs() < 1e5 { short(time_s) } else { time_s.to_string() }
+}
+
+/// A number in six significant digits, without trailing zeros.
+pub(super) fn short(number: f64) -> String {
+    let rounded = format!("{number:.5e}").parse().unwrap_or(number);
+    if rounded == 0.0 || (1e-4..1e9).contains(&rounded.abs()) {
+        rounded.to_string()
+    } else {
+        format!("{rounded:e}")
+    }
+}
