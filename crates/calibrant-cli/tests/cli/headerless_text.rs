@@ -35,7 +35,7 @@ fn plain(text: &str) -> String {
 fn proposed(outcome: &Outcome) -> String {
     assert_eq!(outcome.status, 3, "{outcome:?}");
     let (_, keys) = outcome.stderr.split_once("a line each, such as ").expect("keys");
-    let keys = keys.trim_end().strip_suffix(')').expect("an end");
+    let keys = keys.rsplit_once(')').expect("an end").0;
     let line = |text: &str| text.replace("\", \"", "\",\"").replace(", ", "\n");
     format!("[columns]\n{}\n", line(keys))
 }

@@ -42,7 +42,7 @@ impl fmt::Display for RotationReason {
                 write!(f, "axis {axis} of the {sensor_kind} saturates in it")?;
                 match sensor_kind {
                     SensorKind::Accelerometer => {
-                        f.write_str(", so that the force that the gyroscope feels is not known")
+                        f.write_str(", and the specific force for the g-sensitivity is unknown")
                     }
                     SensorKind::Gyroscope => Ok(()),
                 }

@@ -296,10 +296,7 @@ impl AxisNoise {
             return Some("there are too many spikes".into());
         }
         if Tails::of(values).reach_far() {
-            return Some(format!(
-                "a few samples far off the others make most of that of axis {}: sparks?",
-                self.axis
-            ));
+            return Some(format!("a few spikes make most of the noise of axis {}", self.axis));
         }
         if let Some(line) = self.fit.vibration.as_ref().filter(|line| !line.left_out) {
             let hertz = three_digits(line.frequency_hz);

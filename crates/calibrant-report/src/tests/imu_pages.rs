@@ -49,7 +49,7 @@ fn a_page_shows_both_sensors_the_holds_the_rotations_and_the_turns() {
         "rotation error (°)",
         "after, not used",
         &format!("{from} → {}</th>", from + 1),
-        "no: its error is",
+        "no: it misses gravity by",
         "Turns of known angle",
         "Allan deviation of the gyroscope",
         "Correlation of the estimates",

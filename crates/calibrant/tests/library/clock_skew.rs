@@ -14,7 +14,7 @@ use nalgebra::Vector3;
 use rayon::prelude::*;
 
 /// The words of the warning where the clocks differ.
-const SAID: &str = "the gyroscope shows movements ";
+const SAID: &str = "he gyroscope shows movements ";
 
 fn run(recording: &ImuRecording) -> calibrant::Result<Calibration> {
     let accelerometer = Sensor::triaxial(SensorModel::Full);

