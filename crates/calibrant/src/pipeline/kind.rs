@@ -53,7 +53,7 @@ impl<'e> Kind<'e> {
             Self::Motion(command) => Setup::Motion(command.clone()),
             Self::Holds(plan) => Setup::Holds(plan.setup()),
             Self::Imu(plan, holds) => {
-                Setup::Imu(&plan.gyroscope, setup_of(plan, holds, source, recording, notes)?)
+                Setup::Imu(&plan.gyroscope, Box::new(setup_of(plan, holds, source, recording, notes)?))
             }
         })
     }

@@ -10,22 +10,22 @@ use calibrant_io::{Experiment, ImuReadOptions, ReadOptions};
 /// How the recordings are read.
 pub(crate) enum Reader<'e> {
     /// Those of an accelerometer alone, in their own format or among the columns of a device.
-    Accelerometer(ReadOptions, ImuReadOptions),
+    Accelerometer(ReadOptions, Box<ImuReadOptions>),
     /// Those of an IMU.
-    Imu(ImuReader<'e>),
+    Imu(Box<ImuReader<'e>>),
 }
 
 impl<'e> Reader<'e> {
     pub(crate) fn of(experiment: &'e Experiment, options: &PipelineOptions) -> Self {
         match &experiment.imu {
-            Some(plan) => Self::Imu(ImuReader::new(experiment, plan, options)),
+            Some(plan) => Self::Imu(Box::new(ImuReader::new(experiment, plan, options))),
             None => Self::Accelerometer(
                 ReadOptions {
                     unit: options.unit,
                     expected_unit: experiment.sensor.unit,
                     axes: experiment.sensor.axes,
                 },
-                options.reading.clone().or(experiment.columns.clone()),
+                Box::new(options.reading.clone().or(experiment.columns.clone())),
             ),
         }
     }

@@ -17,7 +17,7 @@ use calibrant_core::sensor::{ImuRecording, Sensor};
 pub(crate) enum Setup<'e> {
     Motion(CommandedMotion),
     Holds(HoldsSetup),
-    Imu(&'e Gyroscope, ImuSetup),
+    Imu(&'e Gyroscope, Box<ImuSetup>),
 }
 
 impl<'e> Setup<'e> {
@@ -51,7 +51,7 @@ impl<'e> Setup<'e> {
             Self::Holds(holds) => Self::Holds(of_other(holds)),
             Self::Imu(gyroscope, setup) => {
                 let (holds, latitude_deg) = (of_other(&setup.holds), setup.latitude_deg);
-                Self::Imu(gyroscope, ImuSetup { holds, latitude_deg, ..ImuSetup::default() })
+                Self::Imu(gyroscope, Box::new(ImuSetup { holds, latitude_deg, ..ImuSetup::default() }))
             }
         }
     }

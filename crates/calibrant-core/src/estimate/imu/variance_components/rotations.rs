@@ -70,10 +70,10 @@ pub(crate) struct Rest {
 }
 
 /// Weighs the rotations of a problem, given their misses (`None` for those that cannot be used).
-pub(crate) fn weigh_rotations<'a>(
+pub(crate) fn weigh_rotations(
     model: &ImuModel<'_>,
     state: &State,
-    residuals: &'a [Option<GravityResidual>],
+    residuals: &[Option<GravityResidual>],
     rest: Rest,
 ) -> Option<RotationWeights> {
     let linear = Linear::new(model, state, residuals, rest);
