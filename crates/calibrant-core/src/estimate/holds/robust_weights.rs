@@ -9,7 +9,7 @@ use super::hardly_determined::hardly_determined;
 use super::sphere::sphere;
 use super::verdict::explain;
 use crate::error::{Error, InputError, NotIdentifiable, Refusal, Result};
-use crate::estimate::between_hold_variance::excess;
+use crate::estimate::between_hold_variance::{Trial, excess};
 use crate::estimate::change::longest_run;
 use crate::estimate::{CalibrationProblem, CalibrationSettings, CalibrationStatus};
 use crate::information;
@@ -333,26 +333,18 @@ impl<const P: usize> Problem<'_, P> {
             let squares: f64 = chosen.iter().map(|&j| residuals[j].powi(2)).sum();
             (squares / chosen.len() as f64).sqrt().max(1e-12 * self.gravity)
         };
-        // with a prior, the degrees of freedom follow the fit, so that χ² is scaled to one number of them
-        let degrees = match self.prior {
-            None => chosen.len().saturating_sub(P),
-            Some(_) => chosen.len(),
-        } as f64;
         // the gains are those of the fit without a scatter between holds, in which they are of no account
         let (mut gains_of, mut from) = (None, *start);
-        let (between, fit) = excess(degrees, rms, |between| {
+        let (between, fit) = excess(rms, |between| {
             let directions = self.directions(&chosen, &|_| 1.0, between, gains_of.as_ref().unwrap_or(start));
             let fit = directions.fit(&from, self.settings)?;
             gains_of.get_or_insert(fit.sensor);
             from = fit.sensor;
-            let chi2 = match self.prior {
-                None => fit.chi2,
-                Some(_) => {
-                    (fit.chi2 - fit.prior_chi2) * degrees
-                        / self.degrees_left(chosen.len(), &covariance_of(&fit)?)
-                }
-            };
-            Some((chi2, fit))
+            Some(Trial {
+                chi2: fit.chi2 - fit.prior_chi2,
+                degrees_of_freedom: self.degrees_left(chosen.len(), &fit)?,
+                fitted: fit,
+            })
         })
         .ok_or_else(singular)?;
         self.weighted(chosen.len(), fit, between, gains_of.unwrap_or(*start))
@@ -374,16 +366,16 @@ impl<const P: usize> Problem<'_, P> {
         gains_of: SensorParameters,
     ) -> Result<Weighted<P>> {
         let covariance = covariance_of(&fit).ok_or_else(singular)?;
-        let degrees = self.degrees_left(count, &covariance);
+        let degrees = self.degrees_left(count, &fit).ok_or_else(singular)?;
         Ok(Weighted { fit, covariance, between, degrees, gains_of })
     }
 
     /// Degrees of freedom that holds leave: their number less `tr(Σ F)`, the parameters that they determine.
-    fn degrees_left(&self, count: usize, covariance: &DMatrix<f64>) -> f64 {
-        let of_prior = self.prior.map_or(0.0, |(_, weight)| {
-            (0..P).map(|k| (weight[k] * covariance[(k, k)]).clamp(0.0, 1.0)).sum()
-        });
-        (count as f64 - (P as f64 - of_prior)).max(0.0)
+    fn degrees_left(&self, count: usize, fit: &Fit<P>) -> Option<f64> {
+        let Some((_, weight)) = self.prior else { return Some(count.saturating_sub(P) as f64) };
+        let covariance = covariance_of(fit)?;
+        let of_prior: f64 = (0..P).map(|k| (weight[k] * covariance[(k, k)]).clamp(0.0, 1.0)).sum();
+        Some((count as f64 - (P as f64 - of_prior)).max(f64::EPSILON))
     }
 
     fn magnitudes(&self, weighted: &Weighted<P>) -> Vec<Magnitude> {

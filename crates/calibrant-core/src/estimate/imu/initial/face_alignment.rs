@@ -16,7 +16,7 @@
 //! which is `S/(ν − 2)` for large tilts. Six faces that scatter like their noise get `τ² = v`.
 
 use crate::diagnostic::Diagnostic;
-use crate::estimate::between_hold_variance::excess;
+use crate::estimate::between_hold_variance::{Trial, excess};
 use crate::estimate::hold_result::{FaceTilt, TiltSource};
 use nalgebra::{Matrix3, Vector3};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
@@ -178,17 +178,17 @@ fn search<T>(
         let before = scatter;
         if determined {
             let at = |tilt_rad: f64| FaceScatter::of(tilt_rad, scatter.along_mps2, degrees.faces);
-            let all = degrees.all as f64;
-            let (tilt_rad, ()) =
-                excess(all, |_| ASSUMED_RAD, |tilt| fit(&at(tilt)).map(|(chi2, _)| (chi2.all, ())))?;
+            let degrees_of_freedom = degrees.all as f64;
+            let trial = |(chi2, _): (Chi2, T)| Trial { chi2: chi2.all, degrees_of_freedom, fitted: () };
+            let (tilt_rad, ()) = excess(|_| ASSUMED_RAD, |tilt| fit(&at(tilt)).map(trial))?;
             scatter = at(tilt_rad);
         }
         if degrees.along >= FEWEST_DEGREES {
             let at = |along_mps2: f64| FaceScatter { along_mps2, ..scatter };
             let guess = gravity * ASSUMED_RAD.powi(2);
-            let along = degrees.along as f64 + shared / scattered;
-            scatter.along_mps2 =
-                excess(along, |_| guess, |along| fit(&at(along)).map(|(chi2, _)| (chi2.along, ())))?.0;
+            let degrees_of_freedom = degrees.along as f64 + shared / scattered;
+            let trial = |(chi2, _): (Chi2, T)| Trial { chi2: chi2.along, degrees_of_freedom, fitted: () };
+            scatter.along_mps2 = excess(|_| guess, |along| fit(&at(along)).map(trial))?.0;
         }
         let moved = |now: f64, before: f64| (now - before).abs() > CLOSE * now;
         if degrees.along < FEWEST_DEGREES

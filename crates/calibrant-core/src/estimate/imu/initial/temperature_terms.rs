@@ -5,7 +5,7 @@
 //! recording converted to the reference temperature, and finds the outliers.
 
 use crate::error::Result;
-use crate::estimate::between_hold_variance::excess;
+use crate::estimate::between_hold_variance::{Trial, excess};
 use crate::estimate::hold_result::HoldCalibration;
 use crate::estimate::holds::{critical, left_out, magnitude_rms};
 use crate::estimate::imu::checks::identifiability;
@@ -231,10 +231,11 @@ impl<'a> AccelerometerOnly<'a> {
         let of_magnitudes = |between: f64| self.weighed(|hold, _| self.first.weight(hold, between));
         let model = of_magnitudes(rough);
         identifiability::check(&model, &self.start, &model.linearised(&self.start, settings)?)?;
+        let degrees_of_freedom = self.degrees() as f64;
+        let trial = |fit: Fit| Trial { chi2: fit.chi2, degrees_of_freedom, fitted: fit.state };
         let (between, state) = excess(
-            self.degrees() as f64,
             |_| rough.max(1e-9 * self.model.gravity),
-            |between| fit(&of_magnitudes(between)).map(|fit| (fit.chi2, fit.state)),
+            |between| fit(&of_magnitudes(between)).map(trial),
         )
         .ok_or_else(singular)?;
         Ok((state, Scatter::OfMagnitudes(between)))

@@ -2,7 +2,7 @@
 //!
 //! Each mean is explained by a constant, by the specific force where asked for, by powers of the temperature and by the Earth's rate.
 
-use crate::estimate::between_hold_variance::excess;
+use crate::estimate::between_hold_variance::{Trial, excess};
 use crate::estimate::imu::model::{GyroscopeNoise, HoldData};
 use crate::sensor::{MeanReading, SensorThermal, ThermalTerm};
 use nalgebra::{DMatrix, DVector, Matrix3xX, Vector3};
@@ -100,7 +100,7 @@ impl Regression {
     }
 
     /// χ² and the unknowns. Those of the Earth's rate are the same for all axes and count with what is expected of their squares, `1 − c` with their variance `c`: at this latitude they may be another.
-    fn solve(&self, between: f64) -> Option<(f64, DVector<f64>)> {
+    fn solve(&self, between: f64) -> Option<Trial<DVector<f64>>> {
         let weight = |variance: f64| 1.0 / (variance + between * between).max(f64::MIN_POSITIVE);
         let (mut f, mut g) = (DMatrix::from_diagonal(&self.prior), DVector::zeros(self.prior.len()));
         for (row, mean, variance) in &self.rows {
@@ -120,14 +120,14 @@ impl Regression {
             .map(|(row, mean, variance)| weight(*variance) * (mean - row.dot(&solution)).powi(2))
             .sum::<f64>();
         let known = solution.rows(0, others).map(|off| off * off).dot(&self.prior.rows(0, others));
-        Some((chi2 + known + of_earth, solution))
+        Some(Trial { chi2: chi2 + known + of_earth, degrees_of_freedom: self.degrees, fitted: solution })
     }
 
     /// The scatter between holds with the unknowns; `None` where these are not determined.
     fn fit(&self) -> Option<(f64, DVector<f64>)> {
         let means = || self.rows.iter().map(|(_, mean, _)| *mean);
         let spread = means().fold(f64::MIN, f64::max) - means().fold(f64::MAX, f64::min);
-        excess(self.degrees, |_| 0.25 * spread, |between| self.solve(between))
+        excess(|_| 0.25 * spread, |between| self.solve(between))
     }
 }
 

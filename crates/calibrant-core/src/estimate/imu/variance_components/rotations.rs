@@ -4,7 +4,7 @@
 //! model lacks) is estimated from the scatter itself: the excess `σ_r` for which χ² of the rotations equals its degrees of freedom (Paule and Mandel), in the
 //! problem linearised at the present estimate, directions fixed (they are known ten times better than a rotation can tell). The Earth's rate is among its unknowns, after the gyroscope's quantities.
 
-use crate::estimate::between_hold_variance::excess;
+use crate::estimate::between_hold_variance::{Trial, excess};
 use crate::estimate::imu::model::{GravityResidual, ImuModel, State};
 use nalgebra::{DMatrix, DVector, Matrix2, Matrix2xX, Vector2};
 use std::f64::consts::FRAC_PI_2;
@@ -226,28 +226,26 @@ impl Linear<'_> {
 
     /// The excess that makes χ² equal its degrees of freedom, zero where the noise explains the scatter.
     fn excess(&self, used: &[bool]) -> Option<(f64, Solved)> {
-        let equations = 2 * count(used);
-        let open = self.size - self.determined;
-        let degrees = match self.prior {
-            None => equations.saturating_sub(open),
-            Some(_) => equations,
-        } as f64;
         excess(
-            degrees,
             |_| USUAL_EXCESS_RAD,
             |excess| {
                 let solved = self.solve(used, excess)?;
-                let chi2 = match &self.prior {
-                    None => solved.chi2,
-                    // the degrees of freedom follow the fit, so that χ² is scaled to one number of them
-                    Some(weight) => {
-                        let of_prior = weight.dot(&solved.covariance.diagonal());
-                        solved.chi2 * degrees / (degrees - (open as f64 - of_prior)).max(f64::EPSILON)
-                    }
-                };
-                Some((chi2, solved))
+                let degrees_of_freedom = self.degrees_left(2 * count(used), &solved);
+                Some(Trial { chi2: solved.chi2, degrees_of_freedom, fitted: solved })
             },
         )
+    }
+
+    /// Degrees of freedom of the rotations: their equations less the unknowns that they determine.
+    fn degrees_left(&self, equations: usize, solved: &Solved) -> f64 {
+        let open = self.size - self.determined;
+        match &self.prior {
+            None => equations.saturating_sub(open) as f64,
+            Some(weight) => {
+                let of_prior = weight.dot(&solved.covariance.diagonal());
+                (equations as f64 - (open as f64 - of_prior)).max(f64::EPSILON)
+            }
+        }
     }
 
     fn studentised(&self, used: &[bool], excess: f64, solved: &Solved) -> Vec<f64> {
