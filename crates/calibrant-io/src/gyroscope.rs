@@ -43,7 +43,7 @@ pub(super) struct RotationsFields {
 
 impl RotationsFields {
     pub(super) fn of(calibration: &Calibration, gyroscope: &GyroscopeCalibration) -> Self {
-        let used = calibration.rotations().iter().filter(|rotation| rotation.used).count();
+        let used = calibration.used_rotations().count();
         let known = |rms: f64| (used > 0).then_some(rms);
         Self {
             used,

@@ -94,12 +94,12 @@ impl Summary {
             // holds that only just determine the accelerometer leave no residual
             let magnitude = (holds.degrees_of_freedom > 0).then_some(holds.magnitude_residual_rms_mps2);
             quality.push(("holds", holds.holds.len().to_string()));
-            quality.push(("holds_used", holds.holds.iter().filter(|hold| hold.used).count().to_string()));
+            quality.push(("holds_used", holds.used().count().to_string()));
             quality.push(("magnitude_rms_mps2", number(magnitude)));
         }
         if calibration.gyroscope.is_some() {
             let rotations = calibration.rotations();
-            let used = rotations.iter().filter(|rotation| rotation.used).count();
+            let used = calibration.used_rotations().count();
             quality.push(("rotations", rotations.len().to_string()));
             quality.push(("rotations_used", used.to_string()));
             quality.push(("rotation_rms_rad", number((used > 0).then(|| calibration.rotation_rms_rad()))));

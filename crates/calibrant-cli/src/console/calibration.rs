@@ -16,26 +16,20 @@ pub(crate) fn calibration(outcome: &Outcome) -> String {
 }
 
 fn of_calibration(calibration: &Calibration) -> String {
-    let mut text = String::new();
-    let mut line = |words: &str| text.push_str(&format!("  {words}\n"));
-    used(calibration).iter().for_each(|words| line(words));
+    let mut text = indented(used(calibration));
     for &sensor_kind in calibration.sensor_kinds() {
         text.push('\n');
         text.push_str(&parameters(calibration, sensor_kind));
     }
     text.push('\n');
-    let mut line = |words: &str| text.push_str(&format!("  {words}\n"));
-    if let Some(words) = temperature_in_words(calibration) {
-        line(&words);
-    }
-    calibration_quality(calibration).split("; ").filter(|part| !part.is_empty()).for_each(&mut line);
-    if let Some(holds) = calibration.holds() {
-        line(&conditions(holds));
-        line(&uncertainty(holds));
-    }
-    noise(calibration).iter().for_each(|words| line(words));
-    line(&fit(calibration));
-    text
+    let conditions = calibration.holds().map(|holds| [conditions(holds), uncertainty(holds)]);
+    let lines = temperature_in_words(calibration).into_iter().chain(calibration_quality(calibration));
+    let lines = lines.chain(conditions.into_iter().flatten()).chain(noise(calibration));
+    text + &indented(lines.chain([fit(calibration)]))
+}
+
+fn indented(lines: impl IntoIterator<Item = String>) -> String {
+    lines.into_iter().map(|line| format!("  {line}\n")).collect()
 }
 
 /// Holds, rotations and turns, and which of them were not used.
@@ -48,16 +42,13 @@ fn used(calibration: &Calibration) -> Vec<String> {
             _ => format!("{all}, {used} used; not used: {}", left_out.join(", ")),
         }
     };
-    if calibration.holds().is_none() {
-        return vec![used_in_words(calibration)];
-    }
-    let holds = calibration.hold_results();
-    let bad = (0..holds.len()).filter(|&k| !holds[k].used).map(|k| (k + 1).to_string());
-    let mut lines = vec![count(holds.iter().filter(|hold| hold.used).count(), "hold", bad.collect())];
+    let Some(holds) = calibration.holds() else { return vec![used_in_words(calibration)] };
+    let bad = (0..holds.holds.len()).filter(|&k| !holds.holds[k].used).map(|k| (k + 1).to_string());
+    let mut lines = vec![count(holds.used().count(), "hold", bad.collect())];
     if !rotations.is_empty() {
         let bad = rotations.iter().filter(|rotation| !rotation.used);
         let bad = bad.map(|rotation| format!("{} → {}", rotation.from_hold + 1, rotation.to_hold + 1));
-        let good = rotations.iter().filter(|rotation| rotation.used).count();
+        let good = calibration.used_rotations().count();
         lines.push(count(good, "rotation", bad.collect()));
     }
     if !turns.is_empty() {

@@ -39,6 +39,11 @@ pub struct HoldCalibration {
 }
 
 impl HoldCalibration {
+    /// The holds that the accelerometer's parameters follow from: all but the outliers.
+    pub fn used(&self) -> impl Iterator<Item = &HoldResult> {
+        self.holds.iter().filter(|result| result.used)
+    }
+
     /// Gravity residual of a hold before the calibration, m/s². `None` if it is not known.
     #[must_use]
     pub fn magnitude_residual_before_mps2(&self, hold: &Hold) -> Option<f64> {
@@ -50,9 +55,7 @@ impl HoldCalibration {
     #[must_use]
     pub fn magnitude_residual_rms_before_mps2(&self) -> Option<f64> {
         let used: Vec<f64> = self
-            .holds
-            .iter()
-            .filter(|result| result.used)
+            .used()
             .map(|result| self.magnitude_residual_before_mps2(&result.hold))
             .collect::<Option<_>>()?;
         (!used.is_empty()).then(|| (used.iter().map(|e| e * e).sum::<f64>() / used.len() as f64).sqrt())

@@ -158,6 +158,11 @@ impl Calibration {
         self.gyroscope.as_ref().map_or(&[], |gyroscope| &gyroscope.rotations)
     }
 
+    /// The rotations that the gyroscope's parameters follow from: all but those left out.
+    pub fn used_rotations(&self) -> impl Iterator<Item = &RotationResult> {
+        self.rotations().iter().filter(|rotation| rotation.used)
+    }
+
     /// The turns of known angle.
     #[must_use]
     pub fn turns(&self) -> &[TurnResult] {
@@ -174,7 +179,7 @@ impl Calibration {
         };
         let known = |place: &usize| self.prior_share.get(*place).is_some_and(|share| *share > 0.0);
         let entries = (0..self.quantities.len()).filter(of_matrix).filter(|place| !known(place)).count();
-        self.rotations().iter().any(|rotation| rotation.used) || 3 * self.turns().len() > entries
+        self.used_rotations().next().is_some() || 3 * self.turns().len() > entries
     }
 
     /// Root mean square of the rotation errors, over the used rotations, rad. Zero without any.
@@ -190,8 +195,7 @@ impl Calibration {
     }
 
     fn rms_of_used(&self, error: fn(&RotationResult) -> f64) -> f64 {
-        let squares: Vec<f64> =
-            self.rotations().iter().filter(|rotation| rotation.used).map(|r| error(r).powi(2)).collect();
+        let squares: Vec<f64> = self.used_rotations().map(|rotation| error(rotation).powi(2)).collect();
         (squares.iter().sum::<f64>() / squares.len().max(1) as f64).sqrt()
     }
 

@@ -10,11 +10,10 @@ impl fmt::Display for Finding {
         if let Some(line) = self.line {
             write!(f, "line {line}: ")?;
         }
-        let of = self.sensor_kind;
-        match of.filter(|_| !self.noticed.names_sensor()) {
-            Some(sensor_kind) => write!(f, "{sensor_kind}: {}", self.noticed.words(of))?,
-            None => f.write_str(&self.noticed.words(of))?,
+        if let Some(sensor_kind) = self.sensor_kind.filter(|_| !self.noticed.names_sensor()) {
+            write!(f, "{sensor_kind}: ")?;
         }
+        f.write_str(&self.noticed.words(self.sensor_kind))?;
         match self.noticed.occurrences() {
             Some(2..) => f.write_str(" (first here)"),
             _ => Ok(()),
@@ -50,9 +49,10 @@ impl Noticed {
         }
     }
 
-    fn words(&self, of: Option<SensorKind>) -> String {
-        let of_the = of.map_or_else(String::new, |of| format!(" of the {of}"));
-        let its = of.map_or_else(String::new, |of| format!("{of} "));
+    fn words(&self, sensor_kind: Option<SensorKind>) -> String {
+        let named = |words: fn(SensorKind) -> String| sensor_kind.map_or_else(String::new, words);
+        let of_the = named(|sensor_kind| format!(" of the {sensor_kind}"));
+        let its = named(|sensor_kind| format!("{sensor_kind} "));
         match self {
             Self::ColumnsIgnored(names) => {
                 format!("ignored column{} {}", if names.len() == 1 { "" } else { "s" }, list(names, 8))
@@ -161,10 +161,7 @@ impl Noticed {
                 unit.replace('µ', "u")
             ),
             Self::FilesApart { shorter, shorter_s, longer_s, common_s } => {
-                let longer = match shorter {
-                    SensorKind::Gyroscope => SensorKind::Accelerometer,
-                    SensorKind::Accelerometer => SensorKind::Gyroscope,
-                };
+                let longer = shorter.other();
                 let span =
                     |(start, end): &(f64, f64)| format!("from {} to {} s", moment(*start), moment(*end));
                 let shared = match *common_s > 0.0 {

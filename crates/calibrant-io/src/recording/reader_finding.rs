@@ -33,17 +33,17 @@ pub enum Noticed {
         /// The experiment's.
         expected: ReadingUnit,
     },
-    /// So many rows without a time were dropped.
+    /// Number of rows without a time, which were dropped.
     TimesMissing(usize),
-    /// So many rows have no reading of the sensor.
+    /// Number of rows without a reading of the sensor.
     ReadingsMissing(usize),
-    /// So many samples with an empty or NaN value were dropped.
+    /// Number of samples with an empty or NaN value, which were dropped.
     ValuesMissing(usize),
-    /// So many rows that repeat the one before were dropped.
+    /// Number of rows that repeat the one before, which were dropped.
     RowsRepeated(usize),
-    /// So many rows with the time of the one before but another reading were dropped.
+    /// Number of rows with the time of the one before but another reading, which were dropped.
     TimesRepeated(usize),
-    /// So many samples of the sensor with the time of the one before were dropped.
+    /// Number of samples of the sensor with the time of the one before, which were dropped.
     SampleTimesRepeated(usize),
     /// The last line was cut off and was dropped.
     LineTruncated,
@@ -124,7 +124,7 @@ pub enum Noticed {
     PacketTimesReplaced(f64),
     /// The rate that was given is not needed.
     RateUnused,
-    /// The clock in this column began anew so many times.
+    /// The clock in this column began anew. The number counts how often.
     ClockWrapped(String, usize),
     /// The times count from their first.
     TimesFromFirst {
@@ -195,7 +195,7 @@ impl Finding {
     }
 
     /// The same finding, about this sensor.
-    pub(super) fn of(self, sensor_kind: Option<SensorKind>) -> Self {
+    pub(super) fn about(self, sensor_kind: Option<SensorKind>) -> Self {
         Self { sensor_kind, ..self }
     }
 }
@@ -255,7 +255,7 @@ impl Tally {
         noticed: impl Fn(usize) -> Noticed,
     ) {
         if self.count > 0 {
-            findings.push(Finding::new(noticed(self.count)).of(sensor_kind).at(self.first));
+            findings.push(Finding::new(noticed(self.count)).about(sensor_kind).at(self.first));
         }
     }
 }

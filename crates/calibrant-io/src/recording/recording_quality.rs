@@ -23,23 +23,23 @@ pub(super) fn examine(recording: &Recording, lines: &LineMap, findings: &mut Vec
     readings(recording, None, lines, findings);
 }
 
-/// Looks for axes that are not connected or clipped. `of` is the sensor, where there are two.
+/// Looks for axes that are not connected or clipped. `sensor_kind` is given where there are two sensors.
 pub(super) fn readings(
     recording: &Recording,
-    of: Option<SensorKind>,
+    sensor_kind: Option<SensorKind>,
     lines: &LineMap,
     findings: &mut Vec<Finding>,
 ) {
     for &axis in recording.active_axes() {
         if let Some(value) = recording.constant(axis) {
-            findings.push(Finding::new(Noticed::AxisConstant { axis, value }).of(of));
+            findings.push(Finding::new(Noticed::AxisConstant { axis, value }).about(sensor_kind));
         }
     }
     for (one, other) in [(Axis::X, Axis::Y), (Axis::X, Axis::Z), (Axis::Y, Axis::Z)] {
         let is_same = |reading: &Vector3<f64>| reading[one.index()] == reading[other.index()];
         let is_connected = recording.constant(one).is_none();
         if recording.axes == 3 && recording.readings.iter().all(is_same) && is_connected {
-            findings.push(Finding::new(Noticed::AxesEqual(one, other)).of(of));
+            findings.push(Finding::new(Noticed::AxesEqual(one, other)).about(sensor_kind));
         }
     }
     for found in recording.saturations() {
@@ -50,7 +50,7 @@ pub(super) fn readings(
             value: found.value,
             unit: recording.unit,
         };
-        findings.push(Finding::new(noticed).of(of).at(lines.line(found.first)));
+        findings.push(Finding::new(noticed).about(sensor_kind).at(lines.line(found.first)));
     }
 }
 

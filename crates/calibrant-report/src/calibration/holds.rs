@@ -12,7 +12,7 @@ const OUTLYING: f64 = 3.0;
 
 /// The table of what all holds have in common.
 pub(super) fn hold_summary(holds: &HoldCalibration) -> String {
-    let used = holds.holds.iter().filter(|hold| hold.used).count();
+    let used = holds.used().count();
     let mut table = Table::explained();
     let mut row = |name: &str, value: String, meaning: &str| table.explain(name, value, meaning);
     let found = if holds.detected {

@@ -17,14 +17,14 @@ pub fn used_in_words(calibration: &Calibration) -> String {
                 number_format::count(motion.residuals.len())
             );
         }
-        Recovered::Holds(holds) => &holds.holds,
+        Recovered::Holds(holds) => holds,
     };
     let used =
         |used: usize, all: usize, what: &str| format!("{used} of {}", number_format::counted(all, what));
-    let mut from = vec![used(holds.iter().filter(|hold| hold.used).count(), holds.len(), "hold")];
+    let mut from = vec![used(holds.used().count(), holds.holds.len(), "hold")];
     let (rotations, turns) = (calibration.rotations(), calibration.turns());
     if !rotations.is_empty() {
-        let good = rotations.iter().filter(|rotation| rotation.used).count();
+        let good = calibration.used_rotations().count();
         from.push(used(good, rotations.len(), "rotation") + " between them");
     }
     if !turns.is_empty() {
@@ -35,11 +35,11 @@ pub fn used_in_words(calibration: &Calibration) -> String {
 }
 
 /// Rotation errors, errors of known turns, gravity residuals, and whether the assumed noise explains the data.
-/// Rotation errors before the calibration are named too. The parts are joined by `; `.
+/// Rotation errors before the calibration are named too. Each is a sentence without its full stop.
 #[must_use]
-pub fn calibration_quality(calibration: &Calibration) -> String {
+pub fn calibration_quality(calibration: &Calibration) -> Vec<String> {
     let mut parts = Vec::new();
-    if calibration.rotations().iter().any(|rotation| rotation.used) {
+    if calibration.used_rotations().next().is_some() {
         parts.push(format!(
             "the rotation error is {} rms ({} before)",
             number_format::missed_angle(calibration.rotation_rms_rad()),
@@ -65,7 +65,7 @@ pub fn calibration_quality(calibration: &Calibration) -> String {
         });
     }
     parts.extend(calibration.fit.p_value.map(noise_explains));
-    parts.join("; ")
+    parts
 }
 
 /// How well the sensor was placed on its faces.

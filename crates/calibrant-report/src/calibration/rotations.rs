@@ -8,7 +8,7 @@ use calibrant_core::estimate::{Calibration, RotationResult};
 /// The table of what all rotations have in common.
 pub(super) fn rotation_summary(calibration: &Calibration) -> String {
     let rotations = calibration.rotations();
-    let used = rotations.iter().filter(|rotation| rotation.used).count();
+    let used = calibration.used_rotations().count();
     let mut table = Table::explained();
     let mut row = |name: &str, value: String, meaning: &str| table.explain(name, value, meaning);
     row(

@@ -39,7 +39,7 @@ fn sentence(calibration: &Calibration) -> String {
         None => "The accelerometer was calibrated",
         Some(_) => "Accelerometer and gyroscope were calibrated together,",
     };
-    let quality = match calibration_quality(calibration) {
+    let quality = match calibration_quality(calibration).join("; ") {
         quality if quality.is_empty() => String::new(),
         quality => capitalised(&quality) + ". ",
     };

@@ -89,7 +89,7 @@ pub(super) fn warnings(calibration: &Calibration, weakest: &[String]) -> Vec<Dia
     warnings.extend(gravity_off_earth(&holds.gravity));
     warnings.extend(left_out(holds));
     warnings.extend(left_out_in_a_row(holds));
-    let used: Vec<&HoldResult> = holds.holds.iter().filter(|hold| hold.used).collect();
+    let used: Vec<&HoldResult> = holds.used().collect();
     if calibration.fit.degrees_of_freedom == 0 {
         warnings.push(Diagnostic::NothingToCheck {
             holds: Some(used.len()),

@@ -50,8 +50,8 @@ impl Prediction {
         let gyroscope = calibration.gyroscope.as_deref();
         let still = gyroscope.map(|gyroscope| &gyroscope.still);
         let of_still = |of: fn(&GyroscopeInHolds) -> Vector3<f64>| still.map_or_else(Vector3::zeros, of);
-        let used = holds.holds.iter().filter(|hold| hold.used).count();
-        let rotations = calibration.rotations().iter().filter(|rotation| rotation.used).count();
+        let used = holds.used().count();
+        let rotations = calibration.used_rotations().count();
         let known = |quantity: &&ImuQuantity| quantity.sensor_kind() == SensorKind::Accelerometer;
         let accelerometer = calibration.quantities.iter().filter(known).count();
         let matrix = |quantity: &&ImuQuantity| match quantity {
@@ -150,11 +150,11 @@ impl Prediction {
 }
 
 fn within(holds: &HoldCalibration) -> Vector3<f64> {
-    Hold::pooled_sd(holds.holds.iter().filter(|hold| hold.used).map(|hold| &hold.hold))
+    Hold::pooled_sd(holds.used().map(|hold| &hold.hold))
 }
 
 fn inverse_hold_s(holds: &HoldCalibration) -> f64 {
-    let used = holds.holds.iter().filter(|hold| hold.used);
+    let used = holds.used();
     let (sum, count) = used.fold((0.0, 0_u32), |(sum, count), used| {
         (sum + used.hold.duration_s().max(f64::MIN_POSITIVE).recip(), count + 1)
     });

@@ -101,11 +101,8 @@ fn left_aside(file: &ImuFile, sensor_kind: SensorKind) -> Option<Finding> {
     let is_other =
         |column: &&ImuColumn| matches!(column.meaning, ColumnMeaning::Reading(of, _) if of != sensor_kind);
     let names: Vec<String> = file.columns.iter().filter(is_other).map(|column| column.name.clone()).collect();
-    let other = match sensor_kind {
-        SensorKind::Accelerometer => SensorKind::Gyroscope,
-        SensorKind::Gyroscope => SensorKind::Accelerometer,
-    };
-    (!names.is_empty()).then(|| Finding::new(Noticed::OtherSensorIgnored(other, names)))
+    let other = || Noticed::OtherSensorIgnored(sensor_kind.other(), names.clone());
+    (!names.is_empty()).then(|| Finding::new(other()))
 }
 
 /// The finding where one of a pair of files covers much less of the time than the other, or nothing of it.
@@ -131,7 +128,7 @@ fn shorter_than_other(first: &ImuRecording, second: &ImuRecording) -> Option<Fin
 fn joined(first: ImuFile, mut second: ImuFile) -> ImuFile {
     on_one_clock(&first, &mut second);
     let named = |sensor_kind: SensorKind, file: &ImuFile| -> Vec<Finding> {
-        let named = |finding: Finding| finding.of(Some(sensor_kind));
+        let named = |finding: Finding| finding.about(Some(sensor_kind));
         file.findings.iter().cloned().chain(left_aside(file, sensor_kind)).map(named).collect()
     };
     let of_second = named(SensorKind::Gyroscope, &second).into_iter();

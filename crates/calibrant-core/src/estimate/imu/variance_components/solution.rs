@@ -38,8 +38,9 @@ pub(crate) fn solve(
     };
     let state = start.0.clone();
     let alone = model.linearised(&state, settings)?;
-    if identifiability::check(model, &state, &alone).is_ok() {
-        let Solution { fit, weighed, between } = estimate(model, start, means, between, settings)?;
+    if identifiability::check(model, &state, &alone).is_ok()
+        && let Ok(Solution { fit, weighed, between }) = estimate(model, start, means, between, settings)
+    {
         model.prior = Some(prior.clone());
         let fit = model.fit(fit.state, fit.residuals, settings).ok_or_else(singular)?;
         if fit.status == CalibrationStatus::Converged {
