@@ -38,7 +38,9 @@ impl ImuRecording {
     #[must_use]
     pub fn without_spikes(&self) -> (Cow<'_, Self>, Vec<(SensorKind, Spikes)>) {
         let clean = |sensor_kind: SensorKind| {
-            let (clean, spikes) = self.sensor(sensor_kind)?.without_spikes(sensor_kind);
+            let (clean, spikes) = self
+                .sensor(sensor_kind)?
+                .without_spikes_beside(self.sensor(sensor_kind.other()), sensor_kind);
             spikes.map(|spikes| (clean.into_owned(), spikes))
         };
         let (accelerometer, gyroscope) =

@@ -14,7 +14,7 @@
 //! In a movement, only the gyroscope is examined: an accelerometer's movements count for nothing. A spike has
 //! a large second difference that stands out among those of its neighbours. On each side, half of it appears
 //! with the opposite sign. Only a single sample has that: neither the kink where a turn begins, nor a step,
-//! nor a short turn has it.
+//! nor a short turn has it. A pulse that the accelerometer shares is a knock, which is real motion.
 //!
 //! Noise of finite variance has at most a quarter as many samples beyond a distance as beyond half of it.
 //! Where samples far off are not rarer by that much, they are noise. Only a sample still farther off is then
@@ -56,6 +56,10 @@ const NEIGHBOURS: usize = 18;
 /// The second difference of a spike exceeds all but three of those beside it by this factor: another spike
 /// has three.
 const STANDS_OUT: f64 = 4.0;
+/// Both sensors show a knock within this time, s: one of them may be read or filtered later.
+const APART_S: f64 = 0.02;
+/// Number of samples on each side of a knock's time that its second difference is compared with.
+const BESIDE_JOLT: usize = 10;
 /// Second differences next to a spike, of opposite sign: least share of its own, less a number of deviations of noise. The
 /// share is a half without noise, a third in a turn of three samples.
 const FLANK_SHARE: (f64, f64) = (0.4, 1.5);
@@ -114,11 +118,22 @@ impl Recording {
     /// ```
     #[must_use]
     pub fn without_spikes(&self, sensor_kind: SensorKind) -> (Cow<'_, Self>, Option<Spikes>) {
+        self.without_spikes_beside(None, sensor_kind)
+    }
+
+    /// The same with the recording of the other sensor, which shares real motion.
+    pub(super) fn without_spikes_beside(
+        &self,
+        other: Option<&Self>,
+        sensor_kind: SensorKind,
+    ) -> (Cow<'_, Self>, Option<Spikes>) {
         let axes = self.active_axes();
         // as a hold is measured: where the sensor pauses, the number of samples is the same
         let still = (REST_MARGIN_S * self.rate_hz()).round() as usize;
-        let found: Vec<Found> =
-            axes.par_iter().map(|axis| AxisReadings::new(self, *axis, sensor_kind, still).found()).collect();
+        let found: Vec<Found> = axes
+            .par_iter()
+            .map(|axis| AxisReadings::new((self, other), *axis, sensor_kind, still).found())
+            .collect();
         let every = found.iter().zip(axes);
         let every = every.flat_map(|(found, axis)| found.all().map(move |spike| (*axis, spike)));
         let Some((axis, farthest)) =
@@ -151,6 +166,26 @@ impl Recording {
         without(&mut clean.readings, &spikes.cut);
         (Cow::Owned(clean), Some(spikes))
     }
+}
+
+/// Does a sensor show a jolt at this time: a change of its reading that stands out among those beside it?
+fn jolts(recording: &Recording, time_s: f64) -> bool {
+    let step_s = recording.rate_hz().recip();
+    let near = recording.between(time_s - APART_S - 1.5 * step_s, time_s + APART_S + 1.5 * step_s);
+    let beside = near.start.saturating_sub(BESIDE_JOLT)..(near.end + BESIDE_JOLT).min(recording.len());
+    let bends: Vec<(usize, f64)> = beside
+        .filter(|k| (1..recording.len() - 1).contains(k))
+        .map(|k| {
+            let [before, here, after] = [k - 1, k, k + 1].map(|k| recording.readings[k]);
+            (k, (here - 0.5 * (before + after)).norm())
+        })
+        .collect();
+    let (inside, mut outside): (Vec<_>, Vec<_>) = bends.into_iter().partition(|(k, _)| near.contains(k));
+    let most = inside.into_iter().map(|(_, bend)| bend).fold(0.0, greater);
+    // another knock may be near
+    let nearly_most = outside.len() * 4 / 5;
+    outside.sort_unstable_by(|one, other| one.1.total_cmp(&other.1));
+    outside.get(nearly_most).is_some_and(|(_, usual)| most > STANDS_OUT * usual)
 }
 
 /// Takes these places, in order, out of a list.
@@ -194,10 +229,16 @@ struct AxisReadings<'a> {
     /// Number of samples on each side of a spike in which the sensor must be stationary.
     still: usize,
     moves: bool,
+    other: Option<&'a Recording>,
 }
 
 impl<'a> AxisReadings<'a> {
-    fn new(recording: &'a Recording, axis: Axis, sensor_kind: SensorKind, still: usize) -> Self {
+    fn new(
+        (recording, other): (&'a Recording, Option<&'a Recording>),
+        axis: Axis,
+        sensor_kind: SensorKind,
+        still: usize,
+    ) -> Self {
         let values: Vec<f64> = recording.readings.iter().map(|reading| reading[axis.index()]).collect();
         let steps = || values.windows(2).map(|pair| (pair[1] - pair[0]).abs());
         let finest = |least: f64, step: f64| if step > 0.0 { lesser(least, step) } else { least };
@@ -210,7 +251,7 @@ impl<'a> AxisReadings<'a> {
         }
         let scale = (SD_OVER_MAD * typical).max(if least.is_finite() { least } else { 0.0 });
         let (times_s, moves) = (recording.times_s.as_slice(), sensor_kind == SensorKind::Gyroscope);
-        Self { times_s, values, scale, still: still.max(WINDOW_SAMPLES / 2), moves }
+        Self { times_s, values, scale, still: still.max(WINDOW_SAMPLES / 2), moves, other }
     }
 
     fn found(mut self) -> Found {
@@ -232,7 +273,9 @@ impl<'a> AxisReadings<'a> {
             let off_the_moving = |k, least| self.off_the_moving(k, least);
             let (moving, _) = self.far_off(&candidates, MOVING_DEVIATIONS, off_the_moving);
             // noise of a heavy tail has it in a movement, too
-            found.extend(moving.into_iter().filter(|spike| spike.off > least));
+            let is_shared =
+                |spike: &Spike| self.other.is_some_and(|other| jolts(other, self.times_s[spike.sample]));
+            found.extend(moving.into_iter().filter(|spike| spike.off > least && !is_shared(spike)));
             found.sort_unstable_by_key(|spike| spike.sample);
             found.dedup_by_key(|spike| spike.sample);
         }

@@ -14,6 +14,7 @@ mod holds;
 mod imu;
 mod imu_recordings;
 mod invariants;
+mod knocks;
 mod known_faces;
 mod large_rotation_errors;
 mod mounting;

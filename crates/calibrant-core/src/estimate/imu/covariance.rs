@@ -96,10 +96,10 @@ fn common_slopes(
         // the same in all, and along each component of the force
         let mut of_holds: [DVector<f64>; 4] = std::array::from_fn(|_| DVector::zeros(model.quantities.len()));
         let mut of_rotations = of_holds[0].clone();
-        for (residual, data) in fit.residuals.iter().zip(&model.rotations) {
+        for (i, (residual, data)) in fit.residuals.iter().zip(&model.rotations).enumerate() {
             let Some(residual) = residual.as_ref().filter(|_| data.counts) else { continue };
             let by_reading = residual.by_turn * residual.rotation.by_reading().column(axis);
-            let weighted = model.rotation_weight(residual) * by_reading;
+            let weighted = model.rotation_weight(i, residual) * by_reading;
             for (k, by_parameter) in residual.by_parameters.column_iter().enumerate() {
                 of_rotations[k] -= by_parameter.dot(&weighted);
             }

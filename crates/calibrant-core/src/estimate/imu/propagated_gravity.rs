@@ -1,7 +1,9 @@
 //! Gravity that the gyroscope propagates through the rotations of a recording, with a given calibration.
 
 use crate::estimate::imu::earth_rate::EarthRate;
-use crate::estimate::imu::model::{GravityResidual, GyroscopeNoise, HoldData, ImuModel, State};
+use crate::estimate::imu::model::{
+    GravityResidual, GyroscopeNoise, HoldData, ImuModel, RotationScatter, State,
+};
 use crate::estimate::imu::rotations::felt_force::interpolated_forces;
 use crate::estimate::imu::rotations::spans::{Integrable, rotation_spans};
 use crate::estimate::imu::stationary::scatter::{mean_in_hold, usual_scatter};
@@ -95,7 +97,7 @@ pub(in crate::estimate) struct PropagatedGravity {
     /// Derivative with respect to the specific forces before and after.
     pub(in crate::estimate) by_from: Matrix2x3<f64>,
     pub(in crate::estimate) by_to: Matrix2x3<f64>,
-    /// Covariance of the error from the gyroscope's noise.
+    /// Covariance of the error from the gyroscope's noise and from knocks.
     pub(in crate::estimate) noise: Matrix2<f64>,
     /// Covariance of the error from the Earth's rate about the north, at an unknown heading.
     pub(in crate::estimate) of_earth: Matrix2<f64>,
@@ -112,6 +114,8 @@ pub(in crate::estimate) struct GravityPropagation<'a> {
     pub(in crate::estimate) vertical_rate: f64,
     /// Standard deviation of each component of the Earth's rate about the north, rad/s.
     pub(in crate::estimate) north_sd_radps: f64,
+    /// Knock factor of the calibration.
+    pub(in crate::estimate) knock_factor: f64,
     /// Scatter of the gyroscope's bias between holds, in the unit of its readings.
     pub(in crate::estimate) between: Vector3<f64>,
     pub(in crate::estimate) accelerometer: &'a Recording,
@@ -162,7 +166,7 @@ impl GravityPropagation<'_> {
             rotations,
             turns: Vec::new(),
             gyroscope_noise: *noise,
-            between_rotations_sd_rad: 0.0,
+            rotation_scatter: RotationScatter::none(),
             prior: None,
         };
         let forces =
@@ -204,7 +208,7 @@ impl GravityPropagation<'_> {
             }),
             by_from,
             by_to,
-            noise: residual.covariance,
+            noise: residual.covariance + residual.of_knocks * self.knock_factor.powi(2),
             of_earth: Matrix2::zeros(),
             noise_with_previous: previous.map_or_else(Matrix2::zeros, |previous| {
                 residual.by_turn

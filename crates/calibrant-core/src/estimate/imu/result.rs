@@ -20,6 +20,8 @@ pub struct GyroscopeCalibration {
     pub rotations: Vec<RotationResult>,
     /// Excess standard deviation of the rotation errors, beyond the gyroscope's noise, per axis, rad.
     pub between_rotations_sd_rad: f64,
+    /// Knock factor: the error of a knock's integral over the fourth difference of its samples times their step. The usual one without knocks.
+    pub knock_factor: f64,
     /// The turns of known angle.
     pub turns: Vec<TurnResult>,
     /// The rates of the sensors' clocks, if the rotations show a difference.

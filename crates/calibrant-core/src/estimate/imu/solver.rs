@@ -21,7 +21,7 @@ use crate::estimate::imu::earth_rate::EarthRate;
 use crate::estimate::imu::estimated::{estimated_quantities, prior_of};
 use crate::estimate::imu::initial::accelerometer_alone::initial_accelerometer;
 use crate::estimate::imu::initial::gyroscope::{explained_means, initial_values};
-use crate::estimate::imu::model::{ImuModel, State};
+use crate::estimate::imu::model::{ImuModel, RotationScatter, State};
 use crate::estimate::imu::problem::ImuProblem;
 use crate::estimate::imu::recordings::recordings;
 use crate::estimate::imu::rotations::movement::Movement;
@@ -70,7 +70,7 @@ fn stages(
         turns: movement.turns(problem, &gyroscope.noise, (&initial.imu, &temperature))?,
         holds: initial.holds,
         gyroscope_noise: gyroscope.noise,
-        between_rotations_sd_rad: 0.0,
+        rotation_scatter: RotationScatter::none(),
         prior,
         quantities,
     };

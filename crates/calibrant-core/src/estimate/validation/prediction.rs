@@ -36,6 +36,8 @@ pub(super) struct Prediction {
     pub(super) inverse_hold_s: f64,
     /// Error of a rotation beyond its noise, rad, and the degrees of freedom behind it.
     pub(super) rotation_sd_rad: f64,
+    /// Error of a knock's integral over the fourth difference of its samples times their step.
+    pub(super) knock_factor: f64,
     pub(super) rotation_degrees: Degrees,
     /// Variance of what coarse steps of the gyroscope leave in its means in another recording: its bias is not known better there, however many holds there are.
     pub(super) of_steps: Vector3<f64>,
@@ -97,6 +99,7 @@ impl Prediction {
             still_degrees: std::array::from_fn(|axis| Degrees::of_scatter(used, unknowns_at_rest(axis))),
             inverse_hold_s: inverse_hold_s(holds),
             rotation_sd_rad: gyroscope.map_or(0.0, |gyroscope| gyroscope.between_rotations_sd_rad),
+            knock_factor: gyroscope.map_or(0.0, |gyroscope| gyroscope.knock_factor),
             rotation_degrees: Degrees::of_scatter(2 * rotations, of_rotations),
             of_steps: Vector3::zeros(),
         }

@@ -179,6 +179,7 @@ impl<'a> Unused<'a> {
             gravity_mps2: prediction.gravity_mps2,
             vertical_rate: prediction.vertical_rate,
             north_sd_radps: prediction.north_sd_radps,
+            knock_factor: prediction.knock_factor,
             between: prediction.still_sd,
             accelerometer: self.accelerometer,
             gyroscope,

@@ -3,6 +3,7 @@
 
 pub(crate) mod case;
 mod data;
+pub(crate) mod hand;
 mod imu;
 mod messages;
 

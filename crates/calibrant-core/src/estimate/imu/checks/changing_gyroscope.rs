@@ -6,7 +6,7 @@ use crate::estimate::hold_result::HoldCalibration;
 use crate::estimate::imu::model::{Fit, GravityResidual, ImuModel};
 use crate::motion::Hold;
 use crate::sensor::{Axis, Condition, ImuQuantity, MeanReading, Quantity, SensorKind};
-use nalgebra::{DMatrix, DVector, Matrix2, Matrix2x3, Matrix3, Vector2, Vector3};
+use nalgebra::{DMatrix, DVector, Matrix2x3, Matrix3, Vector2, Vector3};
 
 /// The gyroscope of a fitted problem.
 pub(crate) struct Changing<'a> {
@@ -103,9 +103,8 @@ impl Changing<'_> {
         let mut errors = DVector::zeros(rows);
         let mut parameters = DMatrix::zeros(rows, matrix.len());
         let (mut gain, mut axes) = (DMatrix::zeros(rows, 3), DMatrix::zeros(rows, 3));
-        for (number, (_, residual)) in seen.iter().enumerate() {
-            let variance =
-                residual.covariance + Matrix2::identity() * (model.between_rotations_sd_rad.powi(2) + 1e-18);
+        for (number, (i, residual)) in seen.iter().enumerate() {
+            let variance = model.rotation_scatter.covariance(*i, residual);
             let white = variance.cholesky()?.l().try_inverse()?;
             let put = |into: &mut DMatrix<f64>, column: usize, value: Vector2<f64>| {
                 into.fixed_view_mut::<2, 1>(2 * number, column).copy_from(&value);

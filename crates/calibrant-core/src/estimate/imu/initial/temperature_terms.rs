@@ -14,7 +14,9 @@ use crate::estimate::imu::estimated::{estimated_quantities, prior_of, set_fixed}
 use crate::estimate::imu::initial::accelerometer::InitialAccelerometer;
 use crate::estimate::imu::initial::face_alignment::{Chi2, Degrees, FaceAlignment, FaceScatter, align_faces};
 use crate::estimate::imu::initial::face_statistics::{chi2_of_face, face_degrees, noise_rad2};
-use crate::estimate::imu::model::{Fit, GyroscopeNoise, HoldData, ImuModel, State, singular};
+use crate::estimate::imu::model::{
+    Fit, GyroscopeNoise, HoldData, ImuModel, RotationScatter, State, singular,
+};
 use crate::estimate::imu::problem::ImuProblem;
 use crate::estimate::imu::temperature::{RecordingTemperature, at_reference};
 use crate::estimate::settings::CalibrationSettings;
@@ -157,7 +159,7 @@ impl<'a> AccelerometerOnly<'a> {
                 rotations: Vec::new(),
                 turns: Vec::new(),
                 gyroscope_noise: GyroscopeNoise::none(),
-                between_rotations_sd_rad: 0.0,
+                rotation_scatter: RotationScatter::none(),
                 prior: prior_of(problem, &quantities),
                 quantities,
             },

@@ -112,7 +112,7 @@ impl ImuModel<'_> {
             if let Some(residual) =
                 j.checked_sub(1).filter(counted).and_then(|before| residuals[before].as_ref())
             {
-                let w = self.rotation_weight(residual);
+                let w = self.rotation_weight(j - 1, residual);
                 let wr = -(w * residual.error);
                 let mut g = SMatrix::<f64, 2, P>::zeros();
                 g.columns_mut(0, self.quantities.len()).copy_from(&residual.by_parameters);

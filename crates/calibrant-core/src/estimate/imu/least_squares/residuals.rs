@@ -27,6 +27,8 @@ impl ImuModel<'_> {
         let by_reading = rotation.by_reading();
         let of_steps =
             by_reading * Matrix3::from_diagonal(&self.gyroscope_noise.of_mean) * by_reading.transpose();
+        // a knock's attitude is not known well enough for the direction of its error
+        let of_knocks = (rotation.correction * data.samples.knocks * rotation.correction.transpose()).trace();
         Some(GravityResidual {
             error: arc.error,
             by_from: arc.by_missing * back * tangents(&before),
@@ -34,15 +36,14 @@ impl ImuModel<'_> {
             by_turn,
             by_parameters,
             covariance: by_turn * (rotation.covariance + of_steps) * by_turn.transpose(),
+            of_knocks: by_turn * by_turn.transpose() * of_knocks,
             rotation,
         })
     }
 
     /// Weight of a rotation.
-    pub(crate) fn rotation_weight(&self, residual: &GravityResidual) -> Matrix2<f64> {
-        let variance =
-            residual.covariance + Matrix2::identity() * (self.between_rotations_sd_rad.powi(2) + 1e-18);
-        variance.try_inverse().unwrap_or_else(Matrix2::zeros)
+    pub(crate) fn rotation_weight(&self, rotation: usize, residual: &GravityResidual) -> Matrix2<f64> {
+        self.rotation_scatter.covariance(rotation, residual).try_inverse().unwrap_or_else(Matrix2::zeros)
     }
 
     /// The residuals of all rotations that can be integrated.
@@ -74,9 +75,10 @@ impl ImuModel<'_> {
         let rotations: f64 = residuals
             .iter()
             .zip(&self.rotations)
-            .filter(|(_, data)| data.counts)
-            .filter_map(|(residual, _)| residual.as_ref())
-            .map(|residual| residual.error.dot(&(self.rotation_weight(residual) * residual.error)))
+            .enumerate()
+            .filter(|(_, (_, data))| data.counts)
+            .filter_map(|(i, (residual, _))| Some((i, residual.as_ref()?)))
+            .map(|(i, residual)| residual.error.dot(&(self.rotation_weight(i, residual) * residual.error)))
             .sum();
         let turns: f64 =
             self.turns.iter().map(|turn| weighted(self.turn_residual(turn, imu), &turn.weight)).sum();

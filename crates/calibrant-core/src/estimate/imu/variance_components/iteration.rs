@@ -17,7 +17,7 @@ const ROUNDS: usize = 12;
 const CLOSE: f64 = 0.1;
 
 pub(crate) fn apply(model: &mut ImuModel<'_>, weighed: &RotationWeights) {
-    model.between_rotations_sd_rad = weighed.between_rotations_sd_rad;
+    model.rotation_scatter = weighed.scatter.clone();
     for (rotation, used) in model.rotations.iter_mut().zip(&weighed.used) {
         rotation.counts = *used;
     }

@@ -3,9 +3,11 @@
 //! The noise of the samples explains only part of a rotation's error; the rest (scale factors that depend on the rate, a wandering bias, clocks, what the
 //! model lacks) is estimated from the scatter itself: the excess `σ_r` for which χ² of the rotations equals its degrees of freedom (Paule and Mandel), in the
 //! problem linearised at the present estimate, directions fixed (they are known ten times better than a rotation can tell). The Earth's rate is among its unknowns, after the gyroscope's quantities.
+//!
+//! A knock that is as short as a few sample steps has an integral that its samples show only roughly. The factor of that error is a second variance component, of the largest likelihood.
 
 use crate::estimate::between_hold_variance::{Trial, excess};
-use crate::estimate::imu::model::{GravityResidual, ImuModel, State};
+use crate::estimate::imu::model::{GravityResidual, ImuModel, RotationScatter, State, USUAL_KNOCK_FACTOR};
 use nalgebra::{DMatrix, DVector, Matrix2, Matrix2xX, Vector2};
 use std::f64::consts::FRAC_PI_2;
 
@@ -15,13 +17,24 @@ const SIGNIFICANCE: f64 = 0.01;
 /// Rounds of leaving out one rotation, or taking one back; twice their number where there are more.
 const ROUNDS: usize = 200;
 
+/// Knock factors that are compared.
+const KNOCK_FACTORS: [f64; 6] = [0.03, 0.06, 0.12, 0.25, 0.5, 1.0];
+
+/// Degrees of freedom of Student's distribution of the errors by knocks.
+const KNOCK_DEGREES: f64 = 5.0;
+
+/// Rounds in which the factors of the rotations and the fit follow each other.
+const KNOCK_ROUNDS: usize = 4;
+
+/// Knock factor of a pulse of half a sample step without a filter.
+const LARGEST_KNOCK_FACTOR: f64 = 1.5;
+
 /// The excess of a good sensor, rad: a first guess.
 const USUAL_EXCESS_RAD: f64 = 1e-3;
 
 /// The rotations with their weights.
 pub(crate) struct RotationWeights {
-    /// `σ_r`, rad.
-    pub(crate) between_rotations_sd_rad: f64,
+    pub(crate) scatter: RotationScatter,
     pub(crate) used: Vec<bool>,
     /// Error of each rotation, its own influence removed, in standard deviations: `χ²` of two degrees of freedom.
     pub(crate) studentised: Vec<f64>,
@@ -37,7 +50,7 @@ impl RotationWeights {
     /// No rotation at all.
     pub(crate) fn none(rotations: usize) -> Self {
         Self {
-            between_rotations_sd_rad: 0.0,
+            scatter: RotationScatter::none(),
             used: vec![false; rotations],
             studentised: vec![f64::INFINITY; rotations],
             step: DVector::zeros(0),
@@ -87,12 +100,12 @@ pub(crate) fn weigh_rotations(
         .collect();
     let are_enough = |used: &[bool]| 2 * count(used) > unknowns_of_gyroscope + 4;
     let mut used = if are_enough(&upright) { upright } else { is_there };
-    let mut excess;
+    let mut scatter;
     let mut solved;
     let (mut rounds, most) = (0, ROUNDS.max(2 * residuals.len()));
     loop {
-        (excess, solved) = linear.excess(&used)?;
-        let studentised = linear.studentised(&used, excess, &solved);
+        (scatter, solved) = linear.scatter(&used)?;
+        let studentised = linear.studentised(&used, &scatter, &solved);
         let limit = critical(all);
         let worst = (0..used.len())
             .filter(|&i| used[i] && studentised[i] > limit)
@@ -106,7 +119,7 @@ pub(crate) fn weigh_rotations(
             (_, Some(i)) if rounds < most => used[i] = true,
             _ => {
                 return Some(RotationWeights {
-                    between_rotations_sd_rad: excess,
+                    scatter,
                     used,
                     studentised,
                     length: solved.length,
@@ -127,8 +140,7 @@ pub(crate) fn solve_again(
     weighed: RotationWeights,
 ) -> Option<RotationWeights> {
     let linear = Linear::new(model, state, residuals, rest);
-    let Solved { step, covariance, length, .. } =
-        linear.solve(&weighed.used, weighed.between_rotations_sd_rad)?;
+    let Solved { step, covariance, length, .. } = linear.solve(&weighed.used, &weighed.scatter)?;
     Some(RotationWeights { step, covariance, length, ..weighed })
 }
 
@@ -178,10 +190,8 @@ impl<'a> Linear<'a> {
 }
 
 impl Linear<'_> {
-    fn weight(&self, residual: &GravityResidual, excess: f64) -> Matrix2<f64> {
-        (residual.covariance + Matrix2::identity() * (excess * excess + 1e-18))
-            .try_inverse()
-            .unwrap_or_else(Matrix2::zeros)
+    fn weight(rotation: usize, residual: &GravityResidual, scatter: &RotationScatter) -> Matrix2<f64> {
+        scatter.covariance(rotation, residual).try_inverse().unwrap_or_else(Matrix2::zeros)
     }
 
     fn error(residual: &GravityResidual, jacobian: &Matrix2xX<f64>, step: &DVector<f64>) -> Vector2<f64> {
@@ -192,20 +202,18 @@ impl Linear<'_> {
     fn used<'s>(
         &'s self,
         used: &'s [bool],
-    ) -> impl Iterator<Item = &'s (&'s GravityResidual, Matrix2xX<f64>)> {
-        self.residuals
-            .iter()
-            .zip(used)
-            .filter(|(_, used)| **used)
-            .filter_map(|(residual, _)| residual.as_ref())
+    ) -> impl Iterator<Item = (usize, &'s GravityResidual, &'s Matrix2xX<f64>)> {
+        self.residuals.iter().zip(used).enumerate().filter(|(_, (_, used))| **used).filter_map(
+            |(i, (residual, _))| residual.as_ref().map(|(residual, jacobian)| (i, *residual, jacobian)),
+        )
     }
 
-    fn solve(&self, used: &[bool], excess: f64) -> Option<Solved> {
+    fn solve(&self, used: &[bool], scatter: &RotationScatter) -> Option<Solved> {
         let (mut f, mut g) = (self.rest.clone(), self.rest_rhs.clone());
         let rows = 2 * count(used);
         let (mut all, mut weighted) = (DMatrix::zeros(self.size, rows), DMatrix::zeros(rows, self.size));
-        for (k, (residual, jacobian)) in self.used(used).enumerate() {
-            let by_weight = self.weight(residual, excess) * jacobian;
+        for (k, (i, residual, jacobian)) in self.used(used).enumerate() {
+            let by_weight = Self::weight(i, residual, scatter) * jacobian;
             g.gemv_tr(-1.0, &by_weight, &residual.error, 1.0);
             all.columns_mut(2 * k, 2).tr_copy_from(jacobian);
             weighted.rows_mut(2 * k, 2).copy_from(&by_weight);
@@ -216,24 +224,75 @@ impl Linear<'_> {
         let length = step.dot(&g).max(0.0).sqrt();
         let chi2 = self
             .used(used)
-            .map(|(residual, jacobian)| {
+            .map(|(i, residual, jacobian)| {
                 let error = Self::error(residual, jacobian, &step);
-                error.dot(&(self.weight(residual, excess) * error))
+                error.dot(&(Self::weight(i, residual, scatter) * error))
             })
             .sum();
         Some(Solved { step, covariance, chi2, length })
     }
 
+    /// The scatter with its fit. Where rotations have knocks, it is that of the most likely knock factor.
+    fn scatter(&self, used: &[bool]) -> Option<(RotationScatter, Solved)> {
+        let with_knocks = |(_, residual, _): (usize, &GravityResidual, _)| residual.of_knocks.trace() > 0.0;
+        if !self.used(used).any(with_knocks) {
+            return self.excess(used, RotationScatter::none());
+        }
+        KNOCK_FACTORS
+            .into_iter()
+            .filter_map(|factor| self.with_knocks(used, factor))
+            .max_by(|one, other| one.0.total_cmp(&other.0))
+            .map(|(_, scatter, solved)| (scatter, solved))
+    }
+
+    /// The log likelihood of a knock factor, and the scatter with its fit.
+    ///
+    /// The errors of knocks follow Student's distribution (`lange1989`), since pulses of some lengths are integrated much better than others.
+    /// Each rotation has a factor of its own, the larger the larger its error is.
+    fn with_knocks(&self, used: &[bool], factor: f64) -> Option<(f64, RotationScatter, Solved)> {
+        let own_factors = vec![factor; used.len()];
+        let all = RotationScatter { knock_factor: factor, own_factors, between_sd_rad: 0.0 };
+        let (mut scatter, mut solved) = self.excess(used, all.clone())?;
+        for _ in 0..KNOCK_ROUNDS {
+            let studentised = self.studentised(used, &scatter, &solved);
+            let own_factors = studentised.iter().zip(&scatter.own_factors).map(|(off, own)| {
+                let chi2 = (off * own / factor).powi(2);
+                // variance by the error, and what makes the information that of the distribution
+                let widened = (KNOCK_DEGREES + chi2) * (KNOCK_DEGREES + 4.0) / (KNOCK_DEGREES + 2.0).powi(2);
+                (factor * widened.sqrt()).min(LARGEST_KNOCK_FACTOR)
+            });
+            let own_factors = own_factors.collect();
+            (scatter, solved) = self.excess(used, RotationScatter { own_factors, ..all.clone() })?;
+        }
+        let of_all = RotationScatter { between_sd_rad: scatter.between_sd_rad, ..all };
+        let of_unknowns = solved.covariance.clone().cholesky().map_or(0.0, |root| root.ln_determinant());
+        let of_factor = (factor / USUAL_KNOCK_FACTOR).ln().powi(2);
+        let of_errors = self.used(used).map(|(i, residual, jacobian)| {
+            let error = Self::error(residual, jacobian, &solved.step);
+            let chi2 = error.dot(&(Self::weight(i, residual, &of_all) * error));
+            let of_spread = of_all.covariance(i, residual).determinant().ln();
+            of_spread
+                + match residual.of_knocks.trace() > 0.0 {
+                    true => (KNOCK_DEGREES + 2.0) * (1.0 + chi2 / KNOCK_DEGREES).ln(),
+                    false => chi2,
+                }
+        });
+        let log_likelihood = 0.5 * (of_unknowns - of_factor - of_errors.sum::<f64>());
+        Some((log_likelihood, scatter, solved))
+    }
+
     /// The excess that makes χ² equal its degrees of freedom, zero where the noise explains the scatter.
-    fn excess(&self, used: &[bool]) -> Option<(f64, Solved)> {
+    fn excess(&self, used: &[bool], scatter: RotationScatter) -> Option<(RotationScatter, Solved)> {
+        let with = |between_sd_rad: f64| RotationScatter { between_sd_rad, ..scatter.clone() };
         excess(
             |_| USUAL_EXCESS_RAD,
             |excess| {
-                let solved = self.solve(used, excess)?;
+                let solved = self.solve(used, &with(excess))?;
                 let degrees_of_freedom = self.degrees_left(2 * count(used), &solved);
                 Some(Trial { chi2: solved.chi2, degrees_of_freedom, fitted: solved })
             },
         )
+        .map(|(excess, solved)| (with(excess), solved))
     }
 
     /// Degrees of freedom of the rotations: their equations less the unknowns that they determine.
@@ -248,13 +307,14 @@ impl Linear<'_> {
         }
     }
 
-    fn studentised(&self, used: &[bool], excess: f64, solved: &Solved) -> Vec<f64> {
+    fn studentised(&self, used: &[bool], scatter: &RotationScatter, solved: &Solved) -> Vec<f64> {
         self.residuals
             .iter()
             .zip(used)
-            .map(|(residual, used)| {
+            .enumerate()
+            .map(|(i, (residual, used))| {
                 let Some((residual, j)) = residual else { return f64::INFINITY };
-                let own = residual.covariance + Matrix2::identity() * (excess * excess + 1e-18);
+                let own = scatter.covariance(i, residual);
                 let from: Matrix2<f64> = j * &solved.covariance * j.transpose();
                 let expected = if *used { own - from } else { own + from };
                 let error = Self::error(residual, j, &solved.step);

@@ -66,8 +66,9 @@ fn estimate(
     let rough = CalibrationSettings { tolerance: ROUGH, ..settings.clone() };
     let close = model.fit(state, residuals, &rough).ok_or_else(singular)?;
     let weighed = reweigh(model, &close.state, &close.residuals)?;
-    let moved = (weighed.between_rotations_sd_rad - model.between_rotations_sd_rad).abs()
-        > 0.01 * model.between_rotations_sd_rad;
+    let (now, before_it) = (weighed.scatter.between_sd_rad, model.rotation_scatter.between_sd_rad);
+    let moved = (now - before_it).abs() > 0.01 * before_it
+        || weighed.scatter.own_factors != model.rotation_scatter.own_factors;
     if moved || weighed.used != before.used {
         apply(model, &weighed);
     }
