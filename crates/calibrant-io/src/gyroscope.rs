@@ -38,6 +38,8 @@ pub(super) struct RotationsFields {
     error_rms_rad: Option<f64>,
     error_before_rms_rad: Option<f64>,
     excess_sd_rad: f64,
+    time_offset_s: Option<f64>,
+    time_offset_sd_s: Option<f64>,
     table: Vec<RotationFields>,
 }
 
@@ -50,6 +52,8 @@ impl RotationsFields {
             error_rms_rad: known(calibration.rotation_rms_rad()),
             error_before_rms_rad: known(calibration.rotation_rms_before_rad()),
             excess_sd_rad: gyroscope.between_rotations_sd_rad,
+            time_offset_s: gyroscope.time_offset.map(|time| time.offset_s),
+            time_offset_sd_s: gyroscope.time_offset.map(|time| time.sd_s),
             table: gyroscope.rotations.iter().map(RotationFields::of).collect(),
         }
     }

@@ -46,8 +46,8 @@ pub use holds::{
 };
 pub use imu::{
     ClockRate, Gyroscope, GyroscopeCalibration, GyroscopeInHolds, ImuProblem, ImuSetup, KnownTerm,
-    NoiseSource, RotationResult, ThermalModel, Turn, TurnResult, WhiteNoise, WhiteNoiseSearch, calibrate_imu,
-    calibrate_imu_with, find_clean_imu_holds, find_imu_holds, swapped_sensors,
+    NoiseSource, RotationResult, ThermalModel, TimeOffset, Turn, TurnResult, WhiteNoise, WhiteNoiseSearch,
+    calibrate_imu, calibrate_imu_with, find_clean_imu_holds, find_imu_holds, swapped_sensors,
 };
 pub use problem::{CalibrationProblem, Stimulus};
 pub use quantisation::{CoarseAxis, coarse_axes, coarse_axes_in};

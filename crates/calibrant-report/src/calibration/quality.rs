@@ -1,7 +1,7 @@
 //! The data and the quality of a calibration, in words.
 
 use crate::number_format;
-use calibrant_core::estimate::{Calibration, FaceTilt, Recovered};
+use calibrant_core::estimate::{Calibration, FaceTilt, Recovered, TimeOffset};
 
 /// Below this, a probability counts as evidence against the model.
 const SIGNIFICANT: f64 = 0.001;
@@ -46,6 +46,9 @@ pub fn calibration_quality(calibration: &Calibration) -> Vec<String> {
             number_format::missed_angle(calibration.rotation_rms_before_rad())
         ));
     }
+    if let Some(time) = calibration.gyroscope.as_ref().and_then(|gyroscope| gyroscope.time_offset) {
+        parts.push(format!("the time offset of the gyroscope is {}", milliseconds(&time)));
+    }
     if !calibration.turns().is_empty() && !calibration.turns_check_the_gains() {
         parts.push("the known turns determine the gains, and no data are left to check these".into());
     } else if !calibration.turns().is_empty() {
@@ -66,6 +69,12 @@ pub fn calibration_quality(calibration: &Calibration) -> Vec<String> {
     }
     parts.extend(calibration.fit.p_value.map(noise_explains));
     parts
+}
+
+/// A time offset with its standard deviation: `+11.4 ± 0.7 ms`.
+pub(super) fn milliseconds(time: &TimeOffset) -> String {
+    let sign = if time.offset_s > 0.0 { "+" } else { "" };
+    format!("{sign}{} ms", number_format::with_sd(1e3 * time.offset_s, 1e3 * time.sd_s))
 }
 
 /// How well the sensor was placed on its faces.

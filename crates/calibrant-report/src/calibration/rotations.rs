@@ -1,5 +1,6 @@
 //! Tables of the rotations between holds and of the turns of known angle.
 
+use super::quality::milliseconds;
 use crate::number_format;
 use crate::table::{Cell, Table};
 use calibrant_core::diagnostic::RotationReason;
@@ -38,6 +39,13 @@ pub(super) fn rotation_summary(calibration: &Calibration) -> String {
             "The gyroscope's noise explains the errors."
         },
     );
+    if let Some(time) = calibration.gyroscope.as_ref().and_then(|gyroscope| gyroscope.time_offset) {
+        row(
+            "time offset of the gyroscope",
+            milliseconds(&time),
+            "How much later it shows movements than the accelerometer. Holds and rotations do not depend on it; a filter that fuses both sensors does.",
+        );
+    }
     table.html()
 }
 

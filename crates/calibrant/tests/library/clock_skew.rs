@@ -2,6 +2,7 @@
 //! warning.
 
 use crate::common::draw_imu;
+use crate::common::hand::ByHand;
 use crate::common::messages;
 use calibrant::Error;
 use calibrant::estimate::{
@@ -11,6 +12,7 @@ use calibrant::estimate::{
 use calibrant::sensor::{ImuParameters, ImuRecording, Recording, Sensor, SensorModel};
 use calibrant::simulate::{ImuSimulation, Purpose, simulate_imu, stream};
 use nalgebra::Vector3;
+use rand::RngExt;
 use rayon::prelude::*;
 
 /// The words of the warning where the clocks differ.
@@ -255,4 +257,38 @@ fn clocks_too_far_apart_for_a_fit_are_told_too() {
         let reported = number(&words, "the gyroscope is about ");
         assert!((reported - lag.abs()).abs() < 0.3, "{lag}: {words}");
     });
+}
+
+/// The gyroscope is late by 12 ms. Knocks and a hand that pushes do not hide it.
+#[test]
+fn an_offset_is_in_the_result_with_its_uncertainty() {
+    let one = |(number, knocks, rate_hz): (u64, bool, f64)| {
+        let mut rng = stream(72, Purpose::Sensor, number);
+        let imu = draw_imu(&mut rng);
+        let late_s = rng.random_range(0.005..0.015);
+        let late_s = (late_s * rate_hz * 16.0).round() / (rate_hz * 16.0);
+        let setup = ByHand { gyroscope_late_s: late_s, knocks, filtered: true, rate_hz, ..ByHand::default() };
+        let found = run(&setup.record(&imu, &mut rng)).expect("determined");
+        let time = found.gyroscope.as_ref().expect("there").time_offset.expect("found");
+        let gyroscope = (0..found.values.len())
+            .filter(|&k| found.quantities[k].name().starts_with("gyroscope"))
+            .map(|k| ((found.values[k] - found.quantities[k].value(&imu)) / found.sd()[k]).powi(2));
+        let squares: f64 = gyroscope.clone().sum::<f64>() / gyroscope.count() as f64;
+        ((time.offset_s - late_s) / time.sd_s, time.sd_s, squares)
+    };
+    for knocks in [false, true] {
+        for rate_hz in [100.0, 200.0] {
+            let found: Vec<(f64, f64, f64)> =
+                (0..60).into_par_iter().map(|number| one((number, knocks, rate_hz))).collect();
+            let count = found.len() as f64;
+            let squares = found.iter().map(|(z, ..)| z * z).sum::<f64>() / count;
+            let bias = found.iter().map(|(z, ..)| z).sum::<f64>() / count;
+            let sd_s = found.iter().map(|(_, sd, _)| sd).sum::<f64>() / count;
+            let parameters = found.iter().map(|(.., of)| of).sum::<f64>() / count;
+            println!(
+                "knocks {knocks}, {rate_hz} Hz: z² {squares:.2}, mean {bias:.2}, sd {:.2} ms; parameters {parameters:.2}",
+                1e3 * sd_s
+            );
+        }
+    }
 }

@@ -101,3 +101,38 @@ fn spikes_beside_knocks_are_found() {
     }
     assert!(added > 150 && found * 10 > added * 9 && other <= 2, "{found} of {added}, {other} others");
 }
+
+/// Coverage of an IMU of low noise whose holds turn slowly.
+#[test]
+fn slow_turns_in_holds() {
+    for (noise, turn) in [(1.0, 0.0), (1.0, 3e-3), (0.1, 0.0), (0.1, 1e-3), (0.1, 3e-3), (0.1, 1e-2)] {
+        let setup = ByHand {
+            rate_hz: 200.0,
+            accelerometer_noise: 0.02 * noise,
+            gyroscope_noise: 2e-3 * noise,
+            turn_in_hold_radps: turn,
+            ..ByHand::default()
+        };
+        let found = calibrated(&setup, RECORDINGS);
+        let mut by_kind: BTreeMap<String, (f64, f64)> = BTreeMap::new();
+        for (imu, c) in &found {
+            for (k, quantity) in c.quantities.iter().enumerate() {
+                let name = quantity.name();
+                let name = format!(
+                    "{} {}",
+                    quantity.sensor_kind(),
+                    if name.contains("bias") { "bias" } else { "matrix" }
+                );
+                let z = (c.values[k] - quantity.value(imu)) / c.sd()[k];
+                let entry = by_kind.entry(name).or_default();
+                entry.0 += z * z;
+                entry.1 += 1.0;
+            }
+        }
+        println!(
+            "{noise} {turn}: {:?} {:?}",
+            by_kind.iter().map(|(name, (sum, n))| format!("{name} {:.2}", sum / n)).collect::<Vec<_>>(),
+            warned(&found)
+        );
+    }
+}

@@ -13,7 +13,7 @@
 //! `mackinnon1985`
 
 use crate::estimate::holds::median;
-use crate::estimate::imu::clock_rate::ClockRate;
+use crate::estimate::imu::clock_rate::{ClockRate, TimeOffset};
 use crate::estimate::imu::least_squares::integration::exponential;
 use crate::estimate::imu::model::{ImuModel, RotationData, State};
 use crate::sensor::{Correction, Recording, interpolated};
@@ -63,6 +63,9 @@ const LONGEST_S: f64 = 0.1;
 /// Gravity must move by this in a rotation that shows its offset, rad.
 const MOVES_RAD: f64 = 0.5;
 
+/// Nothing is compared within this time of a knock, s: the other sensor may show it earlier.
+const BESIDE_KNOCK_S: f64 = 0.03;
+
 /// Below this `∫ |A e|² dt`, in s⁻³, nothing is known of an arm. Turns about one axis alone say nothing of the arm along it.
 const NO_ARM: f64 = 0.04;
 
@@ -85,13 +88,13 @@ impl ClockDifference {
     pub(crate) fn of(model: &ImuModel<'_>, state: &State, accelerometer: &Recording) -> Option<Self> {
         let compared = |rotation| ComparedRotation::of(rotation, state, accelerometer);
         let rotations: Vec<ComparedRotation<'_>> = model.rotations.par_iter().filter_map(compared).collect();
-        let mut found: Vec<TimeOffset> =
+        let mut found: Vec<RotationOffset> =
             rotations.par_iter().filter_map(ComparedRotation::by_gravity).collect();
         for _ in 0..STEPS_BESIDE_ARM {
             let (offset_s, skew) = median_line(&found)?;
             let newton =
                 |rotation: &ComparedRotation<'_>| rotation.beside_arm(offset_s + skew * rotation.at_s);
-            let closer: Vec<TimeOffset> = rotations.par_iter().filter_map(newton).collect();
+            let closer: Vec<RotationOffset> = rotations.par_iter().filter_map(newton).collect();
             if (closer.len() as f64) < FOUND_SHARE * rotations.len() as f64 {
                 break;
             }
@@ -101,14 +104,15 @@ impl ClockDifference {
     }
 
     /// The line through lags of which some may be outliers.
-    fn through(offsets: &[TimeOffset]) -> Option<Self> {
+    fn through(offsets: &[RotationOffset]) -> Option<Self> {
         let (offset_s, skew) = median_line(offsets)?;
         let mut line =
             Self { at_s: 0.0, offset_s, offset_sd_s: 0.0, skew, skew_sd: 0.0, degrees_of_freedom: 0 };
         for _ in 0..ROUNDS {
-            let off = |offset: &TimeOffset| (offset.offset_s - line.at(offset.at_s)) * offset.weight.sqrt();
+            let off =
+                |offset: &RotationOffset| (offset.offset_s - line.at(offset.at_s)) * offset.weight.sqrt();
             let scale = 1.4826 * median(offsets.iter().map(|offset| off(offset).abs()).collect());
-            let kept: Vec<TimeOffset> =
+            let kept: Vec<RotationOffset> =
                 offsets.iter().filter(|offset| off(offset).abs() <= OUTLYING_SD * scale).copied().collect();
             if kept.len() < FEWEST || (kept.len() as f64) < AGREEING_SHARE * offsets.len() as f64 {
                 return None;
@@ -125,8 +129,8 @@ impl ClockDifference {
     /// The line of least squares; the weighted lags scatter by `scale` at least.
     ///
     /// Rotations scatter by more than their weights tell: the variances are those of equal scatter or, where these are more, those by each lag's own distance from the line (HC3).
-    fn least_squares(offsets: &[TimeOffset], scale: f64) -> Self {
-        let sum = |of: &dyn Fn(&TimeOffset) -> f64| {
+    fn least_squares(offsets: &[RotationOffset], scale: f64) -> Self {
+        let sum = |of: &dyn Fn(&RotationOffset) -> f64| {
             offsets.iter().map(|offset| offset.weight * of(offset)).sum::<f64>()
         };
         let weight = sum(&|_| 1.0);
@@ -134,10 +138,10 @@ impl ClockDifference {
         let offset_s = sum(&|offset| offset.offset_s) / weight;
         let spread = sum(&|offset| (offset.at_s - at_s).powi(2));
         let skew = sum(&|offset| (offset.at_s - at_s) * offset.offset_s) / spread;
-        let off = |offset: &TimeOffset| offset.offset_s - offset_s - skew * (offset.at_s - at_s);
+        let off = |offset: &RotationOffset| offset.offset_s - offset_s - skew * (offset.at_s - at_s);
         let degrees_of_freedom = offsets.len() - 2;
         let variance = (sum(&|offset| off(offset).powi(2)) / degrees_of_freedom as f64).max(scale * scale);
-        let own = |offset: &TimeOffset| {
+        let own = |offset: &RotationOffset| {
             let leverage = offset.weight * (1.0 / weight + (offset.at_s - at_s).powi(2) / spread);
             offset.weight * (off(offset) / (1.0 - leverage).max(0.1)).powi(2)
         };
@@ -160,6 +164,12 @@ impl ClockDifference {
         distribution.is_some_and(|of| 2.0 * of.sf((value / sd).abs()) < BY_CHANCE)
     }
 
+    /// The offset in the middle of the rotations.
+    pub(crate) fn time_offset(&self) -> TimeOffset {
+        let Self { offset_s, offset_sd_s: sd_s, degrees_of_freedom, .. } = *self;
+        TimeOffset { offset_s, sd_s, degrees_of_freedom }
+    }
+
     /// The rates of the clocks, where they are certain to differ by more than those of good ones.
     pub(crate) fn rate(&self) -> Option<ClockRate> {
         let differ = self.skew.abs() > COMMON_SKEW && self.is_certain(self.skew, self.skew_sd);
@@ -168,7 +178,7 @@ impl ClockDifference {
 }
 
 /// The lag at the time 0 and the growth that half of the lags are above, and half of their pairs; `None` of too few.
-fn median_line(offsets: &[TimeOffset]) -> Option<(f64, f64)> {
+fn median_line(offsets: &[RotationOffset]) -> Option<(f64, f64)> {
     if offsets.len() < FEWEST {
         return None;
     }
@@ -181,7 +191,7 @@ fn median_line(offsets: &[TimeOffset]) -> Option<(f64, f64)> {
 
 /// The lag of the gyroscope's times in a rotation.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct TimeOffset {
+struct RotationOffset {
     /// Middle of the rotation by the gyroscope's times, s.
     at_s: f64,
     /// How much later the gyroscope shows it, s.
@@ -236,12 +246,21 @@ impl<'a> ComparedRotation<'a> {
             return None;
         }
         let between = 1..times.len() - 1;
-        let changes: Vec<Vector3<f64>> =
-            between.clone().map(|k| propagated[k + 1] - propagated[k - 1]).collect();
+        // a knock is an acceleration of its own, and says little of the offset
+        let is_knocked = |k: usize| {
+            let near = times[k - 1] - BESIDE_KNOCK_S..times[k + 1] + BESIDE_KNOCK_S;
+            rotation.knocks.times_s.iter().any(|time_s| near.contains(time_s))
+        };
+        let change =
+            |k: usize| if is_knocked(k) { Vector3::zeros() } else { propagated[k + 1] - propagated[k - 1] };
+        let changes: Vec<Vector3<f64>> = between.clone().map(change).collect();
         let spans: Vec<f64> = between.clone().map(|k| times[k + 1] - times[k - 1]).collect();
         let arms: Vec<Matrix3<f64>> = between
             .clone()
             .map(|k| {
+                if is_knocked(k) {
+                    return Matrix3::zeros();
+                }
                 let [before, after] = [k - 1, k].map(|k| turns[k] / (times[k + 1] - times[k]));
                 let rate = (0.5 * (before + after)).cross_matrix();
                 ((after - before) * (2.0 / spans[k - 1])).cross_matrix() + rate * rate
@@ -293,26 +312,26 @@ impl<'a> ComparedRotation<'a> {
     }
 
     /// The offset by gravity alone; `None` where it is not found.
-    fn by_gravity(&self) -> Option<TimeOffset> {
+    fn by_gravity(&self) -> Option<RotationOffset> {
         let mut offset_s = 0.0;
         for _ in 0..ROUNDS {
             let more = self.missed(&self.changes, offset_s)? / self.weights[0];
             offset_s += more;
             if more.abs() < ROUGH_S {
-                return Some(TimeOffset { at_s: self.at_s, offset_s, weight: self.weights[0].sqrt() });
+                return Some(RotationOffset { at_s: self.at_s, offset_s, weight: self.weights[0].sqrt() });
             }
         }
         None
     }
 
     /// A Newton step whatever the arm is; `None` where it leads to no root nearby.
-    fn beside_arm(&self, near_s: f64) -> Option<TimeOffset> {
+    fn beside_arm(&self, near_s: f64) -> Option<RotationOffset> {
         let missed = |offset_s: f64| self.missed(&self.along_no_arm, offset_s);
         let slope = (missed(near_s + SLOPE_S)? - missed(near_s - SLOPE_S)?) / (2.0 * SLOPE_S);
         let more = -missed(near_s)? / slope;
         let leads = slope < -FALLS * self.weights[1] && more.abs() < LONGEST_S;
         let weight = -slope / self.weights[1].sqrt();
-        leads.then_some(TimeOffset { at_s: self.at_s, offset_s: near_s + more, weight })
+        leads.then_some(RotationOffset { at_s: self.at_s, offset_s: near_s + more, weight })
     }
 }
 
@@ -340,9 +359,9 @@ mod tests {
                 // one in twelve is an outlier
                 let invalid = if k % 12 == 7 { 40.0 } else { 1.0 };
                 let scatter = invalid * 0.022 / weight.sqrt() * normal();
-                TimeOffset { at_s, offset_s: latency_s + skew * at_s + scatter, weight }
+                RotationOffset { at_s, offset_s: latency_s + skew * at_s + scatter, weight }
             };
-            let offsets: Vec<TimeOffset> = (0..rotations).map(offset).collect();
+            let offsets: Vec<RotationOffset> = (0..rotations).map(offset).collect();
             let Some(found) = ClockDifference::through(&offsets) else { continue };
             words += usize::from(time_offset::of_clock(&found, &slow, &fast).is_some());
             squares += ((found.skew - skew) / found.skew_sd).powi(2) / count as f64;

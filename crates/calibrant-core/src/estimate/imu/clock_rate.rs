@@ -1,4 +1,15 @@
-//! The rates of two sensors' clocks.
+//! The times of the gyroscope beside those of the accelerometer.
+
+/// The time offset of the gyroscope, from the rotations.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TimeOffset {
+    /// How much later the gyroscope shows movements than the accelerometer, s.
+    pub offset_s: f64,
+    /// Standard deviation, s.
+    pub sd_s: f64,
+    /// Degrees of freedom of it.
+    pub degrees_of_freedom: usize,
+}
 
 /// The gyroscope's clock beside the accelerometer's, where they go at different rates.
 #[derive(Debug, Clone, Copy, PartialEq)]

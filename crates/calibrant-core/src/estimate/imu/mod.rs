@@ -40,7 +40,7 @@ mod white_noise_search;
 
 pub use calibrate::{calibrate_imu, calibrate_imu_with};
 pub use checks::swapped_sensors::swapped_sensors;
-pub use clock_rate::ClockRate;
+pub use clock_rate::{ClockRate, TimeOffset};
 pub use problem::{Gyroscope, ImuProblem, ImuSetup, KnownTerm, NoiseSource, ThermalModel, Turn, WhiteNoise};
 pub(super) use propagated_gravity::{GravityPropagation, GyroscopeAtRest, PropagatedGravity, StationaryMean};
 pub(super) use recordings::recordings;

@@ -5,6 +5,7 @@
 
 use crate::error::{Error, InputError, Refusal};
 use crate::estimate::imu::earth_rate::EarthRate;
+use crate::estimate::imu::rotations::knocks::Knocks;
 use crate::estimate::quantisation::{CoarseAxis, of_means};
 use crate::estimate::result::CalibrationStatus;
 use crate::estimate::tangent_plane::tangents;
@@ -23,8 +24,6 @@ pub(crate) struct Samples<'a> {
     pub(crate) forces: Option<&'a [Vector3<f64>]>,
     /// The bias in the holds before and after. In between it is linear in time.
     pub(crate) drift: [LocalBias; 2],
-    /// `Σ h² d dᵀ` of the fourth differences `d` at knocks, in the unit of the readings times s, squared.
-    pub(crate) knocks: Matrix3<f64>,
 }
 
 /// The bias at one end of a rotation: `b + share ∘ (mean − b − Γ f − S ω)`.
@@ -132,6 +131,7 @@ pub(crate) struct RotationData<'a> {
     /// Place among the holds of the one it begins with.
     pub(crate) from: usize,
     pub(crate) samples: Samples<'a>,
+    pub(crate) knocks: Knocks,
     /// Can it be integrated?
     pub(crate) used: bool,
     /// Is it used, or an outlier?

@@ -1,7 +1,7 @@
 //! The results of a gyroscope, in addition to its parameters.
 
 use crate::diagnostic::RotationReason;
-use crate::estimate::imu::clock_rate::ClockRate;
+use crate::estimate::imu::clock_rate::{ClockRate, TimeOffset};
 use crate::estimate::imu::problem::NoiseSource;
 use crate::estimate::uncalibrated::Uncalibrated;
 use crate::sensor::ReadingUnit;
@@ -24,6 +24,8 @@ pub struct GyroscopeCalibration {
     pub knock_factor: f64,
     /// The turns of known angle.
     pub turns: Vec<TurnResult>,
+    /// The time offset of the gyroscope, if the rotations determine it.
+    pub time_offset: Option<TimeOffset>,
     /// The rates of the sensors' clocks, if the rotations show a difference.
     pub clocks: Option<ClockRate>,
     /// Geographic latitude, degrees, if the Earth's rate about the vertical is part of the model.

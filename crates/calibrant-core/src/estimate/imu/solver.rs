@@ -108,7 +108,7 @@ fn stages(
         model: &model,
         solution: &solution,
         uncertainty,
-        clock: clock.as_ref().and_then(ClockDifference::rate),
+        clock,
         changes,
     }
     .assemble()?;

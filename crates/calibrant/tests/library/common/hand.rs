@@ -90,7 +90,7 @@ impl ByHand {
             let axis = direction(rng);
             let wobble = axis.cross(&direction(rng)) * 0.4;
             let angle = rng.random_range(1.0..3.0);
-            let push = [direction(rng) * 3.0, direction(rng) * 2.0];
+            let push = [direction(rng) * 1.0, direction(rng) * 1.0];
             // a knock is over when the hold begins
             let length_s = rng.random_range(0.005..0.03);
             let start_s = turn_s - rng.random_range(length_s..0.2);

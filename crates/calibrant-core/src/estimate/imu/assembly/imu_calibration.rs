@@ -7,7 +7,7 @@ use crate::estimate::imu::assembly::gyroscope_before::{gyroscope_before, with_pl
 use crate::estimate::imu::assembly::holds::hold_results;
 use crate::estimate::imu::assembly::rotations::rotation_results;
 use crate::estimate::imu::assembly::stationary::stationary_result;
-use crate::estimate::imu::clock_rate::ClockRate;
+use crate::estimate::imu::clock::ClockDifference;
 use crate::estimate::imu::covariance::Uncertainty;
 use crate::estimate::imu::initial::accelerometer::InitialAccelerometer;
 use crate::estimate::imu::model::{ImuModel, TurnData, singular};
@@ -34,7 +34,7 @@ pub(crate) struct Finished<'a> {
     pub(crate) model: &'a ImuModel<'a>,
     pub(crate) solution: &'a Solution,
     pub(crate) uncertainty: Uncertainty,
-    pub(crate) clock: Option<ClockRate>,
+    pub(crate) clock: Option<ClockDifference>,
     /// Changes of the sensors.
     pub(crate) changes: Vec<Change>,
 }
@@ -82,7 +82,8 @@ impl Finished<'_> {
                 between_rotations_sd_rad: model.rotation_scatter.between_sd_rad,
                 knock_factor: model.rotation_scatter.knock_factor,
                 turns: turn_results(model, &problem.setup.turns, &imu)?,
-                clocks: self.clock,
+                time_offset: self.clock.map(|clock| clock.time_offset()),
+                clocks: self.clock.and_then(|clock| clock.rate()),
                 latitude_deg: problem.setup.latitude_deg,
                 of_vertical: uncertainty.of_vertical,
                 north_rms_radps: uncertainty.north_rms_radps,

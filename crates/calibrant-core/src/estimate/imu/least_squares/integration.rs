@@ -273,7 +273,6 @@ mod tests {
                 readings: &self.readings,
                 forces: Some(&self.forces),
                 drift: [LocalBias::none(25.0); 2],
-                knocks: Matrix3::zeros(),
             }
         }
     }

@@ -28,7 +28,8 @@ impl ImuModel<'_> {
         let of_steps =
             by_reading * Matrix3::from_diagonal(&self.gyroscope_noise.of_mean) * by_reading.transpose();
         // a knock's attitude is not known well enough for the direction of its error
-        let of_knocks = (rotation.correction * data.samples.knocks * rotation.correction.transpose()).trace();
+        let of_knocks =
+            (rotation.correction * data.knocks.covariance * rotation.correction.transpose()).trace();
         Some(GravityResidual {
             error: arc.error,
             by_from: arc.by_missing * back * tangents(&before),

@@ -12,23 +12,38 @@ const STANDS_OUT: f64 = 5.0;
 /// Five samples have no fourth difference where one between them is missing: their time is this many usual steps at least.
 const WITH_A_GAP: f64 = 4.5;
 
-/// `Σ h² d dᵀ` of the fourth differences `d` that stand out, with the sample step `h`.
-pub(crate) fn sampled_knocks(times_s: &[f64], readings: &[Vector3<f64>]) -> Matrix3<f64> {
-    covariance(times_s, readings).unwrap_or_else(Matrix3::zeros)
+/// The knocks of a rotation.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Knocks {
+    /// `Σ h² d dᵀ` of the fourth differences `d` at knocks with the sample step `h`, in the unit of the readings times s, squared.
+    pub(crate) covariance: Matrix3<f64>,
+    /// Their times, s.
+    pub(crate) times_s: Vec<f64>,
 }
 
-fn covariance(times_s: &[f64], readings: &[Vector3<f64>]) -> Option<Matrix3<f64>> {
-    let span = |[from, .., to]: &[f64; 5]| to - from;
-    let usual_s = quantile(times_s.array_windows().map(span).collect(), 0.5)?;
-    let step_s = 0.25 * usual_s;
-    let fourth = |[a, b, c, d, e]: &[Vector3<f64>; 5]| (a + e - (b + d) * 4.0 + c * 6.0) / 16.0;
-    let is_whole = |times: &[f64; 5]| span(times) < WITH_A_GAP * step_s;
-    let windows = times_s.array_windows().zip(readings.array_windows());
-    let differences: Vec<Vector3<f64>> =
-        windows.filter(|(times, _)| is_whole(times)).map(|(_, readings)| fourth(readings)).collect();
-    let least = STANDS_OUT * quantile(differences.iter().map(Vector3::norm).collect(), 0.9)?;
-    let knocks = differences.iter().filter(|difference| difference.norm() > least);
-    Some(knocks.map(|difference| difference * difference.transpose()).sum::<Matrix3<f64>>() * step_s.powi(2))
+impl Knocks {
+    /// The fourth differences that stand out.
+    pub(crate) fn of(times_s: &[f64], readings: &[Vector3<f64>]) -> Self {
+        Self::search(times_s, readings).unwrap_or_default()
+    }
+
+    fn search(times_s: &[f64], readings: &[Vector3<f64>]) -> Option<Self> {
+        let span = |[from, .., to]: &[f64; 5]| to - from;
+        let step_s = 0.25 * quantile(times_s.array_windows().map(span).collect(), 0.5)?;
+        let fourth = |[a, b, c, d, e]: &[Vector3<f64>; 5]| (a + e - (b + d) * 4.0 + c * 6.0) / 16.0;
+        let is_whole = |times: &[f64; 5]| span(times) < WITH_A_GAP * step_s;
+        let windows = times_s.array_windows().zip(readings.array_windows());
+        let whole = windows.filter(|(times, _)| is_whole(times));
+        let differences: Vec<(f64, Vector3<f64>)> =
+            whole.map(|(times, readings)| (times[2], fourth(readings))).collect();
+        let least = STANDS_OUT * quantile(differences.iter().map(|(_, d)| d.norm()).collect(), 0.9)?;
+        let mut knocks = Self::default();
+        for (time_s, difference) in differences.iter().filter(|(_, difference)| difference.norm() > least) {
+            knocks.covariance += difference * difference.transpose() * step_s.powi(2);
+            knocks.times_s.push(*time_s);
+        }
+        Some(knocks)
+    }
 }
 
 /// The value that this share of all is below; `None` of none.

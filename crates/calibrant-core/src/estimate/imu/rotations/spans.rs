@@ -2,7 +2,7 @@
 
 use crate::diagnostic::RotationReason;
 use crate::estimate::imu::model::{HoldData, LocalBias, RotationData, Samples};
-use crate::estimate::imu::rotations::knocks::sampled_knocks;
+use crate::estimate::imu::rotations::knocks::Knocks;
 use crate::motion::Hold;
 use crate::sensor::{Recording, Saturation, SensorKind};
 use nalgebra::Vector3;
@@ -81,12 +81,12 @@ impl<'a> Integrable<'a> {
                 times_s: &self.gyroscope.times_s[span.samples.clone()],
                 readings: &self.gyroscope.readings[span.samples.clone()],
                 forces: felt.map(|felt| &felt[span.samples.clone()]),
-                knocks: sampled_knocks(
-                    &self.gyroscope.times_s[span.samples.clone()],
-                    &self.gyroscope.readings[span.samples.clone()],
-                ),
                 drift: [from, from + 1].map(|hold| LocalBias::none(holds[hold].temperature_c)),
             },
+            knocks: Knocks::of(
+                &self.gyroscope.times_s[span.samples.clone()],
+                &self.gyroscope.readings[span.samples.clone()],
+            ),
             used: self.obstacle(span).is_none(),
             counts: true,
         };
