@@ -101,7 +101,7 @@ impl ByHand {
             });
             for k in 0..turn {
                 let (t, x) = (k as f64 * fine_s, std::f64::consts::TAU * k as f64 / turn as f64);
-                let bell = 1.0 - x.cos();
+                let bell = (1.0 - x.cos()).powi(2) * 2.0 / 3.0;
                 let mut rate = (axis * bell + wobble * ((2.0 * x).sin() * bell)) * (angle / turn_s);
                 let mut pushed = (push[0] * x.sin() + push[1] * (3.0 * x).sin()) * (0.5 * bell);
                 if self.knocks {
