@@ -64,7 +64,7 @@ pub use earlier_calibration::{EarlierCalibration, parse_calibration, read_calibr
 pub use evaluation::{evaluation_json, write_evaluation};
 pub use experiment::{
     CalibrateOptions, CriterionLetter, DesignOptions, Experiment, HoldsPlan, ImuPlan, MotionPlan,
-    NoisyVariant, Plan, Prior, ScaleBy, StudyOptions, UnknownVariant, read_columns,
+    NoisyVariant, Plan, Prior, ScaleBy, StudyOptions, UnknownVariant, nearest, read_columns,
 };
 pub use experiment_presets::{PRESETS, preset};
 pub use ferraris_sections::{Section, SectionKind, parse_sections, read_sections};
