@@ -6,14 +6,15 @@ use super::file_layout::Draft;
 use super::format::FileFormat;
 use super::options::{AccelerometerOnly, ImuReadOptions};
 use super::text_header::Head;
+use super::unit::{ColumnUnit, TimeUnit};
 use super::{column_names, imu_tk};
 use crate::recording::reader_finding::{Finding, Noticed};
 use crate::text_decoding::Checked;
 use calibrant_core::error::{InputError, Refusal};
 use calibrant_core::sensor::{Axis, SensorKind};
 
-/// The layout of a plain text of one accelerometer, `t_s,ax,ay,az`, or `t x y z` without a header. `None` for
-/// any other file, and where `[columns]` names the columns.
+/// The layout of a plain text of one accelerometer: a time and `ax,ay,az`, or `t x y z` without a header. `None`
+/// for any other file, and where `[columns]` names the columns.
 pub(super) fn plain(head: &Head<'_>, format: FileFormat, options: &ImuReadOptions) -> Checked<Option<Draft>> {
     let Some(only) = options.accelerometer_only.filter(|_| options.columns.is_empty()) else {
         return Ok(None);
@@ -22,14 +23,17 @@ pub(super) fn plain(head: &Head<'_>, format: FileFormat, options: &ImuReadOption
         (FileFormat::Csv | FileFormat::ImuTk, true) => {
             imu_tk::in_order(head, SensorKind::Accelerometer, only.axes)?
         }
-        (FileFormat::Csv, false) => head.names.iter().map(|name| column(name)).collect(),
+        (FileFormat::Csv, false) => named(head),
         _ => return Ok(None),
     };
-    let is_time = |column: &ImuColumn| column.meaning == ColumnMeaning::Time;
     if !columns.iter().any(is_time) || columns.iter().all(|column| axis(column).is_none()) {
         return Ok(None);
     }
     for column in &mut columns {
+        // names in a comment are no header: without a unit the times are those of `t x y z`
+        if is_time(column) && head.first_row.is_some() && options.time_unit.is_none() {
+            column.unit = column.unit.or(Some(ColumnUnit::Time(TimeUnit::Second)));
+        }
         if axis(column).is_some_and(|axis| axis.index() >= only.axes) {
             column.unused = Some("the sensor has fewer axes".into());
         }
@@ -37,12 +41,24 @@ pub(super) fn plain(head: &Head<'_>, format: FileFormat, options: &ImuReadOption
     Ok(Some(Draft { plain: Some(only), ..Draft::new(format, columns) }))
 }
 
-/// A column of a plain text with a header. Only those of the time and of the axes are looked at.
-fn column(name: &str) -> ImuColumn {
-    match name.eq_ignore_ascii_case("t_s") || column_names::is_plain_axis(name) {
-        true => column_names::column(name),
-        false => ImuColumn::new(name, ColumnMeaning::Other, None),
-    }
+/// The columns of a text with names. Only those of the time and of the axes are looked at, and of times only
+/// `t_s` where it is there.
+fn named(head: &Head<'_>) -> Vec<ImuColumn> {
+    let is_plain_time = |name: &&str| name.eq_ignore_ascii_case("t_s");
+    let has_plain_time = head.names.iter().any(is_plain_time);
+    let column = |name: &&str| {
+        let column = column_names::column(name);
+        let is_needed = match is_time(&column) {
+            true => is_plain_time(name) || !has_plain_time,
+            false => column_names::is_plain_axis(name),
+        };
+        if is_needed { column } else { ImuColumn::new(name, ColumnMeaning::Other, None) }
+    };
+    head.names.iter().map(column).collect()
+}
+
+fn is_time(column: &ImuColumn) -> bool {
+    column.meaning == ColumnMeaning::Time
 }
 
 fn axis(column: &ImuColumn) -> Option<Axis> {

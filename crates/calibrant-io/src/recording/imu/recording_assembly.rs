@@ -196,18 +196,10 @@ fn increasing(
             kept.dropped.push(row);
             continue;
         }
-        let held =
-            [0, 1].map(|k| sensor_kinds.get(k).is_some_and(|&sensor_kind| samples.holds(sensor_kind, row)));
-        let is_empty = !held.contains(&true);
-        if is_empty && samples.temperatures.get(row).is_some_and(|value| value.is_finite()) {
-            continue; // a row of the thermometer
-        }
         let (mut is_new, mut repeated) = (false, None);
-        for (before, held) in last.iter_mut().zip(held) {
-            if !(held || is_empty) {
-                continue;
-            }
+        for (before, &sensor_kind) in last.iter_mut().zip(sensor_kinds) {
             match *before {
+                _ if samples.sensor(sensor_kind)[row].iter().any(|value| value.is_nan()) => (),
                 Some(other) if t < times[other] => {
                     return Err(at(backwards(times[other], t), samples, row).into());
                 }

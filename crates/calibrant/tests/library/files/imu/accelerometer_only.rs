@@ -73,6 +73,31 @@ fn columns_of_other_names_are_read_once_their_units_are_known() {
 }
 
 #[test]
+fn a_comment_may_name_the_columns_of_a_plain_text() {
+    let in_comment = |names: &str| {
+        let text = format!("# comment\n# {names}\n0.00 0 0 1\n0.01 0 0 2\n");
+        let recording = recording(&text, &options(3));
+        (recording.times_s[1], recording.readings[0].z)
+    };
+    assert_eq!(in_comment("time ax ay az"), (0.01, 1.0), "seconds, as without a name");
+    assert_eq!(in_comment("t_ms ax_g ay_g az_g"), (1e-5, 9.80665), "a unit that is stated counts");
+}
+
+#[test]
+fn a_row_without_a_value_does_not_replace_the_next_of_its_time() {
+    let text = "t_s,ax,ay,az\n0,1,2,3\n1,,9,9\n1,2,3,4\n2,3,4,5\n";
+    assert_eq!(recording(text, &options(3)).readings[1].as_slice(), [2.0, 3.0, 4.0]);
+}
+
+#[test]
+fn times_of_a_plain_text_may_have_another_unit() {
+    let text = "t_ms,ax,ay,az\n0,1,2,9\n10,1,2,9.1\n";
+    assert_eq!(recording(text, &options(3)).times_s, [0.0, 0.01]);
+    let both = "t_s,timestamp_ms,ax,ay,az\n0,7,1,2,9\n0.01,8,1,2,9.1\n";
+    assert_eq!(recording(both, &options(3)).times_s, [0.0, 0.01]);
+}
+
+#[test]
 fn a_unit_that_the_experiment_does_not_expect_is_a_finding() {
     let text = "#timestamp [ns],w_RS_S_x [rad s^-1],w_RS_S_y [rad s^-1],w_RS_S_z [rad s^-1],a_RS_S_x [m s^-2],a_RS_S_y [m s^-2],a_RS_S_z [m s^-2]\n\
                 0,5,6,7,1,2,9\n10000000,5,6,8,1,2,9.1\n";
