@@ -2,11 +2,9 @@
 
 use crate::{Exit, console};
 use calibrant::diagnostic::{Code, Diagnostic, Severity};
+use calibrant::io::nearest;
 use calibrant::pipeline::Note;
 use calibrant::report::message;
-
-/// Least similarity of a name that is suggested.
-const SIMILAR: f64 = 0.8;
 
 /// The diagnostics that the user denies and allows.
 #[derive(clap::Args)]
@@ -84,14 +82,8 @@ fn denied(text: &str) -> Result<Denied, String> {
 }
 
 fn code(text: &str) -> Result<Code, String> {
-    Code::parse(text).ok_or_else(|| {
-        let names = Code::ALL.iter().map(|code| code.name());
-        let nearest = names
-            .map(|name| (strsim::jaro_winkler(name, text), name))
-            .max_by(|one, other| one.0.total_cmp(&other.0));
-        match nearest.filter(|(similarity, _)| *similarity >= SIMILAR) {
-            Some((_, name)) => format!("there is no such code; did you mean `{name}`?"),
-            None => "there is no such code; docs/diagnostics.md lists them".into(),
-        }
+    Code::parse(text).ok_or_else(|| match nearest(text, Code::ALL.iter().map(|code| code.name())) {
+        Some(name) => format!("there is no such code; did you mean `{name}`?"),
+        None => "there is no such code; docs/diagnostics.md lists them".into(),
     })
 }

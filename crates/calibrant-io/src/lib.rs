@@ -3,8 +3,7 @@
 //! | file | in | out |
 //! |---|---|---|
 //! | experiment (TOML) | [`Experiment::read`] | [`preset()`], [`PRESETS`] |
-//! | `recording.csv` and other recordings | [`read_recording`] | [`write_recording`] |
-//! | recordings of a whole IMU, in many formats | [`read_imu_recording`], [`read_imu_pair`] | [`inspection_json`] |
+//! | `recording.csv` and other recordings, in many formats | [`read_imu_recording`], [`read_imu_pair`] | [`write_recording`], [`inspection_json`] |
 //! | `motion.csv` | [`read_motion`] | [`write_motion`] |
 //! | `calibration.json` | [`read_calibrated_imu`]; [`read_calibration`], as what is known before a design | [`write_calibration`] |
 //! | calibrations, ours and of other programs | [`read_calibrated_imu`] | [`write_calibrated_imu`] |
@@ -65,7 +64,7 @@ pub use earlier_calibration::{EarlierCalibration, parse_calibration, read_calibr
 pub use evaluation::{evaluation_json, write_evaluation};
 pub use experiment::{
     CalibrateOptions, CriterionLetter, DesignOptions, Experiment, HoldsPlan, ImuPlan, MotionPlan,
-    NoisyVariant, Plan, Prior, ScaleBy, StudyOptions, UnknownVariant, read_columns,
+    NoisyVariant, Plan, Prior, ScaleBy, StudyOptions, UnknownVariant, nearest, read_columns,
 };
 pub use experiment_presets::{PRESETS, preset};
 pub use ferraris_sections::{Section, SectionKind, parse_sections, read_sections};
@@ -74,10 +73,9 @@ pub use inspection::{HoldsInspection, Inspection, SensorInspection, inspect, ins
 pub use motion::{parse_motion, read_motion, write_motion};
 pub use noise::{NoiseLine, noise_json, noise_line, write_noise};
 pub use recording::{
-    ColumnMapping, ColumnMeaning, ColumnUnit, FileFormat, Finding, ImuColumn, ImuFile, ImuReadOptions,
-    ImuUnit, Noticed, ReadOptions, RecordingFile, SecondFile, TimeUnit, parse_imu_pair, parse_imu_recording,
-    parse_recording, read_accelerometer, read_imu_pair, read_imu_recording, read_imu_sensor, read_recording,
-    write_imu_recording, write_recording,
+    AccelerometerOnly, ColumnMapping, ColumnMeaning, ColumnUnit, FileFormat, Finding, ImuColumn, ImuFile,
+    ImuReadOptions, ImuUnit, Noticed, SecondFile, TimeUnit, parse_imu_pair, parse_imu_recording,
+    read_imu_pair, read_imu_recording, read_imu_sensor, write_imu_recording, write_recording,
 };
 pub use study::{study_json, write_study};
 pub use summary::{Failure, Summary, SummaryRow, calibrations_json, write_summary};

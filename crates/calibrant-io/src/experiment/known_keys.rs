@@ -170,7 +170,8 @@ pub(super) fn suggest(section: &str, unknown: &str) -> String {
 }
 
 /// The word most like this one, if any is.
-pub(super) fn nearest<'w>(unknown: &str, words: impl Iterator<Item = &'w str>) -> Option<&'w str> {
+#[must_use]
+pub fn nearest<'w>(unknown: &str, words: impl Iterator<Item = &'w str>) -> Option<&'w str> {
     const ALIKE: f64 = 0.75; // least Jaro–Winkler similarity: 1 is equal, 0 nothing in common
     let unknown = shorten(unknown).to_lowercase();
     words

@@ -28,6 +28,7 @@ pub use calibrate::{CalibrateOptions, Prior};
 pub use design::{CriterionLetter, DesignOptions, ScaleBy};
 pub use gyroscope::ImuPlan;
 pub use holds::HoldsPlan;
+pub use known_keys::nearest;
 pub use motion::MotionPlan;
 pub use plan::Plan;
 pub use read::{Experiment, read_columns};

@@ -57,9 +57,6 @@ impl Noticed {
             Self::ColumnsIgnored(names) => {
                 format!("ignored column{} {}", if names.len() == 1 { "" } else { "s" }, list(names, 8))
             }
-            Self::UnnamedColumnsIgnored(first, last) => {
-                format!("columns {first} to {last} are ignored: there is no header that names them")
-            }
             Self::OtherSensorIgnored(other, names) => format!(
                 "its own columns of the {other}, {}, are left aside: the {other} is that of the other file",
                 names.join(", ")

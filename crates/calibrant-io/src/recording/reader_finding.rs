@@ -22,8 +22,6 @@ pub struct Finding {
 pub enum Noticed {
     /// Columns of these names are not needed.
     ColumnsIgnored(Vec<String>),
-    /// Columns from this number to that are not needed, and have no names.
-    UnnamedColumnsIgnored(usize, usize),
     /// A file of one sensor of a pair has columns of the other, too.
     OtherSensorIgnored(SensorKind, Vec<String>),
     /// The header's unit is not the experiment's.
@@ -203,9 +201,7 @@ impl Finding {
 impl Noticed {
     fn code(&self) -> Code {
         match self {
-            Self::ColumnsIgnored(_) | Self::UnnamedColumnsIgnored(..) | Self::OtherSensorIgnored(..) => {
-                Code::ColumnsIgnored
-            }
+            Self::ColumnsIgnored(_) | Self::OtherSensorIgnored(..) => Code::ColumnsIgnored,
             Self::UnitUnexpected { .. } => Code::UnitUnexpected,
             Self::TimesMissing(_) | Self::ReadingsMissing(_) | Self::ValuesMissing(_) => Code::ValuesMissing,
             Self::RowsRepeated(_) => Code::RowsRepeated,

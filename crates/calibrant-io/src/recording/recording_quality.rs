@@ -1,8 +1,8 @@
 //! The quality of a recording as a whole: gaps, irregular sampling, axes that are not connected, clipped
 //! readings.
 
+use super::line_map::LineMap;
 use super::reader_finding::{Finding, Noticed};
-use super::row_reader::LineMap;
 use calibrant_core::sensor::{Axis, Recording, SensorKind, greater, lesser, missing};
 use nalgebra::Vector3;
 
@@ -16,12 +16,6 @@ const JITTER: f64 = 0.01;
 const SLOW_HZ: f64 = 2.5;
 /// Rates from here on are usual.
 const USUAL_HZ: f64 = 5.0;
-
-/// Examines a recording of at least two samples.
-pub(super) fn examine(recording: &Recording, lines: &LineMap, findings: &mut Vec<Finding>) {
-    sampling(recording, recording.rate_hz(), lines, findings);
-    readings(recording, None, lines, findings);
-}
 
 /// Looks for axes that are not connected or clipped. `sensor_kind` is given where there are two sensors.
 pub(super) fn readings(

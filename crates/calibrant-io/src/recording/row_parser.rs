@@ -111,11 +111,6 @@ impl<'l> RowReader<'l> {
         self.last_is_cut = last_number_is_cut(text, self.layout.delimiter);
     }
 
-    /// Number of rows, dropped ones included.
-    pub(super) fn rows(&self) -> usize {
-        self.rows
-    }
-
     /// Reads the values of a line, each into its slot: NaN where one is missing or has no column. Returns
     /// `false` where the line is empty or was cut off.
     pub(super) fn read<const N: usize>(&mut self, line: Line<'_>, values: &mut [f64; N]) -> Checked<bool> {

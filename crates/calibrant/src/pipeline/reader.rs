@@ -5,12 +5,13 @@ use super::read_imu::ImuReader;
 use super::recorded::Recorded;
 use super::source::Source;
 use calibrant_core::error::Result;
-use calibrant_io::{Experiment, ImuReadOptions, ReadOptions};
+use calibrant_core::sensor::ReadingUnit;
+use calibrant_io::{Experiment, ImuReadOptions, ImuUnit};
 
 /// How the recordings are read.
 pub(crate) enum Reader<'e> {
-    /// Those of an accelerometer alone, in their own format or among the columns of a device.
-    Accelerometer(ReadOptions, Box<ImuReadOptions>),
+    /// Those of an accelerometer alone, in a file of its own or among the columns of a device.
+    Accelerometer(Box<ImuReadOptions>),
     /// Those of an IMU.
     Imu(Box<ImuReader<'e>>),
 }
@@ -19,21 +20,23 @@ impl<'e> Reader<'e> {
     pub(crate) fn of(experiment: &'e Experiment, options: &PipelineOptions) -> Self {
         match &experiment.imu {
             Some(plan) => Self::Imu(Box::new(ImuReader::new(experiment, plan, options))),
-            None => Self::Accelerometer(
-                ReadOptions {
-                    unit: options.unit,
-                    expected_unit: experiment.sensor.unit,
-                    axes: experiment.sensor.axes,
-                },
-                Box::new(options.reading.clone().or(experiment.columns.clone())),
-            ),
+            None => {
+                let sensor = &experiment.sensor;
+                let given = ImuReadOptions {
+                    accelerometer_unit: options.unit.map(ImuUnit::from),
+                    counts_unless_stated: [sensor.unit == ReadingUnit::Counts, false],
+                    ..ImuReadOptions::accelerometer(sensor.axes, sensor.unit)
+                };
+                let given = given.or(options.reading.clone()).or(experiment.columns.clone());
+                Self::Accelerometer(Box::new(given))
+            }
         }
     }
 
     /// Reads the recording to calibrate from.
     pub(crate) fn read(&self, source: &Source) -> Result<Recorded> {
         match self {
-            Self::Accelerometer(read, device) => Recorded::accelerometer_from(source, read, device),
+            Self::Accelerometer(options) => Recorded::accelerometer_from(source, options),
             Self::Imu(reader) => reader.read(source),
         }
     }

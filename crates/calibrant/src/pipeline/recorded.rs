@@ -4,10 +4,7 @@ use super::duplicates::Readings;
 use super::source::Source;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::sensor::{ImuRecording, Recording, SensorKind};
-use calibrant_io::{
-    FileFormat, Finding, ImuFile, ImuReadOptions, Input, ReadOptions, read_accelerometer, read_imu_pair,
-    read_imu_recording,
-};
+use calibrant_io::{FileFormat, Finding, ImuFile, ImuReadOptions, Input, read_imu_pair, read_imu_recording};
 
 /// The samples of one sensor or of both, and where they come from.
 pub(crate) struct Recorded {
@@ -22,18 +19,9 @@ pub(crate) struct Recorded {
 
 impl Recorded {
     /// Reads an accelerometer alone.
-    pub(crate) fn accelerometer_from(
-        source: &Source,
-        options: &ReadOptions,
-        device: &ImuReadOptions,
-    ) -> Result<Self> {
-        let file = read_accelerometer(&source.recording, options, device)?;
-        Ok(Self {
-            recording: file.recording.into(),
-            format: None,
-            findings: file.findings,
-            sha256: vec![file.sha256],
-        })
+    pub(crate) fn accelerometer_from(source: &Source, options: &ImuReadOptions) -> Result<Self> {
+        let ImuFile { recording, findings, sha256, .. } = read_imu_recording(&source.recording, options)?;
+        Ok(Self { recording, format: None, findings, sha256 })
     }
 
     /// Reads an IMU from its file or its two files.

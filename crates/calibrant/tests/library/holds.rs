@@ -1,12 +1,11 @@
 //! Tests of static multi-position calibration: against another program on a real recording, and on difficult
 //! recordings.
 
-use crate::common::messages;
+use crate::common::{messages, read_accelerometer, shared_data};
 use calibrant::estimate::{
     Calibration, CalibrationProblem, CalibrationSettings, CalibrationStatus, HoldCalibration, HoldsSetup,
     Recovered, Stimulus, calibrate, find_holds,
 };
-use calibrant::io::{ReadOptions, read_recording};
 use calibrant::motion::Gravity;
 use calibrant::sensor::{Correction, Gauge, ReadingUnit, Recording, Sensor, SensorModel, SensorParameters};
 use calibrant::simulate::{HoldsSimulation, Purpose, draw_sensor, simulate_holds, stream};
@@ -55,9 +54,8 @@ fn holds(calibration: &Calibration) -> &HoldCalibration {
 /// imu_tk 2016 on the same file (raw counts, g = 9.81744): gains 1/K, biases, T.
 #[test]
 fn xsens_mti_agrees_with_imu_tk_within_two_standard_deviations() {
-    let Some(path) = crate::common::shared_data("xsens-mti-static/xsens_acc.mat") else { return };
-    let options = ReadOptions { unit: None, expected_unit: ReadingUnit::Counts, axes: 3 };
-    let recording = read_recording(&path, &options).expect("readable").recording;
+    let Some(path) = shared_data("xsens-mti-static/xsens_acc.mat") else { return };
+    let recording = read_accelerometer(&path, 3, ReadingUnit::Counts);
     let sensor =
         Sensor { unit: ReadingUnit::Counts, gain: None, offset: None, ..Sensor::triaxial(SensorModel::Full) };
     let setup =
@@ -412,9 +410,8 @@ fn six_faces_do_not_determine_cross_axis_terms() {
 
 #[test]
 fn a_gyroscope_is_not_calibrated_as_an_accelerometer() {
-    let Some(path) = crate::common::shared_data("xsens-mti-static/xsens_gyro.mat") else { return };
-    let options = ReadOptions { unit: None, expected_unit: ReadingUnit::Counts, axes: 3 };
-    let recording = read_recording(&path, &options).expect("readable").recording;
+    let Some(path) = shared_data("xsens-mti-static/xsens_gyro.mat") else { return };
+    let recording = read_accelerometer(&path, 3, ReadingUnit::Counts);
     let sensor =
         Sensor { unit: ReadingUnit::Counts, gain: None, offset: None, ..Sensor::triaxial(SensorModel::Full) };
     let error = run(&sensor, &recording, &HoldsSetup::default()).expect_err("no gravity in there");

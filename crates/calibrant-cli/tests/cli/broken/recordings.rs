@@ -4,11 +4,11 @@ use super::{CALIBRATE, bench};
 
 /// The bytes of a recording and the message about it.
 const CASES: &[(&[u8], &str)] = &[
-    (b"", ": the file is empty (a recording has a header t_s,ax,ay,az and a row for each sample)"),
+    (b"", ": the file is empty (a recording has a header, such as t_s,ax_mps2,"),
     (b"\n\n  \n", ": the file is empty"),
     (b"# only a comment\n", ": the file has only comments"),
     (b"t_s,ax,ay,az\n", ":1: there is a header but no sample below it"),
-    (b"t_s,ax,ay,az\n0,1,2,3\n", ":2: only 1 usable sample in 1 row"),
+    (b"t_s,ax,ay,az\n0,1,2,3\n", ":2: only 1 usable sample of the accelerometer in 1 row"),
     (b"\x7fELF\x02\x01\x01\0\0\0", ": this is binary data, not text: NUL byte at offset 7"),
     (b"PK\x03\x04\x14\0\0\0", ": this file is compressed with zip (unpack it first: unzip FILE; a workbook"),
     (b"\x1f\x8b\x08\0\0\0\0\0", ": this file is compressed with gzip (unpack it first: gunzip FILE)"),
@@ -24,11 +24,14 @@ const CASES: &[(&[u8], &str)] = &[
     (b"t_s,ax,ay,az\n0,1,2,3\r1,1,2,3\r2,1,2,3\r", ":2: 2 line ends are a lone CR, as on an old Mac"),
     (b"\xff\xfet\0_\0s\0", ": the text is encoded in UTF-16"),
     (b"t_s,ax,ay,az\n0,1,2,3\n\xfc,1,2,3\n", ":3: not UTF-8 text: byte 0xfc"),
-    (b"t_s,ax,ay,az\n0,nan,2,3\n1,nan,2,3\n", ":3: only 0 usable samples in 2 rows"),
+    (
+        b"t_s,ax,ay,az\n0,nan,2,3\n1,nan,2,3\n",
+        ": the columns of the accelerometer are empty (were they recorded, and exported?)",
+    ),
     (b"t_s,ax,ay,az\n0,1,2,3\n1,1e300,2,3\n2,1,2,3\n", ":3:3: \"1e300\" in column `ax` is out of range"),
     (b"t_s,ax,ay,az\n0,1,2,3\n1,1,-inf,3\n2,1,2,3\n", ":3:5: \"-inf\" in column `ay` is out of range"),
     (b"t_s,ax,ay,az\n1e300,1,2,3\n2e300,1,2,3\n", ":2:1: \"1e300\" in column `t_s` is out of range"),
-    (b"t_s,ax,ay,az\n0,1,2,3\n0,1,2,3\n0,1,2,3\n", ":4: only 1 usable sample in 3 rows"),
+    (b"t_s,ax,ay,az\n0,1,2,3\n0,1,2,3\n0,1,2,3\n", ":4: only 1 usable sample of the accelerometer in 3 rows"),
     (b"t_s,ax,ay,az\n0,1,2,3\n2,1,2,3\n1,1,2,3\n", ":4: time goes backwards, from 2.0 s to 1.0 s"),
     (b"t_s,ax,ay,az\n0,1,2,3\n1,1,2\n2,1,2,3\n", ":3: 3 columns where the header has 4"),
     (b"t_s,ax,ay,az\n0,1,2,3\n1,1,2,3,4\n", ":3: 5 columns where the header has 4"),
@@ -37,12 +40,12 @@ const CASES: &[(&[u8], &str)] = &[
         b"t_s;ax;ay;az\n0,0;1,0;2,0;3,0\n",
         ":2:1: \"0,0\" in column `t_s` is not a number (numbers need a decimal point",
     ),
-    (b"t_s,ax,ay\n0,1,2\n1,2,3\n", ":1: column az missing; the columns are `t_s`, `ax`, `ay`"),
+    (b"t_s,ax,ay\n0,1,2\n1,2,3\n", ":1: the accelerometer has no column for axis z"),
     (
         b"time,x,y,z\n0,1,2,3\n1,2,3,4\n",
-        ":1: no column is known to be an accelerometer's or a gyroscope's; the columns are `time`, `x`, `y`, `z`",
+        ": the accelerometer's columns have no unit: magnitudes around 5.39 do not tell; the time column `time` has no unit",
     ),
-    (b"t_s,ax_g,ay_counts,az\n0,1,2,3\n", ":1: the axes have different units"),
+    (b"t_s,ax_g,ay_counts,az\n0,1,2,3\n", ":1: the axes of the accelerometer have different units"),
     (b"0 1 2\n1 2 3\n", ":1: 3 columns where 4 are needed"),
     (
         b"{\"t_s\": [0, 1], \"ax\": [1, 2]}\n",

@@ -1,74 +1,100 @@
-//! Reads the accelerometer alone, from a recording in any format.
+//! The accelerometer alone: from a plain text of its readings, or from a recording in any format.
 
-use super::read::parse;
+use super::column::{ColumnMeaning, ImuColumn};
+use super::file::ImuFile;
+use super::file_layout::Draft;
+use super::format::FileFormat;
+use super::options::{AccelerometerOnly, ImuReadOptions};
 use super::text_header::Head;
-use super::text_source::whole;
-use super::{FileFormat, ImuReadOptions, ImuUnit};
-use crate::recording::columns::is_axis;
-use crate::recording::read::parse as parse_plain;
-use crate::recording::{ReadOptions, RecordingFile};
-use crate::text_decoding;
-use calibrant_core::error::{Error, InputError, Refusal, Result};
-use calibrant_core::sensor::{Axis, ReadingUnit, SensorKind};
-use std::path::Path;
+use super::unit::{ColumnUnit, TimeUnit};
+use super::{column_names, imu_tk};
+use crate::recording::reader_finding::{Finding, Noticed};
+use crate::text_decoding::Checked;
+use calibrant_core::error::{InputError, Refusal};
+use calibrant_core::sensor::{Axis, SensorKind};
 
-/// Reads the accelerometer of a recording. The file is a text of the accelerometer alone, as
-/// [`read_recording`](crate::read_recording) reads it, or any file for
-/// [`read_imu_recording`](super::read_imu_recording). The content decides, unless `device` states something.
-///
-/// # Errors
-/// As these two. [`Error::Recording`] also where the file has no accelerometer.
-pub fn read_accelerometer(
-    path: &Path,
-    options: &ReadOptions,
-    device: &ImuReadOptions,
-) -> Result<RecordingFile> {
-    let in_file = |input_error: Box<InputError>| Error::recording(input_error.in_file(path));
-    let bytes = whole(path).map_err(in_file)?;
-    if *device == ImuReadOptions::default() && is_plain(&bytes) {
-        return parse_plain(&bytes, options).map_err(in_file);
-    }
-    let expected = (options.expected_unit == ReadingUnit::Counts).then_some(ImuUnit::Counts);
-    let given = options.unit.map(|unit| match unit {
-        ReadingUnit::Counts => ImuUnit::Counts,
-        _ => ImuUnit::MetrePerSecondSquared,
-    });
-    let device = ImuReadOptions {
-        accelerometer_unit: given.or(device.accelerometer_unit).or(expected),
-        ..device.clone()
+/// The layout of a plain text of one accelerometer: a time and `ax,ay,az`, or `t x y z` without a header. `None`
+/// for any other file, and where `[columns]` names the columns.
+pub(super) fn plain(head: &Head<'_>, format: FileFormat, options: &ImuReadOptions) -> Checked<Option<Draft>> {
+    let Some(only) = options.accelerometer_only.filter(|_| options.columns.is_empty()) else {
+        return Ok(None);
     };
-    let file = parse(&bytes, &device).map_err(in_file)?;
-    let Some(mut recording) = file.recording.accelerometer else {
-        let input_error = InputError::new(
+    let mut columns = match (format, head.names.is_empty()) {
+        (FileFormat::Csv | FileFormat::ImuTk, true) => {
+            imu_tk::in_order(head, SensorKind::Accelerometer, only.axes)?
+        }
+        (FileFormat::Csv, false) => named(head),
+        _ => return Ok(None),
+    };
+    if !columns.iter().any(is_time) || columns.iter().all(|column| axis(column).is_none()) {
+        return Ok(None);
+    }
+    for column in &mut columns {
+        // names in a comment are no header: without a unit the times are those of `t x y z`
+        if is_time(column) && head.first_row.is_some() && options.time_unit.is_none() {
+            column.unit = column.unit.or(Some(ColumnUnit::Time(TimeUnit::Second)));
+        }
+        if axis(column).is_some_and(|axis| axis.index() >= only.axes) {
+            column.unused = Some("the sensor has fewer axes".into());
+        }
+    }
+    Ok(Some(Draft { plain: Some(only), ..Draft::new(format, columns) }))
+}
+
+/// The columns of a text with names. Only those of the time and of the axes are looked at, and of times only
+/// `t_s` where it is there.
+fn named(head: &Head<'_>) -> Vec<ImuColumn> {
+    let is_plain_time = |name: &&str| name.eq_ignore_ascii_case("t_s");
+    let has_plain_time = head.names.iter().any(is_plain_time);
+    let column = |name: &&str| {
+        let column = column_names::column(name);
+        let is_needed = match is_time(&column) {
+            true => is_plain_time(name) || !has_plain_time,
+            false => column_names::is_plain_axis(name),
+        };
+        if is_needed { column } else { ImuColumn::new(name, ColumnMeaning::Other, None) }
+    };
+    head.names.iter().map(column).collect()
+}
+
+fn is_time(column: &ImuColumn) -> bool {
+    column.meaning == ColumnMeaning::Time
+}
+
+fn axis(column: &ImuColumn) -> Option<Axis> {
+    match column.meaning {
+        ColumnMeaning::Reading(_, axis) => Some(axis),
+        _ => None,
+    }
+}
+
+/// Keeps the accelerometer alone, and of it the axes that are needed.
+pub(super) fn only(mut file: ImuFile, draft: &Draft, options: &ImuReadOptions) -> Checked<ImuFile> {
+    let Some(AccelerometerOnly { axes, unit: expected }) = options.accelerometer_only else {
+        return Ok(file);
+    };
+    let Some(mut recording) = file.recording.accelerometer.take() else {
+        return Err(InputError::new(
             Refusal::SensorMissing,
             format!("the recording has no {}", SensorKind::Accelerometer),
             "`calibrant inspect` says what it has",
-        );
-        return Err(in_file(input_error.into()));
+        )
+        .into());
     };
-    recording.axes = options.axes;
-    for axis in &Axis::ALL[options.axes..] {
+    recording.axes = axes;
+    for &axis in Axis::ALL.iter().skip(axes) {
         recording.readings.iter_mut().for_each(|reading| reading[axis.index()] = 0.0);
     }
-    Ok(RecordingFile { recording, findings: file.findings, sha256: file.sha256.concat(), lines: file.rows })
-}
-
-/// Is this the text of one accelerometer, `t_s,ax,ay,az` or `t x y z`?
-fn is_plain(bytes: &[u8]) -> bool {
-    if FileFormat::of_magic(bytes).is_some() || bytes.trim_ascii_start().starts_with(b"{") {
-        return false;
+    let mut noticed = Vec::new();
+    let unused = file.columns.iter().filter(|column| !column.is_used());
+    let names: Vec<String> = unused.map(|column| column.name.clone()).collect();
+    if draft.plain.is_some() && !names.is_empty() {
+        noticed.push(Noticed::ColumnsIgnored(names));
     }
-    // the plain reader reports a file that is no text at all, or has no rows
-    let Some(head) = text_decoding::as_text(bytes).ok().and_then(|text| Head::find(text).ok()) else {
-        return true;
-    };
-    let names = head.lower_names();
-    let is_axis = |name: &String| is_axis(name);
-    match FileFormat::of_text(&head) {
-        Ok(FileFormat::Csv) if head.first_row.is_none() => names.iter().any(is_axis),
-        // names in a comment, which the plain reader does not see
-        Ok(FileFormat::Csv) => names.is_empty() || names.iter().skip(1).take(3).all(is_axis),
-        Ok(FileFormat::ImuTk) => true,
-        _ => false,
+    if options.accelerometer_unit.is_none() && recording.unit != expected {
+        noticed.push(Noticed::UnitUnexpected { stated: recording.unit, expected });
     }
+    let found = noticed.into_iter().map(|noticed| Finding::new(noticed).at(draft.line));
+    file.findings.splice(0..0, found);
+    Ok(ImuFile { recording: recording.into(), ..file })
 }

@@ -67,6 +67,11 @@ pub(super) fn column(name: &str) -> ImuColumn {
     column
 }
 
+/// Is it `ax`, `ay` or `az`, with or without a unit?
+pub(super) fn is_plain_axis(name: &str) -> bool {
+    ["ax", "ay", "az"].contains(&split_unit(name).0.as_str())
+}
+
 fn is_celsius(unit: &str) -> bool {
     ["c", "°c", "degc", "deg c", "celsius"].contains(&unit)
 }

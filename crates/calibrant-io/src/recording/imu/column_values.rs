@@ -2,8 +2,8 @@
 
 use super::column::ColumnMeaning;
 use crate::delimited_text::Line;
+use crate::recording::line_map::LineMap;
 use crate::recording::row_parser::{Layout, RowReader};
-use crate::recording::row_reader::LineMap;
 use crate::text_decoding::Checked;
 use calibrant_core::sensor::{Axis, SensorKind};
 use nalgebra::Vector3;
@@ -131,7 +131,9 @@ impl<'l> SampleReader<'l> {
             for sensor_kind in
                 SensorKind::ALL.into_iter().filter(|&sensor_kind| self.sensor_kinds[sensor_kind as usize])
             {
-                let [x, y, z] = slots_of(sensor_kind).map(|slot| values[slot]);
+                // a sensor with fewer axes reads nothing along the others
+                let [x, y, z] =
+                    slots_of(sensor_kind).map(|slot| if self.has[slot] { values[slot] } else { 0.0 });
                 samples.sensor_kinds[sensor_kind as usize].push(Vector3::new(x, y, z));
             }
             if self.has[TEMPERATURE] {

@@ -6,7 +6,6 @@ use super::format::FileFormat;
 use super::text_header::Head;
 use super::unit::{ColumnUnit, ImuUnit};
 use super::{column_names, imu_tk};
-use crate::recording::columns::is_axis;
 use calibrant_core::sensor::SensorKind;
 
 /// The columns. `asked` is the sensor that the user names; its columns then need no name.
@@ -35,7 +34,7 @@ fn is_reading(column: &ImuColumn) -> bool {
 /// them ax, ay, az.
 fn is_unnamed(columns: &[ImuColumn]) -> bool {
     let may_be_another = |column: &ImuColumn| match column.unit {
-        None | Some(ColumnUnit::Reading(ImuUnit::Counts)) => is_axis(&column.name.to_lowercase()),
+        None | Some(ColumnUnit::Reading(ImuUnit::Counts)) => column_names::is_plain_axis(&column.name),
         _ => false,
     };
     columns.iter().all(|column| match column.meaning {

@@ -3,7 +3,7 @@
 use super::column::{ColumnMeaning, ImuColumn};
 use super::column_values::{COUNTER, TEMPERATURE, TIME, slot_of};
 use super::format::FileFormat;
-use super::options::ImuReadOptions;
+use super::options::{AccelerometerOnly, ImuReadOptions};
 use super::unit::{ColumnUnit, TimeUnit};
 use crate::recording::finding_words::list;
 use crate::text_decoding::Checked;
@@ -20,11 +20,24 @@ pub(super) struct Draft {
     pub(super) counter_wraps_at: Option<f64>,
     /// Sample rate that the file states, Hz, and its place.
     pub(super) rate_hz: Option<(f64, &'static str)>,
+    /// Of a plain text of one accelerometer: what its experiment expects. Such a recording need not show
+    /// gravity, and its clock may have coarse steps.
+    pub(super) plain: Option<AccelerometerOnly>,
+    /// Line of the header, in a text.
+    pub(super) line: Option<usize>,
 }
 
 impl Draft {
     pub(super) fn new(format: FileFormat, columns: Vec<ImuColumn>) -> Self {
-        Self { format, columns, time_wraps_at: None, counter_wraps_at: None, rate_hz: None }
+        Self {
+            format,
+            columns,
+            time_wraps_at: None,
+            counter_wraps_at: None,
+            rate_hz: None,
+            plain: None,
+            line: None,
+        }
     }
 
     /// Marks the other sensor's columns as unused.
@@ -153,19 +166,20 @@ impl Draft {
         }
         let has = |slot| slots.contains(&Some(slot));
         for sensor_kind in SensorKind::ALL {
+            let needed = self.plain.map_or(3, |only| only.axes);
             let missing: Vec<String> = Axis::ALL
                 .into_iter()
+                .take(needed)
                 .filter(|&axis| !slot_of(ColumnMeaning::Reading(sensor_kind, axis)).is_some_and(has))
                 .map(|axis| axis.to_string())
                 .collect();
-            if !missing.is_empty() && missing.len() < 3 {
+            if !missing.is_empty() && missing.len() < needed {
                 let message = format!("the {sensor_kind} has no column for axis {}", missing.join(", "));
-                return Err(InputError::new(
-                    Refusal::ColumnMissing,
-                    message,
-                    "three axes are needed; or leave its columns out altogether",
-                )
-                .into());
+                let help = match self.plain {
+                    Some(_) => "a recording of an accelerometer has the columns t_s,ax,ay,az",
+                    None => "three axes are needed; or leave its columns out altogether",
+                };
+                return Err(InputError::new(Refusal::ColumnMissing, message, help).into());
             }
         }
         let readings =

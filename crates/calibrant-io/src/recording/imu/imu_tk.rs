@@ -13,13 +13,7 @@ use calibrant_core::sensor::{Axis, SensorKind};
 
 /// The columns of one of the two files; `sensor_kind` is its sensor, where that is known.
 pub(super) fn draft(head: &Head<'_>, sensor_kind: Option<SensorKind>) -> Checked<Draft> {
-    let columns = head.fields();
-    if columns < 4 {
-        let message = format!("{columns} column{} where 4 are needed", if columns == 1 { "" } else { "s" });
-        return Err(InputError::new(Refusal::ColumnMissing, message, "imu_tk's columns are t x y z")
-            .at_line(head.line())
-            .into());
-    }
+    let columns = in_order(head, sensor_kind.unwrap_or(SensorKind::Accelerometer), 3)?;
     if !head.names.is_empty() && sensor_kind.is_none() {
         return Err(InputError::new(
             Refusal::FormatContradicted,
@@ -29,7 +23,7 @@ pub(super) fn draft(head: &Head<'_>, sensor_kind: Option<SensorKind>) -> Checked
         .at_line(head.line())
         .into());
     }
-    let Some(sensor_kind) = sensor_kind else {
+    if sensor_kind.is_none() {
         return Err(InputError::new(Refusal::SensorUnnamed,
             "imu_tk keeps each sensor in a file of its own, t x y z: this one does not say which it is",
             format!(
@@ -40,7 +34,20 @@ pub(super) fn draft(head: &Head<'_>, sensor_kind: Option<SensorKind>) -> Checked
         )
         .at_line(head.line())
         .into());
-    };
+    }
+    Ok(Draft::new(FileFormat::ImuTk, columns))
+}
+
+/// The columns of a text without a header in their order: `t x y z`, or fewer axes.
+pub(super) fn in_order(head: &Head<'_>, sensor_kind: SensorKind, axes: usize) -> Checked<Vec<ImuColumn>> {
+    let (columns, needed) = (head.fields(), axes + 1);
+    if columns < needed {
+        let message =
+            format!("{columns} column{} where {needed} are needed", if columns == 1 { "" } else { "s" });
+        let order = if axes == 1 { "t x" } else { "t x y z" };
+        let help = format!("without a header the columns are {order}");
+        return Err(InputError::new(Refusal::ColumnMissing, message, help).at_line(head.line()).into());
+    }
     let of_order = |column: usize| match column {
         0 => ImuColumn::new("1", ColumnMeaning::Time, Some(ColumnUnit::Time(TimeUnit::Second))),
         1..=3 => {
@@ -49,7 +56,7 @@ pub(super) fn draft(head: &Head<'_>, sensor_kind: Option<SensorKind>) -> Checked
         }
         _ => ImuColumn::new(&(column + 1).to_string(), ColumnMeaning::Other, None),
     };
-    Ok(Draft::new(FileFormat::ImuTk, (0..columns).map(of_order).collect()))
+    Ok((0..columns).map(of_order).collect())
 }
 
 /// The columns of a file with a header that holds this sensor: `t_s,x,y,z`, or names that include the sensor.

@@ -1,4 +1,4 @@
-//! Recordings of a whole IMU, in the formats of many programs.
+//! Recordings of an IMU or of an accelerometer, in the formats of many programs.
 //!
 //! | format | recognised by | times | units |
 //! |---|---|---|---|
@@ -9,6 +9,7 @@
 //! | imucal | `n_samples,gyr_x,…` | counter; the rate is asked for | asked for |
 //! | MCAP, Parquet | their first bytes | `header.stamp`; by name or type | m/s², rad/s; by name, or asked for |
 //! | CSV | none of these | by name, or `[columns]` | by name, or asked for |
+//! | plain text | `t_s,ax,ay,az`, or `t x y z`, read for the accelerometer alone | s | by name, or the experiment's |
 //!
 //! All formats go the same way. [`text_header`] finds the header. A format's own file gives the meaning of
 //! its columns ([`file_layout`]). [`column_values`] reads the rows. [`sample_clock`] makes times of them, and
@@ -56,11 +57,10 @@ mod two_files;
 mod unit;
 mod xsens;
 
-pub use accelerometer_only::read_accelerometer;
 pub use column::{ColumnMeaning, ImuColumn};
 pub use file::{ImuFile, SecondFile};
 pub use format::FileFormat;
-pub use options::{ColumnMapping, ImuReadOptions};
+pub use options::{AccelerometerOnly, ColumnMapping, ImuReadOptions};
 pub use read::{parse_imu_recording, read_imu_recording, read_imu_sensor};
 pub use two_files::{parse_imu_pair, read_imu_pair};
 pub use unit::{ColumnUnit, ImuUnit, TimeUnit};

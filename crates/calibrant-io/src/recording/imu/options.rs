@@ -2,7 +2,7 @@
 
 use super::format::FileFormat;
 use super::unit::{ImuUnit, TimeUnit};
-use calibrant_core::sensor::SensorKind;
+use calibrant_core::sensor::{ReadingUnit, SensorKind};
 
 /// Options for reading a recording of an IMU: everything that the file does not state itself. `[columns]` of
 /// an experiment file gives the same.
@@ -45,9 +45,39 @@ pub struct ImuReadOptions {
     pub rate_hz: Option<f64>,
     /// Topic of a bag that has more than one of `sensor_msgs/msg/Imu`.
     pub topic: Option<String>,
+    /// The recording is one of an accelerometer, or is read for its accelerometer alone.
+    pub accelerometer_only: Option<AccelerometerOnly>,
+}
+
+/// What an experiment with one accelerometer expects of its recordings.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct AccelerometerOnly {
+    /// Number of axes that are needed, 1 or 3. Others are not read from a plain text, and are 0.
+    pub axes: usize,
+    /// Unit of the readings. A plain text has it, unless its header or the user gives another.
+    pub unit: ReadingUnit,
 }
 
 impl ImuReadOptions {
+    /// The options for recordings of an accelerometer with this number of axes, 1 or 3, whose unit is this
+    /// where a plain text does not state it.
+    ///
+    /// # Examples
+    /// ```
+    /// use calibrant_core::sensor::ReadingUnit;
+    /// use calibrant_io::{ImuReadOptions, parse_imu_recording};
+    ///
+    /// let options = ImuReadOptions::accelerometer(3, ReadingUnit::MetrePerSecondSquared);
+    /// let file = parse_imu_recording(b"t_s,ax_g,ay_g,az_g\n0.00,0,0,1\n0.01,0,0,1\n", &options)?;
+    /// assert_eq!(file.recording.accelerometer.expect("there").readings[0].z, 9.80665);
+    /// assert!(file.findings[0].to_string().contains("axis x never changes"));
+    /// # Ok::<(), calibrant_core::Error>(())
+    /// ```
+    #[must_use]
+    pub fn accelerometer(axes: usize, unit: ReadingUnit) -> Self {
+        Self { accelerometer_only: Some(AccelerometerOnly { axes, unit }), ..Self::default() }
+    }
+
     /// The unit that is given for a sensor.
     #[must_use]
     pub fn unit(&self, sensor_kind: SensorKind) -> Option<ImuUnit> {
@@ -79,6 +109,7 @@ impl ImuReadOptions {
                 .map(|k| self.counts_unless_stated[k] || other.counts_unless_stated[k]),
             rate_hz: self.rate_hz.or(other.rate_hz),
             topic: self.topic.or(other.topic),
+            accelerometer_only: self.accelerometer_only.or(other.accelerometer_only),
         }
     }
 }

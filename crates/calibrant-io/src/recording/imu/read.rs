@@ -1,6 +1,7 @@
 //! Reads a recording of an IMU in any format, in this order: the header, the meaning of the columns, the
 //! rows, the recording.
 
+use super::accelerometer_only::{only, plain};
 use super::column_values::Samples;
 use super::file::ImuFile;
 use super::file_layout::Draft;
@@ -94,6 +95,10 @@ fn parse_text(source: Source<'_>, options: &ImuReadOptions, asked: Option<Sensor
         Some(format) => format,
         None => sniffed(&head, options)?,
     };
+    let asked = asked.or(options.accelerometer_only.map(|_| SensorKind::Accelerometer));
+    if let Some(draft) = plain(&head, format, options)? {
+        return rows(draft, head, source, options);
+    }
     let draft = match format {
         FileFormat::MtManager => mt_manager::draft(&head),
         FileFormat::MovellaDot => movella_dot::draft(&head),
@@ -178,6 +183,7 @@ pub(super) fn rows(
     options: &ImuReadOptions,
 ) -> Checked<ImuFile> {
     let line = head.line();
+    draft.line = Some(line);
     let at_header = |input_error: Box<InputError>| Box::new(input_error.at_line(line));
     draft.map(options).map_err(at_header)?;
     draft.set_time_unit(options).map_err(at_header)?;
@@ -197,16 +203,17 @@ pub(super) fn rows(
 /// Makes a recording of the values of a file.
 fn finish(mut draft: Draft, mut samples: Samples, options: &ImuReadOptions) -> Checked<ImuFile> {
     let assembled = assemble(&mut draft, &mut samples, options)?;
-    Ok(ImuFile {
+    let file = ImuFile {
         recording: assembled.recording,
         format: draft.format,
-        columns: draft.columns,
+        columns: std::mem::take(&mut draft.columns),
         findings: assembled.findings,
         rows: samples.rows,
         sha256: Vec::new(),
         second: None,
         counted_from_ns: samples.counted_from_ns,
-    })
+    };
+    only(file, &draft, options)
 }
 
 fn not_binary(format: FileFormat) -> InputError {

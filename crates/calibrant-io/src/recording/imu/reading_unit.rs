@@ -4,7 +4,7 @@
 use super::column::ColumnMeaning;
 use super::file_layout::Draft;
 use super::options::ImuReadOptions;
-use super::unit::{ColumnUnit, ImuUnit};
+use super::unit::{ColumnUnit, ImuUnit, STANDARD_GRAVITY_MPS2};
 use crate::recording::finding_words::short;
 use crate::text_decoding::Checked;
 use calibrant_core::error::{InputError, Refusal};
@@ -21,8 +21,8 @@ const NO_GRAVITY_MPS2: f64 = 3.0;
 /// Magnitudes that are 1 within this share are in g.
 const ONE: f64 = 0.15;
 
-/// The unit of a sensor's columns: from the file; else from the user; else counts, if the options allow it;
-/// else `None`.
+/// The unit of a sensor's columns: from the file; else from the user; else the usual one of a plain text, or
+/// counts, if the options allow it; else `None`.
 pub(super) fn stated_unit(
     draft: &Draft,
     options: &ImuReadOptions,
@@ -45,7 +45,7 @@ pub(super) fn stated_unit(
             columns[other].name,
             symbol(unit(other))
         );
-        return Err(InputError::new(Refusal::UnitContradicted, message, "all three need the same").into());
+        return Err(contradiction(draft, message, "all axes need the same".into()));
     }
     let stated = if columns.is_empty() { None } else { unit(0) };
     let given = options.unit(sensor_kind);
@@ -65,16 +65,23 @@ pub(super) fn stated_unit(
                 stated.symbol(),
                 given.symbol()
             );
+            let of = if options.accelerometer_only.is_some() { "" } else { &format!("{sensor_kind}-") };
             let help = format!(
-                "leave --{sensor_kind}-unit away: the file decides (name the columns in [columns] to overrule it)"
+                "leave --{of}unit away: the file decides (name the columns in [columns] to overrule it)"
             );
-            Err(InputError::new(Refusal::UnitContradicted, message, help).into())
+            Err(contradiction(draft, message, help))
         }
         (stated, given) => {
+            let usual = draft.plain.map(|only| ImuUnit::from(only.unit));
             let agreed = options.counts_unless_stated[sensor_kind as usize].then_some(ImuUnit::Counts);
-            Ok(stated.or(given).or(agreed))
+            Ok(stated.or(given).or(usual).or(agreed))
         }
     }
+}
+
+/// The error for a header that contradicts itself or the user.
+fn contradiction(draft: &Draft, message: String, help: String) -> Box<InputError> {
+    InputError { line: draft.line, ..InputError::new(Refusal::UnitContradicted, message, help) }.into()
 }
 
 /// The question where the unit is not known, with what the readings suggest.
@@ -139,7 +146,7 @@ pub(super) fn check_gravity(recording: &Recording, stated: ImuUnit) -> Checked<(
         )
         .into());
     }
-    if median > 100.0 * crate::recording::columns::STANDARD_GRAVITY_MPS2 {
+    if median > 100.0 * STANDARD_GRAVITY_MPS2 {
         return Err(InputError::new(Refusal::UnitImplausible,
             format!("the accelerometer is said to be in {unit}, but its magnitude is {shown} half of the time or more: is it in mg, or are these counts?"),
             "correct the unit",

@@ -9,10 +9,10 @@ use super::reading_unit::{check_gravity, question, stated_unit};
 use super::sample_clock::{self, at};
 use super::unit::{ColumnUnit, ImuUnit};
 use crate::recording::finding_words::count;
+use crate::recording::line_map::LineMap;
 use crate::recording::lost_sign;
 use crate::recording::reader_finding::{Finding, Noticed, Tally};
 use crate::recording::recording_quality;
-use crate::recording::row_reader::{LineMap, backwards, report_duplicates, report_truncated};
 use crate::text_decoding::Checked;
 use calibrant_core::diagnostic::Code;
 use calibrant_core::error::{InputError, Refusal};
@@ -58,8 +58,9 @@ pub(super) fn assemble(
     }
     let mut of_rows = Vec::new();
     let mut kept = increasing(&times, &sensor_kinds, samples, &mut of_rows)?;
+    let is_plain = draft.plain.is_some();
     let packets = |&sensor_kind: &SensorKind| Some((sensor_kind, Packets::of(&times, samples, sensor_kind)?));
-    if let Some((sensor_kind, packets)) = sensor_kinds.iter().find_map(packets) {
+    if let Some((sensor_kind, packets)) = sensor_kinds.iter().filter(|_| !is_plain).find_map(packets) {
         let alike = |row: usize| sensor_kinds.iter().all(|&sensor_kind| samples.holds(sensor_kind, row));
         let Some(rate) = options.rate_hz.filter(|_| (0..samples.rows).all(alike)) else {
             return Err(packets.question(sensor_kind).into());
@@ -73,10 +74,13 @@ pub(super) fn assemble(
     let mut recording = ImuRecording::default();
     let mut maps: Vec<LineMap> = Vec::new();
     for (&sensor_kind, unit) in sensor_kinds.iter().zip(units.iter().flatten()) {
-        let (readings, lines) = readings(sensor_kind, *unit, &times, &kept, samples, &mut findings)?;
+        let (mut readings, lines) = readings(sensor_kind, *unit, &times, &kept, samples, &mut findings)?;
+        readings.axes = draft.plain.map_or(3, |only| only.axes);
         lost_sign::check(&readings, &format!("{sensor_kind} "))?;
         if sensor_kind == SensorKind::Accelerometer {
-            check_gravity(&readings, *unit)?;
+            if !is_plain {
+                check_gravity(&readings, *unit)?;
+            }
             recording.accelerometer = Some(readings);
         } else {
             recording.gyroscope = Some(readings);
@@ -86,9 +90,14 @@ pub(super) fn assemble(
         }
         maps.push(lines);
     }
-    report_truncated(samples.truncated, &mut findings);
+    if samples.truncated.is_some() {
+        findings.push(Finding::new(Noticed::LineTruncated).at(samples.truncated));
+    }
     recording.temperature_c = temperature(draft, &times, &kept, samples, &recording, &mut findings);
-    examine(&recording, &sensor_kinds, &maps, &mut findings);
+    examine(&recording, &sensor_kinds, &maps, is_plain, &mut findings);
+    if is_plain {
+        findings.iter_mut().for_each(|finding| finding.sensor_kind = None);
+    }
     Ok(Assembled { recording, findings })
 }
 
@@ -187,18 +196,10 @@ fn increasing(
             kept.dropped.push(row);
             continue;
         }
-        let held =
-            [0, 1].map(|k| sensor_kinds.get(k).is_some_and(|&sensor_kind| samples.holds(sensor_kind, row)));
-        let is_empty = !held.contains(&true);
-        if is_empty && samples.temperatures.get(row).is_some_and(|value| value.is_finite()) {
-            continue; // a row of the thermometer
-        }
         let (mut is_new, mut repeated) = (false, None);
-        for (before, held) in last.iter_mut().zip(held) {
-            if !(held || is_empty) {
-                continue;
-            }
+        for (before, &sensor_kind) in last.iter_mut().zip(sensor_kinds) {
             match *before {
+                _ if samples.sensor(sensor_kind)[row].iter().any(|value| value.is_nan()) => (),
                 Some(other) if t < times[other] => {
                     return Err(at(backwards(times[other], t), samples, row).into());
                 }
@@ -213,8 +214,18 @@ fn increasing(
         }
     }
     untimed.report(findings, None, Noticed::TimesMissing);
-    report_duplicates(&same_rows, &same_times, findings);
+    same_rows.report(findings, None, Noticed::RowsRepeated);
+    same_times.report(findings, None, Noticed::TimesRepeated);
     Ok(kept)
+}
+
+/// The error for a time that goes backwards, s.
+fn backwards(before: f64, t: f64) -> InputError {
+    InputError::new(
+        Refusal::TimesNotIncreasing,
+        format!("time goes backwards, from {before:?} s to {t:?} s"),
+        "are these files put together, or did a counter wrap? split the file here",
+    )
 }
 
 /// The readings of a sensor, in its unit after the conversion; samples that lack a value are dropped.
@@ -312,6 +323,7 @@ fn examine(
     recording: &ImuRecording,
     sensor_kinds: &[SensorKind],
     lines: &[LineMap],
+    is_plain: bool,
     findings: &mut Vec<Finding>,
 ) {
     let sensors: Vec<_> = sensor_kinds
@@ -323,7 +335,7 @@ fn examine(
     for (k, ((sensor_kind, sensor), lines)) in sensors.iter().enumerate() {
         if k == 0 || !shared {
             let rate = sensor.rate_hz();
-            if k == 0 {
+            if k == 0 && !is_plain {
                 recording_quality::clock(rate, findings);
             }
             let from = findings.len();

@@ -24,13 +24,6 @@ pub(super) fn beginning(path: &Path) -> Checked<FileBeginning> {
     FileBeginning::read(path, |bytes| FileFormat::of_magic(bytes).is_some())
 }
 
-/// The bytes of a file.
-pub(super) fn whole(path: &Path) -> Checked<Vec<u8>> {
-    let mut beginning = beginning(path)?;
-    beginning.read_on()?;
-    Ok(beginning.bytes)
-}
-
 /// Reads a text from its bytes.
 pub(super) fn of_bytes(
     bytes: &[u8],

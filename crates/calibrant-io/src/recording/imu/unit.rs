@@ -1,7 +1,9 @@
 //! The units in which files give readings and times.
 
-use crate::recording::columns::STANDARD_GRAVITY_MPS2;
 use calibrant_core::sensor::{ReadingUnit, SensorKind};
+
+/// Standard gravity, m/s²: what a reading of 1 g means.
+pub(super) const STANDARD_GRAVITY_MPS2: f64 = 9.80665;
 
 /// Unit of an accelerometer's or a gyroscope's readings as a file gives them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

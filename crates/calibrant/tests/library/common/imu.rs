@@ -1,14 +1,16 @@
 //! Simulated and recorded IMUs that several tests share.
 
 use calibrant::estimate::{Calibration, CalibrationSettings, Gyroscope, ImuProblem, ImuSetup, calibrate_imu};
-use calibrant::io::{ImuReadOptions, ImuUnit, read_imu_pair};
+use calibrant::io::{ImuReadOptions, ImuUnit, read_imu_pair, read_imu_recording};
 use calibrant::motion::Gravity;
 use calibrant::sensor::{
-    Gauge, ImuParameters, ImuRecording, ReadingUnit, Sensor, SensorModel, SensorParameters, Thermal,
+    Gauge, ImuParameters, ImuRecording, ReadingUnit, Recording, Sensor, SensorModel, SensorParameters,
+    Thermal,
 };
 use calibrant::simulate::Rng;
 use nalgebra::{Matrix3, Vector3};
 use rand_distr::{Distribution, StandardNormal};
+use std::path::Path;
 
 /// The recording of imu_tk in counts, with gravity at its place; `None` where the file is absent.
 pub(crate) fn xsens() -> Option<(ImuRecording, Gravity)> {
@@ -63,4 +65,10 @@ pub(crate) fn run_imu(
     let accelerometer = accelerometer(unit);
     let problem = ImuProblem { accelerometer: &accelerometer, gyroscope, recording, setup };
     calibrate_imu(&problem, &CalibrationSettings::default())
+}
+
+/// The recording of an accelerometer, in this unit where the file states none.
+pub(crate) fn read_accelerometer(path: &Path, axes: usize, unit: ReadingUnit) -> Recording {
+    let file = read_imu_recording(path, &ImuReadOptions::accelerometer(axes, unit)).expect("readable");
+    file.recording.accelerometer.expect("there")
 }

@@ -8,5 +8,5 @@ mod imu;
 mod messages;
 
 pub(crate) use data::shared_data;
-pub(crate) use imu::{draw_feeling_imu, draw_imu, normal, run_imu, xsens};
+pub(crate) use imu::{draw_feeling_imu, draw_imu, normal, read_accelerometer, run_imu, xsens};
 pub(crate) use messages::{WORDS, messages};

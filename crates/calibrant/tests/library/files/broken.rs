@@ -1,25 +1,26 @@
 //! Tests of broken recordings and motions: every message word for word.
 
-use calibrant::io::{ReadOptions, parse_motion, parse_recording, read_motion, read_recording};
+use calibrant::io::{ImuReadOptions, parse_imu_recording, parse_motion, read_imu_recording, read_motion};
 use calibrant::sensor::ReadingUnit;
 
 /// The bytes of a file and the message about it.
 type Case = (&'static [u8], &'static str);
 
 /// The options of all these readings.
-const OPTIONS: ReadOptions =
-    ReadOptions { unit: None, expected_unit: ReadingUnit::MetrePerSecondSquared, axes: 3 };
+fn options() -> ImuReadOptions {
+    ImuReadOptions::accelerometer(3, ReadingUnit::MetrePerSecondSquared)
+}
 
 #[test]
 fn recordings() {
     let directory = tempfile::tempdir().expect("a directory");
     for (bytes, expected) in RECORDINGS {
-        let error = parse_recording(bytes, &OPTIONS).expect_err(expected);
+        let error = parse_imu_recording(bytes, &options()).expect_err(expected);
         assert_eq!(error.to_string(), *expected);
         assert!(error.is_invalid_recording() && !error.is_invalid_experiment());
         let path = directory.path().join("recording.csv");
         std::fs::write(&path, bytes).expect("written");
-        let named = read_recording(&path, &OPTIONS).expect_err(expected).to_string();
+        let named = read_imu_recording(&path, &options()).expect_err(expected).to_string();
         let input_error = error.input_error().expect("a complaint");
         let place: String =
             [input_error.line, input_error.column].iter().flatten().map(|n| format!(":{n}")).collect();
@@ -40,7 +41,7 @@ fn motions() {
 #[test]
 fn what_is_no_file_is_named() {
     let directory = tempfile::tempdir().expect("a directory");
-    let error = read_recording(directory.path(), &OPTIONS).expect_err("a directory");
+    let error = read_imu_recording(directory.path(), &options()).expect_err("a directory");
     assert!(error.is_invalid_recording());
     assert!(
         error.to_string().ends_with("this is a directory, not the recording (name a file in it)"),
@@ -59,17 +60,23 @@ fn what_is_no_file_is_named() {
 #[cfg(target_os = "linux")]
 #[test]
 fn an_endless_device_is_refused_at_once() {
-    let error = read_recording("/dev/zero".as_ref(), &OPTIONS).expect_err("zeros");
+    let error = read_imu_recording("/dev/zero".as_ref(), &options()).expect_err("zeros");
     assert!(error.to_string().contains("binary data, not text: NUL byte at offset 0"), "{error}");
 }
 
 /// The broken recordings.
 const RECORDINGS: &[Case] = &[
-    (b"", "the file is empty (a recording has a header t_s,ax,ay,az and a row for each sample)"),
-    (b"\n \n\n", "the file is empty (a recording has a header t_s,ax,ay,az and a row for each sample)"),
+    (
+        b"",
+        "the file is empty (a recording has a header, such as t_s,ax_mps2,ay_mps2,az_mps2,gx_radps,gy_radps,gz_radps, and a row for each sample)",
+    ),
+    (
+        b"\n \n\n",
+        "the file is empty (a recording has a header, such as t_s,ax_mps2,ay_mps2,az_mps2,gx_radps,gy_radps,gz_radps, and a row for each sample)",
+    ),
     (
         b"# nothing\n// here\n",
-        "the file has only comments (a recording has a header t_s,ax,ay,az and a row for each sample)",
+        "the file has only comments (a recording has a header, such as t_s,ax_mps2,ay_mps2,az_mps2,gx_radps,gy_radps,gz_radps, and a row for each sample)",
     ),
     (
         b"t_s,ax,ay,az\n",
@@ -77,35 +84,35 @@ const RECORDINGS: &[Case] = &[
     ),
     (
         b"t_s,ax,ay,az\n0,1,2,3\n",
-        "line 2: only 1 usable sample in 1 row (a recording needs two samples at least)",
+        "line 2: only 1 usable sample of the accelerometer in 1 row (a recording needs two samples at least)",
     ),
     (
         b"t_s,ax,ay,az\n0,1,2,3\n0,1,2,3\n1,nan,2,3\n",
-        "line 4: only 1 usable sample in 3 rows (a recording needs two samples at least; line 4: 1 sample with a missing or NaN value dropped; line 3: 1 row equal to the one before dropped)",
+        "line 4: only 1 usable sample of the accelerometer in 3 rows (a recording needs two samples at least; line 3: 1 row equal to the one before dropped; line 4: 1 sample of the accelerometer with a missing or NaN value dropped)",
     ),
     (
         b"t_s,ax,ay,temp\n0,1,2,3\n1,2,3,4\n",
-        "line 1: column az missing; the columns are `t_s`, `ax`, `ay`, `temp` (header t_s,ax,ay,az; the axes may end in _mps2, _counts or _g)",
+        "line 1: the accelerometer has no column for axis z (a recording of an accelerometer has the columns t_s,ax,ay,az)",
     ),
     (
         b"time;x;y;z\n0;1;2;3\n",
-        "line 1: columns t_s, ax, ay, az missing; the columns are `time`, `x`, `y`, `z` (header t_s,ax,ay,az; the axes may end in _mps2, _counts or _g)",
+        "the accelerometer's columns have no unit: magnitudes around 3.74 do not tell; the time column `time` has no unit (say --accelerometer-unit m/s², g, mg or counts (accelerometer_unit in [columns]); --time-unit s, ms, us or ns (time_unit in [columns]), or end its name in _s, _ms, _us or _ns)",
     ),
     (
         b"t_s,ax_mps2,ax_counts,ay_mps2,az_mps2\n0,1,2,3,4\n",
-        "line 1: axis x has two columns, the second is `ax_counts` (keep one of them)",
+        "line 1: two columns hold the accelerometer x: `ax_mps2` and `ax_counts` (say which in [columns] of an experiment file)",
     ),
     (
         b"t_s,ax_mps2,ay_g,az_mps2\n0,1,2,3\n",
-        "line 1: the axes have different units: `ay_g` after one in m/s² (all axes need the same suffix)",
+        "line 1: the axes of the accelerometer have different units: `ax_mps2` has m/s², `ay_g` has g (all axes need the same)",
     ),
     (
         b"t_s,ax,ay_g,az\n0,1,2,3\n",
-        "line 1: the axes have different units: `ay_g` after one in no stated unit (all axes need the same suffix)",
+        "line 1: the axes of the accelerometer have different units: `ax` has no stated unit, `ay_g` has g (all axes need the same)",
     ),
     (
         b"t_s,t_s,ax,ay,az\n0,0,1,2,3\n",
-        "line 1: the time has two columns, the second is `t_s` (keep one of them)",
+        "line 1: two columns hold the time: `t_s` and `t_s` (rename one of them in the file)",
     ),
     (
         b"t_s,ax,ay,az\n0,1,2,3\n1,1,2,3\n0.5,1,2,3\n",

@@ -1,6 +1,6 @@
 //! Tests of written results: there and back again, and the JSON field by field.
 
-use crate::common::WORDS;
+use crate::common::{WORDS, read_accelerometer};
 use calibrant::Error;
 use calibrant::diagnostic::Diagnostic;
 use calibrant::error::Refusal;
@@ -9,8 +9,8 @@ use calibrant::estimate::{
     Uncalibrated, Whiteness,
 };
 use calibrant::io::{
-    Failure, Input, ReadOptions, Summary, SummaryRow, calibration_json, read_motion, read_recording,
-    truth_json, write_atomically, write_calibration, write_motion, write_recording, write_summary,
+    Failure, Input, Summary, SummaryRow, calibration_json, read_motion, truth_json, write_atomically,
+    write_calibration, write_motion, write_recording, write_summary,
 };
 use calibrant::motion::{Gravity, Hold, JerkControlledMotion};
 use calibrant::sensor::{
@@ -39,8 +39,7 @@ fn recordings_come_back_bit_for_bit() {
         };
         let path = directory.path().join("recording.csv");
         write_recording(&path, &recording).expect("written");
-        let options = ReadOptions { unit: Some(unit), expected_unit: unit, axes };
-        let back = read_recording(&path, &options).expect("read").recording;
+        let back = read_accelerometer(&path, axes, unit);
         assert_eq!(back, recording);
         let bits = |r: &Recording| {
             r.readings.iter().flat_map(|v| [v.x, v.y, v.z]).map(f64::to_bits).collect::<Vec<_>>()

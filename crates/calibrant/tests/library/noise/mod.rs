@@ -4,10 +4,8 @@
 mod filters;
 mod lines;
 
-use crate::common::messages;
-use crate::common::shared_data;
+use crate::common::{messages, read_accelerometer, shared_data};
 use calibrant::estimate::find_holds;
-use calibrant::io::{ReadOptions, read_recording};
 use calibrant::noise::{Coefficient, Moments, NoiseFit, PowerLaw, Segment, SensorNoise};
 use calibrant::sensor::{ReadingUnit, Recording, SensorKind};
 use calibrant::simulate::{Purpose, simulate_noise, stream};
@@ -267,8 +265,7 @@ fn the_first_hold_of_the_mti_determines_white_noise_and_not_bias_instability() {
         ("xsens-mti-static/xsens_gyro.mat", SensorKind::Gyroscope, 1.0, 6.0),
     ] {
         let Some(path) = shared_data(name) else { return };
-        let options = ReadOptions { unit: None, expected_unit: ReadingUnit::Counts, axes: 3 };
-        let recording = read_recording(&path, &options).expect("readable").recording;
+        let recording = read_accelerometer(&path, 3, ReadingUnit::Counts);
         let holds = find_holds(&recording, 1.0).expect("sampled fast enough");
         let hold = holds.iter().max_by(|a, b| a.duration_s().total_cmp(&b.duration_s())).expect("a hold");
         assert!(hold.duration_s() > 45.0, "{hold:?}");

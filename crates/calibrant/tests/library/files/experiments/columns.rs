@@ -100,6 +100,7 @@ topic = "/imu"
         rate_hz: Some(102.4),
         topic: Some("/imu".into()),
         counts_unless_stated: [false; 2],
+        accelerometer_only: None,
     };
     assert_eq!(Experiment::parse(&text, None).expect("good").columns, expected);
 }

@@ -83,7 +83,7 @@ const PAIRS: &[Pair] = &[
         "0 1 2\n1 2 3\n",
         "0 1 2 3\n1 2 3 4\n",
         counts,
-        "line 1: accelerometer: 3 columns where 4 are needed (imu_tk's columns are t x y z)",
+        "line 1: accelerometer: 3 columns where 4 are needed (without a header the columns are t x y z)",
     ),
     (
         "0 1 2 3\n1 2 3 4\n",
@@ -281,7 +281,7 @@ const CASES: &[Case] = &[
     (
         "t_s,ax_g,ay_g,az_g\n0,0,0,1\n1,0,1,0\n",
         || units(ImuUnit::MetrePerSecondSquared, ImuUnit::Counts),
-        "the accelerometer's columns are in g, but the unit was given as m/s² (leave --accelerometer-unit away: the file decides (name the columns in [columns] to overrule it))",
+        "line 1: the accelerometer's columns are in g, but the unit was given as m/s² (leave --accelerometer-unit away: the file decides (name the columns in [columns] to overrule it))",
     ),
     (
         "t_s,gx,gy,gz\n0,0,0,1\n1,0,1,0\n",
@@ -291,12 +291,12 @@ const CASES: &[Case] = &[
     (
         "t_s,gx_radps,gy_degps,gz_radps\n0,0,0,1\n1,0,1,0\n",
         plain,
-        "the axes of the gyroscope have different units: `gx_radps` has rad/s, `gy_degps` has deg/s (all three need the same)",
+        "line 1: the axes of the gyroscope have different units: `gx_radps` has rad/s, `gy_degps` has deg/s (all axes need the same)",
     ),
     (
         "t_s,gx,gy,gz_radps\n0,0,0,1\n1,0,1,0\n",
         plain,
-        "the axes of the gyroscope have different units: `gx` has no stated unit, `gz_radps` has rad/s (all three need the same)",
+        "line 1: the axes of the gyroscope have different units: `gx` has no stated unit, `gz_radps` has rad/s (all axes need the same)",
     ),
     (
         "t_ms,gx_radps,gy_radps,gz_radps\n0,0,0,1\n1,0,1,0\n",
@@ -316,7 +316,7 @@ const CASES: &[Case] = &[
     (
         "0 1 2\n1 2 3\n",
         || format(FileFormat::ImuTk),
-        "line 1: 3 columns where 4 are needed (imu_tk's columns are t x y z)",
+        "line 1: 3 columns where 4 are needed (without a header the columns are t x y z)",
     ),
     // columns
     (

@@ -18,6 +18,7 @@ const PLAIN: ImuReadOptions = ImuReadOptions {
     counts_unless_stated: [false; 2],
     rate_hz: None,
     topic: None,
+    accelerometer_only: None,
 };
 
 fn accelerometer(text: &str, options: &ImuReadOptions) -> Recording {

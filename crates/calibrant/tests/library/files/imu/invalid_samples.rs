@@ -2,7 +2,7 @@
 //! kind.
 
 use super::{read, refused};
-use calibrant::io::{ImuReadOptions, ReadOptions, parse_recording};
+use calibrant::io::ImuReadOptions;
 use calibrant::sensor::{ReadingUnit, SensorKind};
 
 /// A sensor at rest in 200 rows, with other cells in some of them.
@@ -21,12 +21,13 @@ fn text(other: &[(usize, usize, &str)]) -> String {
 
 #[test]
 fn one_absurd_number_is_a_invalid_sample_whatever_its_size() {
-    let plain = ReadOptions { unit: None, expected_unit: ReadingUnit::MetrePerSecondSquared, axes: 3 };
+    let plain = ImuReadOptions::accelerometer(3, ReadingUnit::MetrePerSecondSquared);
     for value in ["1e12", "1e13", "-1e15", "1e155", "-1e300"] {
         let body = text(&[(120, 2, value)]);
         let imu = read(&format!("t_s,gx_degps,gy_degps,gz_degps\n{body}"), &ImuReadOptions::default());
-        let alone = parse_recording(format!("t_s,ax,ay,az\n{body}").as_bytes(), &plain).expect("read");
-        let found = [imu.recording.gyroscope.expect("there"), alone.recording];
+        let alone = read(&format!("t_s,ax,ay,az\n{body}"), &plain);
+        let found =
+            [imu.recording.gyroscope, alone.recording.accelerometer].map(|found| found.expect("there"));
         for (recording, factor) in found.iter().zip([1.0_f64.to_radians(), 1.0]) {
             let (clean, spikes) = recording.without_spikes(SensorKind::Gyroscope);
             let spikes = spikes.expect(value);
