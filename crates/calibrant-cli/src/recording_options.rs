@@ -1,6 +1,6 @@
 //! The options of all commands that read a recording. They state what its file does not.
 
-use calibrant::io::{FileFormat, ImuReadOptions, ImuUnit, TimeUnit, read_columns};
+use calibrant::io::{FileFormat, ImuReadOptions, ImuUnit, SampleTimes, TimeUnit, read_columns};
 use calibrant::sensor::{SensorKind, WORKING_C};
 use std::path::Path;
 
@@ -21,6 +21,9 @@ pub(crate) struct RecordingOptions {
     /// Sample rate, Hz, for files without sample times.
     #[arg(long, value_name = "HZ")]
     rate_hz: Option<f64>,
+    /// Sample times: even, or as-logged (default: even, if the logged times are steps of a coarse clock about even ones).
+    #[arg(long, value_name = "TIMES", value_parser = times)]
+    times: Option<SampleTimes>,
     /// Topic of the IMU, in a bag with several IMUs.
     #[arg(long)]
     topic: Option<String>,
@@ -35,6 +38,7 @@ impl RecordingOptions {
             accelerometer_unit: self.accelerometer_unit,
             gyroscope_unit: self.gyroscope_unit,
             rate_hz: self.rate_hz,
+            times: self.times,
             topic: self.topic.clone(),
             ..ImuReadOptions::default()
         }
@@ -76,6 +80,11 @@ pub(crate) fn any_unit(text: &str) -> Result<ImuUnit, String> {
 
 fn time_unit(text: &str) -> Result<TimeUnit, String> {
     TimeUnit::parse(text).ok_or_else(|| "times are in s, ms, us or ns, or samples".into())
+}
+
+fn times(text: &str) -> Result<SampleTimes, String> {
+    let found = SampleTimes::ALL.into_iter().find(|times| times.name() == text);
+    found.ok_or_else(|| "sample times are even or as-logged".into())
 }
 
 /// A temperature that a sensor can have, °C.

@@ -74,8 +74,9 @@ pub use motion::{parse_motion, read_motion, write_motion};
 pub use noise::{NoiseLine, noise_json, noise_line, write_noise};
 pub use recording::{
     AccelerometerOnly, ColumnMapping, ColumnMeaning, ColumnUnit, FileFormat, Finding, ImuColumn, ImuFile,
-    ImuReadOptions, ImuUnit, Noticed, SecondFile, TimeUnit, parse_imu_pair, parse_imu_recording,
-    read_imu_pair, read_imu_recording, read_imu_sensor, write_imu_recording, write_recording,
+    ImuReadOptions, ImuUnit, Noticed, SampleTimes, SecondFile, TimeUnit, USUAL_RATE_SD_PPM, parse_imu_pair,
+    parse_imu_recording, read_imu_pair, read_imu_recording, read_imu_sensor, write_imu_recording,
+    write_recording,
 };
 pub use study::{study_json, write_study};
 pub use summary::{Failure, Summary, SummaryRow, calibrations_json, write_summary};

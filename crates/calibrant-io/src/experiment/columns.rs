@@ -2,12 +2,15 @@
 
 use super::number_range::Bounds;
 use super::toml_document::{Entry, Section};
-use crate::{ColumnMapping, FileFormat, ImuReadOptions, ImuUnit, TimeUnit};
+use crate::{ColumnMapping, FileFormat, ImuReadOptions, ImuUnit, SampleTimes, TimeUnit};
 use calibrant_core::error::Result;
 use calibrant_core::sensor::SensorKind;
 
 /// Range of a sample rate.
 const RATE: Bounds = Bounds::from(1e-6, 1e9, "Hz");
+
+/// Range of a sample rate's standard deviation.
+const RATE_SD: Bounds = Bounds::from(0.0, 1e5, "ppm");
 
 /// Reads `[columns]`.
 pub(super) fn read(section: &Section<'_>) -> Result<ImuReadOptions> {
@@ -21,6 +24,7 @@ pub(super) fn read(section: &Section<'_>) -> Result<ImuReadOptions> {
         ("ns", TimeUnit::Nanosecond),
         ("samples", TimeUnit::Sample),
     ];
+    let choices = SampleTimes::ALL.map(|times| (times.name(), times));
     let name = |key: &str| section.get(key).map(|entry| column(&entry)).transpose();
     let sensor_kind = |key: &str| section.get(key).map(|entry| three(&entry)).transpose();
     let columns = ColumnMapping {
@@ -36,7 +40,9 @@ pub(super) fn read(section: &Section<'_>) -> Result<ImuReadOptions> {
         accelerometer_unit: unit(section, "accelerometer_unit", SensorKind::Accelerometer)?,
         gyroscope_unit: unit(section, "gyroscope_unit", SensorKind::Gyroscope)?,
         rate_hz: section.get("rate_hz").map(|entry| entry.number(&RATE)).transpose()?,
+        rate_sd_ppm: section.get("rate_sd_ppm").map(|entry| entry.number(&RATE_SD)).transpose()?,
         topic: name("topic")?,
+        times: section.get("times").map(|entry| entry.word(&choices)).transpose()?,
         columns,
         ..ImuReadOptions::default()
     })

@@ -134,16 +134,27 @@ impl Noticed {
                 let source = stated_by.map_or_else(|| "as given".into(), |key| format!("its `{key}`"));
                 let rate = short(*rate_hz);
                 match counter {
-                    Some(name) => format!("{empty}: they follow from `{name}` and {rate} Hz, {source}"),
+                    Some(name) => format!(
+                        "{empty}: they follow from `{name}` and {rate} Hz, {source}; the uncertainty of this rate is rate_sd_ppm in [columns], 100 if not given"
+                    ),
                     None => format!(
-                        "{empty} and no counter: they follow from the rows and {rate} Hz, {source}; lost samples would not show"
+                        "{empty} and no counter: they follow from the rows and {rate} Hz, {source}; lost samples would not show; the uncertainty of this rate is rate_sd_ppm in [columns], 100 if not given"
                     ),
                 }
             }
             Self::PacketTimesReplaced(rate_hz) => format!(
-                "its times are those of packets, not of samples: they follow from the rows and {} Hz, as given; lost samples would not show",
+                "its times are those of packets, not of samples: they follow from the rows and {} Hz, as given; lost samples would not show; the uncertainty of this rate is rate_sd_ppm in [columns], 100 if not given",
                 short(*rate_hz)
             ),
+            Self::TimesEven { rate_hz, tick_s } => {
+                let steps = tick_s.map_or_else(String::new, |tick_s| {
+                    format!("the times are steps of {} ms of a clock: ", short(tick_s * 1e3))
+                });
+                format!(
+                    "{steps}the samples are taken as even, at {} Hz; --times as-logged, or times = \"as-logged\" in [columns], keeps the logged times",
+                    short(*rate_hz)
+                )
+            }
             Self::RateUnused => "the rate that was given is not used: the file has sample times".into(),
             Self::ClockWrapped(name, wraps) => {
                 format!("`{name}` begins anew {}: counted on", count(*wraps, "time"))

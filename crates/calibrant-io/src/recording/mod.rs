@@ -29,8 +29,8 @@ mod size;
 
 pub use imu::{
     AccelerometerOnly, ColumnMapping, ColumnMeaning, ColumnUnit, FileFormat, ImuColumn, ImuFile,
-    ImuReadOptions, ImuUnit, SecondFile, TimeUnit, parse_imu_pair, parse_imu_recording, read_imu_pair,
-    read_imu_recording, read_imu_sensor,
+    ImuReadOptions, ImuUnit, SampleTimes, SecondFile, TimeUnit, USUAL_RATE_SD_PPM, parse_imu_pair,
+    parse_imu_recording, read_imu_pair, read_imu_recording, read_imu_sensor,
 };
 pub use reader_finding::{Finding, Noticed};
 pub use recording_writer::{write_imu_recording, write_recording};

@@ -120,6 +120,13 @@ pub enum Noticed {
     },
     /// The times are those of packets. They follow from the rows and this rate, Hz, that was given.
     PacketTimesReplaced(f64),
+    /// The times are steps of a host's clock, or the user says that the samples are even: the times follow from the line through them.
+    TimesEven {
+        /// The sample rate, Hz.
+        rate_hz: f64,
+        /// The tick of the clock, s.
+        tick_s: Option<f64>,
+    },
     /// The rate that was given is not needed.
     RateUnused,
     /// The clock in this column began anew. The number counts how often.
@@ -182,6 +189,12 @@ impl Finding {
         self.code().severity() == Severity::Warning
     }
 
+    /// Do the sample times follow from a nominal rate, not from a clock that was recorded?
+    #[must_use]
+    pub fn is_nominal_rate(&self) -> bool {
+        matches!(self.noticed, Noticed::TimesDerived { .. } | Noticed::PacketTimesReplaced(_))
+    }
+
     /// A finding about the recording as a whole.
     pub(super) fn new(noticed: Noticed) -> Self {
         Self { noticed, line: None, sensor_kind: None, in_second_file: false }
@@ -215,6 +228,7 @@ impl Noticed {
             Self::Saturation { .. } => Code::ReadingsClipped,
             Self::TimesDerived { .. }
             | Self::PacketTimesReplaced(_)
+            | Self::TimesEven { .. }
             | Self::RateUnused
             | Self::ClockWrapped(..)
             | Self::TimesFromFirst { .. } => Code::ClockSource,

@@ -4,7 +4,9 @@ use super::duplicates::Readings;
 use super::source::Source;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::sensor::{ImuRecording, Recording, SensorKind};
-use calibrant_io::{FileFormat, Finding, ImuFile, ImuReadOptions, Input, read_imu_pair, read_imu_recording};
+use calibrant_io::{
+    FileFormat, Finding, ImuFile, ImuReadOptions, Input, USUAL_RATE_SD_PPM, read_imu_pair, read_imu_recording,
+};
 
 /// The samples of one sensor or of both, and where they come from.
 pub(crate) struct Recorded {
@@ -13,6 +15,8 @@ pub(crate) struct Recorded {
     pub(crate) format: Option<FileFormat>,
     /// What the reader noticed.
     pub(crate) findings: Vec<Finding>,
+    /// Relative standard deviation of the sample rate, if that is nominal; 0 if a clock was recorded.
+    pub(crate) rate_sd: f64,
     /// SHA-256 of each file.
     pub(crate) sha256: Vec<String>,
 }
@@ -21,7 +25,7 @@ impl Recorded {
     /// Reads an accelerometer alone.
     pub(crate) fn accelerometer_from(source: &Source, options: &ImuReadOptions) -> Result<Self> {
         let ImuFile { recording, findings, sha256, .. } = read_imu_recording(&source.recording, options)?;
-        Ok(Self { recording, format: None, findings, sha256 })
+        Ok(Self { recording, format: None, findings, rate_sd: 0.0, sha256 })
     }
 
     /// Reads an IMU from its file or its two files.
@@ -30,7 +34,11 @@ impl Recorded {
             Some(gyroscope) => read_imu_pair(&source.recording, gyroscope, options),
             None => read_imu_recording(&source.recording, options),
         }?;
-        Ok(Self { recording, format: Some(format), findings, sha256 })
+        let rate_sd = match findings.iter().any(Finding::is_nominal_rate) {
+            true => 1e-6 * options.rate_sd_ppm.unwrap_or(USUAL_RATE_SD_PPM),
+            false => 0.0,
+        };
+        Ok(Self { recording, format: Some(format), findings, rate_sd, sha256 })
     }
 
     /// The accelerometer's samples.

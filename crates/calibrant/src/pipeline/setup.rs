@@ -37,6 +37,13 @@ impl<'e> Setup<'e> {
         outliers
     }
 
+    /// The uncertainty of the sample rate of this recording.
+    pub(crate) fn set_rate_sd(&mut self, rate_sd: f64) {
+        if let Self::Imu(_, setup) = self {
+            setup.rate_sd = rate_sd;
+        }
+    }
+
     /// The white noise of the gyroscope as this recording shows it.
     pub(crate) fn set_white_noise(&mut self, white_noise: Option<WhiteNoise>) {
         if let Self::Imu(_, setup) = self {

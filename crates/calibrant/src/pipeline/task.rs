@@ -56,6 +56,7 @@ impl<'e> Task<'e> {
         let mut recorded = self.reader.read(source)?;
         notes.extend(Note::of_findings(&recorded.findings, source));
         let mut setup = self.kind.setup(source, &recorded.recording, notes)?;
+        setup.set_rate_sd(recorded.rate_sd);
         let outliers = setup.prepare(&mut recorded.recording);
         let (mut calibration, noise) = self.calibrate(source, &recorded, &setup, options.report)?;
         calibration.warnings.splice(0..0, outliers);

@@ -19,6 +19,7 @@ mod known_faces;
 mod large_rotation_errors;
 mod mounting;
 mod noise;
+mod nominal_rate;
 mod pipeline;
 mod priors;
 mod quantisation;

@@ -1,6 +1,6 @@
 //! The covariance of the estimates.
 //!
-//! The noise gives the inverse of the information. The uncertainty of gravity, common errors by coarse steps, and the unknown part of the Earth's
+//! The noise gives the inverse of the information. The uncertainty of gravity and of the sample rate, common errors by coarse steps, and the unknown part of the Earth's
 //! rate add to it.
 
 use crate::error::Result;
@@ -11,7 +11,7 @@ use crate::estimate::imu::variance_components::solution::Solution;
 use crate::estimate::quantisation::CoarseAxis;
 use crate::information;
 use crate::motion::Gravity;
-use crate::sensor::Condition;
+use crate::sensor::{Condition, ImuParameters, ImuQuantity, SensorKind};
 use nalgebra::{DMatrix, DVector};
 
 /// The uncertainty of the estimates and its sources.
@@ -26,11 +26,11 @@ pub(crate) struct Uncertainty {
 }
 
 impl Uncertainty {
-    /// The covariance of a solution. `coarse`: the gyroscope's axes with coarse steps.
+    /// The covariance of a solution. `coarse`: the gyroscope's axes with coarse steps; `rate_sd`: relative uncertainty of the sample rate.
     pub(crate) fn of(
         model: &ImuModel<'_>,
         solution: &Solution,
-        g: &Gravity,
+        (g, rate_sd): (&Gravity, f64),
         coarse: &[CoarseAxis],
     ) -> Result<Self> {
         let imu = &solution.fit.state.imu;
@@ -46,6 +46,8 @@ impl Uncertainty {
         // the uncertainty of gravity
         let slope = gravity_slope(&model.quantities, imu, g);
         covariance += &slope * slope.transpose() * (g.sd_mps2 * g.sd_mps2);
+        let slope = rate_slope(model, imu);
+        covariance += &slope * slope.transpose() * (rate_sd * rate_sd);
         // coarse steps: holds with nearly the same reading have the same error
         let of_noise = covariance.clone();
         for (slope, sd) in common_slopes(model, &solution.fit, coarse, &of_noise) {
@@ -54,6 +56,15 @@ impl Uncertainty {
         let (of_vertical, north_rms_radps) = add_earth(model, &solution.weighed, &mut covariance)?;
         Ok(Self { covariance, prior_share, of_vertical, north_rms_radps })
     }
+}
+
+/// Derivative of the estimates with respect to the logarithm of the sample rate: a faster clock makes turns shorter and gains larger.
+fn rate_slope(model: &ImuModel<'_>, imu: &ImuParameters) -> DVector<f64> {
+    let of_gyroscope = |quantity: &ImuQuantity| match quantity {
+        ImuQuantity::Of(SensorKind::Gyroscope, _) if !quantity.is_of_bias() => quantity.value(imu),
+        _ => 0.0,
+    };
+    DVector::from_iterator(model.quantities.len(), model.quantities.iter().map(of_gyroscope))
 }
 
 /// Adds the unknown part of the Earth's rate to a covariance: `D C Dᵀ`. `C` is the covariance of its unknowns, `D = −K C⁻¹` the derivative of the

@@ -65,6 +65,9 @@ pub struct ImuSetup {
     pub known: Vec<KnownTerm>,
     /// The temperature terms.
     pub thermal: ThermalModel,
+    /// Relative standard deviation of the recording's sample rate, if that is nominal; 0 if a clock was recorded. The gains of the gyroscope are
+    /// uncertain by this share.
+    pub rate_sd: f64,
     /// White noise of the gyroscope from a long hold of this recording. It is used if the datasheet gives no noise.
     pub white_noise: Option<WhiteNoise>,
 }

@@ -85,7 +85,8 @@ fn stages(
     identifiability::check(&model, &state, &linearised).map_err(explained)?;
     // least squares and variance components
     let solution = solve(&mut model, (state, linearised.residuals), &means, initial.between, settings)?;
-    let uncertainty = Uncertainty::of(&model, &solution, &setup.holds.gravity, &gyroscope.coarse)?;
+    let uncertainty =
+        Uncertainty::of(&model, &solution, (&setup.holds.gravity, setup.rate_sd), &gyroscope.coarse)?;
     let recorded = problem.recording.accelerometer.as_ref();
     let clock = recorded.and_then(|recorded| ClockDifference::of(&model, &solution.fit.state, recorded));
     let changes = Changing {

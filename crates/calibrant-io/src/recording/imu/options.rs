@@ -1,8 +1,12 @@
 //! The options for reading an IMU's recording: what the user states about a file beyond its content.
 
+use super::even_times::SampleTimes;
 use super::format::FileFormat;
 use super::unit::{ImuUnit, TimeUnit};
 use calibrant_core::sensor::{ReadingUnit, SensorKind};
+
+/// Standard deviation of a nominal sample rate, ppm: that of a crystal which was not measured. An RC oscillator has about 2000.
+pub const USUAL_RATE_SD_PPM: f64 = 100.0;
 
 /// Options for reading a recording of an IMU: everything that the file does not state itself. `[columns]` of
 /// an experiment file gives the same.
@@ -43,6 +47,10 @@ pub struct ImuReadOptions {
     pub counts_unless_stated: [bool; 2],
     /// Sample rate in Hz, for files without sample times.
     pub rate_hz: Option<f64>,
+    /// Even times or the logged ones; `None`: even ones where the logged times are steps of a coarse clock about them.
+    pub times: Option<SampleTimes>,
+    /// Standard deviation of that rate, or of the one that the file states, ppm; `None` for [`USUAL_RATE_SD_PPM`].
+    pub rate_sd_ppm: Option<f64>,
     /// Topic of a bag that has more than one of `sensor_msgs/msg/Imu`.
     pub topic: Option<String>,
     /// The recording is one of an accelerometer, or is read for its accelerometer alone.
@@ -108,6 +116,8 @@ impl ImuReadOptions {
             counts_unless_stated: [0, 1]
                 .map(|k| self.counts_unless_stated[k] || other.counts_unless_stated[k]),
             rate_hz: self.rate_hz.or(other.rate_hz),
+            times: self.times.or(other.times),
+            rate_sd_ppm: self.rate_sd_ppm.or(other.rate_sd_ppm),
             topic: self.topic.or(other.topic),
             accelerometer_only: self.accelerometer_only.or(other.accelerometer_only),
         }

@@ -43,7 +43,7 @@ pub(super) fn assemble(
         .iter()
         .map(|&sensor_kind| stated_unit(draft, options, sensor_kind))
         .collect::<Checked<Vec<_>>>()?;
-    let has_unused_rate = options.rate_hz.is_some() && sample_clock::are_recorded(samples);
+    let has_times = sample_clock::are_recorded(samples);
     let times = sample_clock::times(draft, samples, options, &mut findings);
     // all questions come at once
     let mut times = match times {
@@ -56,18 +56,21 @@ pub(super) fn assemble(
     if units.contains(&None) {
         return Err(ask(None, samples, &sensor_kinds, &units).into());
     }
+    let is_plain = draft.plain.is_some();
+    let alike = |row: usize| sensor_kinds.iter().all(|&sensor_kind| samples.holds(sensor_kind, row));
+    if has_times && !is_plain && (0..samples.rows).all(alike) {
+        sample_clock::make_even(&mut times, samples, options, &mut findings)?;
+    }
     let mut of_rows = Vec::new();
     let mut kept = increasing(&times, &sensor_kinds, samples, &mut of_rows)?;
-    let is_plain = draft.plain.is_some();
     let packets = |&sensor_kind: &SensorKind| Some((sensor_kind, Packets::of(&times, samples, sensor_kind)?));
     if let Some((sensor_kind, packets)) = sensor_kinds.iter().filter(|_| !is_plain).find_map(packets) {
-        let alike = |row: usize| sensor_kinds.iter().all(|&sensor_kind| samples.holds(sensor_kind, row));
         let Some(rate) = options.rate_hz.filter(|_| (0..samples.rows).all(alike)) else {
             return Err(packets.question(sensor_kind).into());
         };
         times = sample_clock::of_rows(samples.rows, rate, &mut findings);
         (kept, of_rows) = (Kept { rows: times.len(), dropped: Vec::new() }, Vec::new());
-    } else if has_unused_rate {
+    } else if has_times && options.rate_hz.is_some() {
         findings.push(Finding::new(Noticed::RateUnused));
     }
     findings.append(&mut of_rows);

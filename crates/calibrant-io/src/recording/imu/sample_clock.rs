@@ -2,6 +2,7 @@
 
 use super::column::ColumnMeaning;
 use super::column_values::Samples;
+use super::even_times::{EvenTimes, SampleTimes};
 use super::file_layout::Draft;
 use super::options::ImuReadOptions;
 use super::unit::TimeUnit;
@@ -58,6 +59,26 @@ pub(super) fn times(
 pub(super) fn of_rows(rows: usize, rate_hz: f64, findings: &mut Vec<Finding>) -> Vec<f64> {
     findings.push(Finding::new(Noticed::PacketTimesReplaced(rate_hz)));
     (0..rows).map(|row| row as f64 / rate_hz).collect()
+}
+
+/// Puts samples at even times, where these are asked for, or where the logged times are steps of a coarse clock.
+pub(super) fn make_even(
+    times: &mut [f64],
+    samples: &Samples,
+    options: &ImuReadOptions,
+    findings: &mut Vec<Finding>,
+) -> Checked<()> {
+    let is_twice = |row: usize| times[row] == times[row - 1] && samples.repeats(row, row - 1);
+    let even = match options.times {
+        Some(SampleTimes::AsLogged) => None,
+        Some(SampleTimes::Even) => Some(EvenTimes::asked(times)?),
+        None => EvenTimes::found(times).filter(|_| !(1..times.len()).any(is_twice)),
+    };
+    if let Some(even) = even {
+        times.iter_mut().enumerate().for_each(|(row, time_s)| *time_s = even.at(row));
+        findings.push(Finding::new(Noticed::TimesEven { rate_hz: 1.0 / even.step_s, tick_s: even.tick_s }));
+    }
+    Ok(())
 }
 
 /// The stated or given sample rate, and the key that states it.

@@ -150,7 +150,12 @@ impl ByHand {
             gyroscope.push(noisy(imu.gyroscope.reading(&rate), self.gyroscope_noise, rng));
         }
         if let Some(tick_s) = self.host_tick_s {
-            times_s.iter_mut().for_each(|t| *t = (*t / tick_s).floor() * tick_s);
+            // the host takes a sample some time after it was made
+            let mut last: f64 = 0.0;
+            for t in &mut times_s {
+                last = last.max(((*t + rng.random_range(0.0..tick_s)) / tick_s).floor() * tick_s);
+                *t = last;
+            }
         }
         let recording =
             |readings, unit| Some(Recording { times_s: times_s.clone(), readings, axes: 3, unit });

@@ -1,7 +1,7 @@
 //! Cases of broken `[columns]`, with their messages.
 
 use super::{Case, HOLDS, MOTION};
-use calibrant::io::{ColumnMapping, Experiment, FileFormat, ImuReadOptions, ImuUnit, TimeUnit};
+use calibrant::io::{ColumnMapping, Experiment, FileFormat, ImuReadOptions, ImuUnit, SampleTimes, TimeUnit};
 
 /// The broken `[columns]`.
 pub(super) const CASES: &[Case] = &[
@@ -78,6 +78,8 @@ format = "csv"
 time = "timestamp"
 time_unit = "ms"
 rate_hz = 102.4
+rate_sd_ppm = 50
+times = "as-logged"
 accelerometer = ["acc_x", "acc_y", "acc_z"]
 accelerometer_unit = "g"
 gyroscope = ["gyr_x", "gyr_y", "gyr_z"]
@@ -98,6 +100,8 @@ topic = "/imu"
         accelerometer_unit: Some(ImuUnit::StandardGravity),
         gyroscope_unit: Some(ImuUnit::DegreePerSecond),
         rate_hz: Some(102.4),
+        rate_sd_ppm: Some(50.0),
+        times: Some(SampleTimes::AsLogged),
         topic: Some("/imu".into()),
         counts_unless_stated: [false; 2],
         accelerometer_only: None,

@@ -17,6 +17,8 @@ const PLAIN: ImuReadOptions = ImuReadOptions {
     gyroscope_unit: None,
     counts_unless_stated: [false; 2],
     rate_hz: None,
+    rate_sd_ppm: None,
+    times: None,
     topic: None,
     accelerometer_only: None,
 };
@@ -60,7 +62,7 @@ fn mt_manager_reads_the_same_with_every_delimiter_and_comment() {
             assert_eq!(file.recording.gyroscope.as_ref(), Some(&expected), "{delimiter:?}");
             assert_eq!(
                 findings(&file)[0],
-                "its sample times are missing: they follow from `PacketCounter` and 50 Hz, its `Update Rate`"
+                "its sample times are missing: they follow from `PacketCounter` and 50 Hz, its `Update Rate`; the uncertainty of this rate is rate_sd_ppm in [columns], 100 if not given"
             );
         }
     }
@@ -254,7 +256,7 @@ fn rows_without_times_take_the_given_rate() {
     assert_eq!(file.recording.accelerometer.as_ref().expect("there").times_s, [0.0, 0.25, 0.5]);
     assert_eq!(
         findings(&file)[0],
-        "the file has no sample times and no counter: they follow from the rows and 4 Hz, as given; lost samples would not show"
+        "the file has no sample times and no counter: they follow from the rows and 4 Hz, as given; lost samples would not show; the uncertainty of this rate is rate_sd_ppm in [columns], 100 if not given"
     );
 }
 

@@ -3,6 +3,7 @@
 mod accelerometer_only;
 mod broken;
 mod good;
+mod host_times;
 mod invalid_samples;
 mod packets;
 mod parquet;

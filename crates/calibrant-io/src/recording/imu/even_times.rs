@@ -1,0 +1,183 @@
+//! Even times in place of those that a host's clock made.
+//!
+//! A sensor often samples evenly, and a host logs its samples with the steps of a coarse clock: 5, 10 and 15 ms in turn. A rate that is
+//! integrated over such steps turns too far, then too little. Even times are those of the line through all logged ones.
+
+use crate::recording::finding_words::short;
+use calibrant_core::error::{InputError, Refusal};
+
+/// Which times the samples have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SampleTimes {
+    /// Even ones: the line through the logged times.
+    Even,
+    /// The logged ones.
+    AsLogged,
+}
+
+impl SampleTimes {
+    /// All of them.
+    pub const ALL: [Self; 2] = [Self::Even, Self::AsLogged];
+
+    /// As a user writes it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Even => "even",
+            Self::AsLogged => "as-logged",
+        }
+    }
+}
+
+/// Fewer samples are not judged.
+const FEWEST: usize = 100;
+/// A clock with more different steps has no coarse tick.
+const MOST_STEPS: usize = 12;
+/// Steps are multiples of the tick to this share of it.
+const MULTIPLE: f64 = 1e-3;
+/// Largest distance between the line and logged times before and after it, in ticks. A lost sample moves all times after it.
+const MOST_TICKS: f64 = 3.0;
+/// A coarser tick, in even steps, may be that of packets, and a lost packet would not show.
+const COARSEST: f64 = 2.0;
+/// A logged step longer than this number of even steps is a gap.
+const GAP: f64 = 5.0;
+
+/// The line through logged times.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct EvenTimes {
+    first_s: f64,
+    pub(super) step_s: f64,
+    /// The tick of the clock, s, where it has one.
+    pub(super) tick_s: Option<f64>,
+}
+
+impl EvenTimes {
+    /// Even times, where the logged ones are steps of a coarse clock about them. `None` where they are even as logged, or uneven by more.
+    pub(super) fn found(times: &[f64]) -> Option<Self> {
+        let tick_s = tick(times)?;
+        let line = Self { tick_s: Some(tick_s), ..Self::line(times)? };
+        let (least, most) = line.off(times);
+        let longest_s = steps(times).fold(0.0, f64::max);
+        let is_even = tick_s <= COARSEST * line.step_s
+            && most - least <= (MOST_TICKS * tick_s).min(2.0 * line.step_s.max(tick_s))
+            && longest_s <= GAP * line.step_s.max(tick_s);
+        is_even.then_some(line)
+    }
+
+    /// Even times, because the user says so.
+    pub(super) fn asked(times: &[f64]) -> Result<Self, Box<InputError>> {
+        let refused = |message: String| {
+            let help = "use times = \"as-logged\", or cut the recording there";
+            Box::new(InputError::new(Refusal::RateContradicted, message, help))
+        };
+        let line =
+            Self::line(times).ok_or_else(|| refused("the times are not those of even samples".into()))?;
+        let gap = times.array_windows().find(|[one, next]| next - one > GAP * line.step_s);
+        match gap {
+            Some([one, next]) => Err(refused(format!(
+                "the samples are not even: there is none from {} to {} s",
+                short(*one),
+                short(*next)
+            ))),
+            None => Ok(Self { tick_s: tick(times), ..line }),
+        }
+    }
+
+    /// Least squares; `None` where times are missing or go back.
+    fn line(times: &[f64]) -> Option<Self> {
+        let n = times.len() as f64;
+        if times.len() < FEWEST || !steps(times).all(|step| step >= 0.0) {
+            return None;
+        }
+        let middle = 0.5 * (n - 1.0);
+        let mean = times[0] + times.iter().map(|t| t - times[0]).sum::<f64>() / n;
+        let sum: f64 = times.iter().enumerate().map(|(k, t)| (k as f64 - middle) * (t - mean)).sum();
+        let step_s = sum * 12.0 / (n * (n * n - 1.0));
+        (step_s > 0.0).then_some(Self { first_s: mean - middle * step_s, step_s, tick_s: None })
+    }
+
+    /// How far logged times are before and after the line, s.
+    fn off(&self, times: &[f64]) -> (f64, f64) {
+        let off = times.iter().enumerate().map(|(k, t)| t - self.at(k));
+        off.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), off| (least.min(off), most.max(off)))
+    }
+
+    /// The time of a sample, s.
+    pub(super) fn at(&self, sample: usize) -> f64 {
+        self.first_s + sample as f64 * self.step_s
+    }
+}
+
+fn steps(times: &[f64]) -> impl Iterator<Item = f64> {
+    times.array_windows().map(|[one, next]| next - one)
+}
+
+/// The tick of the clock that logged times are multiples of; `None` where their steps are all alike, or have no common tick.
+fn tick(times: &[f64]) -> Option<f64> {
+    let largest = times.iter().fold(0.0_f64, |most, t| most.max(t.abs()));
+    let resolution = 4.0 * f64::EPSILON * largest;
+    let mut different: Vec<f64> = Vec::new();
+    for step in steps(times).filter(|step| *step > resolution) {
+        if !different.iter().any(|other| (other - step).abs() <= MULTIPLE * step + resolution) {
+            different.push(step);
+        }
+        if different.len() > MOST_STEPS {
+            return None;
+        }
+    }
+    different.sort_by(f64::total_cmp);
+    let (least, longest) = (*different.first()?, *different.last()?);
+    let has_equal_times = steps(times).any(|step| step <= resolution);
+    if different.len() < 2 && !has_equal_times {
+        return None;
+    }
+    let apart = different.array_windows().map(|[one, next]| next - one);
+    let tick = apart.fold(least, f64::min);
+    let is_multiple = |step: &f64| {
+        (step / tick - (step / tick).round()).abs() <= MULTIPLE * longest / tick + resolution / tick
+    };
+    different.iter().all(is_multiple).then_some(tick)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Even samples of 100.2 Hz in steps of a clock, each logged up to `late_s` later.
+    fn logged(tick_s: f64, late_s: f64) -> Vec<f64> {
+        let late = |k: usize| late_s * ((k * 7919 % 101) as f64 / 101.0);
+        (0..5000).map(|k| ((k as f64 / 100.2 + late(k)) / tick_s).floor() * tick_s).collect()
+    }
+
+    #[test]
+    fn even_samples_in_steps_of_a_coarse_clock_are_found() {
+        for (tick_s, late_s) in [(0.005, 0.0), (0.005, 0.004), (0.001, 0.0), (0.0156, 0.0), (0.01, 0.0)] {
+            let times = logged(tick_s, late_s);
+            let even = EvenTimes::found(&times).unwrap_or_else(|| panic!("{tick_s} {late_s}"));
+            assert!((even.tick_s.expect("found") / tick_s - 1.0).abs() < 1e-6, "{even:?}");
+            assert!((even.step_s * 100.2 - 1.0).abs() < 2e-5, "{even:?}");
+            assert!(
+                (even.at(2500) - (2500.0 / 100.2 + 0.5 * late_s - 0.5 * tick_s)).abs() < 5e-4,
+                "{even:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn other_times_stay_as_they_were_logged() {
+        let even: Vec<f64> = (0..5000).map(|k| 1.7e9 + k as f64 * 0.01).collect();
+        assert_eq!(EvenTimes::found(&even), None, "even already");
+        let uneven: Vec<f64> = (0..5000).map(|k| k as f64 * 0.01 + 0.004 * (k as f64 * 0.7).sin()).collect();
+        assert_eq!(EvenTimes::found(&uneven), None, "no tick");
+        let mut lost = logged(0.005, 0.0);
+        lost.drain(2000..2003);
+        assert_eq!(EvenTimes::found(&lost), None, "lost samples");
+        let pauses: Vec<f64> = (0..5000).map(|k| (k + 500 * (k / 1000)) as f64 * 0.01).collect();
+        assert_eq!(EvenTimes::found(&pauses), None, "pauses");
+        assert!(
+            EvenTimes::asked(&pauses).expect_err("a gap").message.contains("none from 9.99 to 15"),
+            "named"
+        );
+        assert!(EvenTimes::asked(&uneven).is_ok());
+    }
+}
