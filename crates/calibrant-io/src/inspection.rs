@@ -45,7 +45,7 @@ pub struct SensorInspection {
     pub samples: usize,
     /// First and last sample time, s.
     pub span_s: (f64, f64),
-    /// The inverse of the usual step, Hz.
+    /// Samples over duration, gaps left out, Hz.
     pub rate_hz: f64,
     /// Shortest and longest step without gaps, s.
     pub steps_s: (f64, f64),
@@ -140,7 +140,7 @@ impl SensorInspection {
             unit: recording.unit,
             samples: recording.len(),
             span_s: (recording.times_s[0], recording.times_s[recording.len() - 1]),
-            rate_hz,
+            rate_hz: 1.0 / mean_step,
             steps_s: (bounds(f64::INFINITY, f64::min), bounds(0.0, f64::max)),
             jitter_s: variance.sqrt(),
             gaps,

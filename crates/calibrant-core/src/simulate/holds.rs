@@ -3,6 +3,7 @@
 use super::Rng;
 use crate::sensor::{ReadingUnit, Recording, SensorParameters};
 use nalgebra::{UnitQuaternion, Vector3};
+use rand::seq::SliceRandom;
 use rand_distr::{Distribution, StandardNormal};
 
 /// The conditions of the simulation.
@@ -23,7 +24,7 @@ pub struct HoldsSimulation {
 }
 
 /// The recording of a sensor in orientations spread evenly over the sphere, and the true specific force in
-/// each hold, m/s². The orientations are a Fibonacci lattice, turned at random.
+/// each hold, m/s². The orientations are a Fibonacci lattice, turned at random, in random order: a drift then looks like no parameter.
 pub fn simulate_holds(
     sensor: &SensorParameters,
     noise: &Vector3<f64>,
@@ -31,11 +32,10 @@ pub fn simulate_holds(
     setup: &HoldsSimulation,
     rng: &mut Rng,
 ) -> (Recording, Vec<Vector3<f64>>) {
-    let mut normal = || -> f64 { StandardNormal.sample(rng) };
-    let frame =
-        UnitQuaternion::from_quaternion(nalgebra::Quaternion::new(normal(), normal(), normal(), normal()));
+    let mut part = || -> f64 { StandardNormal.sample(rng) };
+    let frame = UnitQuaternion::from_quaternion(nalgebra::Quaternion::new(part(), part(), part(), part()));
     let golden = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
-    let directions: Vec<Vector3<f64>> = (0..setup.poses)
+    let mut directions: Vec<Vector3<f64>> = (0..setup.poses)
         .map(|j| {
             let z = 1.0 - (2.0 * j as f64 + 1.0) / setup.poses as f64;
             let (sin, cos) = (golden * j as f64).sin_cos();
@@ -43,6 +43,8 @@ pub fn simulate_holds(
             frame * Vector3::new(r * cos, r * sin, z)
         })
         .collect();
+    directions.shuffle(rng);
+    let mut normal = || -> f64 { StandardNormal.sample(rng) };
     let forces: Vec<_> = directions.iter().map(|direction| direction * setup.gravity_mps2).collect();
     let samples = |duration: f64| (duration * setup.rate_hz).round().max(1.0) as usize;
     let (mut times_s, mut readings) = (Vec::new(), Vec::new());
