@@ -17,6 +17,10 @@ pub(super) struct HoldsFields {
     detected: bool,
     between_holds_sd_mps2: f64,
     between_holds_dominates: bool,
+    #[serde(flatten)]
+    bias_drift: Option<InUnit<Vec<f64>>>,
+    #[serde(flatten)]
+    bias_drift_sd: Option<InUnit<Vec<f64>>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     faces: Option<FacesFields>,
     /// With 0, the fit to the magnitudes is exact and checks nothing.
@@ -84,6 +88,10 @@ impl HoldsFields {
             detected: holds.detected,
             between_holds_sd_mps2: holds.between_holds_sd_mps2,
             between_holds_dominates: holds.between_holds_dominates,
+            bias_drift: holds.drift.map(|drift| InUnit::new("bias_drift", unit, per_axis(&drift.value, 3))),
+            bias_drift_sd: holds
+                .drift
+                .map(|drift| InUnit::new("bias_drift_sd", unit, per_axis(&drift.sd(), 3))),
             faces: holds.tilt.map(|tilt| FacesFields {
                 tilt_sd_rad: tilt.sd_rad,
                 source: tilt.source.name(),

@@ -1,5 +1,6 @@
 //! What a calibration says of the holds: each of them, their scatter, and the face alignment.
 
+use super::holds::BiasDrift;
 use super::uncalibrated::Uncalibrated;
 use crate::diagnostic::{Change, HoldLeftOut};
 use crate::motion::{Gravity, Hold};
@@ -34,6 +35,8 @@ pub struct HoldCalibration {
     pub before: Uncalibrated,
     /// Mean temperature of each hold, °C, if the model has temperature terms.
     pub temperatures_c: Option<Vec<f64>>,
+    /// The drift of the accelerometer's bias that the holds were freed from, if one was allowed for.
+    pub drift: Option<BiasDrift>,
     /// A change of the accelerometer within the recording. `None` without evidence, and for known directions.
     pub change: Option<Box<Change>>,
 }

@@ -41,7 +41,7 @@ pub use calibrate::calibrate;
 pub use comparison::{ComparedQuantity, Comparison, OverallDifference};
 pub use hold_result::{FaceTilt, HoldCalibration, HoldResult, TiltSource};
 pub use holds::{
-    Coverage, ExpectedCalibration, HoldsSetup, clipped_holds, coverage, expected_calibration,
+    BiasDrift, Coverage, ExpectedCalibration, HoldsSetup, clipped_holds, coverage, expected_calibration,
     find_clean_holds, find_holds, holds_between, holds_lost_to_filter,
 };
 pub use imu::{

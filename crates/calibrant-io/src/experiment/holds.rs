@@ -45,6 +45,8 @@ pub struct HoldsPlan {
     /// Face alignment of these directions, rad about each axis. Where it is not given, the scatter of the
     /// holds determines it.
     pub face_sd_rad: Option<f64>,
+    /// Standard deviation of the drift of each bias from the first hold to the last, m/s². By default 2 mg, as while a MEMS sensor warms up.
+    pub bias_drift_sd_mps2: f64,
     /// Shortest stationary interval that counts as a hold, s.
     pub minimum_hold_s: f64,
     /// Number of poses of a simulated recording.
@@ -63,11 +65,17 @@ impl HoldsPlan {
             gravity: self.gravity,
             gauge: self.gauge,
             intervals_s: self.intervals_s.clone(),
+            bias_drift_sd_mps2: self.bias_drift_sd_mps2,
             minimum_hold_s: self.minimum_hold_s,
             found: None,
         }
     }
 }
+
+/// Usual drift of a bias over a recording, m/s².
+const BIAS_DRIFT_SD_MPS2: f64 = 0.02;
+/// Range of it.
+const BIAS_DRIFT: Bounds = Bounds::from(0.0, 100.0, "m/s²");
 
 /// Reads `[holds]`. The gyroscope of an IMU senses Earth's rate: a latitude beside a value of gravity serves
 /// for that.
@@ -106,6 +114,7 @@ pub(super) fn read(section: &Section<'_>, is_imu: bool) -> Result<HoldsPlan> {
         intervals_s,
         directions,
         face_sd_rad: face_sd.map(f64::to_radians),
+        bias_drift_sd_mps2: number("bias_drift_sd_mps2", &BIAS_DRIFT, BIAS_DRIFT_SD_MPS2)?,
         minimum_hold_s: number("minimum_hold_s", &DURATION, 1.0)?,
         poses,
         hold_s,

@@ -49,6 +49,7 @@ const KEYS: &[(&str, &[&str])] = &[
             "intervals_s",
             "directions",
             "face_sd_deg",
+            "bias_drift_sd_mps2",
             "minimum_hold_s",
             "poses",
             "hold_s",

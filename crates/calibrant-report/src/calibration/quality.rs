@@ -1,7 +1,8 @@
 //! The data and the quality of a calibration, in words.
 
 use crate::number_format;
-use calibrant_core::estimate::{Calibration, FaceTilt, Recovered, TimeOffset};
+use calibrant_core::estimate::{BiasDrift, Calibration, FaceTilt, Recovered, TimeOffset};
+use calibrant_core::sensor::SensorKind;
 
 /// Below this, a probability counts as evidence against the model.
 const SIGNIFICANT: f64 = 0.001;
@@ -58,6 +59,7 @@ pub fn calibration_quality(calibration: &Calibration) -> Vec<String> {
         parts.push(format!("the error of the known turns is {} rms", number_format::missed_angle(rms)));
     }
     if let Some(holds) = calibration.holds() {
+        parts.extend(holds.drift.map(|drift| bias_drift(&drift, calibration)));
         parts.extend(holds.tilt.as_ref().map(face_alignment));
         parts.push(match holds.degrees_of_freedom {
             0 => "gravity in the holds determines the accelerometer, and no data are left to check it".into(),
@@ -75,6 +77,18 @@ pub fn calibration_quality(calibration: &Calibration) -> Vec<String> {
 pub(super) fn milliseconds(time: &TimeOffset) -> String {
     let sign = if time.offset_s > 0.0 { "+" } else { "" };
     format!("{sign}{} ms", number_format::with_sd(1e3 * time.offset_s, 1e3 * time.sd_s))
+}
+
+/// The drift of the accelerometer's bias, with its standard deviations.
+fn bias_drift(drift: &BiasDrift, calibration: &Calibration) -> String {
+    let sd = drift.sd();
+    let axes = [0, 1, 2].map(|axis| number_format::with_sd(drift.value[axis], sd[axis]));
+    let unit = calibration.unit(SensorKind::Accelerometer);
+    format!(
+        "the accelerometer's bias drifted by {} {} from the first hold to the last (x, y, z)",
+        axes.join(", "),
+        unit.symbol()
+    )
 }
 
 /// How well the sensor was placed on its faces.

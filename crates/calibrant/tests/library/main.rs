@@ -1,6 +1,7 @@
 //! Tests of the library from outside: one binary, so that it is linked once.
 
 mod architecture;
+mod bias_drift;
 mod clock_skew;
 mod common;
 mod contradicted_inputs;

@@ -1,21 +1,24 @@
 //! Does the accelerometer change from a hold on?
 
-use super::robust_weights::Magnitude;
-use crate::diagnostic::{Change, Changed};
+use super::robust_weights::Robust;
+use crate::diagnostic::{Change, Changed, Course};
 use crate::estimate::HoldResult;
 use crate::estimate::change::Series;
 use crate::sensor::SensorKind;
 use nalgebra::{DMatrix, DVector};
 
-/// The change that the magnitudes of the holds show, if there is one. Holds that were known to be bad before their residual say nothing.
-pub(super) fn change(holds: &[HoldResult], magnitudes: &[Magnitude], gravity: f64) -> Option<Change> {
+/// The change that the holds show in a fit without a drift, if there is one. Holds that were known to be bad before their residual say nothing.
+///
+/// `follows`: does the result follow a drift of the bias? It is then no change.
+pub(super) fn change(holds: &[HoldResult], fit: &Robust, gravity: f64, follows: bool) -> Option<Change> {
+    let (magnitudes, used) = (&fit.magnitudes, &fit.used);
     let sound: Vec<usize> = (0..holds.len()).filter(|&j| holds[j].reason.is_none()).collect();
     let (rows, columns) = (sound.len(), magnitudes.first()?.by_parameters.len());
     let of = |row: usize| &magnitudes[sound[row]];
     let sd = |row: usize| of(row).own.sqrt();
     let series = Series {
         times_s: sound.iter().map(|&j| middle(&holds[j])).collect(),
-        left_out: sound.iter().map(|&j| !holds[j].used).collect(),
+        left_out: sound.iter().map(|&j| !used[j]).collect(),
         errors: DVector::from_fn(rows, |row, _| of(row).error / sd(row)),
         parameters: DMatrix::from_fn(rows, columns, |row, k| of(row).by_parameters[k] / sd(row)),
         kinds: vec![
@@ -27,10 +30,12 @@ pub(super) fn change(holds: &[HoldResult], magnitudes: &[Magnitude], gravity: f6
         ],
     };
     let found = series.change(1)?;
-    Some(Change::of(SensorKind::Accelerometer, found, |last, first| {
+    let change = Change::of(SensorKind::Accelerometer, found, |last, first| {
         let (before, after) = (sound[last], sound[first]);
         (before, after, 0.5 * (holds[before].hold.end_s + holds[after].hold.start_s))
-    }))
+    });
+    let is_drift = change.of == Changed::Bias && change.course == Course::Drift;
+    (!(is_drift && follows)).then_some(change)
 }
 
 fn middle(result: &HoldResult) -> f64 {

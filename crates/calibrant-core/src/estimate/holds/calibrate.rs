@@ -1,10 +1,10 @@
 //! The calibration from holds: detection, fit, result.
 
+use super::bias_drift::{self, Fitted};
 use super::coarse_steps::coarse_steps;
 use super::hold_detection::{beyond, find_clean_holds, holds_between};
 use super::low_pass_filtered::{holds_lost_to_filter, with_filter};
 use super::residuals::magnitude_rms;
-use super::robust_weights::{self, Robust};
 use super::saturated_holds::{clipped_holds, reason as clipped_reason, with_clipped};
 use super::setup::HoldsSetup;
 use super::{accelerometer_change, verdict};
@@ -16,7 +16,6 @@ use crate::estimate::{
     Calibration, CalibrationProblem, CalibrationSettings, FitStatistics, HoldCalibration, HoldResult,
     Recovered, Uncalibrated, coarse_axes_in, statistics,
 };
-use crate::motion::Hold;
 use crate::sensor::{ImuParameters, Recording, SensorModel, SensorParameters};
 use nalgebra::{Matrix3, Vector3};
 
@@ -47,17 +46,18 @@ pub(in crate::estimate) fn calibrate(
     let lost = found
         .and_then(|(recording, minimum_s)| holds_lost_to_filter(recording, &holds, minimum_s))
         .map(|lost| Diagnostic::HoldsLostToFilter { lost });
-    let robust = match problem.sensor.model {
-        SensorModel::ScaleBias => robust_weights::fit::<6>(problem, setup, settings, &holds, sound, of_mean),
-        SensorModel::Full => robust_weights::fit::<9>(problem, setup, settings, &holds, sound, of_mean),
+    let detected = holds.clone();
+    let fitted = match problem.sensor.model {
+        SensorModel::ScaleBias => bias_drift::fit::<6>(problem, setup, settings, holds, (sound, of_mean)),
+        SensorModel::Full => bias_drift::fit::<9>(problem, setup, settings, holds, (sound, of_mean)),
     }
     .map_err(|error| with_clipped(error, &clipped, as_read))
     .map_err(|error| match found {
-        Some((recording, minimum_s)) => with_filter(error, recording, &holds, minimum_s),
+        Some((recording, minimum_s)) => with_filter(error, recording, &detected, minimum_s),
         None => error,
     })?;
     let reasons = clipped.iter().map(|end| end.map(|end| clipped_reason(&end, as_read))).collect();
-    let mut calibration = assemble(problem, setup, holds, reasons, robust);
+    let mut calibration = assemble(problem, setup, reasons, fitted);
     calibration.warnings.extend(lost);
     calibration.warnings.extend(coarse_steps(&coarse, as_read));
     calibration.warnings.extend(beyond(as_read, setup.intervals_s.as_deref().unwrap_or_default()));
@@ -68,9 +68,8 @@ pub(in crate::estimate) fn calibrate(
 fn assemble(
     problem: &CalibrationProblem<'_>,
     setup: &HoldsSetup,
-    holds: Vec<Hold>,
     reasons: Vec<Option<HoldLeftOut>>,
-    robust: Robust,
+    Fitted { holds, robust, drift, without }: Fitted,
 ) -> Calibration {
     let list = setup.gauge.parameter_list(problem.sensor.model);
     let sensor = robust.sensor;
@@ -102,7 +101,8 @@ fn assemble(
         residual_rms += residual.component_mul(&residual) / count as f64;
     }
     let magnitude_rms = magnitude_rms(&results);
-    let change = accelerometer_change::change(&results, &robust.magnitudes, setup.gravity.magnitude_mps2);
+    let fit = without.as_ref().unwrap_or(&robust);
+    let change = accelerometer_change::change(&results, fit, g.magnitude_mps2, drift.is_some());
     let degrees_of_freedom = robust.degrees_of_freedom;
     let fit = FitStatistics {
         chi2: robust.chi2,
@@ -147,6 +147,7 @@ fn assemble(
             detected: setup.intervals_s.is_none(),
             before: Uncalibrated::accelerometer(problem.sensor, &sensor),
             temperatures_c: None,
+            drift,
             change: change.map(Box::new),
         }),
         gyroscope: None,

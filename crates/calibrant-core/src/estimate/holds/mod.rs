@@ -21,6 +21,7 @@
 //! is removed before the fit (`saturated_holds`).
 
 mod accelerometer_change;
+mod bias_drift;
 mod calibrate;
 mod coarse_steps;
 mod expected_accuracy;
@@ -44,6 +45,7 @@ pub(super) use saturated_holds::{reason as clipped_reason, with_clipped};
 pub(super) use sphere::sphere;
 pub(super) use verdict::left_out;
 
+pub use bias_drift::BiasDrift;
 pub use expected_accuracy::{ExpectedCalibration, expected_calibration};
 pub(super) use hold_detection::{as_recorded, beyond, median};
 pub use hold_detection::{find_clean_holds, find_holds, holds_between};

@@ -84,7 +84,19 @@ struct Problem<'a, const P: usize> {
     /// Variance of a mean that more samples do not lower: that of coarse steps.
     of_mean: Vector3<f64>,
     prior: Option<(SVector<f64, P>, SVector<f64, P>)>,
+    conditions: Conditions,
     settings: &'a CalibrationSettings,
+}
+
+/// What a drift of the bias means for the weights.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Conditions {
+    /// The holds that are used; `None` to find the outliers.
+    pub(super) used: Option<Vec<bool>>,
+    /// Degrees of freedom that it takes.
+    pub(super) taken: f64,
+    /// Least `σ_b`, m/s².
+    pub(super) least_between: f64,
 }
 
 /// Fits, finds the scatter between holds, leaves bad holds out. `sound`: places of the holds that may be used; `of_mean`: variance of a mean that more samples do not lower.
@@ -93,8 +105,7 @@ pub(super) fn fit<const P: usize>(
     setup: &HoldsSetup,
     settings: &CalibrationSettings,
     holds: &[Hold],
-    sound: Vec<usize>,
-    of_mean: Vector3<f64>,
+    (sound, of_mean, conditions): (Vec<usize>, Vector3<f64>, Conditions),
 ) -> Result<Robust> {
     let list = setup.gauge.parameter_list(problem.sensor.model);
     let usable: Vec<Hold> = sound.iter().map(|&j| holds[j].clone()).collect();
@@ -113,6 +124,7 @@ pub(super) fn fit<const P: usize>(
         within,
         of_mean,
         prior,
+        conditions,
         settings,
     };
     problem.information(&start)?;
@@ -137,8 +149,8 @@ pub(super) fn expect<const P: usize>(
         sphere(holds, gravity).ok_or_else(|| Error::NotIdentifiable(Box::new(too_few(holds, &list))))?;
     let within = pooled_sd(holds, &start, gravity);
     let (sound, of_mean) = ((0..holds.len()).collect(), Vector3::zeros());
-    let problem =
-        Problem::<P> { holds, sound, list, gravity, within, of_mean, prior: None, settings: &settings };
+    let (prior, conditions, settings) = (None, Conditions::default(), &settings);
+    let problem = Problem::<P> { holds, sound, list, gravity, within, of_mean, prior, conditions, settings };
     let information = problem.information(&start)?;
     Ok((start, within, information))
 }
@@ -229,6 +241,9 @@ impl<const P: usize> Problem<'_, P> {
 
     /// The holds that are used, and the fit of these.
     fn select(&self, start: &SensorParameters) -> Result<(Vec<bool>, Weighted<P>)> {
+        if let Some(used) = &self.conditions.used {
+            return Ok((used.clone(), self.weigh(used, start)?));
+        }
         let mut used = self.first_guess(start);
         let mut weighted = self.weigh(&used, start)?;
         // one change at a time: leave out the worst hold that is too bad, take back the best that is not
@@ -335,7 +350,7 @@ impl<const P: usize> Problem<'_, P> {
         };
         // the gains are those of the fit without a scatter between holds, in which they are of no account
         let (mut gains_of, mut from) = (None, *start);
-        let (between, fit) = excess(rms, |between| {
+        let mut trial = |between: f64| {
             let directions = self.directions(&chosen, &|_| 1.0, between, gains_of.as_ref().unwrap_or(start));
             let fit = directions.fit(&from, self.settings)?;
             gains_of.get_or_insert(fit.sensor);
@@ -345,8 +360,12 @@ impl<const P: usize> Problem<'_, P> {
                 degrees_of_freedom: self.degrees_left(chosen.len(), &fit)?,
                 fitted: fit,
             })
-        })
-        .ok_or_else(singular)?;
+        };
+        let least = self.conditions.least_between;
+        let (between, fit) = match excess(rms, &mut trial).ok_or_else(singular)? {
+            (between, _) if between < least => (least, trial(least).ok_or_else(singular)?.fitted),
+            found => found,
+        };
         self.weighted(chosen.len(), fit, between, gains_of.unwrap_or(*start))
     }
 
@@ -372,10 +391,11 @@ impl<const P: usize> Problem<'_, P> {
 
     /// Degrees of freedom that holds leave: their number less `tr(Σ F)`, the parameters that they determine.
     fn degrees_left(&self, count: usize, fit: &Fit<P>) -> Option<f64> {
-        let Some((_, weight)) = self.prior else { return Some(count.saturating_sub(P) as f64) };
+        let left = count as f64 - self.conditions.taken;
+        let Some((_, weight)) = self.prior else { return Some((left - P as f64).max(0.0)) };
         let covariance = covariance_of(fit)?;
         let of_prior: f64 = (0..P).map(|k| (weight[k] * covariance[(k, k)]).clamp(0.0, 1.0)).sum();
-        Some((count as f64 - (P as f64 - of_prior)).max(f64::EPSILON))
+        Some((left - (P as f64 - of_prior)).max(f64::EPSILON))
     }
 
     fn magnitudes(&self, weighted: &Weighted<P>) -> Vec<Magnitude> {

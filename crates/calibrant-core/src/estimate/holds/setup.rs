@@ -12,6 +12,8 @@ pub struct HoldsSetup {
     pub gauge: Gauge,
     /// Holds given by the user as (start, end) in s; `None` to find them.
     pub intervals_s: Option<Vec<(f64, f64)>>,
+    /// Standard deviation of the drift of each bias from the first hold to the last, m/s²; 0 for none. See [`BiasDrift`](super::BiasDrift).
+    pub bias_drift_sd_mps2: f64,
     /// Duration of the shortest hold, s.
     pub minimum_hold_s: f64,
     /// The holds of this recording, if they were found before, after its outliers were removed. Neither step is repeated.
@@ -24,6 +26,7 @@ impl Default for HoldsSetup {
             gravity: Gravity { magnitude_mps2: 9.806_65, sd_mps2: 0.0 },
             gauge: Gauge::Upper,
             intervals_s: None,
+            bias_drift_sd_mps2: 0.0,
             minimum_hold_s: 1.0,
             found: None,
         }

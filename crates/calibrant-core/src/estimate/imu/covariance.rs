@@ -26,12 +26,13 @@ pub(crate) struct Uncertainty {
 }
 
 impl Uncertainty {
-    /// The covariance of a solution. `coarse`: the gyroscope's axes with coarse steps; `rate_sd`: relative uncertainty of the sample rate.
+    /// The covariance of a solution. `coarse`: the gyroscope's axes with coarse steps; `rate_sd`: relative uncertainty of the sample rate;
+    /// `drifts`: errors of the estimates by the uncertainty of the accelerometer's drift.
     pub(crate) fn of(
         model: &ImuModel<'_>,
         solution: &Solution,
         (g, rate_sd): (&Gravity, f64),
-        coarse: &[CoarseAxis],
+        (coarse, drifts): (&[CoarseAxis], Vec<DVector<f64>>),
     ) -> Result<Self> {
         let imu = &solution.fit.state.imu;
         let mut covariance = information::covariance(&solution.fit.information).ok_or_else(singular)?;
@@ -46,6 +47,9 @@ impl Uncertainty {
         // the uncertainty of gravity
         let slope = gravity_slope(&model.quantities, imu, g);
         covariance += &slope * slope.transpose() * (g.sd_mps2 * g.sd_mps2);
+        for slope in drifts {
+            covariance += &slope * slope.transpose();
+        }
         let slope = rate_slope(model, imu);
         covariance += &slope * slope.transpose() * (rate_sd * rate_sd);
         // coarse steps: holds with nearly the same reading have the same error

@@ -22,6 +22,7 @@ mod checks;
 mod clock;
 mod clock_rate;
 mod covariance;
+mod drift_errors;
 mod earth_rate;
 mod estimated;
 mod initial;

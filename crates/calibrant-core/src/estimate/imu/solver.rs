@@ -17,6 +17,7 @@ use crate::estimate::imu::checks::time_offset_by_activity::with_time_offset;
 use crate::estimate::imu::checks::wrong_turns;
 use crate::estimate::imu::clock::ClockDifference;
 use crate::estimate::imu::covariance::Uncertainty;
+use crate::estimate::imu::drift_errors::drift_errors;
 use crate::estimate::imu::earth_rate::EarthRate;
 use crate::estimate::imu::estimated::{estimated_quantities, prior_of};
 use crate::estimate::imu::initial::accelerometer_alone::initial_accelerometer;
@@ -85,8 +86,9 @@ fn stages(
     identifiability::check(&model, &state, &linearised).map_err(explained)?;
     // least squares and variance components
     let solution = solve(&mut model, (state, linearised.residuals), &means, initial.between, settings)?;
-    let uncertainty =
-        Uncertainty::of(&model, &solution, (&setup.holds.gravity, setup.rate_sd), &gyroscope.coarse)?;
+    let drifts = drift_errors(&model, &solution.fit, &first.holds, settings);
+    let known = (&setup.holds.gravity, setup.rate_sd);
+    let uncertainty = Uncertainty::of(&model, &solution, known, (&gyroscope.coarse, drifts))?;
     let recorded = problem.recording.accelerometer.as_ref();
     let clock = recorded.and_then(|recorded| ClockDifference::of(&model, &solution.fit.state, recorded));
     let changes = Changing {

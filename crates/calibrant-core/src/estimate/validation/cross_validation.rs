@@ -17,6 +17,7 @@ use crate::motion::Hold;
 use crate::sensor::ImuRecording;
 use nalgebra::Vector3;
 use rayon::prelude::*;
+use std::borrow::Cow;
 
 /// Leaves out each of so many contiguous blocks of the holds that the calibration of an IMU used, and predicts it from the others.
 ///
@@ -47,6 +48,8 @@ fn cross_validated_imu(
             "validate on another recording, with holds in any orientation",
         )));
     }
+    let steady = steady(calibration, problem.recording);
+    let problem = &ImuProblem { recording: &steady, ..*problem };
     let (accelerometer, gyroscope) = recordings(problem)?;
     let all: Vec<Hold> = calibration.hold_results().iter().map(|result| result.hold.clone()).collect();
     let still_noise = calibration.gyroscope.as_ref().map(|gyroscope| gyroscope.still.noise);
@@ -80,6 +83,10 @@ pub fn cross_validate(
     folds: usize,
 ) -> Result<Validation> {
     let (setup, _) = of_holds(calibration, problem)?;
+    let setup = HoldsSetup { bias_drift_sd_mps2: 0.0, ..setup.clone() };
+    let drift = calibration.holds().and_then(|holds| holds.drift);
+    let steady = drift.map(|drift| drift.taken_out_of(problem.recording));
+    let problem = &CalibrationProblem { recording: steady.as_ref().unwrap_or(problem.recording), ..*problem };
     let train = |block: &Block| {
         let setup = HoldsSetup { intervals_s: Some(block.others.clone()), ..setup.clone() };
         let problem = CalibrationProblem { stimulus: Stimulus::Holds(&setup), ..*problem };
@@ -121,10 +128,20 @@ fn crossed(
     Ok(judged(ValidationSource::Folds { folds, failed }, errors, prediction, &Caveats::of(calibration)))
 }
 
+/// The recording without the drift of the accelerometer's bias: the blocks have it in common.
+fn steady<'a>(calibration: &Calibration, recording: &'a ImuRecording) -> Cow<'a, ImuRecording> {
+    let drift = calibration.holds().and_then(|holds| holds.drift);
+    let (Some(drift), Some(accelerometer)) = (drift, &recording.accelerometer) else {
+        return Cow::Borrowed(recording);
+    };
+    Cow::Owned(ImuRecording { accelerometer: Some(drift.taken_out_of(accelerometer)), ..recording.clone() })
+}
+
 /// What is known of the recording, without a block of its holds.
 fn without(block: &Block, setup: &ImuSetup) -> ImuSetup {
     let mut setup = setup.clone();
     setup.holds.intervals_s = Some(block.others.clone());
+    setup.holds.bias_drift_sd_mps2 = 0.0;
     setup.turns.retain(|turn| !block.touches(turn.start_s, turn.end_s));
     setup
 }

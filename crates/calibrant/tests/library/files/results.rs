@@ -226,6 +226,7 @@ pub(super) fn holds_in_counts() -> Calibration {
         gravity: Gravity { magnitude_mps2: 9.81, sd_mps2: 0.0 },
         gauge: Gauge::Upper,
         between_holds_sd_mps2: 0.002,
+        drift: None,
         between_holds_dominates: true,
         tilt: None,
         magnitude_residual_rms_mps2: 0.001,

@@ -115,6 +115,7 @@ pub(crate) fn from_faces(
         gravity: setup.gravity,
         gauge: setup.gauge,
         between_holds_sd_mps2: alignment.scatter.along_mps2,
+        drift: None,
         between_holds_dominates: alignment.scatter.along_mps2 > 0.0,
         tilt: Some(alignment.tilt),
         condition_number: condition,

@@ -1,0 +1,183 @@
+//! A bias that drifts over the recording: a nuisance of the fit, with a prior.
+//!
+//! The bias in hold j is `b + d τ_j`, with `τ` from −½ in the first hold to ½ in the last and `d ~ N(0, σ_d²)`. The fit is that of the means less
+//! `d τ_j`. With `d̂`, its covariance `Σ_dd` from the magnitudes and the prior, and `J = ∂p/∂d`, the parameters have the covariance
+//! `Σ_p|d + J Σ_dd Jᵀ`. Where the order of the holds looks like a parameter, `Σ_dd` stays that of the prior and the standard deviation grows.
+//! In random order the magnitudes determine `d`, and it costs little.
+
+use super::HoldsSetup;
+use super::robust_weights::{self, Conditions, Robust};
+use crate::error::Result;
+use crate::estimate::{CalibrationProblem, CalibrationSettings};
+use crate::motion::Hold;
+use crate::sensor::Recording;
+use nalgebra::{DMatrix, Matrix3, Vector3};
+
+/// Rounds in which drift and parameters follow each other.
+const ROUNDS: usize = 8;
+/// Rounds with the holds of the start: a drift that is known roughly makes good holds look like outliers.
+const ROUGH_ROUNDS: usize = 3;
+/// The rounds end with a step below this many standard deviations of the drift.
+const CLOSE: f64 = 0.01;
+/// With fewer degrees of freedom left, the scatter between holds is at least that of the fit without a drift.
+const FEWEST_DEGREES: f64 = 6.0;
+
+/// The drift of the accelerometer's bias from the first hold to the last, in the unit of its readings.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BiasDrift {
+    /// Its estimate.
+    pub value: Vector3<f64>,
+    /// Its covariance.
+    pub covariance: Matrix3<f64>,
+    /// Middle of the first hold and of the last, s.
+    pub span_s: (f64, f64),
+}
+
+impl BiasDrift {
+    /// Standard deviation per axis.
+    #[must_use]
+    pub fn sd(&self) -> Vector3<f64> {
+        self.covariance.diagonal().map(|variance| variance.max(0.0).sqrt())
+    }
+
+    /// `τ` at a time: −½ in the first hold, ½ in the last.
+    fn part(&self, time_s: f64) -> f64 {
+        let (first, last) = self.span_s;
+        (time_s - first) / (last - first).max(f64::MIN_POSITIVE) - 0.5
+    }
+
+    /// `τ` of a hold.
+    pub(in crate::estimate) fn part_of(&self, hold: &Hold) -> f64 {
+        self.part(middle(hold))
+    }
+
+    /// The recording as it would be without it.
+    pub(in crate::estimate) fn taken_out_of(&self, recording: &Recording) -> Recording {
+        let readings = recording.times_s.iter().zip(&recording.readings);
+        let readings = readings.map(|(time_s, reading)| reading - self.value * self.part(*time_s)).collect();
+        Recording { readings, times_s: recording.times_s.clone(), ..*recording }
+    }
+
+    /// The holds as they would be without it.
+    fn taken_out(&self, holds: &[Hold]) -> Vec<Hold> {
+        let of_hold =
+            |hold: &Hold| Hold { mean: hold.mean - self.value * self.part_of(hold), ..hold.clone() };
+        holds.iter().map(of_hold).collect()
+    }
+}
+
+fn middle(hold: &Hold) -> f64 {
+    0.5 * (hold.start_s + hold.end_s)
+}
+
+fn span(holds: &[Hold]) -> (f64, f64) {
+    (holds.first().map_or(0.0, middle), holds.last().map_or(0.0, middle))
+}
+
+/// The fit of the holds.
+pub(super) struct Fitted {
+    /// The holds without the drift.
+    pub(super) holds: Vec<Hold>,
+    pub(super) robust: Robust,
+    pub(super) drift: Option<BiasDrift>,
+    /// The fit without a drift, where one was allowed for.
+    pub(super) without: Option<Robust>,
+}
+
+/// Fits the holds with a drift.
+pub(super) fn fit<const P: usize>(
+    problem: &CalibrationProblem<'_>,
+    setup: &HoldsSetup,
+    settings: &CalibrationSettings,
+    holds: Vec<Hold>,
+    (sound, of_mean): (Vec<usize>, Vector3<f64>),
+) -> Result<Fitted> {
+    let fit = |holds: &[Hold], conditions: Conditions| {
+        robust_weights::fit::<P>(problem, setup, settings, holds, (sound.clone(), of_mean, conditions))
+    };
+    let without = fit(&holds, Conditions::default())?;
+    if setup.bias_drift_sd_mps2 <= 0.0 || holds.len() < 3 {
+        return Ok(Fitted { holds, robust: without, drift: None, without: None });
+    }
+    let none = BiasDrift { value: Vector3::zeros(), covariance: Matrix3::zeros(), span_s: span(&holds) };
+    let parts: Vec<f64> = holds.iter().map(|hold| none.part_of(hold)).collect();
+    let found = |used: Vec<bool>| {
+        let of = |robust: &Robust, used: &[bool], drift: &BiasDrift| {
+            Posterior::of(robust, (used, &parts), setup.bias_drift_sd_mps2, drift)
+        };
+        let mut drift = none;
+        let (mut posterior, mut corrected, mut robust) = (of(&without, &used, &drift), Vec::new(), None);
+        for round in 0..ROUNDS {
+            let step = posterior.drift.value - drift.value;
+            drift = posterior.drift;
+            corrected = drift.taken_out(&holds);
+            let count = used.iter().filter(|used| **used).count() as f64;
+            let is_left = count - P as f64 - posterior.degrees >= FEWEST_DEGREES;
+            let least_between = if is_left { 0.0 } else { without.between_holds_sd };
+            let is_rough = round < ROUGH_ROUNDS;
+            let used = is_rough.then(|| used.clone());
+            let next = fit(&corrected, Conditions { taken: posterior.degrees, least_between, used })?;
+            posterior = of(&next, &next.used, &drift);
+            robust = Some(next);
+            if !is_rough && step.component_div(&drift.sd()).amax() < CLOSE {
+                break;
+            }
+        }
+        Ok(robust.map(|robust| (corrected, robust, posterior)))
+    };
+    // a drift makes good holds look like outliers
+    let by_all = |sound: &Vec<usize>| found((0..holds.len()).map(|j| sound.contains(&j)).collect());
+    let mut best = found(without.used.clone())?;
+    if sound.iter().any(|&j| !without.used[j]) {
+        let count = |found: &Option<(_, Robust, _)>| {
+            found.as_ref().map_or(0, |(_, robust, _)| robust.used.iter().filter(|used| **used).count())
+        };
+        best = by_all(&sound).ok().flatten().into_iter().chain(best).map(Some).max_by_key(count).flatten();
+    }
+    let Some((holds, mut robust, posterior)) = best else {
+        return Ok(Fitted { holds, robust: without, drift: None, without: None });
+    };
+    let Posterior { drift, slope, .. } = posterior;
+    let dense = DMatrix::from_column_slice(3, 3, drift.covariance.as_slice());
+    robust.covariance += &slope * dense * slope.transpose();
+    Ok(Fitted { holds, robust, drift: Some(drift), without: Some(without) })
+}
+
+/// The drift that the magnitudes of a fit ask for.
+struct Posterior {
+    drift: BiasDrift,
+    /// Degrees of freedom that it takes from the holds.
+    degrees: f64,
+    /// `J`, p × 3.
+    slope: DMatrix<f64>,
+}
+
+impl Posterior {
+    /// `drift` was taken out of the holds before the fit.
+    fn of(robust: &Robust, (used, parts): (&[bool], &[f64]), sd_mps2: f64, drift: &BiasDrift) -> Self {
+        let gain = |axis: usize| robust.sensor.matrix.row(axis).norm();
+        let known = Vector3::from_fn(|axis, _| (sd_mps2 * gain(axis)).powi(-2));
+        let (mut information, mut rhs) = (Matrix3::from_diagonal(&known), -known.component_mul(&drift.value));
+        let mut common = DMatrix::zeros(robust.covariance.nrows(), 3);
+        let used = robust.magnitudes.iter().zip(parts).zip(used).filter(|(_, used)| **used);
+        for ((magnitude, part), _) in used {
+            // the first parameters are the biases
+            let row = magnitude.by_parameters.fixed_rows::<3>(0) * *part;
+            information += row * row.transpose() / magnitude.own;
+            rhs += row * (magnitude.error / magnitude.own);
+            common += &magnitude.by_parameters * row.transpose() / magnitude.own;
+        }
+        let slope = -(&robust.covariance * &common);
+        let explained = common.transpose() * &slope;
+        information += Matrix3::from_fn(|i, j| explained[(i, j)]);
+        let covariance = information
+            .try_inverse()
+            .unwrap_or_else(|| Matrix3::from_diagonal(&known.map(|known| 1.0 / known)));
+        let degrees = (0..3).map(|k| (1.0 - covariance[(k, k)] * known[k]).clamp(0.0, 1.0)).sum();
+        Self {
+            drift: BiasDrift { value: drift.value + covariance * rhs, covariance, ..*drift },
+            degrees,
+            slope,
+        }
+    }
+}
