@@ -1,6 +1,6 @@
 //! What a calibration says of the holds: each of them, their scatter, and the face alignment.
 
-use super::holds::BiasDrift;
+use super::bias_drift::BiasDrift;
 use super::uncalibrated::Uncalibrated;
 use crate::diagnostic::{Change, HoldLeftOut};
 use crate::motion::{Gravity, Hold};

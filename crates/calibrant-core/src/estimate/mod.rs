@@ -15,6 +15,7 @@
 //! agree with that.
 
 mod between_hold_variance;
+mod bias_drift;
 mod calibrate;
 mod change;
 mod comparison;
@@ -26,6 +27,7 @@ mod holds;
 mod imu;
 mod motion;
 mod problem;
+mod propagated;
 mod quantisation;
 mod quantised_noise;
 mod result;
@@ -37,11 +39,12 @@ mod unknown_latitude;
 mod validation;
 
 pub use crate::diagnostic::{Change, Changed, Course};
+pub use bias_drift::BiasDrift;
 pub use calibrate::calibrate;
 pub use comparison::{ComparedQuantity, Comparison, OverallDifference};
 pub use hold_result::{FaceTilt, HoldCalibration, HoldResult, TiltSource};
 pub use holds::{
-    BiasDrift, Coverage, ExpectedCalibration, HoldsSetup, clipped_holds, coverage, expected_calibration,
+    Coverage, ExpectedCalibration, HoldsSetup, clipped_holds, coverage, expected_calibration,
     find_clean_holds, find_holds, holds_between, holds_lost_to_filter,
 };
 pub use imu::{

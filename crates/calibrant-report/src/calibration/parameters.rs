@@ -5,7 +5,7 @@ use crate::number_format;
 use crate::table::{Cell, Table};
 use calibrant_core::estimate::Calibration;
 use calibrant_core::sensor::{
-    ImuQuantity, Quantity, ReadingUnit, SensorKind, SensorParameters, ThermalPart, ThermalTerm,
+    ImuParameters, ImuQuantity, Quantity, ReadingUnit, SensorKind, SensorParameters, ThermalPart,
 };
 
 /// Shares from here on are in %, smaller ones in ppm.
@@ -80,53 +80,38 @@ pub(crate) fn parameter_table(
     format!("{}<p>{explanation}</p>", table.html())
 }
 
-/// A parameter and its sd divided by the gain of its axis. A bias is then in the unit of the stimulus, a
+/// A parameter over the gain of its axis, with the sd of this ratio. A bias is then in the unit of the stimulus, a
 /// scale factor is its deviation from 1, and an off-diagonal entry is a share. For readings in counts, biases
-/// and scale factors show only their sd, since the value has no meaning in SI.
+/// and scale factors show only their sd over the gain, since the value has no meaning in SI.
 #[must_use]
 pub fn over_the_gain(calibration: &Calibration, quantity: ImuQuantity, sd: f64) -> String {
     let sensor_kind = quantity.sensor_kind();
-    let imu = &calibration.imu;
-    let (axis, of) = match quantity {
-        ImuQuantity::GSensitivity(row, _) => (row, None),
-        ImuQuantity::Thermal(_, term) => return over_temperature(calibration, sensor_kind, term, sd),
-        ImuQuantity::Of(_, of) => (
-            match of {
-                Quantity::Bias(axis) | Quantity::Scale(axis) => axis,
-                Quantity::CrossAxis(row, _) | Quantity::Symmetric(row, _) => row,
-            },
-            Some(of),
-        ),
-    };
-    let gain = imu.sensor(sensor_kind).matrix.row(axis.index()).norm();
-    let value = quantity.value(imu);
     let counts = calibration.unit(sensor_kind) == ReadingUnit::Counts;
-    let (unit, value) = match of {
-        None => ("(rad/s)/(m/s²)", Some(value / gain)),
-        Some(Quantity::Bias(_)) => (sensor_kind.stimulus_unit().symbol(), (!counts).then_some(value / gain)),
-        Some(Quantity::Scale(_)) => ("1", (!counts).then_some(value - 1.0)),
-        Some(_) => ("1", Some(value / gain)),
-    };
-    in_display_unit(unit, "", value, sd / gain)
-}
-
-/// A temperature term in the unit of the stimulus, or as a share of the gain, per K or K².
-fn over_temperature(
-    calibration: &Calibration,
-    sensor_kind: SensorKind,
-    term: ThermalTerm,
-    sd: f64,
-) -> String {
-    let imu = &calibration.imu;
-    let value = term.value(imu.thermal.sensor(sensor_kind));
-    let per = if term.order == 1 { "/K" } else { "/K²" };
-    match term.part {
-        ThermalPart::Bias => {
-            let gain = imu.sensor(sensor_kind).matrix.row(term.axis.index()).norm();
-            in_display_unit(sensor_kind.stimulus_unit().symbol(), per, Some(value / gain), sd / gain)
+    let (axis, unit, per) = match quantity {
+        ImuQuantity::GSensitivity(row, _) => (row, "(rad/s)/(m/s²)", ""),
+        ImuQuantity::Thermal(_, term) => {
+            let per = if term.order == 1 { "/K" } else { "/K²" };
+            match term.part {
+                ThermalPart::Bias => (term.axis, sensor_kind.stimulus_unit().symbol(), per),
+                ThermalPart::Scale => {
+                    let value = term.value(calibration.imu.thermal.sensor(sensor_kind));
+                    return in_display_unit("1", per, Some(value), sd);
+                }
+            }
         }
-        ThermalPart::Scale => in_display_unit("1", per, Some(value), sd),
+        ImuQuantity::Of(_, Quantity::Bias(axis)) => (axis, sensor_kind.stimulus_unit().symbol(), ""),
+        ImuQuantity::Of(_, Quantity::Scale(_)) if !counts => {
+            return in_display_unit("1", "", Some(quantity.value(&calibration.imu) - 1.0), sd);
+        }
+        ImuQuantity::Of(_, Quantity::Scale(axis)) => (axis, "1", ""),
+        ImuQuantity::Of(_, Quantity::CrossAxis(row, _) | Quantity::Symmetric(row, _)) => (row, "1", ""),
+    };
+    let gain = |imu: &ImuParameters| imu.sensor(sensor_kind).matrix.row(axis.index()).norm();
+    if counts && matches!(quantity, ImuQuantity::Of(_, Quantity::Bias(_) | Quantity::Scale(_))) {
+        return in_display_unit(unit, per, None, sd / gain(&calibration.imu));
     }
+    let (value, sd) = calibration.propagated(|imu| quantity.value(imu) / gain(imu));
+    in_display_unit(unit, per, Some(value), sd)
 }
 
 /// A value with its sd in a unit that suits it, `per` something; the sd alone without a value.

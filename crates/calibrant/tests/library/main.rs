@@ -23,6 +23,7 @@ mod noise;
 mod nominal_rate;
 mod pipeline;
 mod priors;
+mod propagated;
 mod quantisation;
 mod saturation;
 mod sensor_change;

@@ -1,6 +1,6 @@
 //! Does the accelerometer change from a hold on?
 
-use super::robust_weights::Robust;
+use super::robust::Robust;
 use crate::diagnostic::{Change, Changed, Course};
 use crate::estimate::HoldResult;
 use crate::estimate::change::Series;

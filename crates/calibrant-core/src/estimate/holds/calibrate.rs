@@ -1,7 +1,7 @@
 //! The calibration from holds: detection, fit, result.
 
-use super::bias_drift::{self, Fitted};
 use super::coarse_steps::coarse_steps;
+use super::drift_fit::{self, Fitted};
 use super::hold_detection::{beyond, find_clean_holds, holds_between};
 use super::low_pass_filtered::{holds_lost_to_filter, with_filter};
 use super::residuals::magnitude_rms;
@@ -48,8 +48,8 @@ pub(in crate::estimate) fn calibrate(
         .map(|lost| Diagnostic::HoldsLostToFilter { lost });
     let detected = holds.clone();
     let fitted = match problem.sensor.model {
-        SensorModel::ScaleBias => bias_drift::fit::<6>(problem, setup, settings, holds, (sound, of_mean)),
-        SensorModel::Full => bias_drift::fit::<9>(problem, setup, settings, holds, (sound, of_mean)),
+        SensorModel::ScaleBias => drift_fit::fit::<6>(problem, setup, settings, holds, (sound, of_mean)),
+        SensorModel::Full => drift_fit::fit::<9>(problem, setup, settings, holds, (sound, of_mean)),
     }
     .map_err(|error| with_clipped(error, &clipped, as_read))
     .map_err(|error| match found {

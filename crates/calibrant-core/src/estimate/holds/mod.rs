@@ -21,9 +21,9 @@
 //! is removed before the fit (`saturated_holds`).
 
 mod accelerometer_change;
-mod bias_drift;
 mod calibrate;
 mod coarse_steps;
+mod drift_fit;
 mod expected_accuracy;
 mod fit;
 mod hardly_determined;
@@ -31,6 +31,7 @@ mod hold_detection;
 mod low_pass_filtered;
 mod orientation_coverage;
 mod residuals;
+mod robust;
 mod robust_weights;
 mod saturated_holds;
 mod setup;
@@ -45,7 +46,6 @@ pub(super) use saturated_holds::{reason as clipped_reason, with_clipped};
 pub(super) use sphere::sphere;
 pub(super) use verdict::left_out;
 
-pub use bias_drift::BiasDrift;
 pub use expected_accuracy::{ExpectedCalibration, expected_calibration};
 pub(super) use hold_detection::{as_recorded, beyond, median};
 pub use hold_detection::{find_clean_holds, find_holds, holds_between};

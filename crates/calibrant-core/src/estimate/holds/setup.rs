@@ -12,7 +12,7 @@ pub struct HoldsSetup {
     pub gauge: Gauge,
     /// Holds given by the user as (start, end) in s; `None` to find them.
     pub intervals_s: Option<Vec<(f64, f64)>>,
-    /// Standard deviation of the drift of each bias from the first hold to the last, m/s²; 0 for none. See [`BiasDrift`](super::BiasDrift).
+    /// Standard deviation of the drift of each bias from the first hold to the last, m/s²; 0 for none. See [`BiasDrift`](crate::estimate::BiasDrift).
     pub bias_drift_sd_mps2: f64,
     /// Duration of the shortest hold, s.
     pub minimum_hold_s: f64,
