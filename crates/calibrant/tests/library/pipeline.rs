@@ -63,6 +63,7 @@ fn an_accelerometer_is_calibrated_from_holds_and_validated() {
     let setup = HoldsSetup {
         gravity: Gravity { magnitude_mps2: GRAVITY_MPS2, sd_mps2: 0.0 },
         gauge: Gauge::Upper,
+        bias_drift_sd_mps2: 0.02,
         ..HoldsSetup::default()
     };
     let problem = CalibrationProblem {
@@ -145,6 +146,7 @@ fn an_imu_is_calibrated_and_not_validated_on_itself() {
     let holds = HoldsSetup {
         gravity: Gravity { magnitude_mps2: GRAVITY_MPS2, sd_mps2: 0.0 },
         gauge: Gauge::Lower,
+        bias_drift_sd_mps2: 0.02,
         ..HoldsSetup::default()
     };
     let setup = ImuSetup { holds, ..ImuSetup::default() };
