@@ -283,6 +283,9 @@ impl Residuals {
     /// Probability, without a change, that one at the given time explains as much.
     fn chance(&self, solved: &Solved) -> Option<f64> {
         let (_, degrees) = self.left(solved)?;
+        if degrees == 0 || solved.numbers == 0 {
+            return None;
+        }
         let unexplained = (1.0 - solved.square / self.square).clamp(0.0, 1.0);
         Some(beta_reg(0.5 * degrees as f64, 0.5 * solved.numbers as f64, unexplained))
     }

@@ -57,6 +57,13 @@ impl<const P: usize> Directions<'_, P> {
         data + self.prior_chi2(sensor)
     }
 
+    /// A step below this many standard deviations may be rounding. For nearly exact data that is the rounding of the means themselves.
+    fn rounding(&self) -> f64 {
+        let sum = self.holds.iter().zip(&self.weights);
+        let squares: f64 = sum.map(|(hold, weight)| hold.mean.component_mul(&hold.mean).dot(weight)).sum();
+        (8.0 * f64::EPSILON * squares.sqrt()).max(1e-6)
+    }
+
     fn prior_chi2(&self, sensor: &SensorParameters) -> f64 {
         self.prior.as_ref().map_or(0.0, |(mean, weight)| {
             let off = mean - self.values(sensor);
@@ -119,11 +126,12 @@ impl<const P: usize> Directions<'_, P> {
         let mut chi2 = self.chi2(&sensor, &forces);
         let (mut system, mut unreduced) = self.factor(&sensor, &forces)?;
         let (mut status, mut iterations) = (CalibrationStatus::IterationLimit, 0);
+        let rounding = self.rounding();
         let (mut damping, mut norm, mut last_norm) = (0.0_f64, f64::INFINITY, f64::INFINITY);
         while iterations < settings.max_iterations {
             iterations += 1;
             norm = system.gradient_norm();
-            if norm <= settings.tolerance || (norm < 1e-6 && norm > 0.5 * last_norm) {
+            if norm <= settings.tolerance || (norm < rounding && norm > 0.5 * last_norm) {
                 status = CalibrationStatus::Converged;
                 // the parameters rest; the directions still follow their last step
                 let last =
@@ -142,7 +150,7 @@ impl<const P: usize> Directions<'_, P> {
                 system.border_step(damping).and_then(|step| self.take(&sensor, &forces, &system, &step));
             let accepted = trial.and_then(|(trial, trial_forces)| {
                 let trial_chi2 = self.chi2(&trial, &trial_forces);
-                (trial_chi2 <= chi2 * (1.0 + 1e-9) || norm < 1e-6).then_some((
+                (trial_chi2 <= chi2 * (1.0 + 1e-9) || norm < rounding).then_some((
                     trial,
                     trial_forces,
                     trial_chi2,
