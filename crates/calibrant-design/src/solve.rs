@@ -4,7 +4,7 @@ use super::multistart_search::search;
 use super::{
     Design, DesignProblem, DesignSettings, certificate, check_feasible, evaluate, feasibility, initial_motion,
 };
-use calibrant_core::error::Result;
+use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::motion::JerkControlledMotion;
 use calibrant_core::simulate::{Purpose, stream};
 
@@ -19,6 +19,7 @@ pub fn design(
     progress: &(dyn Fn(u64) + Sync),
 ) -> Result<Design> {
     problem.check()?;
+    check_work(problem, settings)?;
     check_feasible(problem)?;
     let limits = problem.effective_limits();
     let initial = initial_motion(
@@ -46,4 +47,19 @@ pub fn design(
         limits,
         certificate,
     })
+}
+
+/// Returns an error for a search that would take more than about ten minutes of one processor.
+fn check_work(problem: &DesignProblem<'_>, settings: &DesignSettings) -> Result<()> {
+    /// Most starts × intervals² of an axis: a start with 10 intervals takes about 2 ms.
+    const MOST: f64 = 3e7;
+    let (starts, intervals) = (settings.starts as f64, problem.intervals as f64);
+    let work = starts * intervals * intervals;
+    if work <= MOST {
+        return Ok(());
+    }
+    let message = format!(
+        "{starts} starts with {intervals} intervals: starts × intervals² is {work:.1e}, at most {MOST:.0e}"
+    );
+    Err(Error::experiment(InputError::new(Refusal::WorkTooLarge, message, "take fewer starts or intervals")))
 }

@@ -53,8 +53,8 @@ refusals! {
         "A file is damaged or not whole."
         "Copy or write it again.";
     FileTaken "file-taken"
-        "A result would replace a file that is read or kept."
-        "Give another name.";
+        "A result would replace a file that is read or kept, or another run writes into its directory."
+        "Give another place.";
     OutputUnwritable "output-unwritable"
         "A result could not be written."
         "Choose another place.";
@@ -88,6 +88,9 @@ refusals! {
     OptionsContradict "options-contradict"
         "Two options, or two keys, contradict each other."
         "Leave one of them away.";
+    WorkTooLarge "work-too-large"
+        "The work would take far more memory or time than it is worth."
+        "Ask for less, as the message says.";
     ExperimentUnsuited "experiment-unsuited"
         "The command needs another kind of experiment, or more of it."
         "Take one of the presets of `calibrant init`.";
@@ -160,6 +163,9 @@ refusals! {
     RecordingRepeated "recording-repeated"
         "A recording is used twice where two different ones are needed."
         "Give another recording.";
+    RecordingCorrected "recording-corrected"
+        "A recording has been corrected with a calibration already."
+        "Give the recording that the sensor made.";
     MotionInvalid "motion-invalid"
         "The commanded motion makes no sense, or the recording does not cover it."
         "Correct its nodes and its times.";

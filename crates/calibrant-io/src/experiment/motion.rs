@@ -4,9 +4,8 @@ use super::number_range::Bounds;
 use super::toml_document::Section;
 use calibrant_core::error::Result;
 use calibrant_core::motion::{InputNoise, KnownEnds, Trust};
+use calibrant_core::simulate::MOST_SAMPLES;
 
-/// Largest number of samples of a simulated recording.
-const MOST_SAMPLES: f64 = 1e9;
 /// Range of a sample rate.
 pub(super) const RATE_HZ: Bounds = Bounds::above(0.0, 1e6, "Hz");
 /// Range of the duration of an interval.
