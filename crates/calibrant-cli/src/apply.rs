@@ -1,12 +1,12 @@
 //! `calibrant apply`: corrects a recording, and writes the standard uncertainty of the correction.
 
 use crate::calibration_file::{Reading, in_words};
-use crate::{Exit, console, output_places};
+use crate::{Exit, console};
 use calibrant::Error;
 use calibrant::error::{InputError, Refusal};
 use calibrant::io::{
-    ColumnMeaning, ImuFile, ImuReadOptions, read_imu_pair, read_imu_recording, read_imu_sensor,
-    write_corrected_recording,
+    ColumnMeaning, ImuFile, ImuReadOptions, ResultPlaces, check_not_corrected, file_name, imu_tk_files,
+    read_imu_pair, read_imu_recording, read_imu_sensor, write_corrected_recording,
 };
 use calibrant::report::number_format;
 use calibrant::sensor::{
@@ -42,12 +42,26 @@ pub(crate) struct Arguments {
     output: PathBuf,
 }
 
-pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
-    let second = arguments.gyroscope.as_deref().unwrap_or(&arguments.recording);
-    output_places::check_not_input(
-        &arguments.output,
-        &[&arguments.calibration, &arguments.recording, second],
-    )?;
+impl crate::Run for Arguments {
+    fn places(&self) -> ResultPlaces {
+        let inputs =
+            [&self.calibration, &self.recording].into_iter().chain(&self.gyroscope).chain(&self.columns);
+        ResultPlaces {
+            directory: None,
+            results: vec![self.output.clone()],
+            inputs: inputs.cloned().chain(imu_tk_files(&self.calibration)).collect(),
+        }
+    }
+
+    fn run(&self) -> calibrant::Result<Exit> {
+        run(self)
+    }
+}
+
+fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
+    for recording in std::iter::once(&arguments.recording).chain(&arguments.gyroscope) {
+        check_not_corrected(recording)?;
+    }
     let imu = arguments.reading.read(&arguments.calibration)?.imu;
     let correction = ImuCorrection::of(&imu)?;
     let mut recording = read_for(&imu, arguments)?;
@@ -89,7 +103,7 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
             number_format::short(spikes.time_s)
         ));
     }
-    write_corrected_recording(&arguments.output, &corrected)?;
+    write_corrected_recording(&arguments.output, &corrected, &file_name(&arguments.calibration))?;
     console::print(&format!("{}: {}\n", arguments.calibration.display(), in_words(&imu)));
     for (sensor_kind, found) in
         [(SensorKind::Accelerometer, &corrected.accelerometer), (SensorKind::Gyroscope, &corrected.gyroscope)]

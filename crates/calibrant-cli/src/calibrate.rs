@@ -2,7 +2,6 @@
 
 mod arguments;
 mod batch;
-mod earlier;
 mod job;
 mod one;
 mod quality;
@@ -11,13 +10,35 @@ mod unused;
 
 pub(crate) use arguments::Arguments;
 
-use crate::{Exit, output_places};
-use calibrant::io::Experiment;
+use crate::Exit;
+use calibrant::io::{Experiment, ResultPlaces};
 use job::Job;
 
-pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
-    output_places::check_directory(&arguments.output)?;
-    arguments.check_inputs(&[String::new()])?;
+impl crate::Run for Arguments {
+    fn places(&self) -> ResultPlaces {
+        let others =
+            [&self.motion, &self.sections, &self.validate, &self.validate_gyroscope].into_iter().flatten();
+        let inputs = self.recordings.iter().chain(&self.gyroscope).chain([&self.experiment]).chain(others);
+        let folders = match self.recordings.as_slice() {
+            [_] => vec![String::new()],
+            several => batch::folders(several),
+        };
+        let of_folder = |folder: &String| {
+            ["calibration.json", "report.html"].map(|name| self.output.join(folder).join(name))
+        };
+        ResultPlaces {
+            directory: Some(self.output.clone()),
+            results: folders.iter().flat_map(of_folder).chain([self.output.join("summary.csv")]).collect(),
+            inputs: inputs.cloned().collect(),
+        }
+    }
+
+    fn run(&self) -> calibrant::Result<Exit> {
+        run(self)
+    }
+}
+
+fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     let experiment = Experiment::read(&arguments.experiment)?;
     unused::warn(arguments, &experiment);
     let job = Job::prepare(arguments, &experiment)?;

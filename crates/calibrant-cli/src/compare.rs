@@ -27,7 +27,13 @@ pub(crate) struct Arguments {
     json: bool,
 }
 
-pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
+impl crate::Run for Arguments {
+    fn run(&self) -> calibrant::Result<Exit> {
+        run(self)
+    }
+}
+
+fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     let (a, b) = (arguments.reading.read(&arguments.a)?.imu, arguments.reading.read(&arguments.b)?.imu);
     let comparison = Comparison::of(&a, &b);
     if comparison.quantities.is_empty() {

@@ -16,10 +16,20 @@ use miette::{LabeledSpan, MietteDiagnostic, NamedSource, Report};
 use std::io::Write;
 use std::path::Path;
 
+/// A text without control characters other than line ends and tabs: a name of a file must not command the terminal.
+pub(crate) fn harmless(text: &str) -> String {
+    let shown = |sign: char| match sign {
+        '\n' | '\t' => sign.to_string(),
+        sign if sign.is_control() => sign.escape_default().to_string(),
+        sign => sign.to_string(),
+    };
+    text.chars().map(shown).collect()
+}
+
 /// Prints to stdout. A closed reader (`| head`) is not an error.
 pub(crate) fn print(text: &str) {
     let mut out = std::io::stdout();
-    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+    match out.write_all(harmless(text).as_bytes()).and_then(|()| out.flush()) {
         Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
             let _ = writeln!(std::io::stderr(), "error: cannot write to standard output: {error}");
             std::process::exit(2);
@@ -30,17 +40,17 @@ pub(crate) fn print(text: &str) {
 
 /// Prints a note to stderr.
 pub(crate) fn note(text: &str) {
-    let _ = writeln!(std::io::stderr(), "note: {text}");
+    let _ = writeln!(std::io::stderr(), "note: {}", harmless(text));
 }
 
 /// Prints a warning to stderr.
 pub(crate) fn warn(text: &str) {
-    let _ = writeln!(std::io::stderr(), "warning: {text}");
+    let _ = writeln!(std::io::stderr(), "warning: {}", harmless(text));
 }
 
 /// Prints a denied diagnostic to stderr.
 pub(crate) fn denied(code: &str, text: &str) {
-    let _ = writeln!(std::io::stderr(), "error: denied: {code}: {text}");
+    let _ = writeln!(std::io::stderr(), "error: denied: {code}: {}", harmless(text));
 }
 
 /// Prints a finding about a recording, as a note or a warning.
@@ -78,28 +88,33 @@ pub(crate) fn error(error: &Error) {
             let (text, range) = input_error.excerpt.clone().unwrap_or_default();
             let mut title = input_error.clone();
             (title.excerpt, title.help) = (None, String::new());
-            let mut diagnostic = MietteDiagnostic::new(title.to_string())
+            let mut diagnostic = MietteDiagnostic::new(harmless(&title.to_string()))
                 .with_code(error.code().name())
                 .with_label(LabeledSpan::at(range, "here"));
             if !input_error.help.is_empty() {
-                diagnostic = diagnostic.with_help(input_error.help.clone());
+                diagnostic = diagnostic.with_help(harmless(&input_error.help));
             }
             let name = input_error
                 .file
                 .as_ref()
-                .map_or_else(|| "experiment".into(), |file| file.display().to_string());
+                .map_or_else(|| "experiment".into(), |file| harmless(&file.display().to_string()));
+            // one byte for one, so that the place stays
+            let text: String = text
+                .chars()
+                .map(|sign| if sign.is_ascii_control() && !"\n\r\t".contains(sign) { '?' } else { sign })
+                .collect();
             let report = Report::new(diagnostic).with_source_code(NamedSource::new(name, text));
             writeln!(std::io::stderr(), "error: {report:?}")
         }
-        _ => writeln!(std::io::stderr(), "error: {error} [{}]", error.code().name()),
+        _ => writeln!(std::io::stderr(), "error: {} [{}]", harmless(&error.to_string()), error.code().name()),
     };
 }
 
 /// Prints an error about this recording to stderr. An error without a file's name gets its name.
 pub(crate) fn error_in(found: &Error, recording: &Path) {
     if found.is_not_identifiable() {
-        let _ =
-            writeln!(std::io::stderr(), "error: {}: {found} [{}]", recording.display(), found.code().name());
+        let text = harmless(&format!("{}: {found}", recording.display()));
+        let _ = writeln!(std::io::stderr(), "error: {text} [{}]", found.code().name());
     } else {
         error(found);
     }

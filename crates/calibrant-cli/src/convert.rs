@@ -1,10 +1,13 @@
 //! `calibrant convert`: writes a calibration in another format.
 
 use crate::calibration_file::{Format, Reading, in_words};
-use crate::{Exit, console, output_places};
+use crate::{Exit, console};
 use calibrant::Error;
 use calibrant::error::{InputError, Refusal};
-use calibrant::io::{ImuFormat, ImuNoise, read_kalibr_noise, read_measured_noise, write_calibrated_imu};
+use calibrant::io::{
+    ImuFormat, ImuNoise, ResultPlaces, imu_tk_files, read_kalibr_noise, read_measured_noise,
+    write_calibrated_imu,
+};
 use calibrant::sensor::{CalibratedImu, Gauge, SensorKind};
 use std::path::{Path, PathBuf};
 
@@ -59,7 +62,25 @@ impl From<GaugeName> for Gauge {
     }
 }
 
-pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
+impl crate::Run for Arguments {
+    fn places(&self) -> ResultPlaces {
+        let is_pair = |path: &Path| path.extension().is_some_and(|extension| extension == "calib");
+        let pair = |path: &Path, is_pair: bool| is_pair.then(|| imu_tk_files(path)).into_iter().flatten();
+        let writes_pair = is_pair(&self.output) || matches!(self.to, Some(Format::ImuTk));
+        let inputs = std::iter::once(&self.input).chain(&self.noise).cloned();
+        ResultPlaces {
+            directory: None,
+            results: pair(&self.output, writes_pair).chain([self.output.clone()]).collect(),
+            inputs: inputs.chain(pair(&self.input, is_pair(&self.input))).collect(),
+        }
+    }
+
+    fn run(&self) -> calibrant::Result<Exit> {
+        run(self)
+    }
+}
+
+fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     let format = match arguments.to {
         Some(format) => format.into(),
         None => ImuFormat::of_extension(&arguments.output).ok_or_else(|| {
@@ -71,9 +92,6 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
             Error::Experiment(Box::new(input_error.in_file(&arguments.output)))
         })?,
     };
-    let inputs: Vec<&Path> =
-        std::iter::once(&arguments.input).chain(&arguments.noise).map(PathBuf::as_path).collect();
-    output_places::check_not_input(&arguments.output, &inputs)?;
     let mut file = arguments.reading.read(&arguments.input)?;
     let read = format!("{} ({}): {}\n", arguments.input.display(), file.format.title(), in_words(&file.imu));
     if let Some(noise) = densities(&arguments.noise, &file.imu)? {

@@ -10,14 +10,41 @@ mod table;
 
 pub(crate) use arguments::Arguments;
 
-use crate::{Exit, console, output_places};
+use crate::{Exit, console};
 use calibrant::design::DesignProblem;
-use calibrant::io::design_json;
+use calibrant::io::{ResultPlaces, design_json};
 use job::{Job, in_file};
 use output::{exit_of, write};
 
-pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
-    output_places::check_directory(&arguments.output)?;
+impl crate::Run for Arguments {
+    fn places(&self) -> ResultPlaces {
+        let names = [
+            "design.json",
+            "motion.csv",
+            "motion_dense.csv",
+            "evaluation.json",
+            "evaluation.html",
+            "sweep.json",
+            "sweep.csv",
+            "report.html",
+        ];
+        ResultPlaces {
+            directory: Some(self.output.clone()),
+            results: names.map(|name| self.output.join(name)).to_vec(),
+            inputs: std::iter::once(&self.experiment)
+                .chain(&self.from)
+                .chain(&self.evaluate)
+                .cloned()
+                .collect(),
+        }
+    }
+
+    fn run(&self) -> calibrant::Result<Exit> {
+        run(self)
+    }
+}
+
+fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     let job = Job::prepare(arguments)?;
     let problem = job.problem(&arguments.experiment)?;
     match (&arguments.evaluate, &arguments.sweep) {

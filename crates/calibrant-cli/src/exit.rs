@@ -20,6 +20,9 @@ impl Exit {
     /// did not converge.
     pub(crate) const NOT_IDENTIFIABLE: Exit = Exit(4);
 
+    /// Interrupted, as a shell says it.
+    pub(crate) const INTERRUPTED: Exit = Exit(130);
+
     /// The exit status of a calibration. It has determined nothing if it did not converge.
     pub(crate) fn of_status(status: CalibrationStatus) -> Exit {
         if status == CalibrationStatus::Converged { Exit::DONE } else { Exit::NOT_IDENTIFIABLE }

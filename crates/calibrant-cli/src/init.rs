@@ -3,7 +3,7 @@
 use crate::{Exit, console};
 use calibrant::Error;
 use calibrant::error::{InputError, Refusal};
-use calibrant::io::{Experiment, PRESETS, preset, write_atomically};
+use calibrant::io::{Experiment, PRESETS, ResultPlaces, preset, write_atomically};
 use std::path::PathBuf;
 
 /// Write a commented experiment file, to be edited.
@@ -15,12 +15,19 @@ pub(crate) struct Arguments {
     /// Where to write it (default: stdout).
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Replace an existing file.
-    #[arg(long)]
-    force: bool,
 }
 
-pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
+impl crate::Run for Arguments {
+    fn places(&self) -> ResultPlaces {
+        ResultPlaces { results: self.output.iter().cloned().collect(), ..ResultPlaces::default() }
+    }
+
+    fn run(&self) -> calibrant::Result<Exit> {
+        run(self)
+    }
+}
+
+fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     let reject = |code, message, help| Err(Error::Experiment(Box::new(InputError::new(code, message, help))));
     let Some(text) = preset(&arguments.preset) else {
         let names: Vec<_> = PRESETS.iter().map(|(name, _)| *name).collect();
@@ -32,13 +39,6 @@ pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     };
     match &arguments.output {
         None => console::print(text),
-        Some(path) if path.exists() && !arguments.force => {
-            return reject(
-                Refusal::FileTaken,
-                format!("{} is there already", path.display()),
-                "choose another name, or add --force".into(),
-            );
-        }
         Some(path) => {
             write_atomically(path, |out| out.write_all(text.as_bytes()))?;
             let file = path.display();

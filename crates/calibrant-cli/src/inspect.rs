@@ -47,7 +47,13 @@ impl Arguments {
     }
 }
 
-pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
+impl crate::Run for Arguments {
+    fn run(&self) -> calibrant::Result<Exit> {
+        run(self)
+    }
+}
+
+fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     let options = arguments.reading.with_columns(arguments.columns.as_deref())?;
     let file = match arguments.second() {
         Some(second) => read_imu_pair(&arguments.file, second, &options)?,

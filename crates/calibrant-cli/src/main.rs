@@ -12,11 +12,11 @@ mod exit;
 mod init;
 mod inspect;
 mod noise;
-mod output_places;
 mod recording_options;
 mod simulate;
 mod study;
 
+use calibrant::io::{ResultPlaces, remove_unfinished};
 use clap::{Parser, Subcommand};
 use exit::Exit;
 use std::process::ExitCode;
@@ -31,8 +31,21 @@ struct Cli {
     #[command(subcommand)]
     command: Command,
     /// Number of threads (default: all cores). Results do not depend on it.
-    #[arg(long, global = true, value_parser = clap::value_parser!(u16).range(1..))]
+    #[arg(long, global = true, value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
+    /// Replace files that calibrant did not write. Inputs are never replaced.
+    #[arg(long, global = true)]
+    force: bool,
+}
+
+/// A command: what it reads and writes, and its work.
+trait Run {
+    /// What it reads and writes; nothing, where it only prints.
+    fn places(&self) -> ResultPlaces {
+        ResultPlaces::default()
+    }
+
+    fn run(&self) -> calibrant::Result<Exit>;
 }
 
 #[derive(Subcommand)]
@@ -57,23 +70,38 @@ fn main() -> ExitCode {
         console::note(&format!("cannot set the number of threads: {error}"));
     }
     keep_large_blocks();
-    let outcome = match cli.command {
-        Command::Init(arguments) => init::run(&arguments),
-        Command::Inspect(arguments) => inspect::run(&arguments),
-        Command::Design(arguments) => design::run(&arguments),
-        Command::Simulate(arguments) => simulate::run(&arguments),
-        Command::Calibrate(arguments) => calibrate::run(&arguments),
-        Command::Study(arguments) => study::run(&arguments),
-        Command::Noise(arguments) => noise::run(&arguments),
-        Command::Convert(arguments) => convert::run(&arguments),
-        Command::Apply(arguments) => apply::run(&arguments),
-        Command::Compare(arguments) => compare::run(&arguments),
+    let command: &dyn Run = match &cli.command {
+        Command::Init(arguments) => arguments,
+        Command::Inspect(arguments) => arguments,
+        Command::Design(arguments) => arguments,
+        Command::Simulate(arguments) => arguments,
+        Command::Calibrate(arguments) => arguments,
+        Command::Study(arguments) => arguments,
+        Command::Noise(arguments) => arguments,
+        Command::Convert(arguments) => arguments,
+        Command::Apply(arguments) => arguments,
+        Command::Compare(arguments) => arguments,
     };
-    let exit = outcome.unwrap_or_else(|error| {
+    let exit = run(command, cli.force).unwrap_or_else(|error| {
         console::error(&error);
         Exit::of(&error)
     });
     ExitCode::from(exit.0)
+}
+
+/// Takes the places of the results, then runs the command. Tells results of an earlier run that it leaves.
+fn run(command: &dyn Run, force: bool) -> calibrant::Result<Exit> {
+    let claimed = command.places().claim(force)?;
+    // without the handler, a run that is interrupted leaves temporary files; one of `nohup` takes none
+    let _ = ctrlc::try_set_handler(|| {
+        remove_unfinished();
+        std::process::exit(Exit::INTERRUPTED.0.into());
+    });
+    let outcome = command.run();
+    for left_over in claimed.left_over() {
+        console::warn(&format!("{} is that of an earlier run", left_over.display()));
+    }
+    outcome
 }
 
 /// Makes the allocator of glibc keep large blocks. It otherwise returns each freed block to the system, and takes

@@ -7,21 +7,39 @@ mod table;
 
 pub(crate) use arguments::Arguments;
 
-use crate::{Exit, console, output_places};
+use crate::{Exit, console};
 use arguments::Gains;
 use calibrant::Error;
 use calibrant::error::{InputError, Refusal};
-use calibrant::io::{DiagnosticWords, ImuFile, Input, file_name, noise_json, write_atomically, write_noise};
+use calibrant::io::{
+    DiagnosticWords, ImuFile, Input, ResultPlaces, file_name, noise_json, write_atomically, write_noise,
+};
 use calibrant::noise::{Segment, SensorNoise};
 use calibrant::report::{About, message, noise_report, number_format};
 use calibrant::sensor::{Recording, SensorKind};
 use nalgebra::Vector3;
 use std::path::Path;
 
-pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
-    if let Some(directory) = &arguments.output {
-        output_places::check_directory(directory)?;
+impl crate::Run for Arguments {
+    fn places(&self) -> ResultPlaces {
+        let Some(directory) = &self.output else { return ResultPlaces::default() };
+        ResultPlaces {
+            directory: Some(directory.clone()),
+            results: ["noise.json", "report.html"].map(|name| directory.join(name)).to_vec(),
+            inputs: std::iter::once(&self.recording)
+                .chain(&self.gyroscope)
+                .chain(&self.columns)
+                .cloned()
+                .collect(),
+        }
     }
+
+    fn run(&self) -> calibrant::Result<Exit> {
+        run(self)
+    }
+}
+
+fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     let gains = gains(arguments)?;
     let asked = arguments.sensor.map(SensorKind::from);
     let file = read::read(arguments, asked.unwrap_or(SensorKind::Accelerometer), &gains)?;

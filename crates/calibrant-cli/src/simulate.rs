@@ -6,12 +6,13 @@ mod random;
 
 pub(crate) use arguments::Arguments;
 
-use crate::{Exit, console, output_places};
+use crate::{Exit, console};
 use calibrant::Error;
 use calibrant::design::initial_motion;
 use calibrant::error::{InputError, Refusal};
 use calibrant::io::{
-    Experiment, HoldsPlan, MotionPlan, Plan, read_motion, write_motion, write_recording, write_truth,
+    Experiment, HoldsPlan, MotionPlan, Plan, ResultPlaces, read_motion, write_motion, write_recording,
+    write_truth,
 };
 use calibrant::motion::{JerkControlledMotion, KnownEnds, Limits, Trust};
 use calibrant::sensor::{ReadingUnit, Sensor};
@@ -22,8 +23,22 @@ use nalgebra::Vector3;
 use random::Random;
 use std::path::Path;
 
-pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
-    output_places::check_directory(&arguments.output)?;
+impl crate::Run for Arguments {
+    fn places(&self) -> ResultPlaces {
+        let names = ["recording.csv", "truth.json", "motion.csv", "true_motion.csv"];
+        ResultPlaces {
+            directory: Some(self.output.clone()),
+            results: names.map(|name| self.output.join(name)).to_vec(),
+            inputs: std::iter::once(&self.experiment).chain(&self.motion).cloned().collect(),
+        }
+    }
+
+    fn run(&self) -> calibrant::Result<Exit> {
+        run(self)
+    }
+}
+
+fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     let experiment = Experiment::read(&arguments.experiment)?;
     let seed = arguments.seed.unwrap_or(experiment.study.seed);
     let random = Random { seed, recording: arguments.recording.into() };

@@ -3,10 +3,10 @@
 mod plan;
 mod table;
 
-use crate::{Exit, console, output_places};
+use crate::{Exit, console};
 use calibrant::Error;
 use calibrant::error::{InputError, Refusal};
-use calibrant::io::{Experiment, Plan, preset, study_json, write_atomically, write_study};
+use calibrant::io::{Experiment, Plan, ResultPlaces, preset, study_json, write_atomically, write_study};
 use calibrant::report::{About, study_report};
 use calibrant::study::run_studies;
 use plan::{Choice, Material};
@@ -44,8 +44,22 @@ pub(crate) struct Arguments {
     output: PathBuf,
 }
 
-pub(crate) fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
-    output_places::check_directory(&arguments.output)?;
+impl crate::Run for Arguments {
+    fn places(&self) -> ResultPlaces {
+        let names = ["study.json", "report.html"];
+        ResultPlaces {
+            directory: Some(self.output.clone()),
+            results: names.map(|name| self.output.join(name)).to_vec(),
+            inputs: self.experiment.iter().chain(&self.motion).cloned().collect(),
+        }
+    }
+
+    fn run(&self) -> calibrant::Result<Exit> {
+        run(self)
+    }
+}
+
+fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     let experiment = match &arguments.experiment {
         Some(path) => Experiment::read(path)?,
         None => Experiment::parse(preset(DEFAULT).unwrap_or_default(), None)?,

@@ -2,7 +2,26 @@
 
 use calibrant_core::error::{Error, Result};
 use std::io::{self, BufWriter, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+
+/// The temporary files that are being written.
+static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
+/// The program's name and version, by which every result says who wrote it.
+pub(super) fn program() -> String {
+    format!("calibrant {}", env!("CARGO_PKG_VERSION"))
+}
+
+/// Removes the temporary files of results that are being written: for a program that is about to end.
+pub fn remove_unfinished() {
+    // best effort: the program ends
+    unfinished().iter().for_each(|path| drop(std::fs::remove_file(path)));
+}
+
+fn unfinished() -> std::sync::MutexGuard<'static, Vec<PathBuf>> {
+    UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner)
+}
 
 /// Writes a file through `fill`: into a temporary file in the same directory, which then takes the name.
 ///
@@ -22,6 +41,18 @@ use std::path::Path;
 /// ```
 pub fn write_atomically(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<()> {
     write(path, fill).map_err(|source| Error::Output { path: path.to_path_buf(), source })
+}
+
+/// The same for a CSV, whose first line is a comment with the program's name and what else is to be said.
+pub(super) fn write_csv(
+    path: &Path,
+    about: &str,
+    fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> Result<()> {
+    write_atomically(path, |out| {
+        writeln!(out, "# {}{about}", program())?;
+        fill(out)
+    })
 }
 
 fn write(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
@@ -55,8 +86,14 @@ fn write(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io
         use std::os::unix::fs::PermissionsExt;
         builder.permissions(std::fs::Permissions::from_mode(0o666));
     }
-    let mut out = BufWriter::with_capacity(1 << 16, builder.tempfile_in(directory)?);
-    fill(&mut out)?;
-    let file = out.into_inner().map_err(io::IntoInnerError::into_error)?;
-    file.persist(&target).map(drop).map_err(|error| error.error)
+    let file = builder.tempfile_in(directory)?;
+    let temporary = file.path().to_path_buf();
+    unfinished().push(temporary.clone());
+    let mut out = BufWriter::with_capacity(1 << 16, file);
+    let written = fill(&mut out).and_then(|()| {
+        let file = out.into_inner().map_err(io::IntoInnerError::into_error)?;
+        file.persist(&target).map(drop).map_err(|error| error.error)
+    });
+    unfinished().retain(|path| *path != temporary);
+    written
 }

@@ -1,9 +1,10 @@
 //! Writes a corrected recording as CSV.
 
-use super::atomic_output::write_atomically;
-use calibrant_core::error::Result;
+use super::atomic_output::write_csv;
+use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::sensor::{Axis, CorrectedRecording, CorrectedSensor, SensorKind};
-use std::io::{self, Write};
+use std::fs::File;
+use std::io::{self, BufRead, BufReader, Read, Write};
 use std::path::Path;
 
 /// Writes a corrected recording as CSV: `t_s,ax_mps2,ay_mps2,az_mps2,ax_sd_mps2,…,gx_radps,…,gx_sd_radps,…`.
@@ -12,11 +13,15 @@ use std::path::Path;
 /// uncertainty of the correction. It is the same error in every sample and does not average out. It does not
 /// contain the noise of the sample. Where the sensors' times differ by more than a thousandth of the sample
 /// interval, every time has a row. The fields of a sensor without a sample there are empty. Numbers have the
-/// fewest digits that read back to the same bits.
+/// fewest digits that read back to the same bits. The first line is a comment that names the calibration.
 ///
 /// # Errors
 /// [`Error::Output`](calibrant_core::Error::Output) where it cannot be written.
-pub fn write_corrected_recording(path: &Path, recording: &CorrectedRecording<'_>) -> Result<()> {
+pub fn write_corrected_recording(
+    path: &Path,
+    recording: &CorrectedRecording<'_>,
+    calibration: &str,
+) -> Result<()> {
     let sensor_kinds: Vec<_> = [
         (SensorKind::Accelerometer, &recording.accelerometer),
         (SensorKind::Gyroscope, &recording.gyroscope),
@@ -25,7 +30,8 @@ pub fn write_corrected_recording(path: &Path, recording: &CorrectedRecording<'_>
     .filter_map(|(sensor_kind, corrected)| Some((sensor_kind, corrected.as_ref()?)))
     .collect();
     let same_s = SAME * sensor_kinds.iter().map(|(_, of)| step(of.times_s)).fold(f64::INFINITY, f64::min);
-    write_atomically(path, |out| {
+    let about = format!("{CORRECTED}{}", calibration.escape_debug());
+    write_csv(path, &about, |out| {
         write!(out, "t_s")?;
         for (sensor_kind, corrected) in &sensor_kinds {
             header(out, *sensor_kind, corrected)?;
@@ -47,6 +53,31 @@ pub fn write_corrected_recording(path: &Path, recording: &CorrectedRecording<'_>
             writeln!(out)?;
         }
     })
+}
+
+/// The words before the name of the calibration, after the program's.
+const CORRECTED: &str = ": corrected with ";
+/// Longest first line that is looked at, bytes.
+const LONGEST: u64 = 4096;
+
+/// Refuses a recording that [`write_corrected_recording`] wrote: to correct it again would spoil it.
+///
+/// # Errors
+/// [`Error::Recording`] with the name of the calibration. A file that cannot be read is no error here.
+pub fn check_not_corrected(path: &Path) -> Result<()> {
+    let mut line = Vec::new();
+    let read =
+        File::open(path).and_then(|file| BufReader::new(file.take(LONGEST)).read_until(b'\n', &mut line));
+    let line = String::from_utf8_lossy(&line);
+    let by = line.strip_prefix("# calibrant ").and_then(|line| line.split_once(CORRECTED));
+    match by.filter(|_| read.is_ok()) {
+        Some((_, by)) => {
+            let message = format!("this recording has been corrected already, with {}", by.trim_end());
+            let help = "give the recording that the sensor made";
+            Err(Error::recording(InputError::new(Refusal::RecordingCorrected, message, help).in_file(path)))
+        }
+        None => Ok(()),
+    }
 }
 
 /// Times closer than this share of the sample interval count as one: those of two files may differ in the

@@ -39,6 +39,7 @@ pub fn design_json(design: &Design, problem: &DesignProblem<'_>, settings: &Desi
 #[derive(Serialize)]
 struct DesignFile<'a> {
     schema: u32,
+    program: String,
     status: &'static str,
     statement: String,
     #[serde(flatten)]
@@ -56,6 +57,7 @@ impl<'a> DesignFile<'a> {
         let axes = problem.sensor.axes;
         Self {
             schema: 1,
+            program: crate::atomic_output::program(),
             status: design.status.name(),
             statement: design.statement(),
             optimal: EvaluationFields::of(&design.optimal, &design.criterion, &design.parameters, axes),

@@ -33,6 +33,7 @@ pub fn evaluation_json(
 #[derive(Serialize)]
 struct EvaluationFile<'a> {
     schema: u32,
+    program: String,
     admissible: bool,
     determined: bool,
     efficiency: Option<f64>,
@@ -60,6 +61,7 @@ impl<'a> EvaluationFile<'a> {
         let optimum = assessment.optimum.as_ref().ok();
         Self {
             schema: 1,
+            program: crate::atomic_output::program(),
             admissible: assessment.violations().is_empty(),
             determined: assessment.evaluation.covariance.is_some(),
             efficiency: assessment.efficiency(),

@@ -102,7 +102,7 @@ fn parse(bytes: &[u8]) -> Checked<Vec<Section>> {
             let message = format!("the section \"{name}\" has a \"{}\", which is not known", shorten(other));
             return Err(InputError::new(Refusal::KeyUnknown, message, EXAMPLE).into());
         }
-        if end < start + 2 {
+        if end.checked_sub(start).is_none_or(|samples| samples < 2) {
             let message = format!("the section \"{name}\" from sample {start} to {end} has no samples");
             return Err(
                 InputError::new(Refusal::HoldsInvalid, message, "its end must be after its start").into()

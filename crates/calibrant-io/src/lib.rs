@@ -41,6 +41,7 @@ mod json;
 mod motion;
 mod noise;
 mod recording;
+mod result_places;
 mod shared_fields;
 mod study;
 mod summary;
@@ -49,14 +50,15 @@ mod text_decoding;
 mod truth;
 mod validation;
 
-pub use atomic_output::write_atomically;
+pub use atomic_output::{remove_unfinished, write_atomically};
 pub use calibration::{calibration_json, write_calibration};
 pub use comparison::comparison_json;
 pub use convention::{
     CalibratedImuFile, ConventionOptions, ImuFormat, ImuNoise, RawUnits, WrittenImu, calibrated_imu_texts,
-    parse_calibrated_imu, read_calibrated_imu, read_kalibr_noise, read_measured_noise, write_calibrated_imu,
+    imu_tk_files, parse_calibrated_imu, read_calibrated_imu, read_kalibr_noise, read_measured_noise,
+    write_calibrated_imu,
 };
-pub use corrected_recording::write_corrected_recording;
+pub use corrected_recording::{check_not_corrected, write_corrected_recording};
 pub use dense_motion::write_dense_motion;
 pub use design::{design_json, write_design};
 pub use diagnostics::DiagnosticWords;
@@ -78,6 +80,7 @@ pub use recording::{
     parse_imu_recording, read_imu_pair, read_imu_recording, read_imu_sensor, write_imu_recording,
     write_recording,
 };
+pub use result_places::{ClaimedPlaces, ResultPlaces};
 pub use study::{study_json, write_study};
 pub use summary::{Failure, Summary, SummaryRow, calibrations_json, write_summary};
 pub use sweep::{sweep_json, write_sweep, write_sweep_csv};

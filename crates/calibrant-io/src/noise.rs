@@ -70,6 +70,7 @@ pub fn noise_line(noise: &SensorNoise) -> Option<NoiseLine> {
 #[derive(Serialize)]
 struct NoiseFile<'a> {
     schema: u32,
+    program: String,
     confidence: f64,
     sensors: Vec<SensorNoiseFields<'a>>,
     input: Option<&'a Input>,
@@ -82,6 +83,7 @@ impl<'a> NoiseFile<'a> {
     fn of(noise: &'a [SensorNoise], inputs: &'a [Input], words: &DiagnosticWords<'_>) -> Self {
         Self {
             schema: NOISE_SCHEMA,
+            program: crate::atomic_output::program(),
             confidence: CONFIDENCE,
             sensors: noise.iter().map(|noise| SensorNoiseFields::of(noise, words)).collect(),
             input: inputs.first(),

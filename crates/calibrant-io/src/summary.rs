@@ -1,6 +1,6 @@
 //! Writes `summary.csv`: one row for each of several recordings.
 
-use super::atomic_output::write_atomically;
+use super::atomic_output::write_csv;
 use super::json::to_json;
 use calibrant_core::error::{Error, Refusal, Result};
 use calibrant_core::estimate::{Calibration, CalibrationStatus};
@@ -134,7 +134,7 @@ impl Summary {
 pub fn write_summary(path: &Path, rows: &[SummaryRow]) -> Result<()> {
     // recordings of one experiment have the same parameters; the first calibration names them
     let named = rows.iter().find_map(|row| row.outcome.as_ref().ok());
-    write_atomically(path, |out| {
+    write_csv(path, "", |out| {
         let mut out = csv::Writer::from_writer(out);
         let mut header = ["file", "recording", "status", "error", "code"].map(String::from).to_vec();
         if let Some(named) = named {
@@ -145,12 +145,13 @@ pub fn write_summary(path: &Path, rows: &[SummaryRow]) -> Result<()> {
         }
         out.write_record(&header).map_err(io::Error::other)?;
         for row in rows {
-            let mut fields = vec![row.file.clone(), row.recording.clone()];
+            let mut fields = vec![as_text(&row.file), as_text(&row.recording)];
             match (&row.outcome, named) {
                 (Ok(summary), Some(named)) => fields.extend(summary.fields(named)),
                 (Ok(_), None) => {}
                 (Err(failure), _) => {
-                    let failed = ["error", &failure.message, failure.code.name()];
+                    let message = as_text(&failure.message);
+                    let failed = ["error", &message, failure.code.name()];
                     fields.extend(failed.map(String::from));
                 }
             }
@@ -177,6 +178,12 @@ impl Summary {
 
 fn number(value: Option<f64>) -> String {
     value.filter(|value| value.is_finite()).map_or_else(String::new, |value| format!("{value:?}"))
+}
+
+/// A text that a spreadsheet takes for a text: one that begins like a formula gets an apostrophe before it.
+fn as_text(text: &str) -> String {
+    let formula = text.starts_with(['=', '+', '-', '@', '\t', '\r']);
+    if formula { format!("'{text}") } else { text.to_owned() }
 }
 
 /// A unit as it ends a column's name.

@@ -73,7 +73,19 @@ pub fn write_imu_truth(
         _ => None,
     });
     let gauge = gauge_of(of_accelerometer, &truth.accelerometer.matrix);
-    json::write_json(path, &TruthFile { schema: 1, seed, convention, gauge, reference_c, parameters, fixed })
+    json::write_json(
+        path,
+        &TruthFile {
+            schema: 1,
+            program: crate::atomic_output::program(),
+            seed,
+            convention,
+            gauge,
+            reference_c,
+            parameters,
+            fixed,
+        },
+    )
 }
 
 /// The form of a matrix: symmetric where its quantities are so, although rounding may hide it.
@@ -104,6 +116,7 @@ fn beside(quantities: &[ImuQuantity], truth: &ImuParameters) -> Vec<ImuQuantity>
 #[derive(Serialize)]
 struct TruthFile {
     schema: u32,
+    program: String,
     seed: u64,
     convention: &'static str,
     /// The form of the accelerometer's matrix, where it has one.
@@ -134,6 +147,7 @@ impl TruthFile {
         };
         Self {
             schema: 1,
+            program: crate::atomic_output::program(),
             seed,
             convention: "true to raw: y = S s + b",
             gauge: gauge_of(list.quantities(), &truth.matrix),

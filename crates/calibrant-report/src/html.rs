@@ -68,8 +68,10 @@ impl Page {
         let footer: String = footer.iter().map(|line| format!("<p>{}</p>", escape(line))).collect();
         let head = format!(
             "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+             <meta name=\"generator\" content=\"calibrant {}\">\n\
              <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
              <title>{}</title>\n<style>\n{}</style>\n</head>\n<body>\n<main>\n",
+            env!("CARGO_PKG_VERSION"),
             escape(title),
             include_str!("style.css"),
         );

@@ -1,9 +1,7 @@
 //! The arguments of `calibrant calibrate`.
 
 use crate::diagnostics::Rules;
-use crate::output_places;
 use crate::recording_options::RecordingOptions;
-use std::ffi::OsStr;
 use std::path::PathBuf;
 
 /// Calibrate sensors from their recordings.
@@ -54,25 +52,7 @@ pub(crate) struct Arguments {
     pub(super) output: PathBuf,
 }
 
-/// Names of the output files.
-const RESULTS: [&str; 3] = ["calibration.json", "report.html", "summary.csv"];
-
 impl Arguments {
-    /// Refuses output files in these folders of DIR that are input files.
-    pub(super) fn check_inputs(&self, folders: &[String]) -> calibrant::Result<()> {
-        let others =
-            [&self.motion, &self.sections, &self.validate, &self.validate_gyroscope].into_iter().flatten();
-        let inputs = self.recordings.iter().chain(&self.gyroscope).chain([&self.experiment]).chain(others);
-        for input in inputs {
-            let is_taken = |name: &&OsStr| RESULTS.iter().any(|result| *name == *result);
-            let Some(name) = input.file_name().filter(is_taken) else { continue };
-            for folder in folders {
-                output_places::check_not_input(&self.output.join(folder).join(name), &[input])?;
-            }
-        }
-        Ok(())
-    }
-
     /// The file that the command names at its end.
     pub(super) fn main_result(&self) -> PathBuf {
         self.output.join(if self.no_report { "calibration.json" } else { "report.html" })

@@ -46,7 +46,6 @@ fn calibrate(job: &Job<'_>, source: &Source, directory: &Path) -> Outcome {
 pub(super) fn run(job: &Job<'_>) -> calibrant::Result<Exit> {
     let (arguments, columns) = (job.arguments, quality::columns(job.is_imu));
     let folders = folders(&arguments.recordings);
-    arguments.check_inputs(&folders)?;
     for (folder, path) in folders.iter().zip(&arguments.recordings) {
         if *folder != stem(path) {
             console::note(&format!("{folder} is {}: the name is taken", path.display()));
@@ -75,7 +74,6 @@ pub(super) fn run(job: &Job<'_>) -> calibrant::Result<Exit> {
                 Ok(calibrated.summary)
             }
             Err(error) => {
-                super::earlier::warn_of_earlier_result(&arguments.output.join(folder));
                 console::error_in(&error, path);
                 exit = exit.max(Exit::of(&error));
                 row.push("ERROR".into());
@@ -134,7 +132,7 @@ fn in_parallel<T: Send>(count: usize, of: impl Fn(usize) -> T + Sync) -> Vec<T> 
 
 /// A subfolder for each recording: the file's name without its ending. A number is added if the name repeats, or if another file of DIR has it.
 /// Capitals do not count, since not every file system distinguishes them.
-fn folders(recordings: &[PathBuf]) -> Vec<String> {
+pub(super) fn folders(recordings: &[PathBuf]) -> Vec<String> {
     let mut seen = HashSet::from(["summary.csv".to_owned()]);
     let mut taken: HashSet<String> = recordings.iter().map(|path| stem(path).to_lowercase()).collect();
     recordings

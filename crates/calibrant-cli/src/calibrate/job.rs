@@ -1,7 +1,6 @@
 //! What all recordings of a call share.
 
 use super::arguments::{Arguments, Unit};
-use super::earlier::earlier_report;
 use super::sources::{check_motion, sources};
 use crate::console;
 use calibrant::io::Experiment;
@@ -35,9 +34,6 @@ impl<'a> Job<'a> {
     ) -> calibrant::Result<Outcome> {
         let outcome = self.pipeline.run_noting(source, notes)?;
         outcome.write(directory)?;
-        if self.arguments.no_report {
-            notes.extend(earlier_report(directory).map(Note::Warning));
-        }
         Ok(outcome)
     }
 }

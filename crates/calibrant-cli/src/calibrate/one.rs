@@ -1,6 +1,5 @@
 //! One recording in a call.
 
-use super::earlier::warn_of_earlier_result;
 use super::job::Job;
 use crate::{Exit, console};
 use calibrant::pipeline::{Outcome, Source};
@@ -14,7 +13,6 @@ pub(super) fn run(job: &Job<'_>, source: &Source) -> Exit {
     match outcome {
         Ok(outcome) => show(job, &outcome).max(denied).max(Exit::of_status(outcome.status())),
         Err(error) => {
-            warn_of_earlier_result(directory);
             match job.is_imu {
                 true => console::error(&error),
                 false => console::error_in(&error, &source.recording),

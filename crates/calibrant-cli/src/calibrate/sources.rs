@@ -1,12 +1,12 @@
 //! The recordings of a call, and options that need a single recording.
 
 use super::arguments::Arguments;
-use crate::output_places::same_file;
 use calibrant::Error;
 use calibrant::error::{InputError, Refusal};
 use calibrant::io::{Experiment, Plan};
 use calibrant::pipeline::Source;
 use calibrant::report::number_format;
+use std::path::Path;
 
 /// The recordings, with the gyroscope's file where there is one.
 pub(super) fn sources(arguments: &Arguments, experiment: &Experiment) -> calibrant::Result<Vec<Source>> {
@@ -74,4 +74,9 @@ pub(super) fn check_motion(arguments: &Arguments, experiment: &Experiment) -> ca
 
 fn refuse<T>(what: &str, help: &str) -> calibrant::Result<T> {
     Err(Error::experiment(InputError::new(Refusal::OptionsContradict, what, help)))
+}
+
+/// Do both paths name the same file?
+fn same_file(one: &Path, other: &Path) -> bool {
+    matches!((one.canonicalize(), other.canonicalize()), (Ok(one), Ok(other)) if one == other)
 }

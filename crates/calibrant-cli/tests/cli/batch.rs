@@ -105,7 +105,7 @@ fn what_is_left_of_an_earlier_run_is_told() {
     let bench = bench(&["a.csv", "b.csv"]);
     bench.run(&format!("{CALIBRATE} a.csv b.csv -o result")).done();
     bench.write("a.csv", String::new());
-    let message = "a/calibration.json is that of an earlier recording: this one has none";
+    let message = "a/calibration.json is that of an earlier run";
     for command in ["a.csv b.csv -o result", "a.csv -o result/a"] {
         bench.run(&format!("{CALIBRATE} {command}")).says(&format!("warning: result/{message}"));
     }

@@ -26,8 +26,13 @@ impl Bench {
         std::fs::write(path, content).expect("written");
     }
 
+    /// The text of a file, without the first line of a CSV that says who wrote it.
     pub(crate) fn read(&self, name: &str) -> String {
-        std::fs::read_to_string(self.path(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
+        let text = std::fs::read_to_string(self.path(name)).unwrap_or_else(|error| panic!("{name}: {error}"));
+        match text.split_once('\n') {
+            Some((first, rest)) if first.starts_with("# calibrant ") => rest.to_owned(),
+            _ => text,
+        }
     }
 
     pub(crate) fn json(&self, name: &str) -> Value {

@@ -156,7 +156,7 @@ fn init_prints_a_preset_or_keeps_the_file_that_is_there() {
     assert!(preset.contains("schema = 1"));
     assert_eq!(preset, bench.run("init report").done().stdout);
     bench.write("mine.toml", "mine");
-    bench.refuses("init -o mine.toml", 2, &["mine.toml is there already", "--force"]);
+    bench.refuses("init -o mine.toml", 2, &["mine.toml: this file is there already", "--force"]);
     assert_eq!(bench.read("mine.toml"), "mine");
     bench.run("init -o mine.toml --force").done();
     assert_eq!(bench.read("mine.toml"), preset);
@@ -286,7 +286,7 @@ fn the_unit_is_the_option_where_the_header_does_not_say() {
     bench.refuses(
         "calibrate experiment.toml simulated/recording.csv --unit counts -o refused",
         3,
-        &["simulated/recording.csv:1: the accelerometer's columns are in m/s², but the unit was given as counts"],
+        &["simulated/recording.csv:2: the accelerometer's columns are in m/s², but the unit was given as counts"],
     );
 }
 

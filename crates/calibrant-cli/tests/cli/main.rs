@@ -18,6 +18,7 @@ mod imu;
 mod inspect;
 mod invalid_samples;
 mod low_pass_filtered;
+mod manners;
 mod noise;
 mod real_recordings;
 mod repaired_recordings;

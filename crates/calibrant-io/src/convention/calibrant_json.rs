@@ -33,7 +33,7 @@ pub(crate) struct Heading {
 
 impl Heading {
     pub(crate) fn new() -> Self {
-        Self { schema: 2, kind: KIND, program: format!("calibrant {}", env!("CARGO_PKG_VERSION")) }
+        Self { schema: 2, kind: KIND, program: crate::atomic_output::program() }
     }
 }
 
@@ -51,6 +51,7 @@ struct File {
 #[derive(Deserialize)]
 struct Header {
     schema: Option<serde_json::Value>,
+    kind: Option<String>,
     status: Option<String>,
     prior: Option<String>,
     /// Only the file of a simulation has one.
@@ -135,6 +136,10 @@ impl Header {
                 return Err(input_error(Refusal::CalibrationInvalid, message, "use a newer calibrant"));
             }
             None => return Err(missing("schema")),
+        }
+        if let Some(kind) = self.kind.as_ref().filter(|kind| *kind != KIND) {
+            let message = format!("the kind of this file is {kind:?}, not \"{KIND}\"");
+            return Err(input_error(Refusal::CalibrationInvalid, message, HELP));
         }
         if let Some(status) = self.status.as_ref().filter(|status| *status != "converged") {
             let message = format!("this calibration did not converge: its status is \"{status}\"");

@@ -32,7 +32,7 @@ pub(super) fn pair_instead_of(path: &Path) -> Option<[PathBuf; 2]> {
     if path.extension()? != "calib" || path.exists() {
         return None;
     }
-    let pair = SensorKind::ALL.map(|sensor_kind| name_of(path, sensor_kind));
+    let pair = imu_tk_files(path);
     pair.iter().all(|path| path.exists()).then_some(pair)
 }
 
@@ -46,6 +46,12 @@ pub(super) fn name_of(path: &Path, sensor_kind: SensorKind) -> PathBuf {
     let extension =
         path.extension().map_or_else(String::new, |extension| format!(".{}", extension.to_string_lossy()));
     path.with_file_name(format!("{stem}_{ending}{extension}"))
+}
+
+/// The files for which `NAME.calib` may stand: `NAME_acc.calib` and `NAME_gyro.calib`.
+#[must_use]
+pub fn imu_tk_files(path: &Path) -> [PathBuf; 2] {
+    SensorKind::ALL.map(|sensor_kind| name_of(path, sensor_kind))
 }
 
 /// The sensor that a file's name shows: `…_acc.calib`, `…_gyro.calib`.

@@ -61,14 +61,15 @@ struct SensorCore {
     g_sensitivity_radps_per_mps2: Option<Rows>,
     #[serde(skip_serializing_if = "Option::is_none")]
     g_sensitivity_counts_per_mps2: Option<Rows>,
-    #[serde(skip_serializing_if = "Option::is_none", skip_deserializing)]
+    #[serde(skip_serializing_if = "Option::is_none")]
     correction: Option<CorrectionCore>,
 }
 
-/// Raw → true, for readers of the file; our reader ignores it.
-#[derive(Debug, Serialize)]
+/// Raw → true, for readers of the file; our reader checks that it is the inverse.
+#[derive(Debug, PartialEq, Serialize, Deserialize)]
 struct CorrectionCore {
-    direction: &'static str,
+    #[serde(default)]
+    direction: String,
     #[serde(skip_serializing_if = "Option::is_none")]
     matrix: Option<Rows>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -94,7 +95,14 @@ struct ParameterCore {
 impl ImuCore {
     /// The fields of a calibrated IMU, or of an accelerometer with this number of axes.
     pub(crate) fn of(imu: &CalibratedImu, axes: usize, inputs: &[Input]) -> Self {
-        let sd = |k: usize| imu.covariance.as_ref().map(|sigma| sigma[(k, k)].max(0.0).sqrt());
+        // a fit that did not converge has a covariance of zeros, and no sd
+        let sd = |k: usize| {
+            imu.covariance
+                .as_ref()
+                .map(|sigma| sigma[(k, k)])
+                .filter(|variance| *variance > 0.0)
+                .map(f64::sqrt)
+        };
         let parameter = |(k, &quantity): (usize, &ImuQuantity)| ParameterCore {
             name: Some(quantity.name()),
             unit: Some(quantity.unit(unit_of(imu, quantity.sensor_kind())).into()),
@@ -274,6 +282,15 @@ impl SensorCore {
             (SensorKind::Gyroscope, Some(rows)) => matrix3(&rows, &field(g_name))?,
             _ => Matrix3::zeros(),
         };
+        if let (Some(stated), Some(correction)) = (&self.correction, Correction::of(&sensor))
+            && !stated.is_near(&CorrectionCore::of(sensor_kind, unit, &correction, bias.len()))
+        {
+            return Err(input_error(
+                Refusal::CalibrationInvalid,
+                format!("the correction of the {sensor_kind} is not the inverse of its matrix"),
+                "correct one of them, or remove `correction`",
+            ));
+        }
         Ok((unit, sensor, g_sensitivity))
     }
 }
@@ -286,14 +303,34 @@ fn of_one_axis(bias: f64, scale: f64) -> SensorParameters {
 }
 
 impl CorrectionCore {
+    /// Is each matrix that this file states the computed one, to the digits that people keep?
+    fn is_near(&self, computed: &Self) -> bool {
+        let matrices = |of: &Self| {
+            [&of.matrix, &of.matrix_mps2_per_count, &of.matrix_radps_per_count]
+                .map(|rows| rows.clone().map(|rows| rows.concat()))
+        };
+        matrices(self).into_iter().zip(matrices(computed)).all(|pair| match pair {
+            (Some(stated), Some(computed)) => {
+                let largest = computed.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+                stated.len() == computed.len()
+                    && stated.iter().zip(&computed).all(|(one, other)| (one - other).abs() <= 1e-4 * largest)
+            }
+            (stated, _) => stated.is_none(),
+        })
+    }
+
     fn of(sensor_kind: SensorKind, unit: ReadingUnit, correction: &Correction, axes: usize) -> Self {
         let matrix = Some(block(&correction.matrix, axes));
         let direction = match sensor_kind {
             SensorKind::Accelerometer => "raw to true: f = C (y_a - b_a); matrix is C, the inverse of S",
             SensorKind::Gyroscope => "raw to true: w = C (y_g - b_g - G f); matrix is C, the inverse of S",
         };
-        let mut fields =
-            Self { direction, matrix: None, matrix_mps2_per_count: None, matrix_radps_per_count: None };
+        let mut fields = Self {
+            direction: direction.into(),
+            matrix: None,
+            matrix_mps2_per_count: None,
+            matrix_radps_per_count: None,
+        };
         match (unit, sensor_kind) {
             (ReadingUnit::Counts, SensorKind::Accelerometer) => fields.matrix_mps2_per_count = matrix,
             (ReadingUnit::Counts, SensorKind::Gyroscope) => fields.matrix_radps_per_count = matrix,
@@ -322,6 +359,13 @@ impl ParameterCore {
                 "names are accelerometer.bias.x, …",
             )
         })?;
+        if self.sd.is_some_and(|sd| sd < 0.0) {
+            return Err(input_error(
+                Refusal::CalibrationInvalid,
+                format!("the sd of {name} is negative"),
+                "correct it",
+            ));
+        }
         let wanted = quantity.unit(unit_of(imu, quantity.sensor_kind()));
         if unit != wanted {
             return Err(input_error(

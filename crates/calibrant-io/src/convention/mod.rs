@@ -37,6 +37,7 @@ pub(crate) use calibrant_json::{Heading, read_estimates};
 pub use file::{CalibratedImuFile, WrittenImu};
 pub use format::ImuFormat;
 pub use imu_noise::ImuNoise;
+pub use imu_tk::imu_tk_files;
 pub(crate) use json_core::ImuCore;
 pub use kalibr::read_kalibr_noise;
 pub use measured_noise::read_measured_noise;

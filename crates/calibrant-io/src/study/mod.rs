@@ -31,6 +31,7 @@ pub fn study_json(studies: &Studies) -> String {
 #[derive(Serialize)]
 struct StudiesFile<'a> {
     schema: u32,
+    program: String,
     remarks: &'a [String],
     calibration: Option<StudyFields<'a>>,
     surface: Option<SurfaceFields<'a>>,
@@ -42,6 +43,7 @@ impl<'a> StudiesFile<'a> {
     fn of(studies: &'a Studies) -> Self {
         Self {
             schema: 1,
+            program: crate::atomic_output::program(),
             remarks: &studies.remarks,
             calibration: studies.calibration.as_ref().map(StudyFields::of),
             surface: studies.surface.as_ref().map(SurfaceFields::of),

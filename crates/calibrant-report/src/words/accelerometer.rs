@@ -6,6 +6,11 @@ use calibrant_core::diagnostic::{Diagnostic, FacePointing};
 use calibrant_core::estimate::CoarseAxis;
 use calibrant_core::sensor::{ReadingUnit, SensorKind};
 
+/// A ratio with two decimals, or with two digits where it would read 0.00.
+fn times(ratio: f64) -> String {
+    if ratio < 0.01 { format!("{ratio:.1e}") } else { format!("{ratio:.2}") }
+}
+
 pub(super) fn message(diagnostic: &Diagnostic) -> Option<String> {
     Some(match diagnostic {
         Diagnostic::NotConverged { status } => format!(
@@ -81,10 +86,12 @@ fn of_holds(diagnostic: &Diagnostic) -> Option<String> {
             100.0 / (2.0 * *degrees_of_freedom as f64).sqrt()
         ),
         Diagnostic::NoiseNotAsGiven { sensor_kind: SensorKind::Accelerometer, axis, ratio } => format!(
-            "the noise of axis {axis} within the holds is {ratio:.2} times the noise in the experiment file. The noise of the recording is used."
+            "the noise of axis {axis} within the holds is {} times the noise in the experiment file. The noise of the recording is used.",
+            times(*ratio)
         ),
         Diagnostic::NoiseNotAsGiven { sensor_kind: SensorKind::Gyroscope, axis, ratio } => format!(
-            "the gyroscope's axis {axis} scatters within the holds by {ratio:.2} times the given noise. Check the noise and its unit."
+            "the gyroscope's axis {axis} scatters within the holds by {} times the given noise. Check the noise and its unit.",
+            times(*ratio)
         ),
         Diagnostic::ParameterImplausible { parameter, deviations } => format!(
             "{parameter} is {deviations:.0} datasheet standard deviations from its nominal value. Check the unit of the recording, gravity, and the order and \

@@ -27,6 +27,8 @@ use std::collections::BTreeMap;
 const IMU: [&str; 2] = ["sensor_msgs/msg/Imu", "sensor_msgs/msg/dds_/Imu_"];
 /// Bytes that the container's reader receives at once.
 const PIECE: usize = 1 << 20;
+/// A record may have this many bytes, even where the compressed file has fewer: a map that was latched.
+const LARGEST_RECORD: usize = 1 << 28;
 /// Opcode of a record with a schema.
 const SCHEMA: u8 = 3;
 /// Opcode of a record with a channel.
@@ -97,7 +99,7 @@ impl Bag {
         let mut bag = Self::default();
         let mut rest = bytes;
         let options = LinearReaderOptions::default()
-            .with_record_length_limit(bytes.len())
+            .with_record_length_limit(bytes.len().max(LARGEST_RECORD))
             .with_validate_chunk_crcs(true)
             // a recorder that was killed has written no end
             .with_skip_end_magic(true);

@@ -71,7 +71,7 @@ fn both_sensors_columns_are_the_solved_model_and_their_sd_that_of_drawn_calibrat
     let corrected = ImuCorrection::of(&imu).expect("regular").apply(&imu, &recording).expect("both");
     let directory = tempfile::tempdir().expect("a directory");
     let path = directory.path().join("corrected.csv");
-    write_corrected_recording(&path, &corrected).expect("written");
+    write_corrected_recording(&path, &corrected, "imu.json").expect("written");
     let text = std::fs::read_to_string(&path).expect("readable");
     assert!(text.starts_with(
         "t_s,ax_mps2,ay_mps2,az_mps2,ax_sd_mps2,ay_sd_mps2,az_sd_mps2,gx_radps,gy_radps,gz_radps,gx_sd_radps,gy_sd_radps,gz_sd_radps\n"

@@ -1,0 +1,131 @@
+//! Tests of what a command must not do: replace what it reads or what others wrote, hide an earlier run.
+
+use crate::bench::Bench;
+
+/// Poses, their recording and its calibration.
+fn bench() -> Bench {
+    let bench = Bench::new();
+    bench.preset("static-poses", "poses.toml", &[]);
+    bench.run("simulate poses.toml -o made").done();
+    bench.run("calibrate poses.toml made/recording.csv -o result").done();
+    bench
+}
+
+#[test]
+fn a_file_that_is_read_is_never_replaced() {
+    let bench = bench();
+    let says = ["this file is read, and would be replaced by the result", "[file-taken]"];
+    bench.write("report.html", bench.read("poses.toml"));
+    for command in [
+        "apply result/calibration.json made/recording.csv -o made/../made/recording.csv --force",
+        "convert result/calibration.json ./result/calibration.json --force",
+        "calibrate report.html made/recording.csv -o . --force",
+        "study report.html -o . --force",
+    ] {
+        bench.refuses(command, 2, &says);
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_link_is_not_followed_onto_the_recording() {
+    let bench = bench();
+    std::fs::create_dir(bench.path("linked")).expect("a directory");
+    std::os::unix::fs::symlink(bench.path("made/recording.csv"), bench.path("linked/calibration.json"))
+        .expect("a link");
+    bench.refuses(
+        "calibrate poses.toml made/recording.csv -o linked",
+        2,
+        &["linked/calibration.json: this file is read"],
+    );
+}
+
+#[test]
+fn what_others_wrote_is_replaced_on_demand_only() {
+    let bench = bench();
+    bench.write("mine/recording.csv", "t_s,ax_mps2,ay_mps2,az_mps2\n0,0,0,9.8\n");
+    let says = ["mine/recording.csv: this file is there already, and calibrant did not write it", "--force"];
+    bench.refuses("simulate poses.toml -o mine", 2, &says);
+    bench.run("simulate poses.toml -o mine --force").done();
+    bench.run("simulate poses.toml -o mine").done();
+}
+
+#[test]
+fn results_of_an_earlier_run_are_told() {
+    let bench = bench();
+    let outcome = bench.run("calibrate poses.toml absent.csv -o result").ends_with(3);
+    outcome.says("warning: result/calibration.json is that of an earlier run");
+    let outcome = bench.run("calibrate poses.toml made/recording.csv --no-report -o result").done();
+    outcome.says("warning: result/report.html is that of an earlier run");
+    assert!(!outcome.stderr.contains("calibration.json"), "{outcome:?}");
+}
+
+#[test]
+fn a_directory_of_another_run_is_refused() {
+    let bench = bench();
+    let directory = std::fs::File::open(bench.path("result")).expect("a directory");
+    if directory.try_lock().is_ok() {
+        let says = ["another run of calibrant writes into this directory"];
+        bench.refuses("calibrate poses.toml made/recording.csv -o result", 2, &says);
+    }
+}
+
+#[test]
+fn a_corrected_recording_is_not_corrected_again() {
+    let bench = bench();
+    bench.run("apply result/calibration.json made/recording.csv -o true.csv").done();
+    let says = ["this recording has been corrected already, with calibration.json", "[recording-corrected]"];
+    bench.refuses("apply result/calibration.json true.csv -o twice.csv", 3, &says);
+}
+
+#[test]
+fn a_contradictory_calibration_is_refused() {
+    let bench = bench();
+    let text = bench.read("result/calibration.json");
+    for (before, after, says) in [
+        ("\"kind\": \"calibration\"", "\"kind\": \"toaster\"", "the kind of this file is \"toaster\""),
+        ("\"sd\": ", "\"sd\": -", "the sd of accelerometer.bias.x is negative"),
+    ] {
+        bench.write("changed.json", text.replacen(before, after, 1));
+        bench.refuses("apply changed.json made/recording.csv -o changed.csv", 2, &[says]);
+    }
+    let mut changed = bench.json("result/calibration.json");
+    changed["accelerometer"]["correction"]["matrix"][0][0] = 2.0.into();
+    bench.write("changed.json", changed.to_string());
+    let says = ["the correction of the accelerometer is not the inverse of its matrix"];
+    bench.refuses("apply changed.json made/recording.csv -o changed.csv", 2, &says);
+}
+
+#[test]
+fn names_command_neither_the_terminal_nor_a_spreadsheet() {
+    let bench = bench();
+    bench.write("=1+1.csv", bench.read("made/recording.csv"));
+    let outcome =
+        bench.run("calibrate poses.toml made/recording.csv =1+1.csv a\u{1b}[2Jb.csv -o result").ends_with(3);
+    outcome.says("a\\u{1b}[2Jb.csv: cannot read the recording");
+    assert!(!outcome.stderr.contains('\u{1b}') && !outcome.stdout.contains('\u{1b}'));
+    assert!(bench.read("result/summary.csv").contains("\n'=1+1,'=1+1.csv,"));
+}
+
+#[test]
+fn work_beyond_the_budget_is_refused_before_it_starts() {
+    let bench = Bench::new();
+    bench.preset("report", "motion.toml", &[]);
+    for (command, says) in [
+        ("design motion.toml --starts 1000000 -o result", "[work-too-large]"),
+        ("design motion.toml --sweep duration=1e7 -o result", "[work-too-large]"),
+        ("study --threads 65535", "65535 is not in 1..=1024"),
+    ] {
+        bench.refuses(command, 2, &[says]);
+    }
+}
+
+#[test]
+fn scale_and_bias_without_g_sensitivity_are_calibrated() {
+    let bench = Bench::new();
+    let plain =
+        [("model = \"full\"", "model = \"scale-bias\""), ("g_sensitivity = true", "g_sensitivity = false")];
+    bench.preset("imu", "imu.toml", &[plain[0], plain[0], plain[1]]);
+    bench.run("simulate imu.toml -o made").done();
+    bench.run("calibrate imu.toml made/recording.csv -o result");
+}

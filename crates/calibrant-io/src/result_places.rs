@@ -1,0 +1,137 @@
+//! The places of a command's results: decided, tried and held before the work begins.
+
+use calibrant_core::error::{Error, InputError, Refusal, Result};
+use std::fs::{File, TryLockError};
+use std::io::{self, Read, Seek, SeekFrom};
+use std::path::{Path, PathBuf};
+use std::time::SystemTime;
+
+/// A file that this program wrote says so in its first or last bytes, this many.
+const SIGNED_WITHIN: u64 = 4096;
+/// What it says, before the number of the version.
+const SIGNATURE: &[u8] = b"calibrant ";
+
+/// What a command reads and writes.
+#[derive(Debug, Default)]
+pub struct ResultPlaces {
+    /// The directory of the results, where the command has one of its own.
+    pub directory: Option<PathBuf>,
+    /// Every file that the command may write.
+    pub results: Vec<PathBuf>,
+    /// Every file that it may read.
+    pub inputs: Vec<PathBuf>,
+}
+
+/// Places that no other run takes as long as this lives.
+#[derive(Debug)]
+pub struct ClaimedPlaces {
+    /// The results that are there already, with their version.
+    earlier: Vec<(PathBuf, Option<(SystemTime, u64)>)>,
+    /// Directories that were made for the results, the innermost first.
+    made: Vec<PathBuf>,
+    /// The directory of the results, locked.
+    _lock: Option<File>,
+}
+
+impl ResultPlaces {
+    /// Checks the places, tries the directory for writing, and takes it.
+    ///
+    /// Paths are compared after links are resolved. With `replace`, files of others are replaced; inputs never
+    /// are.
+    ///
+    /// # Errors
+    /// [`Error::Experiment`] where a result would replace an input or a file that this program did not write,
+    /// or where another run writes into the directory. [`Error::Output`] where the directory cannot be written.
+    pub fn claim(self, replace: bool) -> Result<ClaimedPlaces> {
+        let refuse = |file: &Path, what: &str, help: &str| {
+            Err(Error::experiment(InputError::new(Refusal::FileTaken, what, help).in_file(file)))
+        };
+        let inputs: Vec<_> = self.inputs.iter().filter_map(|input| input.canonicalize().ok()).collect();
+        let there = |result: &PathBuf| {
+            Some((result.clone(), result.canonicalize().ok().filter(|file| file.is_file())?))
+        };
+        let there: Vec<_> = self.results.iter().filter_map(there).collect();
+        if let Some((result, _)) = there.iter().find(|(_, resolved)| inputs.contains(resolved)) {
+            let what = "this file is read, and would be replaced by the result";
+            return refuse(result, what, "give another name for the result");
+        }
+        if let Some((result, _)) = there.iter().find(|(_, resolved)| !replace && !is_ours(resolved)) {
+            let what = "this file is there already, and calibrant did not write it";
+            return refuse(result, what, "choose another place, or add --force");
+        }
+        let earlier = there.into_iter().map(|(result, _)| (result.clone(), version(&result))).collect();
+        let mut claimed = ClaimedPlaces { earlier, made: Vec::new(), _lock: None };
+        let Some(directory) = self.directory else { return Ok(claimed) };
+        let in_place = |source| Error::Output { path: directory.clone(), source };
+        let missing =
+            directory.ancestors().take_while(|place| !place.as_os_str().is_empty() && !place.exists());
+        claimed.made = missing.map(Path::to_path_buf).collect();
+        if let Some(place) =
+            directory.ancestors().find(|place| place.exists()).filter(|place| !place.is_dir())
+        {
+            let reason = format!("{} is a file, not a directory", place.display());
+            return Err(in_place(io::Error::new(io::ErrorKind::NotADirectory, reason)));
+        }
+        std::fs::create_dir_all(&directory).map_err(in_place)?;
+        tempfile::tempfile_in(&directory).map_err(in_place)?;
+        // where the system cannot lock a directory, there is no lock
+        if let Ok(lock) = File::open(&directory) {
+            if matches!(lock.try_lock(), Err(TryLockError::WouldBlock)) {
+                let what = "another run of calibrant writes into this directory";
+                return refuse(&directory, what, "wait for it, or choose another directory");
+            }
+            claimed._lock = Some(lock);
+        }
+        Ok(claimed)
+    }
+}
+
+impl ClaimedPlaces {
+    /// The results of an earlier run that are there still, as they were.
+    pub fn left_over(&self) -> impl Iterator<Item = &Path> {
+        let unchanged = |(path, before): &&(PathBuf, Option<(SystemTime, u64)>)| {
+            path.exists() && version(path) == *before
+        };
+        self.earlier.iter().filter(unchanged).map(|(path, _)| path.as_path())
+    }
+}
+
+impl Drop for ClaimedPlaces {
+    /// Removes the directories that were made and have no results.
+    fn drop(&mut self) {
+        // one that is not empty stays
+        self.made.iter().for_each(|directory| drop(std::fs::remove_dir(directory)));
+    }
+}
+
+/// What differs once a result has been replaced: the file itself, where the system numbers files.
+fn version(path: &Path) -> Option<(SystemTime, u64)> {
+    let found = path.metadata().ok()?;
+    #[cfg(unix)]
+    let number = std::os::unix::fs::MetadataExt::ino(&found);
+    #[cfg(not(unix))]
+    let number = found.len();
+    Some((found.modified().ok()?, number))
+}
+
+/// Did this program write the file? It says so near its beginning or its end.
+fn is_ours(path: &Path) -> bool {
+    let signed = |bytes: &[u8]| {
+        let digit_after = |found: &[u8]| {
+            found.starts_with(SIGNATURE) && found[SIGNATURE.len()..].first().is_some_and(u8::is_ascii_digit)
+        };
+        (0..bytes.len()).any(|start| digit_after(&bytes[start..]))
+    };
+    let ends = || -> io::Result<[Vec<u8>; 2]> {
+        let mut file = File::open(path)?;
+        let length = file.metadata()?.len();
+        let mut read_at = |start| -> io::Result<Vec<u8>> {
+            let mut bytes = Vec::new();
+            file.seek(SeekFrom::Start(start))?;
+            file.by_ref().take(SIGNED_WITHIN).read_to_end(&mut bytes)?;
+            Ok(bytes)
+        };
+        Ok([read_at(0)?, read_at(length.saturating_sub(SIGNED_WITHIN))?])
+    };
+    ends().is_ok_and(|ends| ends.iter().any(|bytes| bytes.is_empty() || signed(bytes)))
+}
