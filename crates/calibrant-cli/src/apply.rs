@@ -42,7 +42,7 @@ pub(crate) struct Arguments {
     output: PathBuf,
 }
 
-impl crate::Run for Arguments {
+impl crate::run::Run for Arguments {
     fn places(&self) -> ResultPlaces {
         let inputs =
             [&self.calibration, &self.recording].into_iter().chain(&self.gyroscope).chain(&self.columns);

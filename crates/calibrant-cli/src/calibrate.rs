@@ -14,7 +14,7 @@ use crate::Exit;
 use calibrant::io::{Experiment, ResultPlaces};
 use job::Job;
 
-impl crate::Run for Arguments {
+impl crate::run::Run for Arguments {
     fn places(&self) -> ResultPlaces {
         let others =
             [&self.motion, &self.sections, &self.validate, &self.validate_gyroscope].into_iter().flatten();

@@ -27,7 +27,7 @@ pub(crate) struct Arguments {
     json: bool,
 }
 
-impl crate::Run for Arguments {
+impl crate::run::Run for Arguments {
     fn run(&self) -> calibrant::Result<Exit> {
         run(self)
     }

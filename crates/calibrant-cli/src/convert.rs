@@ -62,7 +62,7 @@ impl From<GaugeName> for Gauge {
     }
 }
 
-impl crate::Run for Arguments {
+impl crate::run::Run for Arguments {
     fn places(&self) -> ResultPlaces {
         let is_pair = |path: &Path| path.extension().is_some_and(|extension| extension == "calib");
         let pair = |path: &Path, is_pair: bool| is_pair.then(|| imu_tk_files(path)).into_iter().flatten();

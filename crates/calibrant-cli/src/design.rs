@@ -16,7 +16,7 @@ use calibrant::io::{ResultPlaces, design_json};
 use job::{Job, in_file};
 use output::{exit_of, write};
 
-impl crate::Run for Arguments {
+impl crate::run::Run for Arguments {
     fn places(&self) -> ResultPlaces {
         let names = [
             "design.json",

@@ -17,7 +17,7 @@ pub(crate) struct Arguments {
     output: Option<PathBuf>,
 }
 
-impl crate::Run for Arguments {
+impl crate::run::Run for Arguments {
     fn places(&self) -> ResultPlaces {
         ResultPlaces { results: self.output.iter().cloned().collect(), ..ResultPlaces::default() }
     }

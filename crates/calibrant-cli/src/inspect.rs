@@ -47,7 +47,7 @@ impl Arguments {
     }
 }
 
-impl crate::Run for Arguments {
+impl crate::run::Run for Arguments {
     fn run(&self) -> calibrant::Result<Exit> {
         run(self)
     }

@@ -13,12 +13,14 @@ mod init;
 mod inspect;
 mod noise;
 mod recording_options;
+mod run;
 mod simulate;
 mod study;
 
-use calibrant::io::{ResultPlaces, remove_unfinished};
+use calibrant::io::remove_unfinished;
 use clap::{Parser, Subcommand};
 use exit::Exit;
+use run::Run;
 use std::process::ExitCode;
 
 /// Calibrate accelerometers, gyroscopes and IMUs from a recording, and design the best motion to record.
@@ -36,16 +38,6 @@ struct Cli {
     /// Replace files that calibrant did not write. Inputs are never replaced.
     #[arg(long, global = true)]
     force: bool,
-}
-
-/// A command: what it reads and writes, and its work.
-trait Run {
-    /// What it reads and writes; nothing, where it only prints.
-    fn places(&self) -> ResultPlaces {
-        ResultPlaces::default()
-    }
-
-    fn run(&self) -> calibrant::Result<Exit>;
 }
 
 #[derive(Subcommand)]

@@ -20,7 +20,7 @@ use calibrant::sensor::{Recording, SensorKind};
 use nalgebra::Vector3;
 use std::path::Path;
 
-impl crate::Run for Arguments {
+impl crate::run::Run for Arguments {
     fn places(&self) -> ResultPlaces {
         let Some(directory) = &self.output else { return ResultPlaces::default() };
         ResultPlaces {

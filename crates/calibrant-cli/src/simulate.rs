@@ -23,7 +23,7 @@ use nalgebra::Vector3;
 use random::Random;
 use std::path::Path;
 
-impl crate::Run for Arguments {
+impl crate::run::Run for Arguments {
     fn places(&self) -> ResultPlaces {
         let names = ["recording.csv", "truth.json", "motion.csv", "true_motion.csv"];
         ResultPlaces {

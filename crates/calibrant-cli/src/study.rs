@@ -44,7 +44,7 @@ pub(crate) struct Arguments {
     output: PathBuf,
 }
 
-impl crate::Run for Arguments {
+impl crate::run::Run for Arguments {
     fn places(&self) -> ResultPlaces {
         let names = ["study.json", "report.html"];
         ResultPlaces {

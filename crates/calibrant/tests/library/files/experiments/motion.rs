@@ -67,7 +67,7 @@ pub(super) const CASES: &[Case] = &[
     (
         "intervals = 10⏎interval_s = 1.0⏎rate_hz = 10.0",
         "intervals = 10_000_000⏎interval_s = 1.0⏎rate_hz = 1000.0",
-        "line 14, column 11: `motion.rate_hz`: intervals × interval_s × rate_hz is 1.000e10 samples (at most 1e9: lower the rate, or shorten the motion)",
+        "line 14, column 11: `motion.rate_hz`: intervals × interval_s × rate_hz is 1.000e10 samples (at most 2e7: lower the rate, or shorten the motion)",
     ),
     (
         r#"trust = "known""#,

@@ -62,7 +62,7 @@ pub(super) const CASES: &[Case] = &[
     (
         r#"trust = "known""#,
         r#"trust = "known"⏎[study.unknown]⏎intervals = 100000⏎detail_rate_hz = 1e6"#,
-        "line 18, column 18: `study.unknown.detail_rate_hz`: intervals × interval_s × rate_hz is 1.000e11 samples (at most 1e9: lower the rate, or shorten the motion)",
+        "line 18, column 18: `study.unknown.detail_rate_hz`: intervals × interval_s × rate_hz is 1.000e11 samples (at most 2e7: lower the rate, or shorten the motion)",
     ),
     (
         r#"trust = "known""#,
