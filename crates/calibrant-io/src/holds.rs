@@ -88,9 +88,13 @@ impl HoldsFields {
             detected: holds.detected,
             between_holds_sd_mps2: holds.between_holds_sd_mps2,
             between_holds_dominates: holds.between_holds_dominates,
-            bias_drift: holds.drift.map(|drift| InUnit::new("bias_drift", unit, per_axis(&drift.value, 3))),
+            bias_drift: holds
+                .drift
+                .as_deref()
+                .map(|drift| InUnit::new("bias_drift", unit, per_axis(&drift.value, 3))),
             bias_drift_sd: holds
                 .drift
+                .as_deref()
                 .map(|drift| InUnit::new("bias_drift_sd", unit, per_axis(&drift.sd(), 3))),
             faces: holds.tilt.map(|tilt| FacesFields {
                 tilt_sd_rad: tilt.sd_rad,

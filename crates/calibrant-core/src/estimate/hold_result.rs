@@ -36,7 +36,7 @@ pub struct HoldCalibration {
     /// Mean temperature of each hold, °C, if the model has temperature terms.
     pub temperatures_c: Option<Vec<f64>>,
     /// The drift of the accelerometer's bias that the holds were freed from, if one was allowed for.
-    pub drift: Option<BiasDrift>,
+    pub drift: Option<Box<BiasDrift>>,
     /// A change of the accelerometer within the recording. `None` without evidence, and for known directions.
     pub change: Option<Box<Change>>,
 }

@@ -59,7 +59,7 @@ pub fn calibration_quality(calibration: &Calibration) -> Vec<String> {
         parts.push(format!("the error of the known turns is {} rms", number_format::missed_angle(rms)));
     }
     if let Some(holds) = calibration.holds() {
-        parts.extend(holds.drift.map(|drift| bias_drift(&drift, calibration)));
+        parts.extend(holds.drift.as_deref().map(|drift| bias_drift(drift, calibration)));
         parts.extend(holds.tilt.as_ref().map(face_alignment));
         parts.push(match holds.degrees_of_freedom {
             0 => "gravity in the holds determines the accelerometer, and no data are left to check it".into(),

@@ -118,7 +118,7 @@ fn an_allowance_for_drift_costs_little_where_there_is_none() {
 fn the_result_states_the_drift() {
     let drift = Vector3::new(0.005, -0.01, 0.03);
     let (_, found) = calibrated(1, &drift, false, 0.02);
-    let stated = found.holds().and_then(|holds| holds.drift).expect("allowed for");
+    let stated = found.holds().and_then(|holds| holds.drift.clone()).expect("allowed for");
     // from the middle of the first hold to that of the last
     for axis in 0..3 {
         let off = stated.value[axis] - drift[axis] * 0.965;

@@ -84,7 +84,7 @@ pub fn cross_validate(
 ) -> Result<Validation> {
     let (setup, _) = of_holds(calibration, problem)?;
     let setup = HoldsSetup { bias_drift_sd_mps2: 0.0, ..setup.clone() };
-    let drift = calibration.holds().and_then(|holds| holds.drift);
+    let drift = calibration.holds().and_then(|holds| holds.drift.as_deref());
     let steady = drift.map(|drift| drift.taken_out_of(problem.recording));
     let problem = &CalibrationProblem { recording: steady.as_ref().unwrap_or(problem.recording), ..*problem };
     let train = |block: &Block| {
@@ -130,7 +130,7 @@ fn crossed(
 
 /// The recording without the drift of the accelerometer's bias: the blocks have it in common.
 fn steady<'a>(calibration: &Calibration, recording: &'a ImuRecording) -> Cow<'a, ImuRecording> {
-    let drift = calibration.holds().and_then(|holds| holds.drift);
+    let drift = calibration.holds().and_then(|holds| holds.drift.as_deref());
     let (Some(drift), Some(accelerometer)) = (drift, &recording.accelerometer) else {
         return Cow::Borrowed(recording);
     };
