@@ -72,7 +72,7 @@ const MOST_SPIKES_ONE_IN: usize = 50;
 const SD_OVER_MAD: f64 = 1.4826;
 /// Number of samples from which the usual size of steps and deviations is taken.
 const MEDIAN_SAMPLES: usize = 2048;
-/// Binary orders of magnitude between readings and an invalid sample.
+/// Fewest powers of two between the valid readings and an invalid one, both measured from the median.
 const BINARY_ORDERS: usize = 10;
 
 /// The spikes and invalid samples that were removed from a recording.
