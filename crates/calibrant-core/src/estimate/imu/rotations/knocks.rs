@@ -24,7 +24,7 @@ pub(crate) struct Knocks {
 
 impl Knocks {
     /// The fourth differences that stand out.
-    pub(crate) fn of(times_s: &[f64], readings: &[Vector3<f64>]) -> Self {
+    pub(crate) fn find(times_s: &[f64], readings: &[Vector3<f64>]) -> Self {
         Self::search(times_s, readings).unwrap_or_default()
     }
 
