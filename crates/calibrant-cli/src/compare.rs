@@ -57,7 +57,7 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     }
     console::print(&format!("A: {name_a} ({})\nB: {name_b} ({})\n\n", in_words(&a), in_words(&b)));
     let rows: Vec<_> = comparison.quantities.iter().map(row).collect();
-    let header = ["quantity", "A", "B", "B − A", "in sd", "unit"];
+    let header = ["quantity", "A", "B", "B − A", "in sd", "p", "unit"];
     console::print(&console::table(&header, &rows));
     if let Some(overall) = comparison.overall {
         let verdict = if overall.p_value < 0.01 {
@@ -65,8 +65,14 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
         } else {
             "their uncertainties explain the difference"
         };
+        let behind = match overall.degrees_behind {
+            behind if behind.is_finite() => {
+                format!(", by a scatter of {} degrees of freedom", number_format::significant(behind, 2))
+            }
+            _ => String::new(),
+        };
         console::print(&format!(
-            "  all parameters together: {verdict}; χ² {} with {} degrees of freedom, p-value {}\n",
+            "  all parameters together: {verdict}; χ² {} with {} degrees of freedom, p-value {}{behind}\n",
             number_format::significant(overall.chi2, 5),
             number_format::count(overall.degrees_of_freedom),
             number_format::probability(overall.p_value)
@@ -97,12 +103,18 @@ fn row(quantity: &ComparedQuantity) -> Vec<String> {
     let [difference, in_sd] =
         [quantity.difference, quantity.in_sd].map(|found| found.map(|found| if equal { 0.0 } else { found }));
     let dash = || "–".to_owned();
+    let in_digits = |difference: f64| match quantity.sd {
+        Some(sd) if difference != 0.0 => number_format::rounded_to(scale * difference, scale * sd),
+        _ => number_format::significant(scale * difference, 3),
+    };
+    let p_value = quantity.p_value.map(|p_value| if equal { 1.0 } else { p_value });
     vec![
         quantity.invariant.name(),
         value(&quantity.a),
         value(&quantity.b),
-        difference.map_or_else(dash, |difference| number_format::significant(scale * difference, 3)),
+        difference.map_or_else(dash, in_digits),
         in_sd.map_or_else(dash, |in_sd| number_format::signed(in_sd, 1)),
+        p_value.map_or_else(dash, number_format::probability),
         unit,
     ]
 }

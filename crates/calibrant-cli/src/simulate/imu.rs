@@ -139,6 +139,7 @@ fn in_gauge(
         gyroscope_unit: Some(g),
         quantities: Vec::new(),
         covariance: None,
+        degrees_of_freedom: None,
         frame: String::new(),
     };
     Ok(imu.in_gauge_of(SensorKind::Accelerometer, holds.gauge)?.parameters)

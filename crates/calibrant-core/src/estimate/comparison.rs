@@ -4,10 +4,16 @@
 //! one frame, the lower gauge of one sensor: `χ² = dᵀ (Σ_A + Σ_B)⁺ d`, with `d` their difference. This includes all parameters of either covariance.
 //! It assumes different recordings. For the same recording, `χ²` is too small.
 //!
+//! A covariance that comes from a scatter of few residuals is itself uncertain ([`CovarianceDegrees`]). A difference then follows Student's t, and χ²/n
+//! Fisher's F. Shares `w` of a variance with ν degrees of freedom have `1/Σ (w²/(ν + 2)) − 2` together (Welch and Satterthwaite, `gum`, for estimated shares).
+//! The parts of an IMU have scatters of their own, and each adds the χ² of its own probability.
+//!
 //! If both have temperature terms, B is first converted to the reference temperature of A. If only one has, it is taken at its own reference.
 
-use super::statistics::chi2_p_value;
-use crate::sensor::{CalibratedImu, Gauge, ImuQuantity, Invariant, InvariantValue, Quantity, SensorKind};
+use super::statistics::{chi2_of_p_value, chi2_p_value, f_p_value};
+use crate::sensor::{
+    CalibratedImu, CovarianceDegrees, Gauge, ImuQuantity, Invariant, InvariantValue, Quantity, SensorKind,
+};
 use nalgebra::{DMatrix, DVector};
 
 /// Two calibrations side by side.
@@ -36,8 +42,14 @@ pub struct ComparedQuantity {
     pub b: InvariantValue,
     /// Second minus first; `None` where the units differ.
     pub difference: Option<f64>,
-    /// The difference in joint standard deviations; a calibration without a covariance counts as exact. `None` where neither has one.
+    /// Joint standard deviation; a calibration without a covariance counts as exact. `None` where neither has one.
+    pub sd: Option<f64>,
+    /// The difference in joint standard deviations.
     pub in_sd: Option<f64>,
+    /// Degrees of freedom behind the joint standard deviation.
+    pub degrees_of_freedom: f64,
+    /// Probability of a larger difference, by Student's t, if both are calibrations of one sensor.
+    pub p_value: Option<f64>,
 }
 
 /// Difference of all parameters together.
@@ -47,7 +59,9 @@ pub struct OverallDifference {
     pub chi2: f64,
     /// Rank of `Σ_A + Σ_B`.
     pub degrees_of_freedom: usize,
-    /// Probability of a larger `χ²` if both are calibrations of one sensor.
+    /// The least degrees of freedom behind a part of `Σ_A + Σ_B`.
+    pub degrees_behind: f64,
+    /// Probability of a larger difference, by Fisher's F, if both are calibrations of one sensor.
     pub p_value: f64,
 }
 
@@ -66,6 +80,7 @@ impl Comparison {
     ///     gyroscope_unit: None,
     ///     quantities,
     ///     covariance: Some(DMatrix::identity(6, 6) * 1e-6),
+    ///     degrees_of_freedom: None,
     ///     frame: String::new(),
     /// };
     /// let mut b = a.clone();
@@ -112,6 +127,7 @@ impl Comparison {
                     .into(),
             ),
         }
+        notes.extend([("A", a), ("B", b)].into_iter().filter_map(|(name, imu)| about_degrees(name, imu)));
         let overall = overall(a, b, &mut notes);
         Self { quantities, overall, notes }
     }
@@ -167,8 +183,52 @@ fn compared(
         (one, other) => Some(one.unwrap_or(0.0).hypot(other.unwrap_or(0.0))),
     };
     let in_sd = difference.zip(sd).map(|(difference, sd)| difference / sd);
+    let part = CovarianceDegrees::part_of_invariant(invariant);
+    let variances = [in_a, in_b].map(|of| of.sd.unwrap_or(0.0).powi(2));
+    let degrees_of_freedom = together(&[variances], [a, b], part);
+    let p_value = in_sd.and_then(|in_sd| f_p_value(in_sd * in_sd, 1, degrees_of_freedom));
     let (unit_a, unit_b) = (invariant.unit(a), invariant.unit(b));
-    ComparedQuantity { invariant, unit_a, unit_b, a: in_a, b: in_b, difference, in_sd }
+    ComparedQuantity {
+        invariant,
+        unit_a,
+        unit_b,
+        a: in_a,
+        b: in_b,
+        difference,
+        sd,
+        in_sd,
+        degrees_of_freedom,
+        p_value,
+    }
+}
+
+/// The note about standard deviations that count as known although nothing shows it.
+fn about_degrees(name: &str, imu: &CalibratedImu) -> Option<String> {
+    imu.covariance.as_ref()?;
+    match imu.degrees_of_freedom {
+        None => {
+            Some(format!("{name} does not say the degrees of freedom behind its sd: they count as known"))
+        }
+        Some(degrees) if degrees.accelerometer == 0.0 => Some(format!(
+            "{name} has no more holds than unknowns: nothing shows whether the sd of its accelerometer are right, and they count as known"
+        )),
+        Some(_) => None,
+    }
+}
+
+/// Degrees of freedom behind sums of two variances of one part, by the mean share of each.
+fn together(variances: &[[f64; 2]], of: [&CalibratedImu; 2], part: usize) -> f64 {
+    let degrees = of.map(|imu| {
+        let degrees = imu.degrees_of_freedom.map(|degrees| degrees.of_part(part));
+        degrees.filter(|degrees| *degrees > 0.0).unwrap_or(f64::INFINITY)
+    });
+    // a variance of ν residuals is probably larger, by the mean of the inverse χ²: ν/(ν − 2), limited for few
+    let factor = degrees.map(|v| if v.is_finite() { v / (v - 2.0).max(0.25 * v) } else { 1.0 });
+    let share = |[a, b]: &[f64; 2]| a * factor[0] / (a * factor[0] + b * factor[1]);
+    let of_a = variances.iter().map(share).sum::<f64>() / variances.len() as f64;
+    let [in_a, in_b] =
+        [(of_a, degrees[0]), (1.0 - of_a, degrees[1])].map(|(share, v)| share * share / (v + 2.0));
+    1.0 / (in_a + in_b) - 2.0
 }
 
 /// Does the covariance of an IMU determine an invariant?
@@ -225,26 +285,52 @@ fn overall(a: &CalibratedImu, b: &CalibratedImu, notes: &mut Vec<String>) -> Opt
             }
         });
     }
-    let mut sigma = DMatrix::zeros(list.len(), list.len());
-    for imu in [&a, &b] {
-        let Some(covariance) = &imu.covariance else { continue };
-        let place: Vec<_> =
-            list.iter().map(|quantity| imu.quantities.iter().position(|q| q == quantity)).collect();
-        for (i, row) in place.iter().enumerate() {
-            for (j, column) in place.iter().enumerate() {
-                if let (Some(row), Some(column)) = (row, column) {
-                    sigma[(i, j)] += covariance[(*row, *column)];
-                }
-            }
-        }
-    }
+    let [of_a, of_b] = [&a, &b].map(|imu| covariance_of(imu, &list));
+    let sigma = &of_a + &of_b;
     let difference = DVector::from_iterator(
         list.len(),
         list.iter().map(|quantity| quantity.value(&b.parameters) - quantity.value(&a.parameters)),
     );
-    let (chi2, degrees_of_freedom) = mahalanobis(&sigma, &difference);
-    let p_value = chi2_p_value(chi2, degrees_of_freedom)?;
-    Some(OverallDifference { chi2, degrees_of_freedom, p_value })
+    let (mut chi2, mut degrees_of_freedom, mut degrees_behind) = (0.0, 0, f64::INFINITY);
+    let (mut places, mut of_parts) = (Vec::new(), Vec::new());
+    for part in 0..CovarianceDegrees::PARTS {
+        let of_part = |k: &usize| CovarianceDegrees::part_of(list[*k]) == part && sigma[(*k, *k)] > 0.0;
+        let own: Vec<usize> = (0..list.len()).filter(of_part).collect();
+        if own.is_empty() {
+            continue;
+        }
+        let variances: Vec<_> = own.iter().map(|&k| [of_a[(k, k)], of_b[(k, k)]]).collect();
+        let behind = together(&variances, [&a, &b], part);
+        places.extend(own);
+        // what this part adds, beside the parts before it
+        let (until_here, rank) = mahalanobis(
+            &sigma.select_rows(&places).select_columns(&places),
+            &difference.select_rows(&places),
+        );
+        of_parts.push(((until_here - chi2).max(0.0), rank.saturating_sub(degrees_of_freedom), behind));
+        (chi2, degrees_of_freedom, degrees_behind) = (until_here, rank, degrees_behind.min(behind));
+    }
+    let p_value = match of_parts[..] {
+        [(chi2, components, behind)] => f_p_value(chi2, components, behind),
+        _ => chi2_p_value(of_parts.iter().map(as_known).sum(), degrees_of_freedom),
+    }?;
+    Some(OverallDifference { chi2, degrees_of_freedom, degrees_behind, p_value })
+}
+
+/// The χ² of known variances that is as probable as this one.
+fn as_known(&(chi2, components, behind): &(f64, usize, f64)) -> f64 {
+    let p_value = f_p_value(chi2, components, behind).filter(|_| behind.is_finite());
+    p_value.map_or(chi2, |p_value| chi2_of_p_value(p_value, components))
+}
+
+/// The covariance of these quantities; zero for those that the IMU does not list.
+fn covariance_of(imu: &CalibratedImu, list: &[ImuQuantity]) -> DMatrix<f64> {
+    let place = |quantity: &ImuQuantity| imu.quantities.iter().position(|of| of == quantity);
+    let places: Vec<Option<usize>> = list.iter().map(place).collect();
+    DMatrix::from_fn(list.len(), list.len(), |i, j| match (&imu.covariance, places[i], places[j]) {
+        (Some(covariance), Some(row), Some(column)) => covariance[(row, column)],
+        _ => 0.0,
+    })
 }
 
 /// `dᵀ Σ⁺ d` and the rank of `Σ`. `Σ` is scaled to unit diagonal, so units do not matter.
@@ -286,6 +372,7 @@ mod tests {
             gyroscope_unit: Some(ReadingUnit::RadianPerSecond),
             quantities,
             covariance: Some(&root * root.transpose()),
+            degrees_of_freedom: None,
             frame: String::new(),
         }
     }

@@ -5,8 +5,8 @@ use super::imu::{GyroscopeCalibration, RotationResult, TurnResult};
 use crate::diagnostic::{Change, Diagnostic};
 use crate::motion::JerkControlledMotion;
 use crate::sensor::{
-    Axis, CalibratedImu, Gauge, ImuParameters, ImuQuantity, Parameter, Quantity, ReadingUnit, SensorKind,
-    SensorModel,
+    Axis, CalibratedImu, CovarianceDegrees, Gauge, ImuParameters, ImuQuantity, Parameter, Quantity,
+    ReadingUnit, SensorKind, SensorModel,
 };
 use nalgebra::{DMatrix, Vector3};
 
@@ -208,7 +208,38 @@ impl Calibration {
             gyroscope_unit: self.gyroscope.as_ref().map(|gyroscope| gyroscope.unit),
             quantities: self.quantities.clone(),
             covariance: Some(self.covariance.clone()),
+            degrees_of_freedom: Some(self.degrees_behind()),
             frame: self.frame(),
+        }
+    }
+
+    /// Degrees of freedom behind the covariance.
+    fn degrees_behind(&self) -> CovarianceDegrees {
+        let Recovered::Holds(holds) = &self.recovered else { return CovarianceDegrees::known() };
+        let unknowns = |part: usize| -> f64 {
+            let of_part = |k: &usize| CovarianceDegrees::part_of(self.quantities[*k]) == part;
+            let left = |k: usize| 1.0 - self.prior_share.get(k).copied().unwrap_or(0.0);
+            (0..self.quantities.len()).filter(of_part).map(left).sum()
+        };
+        let of_scatter = |is_found: bool, numbers: usize, unknowns: f64| {
+            if is_found { (numbers as f64 - unknowns).max(1.0) } else { f64::INFINITY }
+        };
+        let accelerometer = match holds.degrees_of_freedom {
+            // the covariance of faces is already as wide as Student's t
+            _ if holds.tilt.is_some() => f64::INFINITY,
+            0 => 0.0,
+            degrees => of_scatter(holds.between_holds_dominates, degrees, 0.0),
+        };
+        let Some(gyroscope) = &self.gyroscope else {
+            return CovarianceDegrees { accelerometer, ..CovarianceDegrees::known() };
+        };
+        let at_rest = gyroscope.still.between_holds_sd.max() > 0.0;
+        let in_rotations = gyroscope.between_rotations_sd_rad > 0.0;
+        CovarianceDegrees {
+            accelerometer,
+            // each axis has a scatter of its own
+            gyroscope_at_rest: of_scatter(at_rest, holds.used().count(), unknowns(1) / 3.0),
+            gyroscope_matrix: of_scatter(in_rotations, 2 * self.used_rotations().count(), unknowns(2)),
         }
     }
 

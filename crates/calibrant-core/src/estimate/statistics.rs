@@ -2,7 +2,10 @@
 
 use super::{Calibration, Whiteness};
 use crate::diagnostic::Diagnostic;
-use statrs::distribution::{ChiSquared, ContinuousCDF};
+use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
+
+/// So many degrees of freedom are as good as infinitely many.
+const MANY_DEGREES: f64 = 1e5;
 
 /// Probability of a χ² at least this large. `None` without degrees of freedom.
 pub(crate) fn chi2_p_value(chi2: f64, degrees_of_freedom: usize) -> Option<f64> {
@@ -10,6 +13,21 @@ pub(crate) fn chi2_p_value(chi2: f64, degrees_of_freedom: usize) -> Option<f64> 
         return None;
     }
     ChiSquared::new(degrees_of_freedom as f64).ok().map(|distribution| distribution.sf(chi2.max(0.0)))
+}
+
+/// Probability of a χ² of n components at least this large, where a variance with `behind` degrees of freedom scales it: Fisher's F of χ²/n.
+/// With infinitely many it is χ². With one component, it is the two-sided Student's t of its root. `None` without components.
+pub(crate) fn f_p_value(chi2: f64, components: usize, behind: f64) -> Option<f64> {
+    if behind > MANY_DEGREES || components == 0 {
+        return chi2_p_value(chi2, components);
+    }
+    let n = components as f64;
+    FisherSnedecor::new(n, behind).ok().map(|distribution| distribution.sf(chi2.max(0.0) / n))
+}
+
+/// The χ² of n components that is exceeded with this probability.
+pub(crate) fn chi2_of_p_value(p_value: f64, components: usize) -> f64 {
+    ChiSquared::new(components as f64).map_or(0.0, |distribution| distribution.inverse_cdf(1.0 - p_value))
 }
 
 /// Ljung–Box test of the residuals of a fit (`ljung1978`).

@@ -186,6 +186,7 @@ impl CalibratedImu {
     ///     gyroscope_unit: None,
     ///     quantities: vec![],
     ///     covariance: None,
+    ///     degrees_of_freedom: None,
     ///     frame: String::new(),
     /// };
     /// let angle = imu.invariants()[6];

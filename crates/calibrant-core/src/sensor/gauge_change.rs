@@ -177,6 +177,7 @@ impl CalibratedImu {
     ///     gyroscope_unit: Some(ReadingUnit::RadianPerSecond),
     ///     quantities: ImuQuantity::full_list(true, true, false),
     ///     covariance: None,
+    ///     degrees_of_freedom: None,
     ///     frame: "upper gauge".into(),
     /// };
     /// let lower = imu.in_gauge(Gauge::Lower)?.parameters;
@@ -298,6 +299,7 @@ pub(super) mod tests {
             gyroscope_unit: Some(ReadingUnit::Counts),
             quantities,
             covariance: Some(&root * root.transpose()),
+            degrees_of_freedom: None,
             frame: String::new(),
         }
     }

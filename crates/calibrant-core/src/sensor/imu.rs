@@ -7,7 +7,8 @@
 
 use super::spikes::{Spikes, without};
 use super::{
-    Axis, Quantity, ReadingUnit, Recording, SensorKind, SensorParameters, Thermal, ThermalPart, ThermalTerm,
+    Axis, CovarianceDegrees, Quantity, ReadingUnit, Recording, SensorKind, SensorParameters, Thermal,
+    ThermalPart, ThermalTerm,
 };
 use nalgebra::{DMatrix, Matrix3, Vector3};
 use std::borrow::Cow;
@@ -243,6 +244,8 @@ pub struct CalibratedImu {
     pub quantities: Vec<ImuQuantity>,
     /// Covariance of these quantities; `None` where it is not known.
     pub covariance: Option<DMatrix<f64>>,
+    /// Degrees of freedom behind the covariance; `None` where they are not known.
+    pub degrees_of_freedom: Option<CovarianceDegrees>,
     /// The true frame, in words.
     pub frame: String,
 }

@@ -29,6 +29,7 @@ use std::sync::Arc;
 ///     gyroscope_unit: None,
 ///     quantities: vec![],
 ///     covariance: None,
+///     degrees_of_freedom: None,
 ///     frame: String::new(),
 /// };
 /// let correction = ImuCorrection::of(&imu)?;

@@ -8,6 +8,7 @@
 
 mod axis;
 mod corrected_recording;
+mod covariance_degrees;
 mod datasheet;
 mod described;
 pub(crate) mod entry_vector;
@@ -35,6 +36,7 @@ mod unit;
 
 pub use axis::Axis;
 pub use corrected_recording::{CorrectedRecording, CorrectedSensor};
+pub use covariance_degrees::CovarianceDegrees;
 pub use datasheet::Sensor;
 pub use described::Parameter;
 pub use extremes::{greater, lesser};

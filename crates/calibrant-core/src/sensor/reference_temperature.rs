@@ -105,6 +105,7 @@ impl CalibratedImu {
     ///     gyroscope_unit: None,
     ///     quantities: vec![],
     ///     covariance: None,
+    ///     degrees_of_freedom: None,
     ///     frame: String::new(),
     /// };
     /// let warm = imu.at_reference_temperature(30.0)?.parameters;
@@ -272,6 +273,7 @@ pub(super) mod tests {
         let alone = CalibratedImu {
             quantities: vec![term],
             covariance: Some(DMatrix::identity(1, 1) * 1e-6),
+            degrees_of_freedom: None,
             ..before
         };
         let hot = alone.at(35.0).expect("positive gains");

@@ -180,6 +180,7 @@ pub(super) fn read(text: &str) -> Checked<CalibratedImuFile> {
         gyroscope_unit: units[1],
         quantities,
         covariance: None,
+        degrees_of_freedom: None,
         frame: frame.trim().into(),
     };
     Ok(CalibratedImuFile {

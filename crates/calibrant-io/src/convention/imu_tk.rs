@@ -195,6 +195,7 @@ pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<Calibrate
         gyroscope_unit: (!accelerometer).then_some(unit),
         quantities: ImuQuantity::full_list(accelerometer, !accelerometer, false),
         covariance: None,
+        degrees_of_freedom: None,
         frame: frame.unwrap_or_else(|| "imu_tk's: that of its accelerometer, z along its z axis".into()),
     };
     Ok(CalibratedImuFile {

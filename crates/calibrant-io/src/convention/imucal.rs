@@ -172,6 +172,7 @@ pub(super) fn read(text: &str, options: &ConventionOptions) -> Checked<Calibrate
         gyroscope_unit: Some(gyr_unit),
         quantities: ImuQuantity::full_list(true, true, true),
         covariance: None,
+        degrees_of_freedom: None,
         frame: frame.unwrap_or("imucal's: that of the faces on which the device was put").into(),
     };
     Ok(CalibratedImuFile { imu, noise: None, inputs: Vec::new(), format: ImuFormat::Imucal, findings })

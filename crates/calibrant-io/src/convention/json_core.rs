@@ -7,6 +7,7 @@
 
 use super::super::input::Input;
 use super::arrays::{Rows, matrix3, missing, rows, vector3};
+use super::degrees_of_freedom::DegreesCore;
 use super::temperature::TemperatureCore;
 use super::words::input_error;
 use crate::shared_fields::{block, matrix_rows, per_axis};
@@ -33,6 +34,8 @@ pub(crate) struct ImuCore {
     parameters: Option<Vec<ParameterCore>>,
     covariance_of: Option<String>,
     covariance: Option<Vec<Vec<Option<f64>>>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    covariance_degrees_of_freedom: Option<DegreesCore>,
     inputs: Option<Vec<Input>>,
 }
 
@@ -128,6 +131,7 @@ impl ImuCore {
                 "the parameters in their order; entry (i, j) in the unit of parameter i times that of parameter j".into(),
             ),
             covariance: imu.covariance.as_ref().map(|sigma| optional(matrix_rows(sigma))),
+            covariance_degrees_of_freedom: imu.degrees_of_freedom.as_ref().map(DegreesCore::of),
             inputs: Some(inputs.to_vec()),
         }
     }
@@ -178,6 +182,7 @@ impl ImuCore {
             gyroscope_unit: units[1],
             quantities: Vec::new(),
             covariance: None,
+            degrees_of_freedom: None,
             frame: self.frame.ok_or_else(|| missing("frame"))?,
         };
         let listed = self.parameters.ok_or_else(|| missing("parameters"))?;
@@ -196,6 +201,8 @@ impl ImuCore {
         }
         imu.covariance =
             self.covariance.map(|rows| covariance_of(&rows, imu.quantities.len())).transpose()?;
+        imu.degrees_of_freedom =
+            self.covariance_degrees_of_freedom.map(DegreesCore::into_degrees).transpose()?;
         if let Some(gauge) = self.gauge {
             let matrix = imu.parameters.sensor(imu.reference()).matrix;
             if !Gauge::ALL.into_iter().any(|known| known.name() == gauge && known.is_form_of(&matrix)) {

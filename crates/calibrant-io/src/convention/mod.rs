@@ -17,6 +17,7 @@ mod c_constants;
 mod c_header;
 mod c_temperature;
 mod calibrant_json;
+mod degrees_of_freedom;
 mod file;
 mod format;
 mod imu_noise;

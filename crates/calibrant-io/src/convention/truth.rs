@@ -66,6 +66,7 @@ pub(super) fn read(text: &str) -> Checked<CalibratedImuFile> {
         gyroscope_unit: unit(SensorKind::Gyroscope),
         quantities: Vec::new(),
         covariance: None,
+        degrees_of_freedom: None,
         frame: match &file.gauge {
             Some(gauge) => {
                 format!("fixed by the {gauge} gauge of the accelerometer, with a positive diagonal")

@@ -4,6 +4,7 @@ mod architecture;
 mod bias_drift;
 mod clock_skew;
 mod common;
+mod comparison;
 mod contradicted_inputs;
 mod derivatives;
 mod design;

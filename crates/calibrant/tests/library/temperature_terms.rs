@@ -163,6 +163,7 @@ fn the_correction_of_each_sample_is_that_at_its_temperature() {
         gyroscope_unit: Some(quiet.gyroscope_unit),
         quantities: Vec::new(),
         covariance: None,
+        degrees_of_freedom: None,
         frame: String::new(),
     };
     let corrected = ImuCorrection::of(&imu).and_then(|of| of.apply(&imu, &recording)).expect("regular");

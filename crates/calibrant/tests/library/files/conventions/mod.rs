@@ -53,6 +53,7 @@ pub(crate) fn imu(unit: [ReadingUnit; 2], g_sensitivity: bool) -> CalibratedImu 
         gyroscope_unit: Some(unit[1]),
         quantities,
         covariance: Some(&root * root.transpose()),
+        degrees_of_freedom: None,
         frame: "the plate's: x along its long edge; z \"up\" # */ ".into(),
     }
 }
@@ -132,6 +133,7 @@ pub(crate) fn alone(imu: &CalibratedImu, sensor_kind: SensorKind) -> CalibratedI
             false,
         ),
         covariance: None,
+        degrees_of_freedom: None,
         ..imu.clone()
     };
     alone.parameters.g_sensitivity = Matrix3::zeros();

@@ -1,0 +1,43 @@
+//! The degrees of freedom behind the covariance in our JSON files: the object `covariance_degrees_of_freedom`.
+
+use super::words::input_error;
+use crate::text_decoding::Checked;
+use calibrant_core::error::Refusal;
+use calibrant_core::sensor::CovarianceDegrees;
+use serde::{Deserialize, Serialize};
+
+/// Those behind each part of the covariance; `null` where its size is known.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct DegreesCore {
+    accelerometer: Option<f64>,
+    gyroscope_at_rest: Option<f64>,
+    gyroscope_matrix: Option<f64>,
+}
+
+impl DegreesCore {
+    pub(super) fn of(degrees: &CovarianceDegrees) -> Self {
+        let finite = |degrees: f64| degrees.is_finite().then_some(degrees);
+        Self {
+            accelerometer: finite(degrees.accelerometer),
+            gyroscope_at_rest: finite(degrees.gyroscope_at_rest),
+            gyroscope_matrix: finite(degrees.gyroscope_matrix),
+        }
+    }
+
+    pub(super) fn into_degrees(self) -> Checked<CovarianceDegrees> {
+        let stated = |degrees: Option<f64>| match degrees {
+            None => Ok(f64::INFINITY),
+            Some(degrees) if degrees >= 0.0 => Ok(degrees),
+            Some(degrees) => Err(input_error(
+                Refusal::CalibrationInvalid,
+                format!("`covariance_degrees_of_freedom` has {degrees}"),
+                "write a number from 0 on, or null where the variance is known",
+            )),
+        };
+        Ok(CovarianceDegrees {
+            accelerometer: stated(self.accelerometer)?,
+            gyroscope_at_rest: stated(self.gyroscope_at_rest)?,
+            gyroscope_matrix: stated(self.gyroscope_matrix)?,
+        })
+    }
+}
