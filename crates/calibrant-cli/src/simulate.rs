@@ -164,26 +164,32 @@ fn simulate_poses(
 ) -> calibrant::Result<usize> {
     let sensor = &experiment.sensor;
     let mut rng = random.sensor();
-    let truth = plan.gauge.apply(&draw_sensor(sensor, &mut rng));
+    let drawn = draw_sensor(sensor, &mut rng);
+    let on_table = imu::table(plan, &[]);
+    // known directions fix the true frame; otherwise the gauge does
+    let (truth, list) = match &on_table {
+        Some(_) => (drawn, sensor.parameter_list()),
+        None => (plan.gauge.apply(&drawn), plan.gauge.parameter_list(sensor.model)),
+    };
     let mut rng = random.happening(rng);
     let noise = sensor.noise(&truth.matrix.diagonal()).unwrap_or_else(Vector3::zeros);
-    let setup = HoldsSimulation {
+    let recording = match &on_table {
+        Some(steps) => imu::accelerometer_on_table(sensor, &truth, plan, steps, &mut rng)?,
+        None => simulate_holds(&truth, &noise, sensor.unit, &by_hand(plan), &mut rng).0,
+    };
+    let output = &arguments.output;
+    write_truth(&output.join("truth.json"), random.seed, &list, sensor.unit, &truth)?;
+    write_recording(&output.join("recording.csv"), &recording)?;
+    Ok(recording.len())
+}
+
+fn by_hand(plan: &HoldsPlan) -> HoldsSimulation {
+    HoldsSimulation {
         poses: plan.poses,
         hold_s: plan.hold_s,
         turn_s: 2.0,
         rate_hz: plan.rate_hz,
         gravity_mps2: plan.gravity.magnitude_mps2,
         between_holds_sd_mps2: 0.0,
-    };
-    let (recording, _) = simulate_holds(&truth, &noise, sensor.unit, &setup, &mut rng);
-    let output = &arguments.output;
-    write_truth(
-        &output.join("truth.json"),
-        random.seed,
-        &plan.gauge.parameter_list(sensor.model),
-        sensor.unit,
-        &truth,
-    )?;
-    write_recording(&output.join("recording.csv"), &recording)?;
-    Ok(recording.len())
+    }
 }

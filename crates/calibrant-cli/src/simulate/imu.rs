@@ -5,9 +5,13 @@ use super::random::Random;
 use crate::console;
 use calibrant::Error;
 use calibrant::error::{InputError, Refusal};
+use calibrant::estimate::Turn;
 use calibrant::io::{Experiment, HoldsPlan, ImuPlan, ImuReadOptions, write_imu_recording, write_imu_truth};
 use calibrant::motion::earth_rate;
-use calibrant::sensor::{CalibratedImu, ImuParameters, ImuQuantity, ReadingUnit, SensorKind, WORKING_C};
+use calibrant::sensor::{
+    CalibratedImu, ImuParameters, ImuQuantity, ReadingUnit, Recording, Sensor, SensorKind, SensorParameters,
+    WORKING_C,
+};
 use calibrant::simulate::{
     GyroscopeToDraw, ImuSimulation, MOST_SAMPLES, Rng, TURN_S, TableAction, TableStep, draw_imu, draw_known,
     draw_thermal, simulate_imu, simulate_table,
@@ -67,12 +71,11 @@ pub(super) fn run(
         temperature_c: warming(plan),
     };
     let units = [sensor.unit, plan.gyroscope.unit];
-    let on_table = table(holds, plan);
+    let on_table = table(holds, &plan.turns);
     // on a table the faces fix the true frame; by hand the accelerometer's gauge does
     let mut truth = match &on_table {
         Some(steps) => {
-            check_order(steps)?;
-            check_length(steps, holds.rate_hz)?;
+            check(steps, holds.rate_hz)?;
             drawn
         }
         None => in_gauge(&drawn, units, holds)?,
@@ -145,15 +148,38 @@ fn in_gauge(
     Ok(imu.in_gauge_of(SensorKind::Accelerometer, holds.gauge)?.parameters)
 }
 
-/// The steps on the table, in order of time; `None` where the IMU is turned by hand.
-fn table(holds: &HoldsPlan, plan: &ImuPlan) -> Option<Vec<TableStep>> {
+/// The recording of an accelerometer in these steps.
+pub(super) fn accelerometer_on_table(
+    sensor: &Sensor,
+    truth: &SensorParameters,
+    holds: &HoldsPlan,
+    steps: &[TableStep],
+    rng: &mut Rng,
+) -> calibrant::Result<Recording> {
+    check(steps, holds.rate_hz)?;
+    let noise = sensor.noise(&truth.matrix.diagonal()).unwrap_or_else(Vector3::zeros);
+    let setup = ImuSimulation {
+        rate_hz: holds.rate_hz,
+        gravity_mps2: holds.gravity.magnitude_mps2,
+        accelerometer_noise: one_for_all(SensorKind::Accelerometer, &noise),
+        accelerometer_unit: sensor.unit,
+        face_sd_rad: holds.face_sd_rad.unwrap_or(0.0),
+        ..ImuSimulation::default()
+    };
+    let nothing = Recording { times_s: Vec::new(), readings: Vec::new(), axes: 3, unit: sensor.unit };
+    let imu = ImuParameters { accelerometer: *truth, ..ImuParameters::identity() };
+    Ok(simulate_table(&imu, steps, &setup, rng).accelerometer.unwrap_or(nothing))
+}
+
+/// The steps on the table, in order of time; `None` where the sensor is turned by hand.
+pub(super) fn table(holds: &HoldsPlan, turns: &[Turn]) -> Option<Vec<TableStep>> {
     let (intervals, directions) = (holds.intervals_s.as_ref()?, holds.directions.as_ref()?);
     let faces = intervals.iter().zip(directions).map(|(&(start_s, end_s), &direction)| TableStep {
         start_s,
         end_s,
         action: TableAction::Hold(direction),
     });
-    let turns = plan.turns.iter().map(|turn| TableStep {
+    let turns = turns.iter().map(|turn| TableStep {
         start_s: turn.start_s,
         end_s: turn.end_s,
         action: TableAction::Turn {
@@ -165,6 +191,12 @@ fn table(holds: &HoldsPlan, plan: &ImuPlan) -> Option<Vec<TableStep>> {
     let mut steps: Vec<TableStep> = faces.chain(turns).collect();
     steps.sort_by(|one, other| one.start_s.total_cmp(&other.start_s));
     Some(steps)
+}
+
+/// Checks the steps of a recording.
+fn check(steps: &[TableStep], rate_hz: f64) -> calibrant::Result<()> {
+    check_order(steps)?;
+    check_length(steps, rate_hz)
 }
 
 /// Checks that the recording fits into memory.

@@ -4,7 +4,7 @@
 //! one frame, the lower gauge of one sensor: `χ² = dᵀ (Σ_A + Σ_B)⁺ d`, with `d` their difference. This includes all parameters of either covariance.
 //! It assumes different recordings. For the same recording, `χ²` is too small.
 //!
-//! A covariance that comes from a scatter of few residuals is itself uncertain ([`CovarianceDegrees`]). A difference then follows Student's t, and χ²/n
+//! A covariance that comes from a scatter of few residuals is itself uncertain ([`CovarianceDegrees`](crate::sensor::CovarianceDegrees)). A difference then follows Student's t, and χ²/n
 //! Fisher's F. Shares `w` of a variance with ν degrees of freedom have `1/Σ (w²/(ν + 2)) − 2` together (Welch and Satterthwaite, `gum`, for estimated shares).
 //! The parts of an IMU have scatters of their own, and each adds the χ² of its own probability.
 //!
@@ -12,7 +12,7 @@
 
 use super::statistics::{chi2_of_p_value, chi2_p_value, f_p_value};
 use crate::sensor::{
-    CalibratedImu, CovarianceDegrees, Gauge, ImuQuantity, Invariant, InvariantValue, Quantity, SensorKind,
+    CalibratedImu, CovariancePart, Gauge, ImuQuantity, Invariant, InvariantValue, Quantity, SensorKind,
 };
 use nalgebra::{DMatrix, DVector};
 
@@ -183,7 +183,7 @@ fn compared(
         (one, other) => Some(one.unwrap_or(0.0).hypot(other.unwrap_or(0.0))),
     };
     let in_sd = difference.zip(sd).map(|(difference, sd)| difference / sd);
-    let part = CovarianceDegrees::part_of_invariant(invariant);
+    let part = invariant.covariance_part();
     let variances = [in_a, in_b].map(|of| of.sd.unwrap_or(0.0).powi(2));
     let degrees_of_freedom = together(&[variances], [a, b], part);
     let p_value = in_sd.and_then(|in_sd| f_p_value(in_sd * in_sd, 1, degrees_of_freedom));
@@ -217,7 +217,7 @@ fn about_degrees(name: &str, imu: &CalibratedImu) -> Option<String> {
 }
 
 /// Degrees of freedom behind sums of two variances of one part, by the mean share of each.
-fn together(variances: &[[f64; 2]], of: [&CalibratedImu; 2], part: usize) -> f64 {
+fn together(variances: &[[f64; 2]], of: [&CalibratedImu; 2], part: CovariancePart) -> f64 {
     let degrees = of.map(|imu| {
         let degrees = imu.degrees_of_freedom.map(|degrees| degrees.of_part(part));
         degrees.filter(|degrees| *degrees > 0.0).unwrap_or(f64::INFINITY)
@@ -293,8 +293,8 @@ fn overall(a: &CalibratedImu, b: &CalibratedImu, notes: &mut Vec<String>) -> Opt
     );
     let (mut chi2, mut degrees_of_freedom, mut degrees_behind) = (0.0, 0, f64::INFINITY);
     let (mut places, mut of_parts) = (Vec::new(), Vec::new());
-    for part in 0..CovarianceDegrees::PARTS {
-        let of_part = |k: &usize| CovarianceDegrees::part_of(list[*k]) == part && sigma[(*k, *k)] > 0.0;
+    for part in CovariancePart::ALL {
+        let of_part = |k: &usize| list[*k].covariance_part() == part && sigma[(*k, *k)] > 0.0;
         let own: Vec<usize> = (0..list.len()).filter(of_part).collect();
         if own.is_empty() {
             continue;

@@ -50,9 +50,10 @@ pub use holds::{
 pub use imu::{
     ClockRate, Gyroscope, GyroscopeCalibration, GyroscopeInHolds, ImuProblem, ImuSetup, KnownTerm,
     NoiseSource, RotationResult, ThermalModel, TimeOffset, Turn, TurnResult, WhiteNoise, WhiteNoiseSearch,
-    calibrate_imu, calibrate_imu_with, find_clean_imu_holds, find_imu_holds, swapped_sensors,
+    calibrate_faces, calibrate_imu, calibrate_imu_with, find_clean_imu_holds, find_imu_holds,
+    swapped_sensors,
 };
-pub use problem::{CalibrationProblem, Stimulus};
+pub use problem::{CalibrationProblem, FacesProblem, Stimulus};
 pub use quantisation::{CoarseAxis, coarse_axes, coarse_axes_in};
 pub use result::*;
 pub use settings::CalibrationSettings;

@@ -4,6 +4,7 @@ use super::holds::HoldsSetup;
 use crate::error::{Error, InputError, Refusal, Result};
 use crate::motion::CommandedMotion;
 use crate::sensor::{Recording, Sensor};
+use nalgebra::Vector3;
 
 /// A sensor, a recording of it, and what is known of its stimulus.
 #[derive(Debug, Clone, Copy)]
@@ -23,6 +24,21 @@ pub enum Stimulus<'a> {
     Motion(&'a CommandedMotion),
     /// The sensor was held still in several orientations.
     Holds(&'a HoldsSetup),
+}
+
+/// An accelerometer that was held still in known directions.
+#[derive(Debug, Clone, Copy)]
+pub struct FacesProblem<'a> {
+    /// The datasheet.
+    pub sensor: &'a Sensor,
+    /// The recording.
+    pub recording: &'a Recording,
+    /// The holds, with their intervals. The gauge is of no account: the directions are the true frame.
+    pub holds: &'a HoldsSetup,
+    /// Direction of the specific force (up) in each hold, in the true frame.
+    pub directions: &'a [Vector3<f64>],
+    /// Standard deviation of these directions, rad about each axis. `None`: it comes from the scatter of the holds.
+    pub face_sd_rad: Option<f64>,
 }
 
 impl CalibrationProblem<'_> {

@@ -5,8 +5,8 @@ use super::imu::{GyroscopeCalibration, RotationResult, TurnResult};
 use crate::diagnostic::{Change, Diagnostic};
 use crate::motion::JerkControlledMotion;
 use crate::sensor::{
-    Axis, CalibratedImu, CovarianceDegrees, Gauge, ImuParameters, ImuQuantity, Parameter, Quantity,
-    ReadingUnit, SensorKind, SensorModel,
+    Axis, CalibratedImu, CovarianceDegrees, CovariancePart, Gauge, ImuParameters, ImuQuantity, Parameter,
+    Quantity, ReadingUnit, SensorKind, SensorModel,
 };
 use nalgebra::{DMatrix, Vector3};
 
@@ -216,8 +216,8 @@ impl Calibration {
     /// Degrees of freedom behind the covariance.
     fn degrees_behind(&self) -> CovarianceDegrees {
         let Recovered::Holds(holds) = &self.recovered else { return CovarianceDegrees::known() };
-        let unknowns = |part: usize| -> f64 {
-            let of_part = |k: &usize| CovarianceDegrees::part_of(self.quantities[*k]) == part;
+        let unknowns = |part: CovariancePart| -> f64 {
+            let of_part = |k: &usize| self.quantities[*k].covariance_part() == part;
             let left = |k: usize| 1.0 - self.prior_share.get(k).copied().unwrap_or(0.0);
             (0..self.quantities.len()).filter(of_part).map(left).sum()
         };
@@ -238,8 +238,16 @@ impl Calibration {
         CovarianceDegrees {
             accelerometer,
             // each axis has a scatter of its own
-            gyroscope_at_rest: of_scatter(at_rest, holds.used().count(), unknowns(1) / 3.0),
-            gyroscope_matrix: of_scatter(in_rotations, 2 * self.used_rotations().count(), unknowns(2)),
+            gyroscope_at_rest: of_scatter(
+                at_rest,
+                holds.used().count(),
+                unknowns(CovariancePart::GyroscopeAtRest) / 3.0,
+            ),
+            gyroscope_matrix: of_scatter(
+                in_rotations,
+                2 * self.used_rotations().count(),
+                unknowns(CovariancePart::GyroscopeMatrix),
+            ),
         }
     }
 

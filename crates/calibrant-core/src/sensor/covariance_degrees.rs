@@ -3,8 +3,6 @@
 //! A variance that is the scatter of a few holds is itself uncertain. With ν residuals more than unknowns, a difference over its standard
 //! deviation follows Student's t of ν degrees of freedom. Each part of an IMU has a scatter of its own.
 
-use super::{ImuQuantity, Invariant, Quantity, SensorKind};
-
 /// Residuals less unknowns behind each part of a covariance. Infinite where the variance was known beforehand, or where no scatter was found.
 /// 0 where there are no residuals that could show one.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -17,45 +15,33 @@ pub struct CovarianceDegrees {
     pub gyroscope_matrix: f64,
 }
 
+/// Quantities that one scatter determines.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum CovariancePart {
+    Accelerometer,
+    GyroscopeAtRest,
+    GyroscopeMatrix,
+}
+
+impl CovariancePart {
+    /// Every part.
+    pub(crate) const ALL: [Self; 3] = [Self::Accelerometer, Self::GyroscopeAtRest, Self::GyroscopeMatrix];
+}
+
 impl CovarianceDegrees {
     /// Of variances that are known.
     #[must_use]
     pub fn known() -> Self {
-        Self::of_parts([f64::INFINITY; 3])
+        let known = f64::INFINITY;
+        Self { accelerometer: known, gyroscope_at_rest: known, gyroscope_matrix: known }
     }
 
-    /// The number of parts.
-    pub(crate) const PARTS: usize = 3;
-
-    fn of_parts([accelerometer, gyroscope_at_rest, gyroscope_matrix]: [f64; Self::PARTS]) -> Self {
-        Self { accelerometer, gyroscope_at_rest, gyroscope_matrix }
-    }
-
-    /// Those of a part, by its number.
-    pub(crate) fn of_part(&self, part: usize) -> f64 {
-        [self.accelerometer, self.gyroscope_at_rest, self.gyroscope_matrix][part]
-    }
-
-    /// The number of the part that a quantity belongs to.
-    pub(crate) fn part_of(quantity: ImuQuantity) -> usize {
-        match quantity {
-            _ if quantity.sensor_kind() == SensorKind::Accelerometer => 0,
-            ImuQuantity::GSensitivity(..) => 1,
-            _ if quantity.is_of_bias() => 1,
-            _ => 2,
+    /// Those of a part.
+    pub(crate) fn of_part(&self, part: CovariancePart) -> f64 {
+        match part {
+            CovariancePart::Accelerometer => self.accelerometer,
+            CovariancePart::GyroscopeAtRest => self.gyroscope_at_rest,
+            CovariancePart::GyroscopeMatrix => self.gyroscope_matrix,
         }
-    }
-
-    /// The number of the part that an invariant mainly belongs to.
-    pub(crate) fn part_of_invariant(invariant: Invariant) -> usize {
-        Self::part_of(match invariant {
-            Invariant::Bias(of, axis) => ImuQuantity::Of(of, Quantity::Bias(axis)),
-            Invariant::Gain(of, axis) | Invariant::Angle(of, axis, _) => {
-                ImuQuantity::Of(of, Quantity::Scale(axis))
-            }
-            Invariant::AngleBetween(_, axis) => ImuQuantity::Of(SensorKind::Gyroscope, Quantity::Scale(axis)),
-            Invariant::GSensitivity(axis) => ImuQuantity::GSensitivity(axis, axis),
-            Invariant::Thermal(of, term) => ImuQuantity::Thermal(of, term),
-        })
     }
 }

@@ -8,7 +8,8 @@
 
 use super::entry_vector::{self, EntryMatrix, EntryVector};
 use super::{
-    Axis, CalibratedImu, ImuParameters, ImuQuantity, ReadingUnit, SensorKind, ThermalPart, ThermalTerm,
+    Axis, CalibratedImu, CovariancePart, ImuParameters, ImuQuantity, Quantity, ReadingUnit, SensorKind,
+    ThermalPart, ThermalTerm,
 };
 use nalgebra::Vector3;
 
@@ -109,6 +110,19 @@ impl Invariant {
             Self::Thermal(sensor_kind, ThermalTerm { part: ThermalPart::Bias, .. }) => Some(sensor_kind),
             Self::Angle(..) | Self::AngleBetween(..) | Self::Thermal(..) => None,
         }
+    }
+
+    /// The part of the covariance that it mainly belongs to.
+    pub(crate) fn covariance_part(self) -> CovariancePart {
+        let gyroscope = SensorKind::Gyroscope;
+        let quantity = match self {
+            Self::Bias(of, axis) => ImuQuantity::Of(of, Quantity::Bias(axis)),
+            Self::Gain(of, axis) | Self::Angle(of, axis, _) => ImuQuantity::Of(of, Quantity::Scale(axis)),
+            Self::AngleBetween(_, axis) => ImuQuantity::Of(gyroscope, Quantity::Scale(axis)),
+            Self::GSensitivity(axis) => ImuQuantity::GSensitivity(axis, axis),
+            Self::Thermal(of, term) => ImuQuantity::Thermal(of, term),
+        };
+        quantity.covariance_part()
     }
 
     /// Can it come close to zero without changing sign?

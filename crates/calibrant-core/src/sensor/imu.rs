@@ -7,8 +7,8 @@
 
 use super::spikes::{Spikes, without};
 use super::{
-    Axis, CovarianceDegrees, Quantity, ReadingUnit, Recording, SensorKind, SensorParameters, Thermal,
-    ThermalPart, ThermalTerm,
+    Axis, CovarianceDegrees, CovariancePart, Quantity, ReadingUnit, Recording, SensorKind, SensorParameters,
+    Thermal, ThermalPart, ThermalTerm,
 };
 use nalgebra::{DMatrix, Matrix3, Vector3};
 use std::borrow::Cow;
@@ -172,6 +172,16 @@ impl ImuQuantity {
         match self {
             Self::Of(sensor_kind, _) | Self::Thermal(sensor_kind, _) => sensor_kind,
             Self::GSensitivity(..) => SensorKind::Gyroscope,
+        }
+    }
+
+    /// The part of the covariance that it belongs to.
+    pub(crate) fn covariance_part(self) -> CovariancePart {
+        match self {
+            _ if self.sensor_kind() == SensorKind::Accelerometer => CovariancePart::Accelerometer,
+            Self::GSensitivity(..) => CovariancePart::GyroscopeAtRest,
+            _ if self.is_of_bias() => CovariancePart::GyroscopeAtRest,
+            _ => CovariancePart::GyroscopeMatrix,
         }
     }
 

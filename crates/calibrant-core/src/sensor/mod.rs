@@ -37,6 +37,7 @@ mod unit;
 pub use axis::Axis;
 pub use corrected_recording::{CorrectedRecording, CorrectedSensor};
 pub use covariance_degrees::CovarianceDegrees;
+pub(crate) use covariance_degrees::CovariancePart;
 pub use datasheet::Sensor;
 pub use described::Parameter;
 pub use extremes::{greater, lesser};

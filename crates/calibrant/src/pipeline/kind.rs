@@ -2,8 +2,8 @@
 
 use super::note::Note;
 use super::options::PipelineOptions;
-use super::sections::setup_of;
-use super::setup::Setup;
+use super::sections::{setup_of, unused_face_sd};
+use super::setup::{Faces, Setup};
 use super::source::Source;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::motion::CommandedMotion;
@@ -51,7 +51,15 @@ impl<'e> Kind<'e> {
     ) -> Result<Setup<'e>> {
         Ok(match self {
             Self::Motion(command) => Setup::Motion(command.clone()),
-            Self::Holds(plan) => Setup::Holds(plan.setup()),
+            Self::Holds(plan) => match &plan.directions {
+                Some(directions) => {
+                    Setup::Faces(Faces { holds: plan.setup(), directions, face_sd_rad: plan.face_sd_rad })
+                }
+                None => {
+                    notes.extend(unused_face_sd(plan.face_sd_rad));
+                    Setup::Holds(plan.setup())
+                }
+            },
             Self::Imu(plan, holds) => {
                 Setup::Imu(&plan.gyroscope, Box::new(setup_of(plan, holds, source, recording, notes)?))
             }

@@ -1,15 +1,17 @@
 //! The sensors, their recording and what is known of it, for every kind of calibration.
 
 use super::noise::{NoiseInHold, calibrated_with_noise};
-use calibrant_core::error::Result;
+use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::estimate::{
-    Calibration, CalibrationProblem, CalibrationSettings, ImuProblem, Validation, calibrate,
-    calibrate_imu_with, cross_validate, cross_validate_imu, validate, validate_imu,
+    Calibration, CalibrationProblem, CalibrationSettings, FacesProblem, ImuProblem, Stimulus, Validation,
+    calibrate, calibrate_faces, calibrate_imu_with, cross_validate, cross_validate_imu, validate,
+    validate_imu,
 };
 
 /// The problem of an estimator.
 pub(crate) enum Problem<'a> {
     Accelerometer(CalibrationProblem<'a>),
+    Faces(FacesProblem<'a>),
     Imu(ImuProblem<'a>),
 }
 
@@ -22,6 +24,7 @@ impl Problem<'_> {
     ) -> (Result<Calibration>, NoiseInHold) {
         match self {
             Self::Accelerometer(problem) => (calibrate(problem, settings), NoiseInHold::default()),
+            Self::Faces(problem) => (calibrate_faces(problem, settings), NoiseInHold::default()),
             Self::Imu(problem) => {
                 calibrated_with_noise(problem.recording, &problem.setup.holds, report, |white_noise| {
                     calibrate_imu_with(problem, settings, white_noise)
@@ -34,6 +37,10 @@ impl Problem<'_> {
     pub(crate) fn validate(&self, calibration: &Calibration) -> Result<Validation> {
         match self {
             Self::Accelerometer(problem) => validate(calibration, problem),
+            Self::Faces(FacesProblem { sensor, recording, holds, .. }) => {
+                let stimulus = Stimulus::Holds(holds);
+                validate(calibration, &CalibrationProblem { sensor, recording, stimulus })
+            }
             Self::Imu(problem) => validate_imu(calibration, problem),
         }
     }
@@ -47,6 +54,11 @@ impl Problem<'_> {
     ) -> Result<Validation> {
         match self {
             Self::Accelerometer(problem) => cross_validate(calibration, problem, settings, folds),
+            Self::Faces(_) => Err(Error::experiment(InputError::new(
+                Refusal::ValidationImpossible,
+                "folds say nothing where the directions of the holds are known: a face that is left out shows how well the sensor was placed on it",
+                "validate on another recording, with holds in any orientation",
+            ))),
             Self::Imu(problem) => cross_validate_imu(calibration, problem, settings, folds),
         }
     }

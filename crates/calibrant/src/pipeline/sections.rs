@@ -35,11 +35,16 @@ pub(crate) fn setup_of(
         }
         take_sections(&mut setup, &sections, times, plan);
     }
-    if setup.face_sd_rad.is_some() && setup.directions.is_none() {
-        let words = "holds.face_sd_deg is not used: no directions of the holds are given";
-        notes.push(Note::Warning(words.into()));
+    if setup.directions.is_none() {
+        notes.extend(unused_face_sd(setup.face_sd_rad));
     }
     Ok(setup)
+}
+
+/// The warning about a face alignment where no directions are given.
+pub(crate) fn unused_face_sd(face_sd_rad: Option<f64>) -> Option<Note> {
+    let words = "holds.face_sd_deg is not used: no directions of the holds are given";
+    face_sd_rad.map(|_| Note::Warning(words.into()))
 }
 
 /// Faces and turns from a list of sections.

@@ -7,24 +7,34 @@ use super::recorded::Recorded;
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::error::Result;
 use calibrant_core::estimate::{
-    CalibrationProblem, Gyroscope, HoldsSetup, ImuProblem, ImuSetup, Stimulus, WhiteNoise,
+    CalibrationProblem, FacesProblem, Gyroscope, HoldsSetup, ImuProblem, ImuSetup, Stimulus, WhiteNoise,
 };
 use calibrant_core::motion::CommandedMotion;
 use calibrant_core::sensor::{ImuRecording, Sensor};
+use nalgebra::Vector3;
 
 /// The commanded motion, or what is known of holds, rotations and turns.
 #[derive(Clone)]
 pub(crate) enum Setup<'e> {
     Motion(CommandedMotion),
     Holds(HoldsSetup),
+    Faces(Faces<'e>),
     Imu(&'e Gyroscope, Box<ImuSetup>),
+}
+
+/// Holds of an accelerometer in known directions.
+#[derive(Clone)]
+pub(crate) struct Faces<'e> {
+    pub(crate) holds: HoldsSetup,
+    pub(crate) directions: &'e [Vector3<f64>],
+    pub(crate) face_sd_rad: Option<f64>,
 }
 
 impl<'e> Setup<'e> {
     fn holds_mut(&mut self) -> Option<&mut HoldsSetup> {
         match self {
             Self::Motion(_) => None,
-            Self::Holds(holds) => Some(holds),
+            Self::Holds(holds) | Self::Faces(Faces { holds, .. }) => Some(holds),
             Self::Imu(_, setup) => Some(&mut setup.holds),
         }
     }
@@ -51,11 +61,11 @@ impl<'e> Setup<'e> {
         }
     }
 
-    /// The setup for another recording of the same sensors. Intervals, turns and known quantities belong to the first recording and are dropped.
+    /// The setup for another recording of the same sensors. Intervals, directions, turns and known quantities belong to the first recording and are dropped.
     pub(crate) fn of_other(&self) -> Self {
         match self {
             Self::Motion(command) => Self::Motion(command.clone()),
-            Self::Holds(holds) => Self::Holds(of_other(holds)),
+            Self::Holds(holds) | Self::Faces(Faces { holds, .. }) => Self::Holds(of_other(holds)),
             Self::Imu(gyroscope, setup) => {
                 let (holds, latitude_deg) = (of_other(&setup.holds), setup.latitude_deg);
                 Self::Imu(gyroscope, Box::new(ImuSetup { holds, latitude_deg, ..ImuSetup::default() }))
@@ -72,6 +82,17 @@ impl<'e> Setup<'e> {
         let stimulus = match self {
             Self::Motion(command) => Stimulus::Motion(command),
             Self::Holds(holds) => Stimulus::Holds(holds),
+            Self::Faces(Faces { holds, directions, face_sd_rad }) => {
+                let (recording, face_sd_rad) = (recorded.accelerometer()?, *face_sd_rad);
+                let sensor = accelerometer;
+                return Ok(Problem::Faces(FacesProblem {
+                    sensor,
+                    recording,
+                    holds,
+                    directions,
+                    face_sd_rad,
+                }));
+            }
             Self::Imu(gyroscope, setup) => {
                 let recording = &recorded.recording;
                 return Ok(Problem::Imu(ImuProblem { accelerometer, gyroscope, recording, setup }));

@@ -1,5 +1,6 @@
 //! Tests of the library from outside: one binary, so that it is linked once.
 
+mod accelerometer_on_faces;
 mod architecture;
 mod bias_drift;
 mod clock_skew;

@@ -3,8 +3,11 @@
 use crate::diagnostic::TurnSpan;
 use crate::estimate::earth::UNKNOWN_SD_RADPS;
 use crate::estimate::holds::HoldsSetup;
+use crate::estimate::problem::FacesProblem;
 use crate::motion::{earth_rate, to_ms};
-use crate::sensor::{ImuQuantity, ImuRecording, ParameterList, ReadingUnit, Sensor, SensorKind, SensorModel};
+use crate::sensor::{
+    ImuQuantity, ImuRecording, ParameterList, ReadingUnit, Recording, Sensor, SensorKind, SensorModel,
+};
 use nalgebra::Vector3;
 
 /// An IMU, its recording, and given values.
@@ -18,6 +21,23 @@ pub struct ImuProblem<'a> {
     pub recording: &'a ImuRecording,
     /// Holds, turns and other facts of the recording.
     pub setup: &'a ImuSetup,
+}
+
+impl<'a> ImuProblem<'a> {
+    /// Its accelerometer alone, whose recording this is, in known directions.
+    pub(in crate::estimate) fn on_faces<'b>(
+        &'b self,
+        directions: &'b [Vector3<f64>],
+        accelerometer: &'b Recording,
+    ) -> FacesProblem<'b> {
+        FacesProblem {
+            sensor: self.accelerometer,
+            recording: self.recording.accelerometer.as_ref().unwrap_or(accelerometer),
+            holds: &self.setup.holds,
+            directions,
+            face_sd_rad: self.setup.face_sd_rad,
+        }
+    }
 }
 
 /// A gyroscope's datasheet.

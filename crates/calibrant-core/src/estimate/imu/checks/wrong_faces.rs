@@ -7,7 +7,7 @@ use crate::diagnostic::{AGREES_RAD, Diagnostic, FaceMismatch, HoldSpan};
 use crate::error::{Error, InputError, Refusal, Result};
 use crate::estimate::holds::sphere;
 use crate::estimate::imu::checks::directions::turned_frame;
-use crate::estimate::imu::problem::ImuProblem;
+use crate::estimate::problem::FacesProblem;
 use crate::motion::Hold;
 use crate::sensor::ReadingUnit;
 use nalgebra::{Matrix3, Vector3};
@@ -16,13 +16,8 @@ use nalgebra::{Matrix3, Vector3};
 const PARALLEL_RAD: f64 = 0.2;
 
 /// Complains of directions that the readings contradict; of none where the readings do not tell which. `mirrored`: is the fit the mirror image of a sensor?
-pub(crate) fn check(
-    problem: &ImuProblem<'_>,
-    holds: &[Hold],
-    given: &[Vector3<f64>],
-    mirrored: bool,
-) -> Result<()> {
-    match input_error(problem, holds, given) {
+pub(crate) fn check(problem: &FacesProblem<'_>, holds: &[Hold], mirrored: bool) -> Result<()> {
+    match input_error(problem, holds) {
         Some(input_error) => Err(Error::experiment(input_error)),
         None if mirrored => Err(Error::experiment(InputError::new(
             Refusal::FacesContradicted,
@@ -35,20 +30,19 @@ pub(crate) fn check(
 
 /// Warns of directions that are all turned alike against what the readings in SI show: a mounting, or axes in another order.
 pub(crate) fn turned_faces(
-    problem: &ImuProblem<'_>,
+    problem: &FacesProblem<'_>,
     holds: &[Hold],
-    given: &[Vector3<f64>],
     matrix: &Matrix3<f64>,
 ) -> Option<Diagnostic> {
-    if problem.accelerometer.unit == ReadingUnit::Counts || !turned_frame(matrix) {
+    if problem.sensor.unit == ReadingUnit::Counts || !turned_frame(matrix) {
         return None;
     }
-    let guess = problem.accelerometer.nominal()?;
+    let guess = problem.sensor.nominal()?;
     let correction = guess.matrix.try_inverse()?;
     let shown = |hold: &Hold| (correction * (hold.mean - guess.bias)).try_normalize(0.0);
     let wrong: Vec<FaceMismatch> = holds
         .iter()
-        .zip(given)
+        .zip(problem.directions)
         .enumerate()
         .filter_map(|(j, (hold, given))| {
             let shown = shown(hold).filter(|shown| shown.angle(given) >= AGREES_RAD)?;
@@ -63,17 +57,17 @@ fn difference(j: usize, hold: &Hold, given: &Vector3<f64>, shown: &Vector3<f64>)
     FaceMismatch { hold: HoldSpan::of(j, hold), given: *given, shown: *shown }
 }
 
-fn input_error(problem: &ImuProblem<'_>, holds: &[Hold], given: &[Vector3<f64>]) -> Option<InputError> {
-    let gravity = problem.setup.holds.gravity.magnitude_mps2;
+fn input_error(problem: &FacesProblem<'_>, holds: &[Hold]) -> Option<InputError> {
+    let gravity = problem.holds.gravity.magnitude_mps2;
     // the offset of counts is often not the datasheet's
-    let guess = match problem.accelerometer.unit {
+    let guess = match problem.sensor.unit {
         ReadingUnit::Counts => sphere(holds, gravity),
-        _ => problem.accelerometer.nominal(),
+        _ => problem.sensor.nominal(),
     }?;
     let correction = guess.matrix.try_inverse()?;
     let up = |hold: &Hold| (correction * (hold.mean - guess.bias)).try_normalize(0.0);
     let measured: Vec<Vector3<f64>> = holds.iter().map(up).collect::<Option<_>>()?;
-    let given: Vec<Vector3<f64>> = given.iter().map(|direction| direction.normalize()).collect();
+    let given: Vec<Vector3<f64>> = problem.directions.iter().map(|direction| direction.normalize()).collect();
     let faces = Faces { given: &given, measured: &measured };
     let mounting = faces.mounting();
     let wrong: Vec<usize> = (0..given.len()).filter(|&j| !faces.agrees(&mounting, j)).collect();

@@ -17,7 +17,7 @@ use crate::estimate::imu::initial::accelerometer::{
 };
 use crate::estimate::imu::initial::face_alignment::{Chi2, FaceAlignment, FaceScatter, align_faces};
 use crate::estimate::imu::initial::face_statistics::{chi2_of_face, face_degrees, noise_rad2};
-use crate::estimate::imu::problem::ImuProblem;
+use crate::estimate::problem::FacesProblem;
 use crate::estimate::quantisation::{coarse_axes_in, of_means};
 use crate::estimate::uncalibrated::Uncalibrated;
 use crate::information;
@@ -31,13 +31,9 @@ const WRONG_SCATTER: f64 = 0.05;
 /// Fewest samples of a face. A face with fewer has wrong times.
 const FEWEST_SAMPLES: usize = 10;
 
-/// Fits the accelerometer to holds of known directions.
-pub(crate) fn from_faces(
-    problem: &ImuProblem<'_>,
-    recording: &Recording,
-    directions: &[Vector3<f64>],
-) -> Result<InitialAccelerometer> {
-    let setup = &problem.setup.holds;
+/// Fits the accelerometer to holds of known directions. `recording`: that of the problem, or the same at one temperature.
+pub(crate) fn from_faces(problem: &FacesProblem<'_>, recording: &Recording) -> Result<InitialAccelerometer> {
+    let (setup, directions) = (problem.holds, problem.directions);
     let intervals = setup.intervals_s.as_deref().unwrap_or_default();
     if intervals.len() != directions.len() {
         return Err(Error::experiment(InputError::new(
@@ -56,8 +52,8 @@ pub(crate) fn from_faces(
     let holds = holds_between(recording, intervals)?;
     let forces: Vec<Vector3<f64>> =
         directions.iter().map(|direction| direction.normalize() * setup.gravity.magnitude_mps2).collect();
-    let list = ParameterList::new(3, problem.accelerometer.model);
-    let as_read = problem.recording.accelerometer.as_ref().unwrap_or(recording);
+    let list = ParameterList::new(3, problem.sensor.model);
+    let as_read = problem.recording;
     let clipped = clipped_holds(as_read, &holds);
     let sound = (0..holds.len()).filter(|&j| clipped[j].is_none());
     let (usable, along): (Vec<Hold>, Vec<Vector3<f64>>) =
@@ -65,12 +61,11 @@ pub(crate) fn from_faces(
     let coarse = coarse_axes_in(as_read, &usable);
     let (within, of_mean) = (Hold::pooled_sd(&usable), of_means(&coarse));
     let linear = Linear { holds: &usable, forces: &along, list: &list, within, of_mean };
-    let given_rad = problem.setup.face_sd_rad;
-    let (mut sensor, alignment, condition) = match linear.solve(given_rad) {
+    let (mut sensor, alignment, condition) = match linear.solve(problem.face_sd_rad) {
         Ok(solved) => solved,
         Err(error) => {
             if !matches!(error, Error::NotIdentifiable(_)) {
-                wrong_faces::check(problem, &holds, directions, false)?;
+                wrong_faces::check(problem, &holds, false)?;
             }
             return Err(with_clipped(error, &clipped, as_read));
         }
@@ -82,10 +77,10 @@ pub(crate) fn from_faces(
     let is_scattered =
         shown_rad.max(alignment.scatter.along_mps2 / setup.gravity.magnitude_mps2) > WRONG_SCATTER;
     if mirrored || is_scattered {
-        wrong_faces::check(problem, &holds, directions, mirrored)?;
+        wrong_faces::check(problem, &holds, mirrored)?;
     }
-    accelerometer_gains::check(problem.accelerometer.unit, &sensor.matrix)?;
-    let turned = turned_faces(problem, &holds, &forces, &sensor.matrix);
+    accelerometer_gains::check(problem.sensor.unit, &sensor.matrix)?;
+    let turned = turned_faces(problem, &holds, &sensor.matrix);
     let correction = sensor.matrix.try_inverse().unwrap_or_else(Matrix3::identity);
     let results: Vec<HoldResult> = holds
         .iter()
@@ -120,7 +115,7 @@ pub(crate) fn from_faces(
         tilt: Some(alignment.tilt),
         condition_number: condition,
         detected: false,
-        before: Uncalibrated::accelerometer(problem.accelerometer, &sensor),
+        before: Uncalibrated::accelerometer(problem.sensor, &sensor),
         temperatures_c: None,
         change: None,
     };

@@ -1,0 +1,154 @@
+//! An accelerometer alone in known directions: its matrix in their frame, with honest intervals; wrong directions are refused.
+
+use crate::common::normal;
+use calibrant::Error;
+use calibrant::error::Refusal;
+use calibrant::estimate::{
+    Calibration, CalibrationProblem, CalibrationSettings, FacesProblem, HoldsSetup, Stimulus, TiltSource,
+    calibrate, calibrate_faces,
+};
+use calibrant::sensor::{ImuParameters, Recording, Sensor, SensorModel, SensorParameters};
+use calibrant::simulate::{ImuSimulation, Purpose, Rng, TableAction, TableStep, simulate_table, stream};
+use nalgebra::{Matrix3, Rotation3, Vector3};
+use rayon::prelude::*;
+
+fn faces() -> Vec<Vector3<f64>> {
+    (0..3).flat_map(|axis| [1.0, -1.0].map(|sign| Vector3::ith(axis, sign))).collect()
+}
+
+/// The faces twice, and poses of an arm between them.
+fn poses() -> Vec<Vector3<f64>> {
+    let oblique = [[0.6, 0.0, 0.8], [0.0, -0.6, 0.8], [-0.8, 0.6, 0.0], [0.6, 0.6, -0.529_150_262_212_918]];
+    [faces(), oblique.map(Vector3::from).to_vec(), faces()].concat()
+}
+
+/// A sensor with twelve errors, turned in its fixture by about `turn_rad`.
+fn draw(turn_rad: f64, rng: &mut Rng) -> SensorParameters {
+    let errors = Matrix3::from_fn(|_, _| 0.01 * normal(rng));
+    let turn = Rotation3::from_scaled_axis(Vector3::from_fn(|_, _| turn_rad * normal(rng)));
+    SensorParameters {
+        bias: Vector3::from_fn(|_, _| 0.1 * normal(rng)),
+        matrix: (Matrix3::identity() + errors) * turn.matrix(),
+    }
+}
+
+fn record(
+    truth: &SensorParameters,
+    directions: &[Vector3<f64>],
+    tilt_rad: f64,
+    rng: &mut Rng,
+) -> (Recording, HoldsSetup) {
+    let start_s = |k: usize| 6.0 * k as f64;
+    let step = |(k, direction): (usize, &Vector3<f64>)| {
+        let action = TableAction::Hold(*direction);
+        TableStep { start_s: start_s(k), end_s: start_s(k) + 4.0, action }
+    };
+    let steps: Vec<TableStep> = directions.iter().enumerate().map(step).collect();
+    let simulation = ImuSimulation { face_sd_rad: tilt_rad, rate_hz: 50.0, ..ImuSimulation::default() };
+    let imu = ImuParameters { accelerometer: *truth, ..ImuParameters::identity() };
+    let recording = simulate_table(&imu, &steps, &simulation, rng).accelerometer.expect("recorded");
+    let intervals_s = Some((0..steps.len()).map(|k| (start_s(k), start_s(k) + 3.99)).collect());
+    (recording, HoldsSetup { intervals_s, ..HoldsSetup::default() })
+}
+
+fn run(
+    (recording, holds): &(Recording, HoldsSetup),
+    directions: &[Vector3<f64>],
+    face_sd_rad: Option<f64>,
+) -> calibrant::Result<Calibration> {
+    let sensor = &Sensor::triaxial(SensorModel::Full);
+    let problem = FacesProblem { sensor, recording, holds, directions, face_sd_rad };
+    calibrate_faces(&problem, &CalibrationSettings::default())
+}
+
+/// Share of the 95 % intervals of biases, scale factors and cross-axis terms that cover the truth, and the mean square of z.
+fn coverage(number: u64, directions: &[Vector3<f64>], tilt_deg: f64, given: bool) -> [(f64, f64); 3] {
+    let tilt_rad = tilt_deg.to_radians();
+    let all: Vec<Vec<f64>> = (0..400)
+        .into_par_iter()
+        .map(|sensor| {
+            let mut rng = stream(number, Purpose::Sensor, sensor);
+            let truth = draw(tilt_rad, &mut rng);
+            let recorded = record(&truth, directions, tilt_rad, &mut rng);
+            let found = run(&recorded, directions, given.then_some(tilt_rad)).expect("determined");
+            let imu = ImuParameters { accelerometer: truth, ..ImuParameters::identity() };
+            let of_truth = found.quantities.iter().map(|quantity| quantity.value(&imu));
+            let values = found.values.iter().zip(found.sd()).zip(of_truth);
+            values.map(|((value, sd), truth)| (value - truth) / sd).collect()
+        })
+        .collect();
+    [0..3, 3..6, 6..12].map(|places| {
+        let z: Vec<f64> = all.iter().flat_map(|of| of[places.clone()].to_vec()).collect();
+        let covered = z.iter().filter(|z| z.abs() < 1.959_964).count() as f64 / z.len() as f64;
+        (covered, z.iter().map(|z| z * z).sum::<f64>() / z.len() as f64)
+    })
+}
+
+#[test]
+fn intervals_of_twelve_parameters_cover_the_truth() {
+    let mut off = Vec::new();
+    let cases = [(0.1, true), (1.0, true), (0.1, false), (1.0, false)];
+    for (number, (tilt_deg, given)) in (301..).zip(cases) {
+        for (name, directions) in [("faces", faces()), ("poses", poses())] {
+            let kinds = ["bias", "scale", "cross"];
+            for (kind, (covered, square)) in kinds.iter().zip(coverage(number, &directions, tilt_deg, given))
+            {
+                let line = format!(
+                    "{name}, {tilt_deg}°, given {given}, {kind}: {covered:.3} covered, z² {square:.2}"
+                );
+                println!("{line}");
+                // of 1200 at least, 0.6 % is a standard deviation. The scatter of few faces is uncertain, and where tilts decide, what the
+                // magnitudes tell has too wide intervals (`known_faces`)
+                let most = if *kind == "cross" && given { 0.97 } else { 0.998 };
+                if !(0.93..most).contains(&covered) {
+                    off.push(line);
+                }
+            }
+        }
+    }
+    assert!(off.is_empty(), "{off:#?}");
+}
+
+#[test]
+fn directions_fix_the_frame_and_their_errors_count() {
+    let mut rng = stream(311, Purpose::Sensor, 0);
+    let truth = draw(0.02, &mut rng);
+    let recorded = record(&truth, &poses(), 2e-3, &mut rng);
+    let found = run(&recorded, &poses(), Some(2e-3)).expect("determined");
+    assert!(found.frame_is_known() && found.quantities.len() == 12);
+    assert_eq!(found.holds().and_then(|holds| holds.tilt).expect("faces").source, TiltSource::Given);
+    assert!((found.imu.accelerometer.matrix - truth.matrix).amax() < 4e-3);
+    // twice the alignment, twice the standard deviation of the cross-axis terms
+    let doubled = run(&recorded, &poses(), Some(4e-3)).expect("determined");
+    let cross = |of: &Calibration| -> f64 { of.sd()[6..].iter().sum() };
+    let by = cross(&doubled) / cross(&found);
+    assert!((by - 2.0).abs() < 0.05, "{by}");
+    // without directions, the frame is that of a gauge
+    let (sensor, stimulus) = (&Sensor::triaxial(SensorModel::Full), Stimulus::Holds(&recorded.1));
+    let problem = CalibrationProblem { sensor, recording: &recorded.0, stimulus };
+    let free = calibrate(&problem, &CalibrationSettings::default()).expect("determined");
+    assert!((free.imu.accelerometer.matrix - truth.matrix).amax() > 0.01);
+}
+
+#[test]
+fn wrong_directions_are_refused() {
+    let mut rng = stream(312, Purpose::Sensor, 0);
+    let recorded = record(&draw(0.01, &mut rng), &poses(), 2e-3, &mut rng);
+    let any = |_| Vector3::from_fn(|_, _| normal(&mut rng));
+    let nonsense: Vec<Vector3<f64>> = (0..poses().len()).map(any).collect();
+    let mut flipped = poses();
+    flipped[3] = -flipped[3];
+    let all_down: Vec<Vector3<f64>> = poses().iter().map(|direction| -direction).collect();
+    for (name, wrong) in [("nonsense", nonsense), ("one flipped", flipped), ("all down", all_down)] {
+        for given in [None, Some(2e-3)] {
+            match run(&recorded, &wrong, given) {
+                Err(Error::Experiment(input_error)) => {
+                    assert_eq!(input_error.code, Refusal::FacesContradicted, "{name}: {input_error}");
+                }
+                other => panic!("{name} {given:?}: {other:?}"),
+            }
+        }
+    }
+    let few = run(&recorded, &poses()[..3], None).expect_err("one for each hold").to_string();
+    assert!(few.contains("16 holds are given, and 3 directions"), "{few}");
+}
