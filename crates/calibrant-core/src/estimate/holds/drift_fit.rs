@@ -48,7 +48,12 @@ pub(super) fn fit<const P: usize>(
     if setup.bias_drift_sd_mps2 <= 0.0 || holds.len() < 3 {
         return Ok(Fitted { holds, robust: without, drift: None, without: None });
     }
-    let none = BiasDrift { value: Vector3::zeros(), covariance: Matrix3::zeros(), span_s: span(&holds) };
+    let none = BiasDrift {
+        value: Vector3::zeros(),
+        covariance: Matrix3::zeros(),
+        degrees_of_freedom: 0.0,
+        span_s: span(&holds),
+    };
     let parts: Vec<f64> = holds.iter().map(|hold| none.part_of(hold)).collect();
     let found = |used: Vec<bool>| {
         let of = |robust: &Robust, used: &[bool], drift: &BiasDrift| {
@@ -61,11 +66,11 @@ pub(super) fn fit<const P: usize>(
             drift = posterior.drift;
             corrected = drift.taken_out(&holds);
             let count = used.iter().filter(|used| **used).count() as f64;
-            let is_left = count - P as f64 - posterior.degrees >= FEWEST_DEGREES;
+            let is_left = count - P as f64 - posterior.drift.degrees_of_freedom >= FEWEST_DEGREES;
             let least_between = if is_left { 0.0 } else { without.between_holds_sd };
             let is_rough = round < ROUGH_ROUNDS;
             let used = is_rough.then(|| used.clone());
-            let next = fit(&corrected, Conditions { taken: posterior.degrees, least_between, used })?;
+            let next = fit(&corrected, Conditions { taken: posterior.drift.degrees_of_freedom, least_between, used })?;
             posterior = of(&next, &next.used, &drift);
             robust = Some(next);
             if !is_rough && step.component_div(&drift.sd()).amax() < CLOSE {
@@ -95,8 +100,6 @@ pub(super) fn fit<const P: usize>(
 /// The drift that the magnitudes of a fit ask for.
 struct Posterior {
     drift: BiasDrift,
-    /// Degrees of freedom that it takes from the holds.
-    degrees: f64,
     /// `J`, p × 3.
     slope: DMatrix<f64>,
 }
@@ -122,10 +125,15 @@ impl Posterior {
         let covariance = information
             .try_inverse()
             .unwrap_or_else(|| Matrix3::from_diagonal(&known.map(|known| 1.0 / known)));
-        let degrees = (0..3).map(|k| (1.0 - covariance[(k, k)] * known[k]).clamp(0.0, 1.0)).sum();
+        let degrees_of_freedom =
+            (0..3).map(|k| (1.0 - covariance[(k, k)] * known[k]).clamp(0.0, 1.0)).sum();
         Self {
-            drift: BiasDrift { value: drift.value + covariance * rhs, covariance, ..*drift },
-            degrees,
+            drift: BiasDrift {
+                value: drift.value + covariance * rhs,
+                covariance,
+                degrees_of_freedom,
+                ..*drift
+            },
             slope,
         }
     }

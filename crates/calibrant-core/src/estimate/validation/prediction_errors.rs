@@ -10,7 +10,7 @@ use super::statistics::degrees_behind;
 use super::whitened_errors::{Shift, Whitened};
 use crate::estimate::imu::{GravityPropagation, GyroscopeAtRest, PropagatedGravity, StationaryMean};
 use crate::estimate::quantisation::of_means;
-use crate::estimate::{clipped_holds, coarse_axes_in};
+use crate::estimate::{Calibration, clipped_holds, coarse_axes_in};
 use crate::motion::Hold;
 use crate::sensor::{Recording, SensorKind, Temperatures};
 use nalgebra::{DMatrix, DVector, Matrix2, Matrix3, Vector3};
@@ -39,8 +39,6 @@ pub(super) struct Unused<'a> {
 /// The errors of each kind.
 pub(super) struct Errors {
     pub(super) magnitudes: Group,
-    /// Direction of the specific force of each magnitude.
-    pub(super) along: Vec<Vector3<f64>>,
     pub(super) rates: Group,
     pub(super) rotations: Group,
     pub(super) shift: Option<BiasShift>,
@@ -149,7 +147,6 @@ impl<'a> Unused<'a> {
         };
         Some(Errors {
             magnitudes: self.group(magnitudes, &prediction.covariance),
-            along: hold_predictions.iter().map(HoldPrediction::along).collect(),
             rates,
             rotations: self.group(rotations, &of_rotations.covariance),
             shift,
@@ -215,6 +212,7 @@ impl<'a> Unused<'a> {
                     start_s: propagated.start_s,
                     end_s: propagated.end_s,
                     fold: self.fold,
+                    along: vec![before.along(), after.along()],
                 },
                 error: DVector::from_column_slice(propagated.error.as_slice()),
                 by_parameters,
@@ -232,6 +230,20 @@ impl<'a> Unused<'a> {
     }
 }
 
+impl Errors {
+    /// Leaves out what the calibration itself did not use: rates of holds in which the gyroscope turns, and rotations.
+    pub(super) fn retain_used(&mut self, calibration: &Calibration) {
+        let Some(gyroscope) = &calibration.gyroscope else { return };
+        self.rates.retain(|place| !gyroscope.still.turning_holds.contains(&place.hold));
+        let left_out = |place: &Place| {
+            gyroscope.rotations.iter().any(|rotation| {
+                !rotation.used && (Some(rotation.from_hold), rotation.to_hold) == (place.from_hold, place.hold)
+            })
+        };
+        self.rotations.retain(|place| !left_out(place));
+    }
+}
+
 /// Has the bias moved? By how much, and how well that is known, in the errors alone.
 fn moved(
     rates: &Group,
@@ -243,7 +255,7 @@ fn moved(
     let found = Whitened::of(without_bias, &all)?.shift()?;
     let behind = degrees_behind(rates.items.iter(), &prediction.still_degrees);
     let chi2 = beyond_steps(&expected, prediction).unwrap_or(expected.chi2);
-    let p_value = Ratio::new(3, &behind).above(chi2 / 3.0);
+    let p_value = Ratio::new(3.0, &behind).above(chi2 / 3.0);
     let shift = BiasShift {
         shift_radps: found.three(0),
         sd_radps: expected.sd_of_three(0),
