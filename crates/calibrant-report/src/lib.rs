@@ -22,7 +22,8 @@ mod words;
 mod tests;
 
 pub use calibration::{
-    calibration_quality, calibration_report, over_the_gain, temperature_in_words, used_in_words,
+    calibration_quality, calibration_report, nuisances_in_words, over_the_gain, temperature_in_words,
+    used_in_words,
 };
 pub use design::design_report;
 pub use evaluation::evaluation_report;

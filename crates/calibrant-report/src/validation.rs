@@ -168,7 +168,11 @@ fn sentence(errors: &ValidatedErrors, cause: Cause) -> String {
         ErrorKind::Rate => ("unused hold", "the error of the corrected rate"),
         ErrorKind::Rotation => ("unused rotation", "the rotation error"),
     };
-    let repeated = if errors.distinct < count { format!(", {} of them distinct", errors.distinct) } else { String::new() };
+    let repeated = if errors.distinct < count {
+        format!(", {} of them distinct", errors.distinct)
+    } else {
+        String::new()
+    };
     let ratio = between(errors.factor, errors.factor_interval);
     let misses = format!(
         "In {}{repeated}, {error} is {rms} rms, predicted {predicted}: the ratio is {ratio}",

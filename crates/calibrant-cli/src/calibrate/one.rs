@@ -1,4 +1,4 @@
-//! One recording in a call.
+//! `calibrant calibrate` with one recording: calibrates, writes the results, prints diagnostics and tables, and returns the exit status.
 
 use super::job::Job;
 use crate::{Exit, console};

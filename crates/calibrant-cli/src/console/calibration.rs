@@ -5,7 +5,8 @@ use super::validation::validations;
 use calibrant::estimate::{Calibration, GyroscopeInHolds, HoldCalibration};
 use calibrant::pipeline::Outcome;
 use calibrant::report::{
-    calibration_quality, number_format, over_the_gain, temperature_in_words, used_in_words,
+    calibration_quality, nuisances_in_words, number_format, over_the_gain, temperature_in_words,
+    used_in_words,
 };
 use calibrant::sensor::{Axis, SensorKind};
 use nalgebra::Vector3;
@@ -24,7 +25,10 @@ fn of_calibration(calibration: &Calibration) -> String {
     text.push('\n');
     let conditions = calibration.holds().map(|holds| [conditions(holds), uncertainty(holds)]);
     let lines = temperature_in_words(calibration).into_iter().chain(calibration_quality(calibration));
-    let lines = lines.chain(conditions.into_iter().flatten()).chain(noise(calibration));
+    let lines = lines
+        .chain(nuisances_in_words(calibration))
+        .chain(conditions.into_iter().flatten())
+        .chain(noise(calibration));
     text + &indented(lines.chain([fit(calibration)]))
 }
 

@@ -159,8 +159,10 @@ fn the_files_of_a_pair_keep_their_common_clock() {
     let message = plain(&bench.run("inspect acc.csv --gyroscope gyro.csv").done().stdout);
     assert!(message.contains("gyroscope: 16 300 samples from 3 to 165.99 s"), "{message}");
     assert!(
-        message.contains("accelerometer: times count from the first, `t_ms` = 1700000000000 ms"),
+        message.contains(
+            "accelerometer: times are counted from the first sample, where `t_ms` is 1700000000000 ms"
+        ),
         "{message}"
     );
-    assert_eq!(message.matches("times count from").count(), 1, "{message}");
+    assert_eq!(message.matches("times are counted from").count(), 1, "{message}");
 }

@@ -30,7 +30,7 @@ const CASES: &[(&str, Edit, &str)] = &[
     (
         "samples are missing",
         |rows| drop(rows.drain(20..40)),
-        "line 21: gap of 2.1 s after t = 1.8 s, about 20 samples",
+        "line 21: gap of 2.1 s after t = 1.8 s: about 20 samples are missing",
     ),
 ];
 

@@ -1,4 +1,4 @@
-//! The faces of a diagnostic.
+//! Fields of diagnostics about faces (holds of known direction): an axis that points up or down, and a hold whose given direction the accelerometer contradicts.
 
 use crate::diagnostic::direction::direction_in_words;
 use crate::diagnostic::hold_span::HoldSpan;

@@ -1,4 +1,4 @@
-//! Subject and numbers of a diagnostic, gathered from its fields.
+//! Builds a diagnostic's subject (`gyroscope axis x`) and its named numbers from its fields. Each field type implements [`Part`]. Nothing is printed.
 
 use crate::sensor::{Axis, ReadingUnit, SensorKind};
 

@@ -35,7 +35,7 @@ pub struct HoldCalibration {
     pub before: Uncalibrated,
     /// Mean temperature of each hold, °C, if the model has temperature terms.
     pub temperatures_c: Option<Vec<f64>>,
-    /// The drift of the accelerometer's bias that the holds were freed from, if one was allowed for.
+    /// The estimated drift of the accelerometer's bias, which was subtracted from the holds. `None` if no drift was allowed for.
     pub drift: Option<Box<BiasDrift>>,
     /// A change of the accelerometer within the recording. `None` without evidence, and for known directions.
     pub change: Option<Box<Change>>,

@@ -10,11 +10,22 @@ impl Calibration {
     /// A figure that follows from the parameters, and its standard deviation `√(gᵀ Σ g)` with the gradient `g` from central differences.
     ///
     /// # Examples
-    /// ```no_run
-    /// # fn calibration() -> calibrant_core::estimate::Calibration { unimplemented!() }
-    /// use calibrant_core::sensor::ImuParameters;
-    /// let bias_over_gain = |imu: &ImuParameters| imu.gyroscope.bias.x / imu.gyroscope.matrix.row(0).norm();
-    /// let (value_radps, sd_radps) = calibration().propagated(bias_over_gain);
+    /// ```
+    /// use calibrant_core::estimate::{CalibrationSettings, Gyroscope, ImuProblem, ImuSetup, calibrate_imu};
+    /// use calibrant_core::sensor::{ImuParameters, Sensor, SensorModel};
+    /// use calibrant_core::simulate::{ImuSimulation, Purpose, simulate_imu, stream};
+    ///
+    /// let mut rng = stream(1, Purpose::Sensor, 0);
+    /// let recording = simulate_imu(&ImuParameters::identity(), &ImuSimulation::default(), &mut rng);
+    /// let (accelerometer, gyroscope) = (Sensor::triaxial(SensorModel::Full), Gyroscope::default());
+    /// let setup = ImuSetup::default();
+    /// let problem =
+    ///     ImuProblem { accelerometer: &accelerometer, gyroscope: &gyroscope, recording: &recording, setup: &setup };
+    /// let calibration = calibrate_imu(&problem, &CalibrationSettings::default())?;
+    /// let over_the_gain = |imu: &ImuParameters| imu.gyroscope.bias.x / imu.gyroscope.matrix.row(0).norm();
+    /// let (value_radps, sd_radps) = calibration.propagated(over_the_gain);
+    /// assert!(sd_radps > 0.0 && value_radps.abs() < 5.0 * sd_radps);
+    /// # Ok::<(), calibrant_core::Error>(())
     /// ```
     #[must_use]
     pub fn propagated(&self, figure: impl Fn(&ImuParameters) -> f64) -> (f64, f64) {

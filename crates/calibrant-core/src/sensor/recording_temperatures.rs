@@ -52,7 +52,7 @@ impl<'a> Temperatures<'a> {
         Some(self.values_c.iter().fold([first; 2], wider))
     }
 
-    /// The question for the user about a temperature that no sensor has.
+    /// The question to the user about a temperature that is implausible for a sensor.
     #[must_use]
     pub fn question(value: f64) -> String {
         let (low, high) = (WORKING_C.start(), WORKING_C.end());

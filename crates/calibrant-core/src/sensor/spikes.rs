@@ -24,6 +24,7 @@
 //! A remaining sample a thousand times as far from the median as everything else is invalid, if nothing lies
 //! between. A movement passes through what lies between. Invalid samples are cut out, so they leave a gap.
 
+use super::quantile::quantile;
 use super::{Axis, Recording, SensorKind, greater, lesser};
 use rayon::prelude::*;
 use std::borrow::Cow;
@@ -72,7 +73,7 @@ const MOST_SPIKES_ONE_IN: usize = 50;
 const SD_OVER_MAD: f64 = 1.4826;
 /// Number of samples from which the usual size of steps and deviations is taken.
 const MEDIAN_SAMPLES: usize = 2048;
-/// Binary orders of magnitude between readings and an invalid sample.
+/// Fewest powers of two between the valid readings and an invalid one, both measured from the median.
 const BINARY_ORDERS: usize = 10;
 
 /// The spikes and invalid samples that were removed from a recording.
@@ -180,12 +181,11 @@ fn jolts(recording: &Recording, time_s: f64) -> bool {
             (k, (here - 0.5 * (before + after)).norm())
         })
         .collect();
-    let (inside, mut outside): (Vec<_>, Vec<_>) = bends.into_iter().partition(|(k, _)| near.contains(k));
+    let (inside, outside): (Vec<_>, Vec<_>) = bends.into_iter().partition(|(k, _)| near.contains(k));
     let most = inside.into_iter().map(|(_, bend)| bend).fold(0.0, greater);
     // another knock may be near
-    let nearly_most = outside.len() * 4 / 5;
-    outside.sort_unstable_by(|one, other| one.1.total_cmp(&other.1));
-    outside.get(nearly_most).is_some_and(|(_, usual)| most > STANDS_OUT * usual)
+    let usual = quantile(outside.into_iter().map(|(_, bend)| bend).collect(), 0.8);
+    usual.is_some_and(|usual| most > STANDS_OUT * usual)
 }
 
 /// Takes these places, in order, out of a list.

@@ -91,7 +91,7 @@ impl Noticed {
                 )
             }
             Self::Gap { length_s, after_s, samples } => format!(
-                "gap of {} s after t = {} s, about {samples:.0} samples",
+                "gap of {} s after t = {} s: about {samples:.0} samples are missing",
                 short(*length_s),
                 moment(*after_s)
             ),
@@ -135,15 +135,15 @@ impl Noticed {
                 let rate = short(*rate_hz);
                 match counter {
                     Some(name) => format!(
-                        "{empty}: they follow from `{name}` and {rate} Hz, {source}; the uncertainty of this rate is rate_sd_ppm in [columns], 100 if not given"
+                        "{empty}: they are computed from the counter `{name}` and {rate} Hz ({source}); rate_sd_ppm in [columns] is the uncertainty of this rate, 100 ppm if not given"
                     ),
                     None => format!(
-                        "{empty} and no counter: they follow from the rows and {rate} Hz, {source}; lost samples would not show; the uncertainty of this rate is rate_sd_ppm in [columns], 100 if not given"
+                        "{empty} and no counter: each row is taken as one sample at {rate} Hz ({source}), so lost samples do not show; rate_sd_ppm in [columns] is the uncertainty of this rate, 100 ppm if not given"
                     ),
                 }
             }
             Self::PacketTimesReplaced(rate_hz) => format!(
-                "its times are those of packets, not of samples: they follow from the rows and {} Hz, as given; lost samples would not show; the uncertainty of this rate is rate_sd_ppm in [columns], 100 if not given",
+                "its times are those of packets, not of samples: each row is taken as one sample at {} Hz (as given), so lost samples do not show; rate_sd_ppm in [columns] is the uncertainty of this rate, 100 ppm if not given",
                 short(*rate_hz)
             ),
             Self::TimesEven { rate_hz, tick_s } => {
@@ -160,7 +160,7 @@ impl Noticed {
                 format!("`{name}` begins anew {}: counted on", count(*wraps, "time"))
             }
             Self::TimesFromFirst { column, first, unit } => {
-                format!("times count from the first, `{column}` = {first} {unit}")
+                format!("times are counted from the first sample, where `{column}` is {first} {unit}")
             }
             Self::ClockDoubtful { step_s, unit, rate_hz } => format!(
                 "the samples are {} s apart: are the times in {unit}? at {} Hz the name of their column ends in _{}",

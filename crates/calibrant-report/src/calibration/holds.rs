@@ -1,8 +1,9 @@
 //! Tables of the holds of a static calibration.
 
+use super::quality::bias_drift;
 use crate::number_format;
 use crate::table::{Cell, Table};
-use calibrant_core::estimate::{HoldCalibration, HoldResult};
+use calibrant_core::estimate::{Calibration, HoldCalibration, HoldResult};
 use calibrant_core::sensor::ReadingUnit;
 
 /// Fewest degrees of freedom that show a scatter along gravity.
@@ -11,7 +12,7 @@ const FEWEST: usize = 3;
 const OUTLYING: f64 = 3.0;
 
 /// The table of what all holds have in common.
-pub(super) fn hold_summary(holds: &HoldCalibration) -> String {
+pub(super) fn hold_summary(calibration: &Calibration, holds: &HoldCalibration) -> String {
     let used = holds.used().count();
     let mut table = Table::explained();
     let mut row = |name: &str, value: String, meaning: &str| table.explain(name, value, meaning);
@@ -70,6 +71,13 @@ pub(super) fn hold_summary(holds: &HoldCalibration) -> String {
             } else {
                 "The noise of the samples explains it, and decides the standard deviations."
             },
+        );
+    }
+    if let Some((drift, unit)) = bias_drift(calibration) {
+        row(
+            "bias drift (x, y, z)",
+            format!("{drift} {unit}"),
+            "From the first hold to the last. The holds are freed from it, and its uncertainty is part of the standard deviations.",
         );
     }
     row(

@@ -16,5 +16,5 @@ mod verdict;
 pub use page::calibration_report;
 pub use parameters::over_the_gain;
 pub(super) use parameters::parameter_table;
-pub use quality::{calibration_quality, used_in_words};
+pub use quality::{calibration_quality, nuisances_in_words, used_in_words};
 pub use temperature::temperature_in_words;

@@ -121,7 +121,7 @@ fn hold_section(calibration: &Calibration, holds: &HoldCalibration, recording: &
             Some(_) => "The IMU was at rest in several orientations. In each, the corrected accelerometer has the magnitude of gravity, and the corrected gyroscope is zero.",
         },
     );
-    page.push(hold_summary(holds));
+    page.push(hold_summary(calibration, holds));
     page.push(residuals);
     page.push(still);
     page.push(over_temperature);

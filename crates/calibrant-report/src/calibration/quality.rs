@@ -1,7 +1,7 @@
 //! The data and the quality of a calibration, in words.
 
 use crate::number_format;
-use calibrant_core::estimate::{BiasDrift, Calibration, FaceTilt, Recovered, TimeOffset};
+use calibrant_core::estimate::{Calibration, FaceTilt, Recovered, TimeOffset};
 use calibrant_core::sensor::SensorKind;
 
 /// Below this, a probability counts as evidence against the model.
@@ -47,9 +47,6 @@ pub fn calibration_quality(calibration: &Calibration) -> Vec<String> {
             number_format::missed_angle(calibration.rotation_rms_before_rad())
         ));
     }
-    if let Some(time) = calibration.gyroscope.as_ref().and_then(|gyroscope| gyroscope.time_offset) {
-        parts.push(format!("the time offset of the gyroscope is {}", milliseconds(&time)));
-    }
     if !calibration.turns().is_empty() && !calibration.turns_check_the_gains() {
         parts.push("the known turns determine the gains, and no data are left to check these".into());
     } else if !calibration.turns().is_empty() {
@@ -59,7 +56,6 @@ pub fn calibration_quality(calibration: &Calibration) -> Vec<String> {
         parts.push(format!("the error of the known turns is {} rms", number_format::missed_angle(rms)));
     }
     if let Some(holds) = calibration.holds() {
-        parts.extend(holds.drift.as_deref().map(|drift| bias_drift(drift, calibration)));
         parts.extend(holds.tilt.as_ref().map(face_alignment));
         parts.push(match holds.degrees_of_freedom {
             0 => "gravity in the holds determines the accelerometer, and no data are left to check it".into(),
@@ -79,16 +75,25 @@ pub(super) fn milliseconds(time: &TimeOffset) -> String {
     format!("{sign}{} ms", number_format::with_sd(1e3 * time.offset_s, 1e3 * time.sd_s))
 }
 
-/// The drift of the accelerometer's bias, with its standard deviations.
-fn bias_drift(drift: &BiasDrift, calibration: &Calibration) -> String {
+/// What was estimated beside the parameters: the time offset of the gyroscope and the drift of the accelerometer's bias.
+#[must_use]
+pub fn nuisances_in_words(calibration: &Calibration) -> Vec<String> {
+    let time = calibration.gyroscope.as_ref().and_then(|gyroscope| gyroscope.time_offset);
+    let offset = time.map(|time| format!("the time offset of the gyroscope is {}", milliseconds(&time)));
+    let drift = bias_drift(calibration).map(|(drift, unit)| {
+        format!(
+            "the bias drift of the accelerometer from the first hold to the last is {drift} {unit} (x, y, z)"
+        )
+    });
+    offset.into_iter().chain(drift).collect()
+}
+
+/// The drift of the accelerometer's bias about each axis with its standard deviation, and its unit.
+pub(super) fn bias_drift(calibration: &Calibration) -> Option<(String, &'static str)> {
+    let drift = calibration.holds()?.drift.as_deref()?;
     let sd = drift.sd();
     let axes = [0, 1, 2].map(|axis| number_format::with_sd(drift.value[axis], sd[axis]));
-    let unit = calibration.unit(SensorKind::Accelerometer);
-    format!(
-        "the accelerometer's bias drifted by {} {} from the first hold to the last (x, y, z)",
-        axes.join(", "),
-        unit.symbol()
-    )
+    Some((axes.join(", "), calibration.unit(SensorKind::Accelerometer).symbol()))
 }
 
 /// How well the sensor was placed on its faces.

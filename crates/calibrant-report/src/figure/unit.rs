@@ -10,8 +10,8 @@ pub(crate) struct DisplayUnit {
 }
 
 impl DisplayUnit {
-    /// A unit in which `largest`, given in `unit`, is neither tiny nor long: mm/s² and µm/s² for m/s²; mrad/s for rad/s; % and
-    /// ppm for `1`.
+    /// A unit that shows `largest`, given in `unit`, without leading zeros: mm/s² or µm/s² for m/s², mrad/s for rad/s, % or ppm
+    /// for `1`.
     pub(crate) fn suited(unit: &'static str, largest: f64) -> Self {
         let small = largest > 0.0 && largest < 0.03;
         match unit {

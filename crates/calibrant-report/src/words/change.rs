@@ -19,11 +19,11 @@ pub(super) fn change(change: &Change, temperature_c: Option<(f64, f64)>) -> Stri
         }
         (_, Course::Drift) => "Let the sensor warm up before the recording. Or".to_owned(),
         (_, Course::Episode { .. }) => {
-            "Was the sensor touched, warmed or clamped then, or did its supply change? Else".to_owned()
+            "Was the sensor touched, warmed or clamped then, or did its supply change? If so, record again. To use this recording,".to_owned()
         }
         (_, Course::Step { .. }) => format!(
-            "Was the sensor knocked, did its mounting slip, did it saturate, was it still warming up{}? Else",
-            if change.of == Changed::Bias { ", does its bias walk at random" } else { "" }
+            "Was the sensor knocked, did its mounting slip, did it saturate, was it still warming up? If so, record again. {}To use this recording,",
+            if change.of == Changed::Bias { "Or its bias walks at random. " } else { "" }
         ),
     };
     let remedy = match change.course {
@@ -67,7 +67,7 @@ fn amounts(change: &Change) -> String {
     let ending = if change.of == Changed::Bias { "s" } else { "" };
     let moves = match change.course {
         Course::Step { .. } => format!("step{ending} by"),
-        Course::Drift => format!("change{ending} from begin to end by"),
+        Course::Drift => format!("change{ending} from beginning to end by"),
         Course::Episode { .. } => format!("differ{ending} in between by"),
     };
     let (scale, unit) = match (change.of, change.sensor_kind) {

@@ -47,7 +47,7 @@ pub(super) fn message(diagnostic: &Diagnostic) -> Option<String> {
             100.0 * ((1.0 - missing_share).sqrt().recip() - 1.0)
         ),
         Diagnostic::SampleTimesVary { jitter } => format!(
-            "the sample times vary by up to {:.0} % of the interval. Short cluster times are less certain than stated.",
+            "the time between samples differs from its mean by up to {:.0} %. The Allan deviation at short cluster times is less certain than stated. Take the times from the sensor's clock.",
             100.0 * jitter
         ),
         Diagnostic::NoiseInParts { parts, longest_s } => format!(

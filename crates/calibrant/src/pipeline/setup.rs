@@ -51,7 +51,7 @@ impl<'e> Setup<'e> {
         }
     }
 
-    /// The setup of another recording of the sensors. Intervals, turns and known quantities are those of the first.
+    /// The setup for another recording of the same sensors. Intervals, turns and known quantities belong to the first recording and are dropped.
     pub(crate) fn of_other(&self) -> Self {
         match self {
             Self::Motion(command) => Self::Motion(command.clone()),
@@ -82,7 +82,7 @@ impl<'e> Setup<'e> {
     }
 }
 
-/// Intervals that are given are those of the first recording.
+/// Given intervals and found holds belong to the first recording, and are dropped.
 fn of_other(holds: &HoldsSetup) -> HoldsSetup {
     HoldsSetup { intervals_s: None, found: None, ..holds.clone() }
 }

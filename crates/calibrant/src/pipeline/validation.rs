@@ -1,4 +1,4 @@
-//! Validations, whatever the sensor.
+//! Two steps after a validation: fold errors about the recording become a warning, and a validation on another recording gets its file name.
 
 use super::note::Note;
 use calibrant_core::error::{Error, Result};
@@ -6,7 +6,7 @@ use calibrant_core::estimate::{Validation, ValidationSource};
 use calibrant_io::file_name;
 use std::path::Path;
 
-/// What folds say. A recording whose holds do not suffice for them is calibrated still.
+/// The cross-validation by folds. If the recording does not allow it (too few holds, for example), the calibration still stands: the reason becomes a warning and the result is `None`.
 pub(crate) fn unless_too_few(folds: Result<Validation>, notes: &mut Vec<Note>) -> Result<Option<Validation>> {
     match folds {
         Err(error @ Error::Recording(_)) => {
@@ -17,7 +17,7 @@ pub(crate) fn unless_too_few(folds: Result<Validation>, notes: &mut Vec<Note>) -
     }
 }
 
-/// The validation on this recording.
+/// Names the other recording that the validation is on.
 pub(crate) fn on_recording(path: &Path, validation: Validation) -> Validation {
     Validation { source: ValidationSource::Recording { name: file_name(path) }, ..validation }
 }

@@ -55,46 +55,50 @@ pub(super) fn fit<const P: usize>(
         span_s: span(&holds),
     };
     let parts: Vec<f64> = holds.iter().map(|hold| none.part_of(hold)).collect();
-    let found = |used: Vec<bool>| {
-        let of = |robust: &Robust, used: &[bool], drift: &BiasDrift| {
-            Posterior::of(robust, (used, &parts), setup.bias_drift_sd_mps2, drift)
-        };
-        let mut drift = none;
-        let (mut posterior, mut corrected, mut robust) = (of(&without, &used, &drift), Vec::new(), None);
-        for round in 0..ROUNDS {
-            let step = posterior.drift.value - drift.value;
-            drift = posterior.drift;
-            corrected = drift.taken_out(&holds);
-            let count = used.iter().filter(|used| **used).count() as f64;
-            let is_left = count - P as f64 - posterior.drift.degrees_of_freedom >= FEWEST_DEGREES;
+    let of = |robust: &Robust, used: &[bool], drift: &BiasDrift| {
+        Posterior::of(robust, (used, &parts), setup.bias_drift_sd_mps2, drift)
+    };
+    let found = |start: &[bool]| -> Result<(Vec<Hold>, Robust, Posterior)> {
+        let (mut before, mut posterior, mut round) = (none, of(&without, start, &none), 0);
+        loop {
+            let drift = posterior.drift;
+            let step = drift.value - before.value;
+            let corrected = drift.taken_out(&holds);
+            let is_left =
+                count(start) as f64 - P as f64 - posterior.drift.degrees_of_freedom >= FEWEST_DEGREES;
             let least_between = if is_left { 0.0 } else { without.between_holds_sd };
             let is_rough = round < ROUGH_ROUNDS;
-            let used = is_rough.then(|| used.clone());
-            let next = fit(&corrected, Conditions { taken: posterior.drift.degrees_of_freedom, least_between, used })?;
-            posterior = of(&next, &next.used, &drift);
-            robust = Some(next);
-            if !is_rough && step.component_div(&drift.sd()).amax() < CLOSE {
-                break;
+            let used = is_rough.then(|| start.to_vec());
+            let robust = fit(
+                &corrected,
+                Conditions { taken: posterior.drift.degrees_of_freedom, least_between, used },
+            )?;
+            posterior = of(&robust, &robust.used, &drift);
+            round += 1;
+            let is_close = !is_rough && step.component_div(&drift.sd()).amax() < CLOSE;
+            if is_close || round == ROUNDS {
+                return Ok((corrected, robust, posterior));
             }
+            before = drift;
         }
-        Ok(robust.map(|robust| (corrected, robust, posterior)))
     };
+    let mut best = found(&without.used)?;
     // a drift makes good holds look like outliers
-    let by_all = |sound: &Vec<usize>| found((0..holds.len()).map(|j| sound.contains(&j)).collect());
-    let mut best = found(without.used.clone())?;
-    if sound.iter().any(|&j| !without.used[j]) {
-        let count = |found: &Option<(_, Robust, _)>| {
-            found.as_ref().map_or(0, |(_, robust, _)| robust.used.iter().filter(|used| **used).count())
-        };
-        best = by_all(&sound).ok().flatten().into_iter().chain(best).map(Some).max_by_key(count).flatten();
+    let all: Vec<bool> = (0..holds.len()).map(|j| sound.contains(&j)).collect();
+    if all != without.used
+        && let Ok(other) = found(&all)
+        && count(&other.1.used) > count(&best.1.used)
+    {
+        best = other;
     }
-    let Some((holds, mut robust, posterior)) = best else {
-        return Ok(Fitted { holds, robust: without, drift: None, without: None });
-    };
-    let Posterior { drift, slope, .. } = posterior;
+    let (holds, mut robust, Posterior { drift, slope, .. }) = best;
     let dense = DMatrix::from_column_slice(3, 3, drift.covariance.as_slice());
     robust.covariance += &slope * dense * slope.transpose();
     Ok(Fitted { holds, robust, drift: Some(drift), without: Some(without) })
+}
+
+fn count(used: &[bool]) -> usize {
+    used.iter().filter(|used| **used).count()
 }
 
 /// The drift that the magnitudes of a fit ask for.
@@ -125,8 +129,7 @@ impl Posterior {
         let covariance = information
             .try_inverse()
             .unwrap_or_else(|| Matrix3::from_diagonal(&known.map(|known| 1.0 / known)));
-        let degrees_of_freedom =
-            (0..3).map(|k| (1.0 - covariance[(k, k)] * known[k]).clamp(0.0, 1.0)).sum();
+        let degrees_of_freedom = (0..3).map(|k| (1.0 - covariance[(k, k)] * known[k]).clamp(0.0, 1.0)).sum();
         Self {
             drift: BiasDrift {
                 value: drift.value + covariance * rhs,

@@ -11,7 +11,7 @@ use crate::motion::Hold;
 use crate::sensor::{Axis, ParameterList, SensorKind};
 use nalgebra::{Matrix3, Vector3};
 
-/// Condition number above which the directions of the holds are too similar. Twenty-four even orientations give about 3, six faces with edges about 10.
+/// Condition number of the information above which the directions of the holds are too similar. Twenty-four evenly spread orientations give about 3, six faces and orientations on the edges between them about 10.
 const CONDITION: f64 = 100.0;
 /// Holds lie in a plane or on a point if they extend by less than this share in one direction.
 const FLAT: f64 = 0.02;

@@ -164,7 +164,7 @@ impl std::fmt::Display for NoiseSource {
 pub struct Turn {
     /// Its name in a list of sections, such as `x_rot`.
     pub name: Option<String>,
-    /// First and last time of the section, s.
+    /// Start of the section, s.
     pub start_s: f64,
     /// End of the section, s.
     pub end_s: f64,

@@ -86,7 +86,7 @@ fn stages(
     identifiability::check(&model, &state, &linearised).map_err(explained)?;
     // least squares and variance components
     let solution = solve(&mut model, (state, linearised.residuals), &means, initial.between, settings)?;
-    let drifts = drift_errors(&model, &solution.fit, &first.holds, settings);
+    let drifts = drift_errors(&model, &solution.fit, &first.holds)?;
     let known = (&setup.holds.gravity, setup.rate_sd);
     let uncertainty = Uncertainty::of(&model, &solution, known, (&gyroscope.coarse, drifts))?;
     let recorded = problem.recording.accelerometer.as_ref();

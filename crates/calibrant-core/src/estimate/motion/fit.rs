@@ -171,7 +171,7 @@ impl<const D: usize, const P: usize> Chain<D, P> {
         chi2
     }
 
-    /// Iterates from a state, factored.
+    /// Damped Gauss–Newton iterations from `state`. `system` is the normal equations, factored at that state.
     pub(super) fn fit(
         &self,
         mut state: State<D, P>,

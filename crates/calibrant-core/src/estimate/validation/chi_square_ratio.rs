@@ -155,11 +155,9 @@ mod tests {
                         Draw::new(degrees).expect("positive").sample(&mut rng) / degrees
                     }
                 };
-                let drawn = behind
-                    .map(|v| mean_square(f64::from(per_axis)) / mean_square(v))
-                    .iter()
-                    .sum::<f64>()
-                    / 3.0;
+                let drawn =
+                    behind.map(|v| mean_square(f64::from(per_axis)) / mean_square(v)).iter().sum::<f64>()
+                        / 3.0;
                 for (outside, (_, high, low)) in outside.iter_mut().zip(limits) {
                     outside[0] += u32::from(drawn > high);
                     outside[1] += u32::from(drawn < low);

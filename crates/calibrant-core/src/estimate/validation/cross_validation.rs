@@ -14,7 +14,7 @@ use crate::estimate::{
     ImuSetup, Stimulus, calibrate, calibrate_imu,
 };
 use crate::motion::Hold;
-use crate::sensor::ImuRecording;
+use crate::sensor::{ImuRecording, Recording};
 use nalgebra::Vector3;
 use rayon::prelude::*;
 use std::borrow::Cow;
@@ -48,8 +48,10 @@ fn cross_validated_imu(
             "validate on another recording, with holds in any orientation",
         )));
     }
-    let steady = steady(calibration, problem.recording);
-    let problem = &ImuProblem { recording: &steady, ..*problem };
+    let accelerometer = problem.recording.accelerometer.as_ref();
+    let accelerometer = accelerometer.map(|recording| steady(calibration, recording).into_owned());
+    let recording = ImuRecording { accelerometer, ..problem.recording.clone() };
+    let problem = &ImuProblem { recording: &recording, ..*problem };
     let (accelerometer, gyroscope) = recordings(problem)?;
     let all: Vec<Hold> = calibration.hold_results().iter().map(|result| result.hold.clone()).collect();
     let still_noise = calibration.gyroscope.as_ref().map(|gyroscope| gyroscope.still.noise);
@@ -84,9 +86,8 @@ pub fn cross_validate(
 ) -> Result<Validation> {
     let (setup, _) = of_holds(calibration, problem)?;
     let setup = HoldsSetup { bias_drift_sd_mps2: 0.0, ..setup.clone() };
-    let drift = calibration.holds().and_then(|holds| holds.drift.as_deref());
-    let steady = drift.map(|drift| drift.taken_out_of(problem.recording));
-    let problem = &CalibrationProblem { recording: steady.as_ref().unwrap_or(problem.recording), ..*problem };
+    let steady = steady(calibration, problem.recording);
+    let problem = &CalibrationProblem { recording: &steady, ..*problem };
     let train = |block: &Block| {
         let setup = HoldsSetup { intervals_s: Some(block.others.clone()), ..setup.clone() };
         let problem = CalibrationProblem { stimulus: Stimulus::Holds(&setup), ..*problem };
@@ -133,12 +134,9 @@ fn crossed(
 }
 
 /// The recording without the drift of the accelerometer's bias: the blocks have it in common.
-fn steady<'a>(calibration: &Calibration, recording: &'a ImuRecording) -> Cow<'a, ImuRecording> {
+fn steady<'a>(calibration: &Calibration, accelerometer: &'a Recording) -> Cow<'a, Recording> {
     let drift = calibration.holds().and_then(|holds| holds.drift.as_deref());
-    let (Some(drift), Some(accelerometer)) = (drift, &recording.accelerometer) else {
-        return Cow::Borrowed(recording);
-    };
-    Cow::Owned(ImuRecording { accelerometer: Some(drift.taken_out_of(accelerometer)), ..recording.clone() })
+    drift.map_or(Cow::Borrowed(accelerometer), |drift| Cow::Owned(drift.taken_out_of(accelerometer)))
 }
 
 /// What is known of the recording, without a block of its holds.

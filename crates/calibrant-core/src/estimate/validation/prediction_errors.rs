@@ -237,7 +237,8 @@ impl Errors {
         self.rates.retain(|place| !gyroscope.still.turning_holds.contains(&place.hold));
         let left_out = |place: &Place| {
             gyroscope.rotations.iter().any(|rotation| {
-                !rotation.used && (Some(rotation.from_hold), rotation.to_hold) == (place.from_hold, place.hold)
+                !rotation.used
+                    && (Some(rotation.from_hold), rotation.to_hold) == (place.from_hold, place.hold)
             })
         };
         self.rotations.retain(|place| !left_out(place));

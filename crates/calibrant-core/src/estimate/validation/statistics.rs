@@ -106,8 +106,7 @@ pub(super) fn judge(kind: ErrorKind, groups: &[Group], behind: &ErrorContext<'_>
     }
     let scatters = degrees_behind(groups.iter().flat_map(|group| &group.items), &behind.scatter_degrees);
     let numbers = width * errors.iter().filter(|error| error.counts).count();
-    let found =
-        ErrorRatio::of(groups, &counts)?.with_share_left(degrees as f64 / numbers as f64);
+    let found = ErrorRatio::of(groups, &counts)?.with_share_left(degrees as f64 / numbers as f64);
     let (found, ratio) = match behind.folds {
         Some(fitted) => {
             let left = (numbers as f64 - fitted.unknowns).max(1.0);

@@ -10,7 +10,7 @@ use super::column_values::{SLOTS, Samples, TIME, slots_of};
 use super::file_layout::Draft;
 use super::format::FileFormat;
 use super::mcap_footer::Cut;
-use super::mcap_records::chunks_end;
+use super::mcap_records::chunk_lengths_add_up;
 use super::options::ImuReadOptions;
 use super::unit::{ColumnUnit, ImuUnit, TimeUnit};
 use crate::recording::finding_words::{count, list};
@@ -93,7 +93,7 @@ pub(super) fn read(bytes: &[u8], options: &ImuReadOptions) -> Checked<(Draft, Sa
 
 impl Bag {
     fn read(bytes: &[u8], is_cut: bool) -> Checked<Self> {
-        if !chunks_end(bytes.get(MAGIC.len()..).unwrap_or_default()) {
+        if !chunk_lengths_add_up(bytes.get(MAGIC.len()..).unwrap_or_default()) {
             return Err(damaged(&McapError::UnexpectedEoc).into());
         }
         let mut bag = Self::default();

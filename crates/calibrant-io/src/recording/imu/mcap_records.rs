@@ -1,4 +1,4 @@
-//! The records of an MCAP container as they lie in the file. Their content is not examined.
+//! Splits the bytes of an MCAP file into raw records, and checks that the record lengths in its uncompressed chunks add up. Other content is not decoded.
 
 use mcap::records::op;
 
@@ -35,7 +35,7 @@ pub(super) fn raw_records(bytes: &[u8]) -> impl Iterator<Item = RawRecord<'_>> {
 
 /// Do the records of every uncompressed chunk end where it ends? `mcap::LinearReader` subtracts their lengths
 /// from the chunk's without a check.
-pub(super) fn chunks_end(bytes: &[u8]) -> bool {
+pub(super) fn chunk_lengths_add_up(bytes: &[u8]) -> bool {
     raw_records(bytes).filter(|record| record.opcode == op::CHUNK).all(|chunk| chunk_ends(chunk.content))
 }
 

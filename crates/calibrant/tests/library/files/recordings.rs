@@ -168,7 +168,7 @@ fn gaps_are_told_with_place_and_length_and_not_too_many() {
     });
     let (kind, message, _) = finding(&one);
     assert_eq!(kind, Code::SamplingGap);
-    assert_eq!(message, "line 22: gap of 10.01 s after t = 0.19 s, about 1000 samples");
+    assert_eq!(message, "line 22: gap of 10.01 s after t = 0.19 s: about 1000 samples are missing");
     let many = rows(|k| format!("{:.2},{},{},{}", 0.01 * k as f64 + (k / 10) as f64, k % 7, k % 5, k % 3));
     let messages: Vec<String> = parse(many.as_bytes()).findings.iter().map(ToString::to_string).collect();
     assert_eq!(messages.len(), 4);
@@ -176,7 +176,10 @@ fn gaps_are_told_with_place_and_length_and_not_too_many() {
     let four =
         rows(|k| format!("{:.2},{},{},{}", 1.7e9 + 0.01 * k as f64 + (k / 40) as f64, k % 7, k % 5, k % 3));
     let messages: Vec<String> = parse(four.as_bytes()).findings.iter().map(ToString::to_string).collect();
-    assert_eq!(messages[0], "line 42: gap of 1.01 s after t = 1700000000.39 s, about 100 samples");
+    assert_eq!(
+        messages[0],
+        "line 42: gap of 1.01 s after t = 1700000000.39 s: about 100 samples are missing"
+    );
     assert!(messages[3].contains("and 1 more gap; the longest is "), "{}", messages[3]);
 }
 

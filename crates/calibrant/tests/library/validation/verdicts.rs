@@ -95,7 +95,9 @@ fn folds_judge_what_the_fit_used() {
     for (hold, (start_s, end_s)) in intervals(&simulation).into_iter().enumerate() {
         if turning.contains(&hold) {
             let pairs = gyroscope.times_s.iter().zip(&mut gyroscope.readings);
-            pairs.filter(|(t, _)| (start_s..end_s).contains(*t)).for_each(|(_, y)| *y += vertical[hold] * 0.1);
+            pairs
+                .filter(|(t, _)| (start_s..end_s).contains(*t))
+                .for_each(|(_, y)| *y += vertical[hold] * 0.1);
         }
     }
     let calibration = bench.calibrate(&recording);

@@ -1,13 +1,15 @@
-//! The angular rate during a rotation, `ω = M (y − b − Γ f)` with `M = S_g⁻¹`, sample by sample.
+//! The corrected angular rate at each sample of a rotation, and the angle travelled and largest rate that follow from it.
 //!
-//! The gain is that at the mean temperature of the holds before and after. The bias is linear in time between both.
+//! `ω = M (y − b − Γ f)` with `M = S_g⁻¹`: reading y, bias b, g-sensitivity Γ, specific force f.
+//!
+//! The gain is that at the mean temperature of the holds before and after. The bias is linear in time from the hold before to the hold after.
 
 use crate::estimate::imu::model::Samples;
 use crate::sensor::{ImuParameters, times};
 use nalgebra::{Matrix3, Vector3};
 
 impl Samples<'_> {
-    /// The path and the largest rate, corrected with an IMU.
+    /// The angle travelled and the largest rate, corrected with the parameters of an IMU.
     pub(crate) fn path(&self, imu: &ImuParameters) -> Path {
         let Some(rates) = Rates::of(self, imu) else { return Path::default() };
         let mut path = Path::default();

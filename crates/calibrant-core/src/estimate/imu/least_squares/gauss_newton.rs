@@ -155,6 +155,23 @@ impl ImuModel<'_> {
         }
     }
 
+    /// The undamped step of the quantities from a state with its residuals. `None` if a matrix is singular.
+    pub(crate) fn step(&self, state: &State, residuals: &[Option<GravityResidual>]) -> Option<DVector<f64>> {
+        match self.quantities.len() {
+            ..=AT_REFERENCE => self.step_of::<AT_REFERENCE>(state, residuals),
+            _ => self.step_of::<ENTRIES>(state, residuals),
+        }
+    }
+
+    fn step_of<const P: usize>(
+        &self,
+        state: &State,
+        residuals: &[Option<GravityResidual>],
+    ) -> Option<DVector<f64>> {
+        let step = self.factor::<P>(state, residuals)?.0.border_step(0.0)?;
+        Some(DVector::from_fn(self.quantities.len(), |k, _| step[k]))
+    }
+
     fn iterate<const P: usize>(
         &self,
         start: State,

@@ -4,6 +4,7 @@
 //! beyond the rate of the samples. The fourth difference of the samples is a measure of it: the error's standard deviation is a multiple of it,
 //! the knock factor, which depends on the sensor's filter.
 
+use crate::sensor::quantile;
 use nalgebra::{Matrix3, Vector3};
 
 /// A knock has a fourth difference this many times as large as all but a tenth of those of the rotation.
@@ -23,7 +24,7 @@ pub(crate) struct Knocks {
 
 impl Knocks {
     /// The fourth differences that stand out.
-    pub(crate) fn of(times_s: &[f64], readings: &[Vector3<f64>]) -> Self {
+    pub(crate) fn find(times_s: &[f64], readings: &[Vector3<f64>]) -> Self {
         Self::search(times_s, readings).unwrap_or_default()
     }
 
@@ -44,10 +45,4 @@ impl Knocks {
         }
         Some(knocks)
     }
-}
-
-/// The value that this share of all is below; `None` of none.
-fn quantile(mut values: Vec<f64>, share: f64) -> Option<f64> {
-    let place = (share * values.len() as f64) as usize;
-    (place < values.len()).then(|| *values.select_nth_unstable_by(place, f64::total_cmp).1)
 }

@@ -83,7 +83,7 @@ impl<'a> Integrable<'a> {
                 forces: felt.map(|felt| &felt[span.samples.clone()]),
                 drift: [from, from + 1].map(|hold| LocalBias::none(holds[hold].temperature_c)),
             },
-            knocks: Knocks::of(
+            knocks: Knocks::find(
                 &self.gyroscope.times_s[span.samples.clone()],
                 &self.gyroscope.readings[span.samples.clone()],
             ),

@@ -62,7 +62,7 @@ fn mt_manager_reads_the_same_with_every_delimiter_and_comment() {
             assert_eq!(file.recording.gyroscope.as_ref(), Some(&expected), "{delimiter:?}");
             assert_eq!(
                 findings(&file)[0],
-                "its sample times are missing: they follow from `PacketCounter` and 50 Hz, its `Update Rate`; the uncertainty of this rate is rate_sd_ppm in [columns], 100 if not given"
+                "its sample times are missing: they are computed from the counter `PacketCounter` and 50 Hz (its `Update Rate`); rate_sd_ppm in [columns] is the uncertainty of this rate, 100 ppm if not given"
             );
         }
     }
@@ -151,7 +151,7 @@ fn euroc_keeps_every_nanosecond() {
         let name = if options.format.is_none() { "timestamp [ns]" } else { "1" };
         assert_eq!(
             findings(&file)[0],
-            format!("times count from the first, `{name}` = 1403636579758555392 ns")
+            format!("times are counted from the first sample, where `{name}` is 1403636579758555392 ns")
         );
     }
 }
@@ -256,7 +256,7 @@ fn rows_without_times_take_the_given_rate() {
     assert_eq!(file.recording.accelerometer.as_ref().expect("there").times_s, [0.0, 0.25, 0.5]);
     assert_eq!(
         findings(&file)[0],
-        "the file has no sample times and no counter: they follow from the rows and 4 Hz, as given; lost samples would not show; the uncertainty of this rate is rate_sd_ppm in [columns], 100 if not given"
+        "the file has no sample times and no counter: each row is taken as one sample at 4 Hz (as given), so lost samples do not show; rate_sd_ppm in [columns] is the uncertainty of this rate, 100 ppm if not given"
     );
 }
 

@@ -54,7 +54,7 @@ fn times_of_packets_are_asked_about_and_a_given_rate_takes_their_place() {
         assert!(
             findings(&read)
                 .iter()
-                .any(|message| message.contains("they follow from the rows and 100 Hz, as given")),
+                .any(|message| message.contains("each row is taken as one sample at 100 Hz (as given)")),
             "{name}"
         );
         assert!(

@@ -106,7 +106,7 @@ fn a_table_reads_with_any_compression() {
         assert_eq!(
             findings(&file)[..2],
             [
-                "times count from the first, `stamp` = 1700000000123456789 ns",
+                "times are counted from the first sample, where `stamp` is 1700000000123456789 ns",
                 "1 sample of the accelerometer with a missing or NaN value dropped"
             ]
         );

@@ -113,7 +113,10 @@ fn a_bag_reads_its_imu() {
     assert_eq!(gyroscope.times_s, [0.0, 0.005, 0.01, 0.015, 0.02]);
     assert_eq!(gyroscope.readings[3].as_slice(), [0.1 * 3.0, 0.2, -0.1]);
     assert_eq!(accelerometer.readings[4].as_slice(), [0.3, 9.7, 0.4]);
-    assert_eq!(findings(&file)[0], "times count from the first, `header.stamp` = 1700000000123456789 ns");
+    assert_eq!(
+        findings(&file)[0],
+        "times are counted from the first sample, where `header.stamp` is 1700000000123456789 ns"
+    );
     // from a file, whose bytes are no text
     let directory = tempfile::tempdir().expect("a directory");
     let path = directory.path().join("bag_0.mcap");
