@@ -68,6 +68,7 @@ fn cross_validated_imu(
     };
     let data = Unused {
         gyroscope: Some(gyroscope),
+        turning_holds: calibration.gyroscope.as_ref().map_or(&[], |of| &of.still.turning_holds),
         temperatures: temperatures(calibration, problem)?,
         ..Unused::of_accelerometer(accelerometer, &all)
     };

@@ -10,7 +10,7 @@ use super::statistics::degrees_behind;
 use super::whitened_errors::{Shift, Whitened};
 use crate::estimate::imu::{GravityPropagation, GyroscopeAtRest, PropagatedGravity, StationaryMean};
 use crate::estimate::quantisation::of_means;
-use crate::estimate::{Calibration, clipped_holds, coarse_axes_in};
+use crate::estimate::{Calibration, RotationResult, clipped_holds, coarse_axes_in};
 use crate::motion::Hold;
 use crate::sensor::{Recording, SensorKind, Temperatures};
 use nalgebra::{DMatrix, DVector, Matrix2, Matrix3, Vector3};
@@ -29,6 +29,8 @@ pub(super) struct Unused<'a> {
     pub(super) within: Vector3<f64>,
     pub(super) accelerometer: &'a Recording,
     pub(super) gyroscope: Option<&'a Recording>,
+    /// Numbers of the holds in which the gyroscope turns, as the calibration of the same recording found.
+    pub(super) turning_holds: &'a [usize],
     /// Temperatures, where the calibration follows them.
     pub(super) temperatures: Option<Temperatures<'a>>,
     /// Is it another recording than the claim's? Then its noise and the gyroscope's bias may be others.
@@ -57,6 +59,7 @@ impl<'a> Unused<'a> {
             holds,
             accelerometer: recording,
             gyroscope: None,
+            turning_holds: &[],
             temperatures: None,
             another: false,
             fold: 0,
@@ -80,7 +83,8 @@ impl<'a> Unused<'a> {
                 noise.push(ratio);
                 prediction.still_noise.component_mul(&ratio.axes)
             };
-            let at_rest = GyroscopeAtRest::of(gyroscope, &holds, noise_of);
+            let turns = |place: usize| self.turning_holds.contains(&self.holds[place].0);
+            let at_rest = GyroscopeAtRest::of(gyroscope, &holds, turns, noise_of);
             let at_rest =
                 if self.another { at_rest.with_steps_in_common(&prediction.still_sd) } else { at_rest };
             (gyroscope, at_rest)
@@ -231,17 +235,15 @@ impl<'a> Unused<'a> {
 }
 
 impl Errors {
-    /// Leaves out what the calibration itself did not use: rates of holds in which the gyroscope turns, and rotations.
+    /// Leaves out the rotations that the calibration itself did not use.
     pub(super) fn retain_used(&mut self, calibration: &Calibration) {
         let Some(gyroscope) = &calibration.gyroscope else { return };
-        self.rates.retain(|place| !gyroscope.still.turning_holds.contains(&place.hold));
-        let left_out = |place: &Place| {
-            gyroscope.rotations.iter().any(|rotation| {
-                !rotation.used
-                    && (Some(rotation.from_hold), rotation.to_hold) == (place.from_hold, place.hold)
-            })
-        };
-        self.rotations.retain(|place| !left_out(place));
+        let left_out: Vec<_> = gyroscope.rotations.iter().filter(|rotation| !rotation.used).collect();
+        self.rotations.retain(|place| {
+            let is_it =
+                |of: &&RotationResult| Some(of.from_hold) == place.from_hold && of.to_hold == place.hold;
+            !left_out.iter().any(is_it)
+        });
     }
 }
 
