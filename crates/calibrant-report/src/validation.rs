@@ -70,22 +70,20 @@ pub fn validation_heading(validation: &Validation) -> String {
     }
 }
 
-/// Header and rows of the table: errors, number, rms, predicted, χ² of n, p-value, factor.
+/// Header and rows of the table: errors, number, distinct orientations, rms, predicted, ratio, p-value.
 #[must_use]
 pub fn validation_rows(validation: &Validation) -> ([&'static str; 7], Vec<[String; 7]>) {
-    let header = ["error of", "number", "rms", "predicted", "χ² of n", "p-value", "factor (99 %)"];
+    let header = ["error of", "number", "distinct", "rms", "predicted", "ratio (99 %)", "p-value"];
     let mut rows = Vec::new();
     for errors in &validation.kinds {
-        let chi2 =
-            |chi2: f64, degrees: usize| format!("{} of {degrees}", number_format::significant(chi2, 3));
         rows.push([
             what(errors.kind).into(),
             errors.counted().to_string(),
+            errors.distinct.to_string(),
             measured(errors.kind, errors.rms),
             measured(errors.kind, errors.predicted_rms),
-            chi2(errors.chi2, errors.degrees_of_freedom),
-            number_format::probability(errors.p_value),
             between(errors.factor, errors.factor_interval),
+            number_format::probability(errors.p_value),
         ]);
         if let Some(part) = errors.parameters {
             rows.push([
@@ -93,9 +91,9 @@ pub fn validation_rows(validation: &Validation) -> ([&'static str; 7], Vec<[Stri
                 number_format::UNKNOWN.into(),
                 number_format::UNKNOWN.into(),
                 number_format::UNKNOWN.into(),
-                chi2(part.chi2, part.degrees_of_freedom),
-                number_format::probability(part.p_value),
+                number_format::UNKNOWN.into(),
                 between(part.factor, part.factor_interval),
+                number_format::probability(part.p_value),
             ]);
         }
     }
@@ -110,7 +108,7 @@ pub(super) fn validation_section(page: &mut Page, validations: &[Validation]) {
     page.section(
         "Validation",
         "Errors on data that the calibration did not use, and the errors that it predicts. The prediction includes the covariance, the noise, and the scatter between holds and \
-         rotations. The factor is errors over prediction: 1 if the standard deviations are right. It has a 99 % confidence interval.",
+         rotations. The ratio is rms over prediction: 1 if the standard deviations are right. It has a 99 % confidence interval. Holds within 10° are one orientation, and share what the model misses there.",
     );
     for validation in validations {
         page.subsection(&validation_heading(validation));
@@ -165,73 +163,54 @@ enum Cause {
 fn sentence(errors: &ValidatedErrors, cause: Cause) -> String {
     let (kind, count) = (errors.kind, errors.counted());
     let (rms, predicted) = (measured(kind, errors.rms), measured(kind, errors.predicted_rms));
-    let misses = match kind {
-        ErrorKind::Magnitude => {
-            format!("In {}, the gravity residual is {rms} rms", number_format::counted(count, "unused hold"))
-        }
-        ErrorKind::Rate => {
-            format!(
-                "In {}, the error of the corrected rate is {rms} rms",
-                number_format::counted(count, "unused hold")
-            )
-        }
-        ErrorKind::Rotation => {
-            format!(
-                "In {}, the rotation error is {rms} rms",
-                number_format::counted(count, "unused rotation")
-            )
-        }
+    let (item, error) = match kind {
+        ErrorKind::Magnitude => ("unused hold", "the gravity residual"),
+        ErrorKind::Rate => ("unused hold", "the error of the corrected rate"),
+        ErrorKind::Rotation => ("unused rotation", "the rotation error"),
     };
+    let repeated = if errors.distinct < count {
+        format!(", {} of them distinct", errors.distinct)
+    } else {
+        String::new()
+    };
+    let ratio = between(errors.factor, errors.factor_interval);
+    let misses = format!(
+        "In {}{repeated}, {error} is {rms} rms, predicted {predicted}: the ratio is {ratio}",
+        number_format::counted(count, item)
+    );
     let two = |value: f64| number_format::significant(value, 2);
-    let (low, high) = errors.factor_interval;
-    let caveat = match (errors.verdict, errors.parameters) {
-        (CovarianceVerdict::Believed, _) => {
-            format!("The covariance is consistent with the errors (factor {} to {})", two(low), two(high))
+    let verdict = match (errors.verdict, errors.parameters) {
+        (CovarianceVerdict::Believed, _) => "The covariance is consistent with the errors".into(),
+        (CovarianceVerdict::LargerThanNeeded, _) => {
+            format!("The standard deviations are too large, by about {}", two(1.0 / errors.factor))
         }
-        (CovarianceVerdict::LargerThanNeeded, _) => format!(
-            "The errors are {} times the predicted errors. The standard deviations are larger than necessary (factor {} to {})",
-            two(errors.factor),
-            two(low),
-            two(high)
-        ),
-        (CovarianceVerdict::TooFew, _) => {
-            format!("The data are too few for a verdict (factor {} to {})", two(low), two(high))
-        }
+        (CovarianceVerdict::TooFew, _) => "The data are too few for a verdict".into(),
         (CovarianceVerdict::Doubtful, _) => format!(
-            "The errors are as predicted (factor {} to {}), but they confirm nothing: {}",
-            two(low),
-            two(high),
+            "The errors are as predicted, but they confirm nothing: {}",
             errors.caveat.as_ref().map_or_else(String::new, |caveat| why(caveat, errors))
         ),
-        (CovarianceVerdict::TooSmall, _) if cause == Cause::Reported => format!(
-            "The errors are {} times the predicted errors. The cause named above is more likely than the covariance",
-            two(errors.factor)
-        ),
-        (CovarianceVerdict::TooSmall, _) if cause == Cause::Beside => format!(
-            "The errors are {} times the predicted errors. They do not judge the covariance, since no covariance explains the other errors",
-            two(errors.factor)
-        ),
-        (CovarianceVerdict::TooSmall, _) if cause == Cause::Another => format!(
-            "The errors are {} times the predicted errors, which no covariance explains. Is it the same sensor, with the same units and axes? Was it changed or damaged \
-             since?",
-            two(errors.factor)
-        ),
-        (CovarianceVerdict::TooSmall, Some(part)) if low <= 1.0 => format!(
+        (CovarianceVerdict::TooSmall, _) if cause == Cause::Reported => {
+            "The cause named above is more likely than the covariance".into()
+        }
+        (CovarianceVerdict::TooSmall, _) if cause == Cause::Beside => {
+            "The errors do not judge the covariance, since no covariance explains the other errors".into()
+        }
+        (CovarianceVerdict::TooSmall, _) if cause == Cause::Another => {
+            "No covariance explains that. Is it the same sensor, with the same units and axes? Was it changed or damaged since?".into()
+        }
+        (CovarianceVerdict::TooSmall, Some(part)) if errors.factor_interval.0 <= 1.0 => format!(
             "But the part of the errors that the parameters cause is {} times the predicted part. The parameters' covariance is too small. Multiply their \
              standard deviations by about that (factor {})",
             two((part.chi2 / part.degrees_of_freedom as f64).sqrt()),
             between(part.factor, part.factor_interval)
         ),
         (CovarianceVerdict::TooSmall, _) => format!(
-            "The errors are {} times the predicted errors. The covariance is too small. Multiply the standard deviations by about {} ({} to {})",
-            two(errors.factor),
-            two(errors.factor),
-            two(low),
-            two(high)
+            "The covariance is too small. Multiply the standard deviations by about {}",
+            two(errors.factor)
         ),
     };
-    let end = if caveat.ends_with('?') { "" } else { "." };
-    format!("{misses}, predicted {predicted}. {caveat}{end}")
+    let end = if verdict.ends_with('?') { "" } else { "." };
+    format!("{misses}. {verdict}{end}")
 }
 
 /// Why errors of the predicted size confirm nothing.
@@ -397,6 +376,7 @@ mod tests {
         ValidatedErrors {
             kind: ErrorKind::Rotation,
             errors: Vec::new(),
+            distinct: 0,
             rms,
             predicted_rms: 1727.3,
             chi2: 1.0,

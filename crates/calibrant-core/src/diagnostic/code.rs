@@ -103,16 +103,16 @@ codes! {
         "More of it lies outside than rounding of the times explains."
         "Correct holds.intervals_s.";
     HoldMoved "hold-moved" Warning
-        "The gyroscope turns in a hold. Its readings there are not used for its bias."
+        "The gyroscope turns in some holds. Its readings there are not used for its bias."
         "Its mean rate in the hold differs from that in the others by more than their scatter."
-        "Correct holds.intervals_s, or remove that key: the program then finds the holds.";
+        "Put the sensor down, and do not hold it by hand. If holds.intervals_s is given, correct or remove it.";
     HoldsLostToFilter "holds-lost-to-filter" Warning
         "Neighbouring samples are strongly correlated, as behind a slow low-pass filter. This breaks up holds."
         "Several segments look stationary but are too short for holds. Samples four apart differ much more than neighbours."
         "Give holds.intervals_s, hold longer, or record with a wider bandwidth.";
     HoldsSpreadLittle "holds-spread-little" Warning
         "The directions of the holds are too similar. The data hardly separate some parameters."
-        "The condition number of the scaled information is large."
+        "The condition number of the scaled information is above 100, and two of these parameters are correlated by more than 0.9."
         "Add holds in other directions.";
     HoldsScatter "holds-scatter" Warning
         "The holds scatter far beyond their noise. The cause is movement, drift, saturation, or a force other than gravity."
@@ -136,7 +136,7 @@ codes! {
         "Correct the noise in the experiment file.";
     ParameterImplausible "parameter-implausible" Warning
         "A parameter is far from its nominal value. A mistake is more likely than a rare sensor."
-        "The difference exceeds 10 datasheet standard deviations."
+        "The difference exceeds 10 standard deviations of datasheet and estimate together."
         "Check the unit of the recording, gravity, and the order and direction of the axes.";
     FacesTurned "faces-turned" Warning
         "All given directions of the holds differ from the accelerometer's by one rotation."
@@ -250,10 +250,6 @@ codes! {
         "The reference temperature lies beyond the temperatures of the holds."
         "It lies far outside."
         "Choose another reference, or record at that temperature.";
-    LatitudeUnknown "latitude-unknown" Warning
-        "The latitude is not given, and the Earth's rate is unknown. This makes standard deviations larger."
-        "Some are more than 1.15 times as large."
-        "Give holds.latitude_deg.";
     NoiseOutliers "noise-outliers" Warning
         "Outliers were removed before the noise was estimated. Or they are too many to remove, and the noise includes them."
         "They are more than 8 robust standard deviations from the median of nine neighbouring samples. Up to one sample in fifty is removed."

@@ -117,8 +117,13 @@ diagnostics! {
         recording_end_s: f64 = "Last sample of the recording, s.",
         common_s: f64 = "Duration within the recording, s.",
     }
-    /// The gyroscope turns in a hold.
-    HoldMoved { hold: HoldSpan = "The hold.", rate_rms: f64 = "Root mean square of its rate.", unit: ReadingUnit = "Unit of the rate." }
+    /// The gyroscope turns in holds.
+    HoldMoved {
+        holds: Vec<HoldSpan> = "The holds.",
+        rate_rms: f64 = "Root mean square of the rate in the fastest.",
+        unit: ReadingUnit = "Unit of the rate.",
+        are_given: bool = "Are the intervals of the holds given?",
+    }
     /// A low-pass filter breaks up holds.
     HoldsLostToFilter { lost: LostHolds = "Their number." }
     /// The directions of the holds are too similar.
@@ -137,11 +142,11 @@ diagnostics! {
     /// The noise within holds differs from the given noise.
     NoiseNotAsGiven {
         sensor_kind: SensorKind = "The sensor.",
-        axis: Axis = "The axis.",
+        axis: Axis = "The axis with the largest difference.",
         ratio: f64 = "Noise within the holds over the given noise.",
     }
     /// A parameter is far from its nominal value.
-    ParameterImplausible { parameter: String = "Its name.", deviations: f64 = "The difference, in datasheet standard deviations." }
+    ParameterImplausible { parameter: String = "Its name.", deviations: f64 = "The difference, in standard deviations of datasheet and estimate together." }
     /// All given directions of the holds differ by one rotation from the accelerometer's.
     FacesTurned { faces: Vec<FaceMismatch> = "The holds." }
     /// A face was held for only a few samples.
@@ -262,12 +267,6 @@ diagnostics! {
         reference_c: f64 = "The reference, °C.",
         holds_coldest_c: f64 = "Coldest of the holds, °C.",
         holds_hottest_c: f64 = "Hottest of the holds, °C.",
-    }
-    /// An unknown latitude makes standard deviations larger.
-    LatitudeUnknown {
-        earth_rate_radps: f64 = "The Earth's rate, rad/s.",
-        of_g_sensitivity: bool = "Is the g-sensitivity affected most, and not the gyroscope's matrix?",
-        times: f64 = "Largest ratio of the standard deviations.",
     }
     /// Outliers were removed before the noise was estimated, or are too many for that.
     NoiseOutliers {

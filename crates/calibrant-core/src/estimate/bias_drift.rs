@@ -11,6 +11,8 @@ pub struct BiasDrift {
     pub value: Vector3<f64>,
     /// Its covariance.
     pub covariance: Matrix3<f64>,
+    /// Degrees of freedom that the data give to it and not the prior, 0 to 3.
+    pub degrees_of_freedom: f64,
     /// Middle of the first hold and of the last, s.
     pub span_s: (f64, f64),
 }

@@ -58,6 +58,7 @@ pub use quantisation::{CoarseAxis, coarse_axes, coarse_axes_in};
 pub use result::*;
 pub use settings::CalibrationSettings;
 pub use uncalibrated::Uncalibrated;
+pub use unknown_latitude::UnknownLatitude;
 pub use validation::{
     BiasShift, Caveat, CoarseStep, CovarianceVerdict, ErrorKind, FailedFold, LikelyExplanation, NoiseRatio,
     ParameterPart, UnusedError, ValidatedErrors, Validation, ValidationSource, cross_validate,

@@ -10,6 +10,9 @@ use crate::sensor::{
 };
 use nalgebra::{DMatrix, Vector3};
 
+/// With fewer degrees of freedom left by a drift, the scatter between holds is that of the fit without it.
+const FEW_DEGREES: usize = 6;
+
 /// How the iteration ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CalibrationStatus {
@@ -224,11 +227,16 @@ impl Calibration {
         let of_scatter = |is_found: bool, numbers: usize, unknowns: f64| {
             if is_found { (numbers as f64 - unknowns).max(1.0) } else { f64::INFINITY }
         };
+        let taken = holds.drift.as_ref().map_or(0.0, |drift| drift.degrees_of_freedom);
         let accelerometer = match holds.degrees_of_freedom {
             // the covariance of faces is already as wide as Student's t
             _ if holds.tilt.is_some() => f64::INFINITY,
             0 => 0.0,
-            degrees => of_scatter(holds.between_holds_dominates, degrees, 0.0),
+            degrees => of_scatter(
+                holds.between_holds_dominates,
+                degrees,
+                taken.min(degrees.saturating_sub(FEW_DEGREES) as f64),
+            ),
         };
         let Some(gyroscope) = &self.gyroscope else {
             return CovarianceDegrees { accelerometer, ..CovarianceDegrees::known() };

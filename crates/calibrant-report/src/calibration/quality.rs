@@ -75,7 +75,7 @@ pub(super) fn milliseconds(time: &TimeOffset) -> String {
     format!("{sign}{} ms", number_format::with_sd(1e3 * time.offset_s, 1e3 * time.sd_s))
 }
 
-/// What was estimated beside the parameters: the time offset of the gyroscope and the drift of the accelerometer's bias.
+/// What was estimated beside the parameters, and what is unknown: the time offset of the gyroscope, the drift of the accelerometer's bias, the latitude.
 #[must_use]
 pub fn nuisances_in_words(calibration: &Calibration) -> Vec<String> {
     let time = calibration.gyroscope.as_ref().and_then(|gyroscope| gyroscope.time_offset);
@@ -85,7 +85,14 @@ pub fn nuisances_in_words(calibration: &Calibration) -> Vec<String> {
             "the bias drift of the accelerometer from the first hold to the last is {drift} {unit} (x, y, z)"
         )
     });
-    offset.into_iter().chain(drift).collect()
+    let latitude = calibration.unknown_latitude().map(|unknown| {
+        format!(
+            "without holds.latitude_deg, the Earth's rate about the vertical makes standard deviations up to {:.1} times larger ({})",
+            unknown.times,
+            unknown.parameter.name()
+        )
+    });
+    offset.into_iter().chain(drift).chain(latitude).collect()
 }
 
 /// The drift of the accelerometer's bias about each axis with its standard deviation, and its unit.

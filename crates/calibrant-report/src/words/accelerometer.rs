@@ -86,15 +86,15 @@ fn of_holds(diagnostic: &Diagnostic) -> Option<String> {
             100.0 / (2.0 * *degrees_of_freedom as f64).sqrt()
         ),
         Diagnostic::NoiseNotAsGiven { sensor_kind: SensorKind::Accelerometer, axis, ratio } => format!(
-            "the noise of axis {axis} within the holds is {} times the noise in the experiment file. The noise of the recording is used.",
+            "the noise within the holds is {} times the noise in the experiment file (axis {axis}). The noise of the recording is used.",
             times(*ratio)
         ),
         Diagnostic::NoiseNotAsGiven { sensor_kind: SensorKind::Gyroscope, axis, ratio } => format!(
-            "the gyroscope's axis {axis} scatters within the holds by {} times the given noise. Check the noise and its unit.",
+            "the gyroscope scatters within the holds by {} times the given noise (axis {axis}). Check the noise and its unit.",
             times(*ratio)
         ),
         Diagnostic::ParameterImplausible { parameter, deviations } => format!(
-            "{parameter} is {deviations:.0} datasheet standard deviations from its nominal value. Check the unit of the recording, gravity, and the order and \
+            "{parameter} is {deviations:.0} standard deviations of the datasheet from its nominal value. Check the unit of the recording, gravity, and the order and \
              direction of the axes."
         ),
         _ => return None,

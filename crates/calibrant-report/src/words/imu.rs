@@ -20,11 +20,20 @@ pub(super) fn message(diagnostic: &Diagnostic) -> Option<String> {
             if *skew > 0.0 { "large" } else { "small" },
             repair(*first_offset_s, *skew, 3)
         ),
-        Diagnostic::HoldMoved { hold, rate_rms, unit } => format!(
-            "the gyroscope turns in {hold}, by {rate_rms:.2e} {} rms. Its readings there are not used for its bias. An accelerometer does not see a rotation \
-             about the vertical. Correct holds.intervals_s, or remove that key: the program then finds the holds.",
-            unit.symbol()
-        ),
+        Diagnostic::HoldMoved { holds, rate_rms, unit, are_given } => {
+            let holds: Vec<String> = holds.iter().map(ToString::to_string).collect();
+            format!(
+                "the gyroscope turns in {}, by up to {rate_rms:.2e} {} rms. Its readings there are not used for its bias. An accelerometer does not see a rotation \
+                 about the vertical. {}",
+                holds.join(", "),
+                unit.symbol(),
+                if *are_given {
+                    "Correct holds.intervals_s, or remove that key: the program then finds the holds."
+                } else {
+                    "Put the sensor down for each hold."
+                }
+            )
+        }
         Diagnostic::AxesInOtherOrder { order: [x, y, z], by_turns } => {
             let housing = if *by_turns {
                 " If both sensors share a housing, correct the order of the turns or of the gyroscope's columns."
@@ -45,16 +54,6 @@ pub(super) fn message(diagnostic: &Diagnostic) -> Option<String> {
              direction of the axes, and the given turns and faces.",
             unit.symbol()
         ),
-        Diagnostic::LatitudeUnknown { earth_rate_radps, of_g_sensitivity, times } => {
-            let (effect, sensor_part) = match of_g_sensitivity {
-                true => ("looks like g-sensitivity", "of the g-sensitivity"),
-                false => ("adds to turns of known angle", "of the gyroscope"),
-            };
-            format!(
-                "the Earth turns about the vertical by {earth_rate_radps:.2e} rad/s times the sine of the latitude. This rate {effect}. Without the latitude, the standard deviations \
-                 {sensor_part} are up to {times:.1} times larger. Give holds.latitude_deg."
-            )
-        }
         _ => return of_rotations(diagnostic).or_else(|| of_given(diagnostic)),
     })
 }

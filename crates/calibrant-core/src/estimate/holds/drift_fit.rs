@@ -48,7 +48,12 @@ pub(super) fn fit<const P: usize>(
     if setup.bias_drift_sd_mps2 <= 0.0 || holds.len() < 3 {
         return Ok(Fitted { holds, robust: without, drift: None, without: None });
     }
-    let none = BiasDrift { value: Vector3::zeros(), covariance: Matrix3::zeros(), span_s: span(&holds) };
+    let none = BiasDrift {
+        value: Vector3::zeros(),
+        covariance: Matrix3::zeros(),
+        degrees_of_freedom: 0.0,
+        span_s: span(&holds),
+    };
     let parts: Vec<f64> = holds.iter().map(|hold| none.part_of(hold)).collect();
     let of = |robust: &Robust, used: &[bool], drift: &BiasDrift| {
         Posterior::of(robust, (used, &parts), setup.bias_drift_sd_mps2, drift)
@@ -59,11 +64,15 @@ pub(super) fn fit<const P: usize>(
             let drift = posterior.drift;
             let step = drift.value - before.value;
             let corrected = drift.taken_out(&holds);
-            let is_left = count(start) as f64 - P as f64 - posterior.degrees >= FEWEST_DEGREES;
+            let is_left =
+                count(start) as f64 - P as f64 - posterior.drift.degrees_of_freedom >= FEWEST_DEGREES;
             let least_between = if is_left { 0.0 } else { without.between_holds_sd };
             let is_rough = round < ROUGH_ROUNDS;
             let used = is_rough.then(|| start.to_vec());
-            let robust = fit(&corrected, Conditions { taken: posterior.degrees, least_between, used })?;
+            let robust = fit(
+                &corrected,
+                Conditions { taken: posterior.drift.degrees_of_freedom, least_between, used },
+            )?;
             posterior = of(&robust, &robust.used, &drift);
             round += 1;
             let is_close = !is_rough && step.component_div(&drift.sd()).amax() < CLOSE;
@@ -95,8 +104,6 @@ fn count(used: &[bool]) -> usize {
 /// The drift that the magnitudes of a fit ask for.
 struct Posterior {
     drift: BiasDrift,
-    /// Degrees of freedom that it takes from the holds.
-    degrees: f64,
     /// `J`, p × 3.
     slope: DMatrix<f64>,
 }
@@ -122,10 +129,14 @@ impl Posterior {
         let covariance = information
             .try_inverse()
             .unwrap_or_else(|| Matrix3::from_diagonal(&known.map(|known| 1.0 / known)));
-        let degrees = (0..3).map(|k| (1.0 - covariance[(k, k)] * known[k]).clamp(0.0, 1.0)).sum();
+        let degrees_of_freedom = (0..3).map(|k| (1.0 - covariance[(k, k)] * known[k]).clamp(0.0, 1.0)).sum();
         Self {
-            drift: BiasDrift { value: drift.value + covariance * rhs, covariance, ..*drift },
-            degrees,
+            drift: BiasDrift {
+                value: drift.value + covariance * rhs,
+                covariance,
+                degrees_of_freedom,
+                ..*drift
+            },
             slope,
         }
     }

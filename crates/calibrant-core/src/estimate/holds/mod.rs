@@ -44,7 +44,7 @@ pub(super) use residuals::magnitude_rms;
 pub(super) use robust_weights::critical;
 pub(super) use saturated_holds::{reason as clipped_reason, with_clipped};
 pub(super) use sphere::sphere;
-pub(super) use verdict::left_out;
+pub(super) use verdict::{are_correlated, left_out};
 
 pub use expected_accuracy::{ExpectedCalibration, expected_calibration};
 pub(super) use hold_detection::{as_recorded, beyond, median};

@@ -6,13 +6,15 @@ use crate::estimate::gravity_off_earth::gravity_off_earth;
 use crate::estimate::{Calibration, CalibrationStatus, HoldCalibration, HoldResult, Recovered};
 
 use crate::estimate::change::longest_run;
-use crate::estimate::statistics::implausible;
+use crate::estimate::statistics::{implausible, noise_not_as_given};
 use crate::motion::Hold;
 use crate::sensor::{Axis, ParameterList, SensorKind};
 use nalgebra::{Matrix3, Vector3};
 
 /// Condition number of the information above which the directions of the holds are too similar. Twenty-four evenly spread orientations give about 3, six faces and orientations on the edges between them about 10.
 const CONDITION: f64 = 100.0;
+/// A correlation above which two parameters are hardly separated.
+const CORRELATED: f64 = 0.9;
 /// Holds lie in a plane or on a point if they extend by less than this share in one direction.
 const FLAT: f64 = 0.02;
 /// Cosine of the angle up to which a direction is that of an axis: 15°.
@@ -99,7 +101,7 @@ pub(super) fn warnings(calibration: &Calibration, weakest: &[String]) -> Vec<Dia
         let degrees_of_freedom = calibration.fit.degrees_of_freedom;
         warnings.push(Diagnostic::FewDegreesOfFreedom { degrees_of_freedom });
     }
-    if holds.condition_number > CONDITION {
+    if holds.condition_number > CONDITION && are_correlated(calibration, weakest) {
         let (condition_number, parameters) = (holds.condition_number, weakest.to_vec());
         warnings.push(Diagnostic::HoldsSpreadLittle { condition_number, parameters });
     }
@@ -108,13 +110,7 @@ pub(super) fn warnings(calibration: &Calibration, weakest: &[String]) -> Vec<Dia
         warnings.push(Diagnostic::OrientationMissing { missing });
     }
     if let (Some(assumed), Some(found)) = (calibration.fit.assumed_noise, calibration.fit.noise_estimate) {
-        for axis in Axis::ALL {
-            let ratio = found[axis.index()] / assumed[axis.index()];
-            if !(0.5..=2.0).contains(&ratio) {
-                let sensor_kind = SensorKind::Accelerometer;
-                warnings.push(Diagnostic::NoiseNotAsGiven { sensor_kind, axis, ratio });
-            }
-        }
+        warnings.extend(noise_not_as_given(SensorKind::Accelerometer, &found, &assumed));
     }
     if holds.between_holds_sd_mps2 > 0.02 {
         warnings.push(Diagnostic::HoldsScatter { between_holds_sd_mps2: holds.between_holds_sd_mps2 });
@@ -124,6 +120,15 @@ pub(super) fn warnings(calibration: &Calibration, weakest: &[String]) -> Vec<Dia
     }
     warnings.extend(implausible(calibration));
     warnings
+}
+
+/// Are two of these parameters correlated so strongly that the data hardly separate them?
+pub(in crate::estimate) fn are_correlated(calibration: &Calibration, parameters: &[String]) -> bool {
+    let correlation = calibration.correlation();
+    let named = |k: &usize| parameters.contains(&calibration.quantities[*k].name());
+    let places: Vec<usize> = (0..calibration.quantities.len()).filter(named).collect();
+    let largest = places.iter().flat_map(|&i| places.iter().filter(move |&&j| j < i).map(move |&j| (i, j)));
+    largest.map(|(i, j)| correlation[(i, j)].abs()).fold(0.0, f64::max) > CORRELATED
 }
 
 /// The unused holds, and why.

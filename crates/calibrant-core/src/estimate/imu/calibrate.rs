@@ -2,13 +2,13 @@
 
 use crate::diagnostic::Diagnostic;
 use crate::error::{Error, InputError, Refusal, Result};
+use crate::estimate::holds::are_correlated;
 use crate::estimate::imu::checks::known_terms::{self, Contradiction};
 use crate::estimate::imu::problem::{ImuProblem, ImuSetup};
 use crate::estimate::imu::solver::solve_imu;
 use crate::estimate::imu::white_noise_search::WhiteNoiseSearch;
 use crate::estimate::result::Calibration;
 use crate::estimate::settings::CalibrationSettings;
-use crate::estimate::unknown_latitude::unknown_latitude;
 
 /// Calibrates an IMU.
 ///
@@ -38,7 +38,15 @@ pub fn calibrate_imu_with(
         Some(_) => of_clean(problem, settings, white_noise)?,
         None => without_outliers(problem, settings, white_noise)?,
     };
-    calibration.warnings.extend(unknown_latitude(&calibration));
+    // rotations separate what the holds alone do not
+    let warnings = std::mem::take(&mut calibration.warnings);
+    calibration.warnings = warnings
+        .into_iter()
+        .filter(|warning| match warning {
+            Diagnostic::HoldsSpreadLittle { parameters, .. } => are_correlated(&calibration, parameters),
+            _ => true,
+        })
+        .collect();
     Ok(calibration)
 }
 

@@ -25,7 +25,7 @@ pub(in crate::estimate) struct StationaryMean {
 
 /// The gyroscope's means in holds.
 pub(in crate::estimate) struct GyroscopeAtRest {
-    /// In each hold; `None` where it has no samples there.
+    /// In each hold; `None` where it turns or has no samples there.
     readings: Vec<Option<MeanReading>>,
     /// Noise of one sample, and the part of coarse steps that differs between holds.
     noise: GyroscopeNoise,
@@ -34,13 +34,15 @@ pub(in crate::estimate) struct GyroscopeAtRest {
 }
 
 impl GyroscopeAtRest {
-    /// `noise_of`: the noise of a sample, by how its samples scatter in these holds.
+    /// `turns`: does it turn in the hold at this place? `noise_of`: the noise of a sample, by how its samples scatter in these holds.
     pub(in crate::estimate) fn of(
         gyroscope: &Recording,
         holds: &[&Hold],
+        turns: impl Fn(usize) -> bool,
         noise_of: impl FnOnce(&Vector3<f64>) -> Vector3<f64>,
     ) -> Self {
-        let readings: Vec<_> = holds.iter().map(|hold| mean_in_hold(gyroscope, hold)).collect();
+        let mean = |(place, hold): (usize, &&Hold)| mean_in_hold(gyroscope, hold).filter(|_| !turns(place));
+        let readings: Vec<_> = holds.iter().enumerate().map(mean).collect();
         let coarse = coarse_axes_in(gyroscope, holds.iter().copied());
         let scatter = GyroscopeNoise::of(usual_scatter(&readings, gyroscope), &coarse).of_sample;
         let noise = GyroscopeNoise::of(noise_of(&scatter), &coarse);
@@ -71,7 +73,7 @@ impl GyroscopeAtRest {
         &self.of_steps
     }
 
-    /// The gyroscope in each hold, `None` where it has no samples there.
+    /// The gyroscope in each hold, `None` where it turns or has no samples there.
     pub(in crate::estimate) fn holds(&self) -> impl Iterator<Item = Option<StationaryMean>> {
         self.readings.iter().map(|still| {
             still.map(|still| StationaryMean {

@@ -49,6 +49,8 @@ pub struct GyroscopeInHolds {
     ///
     /// Its causes are a wandering bias, the parts of the Earth's rate that are not in the model, and a g-sensitivity that is not estimated.
     pub between_holds_sd: Vector3<f64>,
+    /// The holds in which the gyroscope turns, from 0. Its readings there are not used.
+    pub turning_holds: Vec<usize>,
     /// Root mean square over the holds of the calibrated mean rate, all axes together, rad/s. At a known latitude, the Earth's rate about the vertical
     /// is subtracted.
     pub rate_rms_radps: f64,

@@ -41,8 +41,8 @@ pub(super) struct Ratio {
 impl Ratio {
     /// Of errors that are independent of the scatters behind their prediction. Each scatter is that of an equal share of the components; `behind`: the degrees of freedom of each, infinite
     /// where it is known.
-    pub(super) fn new(components: usize, behind: &[f64]) -> Self {
-        let n = components as f64;
+    pub(super) fn new(components: f64, behind: &[f64]) -> Self {
+        let n = components;
         let least = behind.iter().copied().fold(f64::INFINITY, f64::min);
         if least <= FEW_DEGREES || least > MANY_DEGREES {
             return Self { components: n, behind: least, scale: 1.0 };
@@ -56,16 +56,9 @@ impl Ratio {
     }
 
     /// Of folds: the errors of one block are part of the scatter by which the others are predicted, so that an estimate that is too small here is too large there. What
-    /// is left of its uncertainty is the mean of F, `ν/(ν − 2)`.
-    pub(super) fn of_folds(components: usize, behind: &[f64]) -> Self {
-        let k = behind.len().max(1) as f64;
-        let scale = 1.0 + behind.iter().map(|v| mean_of_f(*v) - 1.0).sum::<f64>() / k;
-        Self { components: components as f64, behind: f64::INFINITY, scale }
-    }
-
-    /// What it is times F.
-    pub(super) fn scale(self) -> f64 {
-        self.scale
+    /// is left of its uncertainty is its mean ([`mean_of_folds`]), by which errors are to be divided first.
+    pub(super) fn of_folds(components: f64) -> Self {
+        Self { components, behind: f64::INFINITY, scale: 1.0 }
     }
 
     /// The probability of a ratio at least this large.
@@ -86,6 +79,12 @@ impl Ratio {
     pub(super) fn usual(self) -> (f64, f64) {
         (self.exceeded_with(1.0 - 0.5 * SIGNIFICANCE), self.exceeded_with(0.5 * SIGNIFICANCE))
     }
+}
+
+/// The mean of χ²/n of folds: that of F, `ν/(ν − 2)`, over the scatters.
+pub(super) fn mean_of_folds(behind: &[f64]) -> f64 {
+    let k = behind.len().max(1) as f64;
+    1.0 + behind.iter().map(|v| mean_of_f(*v) - 1.0).sum::<f64>() / k
 }
 
 /// `ν/(ν − 2)`, no more than 2: with fewer degrees it is the chance of very small scatters.
@@ -126,12 +125,11 @@ mod tests {
     #[test]
     fn one_scatter_is_fishers_f_and_none_is_chi_square() {
         // upper 5 % points of the tables: F(10, 20) = 2.348, χ²(10) = 18.307
-        assert!((Ratio::new(10, &[20.0]).exceeded_with(0.05) - 2.348).abs() < 5e-4);
-        assert!((Ratio::new(10, &[f64::INFINITY]).exceeded_with(0.05) - 1.8307).abs() < 5e-5);
-        assert!((Ratio::new(10, &[f64::INFINITY; 3]).exceeded_with(0.05) - 1.8307).abs() < 5e-5);
-        let folds = Ratio::of_folds(10, &[10.0]);
-        assert!((folds.scale() - 1.25).abs() < 1e-15);
-        assert!((folds.exceeded_with(0.05) - 1.25 * 1.8307).abs() < 1e-4);
+        assert!((Ratio::new(10.0, &[20.0]).exceeded_with(0.05) - 2.348).abs() < 5e-4);
+        assert!((Ratio::new(10.0, &[f64::INFINITY]).exceeded_with(0.05) - 1.8307).abs() < 5e-5);
+        assert!((Ratio::new(10.0, &[f64::INFINITY; 3]).exceeded_with(0.05) - 1.8307).abs() < 5e-5);
+        assert!((mean_of_folds(&[10.0]) - 1.25).abs() < 1e-15);
+        assert!((Ratio::of_folds(10.0).exceeded_with(0.05) - 1.8307).abs() < 5e-5);
     }
 
     /// The tails of the mean of three F, drawn.
@@ -145,7 +143,7 @@ mod tests {
             (24, [23.0, f64::INFINITY, f64::INFINITY]),
             (1, [23.0; 3]),
         ] {
-            let ratio = Ratio::new(3 * per_axis, &behind);
+            let ratio = Ratio::new(f64::from(3 * per_axis), &behind);
             let limits = [0.05, 0.005]
                 .map(|level| (level, ratio.exceeded_with(level), ratio.exceeded_with(1.0 - level)));
             let mut outside = [[0; 2]; 2];
@@ -157,11 +155,9 @@ mod tests {
                         Draw::new(degrees).expect("positive").sample(&mut rng) / degrees
                     }
                 };
-                let drawn = behind
-                    .map(|v| mean_square(f64::from(per_axis as u32)) / mean_square(v))
-                    .iter()
-                    .sum::<f64>()
-                    / 3.0;
+                let drawn =
+                    behind.map(|v| mean_square(f64::from(per_axis)) / mean_square(v)).iter().sum::<f64>()
+                        / 3.0;
                 for (outside, (_, high, low)) in outside.iter_mut().zip(limits) {
                     outside[0] += u32::from(drawn > high);
                     outside[1] += u32::from(drawn < low);
@@ -180,11 +176,11 @@ mod tests {
 
     #[test]
     fn without_a_variance_the_least_certain_scatter_counts_for_all() {
-        let few = Ratio::new(72, &[3.0, 23.0, 23.0]).exceeded_with(0.005);
-        assert!((few - Ratio::new(72, &[3.0]).exceeded_with(0.005)).abs() < 1e-9);
+        let few = Ratio::new(72.0, &[3.0, 23.0, 23.0]).exceeded_with(0.005);
+        assert!((few - Ratio::new(72.0, &[3.0]).exceeded_with(0.005)).abs() < 1e-9);
         let (below, above) = (
-            Ratio::new(72, &[4.0; 3]).exceeded_with(0.005),
-            Ratio::new(72, &[4.0001; 3]).exceeded_with(0.005),
+            Ratio::new(72.0, &[4.0; 3]).exceeded_with(0.005),
+            Ratio::new(72.0, &[4.0001; 3]).exceeded_with(0.005),
         );
         assert!((below / above - 1.0).abs() < 1e-3, "{below} {above}");
     }

@@ -6,6 +6,9 @@ pub(super) const CLOSE: f64 = 1.25;
 /// Where upper and lower end of the factor's interval are further apart than this, nothing is believed: three errors or fewer.
 const OPEN: f64 = 10.0;
 
+/// A factor beyond this, or below its inverse, is no agreement, however wide its interval.
+const AGREES: f64 = 2.0;
+
 /// What errors on unused data say of the covariance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CovarianceVerdict {
@@ -15,7 +18,7 @@ pub enum CovarianceVerdict {
     TooSmall,
     /// They are smaller.
     LargerThanNeeded,
-    /// They are too few to tell: neither contradicted nor confirmed within a factor of about three.
+    /// They are too few to tell: the interval is wider than 1:10, or has 1 in it with a factor beyond 2.
     TooFew,
     /// Those that count are as large as predicted, and confirm nothing: see [`ValidatedErrors::caveat`](super::ValidatedErrors::caveat).
     Doubtful,
@@ -40,7 +43,7 @@ impl CovarianceVerdict {
             Self::TooSmall
         } else if interval.1 < 1.0 && factor < 1.0 / CLOSE {
             Self::LargerThanNeeded
-        } else if interval.1 > OPEN * interval.0 {
+        } else if interval.1 > OPEN * interval.0 || !(1.0 / AGREES..AGREES).contains(&factor) {
             Self::TooFew
         } else {
             Self::Believed

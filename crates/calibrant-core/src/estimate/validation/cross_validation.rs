@@ -68,6 +68,7 @@ fn cross_validated_imu(
     };
     let data = Unused {
         gyroscope: Some(gyroscope),
+        turning_holds: calibration.gyroscope.as_ref().map_or(&[], |of| &of.still.turning_holds),
         temperatures: temperatures(calibration, problem)?,
         ..Unused::of_accelerometer(accelerometer, &all)
     };
@@ -118,7 +119,8 @@ fn crossed(
         .map(|(fold, block)| {
             let prediction = train(block)?;
             let unused = Unused { holds: used[block.places.clone()].to_vec(), fold, ..data.clone() };
-            let errors = unused.errors(&prediction).ok_or_else(singular)?;
+            let mut errors = unused.errors(&prediction).ok_or_else(singular)?;
+            errors.retain_used(calibration);
             Ok((prediction, errors))
         })
         .collect();
@@ -126,7 +128,10 @@ fn crossed(
     let (done, failed) = sorted(&blocks, &numbers, outcomes)?;
     let (predictions, errors): (Vec<Prediction>, Vec<Errors>) = done.into_iter().unzip();
     let Some(prediction) = predictions.last() else { return Err(singular()) };
-    Ok(judged(ValidationSource::Folds { folds, failed }, errors, prediction, &Caveats::of(calibration)))
+    let drift = calibration.holds().and_then(|holds| holds.drift.as_deref());
+    let drift_degrees = drift.map_or(0.0, |drift| drift.degrees_of_freedom);
+    let source = ValidationSource::Folds { folds, failed };
+    Ok(judged(source, errors, prediction, drift_degrees, &Caveats::of(calibration)))
 }
 
 /// The recording without the drift of the accelerometer's bias: the blocks have it in common.

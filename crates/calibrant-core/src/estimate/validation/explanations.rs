@@ -92,7 +92,7 @@ pub(super) fn likely_explanations(
 fn explaining(group: &Group, scatter: Degrees, by: &dyn Fn(usize) -> DMatrix<f64>) -> Option<(f64, Shift)> {
     let count: usize = group.items.iter().map(|item| item.error.len()).sum();
     let left = count.checked_sub(by(0).ncols()).filter(|left| *left >= ENOUGH)?;
-    let (low, high) = Ratio::new(left, &degrees_behind(group.items.iter(), &[scatter])).usual();
+    let (low, high) = Ratio::new(left as f64, &degrees_behind(group.items.iter(), &[scatter])).usual();
     let whitened = Whitened::about(group, &vec![true; group.items.len()], by)?;
     let shift = whitened.shift()?;
     let rest = (whitened.chi2()? - shift.chi2).max(0.0) / left as f64;
@@ -120,7 +120,7 @@ fn accelerometer_moved(errors: &Errors, prediction: &Prediction) -> Option<Likel
     let squares = |along: &Vector3<f64>| along.component_mul(along) * prediction.gravity_mps2;
     let about = |row: &dyn Fn(&Vector3<f64>) -> Vec<f64>| {
         let by = |k: usize| {
-            let row = row(&errors.along[k]);
+            let row = row(&errors.magnitudes.items[k].place.along[0]);
             DMatrix::from_row_slice(1, row.len(), &row)
         };
         explaining(&errors.magnitudes, prediction.holds_degrees, &by)

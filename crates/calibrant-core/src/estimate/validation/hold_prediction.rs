@@ -105,8 +105,14 @@ impl HoldPrediction {
             }
             _ => None,
         };
-        let place =
-            Place { hold: number, from_hold: None, start_s: hold.start_s, end_s: hold.end_s, fold: 0 };
+        let place = Place {
+            hold: number,
+            from_hold: None,
+            start_s: hold.start_s,
+            end_s: hold.end_s,
+            fold: 0,
+            along: vec![force.normalize()],
+        };
         let more_noise = shorter / noise.first().map_or(1.0, |noise| noise.overall().powi(2));
         Some(Self { force, by_parameters, noise: by_noise, own, rate, more_noise, place })
     }

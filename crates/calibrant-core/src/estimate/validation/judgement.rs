@@ -5,14 +5,15 @@ use super::predicted_error::Group;
 use super::prediction::Prediction;
 use super::prediction_errors::Errors;
 use super::result::{Validation, ValidationSource};
-use super::statistics::{Degrees, ErrorContext, judge};
+use super::statistics::{Degrees, ErrorContext, Fitted, judge};
 use super::unused_error::ErrorKind;
 
-/// The errors of one or more claims, those of the last of which tells how much is behind the scatter that was estimated.
+/// The errors of one or more claims, those of the last of which tells how much is behind the scatter that was estimated. `drift_degrees`: of a drift that was taken out of all holds.
 pub(super) fn judged(
     source: ValidationSource,
     errors: Vec<Errors>,
     prediction: &Prediction,
+    drift_degrees: f64,
     caveats: &Caveats,
 ) -> Validation {
     let (bias_shift, noise) = match errors.as_slice() {
@@ -26,16 +27,23 @@ pub(super) fn judged(
         rotations.push(errors.rotations);
     }
     let folds = matches!(source, ValidationSource::Folds { .. });
-    let behind =
-        |of: &[Degrees]| ErrorContext { scatter_degrees: of.to_vec(), folds, free_shift: false, caveats };
+    let behind = |of: &[Degrees], taken: f64| {
+        let fitted = Fitted { unknowns: of.iter().map(|degrees| degrees.unknowns).sum(), taken };
+        ErrorContext {
+            scatter_degrees: of.to_vec(),
+            folds: folds.then_some(fitted),
+            free_shift: false,
+            caveats,
+        }
+    };
     let of_rates = ErrorContext {
         free_shift: bias_shift.is_some_and(|shift| shift.moved),
-        ..behind(&prediction.still_degrees)
+        ..behind(&prediction.still_degrees, 0.0)
     };
     let kinds = [
-        judge(ErrorKind::Magnitude, &magnitudes, &behind(&[prediction.holds_degrees])),
+        judge(ErrorKind::Magnitude, &magnitudes, &behind(&[prediction.holds_degrees], drift_degrees)),
         judge(ErrorKind::Rate, &rates, &of_rates),
-        judge(ErrorKind::Rotation, &rotations, &behind(&[prediction.rotation_degrees])),
+        judge(ErrorKind::Rotation, &rotations, &behind(&[prediction.rotation_degrees], 0.0)),
     ];
     Validation {
         source,

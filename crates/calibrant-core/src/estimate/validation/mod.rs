@@ -25,6 +25,7 @@ mod caveats_of_calibration;
 mod chi_square_ratio;
 mod covariance_verdict;
 mod cross_validation;
+mod error_ratio;
 mod explanation;
 mod explanations;
 mod folds;

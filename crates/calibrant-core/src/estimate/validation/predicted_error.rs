@@ -1,6 +1,9 @@
 //! An error on unused data with what is predicted of it.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, Vector3};
+
+/// Directions closer than this are one orientation, rad.
+const SAME_ORIENTATION_RAD: f64 = 0.17;
 
 /// Where an error was found.
 #[derive(Debug, Clone)]
@@ -10,6 +13,16 @@ pub(super) struct Place {
     pub(super) start_s: f64,
     pub(super) end_s: f64,
     pub(super) fold: usize,
+    /// Directions of the specific force: of the hold, or of the one before a rotation and of the one after.
+    pub(super) along: Vec<Vector3<f64>>,
+}
+
+impl Place {
+    /// Is it the same orientation, or rotation?
+    pub(super) fn is_oriented_as(&self, other: &Self) -> bool {
+        self.along.len() == other.along.len()
+            && self.along.iter().zip(&other.along).all(|(a, b)| a.angle(b) < SAME_ORIENTATION_RAD)
+    }
 }
 
 /// An error, and its predicted covariance `own + by_parameters Σ by_parametersᵀ`.
@@ -52,7 +65,27 @@ pub(super) struct Group {
     pub(super) covariance: DMatrix<f64>,
 }
 
+impl Group {
+    /// Leaves out items. What follows one of them has no neighbour before it.
+    pub(super) fn retain(&mut self, keep: impl Fn(&Place) -> bool) {
+        let mut is_after_one = false;
+        for item in &mut self.items {
+            if is_after_one {
+                item.with_previous = None;
+            }
+            is_after_one = !keep(&item.place);
+        }
+        self.items.retain(|item| keep(&item.place));
+    }
+}
+
 impl Item {
+    /// Share of the scatter between holds or rotations in what the error owes to itself.
+    pub(super) fn scatter_share(&self) -> f64 {
+        let shares = self.scatters.iter().map(|part| part.scatter / part.own);
+        shares.sum::<f64>() / self.scatters.len().max(1) as f64
+    }
+
     /// All of its predicted covariance.
     pub(super) fn predicted(&self, covariance: &DMatrix<f64>) -> DMatrix<f64> {
         &self.own + &self.by_parameters * covariance * self.by_parameters.transpose()

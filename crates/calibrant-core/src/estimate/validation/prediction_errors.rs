@@ -10,7 +10,7 @@ use super::statistics::degrees_behind;
 use super::whitened_errors::{Shift, Whitened};
 use crate::estimate::imu::{GravityPropagation, GyroscopeAtRest, PropagatedGravity, StationaryMean};
 use crate::estimate::quantisation::of_means;
-use crate::estimate::{clipped_holds, coarse_axes_in};
+use crate::estimate::{Calibration, RotationResult, clipped_holds, coarse_axes_in};
 use crate::motion::Hold;
 use crate::sensor::{Recording, SensorKind, Temperatures};
 use nalgebra::{DMatrix, DVector, Matrix2, Matrix3, Vector3};
@@ -29,6 +29,8 @@ pub(super) struct Unused<'a> {
     pub(super) within: Vector3<f64>,
     pub(super) accelerometer: &'a Recording,
     pub(super) gyroscope: Option<&'a Recording>,
+    /// Numbers of the holds in which the gyroscope turns, as the calibration of the same recording found.
+    pub(super) turning_holds: &'a [usize],
     /// Temperatures, where the calibration follows them.
     pub(super) temperatures: Option<Temperatures<'a>>,
     /// Is it another recording than the claim's? Then its noise and the gyroscope's bias may be others.
@@ -39,8 +41,6 @@ pub(super) struct Unused<'a> {
 /// The errors of each kind.
 pub(super) struct Errors {
     pub(super) magnitudes: Group,
-    /// Direction of the specific force of each magnitude.
-    pub(super) along: Vec<Vector3<f64>>,
     pub(super) rates: Group,
     pub(super) rotations: Group,
     pub(super) shift: Option<BiasShift>,
@@ -59,6 +59,7 @@ impl<'a> Unused<'a> {
             holds,
             accelerometer: recording,
             gyroscope: None,
+            turning_holds: &[],
             temperatures: None,
             another: false,
             fold: 0,
@@ -82,7 +83,8 @@ impl<'a> Unused<'a> {
                 noise.push(ratio);
                 prediction.still_noise.component_mul(&ratio.axes)
             };
-            let at_rest = GyroscopeAtRest::of(gyroscope, &holds, noise_of);
+            let turns = |place: usize| self.turning_holds.contains(&self.holds[place].0);
+            let at_rest = GyroscopeAtRest::of(gyroscope, &holds, turns, noise_of);
             let at_rest =
                 if self.another { at_rest.with_steps_in_common(&prediction.still_sd) } else { at_rest };
             (gyroscope, at_rest)
@@ -149,7 +151,6 @@ impl<'a> Unused<'a> {
         };
         Some(Errors {
             magnitudes: self.group(magnitudes, &prediction.covariance),
-            along: hold_predictions.iter().map(HoldPrediction::along).collect(),
             rates,
             rotations: self.group(rotations, &of_rotations.covariance),
             shift,
@@ -215,6 +216,7 @@ impl<'a> Unused<'a> {
                     start_s: propagated.start_s,
                     end_s: propagated.end_s,
                     fold: self.fold,
+                    along: vec![before.along(), after.along()],
                 },
                 error: DVector::from_column_slice(propagated.error.as_slice()),
                 by_parameters,
@@ -232,6 +234,19 @@ impl<'a> Unused<'a> {
     }
 }
 
+impl Errors {
+    /// Leaves out the rotations that the calibration itself did not use.
+    pub(super) fn retain_used(&mut self, calibration: &Calibration) {
+        let Some(gyroscope) = &calibration.gyroscope else { return };
+        let left_out: Vec<_> = gyroscope.rotations.iter().filter(|rotation| !rotation.used).collect();
+        self.rotations.retain(|place| {
+            let is_it =
+                |of: &&RotationResult| Some(of.from_hold) == place.from_hold && of.to_hold == place.hold;
+            !left_out.iter().any(is_it)
+        });
+    }
+}
+
 /// Has the bias moved? By how much, and how well that is known, in the errors alone.
 fn moved(
     rates: &Group,
@@ -243,7 +258,7 @@ fn moved(
     let found = Whitened::of(without_bias, &all)?.shift()?;
     let behind = degrees_behind(rates.items.iter(), &prediction.still_degrees);
     let chi2 = beyond_steps(&expected, prediction).unwrap_or(expected.chi2);
-    let p_value = Ratio::new(3, &behind).above(chi2 / 3.0);
+    let p_value = Ratio::new(3.0, &behind).above(chi2 / 3.0);
     let shift = BiasShift {
         shift_radps: found.three(0),
         sd_radps: expected.sd_of_three(0),

@@ -55,7 +55,9 @@ pub struct ValidatedErrors {
     pub kind: ErrorKind,
     /// The errors, in order of time. Where the gyroscope's bias has moved, its rates are less the bias it has moved to.
     pub errors: Vec<UnusedError>,
-    /// Root mean square of the lengths of the errors that count, in the kind's unit.
+    /// Orientations, or rotations from one to another, that differ by 10° among those that count.
+    pub distinct: usize,
+    /// Root mean square of the lengths of the errors that count, in the kind's unit. Each counts with the inverse of its predicted variance.
     pub rms: f64,
     /// What was predicted of it.
     pub predicted_rms: f64,
@@ -63,10 +65,10 @@ pub struct ValidatedErrors {
     pub chi2: f64,
     /// Its degrees of freedom.
     pub degrees_of_freedom: usize,
-    /// Probability of a χ² at least this large if the covariance is right. Where part of it was estimated from the scatter of the calibration's
+    /// Probability of a factor at least this large if the covariance is right. Where part of it was estimated from the scatter of the calibration's
     /// data, that scatter's own uncertainty counts: Fisher's F in place of χ².
     pub p_value: f64,
-    /// Errors over prediction, `√(χ²/n)`; for folds over the mean that χ²/n has where the scatter of a calibration on fewer data is less certain.
+    /// Errors over prediction, `rms/predicted_rms`.
     pub factor: f64,
     /// 99 % confidence interval of the factor by which the standard deviations are off.
     pub factor_interval: (f64, f64),

@@ -1,8 +1,9 @@
 //! Errors beside their prediction: χ², the factor between them, and the errors that stand out.
 
 use super::caveats_of_calibration::Caveats;
-use super::chi_square_ratio::{Ratio, falls_to};
+use super::chi_square_ratio::{Ratio, falls_to, mean_of_folds};
 use super::covariance_verdict::CovarianceVerdict;
+use super::error_ratio::ErrorRatio;
 use super::predicted_error::{Group, Item};
 use super::result::{ParameterPart, ValidatedErrors};
 use super::unused_error::{ErrorKind, UnusedError};
@@ -18,18 +19,29 @@ const SEEN: f64 = 0.1;
 pub(super) struct ErrorContext<'a> {
     /// Behind each scatter that is part of their prediction.
     pub(super) scatter_degrees: Vec<Degrees>,
-    /// Are they of folds?
-    pub(super) folds: bool,
+    /// Of folds: what was fitted to the same errors.
+    pub(super) folds: Option<Fitted>,
     /// Is a shift that all have in common free?
     pub(super) free_shift: bool,
     /// What the calibration itself gives reason to doubt.
     pub(super) caveats: &'a Caveats,
 }
 
+/// Numbers that were fitted to the errors of folds, all together.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Fitted {
+    /// Unknowns of the calibration, which the errors of different blocks share.
+    pub(super) unknowns: f64,
+    /// Numbers that were fitted to all blocks, and that no prediction allows for.
+    pub(super) taken: f64,
+}
+
 /// Degrees of freedom behind a scatter that is part of a prediction.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Degrees {
     pub(super) of_scatter: f64,
+    /// Unknowns that are fitted to the same numbers.
+    pub(super) unknowns: f64,
     /// The share of the predicted variance that these are behind, where it is known; that of each error otherwise.
     pub(super) share: Option<f64>,
 }
@@ -37,7 +49,7 @@ pub(super) struct Degrees {
 impl Degrees {
     /// Of a scatter that so many numbers show beside so many unknowns.
     pub(super) fn of_scatter(numbers: usize, unknowns: usize) -> Self {
-        Self { of_scatter: numbers.saturating_sub(unknowns) as f64, share: None }
+        Self { of_scatter: numbers.saturating_sub(unknowns) as f64, unknowns: unknowns as f64, share: None }
     }
 
     /// Behind a prediction; infinite where the calibration found no scatter.
@@ -75,7 +87,7 @@ pub(super) fn judge(kind: ErrorKind, groups: &[Group], behind: &ErrorContext<'_>
         let own = error.in_sd.powi(2) * width as f64;
         let others = degrees.saturating_sub(width);
         let enough = others > 0 && 5 * (count - kept + 1) <= count;
-        let limit = Ratio::new(width, &[others as f64]).exceeded_with(OUTLYING / count as f64);
+        let limit = Ratio::new(width as f64, &[others as f64]).exceeded_with(OUTLYING / count as f64);
         // beside what was predicted, or beside the others where these are worse
         let scatter = ((chi2 - own) / others.max(1) as f64).max(1.0);
         if !enough || error.in_sd.powi(2) / scatter <= limit {
@@ -92,20 +104,23 @@ pub(super) fn judge(kind: ErrorKind, groups: &[Group], behind: &ErrorContext<'_>
     if degrees == 0 {
         return None;
     }
-    let kept: Vec<&UnusedError> = errors.iter().filter(|error| error.counts).collect();
-    let mean = |of: &dyn Fn(&UnusedError) -> f64| {
-        (kept.iter().map(|error| of(error)).sum::<f64>() / kept.len() as f64).sqrt()
-    };
-    let (rms, predicted_rms) =
-        (mean(&|error| error.error.norm_squared()), mean(&|error| error.predicted_sd.norm_squared()));
     let scatters = degrees_behind(groups.iter().flat_map(|group| &group.items), &behind.scatter_degrees);
-    let ratio =
-        if behind.folds { Ratio::of_folds(degrees, &scatters) } else { Ratio::new(degrees, &scatters) };
-    let found = chi2 / degrees as f64;
+    let numbers = width * errors.iter().filter(|error| error.counts).count();
+    let found = ErrorRatio::of(groups, &counts)?.with_share_left(degrees as f64 / numbers as f64);
+    let (found, ratio) = match behind.folds {
+        Some(fitted) => {
+            let left = (numbers as f64 - fitted.unknowns).max(1.0);
+            let taken = 1.0 - (fitted.taken / left).min(0.5);
+            let found = found.of_mean(taken * mean_of_folds(&scatters));
+            (found, Ratio::of_folds(found.degrees.min(taken * left)))
+        }
+        None => (found, Ratio::new(found.degrees, &scatters)),
+    };
+    let factor = found.rms / found.predicted_rms;
     let (low, high) = ratio.usual();
-    let factor_interval = ((found / high).sqrt(), (found / low).sqrt());
+    let factor_interval = (factor / high.sqrt(), factor / low.sqrt());
     let parameters = match groups {
-        [group] if !behind.folds => {
+        [group] if behind.folds.is_none() => {
             // the parameters' covariance is as uncertain as the scatter, however small its share is
             let of = |(degrees, all): (&Degrees, &f64)| degrees.share.map_or(*all, |_| degrees.of_scatter);
             let degrees: Vec<f64> = behind.scatter_degrees.iter().zip(&scatters).map(of).collect();
@@ -113,7 +128,6 @@ pub(super) fn judge(kind: ErrorKind, groups: &[Group], behind: &ErrorContext<'_>
         }
         _ => None,
     };
-    let factor = (found / if behind.folds { ratio.scale() } else { 1.0 }).sqrt();
     let mut verdict = CovarianceVerdict::of(factor, factor_interval);
     if matches!(verdict, CovarianceVerdict::Believed | CovarianceVerdict::TooFew)
         && let Some(part) = parameters
@@ -129,11 +143,12 @@ pub(super) fn judge(kind: ErrorKind, groups: &[Group], behind: &ErrorContext<'_>
     }
     Some(ValidatedErrors {
         kind,
-        rms,
-        predicted_rms,
+        rms: found.rms,
+        predicted_rms: found.predicted_rms,
+        distinct: found.distinct,
         chi2,
         degrees_of_freedom: degrees,
-        p_value: ratio.above(found),
+        p_value: ratio.above(factor.powi(2)),
         factor,
         factor_interval,
         parameters,
@@ -196,7 +211,7 @@ fn parameter_part(group: &Group, counts: &[bool], scatters: &[f64]) -> Option<Pa
     let n = parts.len() as f64;
     let left = |c: f64| parts.iter().map(|(square, share)| square / (1.0 + c * share)).sum::<f64>() / n;
     let scale = |target: f64| falls_to(target, left);
-    let ratio = Ratio::new(parts.len(), scatters);
+    let ratio = Ratio::new(n, scatters);
     let (low, high) = ratio.usual();
     Some(ParameterPart {
         chi2: left(1.0) * n,

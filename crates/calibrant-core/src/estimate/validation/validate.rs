@@ -96,7 +96,7 @@ fn on_another(prediction: &Prediction, unused: Unused<'_>, caveats: &Caveats) ->
         )));
     }
     let source = ValidationSource::Recording { name: String::new() };
-    let mut validation = judged(source, vec![errors], prediction, caveats);
+    let mut validation = judged(source, vec![errors], prediction, 0.0, caveats);
     for noise in &mut validation.noise {
         let recording = match noise.sensor_kind {
             SensorKind::Accelerometer => Some(unused.accelerometer),

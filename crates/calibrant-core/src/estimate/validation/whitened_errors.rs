@@ -157,7 +157,14 @@ mod tests {
             .map(|n| {
                 let own = DMatrix::from_fn(3, 3, |i, j| number(n + i * 5 + j * 11));
                 Item {
-                    place: Place { hold: n, from_hold: None, start_s: 0.0, end_s: 1.0, fold: 0 },
+                    place: Place {
+                        hold: n,
+                        from_hold: None,
+                        start_s: 0.0,
+                        end_s: 1.0,
+                        fold: 0,
+                        along: Vec::new(),
+                    },
                     error: DVector::from_fn(3, |i, _| 3.0 * number(n * 31 + i)),
                     by_parameters: DMatrix::from_fn(3, p, |i, j| number(n * 13 + i * 7 + j) / units[j]),
                     own: &own * own.transpose() + DMatrix::identity(3, 3),

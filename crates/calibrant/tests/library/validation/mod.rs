@@ -8,3 +8,4 @@ mod noise;
 mod real;
 mod refused_inputs;
 mod significance_levels;
+mod verdicts;

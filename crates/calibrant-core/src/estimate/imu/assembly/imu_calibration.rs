@@ -73,7 +73,7 @@ impl Finished<'_> {
                 still: stationary_result(
                     model,
                     (&fit.state, &solution.between),
-                    gyroscope,
+                    (gyroscope, self.numbers),
                     &plain,
                     problem.setup.vertical_rate(),
                 )?,

@@ -7,11 +7,11 @@ use crate::estimate::imu::stationary::gyroscope::StationaryGyroscope;
 use crate::sensor::{Correction, ImuParameters};
 use nalgebra::Vector3;
 
-/// Its mean rates and noise there. `before`: the IMU before its calibration. `vertical_rate`: the Earth's rate about the vertical over gravity, if known.
+/// Its mean rates and noise there. `numbers`: of the used holds. `before`: the IMU before its calibration. `vertical_rate`: the Earth's rate about the vertical over gravity, if known.
 pub(crate) fn stationary_result(
     model: &ImuModel<'_>,
     (state, between): (&State, &Vector3<f64>),
-    gyroscope: &StationaryGyroscope,
+    (gyroscope, numbers): (&StationaryGyroscope, &[usize]),
     before: &ImuParameters,
     vertical_rate: f64,
 ) -> Result<GyroscopeInHolds> {
@@ -21,6 +21,7 @@ pub(crate) fn stationary_result(
         noise_source: gyroscope.noise_source,
         within_holds_sd: GyroscopeNoise::of(gyroscope.scatter, &gyroscope.coarse).of_sample,
         between_holds_sd: between_holds_sd(model, state, between),
+        turning_holds: gyroscope.turning_places().map(|place| numbers[place]).collect(),
         rate_rms_radps: rms(&state.imu)?,
         rate_rms_before_radps: rms(before)?,
     })

@@ -1,15 +1,18 @@
-//! Motion in a hold: the gyroscope turns where the accelerometer is still.
+//! Motion in holds: the gyroscope turns where the accelerometer is still.
 
 use crate::diagnostic::{Diagnostic, HoldSpan};
 use crate::estimate::imu::checks::evidence::{Diagnostics, Evidence};
 
 /// The holds in which the gyroscope turns.
 pub(crate) fn check(evidence: &Evidence<'_>) -> Diagnostics {
-    let used = evidence.used;
-    let unit = evidence.problem.gyroscope.unit;
-    let moved = |(j, rate): (usize, &Option<f64>)| {
-        let hold = HoldSpan::of(used.numbers[j], used.holds[j]);
-        Some(Diagnostic::HoldMoved { hold, rate_rms: (*rate)?, unit })
-    };
-    evidence.gyroscope.turning.iter().enumerate().filter_map(moved).collect()
+    let (used, gyroscope) = (evidence.used, evidence.gyroscope);
+    let holds: Vec<HoldSpan> = gyroscope
+        .turning_places()
+        .map(|place| HoldSpan::of(used.numbers[place], used.holds[place]))
+        .collect();
+    let rate_rms = gyroscope.turning.iter().flatten().copied().fold(0.0, f64::max);
+    let (unit, are_given) =
+        (evidence.problem.gyroscope.unit, evidence.problem.setup.holds.intervals_s.is_some());
+    let moved = Diagnostic::HoldMoved { holds, rate_rms, unit, are_given };
+    if rate_rms > 0.0 { vec![moved] } else { Vec::new() }
 }

@@ -61,6 +61,11 @@ impl StationaryGyroscope {
             coarse,
         })
     }
+
+    /// The places of the holds in which it turns.
+    pub(crate) fn turning_places(&self) -> impl Iterator<Item = usize> {
+        (0..self.turning.len()).filter(|&j| self.turning[j].is_some())
+    }
 }
 
 /// Noise of a gyroscope's sample: from the datasheet, else from a long hold, else the scatter within holds.
