@@ -67,7 +67,10 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
         };
         let behind = match overall.degrees_behind {
             behind if behind.is_finite() => {
-                format!(", by a scatter of {} degrees of freedom", number_format::significant(behind, 2))
+                format!(
+                    "; the least known scatter has {} degrees of freedom",
+                    number_format::significant(behind, 2)
+                )
             }
             _ => String::new(),
         };
@@ -104,8 +107,11 @@ fn row(quantity: &ComparedQuantity) -> Vec<String> {
         [quantity.difference, quantity.in_sd].map(|found| found.map(|found| if equal { 0.0 } else { found }));
     let dash = || "–".to_owned();
     let in_digits = |difference: f64| match quantity.sd {
-        Some(sd) if difference != 0.0 => number_format::rounded_to(scale * difference, scale * sd),
-        _ => number_format::significant(scale * difference, 3),
+        Some(sd) if scale * sd >= 1e-5 && difference != 0.0 => {
+            number_format::rounded_to(scale * difference, scale * sd)
+        }
+        Some(_) => number_format::significant(scale * difference, 2),
+        None => number_format::significant(scale * difference, 3),
     };
     let p_value = quantity.p_value.map(|p_value| if equal { 1.0 } else { p_value });
     vec![

@@ -5,12 +5,14 @@ mod batch;
 mod bench;
 mod broken;
 mod commands;
+mod compare;
 mod conventions;
 #[path = "../../../calibrant/tests/library/common/data.rs"]
 mod data;
 mod design;
 mod determinism;
 mod diagnostics;
+mod directions;
 mod examples;
 mod ferraris;
 mod headerless_text;
