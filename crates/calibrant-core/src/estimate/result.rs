@@ -10,8 +10,8 @@ use crate::sensor::{
 };
 use nalgebra::{DMatrix, Vector3};
 
-/// With fewer degrees of freedom left by a drift, the scatter between holds is that of the fit without it.
-const FEW_DEGREES: usize = 6;
+/// With fewer degrees of freedom left by a drift, the scatter between holds is at least that of the fit without it.
+const FEWEST_DEGREES: f64 = 6.0;
 
 /// How the iteration ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -219,43 +219,37 @@ impl Calibration {
     /// Degrees of freedom behind the covariance.
     fn degrees_behind(&self) -> CovarianceDegrees {
         let Recovered::Holds(holds) = &self.recovered else { return CovarianceDegrees::known() };
-        let unknowns = |part: CovariancePart| -> f64 {
+        // what numbers leave beside the unknowns of a part
+        let left = |numbers: usize, part: CovariancePart, axes: f64| {
             let of_part = |k: &usize| self.quantities[*k].covariance_part() == part;
-            let left = |k: usize| 1.0 - self.prior_share.get(k).copied().unwrap_or(0.0);
-            (0..self.quantities.len()).filter(of_part).map(left).sum()
+            let is_unknown = |k: usize| 1.0 - self.prior_share.get(k).copied().unwrap_or(0.0);
+            numbers as f64 - (0..self.quantities.len()).filter(of_part).map(is_unknown).sum::<f64>() / axes
         };
-        let of_scatter = |is_found: bool, numbers: usize, unknowns: f64| {
-            if is_found { (numbers as f64 - unknowns).max(1.0) } else { f64::INFINITY }
-        };
-        let taken = holds.drift.as_ref().map_or(0.0, |drift| drift.degrees_of_freedom);
-        let accelerometer = match holds.degrees_of_freedom {
+        let of_scatter = |is_found: bool, left: f64| if is_found { left.max(1.0) } else { f64::INFINITY };
+        let used = holds.used().count();
+        let magnitudes = left(used, CovariancePart::Accelerometer, 1.0);
+        let drift = holds.drift.as_ref().map_or(0.0, |drift| drift.degrees_of_freedom);
+        let accelerometer = match holds.tilt {
             // the covariance of faces is already as wide as Student's t
-            _ if holds.tilt.is_some() => f64::INFINITY,
-            0 => 0.0,
-            degrees => of_scatter(
+            Some(_) => f64::INFINITY,
+            None if magnitudes < 1.0 => 0.0,
+            None => of_scatter(
                 holds.between_holds_dominates,
-                degrees,
-                taken.min(degrees.saturating_sub(FEW_DEGREES) as f64),
+                (magnitudes - drift).max(magnitudes.min(FEWEST_DEGREES)),
             ),
         };
         let Some(gyroscope) = &self.gyroscope else {
             return CovarianceDegrees { accelerometer, ..CovarianceDegrees::known() };
         };
-        let at_rest = gyroscope.still.between_holds_sd.max() > 0.0;
-        let in_rotations = gyroscope.between_rotations_sd_rad > 0.0;
+        let still = &gyroscope.still;
+        // each axis has a scatter of its own
+        let means =
+            left(used.saturating_sub(still.turning_holds.len()), CovariancePart::GyroscopeAtRest, 3.0);
+        let rotations = left(2 * self.used_rotations().count(), CovariancePart::GyroscopeMatrix, 1.0);
         CovarianceDegrees {
             accelerometer,
-            // each axis has a scatter of its own
-            gyroscope_at_rest: of_scatter(
-                at_rest,
-                holds.used().count(),
-                unknowns(CovariancePart::GyroscopeAtRest) / 3.0,
-            ),
-            gyroscope_matrix: of_scatter(
-                in_rotations,
-                2 * self.used_rotations().count(),
-                unknowns(CovariancePart::GyroscopeMatrix),
-            ),
+            gyroscope_at_rest: of_scatter(still.between_holds_sd.max() > 0.0, means),
+            gyroscope_matrix: of_scatter(gyroscope.between_rotations_sd_rad > 0.0, rotations),
         }
     }
 
