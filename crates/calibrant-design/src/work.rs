@@ -12,16 +12,16 @@ impl DesignSettings {
     #[must_use]
     pub fn work(&self, problem: &DesignProblem<'_>) -> Budget {
         let sensor = problem.sensor;
-        // measured: the axes of a full sensor are one problem, of their cube in time; process noise ties the intervals
+        // measured, within a factor of four: the axes of a full sensor are one problem, of their cube in time
         let (parts, size) = match sensor.model {
             SensorModel::ScaleBias => (sensor.axes, 1.0),
             SensorModel::Full => (1, (sensor.axes as f64).powi(3)),
         };
-        let noisy = if matches!(problem.trust, Trust::Noisy(_)) { 5.0 } else { 1.0 };
+        let noisy = if matches!(problem.trust, Trust::Noisy(_)) { 2.0 } else { 1.0 };
         let (starts, intervals) = ((self.starts * parts) as f64, problem.intervals as f64);
         Budget {
             bytes: starts * (24.0 * intervals + 500.0) + 1e4 * intervals,
-            seconds: starts * size * noisy * intervals * (5e-4 + 1e-5 * intervals),
+            seconds: starts * size * noisy * intervals * (2e-4 + 1e-5 * intervals),
         }
     }
 }
