@@ -14,7 +14,7 @@ use crate::{Exit, console};
 use calibrant::design::DesignProblem;
 use calibrant::io::{ResultPlaces, design_json};
 use job::{Job, in_file};
-use output::{exit_of, write};
+use output::{check_dense, exit_of, write};
 
 impl crate::run::Run for Arguments {
     fn places(&self) -> ResultPlaces {
@@ -47,6 +47,7 @@ impl crate::run::Run for Arguments {
 fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     let job = Job::prepare(arguments)?;
     let problem = job.problem(&arguments.experiment)?;
+    check_dense(arguments, &problem)?;
     match (&arguments.evaluate, &arguments.sweep) {
         (Some(path), _) => evaluate::run(arguments, &job, &problem, path),
         (None, Some(request)) => sweep::run(arguments, &job, &problem, request),

@@ -20,7 +20,7 @@ impl Exit {
     /// did not converge.
     pub(crate) const NOT_IDENTIFIABLE: Exit = Exit(4);
 
-    /// Interrupted, as a shell says it.
+    /// Interrupted, as a shell says it. Results of `design` and `study` are the best so far.
     pub(crate) const INTERRUPTED: Exit = Exit(130);
 
     /// The exit status of a calibration. It has determined nothing if it did not converge.

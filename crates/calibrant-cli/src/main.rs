@@ -1,6 +1,7 @@
 //! The command line of calibrant: parse, call, print. One file per command.
 
 mod apply;
+mod budget;
 mod calibrate;
 mod calibration_file;
 mod compare;
@@ -11,13 +12,14 @@ mod diagnostics;
 mod exit;
 mod init;
 mod inspect;
+mod interruption;
 mod noise;
 mod recording_options;
 mod run;
 mod simulate;
 mod study;
 
-use calibrant::io::remove_unfinished;
+use calibrant::budget::Budget;
 use clap::{Parser, Subcommand};
 use exit::Exit;
 use run::Run;
@@ -26,16 +28,16 @@ use std::process::ExitCode;
 /// Calibrate accelerometers, gyroscopes and IMUs from a recording, and design the best motion to record.
 ///
 /// Exit status: 0: done. 1: done, but a diagnostic occurred that `calibrate --deny` names. 2: the usage or the experiment file is wrong, or a result cannot be written. 3: the recording is unusable. 4: the data or the motion
-/// do not determine the parameters, the limits admit no motion, or the iteration did not converge.
+/// do not determine the parameters, the limits admit no motion, or the iteration did not converge. 130: interrupted; `design` and `study` have then written the best so far.
 #[derive(Parser)]
 #[command(name = "calibrant", version, about, long_about, arg_required_else_help = true)]
 struct Cli {
     #[command(subcommand)]
     command: Command,
     /// Number of threads (default: all cores). Results do not depend on it.
-    #[arg(long, global = true, value_parser = clap::value_parser!(u16).range(1..=1024))]
+    #[arg(long, global = true, value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
-    /// Replace files that calibrant did not write. Inputs are never replaced.
+    /// Replace files that calibrant did not write, and begin work of more than 8 GiB or an hour. Inputs are never replaced.
     #[arg(long, global = true)]
     force: bool,
 }
@@ -56,10 +58,8 @@ enum Command {
 
 fn main() -> ExitCode {
     let cli = Cli::parse();
-    if let Some(threads) = cli.threads
-        && let Err(error) = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global()
-    {
-        console::note(&format!("cannot set the number of threads: {error}"));
+    if cli.force {
+        budget::lift();
     }
     keep_large_blocks();
     let command: &dyn Run = match &cli.command {
@@ -74,26 +74,36 @@ fn main() -> ExitCode {
         Command::Apply(arguments) => arguments,
         Command::Compare(arguments) => arguments,
     };
-    let exit = run(command, cli.force).unwrap_or_else(|error| {
+    let done = set_threads(cli.threads).and_then(|()| run(command, cli.force));
+    let exit = done.unwrap_or_else(|error| {
         console::error(&error);
         Exit::of(&error)
     });
     ExitCode::from(exit.0)
 }
 
+/// Sets the number of threads.
+fn set_threads(threads: Option<u16>) -> calibrant::Result<()> {
+    /// The stack of a thread, bytes.
+    const STACK: f64 = (2 << 20) as f64;
+    let Some(threads) = threads else { return Ok(()) };
+    let work = Budget { bytes: STACK * f64::from(threads), seconds: 0.0 };
+    budget::check(work, &format!("{threads} threads"), "take as many as there are cores")?;
+    if let Err(error) = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global() {
+        console::note(&format!("cannot set the number of threads: {error}"));
+    }
+    Ok(())
+}
+
 /// Takes the places of the results, then runs the command. Tells results of an earlier run that it leaves.
 fn run(command: &dyn Run, force: bool) -> calibrant::Result<Exit> {
     let claimed = command.places().claim(force)?;
-    // without the handler, a run that is interrupted leaves temporary files; one of `nohup` takes none
-    let _ = ctrlc::try_set_handler(|| {
-        remove_unfinished();
-        std::process::exit(Exit::INTERRUPTED.0.into());
-    });
+    interruption::handle_signals();
     let outcome = command.run();
     for left_over in claimed.left_over() {
         console::warn(&format!("{} is that of an earlier run", left_over.display()));
     }
-    outcome
+    outcome.map(|exit| if interruption::is_asked() { Exit::INTERRUPTED } else { exit })
 }
 
 /// Makes the allocator of glibc keep large blocks. It otherwise returns each freed block to the system, and takes

@@ -1,5 +1,6 @@
 //! The options of all commands that read a recording. They state what its file does not.
 
+use crate::budget::budget;
 use calibrant::io::{FileFormat, ImuReadOptions, ImuUnit, SampleTimes, TimeUnit, read_columns};
 use calibrant::sensor::{SensorKind, WORKING_C};
 use std::path::Path;
@@ -40,6 +41,7 @@ impl RecordingOptions {
             rate_hz: self.rate_hz,
             times: self.times,
             topic: self.topic.clone(),
+            budget: Some(budget()),
             ..ImuReadOptions::default()
         }
     }

@@ -2,6 +2,7 @@
 
 mod arguments;
 mod imu;
+mod length;
 mod random;
 
 pub(crate) use arguments::Arguments;
@@ -135,6 +136,7 @@ fn simulate_motion(
     let limits = experiment.limits.within_range(sensor.range_mps2);
     let given = arguments.motion.as_deref();
     let motion = commanded_motion(given, plan, sensor.axes, &limits, random.seed, random.recording)?;
+    length::check_motion(&motion, plan.rate_hz)?;
     let mut rng = random.sensor();
     let truth = draw_sensor(sensor, &mut rng);
     let mut rng = random.happening(rng);
@@ -162,6 +164,7 @@ fn simulate_poses(
     plan: &HoldsPlan,
     random: Random,
 ) -> calibrant::Result<usize> {
+    length::check_holds(plan)?;
     let sensor = &experiment.sensor;
     let mut rng = random.sensor();
     let drawn = draw_sensor(sensor, &mut rng);

@@ -3,7 +3,7 @@
 mod plan;
 mod table;
 
-use crate::{Exit, console};
+use crate::{Exit, budget, console};
 use calibrant::Error;
 use calibrant::error::{InputError, Refusal};
 use calibrant::io::{Experiment, Plan, ResultPlaces, preset, study_json, write_atomically, write_study};
@@ -90,8 +90,11 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     };
     let material = Material::new(&experiment, plan, &choice)?;
     let problem = material.problem();
+    let settings = plan::settings(&experiment, &choice);
+    let what = format!("this study of {} sensors", problem.steps());
+    budget::check(problem.work(&settings), &what, "take fewer sensors, starts, intervals or samples")?;
     let bar = console::progress(problem.steps(), "sensors");
-    let outcome = run_studies(&problem, &plan::settings(&experiment, &choice), &|done| bar.inc(done));
+    let outcome = run_studies(&problem, &settings, &|done| bar.inc(done));
     bar.finish_and_clear();
     let studies = outcome?;
     studies.remarks.iter().for_each(|remark| console::note(remark));

@@ -5,11 +5,12 @@
 //! kernel. [`information`] turns its result into a covariance, and explains what is undetermined.
 //! [`noise`] examines a sensor at rest. [`estimate`] calibrates.
 //! What a user should know of a result is a [`diagnostic`]. [`simulate`] makes sensors and
-//! recordings.
+//! recordings. [`budget`] says what work takes.
 //!
 //! The crate `calibrant` re-exports all of it. Depend on that crate unless the build time matters.
 
 pub mod arrowhead;
+pub mod budget;
 pub mod diagnostic;
 pub mod error;
 pub mod estimate;

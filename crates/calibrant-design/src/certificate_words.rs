@@ -22,6 +22,9 @@ impl Design {
             DesignStatus::IterationLimit | DesignStatus::Stalled => {
                 format!("The search ended before it converged: a better motion may be near. {found}")
             }
+            DesignStatus::Interrupted => {
+                format!("The search was interrupted: a better motion may be near. {found}")
+            }
         }
     }
 

@@ -163,7 +163,8 @@ impl Found {
         };
         let first = groups[0][0].index() as u64;
         let count = settings.starts * D * groups.len();
-        let mut outcomes: Vec<LocalOptimum<D>> = Vec::with_capacity(count);
+        let mut outcomes: Vec<LocalOptimum<D>> = Vec::new();
+        let mut numbers: Vec<usize> = Vec::new();
         // half of the starts at random, then rounds of kicks from the best so far
         let half = count.div_ceil(2);
         let rounds = [count.div_ceil(3), half, count * 2 / 3, count * 5 / 6, count];
@@ -173,10 +174,17 @@ impl Found {
                 progress((count - outcomes.len()) as u64);
                 break;
             }
+            if settings.interruption.is_asked() && best.is_some() {
+                break;
+            }
             let best = best.filter(|_| outcomes.len() >= half).map(|best| best.nodes.clone());
-            let round: Vec<_> = (outcomes.len()..end.max(outcomes.len()))
+            let (done, round): (Vec<_>, Vec<_>) = (outcomes.len()..end.max(outcomes.len()))
                 .into_par_iter()
-                .map(|number| {
+                .filter_map(|number| {
+                    // each axis keeps its initial motion at least
+                    if settings.interruption.is_asked() && number >= groups.len() {
+                        return None;
+                    }
                     let mut rng = stream(settings.seed, Purpose::Start, 3 * number as u64 + first);
                     let start = match &best {
                         _ if number < groups.len() => part.stretched_if_better(own(&groups[number])),
@@ -185,13 +193,14 @@ impl Found {
                     };
                     let outcome = part.improve(start, settings);
                     progress(1);
-                    outcome
+                    Some((number, outcome))
                 })
-                .collect();
+                .unzip();
+            numbers.extend(done);
             outcomes.extend(round);
         }
         let axes: Vec<Axis> = groups.iter().flatten().copied().collect();
-        for (number, outcome) in outcomes.iter().enumerate() {
+        for (&number, outcome) in numbers.iter().zip(&outcomes) {
             self.starts.push(StartOutcome {
                 axes: axes.clone(),
                 number,

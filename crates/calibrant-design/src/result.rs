@@ -90,16 +90,19 @@ pub enum DesignStatus {
     IterationLimit,
     /// The best start stopped because a subproblem could not be solved: its motion is admissible, a better one may be near.
     Stalled,
+    /// The search was interrupted: its motion is the best so far, a better one may be near.
+    Interrupted,
 }
 
 impl DesignStatus {
-    /// As written in files: `converged`, `iteration_limit`, `stalled`.
+    /// As written in files: `converged`, `iteration_limit`, `stalled`, `interrupted`.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Converged => "converged",
             Self::IterationLimit => "iteration_limit",
             Self::Stalled => "stalled",
+            Self::Interrupted => "interrupted",
         }
     }
 }

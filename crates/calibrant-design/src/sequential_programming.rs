@@ -74,6 +74,9 @@ impl<const D: usize, const P: usize> Part<D, P> {
         };
         let mut bend = 1.0;
         for iteration in 0..settings.max_iterations {
+            if settings.interruption.is_asked() {
+                return end(a, value, iteration, DesignStatus::Interrupted);
+            }
             let Some(mut model) = self.model(&a, &weights, bend) else {
                 return end(a, value, iteration, DesignStatus::Stalled);
             };

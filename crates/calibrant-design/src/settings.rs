@@ -1,4 +1,6 @@
-//! The settings of a design: number of starts, seed, certificate, iterations.
+//! The settings of a design: number of starts, seed, certificate, iterations, interruption.
+
+use super::Interruption;
 
 /// The settings of a design.
 #[derive(Debug, Clone, PartialEq)]
@@ -11,10 +13,18 @@ pub struct DesignSettings {
     pub certificate: bool,
     /// Largest number of iterations of one start.
     pub max_iterations: usize,
+    /// Ends the search early where it is asked: the design is then the best so far.
+    pub interruption: Interruption,
 }
 
 impl Default for DesignSettings {
     fn default() -> Self {
-        Self { starts: 30, seed: 1, certificate: true, max_iterations: 300 }
+        Self {
+            starts: 30,
+            seed: 1,
+            certificate: true,
+            max_iterations: 300,
+            interruption: Interruption::default(),
+        }
     }
 }

@@ -2,13 +2,17 @@
 
 use super::multistart_search::search;
 use super::{
-    Design, DesignProblem, DesignSettings, certificate, check_feasible, evaluate, feasibility, initial_motion,
+    Design, DesignProblem, DesignSettings, DesignStatus, certificate, check_feasible, evaluate, feasibility,
+    initial_motion,
 };
-use calibrant_core::error::{Error, InputError, Refusal, Result};
+use calibrant_core::error::Result;
 use calibrant_core::motion::JerkControlledMotion;
 use calibrant_core::simulate::{Purpose, stream};
 
 /// Finds the best motion; `progress` is called with 1 after each start.
+///
+/// Where it is interrupted, the design is the best motion so far, with a bound that takes no time. It says so in
+/// its status.
 ///
 /// # Errors
 /// [`Error::Experiment`](calibrant_core::Error::Experiment) where nothing bounds the motion; [`Error::Infeasible`](calibrant_core::Error::Infeasible) where the limits
@@ -19,7 +23,6 @@ pub fn design(
     progress: &(dyn Fn(u64) + Sync),
 ) -> Result<Design> {
     problem.check()?;
-    check_work(problem, settings)?;
     check_feasible(problem)?;
     let limits = problem.effective_limits();
     let initial = initial_motion(
@@ -35,9 +38,14 @@ pub fn design(
     let best = JerkControlledMotion::uniform(problem.interval_s, found.nodes)?;
     let initial = evaluate(problem, &initial)?;
     let optimal = evaluate(problem, &best)?;
-    let certificate = if settings.certificate { certificate::certify(problem, optimal.value)? } else { None };
+    let certificate = if settings.certificate {
+        certificate::certify(problem, optimal.value, &settings.interruption)?
+    } else {
+        None
+    };
+    let interrupted = settings.interruption.is_asked();
     Ok(Design {
-        status: found.status,
+        status: if interrupted { DesignStatus::Interrupted } else { found.status },
         criterion: problem.criterion.clone(),
         parameters: problem.sensor.parameter_list().describe(problem.sensor, &problem.at),
         optimal,
@@ -47,19 +55,4 @@ pub fn design(
         limits,
         certificate,
     })
-}
-
-/// Returns an error for a search that would take more than about ten minutes of one processor.
-fn check_work(problem: &DesignProblem<'_>, settings: &DesignSettings) -> Result<()> {
-    /// Most starts × intervals² of an axis: a start with 10 intervals takes about 2 ms.
-    const MOST: f64 = 3e7;
-    let (starts, intervals) = (settings.starts as f64, problem.intervals as f64);
-    let work = starts * intervals * intervals;
-    if work <= MOST {
-        return Ok(());
-    }
-    let message = format!(
-        "{starts} starts with {intervals} intervals: starts × intervals² is {work:.1e}, at most {MOST:.0e}"
-    );
-    Err(Error::experiment(InputError::new(Refusal::WorkTooLarge, message, "take fewer starts or intervals")))
 }

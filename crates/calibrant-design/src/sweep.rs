@@ -1,6 +1,7 @@
 //! A sweep: the best design as one quantity of the experiment changes.
 
 use super::{Design, DesignProblem, DesignSettings, design};
+use calibrant_core::budget::Budget;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::information::Criterion;
 use calibrant_core::motion::Limits;
@@ -132,7 +133,7 @@ impl SweepPoint {
 /// and the progress of [`design`].
 ///
 /// A value whose limits admit no motion, or that determines nothing, does not stop the others: its point says
-/// why.
+/// why. Where it is interrupted, it has the values whose designs are finished.
 ///
 /// # Errors
 /// As [`design`], where it is for another reason; [`Error::Experiment`] for a value that makes no sense.
@@ -146,18 +147,14 @@ pub fn sweep(
     let mut points = Vec::with_capacity(values.len());
     for (number, &asked) in values.iter().enumerate() {
         let changed = Changed::of(problem, variable, asked)?;
-        let changed_problem = DesignProblem {
-            sensor: &changed.sensor,
-            limits: &changed.limits,
-            intervals: changed.intervals,
-            rate_hz: changed.rate_hz,
-            ..problem.clone()
-        };
-        let outcome = match design(&changed_problem, settings, &|done| progress(number, done)) {
+        let outcome = match design(&changed.problem(problem), settings, &|done| progress(number, done)) {
             Ok(design) => Ok(design),
             Err(error) if error.is_not_identifiable() || error.is_infeasible() => Err(error.to_string()),
             Err(error) => return Err(error),
         };
+        if settings.interruption.is_asked() {
+            break;
+        }
         let intervals = changed.intervals;
         points.push(SweepPoint { asked, value: changed.value, intervals, outcome });
     }
@@ -167,6 +164,24 @@ pub fn sweep(
         parameters: problem.sensor.parameter_list().describe(problem.sensor, &problem.at),
         points,
     })
+}
+
+/// What a sweep over these values takes.
+///
+/// # Errors
+/// [`Error::Experiment`] for a value that makes no sense.
+pub fn sweep_work(
+    problem: &DesignProblem<'_>,
+    settings: &DesignSettings,
+    variable: SweepVariable,
+    values: &[f64],
+) -> Result<Budget> {
+    let mut work = Budget::NONE;
+    for &asked in values {
+        let changed = Changed::of(problem, variable, asked)?;
+        work = work + settings.work(&changed.problem(problem));
+    }
+    Ok(work)
 }
 
 /// A problem with one quantity changed.
@@ -179,6 +194,17 @@ struct Changed {
 }
 
 impl Changed {
+    /// The changed problem.
+    fn problem<'a>(&'a self, problem: &DesignProblem<'a>) -> DesignProblem<'a> {
+        DesignProblem {
+            sensor: &self.sensor,
+            limits: &self.limits,
+            intervals: self.intervals,
+            rate_hz: self.rate_hz,
+            ..problem.clone()
+        }
+    }
+
     fn of(problem: &DesignProblem<'_>, variable: SweepVariable, asked: f64) -> Result<Self> {
         let reject = |message: String, help: &str| {
             Err(Error::experiment(InputError::new(Refusal::ValueInvalid, message, help)))

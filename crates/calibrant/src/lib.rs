@@ -70,7 +70,8 @@
 pub mod pipeline;
 
 pub use calibrant_core::{
-    Error, Result, arrowhead, diagnostic, error, estimate, information, motion, noise, sensor, simulate,
+    Error, Result, arrowhead, budget, diagnostic, error, estimate, information, motion, noise, sensor,
+    simulate,
 };
 pub use calibrant_design as design;
 pub use calibrant_design::study;

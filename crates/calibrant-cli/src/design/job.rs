@@ -1,7 +1,7 @@
 //! The design problem that the experiment file and the options describe.
 
 use super::arguments::Arguments;
-use crate::console;
+use crate::{budget, console, interruption};
 use calibrant::Error;
 use calibrant::design::{Design, DesignProblem, DesignSettings, design};
 use calibrant::error::InputError;
@@ -30,6 +30,7 @@ impl Job {
             starts: arguments.starts.map_or(otherwise.starts, |starts| starts as usize),
             seed: arguments.seed.unwrap_or(otherwise.seed),
             certificate: otherwise.certificate && !arguments.no_certificate,
+            interruption: interruption::keeping_the_best(),
             ..otherwise
         };
         Ok(Self { experiment, earlier, settings })
@@ -70,8 +71,15 @@ impl Job {
         }
     }
 
+    /// Checks that the search fits into the budget.
+    pub(super) fn check_work(&self, problem: &DesignProblem<'_>) -> calibrant::Result<()> {
+        let what = format!("{} starts of {} intervals", self.settings.starts, problem.intervals);
+        budget::check(self.settings.work(problem), &what, "take fewer starts or intervals")
+    }
+
     /// Solves the problem, with a progress bar over its starts.
     pub(super) fn design(&self, problem: &DesignProblem<'_>) -> calibrant::Result<Design> {
+        self.check_work(problem)?;
         let bar = console::progress((self.settings.starts * problem.sensor.axes) as u64, "starts");
         let outcome = design(problem, &self.settings, &|done| bar.inc(done));
         bar.finish_and_clear();

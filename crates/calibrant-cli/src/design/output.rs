@@ -2,7 +2,8 @@
 
 use super::arguments::Arguments;
 use super::job::Job;
-use crate::{Exit, console};
+use crate::{Exit, budget, console};
+use calibrant::budget::Budget;
 use calibrant::design::{Design, DesignProblem, DesignStatus};
 use calibrant::io::{write_atomically, write_dense_motion, write_design, write_motion};
 use calibrant::report::design_report;
@@ -28,7 +29,11 @@ pub(super) fn write(
 
 /// The exit status of a design, with its warnings.
 pub(super) fn exit_of(design: &Design) -> Exit {
-    if design.status != DesignStatus::Converged && design.optimal.covariance.is_some() {
+    if design.status == DesignStatus::Interrupted {
+        console::warn(
+            "the search was interrupted. The motion is the best so far, and a better one may be near",
+        );
+    } else if design.status != DesignStatus::Converged && design.optimal.covariance.is_some() {
         console::warn(&format!(
             "the search ended with the status \"{}\". The motion is admissible, but a better one may be near (increase --starts, or loosen very tight limits)",
             design.status.name()
@@ -47,4 +52,12 @@ pub(super) fn exit_of(design: &Design) -> Exit {
     } else {
         Exit::NOT_IDENTIFIABLE
     }
+}
+
+/// Checks that the rows of motion_dense.csv fit into the budget.
+pub(super) fn check_dense(arguments: &Arguments, problem: &DesignProblem<'_>) -> calibrant::Result<()> {
+    let Some(rate_hz) = arguments.sample_rate else { return Ok(()) };
+    let rows = problem.intervals as f64 * problem.interval_s * rate_hz;
+    let what = format!("{rows:.1e} rows of motion_dense.csv");
+    budget::check(Budget::of_samples(rows), &what, "lower --sample-rate")
 }

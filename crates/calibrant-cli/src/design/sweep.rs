@@ -3,8 +3,8 @@
 use super::Arguments;
 use super::job::{Job, in_file};
 use super::sweep_request::Request;
-use crate::{Exit, console};
-use calibrant::design::{DesignProblem, DesignStatus, Sweep, sweep};
+use crate::{Exit, budget, console, interruption};
+use calibrant::design::{DesignProblem, DesignStatus, Sweep, sweep, sweep_work};
 use calibrant::io::{sweep_json, write_atomically, write_sweep, write_sweep_csv};
 use calibrant::report::number_format::{counted, short, significant};
 use calibrant::report::sweep_report;
@@ -15,12 +15,23 @@ pub(super) fn run(
     problem: &DesignProblem<'_>,
     request: &Request,
 ) -> calibrant::Result<Exit> {
+    let work = sweep_work(problem, &job.settings, request.variable, &request.values)
+        .map_err(|error| in_file(error, &arguments.experiment))?;
+    let what = counted(request.values.len(), "value") + " of the sweep";
+    budget::check(work, &what, "sweep less far, or take fewer starts")?;
     let bar = console::progress(request.values.len() as u64, "values");
     let outcome = sweep(problem, &job.settings, request.variable, &request.values, &|number, _| {
         bar.set_position(number as u64);
     });
     bar.finish_and_clear();
     let swept = outcome.map_err(|error| in_file(error, &arguments.experiment))?;
+    if interruption::is_asked() {
+        let (finished, all) = (swept.points.len(), request.values.len());
+        console::warn(&format!("the sweep was interrupted: {finished} of {all} values are finished"));
+        if finished == 0 {
+            return Ok(Exit::INTERRUPTED);
+        }
+    }
     write_sweep(&arguments.output.join("sweep.json"), &swept, problem, &job.settings)?;
     write_sweep_csv(&arguments.output.join("sweep.csv"), &swept)?;
     let title = format!("Best motions over the {}", swept.variable.name());

@@ -1,6 +1,7 @@
 //! `calibrant simulate` for a whole IMU: turned by hand, or on a table as the experiment lists it.
 
 use super::Arguments;
+use super::length;
 use super::random::Random;
 use crate::console;
 use calibrant::Error;
@@ -13,8 +14,8 @@ use calibrant::sensor::{
     WORKING_C,
 };
 use calibrant::simulate::{
-    GyroscopeToDraw, ImuSimulation, MOST_SAMPLES, Rng, TURN_S, TableAction, TableStep, draw_imu, draw_known,
-    draw_thermal, simulate_imu, simulate_table,
+    GyroscopeToDraw, ImuSimulation, Rng, TURN_S, TableAction, TableStep, draw_imu, draw_known, draw_thermal,
+    simulate_imu, simulate_table,
 };
 use nalgebra::Vector3;
 
@@ -78,7 +79,10 @@ pub(super) fn run(
             check(steps, holds.rate_hz)?;
             drawn
         }
-        None => in_gauge(&drawn, units, holds)?,
+        None => {
+            length::check_holds(holds)?;
+            in_gauge(&drawn, units, holds)?
+        }
     };
     // the quantities that a calibration of this experiment finds, and those that it fixes
     let quantities = plan.setup(holds).quantities(sensor.model, &plan.gyroscope);
@@ -196,24 +200,7 @@ pub(super) fn table(holds: &HoldsPlan, turns: &[Turn]) -> Option<Vec<TableStep>>
 /// Checks the steps of a recording.
 fn check(steps: &[TableStep], rate_hz: f64) -> calibrant::Result<()> {
     check_order(steps)?;
-    check_length(steps, rate_hz)
-}
-
-/// Checks that the recording fits into memory.
-fn check_length(steps: &[TableStep], rate_hz: f64) -> calibrant::Result<()> {
-    let from_s = steps.iter().map(|step| step.start_s).fold(0.0, f64::min);
-    let duration_s = steps.iter().map(|step| step.end_s).fold(0.0, f64::max) - from_s;
-    let samples = duration_s * rate_hz;
-    if samples <= MOST_SAMPLES {
-        return Ok(());
-    }
-    Err(Error::Experiment(Box::new(InputError::new(
-        Refusal::ValueInvalid,
-        format!(
-            "{duration_s} s at {rate_hz} Hz are {samples:.1e} samples, at most {MOST_SAMPLES:.0e} fit into memory"
-        ),
-        "a recording begins at 0 s: bring holds.intervals_s and gyroscope.turns closer together, or lower holds.rate_hz",
-    ))))
+    length::check_table(steps, rate_hz)
 }
 
 /// Checks that holds and turns follow each other.

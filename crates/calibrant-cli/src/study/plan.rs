@@ -1,5 +1,6 @@
 //! The studies that the experiment file and the options describe.
 
+use crate::interruption;
 use crate::simulate::commanded_motion;
 use calibrant::design::limit_use;
 use calibrant::estimate::CalibrationSettings;
@@ -142,6 +143,7 @@ fn calibration(
 /// The settings of the studies.
 pub(super) fn settings(experiment: &Experiment, choice: &Choice<'_>) -> StudySettings {
     let mut design = experiment.design_settings();
+    design.interruption = interruption::keeping_the_best();
     design.starts = choice.starts.or(experiment.study.starts).unwrap_or(design.starts);
     StudySettings {
         seed: choice.seed,

@@ -18,6 +18,8 @@ mod ferraris;
 mod headerless_text;
 mod imu;
 mod inspect;
+#[cfg(unix)]
+mod interruption;
 mod invalid_samples;
 mod low_pass_filtered;
 mod manners;

@@ -111,12 +111,27 @@ fn names_command_neither_the_terminal_nor_a_spreadsheet() {
 fn work_beyond_the_budget_is_refused_before_it_starts() {
     let bench = Bench::new();
     bench.preset("report", "motion.toml", &[]);
+    let long = [("interval_s = 1.0 ", "interval_s = 1e6 "), ("rate_hz = 10.0 ", "rate_hz = 1e3 ")];
+    bench.preset("report", "long.toml", &long);
+    let unknown =
+        [("detail_rate_hz = 10.0 ", "detail_rate_hz = 1e6 "), ("interval_s = 5.0 ", "interval_s = 1e4 ")];
+    bench.preset("report", "detail.toml", &unknown);
     for (command, says) in [
-        ("design motion.toml --starts 1000000 -o result", "[work-too-large]"),
-        ("design motion.toml --sweep duration=1e7 -o result", "[work-too-large]"),
-        ("study --threads 65535", "65535 is not in 1..=1024"),
+        (
+            "simulate long.toml -o result",
+            "1.0e10 samples (10000000 s at 1000 Hz) would take about 931 GiB of memory",
+        ),
+        ("design motion.toml --starts 1000000 -o result", "1000000 starts of 10 intervals would take about"),
+        ("design motion.toml --sweep duration=1e7 -o result", "1 value of the sweep would take about"),
+        (
+            "design motion.toml --sample-rate 1e9 -o result",
+            "1.0e10 rows of motion_dense.csv would take about",
+        ),
+        ("study long.toml --sensors 2 -o result", "this study of 6 sensors would take about"),
+        ("study detail.toml --sensors 2 -o result", "this study of 6 sensors would take about"),
+        ("study motion.toml --threads 65535 -o result", "65535 threads would take about 128 GiB of memory"),
     ] {
-        bench.refuses(command, 2, &[says]);
+        bench.refuses(command, 2, &[says, "or add --force", "[work-too-large]"]);
     }
 }
 

@@ -89,8 +89,8 @@ refusals! {
         "Two options, or two keys, contradict each other."
         "Leave one of them away.";
     WorkTooLarge "work-too-large"
-        "The work would take far more memory or time than it is worth."
-        "Ask for less, as the message says.";
+        "The work would take more memory or time than it is worth."
+        "Ask for less, as the message says, or add --force.";
     ExperimentUnsuited "experiment-unsuited"
         "The command needs another kind of experiment, or more of it."
         "Take one of the presets of `calibrant init`.";

@@ -7,9 +7,6 @@ use nalgebra::{UnitQuaternion, Vector3};
 use rand::RngExt;
 use rand_distr::{Distribution, StandardNormal};
 
-/// Most samples of a simulated recording of an IMU: 2 GB.
-pub const MOST_SAMPLES: f64 = 2e7;
-
 /// The recording of an IMU that is turned from each random orientation to the next and held still there. The
 /// axis of each turn wobbles.
 ///

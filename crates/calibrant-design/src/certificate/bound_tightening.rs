@@ -6,7 +6,8 @@
 
 use super::AxisChain;
 use super::bounds::StateBounds;
-use super::dual_bound::{MomentProgram, Row};
+use super::dual_bound::{MomentProgram, Patience, Row};
+use crate::Interruption;
 use calibrant_core::motion::Rest;
 
 /// Largest number of iterations of each linear program.
@@ -26,7 +27,8 @@ fn combine(terms: &[(f64, &Form)]) -> Form {
 impl StateBounds {
     /// The same bounds or smaller ones, from all limits together. Limits inside an interval act at the places
     /// `inside`.
-    pub(super) fn tightened(&self, chain: &AxisChain, inside: &[f64]) -> Self {
+    pub(super) fn tightened(&self, chain: &AxisChain, inside: &[f64], interruption: &Interruption) -> Self {
+        let patience = Patience { max_iterations: MAX_ITERATIONS, interruption };
         let (n, dt, l) = (chain.sums.len(), chain.interval_s, &chain.limits);
         let node = |i: usize| -> Form { (0..=n).map(|k| f64::from(u8::from(k == i))).collect() };
         let (mut speeds, mut places) = (vec![vec![0.0; n + 1]], vec![vec![0.0; n + 1]]);
@@ -83,7 +85,7 @@ impl StateBounds {
             let mut found = 0.0_f64;
             for sign in signs {
                 program.objective = row(0.0, form, sign / bound);
-                found = found.max(program.bound(MAX_ITERATIONS).map_or(f64::INFINITY, |dual| dual.value));
+                found = found.max(program.bound(patience).map_or(f64::INFINITY, |dual| dual.value));
             }
             bound.min(found.max(0.0) * bound)
         };

@@ -12,6 +12,7 @@
 //! # References
 //! `jansson2008`
 
+use crate::Interruption;
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SolverStatus, SupportedConeT};
 use nalgebra::DMatrix;
@@ -41,6 +42,15 @@ pub(super) struct MomentProgram {
     pub(super) semidefinite: Vec<(usize, Vec<Row>)>,
 }
 
+/// How long the solver may take.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Patience<'a> {
+    /// Largest number of its iterations.
+    pub(super) max_iterations: u32,
+    /// It stops early where this asks.
+    pub(super) interruption: &'a Interruption,
+}
+
 /// A bound and how it was found.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct DualBound {
@@ -60,8 +70,11 @@ const ROUNDING: f64 = 1e-12;
 const NEAR_ENOUGH: f64 = 0.02;
 
 impl MomentProgram {
-    /// Solves the program and bounds it. `None` where the solver refused to start.
-    pub(super) fn bound(&self, max_iterations: u32) -> Option<DualBound> {
+    /// Solves the program and bounds it. `None` where the solver refused to start, or must not.
+    pub(super) fn bound(&self, patience: Patience<'_>) -> Option<DualBound> {
+        if patience.interruption.is_asked() {
+            return None;
+        }
         let (a, b, cones) = self.standard_form();
         let mut q = vec![0.0; self.columns];
         for &(column, coefficient) in &self.objective.terms {
@@ -69,7 +82,7 @@ impl MomentProgram {
         }
         let settings = DefaultSettings {
             verbose: false,
-            max_iter: max_iterations,
+            max_iter: patience.max_iterations,
             tol_gap_abs: 1e-6,
             tol_gap_rel: 1e-6,
             tol_feas: 1e-8,
@@ -80,6 +93,8 @@ impl MomentProgram {
         };
         let zero = CscMatrix::zeros((self.columns, self.columns));
         let mut solver = DefaultSolver::new(&zero, &q, &a, &b, &cones, settings).ok()?;
+        let interruption = patience.interruption.clone();
+        solver.set_termination_callback(move |_| interruption.is_asked());
         solver.solve();
         let solution = &solver.solution;
         let ended = matches!(solution.status, SolverStatus::Solved | SolverStatus::AlmostSolved);

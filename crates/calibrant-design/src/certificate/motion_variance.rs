@@ -2,8 +2,10 @@
 //! by their cost.
 
 use super::bounds::StateBounds;
+use super::dual_bound::Patience;
 use super::moment_relaxation::ChainPart;
 use super::{AxisChain, States};
+use crate::Interruption;
 use calibrant_core::motion::Rest;
 
 /// An upper bound on the motion variance `V = Σ α² − (Σ α + shift)²/mass` over all admissible motions of one axis.
@@ -91,15 +93,18 @@ const SEGMENT_INTERVALS: usize = 8;
 const MOST_SEGMENTS: usize = 12;
 
 /// Bounds the motion variance; `None` where nothing bounds the acceleration.
-pub(crate) fn motion_variance_bound(chain: &AxisChain) -> Option<MotionVarianceBound> {
-    bound_within(chain, MAX_ITERATIONS, 3)
+pub(crate) fn motion_variance_bound(
+    chain: &AxisChain,
+    interruption: &Interruption,
+) -> Option<MotionVarianceBound> {
+    bound_within(chain, Patience { max_iterations: MAX_ITERATIONS, interruption }, 3)
 }
 
-/// The same with at most this number of iterations of the conic solver, and moments up to degree
+/// The same with this patience with the conic solver, and moments up to degree
 /// `2 · most_order`.
 pub(super) fn bound_within(
     chain: &AxisChain,
-    max_iterations: u32,
+    patience: Patience<'_>,
     most_order: u8,
 ) -> Option<MotionVarianceBound> {
     let (n, l) = (chain.sums.len(), &chain.limits);
@@ -110,7 +115,7 @@ pub(super) fn bound_within(
     let displacement = l.displacement.is_some();
     let velocity = displacement || l.velocity.is_some() || l.rest == Rest::Both;
     if n <= MOST_TIGHTENED && (velocity || l.intercept.is_some()) {
-        bounds = bounds.tightened(chain, &INSIDE);
+        bounds = bounds.tightened(chain, &INSIDE, patience.interruption);
     }
     let value = bounds.sum_of_squares(chain, 0..n);
     let cheap = MotionVarianceBound { value, kind: BoundKind::StateBounds, solved: true, correction: 0.0 };
@@ -122,7 +127,7 @@ pub(super) fn bound_within(
     };
     consider(by_jerk(chain, &bounds));
     if n > most {
-        consider(segments(chain, &bounds, States { velocity, displacement, sum: false }, max_iterations));
+        consider(segments(chain, &bounds, States { velocity, displacement, sum: false }, patience));
         return Some(best);
     }
     // the running sum is one more state; beside velocity and displacement only to second order. Rest at the
@@ -143,7 +148,7 @@ pub(super) fn bound_within(
             inside: &INSIDE,
             order,
         };
-        relax(&part, max_iterations, BoundKind::Chain { mean: sum, states: velocity })
+        relax(&part, patience, BoundKind::Chain { mean: sum, states: velocity })
     };
     if with_mean {
         consider(with_order(true, 2));
@@ -171,12 +176,12 @@ fn by_jerk(chain: &AxisChain, bounds: &StateBounds) -> Option<MotionVarianceBoun
     value.is_finite().then_some(MotionVarianceBound { value, kind, solved: true, correction: 0.0 })
 }
 
-fn relax(part: &ChainPart<'_>, max_iterations: u32, kind: BoundKind) -> Option<MotionVarianceBound> {
+fn relax(part: &ChainPart<'_>, patience: Patience<'_>, kind: BoundKind) -> Option<MotionVarianceBound> {
     let scale = part.bounds.sum_of_squares(part.chain, part.range.clone());
     if scale == 0.0 {
         return None;
     }
-    let bound = part.relax(scale)?.bound(max_iterations)?;
+    let bound = part.relax(scale)?.bound(patience)?;
     Some(MotionVarianceBound {
         value: (bound.value * scale).max(0.0),
         kind,
@@ -190,7 +195,7 @@ fn segments(
     chain: &AxisChain,
     bounds: &StateBounds,
     states: States,
-    max_iterations: u32,
+    patience: Patience<'_>,
 ) -> Option<MotionVarianceBound> {
     let n = chain.sums.len();
     // the same bounds everywhere make segments equal, but for the report's intercept, which counts from t = 0
@@ -223,7 +228,7 @@ fn segments(
                     inside: &INSIDE,
                     order: 2,
                 };
-                relax(&part, max_iterations, BoundKind::Stretches)
+                relax(&part, patience, BoundKind::Stretches)
             } else {
                 None
             };

@@ -1,10 +1,21 @@
 //! Tests of the certificate: its bounds against exact optima, random motions and the reference cases.
 
-use super::motion_variance::{BoundKind, MotionVarianceBound, bound_within, motion_variance_bound};
+use super::dual_bound::Patience;
+use super::motion_variance::{self, BoundKind, MotionVarianceBound};
 use super::*;
+use crate::Interruption;
 use calibrant_core::motion::{AxisLimits, IntervalSums, Rest};
 use calibrant_core::simulate::{Purpose, stream};
 use rand::RngExt;
+
+fn motion_variance_bound(chain: &AxisChain) -> Option<MotionVarianceBound> {
+    motion_variance::motion_variance_bound(chain, &Interruption::default())
+}
+
+fn bound_within(chain: &AxisChain, max_iterations: u32, most_order: u8) -> Option<MotionVarianceBound> {
+    let patience = Patience { max_iterations, interruption: &Interruption::default() };
+    motion_variance::bound_within(chain, patience, most_order)
+}
 
 fn sums(intervals: usize, per_interval: usize) -> Vec<IntervalSums> {
     let mut all = vec![IntervalSums::default(); intervals];
@@ -270,8 +281,8 @@ fn a_long_chain_is_bounded_by_its_stretches() {
 }
 
 mod of_a_design {
-    use crate::certificate::certify;
-    use crate::{DesignProblem, evaluate};
+    use crate::{Certificate, DesignProblem, Interruption, certificate, evaluate};
+    use calibrant_core::error::Result;
     use calibrant_core::information::Criterion;
     use calibrant_core::information::criterion::{
         AOptimality, COptimality, DOptimality, EOptimality, IOptimality, MOptimality,
@@ -280,6 +291,10 @@ mod of_a_design {
     use calibrant_core::sensor::{Sensor, SensorModel, SensorParameters};
     use calibrant_core::simulate::{Purpose, initial_motion, stream};
     use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
+
+    fn certify(problem: &DesignProblem<'_>, value: f64) -> Result<Option<Certificate>> {
+        certificate::certify(problem, value, &Interruption::default())
+    }
 
     fn problem<'a>(sensor: &'a Sensor, limits: &'a Limits, trust: Trust) -> DesignProblem<'a> {
         let scale = DVector::repeat(sensor.parameter_list().len(), 1.0);

@@ -3,7 +3,7 @@
 use super::AxisChain;
 use super::bounds::StateBounds;
 use super::motion_variance::{MotionVarianceBound, motion_variance_bound};
-use crate::{Certificate, DesignProblem};
+use crate::{Certificate, DesignProblem, Interruption};
 use calibrant_core::error::Result;
 use calibrant_core::information::{Criterion, covariance};
 use calibrant_core::motion::{AxisLimits, InputNoise, IntervalSums, JerkControlledMotion, KnownEnds, Trust};
@@ -12,11 +12,16 @@ use nalgebra::{DMatrix, DVector, Vector3};
 
 /// The certificate of a design whose criterion has this value.
 ///
-/// `None` where nothing bounds the motion, or the limits leave it no freedom at all.
+/// `None` where nothing bounds the motion, or the limits leave it no freedom at all. Once it is interrupted, it
+/// takes the bounds that need no solver.
 ///
 /// # Errors
 /// As [`MotionInformation::information`](calibrant_core::information::MotionInformation::information).
-pub(crate) fn certify(problem: &DesignProblem<'_>, value: f64) -> Result<Option<Certificate>> {
+pub(crate) fn certify(
+    problem: &DesignProblem<'_>,
+    value: f64,
+    interruption: &Interruption,
+) -> Result<Option<Certificate>> {
     let setting = problem.setting()?;
     let rest =
         JerkControlledMotion::uniform(problem.interval_s, vec![Vector3::zeros(); problem.intervals + 1])?;
@@ -30,6 +35,7 @@ pub(crate) fn certify(problem: &DesignProblem<'_>, value: f64) -> Result<Option<
         } else {
             None
         },
+        interruption,
         known: Vec::new(),
         reasons: Vec::new(),
     };
@@ -85,6 +91,7 @@ struct Bounds<'a> {
     still: DMatrix<f64>,
     /// Information of a straight line from −1 to 1, where the motion is unknown.
     ramp: Option<DMatrix<f64>>,
+    interruption: &'a Interruption,
     /// Motion variances that have bounds already.
     known: Vec<(AxisLimits, [f64; 2], Option<MotionVarianceBound>)>,
     /// Why the scale factors cannot be known better.
@@ -190,7 +197,7 @@ impl Bounds<'_> {
         {
             return bound.clone();
         }
-        let bound = motion_variance_bound(&chain);
+        let bound = motion_variance_bound(&chain, self.interruption);
         self.known.push((chain.limits, [shift, mass], bound.clone()));
         bound
     }

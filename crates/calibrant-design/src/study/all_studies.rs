@@ -23,7 +23,7 @@ pub struct StudiesProblem<'a> {
 }
 
 impl StudiesProblem<'_> {
-    /// How often `progress` will be called.
+    /// How often `progress` will be called: the number of sensors.
     #[must_use]
     pub fn steps(&self) -> u64 {
         let designs = [&self.design, &self.noisy].into_iter().flatten().map(|problem| problem.sensors);
@@ -50,6 +50,8 @@ pub struct Studies {
 
 /// Runs the wanted studies, one after the other; `progress` is called with 1 after each sensor.
 ///
+/// Where it is interrupted, it has the sensors that are finished, and a remark says so.
+///
 /// # Errors
 /// As [`run_study`], [`trace_surface`] and [`run_design_study`].
 pub fn run_studies(
@@ -57,10 +59,12 @@ pub fn run_studies(
     settings: &StudySettings,
     progress: &(dyn Fn(u64) + Sync),
 ) -> Result<Studies> {
+    let interruption = &settings.design.interruption;
     let designed = |problem: &Option<DesignStudyProblem<'_>>| {
-        problem.as_ref().map(|problem| run_design_study(problem, settings, progress)).transpose()
+        let wanted = problem.as_ref().filter(|_| !interruption.is_asked());
+        wanted.map(|problem| run_design_study(problem, settings, progress)).transpose()
     };
-    Ok(Studies {
+    let mut studies = Studies {
         calibration: problem
             .calibration
             .as_ref()
@@ -74,5 +78,13 @@ pub fn run_studies(
         design: designed(&problem.design)?,
         noisy: designed(&problem.noisy)?,
         remarks: problem.remarks.clone(),
-    })
+    };
+    if interruption.is_asked() {
+        let designed = [&studies.design, &studies.noisy].into_iter().flatten();
+        let finished = designed.map(|study| study.outcomes.len()).sum::<usize>()
+            + studies.calibration.as_ref().map_or(0, |study| study.outcomes.len());
+        let all = problem.steps();
+        studies.remarks.push(format!("the study was interrupted: {finished} of {all} sensors are finished"));
+    }
+    Ok(studies)
 }

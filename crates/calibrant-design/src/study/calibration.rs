@@ -39,12 +39,19 @@ pub struct StudySettings {
     pub detail_rate_hz: Option<f64>,
 }
 
+impl StudySettings {
+    /// The rate at which the sensor in detail is recorded once more, where the others are recorded at `rate_hz`.
+    pub(crate) fn detail_rate_hz(&self, rate_hz: f64) -> f64 {
+        self.detail_rate_hz.unwrap_or(rate_hz * DETAIL_RATE)
+    }
+}
+
 /// Multiple of the rate at which the case in detail is shown, too.
 const DETAIL_RATE: f64 = 5.0;
 
 /// Runs a study, in parallel; `progress` is called with 1 after each sensor.
 ///
-/// The result does not depend on the number of threads.
+/// The result does not depend on the number of threads. Where it is interrupted, it has the sensors that are finished.
 ///
 /// # Errors
 /// As [`calibrate`].
@@ -57,11 +64,12 @@ pub fn run_study(
     progress: &(dyn Fn(u64) + Sync),
 ) -> Result<Study> {
     let single = simulate_case(problem, settings, problem.rate_hz, 0)?;
-    let detail_rate_hz = settings.detail_rate_hz.unwrap_or(problem.rate_hz * DETAIL_RATE);
-    let fine = simulate_case(problem, settings, detail_rate_hz, 0)?;
+    let fine = simulate_case(problem, settings, settings.detail_rate_hz(problem.rate_hz), 0)?;
     let list = problem.sensor.parameter_list();
+    let interruption = &settings.design.interruption;
     let outcomes = (0..problem.sensors as u64)
         .into_par_iter()
+        .filter(|index| *index == 0 || !interruption.is_asked())
         .map(|index| {
             let case = simulate_case(problem, settings, problem.rate_hz, index)?;
             progress(1);

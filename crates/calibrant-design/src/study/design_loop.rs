@@ -4,7 +4,7 @@
 use super::simulated_recording::record;
 use super::summary::{compare, traces};
 use super::{DesignOutcome, DesignStudy, MotionOutcome, StudySettings};
-use crate::{Design, DesignProblem, DesignSettings, design, evaluate};
+use crate::{Design, DesignProblem, DesignSettings, DesignStatus, design, evaluate};
 use calibrant_core::error::Result;
 use calibrant_core::estimate::{Calibration, CalibrationProblem, Stimulus, calibrate};
 use calibrant_core::information::Criterion;
@@ -75,7 +75,8 @@ impl<'a> DesignStudyProblem<'a> {
 
 /// Sends every sensor round the loop, in parallel; `progress` is called with 1 after each sensor.
 ///
-/// The result does not depend on the number of threads.
+/// The result does not depend on the number of threads. Where it is interrupted, it has the sensors whose designs
+/// are finished, and the first sensor in any case.
 ///
 /// # Errors
 /// As [`calibrate`] and [`design()`].
@@ -92,9 +93,20 @@ pub fn run_design_study(
         progress(1);
         Ok(round)
     };
+    let interruption = &settings.design.interruption;
     let others = || -> Result<Vec<DesignOutcome>> {
-        let outcome = |index| round(index).map(|(outcome, _)| outcome);
-        (1..problem.sensors as u64).into_par_iter().map(outcome).collect()
+        let outcome = |index| {
+            if interruption.is_asked() {
+                return None;
+            }
+            let finished =
+                |(outcome, _): &(DesignOutcome, Design)| outcome.design_status != DesignStatus::Interrupted;
+            match round(index) {
+                Ok(round) => Some(round).filter(finished).map(|(outcome, _)| Ok(outcome)),
+                Err(error) => Some(Err(error)),
+            }
+        };
+        (1..problem.sensors as u64).into_par_iter().filter_map(outcome).collect()
     };
     // the first sensor's design is shown in full
     let (first, others) = rayon::join(|| round(0), others);

@@ -8,7 +8,6 @@ use calibrant_core::error::Result;
 use calibrant_core::estimate::HoldsSetup;
 use calibrant_core::motion::Gravity;
 use calibrant_core::sensor::Gauge;
-use calibrant_core::simulate::{MOST_SAMPLES, TURN_S};
 use nalgebra::Vector3;
 
 /// Range of gravity.
@@ -91,13 +90,6 @@ pub(super) fn read(section: &Section<'_>, is_imu: bool) -> Result<HoldsPlan> {
     let poses = section.get("poses").map_or(Ok(24), |entry| entry.size(1, 1_000_000))?;
     let hold_s = number("hold_s", &DURATION, 5.0)?;
     let rate_hz = number("rate_hz", &RATE_HZ, 100.0)?;
-    let samples = poses as f64 * (hold_s + TURN_S) * rate_hz;
-    if samples > MOST_SAMPLES {
-        let message = format!(
-            "poses × (hold_s + {TURN_S} s for a turn) × rate_hz is {samples:.1e} samples, at most {MOST_SAMPLES:.0e} fit into memory"
-        );
-        return Err(section.reject(&message, "lower one of the three", ""));
-    }
     if hold_s * rate_hz < 1.0 - 1e-9 {
         let message = format!("a hold of {hold_s} s at {rate_hz} Hz has less than one sample step");
         return Err(section.reject(&message, "raise rate_hz or hold_s", ""));

@@ -4,7 +4,6 @@ use super::number_range::Bounds;
 use super::toml_document::Section;
 use calibrant_core::error::Result;
 use calibrant_core::motion::{InputNoise, KnownEnds, Trust};
-use calibrant_core::simulate::MOST_SAMPLES;
 
 /// Range of a sample rate.
 pub(super) const RATE_HZ: Bounds = Bounds::above(0.0, 1e6, "Hz");
@@ -62,19 +61,13 @@ pub(super) fn read_grid(section: &Section<'_>, base: Option<&MotionPlan>) -> Res
     Ok((intervals, interval_s, rate_hz))
 }
 
-/// Returns an error for a rate, under this key, at which a motion has too many samples or none.
+/// Returns an error for a rate, under this key, at which a motion has no samples.
 pub(super) fn check_samples(section: &Section<'_>, key: &str, duration_s: f64, rate_hz: f64) -> Result<()> {
     let reject = |message: String, help: String| match section.get(key) {
         Some(entry) => entry.reject(message, help),
         None => section.reject(&message, &help, key),
     };
     let samples = duration_s * rate_hz;
-    if samples > MOST_SAMPLES {
-        return Err(reject(
-            format!("intervals × interval_s × rate_hz is {samples:.3e} samples"),
-            format!("at most {MOST_SAMPLES:.0e}: lower the rate, or shorten the motion"),
-        ));
-    }
     // a little tolerance: 10 × 0.1 s × 1 Hz is one sample step, whatever the rounding
     if samples < 1.0 - 1e-9 {
         return Err(reject(

@@ -135,5 +135,6 @@ pub(crate) fn status(status: DesignStatus) -> &'static str {
         DesignStatus::Converged => "converged",
         DesignStatus::IterationLimit => "iteration limit",
         DesignStatus::Stalled => "stalled",
+        DesignStatus::Interrupted => "interrupted",
     }
 }

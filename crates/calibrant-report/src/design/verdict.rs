@@ -49,6 +49,7 @@ fn judge(design: &Design, broken: &[String]) -> (&'static str, String, Vec<Strin
     sentences.extend(improvement(design));
     match nearest {
         _ if !broken.is_empty() => ("bad", "✗ Not admissible.".into(), sentences),
+        _ if design.status == DesignStatus::Interrupted => ("caution", "! Interrupted.".into(), sentences),
         _ if design.status != DesignStatus::Converged => ("caution", "! Not converged.".into(), sentences),
         Some(excess) if excess < 5e-5 => ("good", "✓ Proved optimal.".into(), sentences),
         Some(excess) if excess <= NEAR => {
@@ -67,6 +68,9 @@ fn unfinished(status: DesignStatus) -> Option<&'static str> {
         DesignStatus::Stalled => Some(
             "The search stalled because a step could not be computed. The motion keeps the limits and can be used, but a better one may be \
              near.",
+        ),
+        DesignStatus::Interrupted => Some(
+            "The search was interrupted. The motion is the best so far. It keeps the limits and can be used, but a better one may be near.",
         ),
     }
 }

@@ -3,6 +3,7 @@
 use super::even_times::SampleTimes;
 use super::format::FileFormat;
 use super::unit::{ImuUnit, TimeUnit};
+use calibrant_core::budget::Budget;
 use calibrant_core::sensor::{ReadingUnit, SensorKind};
 
 /// Standard deviation of a nominal sample rate, ppm: that of a crystal which was not measured. An RC oscillator has about 2000.
@@ -55,6 +56,8 @@ pub struct ImuReadOptions {
     pub topic: Option<String>,
     /// The recording is one of an accelerometer, or is read for its accelerometer alone.
     pub accelerometer_only: Option<AccelerometerOnly>,
+    /// What a file may take that states more values than it has bytes for; `None` for [`Budget::USUAL`].
+    pub budget: Option<Budget>,
 }
 
 /// What an experiment with one accelerometer expects of its recordings.
@@ -120,6 +123,7 @@ impl ImuReadOptions {
             rate_sd_ppm: self.rate_sd_ppm.or(other.rate_sd_ppm),
             topic: self.topic.or(other.topic),
             accelerometer_only: self.accelerometer_only.or(other.accelerometer_only),
+            budget: self.budget.or(other.budget),
         }
     }
 }

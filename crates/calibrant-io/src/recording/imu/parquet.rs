@@ -9,27 +9,25 @@ use super::parquet_pages::Pages;
 use super::unit::{ColumnUnit, TimeUnit};
 use crate::text_decoding::Checked;
 use bytes::Bytes;
+use calibrant_core::budget::Budget;
 use calibrant_core::error::{InputError, Refusal};
 use parquet::basic::{Compression, LogicalType, TimeUnit as StampUnit};
 use parquet::column::reader::{ColumnReader, ColumnReaderImpl, get_column_reader};
 use parquet::data_type::DataType;
 use parquet::errors::ParquetError;
+use parquet::file::metadata::RowGroupMetaData;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::schema::types::ColumnDescriptor;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// Number of values that are read at once.
 const BATCH: usize = 1 << 16;
-/// Largest number of rows for each byte of the file. Values that change from row to row take more room, but a
-/// few bytes can state billions of equal ones.
-const ROWS_PER_BYTE: usize = 1000;
 /// Whole numbers above this are not exact as `f64`.
 const EXACT: u64 = 1 << 53;
 
 /// An opened file and the meaning of its columns.
 pub(super) struct Opened {
     reader: SerializedFileReader<Bytes>,
-    bytes: usize,
     pub(super) draft: Draft,
 }
 
@@ -41,7 +39,7 @@ pub(super) fn open(bytes: &[u8]) -> Checked<Opened> {
         let columns =
             reader.metadata().file_metadata().schema_descr().columns().iter().map(|column| describe(column));
         let draft = Draft::new(FileFormat::Parquet, columns.collect());
-        Ok(Opened { reader, bytes: bytes.len(), draft })
+        Ok(Opened { reader, draft })
     })
 }
 
@@ -70,9 +68,12 @@ fn describe(column: &ColumnDescriptor) -> ImuColumn {
     described
 }
 
-/// Reads the values of the columns that have a slot.
-pub(super) fn samples(file: &Opened, slots: &[Option<usize>]) -> Checked<Samples> {
+/// Reads the values of the columns that have a slot. A few bytes can state billions of equal values, so the
+/// budget is that of the rows and of the unpacked columns.
+pub(super) fn samples(file: &Opened, slots: &[Option<usize>], budget: Budget) -> Checked<Samples> {
     guarded(|| {
+        let rows = stated_rows(file);
+        check(file, slots, rows, budget)?;
         let mut columns: [Vec<f64>; SLOTS] = Default::default();
         let mut origin = 0;
         for (at, slot) in slots.iter().enumerate().filter_map(|(at, slot)| Some((at, (*slot)?))) {
@@ -81,7 +82,7 @@ pub(super) fn samples(file: &Opened, slots: &[Option<usize>]) -> Checked<Samples
                 is_time: slot == TIME,
                 origin: None,
                 values: Vec::new(),
-                most: file.bytes.saturating_mul(ROWS_PER_BYTE),
+                most: rows,
             };
             for group in 0..file.reader.num_row_groups() {
                 let group = file.reader.get_row_group(group).map_err(|error| damaged(&error))?;
@@ -106,6 +107,32 @@ pub(super) fn samples(file: &Opened, slots: &[Option<usize>]) -> Checked<Samples
     })
 }
 
+/// The number of rows that the file states.
+fn stated_rows(file: &Opened) -> usize {
+    file.reader
+        .metadata()
+        .row_groups()
+        .iter()
+        .map(|group| usize::try_from(group.num_rows()).unwrap_or(0))
+        .sum()
+}
+
+/// Checks that the columns with a slot fit into the budget: as they are stored, and as numbers of a recording.
+fn check(file: &Opened, slots: &[Option<usize>], rows: usize, budget: Budget) -> Checked<()> {
+    /// Bytes for each number: in its column, in its sensor, and in what is made of it.
+    const NUMBER: f64 = 24.0;
+    let used = || slots.iter().enumerate().filter(|(_, slot)| slot.is_some());
+    let groups = file.reader.metadata().row_groups();
+    let unpacked = |group: &RowGroupMetaData| -> i64 {
+        used().map(|(at, _)| group.column(at).uncompressed_size().max(0)).fold(0, i64::saturating_add)
+    };
+    let numbers = rows as f64 * used().count() as f64;
+    let bytes = NUMBER * numbers + groups.iter().map(unpacked).max().unwrap_or(0) as f64;
+    let what = format!("a file of {:.1e} rows", rows as f64);
+    let work = Budget { bytes, seconds: 1e-7 * numbers };
+    budget.check(work, &what, "split it").map_err(Into::into)
+}
+
 /// A column that is being read.
 struct Column<'n> {
     name: &'n str,
@@ -113,7 +140,7 @@ struct Column<'n> {
     /// The number that is subtracted from times that are too large to be exact as `f64`.
     origin: Option<i64>,
     values: Vec<f64>,
-    /// The largest plausible number of rows.
+    /// The number of rows that the file states.
     most: usize,
 }
 
@@ -160,7 +187,7 @@ impl Column<'_> {
                 return Ok(());
             }
             if self.values.len() + rows > self.most {
-                let message = format!("column `{}` claims more rows than the file can hold", self.name);
+                let message = format!("column `{}` has more rows than the file states", self.name);
                 return Err(
                     InputError::new(Refusal::FileDamaged, message, "was it written to its end?").into()
                 );

@@ -147,7 +147,7 @@ fn read_parquet(bytes: &[u8], options: &ImuReadOptions) -> Checked<ImuFile> {
     file.draft.map(options)?;
     file.draft.set_time_unit(options)?;
     let slots = file.draft.slots()?;
-    let samples = parquet::samples(&file, &slots)?;
+    let samples = parquet::samples(&file, &slots, options.budget.unwrap_or_default())?;
     finish(file.draft, samples, options)
 }
 

@@ -25,6 +25,7 @@ const LAYERS: &[&[&str]] = &[
 /// What each module of calibrant-core may use.
 const MAY_USE: &[(&str, &[&str])] = &[
     ("error", &[]),
+    ("budget", &["error"]),
     ("diagnostic", &["error", "sensor", "motion"]),
     ("arrowhead", &[]),
     ("root", &[]),

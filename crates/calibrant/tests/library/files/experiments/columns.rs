@@ -105,6 +105,7 @@ topic = "/imu"
         topic: Some("/imu".into()),
         counts_unless_stated: [false; 2],
         accelerometer_only: None,
+        budget: None,
     };
     assert_eq!(Experiment::parse(&text, None).expect("good").columns, expected);
 }

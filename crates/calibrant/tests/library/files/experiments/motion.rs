@@ -65,11 +65,6 @@ pub(super) const CASES: &[Case] = &[
         "line 14, column 11: `motion.rate_hz`: the motion lasts 10 s, less than one sample step of 100 s (raise the rate, or lengthen the motion)",
     ),
     (
-        "intervals = 10⏎interval_s = 1.0⏎rate_hz = 10.0",
-        "intervals = 10_000_000⏎interval_s = 1.0⏎rate_hz = 1000.0",
-        "line 14, column 11: `motion.rate_hz`: intervals × interval_s × rate_hz is 1.000e10 samples (at most 2e7: lower the rate, or shorten the motion)",
-    ),
-    (
         r#"trust = "known""#,
         r#"trust = "knwon""#,
         r#"line 15, column 9: `motion.trust`: "knwon" is not known here (did you mean "known"? one of "known", "noisy", "unknown")"#,

@@ -61,11 +61,6 @@ pub(super) const CASES: &[Case] = &[
     ),
     (
         r#"trust = "known""#,
-        r#"trust = "known"⏎[study.unknown]⏎intervals = 100000⏎detail_rate_hz = 1e6"#,
-        "line 18, column 18: `study.unknown.detail_rate_hz`: intervals × interval_s × rate_hz is 1.000e11 samples (at most 2e7: lower the rate, or shorten the motion)",
-    ),
-    (
-        r#"trust = "known""#,
         r#"trust = "known"⏎[study.unknown]⏎acceleration_mps2 = -1.0"#,
         "line 17, column 21: `study.unknown.acceleration_mps2`: -1.0 is out of range (a number above 0 m/s², at most 1e9 m/s²)",
     ),

@@ -21,6 +21,7 @@ const PLAIN: ImuReadOptions = ImuReadOptions {
     times: None,
     topic: None,
     accelerometer_only: None,
+    budget: None,
 };
 
 fn accelerometer(text: &str, options: &ImuReadOptions) -> Recording {

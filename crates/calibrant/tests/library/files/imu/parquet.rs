@@ -1,6 +1,8 @@
 //! Tests of Parquet files, written with the crate `parquet`.
 
 use super::{findings, units};
+use calibrant::budget::Budget;
+use calibrant::error::Refusal;
 use calibrant::io::{FileFormat, ImuFile, ImuReadOptions, ImuUnit, TimeUnit, parse_imu_recording};
 use parquet::basic::Compression;
 use parquet::column::writer::ColumnWriter;
@@ -189,6 +191,18 @@ fn a_table_that_is_damaged_is_refused_and_never_ends_the_program() {
     }
     drop(std::panic::take_hook());
     assert!(refused > read, "{refused} {read}");
+}
+
+/// A few bytes can state billions of equal values.
+#[test]
+fn a_table_beyond_the_budget_is_refused_before_it_is_read() {
+    let bytes = write(SCHEMA, &[group(0), group(3)], Compression::UNCOMPRESSED);
+    let within = |bytes| Some(Budget { bytes, ..Budget::USUAL });
+    read(&bytes, &ImuReadOptions { budget: within(1e4), ..ImuReadOptions::default() });
+    let options = ImuReadOptions { budget: within(1e3), ..ImuReadOptions::default() };
+    let refused = parse_imu_recording(&bytes, &options).expect_err("refused");
+    assert_eq!(refused.code(), Refusal::WorkTooLarge);
+    assert!(refused.to_string().contains("a file of 6.0e0 rows would take about"), "{refused}");
 }
 
 /// The crate that decodes pages would reserve room for every value that a dictionary promises, up to 2³¹ of them.
