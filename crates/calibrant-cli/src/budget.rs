@@ -18,5 +18,5 @@ pub(crate) fn budget() -> Budget {
 
 /// Checks that the budget of this run allows `work`. `what` names the work, `less` says how it becomes less.
 pub(crate) fn check(work: Budget, what: &str, less: &str) -> calibrant::Result<()> {
-    budget().check(work, what, less).map_err(Error::experiment)
+    budget().check(work, what, less).map_err(Error::Experiment)
 }

@@ -36,7 +36,7 @@ impl Budget {
     ///
     /// # Errors
     /// [`Refusal::WorkTooLarge`] with the amount, where it does not.
-    pub fn check(&self, work: Self, what: &str, less: &str) -> Result<(), InputError> {
+    pub fn check(&self, work: Self, what: &str, less: &str) -> Result<(), Box<InputError>> {
         if work.bytes <= self.bytes && work.seconds <= self.seconds {
             return Ok(());
         }
@@ -47,7 +47,7 @@ impl Budget {
             size(self.bytes),
             duration(self.seconds)
         );
-        Err(InputError::new(Refusal::WorkTooLarge, message, format!("{less}, or add --force")))
+        Err(Box::new(InputError::new(Refusal::WorkTooLarge, message, format!("{less}, or add --force"))))
     }
 }
 

@@ -130,7 +130,7 @@ fn check(file: &Opened, slots: &[Option<usize>], rows: usize, budget: Budget) ->
     let bytes = NUMBER * numbers + groups.iter().map(unpacked).max().unwrap_or(0) as f64;
     let what = format!("a file of {:.1e} rows", rows as f64);
     let work = Budget { bytes, seconds: 1e-7 * numbers };
-    budget.check(work, &what, "split it").map_err(Into::into)
+    budget.check(work, &what, "split it")
 }
 
 /// A column that is being read.
