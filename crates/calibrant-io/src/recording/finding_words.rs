@@ -30,7 +30,7 @@ impl Noticed {
                 | Self::ValuesMissing(_)
                 | Self::SampleTimesRepeated(_)
                 | Self::AxisConstant { .. }
-                | Self::AxesEqual(..)
+                | Self::AxesEqual { .. }
                 | Self::Saturation { .. }
                 | Self::FilesApart { .. }
         )
@@ -114,14 +114,25 @@ impl Noticed {
                     short(*rate_hz)
                 )
             }
-            Self::AxisConstant { axis, value } => {
+            Self::AxisConstant { axis, value, times_s: None } => {
                 format!("{its}axis {axis} never changes: {} throughout; is it connected?", short(*value))
             }
-            Self::AxesEqual(one, other) => {
+            Self::AxisConstant { axis, value, times_s: Some((from_s, to_s)) } => format!(
+                "{its}axis {axis} stays at {} from {} to {} s while the others move: is it connected?",
+                short(*value),
+                moment(*from_s),
+                moment(*to_s)
+            ),
+            Self::AxesEqual { one, other, times_s: None } => {
                 format!(
                     "{its}axes {one} and {other} are the same in every sample: is one column there twice?"
                 )
             }
+            Self::AxesEqual { one, other, times_s: Some((from_s, to_s)) } => format!(
+                "{its}axes {one} and {other} are the same from {} to {} s: is one wired to the other?",
+                moment(*from_s),
+                moment(*to_s)
+            ),
             Self::Saturation { axis, samples, is_largest, value, unit } => format!(
                 "{its}axis {axis} may be saturated: {samples} samples in a row at its {} value {} {}",
                 if *is_largest { "largest" } else { "smallest" },

@@ -18,6 +18,7 @@
 mod checksum;
 mod chunked_reader;
 mod finding_words;
+mod glued_axes;
 mod imu;
 mod line_map;
 mod lost_sign;

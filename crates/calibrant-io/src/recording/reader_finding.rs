@@ -85,15 +85,24 @@ pub enum Noticed {
         /// Share of the samples that are missing.
         missing: f64,
     },
-    /// An axis never changes.
+    /// An axis does not change, though the others move.
     AxisConstant {
         /// The axis.
         axis: Axis,
         /// Its reading.
         value: f64,
+        /// From and to, s, where it is not so throughout.
+        times_s: Option<(f64, f64)>,
     },
-    /// Two axes always have the same reading.
-    AxesEqual(Axis, Axis),
+    /// Two axes have the same reading.
+    AxesEqual {
+        /// The one.
+        one: Axis,
+        /// The other.
+        other: Axis,
+        /// From and to, s, where it is not so throughout.
+        times_s: Option<(f64, f64)>,
+    },
     /// Readings stay at the extreme value as if clipped there.
     Saturation {
         /// The axis.
@@ -224,7 +233,7 @@ impl Noticed {
             Self::Gap { .. } | Self::MoreGaps { .. } => Code::SamplingGap,
             Self::SamplingIrregular { .. } => Code::SamplingIrregular,
             Self::AxisConstant { .. } => Code::AxisStuck,
-            Self::AxesEqual(..) => Code::AxesEqual,
+            Self::AxesEqual { .. } => Code::AxesEqual,
             Self::Saturation { .. } => Code::ReadingsClipped,
             Self::TimesDerived { .. }
             | Self::PacketTimesReplaced(_)

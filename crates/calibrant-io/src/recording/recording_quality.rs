@@ -1,10 +1,10 @@
 //! The quality of a recording as a whole: gaps, irregular sampling, axes that are not connected, clipped
 //! readings.
 
+use super::glued_axes::glued_axes;
 use super::line_map::LineMap;
 use super::reader_finding::{Finding, Noticed};
-use calibrant_core::sensor::{Axis, Recording, SensorKind, greater, lesser, missing};
-use nalgebra::Vector3;
+use calibrant_core::sensor::{Recording, SensorKind, greater, lesser, missing};
 
 /// A time step is a gap from this many usual steps on.
 const GAP: f64 = 5.0;
@@ -26,16 +26,13 @@ pub(super) fn readings(
 ) {
     for &axis in recording.active_axes() {
         if let Some(value) = recording.constant(axis) {
-            findings.push(Finding::new(Noticed::AxisConstant { axis, value }).about(sensor_kind));
+            findings
+                .push(Finding::new(Noticed::AxisConstant { axis, value, times_s: None }).about(sensor_kind));
         }
     }
-    for (one, other) in [(Axis::X, Axis::Y), (Axis::X, Axis::Z), (Axis::Y, Axis::Z)] {
-        let is_same = |reading: &Vector3<f64>| reading[one.index()] == reading[other.index()];
-        let is_connected = recording.constant(one).is_none();
-        if recording.axes == 3 && recording.readings.iter().all(is_same) && is_connected {
-            findings.push(Finding::new(Noticed::AxesEqual(one, other)).about(sensor_kind));
-        }
-    }
+    let glued = glued_axes(recording).into_iter();
+    findings
+        .extend(glued.map(|(noticed, first)| Finding::new(noticed).about(sensor_kind).at(lines.line(first))));
     for found in recording.saturations() {
         let noticed = Noticed::Saturation {
             axis: found.axis,
