@@ -108,7 +108,7 @@ pub(super) fn validation_section(page: &mut Page, validations: &[Validation]) {
     page.section(
         "Validation",
         "Errors on data that the calibration did not use, and the errors that it predicts. The prediction includes the covariance, the noise, and the scatter between holds and \
-         rotations. The ratio is rms over prediction: 1 if the standard deviations are right. It has a 99 % confidence interval. Holds within 10° are one orientation, and share what the model misses there.",
+         rotations. The ratio is rms over prediction: 1 if the standard deviations are right. It has a 99 % confidence interval, for all rows together. Holds within 10° are one orientation, and share what the model misses there.",
     );
     for validation in validations {
         page.subsection(&validation_heading(validation));
@@ -394,9 +394,12 @@ mod tests {
     fn a_question_has_no_full_stop_and_an_angle_ends_at_half_a_revolution() {
         let stated = sentence(&errors(100.0, 1.0), Cause::Another);
         assert!(stated.ends_with("or damaged since?"), "{stated}");
-        assert!(stated.contains("the rotation error is 57° rms, predicted more than 180°. "), "{stated}");
+        assert!(
+            stated.contains("the rotation error is 57° rms, predicted more than 180°: the ratio is 100"),
+            "{stated}"
+        );
         let stated = sentence(&errors(3.0, 98_966_f64.to_radians()), Cause::Covariance);
-        assert!(stated.ends_with("(2.7 to 3.3)."), "{stated}");
+        assert!(stated.ends_with("the standard deviations by about 3.0."), "{stated}");
         assert!(stated.contains("the rotation error is more than 180° rms"), "{stated}");
     }
 }

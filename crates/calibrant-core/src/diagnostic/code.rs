@@ -218,6 +218,10 @@ codes! {
         "Several consecutive rotations are not used. This is not by chance."
         "So long a run of unused rotations is improbable, and no change of a sensor explains it."
         "Check whether the gyroscope saturates there, or a sensor changes.";
+    SamplesLost "samples-lost" Warning
+        "Samples are lost, and the times do not show it. The rotations look too small."
+        "Between two samples the gyroscope often changes by twice the step before and after."
+        "Record without losses, or with times of the sensor's own clock. The gyroscope's gains are too small by the share of lost samples.";
     TurnShare "turn-share" Warning
         "The gyroscope shows the same share of the angle of every turn."
         "The share differs from 1 by more than a quarter, and is the same for all turns."

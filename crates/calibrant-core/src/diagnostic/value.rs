@@ -234,6 +234,8 @@ diagnostics! {
         start_s: f64 = "Begin of the first, s.",
         end_s: f64 = "End of the last, s.",
     }
+    /// Samples are lost, and the times do not show it.
+    SamplesLost { lost_share: f64 = "Share of the samples.", jumps: usize = "Jumps by one whole step." }
     /// All turns show the same share of their angle.
     TurnShare { share: f64 = "The share.", mistake: Option<UnitMistake> = "The mistake of units that explains the share." }
     /// The gyroscope shows a different turn from the given one.

@@ -64,6 +64,11 @@ fn of_rotations(diagnostic: &Diagnostic) -> Option<String> {
             "the rotation from hold {from_hold} to hold {to_hold} ({start_s:.1} to {end_s:.1} s) is not used: {}",
             reason
         ),
+        Diagnostic::SamplesLost { lost_share, jumps } => format!(
+            "about {:.1} % of the samples are lost, and the times do not show it: in motion, {jumps} steps of the gyroscope are twice as long as their neighbours. Its gains are too small \
+             by that share. Record without losses, or with times of the sensor's own clock.",
+            100.0 * lost_share
+        ),
         Diagnostic::RotationsLeftOutInARow { rotations, start_s, end_s } => format!(
             "the {rotations} consecutive rotations from {start_s:.1} to {end_s:.1} s are not used. This is not by chance. Did the gyroscope saturate there, or did a sensor change?"
         ),

@@ -5,12 +5,16 @@
 
 use crate::error::{Error, InputError, Refusal};
 use crate::estimate::imu::earth_rate::EarthRate;
+use crate::estimate::imu::rotations::gravity_at_ends::TurnsInHolds;
 use crate::estimate::imu::rotations::knocks::Knocks;
 use crate::estimate::quantisation::{CoarseAxis, of_means};
 use crate::estimate::result::CalibrationStatus;
 use crate::estimate::tangent_plane::tangents;
 use crate::sensor::{ImuParameters, ImuQuantity, SensorKind};
 use nalgebra::{DMatrix, DVector, Matrix2, Matrix2x3, Matrix2xX, Matrix3, Vector2, Vector3};
+
+/// Degrees of freedom of Student's distribution of the errors by knocks.
+pub(in crate::estimate) const KNOCK_DEGREES: f64 = 5.0;
 
 /// Knock factor of sensors that filter little: half-sines of one to six sample steps give 0.35 to 0.9 without a filter, and 0.1 to 0.3 with one.
 pub(crate) const USUAL_KNOCK_FACTOR: f64 = 0.3;
@@ -132,6 +136,8 @@ pub(crate) struct RotationData<'a> {
     pub(crate) from: usize,
     pub(crate) samples: Samples<'a>,
     pub(crate) knocks: Knocks,
+    /// Specific force at its begin less the mean over the hold before, and at its end less that over the hold after, m/s².
+    pub(crate) beside_means: [Vector3<f64>; 2],
     /// Can it be integrated?
     pub(crate) used: bool,
     /// Is it used, or an outlier?
@@ -202,6 +208,8 @@ pub(crate) struct RotationScatter {
     pub(crate) between_sd_rad: f64,
     /// Knock factor `κ`: the error of a knock's integral over the fourth difference of its samples times their step.
     pub(crate) knock_factor: f64,
+    /// Root mean square of the factors of all rotations.
+    pub(crate) knock_rms: f64,
     /// The factor of each rotation, larger where its error is. Empty where it is that of all.
     pub(crate) own_factors: Vec<f64>,
 }
@@ -209,7 +217,9 @@ pub(crate) struct RotationScatter {
 impl RotationScatter {
     /// Noise alone. The knock factor is the usual one.
     pub(crate) fn none() -> Self {
-        Self { between_sd_rad: 0.0, knock_factor: USUAL_KNOCK_FACTOR, own_factors: Vec::new() }
+        let knock_factor = USUAL_KNOCK_FACTOR;
+        let knock_rms = knock_factor * (KNOCK_DEGREES / (KNOCK_DEGREES - 2.0)).sqrt();
+        Self { between_sd_rad: 0.0, knock_factor, knock_rms, own_factors: Vec::new() }
     }
 
     /// Covariance of the error of this rotation.
@@ -260,6 +270,8 @@ pub(crate) struct ImuModel<'a> {
     pub(crate) gyroscope_noise: GyroscopeNoise,
     /// Scatter of the rotation errors beyond this noise.
     pub(crate) rotation_scatter: RotationScatter,
+    /// Turns within the holds, as the accelerometer shows them.
+    pub(crate) turns_in_holds: TurnsInHolds,
     pub(crate) prior: Option<Prior>,
 }
 

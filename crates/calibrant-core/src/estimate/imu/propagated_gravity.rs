@@ -5,6 +5,7 @@ use crate::estimate::imu::model::{
     GravityResidual, GyroscopeNoise, HoldData, ImuModel, RotationScatter, State,
 };
 use crate::estimate::imu::rotations::felt_force::interpolated_forces;
+use crate::estimate::imu::rotations::gravity_at_ends::{TurnsInHolds, gravity_at_ends};
 use crate::estimate::imu::rotations::spans::{Integrable, rotation_spans};
 use crate::estimate::imu::stationary::scatter::{mean_in_hold, usual_scatter};
 use crate::estimate::imu::variance_components::between_holds::set_gyroscope_means;
@@ -99,8 +100,10 @@ pub(in crate::estimate) struct PropagatedGravity {
     /// Derivative with respect to the specific forces before and after.
     pub(in crate::estimate) by_from: Matrix2x3<f64>,
     pub(in crate::estimate) by_to: Matrix2x3<f64>,
-    /// Covariance of the error from the gyroscope's noise and from knocks.
+    /// Covariance of the error from the gyroscope's noise.
     pub(in crate::estimate) noise: Matrix2<f64>,
+    /// That from knocks.
+    pub(in crate::estimate) of_knocks: Matrix2<f64>,
     /// Covariance of the error from the Earth's rate about the north, at an unknown heading.
     pub(in crate::estimate) of_earth: Matrix2<f64>,
     /// Covariance of the noise's error with that of the rotation before, which ends with the same hold. Zero without one.
@@ -116,8 +119,10 @@ pub(in crate::estimate) struct GravityPropagation<'a> {
     pub(in crate::estimate) vertical_rate: f64,
     /// Standard deviation of each component of the Earth's rate about the north, rad/s.
     pub(in crate::estimate) north_sd_radps: f64,
-    /// Knock factor of the calibration.
-    pub(in crate::estimate) knock_factor: f64,
+    /// Root mean square of the calibration's knock factors.
+    pub(in crate::estimate) knock_rms: f64,
+    /// Turns within the holds of the calibration.
+    pub(in crate::estimate) turns_in_holds: TurnsInHolds,
     /// Scatter of the gyroscope's bias between holds, in the unit of its readings.
     pub(in crate::estimate) between: Vector3<f64>,
     pub(in crate::estimate) accelerometer: &'a Recording,
@@ -159,7 +164,9 @@ impl GravityPropagation<'_> {
             .flatten();
         let spans = rotation_spans(self.gyroscope, holds);
         let integrable = Integrable::of(self.gyroscope, with_forces.then_some(self.accelerometer));
-        let rotations = integrable.rotations(felt.as_deref(), &spans, &data);
+        let sensor = &self.imu.at(mean_c).accelerometer;
+        let (at_ends, _) = gravity_at_ends(self.accelerometer, sensor, holds, Some(self.turns_in_holds));
+        let rotations = integrable.rotations(felt.as_deref(), &spans, (&data, &at_ends));
         let mut model = ImuModel {
             quantities: self.quantities.to_vec(),
             gravity: g,
@@ -169,6 +176,7 @@ impl GravityPropagation<'_> {
             turns: Vec::new(),
             gyroscope_noise: *noise,
             rotation_scatter: RotationScatter::none(),
+            turns_in_holds: self.turns_in_holds,
             prior: None,
         };
         let forces =
@@ -210,7 +218,8 @@ impl GravityPropagation<'_> {
             }),
             by_from,
             by_to,
-            noise: residual.covariance + residual.of_knocks * self.knock_factor.powi(2),
+            noise: residual.covariance,
+            of_knocks: residual.of_knocks * self.knock_rms.powi(2),
             of_earth: Matrix2::zeros(),
             noise_with_previous: previous.map_or_else(Matrix2::zeros, |previous| {
                 residual.by_turn

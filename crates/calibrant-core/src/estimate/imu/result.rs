@@ -3,6 +3,7 @@
 use crate::diagnostic::RotationReason;
 use crate::estimate::imu::clock_rate::{ClockRate, TimeOffset};
 use crate::estimate::imu::problem::NoiseSource;
+use crate::estimate::imu::rotations::gravity_at_ends::TurnsInHolds;
 use crate::estimate::uncalibrated::Uncalibrated;
 use crate::sensor::ReadingUnit;
 use nalgebra::{DVector, Vector3};
@@ -20,8 +21,11 @@ pub struct GyroscopeCalibration {
     pub rotations: Vec<RotationResult>,
     /// Excess standard deviation of the rotation errors, beyond the gyroscope's noise, per axis, rad.
     pub between_rotations_sd_rad: f64,
-    /// Knock factor: the error of a knock's integral over the fourth difference of its samples times their step. The usual one without knocks.
-    pub knock_factor: f64,
+    /// Root mean square of the knock factors: the error of a knock's integral over the fourth difference of its samples times their step. The usual one
+    /// without knocks.
+    pub knock_rms: f64,
+    /// Turns within the holds, as the accelerometer shows them.
+    pub(in crate::estimate) turns_in_holds: TurnsInHolds,
     /// The turns of known angle.
     pub turns: Vec<TurnResult>,
     /// The time offset of the gyroscope, if the rotations determine it.

@@ -72,6 +72,7 @@ fn stages(
         holds: initial.holds,
         gyroscope_noise: gyroscope.noise,
         rotation_scatter: RotationScatter::none(),
+        turns_in_holds: movement.turns_in_holds,
         prior,
         quantities,
     };

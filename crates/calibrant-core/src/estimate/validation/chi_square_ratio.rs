@@ -75,9 +75,10 @@ impl Ratio {
         falls_to(probability, |ratio| self.above(ratio))
     }
 
-    /// Ratios within which an honest covariance stays, but for one case in a hundred.
-    pub(super) fn usual(self) -> (f64, f64) {
-        (self.exceeded_with(1.0 - 0.5 * SIGNIFICANCE), self.exceeded_with(0.5 * SIGNIFICANCE))
+    /// Ratios within which so many honest covariances stay together, but for one case in a hundred (Bonferroni).
+    pub(super) fn usual(self, together: usize) -> (f64, f64) {
+        let level = 0.5 * SIGNIFICANCE / together as f64;
+        (self.exceeded_with(1.0 - level), self.exceeded_with(level))
     }
 }
 

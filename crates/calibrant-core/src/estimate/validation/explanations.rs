@@ -92,7 +92,7 @@ pub(super) fn likely_explanations(
 fn explaining(group: &Group, scatter: Degrees, by: &dyn Fn(usize) -> DMatrix<f64>) -> Option<(f64, Shift)> {
     let count: usize = group.items.iter().map(|item| item.error.len()).sum();
     let left = count.checked_sub(by(0).ncols()).filter(|left| *left >= ENOUGH)?;
-    let (low, high) = Ratio::new(left as f64, &degrees_behind(group.items.iter(), &[scatter])).usual();
+    let (low, high) = Ratio::new(left as f64, &degrees_behind(group.items.iter(), &[scatter])).usual(1);
     let whitened = Whitened::about(group, &vec![true; group.items.len()], by)?;
     let shift = whitened.shift()?;
     let rest = (whitened.chi2()? - shift.chi2).max(0.0) / left as f64;

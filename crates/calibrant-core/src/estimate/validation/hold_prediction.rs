@@ -134,6 +134,7 @@ impl HoldPrediction {
             by_parameters: row * &self.by_parameters,
             own: DMatrix::from_element(1, 1, own),
             with_previous: None,
+            knock_share: 0.0,
             scatters: vec![scattered(noise, own, self.more_noise)],
         }
     }
@@ -148,6 +149,7 @@ impl HoldPrediction {
             by_parameters: rate.by_parameters.clone(),
             own: DMatrix::from_column_slice(3, 3, own.as_slice()),
             with_previous: None,
+            knock_share: 0.0,
             scatters: (0..3)
                 .map(|axis| scattered(rate.of_mean.0[axis], rate.of_mean.1[axis], rate.more_noise[axis]))
                 .collect(),

@@ -26,12 +26,15 @@ pub(super) fn judged(
         rates.push(errors.rates);
         rotations.push(errors.rotations);
     }
+    let has_errors = |groups: &&[Group]| groups.iter().any(|group| !group.items.is_empty());
+    let together = [&magnitudes[..], &rates, &rotations].iter().filter(|of| has_errors(of)).count();
     let folds = matches!(source, ValidationSource::Folds { .. });
     let behind = |of: &[Degrees], taken: f64| {
         let fitted = Fitted { unknowns: of.iter().map(|degrees| degrees.unknowns).sum(), taken };
         ErrorContext {
             scatter_degrees: of.to_vec(),
             folds: folds.then_some(fitted),
+            together,
             free_shift: false,
             caveats,
         }

@@ -36,6 +36,8 @@ pub(super) struct Item {
     pub(super) own: DMatrix<f64>,
     /// Covariance of `own` errors with those of the item before; `None` where they have nothing in common.
     pub(super) with_previous: Option<DMatrix<f64>>,
+    /// Share of knocks in `own`, whose errors follow Student's distribution.
+    pub(super) knock_share: f64,
     /// For each scatter of the calibration, what of a component's variance it tells.
     pub(super) scatters: Vec<Scattered>,
 }

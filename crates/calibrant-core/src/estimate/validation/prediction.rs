@@ -3,6 +3,7 @@
 use super::statistics::Degrees;
 use crate::estimate::earth::{UNKNOWN_SD_RADPS, vertical_slope};
 use crate::estimate::gravity_error::gravity_slope;
+use crate::estimate::imu::TurnsInHolds;
 use crate::estimate::{Calibration, GyroscopeInHolds, HoldCalibration, ImuSetup};
 use crate::motion::{Gravity, Hold};
 use crate::sensor::{Axis, ImuParameters, ImuQuantity, Quantity, SensorKind, ThermalPart};
@@ -37,7 +38,9 @@ pub(super) struct Prediction {
     /// Error of a rotation beyond its noise, rad, and the degrees of freedom behind it.
     pub(super) rotation_sd_rad: f64,
     /// Error of a knock's integral over the fourth difference of its samples times their step.
-    pub(super) knock_factor: f64,
+    pub(super) knock_rms: f64,
+    /// Turns within the holds.
+    pub(super) turns_in_holds: TurnsInHolds,
     pub(super) rotation_degrees: Degrees,
     /// Variance of what coarse steps of the gyroscope leave in its means in another recording: its bias is not known better there, however many holds there are.
     pub(super) of_steps: Vector3<f64>,
@@ -99,7 +102,9 @@ impl Prediction {
             still_degrees: std::array::from_fn(|axis| Degrees::of_scatter(used, unknowns_at_rest(axis))),
             inverse_hold_s: inverse_hold_s(holds),
             rotation_sd_rad: gyroscope.map_or(0.0, |gyroscope| gyroscope.between_rotations_sd_rad),
-            knock_factor: gyroscope.map_or(0.0, |gyroscope| gyroscope.knock_factor),
+            knock_rms: gyroscope.map_or(0.0, |gyroscope| gyroscope.knock_rms),
+            turns_in_holds: gyroscope
+                .map_or_else(TurnsInHolds::default, |gyroscope| gyroscope.turns_in_holds),
             rotation_degrees: Degrees::of_scatter(2 * rotations, of_rotations),
             of_steps: Vector3::zeros(),
         }

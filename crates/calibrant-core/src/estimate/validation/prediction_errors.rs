@@ -180,7 +180,8 @@ impl<'a> Unused<'a> {
             gravity_mps2: prediction.gravity_mps2,
             vertical_rate: prediction.vertical_rate,
             north_sd_radps: prediction.north_sd_radps,
-            knock_factor: prediction.knock_factor,
+            knock_rms: prediction.knock_rms,
+            turns_in_holds: prediction.turns_in_holds,
             between: prediction.still_sd,
             accelerometer: self.accelerometer,
             gyroscope,
@@ -204,6 +205,7 @@ impl<'a> Unused<'a> {
                 + dense(&propagated.by_to) * &after.by_parameters;
             let excess = Matrix2::identity() * prediction.rotation_sd_rad.powi(2);
             let own = propagated.noise
+                + propagated.of_knocks
                 + propagated.of_earth
                 + excess
                 + propagated.by_from * before.own * propagated.by_from.transpose()
@@ -222,9 +224,10 @@ impl<'a> Unused<'a> {
                 by_parameters,
                 own: DMatrix::from_column_slice(2, 2, own.as_slice()),
                 with_previous: shared.map(|shared| DMatrix::from_column_slice(2, 2, shared.as_slice())),
+                knock_share: propagated.of_knocks.trace() / own.trace(),
                 // rotations are taken to be as long as in the calibration
                 scatters: vec![Scattered {
-                    scatter: 0.5 * excess.trace(),
+                    scatter: 0.5 * (excess + propagated.of_knocks).trace(),
                     calibrated_noise: 0.5 * propagated.noise.trace() / noise_here,
                     own: 0.5 * own.trace(),
                 }],

@@ -70,7 +70,7 @@ pub struct ValidatedErrors {
     pub p_value: f64,
     /// Errors over prediction, `rms/predicted_rms`.
     pub factor: f64,
-    /// 99 % confidence interval of the factor by which the standard deviations are off.
+    /// 99 % confidence interval of the factor by which the standard deviations are off, for all kinds together.
     pub factor_interval: (f64, f64),
     /// The part of it that the parameters answer for; `None` for folds, which share their data, and where it is too small to be seen.
     pub parameters: Option<ParameterPart>,

@@ -3,11 +3,12 @@
 use super::caveats_of_calibration::Caveats;
 use super::chi_square_ratio::{Ratio, falls_to, mean_of_folds};
 use super::covariance_verdict::CovarianceVerdict;
-use super::error_ratio::ErrorRatio;
+use super::error_ratio::{ErrorRatio, KNOCK_TAILS};
 use super::predicted_error::{Group, Item};
 use super::result::{ParameterPart, ValidatedErrors};
 use super::unused_error::{ErrorKind, UnusedError};
 use super::whitened_errors::Whitened;
+use crate::estimate::imu::KNOCK_DEGREES;
 use nalgebra::DVector;
 
 /// An error stands out when one as large as it would be seen in fewer than this share of validations.
@@ -21,6 +22,8 @@ pub(super) struct ErrorContext<'a> {
     pub(super) scatter_degrees: Vec<Degrees>,
     /// Of folds: what was fitted to the same errors.
     pub(super) folds: Option<Fitted>,
+    /// Number of kinds that are judged together.
+    pub(super) together: usize,
     /// Is a shift that all have in common free?
     pub(super) free_shift: bool,
     /// What the calibration itself gives reason to doubt.
@@ -65,8 +68,10 @@ pub(super) fn degrees_behind<'a>(
     scatter_degrees: &[Degrees],
 ) -> Vec<f64> {
     let count = items.clone().count() as f64;
-    let share = |k: usize| items.clone().map(|item| item.scatters[k].estimated_share()).sum::<f64>() / count;
-    scatter_degrees.iter().enumerate().map(|(k, degrees)| degrees.behind(|| share(k))).collect()
+    let mean = |of: &dyn Fn(&Item) -> f64| items.clone().map(of).sum::<f64>() / count;
+    let tails = 1.0 + mean(&|item| KNOCK_TAILS * item.knock_share.powi(2));
+    let share = |k: usize| mean(&|item| item.scatters[k].estimated_share());
+    scatter_degrees.iter().enumerate().map(|(k, degrees)| degrees.behind(|| share(k)) / tails).collect()
 }
 
 /// Judges the errors of one kind. Errors that stand out are put aside, one at a time, a fifth of them at most. `None` where there is no error.
@@ -76,6 +81,8 @@ pub(super) fn judge(kind: ErrorKind, groups: &[Group], behind: &ErrorContext<'_>
     let width = groups.iter().find_map(|group| group.items.first())?.error.len();
     let mut counts: Vec<Vec<bool>> = lengths.iter().map(|length| vec![true; *length]).collect();
     let mut errors = described(groups);
+    let knocks: Vec<f64> =
+        groups.iter().flat_map(|group| &group.items).map(|item| item.knock_share).collect();
     let (chi2, degrees) = loop {
         let (chi2, degrees) = total(groups, &counts, behind.free_shift)?;
         let kept = errors.iter().filter(|error| error.counts).count();
@@ -87,7 +94,7 @@ pub(super) fn judge(kind: ErrorKind, groups: &[Group], behind: &ErrorContext<'_>
         let own = error.in_sd.powi(2) * width as f64;
         let others = degrees.saturating_sub(width);
         let enough = others > 0 && 5 * (count - kept + 1) <= count;
-        let limit = Ratio::new(width as f64, &[others as f64]).exceeded_with(OUTLYING / count as f64);
+        let limit = largest_usual(width, others, knocks[worst], OUTLYING / count as f64);
         // beside what was predicted, or beside the others where these are worse
         let scatter = ((chi2 - own) / others.max(1) as f64).max(1.0);
         if !enough || error.in_sd.powi(2) / scatter <= limit {
@@ -117,14 +124,14 @@ pub(super) fn judge(kind: ErrorKind, groups: &[Group], behind: &ErrorContext<'_>
         None => (found, Ratio::new(found.degrees, &scatters)),
     };
     let factor = found.rms / found.predicted_rms;
-    let (low, high) = ratio.usual();
+    let (low, high) = ratio.usual(behind.together);
     let factor_interval = (factor / high.sqrt(), factor / low.sqrt());
     let parameters = match groups {
         [group] if behind.folds.is_none() => {
             // the parameters' covariance is as uncertain as the scatter, however small its share is
             let of = |(degrees, all): (&Degrees, &f64)| degrees.share.map_or(*all, |_| degrees.of_scatter);
             let degrees: Vec<f64> = behind.scatter_degrees.iter().zip(&scatters).map(of).collect();
-            parameter_part(group, &counts[0], &degrees)
+            parameter_part(group, &counts[0], &degrees, behind.together)
         }
         _ => None,
     };
@@ -156,6 +163,14 @@ pub(super) fn judge(kind: ErrorKind, groups: &[Group], behind: &ErrorContext<'_>
         caveat,
         errors,
     })
+}
+
+/// The mean square of the components of an error that chance exceeds with this probability, in its predicted variance. `others`: degrees of freedom of those
+/// beside it. The errors of knocks follow Student's distribution, with this share in the variance.
+fn largest_usual(width: usize, others: usize, knock_share: f64, level: f64) -> f64 {
+    let of_knocks = knock_share.powi(2) / KNOCK_DEGREES;
+    let degrees = 1.0 / (1.0 / others as f64 + of_knocks);
+    Ratio::new(width as f64, &[degrees]).exceeded_with(level) * (1.0 - 2.0 * of_knocks)
 }
 
 /// χ² of all groups and its degrees of freedom; a free shift takes its own.
@@ -202,7 +217,12 @@ fn described(groups: &[Group]) -> Vec<UnusedError> {
 
 /// The parameters' part: along direction k the squared error `a_k²` has the mean `1 + c λ_k`, with `c = 1` where `Σ` is right. `c` is that for which
 /// `Σ a_k²/(1 + c λ_k)` is its mean, the interval that for which it is usual (the Q-profile method, `viechtbauer2007`).
-fn parameter_part(group: &Group, counts: &[bool], scatters: &[f64]) -> Option<ParameterPart> {
+fn parameter_part(
+    group: &Group,
+    counts: &[bool],
+    scatters: &[f64],
+    together: usize,
+) -> Option<ParameterPart> {
     let mut parts = Whitened::of(group, counts)?.common_parts();
     parts.retain(|part| part.1 > SEEN);
     if parts.is_empty() {
@@ -212,7 +232,7 @@ fn parameter_part(group: &Group, counts: &[bool], scatters: &[f64]) -> Option<Pa
     let left = |c: f64| parts.iter().map(|(square, share)| square / (1.0 + c * share)).sum::<f64>() / n;
     let scale = |target: f64| falls_to(target, left);
     let ratio = Ratio::new(n, scatters);
-    let (low, high) = ratio.usual();
+    let (low, high) = ratio.usual(together);
     Some(ParameterPart {
         chi2: left(1.0) * n,
         degrees_of_freedom: parts.len(),

@@ -171,6 +171,7 @@ mod tests {
                     // the third and the fourth have nothing in common
                     with_previous: (n > 0 && n != 3)
                         .then(|| DMatrix::from_fn(3, 3, |i, j| 0.4 * number(n * 17 + i * 3 + j * 7))),
+                    knock_share: 0.0,
                     scatters: Vec::new(),
                 }
             })

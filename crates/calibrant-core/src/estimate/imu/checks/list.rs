@@ -3,11 +3,12 @@
 use crate::estimate::imu::checks::evidence::{Diagnostics, Evidence};
 use crate::estimate::imu::checks::{
     axis_order, changes, chi_squared, coarse_steps, convergence, extrapolation, gains, gyroscope_noise,
-    hold_intervals, holds_left_out, motion_in_hold, rotations_left_out, time_offset, turns_of_known_angle,
+    hold_intervals, holds_left_out, lost_samples, motion_in_hold, rotations_left_out, time_offset,
+    turns_of_known_angle,
 };
 
 /// Every check, in order.
-const CHECKS: [fn(&Evidence<'_>) -> Diagnostics; 15] = [
+const CHECKS: [fn(&Evidence<'_>) -> Diagnostics; 16] = [
     time_offset::check,
     changes::check,
     holds_left_out::check,
@@ -17,6 +18,7 @@ const CHECKS: [fn(&Evidence<'_>) -> Diagnostics; 15] = [
     convergence::check,
     axis_order::check,
     rotations_left_out::check,
+    lost_samples::check,
     turns_of_known_angle::check,
     chi_squared::check,
     gains::check,

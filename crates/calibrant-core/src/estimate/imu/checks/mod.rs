@@ -22,6 +22,7 @@ pub(crate) mod holds_left_out;
 pub(crate) mod identifiability;
 pub(crate) mod known_terms;
 pub(crate) mod list;
+pub(crate) mod lost_samples;
 pub(crate) mod missed_gravity;
 pub(crate) mod motion_in_hold;
 pub(crate) mod rotations_left_out;

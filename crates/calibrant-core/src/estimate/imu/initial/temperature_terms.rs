@@ -18,6 +18,7 @@ use crate::estimate::imu::model::{
     Fit, GyroscopeNoise, HoldData, ImuModel, RotationScatter, State, singular,
 };
 use crate::estimate::imu::problem::ImuProblem;
+use crate::estimate::imu::rotations::gravity_at_ends::TurnsInHolds;
 use crate::estimate::imu::temperature::{RecordingTemperature, at_reference};
 use crate::estimate::settings::CalibrationSettings;
 use crate::motion::Hold;
@@ -160,6 +161,7 @@ impl<'a> AccelerometerOnly<'a> {
                 turns: Vec::new(),
                 gyroscope_noise: GyroscopeNoise::none(),
                 rotation_scatter: RotationScatter::none(),
+                turns_in_holds: TurnsInHolds::default(),
                 prior: prior_of(problem, &quantities),
                 quantities,
             },

@@ -11,7 +11,7 @@ impl ImuModel<'_> {
     /// The residual of a rotation at a state. `None` if the gyroscope's matrix is singular.
     pub(crate) fn gravity_residual(&self, data: &RotationData<'_>, state: &State) -> Option<GravityResidual> {
         let rotation = data.samples.integrate(&state.imu, &self.gyroscope_noise.of_sample)?;
-        let (before, to) = (state.forces[data.from], state.forces[data.from + 1]);
+        let [before, to] = [0, 1].map(|end| state.forces[data.from + end] + data.beside_means[end]);
         // gravity after the Earth's rotation during this time
         let from = before + self.earth.rate(data.from, &before).cross(&before) * data.samples.duration_s();
         let back = rotation.start_from_end.transpose();

@@ -5,6 +5,7 @@ use crate::error::Result;
 use crate::estimate::imu::model::{GyroscopeNoise, HoldData, RotationData, TurnData};
 use crate::estimate::imu::problem::ImuProblem;
 use crate::estimate::imu::rotations::felt_force::interpolated_forces;
+use crate::estimate::imu::rotations::gravity_at_ends::{AtEnds, TurnsInHolds, gravity_at_ends};
 use crate::estimate::imu::rotations::spans::{Integrable, Span, rotation_spans};
 use crate::estimate::imu::rotations::turns::turn_data;
 use crate::estimate::imu::temperature::RecordingTemperature;
@@ -18,6 +19,9 @@ pub(crate) struct Movement<'a> {
     pub(crate) integrable: Integrable<'a>,
     /// Specific force at the gyroscope's times, if turns or the g-sensitivity need it.
     forces: Option<Vec<Vector3<f64>>>,
+    /// Gravity at the ends of the holds.
+    at_ends: Vec<AtEnds>,
+    pub(crate) turns_in_holds: TurnsInHolds,
     /// Does the gyroscope have a g-sensitivity?
     feels: bool,
 }
@@ -39,13 +43,15 @@ impl<'a> Movement<'a> {
             Some(_) if !setup.turns.is_empty() => Vec::new(),
             _ => rotation_spans(gyroscope, holds),
         };
+        let (at_ends, turns_in_holds) = gravity_at_ends(accelerometer, sensor, holds, None);
         let as_read = problem.recording.accelerometer.as_ref().filter(|_| feels);
-        Self { spans, integrable: Integrable::of(gyroscope, as_read), forces, feels }
+        Self { spans, integrable: Integrable::of(gyroscope, as_read), forces, at_ends, turns_in_holds, feels }
     }
 
     /// The rotations, each from one of the holds to the next.
     pub(crate) fn rotations(&self, holds: &[HoldData]) -> Vec<RotationData<'_>> {
-        self.integrable.rotations(self.forces.as_deref().filter(|_| self.feels), &self.spans, holds)
+        let felt = self.forces.as_deref().filter(|_| self.feels);
+        self.integrable.rotations(felt, &self.spans, (holds, &self.at_ends))
     }
 
     /// The turns of known angle. `start`: the initial IMU, and the temperatures.

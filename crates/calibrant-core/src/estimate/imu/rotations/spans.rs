@@ -2,14 +2,12 @@
 
 use crate::diagnostic::RotationReason;
 use crate::estimate::imu::model::{HoldData, LocalBias, RotationData, Samples};
+use crate::estimate::imu::rotations::gravity_at_ends::{AtEnds, MARGIN_S, margin_s};
 use crate::estimate::imu::rotations::knocks::Knocks;
 use crate::motion::Hold;
 use crate::sensor::{Recording, Saturation, SensorKind};
 use nalgebra::Vector3;
 use std::ops::Range;
-
-/// A rotation begins this time before the end of a hold, s. A hand begins so gently that the first milliradians look stationary.
-const MARGIN_S: f64 = 0.3;
 
 /// A shorter saturation of the accelerometer in a rotation does not matter, s. With 1 g cut off and a common g-sensitivity of 2e-4 (rad/s)/(m/s²),
 /// the error is 0.1 mrad.
@@ -33,8 +31,7 @@ pub(crate) fn rotation_spans(gyroscope: &Recording, holds: &[&Hold]) -> Vec<Span
         .windows(2)
         .map(|pair| {
             let (from, to) = (pair[0], pair[1]);
-            let margin = |hold: &Hold| (0.25 * hold.duration_s()).min(MARGIN_S);
-            let (start_s, end_s) = (from.end_s - margin(from), to.start_s + margin(to));
+            let (start_s, end_s) = (from.end_s - margin_s(from), to.start_s + margin_s(to));
             let times = &gyroscope.times_s;
             let first = times.partition_point(|&t| t <= start_s).saturating_sub(1);
             let end = (times.partition_point(|&t| t < end_s) + 1).min(gyroscope.len());
@@ -68,12 +65,12 @@ impl<'a> Integrable<'a> {
         Self { gyroscope, gap_s, saturations, felt }
     }
 
-    /// The rotations in these spans, each from one of the holds to the next.
+    /// The rotations in these spans, each from one of the holds to the next. `at_ends`: gravity at the ends of the holds.
     pub(crate) fn rotations(
         &self,
         felt: Option<&'a [Vector3<f64>]>,
         spans: &[Span],
-        holds: &[HoldData],
+        (holds, at_ends): (&[HoldData], &[AtEnds]),
     ) -> Vec<RotationData<'a>> {
         let rotation = |(from, span): (usize, &Span)| RotationData {
             from,
@@ -87,6 +84,7 @@ impl<'a> Integrable<'a> {
                 &self.gyroscope.times_s[span.samples.clone()],
                 &self.gyroscope.readings[span.samples.clone()],
             ),
+            beside_means: [at_ends[from][1], at_ends[from + 1][0]],
             used: self.obstacle(span).is_none(),
             counts: true,
         };

@@ -7,7 +7,9 @@
 //! A knock that is as short as a few sample steps has an integral that its samples show only roughly. The factor of that error is a second variance component, of the largest likelihood.
 
 use crate::estimate::between_hold_variance::{Trial, excess};
-use crate::estimate::imu::model::{GravityResidual, ImuModel, RotationScatter, State, USUAL_KNOCK_FACTOR};
+use crate::estimate::imu::model::{
+    GravityResidual, ImuModel, KNOCK_DEGREES, RotationScatter, State, USUAL_KNOCK_FACTOR,
+};
 use nalgebra::{DMatrix, DVector, Matrix2, Matrix2xX, Vector2};
 use std::f64::consts::FRAC_PI_2;
 
@@ -19,9 +21,6 @@ const ROUNDS: usize = 200;
 
 /// Knock factors that are compared.
 const KNOCK_FACTORS: [f64; 6] = [0.03, 0.06, 0.12, 0.25, 0.5, 1.0];
-
-/// Degrees of freedom of Student's distribution of the errors by knocks.
-const KNOCK_DEGREES: f64 = 5.0;
 
 /// Rounds in which the factors of the rotations and the fit follow each other.
 const KNOCK_ROUNDS: usize = 4;
@@ -251,7 +250,8 @@ impl Linear<'_> {
     /// Each rotation has a factor of its own, the larger the larger its error is.
     fn with_knocks(&self, used: &[bool], factor: f64) -> Option<(f64, RotationScatter, Solved)> {
         let own_factors = vec![factor; used.len()];
-        let all = RotationScatter { knock_factor: factor, own_factors, between_sd_rad: 0.0 };
+        let all =
+            RotationScatter { knock_factor: factor, knock_rms: factor, own_factors, between_sd_rad: 0.0 };
         let (mut scatter, mut solved) = self.excess(used, all.clone())?;
         for _ in 0..KNOCK_ROUNDS {
             let studentised = self.studentised(used, &scatter, &solved);
@@ -264,7 +264,7 @@ impl Linear<'_> {
             let own_factors = own_factors.collect();
             (scatter, solved) = self.excess(used, RotationScatter { own_factors, ..all.clone() })?;
         }
-        let of_all = RotationScatter { between_sd_rad: scatter.between_sd_rad, ..all };
+        let of_all = RotationScatter { between_sd_rad: scatter.between_sd_rad, ..all.clone() };
         let of_unknowns = solved.covariance.clone().cholesky().map_or(0.0, |root| root.ln_determinant());
         let of_factor = (factor / USUAL_KNOCK_FACTOR).ln().powi(2);
         let of_errors = self.used(used).map(|(i, residual, jacobian)| {
@@ -278,7 +278,27 @@ impl Linear<'_> {
                 }
         });
         let log_likelihood = 0.5 * (of_unknowns - of_factor - of_errors.sum::<f64>());
+        // longer tails than Student's
+        let of_student = KNOCK_DEGREES / (KNOCK_DEGREES - 2.0);
+        let longer = (self.mean_square(used, &of_all, &solved) / of_student).max(1.0).sqrt();
+        let own_factors = scatter.own_factors.iter().map(|own| own * longer).collect();
+        (scatter, solved) = self.excess(used, RotationScatter { own_factors, ..all.clone() })?;
+        let of_all = RotationScatter { between_sd_rad: scatter.between_sd_rad, ..all };
+        scatter.knock_rms = factor * self.mean_square(used, &of_all, &solved).max(1.0).sqrt();
         Some((log_likelihood, scatter, solved))
+    }
+
+    /// Mean of χ² per component of the rotations with knocks, each counted with the share of the knocks in its covariance.
+    fn mean_square(&self, used: &[bool], scatter: &RotationScatter, solved: &Solved) -> f64 {
+        let studentised = self.studentised(used, scatter, solved);
+        let (mut sum, mut weight) = (0.0, 0.0);
+        for (i, residual, _) in self.used(used) {
+            let share = residual.of_knocks.trace() * scatter.knock_factor.powi(2)
+                / scatter.covariance(i, residual).trace();
+            sum += share * 0.5 * studentised[i].powi(2);
+            weight += share;
+        }
+        sum / weight
     }
 
     /// The excess that makes χ² equal its degrees of freedom, zero where the noise explains the scatter.
