@@ -3,6 +3,7 @@
 mod accelerometer_on_faces;
 mod architecture;
 mod bias_drift;
+mod campaign;
 mod clock_skew;
 mod common;
 mod comparison;
