@@ -21,6 +21,7 @@ impl crate::run::Run for Arguments {
         let inputs = self.recordings.iter().chain(&self.gyroscope).chain([&self.experiment]).chain(others);
         let folders = match self.recordings.as_slice() {
             [_] => vec![String::new()],
+            _ if self.together => vec![String::new()],
             several => batch::folders(several),
         };
         let of_folder = |folder: &String| {

@@ -31,6 +31,9 @@ pub(crate) struct Arguments {
     /// The gyroscope's file of that recording, if there is one.
     #[arg(long, value_name = "FILE", requires = "validate")]
     pub(super) validate_gyroscope: Option<PathBuf>,
+    /// The recordings are of one accelerometer: fit their holds together. The result is one calibration.
+    #[arg(long)]
+    pub(super) together: bool,
     /// Validate without another recording: each of K blocks of holds is predicted from the others.
     #[arg(long, value_name = "K")]
     pub(super) folds: Option<usize>,

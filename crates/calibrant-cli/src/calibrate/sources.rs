@@ -14,10 +14,27 @@ pub(super) fn sources(arguments: &Arguments, experiment: &Experiment) -> calibra
         Some(_) => with_gyroscopes(arguments)?,
         None => arguments.recordings.iter().map(Source::from_file).collect(),
     };
+    if arguments.together {
+        return together(arguments, experiment);
+    }
     if sources.len() > 1 {
         check_several(arguments, experiment)?;
     }
     Ok(sources)
+}
+
+/// One source of all recordings, those of one accelerometer.
+fn together(arguments: &Arguments, experiment: &Experiment) -> calibrant::Result<Vec<Source>> {
+    let help = "calibrate the recordings one by one, or leave out --together";
+    match (&experiment.imu, &experiment.plan) {
+        (None, Plan::Holds(holds)) if holds.intervals_s.is_none() => {}
+        (None, Plan::Holds(_)) => {
+            return refuse("--together needs holds that are found, and holds.intervals_s gives them", help);
+        }
+        _ => return refuse("--together is for an accelerometer and [holds]", help),
+    }
+    let [first, further @ ..] = arguments.recordings.as_slice() else { return Ok(Vec::new()) };
+    Ok(vec![Source { further: further.to_vec(), ..Source::from_file(first) }])
 }
 
 fn with_gyroscopes(arguments: &Arguments) -> calibrant::Result<Vec<Source>> {

@@ -29,6 +29,7 @@ mod repaired_recordings;
 mod sensor_change;
 mod simulate;
 mod temperature;
+mod together;
 mod truncated_bag;
 mod undetermined;
 mod validation;

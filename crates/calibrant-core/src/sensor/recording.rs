@@ -25,6 +25,14 @@ const GAP: f64 = 5.0;
 const MOVED_S: f64 = 0.05;
 
 impl Recording {
+    /// Adds another recording of the sensor, which begins `pause_s` after the end of this one.
+    pub fn append(&mut self, other: &Self, pause_s: f64) {
+        let end_s = self.times_s.last().copied().unwrap_or_default();
+        let later_s = end_s + pause_s - other.times_s.first().copied().unwrap_or_default();
+        self.times_s.extend(other.times_s.iter().map(|t| t + later_s));
+        self.readings.extend_from_slice(&other.readings);
+    }
+
     /// Number of samples.
     #[must_use]
     pub fn len(&self) -> usize {

@@ -1,4 +1,4 @@
-//! A calibration is not tried on the data that it is from.
+//! A calibration is not tried on the data that it is from, and no recording counts twice.
 
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::sensor::{Recording, SensorKind};
@@ -29,8 +29,7 @@ pub(crate) fn refuse_duplicate(
     other: &Readings<'_>,
     path: &Path,
 ) -> Result<()> {
-    let recordings = one.recording.zip(other.recording);
-    if one.sha256 != other.sha256 && !recordings.is_some_and(|(one, other)| share_samples(one, other)) {
+    if !are_the_same(one, other) {
         return Ok(());
     }
     let what = match sensor_kind {
@@ -40,6 +39,12 @@ pub(crate) fn refuse_duplicate(
     let message = format!("{what}; errors on them are smaller than on other data, and validate nothing");
     let help = "give another recording of the sensor, or --folds 5 in place of --validate: blocks of holds, each predicted from the others";
     Err(Error::experiment(InputError::new(Refusal::RecordingRepeated, message, help).in_file(path)))
+}
+
+/// Are they of the same file, or do they share samples?
+pub(crate) fn are_the_same(one: &Readings<'_>, other: &Readings<'_>) -> bool {
+    let recordings = one.recording.zip(other.recording);
+    one.sha256 == other.sha256 || recordings.is_some_and(|(one, other)| share_samples(one, other))
 }
 
 /// Do two recordings share samples: is one a part of the other, or do they overlap, at whatever times? Readings are compared to the last digit.

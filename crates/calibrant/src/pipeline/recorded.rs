@@ -1,12 +1,13 @@
 //! A recording as it was read.
 
-use super::duplicates::Readings;
+use super::duplicates::{Readings, are_the_same};
 use super::source::Source;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::sensor::{ImuRecording, Recording, SensorKind};
 use calibrant_io::{
     FileFormat, Finding, ImuFile, ImuReadOptions, Input, USUAL_RATE_SD_PPM, read_imu_pair, read_imu_recording,
 };
+use std::path::Path;
 
 /// The samples of one sensor or of both, and where they come from.
 pub(crate) struct Recorded {
@@ -19,13 +20,18 @@ pub(crate) struct Recorded {
     pub(crate) rate_sd: f64,
     /// SHA-256 of each file.
     pub(crate) sha256: Vec<String>,
+    /// The files, where there are further recordings of the sensor.
+    joined: Vec<Input>,
 }
+
+/// Pause between two recordings of a sensor that are calibrated together, s.
+const PAUSE_S: f64 = 60.0;
 
 impl Recorded {
     /// Reads an accelerometer alone.
     pub(crate) fn accelerometer_from(source: &Source, options: &ImuReadOptions) -> Result<Self> {
         let ImuFile { recording, findings, sha256, .. } = read_imu_recording(&source.recording, options)?;
-        Ok(Self { recording, format: None, findings, rate_sd: 0.0, sha256 })
+        Ok(Self { recording, format: None, findings, rate_sd: 0.0, sha256, joined: Vec::new() })
     }
 
     /// Reads an IMU from its file or its two files.
@@ -38,7 +44,7 @@ impl Recorded {
             true => 1e-6 * options.rate_sd_ppm.unwrap_or(USUAL_RATE_SD_PPM),
             false => 0.0,
         };
-        Ok(Self { recording, format: Some(format), findings, rate_sd, sha256 })
+        Ok(Self { recording, format: Some(format), findings, rate_sd, sha256, joined: Vec::new() })
     }
 
     /// The accelerometer's samples.
@@ -49,6 +55,33 @@ impl Recorded {
         })
     }
 
+    /// Adds a further recording of the accelerometer.
+    pub(crate) fn join(&mut self, other: Self, source: &Source, path: &Path) -> Result<()> {
+        let kind = SensorKind::Accelerometer;
+        let refused = |refusal, message, help| {
+            Err(Error::recording(InputError::new(refusal, message, help).in_file(path)))
+        };
+        if are_the_same(&self.readings(kind), &other.readings(kind)) {
+            let message = "its samples are in a recording before it: they would count twice";
+            return refused(Refusal::RecordingRepeated, message, "give each recording once");
+        }
+        if self.joined.is_empty() {
+            self.joined = self.inputs(source);
+        }
+        let added = other.accelerometer().map_err(|error| error.in_recording(path))?;
+        self.joined.push(Input::of(path, &other.sha256.concat(), Some(added)));
+        if let Some(recording) = &mut self.recording.accelerometer {
+            if (recording.unit, recording.axes) != (added.unit, added.axes) {
+                let message = "its unit or number of axes is not that of the first recording";
+                let help = "record one sensor in one unit, or calibrate the recordings one by one";
+                return refused(Refusal::RecordingsUnlike, message, help);
+            }
+            recording.append(added, PAUSE_S);
+        }
+        self.sha256.extend(other.sha256);
+        Ok(())
+    }
+
     /// The readings of a sensor, with the hash of all files.
     pub(crate) fn readings(&self, sensor_kind: SensorKind) -> Readings<'_> {
         Readings { sha256: self.sha256.concat(), recording: self.recording.sensor(sensor_kind) }
@@ -56,6 +89,9 @@ impl Recorded {
 
     /// The files, as `calibration.json` names them.
     pub(crate) fn inputs(&self, source: &Source) -> Vec<Input> {
+        if !self.joined.is_empty() {
+            return self.joined.clone();
+        }
         let sensors = SensorKind::ALL.map(|sensor_kind| self.recording.sensor(sensor_kind));
         let files = source.files().zip(&self.sha256).zip(sensors);
         files.map(|((path, sha256), readings)| Input::of(path, sha256, readings)).collect()

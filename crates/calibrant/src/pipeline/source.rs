@@ -13,13 +13,15 @@ pub struct Source {
     pub gyroscope: Option<PathBuf>,
     /// The list of the sections of a Ferraris session: faces and turns.
     pub sections: Option<PathBuf>,
+    /// Further recordings of the same accelerometer, which are calibrated together with the first.
+    pub further: Vec<PathBuf>,
 }
 
 impl Source {
     /// A recording in one file.
     #[must_use]
     pub fn from_file(recording: impl Into<PathBuf>) -> Self {
-        Self { recording: recording.into(), gyroscope: None, sections: None }
+        Self { recording: recording.into(), gyroscope: None, sections: None, further: Vec::new() }
     }
 
     /// Its files of readings, in the order of the sensors.

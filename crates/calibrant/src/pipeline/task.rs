@@ -55,6 +55,12 @@ impl<'e> Task<'e> {
     ) -> Result<Outcome> {
         let mut recorded = self.reader.read(source)?;
         notes.extend(Note::of_findings(&recorded.findings, source));
+        for path in &source.further {
+            let further = Source::from_file(path);
+            let read = self.reader.read(&further)?;
+            notes.extend(Note::of_findings(&read.findings, &further));
+            recorded.join(read, source, path)?;
+        }
         let mut setup = self.kind.setup(source, &recorded.recording, notes)?;
         setup.set_rate_sd(recorded.rate_sd);
         let outliers = setup.prepare(&mut recorded.recording);
