@@ -100,3 +100,21 @@ fn no_hold_at_all() {
         &["no hold was found in the recording: the sensor was never still for long enough"],
     );
 }
+
+/// A bias of 10 g: the readings lie on a small sphere far from zero, and hardly tell bias from scale factor.
+#[test]
+fn a_bias_of_many_g_is_named() {
+    let bench = Bench::new();
+    bench.preset("static-poses", "poses.toml", &[]);
+    bench.run("simulate poses.toml -o one").done();
+    let text = bench.read("one/recording.csv");
+    let biased = text.lines().filter(|line| !line.starts_with('#')).map(|line| {
+        let cells: Vec<&str> = line.split(',').collect();
+        match cells[1].parse::<f64>() {
+            Ok(x) => format!("{},{},{},{}\n", cells[0], x + 98.0, cells[2], cells[3]),
+            Err(_) => format!("{line}\n"),
+        }
+    });
+    bench.write("biased.csv", biased.collect::<String>());
+    bench.refuses("calibrate poses.toml biased.csv -o result", 4, &["a bias of many g"]);
+}

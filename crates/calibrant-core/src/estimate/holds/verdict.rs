@@ -17,6 +17,9 @@ const CONDITION: f64 = 100.0;
 const CORRELATED: f64 = 0.9;
 /// Holds lie in a plane or on a point if they extend by less than this share in one direction.
 const FLAT: f64 = 0.02;
+/// The means of holds in all directions lie on a sphere of this roundness, the least extent over the largest. Its centre is far from zero at this multiple of the largest extent.
+const ROUND: f64 = 0.3;
+const FAR_FROM_ZERO: f64 = 4.0;
 /// Cosine of the angle up to which a direction is that of an axis: 15°.
 const ALONG: f64 = 0.966;
 
@@ -70,6 +73,9 @@ fn arrangement(holds: &[Hold]) -> String {
     let (thin, long) = (eigen.eigenvalues.imin(), eigen.eigenvalues.imax());
     if extent(long) < FLAT * center.norm() {
         return "all are in the same orientation (a turn about the vertical does not change what an accelerometer shows)".into();
+    }
+    if center.norm() > FAR_FROM_ZERO * extent(long) && extent(thin) > ROUND * extent(long) {
+        return "their means lie on a sphere far from zero, as with a bias of many g, another unit or a wrong column".into();
     }
     let normal = eigen.eigenvectors.column(thin);
     if extent(thin) < FLAT * extent(long) {
