@@ -76,4 +76,5 @@ pub use calibrant_core::{
 pub use calibrant_design as design;
 pub use calibrant_design::study;
 pub use calibrant_io as io;
+pub use calibrant_machine as machine;
 pub use calibrant_report as report;

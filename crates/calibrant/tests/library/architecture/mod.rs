@@ -16,7 +16,7 @@ use modules::Modules;
 /// The crates from the lowest layer up; each uses crates of lower layers only.
 const LAYERS: &[&[&str]] = &[
     &["calibrant-core", "lapack-over-nalgebra"],
-    &["calibrant-design"],
+    &["calibrant-design", "calibrant-machine"],
     &["calibrant-io", "calibrant-report"],
     &["calibrant"],
     &["calibrant-cli"],
