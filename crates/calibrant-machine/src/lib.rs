@@ -3,3 +3,4 @@
 //! The machine is the reference: a log of its joints, or of the pose of the body. From it follows what the sensor should have read.
 
 pub mod log;
+pub mod spline;

@@ -1,0 +1,190 @@
+//! Fits a spline to a log by least squares: with gaps, repeated samples, outliers and uneven times.
+//!
+//! `minimise Σ_k w_k (x_k − x(t_k))² + λ Σ_i (Δ³c_i)²`. The weights `w` are Huber's, about the median absolute deviation of the residuals (`huber1981`).
+//! The penalty is so small that it only decides where no sample does: a gap is bridged by a parabola.
+
+use super::banded::Band;
+use super::{UniformKnots, VectorSpline, Weights};
+
+/// Residuals up to this many standard deviations keep their full weight.
+const HUBER: f64 = 4.0;
+/// Residuals beyond this many standard deviations are outliers, and count as such.
+const OUTLIER: f64 = 8.0;
+/// From this round on outliers have no weight.
+const REDESCENDING: usize = 3;
+/// Samples whose residuals have the same standard deviation.
+const NEIGHBOURS: usize = 100;
+/// Reweighted fits.
+const ROUNDS: usize = 8;
+/// Weight of the penalty beside that of the samples.
+const PENALTY: f64 = 1e-9;
+/// Median absolute deviation of a normal distribution with standard deviation 1.
+const NORMAL_MAD: f64 = 0.674_489_75;
+
+/// A spline through a log.
+#[derive(Debug, Clone)]
+pub struct SplineFit {
+    /// The spline.
+    pub spline: VectorSpline,
+    /// Standard deviation of one sample about the spline, for each component. The degrees of freedom that the fit used are counted.
+    pub sd: Vec<f64>,
+    /// Number of outliers of each component.
+    pub outliers: Vec<usize>,
+    /// Number of samples of each component.
+    pub samples: Vec<usize>,
+    /// Number of control points that the samples of each component determine: the trace of the hat matrix.
+    pub determined: Vec<f64>,
+}
+
+/// Fits a vector to samples, `dimension` values for each time. A value that is NaN was not recorded.
+///
+/// # Examples
+/// ```
+/// use calibrant_machine::spline::{Degree, UniformKnots, fit_vectors};
+/// let times: Vec<f64> = (0..500).map(|k| 0.01 * k as f64).collect();
+/// let noise = |t: f64| 1e-4 * (1e4 * t).sin();
+/// let mut values: Vec<f64> = times.iter().map(|t| (2.0 * t).sin() + noise(*t)).collect();
+/// values[100] = 50.0; // an outlier
+/// values[200..210].fill(f64::NAN); // a gap
+/// let knots = UniformKnots::covering(0.0, 4.99, 0.1, Degree::Quintic);
+/// let fit = fit_vectors(&times, &values, 1, knots);
+/// assert_eq!(fit.outliers, [1]);
+/// assert!((fit.spline.at(1.0, 1)[0] - 2.0 * 2.0_f64.cos()).abs() < 1e-3);
+/// ```
+#[must_use]
+pub fn fit_vectors(times_s: &[f64], values: &[f64], dimension: usize, knots: UniformKnots) -> SplineFit {
+    let weights: Vec<Weights> = times_s.iter().map(|t| knots.weights(*t)).collect();
+    let mut fit = SplineFit {
+        spline: VectorSpline { knots, dimension, controls: vec![0.0; dimension * knots.controls()] },
+        sd: Vec::new(),
+        outliers: Vec::new(),
+        samples: Vec::new(),
+        determined: Vec::new(),
+    };
+    for j in 0..dimension {
+        let samples: Vec<Sample<'_>> = (weights.iter().zip(values[j..].iter().step_by(dimension)))
+            .filter(|(_, value)| value.is_finite())
+            .map(|(weights, &value)| Sample { weights, value })
+            .collect();
+        let of = Component::fitted(&samples, knots);
+        for (i, control) in of.controls.iter().enumerate() {
+            fit.spline.controls[i * dimension + j] = *control;
+        }
+        fit.sd.push(of.sd);
+        fit.outliers.push(of.outliers);
+        fit.samples.push(samples.len());
+        fit.determined.push(of.determined);
+    }
+    fit
+}
+
+struct Sample<'a> {
+    weights: &'a Weights,
+    value: f64,
+}
+
+impl Sample<'_> {
+    fn residual(&self, controls: &[f64]) -> f64 {
+        let Weights { interval, order, derivative } = self.weights;
+        let fitted: f64 = (0..*order).map(|r| derivative[0][r] * controls[interval + r]).sum();
+        self.value - fitted
+    }
+}
+
+struct Component {
+    controls: Vec<f64>,
+    sd: f64,
+    outliers: usize,
+    determined: f64,
+}
+
+impl Component {
+    fn fitted(samples: &[Sample<'_>], knots: UniformKnots) -> Self {
+        let mut weight = vec![1.0; samples.len()];
+        let mut fit = Self { controls: vec![0.0; knots.controls()], sd: 0.0, outliers: 0, determined: 0.0 };
+        for round in 0..ROUNDS {
+            let (factor, controls) = solved(samples, &weight, knots);
+            fit.controls = controls;
+            let residuals: Vec<f64> = samples.iter().map(|sample| sample.residual(&fit.controls)).collect();
+            let scale = scales(&residuals);
+            let before = weight.clone();
+            for ((weight, residual), scale) in weight.iter_mut().zip(&residuals).zip(&scale) {
+                *weight = match residual.abs() / scale {
+                    size if size <= HUBER || scale.is_nan() => 1.0,
+                    size if size > OUTLIER && round >= REDESCENDING => 0.0,
+                    size => HUBER / size,
+                };
+            }
+            if before == weight || round + 1 == ROUNDS {
+                fit.determined = trace(samples, &before, &factor);
+                let squares: f64 = residuals.iter().zip(&before).map(|(r, w)| w * w * r * r).sum();
+                let degrees = (samples.len() as f64 - fit.determined).max(1.0);
+                fit.sd = (squares / degrees).sqrt();
+                fit.outliers =
+                    residuals.iter().zip(&scale).filter(|(r, scale)| r.abs() > OUTLIER * **scale).count();
+                break;
+            }
+        }
+        fit
+    }
+}
+
+/// Factor and solution of the normal equations.
+fn solved(samples: &[Sample<'_>], weight: &[f64], knots: UniformKnots) -> (Band, Vec<f64>) {
+    let mut band = Band::zeros(knots.controls(), knots.degree.order());
+    let mut right = vec![0.0; knots.controls()];
+    for (sample, weight) in samples.iter().zip(weight) {
+        let Weights { interval, order, derivative } = sample.weights;
+        for r in 0..*order {
+            let weighted = weight * derivative[0][r];
+            right[interval + r] += weighted * sample.value;
+            for s in 0..=r {
+                band.add(interval + r, interval + s, weighted * derivative[0][s]);
+            }
+        }
+    }
+    let penalty = PENALTY * (samples.len() as f64 / knots.intervals as f64).max(1.0);
+    for i in 0..knots.controls() - 3 {
+        let difference = [-1.0, 3.0, -3.0, 1.0];
+        for r in 0..4 {
+            for s in 0..=r {
+                band.add(i + r, i + s, penalty * difference[r] * difference[s]);
+            }
+        }
+    }
+    let factor = band.cholesky();
+    factor.solve(&mut right);
+    (factor, right)
+}
+
+/// Trace of the hat matrix.
+fn trace(samples: &[Sample<'_>], weight: &[f64], factor: &Band) -> f64 {
+    let inverse = factor.inverse_band();
+    let leverage = |(sample, weight): (&Sample<'_>, &f64)| {
+        let Weights { interval, order, derivative } = sample.weights;
+        let mut sum = 0.0;
+        for r in 0..*order {
+            for s in 0..=r {
+                let twice = if r == s { 1.0 } else { 2.0 };
+                sum += twice * derivative[0][r] * derivative[0][s] * inverse.get(interval + r, interval + s);
+            }
+        }
+        weight * sum
+    };
+    samples.iter().zip(weight).map(leverage).sum()
+}
+
+/// Standard deviation of the residuals about each sample: of the samples near it, or of all if that is larger. A tracker's error grows with motion.
+fn scales(residuals: &[f64]) -> Vec<f64> {
+    let of = |residuals: &[f64]| median(residuals.iter().map(|r| r.abs()).collect()) / NORMAL_MAD;
+    let all = of(residuals);
+    residuals.chunks(NEIGHBOURS).flat_map(|near| std::iter::repeat_n(of(near).max(all), near.len())).collect()
+}
+
+fn median(mut values: Vec<f64>) -> f64 {
+    if values.is_empty() {
+        return 0.0;
+    }
+    let middle = values.len() / 2;
+    *values.select_nth_unstable_by(middle, f64::total_cmp).1
+}

@@ -1,0 +1,27 @@
+//! The motion as uniform B-splines: value and three derivatives at any time, from a few control points.
+//!
+//! # Formula
+//! A uniform B-spline of degree `d` is `x(t) = Σ_r B_r(u) c_{i+r}`, `r = 0 … d`, on interval `i`, with `u = (t − t_i)/h ∈ [0, 1)`.
+//! The weights follow from de Boor's recursion (`deboor2001`). A cubic spline has a piecewise constant third derivative: joint by joint it is the
+//! jerk-controlled motion of `vamvaka2021`. A rotation is a cumulative spline (`sommer2020`): `R(t) = R_i Π_r exp(λ_r(u) log(R_{i+r−1}ᵀ R_{i+r}))`.
+//!
+//! Each interval depends on `d + 1` control points. A least-squares fit is therefore banded, and its time is linear in the duration.
+
+mod banded;
+mod fit;
+mod knots;
+mod rotation_algebra;
+mod rotation_fit;
+mod rotation_sensitivity;
+mod rotation_spline;
+mod vector_spline;
+mod weights;
+
+pub use fit::{SplineFit, fit_vectors};
+pub use knots::{Degree, UniformKnots};
+pub use rotation_algebra::{left_jacobian_inverse, right_jacobian, right_jacobian_inverse, skew};
+pub use rotation_fit::{RotationFit, fit_rotations};
+pub use rotation_sensitivity::{RotationSensitivity, rotation_sensitivity};
+pub use rotation_spline::{RotationAt, RotationSpline};
+pub use vector_spline::VectorSpline;
+pub use weights::{LARGEST_ORDER, Weights};
