@@ -1,0 +1,99 @@
+//! The quantities that a calibration on a machine estimates beside the sensor's.
+
+use calibrant_core::sensor::{Axis, ImuQuantity, SensorKind};
+
+/// One unknown: of the sensor, or of what carries it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum MachineQuantity {
+    /// A parameter of the IMU.
+    Imu(ImuQuantity),
+    /// Lever arm from the tip to the sensor, in the axes of the tip, m.
+    Lever(Axis),
+    /// Rotation of the sensor about its own axis, beside the mounting that was given, rad.
+    Mounting(Axis),
+    /// Tilt of gravity against the base: 0 or 1, rad.
+    Tilt(usize),
+    /// Magnitude of gravity, m/s².
+    Gravity,
+    /// Delay of a sensor: motion time less IMU time, s.
+    Delay(SensorKind),
+    /// Rate of the reference's clock against the IMU's, less 1.
+    ClockRate,
+    /// Zero offset of a joint, rad or m.
+    Zero(usize),
+    /// Correction of a joint's transform: joint; 0 to 2 translation in m, 3 to 5 rotation in rad.
+    Geometry(usize, usize),
+}
+
+/// Where an uncertainty comes from: the columns of the budget.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Source {
+    /// Noise of the accelerometer and the gyroscope.
+    SensorNoise,
+    /// Noise of the reference: encoders or tracker.
+    ReferenceNoise,
+    /// Geometry and zero offsets of the joints.
+    Geometry,
+    /// Lever arm and mounting.
+    Mounting,
+    /// Delays and the clock's rate.
+    Timing,
+    /// Magnitude of gravity and tilt of the base.
+    Gravity,
+}
+
+impl Source {
+    /// All, in the order of tables.
+    pub const ALL: [Self; 6] = [
+        Self::SensorNoise,
+        Self::ReferenceNoise,
+        Self::Geometry,
+        Self::Mounting,
+        Self::Timing,
+        Self::Gravity,
+    ];
+
+    /// As written in tables and files.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::SensorNoise => "sensor_noise",
+            Self::ReferenceNoise => "reference_noise",
+            Self::Geometry => "geometry",
+            Self::Mounting => "mounting",
+            Self::Timing => "timing",
+            Self::Gravity => "gravity",
+        }
+    }
+}
+
+impl MachineQuantity {
+    /// Its name in files, tables and messages. A joint is named by the caller's list.
+    #[must_use]
+    pub fn name(self, joints: &[String]) -> String {
+        let joint = |j: usize| joints.get(j).map_or_else(|| format!("joint{j}"), Clone::clone);
+        match self {
+            Self::Imu(quantity) => quantity.name(),
+            Self::Lever(axis) => format!("lever.{axis}"),
+            Self::Mounting(axis) => format!("mounting.{axis}"),
+            Self::Tilt(axis) => format!("tilt.{}", ["x", "y"][axis]),
+            Self::Gravity => "gravity".into(),
+            Self::Delay(sensor) => format!("delay.{sensor}"),
+            Self::ClockRate => "clock_rate".into(),
+            Self::Zero(j) => format!("zero.{}", joint(j)),
+            Self::Geometry(j, k) => format!("geometry.{}.{}", joint(j), ["x", "y", "z", "rx", "ry", "rz"][k]),
+        }
+    }
+
+    /// The source whose prior knowledge it has; the sensor's parameters have none.
+    #[must_use]
+    pub fn source(self) -> Option<Source> {
+        match self {
+            Self::Imu(_) => None,
+            Self::Lever(_) | Self::Mounting(_) => Some(Source::Mounting),
+            Self::Tilt(_) | Self::Gravity => Some(Source::Gravity),
+            Self::Delay(_) | Self::ClockRate => Some(Source::Timing),
+            Self::Zero(_) | Self::Geometry(..) => Some(Source::Geometry),
+        }
+    }
+}

@@ -1,0 +1,38 @@
+//! The splines through a log: where the iteration begins, and the motion itself where the log is trusted.
+
+use crate::log::ReferenceLog;
+use crate::reference::{Motion, PoseMotion};
+use crate::spline::{UniformKnots, fit_rotations, fit_vectors};
+
+/// A motion fitted to a log.
+#[derive(Debug, Clone)]
+pub(super) struct ReferenceFit {
+    pub(super) motion: Motion,
+    /// Standard deviation of one sample about the splines, for each unknown of a control point.
+    pub(super) sd: Vec<f64>,
+    /// Number of outliers of each component.
+    pub(super) outliers: Vec<usize>,
+}
+
+/// Fits splines on these knots.
+pub(super) fn fitted(log: &ReferenceLog, knots: UniformKnots) -> Option<ReferenceFit> {
+    match log {
+        ReferenceLog::Poses(log) => {
+            log.world_from_body.iter().flatten().next()?;
+            let nan = [f64::NAN; 3];
+            let values: Vec<f64> =
+                log.positions_m.iter().flat_map(|p| p.map_or(nan, |p| [p.x, p.y, p.z])).collect();
+            let (position, orientation) = rayon::join(
+                || fit_vectors(&log.times_s, &values, 3, knots),
+                || fit_rotations(&log.times_s, &log.world_from_body, knots),
+            );
+            let motion = PoseMotion { position: position.spline, orientation: orientation.spline };
+            Some(ReferenceFit {
+                motion: Motion::Poses(motion),
+                sd: [position.sd, orientation.sd_rad].concat(),
+                outliers: [position.outliers, orientation.outliers].concat(),
+            })
+        }
+        ReferenceLog::Joints(_) => None,
+    }
+}
