@@ -2,5 +2,6 @@
 //!
 //! The machine is the reference: a log of its joints, or of the pose of the body. From it follows what the sensor should have read.
 
+pub mod chain;
 pub mod log;
 pub mod spline;
