@@ -2,6 +2,7 @@
 //!
 //! The machine is the reference: a log of its joints, or of the pose of the body. From it follows what the sensor should have read.
 
+pub mod chain;
 pub mod estimate;
 pub mod log;
 pub mod reference;

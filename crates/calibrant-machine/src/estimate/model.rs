@@ -202,7 +202,7 @@ impl Model<'_> {
 }
 
 /// Information of a control point where no sample is, beside that of the log: it holds the control point where it is.
-const HELD: f64 = 1e-7;
+const HELD: f64 = 1e-4;
 
 /// Rows of the least-squares problem, three for each sample.
 pub(super) struct Rows {

@@ -1,0 +1,66 @@
+//! A joint that moves.
+
+use nalgebra::{Isometry3, Unit, Vector3};
+
+/// How a joint moves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum JointKind {
+    /// Turns about its axis, between limits; rad.
+    Revolute,
+    /// Turns about its axis without limits; rad.
+    Continuous,
+    /// Moves along its axis, between limits; m.
+    Prismatic,
+}
+
+impl JointKind {
+    /// The name in a URDF file.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Revolute => "revolute",
+            Self::Continuous => "continuous",
+            Self::Prismatic => "prismatic",
+        }
+    }
+
+    /// Whether the joint turns.
+    #[must_use]
+    pub fn turns(self) -> bool {
+        self != Self::Prismatic
+    }
+
+    /// Unit of its position.
+    #[must_use]
+    pub fn unit(self) -> &'static str {
+        if self.turns() { "rad" } else { "m" }
+    }
+}
+
+/// What a joint may do, as far as it is known. Positions are in rad or m.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct JointLimits {
+    /// Smallest position.
+    pub lower: Option<f64>,
+    /// Largest position.
+    pub upper: Option<f64>,
+    /// Largest speed, rad/s or m/s.
+    pub velocity: Option<f64>,
+    /// Largest torque or force, N·m or N.
+    pub effort: Option<f64>,
+}
+
+/// A joint that moves, and the fixed transform before it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Joint {
+    /// The name.
+    pub name: String,
+    /// How it moves.
+    pub kind: JointKind,
+    /// Its axis, in its own frame.
+    pub axis: Unit<Vector3<f64>>,
+    /// Pose of its frame at position 0 in the frame of the joint before, or in the base; m.
+    pub origin: Isometry3<f64>,
+    /// Its limits.
+    pub limits: JointLimits,
+}
