@@ -10,8 +10,9 @@ use super::posterior::Posterior;
 use super::reference_fit::fitted;
 use super::stream::Stream;
 use super::{MachineParameters, MachineQuantity, MachineSetup, MountingPrior, start};
+use crate::chain::SensorMount;
 use crate::log::ReferenceLog;
-use crate::reference::{Felt, SensorMount};
+use crate::reference::Felt;
 use crate::spline::{Degree, UniformKnots};
 use calibrant_core::sensor::{
     ImuParameters, ImuQuantity, ImuRecording, ParameterList, Recording, SensorKind, SensorModel,
@@ -52,7 +53,7 @@ pub fn explore(
             return None;
         }
         let mut felt = Felt::zeros(columns);
-        let carrier = crate::reference::Carrier { gravity: &gamma, mount: &bare, zeros: &[], geometry: &[] };
+        let carrier = crate::reference::Carrier { gravity: gamma, mount: bare, chain: None };
         fit.motion.feel(&knots.weights(t), &carrier, columns, &mut felt);
         Some(match kind {
             SensorKind::Accelerometer => felt.force,
@@ -127,9 +128,15 @@ pub fn explore(
     }
     for round in 0..15 {
         let clock = std::time::Instant::now();
-        let minimum = minimise(&model, state.clone(), 1, 1e-4).or_else(|| { println!("minimise none"); None })?;
+        let minimum = minimise(&model, state.clone(), 1, 1e-4).or_else(|| {
+            println!("minimise none");
+            None
+        })?;
         let solve = clock.elapsed();
-        let posterior = Posterior::at(&model, &minimum).or_else(|| { println!("posterior none {:?}", minimum.solved.information.diagonal()); None })?;
+        let posterior = Posterior::at(&model, &minimum).or_else(|| {
+            println!("posterior none {:?}", minimum.solved.information.diagonal());
+            None
+        })?;
         println!(
             "round {round}: cost {:.1} iterations {} {:?} last step {} solve {:?} posterior {:?}",
             minimum.cost,

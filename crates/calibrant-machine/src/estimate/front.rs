@@ -205,6 +205,8 @@ impl Solved {
             let own = own.tr_mul(&own);
             let cross = -(&gain * &rest);
             let block = own - &cross * gain.transpose();
+            // rounding must not leave it asymmetric: the recursion would let the difference grow
+            let block = (&block + block.transpose()) * 0.5;
             window.view_mut((0, 0), (n, n)).copy_from(&block);
             for column in 0..later + border {
                 for row in 0..later + border {
@@ -217,6 +219,64 @@ impl Solved {
             }
             visit(i, &window);
             // the last block leaves: `from` skips it in the next round, where the first becomes one of the later
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Rows of a chain of `intervals` with `order` blocks of `n` each, and a border.
+    fn made_up(intervals: usize, order: usize, n: usize, border: usize, rows: usize) -> Vec<DMatrix<f64>> {
+        let mut state = 7_u64;
+        let mut next = move || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 33) as f64 / f64::from(1_u32 << 30) - 1.0
+        };
+        (0..intervals).map(|_| DMatrix::from_fn(order * n + border + 1, rows, |_, _| next())).collect()
+    }
+
+    #[test]
+    fn it_equals_dense_algebra() {
+        for (intervals, order, n, border, rows) in [(7, 4, 2, 3, 9), (5, 6, 1, 2, 4), (9, 4, 6, 5, 30)] {
+            let parts = made_up(intervals, order, n, border, rows);
+            let mut front = Front::new(n, order, border);
+            let chain = n * (intervals + order - 1);
+            let size = chain + border;
+            let mut dense = DMatrix::zeros(size + 1, size + 1);
+            for (i, part) in parts.iter().enumerate() {
+                let equations = part * part.transpose();
+                front.add(&equations);
+                let to = |k: usize| if k < order * n { i * n + k } else { chain + k - order * n };
+                for row in 0..equations.nrows() {
+                    for column in 0..equations.nrows() {
+                        dense[(to(row), to(column))] += equations[(row, column)];
+                    }
+                }
+            }
+            let inverse = dense.view((0, 0), (size, size)).into_owned().try_inverse().expect("enough rows");
+            let expected = &inverse * dense.view((0, size), (size, 1));
+            let solved = front.finish().expect("enough rows");
+            assert!((&solved.parameters - expected.rows(chain, border)).norm() < 1e-9 * expected.norm());
+            let controls = DVector::from_vec(solved.controls());
+            assert!((controls - expected.rows(0, chain)).norm() < 1e-9 * expected.norm());
+            let covariance = solved.information.clone().try_inverse().expect("positive");
+            let mut visited = 0;
+            solved.backwards(&covariance, |i, local| {
+                visited += 1;
+                let of = |k: usize| if k < order * n { i * n + k } else { chain + k - order * n };
+                for row in 0..local.nrows() {
+                    for column in 0..local.nrows() {
+                        // beyond the end there is no block
+                        if [row, column].iter().all(|k| *k >= order * n || of(*k) < chain) {
+                            let error = local[(row, column)] - inverse[(of(row), of(column))];
+                            assert!(error.abs() < 1e-9 * inverse.amax(), "{i} {row} {column}: {error}");
+                        }
+                    }
+                }
+            });
+            assert_eq!(visited, intervals + order - 1);
         }
     }
 }

@@ -25,7 +25,7 @@ impl Layout {
     ) -> Self {
         let mut known: Vec<(MachineQuantity, f64)> =
             imu.iter().map(|of| (MachineQuantity::Imu(*of), f64::INFINITY)).collect();
-        let joints = nominal.zeros.len();
+        let joints = nominal.corrections.joints.len();
         known.extend(AXES.map(|axis| (MachineQuantity::Lever(axis), setup.lever_sd_m)));
         let mounting_sd = match setup.mounting {
             MountingPrior::Within(sd) => sd,

@@ -80,6 +80,11 @@ impl Model<'_> {
         (streams, of(times.len(), &|k| times[k]))
     }
 
+    /// What carries the sensor in a state.
+    pub(super) fn carrier(&self, State { motion, parameters }: &State) -> Carrier {
+        motion.carrier(self.gravity.vector(parameters), parameters.mount, &parameters.corrections)
+    }
+
     /// The normal equations at a state.
     pub(super) fn equations(&self, state: &State) -> Equations {
         let noisy = self.trust == MachineTrust::Noisy;
@@ -115,8 +120,7 @@ impl Model<'_> {
     pub(super) fn residual_rms(&self, state: &State) -> Vec<Vector3<f64>> {
         let (streams, _) = self.places(state);
         let columns = state.motion.columns(false);
-        let gravity = self.gravity.vector(&state.parameters);
-        let carrier = state.carrier(&gravity);
+        let carrier = self.carrier(state);
         let knots = state.motion.knots();
         let of = |s: usize| {
             let mut felt = Felt::zeros(columns);
@@ -170,8 +174,7 @@ impl Model<'_> {
         let noisy = self.trust == MachineTrust::Noisy;
         let columns = state.motion.columns(noisy);
         let writer = RowWriter::new(&self.layout, columns, &self.gravity, &state.parameters);
-        let gravity = self.gravity.vector(&state.parameters);
-        let carrier = state.carrier(&gravity);
+        let carrier = self.carrier(state);
         let knots = state.motion.knots();
         let length = writer.length();
         let mut rows = Rows { length, values: Vec::new(), origins: Vec::new(), cost: 0.0 };
@@ -218,13 +221,5 @@ impl Rows {
     /// The rows as columns.
     pub(super) fn matrix(&self) -> DMatrix<f64> {
         DMatrix::from_column_slice(self.length, self.values.len() / self.length, &self.values)
-    }
-}
-
-impl State {
-    /// What turns the motion into what the sensor feels, with gravity in the base frame.
-    pub(super) fn carrier<'b>(&'b self, gravity: &'b Vector3<f64>) -> Carrier<'b> {
-        let MachineParameters { mount, zeros, geometry, .. } = &self.parameters;
-        Carrier { gravity, mount, zeros, geometry }
     }
 }

@@ -1,9 +1,9 @@
 //! The values of all unknowns but the motion.
 
 use super::{MachineQuantity, MachineSetup};
-use crate::reference::SensorMount;
+use crate::chain::{ChainCorrections, SensorMount};
 use calibrant_core::sensor::{Axis, ImuParameters, SensorKind};
-use nalgebra::{Matrix3x2, UnitQuaternion, Vector2, Vector3, Vector6};
+use nalgebra::{Matrix3x2, UnitQuaternion, Vector2, Vector3};
 
 /// The sensor, its mount, gravity, clocks and joints.
 #[derive(Debug, Clone, PartialEq)]
@@ -20,10 +20,8 @@ pub struct MachineParameters {
     pub delays_s: [f64; 2],
     /// Rate of the reference's clock against the IMU's, less 1.
     pub clock_rate: f64,
-    /// Zero offsets of the joints, rad or m.
-    pub zeros: Vec<f64>,
-    /// Corrections of the joints' transforms.
-    pub geometry: Vec<Vector6<f64>>,
+    /// Corrections of the joints.
+    pub corrections: ChainCorrections,
 }
 
 /// The place of a sensor in pairs.
@@ -44,8 +42,7 @@ impl MachineParameters {
             gravity_mps2: setup.gravity_mps2,
             delays_s: [setup.delay_s; 2],
             clock_rate: 0.0,
-            zeros: vec![0.0; joints],
-            geometry: vec![Vector6::zeros(); joints],
+            corrections: ChainCorrections::none(joints),
         }
     }
 
@@ -63,8 +60,9 @@ impl MachineParameters {
             MachineQuantity::Gravity => self.gravity_mps2 += step,
             MachineQuantity::Delay(sensor) => self.delays_s[place(sensor)] += step,
             MachineQuantity::ClockRate => self.clock_rate += step,
-            MachineQuantity::Zero(j) => self.zeros[j] += step,
-            MachineQuantity::Geometry(j, k) => self.geometry[j][k] += step,
+            MachineQuantity::Zero(j) => self.corrections.joints[j].zero += step,
+            MachineQuantity::Geometry(j, k) if k < 3 => self.corrections.joints[j].translation_m[k] += step,
+            MachineQuantity::Geometry(j, k) => self.corrections.joints[j].rotation_rad[k - 3] += step,
         }
     }
 
@@ -78,8 +76,9 @@ impl MachineParameters {
             MachineQuantity::Gravity => self.gravity_mps2,
             MachineQuantity::Delay(sensor) => self.delays_s[place(sensor)],
             MachineQuantity::ClockRate => self.clock_rate,
-            MachineQuantity::Zero(j) => self.zeros[j],
-            MachineQuantity::Geometry(j, k) => self.geometry[j][k],
+            MachineQuantity::Zero(j) => self.corrections.joints[j].zero,
+            MachineQuantity::Geometry(j, k) if k < 3 => self.corrections.joints[j].translation_m[k],
+            MachineQuantity::Geometry(j, k) => self.corrections.joints[j].rotation_rad[k - 3],
         }
     }
 

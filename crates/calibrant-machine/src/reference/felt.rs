@@ -1,6 +1,7 @@
 //! What a sensor on the machine feels at one time, with its derivatives.
 
-use nalgebra::{Vector3, Vector6};
+use crate::chain::ChainSensitivity;
+use nalgebra::{Matrix3, Vector3, Vector6};
 
 /// Specific force and rate at the sensor, in the sensor's frame, their change in time, and their derivatives.
 ///
@@ -15,6 +16,10 @@ pub struct Felt {
     pub change: Vector6<f64>,
     /// Derivatives with respect to the control points of the interval, then to the parameters of the machine: see [`MotionColumns`].
     pub columns: Vec<Vector6<f64>>,
+    /// Derivatives along a chain: working memory.
+    pub(super) chain: ChainSensitivity,
+    /// Positions of the joints and three derivatives: working memory.
+    pub(super) joints: [Vec<f64>; 4],
 }
 
 /// Where the derivatives stand in [`Felt::columns`].
@@ -73,6 +78,16 @@ impl Felt {
             rate: Vector3::zeros(),
             change: Vector6::zeros(),
             columns: vec![Vector6::zeros(); columns.number()],
+            chain: ChainSensitivity::new(columns.joints),
+            joints: std::array::from_fn(|_| vec![0.0; columns.joints]),
         }
+    }
+}
+
+/// Sets three columns: the force's part and the rate's.
+pub(super) fn set(columns: &mut [Vector6<f64>], force: &Matrix3<f64>, rate: &Matrix3<f64>) {
+    for (axis, column) in columns.iter_mut().take(3).enumerate() {
+        column.fixed_rows_mut::<3>(0).copy_from(&force.column(axis));
+        column.fixed_rows_mut::<3>(3).copy_from(&rate.column(axis));
     }
 }

@@ -1,28 +1,29 @@
 //! The reference, whatever was logged.
 
 use super::pose_motion::POSE_UNKNOWNS;
-use super::{Felt, MotionColumns, PoseMotion, SensorMount};
+use super::{Felt, JointMotion, MotionColumns, PoseMotion};
+use crate::chain::{ChainCorrections, CorrectedChain, SensorMount};
 use crate::spline::{UniformKnots, Weights};
-use nalgebra::{Vector3, Vector6};
+use nalgebra::Vector3;
 
 /// The motion of the reference.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Motion {
+    /// Positions of the joints of a chain.
+    Joints(JointMotion),
     /// Poses of the body.
     Poses(PoseMotion),
 }
 
 /// What turns the motion of the reference into what the sensor feels.
-#[derive(Debug, Clone, Copy)]
-pub struct Carrier<'a> {
+#[derive(Debug, Clone)]
+pub struct Carrier {
     /// Gravity `γ` in the base frame (the world of poses), m/s².
-    pub gravity: &'a Vector3<f64>,
+    pub gravity: Vector3<f64>,
     /// The sensor on the tip.
-    pub mount: &'a SensorMount,
-    /// Zero offsets of the joints.
-    pub zeros: &'a [f64],
-    /// Corrections of the joints' transforms.
-    pub geometry: &'a [Vector6<f64>],
+    pub mount: SensorMount,
+    /// The chain with its corrections; none for poses.
+    pub chain: Option<CorrectedChain>,
 }
 
 impl Motion {
@@ -30,6 +31,7 @@ impl Motion {
     #[must_use]
     pub fn knots(&self) -> UniformKnots {
         match self {
+            Self::Joints(joints) => joints.positions.knots,
             Self::Poses(poses) => poses.position.knots,
         }
     }
@@ -38,7 +40,17 @@ impl Motion {
     #[must_use]
     pub fn unknowns(&self) -> usize {
         match self {
+            Self::Joints(joints) => joints.positions.dimension,
             Self::Poses(_) => POSE_UNKNOWNS,
+        }
+    }
+
+    /// Number of joints; none for poses.
+    #[must_use]
+    pub fn joints(&self) -> usize {
+        match self {
+            Self::Joints(joints) => joints.positions.dimension,
+            Self::Poses(_) => 0,
         }
     }
 
@@ -46,21 +58,43 @@ impl Motion {
     #[must_use]
     pub fn columns(&self, with_controls: bool) -> MotionColumns {
         let controls = if with_controls { self.unknowns() * self.knots().degree.order() } else { 0 };
-        match self {
-            Self::Poses(_) => MotionColumns { controls, joints: 0 },
-        }
+        MotionColumns { controls, joints: self.joints() }
+    }
+
+    /// What carries the sensor, with these corrections of the chain.
+    #[must_use]
+    pub fn carrier(
+        &self,
+        gravity: Vector3<f64>,
+        mount: SensorMount,
+        corrections: &ChainCorrections,
+    ) -> Carrier {
+        let chain = match self {
+            Self::Joints(joints) => Some(joints.chain.corrected(corrections)),
+            Self::Poses(_) => None,
+        };
+        Carrier { gravity, mount, chain }
     }
 
     /// What the sensor feels with these weights.
-    pub fn feel(&self, weights: &Weights, carrier: &Carrier<'_>, columns: MotionColumns, felt: &mut Felt) {
-        match self {
-            Self::Poses(poses) => poses.feel(weights, carrier.gravity, carrier.mount, columns, felt),
+    pub fn feel(&self, weights: &Weights, carrier: &Carrier, columns: MotionColumns, felt: &mut Felt) {
+        match (self, &carrier.chain) {
+            (Self::Joints(joints), Some(chain)) => {
+                joints.feel(weights, &carrier.gravity, chain, &carrier.mount, columns, felt);
+            }
+            (Self::Poses(poses), _) => poses.feel(weights, &carrier.gravity, &carrier.mount, columns, felt),
+            (Self::Joints(_), None) => {}
         }
     }
 
     /// Moves the control points.
     pub fn step(&mut self, steps: &[f64]) {
         match self {
+            Self::Joints(joints) => {
+                for (control, step) in joints.positions.controls.iter_mut().zip(steps) {
+                    *control += step;
+                }
+            }
             Self::Poses(poses) => poses.step(steps),
         }
     }
