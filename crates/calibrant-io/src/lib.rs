@@ -4,6 +4,7 @@
 //! |---|---|---|
 //! | experiment (TOML) | [`Experiment::read`] | [`preset()`], [`PRESETS`] |
 //! | `recording.csv` and other recordings, in many formats | [`read_imu_recording`], [`read_imu_pair`] | [`write_recording`], [`inspection_json`] |
+//! | `joints.csv`, poses of a tracker, bags | [`read_reference_log`] | |
 //! | `motion.csv` | [`read_motion`] | [`write_motion`] |
 //! | `calibration.json` | [`read_calibrated_imu`]; [`read_calibration`], as what is known before a design | [`write_calibration`] |
 //! | calibrations, ours and of other programs | [`read_calibrated_imu`] | [`write_calibrated_imu`] |
@@ -41,6 +42,7 @@ mod json;
 mod motion;
 mod noise;
 mod recording;
+mod reference_log;
 mod result_places;
 mod shared_fields;
 mod study;
@@ -79,6 +81,9 @@ pub use recording::{
     ImuReadOptions, ImuUnit, Noticed, SampleTimes, SecondFile, TimeUnit, USUAL_RATE_SD_PPM, parse_imu_pair,
     parse_imu_recording, read_imu_pair, read_imu_recording, read_imu_sensor, write_imu_recording,
     write_recording,
+};
+pub use reference_log::{
+    ReferenceFormat, ReferenceLogFile, ReferenceLogOptions, parse_reference_log, read_reference_log,
 };
 pub use result_places::{ClaimedPlaces, ResultPlaces};
 pub use study::{study_json, write_study};

@@ -87,6 +87,14 @@ pub(super) fn as_text(bytes: &[u8]) -> Checked<&str> {
         )
         .into());
     }
+    if let Some((version, array)) = of_matlab(bytes) {
+        return Err(InputError::new(
+            Refusal::FormatUnsupported,
+            format!("this is a binary file of MATLAB ({version}), which is not read"),
+            format!("save its table as CSV: in MATLAB `writetable(T, 'log.csv')`; in Python `pandas.DataFrame({array}, columns=[…]).to_csv('log.csv', index=False)`"),
+        )
+        .into());
+    }
     if let Some((program, unpack)) = packed_by(bytes) {
         let message = format!("this file is compressed with {program}");
         return Err(
@@ -95,6 +103,17 @@ pub(super) fn as_text(bytes: &[u8]) -> Checked<&str> {
     }
     let text = bytes.strip_prefix(&[0xef, 0xbb, 0xbf]).unwrap_or(bytes);
     as_text_at(text, (bytes.len() - text.len()) as u64, 0)
+}
+
+/// The version of a binary file of MATLAB, from its beginning, and how Python gets an array of it.
+fn of_matlab(bytes: &[u8]) -> Option<(&'static str, &'static str)> {
+    let is = |signature: &[u8]| bytes.starts_with(signature);
+    if is(b"MATLAB 5.0 MAT-file") {
+        return Some(("MAT-file 5", "scipy.io.loadmat('FILE')['NAME']"));
+    }
+    // a container of HDF5, which other programs than MATLAB write without its first line
+    let is_hdf5 = is(b"MATLAB 7.3 MAT-file") || is(b"\x89HDF\r\n\x1a\n");
+    is_hdf5.then_some(("MAT-file 7.3, HDF5", "h5py.File('FILE')['NAME'][()].T"))
 }
 
 /// The program that compressed these bytes, from their beginning, and how to unpack them.

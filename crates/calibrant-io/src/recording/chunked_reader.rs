@@ -18,16 +18,16 @@ const HELD_BACK: usize = 16 << 10;
 const TRUSTED: u64 = 64 << 20;
 
 /// The beginning of a file, and its remainder.
-pub(super) struct FileBeginning {
+pub(crate) struct FileBeginning {
     /// Its first lines. Everything where the file is short, or is no text in lines.
-    pub(super) bytes: Vec<u8>,
-    pub(super) rest: Option<Pieces>,
+    pub(crate) bytes: Vec<u8>,
+    pub(crate) rest: Option<Pieces>,
     is_binary: bool,
 }
 
 impl FileBeginning {
     /// Files that begin as `is_binary` says are read whole. No other file may have a NUL byte.
-    pub(super) fn read(path: &Path, is_binary: impl Fn(&[u8]) -> bool) -> Checked<Self> {
+    pub(crate) fn read(path: &Path, is_binary: impl Fn(&[u8]) -> bool) -> Checked<Self> {
         let file = text_decoding::open(path, "the recording")?;
         let length = file.metadata().map_or(0, |metadata| metadata.len()).min(TRUSTED);
         let mut pieces = Pieces { file, length, hash: Sha256::new(), read: 0, ended: false, cut: Vec::new() };
@@ -43,7 +43,7 @@ impl FileBeginning {
     }
 
     /// Reads the rest of the file too.
-    pub(super) fn read_on(&mut self) -> Checked<()> {
+    pub(crate) fn read_on(&mut self) -> Checked<()> {
         let Some(mut pieces) = self.rest.take() else { return Ok(()) };
         self.bytes.append(&mut pieces.cut);
         self.bytes.reserve(pieces.length.saturating_sub(pieces.read) as usize);
@@ -62,13 +62,13 @@ impl FileBeginning {
     }
 
     /// Length of the whole file, bytes, as far as it is known.
-    pub(super) fn length(&self) -> usize {
+    pub(crate) fn length(&self) -> usize {
         self.rest.as_ref().map_or(0, |pieces| pieces.length as usize).max(self.bytes.len())
     }
 }
 
 /// The remainder after the beginning of a file.
-pub(super) struct Pieces {
+pub(crate) struct Pieces {
     file: File,
     /// The length by the file system, as far as that is trusted.
     length: u64,
@@ -81,7 +81,7 @@ pub(super) struct Pieces {
 }
 
 /// Some lines of a file.
-pub(super) struct Piece {
+pub(crate) struct Piece {
     bytes: Vec<u8>,
     /// Its first byte in the file.
     offset: u64,
@@ -90,7 +90,7 @@ pub(super) struct Piece {
 impl Pieces {
     /// The next lines; `None` at the end of the file. `spare` is the memory of a piece that is no longer
     /// needed.
-    pub(super) fn next(&mut self, spare: Option<Piece>) -> Checked<Option<Piece>> {
+    pub(crate) fn next(&mut self, spare: Option<Piece>) -> Checked<Option<Piece>> {
         let mut bytes = spare.map_or_else(Vec::new, |piece| piece.bytes);
         bytes.clear();
         bytes.append(&mut self.cut);
@@ -105,7 +105,7 @@ impl Pieces {
     }
 
     /// SHA-256 of the file, which has been read to its end.
-    pub(super) fn sha256(self) -> String {
+    pub(crate) fn sha256(self) -> String {
         hex(self.hash)
     }
 
@@ -136,7 +136,7 @@ impl Pieces {
 
 impl Piece {
     /// Its text, which follows this number of lines.
-    pub(super) fn text(&self, before: usize) -> Checked<&str> {
+    pub(crate) fn text(&self, before: usize) -> Checked<&str> {
         text_decoding::as_text_at(&self.bytes, self.offset, before)
     }
 }

@@ -208,7 +208,7 @@ impl Noticed {
 }
 
 /// Names in back quotes, at most this number of them.
-pub(super) fn list(names: &[String], most: usize) -> String {
+pub(crate) fn list(names: &[String], most: usize) -> String {
     let shown: Vec<String> = names
         .iter()
         .take(most)
@@ -220,7 +220,7 @@ pub(super) fn list(names: &[String], most: usize) -> String {
 }
 
 /// `1 sample`, `2 samples`.
-pub(super) fn count(number: usize, noun: &str) -> String {
+pub(crate) fn count(number: usize, noun: &str) -> String {
     format!("{number} {noun}{}", if number == 1 { "" } else { "s" })
 }
 
@@ -231,7 +231,7 @@ fn moment(time_s: f64) -> String {
 }
 
 /// A number in six significant digits, without trailing zeros.
-pub(super) fn short(number: f64) -> String {
+pub(crate) fn short(number: f64) -> String {
     let rounded = format!("{number:.5e}").parse().unwrap_or(number);
     if rounded == 0.0 || (1e-4..1e9).contains(&rounded.abs()) {
         rounded.to_string()

@@ -15,23 +15,37 @@
 //! The time to read a file grows as its length does. A row of an accelerometer takes about 45 bytes of memory,
 //! that of an IMU about 70. The text is read in pieces, unless its lines end with CR alone.
 
-mod checksum;
-mod chunked_reader;
-mod finding_words;
+#[cfg(feature = "mcap")]
+pub(crate) mod cdr;
+pub(crate) mod checksum;
+pub(crate) mod chunked_reader;
+pub(crate) mod clock_column;
+pub(crate) mod finding_words;
 mod glued_axes;
 mod imu;
-mod line_map;
+pub(crate) mod line_map;
 mod lost_sign;
-mod reader_finding;
-mod recording_quality;
+#[cfg(feature = "mcap")]
+pub(crate) mod mcap_container;
+#[cfg(feature = "mcap")]
+mod mcap_footer;
+#[cfg(feature = "mcap")]
+mod mcap_records;
+pub(crate) mod reader_finding;
+pub(crate) mod recording_quality;
 mod recording_writer;
-mod row_parser;
+pub(crate) mod row_parser;
 mod size;
+pub(crate) mod text_header;
+pub(crate) mod text_source;
+pub(crate) mod time_unit;
 
+pub(crate) use imu::imu_column;
 pub use imu::{
     AccelerometerOnly, ColumnMapping, ColumnMeaning, ColumnUnit, FileFormat, ImuColumn, ImuFile,
-    ImuReadOptions, ImuUnit, SampleTimes, SecondFile, TimeUnit, USUAL_RATE_SD_PPM, parse_imu_pair,
-    parse_imu_recording, read_imu_pair, read_imu_recording, read_imu_sensor,
+    ImuReadOptions, ImuUnit, SampleTimes, SecondFile, USUAL_RATE_SD_PPM, parse_imu_pair, parse_imu_recording,
+    read_imu_pair, read_imu_recording, read_imu_sensor,
 };
 pub use reader_finding::{Finding, Noticed};
 pub use recording_writer::{write_imu_recording, write_recording};
+pub use time_unit::TimeUnit;

@@ -205,17 +205,17 @@ impl Finding {
     }
 
     /// A finding about the recording as a whole.
-    pub(super) fn new(noticed: Noticed) -> Self {
+    pub(crate) fn new(noticed: Noticed) -> Self {
         Self { noticed, line: None, sensor_kind: None, in_second_file: false }
     }
 
     /// The same finding, at this line.
-    pub(super) fn at(self, line: Option<usize>) -> Self {
+    pub(crate) fn at(self, line: Option<usize>) -> Self {
         Self { line, ..self }
     }
 
     /// The same finding, about this sensor.
-    pub(super) fn about(self, sensor_kind: Option<SensorKind>) -> Self {
+    pub(crate) fn about(self, sensor_kind: Option<SensorKind>) -> Self {
         Self { sensor_kind, ..self }
     }
 }
@@ -254,20 +254,20 @@ impl Noticed {
 
 /// The number of occurrences of something, and the first place.
 #[derive(Default)]
-pub(super) struct Tally {
+pub(crate) struct Tally {
     count: usize,
     first: Option<usize>,
 }
 
 impl Tally {
     /// One more, at this line (`None` in a file that has no lines).
-    pub(super) fn add(&mut self, line: Option<usize>) {
+    pub(crate) fn add(&mut self, line: Option<usize>) {
         self.count += 1;
         self.first = self.first.or(line);
     }
 
     /// One finding for all occurrences.
-    pub(super) fn report(
+    pub(crate) fn report(
         &self,
         findings: &mut Vec<Finding>,
         sensor_kind: Option<SensorKind>,

@@ -18,7 +18,7 @@ const SLOW_HZ: f64 = 2.5;
 const USUAL_HZ: f64 = 5.0;
 
 /// Looks for axes that are not connected or clipped. `sensor_kind` is given where there are two sensors.
-pub(super) fn readings(
+pub(crate) fn readings(
     recording: &Recording,
     sensor_kind: Option<SensorKind>,
     lines: &LineMap,
@@ -46,7 +46,7 @@ pub(super) fn readings(
 }
 
 /// Asks for the unit of the times where the rate is lower than that of any IMU.
-pub(super) fn clock(rate: f64, findings: &mut Vec<Finding>) {
+pub(crate) fn clock(rate: f64, findings: &mut Vec<Finding>) {
     if rate < SLOW_HZ
         && let Some((per_s, unit)) =
             [(1e3, "ms"), (1e6, "µs"), (1e9, "ns")].into_iter().find(|(per_s, _)| per_s * rate >= USUAL_HZ)
@@ -57,10 +57,10 @@ pub(super) fn clock(rate: f64, findings: &mut Vec<Finding>) {
 }
 
 /// Looks for gaps and irregular sampling; `rate` is that of most samples, Hz.
-pub(super) fn sampling(recording: &Recording, rate: f64, lines: &LineMap, findings: &mut Vec<Finding>) {
+pub(crate) fn sampling(times_s: &[f64], rate: f64, lines: &LineMap, findings: &mut Vec<Finding>) {
     let usual = 1.0 / rate;
     let (mut gaps, mut longest, mut least, mut most) = (0_usize, (0.0, 0), f64::INFINITY, 0.0_f64);
-    for (before, pair) in recording.times_s.windows(2).enumerate() {
+    for (before, pair) in times_s.windows(2).enumerate() {
         let step = pair[1] - pair[0];
         if step > GAP * usual {
             gaps += 1;
@@ -79,16 +79,16 @@ pub(super) fn sampling(recording: &Recording, rate: f64, lines: &LineMap, findin
     }
     if gaps > GAPS_SHOWN {
         let (longest_s, before) = longest;
-        let after_s = recording.times_s[before];
+        let after_s = times_s[before];
         let noticed = Noticed::MoreGaps { gaps: gaps - GAPS_SHOWN, longest_s, after_s };
         findings.push(Finding::new(noticed).at(lines.line(before + 1)));
     }
     // rounding of large time stamps is no jitter
-    let ends = [recording.times_s.first(), recording.times_s.last()];
+    let ends = [times_s.first(), times_s.last()];
     let resolution =
         4.0 * f64::EPSILON * ends.into_iter().flatten().fold(0.0_f64, |most, t| most.max(t.abs()));
     if most - usual > JITTER * usual + resolution || usual - least > JITTER * usual + resolution {
-        let missing = missing(&recording.times_s, rate, GAP * usual);
+        let missing = missing(times_s, rate, GAP * usual);
         let noticed = Noticed::SamplingIrregular { least_s: least, most_s: most, rate_hz: rate, missing };
         findings.push(Finding::new(noticed));
     }

@@ -4,7 +4,7 @@
 use crate::delimited_text::{Delimiter, Line, last_number_is_cut};
 use crate::text_decoding::Checked;
 use calibrant_core::error::{InputError, Refusal};
-use std::ops::RangeInclusive;
+use std::ops::Range;
 
 /// Largest plausible time and reading, in any unit.
 const LARGEST: f64 = 1e12;
@@ -13,11 +13,9 @@ const LARGEST: f64 = 1e12;
 const LARGEST_INVALID: f64 = 1e300;
 /// Implausible readings in more than one row of this number are not invalid samples.
 const MOST_INVALID: usize = 50;
-/// Slots of readings in every layout.
-const READINGS: RangeInclusive<usize> = 1..=6;
 
 /// Is a value plausible in this slot? An implausible reading may still be an invalid sample.
-pub(super) enum Sense {
+pub(crate) enum Sense {
     Some,
     Invalid,
     None,
@@ -25,16 +23,16 @@ pub(super) enum Sense {
 
 impl Sense {
     /// The plausibility of a value that is there.
-    pub(super) fn of(value: f64, slot: usize) -> Self {
+    pub(crate) fn of(value: f64, may_be_invalid: bool) -> Self {
         match value.abs() {
             size if size <= LARGEST => Self::Some,
-            size if size <= LARGEST_INVALID && READINGS.contains(&slot) => Self::Invalid,
+            size if size <= LARGEST_INVALID && may_be_invalid => Self::Invalid,
             _ => Self::None,
         }
     }
 
     /// Are there too many invalid samples for this number of rows?
-    pub(super) fn is_lost(invalid: usize, rows: usize) -> bool {
+    pub(crate) fn is_lost(invalid: usize, rows: usize) -> bool {
         invalid > rows / MOST_INVALID
     }
 }
@@ -42,21 +40,23 @@ impl Sense {
 const EXACT: u64 = 1 << 53;
 
 /// The purpose of the columns of a text.
-pub(super) struct Layout {
-    pub(super) delimiter: Delimiter,
+pub(crate) struct Layout {
+    pub(crate) delimiter: Delimiter,
     /// For each column the slot of its values, `None` where it is not needed. Slot 0 is the time.
-    pub(super) slots: Vec<Option<usize>>,
+    pub(crate) slots: Vec<Option<usize>>,
     /// Names, for errors; empty where there is no header.
-    pub(super) names: Vec<String>,
+    pub(crate) names: Vec<String>,
     /// Is the line that they were found in a header (and not the first row)?
-    pub(super) has_header: bool,
+    pub(crate) has_header: bool,
     /// Are times whole ticks of a clock? They may then be larger than seconds can be.
-    pub(super) ticks: bool,
+    pub(crate) ticks: bool,
+    /// Slots of readings, of which a few may be invalid samples.
+    pub(crate) may_be_invalid: Range<usize>,
 }
 
 impl Layout {
     /// Name of a column, for errors.
-    pub(super) fn name(&self, column: usize) -> String {
+    pub(crate) fn name(&self, column: usize) -> String {
         self.names
             .get(column)
             .map_or_else(|| format!("column {}", column + 1), |name| format!("column `{name}`"))
@@ -64,16 +64,16 @@ impl Layout {
 }
 
 /// Reads rows, and knows when the last one was cut off.
-pub(super) struct RowReader<'l> {
+pub(crate) struct RowReader<'l> {
     layout: &'l Layout,
     rows: usize,
     width: Width,
     /// Line that was cut off, where the last one was.
-    pub(super) truncated: Option<usize>,
+    pub(crate) truncated: Option<usize>,
     /// Is the last line known to be cut off?
     last_is_cut: bool,
     /// The number that is subtracted from ticks that are too large to be exact as `f64`.
-    pub(super) origin: Option<i64>,
+    pub(crate) origin: Option<i64>,
     /// Number of invalid readings, and the error about the first if they are too many.
     invalid: (usize, Option<Box<InputError>>),
 }
@@ -94,7 +94,7 @@ enum Width {
 }
 
 impl<'l> RowReader<'l> {
-    pub(super) fn new(layout: &'l Layout) -> Self {
+    pub(crate) fn new(layout: &'l Layout) -> Self {
         Self {
             layout,
             rows: 0,
@@ -107,13 +107,13 @@ impl<'l> RowReader<'l> {
     }
 
     /// Examines the end of the text that holds the next lines.
-    pub(super) fn look_at_the_end(&mut self, text: &str) {
+    pub(crate) fn look_at_the_end(&mut self, text: &str) {
         self.last_is_cut = last_number_is_cut(text, self.layout.delimiter);
     }
 
     /// Reads the values of a line, each into its slot: NaN where one is missing or has no column. Returns
     /// `false` where the line is empty or was cut off.
-    pub(super) fn read<const N: usize>(&mut self, line: Line<'_>, values: &mut [f64; N]) -> Checked<bool> {
+    pub(crate) fn read(&mut self, line: Line<'_>, values: &mut [f64]) -> Checked<bool> {
         if line.is_void() {
             return Ok(false);
         }
@@ -144,7 +144,7 @@ impl<'l> RowReader<'l> {
 
     /// Returns an error at the first invalid reading where they are too many to be a few bad samples. To be
     /// called after the last row.
-    pub(super) fn check_invalid(&mut self) -> Checked<()> {
+    pub(crate) fn check_invalid(&mut self) -> Checked<()> {
         match self.invalid.1.take() {
             Some(input_error) if Sense::is_lost(self.invalid.0, self.rows) => Err(input_error),
             _ => Ok(()),
@@ -159,7 +159,7 @@ impl<'l> RowReader<'l> {
                 && matches!(self.width, Width::Fixed(width) if self.rows > 3 && line.text.len() < width))
     }
 
-    fn values<const N: usize>(&mut self, line: Line<'_>, values: &mut [f64; N]) -> Result<(), RowError> {
+    fn values(&mut self, line: Line<'_>, values: &mut [f64]) -> Result<(), RowError> {
         let layout = self.layout;
         values.fill(f64::NAN);
         let mut fields = 0;
@@ -171,7 +171,7 @@ impl<'l> RowReader<'l> {
                 match if is_tick { self.tick(field) } else { plain.or_else(|| number(field)) } {
                     Some(value) if value.is_nan() => (),
                     Some(value) if is_tick && value.is_finite() => values[slot] = value,
-                    Some(value) => match Sense::of(value, slot) {
+                    Some(value) => match Sense::of(value, layout.may_be_invalid.contains(&slot)) {
                         Sense::Some => values[slot] = value,
                         Sense::Invalid => {
                             values[slot] = value;

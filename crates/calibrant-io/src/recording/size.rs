@@ -1,13 +1,13 @@
 //! The sizes of recordings: the largest file, and an estimate of the number of rows.
 
 /// Largest recording, bytes.
-pub(super) const LARGEST: u64 = 8 << 30;
+pub(crate) const LARGEST: u64 = 8 << 30;
 
 /// Fewest bytes of a row: `0 0 0 0` and a line end. It limits the memory that is reserved ahead.
 const LEAST_ROW_BYTES: usize = 8;
 
 /// About how many rows a text of this length has, from the lines in the middle of this part of it.
-pub(super) fn estimated_rows(text: &str, first: &str, length: usize) -> usize {
+pub(crate) fn estimated_rows(text: &str, first: &str, length: usize) -> usize {
     /// Bytes from which the number of rows is estimated.
     const PROBE: usize = 4096;
     let middle = text.len() / 2;

@@ -1,6 +1,6 @@
 //! Columns of numbers from a file that is not text: an MCAP bag or Parquet.
 
-use super::column_values::{SLOTS, Samples, TIME, slots_of};
+use super::column_values::{READINGS, SLOTS, Samples, TIME, slots_of};
 use crate::recording::row_parser::Sense;
 use crate::text_decoding::Checked;
 use calibrant_core::error::{InputError, Refusal};
@@ -23,7 +23,7 @@ impl Samples {
         for (slot, column) in columns.iter().enumerate() {
             // NaN is a missing value
             for (row, &value) in column.iter().enumerate().filter(|(_, value)| !value.is_nan()) {
-                match Sense::of(value, slot) {
+                match Sense::of(value, READINGS.contains(&slot)) {
                     Sense::Some => continue,
                     Sense::None if slot == TIME && value.is_finite() => continue,
                     Sense::None => return Err(out_of_range(value, row)),

@@ -12,7 +12,8 @@
 //! name of an accelerometer's reading, and Android's of one without gravity: the magnitude decides.
 
 use super::column::{ColumnMeaning, ImuColumn};
-use super::unit::{ColumnUnit, ImuUnit, TimeUnit};
+use super::unit::{ColumnUnit, ImuUnit};
+use crate::recording::time_unit::TimeUnit;
 use calibrant_core::sensor::{Axis, SensorKind};
 
 /// Names of a time.
@@ -47,7 +48,7 @@ const MAGNETOMETER: &[&str] = &["m", "mag", "magnetometer", "magneticfield"];
 const ORIENTATION: &[&str] = &["quat", "q", "orientation", "euler"];
 
 /// The column of this name.
-pub(super) fn column(name: &str) -> ImuColumn {
+pub(crate) fn column(name: &str) -> ImuColumn {
     let (base, unit) = split_unit(name);
     let meaning = meaning(&base);
     // an ending that is no unit of such a column belongs to the name

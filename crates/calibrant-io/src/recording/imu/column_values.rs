@@ -4,9 +4,11 @@ use super::column::ColumnMeaning;
 use crate::delimited_text::Line;
 use crate::recording::line_map::LineMap;
 use crate::recording::row_parser::{Layout, RowReader};
+use crate::recording::text_source::RowTaker;
 use crate::text_decoding::Checked;
 use calibrant_core::sensor::{Axis, SensorKind};
 use nalgebra::Vector3;
+use std::ops::Range;
 
 /// Number of slots: time, three axes of each sensor, temperature, counter.
 pub(super) const SLOTS: usize = 9;
@@ -27,6 +29,9 @@ pub(super) fn slot_of(meaning: ColumnMeaning) -> Option<usize> {
         _ => None,
     }
 }
+
+/// Slots of readings in every layout.
+pub(super) const READINGS: Range<usize> = 1..7;
 
 /// The slots of a sensor's axes.
 pub(super) fn slots_of(sensor_kind: SensorKind) -> [usize; 3] {
@@ -113,8 +118,17 @@ impl<'l> SampleReader<'l> {
         Self { reader: RowReader::new(layout), samples, has, sensor_kinds }
     }
 
-    /// Takes some more lines: further lines of this text or its last ones.
-    pub(super) fn take<'t>(&mut self, lines: impl Iterator<Item = Line<'t>>, text: &str) -> Checked<()> {
+    /// The values of all rows; an error where too many rows have invalid ones.
+    pub(super) fn finish(mut self) -> Checked<Samples> {
+        self.reader.check_invalid()?;
+        self.samples.origin = self.reader.origin.unwrap_or(0);
+        self.samples.truncated = self.reader.truncated;
+        Ok(self.samples)
+    }
+}
+
+impl RowTaker for SampleReader<'_> {
+    fn take<'t>(&mut self, lines: impl Iterator<Item = Line<'t>>, text: &str) -> Checked<()> {
         self.reader.look_at_the_end(text);
         let samples = &mut self.samples;
         let mut values = [f64::NAN; SLOTS];
@@ -146,16 +160,7 @@ impl<'l> SampleReader<'l> {
         Ok(())
     }
 
-    /// Number of the last line so far.
-    pub(super) fn last_line(&self) -> Option<usize> {
+    fn last_line(&self) -> Option<usize> {
         self.samples.last_line
-    }
-
-    /// The values of all rows; an error where too many rows have invalid ones.
-    pub(super) fn finish(mut self) -> Checked<Samples> {
-        self.reader.check_invalid()?;
-        self.samples.origin = self.reader.origin.unwrap_or(0);
-        self.samples.truncated = self.reader.truncated;
-        Ok(self.samples)
     }
 }

@@ -3,9 +3,9 @@
 use super::column::{ColumnMeaning, ImuColumn};
 use super::file_layout::Draft;
 use super::format::FileFormat;
-use super::text_header::Head;
 use super::unit::{ColumnUnit, ImuUnit};
 use super::{column_names, imu_tk};
+use crate::recording::text_header::Head;
 use calibrant_core::sensor::SensorKind;
 
 /// The columns. `asked` is the sensor that the user names; its columns then need no name.

@@ -5,8 +5,9 @@ use super::column::{ColumnMeaning, ImuColumn};
 use super::column_names;
 use super::file_layout::Draft;
 use super::format::FileFormat;
-use super::text_header::Head;
-use super::unit::{ColumnUnit, ImuUnit, TimeUnit};
+use super::unit::{ColumnUnit, ImuUnit};
+use crate::recording::text_header::Head;
+use crate::recording::time_unit::TimeUnit;
 use calibrant_core::sensor::{Axis, SensorKind};
 
 pub(super) fn draft(head: &Head<'_>) -> Draft {

@@ -1,6 +1,6 @@
 //! The formats of recordings, and how the content of a file shows its format.
 
-use super::text_header::Head;
+use crate::recording::text_header::Head;
 use crate::text_decoding::Checked;
 use calibrant_core::error::{InputError, Refusal};
 

@@ -1,7 +1,7 @@
 //! A text without a header: the question to the user, and the answer in `[columns]`.
 
-use super::text_header::Head;
 use super::unit::ImuUnit;
+use crate::recording::text_header::Head;
 use calibrant_core::error::{InputError, Refusal};
 
 /// The question about the meaning of the columns.

@@ -4,9 +4,10 @@
 use super::column::{ColumnMeaning, ImuColumn};
 use super::file_layout::Draft;
 use super::format::{FileFormat, LEAVE_AWAY};
-use super::text_header::Head;
-use super::unit::{ColumnUnit, TimeUnit};
+use super::unit::ColumnUnit;
 use super::{column_names, headerless_text};
+use crate::recording::text_header::Head;
+use crate::recording::time_unit::TimeUnit;
 use crate::text_decoding::Checked;
 use calibrant_core::error::{InputError, Refusal};
 use calibrant_core::sensor::{Axis, SensorKind};

@@ -3,7 +3,7 @@
 use super::column_names;
 use super::file_layout::Draft;
 use super::format::{FileFormat, LEAVE_AWAY};
-use super::text_header::Head;
+use crate::recording::text_header::Head;
 use crate::text_decoding::Checked;
 use calibrant_core::error::{InputError, Refusal};
 

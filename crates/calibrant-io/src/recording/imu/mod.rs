@@ -11,7 +11,7 @@
 //! | CSV | none of these | by name, or `[columns]` | by name, or asked for |
 //! | plain text | `t_s,ax,ay,az`, or `t x y z`, read for the accelerometer alone | s | by name, or the experiment's |
 //!
-//! All formats go the same way. [`text_header`] finds the header. A format's own file gives the meaning of
+//! All formats go the same way. [`text_header`](super::text_header) finds the header. A format's own file gives the meaning of
 //! its columns ([`file_layout`]). [`column_values`] reads the rows. [`sample_clock`] makes times of them, and
 //! [`reading_unit`] finds the units. [`recording_assembly`] puts the recording together. The user must give a
 //! unit that the file does not state; the question shows what the values suggest. The program never guesses
@@ -20,8 +20,6 @@
 mod accelerometer_only;
 #[cfg(any(feature = "mcap", feature = "parquet"))]
 mod binary_columns;
-#[cfg(feature = "mcap")]
-mod cdr;
 mod column;
 mod column_names;
 mod column_values;
@@ -32,14 +30,12 @@ mod file;
 mod file_layout;
 mod format;
 mod headerless_text;
+#[cfg(feature = "mcap")]
+mod imu_message;
 mod imu_tk;
 mod imucal;
 #[cfg(feature = "mcap")]
 mod mcap;
-#[cfg(feature = "mcap")]
-mod mcap_footer;
-#[cfg(feature = "mcap")]
-mod mcap_records;
 mod movella_dot;
 mod mt_manager;
 mod options;
@@ -52,17 +48,16 @@ mod read;
 mod reading_unit;
 mod recording_assembly;
 mod sample_clock;
-mod text_header;
-mod text_source;
 mod two_files;
 mod unit;
 mod xsens;
 
 pub use column::{ColumnMeaning, ImuColumn};
+pub(crate) use column_names::column as imu_column;
 pub use even_times::SampleTimes;
 pub use file::{ImuFile, SecondFile};
 pub use format::FileFormat;
 pub use options::{AccelerometerOnly, ColumnMapping, ImuReadOptions, USUAL_RATE_SD_PPM};
 pub use read::{parse_imu_recording, read_imu_recording, read_imu_sensor};
 pub use two_files::{parse_imu_pair, read_imu_pair};
-pub use unit::{ColumnUnit, ImuUnit, TimeUnit};
+pub use unit::{ColumnUnit, ImuUnit};

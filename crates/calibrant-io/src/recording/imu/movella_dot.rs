@@ -3,9 +3,10 @@
 
 use super::file_layout::Draft;
 use super::format::FileFormat;
-use super::text_header::Head;
-use super::unit::{ImuUnit, TimeUnit};
+use super::unit::ImuUnit;
 use super::xsens;
+use crate::recording::text_header::Head;
+use crate::recording::time_unit::TimeUnit;
 
 pub(super) fn draft(head: &Head<'_>) -> Draft {
     Draft {

@@ -2,7 +2,8 @@
 
 use super::even_times::SampleTimes;
 use super::format::FileFormat;
-use super::unit::{ImuUnit, TimeUnit};
+use super::unit::ImuUnit;
+use crate::recording::time_unit::TimeUnit;
 use calibrant_core::budget::Budget;
 use calibrant_core::sensor::{ReadingUnit, SensorKind};
 

@@ -2,7 +2,7 @@
 //! rows, the recording.
 
 use super::accelerometer_only::{only, plain};
-use super::column_values::Samples;
+use super::column_values::{READINGS, SampleReader, Samples};
 use super::file::ImuFile;
 use super::file_layout::Draft;
 use super::format::{FileFormat, LEAVE_AWAY};
@@ -12,12 +12,13 @@ use super::options::ImuReadOptions;
 #[cfg(feature = "parquet")]
 use super::parquet;
 use super::recording_assembly::assemble;
-use super::text_header::Head;
-use super::text_source::{self, Source};
-use super::unit::TimeUnit;
 use super::{csv, euroc, headerless_text, imu_tk, imucal, movella_dot, mt_manager};
 use crate::recording::checksum::hex_sha256;
+use crate::recording::chunked_reader::FileBeginning;
 use crate::recording::row_parser::Layout;
+use crate::recording::text_header::Head;
+use crate::recording::text_source::{self, Source};
+use crate::recording::time_unit::TimeUnit;
 use crate::text_decoding::Checked;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::sensor::SensorKind;
@@ -47,11 +48,21 @@ pub fn read_imu_sensor(path: &Path, sensor_kind: SensorKind, options: &ImuReadOp
 
 fn read(path: &Path, options: &ImuReadOptions, asked: Option<SensorKind>) -> Result<ImuFile> {
     let in_file = |input_error: Box<InputError>| Error::recording(input_error.in_file(path));
-    let beginning = text_source::beginning(path).map_err(in_file)?;
+    let beginning = beginning(path).map_err(in_file)?;
     if FileFormat::of_magic(&beginning.bytes).is_some() {
         return parse(&beginning.bytes, options).map_err(in_file);
     }
-    text_source::of_file(beginning, |source| parse_text(source, options, asked)).map_err(in_file)
+    let read = text_source::of_file(beginning, |source| parse_text(source, options, asked));
+    read.map(with_checksum).map_err(in_file)
+}
+
+/// The beginning of a file; all of it where that is of a binary format.
+pub(super) fn beginning(path: &Path) -> Checked<FileBeginning> {
+    FileBeginning::read(path, |bytes| FileFormat::of_magic(bytes).is_some())
+}
+
+pub(super) fn with_checksum((file, sha256): (ImuFile, String)) -> ImuFile {
+    ImuFile { sha256: vec![sha256], ..file }
 }
 
 /// Reads the bytes of a recording of an IMU.
@@ -85,7 +96,7 @@ pub(super) fn parse(bytes: &[u8], options: &ImuReadOptions) -> Checked<ImuFile> 
         let (file, sha256) = rayon::join(|| binary(format, bytes, options), || hex_sha256(bytes));
         return Ok(ImuFile { sha256: vec![sha256], ..file? });
     }
-    text_source::of_bytes(bytes, |source| parse_text(source, options, None))
+    text_source::of_bytes(bytes, |source| parse_text(source, options, None)).map(with_checksum)
 }
 
 /// Reads a text; `asked` is the sensor that the user names.
@@ -194,8 +205,11 @@ pub(super) fn rows(
         names: head.names.iter().map(|name| (*name).to_owned()).collect(),
         has_header: !head.names.is_empty(),
         ticks: draft.time_unit() != Some(TimeUnit::Second),
+        may_be_invalid: READINGS,
     };
-    let mut samples = source.samples(&layout, head)?;
+    let mut reader = SampleReader::new(&layout, source.estimated_rows(&head));
+    source.read_rows(head, &mut reader)?;
+    let mut samples = reader.finish()?;
     samples.last_line = samples.last_line.or(Some(line));
     finish(draft, samples, options)
 }

@@ -6,8 +6,9 @@ use super::file_layout::Draft;
 use super::options::ImuReadOptions;
 use super::packet_times::Packets;
 use super::reading_unit::{check_gravity, question, stated_unit};
-use super::sample_clock::{self, at};
+use super::sample_clock;
 use super::unit::{ColumnUnit, ImuUnit};
+use crate::recording::clock_column::backwards;
 use crate::recording::finding_words::count;
 use crate::recording::line_map::LineMap;
 use crate::recording::lost_sign;
@@ -204,7 +205,7 @@ fn increasing(
             match *before {
                 _ if samples.sensor(sensor_kind)[row].iter().any(|value| value.is_nan()) => (),
                 Some(other) if t < times[other] => {
-                    return Err(at(backwards(times[other], t), samples, row).into());
+                    return Err(samples.lines.at(backwards(times[other], t), row).into());
                 }
                 Some(other) if t == times[other] => repeated = Some(other),
                 _ => (*before, is_new) = (Some(row), true),
@@ -220,15 +221,6 @@ fn increasing(
     same_rows.report(findings, None, Noticed::RowsRepeated);
     same_times.report(findings, None, Noticed::TimesRepeated);
     Ok(kept)
-}
-
-/// The error for a time that goes backwards, s.
-fn backwards(before: f64, t: f64) -> InputError {
-    InputError::new(
-        Refusal::TimesNotIncreasing,
-        format!("time goes backwards, from {before:?} s to {t:?} s"),
-        "are these files put together, or did a counter wrap? split the file here",
-    )
 }
 
 /// The readings of a sensor, in its unit after the conversion; samples that lack a value are dropped.
@@ -342,7 +334,7 @@ fn examine(
                 recording_quality::clock(rate, findings);
             }
             let from = findings.len();
-            recording_quality::sampling(sensor, rate, lines, findings);
+            recording_quality::sampling(&sensor.times_s, rate, lines, findings);
             if !shared {
                 findings[from..].iter_mut().for_each(|finding| finding.sensor_kind = Some(*sensor_kind));
             }

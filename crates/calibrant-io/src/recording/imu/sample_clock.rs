@@ -5,16 +5,12 @@ use super::column_values::Samples;
 use super::even_times::{EvenTimes, SampleTimes};
 use super::file_layout::Draft;
 use super::options::ImuReadOptions;
-use super::unit::TimeUnit;
+use crate::recording::clock_column::{ClockColumn, unwrap};
 use crate::recording::finding_words::short;
 use crate::recording::reader_finding::{Finding, Noticed};
 use crate::text_decoding::Checked;
 use calibrant_core::error::{InputError, Refusal};
 
-/// Times beyond this, s, count from another epoch than the recording's. They then count from the first.
-const EPOCH_S: f64 = 1e8;
-/// Largest plausible time, s.
-const LARGEST_S: f64 = 1e12;
 /// A stated rate and a given one may differ by this share.
 const SAME_RATE: f64 = 1e-3;
 
@@ -108,38 +104,16 @@ fn rate(draft: &Draft, options: &ImuReadOptions) -> Checked<Option<(f64, Option<
 }
 
 fn of_times(draft: &Draft, samples: &mut Samples, findings: &mut Vec<Finding>) -> Checked<Vec<f64>> {
-    let ticks = std::mem::take(&mut samples.times);
-    let name = draft.column(ColumnMeaning::Time).map_or_else(String::new, |column| column.name.clone());
-    let Some(unit) = draft.time_unit() else { return Err(which_unit(&name, &ticks).into()) };
-    let per_second = unit.per_second().unwrap_or(1.0);
-    let (mut ticks, wraps) = unwrap(ticks, draft.time_wraps_at);
-    if wraps > 0 {
-        findings.push(Finding::new(Noticed::ClockWrapped(name.clone(), wraps)));
-    }
-    let first = ticks.iter().copied().find(|t| t.is_finite()).unwrap_or(0.0);
-    let whole = first.fract() == 0.0 && unit != TimeUnit::Second;
-    let epoch = samples.origin as f64 + first;
-    if draft.time_wraps_at.is_some() {
-        ticks.iter_mut().for_each(|t| *t -= first);
-    } else if whole && (epoch / per_second).abs() > EPOCH_S {
-        ticks.iter_mut().for_each(|t| *t -= first);
-        let first = (first as i128).saturating_add(samples.origin.into());
-        samples.counted_from_ns = first.checked_mul((1e9 / per_second) as i128);
-        let noticed = Noticed::TimesFromFirst { column: name.clone(), first, unit: unit.symbol() };
-        findings.push(Finding::new(noticed));
-    } else if samples.origin != 0 {
-        ticks.iter_mut().for_each(|t| *t += samples.origin as f64);
-    }
-    ticks.iter_mut().for_each(|t| *t /= per_second);
-    if let Some(row) = ticks.iter().position(|t| t.abs() > LARGEST_S) {
-        let input_error = InputError::new(
-            Refusal::ValueOutOfRange,
-            format!("the time {} s in `{name}` is out of range", short(ticks[row])),
-            "is the unit of the time right?",
-        );
-        return Err(at(input_error, samples, row).into());
-    }
-    Ok(ticks)
+    let column = draft.column(ColumnMeaning::Time);
+    let clock = ClockColumn {
+        name: column.map_or("", |column| column.name.as_str()),
+        unit: draft.time_unit(),
+        wraps_at: draft.time_wraps_at,
+        origin: samples.origin,
+    };
+    let seconds = clock.seconds(std::mem::take(&mut samples.times), &samples.lines, findings)?;
+    samples.counted_from_ns = seconds.counted_from_ns;
+    Ok(seconds.times_s)
 }
 
 fn of_counter(draft: &Draft, samples: &mut Samples, rate: f64) -> Checked<Vec<f64>> {
@@ -151,54 +125,4 @@ fn of_counter(draft: &Draft, samples: &mut Samples, rate: f64) -> Checked<Vec<f6
     let first = counts.iter().copied().find(|n| n.is_finite()).unwrap_or(0.0);
     counts.iter_mut().for_each(|n| *n = (*n - first) / rate);
     Ok(counts)
-}
-
-/// Ticks that continue where the clock restarts, and the number of restarts. A step back of more than half
-/// its width is a restart.
-fn unwrap(mut ticks: Vec<f64>, wraps_at: Option<f64>) -> (Vec<f64>, usize) {
-    let Some(width) = wraps_at else { return (ticks, 0) };
-    let (mut before, mut wraps) = (f64::NAN, 0);
-    for tick in &mut ticks {
-        if before - *tick > width / 2.0 {
-            wraps += 1;
-        }
-        before = if tick.is_nan() { before } else { *tick };
-        *tick += wraps as f64 * width;
-    }
-    (ticks, wraps)
-}
-
-/// The question about the unit of the time.
-fn which_unit(name: &str, ticks: &[f64]) -> InputError {
-    let mut steps: Vec<f64> =
-        ticks.windows(2).map(|pair| pair[1] - pair[0]).filter(|step| *step > 0.0).collect();
-    let middle = steps.len() / 2;
-    let hint = if steps.is_empty() {
-        String::new()
-    } else {
-        let (_, step, _) = steps.select_nth_unstable_by(middle, f64::total_cmp);
-        let plausible = |unit: &TimeUnit| {
-            unit.per_second().is_some_and(|per_second| (5.0..=5000.0).contains(&(per_second / *step)))
-        };
-        let units = [TimeUnit::Second, TimeUnit::Millisecond, TimeUnit::Microsecond, TimeUnit::Nanosecond];
-        match units.iter().filter(|unit| plausible(unit)).collect::<Vec<_>>().as_slice() {
-            [one] => format!(": steps of {} suggest {}", short(*step), one.symbol()),
-            _ => format!(": steps of {} may be anything", short(*step)),
-        }
-    };
-    let is_number = name.parse::<usize>().is_ok();
-    let or = if is_number { "" } else { ", or end its name in _s, _ms, _us or _ns" };
-    InputError::question(
-        Refusal::UnitUnknown,
-        format!("the time column `{name}` has no unit{hint}"),
-        vec![format!("--time-unit s, ms, us or ns (time_unit in [columns]){or}")],
-    )
-}
-
-/// The error, at the line of a row where rows have lines.
-pub(super) fn at(input_error: InputError, samples: &Samples, row: usize) -> InputError {
-    match samples.lines.line(row) {
-        Some(line) => input_error.at_line(line),
-        None => input_error,
-    }
 }

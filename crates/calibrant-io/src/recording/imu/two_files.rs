@@ -2,11 +2,11 @@
 
 use super::column::{ColumnMeaning, ImuColumn};
 use super::file_layout::Draft;
-use super::read::rows;
-use super::text_header::Head;
-use super::text_source::{self, Source};
+use super::read::{beginning, rows, with_checksum};
 use super::{ColumnMapping, FileFormat, ImuFile, ImuReadOptions, SecondFile, imu_tk};
 use crate::recording::reader_finding::{Finding, Noticed};
+use crate::recording::text_header::Head;
+use crate::recording::text_source::{self, Source};
 use crate::text_decoding::Checked;
 use calibrant_core::error::{Error, InputError, Result};
 use calibrant_core::sensor::{ImuRecording, Recording, SensorKind};
@@ -25,8 +25,10 @@ const COVERED: f64 = 0.9;
 pub fn read_imu_pair(accelerometer: &Path, gyroscope: &Path, options: &ImuReadOptions) -> Result<ImuFile> {
     let one = |path: &Path, sensor_kind: SensorKind| {
         let in_file = |input_error: Box<InputError>| Error::recording(input_error.in_file(path));
-        let beginning = text_source::beginning(path).map_err(in_file)?;
-        text_source::of_file(beginning, |source| parse_one(source, options, sensor_kind)).map_err(in_file)
+        let beginning = beginning(path).map_err(in_file)?;
+        text_source::of_file(beginning, |source| parse_one(source, options, sensor_kind))
+            .map(with_checksum)
+            .map_err(in_file)
     };
     // in parallel: a calibration waits for this
     let (accelerometer, gyroscope) = rayon::join(
@@ -55,12 +57,12 @@ pub fn read_imu_pair(accelerometer: &Path, gyroscope: &Path, options: &ImuReadOp
 /// ```
 pub fn parse_imu_pair(accelerometer: &[u8], gyroscope: &[u8], options: &ImuReadOptions) -> Result<ImuFile> {
     let one = |bytes: &[u8], sensor_kind: SensorKind| {
-        text_source::of_bytes(bytes, |source| parse_one(source, options, sensor_kind)).map_err(
-            |input_error| {
+        text_source::of_bytes(bytes, |source| parse_one(source, options, sensor_kind))
+            .map(with_checksum)
+            .map_err(|input_error| {
                 let message = format!("{sensor_kind}: {}", input_error.message);
                 Error::recording(InputError { message, ..*input_error })
-            },
-        )
+            })
     };
     both(one(accelerometer, SensorKind::Accelerometer), one(gyroscope, SensorKind::Gyroscope))
 }

@@ -2,7 +2,8 @@
 //! [`movella_dot`](super::movella_dot).
 
 use super::column::{ColumnMeaning, ImuColumn};
-use super::unit::{ColumnUnit, ImuUnit, TimeUnit};
+use super::unit::{ColumnUnit, ImuUnit};
+use crate::recording::time_unit::TimeUnit;
 use calibrant_core::sensor::{Axis, SensorKind};
 
 /// Columns of these names.

@@ -10,5 +10,6 @@ mod imu;
 mod imu_calibration;
 mod real;
 mod recordings;
+mod reference_log;
 mod results;
 mod study;

@@ -9,7 +9,7 @@ mod packets;
 mod parquet;
 mod pieces;
 mod real;
-mod ros_bag;
+pub(super) mod ros_bag;
 mod separate_rows;
 
 use calibrant::io::{ImuFile, ImuReadOptions, ImuUnit, parse_imu_recording};

@@ -29,13 +29,13 @@ fn cdr(stamp_ns: u64, frame: &str, rate: [f64; 3], force: [f64; 3], absent: [boo
 /// The first time stamp, ns.
 const STAMP: u64 = 1_700_000_000_123_456_789;
 
-fn message(k: u64) -> Vec<u8> {
+pub(crate) fn message(k: u64) -> Vec<u8> {
     let x = k as f64;
     cdr(STAMP + 5_000_000 * k, "imu_link", [0.1 * x, 0.2, -0.1], [0.3, 9.7, 0.1 * x], [false; 2])
 }
 
 /// A bag with these topics: name, type, encoding, messages.
-fn bag(topics: &[(&str, &str, &str, Vec<Vec<u8>>)]) -> Vec<u8> {
+pub(crate) fn bag(topics: &[(&str, &str, &str, Vec<Vec<u8>>)]) -> Vec<u8> {
     bag_with(mcap::WriteOptions::new().compression(None).profile("ros2"), topics)
 }
 
@@ -56,7 +56,7 @@ fn bag_with(options: mcap::WriteOptions, topics: &[(&str, &str, &str, Vec<Vec<u8
 }
 
 /// The name of the message's type.
-const IMU: &str = "sensor_msgs/msg/Imu";
+pub(crate) const IMU: &str = "sensor_msgs/msg/Imu";
 
 fn one() -> Vec<u8> {
     bag(&[

@@ -3,25 +3,25 @@
 use mcap::records::op;
 
 /// Bytes of a record before its content: opcode and length.
-pub(super) const HEAD: usize = 1 + 8;
+pub(crate) const HEAD: usize = 1 + 8;
 
 /// A record.
-pub(super) struct RawRecord<'a> {
-    pub(super) opcode: u8,
+pub(crate) struct RawRecord<'a> {
+    pub(crate) opcode: u8,
     /// Number of bytes that it states.
-    pub(super) length: u64,
+    pub(crate) length: u64,
     /// The bytes that are there.
-    pub(super) content: &'a [u8],
+    pub(crate) content: &'a [u8],
 }
 
 impl RawRecord<'_> {
-    pub(super) fn is_whole(&self) -> bool {
+    pub(crate) fn is_whole(&self) -> bool {
         self.content.len() as u64 == self.length
     }
 }
 
 /// The records from here on; the last one may not be whole.
-pub(super) fn raw_records(bytes: &[u8]) -> impl Iterator<Item = RawRecord<'_>> {
+pub(crate) fn raw_records(bytes: &[u8]) -> impl Iterator<Item = RawRecord<'_>> {
     let mut rest = bytes;
     std::iter::from_fn(move || {
         let (&[opcode, ref length @ ..], after) = rest.split_first_chunk::<HEAD>()?;
@@ -35,7 +35,7 @@ pub(super) fn raw_records(bytes: &[u8]) -> impl Iterator<Item = RawRecord<'_>> {
 
 /// Do the records of every uncompressed chunk end where it ends? `mcap::LinearReader` subtracts their lengths
 /// from the chunk's without a check.
-pub(super) fn chunk_lengths_add_up(bytes: &[u8]) -> bool {
+pub(crate) fn chunk_lengths_add_up(bytes: &[u8]) -> bool {
     raw_records(bytes).filter(|record| record.opcode == op::CHUNK).all(|chunk| chunk_ends(chunk.content))
 }
 

@@ -5,23 +5,23 @@ use crate::text_decoding::Checked;
 use calibrant_core::error::{InputError, Refusal};
 
 /// The beginning of a text, up to its first row.
-pub(super) struct Head<'t> {
+pub(crate) struct Head<'t> {
     /// Comments and lines of `key: value`.
-    pub(super) preamble: Vec<Line<'t>>,
+    pub(crate) preamble: Vec<Line<'t>>,
     /// Line with the names of the columns.
     header: Option<Line<'t>>,
     /// First row, where there is no header or where it is a comment.
-    pub(super) first_row: Option<Line<'t>>,
-    pub(super) delimiter: Delimiter,
+    pub(crate) first_row: Option<Line<'t>>,
+    pub(crate) delimiter: Delimiter,
     /// The names of the columns; empty where there is no header.
-    pub(super) names: Vec<&'t str>,
+    pub(crate) names: Vec<&'t str>,
     /// The text after the header, or after the first row.
-    pub(super) rest: Lines<'t>,
+    pub(crate) rest: Lines<'t>,
 }
 
 impl<'t> Head<'t> {
     /// Finds the header.
-    pub(super) fn find(text: &'t str) -> Checked<Self> {
+    pub(crate) fn find(text: &'t str) -> Checked<Self> {
         let mut preamble = Vec::new();
         let mut rest = Lines::of(text);
         // the lines above the header of a DOT export are no comments
@@ -85,12 +85,12 @@ impl<'t> Head<'t> {
     }
 
     /// Number of the line with the names, or of the first row.
-    pub(super) fn line(&self) -> usize {
+    pub(crate) fn line(&self) -> usize {
         self.header.or(self.first_row).map_or(1, |line| line.number)
     }
 
     /// Number of columns.
-    pub(super) fn fields(&self) -> usize {
+    pub(crate) fn fields(&self) -> usize {
         match self.first_row {
             Some(line) => fields(line, self.delimiter).len(),
             None => self.names.len(),
@@ -98,12 +98,12 @@ impl<'t> Head<'t> {
     }
 
     /// The names of the columns in lower case.
-    pub(super) fn lower_names(&self) -> Vec<String> {
+    pub(crate) fn lower_names(&self) -> Vec<String> {
         self.names.iter().map(|name| name.to_lowercase()).collect()
     }
 
     /// The value after `key:` in the lines above the header.
-    pub(super) fn value(&self, key: &str) -> Option<&'t str> {
+    pub(crate) fn value(&self, key: &str) -> Option<&'t str> {
         self.preamble.iter().find_map(|line| {
             let plain = line.text.trim_ascii().trim_start_matches(['/', '#', '%']).trim_ascii();
             let rest = plain.strip_prefix(key)?.trim_ascii_start().strip_prefix(':')?;
@@ -112,14 +112,14 @@ impl<'t> Head<'t> {
     }
 
     /// The number, such as `100.0` of `100.0Hz`, after `key:` in the lines above the header.
-    pub(super) fn number(&self, key: &str) -> Option<f64> {
+    pub(crate) fn number(&self, key: &str) -> Option<f64> {
         let value = self.value(key)?;
         let end = value.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(value.len());
         value[..end].parse().ok().filter(|number: &f64| number.is_finite() && *number > 0.0)
     }
 
     /// Is there a line `sep=,` (for Excel)?
-    pub(super) fn has_separator_line(&self) -> bool {
+    pub(crate) fn has_separator_line(&self) -> bool {
         self.preamble.iter().any(|line| is_separator(line.text.trim_ascii()))
     }
 }

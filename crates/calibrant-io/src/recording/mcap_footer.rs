@@ -9,7 +9,8 @@ use mcap::MAGIC;
 use mcap::records::op;
 
 /// A container without its end.
-pub(super) struct Cut {
+#[derive(Clone)]
+pub(crate) struct Cut {
     /// Number of bytes that are there.
     length: usize,
     /// Opcode and place of the record that is not whole; `None` where the file ends between two.
@@ -20,7 +21,7 @@ pub(super) struct Cut {
 
 impl Cut {
     /// The missing part of a container; `None` where it is whole.
-    pub(super) fn of(bytes: &[u8]) -> Option<Self> {
+    pub(crate) fn of(bytes: &[u8]) -> Option<Self> {
         let (mut at, mut is_after_data) = (MAGIC.len(), false);
         for record in raw_records(bytes.get(at..)?) {
             if !record.is_whole() {
@@ -36,14 +37,14 @@ impl Cut {
     }
 
     /// The warning where messages could be read: their number, and their duration, s.
-    pub(super) fn finding(&self, messages: usize, duration_s: f64) -> Finding {
+    pub(crate) fn finding(&self, messages: usize, duration_s: f64) -> Finding {
         let (cut, is_after_data) = (self.sentence(), self.is_after_data);
         Finding::new(Noticed::FileUnfinished { cut, is_after_data, messages, duration_s })
     }
 
     /// The error where none could be read.
-    pub(super) fn input_error(&self) -> InputError {
-        let message = format!("{}, before any message of an IMU", self.sentence());
+    pub(crate) fn input_error(&self, whose: &str) -> InputError {
+        let message = format!("{}, before any message of {whose}", self.sentence());
         InputError::new(
             Refusal::FileDamaged,
             message,

@@ -1,0 +1,126 @@
+//! Times in seconds of a column of times, whatever their unit and their epoch.
+
+use super::finding_words::short;
+use super::line_map::LineMap;
+use super::reader_finding::{Finding, Noticed};
+use super::time_unit::TimeUnit;
+use crate::text_decoding::Checked;
+use calibrant_core::error::{InputError, Refusal};
+
+/// Times beyond this, s, count from another epoch than the recording's. They then count from the first.
+pub(crate) const EPOCH_S: f64 = 1e8;
+/// Largest plausible time, s.
+const LARGEST_S: f64 = 1e12;
+
+/// A column of times.
+pub(crate) struct ClockColumn<'n> {
+    pub(crate) name: &'n str,
+    /// `None` where the user has to say it.
+    pub(crate) unit: Option<TimeUnit>,
+    /// The clock restarts at this number of ticks.
+    pub(crate) wraps_at: Option<f64>,
+    /// The number that was subtracted from each time, in its ticks.
+    pub(crate) origin: i64,
+}
+
+/// Times of rows.
+pub(crate) struct Seconds {
+    /// Times, s; NaN where a row has none.
+    pub(crate) times_s: Vec<f64>,
+    /// The time from which they count, ns, where they count from their first.
+    pub(crate) counted_from_ns: Option<i128>,
+}
+
+impl ClockColumn<'_> {
+    /// The times in seconds; a question where their unit is unknown.
+    pub(crate) fn seconds(
+        &self,
+        ticks: Vec<f64>,
+        lines: &LineMap,
+        findings: &mut Vec<Finding>,
+    ) -> Checked<Seconds> {
+        let name = self.name;
+        let Some(unit) = self.unit else { return Err(which_unit(name, &ticks).into()) };
+        let per_second = unit.per_second().unwrap_or(1.0);
+        let (mut ticks, wraps) = unwrap(ticks, self.wraps_at);
+        if wraps > 0 {
+            findings.push(Finding::new(Noticed::ClockWrapped(name.to_owned(), wraps)));
+        }
+        let first = ticks.iter().copied().find(|t| t.is_finite()).unwrap_or(0.0);
+        let whole = first.fract() == 0.0 && unit != TimeUnit::Second;
+        let epoch = self.origin as f64 + first;
+        let mut counted_from_ns = None;
+        if self.wraps_at.is_some() {
+            ticks.iter_mut().for_each(|t| *t -= first);
+        } else if whole && (epoch / per_second).abs() > EPOCH_S {
+            ticks.iter_mut().for_each(|t| *t -= first);
+            let first = (first as i128).saturating_add(self.origin.into());
+            counted_from_ns = first.checked_mul((1e9 / per_second) as i128);
+            let noticed = Noticed::TimesFromFirst { column: name.to_owned(), first, unit: unit.symbol() };
+            findings.push(Finding::new(noticed));
+        } else if self.origin != 0 {
+            ticks.iter_mut().for_each(|t| *t += self.origin as f64);
+        }
+        ticks.iter_mut().for_each(|t| *t /= per_second);
+        if let Some(row) = ticks.iter().position(|t| t.abs() > LARGEST_S) {
+            let input_error = InputError::new(
+                Refusal::ValueOutOfRange,
+                format!("the time {} s in `{name}` is out of range", short(ticks[row])),
+                "is the unit of the time right?",
+            );
+            return Err(lines.at(input_error, row).into());
+        }
+        Ok(Seconds { times_s: ticks, counted_from_ns })
+    }
+}
+
+/// The error for a time that goes backwards, s.
+pub(crate) fn backwards(before: f64, t: f64) -> InputError {
+    InputError::new(
+        Refusal::TimesNotIncreasing,
+        format!("time goes backwards, from {before:?} s to {t:?} s"),
+        "are these files put together, or did a counter wrap? split the file here",
+    )
+}
+
+/// Ticks that continue where the clock restarts, and the number of restarts. A step back of more than half
+/// its width is a restart.
+pub(crate) fn unwrap(mut ticks: Vec<f64>, wraps_at: Option<f64>) -> (Vec<f64>, usize) {
+    let Some(width) = wraps_at else { return (ticks, 0) };
+    let (mut before, mut wraps) = (f64::NAN, 0);
+    for tick in &mut ticks {
+        if before - *tick > width / 2.0 {
+            wraps += 1;
+        }
+        before = if tick.is_nan() { before } else { *tick };
+        *tick += wraps as f64 * width;
+    }
+    (ticks, wraps)
+}
+
+/// The question about the unit of the time.
+fn which_unit(name: &str, ticks: &[f64]) -> InputError {
+    let mut steps: Vec<f64> =
+        ticks.windows(2).map(|pair| pair[1] - pair[0]).filter(|step| *step > 0.0).collect();
+    let middle = steps.len() / 2;
+    let hint = if steps.is_empty() {
+        String::new()
+    } else {
+        let (_, step, _) = steps.select_nth_unstable_by(middle, f64::total_cmp);
+        let plausible = |unit: &TimeUnit| {
+            unit.per_second().is_some_and(|per_second| (5.0..=5000.0).contains(&(per_second / *step)))
+        };
+        let units = [TimeUnit::Second, TimeUnit::Millisecond, TimeUnit::Microsecond, TimeUnit::Nanosecond];
+        match units.iter().filter(|unit| plausible(unit)).collect::<Vec<_>>().as_slice() {
+            [one] => format!(": steps of {} suggest {}", short(*step), one.symbol()),
+            _ => format!(": steps of {} may be anything", short(*step)),
+        }
+    };
+    let is_number = name.parse::<usize>().is_ok();
+    let or = if is_number { "" } else { ", or end its name in _s, _ms, _us or _ns" };
+    InputError::question(
+        Refusal::UnitUnknown,
+        format!("the time column `{name}` has no unit{hint}"),
+        vec![format!("--time-unit s, ms, us or ns (time_unit in [columns]){or}")],
+    )
+}

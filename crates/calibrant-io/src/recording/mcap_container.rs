@@ -1,0 +1,246 @@
+//! Reads the messages of ROS 2 bags in MCAP containers, of the types that a reader asks for, in CDR.
+
+use super::cdr::Unreadable;
+use super::finding_words::{count, list};
+use super::mcap_footer::Cut;
+use super::mcap_records::chunk_lengths_add_up;
+use crate::text_decoding::Checked;
+use calibrant_core::error::{InputError, Refusal};
+use mcap::records::Record;
+use mcap::sans_io::{LinearReadEvent, LinearReader, LinearReaderOptions};
+use mcap::{MAGIC, McapError};
+use std::collections::BTreeMap;
+
+/// Bytes that the container's reader receives at once.
+const PIECE: usize = 1 << 20;
+/// A record may have this many bytes, even where the compressed file has fewer: a map that was latched.
+const LARGEST_RECORD: usize = 1 << 28;
+/// Opcode of a record with a schema.
+const SCHEMA: u8 = 3;
+/// Opcode of a record with a channel.
+const CHANNEL: u8 = 4;
+/// Opcode of a record with a message.
+const MESSAGE: u8 = 5;
+
+/// A type of messages, and how one is read.
+pub(crate) struct MessageType<M> {
+    /// Its name: `sensor_msgs/msg/Imu`.
+    pub(crate) name: &'static str,
+    pub(crate) read: fn(&[u8]) -> Result<M, Unreadable>,
+}
+
+impl<M> MessageType<M> {
+    /// Is it the type of this schema? Some recorders write the name of the type in DDS.
+    fn is(&self, schema: &str) -> bool {
+        let of_dds = || {
+            let (package, name) = self.name.rsplit_once('/')?;
+            schema.strip_prefix(package)?.strip_prefix("/dds_/")?.strip_suffix('_').map(|dds| dds == name)
+        };
+        schema == self.name || of_dds() == Some(true)
+    }
+}
+
+/// The topics of a container, and the messages of those that are wanted.
+pub(crate) struct Bag<'t, M> {
+    types: &'t [MessageType<M>],
+    /// Name of each schema.
+    schemas: BTreeMap<u16, String>,
+    channels: BTreeMap<u16, Channel<'t, M>>,
+    cut: Option<Cut>,
+}
+
+struct Channel<'t, M> {
+    topic: String,
+    schema: String,
+    /// `None` where its messages are not wanted.
+    message_type: Option<&'t MessageType<M>>,
+    messages: Vec<M>,
+}
+
+/// The messages of each topic that is wanted, and all topics, for errors.
+pub(crate) struct Topics<M> {
+    pub(crate) messages: BTreeMap<String, Vec<M>>,
+    /// Names of the types that are wanted.
+    types: String,
+    /// All topics with the names of their types.
+    all: Vec<String>,
+}
+
+impl<'t, M> Bag<'t, M> {
+    pub(crate) fn read(bytes: &[u8], types: &'t [MessageType<M>]) -> Checked<Self> {
+        if !chunk_lengths_add_up(bytes.get(MAGIC.len()..).unwrap_or_default()) {
+            return Err(damaged(&McapError::UnexpectedEoc).into());
+        }
+        let cut = Cut::of(bytes);
+        let is_cut = cut.is_some();
+        let mut bag = Self { types, schemas: BTreeMap::new(), channels: BTreeMap::new(), cut };
+        let mut rest = bytes;
+        let options = LinearReaderOptions::default()
+            .with_record_length_limit(bytes.len().max(LARGEST_RECORD))
+            .with_validate_chunk_crcs(true)
+            // a recorder that was killed has written no end
+            .with_skip_end_magic(true);
+        let mut reader = LinearReader::new_with_options(options);
+        while let Some(event) = reader.next_event() {
+            match event {
+                Ok(LinearReadEvent::ReadRequest(need)) => {
+                    let length = rest.len().min(need.max(PIECE));
+                    reader.insert(length).copy_from_slice(&rest[..length]);
+                    reader.notify_read(length);
+                    rest = &rest[length..];
+                }
+                Ok(LinearReadEvent::Record { data, opcode }) => bag.take(opcode, data)?,
+                // a record that states more bytes than the file has is the one that was cut off
+                Err(McapError::UnexpectedEof | McapError::RecordTooLarge { .. }) if is_cut => break,
+                Err(error) => return Err(damaged(&error).into()),
+            }
+        }
+        Ok(bag)
+    }
+
+    /// The missing end of the container, if it has none; an error where no message could be read before it.
+    /// `whose` is what its messages are of.
+    pub(crate) fn cut(&self, whose: &str) -> Checked<Option<Cut>> {
+        match &self.cut {
+            Some(cut) if self.channels.values().all(|channel| channel.messages.is_empty()) => {
+                Err(cut.input_error(whose).into())
+            }
+            cut => Ok(cut.clone()),
+        }
+    }
+
+    fn take(&mut self, opcode: u8, data: &[u8]) -> Checked<()> {
+        if ![SCHEMA, CHANNEL, MESSAGE].contains(&opcode) {
+            return Ok(());
+        }
+        if !texts_end(opcode, data) {
+            return Err(damaged(&McapError::UnexpectedEof).into());
+        }
+        match mcap::parse_record(opcode, data).map_err(|error| damaged(&error))? {
+            Record::Schema { header, .. } => {
+                self.schemas.insert(header.id, header.name);
+            }
+            Record::Channel(channel) => {
+                let schema = self.schemas.get(&channel.schema_id).cloned().unwrap_or_default();
+                let message_type = self.types.iter().find(|one| one.is(&schema));
+                if message_type.is_some() && channel.message_encoding != "cdr" {
+                    let message = format!(
+                        "messages of `{}` are encoded as `{}`",
+                        channel.topic, channel.message_encoding
+                    );
+                    return Err(
+                        InputError::new(Refusal::FormatUnsupported, message, "only CDR is read").into()
+                    );
+                }
+                let topic = channel.topic.clone();
+                let new = || Channel { topic, schema, message_type, messages: Vec::new() };
+                self.channels.entry(channel.id).or_insert_with(new);
+            }
+            Record::Message { header, data } => {
+                let Some(channel) = self.channels.get_mut(&header.channel_id) else { return Ok(()) };
+                let Some(message_type) = channel.message_type else { return Ok(()) };
+                let number = channel.messages.len() + 1;
+                let message = (message_type.read)(&data).map_err(|why| {
+                    let message = format!("message {number} of `{}` cannot be read: {why}", channel.topic);
+                    let help = format!("was it recorded as {} by ROS 2?", message_type.name);
+                    InputError::new(Refusal::FileDamaged, message, help)
+                })?;
+                channel.messages.push(message);
+            }
+            _ => (),
+        }
+        Ok(())
+    }
+
+    /// The messages of each topic.
+    pub(crate) fn topics(self) -> Topics<M> {
+        let types: Vec<&str> = self.types.iter().map(|one| one.name).collect();
+        let all = self.channels.values().map(|channel| format!("{} ({})", channel.topic, channel.schema));
+        let mut topics = Topics { messages: BTreeMap::new(), types: types.join(", "), all: all.collect() };
+        for mut channel in self.channels.into_values().filter(|channel| channel.message_type.is_some()) {
+            topics.messages.entry(channel.topic).or_default().append(&mut channel.messages);
+        }
+        topics
+    }
+}
+
+impl<M> Topics<M> {
+    /// The messages of one topic, which has to be named where there are several of `what`.
+    pub(crate) fn one(mut self, topic: Option<&str>, what: &str) -> Checked<Vec<M>> {
+        let types = &self.types;
+        let named = |names: &[String]| list(names, 10);
+        if let Some(topic) = topic {
+            let known = named(&self.messages.keys().cloned().collect::<Vec<_>>());
+            return self.messages.remove(topic).filter(|messages| !messages.is_empty()).ok_or_else(|| {
+                let has = if known.is_empty() { "none".to_owned() } else { known };
+                let message = format!(
+                    "there are no messages of {types} on `{topic}`; the topics of such messages: {has}"
+                );
+                InputError::new(Refusal::TopicUnknown, message, "names count letter by letter, the slash too")
+                    .into()
+            });
+        }
+        self.messages.retain(|_, messages| !messages.is_empty());
+        if self.messages.len() > 1 {
+            let each = self
+                .messages
+                .iter()
+                .map(|(topic, messages)| format!("{topic} ({})", count(messages.len(), "message")));
+            let message = format!("there is more than one {what}: {}", each.collect::<Vec<_>>().join(", "));
+            return Err(InputError::new(
+                Refusal::TopicUnknown,
+                message,
+                "say --topic, or topic in [columns]",
+            )
+            .into());
+        }
+        self.messages.into_values().next().ok_or_else(|| {
+            let message = if self.all.is_empty() {
+                "the bag has no topics".to_owned()
+            } else {
+                format!("the bag has no messages of {types}; its topics are {}", named(&self.all))
+            };
+            InputError::new(Refusal::TopicUnknown, message, format!("record the topic of the {what}")).into()
+        })
+    }
+}
+
+/// Do the texts of a schema or a channel end within the record? `mcap::parse_record` reserves the bytes that
+/// a text states, up to 4 GiB, before it checks that they are there.
+fn texts_end(opcode: u8, data: &[u8]) -> bool {
+    /// The bytes after a block that begins with its length.
+    fn after(data: &[u8]) -> Option<(&[u8], &[u8])> {
+        let (length, rest) = data.split_first_chunk::<4>()?;
+        rest.split_at_checked(usize::try_from(u32::from_le_bytes(*length)).ok()?)
+    }
+    let two = |data: &[u8]| Some(after(after(data)?.1)?.1.len());
+    match opcode {
+        // id, name, encoding
+        SCHEMA => data.get(2..).and_then(two).is_some(),
+        // id, schema, topic, encoding, and pairs of texts
+        CHANNEL => data.get(4..).and_then(two).is_some_and(|left| {
+            after(&data[data.len() - left..]).is_some_and(|(mut pairs, _)| {
+                while let Some((_, rest)) = after(pairs) {
+                    pairs = rest;
+                }
+                pairs.is_empty()
+            })
+        }),
+        _ => true,
+    }
+}
+
+fn damaged(error: &McapError) -> InputError {
+    match error {
+        McapError::UnsupportedCompression(name) => InputError::new(
+            Refusal::FormatUnsupported,
+            format!("the bag is compressed with {name}, which is not read"),
+            "write it again with zstd: `mcap compress --compression zstd`",
+        ),
+        error => InputError::new(
+            Refusal::FileDamaged,
+            format!("the MCAP container is damaged: {error}"),
+            "try `mcap recover`",
+        ),
+    }
+}

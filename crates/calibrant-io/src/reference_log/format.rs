@@ -1,0 +1,49 @@
+//! The formats of logs of a motion.
+
+/// A file format of logs of a machine's motion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum ReferenceFormat {
+    /// Delimited text with a column for each joint.
+    Joints,
+    /// Universal Robots' real-time data exchange, `actual_q_0`, ….
+    Rtde,
+    /// Text of `t x y z qx qy qz qw`, as of the TUM RGB-D benchmark.
+    Tum,
+    /// Ground truth of the EuRoC MAV dataset (and of others).
+    Euroc,
+    /// Delimited text whose header names the columns of a pose.
+    Poses,
+    /// ROS 2 bag in an MCAP container.
+    Mcap,
+}
+
+impl ReferenceFormat {
+    /// All formats.
+    pub const ALL: [Self; 6] = [Self::Joints, Self::Rtde, Self::Tum, Self::Euroc, Self::Poses, Self::Mcap];
+
+    /// Its short name: `joints`, `rtde`, `tum`, `euroc`, `poses` or `mcap`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Joints => "joints",
+            Self::Rtde => "rtde",
+            Self::Tum => "tum",
+            Self::Euroc => "euroc",
+            Self::Poses => "poses",
+            Self::Mcap => "mcap",
+        }
+    }
+
+    /// In words, for people.
+    #[must_use]
+    pub fn description(self) -> &'static str {
+        match self {
+            Self::Joints => "CSV of joints",
+            Self::Rtde => "RTDE log of a Universal Robots arm",
+            Self::Tum => "TUM trajectory",
+            Self::Euroc => "EuRoC ground truth",
+            Self::Poses => "CSV of poses",
+            Self::Mcap => "ROS 2 bag (MCAP)",
+        }
+    }
+}

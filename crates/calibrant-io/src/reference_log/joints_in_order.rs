@@ -1,0 +1,82 @@
+//! The joints of a log in the order of a kinematic chain.
+
+use super::file::ReferenceLogFile;
+use super::format::ReferenceFormat;
+use crate::experiment::nearest;
+use crate::recording::finding_words::list;
+use calibrant_core::error::{Error, InputError, Refusal, Result};
+use calibrant_machine::log::JointLog;
+
+impl ReferenceLogFile {
+    /// The log of the joints of a chain, in its order. Other joints of the log are left out. The columns of RTDE,
+    /// which have no names of joints, are those of the chain in their order.
+    ///
+    /// # Errors
+    /// [`Error::Recording`] where the log holds poses, or lacks a joint: the message has the nearest name. Or the
+    /// number of RTDE's columns is not that of the joints.
+    ///
+    /// # Examples
+    /// ```
+    /// use calibrant_io::{ReferenceLogOptions, parse_reference_log};
+    ///
+    /// let text = b"t_s,elbow_rad,shoulder_rad\n0,1,2\n1,3,4\n";
+    /// let file = parse_reference_log(text, &ReferenceLogOptions::default())?;
+    /// let joints = file.joints_in_order(&["shoulder", "elbow"])?;
+    /// assert_eq!(joints.row(1), [4.0, 3.0]);
+    /// let missing = file.joints_in_order(&["sholder"]).expect_err("misspelt").to_string();
+    /// assert!(missing.contains("is `shoulder` meant?"), "{missing}");
+    /// # Ok::<(), calibrant_core::Error>(())
+    /// ```
+    pub fn joints_in_order(&self, names: &[&str]) -> Result<JointLog> {
+        let columns = self.columns_of(names).map_err(Error::recording)?;
+        let log = self.joints().ok_or_else(|| Error::recording(no_joints()))?;
+        let width = log.names.len();
+        let picked = |values: &[f64]| -> Vec<f64> {
+            values.chunks_exact(width).flat_map(|row| columns.iter().map(|&column| row[column])).collect()
+        };
+        Ok(JointLog {
+            names: names.iter().map(|name| (*name).to_owned()).collect(),
+            times_s: log.times_s.clone(),
+            positions: picked(&log.positions),
+            velocities: log.velocities.as_deref().map(picked),
+        })
+    }
+
+    /// The column of each joint.
+    fn columns_of(&self, names: &[&str]) -> std::result::Result<Vec<usize>, InputError> {
+        let log = self.joints().ok_or_else(no_joints)?;
+        if self.format == ReferenceFormat::Rtde {
+            if log.names.len() == names.len() {
+                return Ok((0..names.len()).collect());
+            }
+            let message =
+                format!("the log has {} joints, and the chain has {}", log.names.len(), names.len());
+            let help = "RTDE does not name its joints, so each must be one of the chain";
+            return Err(InputError::new(Refusal::ColumnMissing, message, help));
+        }
+        let column = |name: &str| log.names.iter().position(|known| known == name);
+        let missing: Vec<&str> = names.iter().copied().filter(|name| column(name).is_none()).collect();
+        if missing.is_empty() {
+            return Ok(names.iter().filter_map(|name| column(name)).collect());
+        }
+        let is_free = |known: &&str| !names.contains(known);
+        let with_nearest =
+            |name: &&str| match nearest(name, log.names.iter().map(String::as_str).filter(is_free)) {
+                Some(near) => format!("`{name}` (is `{near}` meant?)"),
+                None => format!("`{name}`"),
+            };
+        let listed: Vec<String> = missing.iter().map(with_nearest).collect();
+        let joints = if missing.len() == 1 { "joint" } else { "joints" };
+        let message = format!("the log lacks the {joints} {}", listed.join(", "));
+        let help = format!("give them the names of the chain; the log has {}", list(&log.names, 20));
+        Err(InputError::new(Refusal::ColumnMissing, message, help))
+    }
+}
+
+fn no_joints() -> InputError {
+    InputError::new(
+        Refusal::ColumnMissing,
+        "the log holds poses, not positions of joints",
+        "a log of joints has a header such as t_s,elbow_rad",
+    )
+}

@@ -1,0 +1,185 @@
+//! Makes a log of the values of a file: times in seconds, poses or positions of joints, and findings.
+
+use super::content::Content;
+use super::file::ReferenceLogFile;
+use super::format::ReferenceFormat;
+use super::pose_columns::VALUES;
+use super::quaternion::orientation;
+use super::rows::Rows;
+use crate::recording::clock_column::{ClockColumn, backwards};
+use crate::recording::line_map::LineMap;
+use crate::recording::reader_finding::{Finding, Noticed, Tally};
+use crate::recording::{TimeUnit, recording_quality};
+use crate::text_decoding::Checked;
+use calibrant_core::error::{InputError, Refusal};
+use calibrant_core::sensor::rate_hz;
+use calibrant_machine::log::{JointLog, PoseLog, ReferenceLog};
+use nalgebra::Vector3;
+
+/// Largest plausible value.
+const LARGEST: f64 = 1e12;
+
+/// Makes the log. The file's SHA-256 is still missing.
+pub(super) fn assemble(
+    format: ReferenceFormat,
+    content: Content,
+    (time_name, time_unit): (&str, Option<TimeUnit>),
+    mut rows: Rows,
+    mut findings: Vec<Finding>,
+) -> Checked<ReferenceLogFile> {
+    let number_of_rows = rows.times.len();
+    if number_of_rows == 0 {
+        return Err(short("there is no row of numbers".into(), &rows).into());
+    }
+    let clock = ClockColumn { name: time_name, unit: time_unit, wraps_at: None, origin: rows.origin };
+    let clock = clock.seconds(std::mem::take(&mut rows.times), &rows.lines, &mut findings)?;
+    let rows = Rows { times: clock.times_s, ..rows };
+    let kept = with_times(&rows, &mut findings)?;
+    let width = content.width();
+    let value = |row: usize| &rows.values[row * width..][..width];
+    for &row in &kept {
+        if let Some(out) = value(row).iter().find(|value| value.abs() > LARGEST) {
+            let message = format!("the value {out:e} is out of range");
+            let input_error =
+                InputError::new(Refusal::ValueOutOfRange, message, "is the unit right? is the file damaged?");
+            return Err(at(input_error, &rows, row).into());
+        }
+    }
+    let times_s: Vec<f64> = kept.iter().map(|&row| rows.times[row]).collect();
+    let log = match content {
+        Content::Poses => ReferenceLog::Poses(poses(times_s, &kept, &rows)?),
+        Content::Joints { names, has_velocities } => {
+            let joints = names.len();
+            let positions = kept.iter().flat_map(|&row| &value(row)[..joints]).copied().collect();
+            let velocities =
+                has_velocities.then(|| kept.iter().flat_map(|&row| &value(row)[joints..]).copied().collect());
+            ReferenceLog::Joints(JointLog { names, times_s, positions, velocities })
+        }
+    };
+    check_seen(&log, &rows)?;
+    if rows.truncated.is_some() {
+        findings.push(Finding::new(Noticed::LineTruncated).at(rows.truncated));
+    }
+    sampling(&kept, &rows, &mut findings);
+    Ok(ReferenceLogFile {
+        log,
+        format,
+        findings,
+        rows: number_of_rows,
+        sha256: String::new(),
+        counted_from_ns: clock.counted_from_ns,
+    })
+}
+
+/// The rows that have a time; an error where a time goes backwards, or where all are the same.
+fn with_times(rows: &Rows, findings: &mut Vec<Finding>) -> Checked<Vec<usize>> {
+    let mut untimed = Tally::default();
+    let mut kept: Vec<usize> = Vec::with_capacity(rows.times.len());
+    for (row, &t) in rows.times.iter().enumerate() {
+        if t.is_nan() {
+            untimed.add(rows.lines.line(row));
+            continue;
+        }
+        if let Some(&before) = kept.last().filter(|before| rows.times[**before] > t) {
+            return Err(at(backwards(rows.times[before], t), rows, row).into());
+        }
+        kept.push(row);
+    }
+    untimed.report(findings, None, Noticed::TimesMissing);
+    match (kept.first(), kept.last()) {
+        (Some(first), Some(last)) if first != last && rows.times[*first] == rows.times[*last] => {
+            let message = format!("the time is {:?} s in every row", rows.times[*first]);
+            Err(InputError::new(Refusal::TimesNotIncreasing, message, "did the clock stand still?").into())
+        }
+        (Some(first), Some(last)) if first != last => Ok(kept),
+        _ if rows.times.len() == 1 => Err(short("there is only one row".into(), rows).into()),
+        (Some(_), _) => Err(short("only one row has a time".into(), rows).into()),
+        _ => Err(short("no row has a time".into(), rows).into()),
+    }
+}
+
+fn poses(times_s: Vec<f64>, kept: &[usize], rows: &Rows) -> Checked<PoseLog> {
+    let mut positions_m = Vec::with_capacity(kept.len());
+    let mut world_from_body = Vec::with_capacity(kept.len());
+    for &row in kept {
+        let values = &rows.values[row * VALUES..][..VALUES];
+        let position = Vector3::new(values[0], values[1], values[2]);
+        positions_m.push(position.iter().all(|value| !value.is_nan()).then_some(position));
+        world_from_body.push(orientation([values[3], values[4], values[5], values[6]]).map_err(|message| {
+            let help = "are its columns in the order of the format, w first or last? a body that was not seen is NaN";
+            at(InputError::new(Refusal::ValueInvalid, message, help), rows, row)
+        })?);
+    }
+    Ok(PoseLog { times_s, positions_m, world_from_body })
+}
+
+/// An error where fewer than two rows hold anything, or a joint has no position.
+fn check_seen(log: &ReferenceLog, rows: &Rows) -> Checked<()> {
+    let seen = match log {
+        ReferenceLog::Poses(log) => {
+            let seen = log.positions_m.iter().zip(&log.world_from_body);
+            seen.filter(|(position, orientation)| position.is_some() || orientation.is_some()).count()
+        }
+        ReferenceLog::Joints(log) => {
+            let has_position = |joint: usize| (0..log.times_s.len()).any(|k| !log.row(k)[joint].is_nan());
+            if let Some(joint) = (0..log.names.len()).find(|&joint| !has_position(joint)) {
+                let message = format!("the joint `{}` has no position in any row", log.names[joint]);
+                return Err(InputError::new(
+                    Refusal::RecordingShort,
+                    message,
+                    "was it recorded? leave its column out",
+                )
+                .into());
+            }
+            (0..log.times_s.len()).filter(|&k| log.row(k).iter().any(|value| !value.is_nan())).count()
+        }
+    };
+    if seen >= 2 {
+        return Ok(());
+    }
+    let what = if matches!(log, ReferenceLog::Poses(_)) { "a pose" } else { "a position" };
+    let message = match seen {
+        0 => format!("no row has {what}: every value is NaN"),
+        _ => format!("only one row has {what}"),
+    };
+    Err(short(message, rows).into())
+}
+
+/// Looks for gaps and irregular sampling.
+fn sampling(kept: &[usize], rows: &Rows, findings: &mut Vec<Finding>) {
+    let (mut times_s, mut lines) = (Vec::with_capacity(kept.len()), LineMap::default());
+    for &row in kept {
+        if times_s.last() != Some(&rows.times[row]) {
+            if let Some(line) = rows.lines.line(row) {
+                lines.push(times_s.len(), line);
+            }
+            times_s.push(rows.times[row]);
+        }
+    }
+    let rate_hz = rate_hz(&times_s);
+    recording_quality::clock(rate_hz, findings);
+    recording_quality::sampling(&times_s, rate_hz, &lines, findings);
+}
+
+/// The error at the line of a row, or about a message where there are no lines.
+fn at(input_error: InputError, rows: &Rows, row: usize) -> InputError {
+    match rows.lines.line(row) {
+        Some(line) => input_error.at_line(line),
+        None => {
+            let message = format!("message {}: {}", row + 1, input_error.message);
+            InputError { message, ..input_error }
+        }
+    }
+}
+
+fn short(message: String, rows: &Rows) -> InputError {
+    let input_error = InputError::new(
+        Refusal::RecordingShort,
+        message,
+        "a log needs two rows with a time and a position at least",
+    );
+    match rows.last_line {
+        Some(line) => input_error.at_line(line),
+        None => input_error,
+    }
+}

@@ -1,0 +1,36 @@
+//! Logs of a machine's motion: the positions of its joints, or the pose of the body that carries the sensor.
+//!
+//! | format | recognised by | times | content |
+//! |---|---|---|---|
+//! | joints | columns `NAME_rad`, `_deg`, `_m`, `_mm` | by name | positions; velocities from `NAME_radps`, `_degps`, `_mps`, … |
+//! | RTDE | columns `actual_q_0`, … | s | positions in rad, velocities `actual_qd_0`, … |
+//! | EuRoC | `#timestamp,p_RS_R_x [m],…,q_RS_w [],…` | ns | poses, w first |
+//! | poses | columns `px_m`, …, `qw`, …, or other names of a position and a quaternion | by name | poses, in the order of the names |
+//! | TUM | eight columns without a header, `t x y z qx qy qz qw` | s | poses, w last |
+//! | MCAP | its first bytes | `header.stamp` | `JointState`, `PoseStamped`, `TransformStamped`, `Odometry`, `TFMessage` |
+//!
+//! The rows are read as those of recordings are. [`text_columns`] finds what the columns hold, [`rows`] reads
+//! them, and [`log_assembly`] makes a log of their values. A value that is NaN was not recorded: the body was not
+//! seen. Times may stand still, but an error tells where one goes backwards.
+
+mod content;
+mod file;
+mod format;
+mod joint_columns;
+mod joints_in_order;
+mod log_assembly;
+#[cfg(feature = "mcap")]
+mod mcap;
+#[cfg(feature = "mcap")]
+mod messages;
+mod options;
+mod pose_columns;
+mod quaternion;
+mod read;
+mod rows;
+mod text_columns;
+
+pub use file::ReferenceLogFile;
+pub use format::ReferenceFormat;
+pub use options::ReferenceLogOptions;
+pub use read::{parse_reference_log, read_reference_log};

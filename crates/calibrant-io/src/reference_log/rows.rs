@@ -1,0 +1,73 @@
+//! The values of the rows of a log.
+
+use crate::delimited_text::Line;
+use crate::recording::line_map::LineMap;
+use crate::recording::row_parser::{Layout, RowReader};
+use crate::recording::text_source::RowTaker;
+use crate::text_decoding::Checked;
+
+/// The values of a log as the file gives them, row by row. NaN is a missing value.
+#[derive(Default)]
+pub(super) struct Rows {
+    /// The times, in the ticks of the file's clock.
+    pub(super) times: Vec<f64>,
+    /// As many values for each row as the content has.
+    pub(super) values: Vec<f64>,
+    /// Lines of the rows; empty for a file that has none.
+    pub(super) lines: LineMap,
+    /// The number that was subtracted from each time, in its ticks.
+    pub(super) origin: i64,
+    /// Line that was cut off, where the last one was.
+    pub(super) truncated: Option<usize>,
+    /// Last line of the text.
+    pub(super) last_line: Option<usize>,
+}
+
+/// Reads the rows of a text.
+pub(super) struct LogReader<'l> {
+    reader: RowReader<'l>,
+    rows: Rows,
+    factors: &'l [f64],
+    /// The time and the values of a row.
+    row: Vec<f64>,
+}
+
+impl<'l> LogReader<'l> {
+    /// No rows yet; `capacity` is a guess of how many there will be.
+    pub(super) fn new(layout: &'l Layout, factors: &'l [f64], capacity: usize) -> Self {
+        let rows = Rows {
+            times: Vec::with_capacity(capacity),
+            values: Vec::with_capacity(capacity.saturating_mul(factors.len())),
+            ..Rows::default()
+        };
+        Self { reader: RowReader::new(layout), rows, factors, row: vec![f64::NAN; 1 + factors.len()] }
+    }
+
+    pub(super) fn finish(mut self) -> Rows {
+        self.rows.origin = self.reader.origin.unwrap_or(0);
+        self.rows.truncated = self.reader.truncated;
+        self.rows
+    }
+}
+
+impl RowTaker for LogReader<'_> {
+    fn take<'t>(&mut self, lines: impl Iterator<Item = Line<'t>>, text: &str) -> Checked<()> {
+        self.reader.look_at_the_end(text);
+        for line in lines {
+            self.rows.last_line = Some(line.number);
+            if !self.reader.read(line, &mut self.row)? {
+                continue;
+            }
+            self.rows.lines.push(self.rows.times.len(), line.number);
+            self.rows.times.push(self.row[0]);
+            self.rows
+                .values
+                .extend(self.row[1..].iter().zip(self.factors).map(|(value, factor)| value * factor));
+        }
+        Ok(())
+    }
+
+    fn last_line(&self) -> Option<usize> {
+        self.rows.last_line
+    }
+}
