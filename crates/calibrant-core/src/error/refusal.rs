@@ -214,6 +214,12 @@ refusals! {
     CalibrationUnsuited "calibration-unsuited"
         "A calibration is of another sensor, unit or model than is needed."
         "Give that of this sensor.";
+    MachineUnsuited "machine-unsuited"
+        "The log of a machine's motion is not of the machine that the experiment describes."
+        "Log every joint between base and tip, or name the right base and tip.";
+    MachineUnsolved "machine-unsolved"
+        "A recording and the log of the machine do not fit together."
+        "Give a recording and a log of the same motion, and check units, mounting and delay.";
     ConversionImpossible "conversion-impossible"
         "A convention or a gauge cannot hold a calibration."
         "Choose another.";

@@ -65,6 +65,11 @@ impl Front {
         self.matrix.view((chain, chain + border), (border, 1)).column(0).into_owned()
     }
 
+    /// The information of the border, if there is no chain.
+    pub(super) fn information(&self) -> Option<DMatrix<f64>> {
+        (self.order == 0).then(|| self.matrix.view((0, 0), (self.border, self.border)).into_owned())
+    }
+
     fn eliminate(&mut self) {
         let (n, size) = (self.block, self.matrix.nrows());
         let factor = lower_factor(self.matrix.view((0, 0), (n, n)).into_owned());

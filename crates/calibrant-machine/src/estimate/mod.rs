@@ -1,23 +1,36 @@
 //! Calibrates a sensor that a machine carries.
 
+mod activity;
+mod assembly;
+mod budget;
 mod calibrate;
+mod checks;
 mod covered;
 mod front;
 mod gauss_newton;
+mod initial;
+mod knot_choice;
 mod layout;
 mod log_equations;
 mod model;
 mod parameters;
 mod posterior;
+mod problem;
 mod quantity;
 mod reference_fit;
+mod result;
 mod robust;
 mod sample_rows;
+mod sandwich;
 mod setup;
 mod start;
 mod stream;
+mod trusted;
+mod undetermined;
 
-pub use calibrate::explore;
+pub use calibrate::calibrate_on_machine;
 pub use parameters::MachineParameters;
+pub use problem::{MachineProblem, MachineSettings};
 pub use quantity::{MachineQuantity, Source};
+pub use result::{BudgetRow, MachineCalibration, ReferenceNoise, SensorResidual};
 pub use setup::{MachineSetup, MachineTrust, MountingPrior};

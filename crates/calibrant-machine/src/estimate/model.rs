@@ -7,6 +7,7 @@ use super::parameters::TiltedGravity;
 use super::sample_rows::{RowWriter, Sample, predicted};
 use super::stream::Stream;
 use super::{MachineParameters, MachineTrust};
+use crate::log::ReferenceLog;
 use crate::reference::{Carrier, Felt, Motion};
 use nalgebra::{DMatrix, DVector, Vector3};
 use rayon::prelude::*;
@@ -118,29 +119,67 @@ impl Model<'_> {
 
     /// Root mean square of the whitened residuals of each stream, by axis.
     pub(super) fn residual_rms(&self, state: &State) -> Vec<Vector3<f64>> {
-        let (streams, _) = self.places(state);
-        let columns = state.motion.columns(false);
-        let carrier = self.carrier(state);
-        let knots = state.motion.knots();
         let of = |s: usize| {
-            let mut felt = Felt::zeros(columns);
-            let stream = &self.streams[s];
-            let time = self.motion_times(s, &state.parameters);
             let (mut squares, mut count) = (Vector3::zeros(), 0);
-            let (first, last) = (streams[s][0].next_multiple_of(stream.stride), streams[s][knots.intervals]);
-            for k in (first..last).step_by(stream.stride) {
-                let weights = knots.weights(time(k));
-                if self.covered[weights.interval] {
-                    state.motion.feel(&weights, &carrier, columns, &mut felt);
-                    let residual =
-                        stream.recording.readings[k] - predicted(stream.sensor, &felt, &state.parameters);
-                    squares += residual.component_div(&stream.sd_of(k)).map(|r| r * r);
-                    count += 1;
-                }
-            }
-            (squares / (count as f64).max(1.0)).map(f64::sqrt)
+            self.visit_residuals(state, s, |_, k, residual| {
+                squares += residual.component_div(&self.streams[s].sd_of(k)).map(|r| r * r);
+                count += 1;
+            });
+            (squares / f64::from(count.max(1))).map(f64::sqrt)
         };
         (0..self.streams.len()).map(of).collect()
+    }
+
+    /// Time of the motion at which sample `k` of stream `s` was taken, s.
+    pub(super) fn motion_time(&self, s: usize, k: usize, state: &State) -> f64 {
+        let stream = &self.streams[s];
+        state.parameters.motion_time(stream.sensor, stream.recording.times_s[k], self.middle_s)
+    }
+
+    /// The same, to change its trust.
+    pub(super) fn borrowed(&self) -> Model<'_> {
+        Model {
+            streams: self.streams.clone(),
+            log: self.log.clone(),
+            layout: self.layout.clone(),
+            gravity: self.gravity,
+            trust: self.trust,
+            middle_s: self.middle_s,
+            covered: self.covered.clone(),
+        }
+    }
+
+    /// Names of the joints; none for poses.
+    pub(super) fn joint_names(&self) -> Vec<String> {
+        match self.log.log {
+            ReferenceLog::Joints(log) => log.names.clone(),
+            ReferenceLog::Poses(_) => Vec::new(),
+        }
+    }
+
+    /// Calls with time of the motion, sample and residual, for each sample that is used.
+    pub(super) fn visit_residuals(
+        &self,
+        state: &State,
+        s: usize,
+        mut visit: impl FnMut(f64, usize, Vector3<f64>),
+    ) {
+        let (streams, _) = self.places(state);
+        let (knots, columns) = (state.motion.knots(), state.motion.columns(false));
+        let carrier = self.carrier(state);
+        let mut felt = Felt::zeros(columns);
+        let stream = &self.streams[s];
+        let first = streams[s][0].next_multiple_of(stream.stride);
+        for k in (first..streams[s][knots.intervals]).step_by(stream.stride) {
+            let time = self.motion_time(s, k, state);
+            let weights = knots.weights(time);
+            if self.covered[weights.interval] {
+                state.motion.feel(&weights, &carrier, columns, &mut felt);
+                let residual =
+                    stream.recording.readings[k] - predicted(stream.sensor, &felt, &state.parameters);
+                visit(time, k, residual);
+            }
+        }
     }
 
     /// The normal equations of some intervals, and their cost.

@@ -5,7 +5,6 @@
 
 use super::gauss_newton::Minimum;
 use super::model::{Model, State};
-use calibrant_core::sensor::SensorKind;
 use nalgebra::{DMatrix, DVector};
 
 /// Sums over whitened residuals.
@@ -45,8 +44,8 @@ pub(super) struct Posterior {
 }
 
 impl Posterior {
-    /// At a minimum. `None` where the parameters are not determined.
-    pub(super) fn at(model: &Model<'_>, minimum: &Minimum) -> Option<Self> {
+    /// At a minimum, from every so many intervals. `None` where the parameters are not determined.
+    pub(super) fn at(model: &Model<'_>, minimum: &Minimum, every: usize) -> Option<Self> {
         let state = &minimum.state;
         let covariance = inverse(&minimum.solved.information)?;
         let parameters = covariance.nrows();
@@ -59,7 +58,7 @@ impl Posterior {
         let (streams, log) = model.places(state);
         let covariance = posterior.covariance.clone();
         let mut visit = |i: usize, local: &DMatrix<f64>| {
-            if i >= state.motion.knots().intervals {
+            if i >= state.motion.knots().intervals || i % every != 0 {
                 return;
             }
             posterior.add_samples(model, state, i, &streams, local);
@@ -102,11 +101,6 @@ impl Posterior {
                 }
             }
         }
-    }
-
-    /// The variance of each parameter that the noise of one sensor causes.
-    pub(super) fn of_sensor(&self, model: &Model<'_>, sensor: SensorKind) -> Option<&DVector<f64>> {
-        model.streams.iter().position(|stream| stream.sensor == sensor).map(|s| &self.of_streams[s])
     }
 }
 

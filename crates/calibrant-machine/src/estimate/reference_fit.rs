@@ -1,7 +1,8 @@
 //! The splines through a log: where the iteration begins, and the motion itself where the log is trusted.
 
+use crate::chain::KinematicChain;
 use crate::log::ReferenceLog;
-use crate::reference::{Motion, PoseMotion};
+use crate::reference::{JointMotion, Motion, PoseMotion};
 use crate::spline::{UniformKnots, fit_rotations, fit_vectors};
 
 /// A motion fitted to a log.
@@ -15,7 +16,11 @@ pub(super) struct ReferenceFit {
 }
 
 /// Fits splines on these knots.
-pub(super) fn fitted(log: &ReferenceLog, knots: UniformKnots) -> Option<ReferenceFit> {
+pub(super) fn fitted(
+    log: &ReferenceLog,
+    chain: Option<&KinematicChain>,
+    knots: UniformKnots,
+) -> Option<ReferenceFit> {
     match log {
         ReferenceLog::Poses(log) => {
             log.world_from_body.iter().flatten().next()?;
@@ -33,6 +38,13 @@ pub(super) fn fitted(log: &ReferenceLog, knots: UniformKnots) -> Option<Referenc
                 outliers: [position.outliers, orientation.outliers].concat(),
             })
         }
-        ReferenceLog::Joints(_) => None,
+        ReferenceLog::Joints(log) => {
+            let fit = fit_vectors(&log.times_s, &log.positions, log.names.len(), knots);
+            Some(ReferenceFit {
+                motion: Motion::Joints(JointMotion { chain: chain?.clone(), positions: fit.spline }),
+                sd: fit.sd,
+                outliers: fit.outliers,
+            })
+        }
     }
 }

@@ -1,5 +1,6 @@
 //! What is known beforehand of the machine and of the sensor on it.
 
+use calibrant_core::sensor::SensorKind;
 use nalgebra::{UnitQuaternion, Vector3};
 
 /// How far the log of the machine's motion is trusted.
@@ -66,8 +67,26 @@ pub struct MachineSetup {
     pub zero_sd: f64,
     /// Is the gyroscope's g-sensitivity estimated?
     pub g_sensitivity: bool,
-    /// Distance of the spline's knots, s. `None`: from the bandwidth of the data.
+    /// Distance of the knots of a cubic spline, s: that of the waypoints which the machine was given. `None`: a quintic spline whose knots
+    /// follow the bandwidth of the data.
     pub knot_step_s: Option<f64>,
+    /// Noise of one sample of the accelerometer, in the unit of its readings. `None`: from the residuals.
+    pub accelerometer_noise: Option<Vector3<f64>>,
+    /// Noise of one sample of the gyroscope, in the unit of its readings. `None`: from the residuals.
+    pub gyroscope_noise: Option<Vector3<f64>>,
+    /// Noise of one sample of the log: of each joint in rad or m, or of position (3 axes, m) and orientation (3 axes, rad). `None`: from the residuals.
+    pub reference_noise: Option<Vec<f64>>,
+}
+
+impl MachineSetup {
+    /// The noise that is given for a sensor.
+    #[must_use]
+    pub fn noise_of(&self, sensor: SensorKind) -> Option<Vector3<f64>> {
+        match sensor {
+            SensorKind::Accelerometer => self.accelerometer_noise,
+            SensorKind::Gyroscope => self.gyroscope_noise,
+        }
+    }
 }
 
 impl Default for MachineSetup {
@@ -91,6 +110,9 @@ impl Default for MachineSetup {
             zero_sd: 3e-4,
             g_sensitivity: false,
             knot_step_s: None,
+            accelerometer_noise: None,
+            gyroscope_noise: None,
+            reference_noise: None,
         }
     }
 }

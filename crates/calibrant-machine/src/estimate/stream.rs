@@ -22,3 +22,20 @@ impl Stream<'_> {
         self.sd * self.growth.get(k).copied().unwrap_or(1.0)
     }
 }
+
+/// The noise that neighbouring samples do not share: from the median of second differences, per axis.
+pub(super) fn white_noise(recording: &Recording) -> Vector3<f64> {
+    /// Standard deviation of a normal distribution in median absolute deviations, of second differences of white noise.
+    const OF_MEDIAN: f64 = 0.674_489_75 * 2.449_489_742_783_178;
+    Vector3::from_fn(|axis, _| {
+        let second =
+            |window: &[Vector3<f64>]| (window[0][axis] - 2.0 * window[1][axis] + window[2][axis]).abs();
+        let mut differences: Vec<f64> = recording.readings.windows(3).map(second).collect();
+        if differences.is_empty() {
+            return 1.0;
+        }
+        let middle = differences.len() / 2;
+        let (_, median, _) = differences.select_nth_unstable_by(middle, f64::total_cmp);
+        (*median / OF_MEDIAN).max(1e-9)
+    })
+}

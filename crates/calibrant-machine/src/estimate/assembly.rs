@@ -1,0 +1,132 @@
+//! Puts the result together.
+
+use super::budget::budget;
+use super::calibrate::Growths;
+use super::gauss_newton::Minimum;
+use super::model::Model;
+use super::posterior::Posterior;
+use super::sandwich::inflation;
+use super::stream::white_noise;
+use super::{MachineCalibration, MachineProblem, MachineTrust, ReferenceNoise, SensorResidual};
+use crate::log::ReferenceLog;
+use calibrant_core::estimate::FitStatistics;
+use calibrant_core::sensor::{Axis, SensorKind};
+use nalgebra::{DMatrix, Vector3};
+use statrs::distribution::{ChiSquared, ContinuousCDF};
+
+pub(super) fn assembled(
+    problem: &MachineProblem<'_>,
+    model: &Model<'_>,
+    minimum: &Minimum,
+    posterior: &Posterior,
+    growths: &Growths,
+    outliers: Vec<usize>,
+) -> MachineCalibration {
+    let (state, layout) = (&minimum.state, &model.layout);
+    let inflation = inflation(&layout.quantities, &posterior.covariance, &minimum.scores);
+    let n = layout.len();
+    let covariance =
+        DMatrix::from_fn(n, n, |i, j| posterior.covariance[(i, j)] * inflation[i] * inflation[j]);
+    let noise: Vec<SensorResidual> = (0..model.streams.len())
+        .map(|s| {
+            let stream = &model.streams[s];
+            let (mut residuals, mut squares) = (Vec::new(), Vector3::zeros());
+            model.visit_residuals(state, s, |time, _, residual| {
+                squares += residual.map(|r| r * r);
+                residuals.push((time, residual));
+            });
+            SensorResidual {
+                sensor: stream.sensor,
+                noise: stream.sd,
+                white_noise: white_noise(stream.recording),
+                growth: growths.streams[s],
+                rms: (squares / (residuals.len() as f64).max(1.0)).map(f64::sqrt),
+                residuals,
+            }
+        })
+        .collect();
+    let samples: usize = model.streams.iter().map(|stream| stream.recording.len()).sum();
+    let used: usize = noise.iter().map(|of| of.residuals.len()).sum();
+    MachineCalibration {
+        status: minimum.status,
+        iterations: minimum.iterations,
+        gradient_norm: minimum.last_step,
+        trust: model.trust,
+        joints: model.joint_names(),
+        quantities: layout.quantities.clone(),
+        values: layout.quantities.iter().map(|of| state.parameters.value(*of, &layout.nominal)).collect(),
+        budget: budget(layout, posterior, &covariance, model.trust),
+        covariance,
+        inflation,
+        parameters: state.parameters.clone(),
+        nominal: layout.nominal.clone(),
+        units: SensorKind::ALL.map(|kind| problem.recording.sensor(kind).map(|recording| recording.unit)),
+        fit: fit(problem, minimum, posterior, layout.len(), used),
+        noise,
+        reference_noise: reference_noise(model, posterior, growths.log, &outliers),
+        motion: state.motion.clone(),
+        used_share: used as f64 / samples.max(1) as f64,
+        warnings: Vec::new(),
+    }
+}
+
+/// χ² of everything: the sensor's samples, the log's where it is not trusted, and the priors.
+fn fit(
+    problem: &MachineProblem<'_>,
+    minimum: &Minimum,
+    posterior: &Posterior,
+    parameters: usize,
+    used: usize,
+) -> FitStatistics {
+    let noisy = problem.setup.trust == MachineTrust::Noisy;
+    let log: usize = if noisy { posterior.log.iter().map(|moments| moments.count).sum() } else { 0 };
+    let determined: f64 =
+        if noisy { posterior.log.iter().map(|moments| moments.leverage).sum() } else { 0.0 };
+    let of_streams: f64 = posterior.streams.iter().flatten().map(|moments| moments.leverage).sum();
+    let unknowns = (determined + of_streams).max(parameters.min(3 * used) as f64);
+    let degrees = (3 * used + log) as f64 - unknowns;
+    let degrees_of_freedom = degrees.max(0.0).round() as usize;
+    let setup = problem.setup;
+    let given = SensorKind::ALL
+        .into_iter()
+        .filter(|kind| problem.recording.sensor(*kind).is_some())
+        .all(|kind| setup.noise_of(kind).is_some())
+        && (!noisy || setup.reference_noise.is_some());
+    let p_value = (given && degrees_of_freedom > 0)
+        .then(|| ChiSquared::new(degrees).ok().map(|distribution| distribution.sf(minimum.cost.max(0.0))))
+        .flatten();
+    FitStatistics {
+        chi2: minimum.cost,
+        degrees_of_freedom,
+        p_value,
+        residual_rms: None,
+        assumed_noise: None,
+        noise_estimate: None,
+        whiteness: Vec::new(),
+    }
+}
+
+fn reference_noise(
+    model: &Model<'_>,
+    posterior: &Posterior,
+    growth: Option<f64>,
+    outliers: &[usize],
+) -> Vec<ReferenceNoise> {
+    let names: Vec<(String, &'static str)> = match model.log.log {
+        ReferenceLog::Joints(log) => log.names.iter().map(|name| (name.clone(), "rad")).collect(),
+        ReferenceLog::Poses(_) => [("position", "m"), ("orientation", "rad")]
+            .into_iter()
+            .flat_map(|(part, unit)| Axis::ALL.map(|axis| (format!("{part}.{axis}"), unit)))
+            .collect(),
+    };
+    (names.into_iter().enumerate())
+        .map(|(k, (name, unit))| ReferenceNoise {
+            name,
+            unit,
+            sd: model.log.sd[k],
+            growth,
+            outliers: outliers.get(k).copied().unwrap_or(0),
+            samples: posterior.log.get(k).map_or(0, |moments| moments.count),
+        })
+        .collect()
+}

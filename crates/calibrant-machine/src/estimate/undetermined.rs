@@ -1,0 +1,98 @@
+//! What the motion does not determine, with the motion that would.
+
+use super::model::{Model, State};
+use super::{MachineQuantity, MachineTrust};
+use crate::reference::Felt;
+use calibrant_core::error::{Error, NotIdentifiable, UndeterminedGroup};
+use calibrant_core::sensor::{Axis, ImuQuantity, SensorKind};
+use nalgebra::{DMatrix, Matrix3, SymmetricEigen, Vector3};
+
+/// Information below this part of that of a well determined combination is rounding.
+const RELATIVE: f64 = 1e-10;
+/// Parameters with at least this part of an undetermined combination are named.
+const SHARE: f64 = 0.1;
+/// A rate below this is no rotation, rad/s; a change of specific force below ten times this is no change, m/s².
+const STILL: f64 = 0.02;
+
+/// Is every combination determined by the data or by what is known beforehand?
+pub(super) fn check(model: &Model<'_>, state: &State) -> Result<(), Error> {
+    let mut known = Model { trust: MachineTrust::Known, ..model.borrowed() };
+    for stream in &mut known.streams {
+        stream.stride = (stream.recording.len() / 5000).max(1);
+    }
+    let Some(information) = known.equations(state).front.information() else { return Ok(()) };
+    let scale = information.diagonal().map(|d| if d > 0.0 { d.sqrt().recip() } else { 0.0 });
+    let n = information.nrows();
+    let scaled = DMatrix::from_fn(n, n, |i, j| {
+        if i == j && scale[i] == 0.0 { 0.0 } else { information[(i, j)] * scale[i] * scale[j] }
+    });
+    let SymmetricEigen { eigenvalues, eigenvectors } = scaled.symmetric_eigen();
+    let free: Vec<usize> = (0..n).filter(|k| eigenvalues[*k] < RELATIVE).collect();
+    if free.is_empty() {
+        return Ok(());
+    }
+    let weight = |place: usize| free.iter().map(|k| eigenvectors[(place, *k)].powi(2)).sum::<f64>();
+    let named: Vec<MachineQuantity> = (0..n)
+        .filter(|place| weight(*place) > SHARE * SHARE)
+        .map(|place| model.layout.quantities[place])
+        .collect();
+    let (reason, remedy) = reason(&known, state, &named);
+    let joints = known.joint_names();
+    Err(Error::NotIdentifiable(Box::new(NotIdentifiable {
+        groups: vec![UndeterminedGroup {
+            parameters: named.iter().map(|quantity| quantity.name(&joints)).collect(),
+            free_combinations: free.len(),
+            reason,
+            remedy,
+        }],
+    })))
+}
+
+/// How much force and rate change along each axis of the sensor.
+fn excitation(model: &Model<'_>, state: &State) -> (Matrix3<f64>, Vector3<f64>) {
+    let (knots, columns) = (state.motion.knots(), state.motion.columns(false));
+    let carrier = model.carrier(state);
+    let mut felt = Felt::zeros(columns);
+    let count = knots.intervals.min(5000);
+    let (mut sum, mut squares, mut rates) = (Vector3::zeros(), Matrix3::zeros(), Vector3::zeros());
+    for k in 0..count {
+        let time = knots.start_s + (knots.end_s() - knots.start_s) * (k as f64 + 0.5) / count as f64;
+        state.motion.feel(&knots.weights(time), &carrier, columns, &mut felt);
+        sum += felt.force;
+        squares += felt.force * felt.force.transpose();
+        rates += felt.rate.component_mul(&felt.rate);
+    }
+    let n = count as f64;
+    (squares / n - sum * sum.transpose() / (n * n), (rates / n).map(f64::sqrt))
+}
+
+fn reason(model: &Model<'_>, state: &State, named: &[MachineQuantity]) -> (String, String) {
+    let (forces, rates) = excitation(model, state);
+    let still =
+        |of: &dyn Fn(Axis) -> bool| -> Vec<Axis> { Axis::ALL.into_iter().filter(|axis| of(*axis)).collect() };
+    let words = |axes: &[Axis]| axes.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
+    let no_rotation = still(&|axis| rates[axis.index()] < STILL);
+    let no_change = still(&|axis| forces[(axis.index(), axis.index())].sqrt() < 10.0 * STILL);
+    let of = |sensor: SensorKind| {
+        named.iter().any(
+            |quantity| matches!(quantity, MachineQuantity::Imu(ImuQuantity::Of(kind, _)) if *kind == sensor),
+        )
+    };
+    let turns = of(SensorKind::Gyroscope)
+        || named.iter().any(|quantity| matches!(quantity, MachineQuantity::Lever(_)));
+    if turns && !no_rotation.is_empty() {
+        let axes = words(&no_rotation);
+        return (format!("no rotation about {axes} of the sensor"), format!("turn the sensor about {axes}"));
+    }
+    if of(SensorKind::Accelerometer) && !no_change.is_empty() {
+        let axes = words(&no_change);
+        return (
+            format!("the specific force along {axes} of the sensor does not change"),
+            format!("turn {axes} up and down, or accelerate along {axes}"),
+        );
+    }
+    (
+        "the motion changes these together".into(),
+        "move about all axes and along all axes, or state what is known of the mount in [machine]".into(),
+    )
+}
