@@ -5,6 +5,7 @@
 //! | experiment (TOML) | [`Experiment::read`] | [`preset()`], [`PRESETS`] |
 //! | `recording.csv` and other recordings, in many formats | [`read_imu_recording`], [`read_imu_pair`] | [`write_recording`], [`inspection_json`] |
 //! | `joints.csv`, poses of a tracker, bags | [`read_reference_log`] | |
+//! | machine (URDF) | [`Urdf::read`] | [`machine_preset()`], [`MACHINE_PRESETS`] |
 //! | `motion.csv` | [`read_motion`] | [`write_motion`] |
 //! | `calibration.json` | [`read_calibrated_imu`]; [`read_calibration`], as what is known before a design | [`write_calibration`] |
 //! | calibrations, ours and of other programs | [`read_calibrated_imu`] | [`write_calibrated_imu`] |
@@ -39,6 +40,7 @@ mod holds;
 mod input;
 mod inspection;
 mod json;
+mod machine;
 mod motion;
 mod noise;
 mod recording;
@@ -49,6 +51,7 @@ mod study;
 mod summary;
 mod sweep;
 mod text_decoding;
+mod text_excerpt;
 mod truth;
 mod validation;
 
@@ -74,6 +77,7 @@ pub use experiment_presets::{PRESETS, preset};
 pub use ferraris_sections::{Section, SectionKind, parse_sections, read_sections};
 pub use input::{Input, file_name};
 pub use inspection::{HoldsInspection, Inspection, SensorInspection, inspect, inspection_json};
+pub use machine::{MACHINE_PRESETS, MissingMesh, Urdf, machine_preset};
 pub use motion::{parse_motion, read_motion, write_motion};
 pub use noise::{NoiseLine, noise_json, noise_line, write_noise};
 pub use recording::{

@@ -166,6 +166,15 @@ refusals! {
     RecordingCorrected "recording-corrected"
         "A recording has been corrected with a calibration already."
         "Give the recording that the sensor made.";
+    MachineInvalid "machine-invalid"
+        "The links of a machine form no tree: a joint closes a loop, or a link has two parents."
+        "Correct the parent or the child of the joint that the message names.";
+    ChainUnknown "chain-unknown"
+        "Nothing says from which link to which the chain goes, or no joints lead there."
+        "Name the link that carries the sensor, and the link that does not move.";
+    JointUnsupported "joint-unsupported"
+        "A joint between base and tip moves in a way that is not modelled, such as a mimic or floating joint."
+        "Choose another tip, or replace the joint.";
     MotionInvalid "motion-invalid"
         "The commanded motion makes no sense, or the recording does not cover it."
         "Correct its nodes and its times.";

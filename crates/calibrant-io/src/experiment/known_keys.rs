@@ -185,7 +185,7 @@ pub fn nearest<'w>(unknown: &str, words: impl Iterator<Item = &'w str>) -> Optio
 }
 
 /// The beginning of a text that may be very long.
-pub(super) fn shorten(text: &str) -> String {
+pub(crate) fn shorten(text: &str) -> String {
     /// Longest shortened text, characters.
     const LONGEST: usize = 60;
     if text.chars().count() <= LONGEST {

@@ -29,6 +29,7 @@ pub use design::{CriterionLetter, DesignOptions, ScaleBy};
 pub use gyroscope::ImuPlan;
 pub use holds::HoldsPlan;
 pub use known_keys::nearest;
+pub(crate) use known_keys::shorten;
 pub use motion::MotionPlan;
 pub use plan::Plan;
 pub use read::{Experiment, read_columns};

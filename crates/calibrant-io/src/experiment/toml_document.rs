@@ -2,6 +2,7 @@
 
 use super::known_keys;
 use super::number_range::Bounds;
+use crate::text_excerpt::error_at;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use nalgebra::Vector3;
 use std::ops::Range;
@@ -16,9 +17,6 @@ pub(super) struct Document<'a> {
 }
 
 impl Document<'_> {
-    /// Longest text that an excerpt holds.
-    const EXCERPT_BYTES: usize = 256 * 1024;
-
     /// An error about these bytes of the text.
     pub(super) fn reject(
         &self,
@@ -27,18 +25,8 @@ impl Document<'_> {
         message: String,
         help: String,
     ) -> InputError {
-        let start = (0..=span.start.min(self.text.len())).rev().find(|&at| self.text.is_char_boundary(at));
-        let before = &self.text[..start.unwrap_or(0)];
-        let line_start = before.rfind('\n').map_or(0, |at| at + 1);
-        InputError {
-            file: self.file.map(Path::to_path_buf),
-            line: Some(1 + before.bytes().filter(|&byte| byte == b'\n').count()),
-            column: Some(1 + before[line_start..].chars().count()),
-            key: None,
-            excerpt: (self.text.len() <= Self::EXCERPT_BYTES)
-                .then(|| (self.text.to_owned(), before.len()..span.end.clamp(before.len(), self.text.len()))),
-            ..InputError::new(code, message, help)
-        }
+        let input_error = error_at(self.text, span, InputError::new(code, message, help));
+        InputError { file: self.file.map(Path::to_path_buf), ..input_error }
     }
 
     /// An error of the TOML parser.

@@ -21,6 +21,7 @@ mod invariants;
 mod knocks;
 mod known_faces;
 mod large_rotation_errors;
+mod machine;
 mod mounting;
 mod noise;
 mod nominal_rate;

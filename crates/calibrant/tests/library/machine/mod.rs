@@ -1,0 +1,4 @@
+//! Tests of machines that carry a sensor.
+
+mod urdf;
+mod urdf_broken;
