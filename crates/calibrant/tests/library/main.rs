@@ -17,6 +17,7 @@ mod files;
 mod holds;
 mod imu;
 mod imu_recordings;
+mod interpolated_log;
 mod invariants;
 mod knocks;
 mod known_faces;
