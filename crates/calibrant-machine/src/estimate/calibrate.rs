@@ -2,7 +2,7 @@
 
 use super::activity::{Activity, growth};
 use super::assembly::assembled;
-use super::gauss_newton::minimise;
+use super::gauss_newton::{equations_at, minimise, stepped};
 use super::initial::Initial;
 use super::knot_choice::initial;
 use super::model::{Model, State};
@@ -13,6 +13,8 @@ use calibrant_core::error::{Error, InputError, Refusal, Result};
 
 /// The noise is known when no variance changes by more than this, relatively.
 const NOISE_TOLERANCE: f64 = 0.02;
+/// The variance components converge geometrically; a step this many times longer arrives sooner.
+const RELAXATION: f64 = 1.2;
 /// Step of the parameters up to which the noise may count as known, in standard deviations.
 const STEP_TOLERANCE: f64 = 0.1;
 
@@ -79,12 +81,13 @@ fn noise_search(
     let mut growths = Growths { streams: vec![None; model.streams.len()], log: None };
     let mut searched = false;
     for _ in 0..settings.max_noise_rounds {
-        let minimum = minimise(model, state.clone(), 1, 1e-9).ok_or_else(failed)?;
-        let step = minimum.last_step;
-        let posterior = Posterior::at(model, &minimum, EVERY).ok_or_else(failed)?;
-        *state = minimum.state;
+        let here = equations_at(model, state.clone()).ok_or_else(failed)?;
+        let posterior = Posterior::at(model, &here, EVERY).ok_or_else(failed)?;
+        *state = stepped(model, &here, 1.0);
         let change = update_noise(model, &posterior, problem);
-        if change < NOISE_TOLERANCE && step < STEP_TOLERANCE {
+            eprintln!("change {change:.4} step {:.4} cost {:.1}", here.last_step, here.cost);
+        }
+        if change < NOISE_TOLERANCE && here.last_step < STEP_TOLERANCE {
             if searched {
                 break;
             }
@@ -108,7 +111,7 @@ fn update_noise(model: &mut Model<'_>, posterior: &Posterior, problem: &MachineP
         for (sd, moments) in stream.sd.iter_mut().zip(moments) {
             if let Some(factor) = moments.variance_factor().filter(|factor| *factor > 0.0) {
                 change = change.max(factor.ln().abs());
-                *sd *= factor.sqrt();
+                *sd *= factor.powf(0.5 * RELAXATION);
             }
         }
     }
@@ -116,7 +119,7 @@ fn update_noise(model: &mut Model<'_>, posterior: &Posterior, problem: &MachineP
         for (sd, moments) in model.log.sd.iter_mut().zip(&posterior.log) {
             if let Some(factor) = moments.variance_factor().filter(|factor| *factor > 0.0) {
                 change = change.max(factor.ln().abs());
-                *sd *= factor.sqrt();
+                *sd *= factor.powf(0.5 * RELAXATION);
             }
         }
     }

@@ -20,6 +20,26 @@ pub(super) struct Minimum {
     pub(super) last_step: f64,
 }
 
+/// The equations at a state, solved. `None` where they determine nothing.
+pub(super) fn equations_at(model: &Model<'_>, state: State) -> Option<Minimum> {
+    let Equations { front, cost, scores } = model.equations(&state);
+    let solved = front.finish()?;
+    let last_step = solved.parameters.dot(&solved.right).max(0.0).sqrt();
+    let status = CalibrationStatus::IterationLimit;
+    Some(Minimum { state, solved, cost, scores, iterations: 0, status, last_step })
+}
+
+/// The state after this share of the step.
+pub(super) fn stepped(model: &Model<'_>, from: &Minimum, share: f64) -> State {
+    let mut state = from.state.clone();
+    model.layout.step(&mut state.parameters, &(&from.solved.parameters * share));
+    if from.solved.has_motion() {
+        let steps: Vec<f64> = from.solved.controls().iter().map(|step| step * share).collect();
+        state.motion.step(&steps);
+    }
+    state
+}
+
 /// Minimises the cost from a state. `None` where the equations determine nothing.
 pub(super) fn minimise(
     model: &Model<'_>,
@@ -27,50 +47,31 @@ pub(super) fn minimise(
     max_iterations: usize,
     tolerance: f64,
 ) -> Option<Minimum> {
-    let mut state = start;
-    let Equations { front, mut cost, mut scores } = model.equations(&state);
-    let mut solved = front.finish()?;
+    let mut here = equations_at(model, start)?;
     for iteration in 1..=max_iterations {
-        let length = solved.parameters.dot(&solved.right).max(0.0).sqrt();
-        let done = |status| (status, iteration);
-        if length < tolerance {
-            let (status, iterations) = done(CalibrationStatus::Converged);
-            return Some(Minimum { state, solved, cost, scores, iterations, status, last_step: length });
+        here.iterations = iteration;
+        if here.last_step < tolerance {
+            here.status = CalibrationStatus::Converged;
+            return Some(here);
         }
-        let controls = solved.controls();
         let mut share = 1.0;
         let mut found = None;
         for _ in 0..HALVINGS {
-            let mut tried = state.clone();
-            model.layout.step(&mut tried.parameters, &(&solved.parameters * share));
-            if !controls.is_empty() {
-                let steps: Vec<f64> = controls.iter().map(|step| step * share).collect();
-                tried.motion.step(&steps);
-            }
-            let equations = model.equations(&tried);
+            let tried = equations_at(model, stepped(model, &here, share))?;
             // samples may enter or leave with a delay: that is no reason to stop
-            if equations.cost <= cost * (1.0 + 1e-6) || length < 1e-2 {
-                found = Some((tried, equations));
+            if tried.cost <= here.cost * (1.0 + 1e-6) || here.last_step < 1e-2 {
+                found = Some(tried);
                 break;
             }
             share *= 0.5;
         }
-        let Some((tried, equations)) = found else {
-            return Some(Minimum {
-                state,
-                solved,
-                cost,
-                scores,
-                iterations: iteration,
-                status: CalibrationStatus::Stalled,
-                last_step: length,
-            });
+        let Some(tried) = found else {
+            return Some(Minimum { status: CalibrationStatus::Stalled, ..here });
         };
-        (state, cost, scores) = (tried, equations.cost, equations.scores);
-        solved = equations.front.finish()?;
+        here = Minimum { iterations: iteration, ..tried };
     }
-    let last_step = solved.parameters.dot(&solved.right).max(0.0).sqrt();
-    let status =
-        if last_step < tolerance { CalibrationStatus::Converged } else { CalibrationStatus::IterationLimit };
-    Some(Minimum { state, solved, cost, scores, iterations: max_iterations, status, last_step })
+    if here.last_step < tolerance {
+        here.status = CalibrationStatus::Converged;
+    }
+    Some(here)
 }

@@ -6,7 +6,7 @@ use crate::log::{JointLog, PoseLog, ReferenceLog};
 use crate::reference::Motion;
 use crate::reference::PoseMotion;
 use crate::spline::{VectorSpline, Weights, rotation_sensitivity};
-use nalgebra::{DMatrix, Vector3};
+use nalgebra::{DMatrix, DVector, Vector3};
 use std::ops::Range;
 
 /// The log with its noise.
@@ -156,7 +156,7 @@ impl WeighedLog<'_> {
         &self,
         samples: Range<usize>,
         motion: &Motion,
-        local: &DMatrix<f64>,
+        (local, step): (&DMatrix<f64>, &DVector<f64>),
         moments: &mut [Moments],
     ) {
         match (self.log, motion) {
@@ -166,8 +166,9 @@ impl WeighedLog<'_> {
                     let weights = spline.knots.weights(log.times_s[k]);
                     for (j, seen) in log.row(k).iter().enumerate().filter(|(_, seen)| seen.is_finite()) {
                         let of = |r: usize, _: usize| (n * r + j, weights.derivative[0][r]);
-                        let leverage = quadratic(local, weights.order, 1, of);
-                        self.add_moment(j, k, seen - spline.component(&weights, 0, j), leverage, moments);
+                        let residual = seen - spline.component(&weights, 0, j);
+                        let after = after_step(residual, local, step, (weights.order, 1), of);
+                        self.add_moment(j, k, after, moments);
                     }
                 }
             }
@@ -177,9 +178,9 @@ impl WeighedLog<'_> {
                     if let Some(position) = &log.positions_m[k] {
                         for j in 0..3 {
                             let fitted = poses.position.component(&weights, 0, j);
-                            let of = |r: usize| (6 * r + j, weights.derivative[0][r]);
-                            let leverage = quadratic(local, weights.order, 1, |r, _| of(r));
-                            self.add_moment(j, k, position[j] - fitted, leverage, moments);
+                            let of = |r: usize, _: usize| (6 * r + j, weights.derivative[0][r]);
+                            let after = after_step(position[j] - fitted, local, step, (weights.order, 1), of);
+                            self.add_moment(j, k, after, moments);
                         }
                     }
                     if let Some(seen) = &log.world_from_body[k] {
@@ -188,8 +189,8 @@ impl WeighedLog<'_> {
                         for axis in 0..3 {
                             let of =
                                 |r: usize, a: usize| (6 * r + 3 + a, sensitivity.controls[r].turn[(axis, a)]);
-                            let leverage = quadratic(local, weights.order, 3, of);
-                            self.add_moment(3 + axis, k, residual[axis], leverage, moments);
+                            let after = after_step(residual[axis], local, step, (weights.order, 3), of);
+                            self.add_moment(3 + axis, k, after, moments);
                         }
                     }
                 }
@@ -230,7 +231,13 @@ impl WeighedLog<'_> {
         })
     }
 
-    fn add_moment(&self, component: usize, k: usize, residual: f64, variance: f64, moments: &mut [Moments]) {
+    fn add_moment(
+        &self,
+        component: usize,
+        k: usize,
+        (residual, variance): (f64, f64),
+        moments: &mut [Moments],
+    ) {
         let sd = self.sd(component, k);
         let whitened = residual / sd;
         let (weight, _) = huber(whitened);
@@ -239,20 +246,23 @@ impl WeighedLog<'_> {
     }
 }
 
-/// The variance of a sum over control points: place and factor of each of its terms.
-fn quadratic(
+/// A residual after the step, and the variance of what was fitted: both are sums over control points, of which `of` tells place and factor.
+fn after_step(
+    residual: f64,
     local: &DMatrix<f64>,
-    order: usize,
-    terms: usize,
+    step: &DVector<f64>,
+    (order, terms): (usize, usize),
     of: impl Fn(usize, usize) -> (usize, f64),
-) -> f64 {
-    let mut sum = 0.0;
-    for (r, a) in (0..order).flat_map(|r| (0..terms).map(move |a| (r, a))) {
+) -> (f64, f64) {
+    let places = || (0..order).flat_map(|r| (0..terms).map(move |a| (r, a)));
+    let (mut moved, mut variance) = (0.0, 0.0);
+    for (r, a) in places() {
         let (row, one) = of(r, a);
-        for (s, b) in (0..order).flat_map(|s| (0..terms).map(move |b| (s, b))) {
+        moved += one * step[row];
+        for (s, b) in places() {
             let (column, other) = of(s, b);
-            sum += one * other * local[(row, column)];
+            variance += one * other * local[(row, column)];
         }
     }
-    sum
+    (residual - moved, variance)
 }

@@ -56,14 +56,25 @@ impl Posterior {
             covariance,
         };
         let (streams, log) = model.places(state);
+        let (unknowns, order) = (state.motion.unknowns(), state.motion.knots().degree.order());
+        let steps = minimum.solved.controls();
+        let step_of = |i: usize| -> DVector<f64> {
+            let controls = if steps.is_empty() { &[] } else { &steps[i * unknowns..(i + order) * unknowns] };
+            let parameters = minimum.solved.parameters.iter();
+            DVector::from_iterator(
+                controls.len() + parameters.len(),
+                controls.iter().chain(parameters).copied(),
+            )
+        };
         let covariance = posterior.covariance.clone();
         let mut visit = |i: usize, local: &DMatrix<f64>| {
             if i >= state.motion.knots().intervals || i % every != 0 {
                 return;
             }
-            posterior.add_samples(model, state, i, &streams, local);
+            let step = step_of(i);
+            posterior.add_samples(model, state, i, &streams, (local, &step));
             if local.nrows() > parameters {
-                model.log.add_moments(log[i]..log[i + 1], &state.motion, local, &mut posterior.log);
+                model.log.add_moments(log[i]..log[i + 1], &state.motion, (local, &step), &mut posterior.log);
             }
         };
         if minimum.solved.has_motion() {
@@ -80,7 +91,7 @@ impl Posterior {
         state: &State,
         interval: usize,
         streams: &[Vec<usize>],
-        local: &DMatrix<f64>,
+        (local, step): (&DMatrix<f64>, &DVector<f64>),
     ) {
         let rows = model.rows(&(interval..interval + 1), state, streams);
         if rows.values.is_empty() {
@@ -95,7 +106,8 @@ impl Posterior {
             for axis in 0..3 {
                 let row = 3 * k + axis;
                 let leverage = derivatives.column(row).dot(&spread.column(row));
-                self.streams[*stream][axis].add(all[(size, row)], leverage);
+                let residual = all[(size, row)] - derivatives.column(row).dot(step);
+                self.streams[*stream][axis].add(residual, leverage);
                 for p in 0..parameters {
                     self.of_streams[*stream][p] += spread[(size - parameters + p, row)].powi(2);
                 }

@@ -35,6 +35,6 @@ pub struct MachineSettings {
 
 impl Default for MachineSettings {
     fn default() -> Self {
-        Self { max_iterations: 30, tolerance: 1e-5, max_noise_rounds: 25 }
+        Self { max_iterations: 30, tolerance: 1e-2, max_noise_rounds: 25 }
     }
 }
