@@ -1,4 +1,6 @@
-//! `calibrant inspect`: shows what a recording contains, and how good a calibration from it can be.
+//! `calibrant inspect`: shows what a recording contains, and how good a calibration from it can be; or the joints of a machine.
+
+mod machine;
 
 use crate::recording_options::RecordingOptions;
 use crate::{Exit, console};
@@ -17,13 +19,14 @@ const LONGEST_NAME: usize = 40;
 /// Largest number of unused columns that are shown.
 const MOST_COLUMNS: usize = 50;
 
-/// Show what a recording contains, before you calibrate from it.
+/// Show what a recording contains, before you calibrate from it, or the joints of a machine (.urdf).
 ///
 /// Prints the format, the columns with units and use, sampling, gaps, saturation and ranges. Prints the holds, how their directions cover the
-/// sphere, and the standard deviations to expect of a calibration of the accelerometer.
+/// sphere, and the standard deviations to expect of a calibration of the accelerometer. Of a machine, prints the joints between base and tip with their limits,
+/// and what is missing.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
-    /// The recording: MT Manager, Movella DOT, EuRoC, imucal, CSV, ROS 2 MCAP, Parquet; or the accelerometer's file of a pair.
+    /// The recording: MT Manager, Movella DOT, EuRoC, imucal, CSV, ROS 2 MCAP, Parquet; or the accelerometer's file of a pair; or a machine (.urdf).
     file: PathBuf,
     /// The gyroscope's file of a pair (imu_tk).
     second: Option<PathBuf>,
@@ -35,6 +38,8 @@ pub(crate) struct Arguments {
     /// Experiment file whose [columns] name the columns.
     #[arg(long, value_name = "EXPERIMENT")]
     columns: Option<PathBuf>,
+    #[command(flatten)]
+    machine: machine::Options,
     /// Print JSON instead of text.
     #[arg(long)]
     json: bool,
@@ -54,6 +59,10 @@ impl crate::run::Run for Arguments {
 }
 
 fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
+    if machine::is_machine(&arguments.file) {
+        return arguments.machine.inspect(&arguments.file, arguments.json);
+    }
+    arguments.machine.refuse_for_recording()?;
     let options = arguments.reading.with_columns(arguments.columns.as_deref())?;
     let file = match arguments.second() {
         Some(second) => read_imu_pair(&arguments.file, second, &options)?,

@@ -5,7 +5,7 @@
 //! | experiment (TOML) | [`Experiment::read`] | [`preset()`], [`PRESETS`] |
 //! | `recording.csv` and other recordings, in many formats | [`read_imu_recording`], [`read_imu_pair`] | [`write_recording`], [`inspection_json`] |
 //! | `joints.csv`, poses of a tracker, bags | [`read_reference_log`] | |
-//! | machine (URDF) | [`Urdf::read`] | [`machine_preset()`], [`MACHINE_PRESETS`] |
+//! | machine (URDF) | [`Urdf::read`] | [`machine_preset()`], [`MACHINE_PRESETS`], [`machine_json`] |
 //! | `motion.csv` | [`read_motion`] | [`write_motion`] |
 //! | `calibration.json` | [`read_calibrated_imu`]; [`read_calibration`], as what is known before a design | [`write_calibration`] |
 //! | calibrations, ours and of other programs | [`read_calibrated_imu`] | [`write_calibrated_imu`] |
@@ -77,7 +77,7 @@ pub use experiment_presets::{PRESETS, preset};
 pub use ferraris_sections::{Section, SectionKind, parse_sections, read_sections};
 pub use input::{Input, file_name};
 pub use inspection::{HoldsInspection, Inspection, SensorInspection, inspect, inspection_json};
-pub use machine::{MACHINE_PRESETS, MissingMesh, Urdf, machine_preset};
+pub use machine::{MACHINE_PRESETS, MissingMesh, Urdf, machine_json, machine_preset, missing_limits};
 pub use motion::{parse_motion, read_motion, write_motion};
 pub use noise::{NoiseLine, noise_json, noise_line, write_noise};
 pub use recording::{

@@ -22,6 +22,7 @@ mod inspect;
 mod interruption;
 mod invalid_samples;
 mod low_pass_filtered;
+mod machine;
 mod manners;
 mod noise;
 mod real_recordings;

@@ -4,12 +4,14 @@
 //! and an error should say the line and the element.
 
 mod element;
+mod inspection;
 mod joint;
 mod link_tree;
 mod meshes;
 mod presets;
 mod urdf;
 
+pub use inspection::{machine_json, missing_limits};
 pub use meshes::MissingMesh;
 pub use presets::{MACHINE_PRESETS, machine_preset};
 pub use urdf::Urdf;

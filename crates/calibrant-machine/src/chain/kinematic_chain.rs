@@ -55,17 +55,4 @@ impl KinematicChain {
     pub fn corrected(&self, corrections: &ChainCorrections) -> CorrectedChain {
         CorrectedChain::new(&self.joints, &self.tip_transform, corrections)
     }
-
-    /// No tip gets farther from the frame of the first joint than this, m. Prismatic joints count with their limits.
-    ///
-    /// The sum of the distances from joint to joint and to the tip; `None` if a prismatic joint has no limits.
-    #[must_use]
-    pub fn reach_m(&self) -> Option<f64> {
-        let links = self.joints.iter().skip(1).map(|joint| joint.origin.translation.vector.norm());
-        let slides = self.joints.iter().filter(|joint| !joint.kind.turns());
-        let slides = slides
-            .map(|joint| Some(joint.limits.lower?.abs().max(joint.limits.upper?.abs())))
-            .sum::<Option<f64>>()?;
-        Some(links.sum::<f64>() + slides + self.tip_transform.translation.vector.norm())
-    }
 }

@@ -85,8 +85,6 @@ fn noise_search(
         let posterior = Posterior::at(model, &here, EVERY).ok_or_else(failed)?;
         *state = stepped(model, &here, 1.0);
         let change = update_noise(model, &posterior, problem);
-            eprintln!("change {change:.4} step {:.4} cost {:.1}", here.last_step, here.cost);
-        }
         if change < NOISE_TOLERANCE && here.last_step < STEP_TOLERANCE {
             if searched {
                 break;

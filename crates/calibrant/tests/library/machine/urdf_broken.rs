@@ -1,6 +1,7 @@
 //! Broken URDF files: each gets a message with line and element, and a code.
 
-use calibrant::io::{Urdf, machine_preset};
+use calibrant::io::{MACHINE_PRESETS, Urdf, machine_preset};
+use rand::{RngExt, SeedableRng};
 use std::fmt::Write as _;
 
 /// An arm of two joints with one text replaced by another.
@@ -302,5 +303,29 @@ fn every_beginning_of_a_file_is_refused() {
     let arm = machine_preset("arm").expect("known").trim_end();
     for end in 0..arm.len() {
         assert!(Urdf::parse(&arm.as_bytes()[..end]).is_err(), "{end}");
+    }
+}
+
+#[test]
+fn damaged_files_are_refused_or_read_and_never_panic() {
+    let seeds = MACHINE_PRESETS.iter().map(|(_, text)| text.as_bytes());
+    let words: [&[u8]; 8] = [b"<", b"/>", b"\"", b"1e999", b"nan", b"", b"\xff", b"base"];
+    let mut numbers = rand_chacha::ChaCha8Rng::seed_from_u64(20);
+    for seed in seeds {
+        for _ in 0..2000 {
+            let mut bytes = seed.to_vec();
+            for _ in 0..numbers.random_range(1..4) {
+                let at = numbers.random_range(0..bytes.len());
+                let end = (at + numbers.random_range(0..8)).min(bytes.len());
+                bytes.splice(at..end, words[numbers.random_range(0..words.len())].iter().copied());
+            }
+            let Err(error) = Urdf::parse(&bytes).and_then(|machine| machine.chain(None, None)) else {
+                continue;
+            };
+            let input_error = error.input_error().expect("an input error");
+            if let Some((excerpt, range)) = &input_error.excerpt {
+                assert!(excerpt.get(range.clone()).is_some(), "{error}");
+            }
+        }
     }
 }
