@@ -27,6 +27,7 @@ mod options;
 mod pose_columns;
 mod quaternion;
 mod read;
+mod recognise;
 mod rows;
 mod text_columns;
 
@@ -34,3 +35,4 @@ pub use file::ReferenceLogFile;
 pub use format::ReferenceFormat;
 pub use options::ReferenceLogOptions;
 pub use read::{parse_reference_log, read_reference_log};
+pub use recognise::is_reference_log;

@@ -251,7 +251,7 @@ fn names(head: &Head<'_>) -> Vec<String> {
 }
 
 /// The fields of the first row.
-fn first_row<'t>(head: &Head<'t>) -> Vec<&'t str> {
+pub(super) fn first_row<'t>(head: &Head<'t>) -> Vec<&'t str> {
     let line = head.first_row.or_else(|| head.rest.clone().find(|line| !line.is_void()));
     let mut fields: Vec<&str> =
         line.map_or_else(Vec::new, |line| line.fields(head.delimiter).map(|(_, field)| field).collect());
