@@ -1,4 +1,4 @@
-//! The times of samples, as `inspect` tells them: rate, jitter, gaps.
+//! The times of samples, as `inspect` shows them: rate, jitter, gaps.
 
 use calibrant_core::sensor::{missing, rate_hz};
 use serde::Serialize;

@@ -24,7 +24,7 @@ fn interpolated() -> String {
 }
 
 #[test]
-fn an_interpolated_log_is_told_with_the_clock_of_its_stream() {
+fn an_interpolated_log_is_shown_with_the_clock_of_its_stream() {
     let bench = Bench::new();
     bench.write("poses.csv", interpolated());
     let stdout = bench.run("inspect poses.csv").done().stdout;
@@ -47,7 +47,7 @@ fn an_interpolated_log_is_told_with_the_clock_of_its_stream() {
 }
 
 #[test]
-fn joints_are_told_with_their_ranges_gaps_and_jumps() {
+fn joints_are_shown_with_their_ranges_gaps_and_jumps() {
     let bench = Bench::new();
     let mut text = "t_ms,elbow_deg,elbow_degps,rail_mm\n".to_owned();
     for k in 0..2000_u32 {
@@ -107,7 +107,7 @@ fn a_broken_log_is_refused_as_a_log_and_other_files_as_recordings() {
 }
 
 #[test]
-fn the_references_of_broad_are_told() {
+fn the_references_of_broad_are_shown_as_interpolated() {
     for (trial, ppm) in
         [("21_undisturbed_fast_combined", "128.0"), ("03_undisturbed_slow_rotation_C", "125.4")]
     {

@@ -1,4 +1,4 @@
-//! Tells a log of a motion from other files.
+//! Distinguishes a log of a motion from other files.
 
 use super::format::ReferenceFormat;
 use super::options::ReferenceLogOptions;
