@@ -2,6 +2,9 @@
 
 mod machine;
 
+mod reference_log;
+mod sampling;
+
 use crate::recording_options::RecordingOptions;
 use crate::{Exit, console};
 use calibrant::io::{
@@ -19,14 +22,15 @@ const LONGEST_NAME: usize = 40;
 /// Largest number of unused columns that are shown.
 const MOST_COLUMNS: usize = 50;
 
-/// Show what a recording contains, before you calibrate from it, or the joints of a machine (.urdf).
+/// Show what a recording, a log of a machine's motion, or a machine (.urdf) contains, before you calibrate from it.
 ///
 /// Prints the format, the columns with units and use, sampling, gaps, saturation and ranges. Prints the holds, how their directions cover the
-/// sphere, and the standard deviations to expect of a calibration of the accelerometer. Of a machine, prints the joints between base and tip with their limits,
+/// sphere, and the standard deviations to expect of a calibration of the accelerometer. Of a log of joints or poses it prints what was seen,
+/// ranges, jumps, and whether the poses are an interpolation of a slower stream. Of a machine it prints the joints between base and tip with their limits,
 /// and what is missing.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
-    /// The recording: MT Manager, Movella DOT, EuRoC, imucal, CSV, ROS 2 MCAP, Parquet; or the accelerometer's file of a pair; or a machine (.urdf).
+    /// The recording: MT Manager, Movella DOT, EuRoC, imucal, CSV, ROS 2 MCAP, Parquet; or the accelerometer's file of a pair. A log of a motion: joints, RTDE, TUM, EuRoC's ground truth, MCAP. A machine (.urdf).
     file: PathBuf,
     /// The gyroscope's file of a pair (imu_tk).
     second: Option<PathBuf>,
@@ -66,7 +70,12 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     let options = arguments.reading.with_columns(arguments.columns.as_deref())?;
     let file = match arguments.second() {
         Some(second) => read_imu_pair(&arguments.file, second, &options)?,
-        None => read_imu_recording(&arguments.file, &options)?,
+        None => match read_imu_recording(&arguments.file, &options) {
+            Err(_) if reference_log::is_one(&arguments.file, &options) => {
+                return reference_log::run(&arguments.file, &options, arguments.json);
+            }
+            file => file?,
+        },
     };
     let warnings: Vec<_> = file.findings.iter().filter(|finding| finding.is_warning()).cloned().collect();
     console::findings(&warnings, &file_name(&arguments.file), arguments.second().map(file_name).as_deref());
@@ -82,7 +91,7 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
 fn text(file: &ImuFile, inspection: &Inspection, arguments: &Arguments) -> String {
     let mut text = files(file, arguments);
     for sensor in &inspection.sensors {
-        text.push_str(&sampling(sensor));
+        text.push_str(&sampling::line(sensor.sensor_kind.name(), &sensor.sampling));
     }
     text.push_str(&ranges(&inspection.sensors));
     if let Some(temperature) = &file.recording.temperature_c {
@@ -142,38 +151,6 @@ fn columns(columns: &[ImuColumn]) -> String {
         more => format!("  and {} that are not used\n", counted(more, "more column")),
     };
     console::table(&["column", "meaning", "unit", ""], &rows) + &more + "\n"
-}
-
-fn sampling(sensor: &SensorInspection) -> String {
-    let (start, end) = sensor.span_s;
-    // seconds since 1970 hide the duration behind many digits
-    let span = match end.abs() < 1e5 {
-        true => format!("from {} to {} s", short(start), short(end)),
-        false => format!("from {start} s on, over {} s", short(end - start)),
-    };
-    let gaps = match sensor.gaps {
-        0 => "no gaps".to_owned(),
-        1 => format!("1 gap of {} s", short(sensor.lost_s)),
-        many => format!("{many} gaps, {} s lost", short(sensor.lost_s)),
-    };
-    let gaps = match sensor.missing > 0.0 {
-        true => format!("{} % of the samples missing, {gaps}", significant(100.0 * sensor.missing, 2)),
-        false => gaps,
-    };
-    // a nanosecond is rounding, and so are the last digits of a late time
-    let jitter = if sensor.jitter_s < 1e-9_f64.max(f64::EPSILON * end.abs()) {
-        "none".into()
-    } else {
-        format!("{} ms (sd)", significant(1e3 * sensor.jitter_s, 2))
-    };
-    format!(
-        "  {}: {} samples {span}, {} Hz; steps {} to {} ms, jitter {jitter}; {gaps}\n",
-        sensor.sensor_kind,
-        count(sensor.samples),
-        significant(sensor.rate_hz, 5),
-        significant(1e3 * sensor.steps_s.0, 4),
-        significant(1e3 * sensor.steps_s.1, 4)
-    )
 }
 
 fn ranges(sensors: &[SensorInspection]) -> String {

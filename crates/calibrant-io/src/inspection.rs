@@ -3,6 +3,7 @@
 
 use super::json;
 use super::recording::{Finding, ImuColumn, ImuFile};
+use super::sampling::{Sampling, SamplingFields};
 use calibrant_core::error::Result;
 use calibrant_core::estimate::{
     CoarseAxis, Coverage, ExpectedCalibration, clipped_holds, coarse_axes_in, coverage, expected_calibration,
@@ -10,13 +11,11 @@ use calibrant_core::estimate::{
 };
 use calibrant_core::motion::Hold;
 use calibrant_core::sensor::{
-    Gauge, ImuRecording, MeanReading, ReadingUnit, Recording, Saturation, SensorKind, Spikes, missing,
+    Gauge, ImuRecording, MeanReading, ReadingUnit, Recording, Saturation, SensorKind, Spikes,
 };
 use nalgebra::Vector3;
 use serde::Serialize;
 
-/// A time step is a gap from this many usual steps on.
-const GAP: f64 = 5.0;
 /// Gravity that is assumed, m/s²: the location changes a prediction by less than one per cent.
 const GRAVITY_MPS2: f64 = 9.806_65;
 /// Shortest stationary interval that counts as a hold, s.
@@ -41,23 +40,8 @@ pub struct SensorInspection {
     pub sensor_kind: SensorKind,
     /// Unit of its readings, after the conversion.
     pub unit: ReadingUnit,
-    /// Number of samples.
-    pub samples: usize,
-    /// First and last sample time, s.
-    pub span_s: (f64, f64),
-    /// Samples over duration, gaps left out, Hz.
-    pub rate_hz: f64,
-    /// Shortest and longest step without gaps, s.
-    pub steps_s: (f64, f64),
-    /// Standard deviation of the steps without gaps, s.
-    pub jitter_s: f64,
-    /// Number of gaps: steps of more than five usual ones.
-    pub gaps: usize,
-    /// Time that is lost in gaps, s.
-    pub lost_s: f64,
-    /// Share of the samples that are missing one by one between the gaps; 0 where it is too small to
-    /// determine.
-    pub missing: f64,
+    /// Its sample times.
+    pub sampling: Sampling,
     /// Least, mean and largest reading per axis.
     pub least: Vector3<f64>,
     /// Mean reading per axis.
@@ -117,35 +101,12 @@ pub fn inspect(file: &ImuFile) -> Inspection {
 
 impl SensorInspection {
     fn of(sensor_kind: SensorKind, recording: &Recording) -> Self {
-        let rate_hz = recording.rate_hz();
-        let usual = 1.0 / rate_hz;
-        let (mut steps, mut gaps, mut lost_s) = (Vec::with_capacity(recording.len()), 0, 0.0);
-        for pair in recording.times_s.windows(2) {
-            let step = pair[1] - pair[0];
-            if step > GAP * usual {
-                gaps += 1;
-                lost_s += step - usual;
-            } else {
-                steps.push(step);
-            }
-        }
-        let count = steps.len().max(1) as f64;
-        let mean_step = steps.iter().sum::<f64>() / count;
-        let variance = steps.iter().map(|step| (step - mean_step).powi(2)).sum::<f64>() / count;
-        let bounds = |start: f64, better: fn(f64, f64) -> f64| steps.iter().copied().fold(start, better);
         let readings = &recording.readings;
         let [least, most] = recording.extremes();
         Self {
             sensor_kind,
             unit: recording.unit,
-            samples: recording.len(),
-            span_s: (recording.times_s[0], recording.times_s[recording.len() - 1]),
-            rate_hz: 1.0 / mean_step,
-            steps_s: (bounds(f64::INFINITY, f64::min), bounds(0.0, f64::max)),
-            jitter_s: variance.sqrt(),
-            gaps,
-            lost_s,
-            missing: missing(&recording.times_s, rate_hz, GAP * usual),
+            sampling: Sampling::of(&recording.times_s),
             least,
             mean: readings.iter().sum::<Vector3<f64>>() / readings.len() as f64,
             most,
@@ -251,16 +212,8 @@ struct ColumnFields<'a> {
 struct SensorFields {
     sensor: &'static str,
     unit: &'static str,
-    samples: usize,
-    start_s: f64,
-    end_s: f64,
-    rate_hz: f64,
-    shortest_step_s: f64,
-    longest_step_s: f64,
-    jitter_s: f64,
-    gaps: usize,
-    lost_s: f64,
-    missing_share: f64,
+    #[serde(flatten)]
+    sampling: SamplingFields,
     least: Vec<f64>,
     mean: Vec<f64>,
     most: Vec<f64>,
@@ -402,16 +355,7 @@ impl SensorFields {
         Self {
             sensor: sensor.sensor_kind.name(),
             unit: sensor.unit.symbol(),
-            samples: sensor.samples,
-            start_s: sensor.span_s.0,
-            end_s: sensor.span_s.1,
-            rate_hz: sensor.rate_hz,
-            shortest_step_s: sensor.steps_s.0,
-            longest_step_s: sensor.steps_s.1,
-            jitter_s: sensor.jitter_s,
-            gaps: sensor.gaps,
-            lost_s: sensor.lost_s,
-            missing_share: sensor.missing,
+            sampling: SamplingFields::of(&sensor.sampling),
             least: list(&sensor.least),
             mean: list(&sensor.mean),
             most: list(&sensor.most),

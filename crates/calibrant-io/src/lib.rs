@@ -44,8 +44,10 @@ mod machine;
 mod motion;
 mod noise;
 mod recording;
+mod reference_inspection;
 mod reference_log;
 mod result_places;
+mod sampling;
 mod shared_fields;
 mod study;
 mod summary;
@@ -86,10 +88,16 @@ pub use recording::{
     parse_imu_recording, read_imu_pair, read_imu_recording, read_imu_sensor, write_imu_recording,
     write_recording,
 };
+pub use reference_inspection::{
+    JointInspection, Jumps, PoseInspection, ReferenceInspection, Seen, inspect_reference_log,
+    reference_inspection_json,
+};
 pub use reference_log::{
-    ReferenceFormat, ReferenceLogFile, ReferenceLogOptions, parse_reference_log, read_reference_log,
+    ReferenceFormat, ReferenceLogFile, ReferenceLogOptions, is_reference_log, parse_reference_log,
+    read_reference_log,
 };
 pub use result_places::{ClaimedPlaces, ResultPlaces};
+pub use sampling::Sampling;
 pub use study::{study_json, write_study};
 pub use summary::{Failure, Summary, SummaryRow, calibrations_json, write_summary};
 pub use sweep::{sweep_json, write_sweep, write_sweep_csv};

@@ -18,6 +18,7 @@ mod ferraris;
 mod headerless_text;
 mod imu;
 mod inspect;
+mod inspect_motion;
 #[cfg(unix)]
 mod interruption;
 mod invalid_samples;

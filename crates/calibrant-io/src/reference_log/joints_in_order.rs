@@ -4,6 +4,7 @@ use super::file::ReferenceLogFile;
 use super::format::ReferenceFormat;
 use crate::experiment::nearest;
 use crate::recording::finding_words::list;
+use crate::text_decoding::Checked;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_machine::log::JointLog;
 
@@ -28,7 +29,7 @@ impl ReferenceLogFile {
     /// # Ok::<(), calibrant_core::Error>(())
     /// ```
     pub fn joints_in_order(&self, names: &[&str]) -> Result<JointLog> {
-        let columns = self.columns_of(names).map_err(Error::recording)?;
+        let columns = self.columns_of(names).map_err(|input_error| Error::recording(*input_error))?;
         let log = self.joints().ok_or_else(|| Error::recording(no_joints()))?;
         let width = log.names.len();
         let picked = |values: &[f64]| -> Vec<f64> {
@@ -43,7 +44,7 @@ impl ReferenceLogFile {
     }
 
     /// The column of each joint.
-    fn columns_of(&self, names: &[&str]) -> std::result::Result<Vec<usize>, InputError> {
+    fn columns_of(&self, names: &[&str]) -> Checked<Vec<usize>> {
         let log = self.joints().ok_or_else(no_joints)?;
         if self.format == ReferenceFormat::Rtde {
             if log.names.len() == names.len() {
@@ -52,7 +53,7 @@ impl ReferenceLogFile {
             let message =
                 format!("the log has {} joints, and the chain has {}", log.names.len(), names.len());
             let help = "RTDE does not name its joints, so each must be one of the chain";
-            return Err(InputError::new(Refusal::ColumnMissing, message, help));
+            return Err(InputError::new(Refusal::ColumnMissing, message, help).into());
         }
         let column = |name: &str| log.names.iter().position(|known| known == name);
         let missing: Vec<&str> = names.iter().copied().filter(|name| column(name).is_none()).collect();
@@ -69,7 +70,7 @@ impl ReferenceLogFile {
         let joints = if missing.len() == 1 { "joint" } else { "joints" };
         let message = format!("the log lacks the {joints} {}", listed.join(", "));
         let help = format!("give them the names of the chain; the log has {}", list(&log.names, 20));
-        Err(InputError::new(Refusal::ColumnMissing, message, help))
+        Err(InputError::new(Refusal::ColumnMissing, message, help).into())
     }
 }
 

@@ -1,4 +1,4 @@
-//! The messages of ROS 2 that tell where a machine is.
+//! The messages of ROS 2 that say where a machine is.
 //!
 //! ```text
 //! JointState        header; name: list of texts; position, velocity, effort: lists of f64

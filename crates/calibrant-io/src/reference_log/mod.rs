@@ -11,7 +11,7 @@
 //!
 //! The rows are read as those of recordings are. [`text_columns`] finds what the columns hold, [`rows`] reads
 //! them, and [`log_assembly`] makes a log of their values. A value that is NaN was not recorded: the body was not
-//! seen. Times may stand still, but an error tells where one goes backwards.
+//! seen. Times may stand still; one that goes backwards is an error.
 
 mod content;
 mod file;
@@ -27,6 +27,7 @@ mod options;
 mod pose_columns;
 mod quaternion;
 mod read;
+mod recognise;
 mod rows;
 mod text_columns;
 
@@ -34,3 +35,4 @@ pub use file::ReferenceLogFile;
 pub use format::ReferenceFormat;
 pub use options::ReferenceLogOptions;
 pub use read::{parse_reference_log, read_reference_log};
+pub use recognise::is_reference_log;

@@ -15,7 +15,7 @@ pub(super) fn orientation([w, x, y, z]: [f64; 4]) -> Result<Option<UnitQuaternio
     if norm == 0.0 {
         return Err("0, 0, 0, 0 is no orientation: the norm of a quaternion is 1".into());
     }
-    if !((norm - 1.0).abs() <= OFF) {
+    if (norm - 1.0).abs() > OFF {
         return Err(format!("the norm of the quaternion is {norm:.4}, not 1"));
     }
     Ok(Some(UnitQuaternion::from_quaternion(quaternion)))

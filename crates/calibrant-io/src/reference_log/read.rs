@@ -16,8 +16,10 @@ use crate::text_decoding::Checked;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use std::path::Path;
 
-/// The first bytes of a bag.
-const MCAP: &[u8] = b"\x89MCAP0\r\n";
+/// Does a file that begins so hold a bag?
+pub(super) fn is_bag(bytes: &[u8]) -> bool {
+    bytes.starts_with(b"\x89MCAP0\r\n")
+}
 
 /// Reads a log of joints or poses in any known format.
 ///
@@ -28,8 +30,8 @@ const MCAP: &[u8] = b"\x89MCAP0\r\n";
 /// backwards. Fewer than two rows hold anything.
 pub fn read_reference_log(path: &Path, options: &ReferenceLogOptions) -> Result<ReferenceLogFile> {
     let in_file = |input_error: Box<InputError>| Error::recording(input_error.in_file(path));
-    let beginning = FileBeginning::read(path, |bytes| bytes.starts_with(MCAP)).map_err(in_file)?;
-    if beginning.bytes.starts_with(MCAP) {
+    let beginning = FileBeginning::read(path, is_bag).map_err(in_file)?;
+    if is_bag(&beginning.bytes) {
         return parse(&beginning.bytes, options).map_err(in_file);
     }
     let read = text_source::of_file(beginning, |source| parse_text(source, options));
@@ -58,7 +60,7 @@ pub fn parse_reference_log(bytes: &[u8], options: &ReferenceLogOptions) -> Resul
 }
 
 fn parse(bytes: &[u8], options: &ReferenceLogOptions) -> Checked<ReferenceLogFile> {
-    if bytes.starts_with(MCAP) {
+    if is_bag(bytes) {
         let (file, sha256) = rayon::join(|| read_mcap(bytes, options), || hex_sha256(bytes));
         return Ok(with_checksum((file?, sha256)));
     }

@@ -68,7 +68,7 @@ impl TextColumns {
         }
     }
 
-    fn of_names(names: Vec<String>) -> Result<Self, InputError> {
+    fn of_names(names: Vec<String>) -> Checked<Self> {
         let rtde: Vec<_> = names.iter().map(|name| rtde_column(name)).collect();
         let numbers =
             || rtde.iter().flatten().filter(|(_, is_velocity)| !is_velocity).map(|(number, _)| *number);
@@ -76,7 +76,7 @@ impl TextColumns {
             if let Some(missing) = (0..last).find(|number| !numbers().any(|known| known == *number)) {
                 let message = format!("the column `actual_q_{missing}` is missing");
                 let help = "record actual_q with all of its joints";
-                return Err(InputError::new(Refusal::ColumnMissing, message, help));
+                return Err(InputError::new(Refusal::ColumnMissing, message, help).into());
             }
             let joint = |number: usize| format!("actual_q_{number}");
             let column =
@@ -99,7 +99,7 @@ impl TextColumns {
                 }
             }
             if joints.is_empty() {
-                return Err(nothing_to_read(&names));
+                return Err(nothing_to_read(&names).into());
             }
             Self::of_joints(ReferenceFormat::Joints, joints, names, &columns)?
         };
@@ -110,7 +110,7 @@ impl TextColumns {
     }
 
     /// The columns of poses; `None` where the names are not of a pose.
-    fn of_poses(names: &[String]) -> Result<Option<Self>, InputError> {
+    fn of_poses(names: &[String]) -> Checked<Option<Self>> {
         let mut found: Vec<_> = names.iter().map(|name| pose_column(name)).collect();
         let has =
             |found: &[Option<PoseColumn>], value| found.iter().flatten().any(|column| column.value == value);
@@ -127,7 +127,7 @@ impl TextColumns {
                 values.clone().filter(|&value| !has(&found, value)).map(|value| NAMES[value]).collect();
             if !missing.is_empty() && missing.len() < values.len() {
                 let message = format!("the {what} has no column for {}", missing.join(", "));
-                return Err(InputError::new(Refusal::ColumnMissing, message, EXAMPLES));
+                return Err(InputError::new(Refusal::ColumnMissing, message, EXAMPLES).into());
             }
         }
         let mut slots = vec![None; names.len()];
@@ -156,7 +156,7 @@ impl TextColumns {
         joints: Vec<String>,
         names: Vec<String>,
         columns: &[Option<JointColumn>],
-    ) -> Result<Self, InputError> {
+    ) -> Checked<Self> {
         let mut slots = vec![None; names.len()];
         let mut factors = vec![1.0; 2 * joints.len()];
         let mut has_velocities = false;
@@ -251,7 +251,7 @@ fn names(head: &Head<'_>) -> Vec<String> {
 }
 
 /// The fields of the first row.
-fn first_row<'t>(head: &Head<'t>) -> Vec<&'t str> {
+pub(super) fn first_row<'t>(head: &Head<'t>) -> Vec<&'t str> {
     let line = head.first_row.or_else(|| head.rest.clone().find(|line| !line.is_void()));
     let mut fields: Vec<&str> =
         line.map_or_else(Vec::new, |line| line.fields(head.delimiter).map(|(_, field)| field).collect());
@@ -262,7 +262,7 @@ fn first_row<'t>(head: &Head<'t>) -> Vec<&'t str> {
 }
 
 /// The time column and its unit: of several, the one whose unit is known.
-fn time_column(names: &[String]) -> Result<(usize, Option<TimeUnit>), InputError> {
+fn time_column(names: &[String]) -> Checked<(usize, Option<TimeUnit>)> {
     let unit = |name: &String| {
         let column = imu_column(name);
         let unit = match column.unit {
@@ -279,23 +279,19 @@ fn time_column(names: &[String]) -> Result<(usize, Option<TimeUnit>), InputError
             Refusal::ColumnMissing,
             "there is no column of times",
             "name it t_s (or t_ms, t_us, t_ns)",
-        )),
+        )
+        .into()),
         (_, [(one, _), ..]) => {
             let (other, _) = times[times.len() - 1];
-            Err(repeated("time", &names[*one], &names[other]))
+            Err(repeated("time", &names[*one], &names[other]).into())
         }
     }
 }
 
 /// An error where two columns have the same slot.
-fn check_repeated(
-    slots: &[Option<usize>],
-    slot: usize,
-    column: usize,
-    names: &[String],
-) -> Result<(), InputError> {
+fn check_repeated(slots: &[Option<usize>], slot: usize, column: usize, names: &[String]) -> Checked<()> {
     match slots.iter().position(|taken| *taken == Some(slot)) {
-        Some(other) => Err(repeated("same", &names[other], &names[column])),
+        Some(other) => Err(repeated("same", &names[other], &names[column]).into()),
         None => Ok(()),
     }
 }

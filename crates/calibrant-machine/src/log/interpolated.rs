@@ -8,13 +8,17 @@ use super::knot_frequency::{periods, second_differences};
 use super::piecewise_linear::{KnotFit, Knots, Nodes, fit, rms};
 use super::pose_log::PoseLog;
 use nalgebra::{UnitQuaternion, Vector3};
+use std::ops::Range;
 
 /// Samples in which the knots are sought.
 const SOUGHT_IN: usize = 1024;
 /// Fewest samples in which they are sought.
 const FEWEST: usize = 200;
-/// Samples of the first fit.
+/// Samples of the first fit, and knots of it.
 const FIRST_FIT: usize = 160;
+const FIRST_KNOTS: f64 = 8.0;
+/// Most knots for each sample: a log with longer gaps is not examined.
+const MOST_KNOTS: f64 = 10.0;
 /// Phases of the knots that are tried.
 const PHASES: usize = 24;
 /// Knots fit where the distance is below this share of the second differences,
@@ -154,12 +158,9 @@ impl Seen {
 
     /// The knots, fitted to all samples; `None` where no knots fit.
     fn find_knots(&self) -> Option<KnotFit> {
-        let mut part = self.most_moving()?;
-        let periods = periods(&self.positions_m[part.clone()]);
-        let middle = usize::midpoint(part.start, part.end);
-        let step_s = self.step_s(&part);
-        part = middle - FIRST_FIT / 2..middle + FIRST_FIT / 2;
-        let mut found = periods.into_iter().find_map(|period| self.first_fit(&part, period * step_s))?;
+        let part = self.most_moving()?;
+        let periods = periods(&self.positions_m[part.clone()]).into_iter();
+        let (mut part, mut found) = periods.into_iter().find_map(|period| self.first_fit(&part, period))?;
         while part.len() < self.times_s.len() {
             // twice as long, around the same middle
             part = part.start.saturating_sub(part.len() / 2)
@@ -172,10 +173,19 @@ impl Seen {
         Some(found)
     }
 
-    /// Knots of about this period that fit a part.
-    fn first_fit(&self, part: &std::ops::Range<usize>, period_s: f64) -> Option<KnotFit> {
+    /// Knots that fit in the middle of an even part, and are about this number of samples apart.
+    fn first_fit(&self, even: &Range<usize>, period: f64) -> Option<(Range<usize>, KnotFit)> {
+        let middle = usize::midpoint(even.start, even.end);
+        let half = (FIRST_FIT.max((FIRST_KNOTS * period) as usize) / 2).min(even.len() / 2);
+        let part = middle - half..middle + half;
+        let period_s = period * self.step_s(even);
         let (times_s, positions) = (&self.times_s[part.clone()], &self.positions_m[part.clone()]);
-        let middle_s = times_s[times_s.len() / 2];
+        if self.times_s[self.times_s.len() - 1] - self.times_s[0]
+            > MOST_KNOTS * period_s * self.times_s.len() as f64
+        {
+            return None;
+        }
+        let middle_s = times_s[half];
         let start = (0..PHASES)
             .map(|phase| Knots { reference_s: middle_s + period_s * phase as f64 / PHASES as f64, period_s })
             .map(|knots| (rms(times_s, positions, &knots), knots))
@@ -183,11 +193,11 @@ impl Seen {
         let found = fit(times_s, positions, &start.1);
         let sizes = second_differences(positions);
         let size = (sizes.iter().map(|size| size * size).sum::<f64>() / sizes.len() as f64).sqrt();
-        (found.rms < OF_SECOND_DIFFERENCES * size && self.fits(part, &found)).then_some(found)
+        (found.rms < OF_SECOND_DIFFERENCES * size && self.fits(&part, &found)).then_some((part, found))
     }
 
     /// Do the knots fit better than others of the same period? Few samples for each have to fit to the last decimal.
-    fn fits(&self, part: &std::ops::Range<usize>, found: &KnotFit) -> bool {
+    fn fits(&self, part: &Range<usize>, found: &KnotFit) -> bool {
         let is_few = found.knots.period_s < FEW * self.step_s(part);
         if is_few && found.rms > OF_ROUNDING * last_decimal(&self.positions_m[part.clone()]) {
             return false;
@@ -198,18 +208,18 @@ impl Seen {
     }
 
     /// The part with even times in which the body moves most.
-    fn most_moving(&self) -> Option<std::ops::Range<usize>> {
+    fn most_moving(&self) -> Option<Range<usize>> {
         let length = SOUGHT_IN.min(self.times_s.len());
         if length < FEWEST {
             return None;
         }
         let parts = (0..=self.times_s.len() - length).step_by(length / 2).map(|start| start..start + length);
-        let moved = |part: &std::ops::Range<usize>| {
+        let moved = |part: &Range<usize>| {
             let mut sizes = second_differences(&self.positions_m[part.clone()]);
             let middle = sizes.len() / 2;
             *sizes.select_nth_unstable_by(middle, f64::total_cmp).1
         };
-        let is_even = |part: &std::ops::Range<usize>| {
+        let is_even = |part: &Range<usize>| {
             let step_s = self.step_s(part);
             self.times_s[part.clone()]
                 .array_windows()
@@ -223,7 +233,7 @@ impl Seen {
     }
 
     /// Mean time from sample to sample, s.
-    fn step_s(&self, part: &std::ops::Range<usize>) -> f64 {
+    fn step_s(&self, part: &Range<usize>) -> f64 {
         (self.times_s[part.end - 1] - self.times_s[part.start]) / (part.len() - 1) as f64
     }
 }
@@ -257,7 +267,8 @@ fn orientations(log: &PoseLog, knots: &Knots) -> Option<Turned> {
     let seen = log.times_s.iter().zip(&log.world_from_body);
     let (times_s, logged): (Vec<f64>, Vec<UnitQuaternion<f64>>) =
         seen.filter_map(|(&t, orientation)| Some((t, (*orientation)?))).unzip();
-    if times_s.len() < 2 {
+    let span_s = times_s.last()? - times_s.first()?;
+    if span_s > MOST_KNOTS * knots.period_s * times_s.len() as f64 {
         return None;
     }
     let nodes = Nodes::of(&times_s, knots);

@@ -6,6 +6,8 @@ use nalgebra::{Matrix2, Vector2, Vector3};
 const RIDGE: f64 = 1e-9;
 /// Largest step of the first knot in one iteration, in periods.
 const LARGEST_STEP: f64 = 0.1;
+/// Largest change of the period in one iteration, relative.
+const LARGEST_CHANGE: f64 = 0.01;
 /// Most iterations, and most halvings of a step in one.
 const ITERATIONS: usize = 12;
 const HALVINGS: i32 = 8;
@@ -139,8 +141,8 @@ pub(super) fn fit(times_s: &[f64], values: &[Vector3<f64>], start: &Knots) -> Kn
     let mut knots = *start;
     for _ in 0..ITERATIONS {
         let (before, step, _) = step(times_s, values, &knots);
-        let largest = LARGEST_STEP * knots.period_s;
-        let whole = (largest / step.x.abs().max(f64::MIN_POSITIVE)).min(1.0);
+        let share = |largest: f64, step: f64| largest * knots.period_s / step.abs().max(f64::MIN_POSITIVE);
+        let whole = share(LARGEST_STEP, step.x).min(share(LARGEST_CHANGE, step.y)).min(1.0);
         // the distance has corners where a knot passes a sample: a step may be too long
         let shares = (0..HALVINGS).map(|halvings| whole * 0.5_f64.powi(halvings));
         let tried = shares.map(|share| Knots {
