@@ -7,7 +7,7 @@ use super::initial::Initial;
 use super::knot_choice::initial;
 use super::model::{Model, State};
 use super::posterior::Posterior;
-use super::trusted::trusted;
+use super::trusted::{Effort, trusted};
 use super::{MachineCalibration, MachineProblem, MachineSettings, MachineTrust, checks, undetermined};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 
@@ -40,7 +40,7 @@ pub fn calibrate_on_machine(
 ) -> Result<MachineCalibration> {
     let Initial { mut model, mut state, outliers } = initial(problem)?;
     undetermined::check(&model, &state)?;
-    trusted(&mut model, &mut state).ok_or_else(failed)?;
+    trusted(&mut model, &mut state, Effort::THOROUGH).ok_or_else(failed)?;
     for stream in &mut model.streams {
         if let Some(given) = problem.setup.noise_of(stream.sensor) {
             stream.sd = given;

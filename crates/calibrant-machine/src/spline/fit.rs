@@ -12,6 +12,8 @@ const HUBER: f64 = 4.0;
 const OUTLIER: f64 = 8.0;
 /// From this round on outliers have no weight.
 const REDESCENDING: usize = 3;
+/// The weights have settled when none changes by more than this.
+const SETTLED: f64 = 0.05;
 /// Samples whose residuals have the same standard deviation.
 const NEIGHBOURS: usize = 100;
 /// Reweighted fits.
@@ -115,7 +117,8 @@ impl Component {
                     size => HUBER / size,
                 };
             }
-            if before == weight || round + 1 == ROUNDS {
+            let settled = before.iter().zip(&weight).all(|(one, other)| (one - other).abs() < SETTLED);
+            if settled || round + 1 == ROUNDS {
                 fit.determined = trace(samples, &before, &factor);
                 let squares: f64 = residuals.iter().zip(&before).map(|(r, w)| w * w * r * r).sum();
                 let degrees = (samples.len() as f64 - fit.determined).max(1.0);
