@@ -141,8 +141,8 @@ fn solved(samples: &[Sample<'_>], weight: &[f64], knots: UniformKnots) -> (Band,
         for r in 0..*order {
             let weighted = weight * derivative[0][r];
             right[interval + r] += weighted * sample.value;
-            for s in 0..=r {
-                band.add(interval + r, interval + s, weighted * derivative[0][s]);
+            for (s, other) in derivative[0].iter().enumerate().take(r + 1) {
+                band.add(interval + r, interval + s, weighted * other);
             }
         }
     }
