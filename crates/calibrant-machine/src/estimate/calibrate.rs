@@ -44,6 +44,6 @@ pub fn calibrate_on_machine(
         minimise(&model, state, settings.max_iterations, settings.tolerance).ok_or_else(unsolved)?;
     let posterior = Posterior::at(&model, &minimum, 1).ok_or_else(unsolved)?;
     let mut calibration = assembled(problem, &model, &minimum, &posterior, &growths, outliers);
-    calibration.warnings = checks::all(problem, &calibration);
+    calibration.warnings = checks::all(&model.layout, &calibration);
     Ok(calibration)
 }
