@@ -6,6 +6,8 @@ mod budget;
 mod calibrate;
 mod checks;
 mod covered;
+#[cfg(test)]
+mod derivative_tests;
 mod front;
 mod gauss_newton;
 mod initial;
