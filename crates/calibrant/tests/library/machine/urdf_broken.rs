@@ -251,6 +251,9 @@ fn other_files_are_named() {
         let found = message(text.as_bytes(), None, None);
         assert!(found.contains(wanted), "{text}: {found}");
     }
+    let error = Urdf::parse("śxx".as_bytes()).expect_err("no XML");
+    let (excerpt, range) = error.input_error().and_then(|of| of.excerpt.clone()).expect("an excerpt");
+    assert_eq!(excerpt.get(range), Some("ś"), "whole characters");
     assert!(message(b"PK\x03\x04", None, None).contains("compressed with zip"));
     assert!(message(&vec![b' '; (16 << 20) + 1], None, None).contains("larger than 16 MiB"));
     let many = format!("<robot>{}</robot>", "<a/>".repeat(1 << 20));

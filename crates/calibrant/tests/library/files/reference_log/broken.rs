@@ -184,7 +184,7 @@ const CASES: &[(&[u8], &str)] = &[
         "line 3: time goes backwards, from 2e-8 s to 1e-8 s (are these files put together, or did a counter wrap? split the file here)",
     ),
     (
-        b"t_s,a_rad\n0,1\n1,0\02\n",
+        b"t_s,a_rad\n0,1\n1,0\x002\n",
         "this is binary data, not text: NUL byte at offset 17 (export the data as text)",
     ),
     (

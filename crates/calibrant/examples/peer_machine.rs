@@ -1,0 +1,182 @@
+//! Calibrates recordings of an IMU on an arm that MuJoCo made, and counts how often the 95 % intervals hold the truth:
+//! `cargo run --release --example peer_machine -- FOLDER URDF [known|noisy] [modelled|exact] [NUMBER]`.
+//! `peers/mujoco/recordings.py` writes the folder; `scripts/peers` runs both.
+//!
+//! `exact` takes the geometry of the URDF as it is. Where the arm differs, the residuals must say so.
+
+use calibrant::estimate::CalibrationStatus;
+use calibrant::io::{ImuReadOptions, ReferenceLogOptions, Urdf, read_imu_recording, read_reference_log};
+use calibrant::machine::chain::KinematicChain;
+use calibrant::machine::estimate::{
+    MachineCalibration, MachineProblem, MachineSettings, MachineSetup, MachineTrust, calibrate_on_machine,
+};
+use calibrant::machine::log::ReferenceLog;
+use calibrant::sensor::{ImuParameters, ImuQuantity, ParameterList, SensorKind, SensorModel};
+use nalgebra::Vector3;
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::error::Error;
+use std::path::Path;
+use std::time::Instant;
+
+/// The 97.5 % quantile of the normal distribution.
+const TWO_SIDED_95: f64 = 1.959_964;
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let arguments: Vec<String> = std::env::args().collect();
+    let word = |k: usize, default: &str| arguments.get(k).cloned().unwrap_or_else(|| default.to_owned());
+    let (folder, urdf) = (word(1, "target/peer_machine"), word(2, "ur5e.urdf"));
+    let trust = if word(3, "noisy") == "known" { MachineTrust::Known } else { MachineTrust::Noisy };
+    let exact = word(4, "modelled") == "exact";
+    let number: usize = word(5, "300").parse()?;
+    let chain = Urdf::read(Path::new(&urdf))?.chain(None, Some("tool0"))?;
+    let mut setup =
+        MachineSetup { trust, lever_m: Vector3::new(0.02, -0.03, 0.04), ..MachineSetup::default() };
+    setup.knot_step_s = std::env::var("STEP").ok().and_then(|step| step.parse().ok());
+    if exact {
+        setup = MachineSetup {
+            geometry_translation_sd_m: 0.0,
+            geometry_rotation_sd_rad: 0.0,
+            zero_sd: 0.0,
+            ..setup
+        };
+    }
+    let mut tally = Tally::default();
+    for k in 0..number {
+        let one = Path::new(&folder).join(format!("{k:03}"));
+        if !one.exists() {
+            break;
+        }
+        let clock = Instant::now();
+        let calibration = calibrated(&one, &chain, &setup)?;
+        tally.add(&calibration, &truth(&one, &calibration)?, clock.elapsed().as_secs_f64());
+    }
+    tally.print();
+    Ok(())
+}
+
+fn calibrated(
+    folder: &Path,
+    chain: &KinematicChain,
+    setup: &MachineSetup,
+) -> Result<MachineCalibration, Box<dyn Error>> {
+    let file = read_imu_recording(&folder.join("recording.csv"), &ImuReadOptions::default())?;
+    let names: Vec<&str> = chain.joints.iter().map(|joint| joint.name.as_str()).collect();
+    let log = read_reference_log(&folder.join("joints.csv"), &ReferenceLogOptions::default())?;
+    let log = ReferenceLog::Joints(log.joints_in_order(&names)?);
+    let list = ParameterList::new(3, SensorModel::Full);
+    let quantities: Vec<ImuQuantity> = SensorKind::ALL
+        .into_iter()
+        .flat_map(|kind| list.quantities().iter().map(move |of| ImuQuantity::Of(kind, *of)))
+        .collect();
+    let problem = MachineProblem {
+        recording: &file.recording,
+        log: &log,
+        chain: Some(chain),
+        setup,
+        nominal: &ImuParameters::identity(),
+        quantities: &quantities,
+    };
+    let calibration = calibrate_on_machine(&problem, &MachineSettings::default())?;
+    if std::env::var("SHOW").is_ok() {
+        println!("{:?} {} {:?}", calibration.status, calibration.iterations, calibration.motion.knots());
+        for of in &calibration.noise {
+            println!(
+                "{} {:?} white {:?} {:?}",
+                of.sensor,
+                of.noise.as_slice(),
+                of.white_noise.as_slice(),
+                of.growth
+            );
+        }
+        for of in &calibration.reference_noise {
+            println!("{} {:.2e} {:?} {}", of.name, of.sd, of.growth, of.outliers);
+        }
+    }
+    Ok(calibration)
+}
+
+/// The true value of each quantity.
+fn truth(folder: &Path, calibration: &MachineCalibration) -> Result<Vec<f64>, Box<dyn Error>> {
+    let json: Value = serde_json::from_str(&std::fs::read_to_string(folder.join("truth.json"))?)?;
+    let of = |name: &String| -> Result<f64, Box<dyn Error>> {
+        let parts: Vec<&str> = name.split('.').collect();
+        let axis =
+            |word: &str| ["x", "y", "z", "rx", "ry", "rz"].iter().position(|of| *of == word).unwrap_or(0);
+        let joint = |word: &str| calibration.joints.iter().position(|of| of == word).unwrap_or(0);
+        let value = match parts.as_slice() {
+            [sensor, "scale", a] => &json["parameters"][format!("{sensor}.matrix.{a}{a}")],
+            [_, "bias" | "matrix", _] => &json["parameters"][name],
+            ["lever", a] => &json["lever_m"][axis(a)],
+            ["mounting", a] => &json["tip_from_sensor"]["error_rad"][axis(a)],
+            ["tilt", a] => &json["tilt_rad"][axis(a)],
+            ["delay", sensor] => &json["delays_at_middle_s"][sensor],
+            ["clock_rate"] => &json["clock_rate"],
+            ["zero", of] => &json["zeros"][joint(of)],
+            ["geometry", of, a] => &json["geometry"][joint(of)][axis(a)],
+            _ => return Err(format!("{name}: no truth").into()),
+        };
+        Ok(value.as_f64().ok_or("truth.json lacks a value")?)
+    };
+    calibration.names().iter().map(of).collect()
+}
+
+/// Errors over many recordings.
+#[derive(Default)]
+struct Tally {
+    /// Number, squares of errors in standard deviations, and intervals that hold, for each quantity.
+    quantities: BTreeMap<String, (usize, f64, usize)>,
+    order: Vec<String>,
+    converged: usize,
+    recordings: usize,
+    seconds: Vec<f64>,
+    noise: Vec<f64>,
+    inflated: usize,
+    warned: usize,
+}
+
+impl Tally {
+    fn add(&mut self, calibration: &MachineCalibration, truth: &[f64], seconds: f64) {
+        self.order = calibration.names();
+        self.recordings += 1;
+        self.converged += usize::from(calibration.status == CalibrationStatus::Converged);
+        self.seconds.push(seconds);
+        self.inflated += usize::from(calibration.inflation.iter().any(|factor| *factor > 1.0));
+        self.warned += usize::from(!calibration.warnings.is_empty());
+        self.noise.extend(calibration.noise.iter().map(|of| of.noise.mean() / of.white_noise.mean()));
+        for ((name, value), (sd, truth)) in
+            self.order.iter().zip(&calibration.values).zip(calibration.sd().iter().zip(truth))
+        {
+            let z = (value - truth) / sd;
+            let of = self.quantities.entry(name.clone()).or_default();
+            of.0 += 1;
+            of.1 += z * z;
+            of.2 += usize::from(z.abs() < TWO_SIDED_95);
+        }
+    }
+
+    fn print(&mut self) {
+        self.seconds.sort_by(f64::total_cmp);
+        self.noise.sort_by(f64::total_cmp);
+        println!(
+            "{} recordings, {} converged, {} with wider intervals, {} with warnings; median time {:.2} s; median noise {:.3} of the white noise",
+            self.recordings,
+            self.converged,
+            self.inflated,
+            self.warned,
+            self.seconds.get(self.recordings / 2).copied().unwrap_or(0.0),
+            self.noise.get(self.noise.len() / 2).copied().unwrap_or(0.0),
+        );
+        let (mut all, mut held) = (0, 0);
+        for name in &self.order {
+            let (count, squares, inside) = self.quantities[name];
+            if name.starts_with("acc") || name.starts_with("gyr") {
+                all += count;
+                held += inside;
+            }
+            let n = count as f64;
+            println!("{name:32} z² {:6.2}  covered {:5.1} %", squares / n, 100.0 * inside as f64 / n);
+        }
+        println!("parameters of the sensor: {:.1} % covered", 100.0 * held as f64 / all as f64);
+    }
+}
