@@ -9,13 +9,17 @@ use super::outcome::Outcome;
 use super::reader::Reader;
 use super::report::about;
 use super::source::Source;
+use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::sensor::{
-    Axis, ImuParameters, ImuQuantity, ImuRecording, ParameterList, Sensor, SensorKind, SensorModel,
+    Axis, ImuParameters, ImuQuantity, ImuRecording, ParameterList, ReadingUnit, Sensor, SensorKind,
+    SensorModel,
 };
 use calibrant_io::{Experiment, ImuPlan, MachinePlan, ReferenceLogOptions};
 use calibrant_machine::chain::KinematicChain;
-use calibrant_machine::estimate::{MachineProblem, MachineSettings, calibrate_on_machine};
+use calibrant_machine::estimate::{
+    MachineCalibration, MachineProblem, MachineSettings, calibrate_on_machine,
+};
 use nalgebra::{Matrix3, Vector3};
 
 /// What all recordings on a machine share.
@@ -28,6 +32,23 @@ pub(crate) struct MachineTask<'e> {
     log: Option<LogFile>,
     log_options: ReferenceLogOptions,
     reader: Reader<'e>,
+}
+
+/// Gains of readings in SI that are plausible.
+const PLAUSIBLE_GAINS: std::ops::RangeInclusive<f64> = 0.8..=1.25;
+
+/// The gains of readings in SI that are far from 1, as of a log in degrees that is called one in radians.
+fn implausible_gains(calibration: &MachineCalibration) -> Vec<Diagnostic> {
+    let of_axis = |sensor_kind: SensorKind, unit: ReadingUnit, axis: Axis| {
+        let gain = calibration.parameters.imu.sensor(sensor_kind).matrix[(axis.index(), axis.index())];
+        let doubtful = unit != ReadingUnit::Counts && !PLAUSIBLE_GAINS.contains(&gain);
+        doubtful.then_some(Diagnostic::GainImplausible { sensor_kind, axis, gain, unit })
+    };
+    let sensors = SensorKind::ALL.into_iter().zip(calibration.units);
+    let sensors = sensors.filter_map(|(sensor_kind, unit)| Some((sensor_kind, unit?)));
+    sensors
+        .flat_map(|(kind, unit)| Axis::ALL.into_iter().filter_map(move |axis| of_axis(kind, unit, axis)))
+        .collect()
 }
 
 impl<'e> MachineTask<'e> {
@@ -89,6 +110,7 @@ impl<'e> MachineTask<'e> {
         let mut calibration = calibrate_on_machine(&problem, &MachineSettings::default())
             .map_err(|error| error.in_recording(&source.recording))?;
         calibration.warnings.splice(0..0, outliers);
+        calibration.warnings.extend(implausible_gains(&calibration));
         let inputs = recorded.inputs(source);
         let about = options.report.then(|| {
             let what = if self.imu.is_none() { "an accelerometer" } else { "an IMU" };
