@@ -3,6 +3,7 @@
 mod accelerometer;
 mod change;
 mod imu;
+mod machine;
 mod motion;
 mod noise;
 mod spikes;
@@ -28,7 +29,7 @@ use calibrant_core::diagnostic::Diagnostic;
 /// ```
 #[must_use]
 pub fn message(diagnostic: &Diagnostic) -> String {
-    let areas = [accelerometer::message, motion::message, imu::message, noise::message];
+    let areas = [accelerometer::message, motion::message, imu::message, noise::message, machine::message];
     let words = areas.into_iter().find_map(|message| message(diagnostic));
     // a code without words here
     words.unwrap_or_else(|| diagnostic.code().entry().meaning.to_owned())

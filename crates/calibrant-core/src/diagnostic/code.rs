@@ -346,6 +346,26 @@ codes! {
         "Two axes have the same reading in every sample."
         "All readings are compared."
         "Look for a column that was written twice.";
+    MachineResiduals "machine-residuals" Warning
+        "The residuals of a sensor on a machine are larger than its noise. The machine does not move as its model and its log say."
+        "The noise that the residuals show exceeds that of neighbouring samples by 10 %; by 25 % where the log is trusted."
+        "Model the geometry ([machine.geometry]), trust the log less (trust = \"noisy\"), fasten the sensor, or look for vibration in the report.";
+    ResidualsCorrelated "residuals-correlated" Warning
+        "Residuals are correlated in time, as with a tracker's error. The stated standard deviations take it into account."
+        "The scores of blocks of time scatter more than independent residuals would let them."
+        "Look at the spectrum of the residuals in the report. Model what moves, or improve the reference.";
+    PriorContradicted "prior-contradicted" Warning
+        "The data contradict what was known of the machine beforehand."
+        "A quantity is more than four of its prior standard deviations from what was expected."
+        "Correct the nominal value or its standard deviation in [machine]. Check the urdf, the mount and the clocks.";
+    LogOutliers "log-outliers" Warning
+        "The log of the machine has outliers. They have little weight."
+        "More than one sample in a thousand is farther from the spline than eight of its robust standard deviations."
+        "Look for lost markers, jumps of the tracker, or a controller that skips.";
+    LogCoversPart "log-covers-part" Warning
+        "A part of the recording is not used, since the log has no samples there."
+        "The log covers less than 95 % of the sensor's samples: it begins later, ends earlier, or has gaps."
+        "Log the whole motion. Samples without a log are lost to the calibration.";
     ReadingsClipped "readings-clipped" Note
         "Readings may be saturated."
         "Several in a row have the largest or the smallest value."

@@ -236,6 +236,16 @@ diagnostics! {
     }
     /// Samples are lost, and the times do not show it.
     SamplesLost { lost_share: f64 = "Share of the samples.", jumps: usize = "Jumps by one whole step." }
+    /// The residuals of a sensor on a machine are larger than its noise.
+    MachineResiduals { sensor_kind: SensorKind = "The sensor.", ratio: f64 = "The noise that the residuals show, in parts of that of neighbouring samples." }
+    /// Residuals on a machine are correlated in time.
+    ResidualsCorrelated { parameter: String = "The parameter that it widens most.", factor: f64 = "The factor of its standard deviation." }
+    /// The data contradict what was known of the machine.
+    PriorContradicted { parameter: String = "The quantity.", deviations: f64 = "Its distance from what was expected, in prior standard deviations." }
+    /// The log of the machine has outliers.
+    LogOutliers { outliers: usize = "Number of outliers.", samples: usize = "Number of samples." }
+    /// The log covers a part of the recording only.
+    LogCoversPart { used_share: f64 = "Share of the sensor's samples that are used." }
     /// All turns show the same share of their angle.
     TurnShare { share: f64 = "The share.", mistake: Option<UnitMistake> = "The mistake of units that explains the share." }
     /// The gyroscope shows a different turn from the given one.

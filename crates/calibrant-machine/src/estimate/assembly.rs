@@ -1,9 +1,9 @@
 //! Puts the result together.
 
 use super::budget::budget;
-use super::calibrate::Growths;
 use super::gauss_newton::Minimum;
 use super::model::Model;
+use super::noise_search::Growths;
 use super::posterior::Posterior;
 use super::sandwich::inflation;
 use super::stream::white_noise;

@@ -1,14 +1,68 @@
 //! What a user should know of a result on a machine.
 
-use super::{MachineCalibration, MachineProblem};
+use super::layout::Layout;
+use super::{MachineCalibration, MachineTrust};
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::estimate::CalibrationStatus;
 
+/// Residuals this many times the noise of neighbouring samples are told, with a log that is measured or trusted.
+const RESIDUALS: [f64; 2] = [1.1, 1.25];
+/// A quantity this many prior standard deviations from what was expected is told.
+const CONTRADICTED: f64 = 4.0;
+/// So many outliers in the log are told, as a share.
+const OUTLIERS: f64 = 1e-3;
+/// A smaller share of the samples that are used is told.
+const USED: f64 = 0.95;
+
 /// All of it, the most important first.
-pub(super) fn all(_problem: &MachineProblem<'_>, calibration: &MachineCalibration) -> Vec<Diagnostic> {
+pub(super) fn all(layout: &Layout, calibration: &MachineCalibration) -> Vec<Diagnostic> {
     let mut found = Vec::new();
     if calibration.status != CalibrationStatus::Converged {
         found.push(Diagnostic::NotConverged { status: calibration.status.name() });
     }
+    found.extend(residuals(calibration));
+    found.extend(correlated(calibration));
+    found.extend(contradicted(layout, calibration));
+    let (outliers, samples) = (calibration.reference_noise.iter())
+        .fold((0, 0), |(outliers, samples), of| (outliers + of.outliers, samples + of.samples));
+    if outliers as f64 > OUTLIERS * samples as f64 {
+        found.push(Diagnostic::LogOutliers { outliers, samples });
+    }
+    if calibration.used_share < USED {
+        found.push(Diagnostic::LogCoversPart { used_share: calibration.used_share });
+    }
     found
+}
+
+/// Residuals that are larger than the noise of neighbouring samples.
+fn residuals(calibration: &MachineCalibration) -> impl Iterator<Item = Diagnostic> + '_ {
+    let limit = RESIDUALS[usize::from(calibration.trust == MachineTrust::Known)];
+    calibration.noise.iter().filter_map(move |of| {
+        let ratio = (of.rms.norm_squared() / of.white_noise.norm_squared()).sqrt();
+        (ratio > limit).then_some(Diagnostic::MachineResiduals { sensor_kind: of.sensor, ratio })
+    })
+}
+
+/// The parameter whose standard deviation correlation widens most.
+fn correlated(calibration: &MachineCalibration) -> Option<Diagnostic> {
+    let widest = (0..calibration.inflation.len())
+        .max_by(|one, other| calibration.inflation[*one].total_cmp(&calibration.inflation[*other]))?;
+    let factor = calibration.inflation[widest];
+    (factor > 1.0).then(|| Diagnostic::ResidualsCorrelated {
+        parameter: calibration.names().swap_remove(widest),
+        factor,
+    })
+}
+
+/// Quantities that the data move far from what was expected.
+fn contradicted(layout: &Layout, calibration: &MachineCalibration) -> Vec<Diagnostic> {
+    let names = calibration.names();
+    let deviation = layout.deviation(&calibration.parameters);
+    (0..layout.len())
+        .filter_map(|k| {
+            let deviations = deviation[k].abs() * layout.prior[(k, k)].sqrt();
+            let parameter = names[k].clone();
+            (deviations > CONTRADICTED).then_some(Diagnostic::PriorContradicted { parameter, deviations })
+        })
+        .collect()
 }

@@ -42,7 +42,7 @@ impl<'a> Initial<'a> {
         let covered = covered(problem.log, &knots);
         let gravity = TiltedGravity::new(&setup.up);
         let mut nominal = MachineParameters::nominal(setup, *problem.nominal, motion.joints());
-        place_in_time(problem, &motion, &covered, &gravity, &sensors, &mut nominal)?;
+        let delay_s = place_in_time(problem, &motion, &covered, &gravity, &sensors, &mut nominal)?;
         let layout = Layout::new(setup, &sensors, problem.quantities, nominal.clone());
         let streams: Vec<Stream<'_>> = sensors
             .iter()
@@ -56,7 +56,8 @@ impl<'a> Initial<'a> {
         let sd = setup.reference_noise.clone().unwrap_or(sd).iter().map(|sd| sd.max(1e-12)).collect();
         let log = WeighedLog { log: problem.log, sd, growth: Vec::new() };
         let model = Model { streams, log, layout, gravity, trust: setup.trust, middle_s, covered };
-        Ok(Self { model, state: State { motion, parameters: nominal }, outliers })
+        let parameters = MachineParameters { delays_s: [delay_s; 2], ..nominal };
+        Ok(Self { model, state: State { motion, parameters }, outliers })
     }
 }
 
@@ -112,7 +113,7 @@ fn place_in_time(
     gravity: &TiltedGravity,
     sensors: &[SensorKind],
     nominal: &mut MachineParameters,
-) -> Result<()> {
+) -> Result<f64> {
     let (setup, knots, columns) = (problem.setup, motion.knots(), motion.columns(false));
     let bare = SensorMount { lever_m: setup.lever_m, ..SensorMount::identity() };
     let carrier = motion.carrier(gravity.vector(nominal), bare, &ChainCorrections::none(motion.joints()));
@@ -139,12 +140,13 @@ fn place_in_time(
         .rev()
         .find_map(|kind| Some((*kind, readings(problem.recording.sensor(*kind)?, *kind))))
     else {
-        return Ok(());
+        return Ok(setup.delay_s);
     };
+    let mut delay_s = setup.delay_s;
     if setup.delay_sd_s > 0.0 {
         let range_s = SEARCHED * setup.delay_sd_s;
         let found = start::delay(&recording, &|time_s| at(time_s, sensor), setup.delay_s, range_s);
-        let Some((delay_s, correlation)) = found else {
+        let Some((coarse_s, correlation)) = found else {
             let ends = |times: &[f64]| format!("{:.3} to {:.3} s", times[0], times[times.len() - 1]);
             let message = format!(
                 "the recording ({}) and the log ({}) hardly overlap",
@@ -163,10 +165,9 @@ fn place_in_time(
             let help = "check that the files belong together, the order of the joints, the units, and clock.delay_s and delay_sd_s in [machine]";
             return Err(refused(message, help));
         }
-        nominal.delays_s = [delay_s; 2];
+        delay_s = coarse_s;
     }
     if setup.mounting == MountingPrior::Unknown {
-        let delay_s = nominal.delays_s[0];
         let pairs: Vec<(Vector3<f64>, Vector3<f64>)> = (recording.times_s.iter().zip(&recording.readings))
             .filter_map(|(time, reading)| Some((*reading, at(time + delay_s, sensor)?)))
             .collect();
@@ -174,5 +175,5 @@ fn place_in_time(
             nominal.mount.tip_from_sensor = rotation;
         }
     }
-    Ok(())
+    Ok(delay_s)
 }

@@ -6,13 +6,12 @@
 
 use super::initial::{Initial, check_log, refused};
 use super::reference_fit::fitted;
-use super::trusted::trusted;
+use super::trusted::{Effort, trusted};
 use super::{MachineProblem, MachineTrust};
 use crate::spline::{Degree, UniformKnots};
 use calibrant_core::error::Result;
+use std::f64::consts::SQRT_2;
 
-/// Candidates per factor of two.
-const PER_OCTAVE: f64 = 2.0;
 /// Largest distance that is tried, s.
 const LONGEST_S: f64 = 0.4;
 
@@ -30,23 +29,30 @@ pub(super) fn initial<'a>(problem: &MachineProblem<'a>) -> Result<Initial<'a>> {
         return on(step_s, Degree::Cubic);
     }
     let finest = 2.0 * (last - first) / times.len() as f64;
-    let mut step_s = LONGEST_S.min((last - first) / 8.0).max(finest);
-    let mut best: Option<(f64, f64)> = None;
     let mut refusal = None;
-    let mut worse = 0;
-    while step_s >= finest && worse < 2 {
-        match on(step_s, Degree::Quintic) {
-            Ok(mut candidate) => match score(&mut candidate) {
-                Some(score) if best.is_none_or(|(least, _)| score < least) => {
-                    best = Some((score, step_s));
-                    worse = 0;
-                }
-                _ => worse += 1,
-            },
+    let mut best: Option<(f64, f64)> = None;
+    let mut try_step = |step_s: f64, best: &mut Option<(f64, f64)>| -> bool {
+        let score = on(step_s, Degree::Quintic).map(|mut candidate| score(&mut candidate));
+        match score {
+            Ok(Some(score)) if best.is_none_or(|(least, _)| score < least) => *best = Some((score, step_s)),
+            Ok(_) => return false,
             // too few knots for this motion, perhaps
-            Err(error) => refusal = Some(error),
+            Err(error) => {
+                refusal = Some(error);
+                return true;
+            }
         }
-        step_s *= 0.5_f64.powf(1.0 / PER_OCTAVE);
+        true
+    };
+    // factors of two, until the residuals grow; then between them
+    let mut step_s = LONGEST_S.min((last - first) / 8.0).max(finest);
+    while step_s >= finest && (try_step(step_s, &mut best) || best.is_none()) {
+        step_s *= 0.5;
+    }
+    if let Some((_, middle)) = best {
+        for step_s in [middle * SQRT_2, middle / SQRT_2].into_iter().filter(|step| *step >= finest) {
+            try_step(step_s, &mut best);
+        }
     }
     match (best, refusal) {
         (Some((_, step_s)), _) => match problem.setup.trust {
@@ -54,13 +60,13 @@ pub(super) fn initial<'a>(problem: &MachineProblem<'a>) -> Result<Initial<'a>> {
             MachineTrust::Noisy => on((0.5 * step_s).max(finest), Degree::Quintic),
         },
         (None, Some(error)) => Err(error),
-        (None, None) => on(step_s, Degree::Quintic),
+        (None, None) => on(step_s.max(finest), Degree::Quintic),
     }
 }
 
 /// Sum of the logarithms of the residuals with a trusted motion.
 fn score(candidate: &mut Initial<'_>) -> Option<f64> {
-    trusted(&mut candidate.model, &mut candidate.state)?;
+    trusted(&mut candidate.model, &mut candidate.state, Effort::QUICK)?;
     let of = |sd: &nalgebra::Vector3<f64>| sd.iter().map(|sd| sd.ln()).sum::<f64>();
     let score = candidate.model.streams.iter().map(|stream| of(&stream.sd)).sum::<f64>();
     score.is_finite().then_some(score)

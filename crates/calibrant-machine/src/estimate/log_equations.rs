@@ -1,6 +1,6 @@
 //! The normal equations of the reference's log: it measures the control points.
 
-use super::posterior::Moments;
+use super::moments::Moments;
 use super::robust::huber;
 use crate::log::{JointLog, PoseLog, ReferenceLog};
 use crate::reference::Motion;

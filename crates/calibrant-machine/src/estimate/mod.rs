@@ -13,6 +13,8 @@ mod knot_choice;
 mod layout;
 mod log_equations;
 mod model;
+mod moments;
+mod noise_search;
 mod parameters;
 mod posterior;
 mod problem;
@@ -27,6 +29,7 @@ mod start;
 mod stream;
 mod trusted;
 mod undetermined;
+mod unsolved;
 
 pub use calibrate::calibrate_on_machine;
 pub use parameters::MachineParameters;

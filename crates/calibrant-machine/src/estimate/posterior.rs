@@ -5,31 +5,8 @@
 
 use super::gauss_newton::Minimum;
 use super::model::{Model, State};
+use super::moments::Moments;
 use nalgebra::{DMatrix, DVector};
-
-/// Sums over whitened residuals.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Moments {
-    pub(super) count: usize,
-    /// Sum of squares.
-    pub(super) squares: f64,
-    /// Sum of leverages: unknowns that these samples determine.
-    pub(super) leverage: f64,
-}
-
-impl Moments {
-    /// Squared factor by which the noise differs from what was assumed.
-    pub(super) fn variance_factor(&self) -> Option<f64> {
-        let degrees = self.count as f64 - self.leverage;
-        (degrees > 0.0).then(|| self.squares / degrees)
-    }
-
-    pub(super) fn add(&mut self, residual: f64, leverage: f64) {
-        self.count += 1;
-        self.squares += residual * residual;
-        self.leverage += leverage;
-    }
-}
 
 /// The result of the sweep.
 pub(super) struct Posterior {
@@ -68,7 +45,7 @@ impl Posterior {
         };
         let covariance = posterior.covariance.clone();
         let mut visit = |i: usize, local: &DMatrix<f64>| {
-            if i >= state.motion.knots().intervals || i % every != 0 {
+            if i >= state.motion.knots().intervals || !i.is_multiple_of(every) {
                 return;
             }
             let step = step_of(i);

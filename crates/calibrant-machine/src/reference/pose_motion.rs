@@ -66,8 +66,8 @@ impl PoseMotion {
     /// Moves the control points by steps of six numbers each.
     pub(crate) fn step(&mut self, steps: &[f64]) {
         for (i, step) in steps.chunks_exact(POSE_UNKNOWNS).enumerate() {
-            for j in 0..3 {
-                self.position.controls[3 * i + j] += step[j];
+            for (control, step) in self.position.controls[3 * i..3 * i + 3].iter_mut().zip(step) {
+                *control += step;
             }
             let turn = Vector3::new(step[3], step[4], step[5]);
             self.orientation.controls[i] *= UnitQuaternion::from_scaled_axis(turn);

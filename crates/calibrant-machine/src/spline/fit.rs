@@ -12,6 +12,8 @@ const HUBER: f64 = 4.0;
 const OUTLIER: f64 = 8.0;
 /// From this round on outliers have no weight.
 const REDESCENDING: usize = 3;
+/// The weights have settled when none changes by more than this.
+const SETTLED: f64 = 0.05;
 /// Samples whose residuals have the same standard deviation.
 const NEIGHBOURS: usize = 100;
 /// Reweighted fits.
@@ -115,7 +117,8 @@ impl Component {
                     size => HUBER / size,
                 };
             }
-            if before == weight || round + 1 == ROUNDS {
+            let settled = before.iter().zip(&weight).all(|(one, other)| (one - other).abs() < SETTLED);
+            if settled || round + 1 == ROUNDS {
                 fit.determined = trace(samples, &before, &factor);
                 let squares: f64 = residuals.iter().zip(&before).map(|(r, w)| w * w * r * r).sum();
                 let degrees = (samples.len() as f64 - fit.determined).max(1.0);
@@ -138,8 +141,8 @@ fn solved(samples: &[Sample<'_>], weight: &[f64], knots: UniformKnots) -> (Band,
         for r in 0..*order {
             let weighted = weight * derivative[0][r];
             right[interval + r] += weighted * sample.value;
-            for s in 0..=r {
-                band.add(interval + r, interval + s, weighted * derivative[0][s]);
+            for (s, other) in derivative[0].iter().enumerate().take(r + 1) {
+                band.add(interval + r, interval + s, weighted * other);
             }
         }
     }

@@ -8,6 +8,7 @@
 //! Each interval depends on `d + 1` control points. A least-squares fit is therefore banded, and its time is linear in the duration.
 
 mod banded;
+mod degree;
 mod fit;
 mod knots;
 mod rotation_algebra;
@@ -17,8 +18,9 @@ mod rotation_spline;
 mod vector_spline;
 mod weights;
 
+pub use degree::Degree;
 pub use fit::{SplineFit, fit_vectors};
-pub use knots::{Degree, UniformKnots};
+pub use knots::UniformKnots;
 pub use rotation_algebra::{left_jacobian_inverse, right_jacobian, right_jacobian_inverse, skew};
 pub use rotation_fit::{RotationFit, fit_rotations};
 pub use rotation_sensitivity::{RotationSensitivity, rotation_sensitivity};

@@ -81,8 +81,8 @@ mod tests {
             (-3.0 * u.powi(3) + 3.0 * u * u + 3.0 * u + 1.0) / 6.0,
             u.powi(3) / 6.0,
         ];
-        for r in 0..4 {
-            assert!((weights.derivative[0][r] - expected[r]).abs() < 1e-15);
+        for (weight, expected) in weights.derivative[0].iter().zip(expected) {
+            assert!((weight - expected).abs() < 1e-15);
         }
         // third derivative of u³/6 with du/dt = 2
         assert!((weights.derivative[3][3] - 8.0).abs() < 1e-12);

@@ -1,0 +1,25 @@
+//! Sums over residuals, from which noise follows.
+
+/// Sums over whitened residuals.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Moments {
+    pub(super) count: usize,
+    /// Sum of squares.
+    pub(super) squares: f64,
+    /// Sum of leverages: unknowns that these samples determine.
+    pub(super) leverage: f64,
+}
+
+impl Moments {
+    /// Squared factor by which the noise differs from what was assumed.
+    pub(super) fn variance_factor(&self) -> Option<f64> {
+        let degrees = self.count as f64 - self.leverage;
+        (degrees > 0.0).then(|| self.squares / degrees)
+    }
+
+    pub(super) fn add(&mut self, residual: f64, leverage: f64) {
+        self.count += 1;
+        self.squares += residual * residual;
+        self.leverage += leverage;
+    }
+}
