@@ -13,6 +13,10 @@ fuzz_target!(|text: &str| {
             match experiment.plan {
                 Plan::Motion(plan) => assert!(plan.interval_s > 0.0 && plan.rate_hz.is_finite() && plan.intervals > 0),
                 Plan::Holds(plan) => assert!(plan.gravity.magnitude_mps2 > 0.0 && plan.gravity.sd_mps2 >= 0.0),
+                Plan::Machine(plan) => {
+                    let setup = plan.setup(sensor, experiment.imu.as_ref(), 2);
+                    assert!(setup.gravity_mps2 > 0.0 && setup.lever_sd_m >= 0.0 && setup.up.norm() > 0.9);
+                }
             }
         }
         Err(error) => {

@@ -1,6 +1,7 @@
 //! Console output: tables on stdout, errors, notes and progress on stderr.
 
 mod calibration;
+mod machine;
 mod table;
 mod validation;
 

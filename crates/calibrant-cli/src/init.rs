@@ -3,13 +3,13 @@
 use crate::{Exit, console};
 use calibrant::Error;
 use calibrant::error::{InputError, Refusal};
-use calibrant::io::{Experiment, PRESETS, ResultPlaces, preset, write_atomically};
+use calibrant::io::{Experiment, PRESETS, Plan, ResultPlaces, preset, write_atomically};
 use std::path::PathBuf;
 
 /// Write a commented experiment file, to be edited.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
-    /// The preset: report, report-unknown, report-noisy, static-poses, static-poses-counts, imu, imu-counts, ferraris.
+    /// The preset: report, report-unknown, report-noisy, static-poses, static-poses-counts, imu, imu-counts, ferraris, arm, rate-table, gantry, mocap.
     #[arg(default_value = "report")]
     preset: String,
     /// Where to write it (default: stdout).
@@ -42,16 +42,16 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
         Some(path) => {
             write_atomically(path, |out| out.write_all(text.as_bytes()))?;
             let file = path.display();
-            // counts of unknown gain can be calibrated, but not simulated
-            let simulable =
-                Experiment::parse(text, None).is_ok_and(|experiment| experiment.sensor.gain.is_some());
-            console::note(&if simulable {
-                format!("wrote {file}. Edit it, then run: calibrant simulate {file} -o DIR")
-            } else {
-                format!(
-                    "wrote {file}. Edit it, then run: calibrant calibrate {file} RECORDING -o DIR (calibrant simulate {file} needs the gains)"
-                )
-            });
+            let experiment = Experiment::parse(text, None)?;
+            let then = match experiment.plan {
+                Plan::Machine(_) => format!("calibrant calibrate {file} RECORDING --motion LOG -o DIR"),
+                // counts of unknown gain can be calibrated, but not simulated
+                _ if experiment.sensor.gain.is_none() => format!(
+                    "calibrant calibrate {file} RECORDING -o DIR (calibrant simulate {file} needs the gains)"
+                ),
+                _ => format!("calibrant simulate {file} -o DIR"),
+            };
+            console::note(&format!("wrote {file}. Edit it, then run: {then}"));
         }
     }
     Ok(Exit::DONE)

@@ -48,6 +48,13 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
             check_simulable(&experiment.sensor, &arguments.experiment)?;
             simulate_motion(arguments, &experiment, plan, random)?
         }
+        (Plan::Machine(_), _) => {
+            return Err(Error::experiment(InputError::new(
+                Refusal::ExperimentUnsuited,
+                "this version does not simulate a [machine] experiment",
+                "simulate [motion] or [holds]: see `calibrant init`",
+            )));
+        }
         (Plan::Holds(plan), imu) => {
             if arguments.motion.is_some() {
                 console::warn("--motion is not used: a [holds] experiment has no motion");

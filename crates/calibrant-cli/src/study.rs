@@ -67,7 +67,7 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
     let Plan::Motion(plan) = &experiment.plan else {
         return Err(Error::Experiment(Box::new(InputError::new(
             Refusal::ExperimentUnsuited,
-            "a study needs a [motion] experiment, this one has [holds]",
+            format!("a study needs a [motion] experiment, this one has {}", experiment.plan.section()),
             "see `calibrant init report-unknown`; a static recording can be made with `calibrant simulate`",
         ))));
     };

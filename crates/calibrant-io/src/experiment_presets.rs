@@ -10,6 +10,10 @@ pub const PRESETS: &[(&str, &str)] = &[
     ("imu", include_str!("../presets/imu.toml")),
     ("imu-counts", include_str!("../presets/imu-counts.toml")),
     ("ferraris", include_str!("../presets/ferraris.toml")),
+    ("arm", include_str!("../presets/arm.toml")),
+    ("rate-table", include_str!("../presets/rate-table.toml")),
+    ("gantry", include_str!("../presets/gantry.toml")),
+    ("mocap", include_str!("../presets/mocap.toml")),
 ];
 
 /// The text of the preset of this name.

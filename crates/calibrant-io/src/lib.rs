@@ -41,6 +41,7 @@ mod input;
 mod inspection;
 mod json;
 mod machine;
+mod machine_calibration;
 mod motion;
 mod noise;
 mod recording;
@@ -72,14 +73,18 @@ pub use diagnostics::DiagnosticWords;
 pub use earlier_calibration::{EarlierCalibration, parse_calibration, read_calibration};
 pub use evaluation::{evaluation_json, write_evaluation};
 pub use experiment::{
-    CalibrateOptions, CriterionLetter, DesignOptions, Experiment, HoldsPlan, ImuPlan, MotionPlan,
-    NoisyVariant, Plan, Prior, ScaleBy, StudyOptions, UnknownVariant, nearest, read_columns,
+    CalibrateOptions, CriterionLetter, DesignOptions, Experiment, HoldsPlan, ImuPlan, LogNoise, MachinePlan,
+    MachineSource, MotionPlan, NoisyVariant, Plan, Prior, ScaleBy, StudyOptions, UnknownVariant, UrdfSource,
+    nearest, read_columns,
 };
 pub use experiment_presets::{PRESETS, preset};
 pub use ferraris_sections::{Section, SectionKind, parse_sections, read_sections};
 pub use input::{Input, file_name};
 pub use inspection::{HoldsInspection, Inspection, SensorInspection, inspect, inspection_json};
 pub use machine::{MACHINE_PRESETS, MissingMesh, Urdf, machine_json, machine_preset, missing_limits};
+pub use machine_calibration::{
+    MachineLogInput, MachineResult, machine_calibration_json, write_machine_calibration,
+};
 pub use motion::{parse_motion, read_motion, write_motion};
 pub use noise::{NoiseLine, noise_json, noise_line, write_noise};
 pub use recording::{

@@ -2,9 +2,11 @@
 
 use super::atomic_output::write_csv;
 use super::json::to_json;
+use super::machine_calibration::MachineResult;
 use calibrant_core::error::{Error, Refusal, Result};
 use calibrant_core::estimate::{Calibration, CalibrationStatus};
 use calibrant_core::sensor::Parameter;
+use calibrant_machine::estimate::MachineQuantity;
 use std::io;
 use std::path::Path;
 
@@ -119,6 +121,34 @@ impl Summary {
             status: calibration.status,
             quality,
             parameters: calibration.parameters.iter().zip(estimates).map(estimate).collect(),
+        }
+    }
+
+    /// The summary of a calibration on a machine: the number of warnings, the share of the samples that was used, χ² with its degrees of freedom
+    /// and p-value, and the parameters of the sensors.
+    #[must_use]
+    pub fn of_machine(result: &MachineResult<'_>) -> Self {
+        let calibration = result.calibration;
+        let (names, units, sd) = (calibration.names(), result.units(), calibration.sd());
+        let fit = &calibration.fit;
+        let estimate = |(k, quantity): (usize, &MachineQuantity)| {
+            matches!(quantity, MachineQuantity::Imu(_)).then(|| Estimate {
+                name: names[k].clone(),
+                ending: ending(units[k]),
+                value: calibration.values[k],
+                sd: sd[k],
+            })
+        };
+        Self {
+            status: calibration.status,
+            quality: vec![
+                ("warnings", calibration.warnings.len().to_string()),
+                ("used_share", number(Some(calibration.used_share))),
+                ("chi2", number(Some(fit.chi2))),
+                ("degrees_of_freedom", fit.degrees_of_freedom.to_string()),
+                ("p_value", number(fit.p_value)),
+            ],
+            parameters: calibration.quantities.iter().enumerate().filter_map(estimate).collect(),
         }
     }
 }

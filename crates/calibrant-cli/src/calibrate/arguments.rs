@@ -16,8 +16,9 @@ pub(crate) struct Arguments {
     /// Recordings: CSV with the header t_s,ax,ay,az, text with columns t x y z, or any file that `calibrant inspect` reads.
     #[arg(required = true)]
     pub(super) recordings: Vec<PathBuf>,
-    /// The commanded motion, one row for each node: t_s,ax_mps2,ay_mps2,az_mps2. A [holds] experiment needs none.
-    #[arg(long, value_name = "CSV")]
+    /// The commanded motion, one row for each node: t_s,ax_mps2,ay_mps2,az_mps2. On a [machine] the log of its joints, or poses. A [holds]
+    /// experiment needs none.
+    #[arg(long, value_name = "FILE")]
     pub(super) motion: Option<PathBuf>,
     /// The gyroscope's file, if each sensor of the IMU has its own file (imu_tk). Give it once for each recording, in their order.
     #[arg(long, value_name = "FILE")]
@@ -53,13 +54,6 @@ pub(crate) struct Arguments {
     /// Directory for the results.
     #[arg(short, long, value_name = "DIR")]
     pub(super) output: PathBuf,
-}
-
-impl Arguments {
-    /// The file that the command names at its end.
-    pub(super) fn main_result(&self) -> PathBuf {
-        self.output.join(if self.no_report { "calibration.json" } else { "report.html" })
-    }
 }
 
 #[derive(Clone, Copy, clap::ValueEnum)]

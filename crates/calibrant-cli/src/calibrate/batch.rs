@@ -35,7 +35,7 @@ fn calibrate(job: &Job<'_>, source: &Source, directory: &Path) -> Outcome {
     let calibrated = job.run(source, directory, &mut notes).map(|outcome| Calibrated {
         status: outcome.status(),
         warnings: outcome.warnings().to_vec(),
-        cells: quality::cells(&outcome.calibration),
+        cells: quality::cells(&outcome.calibrated),
         summary: outcome.summary(),
         json: job.arguments.json.then(|| outcome.json()),
     });
@@ -44,7 +44,7 @@ fn calibrate(job: &Job<'_>, source: &Source, directory: &Path) -> Outcome {
 
 /// Calibrates from all recordings, then prints the outcome of each.
 pub(super) fn run(job: &Job<'_>) -> calibrant::Result<Exit> {
-    let (arguments, columns) = (job.arguments, quality::columns(job.is_imu));
+    let (arguments, columns) = (job.arguments, quality::columns(job.experiment));
     let folders = folders(&arguments.recordings);
     for (folder, path) in folders.iter().zip(&arguments.recordings) {
         if *folder != stem(path) {

@@ -12,7 +12,7 @@ use std::path::Path;
 pub(super) struct Job<'a> {
     pub(super) arguments: &'a Arguments,
     pub(super) sources: Vec<Source>,
-    pub(super) is_imu: bool,
+    pub(super) experiment: &'a Experiment,
     pipeline: Pipeline<'a>,
 }
 
@@ -22,7 +22,7 @@ impl<'a> Job<'a> {
         let pipeline = Pipeline::from_experiment(experiment, options(arguments))?;
         pipeline.notes().iter().for_each(console::noted);
         let sources = sources(arguments, experiment)?;
-        Ok(Self { arguments, sources, is_imu: experiment.imu.is_some(), pipeline })
+        Ok(Self { arguments, sources, experiment, pipeline })
     }
 
     /// Calibrates from a recording and writes the results. Adds notes and warnings to `notes`, even if it fails.

@@ -13,9 +13,9 @@ pub(super) fn run(job: &Job<'_>, source: &Source) -> Exit {
     match outcome {
         Ok(outcome) => show(job, &outcome).max(denied).max(Exit::of_status(outcome.status())),
         Err(error) => {
-            match job.is_imu {
-                true => console::error(&error),
-                false => console::error_in(&error, &source.recording),
+            match job.experiment.imu {
+                Some(_) => console::error(&error),
+                None => console::error_in(&error, &source.recording),
             }
             Exit::of(&error)
         }
@@ -30,6 +30,7 @@ fn show(job: &Job<'_>, outcome: &Outcome) -> Exit {
         return exit;
     }
     console::print(&console::calibration(outcome));
-    console::print(&format!("\n{}\n", job.arguments.main_result().display()));
+    let main = if outcome.has_report() { "report.html" } else { "calibration.json" };
+    console::print(&format!("\n{}\n", job.arguments.output.join(main).display()));
     exit
 }

@@ -1,18 +1,28 @@
 //! How good a calibration is, in the cells of a row: for tables of several recordings.
 
 use calibrant::estimate::Calibration;
+use calibrant::io::{Experiment, Plan};
+use calibrant::pipeline::Calibrated;
 use calibrant::report::number_format;
 
 /// The columns between the status and the number of warnings.
-pub(super) fn columns(is_imu: bool) -> &'static [&'static str] {
-    match is_imu {
-        true => &["holds used", "rotations used", "|f|−g mm/s²", "gravity error °"],
-        false => &["p-value"],
+pub(super) fn columns(experiment: &Experiment) -> &'static [&'static str] {
+    match (&experiment.plan, &experiment.imu) {
+        (Plan::Machine(_), _) => &["used"],
+        (_, Some(_)) => &["holds used", "rotations used", "|f|−g mm/s²", "gravity error °"],
+        (_, None) => &["p-value"],
     }
 }
 
 /// The cells of these columns.
-pub(super) fn cells(calibration: &Calibration) -> Vec<String> {
+pub(super) fn cells(calibrated: &Calibrated) -> Vec<String> {
+    match calibrated {
+        Calibrated::Sensors(calibration) => of_sensors(calibration),
+        Calibrated::OnMachine(machine) => vec![format!("{:.0} %", 100.0 * machine.calibration.used_share)],
+    }
+}
+
+fn of_sensors(calibration: &Calibration) -> Vec<String> {
     let unknown = || "–".to_owned();
     if calibration.gyroscope.is_none() {
         return vec![calibration.fit.p_value.map_or_else(unknown, number_format::probability)];

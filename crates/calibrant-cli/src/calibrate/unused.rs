@@ -7,18 +7,22 @@ use calibrant::io::{Experiment, Plan};
 /// Warns about options for another kind of experiment.
 pub(super) fn warn(arguments: &Arguments, experiment: &Experiment) {
     let motion = arguments.motion.is_some();
+    let on_machine = matches!(experiment.plan, Plan::Machine(_));
+    if on_machine && arguments.sections.is_some() {
+        console::warn("--sections is not used: a [machine] experiment has no faces and turns");
+    }
     if experiment.imu.is_some() {
         if arguments.unit.is_some() {
             console::warn("--unit is not used for an IMU: give --accelerometer-unit and --gyroscope-unit");
         }
-        if motion {
+        if motion && !on_machine {
             console::warn(
                 "--motion is not used: an IMU is calibrated from holds and the rotations between them",
             );
         }
         return;
     }
-    if !arguments.gyroscope.is_empty() || arguments.sections.is_some() {
+    if !arguments.gyroscope.is_empty() || (arguments.sections.is_some() && !on_machine) {
         console::warn("--gyroscope and --sections are not used: they are for kind = \"imu\"");
     }
     if motion && matches!(experiment.plan, Plan::Holds(_)) {

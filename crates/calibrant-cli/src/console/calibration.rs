@@ -1,9 +1,10 @@
 //! The tables of a calibration on stdout.
 
+use super::machine::on_machine;
 use super::table::table;
 use super::validation::validations;
 use calibrant::estimate::{Calibration, GyroscopeInHolds, HoldCalibration};
-use calibrant::pipeline::Outcome;
+use calibrant::pipeline::{Calibrated, Outcome};
 use calibrant::report::{
     calibration_quality, nuisances_in_words, number_format, over_the_gain, temperature_in_words,
     used_in_words,
@@ -13,7 +14,11 @@ use nalgebra::Vector3;
 
 /// The used data, the parameters, their quality, and the validation.
 pub(crate) fn calibration(outcome: &Outcome) -> String {
-    of_calibration(&outcome.calibration) + &validations(&outcome.validations)
+    let text = match &outcome.calibrated {
+        Calibrated::Sensors(calibration) => of_calibration(calibration),
+        Calibrated::OnMachine(machine) => on_machine(machine),
+    };
+    text + &validations(&outcome.validations)
 }
 
 fn of_calibration(calibration: &Calibration) -> String {

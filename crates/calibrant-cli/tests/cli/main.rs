@@ -26,6 +26,7 @@ mod low_pass_filtered;
 mod machine;
 mod manners;
 mod noise;
+mod on_machine;
 mod real_recordings;
 mod repaired_recordings;
 mod sensor_change;

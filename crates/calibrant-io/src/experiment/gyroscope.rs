@@ -126,6 +126,14 @@ pub(super) fn read(
     })
 }
 
+/// Reads `[gyroscope]` of an IMU on a machine, which has no turns by hand.
+pub(super) fn read_without_turns(section: &Section<'_>) -> Result<ImuPlan> {
+    match ["turns", "turn_angle_deg", "turn_sd_deg"].iter().find_map(|key| section.get(key)) {
+        Some(entry) => Err(entry.reject("turns are not read with [machine]", "take this key out")),
+        None => read(section, None, None),
+    }
+}
+
 /// The angle of a turn, rad.
 fn turned_by(entry: &Entry<'_>) -> Result<f64> {
     match entry.number(&ANGLE)?.to_radians() {

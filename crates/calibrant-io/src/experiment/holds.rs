@@ -1,6 +1,7 @@
 //! Reads `[holds]`: static calibration in several poses.
 
 use super::direction::direction;
+use super::gravity::{LATITUDE, read_gravity};
 use super::motion::RATE_HZ;
 use super::number_range::Bounds;
 use super::toml_document::{Entry, Section};
@@ -10,16 +11,8 @@ use calibrant_core::motion::Gravity;
 use calibrant_core::sensor::Gauge;
 use nalgebra::Vector3;
 
-/// Range of gravity.
-const GRAVITY: Bounds = Bounds::from(0.1, 100.0, "m/s²");
 /// Range of the face alignment. Faces with a larger tilt are not faces.
 const TILT: Bounds = Bounds::from(0.0, 10.0, "degrees");
-/// Range of the standard uncertainty of gravity.
-const GRAVITY_SD: Bounds = Bounds::from(0.0, 1.0, "m/s²");
-/// Range of the latitude.
-const LATITUDE: Bounds = Bounds::from(-90.0, 90.0, "degrees");
-/// Range of the height above the sea.
-const HEIGHT: Bounds = Bounds::from(-12_000.0, 100_000.0, "m");
 /// Range of a time.
 const TIME: Bounds = Bounds::from(-1e12, 1e12, "s");
 /// Range of a duration.
@@ -112,41 +105,6 @@ pub(super) fn read(section: &Section<'_>, is_imu: bool) -> Result<HoldsPlan> {
         hold_s,
         rate_hz,
     })
-}
-
-fn read_gravity(section: &Section<'_>, is_imu: bool) -> Result<(Gravity, String)> {
-    /// The remedy for missing or contradictory gravity.
-    const HELP: &str = "give gravity_mps2, or latitude_deg and height_m";
-    let sd = section.get("gravity_sd_mps2").map(|entry| entry.number(&GRAVITY_SD)).transpose()?;
-    let (given, latitude, height) =
-        (section.get("gravity_mps2"), section.get("latitude_deg"), section.get("height_m"));
-    match (given, latitude, height) {
-        (Some(_), Some(entry), _) if !is_imu => {
-            Err(entry.reject("gravity is given twice", format!("{HELP}, not both")))
-        }
-        (Some(_), _, Some(entry)) => {
-            let help =
-                if is_imu { "; latitude_deg alone may stand beside it, for the Earth's rate" } else { "" };
-            Err(entry.reject("gravity is given twice", format!("{HELP}, not both{help}")))
-        }
-        (Some(entry), _, None) => {
-            let gravity = Gravity { magnitude_mps2: entry.number(&GRAVITY)?, sd_mps2: sd.unwrap_or(0.0) };
-            Ok((gravity, "given".into()))
-        }
-        (None, Some(latitude), Some(height)) => {
-            let (latitude, height) = (latitude.number(&LATITUDE)?, height.number(&HEIGHT)?);
-            let mut gravity = Gravity::from_latitude(latitude, height);
-            if let Some(sd) = sd {
-                gravity.sd_mps2 = sd;
-            }
-            Ok((gravity, format!("from latitude {latitude}°, height {height} m")))
-        }
-        (None, Some(_), None) => Err(section.missing("height_m", "latitude_deg and height_m go together")),
-        (None, None, Some(_)) => {
-            Err(section.missing("latitude_deg", "latitude_deg and height_m go together"))
-        }
-        (None, None, None) => Err(section.missing("gravity_mps2", HELP)),
-    }
 }
 
 fn read_directions(entry: &Entry<'_>, intervals: Option<&[(f64, f64)]>) -> Result<Vec<Vector3<f64>>> {

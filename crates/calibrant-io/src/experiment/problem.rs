@@ -87,7 +87,7 @@ impl Experiment {
         let Plan::Motion(plan) = &self.plan else {
             return Err(Error::experiment(InputError::new(
                 Refusal::ExperimentUnsuited,
-                "a design needs a [motion] experiment, this one has [holds]",
+                format!("a design needs a [motion] experiment, this one has {}", self.plan.section()),
                 "see `calibrant init report`",
             )));
         };

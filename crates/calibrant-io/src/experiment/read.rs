@@ -2,8 +2,8 @@
 
 use super::toml_document::{Document, Section};
 use super::{
-    CalibrateOptions, DesignOptions, ImuPlan, Plan, StudyOptions, calibrate, columns, design, gyroscope,
-    holds, limits, motion, sensor, study,
+    CalibrateOptions, DesignOptions, ImuPlan, Plan, Prior, StudyOptions, calibrate, columns, design,
+    gyroscope, holds, limits, machine, motion, sensor, study,
 };
 use crate::{ImuReadOptions, text_decoding};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
@@ -20,7 +20,7 @@ const LARGEST: u64 = 1 << 20;
 pub struct Experiment {
     /// `[sensor]`: the datasheet.
     pub sensor: Sensor,
-    /// `[motion]` or `[holds]`.
+    /// `[motion]`, `[holds]` or `[machine]`.
     pub plan: Plan,
     /// `[gyroscope]`, `[known]` and `[temperature]`, for an IMU.
     pub imu: Option<ImuPlan>,
@@ -121,8 +121,18 @@ impl Experiment {
         let sensor = sensor::read(&need("sensor")?)?;
         let plan = read_plan(&root, &sensor)?;
         let imu = read_imu(&root, &plan)?;
+        let calibrate = root
+            .section("calibrate")?
+            .map_or(Ok(CalibrateOptions::default()), |section| calibrate::read(&section, &sensor))?;
+        if let (Plan::Machine(_), Some(section)) = (&plan, root.section("machine")?) {
+            machine::check_noise(&section, &sensor, imu.as_ref())?;
+            if calibrate.prior == Prior::Datasheet {
+                let help = "take prior = \"datasheet\" out of [calibrate]";
+                return Err(section.reject("a prior of the sensor is not used with [machine]", help, ""));
+            }
+        }
         let list = match &plan {
-            Plan::Motion(_) => sensor.parameter_list(),
+            Plan::Motion(_) | Plan::Machine(_) => sensor.parameter_list(),
             Plan::Holds(holds) => holds.gauge.parameter_list(sensor.model),
         };
         Ok(Self {
@@ -132,9 +142,7 @@ impl Experiment {
             columns: root
                 .section("columns")?
                 .map_or(Ok(ImuReadOptions::default()), |section| columns::read(&section))?,
-            calibrate: root
-                .section("calibrate")?
-                .map_or(Ok(CalibrateOptions::default()), |section| calibrate::read(&section, &sensor))?,
+            calibrate,
             design: root
                 .section("design")?
                 .map_or(Ok(DesignOptions::default()), |section| design::read(&section, &sensor, &list))?,
@@ -168,9 +176,14 @@ fn read_imu(root: &Section<'_>, plan: &Plan) -> Result<Option<ImuPlan>> {
     match (root.section("gyroscope")?, is_imu) {
         (Some(section), true) => match plan {
             Plan::Holds(_) => gyroscope::read(&section, known.as_ref(), temperature.as_ref()).map(Some),
+            Plan::Machine(_) => {
+                machine_has_none(known.as_ref(), "[known]")?;
+                machine_has_none(temperature.as_ref(), "[temperature]")?;
+                gyroscope::read_without_turns(&section).map(Some)
+            }
             Plan::Motion(_) => Err(section.reject(
-                "an IMU is calibrated from holds and what lies between them",
-                "[holds] in place of [motion], or kind = \"accelerometer\"",
+                "an IMU is calibrated from holds and what lies between them, or on a machine",
+                "[holds] or [machine] in place of [motion], or kind = \"accelerometer\"",
                 "",
             )),
         },
@@ -189,44 +202,72 @@ fn read_imu(root: &Section<'_>, plan: &Plan) -> Result<Option<ImuPlan>> {
     }
 }
 
+/// Refuses a section that only a calibration by holds reads.
+fn machine_has_none(section: Option<&Section<'_>>, name: &str) -> Result<()> {
+    section.map_or(Ok(()), |section| {
+        Err(section.reject(&format!("{name} is not read with [machine]"), "take it out", ""))
+    })
+}
+
 fn read_plan(root: &Section<'_>, sensor: &Sensor) -> Result<Plan> {
-    match (root.section("motion")?, root.section("holds")?) {
-        (Some(section), None) => {
-            if sensor.noise_mps2.is_none() && sensor.noise_counts.is_none() {
-                let help = match sensor.unit {
-                    ReadingUnit::MetrePerSecondSquared | ReadingUnit::RadianPerSecond => {
-                        "noise_mps2 = 2e-4, for example: the noise of one sample"
-                    }
-                    ReadingUnit::Counts => "noise_counts = 10.0, for example: the noise of one sample",
-                };
-                let key = if sensor.unit == ReadingUnit::Counts { "noise_counts" } else { "noise_mps2" };
-                // [sensor] is there: it was read above
-                return Err(root.section("sensor")?.map_or_else(
-                    || root.missing(key, help),
-                    |section| section.reject("this key is required with [motion]", help, key),
-                ));
-            }
+    let [motion, holds, machine] =
+        [root.section("motion")?, root.section("holds")?, root.section("machine")?];
+    match (motion, holds, machine) {
+        (Some(section), None, None) => {
+            need_noise(root, sensor)?;
             Ok(Plan::Motion(motion::read(&section)?))
         }
-        (None, Some(section)) => {
-            if sensor.axes != 3 {
-                return Err(section.reject(
-                    "[holds] needs a sensor of three axes",
-                    "axes = 3, or [motion]",
-                    "",
-                ));
-            }
+        (None, Some(section), None) => {
+            need_three_axes(&section, "[holds]", sensor)?;
             Ok(Plan::Holds(holds::read(&section, is_imu(root)?)?))
         }
-        (Some(_), Some(section)) => Err(section.reject(
-            "[motion] and [holds] are both there",
-            "an experiment is one or the other: take one of them out",
+        (None, None, Some(section)) => {
+            need_three_axes(&section, "[machine]", sensor)?;
+            Ok(Plan::Machine(machine::read(&section, sensor)?))
+        }
+        (None, None, None) => Err(root.reject(
+            "neither [motion] nor [holds] nor [machine] is there",
+            "say how the sensor is moved: [motion] for a commanded motion, [holds] for still poses, [machine] for a machine whose motion is logged",
             "",
         )),
-        (None, None) => Err(root.reject(
-            "neither [motion] nor [holds] is there",
-            "say how the sensor is moved: [motion] for a commanded motion, [holds] for still poses",
-            "",
+        (Some(_), Some(section), None) => Err(two_plans(&section, "[motion] and [holds]")),
+        (motion, _, Some(section)) => Err(two_plans(
+            &section,
+            if motion.is_some() { "[motion] and [machine]" } else { "[holds] and [machine]" },
         )),
     }
+}
+
+fn two_plans(section: &Section<'_>, which: &str) -> Error {
+    let help = "an experiment is one or the other: take one of them out";
+    section.reject(&format!("{which} are both there"), help, "")
+}
+
+fn need_three_axes(section: &Section<'_>, name: &str, sensor: &Sensor) -> Result<()> {
+    match sensor.axes {
+        3 => Ok(()),
+        _ => {
+            let message = format!("{name} needs a sensor of three axes");
+            Err(section.reject(&message, "axes = 3, or [motion]", ""))
+        }
+    }
+}
+
+/// A commanded motion needs the noise of the sensor.
+fn need_noise(root: &Section<'_>, sensor: &Sensor) -> Result<()> {
+    if sensor.noise_mps2.is_some() || sensor.noise_counts.is_some() {
+        return Ok(());
+    }
+    let help = match sensor.unit {
+        ReadingUnit::MetrePerSecondSquared | ReadingUnit::RadianPerSecond => {
+            "noise_mps2 = 2e-4, for example: the noise of one sample"
+        }
+        ReadingUnit::Counts => "noise_counts = 10.0, for example: the noise of one sample",
+    };
+    let key = if sensor.unit == ReadingUnit::Counts { "noise_counts" } else { "noise_mps2" };
+    // [sensor] is there: it was read above
+    Err(root.section("sensor")?.map_or_else(
+        || root.missing(key, help),
+        |section| section.reject("this key is required with [motion]", help, key),
+    ))
 }

@@ -6,7 +6,7 @@ use crate::text_excerpt::error_at;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use nalgebra::Vector3;
 use std::ops::Range;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -201,7 +201,7 @@ impl<'a> Entry<'a> {
 
     /// A number, or an array with one number for each axis. A single number counts for every axis.
     pub(super) fn per_axis(&self, axes: usize, bounds: &Bounds) -> Result<Vector3<f64>> {
-        if self.value.get_ref().as_array().is_none() {
+        if !self.is_array() {
             return self.number(bounds).map(Vector3::repeat);
         }
         let items = self.items("")?;
@@ -277,6 +277,19 @@ impl<'a> Entry<'a> {
         };
         let item = |(i, value)| Entry { document: self.document, key: format!("{}[{i}]", self.key), value };
         Ok(array.iter().enumerate().map(item).collect())
+    }
+
+    /// A path, relative to the directory of the file.
+    pub(super) fn path(&self, help: &str) -> Result<PathBuf> {
+        let text = self.text().filter(|text| !text.is_empty());
+        let text = text.ok_or_else(|| self.wrong_type("a path in quotes", help))?;
+        let directory = self.document.file.and_then(Path::parent);
+        Ok(directory.map_or_else(|| PathBuf::from(text), |directory| directory.join(text)))
+    }
+
+    /// Is the value an array?
+    pub(super) fn is_array(&self) -> bool {
+        self.value.get_ref().is_array()
     }
 
     /// Is the value a table?

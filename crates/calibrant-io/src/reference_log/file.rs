@@ -1,7 +1,7 @@
 //! A log of a motion as a file holds it.
 
 use super::format::ReferenceFormat;
-use crate::recording::{Finding, ImuFile};
+use crate::recording::Finding;
 use calibrant_machine::log::{JointLog, PoseLog, ReferenceLog};
 
 /// A log of a machine's motion as it was read.
@@ -41,9 +41,10 @@ impl ReferenceLogFile {
     }
 
     /// Moves the times to the clock of a recording, where one of the two files or both count time from their
-    /// first sample: time stamps in both files are then those of one clock again.
-    pub fn put_on_clock_of(&mut self, recording: &ImuFile) {
-        let later_s = match (self.counted_from_ns, recording.counted_from_ns) {
+    /// first sample: time stamps in both files are then those of one clock again. `recording_counted_from_ns` is
+    /// [`ImuFile::counted_from_ns`](crate::ImuFile::counted_from_ns).
+    pub fn put_on_clock_of(&mut self, recording_counted_from_ns: Option<i128>) {
+        let later_s = match (self.counted_from_ns, recording_counted_from_ns) {
             (Some(own), Some(other)) => own.saturating_sub(other) as f64 / 1e9,
             (None, Some(other)) if self.log.times_s().first().is_some_and(|t| is_epoch(*t)) => {
                 -(other as f64 / 1e9)
@@ -55,7 +56,7 @@ impl ReferenceLogFile {
             ReferenceLog::Poses(log) => &mut log.times_s,
         };
         times_s.iter_mut().for_each(|t| *t += later_s);
-        self.counted_from_ns = recording.counted_from_ns;
+        self.counted_from_ns = recording_counted_from_ns;
     }
 }
 

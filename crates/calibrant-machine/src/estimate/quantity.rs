@@ -85,6 +85,21 @@ impl MachineQuantity {
         }
     }
 
+    /// Its unit, with the unit of each joint's position. `None` for a parameter of the IMU, whose unit follows from that of the readings.
+    #[must_use]
+    pub fn unit(self, joints: &[&'static str]) -> Option<&'static str> {
+        Some(match self {
+            Self::Imu(_) => return None,
+            Self::Lever(_) => "m",
+            Self::Mounting(_) | Self::Tilt(_) => "rad",
+            Self::Gravity => "m/s²",
+            Self::Delay(_) => "s",
+            Self::ClockRate => "1",
+            Self::Zero(j) => joints.get(j).copied().unwrap_or("rad"),
+            Self::Geometry(_, k) => ["m", "rad"][k / 3],
+        })
+    }
+
     /// The source whose prior knowledge it has; the sensor's parameters have none.
     #[must_use]
     pub fn source(self) -> Option<Source> {

@@ -1,5 +1,6 @@
 //! What is known beforehand of the machine and of the sensor on it.
 
+use super::MachineQuantity;
 use calibrant_core::sensor::SensorKind;
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -79,6 +80,26 @@ pub struct MachineSetup {
 }
 
 impl MachineSetup {
+    /// Standard deviation of what is known of a quantity beforehand; infinite for a parameter of the IMU.
+    #[must_use]
+    pub fn prior_sd(&self, quantity: MachineQuantity) -> f64 {
+        match quantity {
+            MachineQuantity::Imu(_) => f64::INFINITY,
+            MachineQuantity::Lever(_) => self.lever_sd_m,
+            MachineQuantity::Mounting(_) => match self.mounting {
+                MountingPrior::Within(sd_rad) => sd_rad,
+                MountingPrior::Exact | MountingPrior::Unknown => 0.0,
+            },
+            MachineQuantity::Tilt(_) => self.tilt_sd_rad,
+            MachineQuantity::Gravity => self.gravity_sd_mps2,
+            MachineQuantity::Delay(_) => self.delay_sd_s,
+            MachineQuantity::ClockRate => self.clock_rate_sd,
+            MachineQuantity::Zero(_) => self.zero_sd,
+            MachineQuantity::Geometry(_, k) if k < 3 => self.geometry_translation_sd_m,
+            MachineQuantity::Geometry(..) => self.geometry_rotation_sd_rad,
+        }
+    }
+
     /// The noise that is given for a sensor.
     #[must_use]
     pub fn noise_of(&self, sensor: SensorKind) -> Option<Vector3<f64>> {

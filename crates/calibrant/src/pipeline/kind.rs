@@ -31,7 +31,7 @@ impl<'e> Kind<'e> {
             (None, Plan::Motion(plan)) => Ok(Self::Motion(commanded(plan, experiment, options, notes)?)),
             (None, Plan::Holds(holds)) => Ok(Self::Holds(holds)),
             (Some(imu), Plan::Holds(holds)) => Ok(Self::Imu(imu, holds)),
-            (Some(_), Plan::Motion(_)) => {
+            (Some(_), Plan::Motion(_)) | (_, Plan::Machine(_)) => {
                 let help = "see `calibrant init imu`";
                 Err(Error::experiment(InputError::new(
                     Refusal::ExperimentUnsuited,

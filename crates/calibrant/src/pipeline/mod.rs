@@ -34,15 +34,19 @@
 //! let outcome = pipeline.run(&Source::from_file(&file))?;
 //! outcome.write(directory.path())?;
 //!
-//! assert!(outcome.calibration.imu.accelerometer.bias.norm() < 0.01);
+//! let calibration = outcome.calibration().expect("of holds");
+//! assert!(calibration.imu.accelerometer.bias.norm() < 0.01);
 //! assert!(directory.path().join("report.html").exists());
 //! # Ok::<(), calibrant::Error>(())
 //! ```
 
+mod calibrated;
 mod clean;
 mod duplicates;
 mod holds;
 mod kind;
+mod machine;
+mod machine_log;
 mod noise;
 mod note;
 mod options;
@@ -60,6 +64,7 @@ mod task;
 mod temperature;
 mod validation;
 
+pub use calibrated::{Calibrated, MachineOutcome};
 pub use note::Note;
 pub use options::PipelineOptions;
 pub use outcome::Outcome;

@@ -1,12 +1,16 @@
 //! What comes of a recording, and the files that it is written to.
 
+use super::calibrated::Calibrated;
 use super::note::Note;
 use calibrant_core::diagnostic::{Code, Diagnostic};
 use calibrant_core::error::Result;
 use calibrant_core::estimate::{Calibration, CalibrationStatus, Validation};
 use calibrant_core::noise::SensorNoise;
 use calibrant_core::sensor::ImuRecording;
-use calibrant_io::{DiagnosticWords, Input, Summary, calibration_json, write_atomically, write_calibration};
+use calibrant_io::{
+    DiagnosticWords, Input, Summary, calibration_json, machine_calibration_json, write_atomically,
+    write_calibration, write_machine_calibration,
+};
 use calibrant_report::{About, calibration_report, message};
 use std::path::Path;
 
@@ -14,7 +18,7 @@ use std::path::Path;
 #[derive(Debug, Clone)]
 pub struct Outcome {
     /// The calibration.
-    pub calibration: Calibration,
+    pub calibrated: Calibrated,
     /// How it fares on data that it is not from, where the options ask for it.
     pub validations: Vec<Validation>,
     /// The noise of an IMU in its longest hold, in m/s² and rad/s, as the report shows it. Empty without a report.
@@ -32,28 +36,59 @@ pub struct Outcome {
 }
 
 impl Outcome {
+    /// The calibration by holds or a commanded motion; `None` on a machine.
+    #[must_use]
+    pub fn calibration(&self) -> Option<&Calibration> {
+        match &self.calibrated {
+            Calibrated::Sensors(calibration) => Some(calibration),
+            Calibrated::OnMachine(_) => None,
+        }
+    }
+
     /// How the estimation ended.
     #[must_use]
     pub fn status(&self) -> CalibrationStatus {
-        self.calibration.status
+        match &self.calibrated {
+            Calibrated::Sensors(calibration) => calibration.status,
+            Calibrated::OnMachine(machine) => machine.calibration.status,
+        }
+    }
+
+    /// Is `report.html` among the files?
+    #[must_use]
+    pub fn has_report(&self) -> bool {
+        self.about.is_some() && matches!(self.calibrated, Calibrated::Sensors(_))
     }
 
     /// The warnings of the calibration.
     #[must_use]
     pub fn warnings(&self) -> &[Diagnostic] {
-        &self.calibration.warnings
+        match &self.calibrated {
+            Calibrated::Sensors(calibration) => &calibration.warnings,
+            Calibrated::OnMachine(machine) => &machine.calibration.warnings,
+        }
     }
 
     /// A line for a table of many calibrations.
     #[must_use]
     pub fn summary(&self) -> Summary {
-        Summary::of(&self.calibration)
+        match &self.calibrated {
+            Calibrated::Sensors(calibration) => Summary::of(calibration),
+            Calibrated::OnMachine(machine) => Summary::of_machine(&machine.result()),
+        }
     }
 
     /// The text of `calibration.json`.
     #[must_use]
     pub fn json(&self) -> String {
-        calibration_json(&self.calibration, &self.validations, &self.inputs, &self.words())
+        match &self.calibrated {
+            Calibrated::Sensors(calibration) => {
+                calibration_json(calibration, &self.validations, &self.inputs, &self.words())
+            }
+            Calibrated::OnMachine(machine) => {
+                machine_calibration_json(&machine.result(), &self.inputs, &self.words())
+            }
+        }
     }
 
     /// Writes `calibration.json` into this directory, then `report.html` where the options ask for one. Each file is whole or absent.
@@ -78,12 +113,25 @@ impl Outcome {
 
     fn write_json(&self, directory: &Path) -> Result<()> {
         let path = directory.join("calibration.json");
-        write_calibration(&path, &self.calibration, &self.validations, &self.inputs, &self.words())
+        match &self.calibrated {
+            Calibrated::Sensors(calibration) => {
+                write_calibration(&path, calibration, &self.validations, &self.inputs, &self.words())
+            }
+            Calibrated::OnMachine(machine) => {
+                write_machine_calibration(&path, &machine.result(), &self.inputs, &self.words())
+            }
+        }
     }
 
     /// The text of `report.html`, where one is written.
     fn report_html(&self) -> Option<String> {
         let about = self.about.as_ref()?;
-        Some(calibration_report(&self.calibration, &self.recording, &self.noise, about))
+        match &self.calibrated {
+            Calibrated::Sensors(calibration) => {
+                Some(calibration_report(calibration, &self.recording, &self.noise, about))
+            }
+            // a page of its own belongs here
+            Calibrated::OnMachine(_) => None,
+        }
     }
 }

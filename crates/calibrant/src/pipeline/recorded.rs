@@ -18,6 +18,8 @@ pub(crate) struct Recorded {
     pub(crate) findings: Vec<Finding>,
     /// Relative standard deviation of the sample rate, if that is nominal; 0 if a clock was recorded.
     pub(crate) rate_sd: f64,
+    /// The time from which the times count, ns, where they count from their first and the file has another.
+    pub(crate) counted_from_ns: Option<i128>,
     /// SHA-256 of each file.
     pub(crate) sha256: Vec<String>,
     /// The files, where there are further recordings of the sensor.
@@ -30,13 +32,15 @@ const PAUSE_S: f64 = 60.0;
 impl Recorded {
     /// Reads an accelerometer alone.
     pub(crate) fn accelerometer_from(source: &Source, options: &ImuReadOptions) -> Result<Self> {
-        let ImuFile { recording, findings, sha256, .. } = read_imu_recording(&source.recording, options)?;
-        Ok(Self { recording, format: None, findings, rate_sd: 0.0, sha256, joined: Vec::new() })
+        let ImuFile { recording, findings, sha256, counted_from_ns, .. } =
+            read_imu_recording(&source.recording, options)?;
+        let (format, rate_sd, joined) = (None, 0.0, Vec::new());
+        Ok(Self { recording, format, findings, rate_sd, counted_from_ns, sha256, joined })
     }
 
     /// Reads an IMU from its file or its two files.
     pub(crate) fn imu_from(source: &Source, options: &ImuReadOptions) -> Result<Self> {
-        let ImuFile { recording, format, findings, sha256, .. } = match &source.gyroscope {
+        let ImuFile { recording, format, findings, sha256, counted_from_ns, .. } = match &source.gyroscope {
             Some(gyroscope) => read_imu_pair(&source.recording, gyroscope, options),
             None => read_imu_recording(&source.recording, options),
         }?;
@@ -44,7 +48,8 @@ impl Recorded {
             true => 1e-6 * options.rate_sd_ppm.unwrap_or(USUAL_RATE_SD_PPM),
             false => 0.0,
         };
-        Ok(Self { recording, format: Some(format), findings, rate_sd, sha256, joined: Vec::new() })
+        let (format, joined) = (Some(format), Vec::new());
+        Ok(Self { recording, format, findings, rate_sd, counted_from_ns, sha256, joined })
     }
 
     /// The accelerometer's samples.

@@ -2,31 +2,27 @@
 
 use super::options::PipelineOptions;
 use super::recorded::Recorded;
-use calibrant_core::estimate::Calibration;
 use calibrant_io::Input;
 use calibrant_report::About;
 use calibrant_report::number_format::{count, significant};
 
-/// The head of a report.
+/// The head of the report of a calibration of `what`, with further facts.
 pub(crate) fn about(
-    calibration: &Calibration,
+    what: &str,
+    further: impl IntoIterator<Item = (&'static str, String)>,
     recorded: &Recorded,
     inputs: &[Input],
     options: &PipelineOptions,
 ) -> About {
     let files = joined(inputs, |input| input.file.clone());
-    let what = match calibration.gyroscope {
-        None => "an accelerometer",
-        Some(_) => "an IMU",
-    };
     let mut facts = vec![
         ("Recording", files.clone()),
         ("Format", recorded.format.map_or_else(String::new, |format| format.name().into())),
         ("SHA-256", joined(inputs, |input| input.sha256.clone())),
         ("Samples", joined(inputs, in_samples) + &times(recorded)),
         ("Experiment", options.experiment_file.display().to_string()),
-        ("Prior", if calibration.datasheet_prior { "datasheet".into() } else { String::new() }),
     ];
+    facts.extend(further);
     facts.retain(|(_, fact)| !fact.is_empty());
     About {
         title: format!("Calibration of {what} from {files}"),

@@ -1,29 +1,44 @@
 //! The pipeline, whatever the sensor.
 
+use super::machine::MachineTask;
 use super::note::Note;
 use super::options::PipelineOptions;
 use super::outcome::Outcome;
 use super::source::Source;
 use super::task::Task;
 use calibrant_core::error::Result;
-use calibrant_io::Experiment;
+use calibrant_io::{Experiment, Plan};
 
 /// From recordings to calibrations. It holds what all recordings share, and can calibrate several at the same time.
 pub struct Pipeline<'e> {
-    task: Task<'e>,
+    work: Work<'e>,
     options: PipelineOptions,
     notes: Vec<Note>,
 }
 
+/// The stages that a kind of experiment needs.
+enum Work<'e> {
+    /// A commanded motion, or holds.
+    Sensors(Box<Task<'e>>),
+    /// A machine whose motion is logged.
+    Machine(Box<MachineTask<'e>>),
+}
+
 impl<'e> Pipeline<'e> {
-    /// Prepares what all recordings share. It reads the commanded motion of a `[motion]` experiment.
+    /// Prepares what all recordings share. It reads the commanded motion of a `[motion]` experiment, and machine and log of a `[machine]` one.
     ///
     /// # Errors
-    /// [`Error::Experiment`](crate::Error::Experiment) where the commanded motion is missing or makes no sense, or where an IMU has no `[holds]`.
+    /// [`Error::Experiment`](crate::Error::Experiment) where the commanded motion is missing or makes no sense, where an IMU has no `[holds]`,
+    /// or where the machine cannot be read. [`Error::Recording`](crate::Error::Recording) where the log of its motion cannot be read.
     pub fn from_experiment(experiment: &'e Experiment, options: PipelineOptions) -> Result<Self> {
         let mut notes = Vec::new();
-        let task = Task::new(experiment, &options, &mut notes)?;
-        Ok(Self { task, options, notes })
+        let work = match &experiment.plan {
+            Plan::Machine(plan) => {
+                Work::Machine(Box::new(MachineTask::new(experiment, plan, &options, &mut notes)?))
+            }
+            _ => Work::Sensors(Box::new(Task::new(experiment, &options, &mut notes)?)),
+        };
+        Ok(Self { work, options, notes })
     }
 
     /// What was noticed in what all recordings share.
@@ -49,6 +64,9 @@ impl<'e> Pipeline<'e> {
     /// [`Error::NotIdentifiable`](crate::Error::NotIdentifiable) names the parameters that it cannot determine;
     /// [`Error::Experiment`](crate::Error::Experiment) where it contradicts the experiment, or where the validation is on the data that were calibrated from.
     pub fn run_noting(&self, source: &Source, notes: &mut Vec<Note>) -> Result<Outcome> {
-        self.task.run(source, &self.options, notes)
+        match &self.work {
+            Work::Sensors(task) => task.run(source, &self.options, notes),
+            Work::Machine(task) => task.run(source, &self.options, notes),
+        }
     }
 }

@@ -1,5 +1,6 @@
 //! The stages from a recording to a calibration, whatever the sensors.
 
+use super::calibrated::Calibrated;
 use super::duplicates::refuse_duplicate;
 use super::kind::Kind;
 use super::noise::NoiseInHold;
@@ -73,15 +74,17 @@ impl<'e> Task<'e> {
         let (noise, about) = match options.report {
             false => (Vec::new(), None),
             true => {
+                let what = if calibration.gyroscope.is_none() { "an accelerometer" } else { "an IMU" };
+                let prior = calibration.datasheet_prior.then(|| ("Prior", "datasheet".to_owned()));
                 let about = calibrant_report::About {
                     validations: validations.clone(),
-                    ..about(&calibration, &recorded, &inputs, options)
+                    ..about(what, prior, &recorded, &inputs, options)
                 };
                 (noise.physical(&calibration, &recorded.recording)?, Some(about))
             }
         };
         Ok(Outcome {
-            calibration,
+            calibrated: Calibrated::Sensors(Box::new(calibration)),
             validations,
             noise,
             notes: Vec::new(),

@@ -58,7 +58,7 @@ fn an_accelerometer_is_calibrated_from_holds_and_validated() {
         ..PipelineOptions::default()
     };
     let outcome = run(&experiment, options, &path("one.csv")).expect("calibrated");
-    let calibration = &outcome.calibration;
+    let calibration = outcome.calibration().expect("of sensors");
 
     let setup = HoldsSetup {
         gravity: Gravity { magnitude_mps2: GRAVITY_MPS2, sd_mps2: 0.0 },
@@ -108,7 +108,7 @@ fn an_accelerometer_is_calibrated_from_a_commanded_motion() {
     let pipeline = Pipeline::from_experiment(&experiment, options).expect("prepared");
     assert!(matches!(pipeline.notes(), [Note::Remark(words)] if words.contains("12 intervals")));
     let outcome = pipeline.run(&Source::from_file(path("recording.csv"))).expect("calibrated");
-    let calibration = &outcome.calibration;
+    let calibration = outcome.calibration().expect("of sensors");
 
     let command = CommandedMotion { motion, trust: Trust::Known, known_ends: KnownEnds::Start };
     let problem = CalibrationProblem { sensor, recording: &recording, stimulus: Stimulus::Motion(&command) };
@@ -140,7 +140,7 @@ fn an_imu_is_calibrated_and_not_validated_on_itself() {
         ..PipelineOptions::default()
     };
     let outcome = run(&experiment, on("other.csv"), &path("one.csv")).expect("calibrated");
-    let calibration = &outcome.calibration;
+    let calibration = outcome.calibration().expect("of sensors");
 
     let gyroscope = Gyroscope { g_sensitivity: true, ..Gyroscope::default() };
     let holds = HoldsSetup {

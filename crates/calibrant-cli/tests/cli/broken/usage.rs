@@ -11,7 +11,7 @@ const CASES: &[(&str, &[&str])] = &[
         "init nosuch",
         &[
             "there is no preset `nosuch` (choose one of report, report-unknown,",
-            "static-poses-counts, imu, imu-counts, ferraris)",
+            "imu-counts, ferraris, arm, rate-table, gantry, mocap)",
         ],
     ),
     ("init report extra", &["unexpected argument 'extra'"]),

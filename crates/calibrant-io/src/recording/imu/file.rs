@@ -23,7 +23,7 @@ pub struct ImuFile {
     /// The gyroscope's file of a pair.
     pub second: Option<SecondFile>,
     /// The time from which the times count, ns, where they count from their first and the file has another.
-    pub(crate) counted_from_ns: Option<i128>,
+    pub counted_from_ns: Option<i128>,
 }
 
 /// The facts about the gyroscope's file of a pair.

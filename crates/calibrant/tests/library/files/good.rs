@@ -15,14 +15,14 @@ fn parse(text: &str) -> Experiment {
 fn motion(experiment: &Experiment) -> &MotionPlan {
     match &experiment.plan {
         Plan::Motion(plan) => plan,
-        Plan::Holds(_) => panic!("holds"),
+        other => panic!("{}", other.section()),
     }
 }
 
 fn holds(experiment: &Experiment) -> &HoldsPlan {
     match &experiment.plan {
         Plan::Holds(plan) => plan,
-        Plan::Motion(_) => panic!("motion"),
+        other => panic!("{}", other.section()),
     }
 }
 

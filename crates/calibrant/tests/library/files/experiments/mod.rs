@@ -3,6 +3,7 @@
 mod columns;
 mod datasheet;
 mod holds;
+mod machine;
 mod motion;
 mod study;
 mod temperature;

@@ -107,7 +107,7 @@ pub(super) const CASES: &[Case] = &[
     (
         r#"[motion]⏎intervals = 10⏎interval_s = 1.0⏎rate_hz = 10.0⏎trust = "known"⏎"#,
         "",
-        "line 1, column 1: neither [motion] nor [holds] is there (say how the sensor is moved: [motion] for a commanded motion, [holds] for still poses)",
+        "line 1, column 1: neither [motion] nor [holds] nor [machine] is there (say how the sensor is moved: [motion] for a commanded motion, [holds] for still poses, [machine] for a machine whose motion is logged)",
     ),
     (
         r#"trust = "known""#,

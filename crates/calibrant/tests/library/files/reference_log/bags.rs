@@ -121,7 +121,7 @@ fn the_joints_and_the_imu_of_one_bag_are_on_one_clock() {
     assert_eq!(log.velocities.as_ref().expect("velocities")[..2], [3.0, 4.0]);
     assert_eq!(log.times_s, [0.0, 0.01, 0.02, 0.03, 0.04]);
     let imu = parse_imu_recording(&bytes, &ImuReadOptions::default()).expect("its IMU");
-    file.put_on_clock_of(&imu);
+    file.put_on_clock_of(imu.counted_from_ns);
     assert!((file.log.times_s()[0] - 0.001).abs() < 1e-12, "the log begins 1 ms later");
 }
 

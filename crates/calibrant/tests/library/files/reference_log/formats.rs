@@ -225,13 +225,13 @@ fn a_log_and_a_recording_count_from_one_time() {
     let imu = parse_imu_recording(imu, &ImuReadOptions::default()).expect("read");
     let header = "#timestamp [ns],p_RS_R_x [m],p_RS_R_y [m],p_RS_R_z [m]\n";
     let mut file = read(&format!("{header}1403636582838555648,1,2,3\n1403636582938555648,1,2,3\n"));
-    file.put_on_clock_of(&imu);
+    file.put_on_clock_of(imu.counted_from_ns);
     assert_eq!(file.log.times_s(), [2.0, 2.1]);
     let mut file = read("1403636582.838556 0 0 0 0 0 0 1\n1403636582.938556 0 0 0 0 0 0 1\n");
-    file.put_on_clock_of(&imu);
+    file.put_on_clock_of(imu.counted_from_ns);
     assert!((file.log.times_s()[0] - 2.0).abs() < 1e-6);
     let mut file = read("5 0 0 0 0 0 0 1\n6 0 0 0 0 0 0 1\n");
-    file.put_on_clock_of(&imu);
+    file.put_on_clock_of(imu.counted_from_ns);
     assert_eq!(file.log.times_s(), [5.0, 6.0], "it has a clock of its own");
 }
 

@@ -1,0 +1,37 @@
+//! The calibration of an outcome: by holds or a commanded motion, or on a machine.
+
+use calibrant_core::estimate::Calibration;
+use calibrant_io::{MachineLogInput, MachineResult};
+use calibrant_machine::chain::KinematicChain;
+use calibrant_machine::estimate::{MachineCalibration, MachineSetup};
+
+/// What was calibrated, and how.
+#[derive(Debug, Clone)]
+pub enum Calibrated {
+    /// By holds or a commanded motion.
+    Sensors(Box<Calibration>),
+    /// On a machine whose motion was logged.
+    OnMachine(Box<MachineOutcome>),
+}
+
+/// A calibration on a machine, with what was known of the machine.
+#[derive(Debug, Clone)]
+pub struct MachineOutcome {
+    /// The calibration.
+    pub calibration: MachineCalibration,
+    /// What was known beforehand.
+    pub setup: MachineSetup,
+    /// The joints, for a log of them.
+    pub chain: Option<KinematicChain>,
+    /// The log of the motion.
+    pub log: MachineLogInput,
+}
+
+impl MachineOutcome {
+    /// As files take it.
+    #[must_use]
+    pub fn result(&self) -> MachineResult<'_> {
+        let Self { calibration, setup, chain, log } = self;
+        MachineResult { calibration, setup, chain: chain.as_ref(), log }
+    }
+}

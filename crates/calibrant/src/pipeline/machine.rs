@@ -1,0 +1,173 @@
+//! The stages from a recording on a machine to a calibration.
+
+use super::calibrated::{Calibrated, MachineOutcome};
+use super::clean::take_out_outliers;
+use super::machine_log::LogFile;
+use super::note::Note;
+use super::options::PipelineOptions;
+use super::outcome::Outcome;
+use super::reader::Reader;
+use super::report::about;
+use super::source::Source;
+use calibrant_core::diagnostic::Diagnostic;
+use calibrant_core::error::{Error, InputError, Refusal, Result};
+use calibrant_core::sensor::{
+    Axis, ImuParameters, ImuQuantity, ImuRecording, ParameterList, ReadingUnit, Sensor, SensorKind,
+    SensorModel,
+};
+use calibrant_io::{Experiment, ImuPlan, MachinePlan, ReferenceLogOptions};
+use calibrant_machine::chain::KinematicChain;
+use calibrant_machine::estimate::{
+    MachineCalibration, MachineProblem, MachineSettings, calibrate_on_machine,
+};
+use nalgebra::{Matrix3, Vector3};
+
+/// What all recordings on a machine share.
+pub(crate) struct MachineTask<'e> {
+    accelerometer: &'e Sensor,
+    imu: Option<&'e ImuPlan>,
+    plan: &'e MachinePlan,
+    chain: Option<KinematicChain>,
+    /// The log that the options name. Without it, each recording's file has one.
+    log: Option<LogFile>,
+    log_options: ReferenceLogOptions,
+    reader: Reader<'e>,
+}
+
+/// Gains of readings in SI that are plausible.
+const PLAUSIBLE_GAINS: std::ops::RangeInclusive<f64> = 0.8..=1.25;
+
+/// The gains of readings in SI that are far from 1, as of a log in degrees that is called one in radians.
+fn implausible_gains(calibration: &MachineCalibration) -> Vec<Diagnostic> {
+    let of_axis = |sensor_kind: SensorKind, unit: ReadingUnit, axis: Axis| {
+        let gain = calibration.parameters.imu.sensor(sensor_kind).matrix[(axis.index(), axis.index())];
+        let doubtful = unit != ReadingUnit::Counts && !PLAUSIBLE_GAINS.contains(&gain);
+        doubtful.then_some(Diagnostic::GainImplausible { sensor_kind, axis, gain, unit })
+    };
+    let sensors = SensorKind::ALL.into_iter().zip(calibration.units);
+    let sensors = sensors.filter_map(|(sensor_kind, unit)| Some((sensor_kind, unit?)));
+    sensors
+        .flat_map(|(kind, unit)| Axis::ALL.into_iter().filter_map(move |axis| of_axis(kind, unit, axis)))
+        .collect()
+}
+
+impl<'e> MachineTask<'e> {
+    /// Reads the machine, and the log that the options name.
+    pub(crate) fn new(
+        experiment: &'e Experiment,
+        plan: &'e MachinePlan,
+        options: &PipelineOptions,
+        notes: &mut Vec<Note>,
+    ) -> Result<Self> {
+        if options.validate.is_some() || options.folds.is_some() {
+            let message = "a calibration on a machine is not validated by this version";
+            let help = "leave --validate and --folds away";
+            return Err(Error::experiment(InputError::new(Refusal::OptionsContradict, message, help)));
+        }
+        let log_options = ReferenceLogOptions { topic: plan.log_topic.clone(), ..Default::default() };
+        let motion = options.motion.as_deref();
+        Ok(Self {
+            accelerometer: &experiment.sensor,
+            imu: experiment.imu.as_ref(),
+            plan,
+            chain: plan.source.as_ref().map(|source| source.chain()).transpose()?,
+            log: motion.map(|path| LogFile::read(path, &log_options, notes)).transpose()?,
+            log_options,
+            reader: Reader::of(experiment, options),
+        })
+    }
+
+    /// Calibrates from one recording.
+    pub(crate) fn run(
+        &self,
+        source: &Source,
+        options: &PipelineOptions,
+        notes: &mut Vec<Note>,
+    ) -> Result<Outcome> {
+        let mut recorded = self.reader.read(source)?;
+        notes.extend(Note::of_findings(&recorded.findings, source));
+        let outliers = take_out_outliers(&mut recorded.recording);
+        let beside;
+        let log = match &self.log {
+            Some(log) => log,
+            None => {
+                beside = LogFile::read_beside(&source.recording, &self.log_options, notes)?;
+                &beside
+            }
+        };
+        let chain = self.chain.as_ref();
+        let (log, log_input) = log.for_recording(chain, recorded.counted_from_ns, notes)?;
+        let setup =
+            self.plan.setup(self.accelerometer, self.imu, chain.map_or(0, |chain| chain.joints.len()));
+        let problem = MachineProblem {
+            recording: &recorded.recording,
+            log: &log,
+            chain,
+            setup: &setup,
+            nominal: &self.nominal()?,
+            quantities: &self.quantities(&recorded.recording),
+        };
+        let mut calibration = calibrate_on_machine(&problem, &MachineSettings::default())
+            .map_err(|error| error.in_recording(&source.recording))?;
+        calibration.warnings.splice(0..0, outliers);
+        calibration.warnings.extend(implausible_gains(&calibration));
+        let inputs = recorded.inputs(source);
+        let about = options.report.then(|| {
+            let what = if self.imu.is_none() { "an accelerometer" } else { "an IMU" };
+            let facts = [("Log", log_input.file.clone()), ("SHA-256 of the log", log_input.sha256.clone())];
+            about(&format!("{what} on a machine"), facts, &recorded, &inputs, options)
+        });
+        let outcome = MachineOutcome { calibration, setup, chain: self.chain.clone(), log: log_input };
+        Ok(Outcome {
+            calibrated: Calibrated::OnMachine(Box::new(outcome)),
+            validations: Vec::new(),
+            noise: Vec::new(),
+            notes: Vec::new(),
+            inputs,
+            recording: recorded.recording,
+            about,
+            allowed: options.allowed.clone(),
+        })
+    }
+
+    /// The sensors of the datasheets, where the search begins.
+    fn nominal(&self) -> Result<ImuParameters> {
+        let missing = |key: &str| {
+            let message = "counts need a nominal gain on a machine: the search begins with it";
+            Error::experiment(InputError::new(Refusal::KeyMissing, message, "add it").about_key(key))
+        };
+        let mut nominal = ImuParameters::identity();
+        let Sensor { gain, offset, .. } = self.accelerometer;
+        let gain = gain.ok_or_else(|| missing("sensor.gain_counts_per_mps2"))?;
+        nominal.accelerometer.matrix = Matrix3::from_diagonal(&gain);
+        nominal.accelerometer.bias = offset.unwrap_or_default();
+        if let Some(gyroscope) = self.imu.map(|imu| &imu.gyroscope) {
+            let in_si = gyroscope.unit == SensorKind::Gyroscope.stimulus_unit();
+            let gain = gyroscope.gain.or(in_si.then(|| Vector3::repeat(1.0)));
+            let gain = gain.ok_or_else(|| missing("gyroscope.gain_counts_per_radps"))?;
+            nominal.gyroscope.matrix = Matrix3::from_diagonal(&gain);
+        }
+        Ok(nominal)
+    }
+
+    /// The parameters of the sensors that were recorded.
+    fn quantities(&self, recording: &ImuRecording) -> Vec<ImuQuantity> {
+        let of = |kind: SensorKind, model: SensorModel| {
+            let list = ParameterList::new(3, model);
+            let quantities = list.quantities().iter().map(|quantity| ImuQuantity::Of(kind, *quantity));
+            quantities.collect::<Vec<_>>()
+        };
+        let mut quantities = Vec::new();
+        if recording.accelerometer.is_some() {
+            quantities.extend(of(SensorKind::Accelerometer, self.accelerometer.model));
+        }
+        if let (Some(imu), Some(_)) = (self.imu, &recording.gyroscope) {
+            quantities.extend(of(SensorKind::Gyroscope, imu.gyroscope.model));
+            if imu.gyroscope.g_sensitivity {
+                let entries = Axis::ALL.into_iter().flat_map(|row| Axis::ALL.map(|column| (row, column)));
+                quantities.extend(entries.map(|(row, column)| ImuQuantity::GSensitivity(row, column)));
+            }
+        }
+        quantities
+    }
+}

@@ -1,0 +1,92 @@
+//! The log of a machine's motion: its joints in the order of the chain, or its poses.
+
+use super::note::Note;
+use calibrant_core::error::{Error, InputError, Refusal, Result};
+use calibrant_io::{
+    MachineLogInput, ReferenceLogFile, ReferenceLogOptions, file_name, is_reference_log, read_reference_log,
+};
+use calibrant_machine::chain::KinematicChain;
+use calibrant_machine::log::{ReferenceLog, recover_interpolated};
+use calibrant_report::number_format::{counted, significant};
+use std::path::{Path, PathBuf};
+
+/// A log as its file holds it.
+pub(crate) struct LogFile {
+    path: PathBuf,
+    file: ReferenceLogFile,
+}
+
+impl LogFile {
+    /// Reads a log.
+    pub(crate) fn read(path: &Path, options: &ReferenceLogOptions, notes: &mut Vec<Note>) -> Result<Self> {
+        let file = read_reference_log(path, options)?;
+        notes.extend(
+            file.findings
+                .iter()
+                .map(|finding| Note::Finding { file: file_name(path), finding: finding.clone() }),
+        );
+        Ok(Self { path: path.to_path_buf(), file })
+    }
+
+    /// Reads the log that lies in the file of the recording, as in a bag.
+    pub(crate) fn read_beside(
+        recording: &Path,
+        options: &ReferenceLogOptions,
+        notes: &mut Vec<Note>,
+    ) -> Result<Self> {
+        if is_reference_log(recording, options) {
+            return Self::read(recording, options, notes);
+        }
+        Err(Error::experiment(InputError::new(
+            Refusal::KeyMissing,
+            "a [machine] experiment needs the log of the machine's motion",
+            "add --motion FILE: a CSV with t_s and a column for each joint (elbow_rad), or poses of the body",
+        )))
+    }
+
+    /// The log on the clock of a recording: the joints of the chain in their order, or poses that were measured.
+    pub(crate) fn for_recording(
+        &self,
+        chain: Option<&KinematicChain>,
+        counted_from_ns: Option<i128>,
+        notes: &mut Vec<Note>,
+    ) -> Result<(ReferenceLog, MachineLogInput)> {
+        let mut file = self.file.clone();
+        file.put_on_clock_of(counted_from_ns);
+        let mut recovered_rate_hz = None;
+        let log = match (chain, file.poses()) {
+            (Some(chain), _) => {
+                let names: Vec<&str> = chain.joints.iter().map(|joint| joint.name.as_str()).collect();
+                let joints = file.joints_in_order(&names).map_err(|error| error.in_recording(&self.path))?;
+                ReferenceLog::Joints(joints)
+            }
+            (None, Some(poses)) => match recover_interpolated(poses) {
+                Some(stream) => {
+                    notes.push(Note::Remark(format!(
+                        "{}: the poses are a linear interpolation of a stream at {} Hz. Its {} take their place",
+                        file_name(&self.path),
+                        significant(stream.rate_hz(), 7),
+                        counted(stream.log.times_s.len(), "sample")
+                    )));
+                    recovered_rate_hz = Some(stream.rate_hz());
+                    ReferenceLog::Poses(stream.log)
+                }
+                None => file.log.clone(),
+            },
+            (None, None) => {
+                let message = "the log is of joints, and [machine] names no machine";
+                let help = "give urdf, base and tip in [machine]";
+                let input_error = InputError::new(Refusal::MachineUnsuited, message, help);
+                return Err(Error::experiment(input_error.in_file(&self.path)));
+            }
+        };
+        let input = MachineLogInput {
+            file: file_name(&self.path),
+            sha256: file.sha256,
+            format: file.format.name(),
+            samples: log.times_s().len(),
+            recovered_rate_hz,
+        };
+        Ok((log, input))
+    }
+}
