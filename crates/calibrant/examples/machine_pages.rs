@@ -49,14 +49,14 @@ fn recording(rows: &[Vec<f64>], accelerometer: usize, gyroscope: usize) -> ImuRe
     }
 }
 
-fn page(
-    title: &str,
-    problem: &MachineProblem<'_>,
-) -> Result<String, Failure> {
+fn page(title: &str, problem: &MachineProblem<'_>) -> Result<String, Failure> {
     let calibration = calibrate_on_machine(problem, &MachineSettings::default())?;
     let about = About {
         title: title.into(),
-        facts: vec![("Samples".into(), problem.recording.accelerometer.as_ref().map_or(0, Recording::len).to_string())],
+        facts: vec![(
+            "Samples".into(),
+            problem.recording.accelerometer.as_ref().map_or(0, Recording::len).to_string(),
+        )],
         program: format!("calibrant {}", env!("CARGO_PKG_VERSION")),
         ..About::default()
     };
@@ -67,7 +67,9 @@ fn quantities() -> Vec<ImuQuantity> {
     let parameters = ParameterList::new(3, SensorModel::Full);
     SensorKind::ALL
         .iter()
-        .flat_map(|kind| parameters.quantities().iter().map(|of| ImuQuantity::Of(*kind, *of)).collect::<Vec<_>>())
+        .flat_map(|kind| {
+            parameters.quantities().iter().map(|of| ImuQuantity::Of(*kind, *of)).collect::<Vec<_>>()
+        })
         .collect()
 }
 

@@ -1,4 +1,4 @@
-//! The spectrum of a sensor's residuals, and how far they follow its readings (`welch1967`).
+//! The spectrum of a sensor's residuals, and how far they follow the reference (`welch1967`).
 
 use super::{MachineCalibration, MachineParameters};
 use calibrant_core::sensor::{Recording, SensorKind};
@@ -23,9 +23,9 @@ pub struct ResidualSpectrum {
     pub frequencies_hz: Vec<f64>,
     /// Power density of the residuals, the reading's unit² per Hz.
     pub residuals: Vec<Vector3<f64>>,
-    /// Power density of the readings.
-    pub readings: Vec<Vector3<f64>>,
-    /// Coherence of residuals and readings, 0 to 1: the part of the residuals' power that follows the readings linearly.
+    /// Power density of what the sensor should have read.
+    pub reference: Vec<Vector3<f64>>,
+    /// Coherence of both, 0 to 1: the part of the residuals' power that follows the reference linearly.
     pub coherence: Vec<Vector3<f64>>,
     /// Power density of the noise that neighbouring samples do not share.
     pub white_noise: Vector3<f64>,
@@ -35,7 +35,7 @@ pub struct ResidualSpectrum {
     pub unrelated: f64,
 }
 
-/// A sample that was used: time of the motion, residual and reading.
+/// A sample that was used: time of the motion, residual, and the reading that the reference says.
 type Sample = (f64, Vector3<f64>, Vector3<f64>);
 
 impl MachineCalibration {
@@ -43,13 +43,13 @@ impl MachineCalibration {
     #[must_use]
     pub fn residual_spectrum(&self, sensor: SensorKind, recording: &Recording) -> Option<ResidualSpectrum> {
         let noise = self.noise.iter().find(|of| of.sensor == sensor)?;
-        let samples = with_readings(&noise.residuals, recording, sensor, &self.parameters);
+        let samples = with_reference(&noise.residuals, recording, sensor, &self.parameters);
         spectrum(&samples, &noise.white_noise)
     }
 }
 
-/// The reading of each residual: the sample at its time.
-fn with_readings(
+/// What the reference says at each residual: the reading of the sample at its time, less the residual.
+fn with_reference(
     residuals: &[(f64, Vector3<f64>)],
     recording: &Recording,
     sensor: SensorKind,
@@ -64,7 +64,7 @@ fn with_readings(
         while place + 1 < times.len() && distance(place + 1, time) <= distance(place, time) {
             place += 1;
         }
-        (time, residual, recording.readings[place])
+        (time, residual, recording.readings[place] - residual)
     };
     residuals.iter().map(sample).collect()
 }
@@ -91,7 +91,7 @@ fn spectrum(samples: &[Sample], white_noise: &Vector3<f64>) -> Option<ResidualSp
     let per_density = 2.0 * step_s / window.iter().map(|w| w * w).sum::<f64>();
     let bins = length / 2 - 1;
     let zero = Vector3::zeros();
-    let (mut residuals, mut readings) = (vec![zero; bins], vec![zero; bins]);
+    let (mut residuals, mut reference) = (vec![zero; bins], vec![zero; bins]);
     let mut cross = vec![[Complex::new(0.0, 0.0); 3]; bins];
     let (mut input, mut output) = (transform.make_input_vec(), transform.make_output_vec());
     let mut of = |values: &mut dyn Iterator<Item = f64>| {
@@ -109,10 +109,10 @@ fn spectrum(samples: &[Sample], white_noise: &Vector3<f64>) -> Option<ResidualSp
             segments += 1;
             for axis in 0..3 {
                 let residual = of(&mut segment.iter().map(|sample| sample.1[axis]));
-                let reading = of(&mut segment.iter().map(|sample| sample.2[axis]));
-                for (k, (a, b)) in residual.iter().zip(&reading).enumerate() {
+                let expected = of(&mut segment.iter().map(|sample| sample.2[axis]));
+                for (k, (a, b)) in residual.iter().zip(&expected).enumerate() {
                     residuals[k][axis] += a.norm_sqr();
-                    readings[k][axis] += b.norm_sqr();
+                    reference[k][axis] += b.norm_sqr();
                     cross[k][axis] += a * b.conj();
                 }
             }
@@ -123,18 +123,18 @@ fn spectrum(samples: &[Sample], white_noise: &Vector3<f64>) -> Option<ResidualSp
     }
     let coherence = (0..bins).map(|k| {
         Vector3::from_fn(|axis, _| {
-            let powers = residuals[k][axis] * readings[k][axis];
+            let powers = residuals[k][axis] * reference[k][axis];
             if powers > 0.0 { cross[k][axis].norm_sqr() / powers } else { 0.0 }
         })
     });
     let coherence = coherence.collect();
     let scale = per_density / f64::from(segments);
-    residuals.iter_mut().chain(&mut readings).for_each(|power| *power *= scale);
+    residuals.iter_mut().chain(&mut reference).for_each(|power| *power *= scale);
     let others = (INDEPENDENT * f64::from(segments) - 1.0).max(0.1);
     Some(ResidualSpectrum {
         frequencies_hz: (1..=bins).map(|k| k as f64 / (length as f64 * step_s)).collect(),
         residuals,
-        readings,
+        reference,
         coherence,
         white_noise: white_noise.map(|sd| 2.0 * step_s * sd * sd),
         segments: segments as usize,
@@ -173,7 +173,7 @@ mod tests {
         }
         assert!(power(36).abs() < 1e-12);
         assert!((found.coherence[39][0] - 1.0).abs() < 1e-9);
-        assert!((found.readings[39][0] * 0.49 / found.residuals[39][0] - 1.0).abs() < 1e-9);
+        assert!((found.reference[39][0] * 0.49 / found.residuals[39][0] - 1.0).abs() < 1e-9);
         assert_eq!(found.coherence[39][1], 0.0);
     }
 
@@ -204,7 +204,8 @@ mod tests {
         let mut random = ChaCha8Rng::seed_from_u64(8);
         let mut normal = || Vector3::from_fn(|_, _| random.sample::<f64, _>(StandardNormal));
         let found = of(&(0..40_000).map(|k| (k as f64 * STEP_S, normal(), normal())).collect::<Vec<_>>());
-        let above = found.coherence.iter().flat_map(|of| of.iter()).filter(|of| **of > found.unrelated).count();
+        let above =
+            found.coherence.iter().flat_map(|of| of.iter()).filter(|of| **of > found.unrelated).count();
         let share = above as f64 / (3 * found.coherence.len()) as f64;
         assert!((0.03..0.07).contains(&share), "{share}");
     }

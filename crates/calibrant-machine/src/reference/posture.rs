@@ -47,8 +47,9 @@ impl Motion {
             Self::Poses(poses) => {
                 let at = |&time_s: &f64| {
                     let weights = poses.position.knots.weights(time_s);
-                    let vector =
-                        |derivative| Vector3::from_fn(|j, _| poses.position.component(&weights, derivative, j));
+                    let vector = |derivative| {
+                        Vector3::from_fn(|j, _| poses.position.component(&weights, derivative, j))
+                    };
                     let orientation = poses.orientation.with(&weights);
                     Posture {
                         time_s,

@@ -13,8 +13,16 @@ fn growth(factor: Option<f64>) -> Cell {
 
 /// Noise of each axis of each sensor.
 pub(super) fn sensor_noise(calibration: &MachineCalibration) -> String {
-    let columns =
-        ["sensor", "at rest", "unshared", "unshared / at rest", "rms of residuals", "unit", "growth κ", "samples"];
+    let columns = [
+        "sensor",
+        "at rest",
+        "white part",
+        "white / at rest",
+        "rms of residuals",
+        "unit",
+        "growth κ",
+        "samples",
+    ];
     let mut table = Table::new("", &columns);
     for noise in &calibration.noise {
         let symbol = calibration.units[place(noise.sensor)].map_or("1", |unit| unit.symbol());
@@ -35,7 +43,7 @@ pub(super) fn sensor_noise(calibration: &MachineCalibration) -> String {
         }
     }
     format!(
-        "{}<p>At rest: standard deviation of one sample where the machine does not move. Unshared: the part that neighbouring samples do not share, which the sensor alone would have. \
+        "{}<p>At rest: standard deviation of one sample where the machine does not move. White part: what neighbouring samples do not share, which the sensor alone would have. \
          A share far below 100 % means that other errors, shared by neighbours, add to the sensor’s noise. Growth: the variance is σ² (1 + κ a), with the activity a of the motion, whose mean is 1.</p>",
         table.html()
     )
@@ -43,9 +51,10 @@ pub(super) fn sensor_noise(calibration: &MachineCalibration) -> String {
 
 /// Noise of each part of the log.
 pub(super) fn reference_noise(calibration: &MachineCalibration) -> String {
-    let mut table = Table::new("", &["reference", "sd of a sample", "unit", "growth κ", "outliers", "samples"]);
+    let mut table =
+        Table::new("", &["reference", "sd of a sample", "unit", "growth κ", "outliers", "samples"]);
     for noise in &calibration.reference_noise {
-        let (factor, unit) = match (noise.unit, noise.sd < 1e-5) {
+        let (factor, unit) = match (noise.unit, noise.sd < 1e-4) {
             ("m", true) => (1e6, "µm"),
             ("m", false) => (1e3, "mm"),
             (_, true) => (1e6, "µrad"),

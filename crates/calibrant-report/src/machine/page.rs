@@ -2,7 +2,7 @@
 
 use super::geometry::corrections;
 use super::noise::{reference_noise, sensor_noise};
-use super::parameters::{budget, mount_table, sensor_table};
+use super::parameters::{budget, is_widened, mount_table, sensor_table};
 use super::quantity::place;
 use super::verdict::verdict;
 use crate::figure::{
@@ -59,12 +59,16 @@ fn parameters(calibration: &MachineCalibration, setup: &MachineSetup) -> Page {
     let tables: String = calibration
         .noise
         .iter()
-        .map(|of| format!("<div><h3>{}</h3>{}</div>", capitalised(of.sensor), sensor_table(calibration, of.sensor)))
+        .map(|of| {
+            format!("<div><h3>{}</h3>{}</div>", capitalised(of.sensor), sensor_table(calibration, of.sensor))
+        })
         .collect();
     page.push(format!("<div class=\"pair\">{tables}</div>"));
     page.section("Mount and clock", "Lever arm: from the origin of the tip or the tracked body to the sensor, in its axes. Mounting: turn of the sensor about its own axes against the expected one. Delay: motion time less IMU time. Clock rate: that of the reference against the IMU’s. Tilt: of gravity against the base.");
     page.push(mount_table(calibration, setup));
-    page.push("<p>Sd widened: the factor by which correlation of the residuals in time widens the sd; the stated sd has it.</p>");
+    if is_widened(calibration) {
+        page.paragraph("Sd widened: the factor by which correlation of the residuals in time widens the sd; the stated sd has it.");
+    }
     page.section("Budget", "The variance of each parameter of the sensor, by its sources.");
     page.push(budget(calibration));
     page
@@ -82,8 +86,16 @@ fn machine(calibration: &MachineCalibration, scene: Option<&Scene>) -> Page {
     };
     let knots = calibration.motion.knots();
     let mut table = Table::explained();
-    table.explain("fastest tip", largest(|at| at.speed_mps) + " m/s", "Largest speed of the tip, or of the tracked body.");
-    table.explain("fastest turn", largest(|at| at.rate_radps.to_degrees()) + " °/s", "Largest angular rate. A gyroscope’s gains need rotation about each of its axes.");
+    table.explain(
+        "fastest tip",
+        largest(|at| at.speed_mps) + " m/s",
+        "Largest speed of the tip, or of the tracked body.",
+    );
+    table.explain(
+        "fastest turn",
+        largest(|at| at.rate_radps.to_degrees()) + " °/s",
+        "Largest angular rate. A gyroscope’s gains need rotation about each of its axes.",
+    );
     table.explain(
         "distance of knots",
         format!("{} ms", number_format::significant(1e3 * knots.step_s, 3)),
@@ -103,7 +115,10 @@ fn machine(calibration: &MachineCalibration, scene: Option<&Scene>) -> Page {
 
 fn residuals(calibration: &MachineCalibration, recording: &ImuRecording, scene: Option<&Scene>) -> Page {
     let mut page = Page::default();
-    page.section("Reference against sensor", "What the sensor read, less what it should have read on this motion.");
+    page.section(
+        "Reference against sensor",
+        "What the sensor read, less what it should have read on this motion.",
+    );
     for noise in &calibration.noise {
         let unit = calibration.units[place(noise.sensor)].map_or("1", |unit| unit.symbol());
         let spectrum =
@@ -144,13 +159,25 @@ fn fit(calibration: &MachineCalibration, setup: &MachineSetup) -> Page {
     let fit = &calibration.fit;
     let mut table = Table::explained();
     table.explain("status", calibration.status.name().into(), "How the iteration ended.");
-    table.explain("iterations", number_format::count(calibration.iterations), "Gauss–Newton steps, once the noise was known.");
-    table.explain("last step", number_format::significant(calibration.gradient_norm, 2), "Length of the last step, in standard deviations of the parameters. Good: far below 1.");
+    table.explain(
+        "iterations",
+        number_format::count(calibration.iterations),
+        "Gauss–Newton steps, once the noise was known.",
+    );
+    table.explain(
+        "last step",
+        number_format::significant(calibration.gradient_norm, 2),
+        "Length of the last step, in standard deviations of the parameters. Good: far below 1.",
+    );
     table.explain("χ²", number_format::significant(fit.chi2, 5), match fit.p_value {
         Some(_) => "Sum of squared residuals over the given noise. Good: near the degrees of freedom.",
         None => "Sum of weighted squared residuals. Noise that was not given comes from these data, so χ² is near the degrees of freedom and tests little.",
     });
-    table.explain("degrees of freedom", number_format::count(fit.degrees_of_freedom), "Number of data less number of unknowns.");
+    table.explain(
+        "degrees of freedom",
+        number_format::count(fit.degrees_of_freedom),
+        "Number of data less number of unknowns.",
+    );
     if let Some(p) = fit.p_value {
         table.explain("p-value", number_format::probability(p), "Probability of a χ² at least this large if model and noise are right. Suspicious: below 0.001 and above 0.999.");
     }

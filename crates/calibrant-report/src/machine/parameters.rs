@@ -18,14 +18,24 @@ fn with_sd(value: f64, sd: f64) -> String {
     }
 }
 
+/// Did correlated residuals widen any sd?
+pub(super) fn is_widened(calibration: &MachineCalibration) -> bool {
+    calibration.inflation.iter().any(|factor| *factor > WIDENED)
+}
+
 /// By how much correlated residuals widened an sd.
 fn widened(factor: f64) -> Cell {
-    Cell::Number(if factor > WIDENED { format!("× {}", number_format::significant(factor, 2)) } else { "–".into() })
+    Cell::Number(if factor > WIDENED {
+        format!("× {}", number_format::significant(factor, 2))
+    } else {
+        "–".into()
+    })
 }
 
 /// The parameters of one sensor.
 pub(super) fn sensor_table(calibration: &MachineCalibration, sensor: SensorKind) -> String {
-    let mut table = Table::new("", &["parameter", "estimate ± sd", "unit", "sd widened"]);
+    let columns = ["parameter", "estimate ± sd", "unit", "sd widened"];
+    let mut table = Table::new("", &columns[..if is_widened(calibration) { 4 } else { 3 }]);
     let sds = calibration.sd();
     let prefix = format!("{sensor}.");
     for (k, quantity) in calibration.quantities.iter().enumerate() {
@@ -34,45 +44,62 @@ pub(super) fn sensor_table(calibration: &MachineCalibration, sensor: SensorKind)
             continue;
         }
         let (factor, unit) = unit_of(calibration, *quantity);
-        table.row(vec![
+        let mut cells = vec![
             Cell::Name(of.name().trim_start_matches(&prefix).to_string()),
             Cell::Number(with_sd(factor * calibration.values[k], factor * sds[k])),
             Cell::Text(if unit == "1" { "–" } else { unit }.to_string()),
-            widened(calibration.inflation[k]),
-        ]);
+        ];
+        cells.extend(is_widened(calibration).then(|| widened(calibration.inflation[k])));
+        table.row(cells);
     }
     table.html()
 }
 
 /// Lever arm, mounting, delays, clock, tilt and gravity, beside what was known of them.
 pub(super) fn mount_table(calibration: &MachineCalibration, setup: &MachineSetup) -> String {
-    let mut table =
-        Table::new("", &["quantity", "estimate ± sd", "expected ± prior sd", "unit", "sd / prior sd", "sd widened"]);
+    let columns = ["quantity", "estimate ± sd", "expected ± prior sd", "unit", "sd / prior sd", "sd widened"];
+    let count = if is_widened(calibration) { 6 } else { 5 };
+    let mut table = Table::new("", &columns[..count]);
     for quantity in of_mount(calibration) {
         let (factor, unit) = unit_of(calibration, quantity);
-        let before = factor * expected(calibration, quantity);
+        let before = factor * expected(setup, quantity);
         let name = Cell::Name(quantity.name(&calibration.joints));
         let Some(place) = calibration.position(quantity) else {
             let held = number_format::short(before);
             let none = || Cell::Number(number_format::UNKNOWN.into());
-            table.row(vec![name, Cell::Number("held".into()), Cell::Number(held), Cell::Text(unit.into()), none(), none()]);
+            let mut cells = vec![
+                name,
+                Cell::Number("held".into()),
+                Cell::Number(held),
+                Cell::Text(unit.into()),
+                none(),
+                none(),
+            ];
+            cells.truncate(count);
+            table.row(cells);
             continue;
         };
         let (value, sd) = (factor * calibration.values[place], factor * calibration.sd()[place]);
         let prior = factor * prior_sd(calibration, setup, quantity);
         let beforehand = match prior.is_finite() {
-            true => format!("{} ± {}", number_format::short(before), number_format::short(prior)),
+            true => format!("{} ± {}", number_format::short(before), number_format::significant(prior, 2)),
             false => "unknown".into(),
         };
-        let share = if prior.is_finite() { number_format::percent(sd / prior) } else { number_format::UNKNOWN.into() };
-        table.row(vec![
+        let share = if prior.is_finite() {
+            number_format::percent(sd / prior)
+        } else {
+            number_format::UNKNOWN.into()
+        };
+        let mut cells = vec![
             name,
             Cell::Number(with_sd(value, sd)),
             Cell::Number(beforehand),
             Cell::Text(unit.into()),
             Cell::Number(share),
             widened(calibration.inflation[place]),
-        ]);
+        ];
+        cells.truncate(count);
+        table.row(cells);
     }
     table.html()
 }
@@ -94,10 +121,12 @@ pub(super) fn budget(calibration: &MachineCalibration) -> String {
     columns.push("unit".into());
     let mut table = Table::new("", &columns.iter().map(String::as_str).collect::<Vec<_>>());
     for row in &calibration.budget {
-        let number = |variance: f64| Cell::Number(match variance {
-            none if none <= 0.0 => "0".into(),
-            _ => number_format::significant(variance.sqrt(), 2),
-        });
+        let number = |variance: f64| {
+            Cell::Number(match variance {
+                none if none <= 0.0 => "0".into(),
+                _ => number_format::significant(variance.sqrt(), 2),
+            })
+        };
         let unit = unit_of(calibration, MachineQuantity::Imu(row.quantity)).1;
         let mut cells = vec![Cell::Name(row.quantity.name()), number(row.variance)];
         cells.extend(row.parts.map(number));

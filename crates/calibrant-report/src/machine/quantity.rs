@@ -24,7 +24,9 @@ pub(super) fn unit_of(calibration: &MachineCalibration, quantity: MachineQuantit
 
 fn turns(calibration: &MachineCalibration, joint: usize) -> bool {
     match &calibration.motion {
-        Motion::Joints(joints) => joints.chain.joints.get(joint).is_none_or(|of| of.kind != JointKind::Prismatic),
+        Motion::Joints(joints) => {
+            joints.chain.joints.get(joint).is_none_or(|of| of.kind != JointKind::Prismatic)
+        }
         Motion::Poses(_) => true,
     }
 }
@@ -35,18 +37,21 @@ pub(super) fn place(sensor: SensorKind) -> usize {
 }
 
 /// What was expected of a quantity beside the sensor's.
-pub(super) fn expected(calibration: &MachineCalibration, quantity: MachineQuantity) -> f64 {
-    let nominal = &calibration.nominal;
+pub(super) fn expected(setup: &MachineSetup, quantity: MachineQuantity) -> f64 {
     match quantity {
-        MachineQuantity::Lever(axis) => nominal.mount.lever_m[axis.index()],
-        MachineQuantity::Gravity => nominal.gravity_mps2,
-        MachineQuantity::Delay(sensor) => nominal.delays_s[place(sensor)],
+        MachineQuantity::Lever(axis) => setup.lever_m[axis.index()],
+        MachineQuantity::Gravity => setup.gravity_mps2,
+        MachineQuantity::Delay(_) => setup.delay_s,
         _ => 0.0,
     }
 }
 
 /// Standard deviation of what was known beforehand: 0 where the quantity was held, infinite where nothing was.
-pub(super) fn prior_sd(calibration: &MachineCalibration, setup: &MachineSetup, quantity: MachineQuantity) -> f64 {
+pub(super) fn prior_sd(
+    calibration: &MachineCalibration,
+    setup: &MachineSetup,
+    quantity: MachineQuantity,
+) -> f64 {
     match quantity {
         MachineQuantity::Imu(_) => f64::INFINITY,
         MachineQuantity::Lever(_) => setup.lever_sd_m,

@@ -17,8 +17,11 @@ const CORRELATED: f64 = 1.5;
 /// The verdict with its warnings, as one prominent box.
 pub(super) fn verdict(calibration: &MachineCalibration, about: &About) -> String {
     let warnings = calibration.warnings.iter().map(message);
-    let remarks: Vec<String> =
-        warnings.chain(unexplained(calibration)).chain(hardly_used(calibration)).chain(correlated(calibration)).collect();
+    let remarks: Vec<String> = warnings
+        .chain(unexplained(calibration))
+        .chain(hardly_used(calibration))
+        .chain(correlated(calibration))
+        .collect();
     let (class, word) = match (calibration.status, remarks.is_empty()) {
         (CalibrationStatus::Converged, true) => ("good", "✓ Usable."),
         (CalibrationStatus::Converged, false) => ("caution", "! Usable; read the warnings first."),

@@ -14,7 +14,8 @@ pub(crate) type Correction = Option<(f64, f64)>;
 pub(crate) fn correction_bars(columns: &[&str], joints: &[(String, Vec<Correction>)]) -> String {
     let sizes = joints.iter().flat_map(|(_, row)| row.iter().flatten()).map(|(value, _)| value.abs());
     let end = sizes.filter(|size| size.is_finite()).fold(LEAST_END, f64::max);
-    let head: String = columns.iter().map(|name| format!("<th scope=\"col\">{}</th>", escape(name))).collect();
+    let head: String =
+        columns.iter().map(|name| format!("<th scope=\"col\">{}</th>", escape(name))).collect();
     let rows: String = joints
         .iter()
         .map(|(joint, row)| {

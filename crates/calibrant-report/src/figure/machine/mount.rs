@@ -14,7 +14,10 @@ const SIZE: (f64, f64) = (400.0, 330.0);
 /// The tip's axes, the lever arm along each of them and as a line, and the axes of the sensor. `tip` is what carries the sensor.
 pub(crate) fn sensor_on_tip(mount: &SensorMount, tip: &str) -> String {
     let lever = mount.lever_m;
-    let size = if lever.norm() > 0.0 && lever.norm().is_finite() { lever.amax() } else { 0.01 };
+    if !lever.norm().is_finite() {
+        return String::new();
+    }
+    let size = if lever.norm() > 0.0 { lever.amax() } else { 0.01 };
     let axis = 0.55 * size;
     let corners = [Vector3::zeros(), Vector3::x() * lever.x, Vector3::new(lever.x, lever.y, 0.0), lever];
     let at_sensor = |end: Vector3<f64>| lever + mount.tip_from_sensor * end;
@@ -53,17 +56,29 @@ pub(crate) fn sensor_on_tip(mount: &SensorMount, tip: &str) -> String {
         let (of_tip, of_sensor) = (unit * axis, at_sensor(unit * axis));
         svg += &line(&Vector3::zeros(), &of_tip, colour, 3.0, "");
         svg += &line(&lever, &of_sensor, colour, 1.8, "6 4");
-        for (end, start, label) in
-            [(of_tip, Vector3::zeros(), name.to_string()), (of_sensor, lever, format!("{name} of the sensor"))]
-        {
+        for (end, start, label) in [
+            (of_tip, Vector3::zeros(), name.to_string()),
+            (of_sensor, lever, format!("{name} of the sensor")),
+        ] {
             let ((x, y), (x0, _)) = (view.at(&(start + (end - start) * 1.1)), view.at(&start));
-            let anchor = if x > x0 + 2.0 { "start" } else { "end" };
-            svg += &format!("<text x=\"{x:.1}\" y=\"{:.1}\" font-size=\"12\" text-anchor=\"{anchor}\">{label}</text>", y + 4.0);
+            let (anchor, below) = match x - x0 {
+                right if right > 2.0 => ("start", 4.0),
+                left if left < -2.0 => ("end", 4.0),
+                _ => ("middle", -2.0),
+            };
+            svg += &format!(
+                "<text x=\"{x:.1}\" y=\"{:.1}\" font-size=\"12\" text-anchor=\"{anchor}\">{label}</text>",
+                y + below
+            );
         }
     }
     svg += &line(&Vector3::zeros(), &lever, SENSOR, 3.0, "");
     svg += &format!("<path d=\"{}\" stroke=\"{SENSOR}\" stroke-width=\"12\"/>", view.dots([&lever]));
-    svg += &format!("<path d=\"{}\" stroke=\"{}\" stroke-width=\"8\"/>", view.dots([&Vector3::zeros()]), colour::BLACK);
+    svg += &format!(
+        "<path d=\"{}\" stroke=\"{}\" stroke-width=\"8\"/>",
+        view.dots([&Vector3::zeros()]),
+        colour::BLACK
+    );
     svg += &scale_bar(&view, SIZE);
     let millimetres: Vec<String> = lever.iter().map(|x| number_format::fixed(1e3 * x, 2)).collect();
     let caption = format!(

@@ -1,5 +1,5 @@
 for (const figure of document.querySelectorAll("figure.player")) {
-  const data = figure.dataset, svg = figure.querySelector("svg");
+  const data = figure.dataset, svg = figure.querySelector(".stage svg");
   const numbers = text => text.split(",").map(Number);
   const points = text => {
     const flat = numbers(text), list = [];
@@ -37,6 +37,7 @@ for (const figure of document.querySelectorAll("figure.player")) {
     set("path", path.map(line).join(""));
     set("links", line(links));
     set("joints", dots(links));
+    set("base", dots(links.slice(0, 1)));
     for (let k = 0; k < 3; k++) {
       set(`axis${k}`, line([tip, ends[k]]));
       const [x, y] = at(names[k]);
@@ -53,7 +54,7 @@ for (const figure of document.querySelectorAll("figure.player")) {
 
   const step = now => {
     if (!playing) return;
-    place += (now - before) / 1000 / Math.max(end - start, 1e-3);
+    place += Math.max(0, now - before) / 1000 / Math.max(end - start, 1e-3);
     if (place >= 1) place = 0;
     before = now;
     draw();

@@ -14,33 +14,30 @@ use nalgebra::Vector3;
 pub(crate) const PLAYER_SCRIPT: &str = include_str!("player.js");
 
 /// Width and height of the drawing.
-const SIZE: (f64, f64) = (720.0, 480.0);
+const SIZE: (f64, f64) = (580.0, 420.0);
 /// The first view: azimuth and elevation, degrees.
 const VIEW: (f64, f64) = (-55.0, 22.0);
 /// Coordinates are whole numbers of this, m.
 const GRAIN_M: f64 = 1e-4;
-/// Most points of the path.
-const PATH_POINTS: usize = 600;
 
 /// The figure.
 pub(crate) fn player(scene: &Scene) -> String {
     let Some(first) = scene.played.first() else { return String::new() };
-    let scale = 0.94 * (SIZE.1 / 2.0) / scene.half.norm();
+    let scale = 1.04 * (SIZE.1 / 2.0) / scene.half.norm();
     let view = View {
         centre: scene.centre,
         middle: (SIZE.0 / 2.0, SIZE.1 / 2.0),
         scale,
         ..View::from(VIEW.0.to_radians(), VIEW.1.to_radians())
     };
-    let path = scene.tip_path(PATH_POINTS);
+    let path = scene.played_path();
     let floor = floor(scene);
     let (links, ends) = (scene.links(first), scene.tip_and_sensor(first));
     let tip = first.tip().translation.vector;
     let part = |name: &str, path: &str, colour: &str, width: f64| {
         format!("<path data-part=\"{name}\" d=\"{path}\" stroke=\"{colour}\" stroke-width=\"{width}\"/>")
     };
-    let lines =
-        |of: &[Vec<Vector3<f64>>]| of.iter().map(|run| view.line(run)).collect::<String>();
+    let lines = |of: &[Vec<Vector3<f64>>]| of.iter().map(|run| view.line(run)).collect::<String>();
     let mut svg = format!(
         "<svg viewBox=\"0 0 {} {}\" role=\"img\" tabindex=\"0\" aria-label=\"The machine at {} s\" font-family=\"system-ui, 'DejaVu Sans', Arial, sans-serif\" fill=\"none\" stroke-linecap=\"round\" stroke-linejoin=\"round\">",
         SIZE.0,
@@ -50,8 +47,9 @@ pub(crate) fn player(scene: &Scene) -> String {
     svg += &part("floor", &lines(&floor), "#d0d7de", 0.8);
     svg += &part("path", &lines(&path), colour::SKY, 1.0);
     if scene.is_chain {
-        svg += &part("links", &view.line(&links), colour::BLUE, 6.0);
-        svg += &part("joints", &view.dots(&links), "#0b3d5e", 10.0);
+        svg += &part("links", &view.line(&links), colour::GREY, 6.0);
+        svg += &part("joints", &view.dots(&links), "#424a53", 10.0);
+        svg += &part("base", &view.dots(&links[..1]), colour::BLACK, 18.0);
     }
     for (k, colour) in AXIS_COLOURS.iter().enumerate() {
         svg += &part(&format!("axis{k}"), &view.line([&tip, &ends[k]]), colour, 2.6);
@@ -60,7 +58,9 @@ pub(crate) fn player(scene: &Scene) -> String {
     svg += &part("sensor", &view.dots([&ends[3]]), SENSOR, 10.0);
     for (k, (name, end)) in ["x", "y", "z"].iter().zip(base_axes(scene)).enumerate() {
         let (x, y) = view.at(&end);
-        svg += &format!("<text data-part=\"name{k}\" x=\"{x:.1}\" y=\"{y:.1}\" font-size=\"14\" text-anchor=\"middle\" dominant-baseline=\"middle\" fill=\"#57606a\" stroke=\"none\">{name}</text>");
+        svg += &format!(
+            "<text data-part=\"name{k}\" x=\"{x:.1}\" y=\"{y:.1}\" font-size=\"14\" text-anchor=\"middle\" dominant-baseline=\"middle\" fill=\"#57606a\" stroke=\"none\">{name}</text>"
+        );
     }
     svg += &format!("<g fill=\"#1b1f24\" stroke=\"none\">{}</g></svg>", scale_bar(&view, SIZE));
     let grains = |points: &[Vector3<f64>]| {
@@ -84,12 +84,19 @@ pub(crate) fn player(scene: &Scene) -> String {
         ("view", format!("{},{}", VIEW.0, VIEW.1)),
         ("times", format!("{:.3},{last:.3}", first.time_s)),
     ];
-    let data: String = data.iter().map(|(name, value)| format!(" data-{name}=\"{}\"", escape(value))).collect();
+    let data: String =
+        data.iter().map(|(name, value)| format!(" data-{name}=\"{}\"", escape(value))).collect();
     let path_end_s = scene.path.last().map_or(last, |posture| posture.time_s);
     let path_start_s = scene.path.first().map_or(first.time_s, |posture| posture.time_s);
-    let range = |from: f64, to: f64| format!("{} to {} s", number_format::fixed(from, 1), number_format::fixed(to, 1));
+    let range = |from: f64, to: f64| {
+        format!("{} to {} s", number_format::fixed(from, 1), number_format::fixed(to, 1))
+    };
     let which = if last - first.time_s < path_end_s - path_start_s - 0.1 {
-        format!("the liveliest part plays, {}; the path is that of all {}", range(first.time_s, last), range(path_start_s, path_end_s))
+        format!(
+            "the liveliest part plays with its path: {} of {}",
+            range(first.time_s, last),
+            range(path_start_s, path_end_s)
+        )
     } else {
         format!("it plays from {}", range(first.time_s, last))
     };
@@ -97,8 +104,8 @@ pub(crate) fn player(scene: &Scene) -> String {
         "<figure class=\"player\"{data}><h3>The machine in motion</h3>{}<div class=\"stage\">{svg}</div>\
          <div class=\"controls\" hidden><button type=\"button\" data-do=\"play\">Play</button>\
          <input type=\"range\" min=\"0\" max=\"1\" step=\"any\" value=\"0\" aria-label=\"time\"><output>{} s</output>\
-         <span><button type=\"button\" data-view=\"-90,0\">Front</button><button type=\"button\" data-view=\"0,0\">Side</button><button type=\"button\" data-view=\"-90,90\">Top</button></span></div>\
-         <figcaption>Drag to turn it, or use the arrow keys. In real time, {which}. The letters x, y, z are at the ends of the base’s axes along the floor’s corner.</figcaption></figure>",
+         <span><button type=\"button\" data-view=\"-90,0\">Front</button><button type=\"button\" data-view=\"0,0\">Side</button><button type=\"button\" data-view=\"-90,90\">Top</button></span><p>Drag to turn it, or use the arrow keys.</p></div>\
+         <figcaption>In real time, {which}. Where no sample was used, it stands still. The letters x, y, z are at the ends of the base’s axes along the floor’s corner.</figcaption></figure>",
         legend(scene.is_chain),
         number_format::fixed(first.time_s, 1)
     )

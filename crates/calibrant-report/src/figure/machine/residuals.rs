@@ -22,23 +22,29 @@ pub(crate) fn residuals_and_speed(noise: &SensorResidual, unit: &'static str, sc
             let mut panel = Panel::new(format!("axis {axis}"), "time (s)", unit.label("residual"))
                 .with(Series::new("residual", colour::BLUE, thin, points));
             for level in [2.0, -2.0] {
-                let line = ends.map(|ends| ends.map(|time| (time, level * unit.factor * noise.noise[k])).to_vec());
-                let label = "±2 sd of the noise at rest";
+                let line =
+                    ends.map(|ends| ends.map(|time| (time, level * unit.factor * noise.noise[k])).to_vec());
+                let label = match noise.growth {
+                    Some(_) => "±2 sd of the noise at rest",
+                    None => "±2 sd of the noise",
+                };
                 panel = panel.with(Series::dashed(label, colour::BLACK, line.unwrap_or_default()));
             }
             panel
         })
         .collect();
     let (what, label, factor) = match noise.sensor {
-        SensorKind::Accelerometer => ("speed of the tip", "speed (m/s)", 1.0),
-        SensorKind::Gyroscope => ("angular rate of the tip", "rate (°/s)", 1.0_f64.to_degrees()),
+        SensorKind::Accelerometer => ("speed", "speed (m/s)", 1.0),
+        SensorKind::Gyroscope => ("angular rate", "rate (°/s)", 1.0_f64.to_degrees()),
     };
     let of = |posture: &calibrant_machine::reference::Posture| match noise.sensor {
         SensorKind::Accelerometer => posture.speed_mps,
         SensorKind::Gyroscope => factor * posture.rate_radps,
     };
     let speed = thinned(scene.path.iter().map(|posture| (posture.time_s, of(posture))));
-    panels.push(Panel::new(what, "time (s)", label).with(Series::new("motion", colour::ORANGE, thin, speed)));
+    let what = format!("{what} of the {}", if scene.is_chain { "tip" } else { "body" });
+    let line = Mark::Line { width: 1.2, dashes: "" };
+    panels.push(Panel::new(what, "time (s)", label).with(Series::new("motion", colour::ORANGE, line, speed)));
     let mut caption = "Reading less what the reference’s motion says. Good: a band of even width about zero. Where the band is wider while the machine moves faster, \
                        the reference’s error grows with motion."
         .to_string();

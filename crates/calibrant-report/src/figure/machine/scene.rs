@@ -13,18 +13,20 @@ const PATH_STEP_S: f64 = 0.01;
 const PLAYED: usize = 200;
 /// Longest part of the motion that plays, s.
 const PLAYED_S: f64 = 20.0;
-/// Farther than this from any sample of the sensor, the motion was not seen, s.
-const UNSEEN_S: f64 = 0.1;
+/// Number of points along the path of the part that plays.
+const PLAYED_PATH: usize = 600;
+/// Farther than this from any sample of the sensor, the motion was not seen; in the usual distance of samples.
+const UNSEEN: f64 = 2.0;
 
 /// A machine in motion.
 #[derive(Debug)]
 pub(crate) struct Scene {
     /// Postures over the whole time, where samples of the sensor are.
     pub(crate) path: Vec<Posture>,
-    /// Time between them, s.
-    step_s: f64,
-    /// Postures of the liveliest part.
+    /// Postures of the liveliest part, evenly in time. In a gap the last one before it stays.
     pub(crate) played: Vec<Posture>,
+    /// The same more densely, where samples of the sensor are.
+    played_path: Vec<Posture>,
     /// Where the sensor is.
     pub(crate) mount: SensorMount,
     /// Is it a chain of joints?
@@ -43,12 +45,20 @@ impl Scene {
         seen.retain(|time| time.is_finite());
         seen.sort_by(f64::total_cmp);
         let (first, last) = (*seen.first()?, *seen.last()?);
+        let mut steps: Vec<f64> =
+            seen.windows(2).map(|pair| pair[1] - pair[0]).filter(|step| *step > 0.0).collect();
+        let middle = steps.len() / 2;
+        let unseen_s = match steps.is_empty() {
+            true => PATH_STEP_S,
+            // both sensors are in the list
+            false => 2.0 * UNSEEN * *steps.select_nth_unstable_by(middle, f64::total_cmp).1,
+        };
         let count = (((last - first) / PATH_STEP_S) as usize + 1).clamp(2, PATH);
         let step_s = (last - first) / (count - 1) as f64;
         let is_seen = |time: f64| {
             let after = seen.partition_point(|other| *other < time);
             let near = [after.checked_sub(1), Some(after)].into_iter().flatten().filter_map(|k| seen.get(k));
-            near.into_iter().any(|other| (other - time).abs() <= UNSEEN_S + step_s)
+            near.into_iter().any(|other| (other - time).abs() <= unseen_s)
         };
         let times: Vec<f64> =
             (0..count).map(|k| first + k as f64 * step_s).filter(|time| is_seen(*time)).collect();
@@ -56,12 +66,23 @@ impl Scene {
         let path = calibration.motion.postures(&times, corrections);
         let length_s = (last - first).min(PLAYED_S);
         let start_s = liveliest(&path, step_s, length_s).unwrap_or(first);
-        let played: Vec<f64> =
-            (0..PLAYED).map(|k| start_s + length_s * k as f64 / (PLAYED - 1) as f64).collect();
+        let evenly =
+            |count: usize| (0..count).map(move |k| start_s + length_s * k as f64 / (count - 1) as f64);
+        let mut before = start_s;
+        let stays = |time: f64| {
+            if is_seen(time) {
+                before = time;
+            }
+            before
+        };
+        let played: Vec<f64> = evenly(PLAYED).map(stays).collect();
+        let along: Vec<f64> = evenly(PLAYED_PATH).filter(|time| is_seen(*time)).collect();
+        let mut played = calibration.motion.postures(&played, corrections);
+        played.iter_mut().zip(evenly(PLAYED)).for_each(|(posture, time)| posture.time_s = time);
         let mut scene = Self {
             path,
-            step_s,
-            played: calibration.motion.postures(&played, corrections),
+            played,
+            played_path: calibration.motion.postures(&along, corrections),
             mount: calibration.parameters.mount,
             is_chain: matches!(calibration.motion, Motion::Joints(_)),
             centre: Vector3::zeros(),
@@ -104,13 +125,14 @@ impl Scene {
         ]
     }
 
-    /// The path of the tip in parts without a gap, at most so many points in all, m.
-    pub(crate) fn tip_path(&self, most: usize) -> Vec<Vec<Vector3<f64>>> {
-        let every = self.path.len().div_ceil(most).max(1);
-        self.path
-            .chunk_by(|one, next| next.time_s - one.time_s < 1.5 * self.step_s)
-            .map(|run| run.iter().step_by(every).map(|posture| posture.tip().translation.vector).collect())
-            .collect()
+    /// The whole path of the tip in parts without a gap, m.
+    pub(crate) fn tip_path(&self) -> Vec<Vec<Vector3<f64>>> {
+        without_gaps(&self.path)
+    }
+
+    /// The path of the tip in the part that plays, m.
+    pub(crate) fn played_path(&self) -> Vec<Vec<Vector3<f64>>> {
+        without_gaps(&self.played_path)
     }
 
     /// A few postures, evenly over the played part.
@@ -118,6 +140,16 @@ impl Scene {
         const FEW: usize = 5;
         (0..FEW).filter_map(|k| self.played.get(k * (self.played.len() - 1) / (FEW - 1)))
     }
+}
+
+/// The places of the tip, in parts of even steps.
+fn without_gaps(postures: &[Posture]) -> Vec<Vec<Vector3<f64>>> {
+    let steps = postures.windows(2).map(|pair| pair[1].time_s - pair[0].time_s);
+    let step_s = steps.fold(f64::INFINITY, f64::min);
+    postures
+        .chunk_by(|one, next| next.time_s - one.time_s < 1.5 * step_s)
+        .map(|run| run.iter().map(|posture| posture.tip().translation.vector).collect())
+        .collect()
 }
 
 /// Start of the part of this length in which the tip moves and turns most.

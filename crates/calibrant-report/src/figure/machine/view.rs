@@ -58,7 +58,11 @@ impl View {
 pub(super) fn round_step(length: f64, most: f64) -> f64 {
     let least = length / most;
     let decade = 10f64.powf(least.log10().floor());
-    [1.0, 2.0, 5.0].into_iter().map(|m| m * decade).find(|step| *step >= least * 0.999).unwrap_or(10.0 * decade)
+    [1.0, 2.0, 5.0]
+        .into_iter()
+        .map(|m| m * decade)
+        .find(|step| *step >= least * 0.999)
+        .unwrap_or(10.0 * decade)
 }
 
 #[cfg(test)]

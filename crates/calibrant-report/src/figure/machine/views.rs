@@ -11,8 +11,6 @@ use nalgebra::Vector3;
 const PLOT: (f64, f64, f64) = (52.0, 28.0, 336.0);
 /// Width and height of the drawing.
 const SIZE: (f64, f64) = (400.0, 410.0);
-/// Most points of the path.
-const PATH_POINTS: usize = 1500;
 
 /// Three views at one scale, with the path of the tip and a few postures.
 pub(crate) fn three_views(scene: &Scene) -> String {
@@ -33,15 +31,18 @@ pub(crate) fn three_views(scene: &Scene) -> String {
 /// Legend of the scene.
 pub(super) fn legend(is_chain: bool) -> String {
     let entry = |drawing: &str, label: &str| {
-        format!("<li><svg viewBox=\"0 0 34 14\" aria-hidden=\"true\" fill=\"none\">{drawing}</svg>{label}</li>")
+        format!(
+            "<li><svg viewBox=\"0 0 34 14\" aria-hidden=\"true\" fill=\"none\">{drawing}</svg>{label}</li>"
+        )
     };
-    let line =
-        |colour: &str, width: f64| format!("<path d=\"M2 7H32\" stroke=\"{colour}\" stroke-width=\"{width}\"/>");
+    let line = |colour: &str, width: f64| {
+        format!("<path d=\"M2 7H32\" stroke=\"{colour}\" stroke-width=\"{width}\"/>")
+    };
     let dot = |colour: &str| format!("<circle cx=\"17\" cy=\"7\" r=\"4\" fill=\"{colour}\"/>");
     let tip = if is_chain { "tip" } else { "body" };
     let mut entries = String::new();
     if is_chain {
-        entries += &entry(&line(colour::BLUE, 4.0), "links");
+        entries += &entry(&line(colour::GREY, 4.0), "links");
         entries += &entry(&dot(colour::BLACK), "base");
     }
     entries += &entry(&line(colour::SKY, 1.2), &format!("path of the {tip}"));
@@ -74,7 +75,7 @@ fn panel(scene: &Scene, title: &str, right: Vector3<f64>, up: Vector3<f64>, labe
         SIZE.0, SIZE.1
     );
     svg += &axes(&view, half, labels);
-    for run in scene.tip_path(PATH_POINTS) {
+    for run in scene.tip_path() {
         svg += &stroke(&view.line(&run), colour::SKY, 0.8);
     }
     for posture in scene.few() {
@@ -87,18 +88,14 @@ fn panel(scene: &Scene, title: &str, right: Vector3<f64>, up: Vector3<f64>, labe
 }
 
 /// The strokes of one posture.
-fn posture_strokes(
-    scene: &Scene,
-    posture: &calibrant_machine::reference::Posture,
-    view: &View,
-) -> String {
+fn posture_strokes(scene: &Scene, posture: &calibrant_machine::reference::Posture, view: &View) -> String {
     let links = scene.links(posture);
     let tip = posture.tip().translation.vector;
     let ends = scene.tip_and_sensor(posture);
     let mut svg = String::new();
     if scene.is_chain {
-        svg += &format!("<g opacity=\"0.55\">{}</g>", stroke(&view.line(&links), colour::BLUE, 3.0));
-        svg += &stroke(&view.dots(&links[1..links.len() - 1]), colour::BLUE, 6.0);
+        svg += &format!("<g opacity=\"0.55\">{}</g>", stroke(&view.line(&links), colour::GREY, 3.2));
+        svg += &stroke(&view.dots(&links[1..links.len() - 1]), "#424a53", 6.0);
     }
     for (end, colour) in ends.iter().zip(AXIS_COLOURS) {
         svg += &stroke(&view.line([&tip, end]), colour, 1.6);
@@ -117,7 +114,7 @@ fn stroke(path: &str, colour: &str, width: f64) -> String {
 fn axes(view: &View, half: f64, labels: [&str; 2]) -> String {
     let (left, top, side) = PLOT;
     let (bottom, end) = (top + side, left + side);
-    let step = round_step(2.0 * half, 6.0);
+    let step = round_step(2.0 * half, 9.0);
     let ticks = |middle: f64| {
         let first = ((middle - half) / step).ceil() as i64;
         let last = ((middle + half) / step).floor() as i64;
@@ -127,16 +124,30 @@ fn axes(view: &View, half: f64, labels: [&str; 2]) -> String {
     for value in ticks(view.right.dot(&view.centre)) {
         let x = view.at(&(view.centre + view.right * (value - view.right.dot(&view.centre)))).0;
         let text = number_format::tick(value);
-        svg += &format!("<path d=\"M{x:.1} {top}V{bottom}\" stroke=\"#e3e7eb\" stroke-width=\"0.8\"/><text x=\"{x:.1}\" y=\"{}\" font-size=\"12\" text-anchor=\"middle\">{text}</text>", bottom + 16.0);
+        svg += &format!(
+            "<path d=\"M{x:.1} {top}V{bottom}\" stroke=\"#e3e7eb\" stroke-width=\"0.8\"/><text x=\"{x:.1}\" y=\"{}\" font-size=\"12\" text-anchor=\"middle\">{text}</text>",
+            bottom + 16.0
+        );
     }
     for value in ticks(view.up.dot(&view.centre)) {
         let y = view.at(&(view.centre + view.up * (value - view.up.dot(&view.centre)))).1;
         let text = number_format::tick(value);
-        svg += &format!("<path d=\"M{left} {y:.1}H{end}\" stroke=\"#e3e7eb\" stroke-width=\"0.8\"/><text x=\"{}\" y=\"{:.1}\" font-size=\"12\" text-anchor=\"end\">{text}</text>", left - 5.0, y + 4.0);
+        svg += &format!(
+            "<path d=\"M{left} {y:.1}H{end}\" stroke=\"#e3e7eb\" stroke-width=\"0.8\"/><text x=\"{}\" y=\"{:.1}\" font-size=\"12\" text-anchor=\"end\">{text}</text>",
+            left - 5.0,
+            y + 4.0
+        );
     }
     let [across, upward] = labels;
     let (x, y) = (left + side / 2.0, top + side / 2.0);
-    svg += &format!("<rect x=\"{left}\" y=\"{top}\" width=\"{side}\" height=\"{side}\" fill=\"none\" stroke=\"#424a53\"/>");
-    svg += &format!("<text x=\"{x}\" y=\"{}\" font-size=\"13\" text-anchor=\"middle\">{across}</text>", bottom + 36.0);
-    svg + &format!("<text transform=\"translate(13 {y}) rotate(-90)\" font-size=\"13\" text-anchor=\"middle\">{upward}</text>")
+    svg += &format!(
+        "<rect x=\"{left}\" y=\"{top}\" width=\"{side}\" height=\"{side}\" fill=\"none\" stroke=\"#424a53\"/>"
+    );
+    svg += &format!(
+        "<text x=\"{x}\" y=\"{}\" font-size=\"13\" text-anchor=\"middle\">{across}</text>",
+        bottom + 36.0
+    );
+    svg + &format!(
+        "<text transform=\"translate(13 {y}) rotate(-90)\" font-size=\"13\" text-anchor=\"middle\">{upward}</text>"
+    )
 }
