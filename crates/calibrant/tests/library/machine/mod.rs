@@ -1,4 +1,5 @@
 //! Tests of machines that carry a sensor.
 
+mod estimator;
 mod urdf;
 mod urdf_broken;
