@@ -9,6 +9,7 @@ mod design;
 mod evaluation;
 mod figure;
 mod html;
+mod machine;
 mod noise;
 pub mod number_format;
 mod report_context;
@@ -27,6 +28,7 @@ pub use calibration::{
 };
 pub use design::design_report;
 pub use evaluation::evaluation_report;
+pub use machine::machine_report;
 pub use noise::{coefficient_name, noise_report};
 pub use report_context::About;
 pub use study::study_report;

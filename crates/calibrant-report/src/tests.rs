@@ -14,6 +14,7 @@ mod designs;
 #[path = "../examples/report_gallery/fakes.rs"]
 mod fakes;
 mod imu_pages;
+mod machine_pages;
 mod noise_pages;
 #[path = "../examples/report_gallery/studies.rs"]
 mod studies;

@@ -4,11 +4,11 @@ use super::{ChainCorrections, Joint, JointCorrection, JointKind, JointLimits, Ki
 use nalgebra::{Isometry3, Unit, Vector3};
 
 /// Numbers without a pattern (splitmix64).
-pub(super) struct Numbers(pub u64);
+pub(crate) struct Numbers(pub(crate) u64);
 
 impl Numbers {
     /// A number from `-size` to `size`.
-    pub(super) fn next(&mut self, size: f64) -> f64 {
+    pub(crate) fn next(&mut self, size: f64) -> f64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
         z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -17,7 +17,7 @@ impl Numbers {
     }
 
     /// A vector with such components.
-    pub(super) fn vector(&mut self, size: f64) -> Vector3<f64> {
+    pub(crate) fn vector(&mut self, size: f64) -> Vector3<f64> {
         Vector3::from_fn(|_, _| self.next(size))
     }
 
@@ -27,7 +27,7 @@ impl Numbers {
 }
 
 /// A chain of joints of all kinds, with axes and transforms in all directions.
-pub(super) fn mixed_chain(joints: usize, numbers: &mut Numbers) -> KinematicChain {
+pub(crate) fn mixed_chain(joints: usize, numbers: &mut Numbers) -> KinematicChain {
     let kinds = [JointKind::Revolute, JointKind::Prismatic, JointKind::Continuous];
     let joint = |i: usize, numbers: &mut Numbers| Joint {
         name: format!("joint_{i}"),
@@ -41,7 +41,7 @@ pub(super) fn mixed_chain(joints: usize, numbers: &mut Numbers) -> KinematicChai
 }
 
 /// Corrections of this size.
-pub(super) fn corrections_of(joints: usize, size: f64, numbers: &mut Numbers) -> ChainCorrections {
+pub(crate) fn corrections_of(joints: usize, size: f64, numbers: &mut Numbers) -> ChainCorrections {
     let one = |_| JointCorrection {
         translation_m: numbers.vector(size),
         rotation_rad: numbers.vector(size),

@@ -25,7 +25,7 @@
 //! 9-vector, and `M` times that vector is its column. So the cost of all derivatives is a small multiple of that of the reading itself.
 
 #[cfg(test)]
-mod chains_for_tests;
+pub(crate) mod chains_for_tests;
 mod corrected_chain;
 mod corrections;
 mod frame_motion;

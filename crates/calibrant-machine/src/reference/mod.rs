@@ -4,8 +4,10 @@ mod felt;
 mod joint_motion;
 mod motion;
 mod pose_motion;
+mod posture;
 
 pub use felt::{Felt, MotionColumns};
 pub use joint_motion::JointMotion;
 pub use motion::{Carrier, Motion};
 pub use pose_motion::PoseMotion;
+pub use posture::Posture;

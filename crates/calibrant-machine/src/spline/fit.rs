@@ -19,7 +19,7 @@ const NEIGHBOURS: usize = 100;
 /// Reweighted fits.
 const ROUNDS: usize = 8;
 /// Weight of the penalty beside that of the samples.
-const PENALTY: f64 = 1e-9;
+const PENALTY: f64 = 1e-12;
 /// Median absolute deviation of a normal distribution with standard deviation 1.
 const NORMAL_MAD: f64 = 0.674_489_75;
 
@@ -117,7 +117,8 @@ impl Component {
                     size => HUBER / size,
                 };
             }
-            let settled = before.iter().zip(&weight).all(|(one, other)| (one - other).abs() < SETTLED);
+            let settled = before.iter().zip(&weight).all(|(one, other)| (one - other).abs() < SETTLED)
+                && (round > REDESCENDING || weight.iter().all(|weight| *weight > HUBER / OUTLIER));
             if settled || round + 1 == ROUNDS {
                 fit.determined = trace(samples, &before, &factor);
                 let squares: f64 = residuals.iter().zip(&before).map(|(r, w)| w * w * r * r).sum();

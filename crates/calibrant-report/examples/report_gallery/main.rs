@@ -4,13 +4,14 @@
 use calibrant_core::{estimate, information, motion, sensor, simulate};
 use calibrant_design::{self as design, study};
 use calibrant_report::{
-    About, calibration_report, design_report, evaluation_report, study_report, sweep_report,
+    About, calibration_report, design_report, evaluation_report, machine_report, study_report, sweep_report,
 };
 use std::path::PathBuf;
 
 mod designs;
 mod fakes;
 mod imus;
+mod machines;
 mod studies;
 
 fn main() -> std::io::Result<()> {
@@ -94,6 +95,12 @@ fn main() -> std::io::Result<()> {
         evaluation_report(&assessment, &about("Is my motion any good?", "mine.csv", 101)),
     )?;
     write("sweep.html", sweep_report(&designs::sweep(&sensor), &about("Displacement", "–", 101)))?;
+
+    for (name, poses) in [("machine.html", false), ("machine_poses.html", true)] {
+        let case = machines::machine_case(poses, 20.0, 1);
+        let about = about("A sensor on a machine", "imu.csv", 3980);
+        write(name, machine_report(&case.calibration, &case.setup, &case.recording, &about))?;
+    }
 
     let case = fakes::motion_case(3, 20, 10_000.0, 9);
     write(

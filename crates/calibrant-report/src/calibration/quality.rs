@@ -113,7 +113,7 @@ fn face_alignment(tilt: &FaceTilt) -> String {
 }
 
 /// Whether model and assumed noise explain the data.
-fn noise_explains(p: f64) -> String {
+pub(crate) fn noise_explains(p: f64) -> String {
     let p_value = number_format::probability(p);
     if p < SIGNIFICANT {
         format!(

@@ -14,6 +14,7 @@ mod ellipse;
 mod frame;
 mod gyroscope_at_rest;
 mod holds;
+mod machine;
 mod motion;
 mod motion_pair;
 mod panel;
@@ -39,6 +40,10 @@ pub(super) use ellipse::confidence_ellipses;
 pub(super) use frame::{Figure, drawn};
 pub(super) use gyroscope_at_rest::still_gyroscope;
 pub(super) use holds::{hold_residuals, recording_overview};
+pub(super) use machine::{
+    PLAYER_SCRIPT, Scene, budget_bars, correction_bars, player, residual_coherence, residual_densities,
+    residuals_and_speed, sensor_on_tip, source_in_words, three_views,
+};
 pub(super) use motion::{acceleration_figure, motion_error_figure, state_and_jerk_figure};
 pub(super) use motion_pair::{Drawn, jerk_and_acceleration, states, velocity_and_displacement};
 pub(super) use population::{p_values, parameter_errors, parameters_against_truth, standardised_errors};

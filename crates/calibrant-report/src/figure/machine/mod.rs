@@ -1,0 +1,22 @@
+//! Figures of a machine and of the sensor on it.
+//!
+//! The pictures of the machine are drawn here, since scenes that turn are beyond the plotting library.
+
+mod budget;
+mod geometry;
+mod mount;
+mod player;
+mod residuals;
+mod scene;
+mod spectrum;
+mod view;
+mod views;
+
+pub(crate) use budget::{budget_bars, source_in_words};
+pub(crate) use geometry::correction_bars;
+pub(crate) use mount::sensor_on_tip;
+pub(crate) use player::{PLAYER_SCRIPT, player};
+pub(crate) use residuals::residuals_and_speed;
+pub(crate) use scene::Scene;
+pub(crate) use spectrum::{residual_coherence, residual_densities};
+pub(crate) use views::three_views;

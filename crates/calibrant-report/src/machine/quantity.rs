@@ -1,0 +1,85 @@
+//! What is known of each quantity beside the data, and the units that tables show.
+
+use calibrant_core::sensor::{Axis, SensorKind};
+use calibrant_machine::chain::JointKind;
+use calibrant_machine::estimate::{MachineCalibration, MachineQuantity, MachineSetup, MountingPrior};
+use calibrant_machine::reference::Motion;
+
+/// Factor and symbol of the unit that shows a quantity.
+pub(super) fn unit_of(calibration: &MachineCalibration, quantity: MachineQuantity) -> (f64, &'static str) {
+    match quantity {
+        MachineQuantity::Imu(of) => {
+            let reading = calibration.units[place(of.sensor_kind())];
+            (1.0, reading.map_or("1", |reading| of.unit(reading)))
+        }
+        MachineQuantity::Lever(_) => (1e3, "mm"),
+        MachineQuantity::Mounting(_) | MachineQuantity::Tilt(_) => (1e3, "mrad"),
+        MachineQuantity::Gravity => (1.0, "m/s²"),
+        MachineQuantity::Delay(_) => (1e3, "ms"),
+        MachineQuantity::ClockRate => (1e6, "ppm"),
+        MachineQuantity::Zero(joint) => (1e3, if turns(calibration, joint) { "mrad" } else { "mm" }),
+        MachineQuantity::Geometry(_, k) => (1e3, if k < 3 { "mm" } else { "mrad" }),
+    }
+}
+
+fn turns(calibration: &MachineCalibration, joint: usize) -> bool {
+    match &calibration.motion {
+        Motion::Joints(joints) => {
+            joints.chain.joints.get(joint).is_none_or(|of| of.kind != JointKind::Prismatic)
+        }
+        Motion::Poses(_) => true,
+    }
+}
+
+/// Place of a sensor in pairs.
+pub(super) fn place(sensor: SensorKind) -> usize {
+    usize::from(sensor == SensorKind::Gyroscope)
+}
+
+/// What was expected of a quantity beside the sensor's.
+pub(super) fn expected(setup: &MachineSetup, quantity: MachineQuantity) -> f64 {
+    match quantity {
+        MachineQuantity::Lever(axis) => setup.lever_m[axis.index()],
+        MachineQuantity::Gravity => setup.gravity_mps2,
+        MachineQuantity::Delay(_) => setup.delay_s,
+        _ => 0.0,
+    }
+}
+
+/// Standard deviation of what was known beforehand: 0 where the quantity was held, infinite where nothing was.
+pub(super) fn prior_sd(
+    calibration: &MachineCalibration,
+    setup: &MachineSetup,
+    quantity: MachineQuantity,
+) -> f64 {
+    match quantity {
+        MachineQuantity::Imu(_) => f64::INFINITY,
+        MachineQuantity::Lever(_) => setup.lever_sd_m,
+        MachineQuantity::Mounting(_) => match setup.mounting {
+            MountingPrior::Within(sd) => sd,
+            MountingPrior::Exact | MountingPrior::Unknown => 0.0,
+        },
+        MachineQuantity::Tilt(_) => setup.tilt_sd_rad,
+        MachineQuantity::Gravity => setup.gravity_sd_mps2,
+        // the mean of both delays, and half their difference
+        MachineQuantity::Delay(_) if calibration.noise.len() > 1 => {
+            setup.delay_sd_s.hypot(0.5 * setup.delay_difference_sd_s)
+        }
+        MachineQuantity::Delay(_) => setup.delay_sd_s,
+        MachineQuantity::ClockRate => setup.clock_rate_sd,
+        MachineQuantity::Zero(_) => setup.zero_sd,
+        MachineQuantity::Geometry(_, k) if k < 3 => setup.geometry_translation_sd_m,
+        MachineQuantity::Geometry(..) => setup.geometry_rotation_sd_rad,
+    }
+}
+
+/// The quantities of mount, gravity and clock that a machine has, estimated or held.
+pub(super) fn of_mount(calibration: &MachineCalibration) -> Vec<MachineQuantity> {
+    let mut quantities: Vec<MachineQuantity> = Axis::ALL.map(MachineQuantity::Lever).into();
+    quantities.extend(Axis::ALL.map(MachineQuantity::Mounting));
+    quantities.extend(calibration.noise.iter().map(|of| MachineQuantity::Delay(of.sensor)));
+    quantities.push(MachineQuantity::ClockRate);
+    quantities.extend([0, 1].map(MachineQuantity::Tilt));
+    quantities.push(MachineQuantity::Gravity);
+    quantities
+}
