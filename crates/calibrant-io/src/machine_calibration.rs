@@ -11,6 +11,7 @@ use calibrant_machine::chain::KinematicChain;
 use calibrant_machine::estimate::{
     MachineCalibration, MachineQuantity, MachineSetup, MachineTrust, ReferenceNoise, SensorResidual, Source,
 };
+use calibrant_machine::reference::Motion;
 use nalgebra::DMatrix;
 use serde::Serialize;
 use std::path::Path;
@@ -22,8 +23,6 @@ pub struct MachineResult<'a> {
     pub calibration: &'a MachineCalibration,
     /// What was known beforehand.
     pub setup: &'a MachineSetup,
-    /// The joints, for a log of them.
-    pub chain: Option<&'a KinematicChain>,
     /// The log of the machine's motion.
     pub log: &'a MachineLogInput,
 }
@@ -44,12 +43,20 @@ pub struct MachineLogInput {
     pub recovered_rate_hz: Option<f64>,
 }
 
-impl MachineResult<'_> {
+impl<'a> MachineResult<'a> {
+    /// The joints, for a log of them.
+    fn chain(&self) -> Option<&'a KinematicChain> {
+        match &self.calibration.motion {
+            Motion::Joints(joints) => Some(&joints.chain),
+            Motion::Poses(_) => None,
+        }
+    }
+
     /// The unit of each quantity that was estimated.
     #[must_use]
     pub fn units(&self) -> Vec<&'static str> {
         let joints: Vec<&'static str> = self
-            .chain
+            .chain()
             .map_or(Vec::new(), |chain| chain.joints.iter().map(|joint| joint.kind.unit()).collect());
         let calibration = self.calibration;
         let unit = |quantity: &MachineQuantity| match quantity {
@@ -194,7 +201,8 @@ struct BudgetFields {
 
 impl<'a> MachineFields<'a> {
     fn of(result: &MachineResult<'a>) -> Self {
-        let MachineResult { calibration, setup, chain, log } = *result;
+        let MachineResult { calibration, setup, log } = *result;
+        let (chain, sensors) = (result.chain(), calibration.noise.len());
         let (knots, mount) = (calibration.motion.knots(), &calibration.parameters.mount);
         let imu = |quantity: &MachineQuantity| matches!(quantity, MachineQuantity::Imu(_));
         let (names, units, sd) = (calibration.names(), result.units(), calibration.sd());
@@ -203,7 +211,7 @@ impl<'a> MachineFields<'a> {
             unit: units[k],
             value: calibration.values[k],
             sd: sd[k],
-            prior_sd: setup.prior_sd(calibration.quantities[k]),
+            prior_sd: setup.prior_sd(calibration.quantities[k], sensors),
             inflation: calibration.inflation[k],
         };
         let (of_imu, of_machine): (Vec<usize>, Vec<usize>) =

@@ -56,6 +56,13 @@ pub(crate) struct Arguments {
     pub(super) output: PathBuf,
 }
 
+impl Arguments {
+    /// The file that the command names at its end.
+    pub(super) fn main_result(&self) -> PathBuf {
+        self.output.join(if self.no_report { "calibration.json" } else { "report.html" })
+    }
+}
+
 #[derive(Clone, Copy, clap::ValueEnum)]
 pub(super) enum Unit {
     /// Metres per second squared.

@@ -30,7 +30,6 @@ fn show(job: &Job<'_>, outcome: &Outcome) -> Exit {
         return exit;
     }
     console::print(&console::calibration(outcome));
-    let main = if outcome.has_report() { "report.html" } else { "calibration.json" };
-    console::print(&format!("\n{}\n", job.arguments.output.join(main).display()));
+    console::print(&format!("\n{}\n", job.arguments.main_result().display()));
     exit
 }

@@ -5,7 +5,7 @@ use calibrant::machine::estimate::{
     MachineCalibration, MachineQuantity, ReferenceNoise, SensorResidual, Source,
 };
 use calibrant::pipeline::MachineOutcome;
-use calibrant::report::number_format;
+use calibrant::report::{machine_unit, number_format};
 use calibrant::sensor::SensorKind;
 use nalgebra::Vector3;
 
@@ -56,39 +56,39 @@ fn share(part: f64) -> String {
 
 /// The parameters of the sensors.
 fn parameters(outcome: &MachineOutcome) -> String {
-    machine_or_imu(outcome, &["parameter", "estimate ± sd", "unit"], |k| {
-        matches!(outcome.calibration.quantities[k], MachineQuantity::Imu(_)).then(Vec::new)
+    rows_of(outcome, &["parameter", "estimate ± sd", "unit"], |quantity, _| {
+        matches!(quantity, MachineQuantity::Imu(_)).then(Vec::new)
     })
 }
 
 /// What was found of mount, gravity and clocks, beside what was known.
 fn machine(outcome: &MachineOutcome, wanted: impl Fn(&MachineQuantity) -> bool) -> String {
-    let header = ["machine", "estimate ± sd", "unit", "known ±"];
-    machine_or_imu(outcome, &header, |k| {
-        let quantity = outcome.calibration.quantities[k];
-        wanted(&quantity).then(|| {
-            let sd = outcome.setup.prior_sd(quantity);
-            vec![if sd.is_finite() { number_format::significant(sd, 3) } else { "–".to_owned() }]
-        })
+    rows_of(outcome, &["machine", "estimate ± sd", "unit", "known ±"], |quantity, factor| {
+        let sd = factor * prior_sd(outcome, quantity);
+        wanted(&quantity).then(|| vec![number_format::significant(sd, 3)])
     })
 }
 
-/// A row for each quantity that has further cells.
-fn machine_or_imu(
+/// A row for each quantity that has further cells, which are made of it and of the factor of its unit.
+fn rows_of(
     outcome: &MachineOutcome,
     header: &[&str],
-    further: impl Fn(usize) -> Option<Vec<String>>,
+    further: impl Fn(MachineQuantity, f64) -> Option<Vec<String>>,
 ) -> String {
     let calibration = &outcome.calibration;
-    let (names, units, sd) = (calibration.names(), outcome.result().units(), calibration.sd());
+    let (names, sd) = (calibration.names(), calibration.sd());
     let row = |k: usize| {
-        let value = number_format::with_sd(calibration.values[k], sd[k]);
-        let mut row = vec![names[k].clone(), value, units[k].to_owned()];
-        row.extend(further(k)?);
-        Some(row)
+        let quantity = calibration.quantities[k];
+        let (factor, unit) = machine_unit(calibration, quantity);
+        let value = number_format::with_sd(factor * calibration.values[k], factor * sd[k]);
+        Some([vec![names[k].clone(), value, unit.to_owned()], further(quantity, factor)?].concat())
     };
     let rows: Vec<Vec<String>> = (0..names.len()).filter_map(row).collect();
     table(header, &rows)
+}
+
+fn prior_sd(outcome: &MachineOutcome, quantity: MachineQuantity) -> f64 {
+    outcome.setup.prior_sd(quantity, outcome.calibration.noise.len())
 }
 
 /// The joint whose correction is the farthest from what its file says, in what was known of it.
@@ -97,8 +97,7 @@ fn largest_correction(outcome: &MachineOutcome) -> Option<String> {
     let of_joint = |k: &usize| {
         matches!(calibration.quantities[*k], MachineQuantity::Zero(_) | MachineQuantity::Geometry(..))
     };
-    let deviation =
-        |k: usize| calibration.values[k].abs() / outcome.setup.prior_sd(calibration.quantities[k]);
+    let deviation = |k: usize| calibration.values[k].abs() / prior_sd(outcome, calibration.quantities[k]);
     let places: Vec<usize> = (0..calibration.quantities.len()).filter(of_joint).collect();
     let most = places.iter().copied().max_by(|one, other| deviation(*one).total_cmp(&deviation(*other)))?;
     Some(format!(

@@ -118,18 +118,20 @@ pub(super) fn read(section: &Section<'_>, sensor: &Sensor) -> Result<MachinePlan
         }
     }
     if let Some(clock) = section.section("machine.clock")? {
-        let set = |key, bounds, value: &mut f64| set(&clock, key, bounds, 1.0, value);
+        let set = |key, bounds, value: &mut f64| set(&clock, key, bounds, value);
         set("delay_s", &DELAY, &mut known.delay_s)?;
         set("delay_sd_s", &DELAY_SD, &mut known.delay_sd_s)?;
         set("delay_difference_sd_s", &DELAY_SD, &mut known.delay_difference_sd_s)?;
-        self::set(&clock, "rate_sd_ppm", &RATE_SD, 1e-6, &mut known.clock_rate_sd)?;
+        if let Some(entry) = clock.get("rate_sd_ppm") {
+            known.clock_rate_sd = entry.number(&RATE_SD)? / 1e6;
+        }
     }
     if let Some(geometry) = section.section("machine.geometry")? {
         if source.is_none() {
             let help = "take it out, or name the machine: urdf = … in [machine]";
             return Err(geometry.reject("without a urdf there are no joints", help, ""));
         }
-        let set = |key, bounds, value: &mut f64| set(&geometry, key, bounds, 1.0, value);
+        let set = |key, bounds, value: &mut f64| set(&geometry, key, bounds, value);
         set("translation_sd_m", &TRANSLATION_SD, &mut known.geometry_translation_sd_m)?;
         set("rotation_sd_rad", &ROTATION_SD, &mut known.geometry_rotation_sd_rad)?;
         set("zero_sd", &ZERO_SD, &mut known.zero_sd)?;
@@ -152,9 +154,9 @@ pub(super) fn read(section: &Section<'_>, sensor: &Sensor) -> Result<MachinePlan
 }
 
 /// Sets a value where its key is there.
-fn set(section: &Section<'_>, key: &str, bounds: &Bounds, unit: f64, value: &mut f64) -> Result<()> {
+fn set(section: &Section<'_>, key: &str, bounds: &Bounds, value: &mut f64) -> Result<()> {
     if let Some(entry) = section.get(key) {
-        *value = entry.number(bounds)? * unit;
+        *value = entry.number(bounds)?;
     }
     Ok(())
 }

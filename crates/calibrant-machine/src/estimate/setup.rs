@@ -80,9 +80,10 @@ pub struct MachineSetup {
 }
 
 impl MachineSetup {
-    /// Standard deviation of what is known of a quantity beforehand; infinite for a parameter of the IMU.
+    /// Standard deviation of what is known of a quantity beforehand, with this number of sensors: 0 where it is held, infinite for a parameter
+    /// of the IMU.
     #[must_use]
-    pub fn prior_sd(&self, quantity: MachineQuantity) -> f64 {
+    pub fn prior_sd(&self, quantity: MachineQuantity, sensors: usize) -> f64 {
         match quantity {
             MachineQuantity::Imu(_) => f64::INFINITY,
             MachineQuantity::Lever(_) => self.lever_sd_m,
@@ -92,6 +93,10 @@ impl MachineSetup {
             },
             MachineQuantity::Tilt(_) => self.tilt_sd_rad,
             MachineQuantity::Gravity => self.gravity_sd_mps2,
+            // the mean of both delays, and half their difference
+            MachineQuantity::Delay(_) if sensors > 1 => {
+                self.delay_sd_s.hypot(0.5 * self.delay_difference_sd_s)
+            }
             MachineQuantity::Delay(_) => self.delay_sd_s,
             MachineQuantity::ClockRate => self.clock_rate_sd,
             MachineQuantity::Zero(_) => self.zero_sd,

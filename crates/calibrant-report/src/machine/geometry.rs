@@ -1,6 +1,6 @@
 //! Corrections of the machine's geometry and zero offsets.
 
-use super::quantity::{prior_sd, unit_of};
+use super::quantity::machine_unit;
 use crate::figure::correction_bars;
 use crate::number_format;
 use crate::table::{Cell, Table};
@@ -16,7 +16,7 @@ pub(super) fn corrections(calibration: &MachineCalibration, setup: &MachineSetup
     all().find_map(|quantity| calibration.position(quantity))?;
     let scaled = |quantity: MachineQuantity| {
         let (value, sd) = calibration.estimate(quantity)?;
-        let prior = prior_sd(calibration, setup, quantity);
+        let prior = setup.prior_sd(quantity, calibration.noise.len());
         prior.is_finite().then(|| (value / prior, sd / prior))
     };
     let rows: Vec<(String, Vec<_>)> = (calibration.joints.iter().enumerate())
@@ -25,8 +25,8 @@ pub(super) fn corrections(calibration: &MachineCalibration, setup: &MachineSetup
     let mut table = Table::new("", &["correction", "estimate ± sd", "prior sd", "unit"]);
     for quantity in all() {
         let Some((value, sd)) = calibration.estimate(quantity) else { continue };
-        let (factor, unit) = unit_of(calibration, quantity);
-        let prior = factor * prior_sd(calibration, setup, quantity);
+        let (factor, unit) = machine_unit(calibration, quantity);
+        let prior = factor * setup.prior_sd(quantity, calibration.noise.len());
         table.row(vec![
             Cell::Name(quantity.name(&calibration.joints)),
             Cell::Number(number_format::with_sd(factor * value, factor * sd)),

@@ -8,3 +8,4 @@ mod quantity;
 mod verdict;
 
 pub use page::machine_report;
+pub use quantity::machine_unit;

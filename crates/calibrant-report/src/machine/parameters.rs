@@ -1,6 +1,6 @@
 //! Tables of the sensor's parameters, of mount and clock, and of the budget.
 
-use super::quantity::{expected, of_mount, prior_sd, unit_of};
+use super::quantity::{expected, machine_unit, of_mount};
 use crate::figure::{budget_bars, source_in_words};
 use crate::number_format;
 use crate::table::{Cell, Table};
@@ -43,7 +43,7 @@ pub(super) fn sensor_table(calibration: &MachineCalibration, sensor: SensorKind)
         if of.sensor_kind() != sensor {
             continue;
         }
-        let (factor, unit) = unit_of(calibration, *quantity);
+        let (factor, unit) = machine_unit(calibration, *quantity);
         let mut cells = vec![
             Cell::Name(of.name().trim_start_matches(&prefix).to_string()),
             Cell::Number(with_sd(factor * calibration.values[k], factor * sds[k])),
@@ -61,7 +61,7 @@ pub(super) fn mount_table(calibration: &MachineCalibration, setup: &MachineSetup
     let count = if is_widened(calibration) { 6 } else { 5 };
     let mut table = Table::new("", &columns[..count]);
     for quantity in of_mount(calibration) {
-        let (factor, unit) = unit_of(calibration, quantity);
+        let (factor, unit) = machine_unit(calibration, quantity);
         let before = factor * expected(setup, quantity);
         let name = Cell::Name(quantity.name(&calibration.joints));
         let Some(place) = calibration.position(quantity) else {
@@ -80,7 +80,7 @@ pub(super) fn mount_table(calibration: &MachineCalibration, setup: &MachineSetup
             continue;
         };
         let (value, sd) = (factor * calibration.values[place], factor * calibration.sd()[place]);
-        let prior = factor * prior_sd(calibration, setup, quantity);
+        let prior = factor * setup.prior_sd(quantity, calibration.noise.len());
         let beforehand = match prior.is_finite() {
             true => format!("{} ± {}", number_format::short(before), number_format::significant(prior, 2)),
             false => "unknown".into(),
@@ -110,7 +110,7 @@ pub(super) fn budget(calibration: &MachineCalibration) -> String {
         .budget
         .iter()
         .map(|row| {
-            let unit = unit_of(calibration, MachineQuantity::Imu(row.quantity)).1;
+            let unit = machine_unit(calibration, MachineQuantity::Imu(row.quantity)).1;
             let sd = number_format::uncertainty(row.variance.sqrt());
             let sd = if unit == "1" { sd } else { format!("{sd} {unit}") };
             (row.quantity.name(), sd, row.parts.map(|part| part / row.variance))
@@ -127,7 +127,7 @@ pub(super) fn budget(calibration: &MachineCalibration) -> String {
                 _ => number_format::significant(variance.sqrt(), 2),
             })
         };
-        let unit = unit_of(calibration, MachineQuantity::Imu(row.quantity)).1;
+        let unit = machine_unit(calibration, MachineQuantity::Imu(row.quantity)).1;
         let mut cells = vec![Cell::Name(row.quantity.name()), number(row.variance)];
         cells.extend(row.parts.map(number));
         cells.push(Cell::Text(if unit == "1" { "–" } else { unit }.to_string()));

@@ -1,12 +1,13 @@
-//! What is known of each quantity beside the data, and the units that tables show.
+//! What was expected of each quantity, and the units that tables show.
 
 use calibrant_core::sensor::{Axis, SensorKind};
 use calibrant_machine::chain::JointKind;
-use calibrant_machine::estimate::{MachineCalibration, MachineQuantity, MachineSetup, MountingPrior};
+use calibrant_machine::estimate::{MachineCalibration, MachineQuantity, MachineSetup};
 use calibrant_machine::reference::Motion;
 
-/// Factor and symbol of the unit that shows a quantity.
-pub(super) fn unit_of(calibration: &MachineCalibration, quantity: MachineQuantity) -> (f64, &'static str) {
+/// Factor and symbol of the unit in which tables show a quantity: mm, mrad, ms, ppm.
+#[must_use]
+pub fn machine_unit(calibration: &MachineCalibration, quantity: MachineQuantity) -> (f64, &'static str) {
     match quantity {
         MachineQuantity::Imu(of) => {
             let reading = calibration.units[place(of.sensor_kind())];
@@ -43,33 +44,6 @@ pub(super) fn expected(setup: &MachineSetup, quantity: MachineQuantity) -> f64 {
         MachineQuantity::Gravity => setup.gravity_mps2,
         MachineQuantity::Delay(_) => setup.delay_s,
         _ => 0.0,
-    }
-}
-
-/// Standard deviation of what was known beforehand: 0 where the quantity was held, infinite where nothing was.
-pub(super) fn prior_sd(
-    calibration: &MachineCalibration,
-    setup: &MachineSetup,
-    quantity: MachineQuantity,
-) -> f64 {
-    match quantity {
-        MachineQuantity::Imu(_) => f64::INFINITY,
-        MachineQuantity::Lever(_) => setup.lever_sd_m,
-        MachineQuantity::Mounting(_) => match setup.mounting {
-            MountingPrior::Within(sd) => sd,
-            MountingPrior::Exact | MountingPrior::Unknown => 0.0,
-        },
-        MachineQuantity::Tilt(_) => setup.tilt_sd_rad,
-        MachineQuantity::Gravity => setup.gravity_sd_mps2,
-        // the mean of both delays, and half their difference
-        MachineQuantity::Delay(_) if calibration.noise.len() > 1 => {
-            setup.delay_sd_s.hypot(0.5 * setup.delay_difference_sd_s)
-        }
-        MachineQuantity::Delay(_) => setup.delay_sd_s,
-        MachineQuantity::ClockRate => setup.clock_rate_sd,
-        MachineQuantity::Zero(_) => setup.zero_sd,
-        MachineQuantity::Geometry(_, k) if k < 3 => setup.geometry_translation_sd_m,
-        MachineQuantity::Geometry(..) => setup.geometry_rotation_sd_rad,
     }
 }
 

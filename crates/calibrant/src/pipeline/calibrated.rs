@@ -2,7 +2,6 @@
 
 use calibrant_core::estimate::Calibration;
 use calibrant_io::{MachineLogInput, MachineResult};
-use calibrant_machine::chain::KinematicChain;
 use calibrant_machine::estimate::{MachineCalibration, MachineSetup};
 
 /// What was calibrated, and how.
@@ -21,8 +20,6 @@ pub struct MachineOutcome {
     pub calibration: MachineCalibration,
     /// What was known beforehand.
     pub setup: MachineSetup,
-    /// The joints, for a log of them.
-    pub chain: Option<KinematicChain>,
     /// The log of the motion.
     pub log: MachineLogInput,
 }
@@ -31,7 +28,7 @@ impl MachineOutcome {
     /// As files take it.
     #[must_use]
     pub fn result(&self) -> MachineResult<'_> {
-        let Self { calibration, setup, chain, log } = self;
-        MachineResult { calibration, setup, chain: chain.as_ref(), log }
+        let Self { calibration, setup, log } = self;
+        MachineResult { calibration, setup, log }
     }
 }

@@ -117,7 +117,7 @@ impl<'e> MachineTask<'e> {
             let facts = [("Log", log_input.file.clone()), ("SHA-256 of the log", log_input.sha256.clone())];
             about(&format!("{what} on a machine"), facts, &recorded, &inputs, options)
         });
-        let outcome = MachineOutcome { calibration, setup, chain: self.chain.clone(), log: log_input };
+        let outcome = MachineOutcome { calibration, setup, log: log_input };
         Ok(Outcome {
             calibrated: Calibrated::OnMachine(Box::new(outcome)),
             validations: Vec::new(),

@@ -11,7 +11,7 @@ use calibrant_io::{
     DiagnosticWords, Input, Summary, calibration_json, machine_calibration_json, write_atomically,
     write_calibration, write_machine_calibration,
 };
-use calibrant_report::{About, calibration_report, message};
+use calibrant_report::{About, calibration_report, machine_report, message};
 use std::path::Path;
 
 /// A calibration with everything that stands beside it.
@@ -52,12 +52,6 @@ impl Outcome {
             Calibrated::Sensors(calibration) => calibration.status,
             Calibrated::OnMachine(machine) => machine.calibration.status,
         }
-    }
-
-    /// Is `report.html` among the files?
-    #[must_use]
-    pub fn has_report(&self) -> bool {
-        self.about.is_some() && matches!(self.calibrated, Calibrated::Sensors(_))
     }
 
     /// The warnings of the calibration.
@@ -126,12 +120,13 @@ impl Outcome {
     /// The text of `report.html`, where one is written.
     fn report_html(&self) -> Option<String> {
         let about = self.about.as_ref()?;
-        match &self.calibrated {
+        Some(match &self.calibrated {
             Calibrated::Sensors(calibration) => {
-                Some(calibration_report(calibration, &self.recording, &self.noise, about))
+                calibration_report(calibration, &self.recording, &self.noise, about)
             }
-            // a page of its own belongs here
-            Calibrated::OnMachine(_) => None,
-        }
+            Calibrated::OnMachine(machine) => {
+                machine_report(&machine.calibration, &machine.setup, &self.recording, about)
+            }
+        })
     }
 }

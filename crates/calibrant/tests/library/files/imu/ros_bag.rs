@@ -31,7 +31,12 @@ const STAMP: u64 = 1_700_000_000_123_456_789;
 
 pub(crate) fn message(k: u64) -> Vec<u8> {
     let x = k as f64;
-    cdr(STAMP + 5_000_000 * k, "imu_link", [0.1 * x, 0.2, -0.1], [0.3, 9.7, 0.1 * x], [false; 2])
+    message_of(k, [0.1 * x, 0.2, -0.1], [0.3, 9.7, 0.1 * x])
+}
+
+/// Message `k` at 200 Hz with this rate and specific force.
+pub(crate) fn message_of(k: u64, rate: [f64; 3], force: [f64; 3]) -> Vec<u8> {
+    cdr(STAMP + 5_000_000 * k, "imu_link", rate, force, [false; 2])
 }
 
 /// A bag with these topics: name, type, encoding, messages.

@@ -1,11 +1,12 @@
 //! Tests of bags with a motion in them.
 
 use super::findings;
-use crate::files::imu::ros_bag::{IMU, bag, message};
+use crate::files::imu::ros_bag::{IMU, bag, message, message_of};
 use calibrant::io::{
-    ImuReadOptions, ReferenceFormat, ReferenceLogFile, ReferenceLogOptions, parse_imu_recording,
-    parse_reference_log,
+    Experiment, ImuReadOptions, ReferenceFormat, ReferenceLogFile, ReferenceLogOptions, parse_imu_recording,
+    parse_reference_log, preset,
 };
+use calibrant::pipeline::{Calibrated, Pipeline, PipelineOptions, Source};
 use nalgebra::Vector3;
 
 const JOINTS: &str = "sensor_msgs/msg/JointState";
@@ -123,6 +124,39 @@ fn the_joints_and_the_imu_of_one_bag_are_on_one_clock() {
     let imu = parse_imu_recording(&bytes, &ImuReadOptions::default()).expect("its IMU");
     file.put_on_clock_of(imu.counted_from_ns);
     assert!((file.log.times_s()[0] - 0.001).abs() < 1e-12, "the log begins 1 ms later");
+}
+
+/// A gantry with an accelerometer that reads 0.1 m/s² too much along x. Its log begins 1 ms after the recording, by its time stamps.
+#[test]
+fn a_bag_with_joints_and_an_imu_needs_no_further_log() {
+    let sines = |t: f64| [0.0, 1.0, 2.0].map(|j| (0.1 * ((4.0 + j) * t).sin(), -(4.0_f64 + j).powi(2)));
+    // neither is free of noise: a reading in a step of its own
+    let rough = |k: u64, step: f64| step * ((k * 7919 % 101) as f64 / 101.0 - 0.5);
+    let states = (0..2000).map(|k| {
+        let positions = sines(0.001 + 0.01 * k as f64).map(|(q, _)| q + rough(k, 1e-5));
+        joint_state(k, &["x", "y", "z"], &positions, &[])
+    });
+    let messages = (0..3900).map(|k| {
+        let [x, y, z] = sines(0.005 * k as f64).map(|(q, w)| q * w + rough(k, 1e-2));
+        message_of(k, [0.0; 3], [x + 0.1, y, z + 9.80665])
+    });
+    let topics =
+        [("/imu", IMU, "cdr", messages.collect()), ("/joint_states", JOINTS, "cdr", states.collect())];
+    let directory = tempfile::tempdir().expect("a directory");
+    let path = directory.path().join("both.mcap");
+    std::fs::write(&path, bag(&topics)).expect("written");
+
+    let experiment = Experiment::parse(preset("gantry").expect("known"), None).expect("valid");
+    let options = PipelineOptions { report: false, ..PipelineOptions::default() };
+    let pipeline = Pipeline::from_experiment(&experiment, options).expect("prepared");
+    let outcome = pipeline.run(&Source::from_file(&path)).expect("calibrated");
+    let Calibrated::OnMachine(machine) = &outcome.calibrated else { panic!("on a machine") };
+    let calibration = &machine.calibration;
+    let (bias, delay_s) =
+        (calibration.parameters.imu.accelerometer.bias.x, calibration.parameters.delays_s[0]);
+    assert!((bias - 0.1).abs() < 0.03, "{bias}");
+    assert!(delay_s.abs() < 1e-4, "the time stamps are of one clock: {delay_s}");
+    assert_eq!((machine.log.file.as_str(), machine.log.format), ("both.mcap", "mcap"));
 }
 
 #[test]
