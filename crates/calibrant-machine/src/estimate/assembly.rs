@@ -8,6 +8,7 @@ use super::posterior::Posterior;
 use super::sandwich::inflation;
 use super::stream::white_noise;
 use super::{MachineCalibration, MachineProblem, MachineTrust, ReferenceNoise, SensorResidual};
+use crate::chain::JointKind;
 use crate::log::ReferenceLog;
 use calibrant_core::estimate::FitStatistics;
 use calibrant_core::sensor::{Axis, SensorKind};
@@ -63,7 +64,7 @@ pub(super) fn assembled(
         units: SensorKind::ALL.map(|kind| problem.recording.sensor(kind).map(|recording| recording.unit)),
         fit: fit(problem, minimum, posterior, layout.len(), used),
         noise,
-        reference_noise: reference_noise(model, posterior, growths.log, &outliers),
+        reference_noise: reference_noise(problem, model, posterior, growths.log, &outliers),
         motion: state.motion.clone(),
         used_share: used as f64 / samples.max(1) as f64,
         warnings: Vec::new(),
@@ -107,13 +108,20 @@ fn fit(
 }
 
 fn reference_noise(
+    problem: &MachineProblem<'_>,
     model: &Model<'_>,
     posterior: &Posterior,
     growth: Option<f64>,
     outliers: &[usize],
 ) -> Vec<ReferenceNoise> {
     let names: Vec<(String, &'static str)> = match model.log.log {
-        ReferenceLog::Joints(log) => log.names.iter().map(|name| (name.clone(), "rad")).collect(),
+        ReferenceLog::Joints(log) => {
+            let unit = |j: usize| match &problem.chain.map(|chain| chain.joints[j].kind) {
+                Some(JointKind::Prismatic) => "m",
+                _ => "rad",
+            };
+            log.names.iter().enumerate().map(|(j, name)| (name.clone(), unit(j))).collect()
+        }
         ReferenceLog::Poses(_) => [("position", "m"), ("orientation", "rad")]
             .into_iter()
             .flat_map(|(part, unit)| Axis::ALL.map(|axis| (format!("{part}.{axis}"), unit)))

@@ -21,31 +21,48 @@ pub(super) fn check(model: &Model<'_>, state: &State) -> Result<(), Error> {
         stream.stride = (stream.recording.len() / 5000).max(1);
     }
     let Some(information) = known.equations(state).front.information() else { return Ok(()) };
-    let scale = information.diagonal().map(|d| if d > 0.0 { d.sqrt().recip() } else { 0.0 });
-    let n = information.nrows();
-    let scaled = DMatrix::from_fn(n, n, |i, j| {
-        if i == j && scale[i] == 0.0 { 0.0 } else { information[(i, j)] * scale[i] * scale[j] }
-    });
-    let SymmetricEigen { eigenvalues, eigenvectors } = scaled.symmetric_eigen();
-    let free: Vec<usize> = (0..n).filter(|k| eigenvalues[*k] < RELATIVE).collect();
-    if free.is_empty() {
+    let free = free_combinations(&information);
+    if free.number == 0 {
         return Ok(());
     }
-    let weight = |place: usize| free.iter().map(|k| eigenvectors[(place, *k)].powi(2)).sum::<f64>();
-    let named: Vec<MachineQuantity> = (0..n)
-        .filter(|place| weight(*place) > SHARE * SHARE)
-        .map(|place| model.layout.quantities[place])
-        .collect();
+    let named: Vec<MachineQuantity> =
+        free.places.iter().map(|place| model.layout.quantities[*place]).collect();
     let (reason, remedy) = reason(&known, state, &named);
     let joints = known.joint_names();
     Err(Error::NotIdentifiable(Box::new(NotIdentifiable {
         groups: vec![UndeterminedGroup {
             parameters: named.iter().map(|quantity| quantity.name(&joints)).collect(),
-            free_combinations: free.len(),
+            free_combinations: free.number,
             reason,
             remedy,
         }],
     })))
+}
+
+/// Combinations without information: their number, and the parameters in them.
+struct Free {
+    number: usize,
+    places: Vec<usize>,
+}
+
+fn free_combinations(information: &DMatrix<f64>) -> Free {
+    let n = information.nrows();
+    let largest = information.diagonal().max();
+    // a parameter without any information is alone; the others are scaled to one
+    let (felt, unfelt): (Vec<usize>, Vec<usize>) =
+        (0..n).partition(|k| information[(*k, *k)] > f64::MIN_POSITIVE.max(1e-30 * largest));
+    let scale: Vec<f64> = felt.iter().map(|k| information[(*k, *k)].sqrt().recip()).collect();
+    let scaled = DMatrix::from_fn(felt.len(), felt.len(), |i, j| {
+        information[(felt[i], felt[j])] * scale[i] * scale[j]
+    });
+    let SymmetricEigen { eigenvalues, eigenvectors } = scaled.symmetric_eigen();
+    let without: Vec<usize> = (0..felt.len()).filter(|k| eigenvalues[*k] < RELATIVE).collect();
+    let weight = |row: usize| without.iter().map(|k| eigenvectors[(row, *k)].powi(2)).sum::<f64>();
+    let mut places: Vec<usize> =
+        (0..felt.len()).filter(|row| weight(*row) > SHARE * SHARE).map(|row| felt[row]).collect();
+    places.extend(&unfelt);
+    places.sort_unstable();
+    Free { number: without.len() + unfelt.len(), places }
 }
 
 /// How much force and rate change along each axis of the sensor.
