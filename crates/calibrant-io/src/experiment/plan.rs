@@ -12,7 +12,7 @@ pub enum Plan {
     /// `[holds]`: held still in several orientations.
     Holds(HoldsPlan),
     /// `[machine]`: by a machine whose motion is logged.
-    Machine(MachinePlan),
+    Machine(Box<MachinePlan>),
 }
 
 impl Plan {

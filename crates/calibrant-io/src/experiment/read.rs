@@ -223,7 +223,7 @@ fn read_plan(root: &Section<'_>, sensor: &Sensor) -> Result<Plan> {
         }
         (None, None, Some(section)) => {
             need_three_axes(&section, "[machine]", sensor)?;
-            Ok(Plan::Machine(machine::read(&section, sensor)?))
+            Ok(Plan::Machine(Box::new(machine::read(&section, sensor)?)))
         }
         (None, None, None) => Err(root.reject(
             "neither [motion] nor [holds] nor [machine] is there",
