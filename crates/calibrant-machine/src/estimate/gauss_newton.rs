@@ -5,6 +5,8 @@ use super::model::{Equations, Model, State};
 use calibrant_core::estimate::CalibrationStatus;
 use nalgebra::DVector;
 
+/// Steps shorter than this are taken as they are, in standard deviations.
+const NEAR: f64 = 0.3;
 /// Halvings of a step at most.
 const HALVINGS: usize = 8;
 
@@ -58,8 +60,8 @@ pub(super) fn minimise(
         let mut found = None;
         for _ in 0..HALVINGS {
             let tried = equations_at(model, stepped(model, &here, share))?;
-            // samples may enter or leave with a delay: that is no reason to stop
-            if tried.cost <= here.cost * (1.0 + 1e-6) || here.last_step < 1e-2 {
+            // near the end samples that cross a knot, and outliers, change the cost by more than the step does
+            if tried.cost <= here.cost * (1.0 + 1e-6) || here.last_step < NEAR {
                 found = Some(tried);
                 break;
             }

@@ -44,9 +44,12 @@ pub(super) fn initial<'a>(problem: &MachineProblem<'a>) -> Result<Initial<'a>> {
         }
         true
     };
-    // factors of two, until the residuals grow; then between them
+    // factors of two, until the residuals grow twice; then between them
     let mut step_s = LONGEST_S.min((last - first) / 8.0).max(finest);
-    while step_s >= finest && (try_step(step_s, &mut best) || best.is_none()) {
+    let mut worse = 0;
+    while step_s >= finest && worse < 2 {
+        let better = try_step(step_s, &mut best) || best.is_none();
+        worse = if better { 0 } else { worse + 1 };
         step_s *= 0.5;
     }
     if let Some((_, middle)) = best {

@@ -55,6 +55,9 @@ fn free_combinations(information: &DMatrix<f64>) -> Free {
     let scaled = DMatrix::from_fn(felt.len(), felt.len(), |i, j| {
         information[(felt[i], felt[j])] * scale[i] * scale[j]
     });
+    if felt.is_empty() {
+        return Free { number: n, places: unfelt };
+    }
     let SymmetricEigen { eigenvalues, eigenvectors } = scaled.symmetric_eigen();
     let without: Vec<usize> = (0..felt.len()).filter(|k| eigenvalues[*k] < RELATIVE).collect();
     let weight = |row: usize| without.iter().map(|k| eigenvectors[(row, *k)].powi(2)).sum::<f64>();

@@ -18,6 +18,8 @@ const SETTLED: f64 = 0.05;
 const NEIGHBOURS: usize = 100;
 /// Reweighted fits.
 const ROUNDS: usize = 8;
+/// Residuals below this part of the values are rounding.
+const ROUNDING: f64 = 1e-13;
 /// Weight of the penalty beside that of the samples.
 const PENALTY: f64 = 1e-12;
 /// Median absolute deviation of a normal distribution with standard deviation 1.
@@ -104,15 +106,18 @@ impl Component {
     fn fitted(samples: &[Sample<'_>], knots: UniformKnots) -> Self {
         let mut weight = vec![1.0; samples.len()];
         let mut fit = Self { controls: vec![0.0; knots.controls()], sd: 0.0, outliers: 0, determined: 0.0 };
+        // rounding is no residual
+        let largest = samples.iter().fold(0.0_f64, |largest, sample| largest.max(sample.value.abs()));
+        let floor = ROUNDING * largest.max(f64::MIN_POSITIVE / ROUNDING);
         for round in 0..ROUNDS {
             let (factor, controls) = solved(samples, &weight, knots);
             fit.controls = controls;
             let residuals: Vec<f64> = samples.iter().map(|sample| sample.residual(&fit.controls)).collect();
-            let scale = scales(&residuals);
+            let scale = scales(&residuals, floor);
             let before = weight.clone();
             for ((weight, residual), scale) in weight.iter_mut().zip(&residuals).zip(&scale) {
                 *weight = match residual.abs() / scale {
-                    size if size <= HUBER || scale.is_nan() => 1.0,
+                    size if size <= HUBER => 1.0,
                     size if size > OUTLIER && round >= REDESCENDING => 0.0,
                     size => HUBER / size,
                 };
@@ -179,9 +184,9 @@ fn trace(samples: &[Sample<'_>], weight: &[f64], factor: &Band) -> f64 {
 }
 
 /// Standard deviation of the residuals about each sample: of the samples near it, or of all if that is larger. A tracker's error grows with motion.
-fn scales(residuals: &[f64]) -> Vec<f64> {
+fn scales(residuals: &[f64], floor: f64) -> Vec<f64> {
     let of = |residuals: &[f64]| median(residuals.iter().map(|r| r.abs()).collect()) / NORMAL_MAD;
-    let all = of(residuals);
+    let all = of(residuals).max(floor);
     residuals.chunks(NEIGHBOURS).flat_map(|near| std::iter::repeat_n(of(near).max(all), near.len())).collect()
 }
 
