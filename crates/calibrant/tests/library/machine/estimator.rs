@@ -197,10 +197,10 @@ struct Published {
 }
 
 fn broad(of: &Published, knot_step_s: Option<f64>) {
-    let Some(folder) = shared_data("broad-mocap") else { return };
-    let folder = folder.join(of.trial);
-    let file = read_imu_recording(&folder.join("imu.csv"), &ImuReadOptions::default()).expect("a recording");
-    let log = read_reference_log(&folder.join("ref_120hz_recovered.csv"), &ReferenceLogOptions::default());
+    let data = |name: &str| shared_data(&format!("broad-mocap/{}/{name}", of.trial));
+    let (Some(imu), Some(poses)) = (data("imu.csv"), data("ref_120hz_recovered.csv")) else { return };
+    let file = read_imu_recording(&imu, &ImuReadOptions::default()).expect("a recording");
+    let log = read_reference_log(&poses, &ReferenceLogOptions::default());
     let setup = MachineSetup {
         lever_sd_m: 0.1,
         mounting: MountingPrior::Exact,
