@@ -5,13 +5,13 @@ use super::{MachineCalibration, MachineTrust};
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::estimate::CalibrationStatus;
 
-/// Residuals this many times the noise of neighbouring samples are told, with a log that is measured or trusted.
+/// Largest usual ratio of the residuals to the noise between neighbouring samples: with noisy trust, and with known trust.
 const RESIDUALS: [f64; 2] = [1.1, 1.25];
-/// A quantity this many prior standard deviations from what was expected is told.
+/// Largest usual distance of a quantity from its prior mean, in prior standard deviations.
 const CONTRADICTED: f64 = 4.0;
-/// So many outliers in the log are told, as a share.
+/// Largest usual share of outliers in the log.
 const OUTLIERS: f64 = 1e-3;
-/// A smaller share of the samples that are used is told.
+/// Least usual share of the sensor's samples that are used.
 const USED: f64 = 0.95;
 
 /// All of it, the most important first.

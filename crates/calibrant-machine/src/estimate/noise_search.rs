@@ -28,7 +28,7 @@ pub(super) fn noise_search(
     problem: &MachineProblem<'_>,
     settings: &MachineSettings,
 ) -> Result<Growths> {
-    /// The search looks at every so many intervals.
+    /// The residuals of every fourth interval suffice for the noise.
     const EVERY: usize = 4;
     let mut growths = Growths { streams: vec![None; model.streams.len()], log: None };
     let mut searched = false;

@@ -21,7 +21,7 @@ pub(super) struct Posterior {
 }
 
 impl Posterior {
-    /// At a minimum, from every so many intervals. `None` where the parameters are not determined.
+    /// At a minimum, from the residuals of each `every`-th interval. `None` where the parameters are not determined.
     pub(super) fn at(model: &Model<'_>, minimum: &Minimum, every: usize) -> Option<Self> {
         let state = &minimum.state;
         let covariance = inverse(&minimum.solved.information)?;

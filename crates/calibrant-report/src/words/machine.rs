@@ -1,4 +1,4 @@
-//! What is told of a sensor on a machine.
+//! The sentences of diagnostics of a sensor on a machine.
 
 use calibrant_core::diagnostic::Diagnostic;
 

@@ -243,7 +243,7 @@ fn broad(of: &Published, knot_step_s: Option<f64>) {
 }
 
 #[test]
-#[ignore = "takes a minute"]
+#[ignore = "long: scripts/test-all runs it"]
 fn motion_capture_agrees_with_an_independent_fit() {
     for of in [
         Published {
