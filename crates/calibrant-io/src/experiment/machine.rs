@@ -83,7 +83,6 @@ impl MachinePlan {
     pub fn setup(&self, accelerometer: &Sensor, imu: Option<&ImuPlan>, joints: usize) -> MachineSetup {
         let mut setup = self.known.clone();
         setup.reference_noise = self.log_noise.as_ref().map(|noise| noise.of_components(joints));
-        setup.g_sensitivity = imu.is_some_and(|imu| imu.gyroscope.g_sensitivity);
         if self.noise_of_datasheet {
             let gain = accelerometer.gain.unwrap_or_else(|| Vector3::repeat(1.0));
             setup.accelerometer_noise = accelerometer.noise(&gain);

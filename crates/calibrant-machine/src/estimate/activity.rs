@@ -1,7 +1,6 @@
 //! How much the machine moves at a time: what noise that grows with motion is compared with.
 
 use super::model::{Model, State};
-use crate::reference::Felt;
 
 /// Time between the values, s.
 const STEP_S: f64 = 0.05;
@@ -15,20 +14,19 @@ pub(super) struct Activity {
 }
 
 impl Activity {
-    pub(super) fn of(model: &Model<'_>, state: &State) -> Self {
+    pub(super) fn along(model: &Model<'_>, state: &State) -> Self {
         let knots = state.motion.knots();
         let carrier = model.carrier(state);
-        let columns = state.motion.columns(false);
-        let mut felt = Felt::zeros(columns);
+        let mut joints = Default::default();
         let count = ((knots.end_s() - knots.start_s) / STEP_S) as usize + 1;
         let gravity = state.parameters.gravity_mps2;
         let (mut rates, mut forces) = (vec![0.0; count], vec![0.0; count]);
         for k in 0..count {
             let weights = knots.weights(knots.start_s + k as f64 * STEP_S);
             if model.covered[weights.interval] {
-                state.motion.feel(&weights, &carrier, columns, &mut felt);
-                rates[k] = felt.rate.norm_squared();
-                forces[k] = (felt.force.norm() - gravity).powi(2);
+                let at = state.motion.sensor(&weights, &carrier, &mut joints);
+                rates[k] = at.rate.norm_squared();
+                forces[k] = (at.specific_force.norm() - gravity).powi(2);
             }
         }
         let mean = |values: &[f64]| (values.iter().sum::<f64>() / count as f64).max(f64::MIN_POSITIVE);

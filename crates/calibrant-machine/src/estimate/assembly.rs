@@ -4,6 +4,7 @@ use super::budget::budget;
 use super::gauss_newton::Minimum;
 use super::model::Model;
 use super::noise_search::Growths;
+use super::pass::Pass;
 use super::posterior::Posterior;
 use super::sandwich::inflation;
 use super::stream::white_noise;
@@ -31,18 +32,15 @@ pub(super) fn assembled(
     let noise: Vec<SensorResidual> = (0..model.streams.len())
         .map(|s| {
             let stream = &model.streams[s];
-            let (mut residuals, mut squares) = (Vec::new(), Vector3::zeros());
-            model.visit_residuals(state, s, |time, _, residual| {
-                squares += residual.map(|r| r * r);
-                residuals.push((time, residual));
-            });
+            let residuals = model.residuals(state, s, Pass::all(model.trust));
+            let squares: Vector3<f64> = residuals.iter().map(|of| of.value.map(|r| r * r)).sum();
             SensorResidual {
                 sensor: stream.sensor,
                 noise: stream.sd,
                 white_noise: white_noise(stream.recording),
                 growth: growths.streams[s],
                 rms: (squares / (residuals.len() as f64).max(1.0)).map(f64::sqrt),
-                residuals,
+                residuals: residuals.iter().map(|of| (of.time_s, of.value)).collect(),
             }
         })
         .collect();
@@ -80,10 +78,10 @@ fn fit(
     used: usize,
 ) -> FitStatistics {
     let noisy = problem.setup.trust == MachineTrust::Noisy;
-    let log: usize = if noisy { posterior.log.iter().map(|moments| moments.count).sum() } else { 0 };
+    let log: usize = if noisy { posterior.sums.log.iter().map(|moments| moments.count).sum() } else { 0 };
     let determined: f64 =
-        if noisy { posterior.log.iter().map(|moments| moments.leverage).sum() } else { 0.0 };
-    let of_streams: f64 = posterior.streams.iter().flatten().map(|moments| moments.leverage).sum();
+        if noisy { posterior.sums.log.iter().map(|moments| moments.leverage).sum() } else { 0.0 };
+    let of_streams: f64 = posterior.sums.streams.iter().flatten().map(|moments| moments.leverage).sum();
     let unknowns = (determined + of_streams).max(parameters.min(3 * used) as f64);
     let degrees = (3 * used + log) as f64 - unknowns;
     let degrees_of_freedom = degrees.max(0.0).round() as usize;
@@ -134,7 +132,7 @@ fn reference_noise(
             sd: model.log.sd[k],
             growth,
             outliers: outliers.get(k).copied().unwrap_or(0),
-            samples: posterior.log.get(k).map_or(0, |moments| moments.count),
+            samples: posterior.sums.log.get(k).map_or(0, |moments| moments.count),
         })
         .collect()
 }

@@ -39,7 +39,7 @@ pub(super) fn budget(
             let mut parts = [0.0; Source::ALL.len()];
             for (part, source) in parts.iter_mut().zip(Source::ALL) {
                 *part = match source {
-                    Source::SensorNoise => posterior.of_streams.iter().map(|of| of[i]).sum(),
+                    Source::SensorNoise => posterior.sums.of_streams.iter().map(|of| of[i]).sum(),
                     Source::ReferenceNoise => 0.0,
                     _ => priors.iter().find(|(of, _)| *of == source).map_or(0.0, |(_, of)| of[(i, 0)]),
                 };

@@ -6,10 +6,14 @@ use super::initial::Initial;
 use super::knot_choice::initial;
 use super::noise_search::noise_search;
 use super::posterior::Posterior;
-use super::trusted::{Effort, trusted};
+use super::trusted::trusted;
 use super::unsolved::unsolved;
 use super::{MachineCalibration, MachineProblem, MachineSettings, checks, undetermined};
 use calibrant_core::error::Result;
+
+/// Steps with a trusted motion, and samples of each sensor, that bring the parameters near.
+const STEPS: usize = 4;
+const SAMPLES: usize = 4000;
 
 /// Calibrates a sensor on a machine.
 ///
@@ -33,7 +37,7 @@ pub fn calibrate_on_machine(
 ) -> Result<MachineCalibration> {
     let Initial { mut model, mut state, outliers } = initial(problem)?;
     undetermined::check(&model, &state)?;
-    trusted(&mut model, &mut state, Effort::THOROUGH).ok_or_else(unsolved)?;
+    trusted(&mut model, &mut state, STEPS, SAMPLES).ok_or_else(unsolved)?;
     for stream in &mut model.streams {
         if let Some(given) = problem.setup.noise_of(stream.sensor) {
             stream.sd = given;

@@ -4,6 +4,7 @@ use super::layout::Layout;
 use super::log_equations::WeighedLog;
 use super::model::{Model, State};
 use super::parameters::TiltedGravity;
+use super::pass::Pass;
 use super::stream::Stream;
 use super::{MachineParameters, MachineSetup, MachineTrust};
 use crate::chain::chains_for_tests::{Numbers, mixed_chain};
@@ -39,7 +40,6 @@ fn check(make: fn(&mut Numbers) -> Motion, seed: u64) {
     let mut numbers = Numbers(seed);
     let motion = make(&mut numbers);
     let setup = MachineSetup {
-        g_sensitivity: true,
         gravity_sd_mps2: 0.01,
         lever_m: numbers.vector(0.2),
         tip_from_sensor: UnitQuaternion::from_scaled_axis(numbers.vector(1.0)),
@@ -68,12 +68,15 @@ fn check(make: fn(&mut Numbers) -> Motion, seed: u64) {
     });
     let log = ReferenceLog::Poses(PoseLog { times_s: vec![], positions_m: vec![], world_from_body: vec![] });
     let state = State { motion, parameters };
+    let pass = Pass::all(MachineTrust::Noisy);
     // the first pass tells what is felt, the second compares
     let predicted = {
         let model = model(&recordings, &log, &layout, &setup);
         [0, 1].map(|s| {
             let mut all = vec![Vector3::zeros(); times_s.len()];
-            model.visit_residuals(&state, s, |_, k, residual| all[k] = -residual);
+            for of in model.residuals(&state, s, pass) {
+                all[of.sample] = -of.value;
+            }
             all
         })
     };
@@ -86,18 +89,18 @@ fn check(make: fn(&mut Numbers) -> Motion, seed: u64) {
     let residuals = |state: &State, interval: usize| -> Vec<f64> {
         let mut all = Vec::new();
         for s in 0..2 {
-            model.visit_residuals(state, s, |_, k, residual| {
-                if state.motion.knots().interval(model.motion_time(s, k, state)) == interval {
-                    all.extend(residual.component_div(&model.streams[s].sd).iter());
+            for of in model.residuals(state, s, pass) {
+                if state.motion.knots().interval(of.time_s) == interval {
+                    all.extend(of.value.component_div(&model.streams[s].sd).iter());
                 }
-            });
+            }
         }
         all
     };
-    let (places, _) = model.places(&state);
+    let places = model.places(&state);
     for interval in 0..state.motion.knots().intervals {
-        let rows = model.rows(&(interval..interval + 1), &state, &places);
-        let all = rows.matrix();
+        let rows = model.rows(&(interval..interval + 1), &state, &places, pass);
+        let all = rows.as_columns();
         for column in 0..rows.length - 1 {
             let moved = |step: f64| {
                 let mut state = state.clone();
@@ -135,7 +138,7 @@ fn model<'a>(
     let streams = SensorKind::ALL.into_iter().zip(recordings);
     let streams = streams.map(|(sensor, recording)| {
         let sd = Vector3::new(0.5, 1.0, 2.0);
-        Stream { sensor, recording, sd, growth: Vec::new(), stride: 1 }
+        Stream { sensor, recording, sd, growth: Vec::new() }
     });
     Model {
         streams: streams.collect(),

@@ -11,7 +11,8 @@
 //! Blocks of joints have one entry a joint, those of poses six. What is left at the end is the information of the parameters, with the motion marginalised.
 //! Time and memory are linear in the number of intervals. Without blocks (`Trust::Known`) the front is the border alone.
 
-use nalgebra::{Cholesky, DMatrix, DVector};
+use super::scaled::Scaled;
+use nalgebra::{DMatrix, DVector};
 
 /// An eliminated block: `L`, and `G` for the later blocks, the border and the right side.
 struct Eliminated {
@@ -106,13 +107,7 @@ impl Front {
         let (chain, border) = (self.chain(), self.border);
         let information = self.matrix.view((chain, chain), (border, border)).into_owned();
         let right = self.border_right();
-        let scale = information.diagonal().map(|d| if d > 0.0 { d.sqrt().recip() } else { 1.0 });
-        let scaled = DMatrix::from_fn(border, border, |i, j| information[(i, j)] * scale[i] * scale[j]);
-        let parameters = if border == 0 {
-            DVector::zeros(0)
-        } else {
-            Cholesky::new(scaled)?.solve(&right.component_mul(&scale)).component_mul(&scale)
-        };
+        let parameters = if border == 0 { right.clone() } else { Scaled::new(&information)?.solve(&right) };
         Some(Solved {
             block: self.block,
             order: self.order,

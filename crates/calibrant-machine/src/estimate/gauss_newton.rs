@@ -1,7 +1,9 @@
 //! Gauss–Newton steps, halved where they do not lower the cost.
 
 use super::front::Solved;
-use super::model::{Equations, Model, State};
+use super::equations::Equations;
+use super::model::{Model, State};
+use super::pass::Pass;
 use calibrant_core::estimate::CalibrationStatus;
 use nalgebra::DVector;
 
@@ -23,8 +25,8 @@ pub(super) struct Minimum {
 }
 
 /// The equations at a state, solved. `None` where they determine nothing.
-pub(super) fn equations_at(model: &Model<'_>, state: State) -> Option<Minimum> {
-    let Equations { front, cost, scores } = model.equations(&state);
+pub(super) fn equations_at(model: &Model<'_>, state: State, pass: Pass) -> Option<Minimum> {
+    let Equations { front, cost, scores } = model.equations(&state, pass);
     let solved = front.finish()?;
     let last_step = solved.parameters.dot(&solved.right).max(0.0).sqrt();
     let status = CalibrationStatus::IterationLimit;
@@ -49,7 +51,8 @@ pub(super) fn minimise(
     max_iterations: usize,
     tolerance: f64,
 ) -> Option<Minimum> {
-    let mut here = equations_at(model, start)?;
+    let pass = Pass::all(model.trust);
+    let mut here = equations_at(model, start, pass)?;
     for iteration in 1..=max_iterations {
         here.iterations = iteration;
         if here.last_step < tolerance {
@@ -59,7 +62,7 @@ pub(super) fn minimise(
         let mut share = 1.0;
         let mut found = None;
         for _ in 0..HALVINGS {
-            let tried = equations_at(model, stepped(model, &here, share))?;
+            let tried = equations_at(model, stepped(model, &here, share), pass)?;
             // near the end samples that cross a knot, and outliers, change the cost by more than the step does
             if tried.cost <= here.cost * (1.0 + 1e-6) || here.last_step < NEAR {
                 found = Some(tried);

@@ -29,8 +29,12 @@ pub(super) struct Initial<'a> {
 }
 
 impl<'a> Initial<'a> {
-    /// On splines through the log.
-    pub(super) fn on(problem: &MachineProblem<'a>, fit: ReferenceFit) -> Result<Self> {
+    /// On splines through the log. Without parameters to begin `from`, they are those of the setup, with the coarse delay.
+    pub(super) fn on(
+        problem: &MachineProblem<'a>,
+        fit: ReferenceFit,
+        from: Option<&MachineParameters>,
+    ) -> Result<Self> {
         let setup = problem.setup;
         let sensors: Vec<SensorKind> =
             SensorKind::ALL.into_iter().filter(|kind| problem.recording.sensor(*kind).is_some()).collect();
@@ -42,21 +46,31 @@ impl<'a> Initial<'a> {
         let covered = covered(problem.log, &knots);
         let gravity = TiltedGravity::new(&setup.up);
         let mut nominal = MachineParameters::nominal(setup, *problem.nominal, motion.joints());
-        let delay_s = place_in_time(problem, &motion, &covered, &gravity, &sensors, &mut nominal)?;
-        let layout = Layout::new(setup, &sensors, problem.quantities, nominal.clone());
+        let parameters = match from {
+            Some(parameters) => {
+                if setup.mounting == MountingPrior::Unknown {
+                    nominal.mount.tip_from_sensor = parameters.mount.tip_from_sensor;
+                }
+                parameters.clone()
+            }
+            None => {
+                let delay_s = place_in_time(problem, &motion, &covered, &gravity, &sensors, &mut nominal)?;
+                MachineParameters { delays_s: [delay_s; 2], ..nominal.clone() }
+            }
+        };
+        let layout = Layout::new(setup, &sensors, problem.quantities, nominal);
         let streams: Vec<Stream<'_>> = sensors
             .iter()
             .filter_map(|&sensor| {
                 let recording = problem.recording.sensor(sensor)?;
                 let sd = white_noise(recording);
-                Some(Stream { sensor, recording, sd, growth: Vec::new(), stride: 1 })
+                Some(Stream { sensor, recording, sd, growth: Vec::new() })
             })
             .collect();
         let middle_s = 0.5 * (main.times_s[0] + main.times_s[main.len() - 1]);
         let sd = setup.reference_noise.clone().unwrap_or(sd).iter().map(|sd| sd.max(1e-12)).collect();
         let log = WeighedLog { log: problem.log, sd, growth: Vec::new() };
         let model = Model { streams, log, layout, gravity, trust: setup.trust, middle_s, covered };
-        let parameters = MachineParameters { delays_s: [delay_s; 2], ..nominal };
         Ok(Self { model, state: State { motion, parameters }, outliers })
     }
 }

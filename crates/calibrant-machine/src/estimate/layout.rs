@@ -2,7 +2,7 @@
 
 use super::parameters::AXES;
 use super::{MachineParameters, MachineQuantity, MachineSetup, MountingPrior};
-use calibrant_core::sensor::{ImuQuantity, SensorKind};
+use calibrant_core::sensor::{Gauge, ImuQuantity, SensorKind, SensorModel};
 use nalgebra::{DMatrix, DVector};
 
 /// The unknowns, and the information of their priors.
@@ -23,32 +23,24 @@ impl Layout {
         imu: &[ImuQuantity],
         nominal: MachineParameters,
     ) -> Self {
-        let mut known: Vec<(MachineQuantity, f64)> =
-            imu.iter().map(|of| (MachineQuantity::Imu(*of), f64::INFINITY)).collect();
-        let joints = nominal.corrections.joints.len();
-        known.extend(AXES.map(|axis| (MachineQuantity::Lever(axis), setup.lever_sd_m)));
-        let mounting_sd = match setup.mounting {
-            MountingPrior::Within(sd) => sd,
-            MountingPrior::Exact | MountingPrior::Unknown => 0.0,
-        };
-        known.extend(AXES.map(|axis| (MachineQuantity::Mounting(axis), mounting_sd)));
-        let tilt_sd = if setup.gravity_mps2 == 0.0 { 0.0 } else { setup.tilt_sd_rad };
-        known.extend([0, 1].map(|k| (MachineQuantity::Tilt(k), tilt_sd)));
-        known.push((MachineQuantity::Gravity, setup.gravity_sd_mps2));
-        known.extend(sensors.iter().map(|&sensor| (MachineQuantity::Delay(sensor), setup.delay_sd_s)));
-        known.push((MachineQuantity::ClockRate, setup.clock_rate_sd));
-        known.extend((0..joints).map(|j| (MachineQuantity::Zero(j), setup.zero_sd)));
-        for j in 0..joints {
-            let sd = |k| if k < 3 { setup.geometry_translation_sd_m } else { setup.geometry_rotation_sd_rad };
-            known.extend((0..6).map(|k| (MachineQuantity::Geometry(j, k), sd(k))));
+        let joints = 0..nominal.corrections.joints.len();
+        let mut quantities: Vec<MachineQuantity> = imu.iter().map(|of| MachineQuantity::Imu(*of)).collect();
+        quantities.extend(AXES.map(MachineQuantity::Lever));
+        quantities.extend(AXES.map(MachineQuantity::Mounting));
+        quantities.extend([0, 1].map(MachineQuantity::Tilt));
+        quantities.push(MachineQuantity::Gravity);
+        quantities.extend(sensors.iter().map(|&sensor| MachineQuantity::Delay(sensor)));
+        quantities.push(MachineQuantity::ClockRate);
+        quantities.extend(joints.clone().map(MachineQuantity::Zero));
+        quantities.extend(joints.flat_map(|j| (0..6).map(move |k| MachineQuantity::Geometry(j, k))));
+        if setup.mounting == MountingPrior::Unknown {
+            quantities.retain(|quantity| in_gauge(*quantity, sensors[0]));
         }
-        known.retain(|(_, sd)| *sd > 0.0);
+        let sd = |quantity: &MachineQuantity| setup.prior_sd(*quantity, sensors.len());
+        quantities.retain(|quantity| sd(quantity) > 0.0);
         let information = |sd: f64| if sd.is_finite() { 1.0 / (sd * sd) } else { 0.0 };
-        let mut prior = DMatrix::from_diagonal(&DVector::from_iterator(
-            known.len(),
-            known.iter().map(|(_, sd)| information(*sd)),
-        ));
-        let quantities: Vec<MachineQuantity> = known.into_iter().map(|(quantity, _)| quantity).collect();
+        let of_each = quantities.iter().map(|quantity| information(sd(quantity)));
+        let mut prior = DMatrix::from_diagonal(&DVector::from_iterator(quantities.len(), of_each));
         let delay = |sensor| quantities.iter().position(|of| *of == MachineQuantity::Delay(sensor));
         if let (Some(a), Some(g)) = (delay(SensorKind::Accelerometer), delay(SensorKind::Gyroscope)) {
             let common = 0.25 * information(setup.delay_sd_s);
@@ -77,5 +69,16 @@ impl Layout {
         for (quantity, step) in self.quantities.iter().zip(step.iter()) {
             parameters.add(*quantity, *step);
         }
+    }
+}
+
+/// Is a quantity estimated where nothing is known of the mounting? `S R` and the mounting turned by `R` read the same for every rotation `R`.
+/// The gauge `upper` of the `first` sensor picks one.
+fn in_gauge(quantity: MachineQuantity, first: SensorKind) -> bool {
+    match quantity {
+        MachineQuantity::Imu(ImuQuantity::Of(sensor, of)) if sensor == first => {
+            Gauge::Upper.parameter_list(SensorModel::Full).quantities().contains(&of)
+        }
+        _ => true,
     }
 }

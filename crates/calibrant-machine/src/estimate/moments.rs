@@ -10,6 +10,14 @@ pub(super) struct Moments {
     pub(super) leverage: f64,
 }
 
+impl std::ops::AddAssign for Moments {
+    fn add_assign(&mut self, other: Self) {
+        self.count += other.count;
+        self.squares += other.squares;
+        self.leverage += other.leverage;
+    }
+}
+
 impl Moments {
     /// Squared factor by which the noise differs from what was assumed.
     pub(super) fn variance_factor(&self) -> Option<f64> {

@@ -2,8 +2,10 @@
 
 use super::activity::{Activity, growth};
 use super::gauss_newton::{equations_at, stepped};
-use super::model::{Model, State};
-use super::posterior::Posterior;
+use super::model::{Model, Residual, State};
+use super::moments::Moments;
+use super::pass::Pass;
+use super::posterior::{Posterior, Sums};
 use super::unsolved::unsolved;
 use super::{MachineProblem, MachineSettings, MachineTrust};
 use calibrant_core::error::Result;
@@ -14,6 +16,9 @@ const NOISE_TOLERANCE: f64 = 0.02;
 const RELAXATION: f64 = 1.2;
 /// Step of the parameters up to which the noise may count as known, in standard deviations.
 const STEP_TOLERANCE: f64 = 0.1;
+
+/// Squares of whitened residuals beyond this are outliers, not noise that grows.
+const OUTLYING: f64 = 50.0;
 
 /// `κ` of each stream and of each component of the log.
 pub(super) struct Growths {
@@ -33,10 +38,10 @@ pub(super) fn noise_search(
     let mut growths = Growths { streams: vec![None; model.streams.len()], log: None };
     let mut searched = false;
     for _ in 0..settings.max_noise_rounds {
-        let here = equations_at(model, state.clone()).ok_or_else(unsolved)?;
+        let here = equations_at(model, state.clone(), Pass::all(model.trust)).ok_or_else(unsolved)?;
         let posterior = Posterior::at(model, &here, EVERY).ok_or_else(unsolved)?;
         *state = stepped(model, &here, 1.0);
-        let change = update_noise(model, &posterior, problem);
+        let change = update_noise(model, &posterior.sums, problem);
         if change < NOISE_TOLERANCE && here.last_step < STEP_TOLERANCE {
             if searched {
                 break;
@@ -51,27 +56,21 @@ pub(super) fn noise_search(
 }
 
 /// New noise from the residuals. Returns the largest relative change of a variance.
-fn update_noise(model: &mut Model<'_>, posterior: &Posterior, problem: &MachineProblem<'_>) -> f64 {
+fn update_noise(model: &mut Model<'_>, sums: &Sums, problem: &MachineProblem<'_>) -> f64 {
     let mut change = 0.0_f64;
-    let setup = problem.setup;
-    for (stream, moments) in model.streams.iter_mut().zip(&posterior.streams) {
-        if setup.noise_of(stream.sensor).is_some() {
-            continue;
+    let mut update = |sd: &mut f64, moments: &Moments| {
+        if let Some(factor) = moments.variance_factor().filter(|factor| *factor > 0.0) {
+            change = change.max(factor.ln().abs());
+            *sd *= factor.powf(0.5 * RELAXATION);
         }
-        for (sd, moments) in stream.sd.iter_mut().zip(moments) {
-            if let Some(factor) = moments.variance_factor().filter(|factor| *factor > 0.0) {
-                change = change.max(factor.ln().abs());
-                *sd *= factor.powf(0.5 * RELAXATION);
-            }
+    };
+    for (stream, moments) in model.streams.iter_mut().zip(&sums.streams) {
+        if problem.setup.noise_of(stream.sensor).is_none() {
+            stream.sd.iter_mut().zip(moments).for_each(|(sd, moments)| update(sd, moments));
         }
     }
-    if setup.reference_noise.is_none() && model.trust == MachineTrust::Noisy {
-        for (sd, moments) in model.log.sd.iter_mut().zip(&posterior.log) {
-            if let Some(factor) = moments.variance_factor().filter(|factor| *factor > 0.0) {
-                change = change.max(factor.ln().abs());
-                *sd *= factor.powf(0.5 * RELAXATION);
-            }
-        }
+    if problem.setup.reference_noise.is_none() && model.trust == MachineTrust::Noisy {
+        model.log.sd.iter_mut().zip(&sums.log).for_each(|(sd, moments)| update(sd, moments));
     }
     change
 }
@@ -83,35 +82,38 @@ fn find_growth(
     problem: &MachineProblem<'_>,
     growths: &mut Growths,
 ) -> bool {
-    let activity = Activity::of(model, state);
+    let activity = Activity::along(model, state);
+    let grown = |factor: f64, time_s: f64| (1.0 + factor * activity.at(time_s)).sqrt();
     let mut found = false;
     for s in 0..model.streams.len() {
         if problem.setup.noise_of(model.streams[s].sensor).is_some() {
             continue;
         }
-        let mut pairs: Vec<(f64, f64)> = Vec::new();
         let sd = model.streams[s].sd;
-        model.visit_residuals(state, s, |time, _, residual| {
-            let whitened = residual.component_div(&sd).norm_squared() / 3.0;
-            // outliers are not what grows
-            if whitened < 50.0 {
-                pairs.push((activity.at(time), whitened));
-            }
-        });
-        if let Some(factor) = growth(&mut pairs) {
-            let times: Vec<f64> =
-                (0..model.streams[s].recording.len()).map(|k| model.motion_time(s, k, state)).collect();
-            model.streams[s].growth = times.iter().map(|t| (1.0 + factor * activity.at(*t)).sqrt()).collect();
+        let residuals = model.residuals(state, s, Pass::all(model.trust));
+        let square = |of: Residual| {
+            let whitened = of.value.component_div(&sd).norm_squared() / 3.0;
+            (whitened < OUTLYING).then(|| (activity.at(of.time_s), whitened))
+        };
+        if let Some(factor) = growth(&mut residuals.into_iter().filter_map(square).collect::<Vec<_>>()) {
+            let samples = 0..model.streams[s].recording.len();
+            model.streams[s].growth =
+                samples.map(|k| grown(factor, model.motion_time(s, k, state))).collect();
             growths.streams[s] = Some(factor);
             found = true;
         }
     }
     if model.trust == MachineTrust::Noisy && problem.setup.reference_noise.is_none() {
-        let mut pairs: Vec<(f64, f64)> =
-            model.log.squares(&state.motion).map(|(time, square)| (activity.at(time), square)).collect();
+        let times = model.log.log.times_s();
+        let mut pairs = Vec::new();
+        model.log.visit(0..times.len(), &state.motion, |of| {
+            let whitened = (of.residual / model.log.sd[of.component]).powi(2);
+            if whitened < OUTLYING {
+                pairs.push((activity.at(times[of.sample]), whitened));
+            }
+        });
         if let Some(factor) = growth(&mut pairs) {
-            let times = model.log.log.times_s();
-            model.log.growth = times.iter().map(|t| (1.0 + factor * activity.at(*t)).sqrt()).collect();
+            model.log.growth = times.iter().map(|time_s| grown(factor, *time_s)).collect();
             growths.log = Some(factor);
             found = true;
         }

@@ -3,15 +3,29 @@
 //! The equations are solved backwards once more, interval by interval, with the covariance of its control points and of all parameters
 //! (`takahashi1973`). With a whitened row `a` of a sample: its leverage is `aᵀ Σ a`, and it adds `(Σ a)ᵢ²` to the variance of parameter `i`.
 
+use super::equations::Places;
 use super::gauss_newton::Minimum;
 use super::model::{Model, State};
 use super::moments::Moments;
+use super::pass::Pass;
+use super::scaled::Scaled;
 use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
+use std::ops::Range;
+
+/// Intervals that are visited at the same time.
+const BATCH: usize = 32;
 
 /// The result of the sweep.
 pub(super) struct Posterior {
     /// Covariance of the parameters.
     pub(super) covariance: DMatrix<f64>,
+    pub(super) sums: Sums,
+}
+
+/// Sums over samples.
+#[derive(Debug, Clone)]
+pub(super) struct Sums {
     /// For each stream, its axes.
     pub(super) streams: Vec<[Moments; 3]>,
     /// For each component of the log.
@@ -20,84 +34,109 @@ pub(super) struct Posterior {
     pub(super) of_streams: Vec<DVector<f64>>,
 }
 
+/// The covariance of the control points of some intervals and of the parameters, and their last step.
+struct Local {
+    intervals: Range<usize>,
+    covariance: DMatrix<f64>,
+    step: DVector<f64>,
+}
+
 impl Posterior {
-    /// At a minimum, from the residuals of each `every`-th interval. `None` where the parameters are not determined.
+    /// At a minimum, from the residuals of each `every`-th group of intervals. `None` where the parameters are not determined.
     pub(super) fn at(model: &Model<'_>, minimum: &Minimum, every: usize) -> Option<Self> {
         let state = &minimum.state;
-        let covariance = inverse(&minimum.solved.information)?;
-        let parameters = covariance.nrows();
-        let mut posterior = Self {
-            streams: vec![Default::default(); model.streams.len()],
-            log: vec![Moments::default(); state.motion.unknowns()],
-            of_streams: vec![DVector::zeros(parameters); model.streams.len()],
-            covariance,
-        };
-        let (streams, log) = model.places(state);
-        let (unknowns, order) = (state.motion.unknowns(), state.motion.knots().degree.order());
-        let steps = minimum.solved.controls();
-        let step_of = |i: usize| -> DVector<f64> {
-            let controls = if steps.is_empty() { &[] } else { &steps[i * unknowns..(i + order) * unknowns] };
-            let parameters = minimum.solved.parameters.iter();
-            DVector::from_iterator(
-                controls.len() + parameters.len(),
-                controls.iter().chain(parameters).copied(),
-            )
-        };
-        let covariance = posterior.covariance.clone();
-        let mut visit = |i: usize, local: &DMatrix<f64>| {
-            if i >= state.motion.knots().intervals || !i.is_multiple_of(every) {
-                return;
-            }
-            let step = step_of(i);
-            posterior.add_samples(model, state, i, &streams, (local, &step));
-            if local.nrows() > parameters {
-                model.log.add_moments(log[i]..log[i + 1], &state.motion, (local, &step), &mut posterior.log);
-            }
-        };
+        let covariance = Scaled::new(&minimum.solved.information)?.inverse();
+        let places = model.places(state);
+        let sweep = Sweep { model, state, places: &places, parameters: covariance.nrows() };
+        let mut sums = sweep.none();
         if minimum.solved.has_motion() {
-            minimum.solved.backwards(&covariance, &mut visit);
-        } else {
-            (0..state.motion.knots().intervals).for_each(|i| visit(i, &covariance));
-        }
-        Some(posterior)
-    }
-
-    fn add_samples(
-        &mut self,
-        model: &Model<'_>,
-        state: &State,
-        interval: usize,
-        streams: &[Vec<usize>],
-        (local, step): (&DMatrix<f64>, &DVector<f64>),
-    ) {
-        let rows = model.rows(&(interval..interval + 1), state, streams);
-        if rows.values.is_empty() {
-            return;
-        }
-        let all = rows.matrix();
-        let size = local.nrows();
-        let parameters = self.covariance.nrows();
-        let derivatives = all.rows(0, size);
-        let spread = local * derivatives;
-        for (k, (stream, _)) in rows.origins.iter().enumerate() {
-            for axis in 0..3 {
-                let row = 3 * k + axis;
-                let leverage = derivatives.column(row).dot(&spread.column(row));
-                let residual = all[(size, row)] - derivatives.column(row).dot(step);
-                self.streams[*stream][axis].add(residual, leverage);
-                for p in 0..parameters {
-                    self.of_streams[*stream][p] += spread[(size - parameters + p, row)].powi(2);
+            let (unknowns, knots) = (state.motion.unknowns(), state.motion.knots());
+            let controls = minimum.solved.controls();
+            let mut batch: Vec<Local> = Vec::with_capacity(BATCH);
+            minimum.solved.backwards(&covariance, |i, local| {
+                if i >= knots.intervals || !i.is_multiple_of(every) {
+                    return;
                 }
-            }
+                let of_interval = &controls[i * unknowns..(i + knots.degree.order()) * unknowns];
+                let step = of_interval.iter().chain(minimum.solved.parameters.iter()).copied().collect();
+                let step = DVector::from_vec(step);
+                batch.push(Local { intervals: i..i + 1, covariance: local.clone(), step });
+                if batch.len() == BATCH {
+                    sums.add(&sweep.over(&batch));
+                    batch.clear();
+                }
+            });
+            sums.add(&sweep.over(&batch));
+        } else {
+            let groups = model.groups(state, Pass::all(model.trust)).into_iter().step_by(every);
+            let step = &minimum.solved.parameters;
+            let local =
+                |intervals| Local { intervals, covariance: covariance.clone(), step: step.clone() };
+            sums.add(&sweep.over(&groups.map(local).collect::<Vec<_>>()));
         }
+        Some(Self { covariance, sums })
     }
 }
 
-/// The inverse of an information matrix, scaled to a unit diagonal first.
-pub(super) fn inverse(information: &DMatrix<f64>) -> Option<DMatrix<f64>> {
-    let scale = information.diagonal().map(|d| if d > 0.0 { d.sqrt().recip() } else { 1.0 });
-    let n = information.nrows();
-    let scaled = DMatrix::from_fn(n, n, |i, j| information[(i, j)] * scale[i] * scale[j]);
-    let inverse = nalgebra::Cholesky::new(scaled)?.inverse();
-    Some(DMatrix::from_fn(n, n, |i, j| inverse[(i, j)] * scale[i] * scale[j]))
+struct Sweep<'m> {
+    model: &'m Model<'m>,
+    state: &'m State,
+    places: &'m Places,
+    parameters: usize,
+}
+
+impl Sweep<'_> {
+    fn none(&self) -> Sums {
+        Sums {
+            streams: vec![Default::default(); self.model.streams.len()],
+            log: vec![Moments::default(); self.state.motion.unknowns()],
+            of_streams: vec![DVector::zeros(self.parameters); self.model.streams.len()],
+        }
+    }
+
+    /// The sums over some intervals.
+    fn over(&self, batch: &[Local]) -> Sums {
+        let parts: Vec<Sums> = batch.par_iter().map(|local| self.of(local)).collect();
+        let mut sums = self.none();
+        parts.iter().for_each(|part| sums.add(part));
+        sums
+    }
+
+    fn of(&self, local: &Local) -> Sums {
+        let mut sums = self.none();
+        let pass = Pass::all(self.model.trust);
+        let rows = self.model.rows(&local.intervals, self.state, self.places, pass);
+        let all = rows.as_columns();
+        let size = local.covariance.nrows();
+        let derivatives = all.rows(0, size);
+        let spread = &local.covariance * derivatives;
+        for (k, stream) in rows.streams.iter().enumerate() {
+            for axis in 0..3 {
+                let row = 3 * k + axis;
+                let leverage = derivatives.column(row).dot(&spread.column(row));
+                let residual = all[(size, row)] - derivatives.column(row).dot(&local.step);
+                sums.streams[*stream][axis].add(residual, leverage);
+                let of_parameters = spread.view((size - self.parameters, row), (self.parameters, 1));
+                sums.of_streams[*stream] += of_parameters.map(|part| part * part);
+            }
+        }
+        if pass.noisy() {
+            let samples = self.places.of_log(&local.intervals);
+            let at = (&local.covariance, &local.step);
+            self.model.log.add_moments(samples, &self.state.motion, at, &mut sums.log);
+        }
+        sums
+    }
+}
+
+impl Sums {
+    fn add(&mut self, other: &Self) {
+        let streams = self.streams.iter_mut().flatten().zip(other.streams.iter().flatten());
+        for (one, other) in streams.chain(self.log.iter_mut().zip(&other.log)) {
+            *one += *other;
+        }
+        for (one, other) in self.of_streams.iter_mut().zip(&other.of_streams) {
+            *one += other;
+        }
+    }
 }

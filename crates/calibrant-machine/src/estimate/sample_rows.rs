@@ -81,7 +81,7 @@ impl RowWriter {
         let by_gravity: [Vector6<f64>; 3] = self
             .gravity
             .map(|change| (0..3).map(|k| felt.columns[self.columns.gravity() + k] * change[k]).sum());
-        let predicted = predicted(sample.sensor, felt, at);
+        let predicted = predicted(sample.sensor, &felt.force, &felt.rate, at);
         let mut cost = 0.0;
         for (axis, row) in rows.chunks_exact_mut(self.length()).take(3).enumerate() {
             let whitened = (sample.reading[axis] - predicted[axis]) / sample.sd[axis];
@@ -123,10 +123,15 @@ impl RowWriter {
 }
 
 /// The reading of a perfect recording: `S f + b`, or `S w + b + Γ f`.
-pub(super) fn predicted(sensor: SensorKind, felt: &Felt, at: &MachineParameters) -> Vector3<f64> {
+pub(super) fn predicted(
+    sensor: SensorKind,
+    force: &Vector3<f64>,
+    rate: &Vector3<f64>,
+    at: &MachineParameters,
+) -> Vector3<f64> {
     match sensor {
-        SensorKind::Accelerometer => at.imu.accelerometer.reading(&felt.force),
-        SensorKind::Gyroscope => at.imu.gyroscope.reading(&felt.rate) + at.imu.g_sensitivity * felt.force,
+        SensorKind::Accelerometer => at.imu.accelerometer.reading(force),
+        SensorKind::Gyroscope => at.imu.gyroscope.reading(rate) + at.imu.g_sensitivity * force,
     }
 }
 

@@ -20,7 +20,8 @@ pub enum MountingPrior {
     Exact,
     /// It is known with this standard deviation about each axis, rad.
     Within(f64),
-    /// It is found from the data, and the sensor's matrices are stated in a gauge.
+    /// It is found from the data. It cannot be told from a rotation of the sensor's matrices, so the accelerometer's is upper triangular
+    /// (the gyroscope's where it is alone).
     Unknown,
 }
 
@@ -66,8 +67,6 @@ pub struct MachineSetup {
     pub geometry_rotation_sd_rad: f64,
     /// Standard deviation of the joints' zero offsets, rad or m.
     pub zero_sd: f64,
-    /// Is the gyroscope's g-sensitivity estimated?
-    pub g_sensitivity: bool,
     /// Distance of the knots of a cubic spline, s: that of the waypoints which the machine was given. `None`: a quintic spline whose knots
     /// follow the bandwidth of the data.
     pub knot_step_s: Option<f64>,
@@ -89,12 +88,15 @@ impl MachineSetup {
             MachineQuantity::Lever(_) => self.lever_sd_m,
             MachineQuantity::Mounting(_) => match self.mounting {
                 MountingPrior::Within(sd_rad) => sd_rad,
-                MountingPrior::Exact | MountingPrior::Unknown => 0.0,
+                MountingPrior::Exact => 0.0,
+                MountingPrior::Unknown => f64::INFINITY,
             },
+            // without gravity there is nothing to tilt
+            MachineQuantity::Tilt(_) if self.gravity_mps2 == 0.0 => 0.0,
             MachineQuantity::Tilt(_) => self.tilt_sd_rad,
             MachineQuantity::Gravity => self.gravity_sd_mps2,
             // the mean of both delays, and half their difference
-            MachineQuantity::Delay(_) if sensors > 1 => {
+            MachineQuantity::Delay(_) if sensors > 1 && self.delay_sd_s > 0.0 => {
                 self.delay_sd_s.hypot(0.5 * self.delay_difference_sd_s)
             }
             MachineQuantity::Delay(_) => self.delay_sd_s,
@@ -134,7 +136,6 @@ impl Default for MachineSetup {
             geometry_translation_sd_m: 3e-4,
             geometry_rotation_sd_rad: 3e-4,
             zero_sd: 3e-4,
-            g_sensitivity: false,
             knot_step_s: None,
             accelerometer_noise: None,
             gyroscope_noise: None,

@@ -12,8 +12,6 @@ pub(super) struct Stream<'a> {
     pub(super) sd: Vector3<f64>,
     /// How many times larger the noise of each sample is, where it grows with motion. Empty: everywhere 1.
     pub(super) growth: Vec<f64>,
-    /// Every how many samples are used.
-    pub(super) stride: usize,
 }
 
 impl Stream<'_> {

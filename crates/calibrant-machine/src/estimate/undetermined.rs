@@ -1,14 +1,16 @@
 //! What the motion does not determine, with the motion that would.
 
 use super::model::{Model, State};
-use super::{MachineQuantity, MachineTrust};
-use crate::reference::Felt;
+use super::MachineQuantity;
+use super::pass::Pass;
 use calibrant_core::error::{Error, NotIdentifiable, UndeterminedGroup};
 use calibrant_core::sensor::{Axis, ImuQuantity, SensorKind};
 use nalgebra::{DMatrix, Matrix3, SymmetricEigen, Vector3};
 
 /// Information below this part of that of a well determined combination is rounding.
 const RELATIVE: f64 = 1e-10;
+/// So many samples of each sensor tell.
+const SAMPLES: usize = 5000;
 /// Parameters with at least this part of an undetermined combination are named.
 const SHARE: f64 = 0.1;
 /// A rate below this is no rotation, rad/s; a change of specific force below ten times this is no change, m/s².
@@ -16,19 +18,16 @@ const STILL: f64 = 0.02;
 
 /// Is every combination determined by the data or by what is known beforehand?
 pub(super) fn check(model: &Model<'_>, state: &State) -> Result<(), Error> {
-    let mut known = Model { trust: MachineTrust::Known, ..model.borrowed() };
-    for stream in &mut known.streams {
-        stream.stride = (stream.recording.len() / 5000).max(1);
-    }
-    let Some(information) = known.equations(state).front.information() else { return Ok(()) };
+    let equations = model.equations(state, Pass::trusting(SAMPLES));
+    let Some(information) = equations.front.information() else { return Ok(()) };
     let free = free_combinations(&information);
     if free.number == 0 {
         return Ok(());
     }
     let named: Vec<MachineQuantity> =
         free.places.iter().map(|place| model.layout.quantities[*place]).collect();
-    let (reason, remedy) = reason(&known, state, &named);
-    let joints = known.joint_names();
+    let (reason, remedy) = reason(model, state, &named);
+    let joints = model.joint_names();
     Err(Error::NotIdentifiable(Box::new(NotIdentifiable {
         groups: vec![UndeterminedGroup {
             parameters: named.iter().map(|quantity| quantity.name(&joints)).collect(),
@@ -70,17 +69,16 @@ fn free_combinations(information: &DMatrix<f64>) -> Free {
 
 /// How much force and rate change along each axis of the sensor.
 fn excitation(model: &Model<'_>, state: &State) -> (Matrix3<f64>, Vector3<f64>) {
-    let (knots, columns) = (state.motion.knots(), state.motion.columns(false));
-    let carrier = model.carrier(state);
-    let mut felt = Felt::zeros(columns);
+    let (knots, carrier) = (state.motion.knots(), model.carrier(state));
+    let mut joints = Default::default();
     let count = knots.intervals.min(5000);
     let (mut sum, mut squares, mut rates) = (Vector3::zeros(), Matrix3::zeros(), Vector3::zeros());
     for k in 0..count {
         let time = knots.start_s + (knots.end_s() - knots.start_s) * (k as f64 + 0.5) / count as f64;
-        state.motion.feel(&knots.weights(time), &carrier, columns, &mut felt);
-        sum += felt.force;
-        squares += felt.force * felt.force.transpose();
-        rates += felt.rate.component_mul(&felt.rate);
+        let at = state.motion.sensor(&knots.weights(time), &carrier, &mut joints);
+        sum += at.specific_force;
+        squares += at.specific_force * at.specific_force.transpose();
+        rates += at.rate.component_mul(&at.rate);
     }
     let n = count as f64;
     (squares / n - sum * sum.transpose() / (n * n), (rates / n).map(f64::sqrt))

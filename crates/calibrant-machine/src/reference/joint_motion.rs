@@ -15,6 +15,16 @@ pub struct JointMotion {
 }
 
 impl JointMotion {
+    /// The joints with these weights, in `joints`: position and three derivatives.
+    pub(super) fn state<'j>(&self, weights: &Weights, joints: &'j mut [Vec<f64>; 4]) -> JointState<'j> {
+        for (derivative, values) in joints.iter_mut().enumerate() {
+            values.resize(self.positions.dimension, 0.0);
+            self.positions.write(weights, derivative, values);
+        }
+        let [positions, velocities, accelerations, _] = joints;
+        JointState { positions, velocities, accelerations }
+    }
+
     /// What a sensor feels. `gravity` is `γ` in the base frame.
     pub(crate) fn feel(
         &self,
@@ -26,18 +36,10 @@ impl JointMotion {
         felt: &mut Felt,
     ) {
         let n = columns.joints;
-        let [positions, velocities, accelerations, jerks] = &mut felt.joints;
-        for (derivative, values) in [positions, velocities, accelerations, jerks].into_iter().enumerate() {
-            self.positions.write(weights, derivative, values);
-        }
-        let [positions, velocities, accelerations, jerks] = &felt.joints;
+        let state = self.state(weights, &mut felt.joints);
         let of = &mut felt.chain;
-        of.evaluate(
-            chain,
-            JointState { positions, velocities, accelerations },
-            &FrameMotion::at_rest(gravity),
-            mount,
-        );
+        of.evaluate(chain, state, &FrameMotion::at_rest(gravity), mount);
+        let [_, velocities, accelerations, jerks] = &felt.joints;
         felt.force = of.sensor.specific_force;
         felt.rate = of.sensor.rate;
         felt.change = Vector6::zeros();

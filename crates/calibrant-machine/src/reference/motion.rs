@@ -2,7 +2,7 @@
 
 use super::pose_motion::POSE_UNKNOWNS;
 use super::{Felt, JointMotion, MotionColumns, PoseMotion};
-use crate::chain::{ChainCorrections, CorrectedChain, SensorMount};
+use crate::chain::{ChainCorrections, CorrectedChain, FrameMotion, SensorMount};
 use crate::spline::{UniformKnots, Weights};
 use nalgebra::Vector3;
 
@@ -74,6 +74,24 @@ impl Motion {
             Self::Poses(_) => None,
         };
         Carrier { gravity, mount, chain }
+    }
+
+    /// The motion of the sensor with these weights, without derivatives. `joints` is working memory, empty at first.
+    #[must_use]
+    pub fn sensor(
+        &self,
+        weights: &Weights,
+        carrier: &Carrier,
+        joints: &mut [Vec<f64>; 4],
+    ) -> FrameMotion {
+        let tip = match (self, &carrier.chain) {
+            (Self::Joints(motion), Some(chain)) => {
+                chain.tip_motion(motion.state(weights, joints), &FrameMotion::at_rest(&carrier.gravity))
+            }
+            (Self::Poses(poses), _) => poses.body(weights, &carrier.gravity),
+            (Self::Joints(_), None) => FrameMotion::at_rest(&carrier.gravity),
+        };
+        carrier.mount.motion(&tip)
     }
 
     /// What the sensor feels with these weights.

@@ -23,6 +23,14 @@ impl PoseMotion {
         Vector3::from_fn(|j, _| self.position.component(weights, derivative, j))
     }
 
+    /// The motion of the body. `gravity` is `γ` in the world.
+    pub(super) fn body(&self, weights: &Weights, gravity: &Vector3<f64>) -> FrameMotion {
+        let at = self.orientation.with(weights);
+        let specific_force =
+            at.world_from_body.inverse_transform_vector(&(self.vector(weights, 2) - gravity));
+        FrameMotion { specific_force, rate: at.rate, angular_acceleration: at.acceleration }
+    }
+
     /// What a sensor feels. `gravity` is `γ` in the world.
     pub(crate) fn feel(
         &self,

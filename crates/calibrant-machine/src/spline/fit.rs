@@ -5,6 +5,7 @@
 
 use super::banded::Band;
 use super::{UniformKnots, VectorSpline, Weights};
+use rayon::prelude::*;
 
 /// Residuals up to this many standard deviations keep their full weight.
 const HUBER: f64 = 4.0;
@@ -65,18 +66,21 @@ pub fn fit_vectors(times_s: &[f64], values: &[f64], dimension: usize, knots: Uni
         samples: Vec::new(),
         determined: Vec::new(),
     };
-    for j in 0..dimension {
+    let fitted = |j: usize| {
         let samples: Vec<Sample<'_>> = (weights.iter().zip(values[j..].iter().step_by(dimension)))
             .filter(|(_, value)| value.is_finite())
             .map(|(weights, &value)| Sample { weights, value })
             .collect();
-        let of = Component::fitted(&samples, knots);
+        (Component::fitted(&samples, knots), samples.len())
+    };
+    let components: Vec<(Component, usize)> = (0..dimension).into_par_iter().map(fitted).collect();
+    for (j, (of, samples)) in components.into_iter().enumerate() {
         for (i, control) in of.controls.iter().enumerate() {
             fit.spline.controls[i * dimension + j] = *control;
         }
         fit.sd.push(of.sd);
         fit.outliers.push(of.outliers);
-        fit.samples.push(samples.len());
+        fit.samples.push(samples);
         fit.determined.push(of.determined);
     }
     fit

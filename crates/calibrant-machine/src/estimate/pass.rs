@@ -1,0 +1,33 @@
+//! What one pass over the data uses.
+
+use super::MachineTrust;
+
+/// Which samples are used, and whether the motion is unknown.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Pass {
+    /// With noisy trust the control points are unknowns, and the log measures them.
+    pub(super) trust: MachineTrust,
+    /// Samples of each sensor, about, spread evenly.
+    pub(super) samples: usize,
+}
+
+impl Pass {
+    /// All samples.
+    pub(super) fn all(trust: MachineTrust) -> Self {
+        Self { trust, samples: usize::MAX }
+    }
+
+    /// The motion is the smoothed log; so many samples suffice.
+    pub(super) fn trusting(samples: usize) -> Self {
+        Self { trust: MachineTrust::Known, samples }
+    }
+
+    /// Every how many samples of `length` are used.
+    pub(super) fn stride(self, length: usize) -> usize {
+        (length / self.samples).max(1)
+    }
+
+    pub(super) fn noisy(self) -> bool {
+        self.trust == MachineTrust::Noisy
+    }
+}
