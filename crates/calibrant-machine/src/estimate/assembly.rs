@@ -62,7 +62,7 @@ pub(super) fn assembled(
         units: SensorKind::ALL.map(|kind| problem.recording.sensor(kind).map(|recording| recording.unit)),
         fit: fit(problem, minimum, posterior, layout.len(), used),
         noise,
-        reference_noise: reference_noise(problem, model, posterior, growths.log, &outliers),
+        reference_noise: reference_noise(problem, model, growths.log, &outliers),
         motion: state.motion.clone(),
         used_share: used as f64 / samples.max(1) as f64,
         warnings: Vec::new(),
@@ -78,12 +78,12 @@ fn fit(
     used: usize,
 ) -> FitStatistics {
     let noisy = problem.setup.trust == MachineTrust::Noisy;
-    let log: usize = if noisy { posterior.sums.log.iter().map(|moments| moments.count).sum() } else { 0 };
+    let log: f64 = if noisy { posterior.sums.log.iter().map(|moments| moments.count).sum() } else { 0.0 };
     let determined: f64 =
         if noisy { posterior.sums.log.iter().map(|moments| moments.leverage).sum() } else { 0.0 };
     let of_streams: f64 = posterior.sums.streams.iter().flatten().map(|moments| moments.leverage).sum();
     let unknowns = (determined + of_streams).max(parameters.min(3 * used) as f64);
-    let degrees = (3 * used + log) as f64 - unknowns;
+    let degrees = (3 * used) as f64 + log - unknowns;
     let degrees_of_freedom = degrees.max(0.0).round() as usize;
     let setup = problem.setup;
     let given = SensorKind::ALL
@@ -108,7 +108,6 @@ fn fit(
 fn reference_noise(
     problem: &MachineProblem<'_>,
     model: &Model<'_>,
-    posterior: &Posterior,
     growth: Option<f64>,
     outliers: &[usize],
 ) -> Vec<ReferenceNoise> {
@@ -132,7 +131,7 @@ fn reference_noise(
             sd: model.log.sd[k],
             growth,
             outliers: outliers.get(k).copied().unwrap_or(0),
-            samples: posterior.sums.log.get(k).map_or(0, |moments| moments.count),
+            samples: model.log.samples(k),
         })
         .collect()
 }

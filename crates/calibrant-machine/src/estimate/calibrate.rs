@@ -6,14 +6,18 @@ use super::initial::Initial;
 use super::knot_choice::initial;
 use super::noise_search::noise_search;
 use super::posterior::Posterior;
+use super::stream::white_noise;
 use super::trusted::trusted;
 use super::unsolved::unsolved;
-use super::{MachineCalibration, MachineProblem, MachineSettings, checks, undetermined};
+use super::{MachineCalibration, MachineProblem, MachineSettings, MachineTrust, checks, undetermined};
 use calibrant_core::error::Result;
 
 /// Steps with a trusted motion, and samples of each sensor, that bring the parameters near.
-const STEPS: usize = 4;
-const SAMPLES: usize = 4000;
+const STEPS: usize = 2;
+const SAMPLES: usize = 1000;
+
+/// The residuals and the budget come from so many intervals at most.
+const INTERVALS: usize = 3000;
 
 /// Calibrates a sensor on a machine.
 ///
@@ -39,14 +43,17 @@ pub fn calibrate_on_machine(
     undetermined::check(&model, &state)?;
     trusted(&mut model, &mut state, STEPS, SAMPLES).ok_or_else(unsolved)?;
     for stream in &mut model.streams {
-        if let Some(given) = problem.setup.noise_of(stream.sensor) {
-            stream.sd = given;
+        match problem.setup.noise_of(stream.sensor) {
+            Some(given) => stream.sd = given,
+            // the residuals have the errors of the smoothed log, which the sensor corrects
+            None if model.trust == MachineTrust::Noisy => stream.sd = white_noise(stream.recording),
+            None => {}
         }
     }
     let growths = noise_search(&mut model, &mut state, problem, settings)?;
     let minimum =
         minimise(&model, state, settings.max_iterations, settings.tolerance).ok_or_else(unsolved)?;
-    let posterior = Posterior::at(&model, &minimum, 1).ok_or_else(unsolved)?;
+    let posterior = Posterior::at(&model, &minimum, INTERVALS).ok_or_else(unsolved)?;
     let mut calibration = assembled(problem, &model, &minimum, &posterior, &growths, outliers);
     calibration.warnings = checks::all(&model.layout, &calibration);
     Ok(calibration)

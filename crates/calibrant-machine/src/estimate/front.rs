@@ -20,10 +20,50 @@ struct Eliminated {
     panel: DMatrix<f64>,
 }
 
-/// The normal equations of the blocks that are not yet complete. Its last column is the right side.
-pub(super) struct Front {
+/// Where blocks stand in the front. They go round: block `i` has slot `i mod order`, so that nothing moves when a block is eliminated.
+#[derive(Debug, Clone, Copy)]
+struct Slots {
     block: usize,
     order: usize,
+}
+
+impl Slots {
+    /// Number of unknowns in the slots.
+    fn len(self) -> usize {
+        self.block * self.order
+    }
+
+    /// First row of block `i`.
+    fn first(self, i: usize) -> usize {
+        i % self.order * self.block
+    }
+
+    /// The row of the `k`-th unknown counted from block `i` on; border and right side follow the slots.
+    fn row(self, i: usize, k: usize) -> usize {
+        if k < self.len() { self.first(i + k / self.block) + k % self.block } else { k }
+    }
+}
+
+impl Slots {
+    /// A matrix of slots and border, with the blocks from `i` on in their order.
+    fn in_order(self, i: usize, matrix: &DMatrix<f64>) -> DMatrix<f64> {
+        let mut ordered = DMatrix::zeros(matrix.nrows(), matrix.ncols());
+        let border = matrix.nrows() - self.len();
+        for (column, mut target) in ordered.column_iter_mut().enumerate() {
+            let values = matrix.column(self.row(i, column));
+            for r in 0..self.order {
+                let from = values.rows(self.first(i + r), self.block);
+                target.rows_mut(r * self.block, self.block).copy_from(&from);
+            }
+            target.rows_mut(self.len(), border).copy_from(&values.rows(self.len(), border));
+        }
+        ordered
+    }
+}
+
+/// The normal equations of the blocks that are not yet complete. Its last column is the right side.
+pub(super) struct Front {
+    slots: Slots,
     border: usize,
     matrix: DMatrix<f64>,
     eliminated: Vec<Eliminated>,
@@ -33,25 +73,32 @@ impl Front {
     /// A front of `order` blocks of `block` unknowns and a border. No blocks: `order` is 0.
     pub(super) fn new(block: usize, order: usize, border: usize) -> Self {
         let size = block * order + border + 1;
-        Self { block, order, border, matrix: DMatrix::zeros(size, size), eliminated: Vec::new() }
-    }
-
-    /// Number of unknowns of the blocks in the front.
-    fn chain(&self) -> usize {
-        self.block * self.order
+        let slots = Slots { block, order };
+        Self { slots, border, matrix: DMatrix::zeros(size, size), eliminated: Vec::new() }
     }
 
     /// Adds the normal equations of one interval, then eliminates its first block. The first `block · order` rows are those of its control points.
     pub(super) fn add(&mut self, interval: &DMatrix<f64>) {
-        self.matrix += interval;
-        if self.chain() > 0 {
-            self.eliminate();
+        let (i, slots) = (self.eliminated.len(), self.slots);
+        if slots.order == 0 {
+            self.matrix += interval;
+            return;
         }
+        for (column, values) in interval.column_iter().enumerate() {
+            let mut target = self.matrix.column_mut(slots.row(i, column));
+            for r in 0..slots.order {
+                let mut block = target.rows_mut(slots.first(i + r), slots.block);
+                block += values.rows(r * slots.block, slots.block);
+            }
+            let mut rest = target.rows_mut(slots.len(), self.border + 1);
+            rest += values.rows(slots.len(), self.border + 1);
+        }
+        self.eliminate();
     }
 
     /// Adds information to the border alone.
     pub(super) fn add_to_border(&mut self, information: &DMatrix<f64>, right: &DVector<f64>) {
-        let (chain, border) = (self.chain(), self.border);
+        let (chain, border) = (self.slots.len(), self.border);
         let mut corner = self.matrix.view_mut((chain, chain), (border, border));
         corner += information;
         for k in 0..border {
@@ -62,60 +109,41 @@ impl Front {
 
     /// The right side of the border as it stands: its increments are the scores of the intervals.
     pub(super) fn border_right(&self) -> DVector<f64> {
-        let (chain, border) = (self.chain(), self.border);
+        let (chain, border) = (self.slots.len(), self.border);
         self.matrix.view((chain, chain + border), (border, 1)).column(0).into_owned()
     }
 
     /// The information of the border, if there is no chain.
     pub(super) fn information(&self) -> Option<DMatrix<f64>> {
-        (self.order == 0).then(|| self.matrix.view((0, 0), (self.border, self.border)).into_owned())
+        (self.slots.order == 0).then(|| self.matrix.view((0, 0), (self.border, self.border)).into_owned())
     }
 
+    /// Eliminates the first block, and empties its slot for the next one.
     fn eliminate(&mut self) {
-        let (n, size) = (self.block, self.matrix.nrows());
-        let factor = lower_factor(self.matrix.view((0, 0), (n, n)).into_owned());
+        let (i, slots, size) = (self.eliminated.len(), self.slots, self.matrix.nrows());
+        let (first, n) = (slots.first(i), slots.block);
+        let factor = lower_factor(self.matrix.view((first, first), (n, n)).into_owned());
+        let mut transposed = self.matrix.rows(first, n).into_owned();
+        transposed.columns_mut(first, n).fill(0.0);
         // Gᵀ = L⁻¹ Bᵀ
-        let mut transposed = self.matrix.view((0, n), (n, size - n)).into_owned();
         factor.solve_lower_triangular_unchecked_mut(&mut transposed);
-        let panel = transposed.transpose();
-        let mut rest = self.matrix.view((n, n), (size - n, size - n)).into_owned();
-        rest.gemm(-1.0, &panel, &transposed, 1.0);
-        self.shift(&rest);
+        self.matrix.gemm(-1.0, &transposed.transpose(), &transposed, 1.0);
+        self.matrix.rows_mut(first, n).fill(0.0);
+        self.matrix.columns_mut(first, n).fill(0.0);
+        let panel = DMatrix::from_fn(size - n, n, |k, column| transposed[(column, slots.row(i, n + k))]);
         self.eliminated.push(Eliminated { factor, panel });
-    }
-
-    /// Moves what is left one block up, and makes room for the next block before the border.
-    fn shift(&mut self, rest: &DMatrix<f64>) {
-        let (n, chain, size) = (self.block, self.chain(), self.matrix.nrows());
-        let later = chain - n;
-        self.matrix.fill(0.0);
-        let to = |k: usize| if k < later { k } else { k + n };
-        for column in 0..size - n {
-            let target = to(column);
-            let (blocks, border) =
-                (rest.view((0, column), (later, 1)), rest.view((later, column), (size - n - later, 1)));
-            self.matrix.view_mut((0, target), (later, 1)).copy_from(&blocks);
-            self.matrix.view_mut((chain, target), (size - chain, 1)).copy_from(&border);
-        }
     }
 
     /// Eliminates the last blocks, and solves for everything.
     pub(super) fn finish(mut self) -> Option<Solved> {
-        for _ in 1..self.order {
+        for _ in 1..self.slots.order {
             self.eliminate();
         }
-        let (chain, border) = (self.chain(), self.border);
+        let (chain, border) = (self.slots.len(), self.border);
         let information = self.matrix.view((chain, chain), (border, border)).into_owned();
         let right = self.border_right();
         let parameters = if border == 0 { right.clone() } else { Scaled::new(&information)?.solve(&right) };
-        Some(Solved {
-            block: self.block,
-            order: self.order,
-            information,
-            right,
-            parameters,
-            eliminated: self.eliminated,
-        })
+        Some(Solved { slots: self.slots, information, right, parameters, eliminated: self.eliminated })
     }
 }
 
@@ -141,8 +169,7 @@ fn lower_factor(mut a: DMatrix<f64>) -> DMatrix<f64> {
 
 /// The solved equations.
 pub(super) struct Solved {
-    block: usize,
-    order: usize,
+    slots: Slots,
     /// Information of the parameters, the motion marginalised.
     pub(super) information: DMatrix<f64>,
     /// Their right side.
@@ -160,10 +187,10 @@ impl Solved {
 
     /// The steps of all control points, for the step of the parameters in `parameters`.
     pub(super) fn controls(&self) -> Vec<f64> {
-        let n = self.block;
+        let Slots { block: n, order } = self.slots;
         let mut steps = vec![0.0; n * self.eliminated.len()];
         // the later blocks in the front, then the parameters, then −1 for the right side
-        let later = n * self.order.saturating_sub(1);
+        let later = n * order.saturating_sub(1);
         let border = self.parameters.len();
         let mut known = DVector::zeros(later + border + 1);
         known.rows_mut(later, border).copy_from(&self.parameters);
@@ -182,43 +209,39 @@ impl Solved {
     }
 
     /// Goes back through the intervals with the covariance of each interval's control points and the parameters, block·order + border square.
-    /// Interval `i` is that whose first block is `i`. `covariance` is that of the parameters.
-    pub(super) fn backwards(&self, covariance: &DMatrix<f64>, mut visit: impl FnMut(usize, &DMatrix<f64>)) {
-        let (n, border) = (self.block, covariance.nrows());
-        let later = n * self.order.saturating_sub(1);
-        let mut window = DMatrix::zeros(later + n + border, later + n + border);
+    /// Interval `i` is that whose first block is `i`; each `every`-th is visited. `covariance` is that of the parameters.
+    pub(super) fn backwards(
+        &self,
+        covariance: &DMatrix<f64>,
+        every: usize,
+        mut visit: impl FnMut(usize, DMatrix<f64>),
+    ) {
+        let (slots, n, border) = (self.slots, self.slots.block, covariance.nrows());
+        let size = slots.len() + border;
         // blocks beyond the end have no variance: they do not exist
-        window.view_mut((later + n, later + n), (border, border)).copy_from(covariance);
+        let mut window = DMatrix::zeros(size, size);
+        window.view_mut((slots.len(), slots.len()), (border, border)).copy_from(covariance);
         for (i, Eliminated { factor, panel }) in self.eliminated.iter().enumerate().rev() {
-            let mut rest = DMatrix::zeros(later + border, later + border);
-            let from = |k: usize| if k < later { k } else { k + n };
-            for column in 0..later + border {
-                for row in 0..later + border {
-                    rest[(row, column)] = window[(from(row), from(column))];
-                }
-            }
+            let first = slots.first(i);
+            window.rows_mut(first, n).fill(0.0);
+            window.columns_mut(first, n).fill(0.0);
             // x_i = −Gain x_rest + noise of covariance (L Lᵀ)⁻¹
-            let mut gain = panel.rows(0, later + border).transpose();
+            let mut gain = DMatrix::zeros(n, size);
+            for k in 0..size - n {
+                gain.column_mut(slots.row(i, n + k)).tr_copy_from(&panel.row(k));
+            }
             let _ = factor.tr_solve_lower_triangular_mut(&mut gain);
             let mut own = DMatrix::identity(n, n);
             factor.solve_lower_triangular_unchecked_mut(&mut own);
-            let own = own.tr_mul(&own);
-            let cross = -(&gain * &rest);
-            let block = own - &cross * gain.transpose();
+            let cross = -(&gain * &window);
+            let block = own.tr_mul(&own) - &cross * gain.transpose();
+            window.rows_mut(first, n).copy_from(&cross);
+            window.columns_mut(first, n).tr_copy_from(&cross);
             // rounding must not leave it asymmetric: the recursion would let the difference grow
-            let block = (&block + block.transpose()) * 0.5;
-            window.view_mut((0, 0), (n, n)).copy_from(&block);
-            for column in 0..later + border {
-                for row in 0..later + border {
-                    window[(n + row, n + column)] = rest[(row, column)];
-                }
-                for row in 0..n {
-                    window[(row, n + column)] = cross[(row, column)];
-                    window[(n + column, row)] = cross[(row, column)];
-                }
+            window.view_mut((first, first), (n, n)).copy_from(&((&block + block.transpose()) * 0.5));
+            if i.is_multiple_of(every) {
+                visit(i, slots.in_order(i, &window));
             }
-            visit(i, &window);
-            // the last block leaves: `from` skips it in the next round, where the first becomes one of the later
         }
     }
 }
@@ -263,7 +286,7 @@ mod tests {
             assert!((controls - expected.rows(0, chain)).norm() < 1e-9 * expected.norm());
             let covariance = solved.information.clone().try_inverse().expect("positive");
             let mut visited = 0;
-            solved.backwards(&covariance, |i, local| {
+            solved.backwards(&covariance, 1, |i, local| {
                 visited += 1;
                 let of = |k: usize| if k < order * n { i * n + k } else { chain + k - order * n };
                 for row in 0..local.nrows() {

@@ -1,7 +1,7 @@
 //! Gauss–Newton steps, halved where they do not lower the cost.
 
-use super::front::Solved;
 use super::equations::Equations;
+use super::front::Solved;
 use super::model::{Model, State};
 use super::pass::Pass;
 use calibrant_core::estimate::CalibrationStatus;

@@ -15,9 +15,9 @@ use std::f64::consts::SQRT_2;
 /// Largest distance that is tried, s.
 const LONGEST_S: f64 = 0.4;
 /// Samples of each sensor by which distances are compared.
-const SAMPLES: usize = 1000;
+const SAMPLES: usize = 800;
 /// Steps of the parameters at the first distance, and from those of another one.
-const STEPS: [usize; 2] = [4, 2];
+const STEPS: [usize; 2] = [4, 1];
 
 /// Model and state before the first step, on knots that are given or found.
 pub(super) fn initial<'a>(problem: &MachineProblem<'a>) -> Result<Initial<'a>> {

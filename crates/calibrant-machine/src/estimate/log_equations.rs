@@ -28,13 +28,20 @@ pub(super) struct Measured<'e> {
 }
 
 impl WeighedLog<'_> {
+    /// Number of samples of a component.
+    pub(super) fn samples(&self, component: usize) -> usize {
+        match self.log {
+            ReferenceLog::Joints(log) => {
+                let n = log.names.len();
+                log.positions[component..].iter().step_by(n).filter(|seen| seen.is_finite()).count()
+            }
+            ReferenceLog::Poses(log) if component < 3 => log.positions_m.iter().flatten().count(),
+            ReferenceLog::Poses(log) => log.world_from_body.iter().flatten().count(),
+        }
+    }
+
     /// Calls with each component of these samples.
-    pub(super) fn visit(
-        &self,
-        samples: Range<usize>,
-        motion: &Motion,
-        mut visit: impl FnMut(&Measured<'_>),
-    ) {
+    pub(super) fn visit(&self, samples: Range<usize>, motion: &Motion, mut visit: impl FnMut(&Measured<'_>)) {
         let (times, mut derivative) = (self.log.times_s(), Vec::new());
         let mut found = |sample: usize, component: usize, residual: f64, derivative: &[(usize, f64)]| {
             visit(&Measured { sample, component, residual, derivative });

@@ -3,7 +3,7 @@
 /// Sums over whitened residuals.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Moments {
-    pub(super) count: usize,
+    pub(super) count: f64,
     /// Sum of squares.
     pub(super) squares: f64,
     /// Sum of leverages: unknowns that these samples determine.
@@ -21,12 +21,16 @@ impl std::ops::AddAssign for Moments {
 impl Moments {
     /// Squared factor by which the noise differs from what was assumed.
     pub(super) fn variance_factor(&self) -> Option<f64> {
-        let degrees = self.count as f64 - self.leverage;
+        let degrees = self.count - self.leverage;
         (degrees > 0.0).then(|| self.squares / degrees)
     }
 
+    pub(super) fn times(self, number: f64) -> Self {
+        Self { count: number * self.count, squares: number * self.squares, leverage: number * self.leverage }
+    }
+
     pub(super) fn add(&mut self, residual: f64, leverage: f64) {
-        self.count += 1;
+        self.count += 1.0;
         self.squares += residual * residual;
         self.leverage += leverage;
     }

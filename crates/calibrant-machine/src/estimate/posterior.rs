@@ -42,25 +42,27 @@ struct Local {
 }
 
 impl Posterior {
-    /// At a minimum, from the residuals of each `every`-th group of intervals. `None` where the parameters are not determined.
-    pub(super) fn at(model: &Model<'_>, minimum: &Minimum, every: usize) -> Option<Self> {
+    /// At a minimum, from so many intervals at most, spread evenly. `None` where the parameters are not determined.
+    pub(super) fn at(model: &Model<'_>, minimum: &Minimum, intervals: usize) -> Option<Self> {
         let state = &minimum.state;
         let covariance = Scaled::new(&minimum.solved.information)?.inverse();
         let places = model.places(state);
         let sweep = Sweep { model, state, places: &places, parameters: covariance.nrows() };
         let mut sums = sweep.none();
+        let groups = model.groups(state, Pass::all(model.trust));
+        let every = groups.len().div_ceil(intervals).max(1);
         if minimum.solved.has_motion() {
             let (unknowns, knots) = (state.motion.unknowns(), state.motion.knots());
             let controls = minimum.solved.controls();
             let mut batch: Vec<Local> = Vec::with_capacity(BATCH);
-            minimum.solved.backwards(&covariance, |i, local| {
-                if i >= knots.intervals || !i.is_multiple_of(every) {
+            minimum.solved.backwards(&covariance, every, |i, covariance| {
+                if i >= knots.intervals {
                     return;
                 }
                 let of_interval = &controls[i * unknowns..(i + knots.degree.order()) * unknowns];
                 let step = of_interval.iter().chain(minimum.solved.parameters.iter()).copied().collect();
                 let step = DVector::from_vec(step);
-                batch.push(Local { intervals: i..i + 1, covariance: local.clone(), step });
+                batch.push(Local { intervals: i..i + 1, covariance, step });
                 if batch.len() == BATCH {
                     sums.add(&sweep.over(&batch));
                     batch.clear();
@@ -68,12 +70,12 @@ impl Posterior {
             });
             sums.add(&sweep.over(&batch));
         } else {
-            let groups = model.groups(state, Pass::all(model.trust)).into_iter().step_by(every);
+            let groups = groups.into_iter().step_by(every);
             let step = &minimum.solved.parameters;
-            let local =
-                |intervals| Local { intervals, covariance: covariance.clone(), step: step.clone() };
+            let local = |intervals| Local { intervals, covariance: covariance.clone(), step: step.clone() };
             sums.add(&sweep.over(&groups.map(local).collect::<Vec<_>>()));
         }
+        sums.stand_for(every as f64);
         Some(Self { covariance, sums })
     }
 }
@@ -130,6 +132,16 @@ impl Sweep<'_> {
 }
 
 impl Sums {
+    /// Each interval that was visited stands for so many.
+    fn stand_for(&mut self, number: f64) {
+        for moments in self.streams.iter_mut().flatten().chain(&mut self.log) {
+            *moments = moments.times(number);
+        }
+        for variance in &mut self.of_streams {
+            *variance *= number;
+        }
+    }
+
     fn add(&mut self, other: &Self) {
         let streams = self.streams.iter_mut().flatten().zip(other.streams.iter().flatten());
         for (one, other) in streams.chain(self.log.iter_mut().zip(&other.log)) {

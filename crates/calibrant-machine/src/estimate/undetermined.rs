@@ -1,7 +1,7 @@
 //! What the motion does not determine, with the motion that would.
 
-use super::model::{Model, State};
 use super::MachineQuantity;
+use super::model::{Model, State};
 use super::pass::Pass;
 use calibrant_core::error::{Error, NotIdentifiable, UndeterminedGroup};
 use calibrant_core::sensor::{Axis, ImuQuantity, SensorKind};

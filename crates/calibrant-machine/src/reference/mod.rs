@@ -9,6 +9,6 @@ mod posture;
 pub use felt::{Felt, MotionColumns};
 pub use joint_motion::JointMotion;
 pub use motion::{Carrier, Motion};
-pub use pose_motion::PoseMotion;
 pub(crate) use pose_motion::POSE_UNKNOWNS;
+pub use pose_motion::PoseMotion;
 pub use posture::Posture;

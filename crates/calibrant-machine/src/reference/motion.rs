@@ -78,12 +78,7 @@ impl Motion {
 
     /// The motion of the sensor with these weights, without derivatives. `joints` is working memory, empty at first.
     #[must_use]
-    pub fn sensor(
-        &self,
-        weights: &Weights,
-        carrier: &Carrier,
-        joints: &mut [Vec<f64>; 4],
-    ) -> FrameMotion {
+    pub fn sensor(&self, weights: &Weights, carrier: &Carrier, joints: &mut [Vec<f64>; 4]) -> FrameMotion {
         let tip = match (self, &carrier.chain) {
             (Self::Joints(motion), Some(chain)) => {
                 chain.tip_motion(motion.state(weights, joints), &FrameMotion::at_rest(&carrier.gravity))

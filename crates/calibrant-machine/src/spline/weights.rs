@@ -20,47 +20,51 @@ impl Weights {
     /// The weights at `u` (0 to 1) in an interval of `step_s`.
     #[must_use]
     pub fn at(interval: usize, u: f64, step_s: f64, degree: Degree) -> Self {
-        let degree = degree.number();
+        match degree {
+            Degree::Cubic => Self::of_degree::<3>(interval, u, step_s.recip()),
+            Degree::Quintic => Self::of_degree::<5>(interval, u, step_s.recip()),
+        }
+    }
+
+    /// The degree is known when this is compiled, so that the loops unroll. `rate` is the number of intervals a second.
+    fn of_degree<const DEGREE: usize>(interval: usize, u: f64, rate: f64) -> Self {
         let mut derivative = [[0.0; LARGEST_ORDER]; 4];
         let mut basis = [0.0; LARGEST_ORDER];
         basis[0] = 1.0;
-        for d in 0..=degree {
+        for d in 0..=DEGREE {
             if d > 0 {
                 basis = raised(&basis, d, u);
             }
             // the m-th derivative is made of differences of the basis of degree − m
-            if let Some(order) = (degree - d < 4).then_some(degree - d) {
-                derivative[order] = differenced(basis, d, order, step_s);
+            if let Some(order) = (DEGREE - d < 4).then_some(DEGREE - d) {
+                derivative[order] = differenced(basis, d, order, rate);
             }
         }
-        Self { interval, order: degree + 1, derivative }
+        Self { interval, order: DEGREE + 1, derivative }
     }
 }
 
 /// The basis of degree `d` from that of `d − 1`.
+#[inline(always)]
 fn raised(lower: &[f64; LARGEST_ORDER], d: usize, u: f64) -> [f64; LARGEST_ORDER] {
-    let mut basis = [0.0; LARGEST_ORDER];
+    let (mut basis, share) = ([0.0; LARGEST_ORDER], (d as f64).recip());
     for r in 0..=d {
         let left = if r > 0 { (u + (d - r) as f64) * lower[r - 1] } else { 0.0 };
         let right = if r < d { ((r + 1) as f64 - u) * lower[r] } else { 0.0 };
-        basis[r] = (left + right) / d as f64;
+        basis[r] = (left + right) * share;
     }
     basis
 }
 
 /// The derivative of this order, of weights that begin with a basis of degree `d`.
-fn differenced(
-    mut weights: [f64; LARGEST_ORDER],
-    d: usize,
-    order: usize,
-    step_s: f64,
-) -> [f64; LARGEST_ORDER] {
+#[inline(always)]
+fn differenced(mut weights: [f64; LARGEST_ORDER], d: usize, order: usize, rate: f64) -> [f64; LARGEST_ORDER] {
     for m in 1..=order {
         let lower = weights;
         for r in 0..=d + m {
             let left = if r > 0 { lower[r - 1] } else { 0.0 };
             let right = if r < d + m { lower[r] } else { 0.0 };
-            weights[r] = (left - right) / step_s;
+            weights[r] = (left - right) * rate;
         }
     }
     weights
