@@ -136,10 +136,10 @@ def model(problem):
 
 def pieces(problem, times):
     knots = problem["knots"]
-    k = np.floor((np.asarray(times) - knots["start"]) / knots["spacing"]).astype(int)
-    if k.min() < 0 or k.max() > knots["points"] - 4:
+    place = (np.asarray(times) - knots["start"]) / knots["spacing"]
+    if place.min() < 0 or place.max() > knots["points"] - 3 + 1e-9:
         sys.exit("machine_estimate: a time lies outside the knots")
-    return k
+    return np.minimum(np.floor(place).astype(int), knots["points"] - 4)  # the last piece has its end
 
 
 def moved(problem, p):
@@ -233,7 +233,7 @@ def solve(problem):
 
 
 def example(seed):
-    """Two joints, 6 s: the second axis is tilted, and the prior is drawn from as the truth is."""
+    """Two joints, 6 s: the second axis is tilted, and the truth is drawn from the prior."""
     rng = np.random.default_rng(seed)
     n, h = 2, 0.2
     identity = np.eye(3).ravel().tolist()
@@ -242,7 +242,7 @@ def example(seed):
         {"translation": [0.0, 0.0, 0.3], "rotation": identity, "kind": "revolute", "axis": [0.0, 0.6, 0.8]},
         {"translation": [0.1, 0.0, 0.4], "rotation": turn, "kind": "revolute", "axis": [0.0, 0.0, 1.0]},
     ]
-    t, s = np.arange(0.2, 6.2, 0.02), np.arange(0.0, 6.4, 0.01)
+    t, s = np.arange(0.2, 6.2, 0.02), np.linspace(0.0, 6.4, 641)
     count = 35
     sd = [0.1] * 3 + [5e-3] * 9 + [0.01] * 3 + [5e-3] * 9 + [2e-3] * 3 + [0.009] * 3 + [0.009] * 2 + [0.01] * 2 + [1e-4]
     sd += [3e-4] * (7 * n)
@@ -254,7 +254,7 @@ def example(seed):
         "imu": {"times": t.tolist(), "accelerometer_sd": 0.02, "gyroscope_sd": 2e-3, "middle": float((t[0] + t[-1]) / 2)},
         "gravity": 9.80665,
         "mounting": identity,
-        "prior": {"mean": mean, "sd": sd},
+        "prior": {"mean": mean, "sd": [None] * 24 + sd[24:]},  # nothing is known of the sensor
     }
     truth = np.array(mean) + np.array(sd) * rng.standard_normal(len(mean))
     x = np.arange(count)[:, None]

@@ -89,6 +89,9 @@ fn calibrated(
                 of.growth
             );
         }
+        for warning in &calibration.warnings {
+            println!("{:?}", warning.code());
+        }
         for of in &calibration.reference_noise {
             println!("{} {:.2e} {:?} {}", of.name, of.sd, of.growth, of.outliers);
         }

@@ -8,7 +8,7 @@ use super::pass::Pass;
 use super::stream::Stream;
 use super::{MachineParameters, MachineSetup, MachineTrust};
 use crate::chain::chains_for_tests::{Numbers, mixed_chain};
-use crate::log::{PoseLog, ReferenceLog};
+use crate::log::{JointLog, PoseLog, ReferenceLog};
 use crate::reference::{JointMotion, Motion, PoseMotion};
 use crate::spline::{Degree, RotationSpline, UniformKnots, VectorSpline};
 use calibrant_core::sensor::{
@@ -159,4 +159,38 @@ fn rows_of_joints_are_differences() {
 #[test]
 fn rows_of_poses_are_differences() {
     (1..4).for_each(|seed| check(poses, seed));
+}
+
+#[test]
+fn a_sample_on_a_knot_is_in_the_interval_of_its_weights() {
+    let mut numbers = Numbers(1);
+    let knots = UniformKnots { start_s: 0.1, step_s: 0.1, intervals: 40, degree: Degree::Cubic };
+    let chain = mixed_chain(1, &mut numbers);
+    let positions = VectorSpline { knots, dimension: 1, controls: vec![0.0; knots.controls()] };
+    let motion = Motion::Joints(JointMotion { chain, positions });
+    let times_s: Vec<f64> = (0..43).map(|k| 0.1 * f64::from(k)).collect();
+    let log = ReferenceLog::Joints(JointLog {
+        names: vec!["joint".into()],
+        positions: vec![0.0; times_s.len()],
+        times_s,
+        velocities: None,
+    });
+    let setup = MachineSetup::default();
+    let parameters = MachineParameters::nominal(&setup, ImuParameters::identity(), 1);
+    let layout = Layout::new(&setup, &SensorKind::ALL, &[], parameters.clone());
+    let none = SensorKind::ALL.map(|_| Recording {
+        readings: Vec::new(),
+        times_s: Vec::new(),
+        axes: 3,
+        unit: ReadingUnit::MetrePerSecondSquared,
+    });
+    let places = model(&none, &log, &layout, &setup).places(&State { motion, parameters });
+    let mut seen = 0;
+    for interval in 0..knots.intervals {
+        for k in places.of_log(&(interval..interval + 1)) {
+            assert_eq!(knots.weights(log.times_s()[k]).interval, interval, "sample {k}");
+            seen += 1;
+        }
+    }
+    assert!(seen >= 40, "{seen} of those between the first knot and the last");
 }

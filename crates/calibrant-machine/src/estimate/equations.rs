@@ -14,7 +14,7 @@ const BATCH: usize = 64;
 /// Rows that are multiplied at once where the motion is known.
 const ROWS: usize = 192;
 /// Information of a control point where no sample is, beside that of the log: it holds the control point where it is.
-const HELD: f64 = 1e-4;
+const HELD: f64 = 1e-6;
 
 /// The normal equations.
 pub(super) struct Equations {
@@ -46,14 +46,16 @@ impl Model<'_> {
     /// The samples in each interval; those outside of all are in none.
     pub(super) fn places(&self, state: &State) -> Places {
         let knots = state.motion.knots();
+        // the same function of time tells the interval here and in the weights: samples may lie on knots
+        let before = |time_s: f64, i: usize| match i {
+            0 => time_s < knots.start_s,
+            i if i == knots.intervals => time_s <= knots.end_s(),
+            i => knots.interval(time_s) < i,
+        };
         let of = |length: usize, time: &dyn Fn(usize) -> f64| -> Vec<usize> {
             let mut place = 0;
             let boundaries = (0..=knots.intervals).map(|i| {
-                let boundary = knots.knot_s(i);
-                // the last interval has its end
-                while place < length
-                    && (time(place) < boundary || (i == knots.intervals && time(place) <= boundary))
-                {
+                while place < length && before(time(place), i) {
                     place += 1;
                 }
                 place
