@@ -5,7 +5,7 @@ use calibrant::machine::estimate::{
     MachineCalibration, MachineQuantity, ReferenceNoise, SensorResidual, Source,
 };
 use calibrant::pipeline::MachineOutcome;
-use calibrant::report::{machine_unit, number_format};
+use calibrant::report::{machine_unit, mounting_in_words, number_format};
 use calibrant::sensor::SensorKind;
 use nalgebra::Vector3;
 
@@ -24,6 +24,9 @@ pub(crate) fn on_machine(outcome: &MachineOutcome) -> String {
         text.push_str(&format!("  {line}\n"));
     }
     text.push_str(&format!("\n{}\n", budget(calibration)));
+    if let Some(sentence) = mounting_in_words(calibration, &outcome.setup) {
+        text.push_str(&format!("  {sentence}\n"));
+    }
     let noise = calibration.noise.iter().map(sensor_noise(calibration));
     let lines = noise.chain(log_noise(&calibration.reference_noise)).chain([knots(calibration)]);
     lines.for_each(|line| text.push_str(&format!("  {line}\n")));

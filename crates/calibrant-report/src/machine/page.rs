@@ -1,6 +1,7 @@
 //! The sections of the page, in their order.
 
 use super::geometry::corrections;
+use super::mounting::mounting_in_words;
 use super::noise::{reference_noise, sensor_noise};
 use super::parameters::{budget, is_widened, mount_table, sensor_table};
 use super::quantity::place;
@@ -66,6 +67,9 @@ fn parameters(calibration: &MachineCalibration, setup: &MachineSetup) -> Page {
     page.push(format!("<div class=\"pair\">{tables}</div>"));
     page.section("Mount and clock", "Lever arm: from the origin of the tip or the tracked body to the sensor, in its axes. Mounting: turn of the sensor about its own axes against the expected one. Delay: motion time less IMU time. Clock rate: that of the reference against the IMU’s. Tilt: of gravity against the base.");
     page.push(mount_table(calibration, setup));
+    if let Some(sentence) = mounting_in_words(calibration, setup) {
+        page.paragraph(&sentence);
+    }
     if is_widened(calibration) {
         page.paragraph("Sd widened: the factor by which correlation of the residuals in time widens the sd; the stated sd has it.");
     }

@@ -1,0 +1,36 @@
+//! What the mounting means for the parameters, in a sentence.
+
+use crate::number_format;
+use calibrant_core::sensor::SensorKind;
+use calibrant_machine::estimate::{MachineCalibration, MachineSetup, MountingPrior, Source};
+
+/// Part of a parameter's variance from which on the mounting limits it.
+const LIMITING: f64 = 0.5;
+
+/// The gauge of an unknown mounting, or how many parameters a mounting that is known too little limits. `None` where the mounting is no matter.
+#[must_use]
+pub fn mounting_in_words(calibration: &MachineCalibration, setup: &MachineSetup) -> Option<String> {
+    match setup.mounting {
+        MountingPrior::Exact => None,
+        MountingPrior::Unknown => {
+            let first = calibration.noise.first().map_or(SensorKind::Accelerometer, |of| of.sensor);
+            Some(format!(
+                "Nothing is known of the mounting, and a rotation of the sensor reads like one of its matrices. \
+                 That of the {first} is upper triangular, which defines the sensor's axes."
+            ))
+        }
+        MountingPrior::Within(sd_rad) => {
+            let place = Source::ALL.iter().position(|source| *source == Source::Mounting)?;
+            let limited =
+                calibration.budget.iter().filter(|row| row.parts[place] > LIMITING * row.variance).count();
+            (limited > 0).then(|| {
+                format!(
+                    "The mounting is known to {}°, which limits {limited} of {} parameters. A fixture helps; \
+                     or give [machine.mount] rotation = \"unknown\", and the data define the sensor's axes.",
+                    number_format::significant(sd_rad.to_degrees(), 2),
+                    calibration.budget.len()
+                )
+            })
+        }
+    }
+}
