@@ -5,6 +5,7 @@ use super::gauss_newton::minimise;
 use super::initial::Initial;
 use super::knot_choice::initial;
 use super::noise_search::noise_search;
+use super::pass::Pass;
 use super::posterior::Posterior;
 use super::stream::white_noise;
 use super::trusted::trusted;
@@ -53,7 +54,7 @@ pub fn calibrate_on_machine(
     let growths = noise_search(&mut model, &mut state, problem, settings)?;
     let minimum =
         minimise(&model, state, settings.max_iterations, settings.tolerance).ok_or_else(unsolved)?;
-    let posterior = Posterior::at(&model, &minimum, INTERVALS).ok_or_else(unsolved)?;
+    let posterior = Posterior::at(&model, &minimum, Pass::all(model.trust), INTERVALS).ok_or_else(unsolved)?;
     let mut calibration = assembled(problem, &model, &minimum, &posterior, &growths, outliers);
     calibration.warnings = checks::all(&model.layout, &calibration);
     Ok(calibration)

@@ -33,13 +33,18 @@ pub(super) fn noise_search(
     problem: &MachineProblem<'_>,
     settings: &MachineSettings,
 ) -> Result<Growths> {
-    /// The residuals of so many intervals suffice for the noise.
+    /// The residuals of so many intervals, or samples of each sensor where the motion is known, suffice for the noise.
     const INTERVALS: usize = 200;
+    const SAMPLES: usize = 4000;
+    let pass = match model.trust {
+        MachineTrust::Known => Pass::trusting(SAMPLES),
+        MachineTrust::Noisy => Pass::all(MachineTrust::Noisy),
+    };
     let mut growths = Growths { streams: vec![None; model.streams.len()], log: None };
     let mut searched = false;
     for _ in 0..settings.max_noise_rounds {
-        let here = equations_at(model, state.clone(), Pass::all(model.trust)).ok_or_else(unsolved)?;
-        let posterior = Posterior::at(model, &here, INTERVALS).ok_or_else(unsolved)?;
+        let here = equations_at(model, state.clone(), pass).ok_or_else(unsolved)?;
+        let posterior = Posterior::at(model, &here, pass, INTERVALS).ok_or_else(unsolved)?;
         *state = stepped(model, &here, 1.0);
         let change = update_noise(model, &posterior.sums, problem);
         if change < NOISE_TOLERANCE && here.last_step < STEP_TOLERANCE {

@@ -43,13 +43,18 @@ struct Local {
 
 impl Posterior {
     /// At a minimum, from so many intervals at most, spread evenly. `None` where the parameters are not determined.
-    pub(super) fn at(model: &Model<'_>, minimum: &Minimum, intervals: usize) -> Option<Self> {
+    pub(super) fn at(
+        model: &Model<'_>,
+        minimum: &Minimum,
+        pass: Pass,
+        intervals: usize,
+    ) -> Option<Self> {
         let state = &minimum.state;
         let covariance = Scaled::new(&minimum.solved.information)?.inverse();
         let places = model.places(state);
-        let sweep = Sweep { model, state, places: &places, parameters: covariance.nrows() };
+        let sweep = Sweep { model, state, places: &places, pass, parameters: covariance.nrows() };
         let mut sums = sweep.none();
-        let groups = model.groups(state, Pass::all(model.trust));
+        let groups = model.groups(state, pass);
         let every = groups.len().div_ceil(intervals).max(1);
         if minimum.solved.has_motion() {
             let (unknowns, knots) = (state.motion.unknowns(), state.motion.knots());
@@ -84,6 +89,7 @@ struct Sweep<'m> {
     model: &'m Model<'m>,
     state: &'m State,
     places: &'m Places,
+    pass: Pass,
     parameters: usize,
 }
 
@@ -98,16 +104,15 @@ impl Sweep<'_> {
 
     /// The sums over some intervals.
     fn over(&self, batch: &[Local]) -> Sums {
-        let parts: Vec<Sums> = batch.par_iter().map(|local| self.of(local)).collect();
+        let parts: Vec<Sums> = batch.par_iter().map(|local| self.at(local)).collect();
         let mut sums = self.none();
         parts.iter().for_each(|part| sums.add(part));
         sums
     }
 
-    fn of(&self, local: &Local) -> Sums {
+    fn at(&self, local: &Local) -> Sums {
         let mut sums = self.none();
-        let pass = Pass::all(self.model.trust);
-        let rows = self.model.rows(&local.intervals, self.state, self.places, pass);
+        let rows = self.model.rows(&local.intervals, self.state, self.places, self.pass);
         let all = rows.as_columns();
         let size = local.covariance.nrows();
         let derivatives = all.rows(0, size);
@@ -122,7 +127,7 @@ impl Sweep<'_> {
                 sums.of_streams[*stream] += of_parameters.map(|part| part * part);
             }
         }
-        if pass.noisy() {
+        if self.pass.noisy() {
             let samples = self.places.of_log(&local.intervals);
             let at = (&local.covariance, &local.step);
             self.model.log.add_moments(samples, &self.state.motion, at, &mut sums.log);

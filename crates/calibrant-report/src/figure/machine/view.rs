@@ -47,7 +47,7 @@ impl View {
             .collect()
     }
 
-    /// The path of dots at these points, for round ends of its strokes.
+    /// A path that draws a dot at each point: a stroke of length 0.01, whose round ends are seen.
     pub(super) fn dots<'a>(&self, points: impl IntoIterator<Item = &'a Vector3<f64>>) -> String {
         let finite = points.into_iter().map(|point| self.at(point)).filter(|(x, y)| (x + y).is_finite());
         finite.map(|(x, y)| format!("M{x:.1} {y:.1}h.01")).collect()
