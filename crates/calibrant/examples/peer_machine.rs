@@ -1,17 +1,22 @@
 //! Calibrates recordings of an IMU on an arm that MuJoCo made, and counts how often the 95 % intervals hold the truth:
-//! `cargo run --release --example peer_machine -- FOLDER URDF [known|noisy] [modelled|exact] [NUMBER]`.
+//! `cargo run --release --example peer_machine -- FOLDER URDF [known|noisy] [modelled|exact] [NUMBER] [prior|unknown]`.
 //! `peers/mujoco/recordings.py` writes the folder; `scripts/peers` runs both.
 //!
 //! `exact` takes the geometry of the URDF as it is. Where the arm differs, the residuals must say so.
+//! `prior` knows the mounting to 0.5°; with `unknown` the truth is that of the same sensor in the gauge `upper`.
 
 use calibrant::estimate::CalibrationStatus;
 use calibrant::io::{ImuReadOptions, ReferenceLogOptions, Urdf, read_imu_recording, read_reference_log};
 use calibrant::machine::chain::KinematicChain;
 use calibrant::machine::estimate::{
-    MachineCalibration, MachineProblem, MachineSettings, MachineSetup, MachineTrust, calibrate_on_machine,
+    MachineCalibration, MachineProblem, MachineQuantity, MachineSettings, MachineSetup, MachineTrust,
+    MountingPrior, calibrate_on_machine,
 };
 use calibrant::machine::log::ReferenceLog;
-use calibrant::sensor::{ImuParameters, ImuQuantity, ParameterList, SensorKind, SensorModel};
+use calibrant::sensor::{
+    Axis, CalibratedImu, Gauge, ImuParameters, ImuQuantity, ParameterList, ReadingUnit, SensorKind,
+    SensorModel, SensorParameters,
+};
 use nalgebra::Vector3;
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -33,6 +38,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut setup =
         MachineSetup { trust, lever_m: Vector3::new(0.02, -0.03, 0.04), ..MachineSetup::default() };
     setup.knot_step_s = std::env::var("STEP").ok().and_then(|step| step.parse().ok());
+    let unknown = word(6, "prior") == "unknown";
+    if unknown {
+        setup.mounting = MountingPrior::Unknown;
+    }
     if exact {
         setup = MachineSetup {
             geometry_translation_sd_m: 0.0,
@@ -49,7 +58,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
         let clock = Instant::now();
         let calibration = calibrated(&one, &chain, &setup)?;
-        tally.add(&calibration, &truth(&one, &calibration)?, clock.elapsed().as_secs_f64());
+        tally.add(&calibration, &truth(&one, &calibration, unknown)?, clock.elapsed().as_secs_f64());
     }
     tally.print();
     Ok(())
@@ -99,29 +108,57 @@ fn calibrated(
     Ok(calibration)
 }
 
-/// The true value of each quantity.
-fn truth(folder: &Path, calibration: &MachineCalibration) -> Result<Vec<f64>, Box<dyn Error>> {
+/// The true value of each quantity; NaN where it has none.
+fn truth(folder: &Path, calibration: &MachineCalibration, unknown: bool) -> Result<Vec<f64>, Box<dyn Error>> {
     let json: Value = serde_json::from_str(&std::fs::read_to_string(folder.join("truth.json"))?)?;
-    let of = |name: &String| -> Result<f64, Box<dyn Error>> {
-        let parts: Vec<&str> = name.split('.').collect();
-        let axis =
-            |word: &str| ["x", "y", "z", "rx", "ry", "rz"].iter().position(|of| *of == word).unwrap_or(0);
-        let joint = |word: &str| calibration.joints.iter().position(|of| of == word).unwrap_or(0);
-        let value = match parts.as_slice() {
-            [sensor, "scale", a] => &json["parameters"][format!("{sensor}.matrix.{a}{a}")],
-            [_, "bias" | "matrix", _] => &json["parameters"][name],
-            ["lever", a] => &json["lever_m"][axis(a)],
-            ["mounting", a] => &json["tip_from_sensor"]["error_rad"][axis(a)],
-            ["tilt", a] => &json["tilt_rad"][axis(a)],
-            ["delay", sensor] => &json["delays_at_middle_s"][sensor],
-            ["clock_rate"] => &json["clock_rate"],
-            ["zero", of] => &json["zeros"][joint(of)],
-            ["geometry", of, a] => &json["geometry"][joint(of)][axis(a)],
-            _ => return Err(format!("{name}: no truth").into()),
-        };
-        Ok(value.as_f64().ok_or("truth.json lacks a value")?)
+    let imu = true_sensor(&json["parameters"], unknown)?;
+    let number = |of: &Value| of.as_f64().ok_or("truth.json lacks a value");
+    let of = |quantity: &MachineQuantity| -> Result<f64, Box<dyn Error>> {
+        Ok(match *quantity {
+            MachineQuantity::Imu(of) => of.value(&imu),
+            MachineQuantity::Lever(axis) => number(&json["lever_m"][axis.index()])?,
+            // it counts from the start of the search
+            MachineQuantity::Mounting(_) if unknown => f64::NAN,
+            MachineQuantity::Mounting(axis) => number(&json["tip_from_sensor"]["error_rad"][axis.index()])?,
+            MachineQuantity::Tilt(k) => number(&json["tilt_rad"][k])?,
+            MachineQuantity::Delay(sensor) => number(&json["delays_at_middle_s"][sensor.to_string()])?,
+            MachineQuantity::ClockRate => number(&json["clock_rate"])?,
+            MachineQuantity::Zero(j) => number(&json["zeros"][j])?,
+            MachineQuantity::Geometry(j, k) => number(&json["geometry"][j][k])?,
+            MachineQuantity::Gravity => return Err("gravity is not estimated".into()),
+        })
     };
-    calibration.names().iter().map(of).collect()
+    calibration.quantities.iter().map(of).collect()
+}
+
+/// The sensor that was simulated, in the gauge `upper` where its mounting is unknown.
+fn true_sensor(parameters: &Value, in_gauge: bool) -> Result<ImuParameters, Box<dyn Error>> {
+    let number = |name: String| parameters[&name].as_f64().ok_or(format!("truth.json lacks {name}"));
+    let sensor = |kind: SensorKind| -> Result<SensorParameters, Box<dyn Error>> {
+        let mut of = SensorParameters::identity();
+        for row in Axis::ALL {
+            of.bias[row.index()] = number(format!("{kind}.bias.{row}"))?;
+            for column in Axis::ALL {
+                of.matrix[(row.index(), column.index())] = number(format!("{kind}.matrix.{row}{column}"))?;
+            }
+        }
+        Ok(of)
+    };
+    let parameters = ImuParameters {
+        accelerometer: sensor(SensorKind::Accelerometer)?,
+        gyroscope: sensor(SensorKind::Gyroscope)?,
+        ..ImuParameters::identity()
+    };
+    let imu = CalibratedImu {
+        parameters,
+        accelerometer_unit: Some(ReadingUnit::MetrePerSecondSquared),
+        gyroscope_unit: Some(ReadingUnit::RadianPerSecond),
+        quantities: ImuQuantity::full_list(true, true, false),
+        covariance: None,
+        degrees_of_freedom: None,
+        frame: "that of MuJoCo".into(),
+    };
+    Ok(if in_gauge { imu.in_gauge(Gauge::Upper)?.parameters } else { parameters })
 }
 
 /// Errors over many recordings.
@@ -151,6 +188,9 @@ impl Tally {
             self.order.iter().zip(&calibration.values).zip(calibration.sd().iter().zip(truth))
         {
             let z = (value - truth) / sd;
+            if z.is_nan() {
+                continue;
+            }
             let of = self.quantities.entry(name.clone()).or_default();
             of.0 += 1;
             of.1 += z * z;
@@ -172,7 +212,7 @@ impl Tally {
         );
         let (mut all, mut held) = (0, 0);
         for name in &self.order {
-            let (count, squares, inside) = self.quantities[name];
+            let Some(&(count, squares, inside)) = self.quantities.get(name) else { continue };
             if name.starts_with("acc") || name.starts_with("gyr") {
                 all += count;
                 held += inside;

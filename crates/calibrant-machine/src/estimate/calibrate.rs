@@ -54,7 +54,8 @@ pub fn calibrate_on_machine(
     let growths = noise_search(&mut model, &mut state, problem, settings)?;
     let minimum =
         minimise(&model, state, settings.max_iterations, settings.tolerance).ok_or_else(unsolved)?;
-    let posterior = Posterior::at(&model, &minimum, Pass::all(model.trust), INTERVALS).ok_or_else(unsolved)?;
+    let posterior =
+        Posterior::at(&model, &minimum, Pass::all(model.trust), INTERVALS).ok_or_else(unsolved)?;
     let mut calibration = assembled(problem, &model, &minimum, &posterior, &growths, outliers);
     calibration.warnings = checks::all(&model.layout, &calibration);
     Ok(calibration)

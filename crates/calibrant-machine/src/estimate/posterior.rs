@@ -43,12 +43,7 @@ struct Local {
 
 impl Posterior {
     /// At a minimum, from so many intervals at most, spread evenly. `None` where the parameters are not determined.
-    pub(super) fn at(
-        model: &Model<'_>,
-        minimum: &Minimum,
-        pass: Pass,
-        intervals: usize,
-    ) -> Option<Self> {
+    pub(super) fn at(model: &Model<'_>, minimum: &Minimum, pass: Pass, intervals: usize) -> Option<Self> {
         let state = &minimum.state;
         let covariance = Scaled::new(&minimum.solved.information)?.inverse();
         let places = model.places(state);
