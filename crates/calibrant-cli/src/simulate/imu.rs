@@ -10,8 +10,8 @@ use calibrant::estimate::Turn;
 use calibrant::io::{Experiment, HoldsPlan, ImuPlan, ImuReadOptions, write_imu_recording, write_imu_truth};
 use calibrant::motion::earth_rate;
 use calibrant::sensor::{
-    CalibratedImu, ImuParameters, ImuQuantity, ReadingUnit, Recording, Sensor, SensorKind, SensorParameters,
-    WORKING_C,
+    CalibratedImu, Gauge, ImuParameters, ImuQuantity, ReadingUnit, Recording, Sensor, SensorKind,
+    SensorParameters, WORKING_C,
 };
 use calibrant::simulate::{
     GyroscopeToDraw, ImuSimulation, Rng, TURN_S, TableAction, TableStep, draw_imu, draw_known, draw_thermal,
@@ -81,7 +81,7 @@ pub(super) fn run(
         }
         None => {
             length::check_holds(holds)?;
-            in_gauge(&drawn, units, holds)?
+            in_gauge(&drawn, units, holds.gauge)?
         }
     };
     // the quantities that a calibration of this experiment finds, and those that it fixes
@@ -135,10 +135,11 @@ fn one_for_all(sensor_kind: SensorKind, noise: &Vector3<f64>) -> f64 {
     noise.max()
 }
 
-fn in_gauge(
+/// The same IMU in the frame that its accelerometer's gauge fixes.
+pub(super) fn in_gauge(
     drawn: &ImuParameters,
     [a, g]: [ReadingUnit; 2],
-    holds: &HoldsPlan,
+    gauge: Gauge,
 ) -> calibrant::Result<ImuParameters> {
     let imu = CalibratedImu {
         parameters: *drawn,
@@ -149,7 +150,7 @@ fn in_gauge(
         degrees_of_freedom: None,
         frame: String::new(),
     };
-    Ok(imu.in_gauge_of(SensorKind::Accelerometer, holds.gauge)?.parameters)
+    Ok(imu.in_gauge_of(SensorKind::Accelerometer, gauge)?.parameters)
 }
 
 /// The recording of an accelerometer in these steps.
