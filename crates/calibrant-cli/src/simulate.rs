@@ -1,6 +1,7 @@
 //! `calibrant simulate`: draws a sensor from the datasheet and simulates its recording.
 
 mod arguments;
+mod gains;
 mod imu;
 mod length;
 mod machine;

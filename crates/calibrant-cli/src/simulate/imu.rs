@@ -1,6 +1,7 @@
 //! `calibrant simulate` for a whole IMU: turned by hand, or on a table as the experiment lists it.
 
 use super::Arguments;
+use super::gains::gains;
 use super::length;
 use super::random::Random;
 use crate::console;
@@ -33,20 +34,7 @@ pub(super) fn run(
     random: Random,
 ) -> calibrant::Result<usize> {
     let sensor = &experiment.sensor;
-    let needs = |key: &str| {
-        let input_error = InputError::new(
-            Refusal::KeyMissing,
-            format!("a simulation of counts needs `{key}`"),
-            "add it to the experiment file",
-        );
-        Error::Experiment(Box::new(input_error.in_file(&arguments.experiment).about_key(key)))
-    };
-    let ones = Vector3::repeat(1.0);
-    let gain_a = sensor.gain.ok_or_else(|| needs("sensor.gain_counts_per_mps2"))?;
-    let gain_g = match plan.gyroscope.unit {
-        ReadingUnit::Counts => plan.gyroscope.gain.ok_or_else(|| needs("gyroscope.gain_counts_per_radps"))?,
-        _ => ones,
-    };
+    let [gain_a, gain_g] = gains(experiment, &arguments.experiment)?;
     let mut rng = random.sensor();
     let gyroscope = GyroscopeToDraw {
         model: plan.gyroscope.model,

@@ -1,6 +1,7 @@
 //! `calibrant simulate` for a sensor on a machine.
 
-use super::machine_motion::{Stretch, motion};
+use super::gains::gains;
+use super::machine_motion::{TrueMotion, motion};
 use super::random::Random;
 use super::{Arguments, imu, length};
 use calibrant::Error;
@@ -34,6 +35,11 @@ pub(super) fn run(
 ) -> calibrant::Result<usize> {
     let chain = plan.source.as_ref().map(MachineSource::chain).transpose()?;
     let joints = chain.as_ref().map_or(0, |chain| chain.joints.len());
+    if chain.is_some() && joints == 0 {
+        let message = "no joint between base and tip moves";
+        let help = "name other links in [machine]: base and tip";
+        return Err(Error::experiment(InputError::new(Refusal::MachineUnsuited, message, help)));
+    }
     let setup = plan.setup(&experiment.sensor, experiment.imu.as_ref(), joints);
     let asked = &plan.simulation;
     let log_errors = LogErrors {
@@ -41,20 +47,24 @@ pub(super) fn run(
         noise: log_noise(&setup, chain.as_ref())?,
         resolution: asked.resolution,
     };
-    let stretch = Stretch::of(&setup);
-    let motion = motion(arguments, plan, chain.as_ref(), &setup, stretch, random)?;
+    let TrueMotion { motion, edge_s } = motion(arguments, plan, chain.as_ref(), &setup, random)?;
     let knots = motion.knots();
     let duration_s = knots.end_s() - knots.start_s;
     let less = "lower duration_s, rate_hz or log_rate_hz in [machine.simulate], or give a shorter log";
     length::check(duration_s, asked.rate_hz + asked.log_rate_hz, less)?;
     let sampling = SensorSampling {
-        start_s: knots.start_s + stretch.edge_s - setup.delay_s,
-        samples: ((duration_s - 2.0 * stretch.edge_s) * asked.rate_hz).round() as usize + 1,
+        start_s: knots.start_s + edge_s - setup.delay_s,
+        samples: ((duration_s - 2.0 * edge_s) * asked.rate_hz).round() as usize + 1,
         rate_hz: asked.rate_hz,
     };
 
-    let of_experiment = Sensors { experiment, setup: &setup, vibration: asked.vibration };
-    let sensors = of_experiment.errors()?;
+    let of_experiment = Sensors {
+        experiment,
+        setup: &setup,
+        gains: gains(experiment, &arguments.experiment)?,
+        vibration: asked.vibration,
+    };
+    let sensors = of_experiment.errors();
     let kinds: Vec<SensorKind> = sensors.iter().map(|of| of.sensor).collect();
     let mut rng = random.sensor();
     let drawn = of_experiment.drawn(&mut rng)?;
@@ -111,6 +121,8 @@ fn log_noise(setup: &MachineSetup, chain: Option<&KinematicChain>) -> calibrant:
 struct Sensors<'a> {
     experiment: &'a Experiment,
     setup: &'a MachineSetup,
+    /// Nominal gains of accelerometer and gyroscope.
+    gains: [Vector3<f64>; 2],
     vibration: f64,
 }
 
@@ -120,29 +132,9 @@ impl Sensors<'_> {
         [self.experiment.sensor.unit, gyroscope.unwrap_or(ReadingUnit::RadianPerSecond)]
     }
 
-    /// Nominal gains of accelerometer and gyroscope, in the unit of the readings.
-    fn gains(&self) -> calibrant::Result<[Vector3<f64>; 2]> {
-        let missing = |key: &str| {
-            let message = format!("a simulation of counts needs `{key}`");
-            let input_error = InputError::new(Refusal::KeyMissing, message, "add it to the experiment file");
-            Error::experiment(input_error.about_key(key))
-        };
-        let ones = Vector3::repeat(1.0);
-        let accelerometer = self.experiment.sensor.gain;
-        let gyroscope = self.experiment.imu.as_ref().map(|imu| &imu.gyroscope);
-        let counts = gyroscope.filter(|of| of.unit == ReadingUnit::Counts);
-        Ok([
-            accelerometer.ok_or_else(|| missing("sensor.gain_counts_per_mps2"))?,
-            match counts {
-                Some(of) => of.gain.ok_or_else(|| missing("gyroscope.gain_counts_per_radps"))?,
-                None => ones,
-            },
-        ])
-    }
-
     /// Noise and units: what the experiment states, or what is usual.
-    fn errors(&self) -> calibrant::Result<Vec<SensorErrors>> {
-        let ([gain_a, gain_g], [unit_a, unit_g]) = (self.gains()?, self.units());
+    fn errors(&self) -> Vec<SensorErrors> {
+        let ([gain_a, gain_g], [unit_a, unit_g]) = (self.gains, self.units());
         let usual = ImuSimulation::default();
         let vibration = self.vibration;
         let of_a = self.experiment.sensor.noise(&gain_a).unwrap_or(gain_a * usual.accelerometer_noise);
@@ -152,12 +144,12 @@ impl Sensors<'_> {
             let noise = imu.gyroscope.noise.unwrap_or(gain_g * usual.gyroscope_noise);
             errors.push(SensorErrors { sensor: SensorKind::Gyroscope, unit: unit_g, noise, vibration });
         }
-        Ok(errors)
+        errors
     }
 
     /// A sensor drawn from the datasheet. Where its mounting is unknown, its accelerometer fixes the frame.
     fn drawn(&self, rng: &mut Rng) -> calibrant::Result<ImuParameters> {
-        let [_, gain] = self.gains()?;
+        let [_, gain] = self.gains;
         let gyroscope = self.experiment.imu.as_ref().map(|imu| &imu.gyroscope);
         let gyroscope = GyroscopeToDraw {
             model: gyroscope.map_or(SensorModel::Full, |of| of.model),

@@ -20,20 +20,19 @@ use std::path::Path;
 /// Shortest recording, s.
 const SHORTEST_S: f64 = 1.0;
 
-/// How much of the motion the recording shows.
-#[derive(Clone, Copy)]
-pub(super) struct Stretch {
-    /// The recording begins so long after the motion, and ends so long before it: no delay leads out of the log, s.
+/// A drawn motion rests for so long at either end of the recording, s.
+const REST_S: f64 = 1.0;
+
+/// The motion, and how much of it the recording shows.
+pub(super) struct TrueMotion {
+    pub(super) motion: Motion,
+    /// The recording begins so long after the motion, and ends so long before it, s.
     pub(super) edge_s: f64,
-    /// At rest for so long, s.
-    rest_s: f64,
 }
 
-impl Stretch {
-    pub(super) fn of(setup: &MachineSetup) -> Self {
-        let edge_s = 0.5 + 5.0 * setup.delay_sd_s.hypot(0.5 * setup.delay_difference_sd_s);
-        Self { edge_s, rest_s: edge_s + 1.0 }
-    }
+/// The shortest such edge: no delay leads out of the log, s.
+fn least_edge_s(setup: &MachineSetup) -> f64 {
+    0.5 + 5.0 * setup.delay_sd_s.hypot(0.5 * setup.delay_difference_sd_s)
 }
 
 /// The motion that `--motion` gives, or a random one for this recording.
@@ -42,23 +41,27 @@ pub(super) fn motion(
     plan: &MachinePlan,
     chain: Option<&KinematicChain>,
     setup: &MachineSetup,
-    stretch: Stretch,
     random: Random,
-) -> calibrant::Result<Motion> {
+) -> calibrant::Result<TrueMotion> {
     if let Some(path) = &arguments.motion {
-        return given(path, plan, chain, setup, stretch);
+        return given(path, plan, chain, setup);
     }
+    let recorded_s = plan.simulation.duration_s;
+    // whole seconds, which most rates and distances of knots divide
+    let duration_s = (recorded_s + 2.0 * least_edge_s(setup)).ceil();
+    let edge_s = 0.5 * (duration_s - recorded_s);
     let wanted = MotionToDraw {
-        duration_s: plan.simulation.duration_s + 2.0 * stretch.edge_s,
-        rest_s: stretch.rest_s,
+        duration_s,
+        rest_s: edge_s + REST_S,
         acceleration: plan.simulation.acceleration,
         knot_step_s: setup.knot_step_s,
     };
     let mut rng = stream(random.seed, Purpose::Motion, random.recording - 1);
-    Ok(match chain {
+    let motion = match chain {
         Some(chain) => draw_joint_motion(chain, &wanted, &mut rng),
         None => draw_body_motion(&wanted, &mut rng),
-    })
+    };
+    Ok(TrueMotion { motion, edge_s })
 }
 
 fn given(
@@ -66,8 +69,7 @@ fn given(
     plan: &MachinePlan,
     chain: Option<&KinematicChain>,
     setup: &MachineSetup,
-    stretch: Stretch,
-) -> calibrant::Result<Motion> {
+) -> calibrant::Result<TrueMotion> {
     let options = ReferenceLogOptions { topic: plan.log_topic.clone(), ..Default::default() };
     let file = read_reference_log(path, &options)?;
     file.findings.iter().for_each(|finding| console::finding(&file_name(path), finding));
@@ -91,12 +93,12 @@ fn given(
         refused("the log has fewer than 8 samples".into(), "give a log of the whole motion")
     })?;
     let knots = motion.knots();
-    let (lasts_s, edges_s) = (knots.end_s() - knots.start_s, 2.0 * stretch.edge_s);
-    if lasts_s < edges_s + SHORTEST_S {
+    let (lasts_s, edge_s) = (knots.end_s() - knots.start_s, least_edge_s(setup));
+    if lasts_s < 2.0 * edge_s + SHORTEST_S {
         let message = format!(
             "the log lasts {} s, and {} s of it are the room for the delay of the sensor",
             significant(lasts_s, 3),
-            significant(edges_s, 3)
+            significant(2.0 * edge_s, 3)
         );
         return Err(refused(message, "give a longer log, or a smaller delay_sd_s in [machine.clock]"));
     }
@@ -106,5 +108,5 @@ fn given(
         significant(knots.step_s, 2),
         significant(sd.into_iter().fold(0.0, f64::max), 2)
     ));
-    Ok(motion)
+    Ok(TrueMotion { motion, edge_s })
 }

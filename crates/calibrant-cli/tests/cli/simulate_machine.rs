@@ -109,6 +109,24 @@ fn a_log_is_the_motion_of_a_simulation() {
     }
 }
 
+/// A controller that joins way-points by cubic splines: what it does is known exactly.
+#[test]
+fn a_motion_of_known_way_points_is_known_exactly() {
+    let bench = Bench::new();
+    let end = "[machine.simulate]";
+    let log = format!("[machine.log]\nnoise = 1e-12\nknot_step_s = 0.25\n\n{end}");
+    let edits = [("tilt_sd_deg", "trust = \"known\"\ntilt_sd_deg"), (end, &log), SHORT];
+    bench.preset("gantry", "known.toml", &edits);
+    bench.run("simulate known.toml --seed 3 -o run").done();
+    bench.run("calibrate known.toml run/recording.csv --motion run/joints.csv -o run/result").done();
+    let [sensor, machine] = errors(&bench, "run");
+    plausible("sensor", &sensor);
+    plausible("machine", &machine);
+    let residual = &bench.json("run/result/calibration.json")["machine"]["sensor_noise"][0];
+    let rms = residual["residual_rms"][0].as_f64().expect("a number");
+    assert!((rms / 0.01 - 1.0).abs() < 0.05, "{rms}");
+}
+
 #[test]
 fn joints_move_within_their_limits_and_end_as_they_begin() {
     let bench = Bench::new();
@@ -125,8 +143,8 @@ fn joints_move_within_their_limits_and_end_as_they_begin() {
             positions.iter().fold((0.0_f64, 0.0_f64), |(low, high), p| (low.min(*p), high.max(*p)));
         assert!(lowest > -0.5 && highest < 0.5 && highest - lowest > 0.6, "{lowest} {highest}");
         assert!(positions.iter().all(|p| (p * 1e3 - (p * 1e3).round()).abs() < 1e-9), "steps of 1 mm");
-        let ends = positions[..200].iter().chain(&positions[positions.len() - 200..]);
-        assert!(ends.copied().all(|p| p == 0.0), "1 s at rest");
+        let ends = positions[..400].iter().chain(&positions[positions.len() - 400..]);
+        assert!(ends.copied().all(|p| p == 0.0), "2 s at rest");
         for pair in positions.windows(20) {
             let speed = (pair[19] - pair[0]) / (19.0 / 200.0);
             assert!(speed.abs() < 1.0 + 0.02, "{speed}");
@@ -144,6 +162,14 @@ fn what_cannot_be_simulated_is_refused() {
         let values = ",0.1".repeat(header.split(',').count() - 1);
         (0..rows).fold(format!("{header}\n"), |text, k| format!("{text}{}{values}\n", k as f64 * step))
     };
+    bench.write(
+        "still.urdf",
+        r#"<robot name="still"><link name="base"/><link name="tip"/>
+        <joint name="glue" type="fixed"><parent link="base"/><child link="tip"/></joint></robot>"#,
+    );
+    let still = [("urdf = \"arm\" ", "urdf = \"still.urdf\" "), ("tip = \"flange\"", "tip = \"tip\"")];
+    bench.preset("arm", "still.toml", &still);
+    bench.refuses("simulate still.toml -o out", 2, &["no joint between base and tip moves"]);
     bench.write("gantry.csv", log("t_s,x_m,y_m,z_m", 500, 0.01));
     let joints = "t_s,shoulder_pan_rad,shoulder_lift_rad,elbow_rad,wrist_1_rad,wrist_2_rad,wrist_3_rad";
     bench.write("short.csv", log(joints, 200, 0.01));

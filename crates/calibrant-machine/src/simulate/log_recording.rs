@@ -9,7 +9,7 @@ use rand_distr::{Distribution, StandardNormal};
 /// Rate and errors of a log.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LogErrors {
-    /// Sample rate, Hz.
+    /// Sample rate, Hz. It is rounded so that the steps fit into the motion.
     pub rate_hz: f64,
     /// Standard deviation of one sample: of each joint, rad or m, or of three axes of position, m, and three of orientation, rad.
     pub noise: Vec<f64>,
@@ -22,8 +22,9 @@ pub struct LogErrors {
 pub fn record_log(motion: &Motion, errors: &LogErrors, rng: &mut Rng) -> ReferenceLog {
     let (knots, LogErrors { rate_hz, noise, resolution }) = (motion.knots(), errors);
     let duration_s = knots.end_s() - knots.start_s;
-    let last = (duration_s * rate_hz * (1.0 + 1e-12)).floor() as usize;
-    let times_s: Vec<f64> = (0..=last).map(|k| knots.start_s + k as f64 / rate_hz).collect();
+    let steps = (duration_s * rate_hz).round().max(1.0);
+    let times_s: Vec<f64> =
+        (0..=steps as usize).map(|k| knots.start_s + duration_s * (k as f64 / steps)).collect();
     let mut normal = |k: usize| -> f64 {
         let z: f64 = StandardNormal.sample(rng);
         z * noise[k]
@@ -37,7 +38,8 @@ pub fn record_log(motion: &Motion, errors: &LogErrors, rng: &mut Rng) -> Referen
                 let read = |(j, position): (usize, f64)| {
                     let position = position + normal(j);
                     let step = *resolution;
-                    if step > 0.0 { (position / step).round() * step } else { position }
+                    // a zero without a sign
+                    if step > 0.0 { (position / step).round() * step + 0.0 } else { position }
                 };
                 positions.extend(joints.positions.at(*time_s, 0).into_iter().enumerate().map(read));
             }

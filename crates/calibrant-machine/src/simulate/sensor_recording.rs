@@ -1,8 +1,7 @@
 //! What the sensor on a machine reads.
 
-use crate::chain::ChainCorrections;
 use crate::estimate::{MachineParameters, MachineSetup, TiltedGravity};
-use crate::reference::{Felt, Motion};
+use crate::reference::Motion;
 use calibrant_core::sensor::{ImuRecording, ReadingUnit, Recording, SensorKind};
 use calibrant_core::simulate::Rng;
 use nalgebra::Vector3;
@@ -46,18 +45,16 @@ pub fn record_sensors(
         (0..sampling.samples).map(|k| sampling.start_s + k as f64 / sampling.rate_hz).collect();
     let middle_s = 0.5 * (times_s.first().unwrap_or(&0.0) + times_s.last().unwrap_or(&0.0));
     let gravity = TiltedGravity::new(&setup.up).vector(truth);
-    let corrections: &ChainCorrections = &truth.corrections;
-    let carrier = motion.carrier(gravity, truth.mount, corrections);
-    let columns = motion.columns(false);
-    let mut felt = Felt::zeros(columns);
+    let carrier = motion.carrier(gravity, truth.mount, &truth.corrections);
+    let mut joints = Default::default();
     let mut recording = ImuRecording { accelerometer: None, gyroscope: None, temperature_c: None };
     for of in sensors {
         let stimuli: Vec<[Vector3<f64>; 2]> = times_s
             .iter()
             .map(|&time_s| {
                 let weights = motion.knots().weights(truth.motion_time(of.sensor, time_s, middle_s));
-                motion.feel(&weights, &carrier, columns, &mut felt);
-                [felt.force, felt.rate]
+                let felt = motion.sensor(&weights, &carrier, &mut joints);
+                [felt.specific_force, felt.rate]
             })
             .collect();
         let activity = activity(&stimuli, gravity.norm());

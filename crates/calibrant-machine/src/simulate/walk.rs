@@ -23,10 +23,14 @@ pub(super) struct WalkLimits {
     pub(super) acceleration: f64,
 }
 
-/// Control points of a walk between random way-points. It begins and ends in the middle, at rest for `rest_s`. Each move has a speed of its own.
+/// Control points of a walk between random way-points. It begins and ends in the middle, at rest for `rest_s`. Each move has a speed of its own. What
+/// cannot move stays there.
 pub(super) fn walk(limits: &WalkLimits, knots: UniformKnots, rest_s: f64, rng: &mut Rng) -> Vec<f64> {
     let WalkLimits { lower, upper, speed, acceleration } = *limits;
     let (h, home) = (knots.step_s, 0.5 * (lower + upper));
+    if !(upper > lower && speed > 0.0 && acceleration > 0.0) {
+        return vec![home; knots.controls()];
+    }
     let still = (rest_s / h).ceil() as usize + knots.degree.order();
     let count = knots.controls();
     let way_back_s = 0.5 * (upper - lower) / speed + 2.0 * speed / acceleration;
@@ -67,6 +71,20 @@ mod tests {
     use super::*;
     use crate::spline::Degree;
     use calibrant_core::simulate::{Purpose, stream};
+
+    #[test]
+    fn what_cannot_move_stays() {
+        let knots = UniformKnots::covering(0.0, 10.0, 0.2, Degree::Quintic);
+        let free = WalkLimits { lower: -1.0, upper: 3.0, speed: 1.0, acceleration: 5.0 };
+        for limits in [
+            WalkLimits { lower: 3.0, ..free },
+            WalkLimits { speed: 0.0, ..free },
+            WalkLimits { acceleration: 0.0, ..free },
+        ] {
+            let controls = walk(&limits, knots, 1.0, &mut stream(1, Purpose::Motion, 0));
+            assert!(controls.iter().all(|c| *c == 0.5 * (limits.lower + limits.upper)), "{limits:?}");
+        }
+    }
 
     #[test]
     fn it_keeps_its_limits_and_comes_home() {
