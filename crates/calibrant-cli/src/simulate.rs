@@ -1,8 +1,11 @@
 //! `calibrant simulate`: draws a sensor from the datasheet and simulates its recording.
 
 mod arguments;
+mod gains;
 mod imu;
 mod length;
+mod machine;
+mod machine_motion;
 mod random;
 
 pub(crate) use arguments::Arguments;
@@ -26,7 +29,8 @@ use std::path::Path;
 
 impl crate::run::Run for Arguments {
     fn places(&self) -> ResultPlaces {
-        let names = ["recording.csv", "truth.json", "motion.csv", "true_motion.csv"];
+        let names =
+            ["recording.csv", "truth.json", "motion.csv", "true_motion.csv", "joints.csv", "poses.csv"];
         ResultPlaces {
             directory: Some(self.output.clone()),
             results: names.map(|name| self.output.join(name)).to_vec(),
@@ -48,13 +52,7 @@ fn run(arguments: &Arguments) -> calibrant::Result<Exit> {
             check_simulable(&experiment.sensor, &arguments.experiment)?;
             simulate_motion(arguments, &experiment, plan, random)?
         }
-        (Plan::Machine(_), _) => {
-            return Err(Error::experiment(InputError::new(
-                Refusal::ExperimentUnsuited,
-                "this version does not simulate a [machine] experiment",
-                "simulate [motion] or [holds]: see `calibrant init`",
-            )));
-        }
+        (Plan::Machine(plan), _) => machine::run(arguments, &experiment, plan, random)?,
         (Plan::Holds(plan), imu) => {
             if arguments.motion.is_some() {
                 console::warn("--motion is not used: a [holds] experiment has no motion");

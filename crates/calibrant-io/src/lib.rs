@@ -42,6 +42,7 @@ mod inspection;
 mod json;
 mod machine;
 mod machine_calibration;
+mod machine_truth;
 mod motion;
 mod noise;
 mod recording;
@@ -74,8 +75,8 @@ pub use earlier_calibration::{EarlierCalibration, parse_calibration, read_calibr
 pub use evaluation::{evaluation_json, write_evaluation};
 pub use experiment::{
     CalibrateOptions, CriterionLetter, DesignOptions, Experiment, HoldsPlan, ImuPlan, LogNoise, MachinePlan,
-    MachineSource, MotionPlan, NoisyVariant, Plan, Prior, ScaleBy, StudyOptions, UnknownVariant, UrdfSource,
-    nearest, read_columns,
+    MachineSimulation, MachineSource, MotionPlan, NoisyVariant, Plan, Prior, ScaleBy, StudyOptions,
+    UnknownVariant, UrdfSource, nearest, read_columns,
 };
 pub use experiment_presets::{PRESETS, preset};
 pub use ferraris_sections::{Section, SectionKind, parse_sections, read_sections};
@@ -85,6 +86,7 @@ pub use machine::{MACHINE_PRESETS, MissingMesh, Urdf, machine_json, machine_pres
 pub use machine_calibration::{
     MachineLogInput, MachineResult, machine_calibration_json, write_machine_calibration,
 };
+pub use machine_truth::{MachineTruth, write_machine_truth};
 pub use motion::{parse_motion, read_motion, write_motion};
 pub use noise::{NoiseLine, noise_json, noise_line, write_noise};
 pub use recording::{
@@ -99,7 +101,7 @@ pub use reference_inspection::{
 };
 pub use reference_log::{
     ReferenceFormat, ReferenceLogFile, ReferenceLogOptions, is_reference_log, parse_reference_log,
-    read_reference_log,
+    read_reference_log, write_joint_log, write_pose_log,
 };
 pub use result_places::{ClaimedPlaces, ResultPlaces};
 pub use sampling::Sampling;

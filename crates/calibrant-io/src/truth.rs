@@ -52,6 +52,16 @@ pub fn write_imu_truth(
     units: [ReadingUnit; 2],
     truth: &ImuParameters,
 ) -> Result<()> {
+    json::write_json(path, &imu_truth(seed, quantities, units, truth))
+}
+
+/// The content of the file that [`write_imu_truth`] writes.
+pub(super) fn imu_truth(
+    seed: u64,
+    quantities: &[ImuQuantity],
+    units: [ReadingUnit; 2],
+    truth: &ImuParameters,
+) -> TruthFile {
     let unit = |sensor_kind: SensorKind| units[usize::from(sensor_kind == SensorKind::Gyroscope)];
     let value = |quantity: &ImuQuantity| TrueParameter {
         name: quantity.name(),
@@ -73,19 +83,16 @@ pub fn write_imu_truth(
         _ => None,
     });
     let gauge = gauge_of(of_accelerometer, &truth.accelerometer.matrix);
-    json::write_json(
-        path,
-        &TruthFile {
-            schema: 1,
-            program: crate::atomic_output::program(),
-            seed,
-            convention,
-            gauge,
-            reference_c,
-            parameters,
-            fixed,
-        },
-    )
+    TruthFile {
+        schema: 1,
+        program: crate::atomic_output::program(),
+        seed,
+        convention,
+        gauge,
+        reference_c,
+        parameters,
+        fixed,
+    }
 }
 
 /// The form of a matrix: symmetric where its quantities are so, although rounding may hide it.
@@ -114,7 +121,7 @@ fn beside(quantities: &[ImuQuantity], truth: &ImuParameters) -> Vec<ImuQuantity>
 }
 
 #[derive(Serialize)]
-struct TruthFile {
+pub(super) struct TruthFile {
     schema: u32,
     program: String,
     seed: u64,

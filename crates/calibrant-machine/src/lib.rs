@@ -6,4 +6,5 @@ pub mod chain;
 pub mod estimate;
 pub mod log;
 pub mod reference;
+pub mod simulate;
 pub mod spline;

@@ -11,6 +11,11 @@ use std::path::PathBuf;
 /// times. Spreads that the file does not give are those of common MEMS sensors. With [temperature] the sensor warms by 24 K, centred on the reference, and the recording
 /// has a column temp_c.
 ///
+/// A sensor on a machine ([machine]) adds the log: joints.csv, or poses.csv without a urdf. What the experiment has a standard deviation for is drawn: lever arm,
+/// mounting, tilt, delays, clock rate, geometry. Without --motion, the joints go between random way-points within the limits of position and speed in the
+/// urdf, and a body is moved as by hand; [machine.simulate] has durations, rates and noise. Noise that the file does not give: 0.01 m/s² and 0.002 rad/s for the
+/// sensors, 2e-5 rad or m for joints, 0.2 mm and 1 mrad for poses.
+///
 /// The seed draws the sensor. --recording N draws its Nth recording: the same truth.json, but independent noise and other random poses or motion. Give each independent
 /// recording its own number, also across experiments. Two recordings rehearse a validation:
 ///
@@ -23,7 +28,7 @@ use std::path::PathBuf;
 pub(crate) struct Arguments {
     /// The experiment file (see `calibrant init`).
     pub(super) experiment: PathBuf,
-    /// The commanded motion, one row for each node: t_s,ax_mps2,ay_mps2,az_mps2 (default: the random initial motion).
+    /// The commanded motion, one row for each node: t_s,ax_mps2,ay_mps2,az_mps2 (default: the random initial motion). On a machine: a log of its joints or poses.
     #[arg(long, value_name = "CSV")]
     pub(super) motion: Option<PathBuf>,
     /// Seed of all random numbers (default: from [study], else 1).

@@ -1,6 +1,7 @@
 //! `calibrant simulate` for a whole IMU: turned by hand, or on a table as the experiment lists it.
 
 use super::Arguments;
+use super::gains::gains;
 use super::length;
 use super::random::Random;
 use crate::console;
@@ -10,8 +11,8 @@ use calibrant::estimate::Turn;
 use calibrant::io::{Experiment, HoldsPlan, ImuPlan, ImuReadOptions, write_imu_recording, write_imu_truth};
 use calibrant::motion::earth_rate;
 use calibrant::sensor::{
-    CalibratedImu, ImuParameters, ImuQuantity, ReadingUnit, Recording, Sensor, SensorKind, SensorParameters,
-    WORKING_C,
+    CalibratedImu, Gauge, ImuParameters, ImuQuantity, ReadingUnit, Recording, Sensor, SensorKind,
+    SensorParameters, WORKING_C,
 };
 use calibrant::simulate::{
     GyroscopeToDraw, ImuSimulation, Rng, TURN_S, TableAction, TableStep, draw_imu, draw_known, draw_thermal,
@@ -33,20 +34,7 @@ pub(super) fn run(
     random: Random,
 ) -> calibrant::Result<usize> {
     let sensor = &experiment.sensor;
-    let needs = |key: &str| {
-        let input_error = InputError::new(
-            Refusal::KeyMissing,
-            format!("a simulation of counts needs `{key}`"),
-            "add it to the experiment file",
-        );
-        Error::Experiment(Box::new(input_error.in_file(&arguments.experiment).about_key(key)))
-    };
-    let ones = Vector3::repeat(1.0);
-    let gain_a = sensor.gain.ok_or_else(|| needs("sensor.gain_counts_per_mps2"))?;
-    let gain_g = match plan.gyroscope.unit {
-        ReadingUnit::Counts => plan.gyroscope.gain.ok_or_else(|| needs("gyroscope.gain_counts_per_radps"))?,
-        _ => ones,
-    };
+    let [gain_a, gain_g] = gains(experiment, &arguments.experiment)?;
     let mut rng = random.sensor();
     let gyroscope = GyroscopeToDraw {
         model: plan.gyroscope.model,
@@ -81,7 +69,7 @@ pub(super) fn run(
         }
         None => {
             length::check_holds(holds)?;
-            in_gauge(&drawn, units, holds)?
+            in_gauge(&drawn, units, holds.gauge)?
         }
     };
     // the quantities that a calibration of this experiment finds, and those that it fixes
@@ -135,10 +123,11 @@ fn one_for_all(sensor_kind: SensorKind, noise: &Vector3<f64>) -> f64 {
     noise.max()
 }
 
-fn in_gauge(
+/// The same IMU in the frame that its accelerometer's gauge fixes.
+pub(super) fn in_gauge(
     drawn: &ImuParameters,
     [a, g]: [ReadingUnit; 2],
-    holds: &HoldsPlan,
+    gauge: Gauge,
 ) -> calibrant::Result<ImuParameters> {
     let imu = CalibratedImu {
         parameters: *drawn,
@@ -149,7 +138,7 @@ fn in_gauge(
         degrees_of_freedom: None,
         frame: String::new(),
     };
-    Ok(imu.in_gauge_of(SensorKind::Accelerometer, holds.gauge)?.parameters)
+    Ok(imu.in_gauge_of(SensorKind::Accelerometer, gauge)?.parameters)
 }
 
 /// The recording of an accelerometer in these steps.

@@ -23,7 +23,7 @@ pub(super) fn check_table(steps: &[TableStep], rate_hz: f64) -> calibrant::Resul
     check(duration_s, rate_hz, less)
 }
 
-fn check(duration_s: f64, rate_hz: f64, less: &str) -> calibrant::Result<()> {
+pub(super) fn check(duration_s: f64, rate_hz: f64, less: &str) -> calibrant::Result<()> {
     let samples = duration_s * rate_hz;
     let what = format!("{samples:.1e} samples ({duration_s} s at {rate_hz} Hz)");
     budget::check(Budget::of_samples(samples), &what, less)

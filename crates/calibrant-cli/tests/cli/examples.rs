@@ -99,6 +99,21 @@ fn whole_imu() {
 }
 
 #[test]
+fn robot_arm() {
+    follow("07_robot_arm", 8);
+}
+
+#[test]
+fn motion_capture() {
+    follow("08_motion_capture", 5);
+}
+
+#[test]
+fn rate_table() {
+    follow("09_rate_table", 6);
+}
+
+#[test]
 fn every_example_is_followed() {
     let root: PathBuf = [env!("CARGO_MANIFEST_DIR"), "../../examples"].iter().collect();
     let mut names: Vec<_> = std::fs::read_dir(root)
@@ -116,7 +131,10 @@ fn every_example_is_followed() {
             "03_static_poses",
             "04_many_sensors",
             "05_design_a_motion",
-            "06_whole_imu"
+            "06_whole_imu",
+            "07_robot_arm",
+            "08_motion_capture",
+            "09_rate_table"
         ]
     );
 }

@@ -31,6 +31,7 @@ mod real_recordings;
 mod repaired_recordings;
 mod sensor_change;
 mod simulate;
+mod simulate_machine;
 mod temperature;
 mod together;
 mod truncated_bag;

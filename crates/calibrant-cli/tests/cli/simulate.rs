@@ -9,6 +9,8 @@ fn experiments(bench: &Bench) -> Vec<(&'static str, &'static [&'static str])> {
     bench.preset("report-noisy", "noisy.toml", &[]);
     bench.preset("static-poses", "poses.toml", &[]);
     bench.preset("imu", "hand.toml", &[]);
+    bench.preset("arm", "joints.toml", &[]);
+    bench.preset("mocap", "body.toml", &[]);
     let orders = [
         ("# accelerometer_bias = 1", "accelerometer_bias = 1"),
         ("# gyroscope_scale = 1", "gyroscope_scale = 1"),
@@ -26,6 +28,8 @@ fn experiments(bench: &Bench) -> Vec<(&'static str, &'static [&'static str])> {
         ("noisy.toml", &["motion.csv", "true_motion.csv"]),
         ("poses.toml", &[]),
         ("hand.toml", &[]),
+        ("joints.toml", &["joints.csv"]),
+        ("body.toml", &["poses.csv"]),
         ("warm.toml", &[]),
         ("table.toml", &[]),
         ("known-bias.toml", &[]),

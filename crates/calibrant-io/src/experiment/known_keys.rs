@@ -76,12 +76,17 @@ const KEYS: &[(&str, &[&str])] = &[
             "clock",
             "geometry",
             "log",
+            "simulate",
         ],
     ),
     ("machine.mount", &["lever_m", "lever_sd_m", "rotation", "rotation_sd_deg"]),
     ("machine.clock", &["delay_s", "delay_sd_s", "delay_difference_sd_s", "rate_sd_ppm"]),
     ("machine.geometry", &["translation_sd_m", "rotation_sd_rad", "zero_sd"]),
     ("machine.log", &["noise", "position_noise_m", "orientation_noise_rad", "knot_step_s", "topic"]),
+    (
+        "machine.simulate",
+        &["duration_s", "rate_hz", "log_rate_hz", "acceleration", "resolution", "vibration"],
+    ),
     (
         "gyroscope",
         &[

@@ -4,6 +4,7 @@ use super::ImuPlan;
 use super::direction::direction;
 use super::gravity::read_gravity;
 use super::machine_mount::read_mount;
+use super::machine_simulation::{MachineSimulation, read_simulation};
 use super::machine_source::{MachineSource, read_source};
 use super::number_range::Bounds;
 use super::toml_document::{Entry, Section};
@@ -44,6 +45,8 @@ pub struct MachinePlan {
     pub log_noise: Option<LogNoise>,
     /// Topic of the log in a bag that has several.
     pub log_topic: Option<String>,
+    /// What `simulate` is told beside the rest.
+    pub simulation: MachineSimulation,
     /// What is known, but for the noise.
     known: MachineSetup,
 }
@@ -139,8 +142,12 @@ pub(super) fn read(section: &Section<'_>, sensor: &Sensor) -> Result<MachinePlan
     if let Some(log) = &log {
         known.knot_step_s = log.get("knot_step_s").map(|entry| entry.number(&KNOT_STEP)).transpose()?;
     }
+    let simulation = section.section("machine.simulate")?;
+    let simulation =
+        simulation.map_or(Ok(MachineSimulation::default()), |of| read_simulation(&of, source.is_some()))?;
     let topic = log.as_ref().and_then(|log| log.get("topic"));
     Ok(MachinePlan {
+        simulation,
         log_topic: topic.map(|entry| text(&entry)).transpose()?,
         log_noise: log.map_or(Ok(None), |log| read_log_noise(&log, source.is_some()))?,
         source,

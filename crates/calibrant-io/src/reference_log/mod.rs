@@ -30,9 +30,11 @@ mod read;
 mod recognise;
 mod rows;
 mod text_columns;
+mod writer;
 
 pub use file::ReferenceLogFile;
 pub use format::ReferenceFormat;
 pub use options::ReferenceLogOptions;
 pub use read::{parse_reference_log, read_reference_log};
 pub use recognise::is_reference_log;
+pub use writer::{write_joint_log, write_pose_log};

@@ -39,8 +39,10 @@ mod unsolved;
 
 pub use calibrate::calibrate_on_machine;
 pub use parameters::MachineParameters;
+pub(crate) use parameters::TiltedGravity;
 pub use problem::{MachineProblem, MachineSettings};
 pub use quantity::{MachineQuantity, Source};
+pub(crate) use reference_fit::{ReferenceFit, fitted};
 pub use result::{BudgetRow, MachineCalibration, ReferenceNoise, SensorResidual};
 pub use setup::{MachineSetup, MachineTrust, MountingPrior};
 pub use spectrum::ResidualSpectrum;

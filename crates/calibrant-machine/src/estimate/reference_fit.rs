@@ -7,16 +7,16 @@ use crate::spline::{UniformKnots, fit_rotations, fit_vectors};
 
 /// A motion fitted to a log.
 #[derive(Debug, Clone)]
-pub(super) struct ReferenceFit {
-    pub(super) motion: Motion,
+pub(crate) struct ReferenceFit {
+    pub(crate) motion: Motion,
     /// Standard deviation of one sample about the splines, for each unknown of a control point.
-    pub(super) sd: Vec<f64>,
+    pub(crate) sd: Vec<f64>,
     /// Number of outliers of each component.
-    pub(super) outliers: Vec<usize>,
+    pub(crate) outliers: Vec<usize>,
 }
 
 /// Fits splines on these knots.
-pub(super) fn fitted(
+pub(crate) fn fitted(
     log: &ReferenceLog,
     chain: Option<&KinematicChain>,
     knots: UniformKnots,

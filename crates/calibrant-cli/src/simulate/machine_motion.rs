@@ -1,0 +1,112 @@
+//! The true motion of a simulated machine: a given one, or one at random.
+
+use super::Arguments;
+use super::random::Random;
+use crate::console;
+use calibrant::Error;
+use calibrant::error::{InputError, Refusal};
+use calibrant::io::{MachinePlan, ReferenceLogOptions, file_name, read_reference_log};
+use calibrant::machine::chain::KinematicChain;
+use calibrant::machine::estimate::MachineSetup;
+use calibrant::machine::log::ReferenceLog;
+use calibrant::machine::reference::Motion;
+use calibrant::machine::simulate::{
+    MotionOfLog, MotionToDraw, draw_body_motion, draw_joint_motion, motion_of_log,
+};
+use calibrant::report::number_format::significant;
+use calibrant::simulate::{Purpose, stream};
+use std::path::Path;
+
+/// Shortest recording, s.
+const SHORTEST_S: f64 = 1.0;
+
+/// A drawn motion rests for so long at either end of the recording, s.
+const REST_S: f64 = 1.0;
+
+/// The motion, and how much of it the recording shows.
+pub(super) struct TrueMotion {
+    pub(super) motion: Motion,
+    /// The recording begins so long after the motion, and ends so long before it, s.
+    pub(super) edge_s: f64,
+}
+
+/// The shortest such edge: no delay leads out of the log, s.
+fn least_edge_s(setup: &MachineSetup) -> f64 {
+    0.5 + 5.0 * setup.delay_sd_s.hypot(0.5 * setup.delay_difference_sd_s)
+}
+
+/// The motion that `--motion` gives, or a random one for this recording.
+pub(super) fn motion(
+    arguments: &Arguments,
+    plan: &MachinePlan,
+    chain: Option<&KinematicChain>,
+    setup: &MachineSetup,
+    random: Random,
+) -> calibrant::Result<TrueMotion> {
+    if let Some(path) = &arguments.motion {
+        return given(path, plan, chain, setup);
+    }
+    let recorded_s = plan.simulation.duration_s;
+    // whole seconds, which most rates and distances of knots divide
+    let duration_s = (recorded_s + 2.0 * least_edge_s(setup)).ceil();
+    let edge_s = 0.5 * (duration_s - recorded_s);
+    let wanted = MotionToDraw {
+        duration_s,
+        rest_s: edge_s + REST_S,
+        acceleration: plan.simulation.acceleration,
+        knot_step_s: setup.knot_step_s,
+    };
+    let mut rng = stream(random.seed, Purpose::Motion, random.recording - 1);
+    let motion = match chain {
+        Some(chain) => draw_joint_motion(chain, &wanted, &mut rng),
+        None => draw_body_motion(&wanted, &mut rng),
+    };
+    Ok(TrueMotion { motion, edge_s })
+}
+
+fn given(
+    path: &Path,
+    plan: &MachinePlan,
+    chain: Option<&KinematicChain>,
+    setup: &MachineSetup,
+) -> calibrant::Result<TrueMotion> {
+    let options = ReferenceLogOptions { topic: plan.log_topic.clone(), ..Default::default() };
+    let file = read_reference_log(path, &options)?;
+    file.findings.iter().for_each(|finding| console::finding(&file_name(path), finding));
+    let log = match (chain, file.poses()) {
+        (Some(chain), _) => {
+            let names: Vec<&str> = chain.joints.iter().map(|joint| joint.name.as_str()).collect();
+            ReferenceLog::Joints(file.joints_in_order(&names).map_err(|error| error.in_recording(path))?)
+        }
+        (None, Some(poses)) => ReferenceLog::Poses(poses.clone()),
+        (None, None) => {
+            let message = "the log is of joints, and [machine] names no machine";
+            let help = "give urdf, base and tip in [machine]";
+            let input_error = InputError::new(Refusal::MachineUnsuited, message, help);
+            return Err(Error::experiment(input_error.in_file(path)));
+        }
+    };
+    let refused = |message: String, help: &str| {
+        Error::recording(InputError::new(Refusal::MachineUnsolved, message, help).in_file(path))
+    };
+    let MotionOfLog { motion, sd } = motion_of_log(&log, chain, setup.knot_step_s).ok_or_else(|| {
+        refused("the log has fewer than 8 samples".into(), "give a log of the whole motion")
+    })?;
+    let knots = motion.knots();
+    let (lasts_s, edge_s) = (knots.end_s() - knots.start_s, least_edge_s(setup));
+    if lasts_s < 2.0 * edge_s + SHORTEST_S {
+        let message = format!(
+            "the log lasts {} s, and {} s of it are the room for the delay of the sensor",
+            significant(lasts_s, 3),
+            significant(2.0 * edge_s, 3)
+        );
+        return Err(refused(message, "give a longer log, or a smaller delay_sd_s in [machine.clock]"));
+    }
+    console::note(&format!(
+        "the motion is a spline through {}, with knots every {} s; the log scatters about it by at most {} rad or m",
+        file_name(path),
+        significant(knots.step_s, 2),
+        significant(sd.into_iter().fold(0.0, f64::max), 2)
+    ));
+    Ok(TrueMotion { motion, edge_s })
+}

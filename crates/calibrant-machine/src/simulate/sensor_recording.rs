@@ -1,0 +1,222 @@
+//! What the sensor on a machine reads.
+
+use crate::estimate::{MachineParameters, MachineSetup, TiltedGravity};
+use crate::reference::Motion;
+use calibrant_core::sensor::{ImuRecording, ReadingUnit, Recording, SensorKind};
+use calibrant_core::simulate::Rng;
+use nalgebra::Vector3;
+use rand_distr::{Distribution, StandardNormal};
+
+/// When the sensors are sampled, on the clock of the IMU.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SensorSampling {
+    /// First sample, s.
+    pub start_s: f64,
+    /// Number of samples.
+    pub samples: usize,
+    /// Sample rate, Hz.
+    pub rate_hz: f64,
+}
+
+/// A sensor's unit and its noise.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SensorErrors {
+    /// The sensor.
+    pub sensor: SensorKind,
+    /// Unit of its readings.
+    pub unit: ReadingUnit,
+    /// Standard deviation of one sample at rest, per axis, in that unit.
+    pub noise: Vector3<f64>,
+    /// Noise that vibration adds in the mean over the recording, in parts of `noise`. It follows the rate and the specific force of the motion.
+    pub vibration: f64,
+}
+
+/// The recording of these sensors in this motion. A sample at `t` shows the motion at `t + ε (t − middle) + δ`, with a delay `δ` for each sensor.
+#[must_use]
+pub fn record_sensors(
+    motion: &Motion,
+    truth: &MachineParameters,
+    setup: &MachineSetup,
+    sampling: &SensorSampling,
+    sensors: &[SensorErrors],
+    rng: &mut Rng,
+) -> ImuRecording {
+    let times_s: Vec<f64> =
+        (0..sampling.samples).map(|k| sampling.start_s + k as f64 / sampling.rate_hz).collect();
+    let middle_s = 0.5 * (times_s.first().unwrap_or(&0.0) + times_s.last().unwrap_or(&0.0));
+    let gravity = TiltedGravity::new(&setup.up).vector(truth);
+    let carrier = motion.carrier(gravity, truth.mount, &truth.corrections);
+    let mut joints = Default::default();
+    let mut recording = ImuRecording { accelerometer: None, gyroscope: None, temperature_c: None };
+    for of in sensors {
+        let stimuli: Vec<[Vector3<f64>; 2]> = times_s
+            .iter()
+            .map(|&time_s| {
+                let weights = motion.knots().weights(truth.motion_time(of.sensor, time_s, middle_s));
+                let felt = motion.sensor(&weights, &carrier, &mut joints);
+                [felt.specific_force, felt.rate]
+            })
+            .collect();
+        let activity = activity(&stimuli, gravity.norm());
+        let readings = stimuli.iter().zip(&activity).map(|([force, rate], activity)| {
+            let clean = match of.sensor {
+                SensorKind::Accelerometer => truth.imu.accelerometer.reading(force),
+                SensorKind::Gyroscope => truth.imu.gyroscope.reading(rate) + truth.imu.g_sensitivity * force,
+            };
+            let grown = (1.0 + of.vibration * of.vibration * activity).sqrt();
+            clean + Vector3::from_fn(|axis, _| normal(rng) * grown * of.noise[axis])
+        });
+        let readings = readings.collect();
+        let samples = Recording { times_s: times_s.clone(), readings, axes: 3, unit: of.unit };
+        *match of.sensor {
+            SensorKind::Accelerometer => &mut recording.accelerometer,
+            SensorKind::Gyroscope => &mut recording.gyroscope,
+        } = Some(samples);
+    }
+    recording
+}
+
+fn normal(rng: &mut Rng) -> f64 {
+    StandardNormal.sample(rng)
+}
+
+/// How lively the motion is: the squares of the rate and of the force beside gravity, each in parts of its mean. The mean is 1, or 0 where nothing moves.
+fn activity(stimuli: &[[Vector3<f64>; 2]], gravity: f64) -> Vec<f64> {
+    let of_force = |[force, _]: &[Vector3<f64>; 2]| (force.norm() - gravity).powi(2);
+    let of_rate = |[_, rate]: &[Vector3<f64>; 2]| rate.norm_squared();
+    let mean = |of: &dyn Fn(&[Vector3<f64>; 2]) -> f64| {
+        stimuli.iter().map(of).sum::<f64>() / stimuli.len().max(1) as f64
+    };
+    let means = [mean(&of_force), mean(&of_rate)];
+    let moving = means.iter().filter(|mean| **mean > f64::EPSILON).count().max(1) as f64;
+    let part = |square: f64, mean: f64| if mean > f64::EPSILON { square / mean / moving } else { 0.0 };
+    stimuli.iter().map(|at| part(of_force(at), means[0]) + part(of_rate(at), means[1])).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::chain::{Joint, JointKind, JointLimits, KinematicChain};
+    use crate::estimate::MountingPrior;
+    use crate::reference::JointMotion;
+    use crate::spline::{Degree, UniformKnots, VectorSpline};
+    use calibrant_core::sensor::ImuParameters;
+    use calibrant_core::simulate::{Purpose, stream};
+    use nalgebra::{Isometry3, Unit};
+
+    const GRAVITY: f64 = 9.8;
+
+    fn joint(kind: JointKind, axis: Unit<Vector3<f64>>) -> Joint {
+        let limits = JointLimits::default();
+        Joint { name: "joint".into(), kind, axis, origin: Isometry3::identity(), limits }
+    }
+
+    /// Joints whose positions are these functions of time.
+    fn moved(joints: Vec<Joint>, at: &dyn Fn(f64) -> Vec<f64>) -> Motion {
+        let knots = UniformKnots::covering(0.0, 10.0, 0.1, Degree::Cubic);
+        let chain = KinematicChain {
+            base: "base".into(),
+            tip: "tip".into(),
+            joints,
+            tip_transform: Isometry3::identity(),
+        };
+        let controls = (0..knots.controls()).flat_map(|i| at(knots.centre_s(i))).collect();
+        let positions = VectorSpline { knots, dimension: chain.joints.len(), controls };
+        Motion::Joints(JointMotion { chain, positions })
+    }
+
+    fn setup() -> MachineSetup {
+        MachineSetup { gravity_mps2: GRAVITY, mounting: MountingPrior::Exact, ..MachineSetup::default() }
+    }
+
+    fn of(sensor: SensorKind, noise: f64, vibration: f64) -> SensorErrors {
+        SensorErrors { sensor, unit: sensor.stimulus_unit(), noise: Vector3::repeat(noise), vibration }
+    }
+
+    fn record(motion: &Motion, truth: &MachineParameters, sensors: &[SensorErrors]) -> ImuRecording {
+        let sampling = SensorSampling { start_s: 1.0, samples: 4000, rate_hz: 500.0 };
+        record_sensors(motion, truth, &setup(), &sampling, sensors, &mut stream(1, Purpose::Sensor, 0))
+    }
+
+    fn gantry() -> Vec<Joint> {
+        let axes = [Vector3::x_axis(), Vector3::y_axis(), Vector3::z_axis()];
+        axes.map(|axis| joint(JointKind::Prismatic, axis)).to_vec()
+    }
+
+    /// A parabola `½ a t²` is a spline whose control points lie on a parabola.
+    #[test]
+    fn a_gantry_reads_its_acceleration_and_gravity() {
+        let acceleration = Vector3::new(0.5, -0.3, 0.2);
+        let motion = moved(gantry(), &|t| acceleration.iter().map(|a| 0.5 * a * t * t).collect());
+        let mut imu = ImuParameters::identity();
+        imu.accelerometer.bias = Vector3::new(0.1, 0.2, 0.3);
+        imu.accelerometer.matrix[(0, 2)] = 0.01;
+        let truth = MachineParameters::nominal(&setup(), imu, 3);
+        let force = acceleration + Vector3::z() * GRAVITY;
+        let expected = force + Vector3::new(0.1 + 0.01 * force.z, 0.2, 0.3);
+        let recording = record(&motion, &truth, &[of(SensorKind::Accelerometer, 0.0, 0.0)]);
+        assert!(recording.gyroscope.is_none());
+        for reading in recording.accelerometer.expect("there").readings {
+            assert!((reading - expected).norm() < 1e-9, "{reading}");
+        }
+    }
+
+    /// At `ω t`, a sensor at `r` feels `r ω²` towards the axis. One that is mounted askew feels it along other axes.
+    #[test]
+    fn a_rate_table_reads_its_rate_and_the_centripetal_force() {
+        let (rate, radius) = (3.0, 0.12);
+        let motion = moved(vec![joint(JointKind::Continuous, Vector3::z_axis())], &|t| vec![rate * t]);
+        let mut truth = MachineParameters::nominal(&setup(), ImuParameters::identity(), 1);
+        truth.mount.lever_m = Vector3::new(0.0, radius, 0.05);
+        // x of the sensor is up: -z, y, x of the plate are its axes
+        truth.mount.tip_from_sensor =
+            nalgebra::UnitQuaternion::from_axis_angle(&Vector3::y_axis(), -std::f64::consts::FRAC_PI_2);
+        truth.imu.gyroscope.bias = Vector3::new(0.01, 0.0, -0.02);
+        truth.imu.g_sensitivity[(2, 0)] = 1e-3;
+        let kinds = SensorKind::ALL.map(|sensor| of(sensor, 0.0, 0.0));
+        let recording = record(&motion, &truth, &kinds);
+        let force = Vector3::new(GRAVITY, -radius * rate * rate, 0.0);
+        for reading in recording.accelerometer.expect("there").readings {
+            assert!((reading - force).norm() < 1e-9, "{reading}");
+        }
+        for reading in recording.gyroscope.expect("there").readings {
+            let expected = Vector3::new(rate + 0.01, 0.0, -0.02 + 1e-3 * GRAVITY);
+            assert!((reading - expected).norm() < 1e-9, "{reading}");
+        }
+    }
+
+    /// The acceleration `a t` of a joint shows the time of a sample.
+    #[test]
+    fn a_sample_shows_the_motion_at_its_own_time() {
+        let motion = moved(gantry(), &|t| vec![t * t * t / 6.0 - 0.01 * t / 6.0, 0.0, 0.0]);
+        let mut truth = MachineParameters::nominal(&setup(), ImuParameters::identity(), 3);
+        truth.delays_s = [0.25, 0.0];
+        truth.clock_rate = 0.01;
+        let recording = record(&motion, &truth, &[of(SensorKind::Accelerometer, 0.0, 0.0)]);
+        let recording = recording.accelerometer.expect("there");
+        let last = recording.len() - 1;
+        let middle = 0.5 * (recording.times_s[0] + recording.times_s[last]);
+        for k in [0, 100, last] {
+            let t = recording.times_s[k];
+            let expected = t + 0.25 + 0.01 * (t - middle);
+            assert!((recording.readings[k].x - expected).abs() < 1e-9, "{k}");
+        }
+    }
+
+    #[test]
+    fn noise_is_as_stated_and_grows_where_it_moves() {
+        // at rest until 5 s
+        let motion = moved(gantry(), &|t| vec![if t < 5.0 { 0.0 } else { (3.0 * t).sin() }, 0.0, 0.0]);
+        let truth = MachineParameters::nominal(&setup(), ImuParameters::identity(), 3);
+        let clean = record(&motion, &truth, &[of(SensorKind::Accelerometer, 0.0, 0.0)]);
+        let noisy = record(&motion, &truth, &[of(SensorKind::Accelerometer, 0.01, 2.0)]);
+        let [clean, noisy] = [clean, noisy].map(|recording| recording.accelerometer.expect("there").readings);
+        let errors: Vec<Vector3<f64>> = noisy.iter().zip(&clean).map(|(a, b)| a - b).collect();
+        let sd = |errors: &[Vector3<f64>]| {
+            (errors.iter().map(Vector3::norm_squared).sum::<f64>() / (3 * errors.len()) as f64).sqrt()
+        };
+        let [rest, all] = [sd(&errors[..1500]), sd(&errors)];
+        assert!((rest / 0.01 - 1.0).abs() < 0.05, "{rest}");
+        assert!((all / 0.01 - 5.0_f64.sqrt()).abs() < 0.1, "{all}");
+    }
+}
