@@ -10,7 +10,7 @@ use calibrant::io::{ImuReadOptions, ReferenceLogOptions, Urdf, read_imu_recordin
 use calibrant::machine::chain::KinematicChain;
 use calibrant::machine::estimate::{
     MachineCalibration, MachineProblem, MachineQuantity, MachineSettings, MachineSetup, MachineTrust,
-    MountingPrior, calibrate_on_machine,
+    MountingPrior, calibrate_on_machine, cross_validate_on_machine,
 };
 use calibrant::machine::log::ReferenceLog;
 use calibrant::sensor::{
@@ -87,6 +87,12 @@ fn calibrated(
         quantities: &quantities,
     };
     let calibration = calibrate_on_machine(&problem, &MachineSettings::default())?;
+    if let Some(folds) = std::env::var("FOLDS").ok().and_then(|folds| folds.parse().ok()) {
+        for of in cross_validate_on_machine(&problem, &calibration, folds)?.shifts {
+            let (low, high) = of.factor_interval;
+            println!("folds: {} {:.2} ({low:.2} to {high:.2}) {}", of.sensor, of.factor, of.verdict.name());
+        }
+    }
     if std::env::var("SHOW").is_ok() {
         println!("{:?} {} {:?}", calibration.status, calibration.iterations, calibration.motion.knots());
         for of in &calibration.noise {

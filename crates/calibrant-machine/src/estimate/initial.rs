@@ -67,12 +67,17 @@ impl<'a> Initial<'a> {
                 Some(Stream { sensor, recording, sd, growth: Vec::new() })
             })
             .collect();
-        let middle_s = 0.5 * (main.times_s[0] + main.times_s[main.len() - 1]);
+        let middle_s = middle_s(main);
         let sd = setup.reference_noise.clone().unwrap_or(sd).iter().map(|sd| sd.max(1e-12)).collect();
         let log = WeighedLog { log: problem.log, sd, growth: Vec::new() };
         let model = Model { streams, log, layout, gravity, trust: setup.trust, middle_s, covered };
         Ok(Self { model, state: State { motion, parameters }, outliers })
     }
+}
+
+/// Middle of a recording, s.
+pub(super) fn middle_s(recording: &Recording) -> f64 {
+    0.5 * (recording.times_s[0] + recording.times_s[recording.len() - 1])
 }
 
 pub(super) fn refused(message: impl Into<String>, help: &str) -> Error {

@@ -26,6 +26,23 @@ pub(super) struct Growths {
     pub(super) log: Option<f64>,
 }
 
+impl Growths {
+    /// Lets the noise of the samples grow with the activity at their times.
+    pub(super) fn apply(&self, model: &mut Model<'_>, state: &State, activity: &Activity) {
+        let grown = |factor: f64, time_s: f64| (1.0 + factor * activity.at(time_s)).sqrt();
+        for (s, factor) in self.streams.iter().enumerate() {
+            let Some(factor) = *factor else { continue };
+            let samples = 0..model.streams[s].recording.len();
+            model.streams[s].growth =
+                samples.map(|k| grown(factor, model.motion_time(s, k, state))).collect();
+        }
+        if let Some(factor) = self.log {
+            let times = model.log.log.times_s();
+            model.log.growth = times.iter().map(|time_s| grown(factor, *time_s)).collect();
+        }
+    }
+}
+
 /// Steps and noise in turn, until both stay. Then noise that grows with motion is looked for, once.
 pub(super) fn noise_search(
     model: &mut Model<'_>,
@@ -88,7 +105,6 @@ fn find_growth(
     growths: &mut Growths,
 ) -> bool {
     let activity = Activity::along(model, state);
-    let grown = |factor: f64, time_s: f64| (1.0 + factor * activity.at(time_s)).sqrt();
     let mut found = false;
     for s in 0..model.streams.len() {
         if problem.setup.noise_of(model.streams[s].sensor).is_some() {
@@ -101,9 +117,6 @@ fn find_growth(
             (whitened < OUTLYING).then(|| (activity.at(of.time_s), whitened))
         };
         if let Some(factor) = growth(&mut residuals.into_iter().filter_map(square).collect::<Vec<_>>()) {
-            let samples = 0..model.streams[s].recording.len();
-            model.streams[s].growth =
-                samples.map(|k| grown(factor, model.motion_time(s, k, state))).collect();
             growths.streams[s] = Some(factor);
             found = true;
         }
@@ -118,10 +131,10 @@ fn find_growth(
             }
         });
         if let Some(factor) = growth(&mut pairs) {
-            model.log.growth = times.iter().map(|time_s| grown(factor, *time_s)).collect();
             growths.log = Some(factor);
             found = true;
         }
     }
+    growths.apply(model, state, &activity);
     found
 }

@@ -37,8 +37,9 @@ impl CovarianceVerdict {
         }
     }
 
-    /// What a factor and its interval say.
-    pub(super) fn of(factor: f64, interval: (f64, f64)) -> Self {
+    /// What a factor of errors over prediction and its 99 % interval say.
+    #[must_use]
+    pub fn of(factor: f64, interval: (f64, f64)) -> Self {
         if interval.0 > 1.0 && factor > CLOSE {
             Self::TooSmall
         } else if interval.1 < 1.0 && factor < 1.0 / CLOSE {

@@ -1,0 +1,146 @@
+//! Validation by blocks of time: the calibration without each block in turn.
+//!
+//! `θ` is from all data, `θ₋` from all but a block. `θ` uses its data best, so the covariance of the difference is that of the covariances (`hausman1978`):
+//!
+//! ```text
+//! Cov(θ₋ − θ) = Σ₋ − Σ
+//! ```
+//!
+//! The log stays whole; the sensor's samples are left out. Knots and noise are those of the calibration.
+
+use super::activity::Activity;
+use super::covered::covered;
+use super::gauss_newton::minimise;
+use super::initial::{middle_s, refused};
+use super::layout::Layout;
+use super::log_equations::WeighedLog;
+use super::model::{Model, State};
+use super::noise_search::Growths;
+use super::parameters::TiltedGravity;
+use super::scaled::Scaled;
+use super::shift::{Movement, judged, unwidened, widened};
+use super::stream::Stream;
+use super::unsolved::unsolved;
+use super::validation::{FailedBlock, MachineValidation, MachineValidationSource};
+use super::{MachineCalibration, MachineProblem, MachineSettings, undetermined};
+use calibrant_core::error::{Error, InputError, Refusal, Result};
+use calibrant_core::sensor::{ImuRecording, Recording, SensorKind};
+use nalgebra::DVector;
+
+/// Shortest block, s.
+const SHORTEST_S: f64 = 1.0;
+
+/// Leaves out each of `folds` blocks of time in turn, and compares how far the parameters move with what the covariance predicts.
+///
+/// # Errors
+/// - [`Error::Experiment`](calibrant_core::Error::Experiment): fewer than two blocks, or blocks shorter than 1 s.
+/// - [`Error::Recording`](calibrant_core::Error::Recording): no block can be left out.
+pub fn cross_validate_on_machine(
+    problem: &MachineProblem<'_>,
+    calibration: &MachineCalibration,
+    folds: usize,
+) -> Result<MachineValidation> {
+    let sensors: Vec<SensorKind> = calibration.noise.iter().map(|of| of.sensor).collect();
+    let Some(main) = sensors.last().and_then(|kind| problem.recording.sensor(*kind)) else {
+        return Err(refused("the recording has no sensor", "record an accelerometer or a gyroscope"));
+    };
+    let (first, last) = (main.times_s[0], main.times_s[main.len() - 1]);
+    let length_s = (last - first) / folds.max(1) as f64;
+    if folds < 2 || length_s < SHORTEST_S {
+        let message = format!("{folds} folds cannot be made of a recording of {:.1} s", last - first);
+        let help = format!("choose between 2 and {}: a block has {SHORTEST_S} s at least", (last - first) as usize);
+        return Err(Error::experiment(InputError::new(Refusal::ValidationImpossible, message, help)));
+    }
+    let (mut movements, mut failed) = (Vec::new(), Vec::new());
+    for fold in 0..folds {
+        let start_s = first + length_s * fold as f64;
+        let end_s = if fold + 1 == folds { f64::INFINITY } else { start_s + length_s };
+        match without(problem, calibration, (start_s, end_s)) {
+            Ok(movement) => movements.push(movement),
+            Err(error) => {
+                failed.push(FailedBlock { start_s, end_s: end_s.min(last), reason: error.to_string() });
+            }
+        }
+    }
+    if movements.len() < 2 {
+        let reason = failed.first().map_or_else(String::new, |block| format!(": {}", block.reason));
+        return Err(refused(
+            format!("{} of {folds} blocks can be left out{reason}", movements.len()),
+            "record longer, or with more motion in every part",
+        ));
+    }
+    let shifts = sensors.iter().filter_map(|sensor| judged(calibration, *sensor, &movements)).collect();
+    Ok(MachineValidation { source: MachineValidationSource::Blocks { folds, length_s, failed }, shifts })
+}
+
+/// How the quantities move without the samples from `start_s` to `end_s`.
+fn without(
+    problem: &MachineProblem<'_>,
+    calibration: &MachineCalibration,
+    (start_s, end_s): (f64, f64),
+) -> Result<Movement> {
+    let kept = |kind: SensorKind| -> Option<Recording> {
+        let whole = problem.recording.sensor(kind)?;
+        let keep = |k: &usize| !(start_s..end_s).contains(&whole.times_s[*k]);
+        let places: Vec<usize> = (0..whole.len()).filter(keep).collect();
+        Some(Recording {
+            times_s: places.iter().map(|k| whole.times_s[*k]).collect(),
+            readings: places.iter().map(|k| whole.readings[*k]).collect(),
+            ..*whole
+        })
+    };
+    let recording = ImuRecording {
+        accelerometer: kept(SensorKind::Accelerometer),
+        gyroscope: kept(SensorKind::Gyroscope),
+        temperature_c: None,
+    };
+    let state = State { motion: calibration.motion.clone(), parameters: calibration.parameters.clone() };
+    let model = model(problem, calibration, &recording, &state);
+    undetermined::check(&model, &state)?;
+    let MachineSettings { max_iterations, tolerance, .. } = MachineSettings::default();
+    let minimum = minimise(&model, state, max_iterations, tolerance).ok_or_else(unsolved)?;
+    let covariance = Scaled::new(&minimum.solved.information).ok_or_else(unsolved)?.inverse();
+    let parameters = &minimum.state.parameters;
+    let shift = (calibration.quantities.iter().zip(&calibration.values))
+        .map(|(quantity, value)| parameters.value(*quantity, &calibration.nominal) - value);
+    Ok(Movement {
+        shift: DVector::from_iterator(calibration.values.len(), shift),
+        covariance: widened(calibration, &(covariance - unwidened(calibration))),
+        without_s: Some(start_s),
+    })
+}
+
+/// The problem with another part of the recording, weighed as in the calibration.
+fn model<'a>(
+    problem: &MachineProblem<'a>,
+    calibration: &MachineCalibration,
+    recording: &'a ImuRecording,
+    state: &State,
+) -> Model<'a> {
+    let stream = |of: &super::SensorResidual| {
+        let recording = recording.sensor(of.sensor)?;
+        Some(Stream { sensor: of.sensor, recording, sd: of.noise, growth: Vec::new() })
+    };
+    let sensors: Vec<SensorKind> = calibration.noise.iter().map(|of| of.sensor).collect();
+    let whole = sensors.last().and_then(|kind| problem.recording.sensor(*kind));
+    let mut model = Model {
+        streams: calibration.noise.iter().filter_map(stream).collect(),
+        log: WeighedLog {
+            log: problem.log,
+            sd: calibration.reference_noise.iter().map(|of| of.sd).collect(),
+            growth: Vec::new(),
+        },
+        layout: Layout::new(problem.setup, &sensors, problem.quantities, calibration.nominal.clone()),
+        gravity: TiltedGravity::new(&problem.setup.up),
+        trust: problem.setup.trust,
+        middle_s: whole.map_or(0.0, middle_s),
+        covered: covered(problem.log, &state.motion.knots()),
+    };
+    let growths = Growths {
+        streams: calibration.noise.iter().map(|of| of.growth).collect(),
+        log: calibration.reference_noise.first().and_then(|of| of.growth),
+    };
+    let activity = Activity::along(&model, state);
+    growths.apply(&mut model, state, &activity);
+    model
+}
