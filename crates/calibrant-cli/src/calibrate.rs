@@ -17,7 +17,8 @@ use job::Job;
 impl crate::run::Run for Arguments {
     fn places(&self) -> ResultPlaces {
         let others =
-            [&self.motion, &self.sections, &self.validate, &self.validate_gyroscope].into_iter().flatten();
+            [&self.motion, &self.sections, &self.validate, &self.validate_gyroscope, &self.validate_motion];
+        let others = others.into_iter().flatten();
         let inputs = self.recordings.iter().chain(&self.gyroscope).chain([&self.experiment]).chain(others);
         let folders = match self.recordings.as_slice() {
             [_] => vec![String::new()],

@@ -43,6 +43,7 @@ mod json;
 mod machine;
 mod machine_calibration;
 mod machine_truth;
+mod machine_validation;
 mod motion;
 mod noise;
 mod recording;

@@ -4,12 +4,14 @@ use super::convention::{Heading, ImuCore};
 use super::diagnostics::{DiagnosticFields, DiagnosticWords};
 use super::input::Input;
 use super::json;
+use super::machine_validation::{ValidationFields, validation_fields};
 use super::shared_fields::{FitFields, matrix_rows};
 use calibrant_core::error::Result;
 use calibrant_core::sensor::{ReadingUnit, SensorKind};
 use calibrant_machine::chain::KinematicChain;
 use calibrant_machine::estimate::{
-    MachineCalibration, MachineQuantity, MachineSetup, MachineTrust, ReferenceNoise, SensorResidual, Source,
+    MachineCalibration, MachineQuantity, MachineSetup, MachineTrust, MachineValidation, ReferenceNoise,
+    SensorResidual, Source,
 };
 use calibrant_machine::reference::Motion;
 use nalgebra::DMatrix;
@@ -25,6 +27,8 @@ pub struct MachineResult<'a> {
     pub setup: &'a MachineSetup,
     /// The log of the machine's motion.
     pub log: &'a MachineLogInput,
+    /// How it fares with other data.
+    pub validations: &'a [MachineValidation],
 }
 
 /// The file of a log of a machine's motion.
@@ -105,6 +109,8 @@ struct CalibrationFile<'a> {
     correlation: Vec<Vec<f64>>,
     fit: FitFields,
     machine: MachineFields<'a>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    validation: Option<ValidationFields>,
     warnings: Vec<DiagnosticFields>,
 }
 
@@ -121,6 +127,7 @@ impl<'a> CalibrationFile<'a> {
             correlation: imu.covariance.as_ref().map_or(Vec::new(), |sigma| matrix_rows(&correlation(sigma))),
             fit: FitFields::of(&calibration.fit, ReadingUnit::MetrePerSecondSquared, 3),
             machine: MachineFields::of(result),
+            validation: validation_fields(result.validations, &calibration.joints),
             warnings: DiagnosticFields::all(&calibration.warnings, words),
         }
     }
@@ -201,7 +208,7 @@ struct BudgetFields {
 
 impl<'a> MachineFields<'a> {
     fn of(result: &MachineResult<'a>) -> Self {
-        let MachineResult { calibration, setup, log } = *result;
+        let MachineResult { calibration, setup, log, .. } = *result;
         let (chain, sensors) = (result.chain(), calibration.noise.len());
         let (knots, mount) = (calibration.motion.knots(), &calibration.parameters.mount);
         let imu = |quantity: &MachineQuantity| matches!(quantity, MachineQuantity::Imu(_));

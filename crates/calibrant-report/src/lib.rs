@@ -28,7 +28,10 @@ pub use calibration::{
 };
 pub use design::design_report;
 pub use evaluation::evaluation_report;
-pub use machine::{machine_report, machine_unit, mounting_in_words};
+pub use machine::{
+    machine_report, machine_unit, machine_validation_heading, machine_validation_rows,
+    machine_validation_sentences, mounting_in_words,
+};
 pub use noise::{coefficient_name, noise_report};
 pub use report_context::About;
 pub use study::study_report;

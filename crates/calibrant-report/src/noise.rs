@@ -5,7 +5,7 @@ use super::figure::allan_figure;
 use super::html::{Page, escape, facts, verdict_box};
 use super::number_format;
 use super::table::{Cell, Table};
-use crate::words::message;
+use crate::words::{capitalised, message};
 use calibrant_core::noise::{AxisNoise, Coefficient, PowerLaw, SensorNoise, coefficient_units};
 use rayon::prelude::*;
 
@@ -114,11 +114,6 @@ fn coefficient_in_words(noise: &SensorNoise, axis: &AxisNoise, process: PowerLaw
             ("not determined".to_string(), format!("{limit}{}.", capitalised(reason)))
         }
     }
-}
-
-fn capitalised(text: &str) -> String {
-    let mut letters = text.chars();
-    letters.next().map_or_else(String::new, |first| format!("{}{}", first.to_uppercase(), letters.as_str()))
 }
 
 /// The white noise of one sample beside the scatter of the samples.

@@ -15,6 +15,12 @@ pub use spikes::spikes_taken_out;
 
 use calibrant_core::diagnostic::Diagnostic;
 
+/// The text with a capital letter first.
+pub(crate) fn capitalised(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}
+
 /// A diagnostic in words, for the user: what was found, and what to do.
 ///
 /// It starts with a small letter, since `warning:` or the name of a file stands before it.

@@ -55,7 +55,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     for (k, quantity) in ours.quantities.iter().enumerate() {
         let place = place(*quantity, chain.joints.len());
         let sd = number(&covariance[place][place])?.sqrt();
-        let our_sd = ours.covariance[(k, k)].sqrt() / ours.inflation[k];
+        let our_sd = ours.linear_covariance[(k, k)].sqrt();
         largest = largest.max((ours.values[k] - parameters[place]).abs() / sd);
         largest_sd = largest_sd.max((our_sd / sd - 1.0).abs());
     }

@@ -26,16 +26,20 @@ pub(crate) struct Arguments {
     /// Sections of a Ferraris session, faces and turns: JSON, as imucal writes it.
     #[arg(long, value_name = "JSON")]
     pub(super) sections: Option<PathBuf>,
-    /// Another recording of the sensor, to validate the covariance. The command compares the errors on its holds and rotations with the predicted errors.
+    /// Another recording of the sensor, to validate the covariance. The command compares the errors on its holds and rotations with the predicted errors;
+    /// on a machine, the parameters that it gives.
     #[arg(long, value_name = "FILE")]
     pub(super) validate: Option<PathBuf>,
     /// The gyroscope's file of that recording, if there is one.
     #[arg(long, value_name = "FILE", requires = "validate")]
     pub(super) validate_gyroscope: Option<PathBuf>,
+    /// The log of the machine's motion in that recording, if it is not in the same file.
+    #[arg(long, value_name = "FILE", requires = "validate")]
+    pub(super) validate_motion: Option<PathBuf>,
     /// The recordings are of one accelerometer: fit their holds together. The result is one calibration.
     #[arg(long)]
     pub(super) together: bool,
-    /// Validate without another recording: each of K blocks of holds is predicted from the others.
+    /// Validate without another recording: each of K blocks of holds is predicted from the others. On a machine, each of K blocks of time is left out.
     #[arg(long, value_name = "K")]
     pub(super) folds: Option<usize>,
     #[command(flatten)]

@@ -52,6 +52,7 @@ fn options(arguments: &Arguments) -> PipelineOptions {
             Unit::Counts => ReadingUnit::Counts,
         }),
         validate: arguments.validate.as_ref().map(other),
+        validate_motion: arguments.validate_motion.clone(),
         folds: arguments.folds,
         allowed: arguments.rules.allowed().to_vec(),
         report: !arguments.no_report,

@@ -8,6 +8,9 @@ use calibrant::io::{Experiment, Plan};
 pub(super) fn warn(arguments: &Arguments, experiment: &Experiment) {
     let motion = arguments.motion.is_some();
     let on_machine = matches!(experiment.plan, Plan::Machine(_));
+    if !on_machine && arguments.validate_motion.is_some() {
+        console::warn("--validate-motion is not used: it is for a [machine] experiment");
+    }
     if on_machine && arguments.sections.is_some() {
         console::warn("--sections is not used: a [machine] experiment has no faces and turns");
     }

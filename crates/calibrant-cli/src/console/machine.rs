@@ -2,10 +2,13 @@
 
 use super::table::table;
 use calibrant::machine::estimate::{
-    MachineCalibration, MachineQuantity, ReferenceNoise, SensorResidual, Source,
+    MachineCalibration, MachineQuantity, MachineValidation, ReferenceNoise, SensorResidual, Source,
 };
 use calibrant::pipeline::MachineOutcome;
-use calibrant::report::{machine_unit, mounting_in_words, number_format};
+use calibrant::report::{
+    machine_unit, machine_validation_heading, machine_validation_rows, machine_validation_sentences,
+    mounting_in_words, number_format,
+};
 use calibrant::sensor::SensorKind;
 use nalgebra::Vector3;
 
@@ -30,6 +33,19 @@ pub(crate) fn on_machine(outcome: &MachineOutcome) -> String {
     let noise = calibration.noise.iter().map(sensor_noise(calibration));
     let lines = noise.chain(log_noise(&calibration.reference_noise)).chain([knots(calibration)]);
     lines.for_each(|line| text.push_str(&format!("  {line}\n")));
+    outcome.validations.iter().for_each(|of| text.push_str(&validation(of, calibration)));
+    text
+}
+
+/// A table and a verdict for each sensor.
+fn validation(validation: &MachineValidation, calibration: &MachineCalibration) -> String {
+    let (header, rows) = machine_validation_rows(validation, calibration);
+    let rows: Vec<Vec<String>> = rows.into_iter().map(Vec::from).collect();
+    let heading = machine_validation_heading(validation);
+    let mut text = format!("\n  Validation: {heading}\n\n{}", table(&header, &rows));
+    for sentence in machine_validation_sentences(validation) {
+        text.push_str(&format!("  {sentence}\n"));
+    }
     text
 }
 

@@ -7,6 +7,7 @@ use super::noise_search::Growths;
 use super::pass::Pass;
 use super::posterior::Posterior;
 use super::sandwich::inflation;
+use super::second_order::of_mounting;
 use super::stream::white_noise;
 use super::{MachineCalibration, MachineProblem, MachineTrust, ReferenceNoise, SensorResidual};
 use crate::chain::JointKind;
@@ -27,8 +28,10 @@ pub(super) fn assembled(
     let (state, layout) = (&minimum.state, &model.layout);
     let inflation = inflation(&layout.quantities, &posterior.covariance, &minimum.scores);
     let n = layout.len();
-    let covariance =
-        DMatrix::from_fn(n, n, |i, j| posterior.covariance[(i, j)] * inflation[i] * inflation[j]);
+    let second = of_mounting(layout, &state.parameters, &posterior.covariance);
+    let covariance = DMatrix::from_fn(n, n, |i, j| {
+        posterior.covariance[(i, j)] * inflation[i] * inflation[j] + second[(i, j)]
+    });
     let noise: Vec<SensorResidual> = (0..model.streams.len())
         .map(|s| {
             let stream = &model.streams[s];
@@ -54,8 +57,9 @@ pub(super) fn assembled(
         joints: model.joint_names(),
         quantities: layout.quantities.clone(),
         values: layout.quantities.iter().map(|of| state.parameters.value(*of, &layout.nominal)).collect(),
-        budget: budget(layout, posterior, &covariance, model.trust),
+        budget: budget(layout, posterior, &covariance, &second, model.trust),
         covariance,
+        linear_covariance: posterior.covariance.clone(),
         inflation,
         parameters: state.parameters.clone(),
         nominal: layout.nominal.clone(),

@@ -8,11 +8,12 @@ use super::posterior::Posterior;
 use super::{BudgetRow, MachineQuantity, MachineTrust, Source};
 use nalgebra::DMatrix;
 
-/// The budget of the sensor's parameters. `covariance` is the stated one: parts are scaled to it.
+/// The budget of the sensor's parameters. `covariance` is the stated one: parts are scaled to it. `second` is its part of second order in the mounting.
 pub(super) fn budget(
     layout: &Layout,
     posterior: &Posterior,
     covariance: &DMatrix<f64>,
+    second: &DMatrix<f64>,
     trust: MachineTrust,
 ) -> Vec<BudgetRow> {
     let sigma = &posterior.covariance;
@@ -35,7 +36,7 @@ pub(super) fn budget(
         })
         .map(|(i, quantity)| {
             let model_variance = sigma[(i, i)];
-            let scale = covariance[(i, i)] / model_variance;
+            let scale = (covariance[(i, i)] - second[(i, i)]) / model_variance;
             let mut parts = [0.0; Source::ALL.len()];
             for (part, source) in parts.iter_mut().zip(Source::ALL) {
                 *part = match source {
@@ -49,8 +50,11 @@ pub(super) fn budget(
                 MachineTrust::Noisy => Source::ReferenceNoise,
                 MachineTrust::Known => Source::SensorNoise,
             };
-            parts[Source::ALL.iter().position(|source| *source == place).unwrap_or(0)] += rest;
-            BudgetRow { quantity, variance: covariance[(i, i)], parts: parts.map(|part| part * scale) }
+            let at = |wanted: Source| Source::ALL.iter().position(|source| *source == wanted).unwrap_or(0);
+            parts[at(place)] += rest;
+            let mut parts = parts.map(|part| part * scale);
+            parts[at(Source::Mounting)] += second[(i, i)];
+            BudgetRow { quantity, variance: covariance[(i, i)], parts }
         })
         .collect()
 }

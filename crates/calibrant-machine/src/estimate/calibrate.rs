@@ -57,6 +57,6 @@ pub fn calibrate_on_machine(
     let posterior =
         Posterior::at(&model, &minimum, Pass::all(model.trust), INTERVALS).ok_or_else(unsolved)?;
     let mut calibration = assembled(problem, &model, &minimum, &posterior, &growths, outliers);
-    calibration.warnings = checks::all(&model.layout, &calibration);
+    calibration.warnings = checks::all(problem.setup, &model.layout, &calibration);
     Ok(calibration)
 }

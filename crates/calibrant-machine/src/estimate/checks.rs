@@ -1,7 +1,7 @@
 //! What a user should know of a result on a machine.
 
 use super::layout::Layout;
-use super::{MachineCalibration, MachineTrust};
+use super::{MachineCalibration, MachineSetup, MachineTrust};
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::estimate::CalibrationStatus;
 
@@ -15,14 +15,18 @@ const OUTLIERS: f64 = 1e-3;
 const USED: f64 = 0.95;
 
 /// All of it, the most important first.
-pub(super) fn all(layout: &Layout, calibration: &MachineCalibration) -> Vec<Diagnostic> {
+pub(super) fn all(
+    setup: &MachineSetup,
+    layout: &Layout,
+    calibration: &MachineCalibration,
+) -> Vec<Diagnostic> {
     let mut found = Vec::new();
     if calibration.status != CalibrationStatus::Converged {
         found.push(Diagnostic::NotConverged { status: calibration.status.name() });
     }
     found.extend(residuals(calibration));
     found.extend(correlated(calibration));
-    found.extend(contradicted(layout, calibration));
+    found.extend(contradicted(setup, layout, calibration));
     let (outliers, samples) = (calibration.reference_noise.iter())
         .fold((0, 0), |(outliers, samples), of| (outliers + of.outliers, samples + of.samples));
     if outliers as f64 > OUTLIERS * samples as f64 {
@@ -55,12 +59,13 @@ fn correlated(calibration: &MachineCalibration) -> Option<Diagnostic> {
 }
 
 /// Quantities that the data move far from what was expected.
-fn contradicted(layout: &Layout, calibration: &MachineCalibration) -> Vec<Diagnostic> {
+fn contradicted(setup: &MachineSetup, layout: &Layout, calibration: &MachineCalibration) -> Vec<Diagnostic> {
     let names = calibration.names();
     let deviation = layout.deviation(&calibration.parameters);
     (0..layout.len())
         .filter_map(|k| {
-            let deviations = deviation[k].abs() * layout.prior[(k, k)].sqrt();
+            let deviations =
+                deviation[k].abs() / setup.prior_sd(layout.quantities[k], calibration.noise.len());
             let parameter = names[k].clone();
             (deviations > CONTRADICTED).then_some(Diagnostic::PriorContradicted { parameter, deviations })
         })

@@ -11,16 +11,16 @@
 use super::activity::Activity;
 use super::covered::covered;
 use super::gauss_newton::minimise;
-use super::initial::{middle_s, refused};
+use super::initial::middle_s;
 use super::layout::Layout;
 use super::log_equations::WeighedLog;
 use super::model::{Model, State};
 use super::noise_search::Growths;
 use super::parameters::TiltedGravity;
 use super::scaled::Scaled;
-use super::shift::{Movement, judged, unwidened, widened};
+use super::shift::{Movement, judged, widened};
 use super::stream::Stream;
-use super::unsolved::unsolved;
+use super::unsolved::{refused, unsolved};
 use super::validation::{FailedBlock, MachineValidation, MachineValidationSource};
 use super::{MachineCalibration, MachineProblem, MachineSettings, undetermined};
 use calibrant_core::error::{Error, InputError, Refusal, Result};
@@ -48,7 +48,8 @@ pub fn cross_validate_on_machine(
     let length_s = (last - first) / folds.max(1) as f64;
     if folds < 2 || length_s < SHORTEST_S {
         let message = format!("{folds} folds cannot be made of a recording of {:.1} s", last - first);
-        let help = format!("choose between 2 and {}: a block has {SHORTEST_S} s at least", (last - first) as usize);
+        let help =
+            format!("choose between 2 and {}: a block has {SHORTEST_S} s at least", (last - first) as usize);
         return Err(Error::experiment(InputError::new(Refusal::ValidationImpossible, message, help)));
     }
     let (mut movements, mut failed) = (Vec::new(), Vec::new());
@@ -105,7 +106,7 @@ fn without(
         .map(|(quantity, value)| parameters.value(*quantity, &calibration.nominal) - value);
     Ok(Movement {
         shift: DVector::from_iterator(calibration.values.len(), shift),
-        covariance: widened(calibration, &(covariance - unwidened(calibration))),
+        covariance: widened(calibration, &(covariance - &calibration.linear_covariance)),
         without_s: Some(start_s),
     })
 }

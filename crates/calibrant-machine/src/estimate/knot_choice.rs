@@ -4,9 +4,10 @@
 //! the frequency. The sensor tells both: its residuals against the smoothed log are least at the best distance. Noisy trust, where the sensor determines the
 //! motion with the log, needs less smoothing: half that distance.
 
-use super::initial::{Initial, check_log, refused};
+use super::initial::{Initial, check_log};
 use super::reference_fit::fitted;
 use super::trusted::trusted;
+use super::unsolved::refused;
 use super::{MachineParameters, MachineProblem, MachineTrust};
 use crate::spline::{Degree, UniformKnots};
 use calibrant_core::error::{Error, Result};

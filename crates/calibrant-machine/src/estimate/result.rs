@@ -24,8 +24,11 @@ pub struct MachineCalibration {
     pub quantities: Vec<MachineQuantity>,
     /// Estimates, in their order. A mounting is a turn against the nominal one.
     pub values: Vec<f64>,
-    /// Covariance of the estimates. Correlated residuals are taken into account ([`inflation`](Self::inflation)).
+    /// Covariance of the estimates. Correlated residuals are taken into account ([`inflation`](Self::inflation)), and what a turn of the mounting
+    /// does to a matrix beyond first order.
     pub covariance: DMatrix<f64>,
+    /// The same for independent residuals, and without second-order effects of the mounting.
+    pub linear_covariance: DMatrix<f64>,
     /// The factor by which correlation in time widens the standard deviation of each estimate; 1 where residuals are independent.
     pub inflation: Vec<f64>,
     /// All parameters, those that were held included.

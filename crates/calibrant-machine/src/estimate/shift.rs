@@ -26,9 +26,7 @@ pub(super) fn judged(
     sensor: SensorKind,
     movements: &[Movement],
 ) -> Option<ParameterShift> {
-    let of_sensor = |place: &usize| {
-        matches!(calibration.quantities[*place], MachineQuantity::Imu(of) if of.sensor_kind() == sensor)
-    };
+    let of_sensor = |place: &usize| matches!(calibration.quantities[*place], MachineQuantity::Imu(of) if of.sensor_kind() == sensor);
     let places: Vec<usize> = (0..calibration.quantities.len()).filter(of_sensor).collect();
     let stated: Vec<f64> = places.iter().map(|place| calibration.covariance[(*place, *place)]).collect();
     let (mut chi2, mut told) = (0.0, 0);
@@ -62,8 +60,7 @@ pub(super) fn judged(
     let degrees = if blocks > 1 { told * (blocks - 1) / blocks } else { told };
     let distribution = ChiSquared::new(degrees as f64).ok()?;
     let factor = (chi2 / told as f64).sqrt();
-    let [high, low] =
-        TAILS.map(|tail| factor * (degrees as f64 / distribution.inverse_cdf(tail)).sqrt());
+    let [high, low] = TAILS.map(|tail| factor * (degrees as f64 / distribution.inverse_cdf(tail)).sqrt());
     Some(ParameterShift {
         sensor,
         chi2,
@@ -73,13 +70,6 @@ pub(super) fn judged(
         verdict: CovarianceVerdict::of(factor, (low, high)),
         largest: largest?,
     })
-}
-
-/// The covariance of the data alone: what correlation in time widens it by is taken out.
-pub(super) fn unwidened(calibration: &MachineCalibration) -> DMatrix<f64> {
-    let widened = &calibration.inflation;
-    let covariance = &calibration.covariance;
-    DMatrix::from_fn(widened.len(), widened.len(), |i, j| covariance[(i, j)] / (widened[i] * widened[j]))
 }
 
 /// A covariance, widened as that of the calibration.

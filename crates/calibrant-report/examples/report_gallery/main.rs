@@ -99,7 +99,7 @@ fn main() -> std::io::Result<()> {
     for (name, poses) in [("machine.html", false), ("machine_poses.html", true)] {
         let case = machines::machine_case(poses, 20.0, 1);
         let about = about("A sensor on a machine", "imu.csv", 3980);
-        write(name, machine_report(&case.calibration, &case.setup, &case.recording, &about))?;
+        write(name, machine_report(&case.calibration, &case.setup, &[], &case.recording, &about))?;
     }
 
     let case = fakes::motion_case(3, 20, 10_000.0, 9);

@@ -19,3 +19,4 @@ pub(super) use parameters::parameter_table;
 pub(super) use quality::noise_explains;
 pub use quality::{calibration_quality, nuisances_in_words, used_in_words};
 pub use temperature::temperature_in_words;
+pub(super) use verdict::calibration_verdict;

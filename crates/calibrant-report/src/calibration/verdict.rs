@@ -1,8 +1,9 @@
 //! The verdict on a calibration: can it be used?
 
 use super::quality::{calibration_quality, used_in_words};
-use crate::words::message;
+use crate::words::{capitalised, message};
 use crate::{About, html, number_format};
+use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::estimate::{Calibration, CalibrationStatus};
 use calibrant_core::sensor::{Axis, ImuQuantity, Invariant, Quantity, SensorKind};
 
@@ -16,22 +17,29 @@ const IMPROVED: f64 = 0.8;
 
 /// The verdict with its warnings, as one prominent box.
 pub(super) fn verdict(calibration: &Calibration, about: &About) -> String {
-    let remarks: Vec<String> = calibration
-        .warnings
-        .iter()
-        .map(message)
-        .chain(not_improved(calibration))
+    let remarks = (not_improved(calibration).into_iter())
         .chain(hardly_determined(calibration))
         .chain(mostly_prior(calibration))
-        .chain(unchecked(calibration))
-        .collect();
-    let (class, word) = match (calibration.status, remarks.is_empty()) {
+        .chain(unchecked(calibration));
+    calibration_verdict(calibration.status, &calibration.warnings, remarks, &sentence(calibration), about)
+}
+
+/// The verdict of a status, the warnings, and further remarks; with a sentence on what was calibrated.
+pub(crate) fn calibration_verdict(
+    status: CalibrationStatus,
+    warnings: &[Diagnostic],
+    remarks: impl IntoIterator<Item = String>,
+    sentence: &str,
+    about: &About,
+) -> String {
+    let remarks: Vec<String> = warnings.iter().map(message).chain(remarks).collect();
+    let (class, word) = match (status, remarks.is_empty()) {
         (CalibrationStatus::Converged, true) => ("good", "✓ Usable."),
         (CalibrationStatus::Converged, false) => ("caution", "! Usable; read the warnings first."),
         _ => ("bad", "✗ Do not use: the estimation did not converge."),
     };
     let lists = [("Warnings", remarks), ("About the recording", about.findings.clone())];
-    html::verdict_box(class, word, &sentence(calibration), &lists)
+    html::verdict_box(class, word, sentence, &lists)
 }
 
 fn sentence(calibration: &Calibration) -> String {
@@ -44,11 +52,6 @@ fn sentence(calibration: &Calibration) -> String {
         quality => capitalised(&quality) + ". ",
     };
     format!("{sensors} from {}. {quality}{}.", used_in_words(calibration), gains(calibration))
-}
-
-fn capitalised(sentence: &str) -> String {
-    let mut letters = sentence.chars();
-    letters.next().map_or_else(String::new, |first| first.to_uppercase().to_string() + letters.as_str())
 }
 
 /// The relative standard deviation of each sensor's gains, on the worst axis.

@@ -2,6 +2,7 @@
 
 use crate::number_format;
 use crate::table::{Cell, Table};
+use crate::words::capitalised;
 use calibrant_core::information::Criterion;
 use calibrant_core::sensor::Axis;
 use calibrant_design::{AT_BEST, DesignStatus, StartOutcome};
@@ -68,11 +69,6 @@ pub(crate) fn sentences(starts: &[StartOutcome], criterion: &Criterion) -> Vec<S
             )
         })
         .collect()
-}
-
-fn capitalised(text: &str) -> String {
-    let mut letters = text.chars();
-    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
 /// All starts, best first; folded where there are many.

@@ -5,6 +5,7 @@ use super::mounting::mounting_in_words;
 use super::noise::{reference_noise, sensor_noise};
 use super::parameters::{budget, is_widened, mount_table, sensor_table};
 use super::quantity::place;
+use super::validation::validation_section;
 use super::verdict::verdict;
 use crate::figure::{
     PLAYER_SCRIPT, Scene, correlation_map_of, drawn, player, residual_coherence, residual_densities,
@@ -14,7 +15,9 @@ use crate::html::{Page, escape, facts};
 use crate::table::Table;
 use crate::{About, number_format};
 use calibrant_core::sensor::{ImuRecording, SensorKind};
-use calibrant_machine::estimate::{MachineCalibration, MachineQuantity, MachineSetup, MachineTrust};
+use calibrant_machine::estimate::{
+    MachineCalibration, MachineQuantity, MachineSetup, MachineTrust, MachineValidation,
+};
 
 /// A calibration on a machine as one HTML file: verdict, parameters and mount, the budget of their variances, the machine in motion, residuals
 /// over time and by frequency, noise, geometry and correlations.
@@ -26,6 +29,7 @@ use calibrant_machine::estimate::{MachineCalibration, MachineQuantity, MachineSe
 pub fn machine_report(
     calibration: &MachineCalibration,
     setup: &MachineSetup,
+    validations: &[MachineValidation],
     recording: &ImuRecording,
     about: &About,
 ) -> String {
@@ -34,6 +38,7 @@ pub fn machine_report(
     let page = Page::of_parts([
         &|| opening(calibration, title, about),
         &|| parameters(calibration, setup),
+        &|| validation(calibration, validations),
         &|| machine(calibration, scene.as_ref()),
         &|| residuals(calibration, recording, scene.as_ref()),
         &|| noise(calibration),
@@ -75,6 +80,12 @@ fn parameters(calibration: &MachineCalibration, setup: &MachineSetup) -> Page {
     }
     page.section("Budget", "The variance of each parameter of the sensor, by its sources.");
     page.push(budget(calibration));
+    page
+}
+
+fn validation(calibration: &MachineCalibration, validations: &[MachineValidation]) -> Page {
+    let mut page = Page::default();
+    validation_section(&mut page, validations, calibration);
     page
 }
 

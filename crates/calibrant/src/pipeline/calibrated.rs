@@ -2,7 +2,7 @@
 
 use calibrant_core::estimate::Calibration;
 use calibrant_io::{MachineLogInput, MachineResult};
-use calibrant_machine::estimate::{MachineCalibration, MachineSetup};
+use calibrant_machine::estimate::{MachineCalibration, MachineSetup, MachineValidation};
 
 /// What was calibrated, and how.
 #[derive(Debug, Clone)]
@@ -22,13 +22,15 @@ pub struct MachineOutcome {
     pub setup: MachineSetup,
     /// The log of the motion.
     pub log: MachineLogInput,
+    /// How it fares with other data, where the options ask for it.
+    pub validations: Vec<MachineValidation>,
 }
 
 impl MachineOutcome {
     /// As files take it.
     #[must_use]
     pub fn result(&self) -> MachineResult<'_> {
-        let Self { calibration, setup, log } = self;
-        MachineResult { calibration, setup, log }
+        let Self { calibration, setup, log, validations } = self;
+        MachineResult { calibration, setup, log, validations }
     }
 }

@@ -2,24 +2,29 @@
 
 use super::calibrated::{Calibrated, MachineOutcome};
 use super::clean::take_out_outliers;
+use super::duplicates::refuse_duplicate;
 use super::machine_log::LogFile;
 use super::note::Note;
 use super::options::PipelineOptions;
 use super::outcome::Outcome;
 use super::reader::Reader;
+use super::recorded::Recorded;
 use super::report::about;
 use super::source::Source;
+use super::validation::unless_too_few;
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::sensor::{
     Axis, ImuParameters, ImuQuantity, ImuRecording, ParameterList, ReadingUnit, Sensor, SensorKind,
     SensorModel,
 };
-use calibrant_io::{Experiment, ImuPlan, MachinePlan, ReferenceLogOptions};
+use calibrant_io::{Experiment, ImuPlan, MachineLogInput, MachinePlan, ReferenceLogOptions, file_name};
 use calibrant_machine::chain::KinematicChain;
 use calibrant_machine::estimate::{
-    MachineCalibration, MachineProblem, MachineSettings, calibrate_on_machine,
+    MachineCalibration, MachineProblem, MachineSettings, MachineSetup, MachineValidation,
+    MachineValidationSource, calibrate_on_machine, compare_on_machine, cross_validate_on_machine,
 };
+use calibrant_machine::log::ReferenceLog;
 use nalgebra::{Matrix3, Vector3};
 
 /// What all recordings on a machine share.
@@ -32,6 +37,19 @@ pub(crate) struct MachineTask<'e> {
     log: Option<LogFile>,
     log_options: ReferenceLogOptions,
     reader: Reader<'e>,
+}
+
+/// A recording, and the log of the machine's motion on its clock.
+struct Moved {
+    recorded: Recorded,
+    outliers: Vec<Diagnostic>,
+    log: ReferenceLog,
+    log_input: MachineLogInput,
+}
+
+fn calibrated(problem: &MachineProblem<'_>, source: &Source) -> Result<MachineCalibration> {
+    calibrate_on_machine(problem, &MachineSettings::default())
+        .map_err(|error| error.in_recording(&source.recording))
 }
 
 /// Gains of readings in SI that are plausible.
@@ -59,11 +77,6 @@ impl<'e> MachineTask<'e> {
         options: &PipelineOptions,
         notes: &mut Vec<Note>,
     ) -> Result<Self> {
-        if options.validate.is_some() || options.folds.is_some() {
-            let message = "a calibration on a machine is not validated by this version";
-            let help = "leave --validate and --folds away";
-            return Err(Error::experiment(InputError::new(Refusal::OptionsContradict, message, help)));
-        }
         let log_options = ReferenceLogOptions { topic: plan.log_topic.clone(), ..Default::default() };
         let motion = options.motion.as_deref();
         Ok(Self {
@@ -84,40 +97,43 @@ impl<'e> MachineTask<'e> {
         options: &PipelineOptions,
         notes: &mut Vec<Note>,
     ) -> Result<Outcome> {
-        let mut recorded = self.reader.read(source)?;
-        notes.extend(Note::of_findings(&recorded.findings, source));
-        let outliers = take_out_outliers(&mut recorded.recording);
-        let beside;
-        let log = match &self.log {
-            Some(log) => log,
-            None => {
-                beside = LogFile::read_beside(&source.recording, &self.log_options, notes)?;
-                &beside
-            }
-        };
-        let chain = self.chain.as_ref();
-        let (log, log_input) = log.for_recording(chain, recorded.counted_from_ns, notes)?;
-        let setup =
-            self.plan.setup(self.accelerometer, self.imu, chain.map_or(0, |chain| chain.joints.len()));
-        let problem = MachineProblem {
-            recording: &recorded.recording,
-            log: &log,
-            chain,
-            setup: &setup,
-            nominal: &self.nominal()?,
-            quantities: &self.quantities(&recorded.recording),
-        };
-        let mut calibration = calibrate_on_machine(&problem, &MachineSettings::default())
-            .map_err(|error| error.in_recording(&source.recording))?;
-        calibration.warnings.splice(0..0, outliers);
+        let recorded = self.reader.read(source)?;
+        let setup = self.setup();
+        let moved = self.moved(source, recorded, self.log.as_ref(), notes)?;
+        let nominal = self.nominal()?;
+        let quantities = self.quantities(&moved.recorded.recording);
+        let problem = self.problem(&moved, &setup, &nominal, &quantities);
+        let mut calibration = calibrated(&problem, source)?;
+        calibration.warnings.splice(0..0, moved.outliers.iter().cloned());
         calibration.warnings.extend(implausible_gains(&calibration));
+        let mut validations = Vec::new();
+        if let Some(other) = &options.validate {
+            let read = self.reader.read_other(other)?;
+            for &sensor_kind in calibration.noise.iter().map(|of| &of.sensor) {
+                let [one, two] = [&moved.recorded, &read].map(|recorded| recorded.readings(sensor_kind));
+                refuse_duplicate(sensor_kind, &one, &two, other.file_of(sensor_kind))?;
+            }
+            let log = options.validate_motion.as_deref();
+            let log = log.map(|path| LogFile::read(path, &self.log_options, notes)).transpose()?;
+            let moved = self.moved(other, read, log.as_ref(), notes)?;
+            let second = calibrated(&self.problem(&moved, &setup, &nominal, &quantities), other)?;
+            let name = file_name(&other.recording);
+            let source = MachineValidationSource::Recording { name };
+            validations
+                .push(MachineValidation { source, ..compare_on_machine(&calibration, &second, &setup) });
+        }
+        if let Some(folds) = options.folds {
+            let outcome = cross_validate_on_machine(&problem, &calibration, folds);
+            validations.extend(unless_too_few(outcome, notes)?);
+        }
+        let Moved { recorded, log_input, .. } = moved;
         let inputs = recorded.inputs(source);
         let about = options.report.then(|| {
             let what = if self.imu.is_none() { "an accelerometer" } else { "an IMU" };
             let facts = [("Log", log_input.file.clone()), ("SHA-256 of the log", log_input.sha256.clone())];
             about(&format!("{what} on a machine"), facts, &recorded, &inputs, options)
         });
-        let outcome = MachineOutcome { calibration, setup, log: log_input };
+        let outcome = MachineOutcome { calibration, setup, log: log_input, validations };
         Ok(Outcome {
             calibrated: Calibrated::OnMachine(Box::new(outcome)),
             validations: Vec::new(),
@@ -128,6 +144,51 @@ impl<'e> MachineTask<'e> {
             about,
             allowed: options.allowed.clone(),
         })
+    }
+
+    /// What is known beforehand.
+    fn setup(&self) -> MachineSetup {
+        let joints = self.chain.as_ref().map_or(0, |chain| chain.joints.len());
+        self.plan.setup(self.accelerometer, self.imu, joints)
+    }
+
+    /// A recording beside its log: the given one, or that in its own file.
+    fn moved(
+        &self,
+        source: &Source,
+        mut recorded: Recorded,
+        log: Option<&LogFile>,
+        notes: &mut Vec<Note>,
+    ) -> Result<Moved> {
+        notes.extend(Note::of_findings(&recorded.findings, source));
+        let outliers = take_out_outliers(&mut recorded.recording);
+        let beside;
+        let log = match log {
+            Some(log) => log,
+            None => {
+                beside = LogFile::read_beside(&source.recording, &self.log_options, notes)?;
+                &beside
+            }
+        };
+        let (log, log_input) = log.for_recording(self.chain.as_ref(), recorded.counted_from_ns, notes)?;
+        Ok(Moved { recorded, outliers, log, log_input })
+    }
+
+    fn problem<'p>(
+        &'p self,
+        moved: &'p Moved,
+        setup: &'p MachineSetup,
+        nominal: &'p ImuParameters,
+        quantities: &'p [ImuQuantity],
+    ) -> MachineProblem<'p> {
+        MachineProblem {
+            recording: &moved.recorded.recording,
+            log: &moved.log,
+            chain: self.chain.as_ref(),
+            setup,
+            nominal,
+            quantities,
+        }
     }
 
     /// The sensors of the datasheets, where the search begins.

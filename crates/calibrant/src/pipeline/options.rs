@@ -19,7 +19,9 @@ pub struct PipelineOptions {
     pub unit: Option<ReadingUnit>,
     /// Another recording of the sensor, on which the calibration is tried.
     pub validate: Option<Source>,
-    /// Number of blocks of holds, each predicted by a calibration from the others.
+    /// The log of the machine's motion in that recording; on a machine it needs one, or has it in its own file.
+    pub validate_motion: Option<PathBuf>,
+    /// Number of blocks of holds (on a machine: of time), each predicted by a calibration from the others.
     pub folds: Option<usize>,
     /// Diagnostics that the files mark as allowed.
     pub allowed: Vec<Code>,
@@ -35,6 +37,7 @@ impl Default for PipelineOptions {
             reading: ImuReadOptions::default(),
             unit: None,
             validate: None,
+            validate_motion: None,
             folds: None,
             allowed: Vec::new(),
             report: true,

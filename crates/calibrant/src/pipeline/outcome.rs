@@ -1,6 +1,6 @@
 //! What comes of a recording, and the files that it is written to.
 
-use super::calibrated::Calibrated;
+use super::calibrated::{Calibrated, MachineOutcome};
 use super::note::Note;
 use calibrant_core::diagnostic::{Code, Diagnostic};
 use calibrant_core::error::Result;
@@ -19,7 +19,7 @@ use std::path::Path;
 pub struct Outcome {
     /// The calibration.
     pub calibrated: Calibrated,
-    /// How it fares on data that it is not from, where the options ask for it.
+    /// How it fares on data that it is not from, where the options ask for it. That of a machine is in `calibrated`.
     pub validations: Vec<Validation>,
     /// The noise of an IMU in its longest hold, in m/s² and rad/s, as the report shows it. Empty without a report.
     pub noise: Vec<SensorNoise>,
@@ -125,7 +125,8 @@ impl Outcome {
                 calibration_report(calibration, &self.recording, &self.noise, about)
             }
             Calibrated::OnMachine(machine) => {
-                machine_report(&machine.calibration, &machine.setup, &self.recording, about)
+                let MachineOutcome { calibration, setup, validations, .. } = machine.as_ref();
+                machine_report(calibration, setup, validations, &self.recording, about)
             }
         })
     }

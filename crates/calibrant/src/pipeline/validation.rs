@@ -7,7 +7,7 @@ use calibrant_io::file_name;
 use std::path::Path;
 
 /// The cross-validation by folds. If the recording does not allow it (too few holds, for example), the calibration still stands: the reason becomes a warning and the result is `None`.
-pub(crate) fn unless_too_few(folds: Result<Validation>, notes: &mut Vec<Note>) -> Result<Option<Validation>> {
+pub(crate) fn unless_too_few<T>(folds: Result<T>, notes: &mut Vec<Note>) -> Result<Option<T>> {
     match folds {
         Err(error @ Error::Recording(_)) => {
             notes.push(Note::Warning(format!("not validated by folds: {error}")));

@@ -1,0 +1,100 @@
+//! The recording beside the motion before anything is fitted: the coarse delay, and the mounting where nothing is known of it.
+
+use super::parameters::place;
+use super::unsolved::refused;
+use super::{MachineParameters, MachineProblem, start};
+use crate::chain::{ChainCorrections, SensorMount};
+use crate::reference::{Carrier, Motion};
+use calibrant_core::error::Result;
+use calibrant_core::sensor::{Recording, SensorKind};
+use nalgebra::{Matrix3, UnitQuaternion, Vector3};
+
+/// Correlation of the magnitudes of rate (or force) below which recording and log are of different motions.
+const SAME_MOTION: f64 = 0.5;
+/// The delay is searched this many standard deviations about what is expected.
+const SEARCHED: f64 = 4.0;
+
+/// The sensor that tells time and direction best, in the units of what it measures, and the motion of the tip.
+pub(super) struct Placement<'a> {
+    problem: &'a MachineProblem<'a>,
+    motion: &'a Motion,
+    covered: &'a [bool],
+    carrier: Carrier,
+    /// The gyroscope where there is one.
+    sensor: SensorKind,
+    recording: Option<Recording>,
+}
+
+impl<'a> Placement<'a> {
+    pub(super) fn new(
+        problem: &'a MachineProblem<'a>,
+        motion: &'a Motion,
+        covered: &'a [bool],
+        gravity: Vector3<f64>,
+    ) -> Self {
+        let bare = SensorMount { lever_m: problem.setup.lever_m, ..SensorMount::identity() };
+        let carrier = motion.carrier(gravity, bare, &ChainCorrections::none(motion.joints()));
+        let found = |kind: &SensorKind| problem.recording.sensor(*kind).is_some();
+        let sensor = SensorKind::ALL.into_iter().rev().find(found).unwrap_or(SensorKind::Gyroscope);
+        let recording = problem.recording.sensor(sensor).map(|recording| {
+            let nominal = problem.nominal.sensor(sensor);
+            let inverse = nominal.matrix.try_inverse().unwrap_or_else(Matrix3::identity);
+            let readings = recording.readings.iter().map(|y| inverse * (y - nominal.bias)).collect();
+            Recording { readings, ..recording.clone() }
+        });
+        Self { problem, motion, covered, carrier, sensor, recording }
+    }
+
+    /// What a sensor in the axes of the tip would feel; `None` where the log says nothing.
+    fn at(&self, time_s: f64) -> Option<Vector3<f64>> {
+        let knots = self.motion.knots();
+        if time_s < knots.start_s || time_s > knots.end_s() || !self.covered[knots.interval(time_s)] {
+            return None;
+        }
+        let felt = self.motion.sensor(&knots.weights(time_s), &self.carrier, &mut Default::default());
+        Some(match self.sensor {
+            SensorKind::Accelerometer => felt.specific_force,
+            SensorKind::Gyroscope => felt.rate,
+        })
+    }
+
+    /// The delay by correlation, s.
+    pub(super) fn delay_s(&self) -> Result<f64> {
+        let setup = self.problem.setup;
+        let (Some(recording), true) = (&self.recording, setup.delay_sd_s > 0.0) else {
+            return Ok(setup.delay_s);
+        };
+        let range_s = SEARCHED * setup.delay_sd_s;
+        let found = start::delay(recording, &|time_s| self.at(time_s), setup.delay_s, range_s);
+        let Some((delay_s, correlation)) = found else {
+            let ends = |times: &[f64]| format!("{:.3} to {:.3} s", times[0], times[times.len() - 1]);
+            let message = format!(
+                "the recording ({}) and the log ({}) hardly overlap",
+                ends(&recording.times_s),
+                ends(self.problem.log.times_s())
+            );
+            return Err(refused(
+                message,
+                "give clock.delay_s, the log's time less the recording's, in [machine]",
+            ));
+        };
+        if correlation < SAME_MOTION {
+            let message = format!(
+                "the {} and the log are of different motions: the best correlation within {range_s:.2} s is {correlation:.2}",
+                self.sensor
+            );
+            let help = "check that the files belong together, the order of the joints, the units, and clock.delay_s and delay_sd_s in [machine]";
+            return Err(refused(message, help));
+        }
+        Ok(delay_s)
+    }
+
+    /// The mounting that aligns the readings with the motion, with these delays.
+    pub(super) fn mounting(&self, parameters: &MachineParameters) -> UnitQuaternion<f64> {
+        let delay_s = parameters.delays_s[place(self.sensor)];
+        let samples = self.recording.iter().flat_map(|of| of.times_s.iter().zip(&of.readings));
+        let pairs: Vec<(Vector3<f64>, Vector3<f64>)> =
+            samples.filter_map(|(time, reading)| Some((*reading, self.at(time + delay_s)?))).collect();
+        start::rotation(&pairs).unwrap_or(parameters.mount.tip_from_sensor)
+    }
+}

@@ -1,0 +1,133 @@
+//! Validation of a calibration on a machine, in sentences and a table.
+
+use super::quantity::machine_unit;
+use crate::html::{Page, list};
+use crate::number_format;
+use crate::table::{Cell, Table};
+use crate::words::capitalised;
+use calibrant_core::estimate::CovarianceVerdict;
+use calibrant_machine::estimate::{
+    LargestShift, MachineCalibration, MachineValidation, MachineValidationSource, ParameterShift,
+};
+
+/// What a validation is on.
+#[must_use]
+pub fn machine_validation_heading(validation: &MachineValidation) -> String {
+    match &validation.source {
+        MachineValidationSource::Recording { name } => format!("on {name}"),
+        MachineValidationSource::Blocks { folds, length_s, .. } => {
+            format!("{folds} blocks of {} s, each left out in turn", number_format::significant(*length_s, 3))
+        }
+    }
+}
+
+/// Header and a row for each sensor.
+#[must_use]
+pub fn machine_validation_rows(
+    validation: &MachineValidation,
+    calibration: &MachineCalibration,
+) -> ([&'static str; 5], Vec<[String; 5]>) {
+    let header = ["parameters of", "χ²", "degrees of freedom", "ratio (99 %)", "largest movement"];
+    let row = |shift: &ParameterShift| {
+        [
+            shift.sensor.to_string(),
+            number_format::significant(shift.chi2, 3),
+            shift.degrees_of_freedom.to_string(),
+            ratio(shift),
+            largest(&shift.largest, &validation.source, calibration),
+        ]
+    };
+    (header, validation.shifts.iter().map(row).collect())
+}
+
+/// A verdict for each sensor, and the blocks that cannot be left out.
+#[must_use]
+pub fn machine_validation_sentences(validation: &MachineValidation) -> Vec<String> {
+    let mut sentences: Vec<String> = validation.shifts.iter().map(sentence).collect();
+    if validation.shifts.is_empty() {
+        sentences.push("The two calibrations have no parameter in common.".into());
+    }
+    if let MachineValidationSource::Blocks { failed, .. } = &validation.source {
+        sentences.extend(failed.iter().map(|block| {
+            let [start, end] = [block.start_s, block.end_s].map(|at| number_format::fixed(at, 1));
+            format!("Without {start} to {end} s there is no calibration: {}.", block.reason)
+        }));
+    }
+    sentences
+}
+
+fn sentence(shift: &ParameterShift) -> String {
+    let what = format!("The parameters of the {}", shift.sensor);
+    let two = |value: f64| number_format::significant(value, 2);
+    match shift.verdict {
+        CovarianceVerdict::Believed => format!("{what} move as far as their covariance predicts."),
+        CovarianceVerdict::TooSmall => format!(
+            "{what} move further than predicted: the covariance is too small. Multiply their standard deviations by about {}. \
+             The machine does not move as its model and its log say.",
+            two(shift.factor)
+        ),
+        CovarianceVerdict::LargerThanNeeded => format!(
+            "{what} move less than predicted: the standard deviations are too large, by about {}.",
+            two(shift.factor.recip())
+        ),
+        CovarianceVerdict::TooFew | CovarianceVerdict::Doubtful => {
+            format!("{what}: the data are too few for a verdict.")
+        }
+    }
+}
+
+fn ratio(shift: &ParameterShift) -> String {
+    let [factor, low, high] = [shift.factor, shift.factor_interval.0, shift.factor_interval.1]
+        .map(|value| number_format::significant(value, 2));
+    format!("{factor} ({low} to {high})")
+}
+
+fn largest(
+    largest: &LargestShift,
+    source: &MachineValidationSource,
+    calibration: &MachineCalibration,
+) -> String {
+    let (factor, unit) = machine_unit(calibration, largest.quantity);
+    let unit = if unit == "1" { String::new() } else { format!(" {unit}") };
+    let name = largest.quantity.name(&calibration.joints);
+    let name = name.split_once('.').map_or(name.as_str(), |(_, name)| name);
+    let moved = format!(
+        "{name} by {}{unit}, {} sd",
+        number_format::significant(factor * largest.shift, 2),
+        number_format::significant(largest.in_sd.abs(), 2)
+    );
+    match (source, largest.without_s) {
+        (MachineValidationSource::Blocks { length_s, .. }, Some(start_s)) => {
+            let [start, end] = [start_s, start_s + length_s].map(|at| number_format::fixed(at, 1));
+            format!("{moved}, without {start} to {end} s")
+        }
+        _ => moved,
+    }
+}
+
+/// A section with all validations; none without any.
+pub(super) fn validation_section(
+    page: &mut Page,
+    validations: &[MachineValidation],
+    calibration: &MachineCalibration,
+) {
+    if validations.is_empty() {
+        return;
+    }
+    page.section(
+        "Validation",
+        "How far the parameters move with other data, beside what their covariance predicts. The ratio is √(χ²/degrees of freedom): 1 if the standard deviations are right.",
+    );
+    for validation in validations {
+        page.subsection(&capitalised(&machine_validation_heading(validation)));
+        page.push(list(&machine_validation_sentences(validation)));
+        let (header, rows) = machine_validation_rows(validation, calibration);
+        let mut table = Table::new("", &header);
+        for [sensor, numbers @ ..] in rows {
+            let mut cells = vec![Cell::Name(sensor)];
+            cells.extend(numbers.map(Cell::Number));
+            table.row(cells);
+        }
+        page.push(table.html());
+    }
+}
