@@ -60,7 +60,7 @@ fn page(title: &str, problem: &MachineProblem<'_>) -> Result<String, Failure> {
         program: format!("calibrant {}", env!("CARGO_PKG_VERSION")),
         ..About::default()
     };
-    Ok(machine_report(&calibration, problem.setup, problem.recording, &about))
+    Ok(machine_report(&calibration, problem.setup, &[], problem.recording, &about))
 }
 
 fn quantities() -> Vec<ImuQuantity> {

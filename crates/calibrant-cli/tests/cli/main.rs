@@ -36,4 +36,5 @@ mod temperature;
 mod together;
 mod truncated_bag;
 mod undetermined;
+mod validate_machine;
 mod validation;

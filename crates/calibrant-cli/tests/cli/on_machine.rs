@@ -244,11 +244,21 @@ fn what_does_not_fit_is_refused() {
         2,
         &["needs the log of the machine's motion", "--motion FILE"],
     );
+    let second = |(k, line): (usize, &str)| if k == 0 { format!("{line}\n") } else { format!("{line}1\n") };
+    bench
+        .write("second.csv", bench.read("recording.csv").lines().enumerate().map(second).collect::<String>());
     bench.refuses(
-        "calibrate arm.toml recording.csv --motion joints.csv --folds 5 -o out",
+        "calibrate arm.toml recording.csv --motion joints.csv --validate second.csv -o out",
         2,
-        &["is not validated by this version"],
+        &["--validate-motion FILE"],
     );
+    for folds in [1, 60] {
+        bench.refuses(
+            &format!("calibrate arm.toml recording.csv --motion joints.csv --folds {folds} -o out"),
+            2,
+            &["choose between 2 and 19"],
+        );
+    }
     let joints = bench.read("joints.csv");
     bench.write("other.csv", joints.replace("lift_rad", "liftt_rad"));
     bench.refuses(
@@ -285,7 +295,7 @@ fn what_does_not_fit_is_refused() {
 }
 
 #[test]
-fn angles_in_degrees_that_are_called_radians_are_not_silent() {
+fn angles_in_degrees_that_are_called_radians_are_refused() {
     let bench = two_joint_bench();
     let joints = bench.read("joints.csv");
     let in_degrees: String = joints
@@ -300,6 +310,9 @@ fn angles_in_degrees_that_are_called_radians_are_not_silent() {
         })
         .collect();
     bench.write("degrees.csv", in_degrees);
-    let command = "calibrate arm.toml recording.csv --motion degrees.csv -o out --deny gain-implausible";
-    bench.run(command).ends_with(1).says("Check unit");
+    bench.refuses(
+        "calibrate arm.toml recording.csv --motion degrees.csv -o out",
+        3,
+        &["the gyroscope reads 0.017 times the rate of the log's motion", "degrees or radians"],
+    );
 }

@@ -11,6 +11,8 @@ use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 
 /// Correlation of the magnitudes of rate (or force) below which recording and log are of different motions.
 const SAME_MOTION: f64 = 0.5;
+/// A gyroscope that reads more than this many times the rate of the motion, or less than the inverse, has another unit: degrees are 57 times radians.
+const OTHER_UNIT: f64 = 5.0;
 /// The delay is searched this many standard deviations about what is expected.
 const SEARCHED: f64 = 4.0;
 
@@ -86,7 +88,28 @@ impl<'a> Placement<'a> {
             let help = "check that the files belong together, the order of the joints, the units, and clock.delay_s and delay_sd_s in [machine]";
             return Err(refused(message, help));
         }
+        let ratio = self.rate_ratio(recording, delay_s);
+        if !(1.0 / OTHER_UNIT..OTHER_UNIT).contains(&ratio) {
+            let message = format!("the gyroscope reads {ratio:.3} times the rate of the log's motion");
+            return Err(refused(
+                message,
+                "check the units of both: degrees or radians, and the gain of counts",
+            ));
+        }
         Ok(delay_s)
+    }
+
+    /// Root mean square of the gyroscope's readings over that of the motion's rate; 1 for an accelerometer, which feels gravity above all.
+    fn rate_ratio(&self, recording: &Recording, delay_s: f64) -> f64 {
+        let samples = recording.times_s.iter().zip(&recording.readings);
+        let squares = samples.filter_map(|(time_s, reading)| {
+            Some((reading.norm_squared(), self.at(time_s + delay_s)?.norm_squared()))
+        });
+        let (read, moved) = squares.fold((0.0, 0.0), |(a, b), (one, other)| (a + one, b + other));
+        match self.sensor {
+            SensorKind::Gyroscope if moved > 0.0 => (read / moved).sqrt(),
+            _ => 1.0,
+        }
     }
 
     /// The mounting that aligns the readings with the motion, with these delays.

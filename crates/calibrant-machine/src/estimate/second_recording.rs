@@ -3,7 +3,7 @@
 //! What is wrong with mount and joints is wrong in both. With `I` the information of that prior, their errors `Σ₁ I (η̄ − η)` and `Σ₂ I (η̄ − η)` belong
 //! together, and the covariance of the difference is `Σ₁ + Σ₂ − Σ₁ I Σ₂ − Σ₂ I Σ₁`.
 
-use super::shift::{Movement, judged};
+use super::shift::{Movement, judged, widened};
 use super::validation::{MachineValidation, MachineValidationSource};
 use super::{MachineCalibration, MachineQuantity, MachineSetup};
 use calibrant_core::sensor::SensorKind;
@@ -38,7 +38,8 @@ pub fn compare_on_machine(
     let n = first.quantities.len();
     let shared = DMatrix::from_diagonal(&DVector::from_iterator(n, first.quantities.iter().map(information)));
     let common = &first.linear_covariance * shared * &second.linear_covariance;
-    let covariance = &first.covariance + &second.covariance - &common - common.transpose();
+    let [one, two] = [first, second].map(|of| widened(of, &of.linear_covariance));
+    let covariance = one + two - &common - common.transpose();
     let shift = second.values.iter().zip(&first.values).map(|(two, one)| two - one);
     let movement = [Movement { shift: DVector::from_iterator(n, shift), covariance, without_s: None }];
     let shifts = sensors.iter().filter_map(|sensor| judged(first, *sensor, &movement)).collect();

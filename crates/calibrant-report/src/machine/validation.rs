@@ -10,6 +10,9 @@ use calibrant_machine::estimate::{
     LargestShift, MachineCalibration, MachineValidation, MachineValidationSource, ParameterShift,
 };
 
+/// Movements beyond this many times the predicted ones have another cause than the covariance.
+const OTHER_CAUSE: f64 = 30.0;
+
 /// What a validation is on.
 #[must_use]
 pub fn machine_validation_heading(validation: &MachineValidation) -> String {
@@ -61,6 +64,10 @@ fn sentence(shift: &ParameterShift) -> String {
     let two = |value: f64| number_format::significant(value, 2);
     match shift.verdict {
         CovarianceVerdict::Believed => format!("{what} move as far as their covariance predicts."),
+        CovarianceVerdict::TooSmall if shift.factor > OTHER_CAUSE => format!(
+            "{what} move {} times as far as predicted. No covariance explains that. Is it the same sensor on the same mount, with the same units and axes?",
+            two(shift.factor)
+        ),
         CovarianceVerdict::TooSmall => format!(
             "{what} move further than predicted: the covariance is too small. Multiply their standard deviations by about {}. \
              The machine does not move as its model and its log say.",

@@ -99,7 +99,7 @@ impl<'e> MachineTask<'e> {
     ) -> Result<Outcome> {
         let recorded = self.reader.read(source)?;
         let setup = self.setup();
-        let moved = self.moved(source, recorded, self.log.as_ref(), notes)?;
+        let moved = self.moved(source, recorded, (self.log.as_ref(), "--motion"), notes)?;
         let nominal = self.nominal()?;
         let quantities = self.quantities(&moved.recorded.recording);
         let problem = self.problem(&moved, &setup, &nominal, &quantities);
@@ -108,15 +108,15 @@ impl<'e> MachineTask<'e> {
         calibration.warnings.extend(implausible_gains(&calibration));
         let mut validations = Vec::new();
         if let Some(other) = &options.validate {
-            let read = self.reader.read_other(other)?;
-            for &sensor_kind in calibration.noise.iter().map(|of| &of.sensor) {
-                let [one, two] = [&moved.recorded, &read].map(|recorded| recorded.readings(sensor_kind));
-                refuse_duplicate(sensor_kind, &one, &two, other.file_of(sensor_kind))?;
-            }
             let log = options.validate_motion.as_deref();
             let log = log.map(|path| LogFile::read(path, &self.log_options, notes)).transpose()?;
-            let moved = self.moved(other, read, log.as_ref(), notes)?;
-            let second = calibrated(&self.problem(&moved, &setup, &nominal, &quantities), other)?;
+            let read = self.reader.read_other(other)?;
+            let second = self.moved(other, read, (log.as_ref(), "--validate-motion"), notes)?;
+            for &sensor_kind in calibration.noise.iter().map(|of| &of.sensor) {
+                let [one, two] = [&moved, &second].map(|of| of.recorded.readings(sensor_kind));
+                refuse_duplicate(sensor_kind, &one, &two, other.file_of(sensor_kind))?;
+            }
+            let second = calibrated(&self.problem(&second, &setup, &nominal, &quantities), other)?;
             let name = file_name(&other.recording);
             let source = MachineValidationSource::Recording { name };
             validations
@@ -152,12 +152,12 @@ impl<'e> MachineTask<'e> {
         self.plan.setup(self.accelerometer, self.imu, joints)
     }
 
-    /// A recording beside its log: the given one, or that in its own file.
+    /// A recording beside its log: the given one, or that in its own file. An option gives it.
     fn moved(
         &self,
         source: &Source,
         mut recorded: Recorded,
-        log: Option<&LogFile>,
+        (log, option): (Option<&LogFile>, &str),
         notes: &mut Vec<Note>,
     ) -> Result<Moved> {
         notes.extend(Note::of_findings(&recorded.findings, source));
@@ -166,7 +166,7 @@ impl<'e> MachineTask<'e> {
         let log = match log {
             Some(log) => log,
             None => {
-                beside = LogFile::read_beside(&source.recording, &self.log_options, notes)?;
+                beside = LogFile::read_beside(&source.recording, &self.log_options, option, notes)?;
                 &beside
             }
         };

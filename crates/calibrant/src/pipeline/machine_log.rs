@@ -28,10 +28,11 @@ impl LogFile {
         Ok(Self { path: path.to_path_buf(), file })
     }
 
-    /// Reads the log that lies in the file of the recording, as in a bag.
+    /// Reads the log that lies in the file of the recording, as in a bag. Where it does not, the `option` names a file.
     pub(crate) fn read_beside(
         recording: &Path,
         options: &ReferenceLogOptions,
+        option: &str,
         notes: &mut Vec<Note>,
     ) -> Result<Self> {
         if is_reference_log(recording, options) {
@@ -40,7 +41,9 @@ impl LogFile {
         Err(Error::experiment(InputError::new(
             Refusal::KeyMissing,
             "a [machine] experiment needs the log of the machine's motion",
-            "add --motion FILE: a CSV with t_s and a column for each joint (elbow_rad), or poses of the body",
+            format!(
+                "add {option} FILE: a CSV with t_s and a column for each joint (elbow_rad), or poses of the body"
+            ),
         )))
     }
 
