@@ -4,7 +4,7 @@ use super::{MachineParameters, MachineQuantity, MachineTrust, Source};
 use crate::reference::Motion;
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::estimate::{CalibrationStatus, FitStatistics};
-use calibrant_core::sensor::{CalibratedImu, ImuQuantity, ReadingUnit, SensorKind};
+use calibrant_core::sensor::{CalibratedImu, Gauge, ImuQuantity, ReadingUnit, SensorKind};
 use nalgebra::{DMatrix, Vector3};
 
 /// Parameters of a sensor on a machine, of the machine, and everything needed to judge them.
@@ -124,6 +124,19 @@ impl MachineCalibration {
         Some((self.values[place], self.covariance[(place, place)].max(0.0).sqrt()))
     }
 
+    /// The true frame, in words: a matrix that has the form of a gauge defines it.
+    fn frame(&self) -> String {
+        let gauge =
+            self.noise.first().and_then(|of| Gauge::of(&self.parameters.imu.sensor(of.sensor).matrix));
+        match gauge {
+            Some(gauge) => format!(
+                "that of the gauge `{}`: its orientation on the tip is in `machine.mount`",
+                gauge.name()
+            ),
+            None => "the axes of the machine's tip, turned by the mounting".to_owned(),
+        }
+    }
+
     /// The sensor in the form that other programs exchange.
     #[must_use]
     pub fn calibrated(&self) -> CalibratedImu {
@@ -141,7 +154,7 @@ impl MachineCalibration {
             quantities: imu.iter().map(|(_, quantity)| *quantity).collect(),
             covariance: Some(DMatrix::from_fn(n, n, |i, j| self.covariance[(imu[i].0, imu[j].0)])),
             degrees_of_freedom: None,
-            frame: "the axes of the machine's tip, turned by the mounting".to_owned(),
+            frame: self.frame(),
         }
     }
 }
