@@ -24,7 +24,6 @@ pub(super) struct Placement<'a> {
     carrier: Carrier,
     /// The gyroscope where there is one.
     sensor: SensorKind,
-    recording: Option<Recording>,
 }
 
 impl<'a> Placement<'a> {
@@ -38,13 +37,16 @@ impl<'a> Placement<'a> {
         let carrier = motion.carrier(gravity, bare, &ChainCorrections::none(motion.joints()));
         let found = |kind: &SensorKind| problem.recording.sensor(*kind).is_some();
         let sensor = SensorKind::ALL.into_iter().rev().find(found).unwrap_or(SensorKind::Gyroscope);
-        let recording = problem.recording.sensor(sensor).map(|recording| {
-            let nominal = problem.nominal.sensor(sensor);
-            let inverse = nominal.matrix.try_inverse().unwrap_or_else(Matrix3::identity);
-            let readings = recording.readings.iter().map(|y| inverse * (y - nominal.bias)).collect();
-            Recording { readings, ..recording.clone() }
-        });
-        Self { problem, motion, covered, carrier, sensor, recording }
+        Self { problem, motion, covered, carrier, sensor }
+    }
+
+    /// The recording in the units of what the sensor measures.
+    fn recording(&self) -> Option<Recording> {
+        let recording = self.problem.recording.sensor(self.sensor)?;
+        let nominal = self.problem.nominal.sensor(self.sensor);
+        let inverse = nominal.matrix.try_inverse().unwrap_or_else(Matrix3::identity);
+        let readings = recording.readings.iter().map(|y| inverse * (y - nominal.bias)).collect();
+        Some(Recording { readings, ..recording.clone() })
     }
 
     /// What a sensor in the axes of the tip would feel; `None` where the log says nothing.
@@ -63,11 +65,11 @@ impl<'a> Placement<'a> {
     /// The delay by correlation, s.
     pub(super) fn delay_s(&self) -> Result<f64> {
         let setup = self.problem.setup;
-        let (Some(recording), true) = (&self.recording, setup.delay_sd_s > 0.0) else {
+        let (Some(recording), true) = (self.recording(), setup.delay_sd_s > 0.0) else {
             return Ok(setup.delay_s);
         };
         let range_s = SEARCHED * setup.delay_sd_s;
-        let found = start::delay(recording, &|time_s| self.at(time_s), setup.delay_s, range_s);
+        let found = start::delay(&recording, &|time_s| self.at(time_s), setup.delay_s, range_s);
         let Some((delay_s, correlation)) = found else {
             let ends = |times: &[f64]| format!("{:.3} to {:.3} s", times[0], times[times.len() - 1]);
             let message = format!(
@@ -88,7 +90,7 @@ impl<'a> Placement<'a> {
             let help = "check that the files belong together, the order of the joints, the units, and clock.delay_s and delay_sd_s in [machine]";
             return Err(refused(message, help));
         }
-        let ratio = self.rate_ratio(recording, delay_s);
+        let ratio = self.rate_ratio(&recording, delay_s);
         if !(1.0 / OTHER_UNIT..OTHER_UNIT).contains(&ratio) {
             let message = format!("the gyroscope reads {ratio:.3} times the rate of the log's motion");
             return Err(refused(
@@ -115,7 +117,8 @@ impl<'a> Placement<'a> {
     /// The mounting that aligns the readings with the motion, with these delays.
     pub(super) fn mounting(&self, parameters: &MachineParameters) -> UnitQuaternion<f64> {
         let delay_s = parameters.delays_s[place(self.sensor)];
-        let samples = self.recording.iter().flat_map(|of| of.times_s.iter().zip(&of.readings));
+        let recording = self.recording();
+        let samples = recording.iter().flat_map(|of| of.times_s.iter().zip(&of.readings));
         let pairs: Vec<(Vector3<f64>, Vector3<f64>)> =
             samples.filter_map(|(time, reading)| Some((*reading, self.at(time + delay_s)?))).collect();
         start::rotation(&pairs).unwrap_or(parameters.mount.tip_from_sensor)
