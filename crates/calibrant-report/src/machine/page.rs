@@ -36,7 +36,7 @@ pub fn machine_report(
     let title = if about.title.is_empty() { "Calibration on a machine" } else { &about.title };
     let scene = Scene::of(calibration);
     let page = Page::of_parts([
-        &|| opening(calibration, title, about),
+        &|| opening(calibration, validations, title, about),
         &|| parameters(calibration, setup),
         &|| validation(calibration, validations),
         &|| machine(calibration, scene.as_ref()),
@@ -51,11 +51,16 @@ pub fn machine_report(
     page.finish(title, &footer)
 }
 
-fn opening(calibration: &MachineCalibration, title: &str, about: &About) -> Page {
+fn opening(
+    calibration: &MachineCalibration,
+    validations: &[MachineValidation],
+    title: &str,
+    about: &About,
+) -> Page {
     let mut page = Page::default();
     page.push(format!("<h1>{}</h1>", escape(title)));
     page.push(facts(about.facts.iter().map(|(label, value)| (label.as_str(), value.as_str()))));
-    page.push(verdict(calibration, about));
+    page.push(verdict(calibration, validations, about));
     page
 }
 

@@ -112,6 +112,12 @@ fn largest(
     }
 }
 
+/// What a validation says against the covariance.
+pub(super) fn doubts(validations: &[MachineValidation]) -> impl Iterator<Item = String> {
+    let too_small = |shift: &&ParameterShift| shift.verdict == CovarianceVerdict::TooSmall;
+    validations.iter().flat_map(move |of| of.shifts.iter().filter(too_small).map(sentence))
+}
+
 /// A section with all validations; none without any.
 pub(super) fn validation_section(
     page: &mut Page,

@@ -1,17 +1,22 @@
 //! The verdict on a calibration on a machine: can it be used?
 
+use super::validation::doubts;
 use crate::calibration::{calibration_verdict, noise_explains};
 use crate::words::capitalised;
 use crate::{About, number_format};
 use calibrant_core::sensor::Invariant;
-use calibrant_machine::estimate::{MachineCalibration, MachineTrust};
+use calibrant_machine::estimate::{MachineCalibration, MachineTrust, MachineValidation};
 
 /// Below this probability, the noise does not explain the data.
 const UNEXPLAINED: f64 = 0.001;
 
 /// The verdict with its warnings, as one prominent box.
-pub(super) fn verdict(calibration: &MachineCalibration, about: &About) -> String {
-    let remarks = unexplained(calibration);
+pub(super) fn verdict(
+    calibration: &MachineCalibration,
+    validations: &[MachineValidation],
+    about: &About,
+) -> String {
+    let remarks = unexplained(calibration).into_iter().chain(doubts(validations));
     calibration_verdict(calibration.status, &calibration.warnings, remarks, &sentence(calibration), about)
 }
 
