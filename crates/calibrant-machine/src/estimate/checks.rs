@@ -1,14 +1,18 @@
 //! What a user should know of a result on a machine.
 
 use super::layout::Layout;
+use super::parameters::place;
 use super::{MachineCalibration, MachineSetup, MachineTrust};
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::estimate::CalibrationStatus;
+use calibrant_core::sensor::{Axis, ReadingUnit};
 
 /// Largest usual ratio of the residuals to the noise between neighbouring samples: with noisy trust, and with known trust.
 const RESIDUALS: [f64; 2] = [1.1, 1.25];
 /// Largest usual distance of a quantity from its prior mean, in prior standard deviations.
 const CONTRADICTED: f64 = 4.0;
+/// Gains of readings in SI that are plausible.
+const PLAUSIBLE_GAINS: std::ops::RangeInclusive<f64> = 0.8..=1.25;
 /// Largest usual share of outliers in the log.
 const OUTLIERS: f64 = 1e-3;
 /// Least usual share of the sensor's samples that are used.
@@ -26,6 +30,7 @@ pub(super) fn all(
     }
     found.extend(residuals(calibration));
     found.extend(correlated(calibration));
+    found.extend(implausible_gains(calibration));
     found.extend(contradicted(setup, layout, calibration));
     let (outliers, samples) = (calibration.reference_noise.iter())
         .fold((0, 0), |(outliers, samples), of| (outliers + of.outliers, samples + of.samples));
@@ -36,6 +41,20 @@ pub(super) fn all(
         found.push(Diagnostic::LogCoversPart { used_share: calibration.used_share });
     }
     found
+}
+
+/// The gains of readings in SI that are far from 1.
+fn implausible_gains(calibration: &MachineCalibration) -> impl Iterator<Item = Diagnostic> + '_ {
+    calibration.noise.iter().flat_map(|of| {
+        let sensor_kind = of.sensor;
+        let unit = calibration.units[place(sensor_kind)].filter(|unit| *unit != ReadingUnit::Counts);
+        let matrix = &calibration.parameters.imu.sensor(sensor_kind).matrix;
+        Axis::ALL.into_iter().filter_map(move |axis| {
+            let (unit, gain) = (unit?, matrix[(axis.index(), axis.index())]);
+            let doubtful = !PLAUSIBLE_GAINS.contains(&gain);
+            doubtful.then_some(Diagnostic::GainImplausible { sensor_kind, axis, gain, unit })
+        })
+    })
 }
 
 /// Residuals that are larger than the noise of neighbouring samples.

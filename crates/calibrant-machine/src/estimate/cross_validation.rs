@@ -44,14 +44,9 @@ pub fn cross_validate_on_machine(
     let Some(main) = sensors.last().and_then(|kind| problem.recording.sensor(*kind)) else {
         return Err(refused("the recording has no sensor", "record an accelerometer or a gyroscope"));
     };
+    check_folds(problem, folds)?;
     let (first, last) = (main.times_s[0], main.times_s[main.len() - 1]);
-    let length_s = (last - first) / folds.max(1) as f64;
-    if folds < 2 || length_s < SHORTEST_S {
-        let message = format!("{folds} folds cannot be made of a recording of {:.1} s", last - first);
-        let help =
-            format!("choose between 2 and {}: a block has {SHORTEST_S} s at least", (last - first) as usize);
-        return Err(Error::experiment(InputError::new(Refusal::ValidationImpossible, message, help)));
-    }
+    let length_s = (last - first) / folds as f64;
     let (mut movements, mut failed) = (Vec::new(), Vec::new());
     for fold in 0..folds {
         let start_s = first + length_s * fold as f64;
@@ -72,6 +67,26 @@ pub fn cross_validate_on_machine(
     }
     let shifts = sensors.iter().filter_map(|sensor| judged(calibration, *sensor, &movements)).collect();
     Ok(MachineValidation { source: MachineValidationSource::Blocks { folds, length_s, failed }, shifts })
+}
+
+/// Can a recording be divided into so many blocks?
+///
+/// # Errors
+/// [`Error::Experiment`](calibrant_core::Error::Experiment): fewer than two blocks, or blocks shorter than 1 s.
+pub fn check_folds(problem: &MachineProblem<'_>, folds: usize) -> Result<()> {
+    let ends = |of: &Recording| Some((*of.times_s.first()?, *of.times_s.last()?));
+    let main = SensorKind::ALL.into_iter().rev().find_map(|kind| problem.recording.sensor(kind));
+    let duration_s = main.and_then(ends).map_or(0.0, |(first, last)| last - first);
+    let most = (duration_s / SHORTEST_S) as usize;
+    if (2..=most).contains(&folds) {
+        return Ok(());
+    }
+    let message = format!("{folds} folds cannot be made of a recording of {duration_s:.1} s");
+    let help = match most {
+        0 | 1 => format!("record longer: a block has {SHORTEST_S} s at least"),
+        most => format!("choose between 2 and {most}: a block has {SHORTEST_S} s at least"),
+    };
+    Err(Error::experiment(InputError::new(Refusal::ValidationImpossible, message, help)))
 }
 
 /// How the quantities move without the samples from `start_s` to `end_s`.

@@ -44,7 +44,7 @@ mod unsolved;
 mod validation;
 
 pub use calibrate::calibrate_on_machine;
-pub use cross_validation::cross_validate_on_machine;
+pub use cross_validation::{check_folds, cross_validate_on_machine};
 pub use parameters::MachineParameters;
 pub(crate) use parameters::TiltedGravity;
 pub use problem::{MachineProblem, MachineSettings};

@@ -11,24 +11,40 @@ use nalgebra::{DMatrix, DVector};
 /// Fewest blocks that tell a variance.
 const FEWEST: usize = 12;
 
-/// Length of a block for a recording of this duration, s.
-fn block_s(duration_s: f64) -> f64 {
+/// The shortest block for a recording of this duration, s.
+fn shortest_s(duration_s: f64) -> f64 {
     (duration_s / 60.0).clamp(0.5, 3.0)
 }
 
 /// The factor by which the standard deviation of each parameter exceeds that of independent residuals; 1 where the difference is not significant.
+/// Blocks of several lengths tell: each is twice as long as the one before. The largest factor counts.
 pub(super) fn inflation(
     quantities: &[MachineQuantity],
     covariance: &DMatrix<f64>,
     scores: &[(f64, DVector<f64>)],
 ) -> Vec<f64> {
-    let none = vec![1.0; quantities.len()];
-    let (Some((first, _)), Some((last, _))) = (scores.first(), scores.last()) else { return none };
-    let length = block_s(last - first);
+    let mut largest = vec![1.0; quantities.len()];
+    let (Some((first, _)), Some((last, _))) = (scores.first(), scores.last()) else { return largest };
+    let mut length_s = shortest_s(last - first);
+    loop {
+        let blocks = blocks(scores, length_s);
+        if blocks.len() < FEWEST {
+            return largest;
+        }
+        for (largest, factor) in largest.iter_mut().zip(of_blocks(quantities, covariance, &blocks)) {
+            *largest = f64::max(*largest, factor);
+        }
+        length_s *= 2.0;
+    }
+}
+
+/// Sums of the scores over blocks of this length; blocks without samples are left out.
+fn blocks(scores: &[(f64, DVector<f64>)], length_s: f64) -> Vec<DVector<f64>> {
+    let first = scores[0].0;
     let mut blocks: Vec<DVector<f64>> = Vec::new();
     let mut place = usize::MAX;
     for (time, score) in scores {
-        let block = ((time - first) / length) as usize;
+        let block = ((time - first) / length_s) as usize;
         if block == place {
             if let Some(sum) = blocks.last_mut() {
                 *sum += score;
@@ -39,11 +55,12 @@ pub(super) fn inflation(
         }
     }
     blocks.retain(|score| score.amax() > 0.0);
-    if blocks.len() < FEWEST {
-        return none;
-    }
+    blocks
+}
+
+fn of_blocks(quantities: &[MachineQuantity], covariance: &DMatrix<f64>, blocks: &[DVector<f64>]) -> Vec<f64> {
     let mut variance = DVector::zeros(quantities.len());
-    for block in &blocks {
+    for block in blocks {
         variance += (covariance * block).map(|step| step * step);
     }
     let ratios: Vec<f64> = (0..quantities.len()).map(|k| variance[k] / covariance[(k, k)]).collect();

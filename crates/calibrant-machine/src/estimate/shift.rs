@@ -59,7 +59,9 @@ pub(super) fn judged(
     let blocks = movements.len();
     let degrees = if blocks > 1 { told * (blocks - 1) / blocks } else { told };
     let distribution = ChiSquared::new(degrees as f64).ok()?;
+    // each movement has its mean, so the sum is scaled to these degrees
     let factor = (chi2 / told as f64).sqrt();
+    let chi2 = factor * factor * degrees as f64;
     let [high, low] = TAILS.map(|tail| factor * (degrees as f64 / distribution.inverse_cdf(tail)).sqrt());
     Some(ParameterShift {
         sensor,

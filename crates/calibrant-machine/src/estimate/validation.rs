@@ -48,7 +48,7 @@ pub struct FailedBlock {
 pub struct ParameterShift {
     /// The sensor.
     pub sensor: SensorKind,
-    /// `Δᵀ C⁻¹ Δ`, summed over the blocks.
+    /// `Δᵀ C⁻¹ Δ`, summed over the blocks and scaled to its degrees of freedom (`satterthwaite1946`).
     pub chi2: f64,
     /// Its degrees of freedom: combinations of parameters that the other data determine, for each block but one.
     pub degrees_of_freedom: usize,

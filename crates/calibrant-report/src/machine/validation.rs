@@ -48,7 +48,7 @@ pub fn machine_validation_rows(
 pub fn machine_validation_sentences(validation: &MachineValidation) -> Vec<String> {
     let mut sentences: Vec<String> = validation.shifts.iter().map(sentence).collect();
     if validation.shifts.is_empty() {
-        sentences.push("The two calibrations have no parameter in common.".into());
+        sentences.push("These data tell nothing: what is known beforehand outweighs them.".into());
     }
     if let MachineValidationSource::Blocks { failed, .. } = &validation.source {
         sentences.extend(failed.iter().map(|block| {

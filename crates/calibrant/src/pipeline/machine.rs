@@ -15,14 +15,14 @@ use super::validation::unless_too_few;
 use calibrant_core::diagnostic::Diagnostic;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
 use calibrant_core::sensor::{
-    Axis, ImuParameters, ImuQuantity, ImuRecording, ParameterList, ReadingUnit, Sensor, SensorKind,
-    SensorModel,
+    Axis, ImuParameters, ImuQuantity, ImuRecording, ParameterList, Sensor, SensorKind, SensorModel,
 };
 use calibrant_io::{Experiment, ImuPlan, MachineLogInput, MachinePlan, ReferenceLogOptions, file_name};
 use calibrant_machine::chain::KinematicChain;
 use calibrant_machine::estimate::{
     MachineCalibration, MachineProblem, MachineSettings, MachineSetup, MachineValidation,
-    MachineValidationSource, calibrate_on_machine, compare_on_machine, cross_validate_on_machine,
+    MachineValidationSource, calibrate_on_machine, check_folds, compare_on_machine,
+    cross_validate_on_machine,
 };
 use calibrant_machine::log::ReferenceLog;
 use nalgebra::{Matrix3, Vector3};
@@ -50,23 +50,6 @@ struct Moved {
 fn calibrated(problem: &MachineProblem<'_>, source: &Source) -> Result<MachineCalibration> {
     calibrate_on_machine(problem, &MachineSettings::default())
         .map_err(|error| error.in_recording(&source.recording))
-}
-
-/// Gains of readings in SI that are plausible.
-const PLAUSIBLE_GAINS: std::ops::RangeInclusive<f64> = 0.8..=1.25;
-
-/// The gains of readings in SI that are far from 1, as of a log in degrees that is called one in radians.
-fn implausible_gains(calibration: &MachineCalibration) -> Vec<Diagnostic> {
-    let of_axis = |sensor_kind: SensorKind, unit: ReadingUnit, axis: Axis| {
-        let gain = calibration.parameters.imu.sensor(sensor_kind).matrix[(axis.index(), axis.index())];
-        let doubtful = unit != ReadingUnit::Counts && !PLAUSIBLE_GAINS.contains(&gain);
-        doubtful.then_some(Diagnostic::GainImplausible { sensor_kind, axis, gain, unit })
-    };
-    let sensors = SensorKind::ALL.into_iter().zip(calibration.units);
-    let sensors = sensors.filter_map(|(sensor_kind, unit)| Some((sensor_kind, unit?)));
-    sensors
-        .flat_map(|(kind, unit)| Axis::ALL.into_iter().filter_map(move |axis| of_axis(kind, unit, axis)))
-        .collect()
 }
 
 impl<'e> MachineTask<'e> {
@@ -103,20 +86,18 @@ impl<'e> MachineTask<'e> {
         let nominal = self.nominal()?;
         let quantities = self.quantities(&moved.recorded.recording);
         let problem = self.problem(&moved, &setup, &nominal, &quantities);
+        // what is wrong with the options is said before the calibration takes its time
+        if let Some(folds) = options.folds {
+            check_folds(&problem, folds)?;
+        }
+        let other = (options.validate.as_ref())
+            .map(|other| self.other(other, options, &moved, notes).map(|second| (other, second)))
+            .transpose()?;
         let mut calibration = calibrated(&problem, source)?;
         calibration.warnings.splice(0..0, moved.outliers.iter().cloned());
-        calibration.warnings.extend(implausible_gains(&calibration));
         let mut validations = Vec::new();
-        if let Some(other) = &options.validate {
-            let log = options.validate_motion.as_deref();
-            let log = log.map(|path| LogFile::read(path, &self.log_options, notes)).transpose()?;
-            let read = self.reader.read_other(other)?;
-            let second = self.moved(other, read, (log.as_ref(), "--validate-motion"), notes)?;
-            for &sensor_kind in calibration.noise.iter().map(|of| &of.sensor) {
-                let [one, two] = [&moved, &second].map(|of| of.recorded.readings(sensor_kind));
-                refuse_duplicate(sensor_kind, &one, &two, other.file_of(sensor_kind))?;
-            }
-            let second = calibrated(&self.problem(&second, &setup, &nominal, &quantities), other)?;
+        if let Some((other, second)) = &other {
+            let second = calibrated(&self.problem(second, &setup, &nominal, &quantities), other)?;
             let name = file_name(&other.recording);
             let source = MachineValidationSource::Recording { name };
             validations
@@ -172,6 +153,27 @@ impl<'e> MachineTask<'e> {
         };
         let (log, log_input) = log.for_recording(self.chain.as_ref(), recorded.counted_from_ns, notes)?;
         Ok(Moved { recorded, outliers, log, log_input })
+    }
+
+    /// The other recording of the sensor beside its log.
+    fn other(
+        &self,
+        other: &Source,
+        options: &PipelineOptions,
+        moved: &Moved,
+        notes: &mut Vec<Note>,
+    ) -> Result<Moved> {
+        let log = options.validate_motion.as_deref();
+        let log = log.map(|path| LogFile::read(path, &self.log_options, notes)).transpose()?;
+        let read = self.reader.read_other(other)?;
+        let second = self.moved(other, read, (log.as_ref(), "--validate-motion"), notes)?;
+        for sensor_kind in SensorKind::ALL {
+            if moved.recorded.recording.sensor(sensor_kind).is_some() {
+                let [one, two] = [moved, &second].map(|of| of.recorded.readings(sensor_kind));
+                refuse_duplicate(sensor_kind, &one, &two, other.file_of(sensor_kind))?;
+            }
+        }
+        Ok(second)
     }
 
     fn problem<'p>(
