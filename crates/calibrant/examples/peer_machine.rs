@@ -14,8 +14,8 @@ use calibrant::machine::estimate::{
 };
 use calibrant::machine::log::ReferenceLog;
 use calibrant::sensor::{
-    Axis, CalibratedImu, Gauge, ImuParameters, ImuQuantity, ParameterList, ReadingUnit, SensorKind,
-    SensorModel, SensorParameters,
+    Axis, CalibratedImu, ImuParameters, ImuQuantity, ParameterList, ReadingUnit, SensorKind, SensorModel,
+    SensorParameters,
 };
 use nalgebra::Vector3;
 use serde_json::Value;
@@ -164,7 +164,7 @@ fn true_sensor(parameters: &Value, in_gauge: bool) -> Result<ImuParameters, Box<
         degrees_of_freedom: None,
         frame: "that of MuJoCo".into(),
     };
-    Ok(if in_gauge { imu.in_gauge(Gauge::Upper)?.parameters } else { parameters })
+    Ok(if in_gauge { imu.in_gauge(MountingPrior::GAUGE)?.parameters } else { parameters })
 }
 
 /// Errors over many recordings.

@@ -17,7 +17,7 @@ use calibrant::machine::simulate::{
     LogErrors, SensorErrors, SensorSampling, draw_machine, record_log, record_sensors,
 };
 use calibrant::sensor::{
-    Gauge, ImuParameters, ImuQuantity, ImuRecording, ParameterList, ReadingUnit, SensorKind, SensorModel,
+    ImuParameters, ImuQuantity, ImuRecording, ParameterList, ReadingUnit, SensorKind, SensorModel,
 };
 use calibrant::simulate::{GyroscopeToDraw, ImuSimulation, Rng, draw_imu};
 use nalgebra::Vector3;
@@ -158,7 +158,7 @@ impl Sensors<'_> {
         };
         let drawn = draw_imu(&self.experiment.sensor, &gyroscope, rng);
         match self.setup.mounting {
-            MountingPrior::Unknown => imu::in_gauge(&drawn, self.units(), Gauge::Upper),
+            MountingPrior::Unknown => imu::in_gauge(&drawn, self.units(), MountingPrior::GAUGE),
             MountingPrior::Exact | MountingPrior::Within(_) => Ok(drawn),
         }
     }
@@ -167,7 +167,7 @@ impl Sensors<'_> {
     fn quantities(&self) -> Vec<ImuQuantity> {
         let model = self.experiment.sensor.model;
         let list = match self.setup.mounting {
-            MountingPrior::Unknown => Gauge::Upper.parameter_list(model),
+            MountingPrior::Unknown => MountingPrior::GAUGE.parameter_list(model),
             MountingPrior::Exact | MountingPrior::Within(_) => ParameterList::new(3, model),
         };
         let of = |kind: SensorKind, list: &ParameterList| -> Vec<ImuQuantity> {

@@ -8,7 +8,6 @@ use calibrant::error::{InputError, Refusal};
 use calibrant::io::{MachinePlan, ReferenceLogOptions, file_name, read_reference_log};
 use calibrant::machine::chain::KinematicChain;
 use calibrant::machine::estimate::MachineSetup;
-use calibrant::machine::log::ReferenceLog;
 use calibrant::machine::reference::Motion;
 use calibrant::machine::simulate::{
     MotionOfLog, MotionToDraw, draw_body_motion, draw_joint_motion, motion_of_log,
@@ -20,13 +19,13 @@ use std::path::Path;
 /// Shortest recording, s.
 const SHORTEST_S: f64 = 1.0;
 
-/// A drawn motion rests for so long at either end of the recording, s.
+/// Rest at either end of the recording of a drawn motion, s.
 const REST_S: f64 = 1.0;
 
 /// The motion, and how much of it the recording shows.
 pub(super) struct TrueMotion {
     pub(super) motion: Motion,
-    /// The recording begins so long after the motion, and ends so long before it, s.
+    /// Time by which the recording begins after the motion, and ends before it, s.
     pub(super) edge_s: f64,
 }
 
@@ -73,19 +72,7 @@ fn given(
     let options = ReferenceLogOptions { topic: plan.log_topic.clone(), ..Default::default() };
     let file = read_reference_log(path, &options)?;
     file.findings.iter().for_each(|finding| console::finding(&file_name(path), finding));
-    let log = match (chain, file.poses()) {
-        (Some(chain), _) => {
-            let names: Vec<&str> = chain.joints.iter().map(|joint| joint.name.as_str()).collect();
-            ReferenceLog::Joints(file.joints_in_order(&names).map_err(|error| error.in_recording(path))?)
-        }
-        (None, Some(poses)) => ReferenceLog::Poses(poses.clone()),
-        (None, None) => {
-            let message = "the log is of joints, and [machine] names no machine";
-            let help = "give urdf, base and tip in [machine]";
-            let input_error = InputError::new(Refusal::MachineUnsuited, message, help);
-            return Err(Error::experiment(input_error.in_file(path)));
-        }
-    };
+    let log = file.of_machine(chain, path)?;
     let refused = |message: String, help: &str| {
         Error::recording(InputError::new(Refusal::MachineUnsolved, message, help).in_file(path))
     };

@@ -45,7 +45,7 @@ pub struct MachinePlan {
     pub log_noise: Option<LogNoise>,
     /// Topic of the log in a bag that has several.
     pub log_topic: Option<String>,
-    /// What `simulate` is told beside the rest.
+    /// The settings that only `simulate` needs.
     pub simulation: MachineSimulation,
     /// What is known, but for the noise.
     known: MachineSetup,

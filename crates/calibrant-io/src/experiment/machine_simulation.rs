@@ -1,4 +1,4 @@
-//! Reads `[machine.simulate]`: what a simulation is told beside what a calibration reads.
+//! Reads `[machine.simulate]`: the settings that only a simulation needs.
 
 use super::motion::RATE_HZ;
 use super::number_range::Bounds;

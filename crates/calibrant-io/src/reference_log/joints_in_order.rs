@@ -6,7 +6,9 @@ use crate::experiment::nearest;
 use crate::recording::finding_words::list;
 use crate::text_decoding::Checked;
 use calibrant_core::error::{Error, InputError, Refusal, Result};
-use calibrant_machine::log::JointLog;
+use calibrant_machine::chain::KinematicChain;
+use calibrant_machine::log::{JointLog, ReferenceLog};
+use std::path::Path;
 
 impl ReferenceLogFile {
     /// The log of the joints of a chain, in its order. Other joints of the log are left out. The columns of RTDE,
@@ -41,6 +43,28 @@ impl ReferenceLogFile {
             positions: picked(&log.positions),
             velocities: log.velocities.as_deref().map(picked),
         })
+    }
+
+    /// The log of a machine: the joints of its chain in their order, or the poses of a body without a chain. Errors name the file at `path`.
+    ///
+    /// # Errors
+    /// - [`Error::Recording`]: joints of the chain are missing.
+    /// - [`Error::Experiment`]: a log of joints, and no chain.
+    pub fn of_machine(&self, chain: Option<&KinematicChain>, path: &Path) -> Result<ReferenceLog> {
+        match (chain, self.poses()) {
+            (Some(chain), _) => {
+                let names: Vec<&str> = chain.joints.iter().map(|joint| joint.name.as_str()).collect();
+                let joints = self.joints_in_order(&names).map_err(|error| error.in_recording(path))?;
+                Ok(ReferenceLog::Joints(joints))
+            }
+            (None, Some(poses)) => Ok(ReferenceLog::Poses(poses.clone())),
+            (None, None) => {
+                let message = "the log is of joints, and [machine] names no machine";
+                let help = "give urdf, base and tip in [machine]";
+                let input_error = InputError::new(Refusal::MachineUnsuited, message, help);
+                Err(Error::experiment(input_error.in_file(path)))
+            }
+        }
     }
 
     /// The column of each joint.

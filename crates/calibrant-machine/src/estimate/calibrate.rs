@@ -17,7 +17,7 @@ use calibrant_core::error::Result;
 const STEPS: usize = 2;
 const SAMPLES: usize = 1000;
 
-/// The residuals and the budget come from so many intervals at most.
+/// Largest number of intervals from which residuals and budget are computed.
 const INTERVALS: usize = 3000;
 
 /// Calibrates a sensor on a machine.

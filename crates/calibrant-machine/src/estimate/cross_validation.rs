@@ -40,7 +40,7 @@ pub fn cross_validate_on_machine(
     calibration: &MachineCalibration,
     folds: usize,
 ) -> Result<MachineValidation> {
-    let sensors: Vec<SensorKind> = calibration.noise.iter().map(|of| of.sensor).collect();
+    let sensors = calibration.sensors();
     let Some(main) = sensors.last().and_then(|kind| problem.recording.sensor(*kind)) else {
         return Err(refused("the recording has no sensor", "record an accelerometer or a gyroscope"));
     };
@@ -69,7 +69,7 @@ pub fn cross_validate_on_machine(
     Ok(MachineValidation { source: MachineValidationSource::Blocks { folds, length_s, failed }, shifts })
 }
 
-/// Can a recording be divided into so many blocks?
+/// Checks that a recording can be divided into this number of blocks.
 ///
 /// # Errors
 /// [`Error::Experiment`](calibrant_core::Error::Experiment): fewer than two blocks, or blocks shorter than 1 s.
@@ -137,7 +137,7 @@ fn model<'a>(
         let recording = recording.sensor(of.sensor)?;
         Some(Stream { sensor: of.sensor, recording, sd: of.noise, growth: Vec::new() })
     };
-    let sensors: Vec<SensorKind> = calibration.noise.iter().map(|of| of.sensor).collect();
+    let sensors = calibration.sensors();
     let whole = sensors.last().and_then(|kind| problem.recording.sensor(*kind));
     let mut model = Model {
         streams: calibration.noise.iter().filter_map(stream).collect(),

@@ -2,7 +2,7 @@
 
 use super::parameters::AXES;
 use super::{MachineParameters, MachineQuantity, MachineSetup, MountingPrior};
-use calibrant_core::sensor::{Gauge, ImuQuantity, SensorKind, SensorModel};
+use calibrant_core::sensor::{ImuQuantity, SensorKind, SensorModel};
 use nalgebra::{DMatrix, DVector};
 
 /// The unknowns, and the information of their priors.
@@ -73,11 +73,11 @@ impl Layout {
 }
 
 /// Is a quantity estimated where nothing is known of the mounting? `S R` and the mounting turned by `R` read the same for every rotation `R`.
-/// The gauge `upper` of the `first` sensor picks one.
+/// The gauge of the `first` sensor picks one.
 fn in_gauge(quantity: MachineQuantity, first: SensorKind) -> bool {
     match quantity {
         MachineQuantity::Imu(ImuQuantity::Of(sensor, of)) if sensor == first => {
-            Gauge::Upper.parameter_list(SensorModel::Full).quantities().contains(&of)
+            MountingPrior::GAUGE.parameter_list(SensorModel::Full).quantities().contains(&of)
         }
         _ => true,
     }

@@ -50,8 +50,9 @@ pub(super) fn noise_search(
     problem: &MachineProblem<'_>,
     settings: &MachineSettings,
 ) -> Result<Growths> {
-    /// The residuals of so many intervals, or samples of each sensor where the motion is known, suffice for the noise.
+    /// Number of intervals whose residuals suffice for the noise.
     const INTERVALS: usize = 200;
+    /// The same where the motion is known: number of samples of each sensor.
     const SAMPLES: usize = 4000;
     let pass = match model.trust {
         MachineTrust::Known => Pass::trusting(SAMPLES),

@@ -17,7 +17,7 @@ impl Pass {
         Self { trust, samples: usize::MAX }
     }
 
-    /// The motion is the smoothed log; so many samples suffice.
+    /// The motion is the smoothed log, and about this number of samples of each sensor is used.
     pub(super) fn trusting(samples: usize) -> Self {
         Self { trust: MachineTrust::Known, samples }
     }

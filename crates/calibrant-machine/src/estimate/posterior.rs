@@ -42,7 +42,7 @@ struct Local {
 }
 
 impl Posterior {
-    /// At a minimum, from so many intervals at most, spread evenly. `None` where the parameters are not determined.
+    /// At a minimum. At most `intervals` intervals are visited, spread evenly. `None` where the parameters are not determined.
     pub(super) fn at(model: &Model<'_>, minimum: &Minimum, pass: Pass, intervals: usize) -> Option<Self> {
         let state = &minimum.state;
         let covariance = Scaled::new(&minimum.solved.information)?.inverse();
@@ -132,7 +132,7 @@ impl Sweep<'_> {
 }
 
 impl Sums {
-    /// Each interval that was visited stands for so many.
+    /// Multiplies the sums: each interval that was visited stands for this number of them.
     fn stand_for(&mut self, number: f64) {
         for moments in self.streams.iter_mut().flatten().chain(&mut self.log) {
             *moments = moments.times(number);

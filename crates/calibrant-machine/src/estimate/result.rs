@@ -99,6 +99,12 @@ pub struct BudgetRow {
 }
 
 impl MachineCalibration {
+    /// The sensors that were calibrated.
+    #[must_use]
+    pub fn sensors(&self) -> Vec<SensorKind> {
+        self.noise.iter().map(|of| of.sensor).collect()
+    }
+
     /// Standard deviation of each estimate.
     #[must_use]
     pub fn sd(&self) -> Vec<f64> {

@@ -6,7 +6,6 @@
 use super::shift::{Movement, judged, widened};
 use super::validation::{MachineValidation, MachineValidationSource};
 use super::{MachineCalibration, MachineQuantity, MachineSetup};
-use calibrant_core::sensor::SensorKind;
 use nalgebra::{DMatrix, DVector};
 
 /// Compares how far the parameters of `second` are from those of `first` with what both covariances predict. Both are of the same setup. Delays, clock
@@ -23,7 +22,7 @@ pub fn compare_on_machine(
     if first.quantities != second.quantities {
         return MachineValidation { source, shifts: Vec::new() };
     }
-    let sensors: Vec<SensorKind> = first.noise.iter().map(|of| of.sensor).collect();
+    let sensors = first.sensors();
     let information = |quantity: &MachineQuantity| {
         let sd = setup.prior_sd(*quantity, sensors.len());
         let shared = matches!(

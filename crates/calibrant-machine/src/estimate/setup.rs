@@ -1,7 +1,7 @@
 //! What is known beforehand of the machine and of the sensor on it.
 
 use super::MachineQuantity;
-use calibrant_core::sensor::SensorKind;
+use calibrant_core::sensor::{Gauge, SensorKind};
 use nalgebra::{UnitQuaternion, Vector3};
 
 /// How far the log of the machine's motion is trusted.
@@ -76,6 +76,11 @@ pub struct MachineSetup {
     pub gyroscope_noise: Option<Vector3<f64>>,
     /// Noise of one sample of the log: of each joint in rad or m, or of position (3 axes, m) and orientation (3 axes, rad). `None`: from the residuals.
     pub reference_noise: Option<Vec<f64>>,
+}
+
+impl MountingPrior {
+    /// The gauge of the first sensor's matrix where the mounting is unknown.
+    pub const GAUGE: Gauge = Gauge::Upper;
 }
 
 impl MachineSetup {

@@ -4,7 +4,7 @@ use super::gauss_newton::{equations_at, stepped};
 use super::model::{Model, State};
 use super::pass::Pass;
 
-/// Fits the parameters to the motion as it is, in so many steps, with the noise that the residuals show. The noise of the model remains so. `None` where
+/// Fits the parameters to the motion as it is, with the noise that the residuals show. The noise of the model remains so. `None` where
 /// nothing is determined.
 pub(super) fn trusted(model: &mut Model<'_>, state: &mut State, steps: usize, samples: usize) -> Option<()> {
     let pass = Pass::trusting(samples);

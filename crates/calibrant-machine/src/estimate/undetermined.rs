@@ -9,7 +9,7 @@ use nalgebra::{DMatrix, Matrix3, SymmetricEigen, Vector3};
 
 /// Information below this part of that of a well determined combination is rounding.
 const RELATIVE: f64 = 1e-10;
-/// So many samples of each sensor tell.
+/// Number of samples of each sensor that are looked at.
 const SAMPLES: usize = 5000;
 /// Parameters with at least this part of an undetermined combination are named.
 const SHARE: f64 = 0.1;

@@ -57,32 +57,19 @@ impl LogFile {
         let mut file = self.file.clone();
         file.put_on_clock_of(counted_from_ns);
         let mut recovered_rate_hz = None;
-        let log = match (chain, file.poses()) {
-            (Some(chain), _) => {
-                let names: Vec<&str> = chain.joints.iter().map(|joint| joint.name.as_str()).collect();
-                let joints = file.joints_in_order(&names).map_err(|error| error.in_recording(&self.path))?;
-                ReferenceLog::Joints(joints)
-            }
-            (None, Some(poses)) => match recover_interpolated(poses) {
-                Some(stream) => {
-                    notes.push(Note::Remark(format!(
-                        "{}: the poses are a linear interpolation of a stream at {} Hz. Its {} take their place",
-                        file_name(&self.path),
-                        significant(stream.rate_hz(), 7),
-                        counted(stream.log.times_s.len(), "sample")
-                    )));
-                    recovered_rate_hz = Some(stream.rate_hz());
-                    ReferenceLog::Poses(stream.log)
-                }
-                None => file.log.clone(),
-            },
-            (None, None) => {
-                let message = "the log is of joints, and [machine] names no machine";
-                let help = "give urdf, base and tip in [machine]";
-                let input_error = InputError::new(Refusal::MachineUnsuited, message, help);
-                return Err(Error::experiment(input_error.in_file(&self.path)));
-            }
-        };
+        let mut log = file.of_machine(chain, &self.path)?;
+        if let ReferenceLog::Poses(poses) = &log
+            && let Some(stream) = recover_interpolated(poses)
+        {
+            notes.push(Note::Remark(format!(
+                "{}: the poses are a linear interpolation of a stream at {} Hz. Its {} take their place",
+                file_name(&self.path),
+                significant(stream.rate_hz(), 7),
+                counted(stream.log.times_s.len(), "sample")
+            )));
+            recovered_rate_hz = Some(stream.rate_hz());
+            log = ReferenceLog::Poses(stream.log);
+        }
         let input = MachineLogInput {
             file: file_name(&self.path),
             sha256: file.sha256,
