@@ -1,6 +1,7 @@
 //! Design: it finds the motion whose recording determines the parameters best, and bounds how far that is
 //! from the optimum. It simulates studies of both.
 
+mod active_set;
 mod admissible;
 mod admissible_region;
 mod certificate;

@@ -7,6 +7,7 @@ pub mod criterion;
 mod expected_information;
 mod identifiability;
 mod motion_information;
+mod second_derivative;
 mod undetermined_explanation;
 
 pub use covariance::covariance;
@@ -14,4 +15,5 @@ pub use criterion::Criterion;
 pub use expected_information::MotionInformation;
 pub use identifiability::{Undetermined, undetermined};
 pub use motion_information::{InformationDerivative, Linearised, PartInformation};
+pub use second_derivative::InformationCurvature;
 pub use undetermined_explanation::{MotionFacts, View, explain};

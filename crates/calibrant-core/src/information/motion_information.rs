@@ -53,9 +53,9 @@ pub struct Linearised<const D: usize, const P: usize> {
     /// Information `F`.
     pub information: SMatrix<f64, P, P>,
     /// The remaining sensitivity `R` of the readings at each node to the parameters.
-    residual: Vec<SMatrix<f64, D, P>>,
+    pub(super) residual: Vec<SMatrix<f64, D, P>>,
     /// Costate `ψ` of each interval; empty unless the motion is noisy.
-    costate: Vec<SMatrix<f64, D, P>>,
+    pub(super) costate: Vec<SMatrix<f64, D, P>>,
 }
 
 /// Derivative of `⟨Ω, F⟩`.
