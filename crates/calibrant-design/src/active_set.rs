@@ -23,11 +23,13 @@
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 
-/// A row `lower ≤ Σ terms ≤ upper`. It is an equality where both are the same.
+/// A row `lower ≤ r·x ≤ upper`. It is an equality where both are the same.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct LinearRow {
-    /// Coefficients by variable.
-    pub(crate) terms: Vec<(usize, f64)>,
+    /// The first variable that counts.
+    pub(crate) first: usize,
+    /// Coefficients of it and of the variables behind it.
+    pub(crate) coefficients: DVector<f64>,
     /// Lower bound, or −∞.
     pub(crate) lower: f64,
     /// Upper bound, or ∞.
@@ -36,14 +38,14 @@ pub(crate) struct LinearRow {
 
 impl LinearRow {
     /// The row, divided by its length.
-    pub(crate) fn new(terms: Vec<(usize, f64)>, lower: f64, upper: f64) -> Self {
-        let length = terms.iter().map(|(_, c)| c * c).sum::<f64>().sqrt();
-        let terms = terms.into_iter().map(|(k, c)| (k, c / length)).collect();
-        Self { terms, lower: lower / length, upper: upper / length }
+    pub(crate) fn new(first: usize, coefficients: Vec<f64>, lower: f64, upper: f64) -> Self {
+        let coefficients = DVector::from_vec(coefficients);
+        let length = coefficients.norm();
+        Self { first, coefficients: coefficients / length, lower: lower / length, upper: upper / length }
     }
 
     pub(crate) fn at(&self, x: &DVector<f64>) -> f64 {
-        self.terms.iter().map(|&(k, c)| c * x[k]).sum()
+        x.rows(self.first, self.coefficients.len()).dot(&self.coefficients)
     }
 
     fn is_equality(&self) -> bool {
@@ -69,8 +71,10 @@ impl Side {
 /// An active row, by its number.
 pub(crate) type Active = (usize, Side);
 
-/// A row counts as violated beyond this, in units of x.
-const VIOLATED: f64 = 1e-11;
+/// A row counts as violated beyond this, relative to its bound and in units of x.
+const VIOLATED: (f64, f64) = (1e-10, 1e-12);
+/// A row that depends on the active ones may be violated by this much: that is rounding, not a contradiction.
+const ROUNDING: f64 = 1e-7;
 /// Square of the relative size of what is new in a row, below which it depends on the active ones.
 const DEPENDENT: f64 = 1e-18;
 
@@ -130,8 +134,17 @@ impl ActiveSet {
 
     /// Goes on to the minimum with all rows. `None` where they contradict each other, or rounding prevails.
     pub(crate) fn solve(&mut self, rows: &[LinearRow]) -> Option<()> {
-        let most = self.changes + 20 * (self.x.len() + 20);
-        while let Some((row, side, mut missing)) = self.most_violated(rows) {
+        let most = self.changes + 50 * (self.x.len() + 20);
+        let mut redundant = Vec::new();
+        loop {
+            let Some((row, side, mut missing)) = self.most_violated(rows, &redundant) else {
+                // the way here has left rounding in x
+                self.restart(rows)?;
+                if self.most_violated(rows, &redundant).is_none() {
+                    return Some(());
+                }
+                continue;
+            };
             let mut own = 0.0;
             loop {
                 if self.changes >= most {
@@ -152,7 +165,11 @@ impl ActiveSet {
                 let full = if new > DEPENDENT * d.norm_squared() { missing / new } else { f64::INFINITY };
                 let step = first.map_or(full, |(step, _)| step.min(full));
                 if step.is_infinite() {
-                    return None;
+                    if missing > ROUNDING {
+                        return None;
+                    }
+                    redundant.push((row, side));
+                    break;
                 }
                 if full.is_finite() {
                     let free = d.rows(q, d.len() - q);
@@ -171,7 +188,6 @@ impl ActiveSet {
                 }
             }
         }
-        self.restart(rows)
     }
 
     /// The minimum.
@@ -185,26 +201,27 @@ impl ActiveSet {
     }
 
     /// Rows added and dropped so far.
-    pub(crate) fn changes(&self) -> usize {
+    #[cfg(test)]
+    fn changes(&self) -> usize {
         self.changes
     }
 
     /// `Jᵀ n`, n the normal that points inwards.
     fn coordinates(&self, row: &LinearRow, side: Side) -> DVector<f64> {
         let sign = side.sign();
-        DVector::from_fn(self.x.len(), |column, _| {
-            let j = self.j.column(column);
-            sign * row.terms.iter().map(|&(k, c)| c * j[k]).sum::<f64>()
-        })
+        self.j.rows(row.first, row.coefficients.len()).tr_mul(&row.coefficients) * sign
     }
 
-    fn most_violated(&self, rows: &[LinearRow]) -> Option<(usize, Side, f64)> {
+    fn most_violated(&self, rows: &[LinearRow], redundant: &[Active]) -> Option<(usize, Side, f64)> {
         let mut worst = None;
-        let mut most = VIOLATED;
+        let mut most = 0.0;
         for (number, row) in rows.iter().enumerate() {
             let value = row.at(&self.x);
-            for (side, missing) in [(Side::Lower, row.lower - value), (Side::Upper, value - row.upper)] {
-                if missing > most && !self.active.contains(&(number, side)) {
+            for (side, missing, bound) in
+                [(Side::Lower, row.lower - value, row.lower), (Side::Upper, value - row.upper, row.upper)]
+            {
+                let known = || self.active.contains(&(number, side)) || redundant.contains(&(number, side));
+                if missing > most && missing > VIOLATED.0 * bound.abs() + VIOLATED.1 && !known() {
                     most = missing;
                     worst = Some((number, side, missing));
                 }

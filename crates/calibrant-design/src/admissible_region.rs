@@ -146,19 +146,18 @@ impl Region {
         let (mut v, mut d) = (0.0, 0.0);
         let mut news = false;
         for i in 0..n {
-            let dt = self.tau[i + 1] - self.tau[i];
-            let u = (a[i + 1] - a[i]) / dt;
-            let at = Polynomial { d, v, a: a[i], u, dt };
-            if let Some(limit) = self.limits.velocity {
-                news |= !watch.velocity[i] && at.peak_velocity() > limit * (1.0 + BREACH);
-                watch.velocity[i] |= at.peak_velocity() > limit * (1.0 + BREACH);
+            let at = self.inside(a, i, v, d);
+            let breaks = |peak: Option<(f64, f64)>, limit: Option<f64>| {
+                limit.zip(peak).is_some_and(|(limit, (value, _))| value > limit * (1.0 + BREACH))
+            };
+            for (watched, broken) in [
+                (&mut watch.velocity[i], breaks(at.peak_velocity(), self.limits.velocity)),
+                (&mut watch.displacement[i], breaks(at.peak_displacement(), self.limits.displacement)),
+            ] {
+                news |= broken && !*watched;
+                *watched |= broken;
             }
-            if let Some(limit) = self.limits.displacement {
-                news |= !watch.displacement[i] && at.peak_displacement() > limit * (1.0 + BREACH);
-                watch.displacement[i] |= at.peak_displacement() > limit * (1.0 + BREACH);
-            }
-            d = at.displacement(dt);
-            v = at.velocity(dt);
+            (v, d) = at.end();
         }
         news
     }
@@ -175,22 +174,25 @@ impl Region {
         };
         let (mut v, mut d) = (0.0, 0.0);
         for i in 0..n {
-            let dt = self.tau[i + 1] - self.tau[i];
-            let u = (a[i + 1] - a[i]) / dt;
-            let at = Polynomial { d, v, a: a[i], u, dt };
+            let at = self.inside(a, i, v, d);
             within(a[i], l.acceleration);
-            within(u, l.jerk);
-            within(a[i] - u * self.tau[i], l.intercept);
-            within(at.peak_velocity(), l.velocity);
-            within(at.peak_displacement(), l.displacement);
-            d = at.displacement(dt);
-            v = at.velocity(dt);
+            within(at.u, l.jerk);
+            within(a[i] - at.u * self.tau[i], l.intercept);
+            (v, d) = at.end();
+            within(at.peak_velocity().map_or(v, |(peak, _)| peak.max(v.abs())), l.velocity);
+            within(at.peak_displacement().map_or(d, |(peak, _)| peak.max(d.abs())), l.displacement);
         }
         within(a[n], l.acceleration);
         if l.rest == Rest::Both {
             worst = worst.max(v.abs() / (self.size * self.tau[n]) - 1e-12);
         }
         worst
+    }
+
+    /// The motion inside interval i, from velocity v and displacement d.
+    pub(super) fn inside(&self, a: &[f64], i: usize, v: f64, d: f64) -> Polynomial {
+        let dt = self.tau[i + 1] - self.tau[i];
+        Polynomial { d, v, a: a[i], u: (a[i + 1] - a[i]) / dt, dt }
     }
 
     /// Restores the equalities to rounding: prescribed ends, and rest at the end by an equal change of all
@@ -252,7 +254,7 @@ fn keep_cubic(program: &mut ConicProgram, beta: &[Row; 4], limit: f64) {
 }
 
 /// The motion inside one interval.
-struct Polynomial {
+pub(super) struct Polynomial {
     d: f64,
     v: f64,
     a: f64,
@@ -269,25 +271,27 @@ impl Polynomial {
         self.d + t * (self.v + t * (self.a / 2.0 + t * self.u / 6.0))
     }
 
-    fn peak_velocity(&self) -> f64 {
-        let mut peak = self.v.abs().max(self.velocity(self.dt).abs());
-        let t = -self.a / self.u;
-        if t > 0.0 && t < self.dt {
-            peak = peak.max(self.velocity(t).abs());
-        }
-        peak
+    /// Velocity and displacement at its end.
+    pub(super) fn end(&self) -> (f64, f64) {
+        (self.velocity(self.dt), self.displacement(self.dt))
     }
 
-    fn peak_displacement(&self) -> f64 {
-        let mut peak = self.d.abs().max(self.displacement(self.dt).abs());
+    /// The largest size of the velocity between the nodes, and its time after the start of the interval.
+    /// `None` where it has no extreme there.
+    pub(super) fn peak_velocity(&self) -> Option<(f64, f64)> {
+        let t = -self.a / self.u;
+        (t > 0.0 && t < self.dt).then(|| (self.velocity(t).abs(), t))
+    }
+
+    /// The same for the displacement.
+    pub(super) fn peak_displacement(&self) -> Option<(f64, f64)> {
         // v + a t + u t²/2 = 0, in the form that does not cancel
         let root = (self.a * self.a - 2.0 * self.u * self.v).sqrt();
         let q = -(self.a + self.a.signum() * root);
-        for t in [q / self.u, 2.0 * self.v / q] {
-            if t > 0.0 && t < self.dt {
-                peak = peak.max(self.displacement(t).abs());
-            }
-        }
-        peak
+        [q / self.u, 2.0 * self.v / q]
+            .into_iter()
+            .filter(|&t| t > 0.0 && t < self.dt)
+            .map(|t| (self.displacement(t).abs(), t))
+            .max_by(|one, other| one.0.total_cmp(&other.0))
     }
 }

@@ -1,8 +1,9 @@
 //! The multistart search: many starts, in parallel, and the best motion of each axis.
 //!
-//! Half of the starts are random motions and corners of the admissible region; the others are kicks from the
-//! best optimum so far. They run in rounds, so that the result does not depend on the number of threads. They
-//! end early once many starts agree on the best.
+//! A third of the starts are random motions, corners of the admissible region, or the optima of single axes
+//! combined. The others are kicks from the best optima so far. They run in rounds, so that the result does not
+//! depend on the number of threads. They end early once many starts agree on the best, and where a time is
+//! given, after it.
 //!
 //! Axes of a scale-bias sensor share nothing, so each has its own design. Axes with the same problem are
 //! designed once, with the starts of all of them. Among equally good motions each axis takes the one most
@@ -13,12 +14,14 @@ use super::part::{Nodes, Part};
 use super::sequential_programming::LocalOptimum;
 use super::{DesignProblem, DesignSettings, DesignStatus, StartOutcome};
 use calibrant_core::error::Result;
-use calibrant_core::information::PartInformation;
+use calibrant_core::information::criterion::DOptimality;
+use calibrant_core::information::{Criterion, PartInformation};
 use calibrant_core::motion::{JerkControlledMotion, Limits};
 use calibrant_core::sensor::{Axis, SensorModel};
 use calibrant_core::simulate::{Purpose, stream};
-use nalgebra::{SMatrix, SVector, Vector3};
+use nalgebra::{DVector, SMatrix, SVector, Vector3};
 use rayon::prelude::*;
+use std::time::{Duration, Instant};
 
 /// The result of the search.
 pub(super) struct Found {
@@ -27,10 +30,24 @@ pub(super) struct Found {
     pub(super) status: DesignStatus,
 }
 
+/// What the search of every part shares.
+struct Search<'a> {
+    /// The first start of every axis.
+    initial: &'a JerkControlledMotion,
+    settings: &'a DesignSettings,
+    progress: &'a (dyn Fn(u64) + Sync),
+    /// Number of axes of the sensor.
+    axes: usize,
+}
+
 /// Values that differ by less than this, relatively, are equal.
 const EQUAL: f64 = 1e-9;
 /// Number of starts at the best value that end the search.
 const AGREED: usize = 10;
+/// One in this many starts is not a kick.
+const FIRST: usize = 3;
+/// Number of kicks from the same optima.
+const ROUND: usize = 8;
 /// Relative difference within which a start is at the best value.
 const AGREEMENT: f64 = 1e-7;
 
@@ -45,14 +62,24 @@ pub(super) fn search(
     progress: &(dyn Fn(u64) + Sync),
 ) -> Result<Found> {
     let setting = problem.setting()?;
+    let search = Search { initial, settings, progress, axes: problem.sensor.axes };
     let mut found = Found {
         nodes: vec![Vector3::zeros(); problem.intervals + 1],
         starts: Vec::new(),
         status: DesignStatus::Converged,
     };
     if problem.sensor.model == SensorModel::Full {
-        let part = part(problem, setting.full(initial), limits, inside, slack);
-        found.take(&part, &[problem.sensor.active_axes().to_vec()], initial, settings, progress);
+        let whole = part(problem, setting.full(initial), limits, inside, slack);
+        // any criterion gives good motions of single axes; D needs no weights
+        let alone = DesignProblem {
+            criterion: Criterion::D(DOptimality { scale: DVector::repeat(whole.prior.nrows(), 1.0) }),
+            prior: None,
+            ..problem.clone()
+        };
+        let axes = [0, 1, 2].map(|axis| part(&alone, setting.single(axis, initial), limits, inside, slack));
+        let combined = whole.combined(axes.each_ref(), settings.starts, settings);
+        let all = problem.sensor.active_axes().to_vec();
+        found.take(&whole, &[all], combined, &search);
         return Ok(found);
     }
     let mut classes: Vec<(Part<1, 2>, Vec<Vec<Axis>>)> = Vec::new();
@@ -64,7 +91,7 @@ pub(super) fn search(
         }
     }
     for (part, axes) in &classes {
-        found.take(part, axes, initial, settings, progress);
+        found.take(part, axes, Vec::new(), &search);
     }
     Ok(found)
 }
@@ -92,7 +119,7 @@ fn part<const D: usize, const P: usize>(
 
 impl<const D: usize, const P: usize> Part<D, P> {
     /// Is it the same problem, for another axis?
-    fn is_like(&self, other: &Self) -> bool {
+    pub(super) fn is_like(&self, other: &Self) -> bool {
         self.regions.iter().zip(&other.regions).all(|(one, two)| one.limits == two.limits)
             && self.criterion == other.criterion
             && self.prior == other.prior
@@ -113,6 +140,10 @@ impl<const D: usize, const P: usize> Part<D, P> {
         own: &[SVector<f64, D>],
     ) -> Option<(Nodes<D>, DesignStatus)> {
         let best = outcomes.iter().min_by(|a, b| a.value.total_cmp(&b.value))?;
+        if best.value.is_infinite() {
+            // no motion determines the parameters: the first one shows it as well as any
+            return outcomes.first().map(|first| (first.nodes.clone(), first.status));
+        }
         let mut choice: Option<(Nodes<D>, DesignStatus)> = None;
         let mut likeness = f64::NEG_INFINITY;
         let equal = best.value + EQUAL * best.value.abs().min(1.0);
@@ -149,47 +180,59 @@ impl Found {
         outcomes.iter().filter(close).count() >= AGREED
     }
 
-    /// Runs the starts of a part and takes the best motion for each of its `groups` of axes.
+    /// Runs the starts of a part and takes the best motion for each of its `groups` of axes. It begins with the
+    /// initial motions and the `promising` ones.
     fn take<const D: usize, const P: usize>(
         &mut self,
         part: &Part<D, P>,
         groups: &[Vec<Axis>],
-        initial: &JerkControlledMotion,
-        settings: &DesignSettings,
-        progress: &(dyn Fn(u64) + Sync),
+        promising: Vec<Nodes<D>>,
+        search: &Search<'_>,
     ) {
+        let Search { initial, settings, progress, axes: axes_in_all } = *search;
         let own = |axes: &[Axis]| -> Nodes<D> {
             initial.acceleration_mps2().iter().map(|a| SVector::from_fn(|k, _| a[axes[k].index()])).collect()
         };
         let first = groups[0][0].index() as u64;
         let count = settings.starts * D * groups.len();
+        // axes that are designed one after the other share the time
+        let share = (D * groups.len()) as f64 / axes_in_all as f64;
+        let deadline =
+            settings.seconds.map(|seconds| Instant::now() + Duration::from_secs_f64(seconds * share));
+        let late = || deadline.is_some_and(|deadline| Instant::now() >= deadline);
         let mut outcomes: Vec<LocalOptimum<D>> = Vec::new();
         let mut numbers: Vec<usize> = Vec::new();
-        // half of the starts at random, then rounds of kicks from the best so far
-        let half = count.div_ceil(2);
-        let rounds = [count.div_ceil(3), half, count * 2 / 3, count * 5 / 6, count];
-        for end in rounds {
-            let best = outcomes.iter().min_by(|a, b| a.value.total_cmp(&b.value));
-            if best.is_some_and(|best| Self::agreed(&outcomes, best.value)) {
-                progress((count - outcomes.len()) as u64);
+        let first_ones = count.div_ceil(FIRST);
+        while outcomes.len() < count || deadline.is_some() {
+            let mut best: Vec<&LocalOptimum<D>> = outcomes.iter().collect();
+            best.sort_by(|one, other| one.value.total_cmp(&other.value));
+            best.dedup_by(|one, other| one.value <= other.value + AGREEMENT * other.value.abs());
+            if best.first().is_some_and(|best| Self::agreed(&outcomes, best.value)) {
+                progress(count.saturating_sub(outcomes.len()) as u64);
                 break;
             }
-            if settings.interruption.is_asked() && best.is_some() {
+            if (settings.interruption.is_asked() || late()) && !best.is_empty() {
                 break;
             }
-            let best = best.filter(|_| outcomes.len() >= half).map(|best| best.nodes.clone());
-            let (done, round): (Vec<_>, Vec<_>) = (outcomes.len()..end.max(outcomes.len()))
+            let optima: Vec<&Nodes<D>> = best.iter().map(|best| &best.nodes).collect();
+            let most = if deadline.is_some() { usize::MAX } else { count };
+            let end = if outcomes.len() < first_ones { first_ones } else { most.min(outcomes.len() + ROUND) };
+            let (done, round): (Vec<_>, Vec<_>) = (outcomes.len()..end)
                 .into_par_iter()
                 .filter_map(|number| {
                     // each axis keeps its initial motion at least
-                    if settings.interruption.is_asked() && number >= groups.len() {
+                    if (settings.interruption.is_asked() || late()) && number >= groups.len() {
                         return None;
                     }
                     let mut rng = stream(settings.seed, Purpose::Start, 3 * number as u64 + first);
-                    let start = match &best {
-                        _ if number < groups.len() => part.stretched_if_better(own(&groups[number])),
-                        None => part.start(number, &mut rng).unwrap_or_else(|| own(&groups[0])),
-                        Some(best) => part.kicked(best, &mut rng).unwrap_or_else(|| own(&groups[0])),
+                    let start = if number < groups.len() {
+                        part.stretched_if_better(own(&groups[number]))
+                    } else if let Some(start) = promising.get(number - groups.len()) {
+                        start.clone()
+                    } else if number < first_ones {
+                        part.start(number, &mut rng).unwrap_or_else(|| own(&groups[0]))
+                    } else {
+                        part.kicked(&optima, &mut rng).unwrap_or_else(|| own(&groups[0]))
                     };
                     let outcome = part.improve(start, settings);
                     progress(1);

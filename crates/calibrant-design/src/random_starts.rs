@@ -58,7 +58,7 @@ impl<const D: usize, const P: usize> Part<D, P> {
     }
 
     /// An optimum, moved towards a random corner by a random part of the way.
-    pub(super) fn kicked(&self, optimum: &[SVector<f64, D>], rng: &mut Rng) -> Option<Nodes<D>> {
+    pub(super) fn kicked_to_corner(&self, optimum: &[SVector<f64, D>], rng: &mut Rng) -> Option<Nodes<D>> {
         let part = rng.random_range(KICK);
         let direction = if rng.random_bool(0.5) { wave } else { noise };
         Some(self.restored(mix(optimum, &self.corner(direction, rng)?, part)))

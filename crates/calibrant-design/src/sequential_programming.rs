@@ -1,24 +1,23 @@
 //! One start of the search: sequential convex programming from a motion to a local optimum.
 //!
-//! The information is matrix convex in the motion, so its linearisation is a lower bound that touches it.
-//! Every criterion of the linearised information is then a convex upper bound of the criterion. Each
-//! iteration minimises a model of that bound over the admissible motions. The model is of first order in the
-//! motion's curvature and of second order in the criterion's ([`super::criterion_model`]). The iteration goes
-//! to the minimum, or as far towards it as the criterion falls. All limits are convex, so every iterate is
+//! Each iteration minimises a convex model of the criterion over the admissible motions, and goes to the
+//! minimum, or as far towards it as the criterion falls. All limits are convex, so every iterate is
 //! admissible.
 //!
-//! E has no second-order model: its convex bound is minimised exactly, `maximise t: F_lin ⪰ t diag(s)⁻²`.
-//!
-//! # References
-//! `boyd2004`, `pukelsheim2006`
+//! - Short motions with a smooth criterion have the positive part of the exact second derivative for a model
+//!   ([`super::criterion_hessian`]). Their program is dense, and keeps its active rows from one iteration to
+//!   the next ([`super::short_program`]).
+//! - Long motions, E and M have a model without the curvature of the information
+//!   ([`super::long_program`]).
 
-use super::admissible_region::WatchedIntervals;
-use super::conic_program::{ConicProgram, Row};
-use super::criterion_model::{Curvature, pieces};
+use super::DesignSettings;
+use super::DesignStatus;
+use super::long_program::LongProgram;
 use super::part::{Nodes, Part};
-use super::{DesignSettings, DesignStatus, hessian};
+use super::short_program::ShortProgram;
 use calibrant_core::information::{Criterion, Linearised, covariance};
-use nalgebra::{DMatrix, SMatrix, SVector};
+use calibrant_core::motion::Trust;
+use nalgebra::{DMatrix, SVector};
 
 /// The result of one start of the search.
 #[derive(Debug, Clone)]
@@ -34,13 +33,37 @@ pub(super) struct LocalOptimum<const D: usize> {
 const CONVERGED: f64 = 1e-9;
 /// The same threshold where rounding keeps the criterion from falling further.
 const EXHAUSTED: f64 = 1e-5;
-/// Factor on the model's bend after each full step: the bend bounds the criterion from above, often far
-/// above.
-const BOLDER: f64 = 0.25;
-/// The least factor on the bend.
-const LEAST_BEND: f64 = 1e-3;
-/// Relative size of an eigenvalue that adds nothing to the rank.
-const RANK: f64 = 1e-12;
+/// Largest number of unknowns of a short motion. A dense program takes time with the cube of it.
+const SHORT: usize = 160;
+
+/// The model of one start.
+enum Model<const D: usize> {
+    Short(Box<ShortProgram<D>>),
+    Long(LongProgram<D>),
+}
+
+impl<const D: usize> Model<D> {
+    fn step<const P: usize>(&mut self, part: &Part<D, P>, a: &[SVector<f64, D>]) -> Option<(Nodes<D>, f64)> {
+        match self {
+            Self::Short(program) => program.step(part, a),
+            Self::Long(program) => program.step(part, a),
+        }
+    }
+
+    fn moved(&mut self, fraction: f64) {
+        match self {
+            Self::Short(program) => program.moved(fraction),
+            Self::Long(program) => program.moved(fraction),
+        }
+    }
+
+    fn blocked(&mut self) -> bool {
+        match self {
+            Self::Short(program) => program.blocked(),
+            Self::Long(program) => program.blocked(),
+        }
+    }
+}
 
 impl<const D: usize, const P: usize> Part<D, P> {
     /// Value of the criterion; infinite where the motion does not determine the parameters.
@@ -63,8 +86,6 @@ impl<const D: usize, const P: usize> Part<D, P> {
         let mut a = start;
         let mut value = self.value(&a);
         let initial_value = value;
-        let mut watch: [WatchedIntervals; D] = std::array::from_fn(|_| WatchedIntervals::default());
-        let mut weights = vec![1.0; P];
         let end = |nodes, value, iterations, status| LocalOptimum {
             nodes,
             value,
@@ -72,28 +93,24 @@ impl<const D: usize, const P: usize> Part<D, P> {
             iterations,
             status,
         };
-        let mut bend = 1.0;
+        let smooth = !matches!(self.criterion, Criterion::E(_) | Criterion::M(_));
+        let mut model = if smooth && a.len() * D <= SHORT && self.information.trust() != Trust::Unknown {
+            Model::Short(Box::new(ShortProgram::new(&self.regions)))
+        } else {
+            Model::Long(LongProgram::new(P))
+        };
         for iteration in 0..settings.max_iterations {
             if settings.interruption.is_asked() {
                 return end(a, value, iteration, DesignStatus::Interrupted);
             }
-            let Some(mut model) = self.model(&a, &weights, bend) else {
-                return end(a, value, iteration, DesignStatus::Stalled);
-            };
-            let mut found = self.step(&a, &model, &mut watch, &mut weights);
-            if found.is_none() && model.matrix.take().is_some() {
-                // matrix entries of too different size: the slope alone still gives the direction
-                found = self.step(&a, &model, &mut watch, &mut weights);
-            }
-            let Some((step, promise)) = found else {
+            let Some((target, promise)) = model.step(self, &a) else {
                 return end(a, value, iteration, DesignStatus::Stalled);
             };
             if promise <= CONVERGED {
                 return end(a, value, iteration, DesignStatus::Converged);
             }
-            let Some((next, next_value, fraction)) = self.descend(&a, &step, value) else {
-                if bend < 1.0 {
-                    bend = 1.0;
+            let Some((next, next_value, fraction)) = self.descend(&a, &self.restored(target), value) else {
+                if model.blocked() {
                     continue;
                 }
                 let status =
@@ -101,11 +118,7 @@ impl<const D: usize, const P: usize> Part<D, P> {
                 return end(a, value, iteration, status);
             };
             (a, value) = (next, next_value);
-            bend = if fraction == 1.0 {
-                f64::max(bend * BOLDER, LEAST_BEND)
-            } else {
-                f64::min(bend / BOLDER, 1.0)
-            };
+            model.moved(fraction);
         }
         end(a, value, settings.max_iterations, DesignStatus::IterationLimit)
     }
@@ -129,107 +142,6 @@ impl<const D: usize, const P: usize> Part<D, P> {
         None
     }
 
-    /// Linear forms of the step in place of those of the information.
-    fn model(&self, a: &[SVector<f64, D>], weights: &[f64], bend: f64) -> Option<Model<D>> {
-        let at = self.information.linearise(a)?;
-        let c = self.covariance(&at)?;
-        let fixed = |omega: &DMatrix<f64>| SMatrix::<f64, P, P>::from_fn(|i, j| omega[(i, j)]);
-        let along = |omega: &DMatrix<f64>| {
-            self.information.total(a, &self.information.derivative(&at, &fixed(omega)))
-        };
-        let pieces = pieces(&self.criterion, &c);
-        let noisy = self.information.input_noise().is_some_and(|(_, ratio)| ratio > 0.0);
-        if noisy
-            && pieces.len() == 1
-            && a.len() * D <= hessian::LARGEST
-            && !matches!(self.criterion, Criterion::E(_))
-        {
-            let mut bends = self.positive_curvature(a)?;
-            bends.iter_mut().flatten().for_each(|row| *row *= bend.sqrt());
-            let pieces = vec![(pieces[0].0, self.gradient(a)?)];
-            return Some(Model { pieces, bends, noise: Vec::new(), matrix: None });
-        }
-        let mut model = Model { pieces: Vec::new(), bends: Vec::new(), noise: Vec::new(), matrix: None };
-        let total: f64 = weights.iter().take(pieces.len()).sum();
-        let single = pieces.len() == 1;
-        for ((value, Curvature { first, forms }), weight) in pieces.into_iter().zip(weights) {
-            let derivative = self.information.derivative(&at, &fixed(&first));
-            let slope = if single && noisy {
-                model.noise = derivative.variances.iter().map(|v| v * -bend).collect();
-                let total = self.information.total(a, &derivative);
-                derivative
-                    .nodes
-                    .iter()
-                    .zip(total)
-                    .map(|(held, all)| held * bend + all * (1.0 - bend))
-                    .collect()
-            } else {
-                self.information.total(a, &derivative)
-            };
-            model.pieces.push((value, slope.iter().map(|slope| -slope).collect()));
-            let share = if single { bend.sqrt() } else { (bend * weight / total).sqrt() };
-            if share > 1e-4 * bend.sqrt() {
-                model.bends.extend(
-                    forms
-                        .iter()
-                        .map(|form| along(form).into_iter().map(|row| row * share).collect::<Nodes<D>>()),
-                );
-            }
-        }
-        if let Criterion::E(e) = &self.criterion {
-            // S F_lin S, entry by entry
-            let f = at.information + self.prior;
-            let mut entries = Vec::new();
-            for j in 0..P {
-                for i in 0..=j {
-                    let mut omega = DMatrix::zeros(P, P);
-                    omega[(i, j)] += 0.5 * e.scale[i] * e.scale[j];
-                    omega[(j, i)] += 0.5 * e.scale[i] * e.scale[j];
-                    entries.push((f[(i, j)] * e.scale[i] * e.scale[j], along(&omega)));
-                }
-            }
-            model.noise.clear();
-            model.matrix = Some(entries);
-        }
-        reduce(&mut model.bends);
-        Some(model)
-    }
-
-    /// The admissible motion that minimises the model. Also its predicted decrease, relative to the most that
-    /// the gradient could promise.
-    fn step(
-        &self,
-        a: &[SVector<f64, D>],
-        model: &Model<D>,
-        watch: &mut [WatchedIntervals; D],
-        weights: &mut [f64],
-    ) -> Option<(Nodes<D>, f64)> {
-        // watched intervals are few and are found soon
-        for _ in 0..8 {
-            let (program, first_piece) = self.program(a, model, watch);
-            let solution = program.solve()?;
-            let next: Nodes<D> = (0..a.len())
-                .map(|i| SVector::from_fn(|k, _| self.regions[k].size * solution.x[i * D + k]))
-                .collect();
-            let mut news = false;
-            for k in 0..D {
-                let nodes: Vec<f64> = next.iter().map(|node| node[k]).collect();
-                news |= self.regions[k].update_watch(&nodes, &mut watch[k]);
-            }
-            if news {
-                continue;
-            }
-            if let Some(first) = first_piece {
-                for (k, weight) in weights.iter_mut().take(model.pieces.len()).enumerate() {
-                    *weight = solution.multipliers[first + k].max(1e-12);
-                }
-            }
-            let promise = self.promise(a, model, &next);
-            return Some((self.restored(next), promise));
-        }
-        None
-    }
-
     /// The motion with every axis restored into its region.
     pub(super) fn restored(&self, mut nodes: Nodes<D>) -> Nodes<D> {
         for k in 0..D {
@@ -240,177 +152,4 @@ impl<const D: usize, const P: usize> Part<D, P> {
         }
         nodes
     }
-
-    /// The convex program of one iteration, and the number of its first row for the pieces of M.
-    fn program(
-        &self,
-        a: &[SVector<f64, D>],
-        model: &Model<D>,
-        watch: &[WatchedIntervals; D],
-    ) -> (ConicProgram, Option<usize>) {
-        let mut program = ConicProgram::default();
-        program.add_variables(a.len() * D);
-        for (k, region) in self.regions.iter().enumerate() {
-            region.add_to(&mut program, |i| i * D + k, &watch[k]);
-        }
-        // form · (x − a), in the program's variables
-        let along = |form: &[SVector<f64, D>], scale: f64| {
-            let mut row = Row::default();
-            for (i, node) in form.iter().enumerate() {
-                for k in 0..D {
-                    row.terms.push((i * D + k, node[k] * self.regions[k].size * scale));
-                    row.constant -= node[k] * a[i][k] * scale;
-                }
-            }
-            row
-        };
-        let scale = 1.0 / self.reach(model);
-        if let Some(entries) = &model.matrix {
-            let t = program.add_variables(1);
-            let largest = entries.iter().map(|(value, _)| value.abs()).fold(0.0, f64::max);
-            // t counts from the present smallest eigenvalue, 1/Φ
-            let smallest = 1.0 / model.pieces[0].0;
-            let unit = smallest.max(1e-12 * largest);
-            let mut upper = Vec::new();
-            for (at, (value, slope)) in entries.iter().enumerate() {
-                let (i, j) = triangle(at);
-                let mut row = Row::new(value / unit, []).plus(&along(slope, 1.0 / unit));
-                if i == j {
-                    row.terms.push((t, -1.0));
-                }
-                upper.push(row);
-            }
-            program.semidefinite(P, upper);
-            program.add_linear(t, -1.0);
-            return (program, None);
-        }
-        let z = program.add_variables(model.bends.len());
-        for (k, bend) in model.bends.iter().enumerate() {
-            program.add_square(z + k, 1.0);
-            program.zero(along(bend, scale.sqrt()).plus(&Row::new(0.0, [(z + k, -1.0)])));
-        }
-        if let (false, Some((floor, ratio))) = (model.noise.is_empty(), self.information.input_noise()) {
-            // s ≥ |u| in units of size/Δτ: a larger jerk brings the noise Δτ² (floor + ratio s)²
-            for (i, noise) in model.noise.iter().enumerate() {
-                let dt = self.information.interval_s(i);
-                for k in 0..D {
-                    let size = self.regions[k].size;
-                    let s = program.add_variables(1);
-                    let difference = [((i + 1) * D + k, 1.0), (i * D + k, -1.0)];
-                    let part = Row::new(0.0, difference);
-                    program.nonnegative(Row::new(0.0, [(s, 1.0)]).plus(&part));
-                    program.nonnegative(Row::new(0.0, [(s, 1.0)]).plus(&part.times(-1.0)));
-                    let weight = noise[k] * scale * size * ratio;
-                    program.add_square(s, (2.0 * weight * size * ratio).max(1e-12));
-                    program.add_linear(s, 2.0 * weight * floor * dt);
-                }
-            }
-        }
-        if let [(_, slope)] = model.pieces.as_slice() {
-            for (variable, value) in along(slope, scale).terms {
-                program.add_linear(variable, value);
-            }
-            return (program, None);
-        }
-        let t = program.add_variables(1);
-        program.add_linear(t, 1.0);
-        let best = model.pieces.iter().map(|(value, _)| *value).fold(f64::NEG_INFINITY, f64::max);
-        let mut first = None;
-        for (value, slope) in &model.pieces {
-            let row = along(slope, -scale).plus(&Row::new((best - value) * scale, [(t, 1.0)]));
-            first.get_or_insert(program.nonnegative(row));
-        }
-        (program, first)
-    }
-
-    /// The most that the gradient could promise: its 1-norm over the natural size of the motion.
-    fn reach(&self, model: &Model<D>) -> f64 {
-        let of = |slope: &Nodes<D>| -> f64 {
-            slope.iter().map(|node| (0..D).map(|k| node[k].abs() * self.regions[k].size).sum::<f64>()).sum()
-        };
-        let largest = model.pieces.iter().map(|(_, slope)| of(slope)).fold(0.0, f64::max);
-        if largest > 0.0 { largest } else { 1.0 }
-    }
-
-    fn promise(&self, a: &[SVector<f64, D>], model: &Model<D>, next: &[SVector<f64, D>]) -> f64 {
-        let along = |form: &[SVector<f64, D>]| -> f64 {
-            form.iter().zip(next.iter().zip(a)).map(|(form, (next, a))| form.dot(&(next - a))).sum()
-        };
-        let reach = self.reach(model);
-        let best = model.pieces.iter().map(|(value, _)| *value).fold(f64::NEG_INFINITY, f64::max);
-        let linear = model
-            .pieces
-            .iter()
-            .map(|(value, slope)| value - best + along(slope))
-            .fold(f64::NEG_INFINITY, f64::max);
-        let bend: f64 = model.bends.iter().map(|bend| along(bend).powi(2) / 2.0).sum();
-        let mut noise = 0.0;
-        if let (false, Some((floor, ratio))) = (model.noise.is_empty(), self.information.input_noise()) {
-            for (i, weight) in model.noise.iter().enumerate() {
-                let dt = self.information.interval_s(i);
-                for k in 0..D {
-                    let variance =
-                        |a: &[SVector<f64, D>]| (floor * dt + ratio * (a[i + 1][k] - a[i][k]).abs()).powi(2);
-                    noise += weight[k] * (variance(next) - variance(a));
-                }
-            }
-        }
-        if let Some(entries) = &model.matrix {
-            // relative growth of the smallest eigenvalue
-            let matrix = DMatrix::from_fn(P, P, |i, j| {
-                let (value, slope) = &entries[i.max(j) * (i.max(j) + 1) / 2 + i.min(j)];
-                value + along(slope)
-            });
-            return matrix.symmetric_eigenvalues().min() * model.pieces[0].0 - 1.0;
-        }
-        -(linear + bend + noise) / reach
-    }
-}
-
-/// Row and column of entry `at` of an upper triangle, column by column.
-fn triangle(at: usize) -> (usize, usize) {
-    let mut column = 0;
-    while (column + 1) * (column + 2) / 2 <= at {
-        column += 1;
-    }
-    (at - column * (column + 1) / 2, column)
-}
-
-/// A convex model of the criterion around a motion.
-struct Model<const D: usize> {
-    /// Value and slope of each smooth piece; the model is the largest.
-    pieces: Vec<(f64, Nodes<D>)>,
-    /// Half the sum of the squares of these forms is the bend.
-    bends: Vec<Nodes<D>>,
-    /// Gain of the criterion per variance of each increment; empty unless this is modelled apart.
-    noise: Vec<SVector<f64, D>>,
-    /// For E: value and slope of each entry of the scaled information, upper triangle.
-    matrix: Option<Vec<(f64, Nodes<D>)>>,
-}
-
-/// The same sum of squares with as few forms as its rank.
-fn reduce<const D: usize>(bends: &mut Vec<Nodes<D>>) {
-    let (count, nodes) = (bends.len(), bends.first().map_or(0, Vec::len));
-    if count < 3 {
-        return;
-    }
-    let forms = DMatrix::from_fn(count, nodes * D, |m, at| bends[m][at / D][at % D]);
-    // the smaller of the two Gram matrices has the same rank
-    let tall = count > nodes * D;
-    let gram = if tall { forms.tr_mul(&forms) } else { &forms * forms.transpose() };
-    let eigen = gram.symmetric_eigen();
-    let largest = eigen.eigenvalues.amax();
-    let kept: Vec<usize> =
-        (0..eigen.eigenvalues.len()).filter(|&k| eigen.eigenvalues[k] > RANK * largest).collect();
-    if kept.len() == count {
-        return;
-    }
-    *bends = kept
-        .into_iter()
-        .map(|k| {
-            let direction = eigen.eigenvectors.column(k);
-            let row = if tall { direction * eigen.eigenvalues[k].sqrt() } else { forms.tr_mul(&direction) };
-            (0..nodes).map(|i| SVector::from_fn(|d, _| row[i * D + d])).collect()
-        })
-        .collect();
 }

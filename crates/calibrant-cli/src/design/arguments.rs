@@ -31,6 +31,9 @@ pub(crate) struct Arguments {
     /// Number of starts of the search (default: from [design]).
     #[arg(long, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pub(super) starts: Option<u32>,
+    /// Search for this many seconds, in place of a number of starts. The same command may then find another motion.
+    #[arg(long, value_name = "S", value_parser = rate, conflicts_with = "sweep")]
+    pub(super) seconds: Option<f64>,
     /// Seed of the random starts (default: from [design]).
     #[arg(long, allow_negative_numbers = true)]
     pub(super) seed: Option<u64>,

@@ -28,6 +28,7 @@ impl Job {
         let otherwise = experiment.design_settings();
         let settings = DesignSettings {
             starts: arguments.starts.map_or(otherwise.starts, |starts| starts as usize),
+            seconds: arguments.seconds,
             seed: arguments.seed.unwrap_or(otherwise.seed),
             certificate: otherwise.certificate && !arguments.no_certificate,
             interruption: interruption::keeping_the_best(),

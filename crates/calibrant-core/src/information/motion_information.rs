@@ -87,6 +87,12 @@ impl<const D: usize, const P: usize> PartInformation<D, P> {
             && (self.trust, self.known_ends) == (other.trust, other.known_ends)
     }
 
+    /// How far the motion is trusted.
+    #[must_use]
+    pub fn trust(&self) -> Trust {
+        self.trust
+    }
+
     /// Process noise `σ_u(u) = floor + ratio |u|`, where the motion is noisy: (floor, ratio).
     #[must_use]
     pub fn input_noise(&self) -> Option<(f64, f64)> {

@@ -95,11 +95,12 @@ impl<const D: usize, const P: usize> PartInformation<D, P> {
                     scaled.row_iter_mut().enumerate().for_each(|(i, mut row)| row *= sd(i));
                     factor.solve_lower_triangular(&scaled)
                 };
-                let (on_samples, on_increments) = (taken(&samples_on_increments.transpose())?, taken(&gamma)?);
-                weight -= on_samples.tr_mul(&on_samples);
+                let (on_samples, on_increments) =
+                    (taken(&samples_on_increments.transpose())?, taken(&gamma)?);
+                weight -= on_samples.transpose() * &on_samples;
                 Some(Noise {
-                    force: samples_on_increments.transpose() - on_increments.tr_mul(&on_samples),
-                    stiffness: gamma - on_increments.tr_mul(&on_increments),
+                    force: samples_on_increments.transpose() - on_increments.transpose() * &on_samples,
+                    stiffness: gamma - on_increments.transpose() * &on_increments,
                     costate: (0..size).map(|i| -at.costate[i / D].row(i % D).transpose()).collect(),
                     slope: (0..size).map(|i| 2.0 * sd(i) * noise.ratio * signs[i / D][i % D]).collect(),
                     bend: noise.ratio * noise.ratio,
@@ -197,9 +198,8 @@ impl<const D: usize, const P: usize> InformationCurvature<D, P> {
         let pulled: Vec<SVector<f64, P>> = noise.costate.iter().map(|h| omega * h).collect();
         for (i, pulled_i) in pulled.iter().enumerate() {
             for node in 0..size {
-                let force: f64 = (0..D)
-                    .map(|r| noise.force[(i, node / D * D + r)] * pulled_i[place(r, node % D)])
-                    .sum();
+                let force: f64 =
+                    (0..D).map(|r| noise.force[(i, node / D * D + r)] * pulled_i[place(r, node % D)]).sum();
                 let part = 2.0 * force * noise.slope[i];
                 for (increment, sign) in [(i, 1.0), (i + D, -1.0)] {
                     hessian[(node, increment)] += sign * part;
@@ -231,7 +231,9 @@ mod tests {
     use nalgebra::{Matrix3, Vector3};
 
     fn motion() -> JerkControlledMotion {
-        let node = |i: usize| Vector3::new(1.3 * i as f64, 2.1 * i as f64 + 1.0, 0.7 * i as f64 + 2.0).map(f64::sin) * 3.0;
+        let node = |i: usize| {
+            Vector3::new(1.3 * i as f64, 2.1 * i as f64 + 1.0, 0.7 * i as f64 + 2.0).map(f64::sin) * 3.0
+        };
         JerkControlledMotion::uniform(0.7, (0..6).map(node).collect()).expect("valid")
     }
 
@@ -291,9 +293,14 @@ mod tests {
     #[test]
     fn an_unknown_motion_has_none() {
         let sensor = Sensor::memsic_mxd2020u();
-        let setting =
-            MotionInformation::new(&sensor, SensorParameters::identity(), Trust::Unknown, KnownEnds::Both, 10.0)
-                .expect("complete");
+        let setting = MotionInformation::new(
+            &sensor,
+            SensorParameters::identity(),
+            Trust::Unknown,
+            KnownEnds::Both,
+            10.0,
+        )
+        .expect("complete");
         let part = setting.single(0, &motion());
         let a = part.nodes(&motion());
         let at = part.linearise(&a).expect("determined");

@@ -134,6 +134,59 @@ fn the_reference_cases_are_reached_from_every_seed() {
     }
 }
 
+/// What an engineer types after the reference cases: a stage with limits on velocity and displacement. The
+/// values to reach are the best of IPOPT's multistart (b, c), and those of the first version of this solver.
+/// The work done is part of the test: each start took 170 iterations in case c before it had second derivatives.
+#[test]
+fn realistic_limits_take_few_iterations() {
+    let all = |limit: f64| Some(Vector3::repeat(limit));
+    let limits = Limits {
+        acceleration_mps2: all(10.0),
+        jerk_mps3: all(30.0),
+        velocity_mps: all(2.0),
+        displacement_m: all(0.5),
+        rest: Rest::Both,
+        ..Limits::default()
+    };
+    let diagonal = Sensor::memsic_mxd2020u();
+    let full = Sensor { model: SensorModel::Full, ..diagonal.clone() };
+    let noisy = Trust::Noisy(InputNoise { floor_mps3: 0.01, ratio: 0.01 });
+    for (name, sensor, trust, intervals, reach, iterations) in [
+        ("a", &diagonal, Trust::Known, 20, 1.2335e-9, 10),
+        ("b", &full, Trust::Known, 20, 1.3316e-9, 20),
+        ("c", &full, noisy, 20, 1.8749e-5, 25),
+        ("d", &diagonal, noisy, 100, 3.3265e-6, 12),
+    ] {
+        let problem = DesignProblem {
+            intervals,
+            interval_s: 10.0 / intervals as f64,
+            ..problem(sensor, &limits, trust, a_optimality(sensor.parameter_list().len()))
+        };
+        let settings = DesignSettings { certificate: false, ..DesignSettings::default() };
+        let design = design(&problem, &settings, &|_| ()).expect("solved");
+        assert!(design.optimal.value <= reach, "{name}: {}", design.optimal.value);
+        assert_admissible(name, &design, &limits);
+        let (starts, ended) = (design.starts.len(), design.starts_converged());
+        assert!(ended * 100 >= starts * 95, "{name}: {ended} of {starts} starts converged");
+        assert!(design.iterations <= iterations * starts, "{name}: {} in {starts}", design.iterations);
+    }
+}
+
+/// A search that is given time in place of starts ends after it, and is as good as one with few starts.
+#[test]
+fn a_search_may_be_given_a_time() {
+    let sensor = Sensor { model: SensorModel::Full, ..Sensor::memsic_mxd2020u() };
+    let case = &cases()[2];
+    let problem = problem(&sensor, &case.limits, case.trust, a_optimality(12));
+    let few = DesignSettings { starts: 1, certificate: false, ..DesignSettings::default() };
+    let one = design(&problem, &few, &|_| ()).expect("solved");
+    let long = design(&problem, &DesignSettings { seconds: Some(1.0), ..few }, &|_| ()).expect("solved");
+    let (starts, value) = (long.starts.len(), long.optimal.value);
+    assert!(starts > one.starts.len(), "{starts}");
+    assert!(value <= one.optimal.value * (1.0 + 1e-8), "{value} {}", one.optimal.value);
+    assert_eq!(long.status, DesignStatus::Converged);
+}
+
 #[test]
 fn the_result_does_not_depend_on_the_number_of_threads() {
     let sensor = Sensor::memsic_mxd2020u();
