@@ -14,11 +14,14 @@
 use super::admissible_region::WatchedIntervals;
 use super::conic_program::ConicProgram;
 use super::part::{Nodes, Part};
+use super::random_starts::mix;
 use calibrant_core::simulate::Rng;
 use nalgebra::SVector;
 use rand::RngExt;
 
-/// The best share of the optima from which kicks are made.
+/// The part of the way to a corner that a kick goes: shorter ones come back.
+const WAY: std::ops::Range<f64> = 0.4..0.9;
+/// Number of optima from which kicks are made.
 const PARENTS: usize = 10;
 /// Largest shift, as a share of the motion.
 const SHIFT: f64 = 0.2;
@@ -36,7 +39,10 @@ impl<const D: usize, const P: usize> Part<D, P> {
         let nodes = child.len();
         let axis = rng.random_range(0..D);
         match rng.random_range(0..5) {
-            0 => return self.kicked_to_corner(&child, rng),
+            0 => {
+                let part = rng.random_range(WAY);
+                return Some(self.restored(mix(&child, &self.random_corner(rng)?, part)));
+            }
             1 => {
                 let length = rng.random_range(2..=(nodes / 2).max(2));
                 let first = rng.random_range(0..=nodes - length.min(nodes));

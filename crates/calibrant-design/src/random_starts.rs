@@ -1,10 +1,9 @@
-//! Random starts of the search, and kicks from an optimum.
+//! Random starts of the search.
 //!
 //! The information is convex in the motion, so good motions lie at corners of the admissible region. Every
 //! other start is a modest random motion, from which the search grows along the directions of most
 //! information. The others are corners: the admissible motions that go furthest along a wave of random
-//! frequency and phase. Kicks go most of the way from the best motion so far to a random corner: shorter ones
-//! come back.
+//! frequency and phase.
 
 use super::admissible_region::WatchedIntervals;
 use super::conic_program::ConicProgram;
@@ -21,8 +20,6 @@ const ATTEMPTS: usize = 5;
 const ASIDE: f64 = 0.3;
 /// A modest motion's share of the limits.
 const MODEST: f64 = 0.1;
-/// The part of the way to a corner that a kick goes.
-const KICK: std::ops::Range<f64> = 0.4..0.9;
 
 impl<const D: usize, const P: usize> Part<D, P> {
     /// An admissible motion, enlarged until it touches a limit on every axis where that helps. With noise in
@@ -57,11 +54,10 @@ impl<const D: usize, const P: usize> Part<D, P> {
         Some(start)
     }
 
-    /// An optimum, moved towards a random corner by a random part of the way.
-    pub(super) fn kicked_to_corner(&self, optimum: &[SVector<f64, D>], rng: &mut Rng) -> Option<Nodes<D>> {
-        let part = rng.random_range(KICK);
+    /// The admissible motion that goes furthest along a wave, or white noise.
+    pub(super) fn random_corner(&self, rng: &mut Rng) -> Option<Nodes<D>> {
         let direction = if rng.random_bool(0.5) { wave } else { noise };
-        Some(self.restored(mix(optimum, &self.corner(direction, rng)?, part)))
+        self.corner(direction, rng)
     }
 
     /// A random motion well inside the limits, like the initial one. Its mean is zero where velocity or displacement are limited.
@@ -103,7 +99,7 @@ impl<const D: usize, const P: usize> Part<D, P> {
 }
 
 /// The point this part of the way from one motion to another.
-fn mix<const D: usize>(from: &[SVector<f64, D>], to: &[SVector<f64, D>], part: f64) -> Nodes<D> {
+pub(super) fn mix<const D: usize>(from: &[SVector<f64, D>], to: &[SVector<f64, D>], part: f64) -> Nodes<D> {
     from.iter().zip(to).map(|(from, to)| from + (to - from) * part).collect()
 }
 

@@ -1,4 +1,4 @@
-//! The design of the best motion: feasibility, search, certificate, in this order.
+//! The design of the best motion: feasibility first, then the search, and the certificate beside it.
 
 use super::multistart_search::search;
 use super::{
@@ -34,15 +34,18 @@ pub fn design(
     )?;
     let (inside, slack) =
         feasibility::inside(&limits, problem.sensor.axes, problem.intervals, problem.interval_s)?;
-    let found = search(problem, settings, &limits, &initial, (&inside, slack), progress)?;
+    let (found, bound) = rayon::join(
+        || search(problem, settings, &limits, &initial, (&inside, slack), progress),
+        || {
+            let wanted = settings.certificate;
+            wanted.then(|| certificate::lower_bound(problem, &settings.interruption)).transpose()
+        },
+    );
+    let found = found?;
     let best = JerkControlledMotion::uniform(problem.interval_s, found.nodes)?;
     let initial = evaluate(problem, &initial)?;
     let optimal = evaluate(problem, &best)?;
-    let certificate = if settings.certificate {
-        certificate::certify(problem, optimal.value, &settings.interruption)?
-    } else {
-        None
-    };
+    let certificate = bound?.flatten().map(|bound| bound.certificate(&problem.criterion, optimal.value));
     let interrupted = settings.interruption.is_asked();
     Ok(Design {
         status: if interrupted { DesignStatus::Interrupted } else { found.status },

@@ -21,7 +21,7 @@ impl DesignSettings {
         let (starts, intervals) = ((self.starts * parts) as f64, problem.intervals as f64);
         Budget {
             bytes: starts * (24.0 * intervals + 500.0) + 1e4 * intervals,
-            seconds: starts * size * noisy * intervals * (2e-4 + 1e-5 * intervals),
+            seconds: self.seconds.unwrap_or(starts * size * noisy * intervals * (2e-4 + 1e-5 * intervals)),
         }
     }
 }

@@ -3,8 +3,8 @@
 //! way. `peers/casadi/design.py` is one of them; `scripts/peers` runs both. A second file gives the problems
 //! (`peers/casadi/random_designs.py` makes some), which come back with answers.
 //!
-//! The problems are the reference cases D1 to D4 with one axis and three, and every criterion on a scale-bias
-//! and on a full sensor. Times are of the whole `design()` call with 20 starts on one thread. They exclude
+//! The problems are the reference cases D1 to D4 with one axis and three, every criterion on a scale-bias and
+//! on a full sensor, and a stage with limits on velocity and displacement. Times are of the whole `design()` call with 20 starts on one thread. They exclude
 //! the certificate, whose time is measured by itself.
 
 use calibrant::design::{Design, DesignProblem, DesignSettings, design};
@@ -63,7 +63,29 @@ fn cases() -> Vec<Value> {
         cases.push(case("D1", 3, "full", letter));
     }
     cases.push(case("D4", 3, "full", "A"));
+    // their references are the best of 20, 6 and 3 of the peer's starts
+    cases.push(stage("scale-bias", false, 3.0 * 4.117_6e-10));
+    cases.push(stage("full", false, 1.340_7e-9));
+    cases.push(stage("full", true, 1.881_5e-5));
     cases
+}
+
+/// A stage with limits on velocity and displacement, for 10 s: what a user types first.
+fn stage(model: &str, noisy: bool, reference: f64) -> Value {
+    let mut case = case(if noisy { "D4" } else { "D3" }, 3, model, "A");
+    case["name"] = json!(format!("stage, {}, {model}", if noisy { "noisy" } else { "known" }));
+    case["intervals"] = json!(20);
+    case["interval_s"] = json!(0.5);
+    case["reference_value"] = json!(reference);
+    case["limits"] = json!({
+        "acceleration_mps2": 10.0,
+        "jerk_mps3": 30.0,
+        "intercept_mps2": null,
+        "velocity_mps": 2.0,
+        "displacement_m": 0.5,
+        "rest": "both",
+    });
+    case
 }
 
 /// Limits and trust of a reference case. Criterion A is of plain parameters; D, E and M are of parameters

@@ -9,6 +9,7 @@ use super::bounds::StateBounds;
 use super::dual_bound::{MomentProgram, Patience, Row};
 use crate::Interruption;
 use calibrant_core::motion::Rest;
+use rayon::prelude::*;
 
 /// Largest number of iterations of each linear program.
 const MAX_ITERATIONS: u32 = 50;
@@ -75,7 +76,7 @@ impl StateBounds {
         if l.rest == Rest::Both {
             program.zero.push(row(0.0, &speeds[n], 1.0 / dt));
         }
-        let mut largest = |form: &Form, bound: f64| {
+        let largest = |form: &Form, bound: f64| {
             if bound == 0.0 || !bound.is_finite() {
                 return bound;
             }
@@ -84,17 +85,22 @@ impl StateBounds {
             let signs: &[f64] = if both { &[1.0, -1.0] } else { &[1.0] };
             let mut found = 0.0_f64;
             for sign in signs {
-                program.objective = row(0.0, form, sign / bound);
-                found = found.max(program.bound(patience).map_or(f64::INFINITY, |dual| dual.value));
+                let objective = row(0.0, form, sign / bound);
+                let dual = program.bound_of(&objective, patience);
+                found = found.max(dual.map_or(f64::INFINITY, |dual| dual.value));
             }
             bound.min(found.max(0.0) * bound)
         };
-        let mut tight = self.clone();
-        for i in 0..=n {
-            tight.a[i] = largest(&node(i), self.a[i]);
-            tight.v[i] = largest(&speeds[i], self.v[i]);
-            tight.d[i] = largest(&places[i], self.d[i]);
-        }
+        let all = |forms: &[Form], bounds: &[f64]| -> Vec<f64> {
+            forms.par_iter().zip(bounds).map(|(form, &bound)| largest(form, bound)).collect()
+        };
+        let nodes: Vec<Form> = (0..=n).map(node).collect();
+        let mut tight = Self {
+            a: all(&nodes, &self.a),
+            v: all(&speeds, &self.v),
+            d: all(&places, &self.d),
+            sum: self.sum.clone(),
+        };
         for i in 0..n {
             let gain = chain.sums[i].s0 * tight.a[i] + chain.sums[i].s1 * tight.a[i + 1];
             tight.sum[i + 1] = tight.sum[i] + gain;

@@ -72,12 +72,17 @@ const NEAR_ENOUGH: f64 = 0.02;
 impl MomentProgram {
     /// Solves the program and bounds it. `None` where the solver refused to start, or must not.
     pub(super) fn bound(&self, patience: Patience<'_>) -> Option<DualBound> {
+        self.bound_of(&self.objective, patience)
+    }
+
+    /// The same with another objective.
+    pub(super) fn bound_of(&self, objective: &Row, patience: Patience<'_>) -> Option<DualBound> {
         if patience.interruption.is_asked() {
             return None;
         }
         let (a, b, cones) = self.standard_form();
         let mut q = vec![0.0; self.columns];
-        for &(column, coefficient) in &self.objective.terms {
+        for &(column, coefficient) in &objective.terms {
             q[column] -= coefficient;
         }
         let settings = DefaultSettings {
@@ -113,7 +118,7 @@ impl MomentProgram {
                 size += product.abs();
             }
         }
-        let mut value = self.objective.constant;
+        let mut value = objective.constant;
         for (b, z) in b.iter().zip(&z) {
             value += b * z;
             size += (b * z).abs();

@@ -32,7 +32,7 @@ mod polynomial;
 mod variances;
 
 pub(crate) use axis_chain::{AxisChain, States};
-pub(super) use variances::certify;
+pub(super) use variances::lower_bound;
 
 // Clarabel's semidefinite cone calls BLAS and LAPACK by their Fortran names: the linker finds them here
 use lapack_over_nalgebra as _;

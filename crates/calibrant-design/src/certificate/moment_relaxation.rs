@@ -269,11 +269,17 @@ struct Motion {
 impl Clique {
     /// The mean of a polynomial, in the moments.
     fn mean(&self, polynomial: &Polynomial) -> Row {
+        self.mean_with(polynomial, &[0; VARIABLES])
+    }
+
+    /// The mean of a polynomial times a monomial.
+    fn mean_with(&self, polynomial: &Polynomial, factor: &Monomial) -> Row {
         let mut row = Row::default();
-        for (monomial, coefficient) in polynomial.terms() {
-            if degree(monomial) == 0 {
+        for (own, coefficient) in polynomial.terms() {
+            let monomial = std::array::from_fn(|k| own[k] + factor[k]);
+            if degree(&monomial) == 0 {
                 row.constant += coefficient;
-            } else if let Some(&column) = self.columns.get(monomial) {
+            } else if let Some(&column) = self.columns.get(&monomial) {
                 row.terms.push((column, coefficient));
             }
         }
@@ -315,7 +321,7 @@ impl Clique {
             for (j, right) in part.iter().enumerate() {
                 for left in &part[..=j] {
                     let monomial = std::array::from_fn(|k| left[k] + right[k]);
-                    triangle.push(self.mean(&weight.times(&Polynomial::term(monomial, 1.0))));
+                    triangle.push(self.mean_with(weight, &monomial));
                 }
             }
             match part.len() {

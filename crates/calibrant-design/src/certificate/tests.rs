@@ -293,7 +293,8 @@ mod of_a_design {
     use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
     fn certify(problem: &DesignProblem<'_>, value: f64) -> Result<Option<Certificate>> {
-        certificate::certify(problem, value, &Interruption::default())
+        let bound = certificate::lower_bound(problem, &Interruption::default())?;
+        Ok(bound.map(|bound| bound.certificate(&problem.criterion, value)))
     }
 
     fn problem<'a>(sensor: &'a Sensor, limits: &'a Limits, trust: Trust) -> DesignProblem<'a> {

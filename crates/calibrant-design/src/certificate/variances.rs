@@ -10,18 +10,39 @@ use calibrant_core::motion::{AxisLimits, InputNoise, IntervalSums, JerkControlle
 use calibrant_core::sensor::{Quantity, SensorModel};
 use nalgebra::{DMatrix, DVector, Vector3};
 
-/// The certificate of a design whose criterion has this value.
+/// What no admissible motion can beat.
+#[derive(Debug, Clone)]
+pub(crate) struct LowerBound {
+    /// The bound on the criterion.
+    value: f64,
+    /// Smallest variance of each parameter.
+    variances: DVector<f64>,
+    explanation: String,
+}
+
+impl LowerBound {
+    /// The certificate of a design whose criterion has this value.
+    pub(crate) fn certificate(self, criterion: &Criterion, value: f64) -> Certificate {
+        Certificate {
+            lower_bound: self.value,
+            gap: criterion.gap(value, self.value),
+            sd_lower_bound: self.variances.iter().map(|variance| variance.sqrt()).collect(),
+            explanation: self.explanation,
+        }
+    }
+}
+
+/// The bound of a design problem.
 ///
 /// `None` where nothing bounds the motion, or the limits leave it no freedom at all. Once it is interrupted, it
 /// takes the bounds that need no solver.
 ///
 /// # Errors
 /// As [`MotionInformation::information`](calibrant_core::information::MotionInformation::information).
-pub(crate) fn certify(
+pub(crate) fn lower_bound(
     problem: &DesignProblem<'_>,
-    value: f64,
     interruption: &Interruption,
-) -> Result<Option<Certificate>> {
+) -> Result<Option<LowerBound>> {
     let setting = problem.setting()?;
     let rest =
         JerkControlledMotion::uniform(problem.interval_s, vec![Vector3::zeros(); problem.intervals + 1])?;
@@ -48,16 +69,8 @@ pub(crate) fn certify(
     };
     let variances = DVector::from_vec(variances);
     let smallest = DMatrix::from_diagonal(&variances);
-    let lower_bound = problem.criterion.value(&smallest) * independence(&problem.criterion, &smallest);
-    if !lower_bound.is_finite() {
-        return Ok(None);
-    }
-    Ok(Some(Certificate {
-        lower_bound,
-        gap: problem.criterion.gap(value, lower_bound),
-        sd_lower_bound: variances.iter().map(|variance| variance.sqrt()).collect(),
-        explanation: bounds.explanation(),
-    }))
+    let value = problem.criterion.value(&smallest) * independence(&problem.criterion, &smallest);
+    Ok(value.is_finite().then(|| LowerBound { value, variances, explanation: bounds.explanation() }))
 }
 
 /// A straight line from −1 to 1 m/s² on every axis.
