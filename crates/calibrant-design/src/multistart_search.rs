@@ -1,7 +1,7 @@
 //! The multistart search: many starts, in parallel, and the best motion of each axis.
 //!
-//! A third of the starts are random motions, corners of the admissible region, or the optima of single axes
-//! combined. The others are kicks from the best optima so far. They run in rounds, so that the result does not
+//! A third of the starts are random motions and corners of the admissible region; for a full sensor most of
+//! these are the optima of single axes, combined. The others are kicks from the best optima so far. They run in rounds, so that the result does not
 //! depend on the number of threads. They end early once many starts agree on the best, and where a time is
 //! given, after it.
 //!
@@ -77,7 +77,7 @@ pub(super) fn search(
             ..problem.clone()
         };
         let axes = [0, 1, 2].map(|axis| part(&alone, setting.single(axis, initial), limits, inside, slack));
-        let combined = whole.combined(axes.each_ref(), settings.starts, settings);
+        let combined = whole.combined(axes.each_ref(), settings.starts * 2 / 3, settings);
         let all = problem.sensor.active_axes().to_vec();
         found.take(&whole, &[all], combined, &search);
         return Ok(found);
@@ -207,7 +207,9 @@ impl Found {
             let mut best: Vec<&LocalOptimum<D>> = outcomes.iter().collect();
             best.sort_by(|one, other| one.value.total_cmp(&other.value));
             best.dedup_by(|one, other| one.value <= other.value + AGREEMENT * other.value.abs());
-            if best.first().is_some_and(|best| Self::agreed(&outcomes, best.value)) {
+            // starts that resemble each other agree easily
+            let independent = outcomes.get(promising.len()..).unwrap_or_default();
+            if best.first().is_some_and(|best| Self::agreed(independent, best.value)) {
                 progress(count.saturating_sub(outcomes.len()) as u64);
                 break;
             }
