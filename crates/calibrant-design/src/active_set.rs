@@ -259,8 +259,7 @@ impl ActiveSet {
             self.multipliers.remove(k);
         }
         for column in k..q - 1 {
-            let (before, after) = self.r.columns_range_pair_mut(column..=column, column + 1..=column + 1);
-            let (mut before, after) = (before, after);
+            let (mut before, after) = self.r.columns_range_pair_mut(column..=column, column + 1..=column + 1);
             before.rows_mut(0, column + 2).copy_from(&after.rows(0, column + 2));
             // a rotation of two rows of R removes the entry below the diagonal
             let (a, b) = (self.r[(column, column)], self.r[(column + 1, column)]);

@@ -34,7 +34,24 @@ pub(super) struct WatchedIntervals {
     displacement: Vec<bool>,
 }
 
-/// Relative breach of a limit inside an interval from which on the interval is watched.
+/// A quantity that may peak between the nodes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum State {
+    Velocity,
+    Displacement,
+}
+
+/// A limit that a motion breaks between two nodes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct InsideBreach {
+    pub(super) interval: usize,
+    /// Time of the peak after the start of the interval, s.
+    pub(super) time: f64,
+    pub(super) state: State,
+    pub(super) limit: f64,
+}
+
+/// Relative breach of a limit inside an interval from which on it counts.
 const BREACH: f64 = 1e-9;
 
 impl Region {
@@ -143,23 +160,37 @@ impl Region {
         let n = self.intervals();
         watch.velocity.resize(n, false);
         watch.displacement.resize(n, false);
-        let (mut v, mut d) = (0.0, 0.0);
         let mut news = false;
-        for i in 0..n {
-            let at = self.inside(a, i, v, d);
-            let breaks = |peak: Option<(f64, f64)>, limit: Option<f64>| {
-                limit.zip(peak).is_some_and(|(limit, (value, _))| value > limit * (1.0 + BREACH))
+        for breach in self.broken_inside(a) {
+            let watched = match breach.state {
+                State::Velocity => &mut watch.velocity[breach.interval],
+                State::Displacement => &mut watch.displacement[breach.interval],
             };
-            for (watched, broken) in [
-                (&mut watch.velocity[i], breaks(at.peak_velocity(), self.limits.velocity)),
-                (&mut watch.displacement[i], breaks(at.peak_displacement(), self.limits.displacement)),
+            news |= !std::mem::replace(watched, true);
+        }
+        news
+    }
+
+    /// The limits that the motion `a` breaks between the nodes, each where it is worst in an interval.
+    pub(super) fn broken_inside(&self, a: &[f64]) -> Vec<InsideBreach> {
+        let l = &self.limits;
+        let mut broken = Vec::new();
+        let (mut v, mut d) = (0.0, 0.0);
+        for interval in 0..self.intervals() {
+            let at = self.inside(a, interval, v, d);
+            for (state, limit, peak) in [
+                (State::Velocity, l.velocity, at.peak_velocity()),
+                (State::Displacement, l.displacement, at.peak_displacement()),
             ] {
-                news |= broken && !*watched;
-                *watched |= broken;
+                if let Some((limit, (value, time))) = limit.zip(peak)
+                    && value > limit * (1.0 + BREACH)
+                {
+                    broken.push(InsideBreach { interval, time, state, limit });
+                }
             }
             (v, d) = at.end();
         }
-        news
+        broken
     }
 
     /// Largest relative breach of any limit, at any time; 0 where the motion is admissible. Equalities count against the natural size.
@@ -190,7 +221,7 @@ impl Region {
     }
 
     /// The motion inside interval i, from velocity v and displacement d.
-    pub(super) fn inside(&self, a: &[f64], i: usize, v: f64, d: f64) -> Polynomial {
+    fn inside(&self, a: &[f64], i: usize, v: f64, d: f64) -> Polynomial {
         let dt = self.tau[i + 1] - self.tau[i];
         Polynomial { d, v, a: a[i], u: (a[i + 1] - a[i]) / dt, dt }
     }
@@ -254,7 +285,7 @@ fn keep_cubic(program: &mut ConicProgram, beta: &[Row; 4], limit: f64) {
 }
 
 /// The motion inside one interval.
-pub(super) struct Polynomial {
+struct Polynomial {
     d: f64,
     v: f64,
     a: f64,
@@ -272,19 +303,19 @@ impl Polynomial {
     }
 
     /// Velocity and displacement at its end.
-    pub(super) fn end(&self) -> (f64, f64) {
+    fn end(&self) -> (f64, f64) {
         (self.velocity(self.dt), self.displacement(self.dt))
     }
 
     /// The largest size of the velocity between the nodes, and its time after the start of the interval.
     /// `None` where it has no extreme there.
-    pub(super) fn peak_velocity(&self) -> Option<(f64, f64)> {
+    fn peak_velocity(&self) -> Option<(f64, f64)> {
         let t = -self.a / self.u;
         (t > 0.0 && t < self.dt).then(|| (self.velocity(t).abs(), t))
     }
 
     /// The same for the displacement.
-    pub(super) fn peak_displacement(&self) -> Option<(f64, f64)> {
+    fn peak_displacement(&self) -> Option<(f64, f64)> {
         // v + a t + u t²/2 = 0, in the form that does not cancel
         let root = (self.a * self.a - 2.0 * self.u * self.v).sqrt();
         let q = -(self.a + self.a.signum() * root);

@@ -16,6 +16,9 @@ use rayon::prelude::*;
 const DRAWN: usize = 200;
 /// Designs of a single axis for each one that is kept.
 const DESIGNED: usize = 3;
+/// First random streams of the combinations, and of the single axes.
+const COMBINED: u64 = 1 << 32;
+const SINGLE: u64 = 1 << 33;
 
 impl<const D: usize, const P: usize> Part<D, P> {
     /// The best `count` combinations of optima of single axes. `axes` are the problems of each axis alone.
@@ -72,7 +75,3 @@ impl<const D: usize, const P: usize> Part<D, P> {
         found.into_iter().map(|outcome| outcome.nodes).collect()
     }
 }
-
-/// First random streams of the combinations, and of the single axes.
-const COMBINED: u64 = 1 << 32;
-const SINGLE: u64 = 1 << 33;

@@ -80,22 +80,16 @@ impl<const D: usize, const P: usize> Part<D, P> {
         signs: &[SVector<f64, D>],
     ) -> (DVector<f64>, Vec<f64>) {
         let derivative = self.information.derivative(at, omega);
-        let mut slope = DVector::from_fn(a.len() * D, |at, _| -derivative.nodes[at / D][at % D]);
+        let total = self.information.total_on_sides(a, &derivative, signs);
+        let slope = DVector::from_fn(a.len() * D, |at, _| -total[at / D][at % D]);
         let mut kinks = Vec::new();
-        let Some((floor, ratio)) = self.information.input_noise() else { return (slope, kinks) };
-        for (i, variance) in derivative.variances.iter().enumerate() {
-            let dt = self.information.interval_s(i);
-            for k in 0..D {
-                let size = ((a[i + 1][k] - a[i][k]) * signs[i][k]).max(0.0);
-                let kink = -variance[k] * 2.0 * floor * dt * ratio;
-                let part = (kink - variance[k] * 2.0 * ratio * ratio * size) * signs[i][k];
-                slope[i * D + k] -= part;
-                slope[(i + 1) * D + k] += part;
-                kinks.push(kink);
+        if let Some((floor, ratio)) =
+            self.information.input_noise().filter(|(floor, ratio)| floor * ratio > 0.0)
+        {
+            for (i, variance) in derivative.variances.iter().enumerate() {
+                let dt = self.information.interval_s(i);
+                kinks.extend(variance.iter().map(|variance| -variance * 2.0 * floor * dt * ratio));
             }
-        }
-        if floor * ratio == 0.0 {
-            kinks.clear();
         }
         (slope, kinks)
     }

@@ -81,7 +81,7 @@ impl<const D: usize, const P: usize> Part<D, P> {
     }
 
     /// The admissible motion nearest to given nodes.
-    pub(super) fn nearest(&self, nodes: &[SVector<f64, D>]) -> Option<Nodes<D>> {
+    fn nearest(&self, nodes: &[SVector<f64, D>]) -> Option<Nodes<D>> {
         let mut nearest = nodes.to_vec();
         for (k, region) in self.regions.iter().enumerate() {
             let mut program = ConicProgram::default();

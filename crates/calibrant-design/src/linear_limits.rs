@@ -3,17 +3,14 @@
 //! Velocity and displacement at a time t are linear in the nodes' accelerations: node j adds the first and
 //! the second integral of its hat function. So the limits at the nodes are rows, and so is a limit at any one
 //! time between them. There are too many times to list. A motion that breaks a limit inside an interval gives
-//! the row of the time at which it is worst ([`Region::broken_inside`]). At a peak the time does not matter
+//! the row of the time at which it is worst ([`Region::rows_inside`]). At a peak the time does not matter
 //! to first order, so a few such rows suffice.
 //!
 //! Rows that no motion within the acceleration limit can reach are left out.
 
 use super::active_set::LinearRow;
-use super::admissible_region::Region;
+use super::admissible_region::{InsideBreach, Region, State};
 use calibrant_core::motion::Rest;
-
-/// Relative breach of a limit inside an interval from which on it is a row.
-const BREACH: f64 = 1e-9;
 
 /// Velocity and displacement at one time, as coefficients of the first nodes.
 struct StateForm {
@@ -39,10 +36,9 @@ impl Region {
             within(&state.velocity, 0, l.velocity);
             within(&state.displacement, 0, l.displacement);
         }
-        let bound = l.acceleration.map(|limit| limit / self.size);
-        rows.extend(bound.iter().flat_map(|&bound| {
-            (0..=n).map(|i| LinearRow::new(first + i, vec![1.0], -bound, bound)).collect::<Vec<_>>()
-        }));
+        if let Some(limit) = l.acceleration {
+            rows.extend((0..=n).map(|i| self.row(&[1.0], first + i, limit)));
+        }
         let mut fixed = |node, form, value| rows.push(LinearRow::new(first + node, form, value, value));
         for (node, value) in [(0, l.start), (n, l.end)] {
             if let Some(value) = value {
@@ -57,24 +53,16 @@ impl Region {
     }
 
     /// The rows of the times at which `a` breaks a limit most, in each interval where it does.
-    pub(super) fn broken_inside(&self, a: &[f64], first: usize) -> Vec<LinearRow> {
-        let mut rows = Vec::new();
-        let (mut v, mut d) = (0.0, 0.0);
-        for i in 0..self.intervals() {
-            let inside = self.inside(a, i, v, d);
-            if let Some((limit, (value, t))) = self.limits.velocity.zip(inside.peak_velocity())
-                && value > limit * (1.0 + BREACH)
-            {
-                rows.push(self.row(&self.state(i, t).velocity, first, limit));
-            }
-            if let Some((limit, (value, t))) = self.limits.displacement.zip(inside.peak_displacement())
-                && value > limit * (1.0 + BREACH)
-            {
-                rows.push(self.row(&self.state(i, t).displacement, first, limit));
-            }
-            (v, d) = inside.end();
-        }
-        rows
+    pub(super) fn rows_inside(&self, a: &[f64], first: usize) -> Vec<LinearRow> {
+        let row = |breach: InsideBreach| {
+            let forms = self.state(breach.interval, breach.time);
+            let form = match breach.state {
+                State::Velocity => forms.velocity,
+                State::Displacement => forms.displacement,
+            };
+            self.row(&form, first, breach.limit)
+        };
+        self.broken_inside(a).into_iter().map(row).collect()
     }
 
     fn row(&self, form: &[f64], first: usize, limit: f64) -> LinearRow {
@@ -144,18 +132,18 @@ mod tests {
         // velocity 0 at the nodes 0, 2 and 4, and 0.5 in between
         let (region, a) = (region(), [1.0, 1.0, -3.0, 1.0, 1.0]);
         let x = DVector::from_iterator(5, a.iter().map(|a| a / region.size));
-        let rows = region.broken_inside(&a, 0);
+        let rows = region.rows_inside(&a, 0);
         assert!(!rows.is_empty());
         for row in &rows {
             assert!(row.at(&x) > row.upper || row.at(&x) < row.lower);
         }
         let kept: Vec<f64> = a.iter().map(|a| a * 0.1).collect();
-        assert!(region.broken_inside(&kept, 0).is_empty());
+        assert!(region.rows_inside(&kept, 0).is_empty());
     }
 
     #[test]
     fn a_limit_out_of_reach_has_no_row() {
-        // 10 m/s² for 0.5 s and 1 s: the displacement of 0.3 m is out of reach in the first 0.24 s only
+        // 10 m/s² for 2 s go 20 m: no node can break a limit of 30 m
         let slow = Region::new(AxisLimits { displacement: Some(30.0), ..region().limits }, &region().tau);
         assert!(slow.node_rows(0).len() < region().node_rows(0).len());
     }

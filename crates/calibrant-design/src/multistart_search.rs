@@ -1,9 +1,9 @@
 //! The multistart search: many starts, in parallel, and the best motion of each axis.
 //!
 //! A third of the starts are random motions and corners of the admissible region; for a full sensor most of
-//! these are the optima of single axes, combined. The others are kicks from the best optima so far. They run in rounds, so that the result does not
-//! depend on the number of threads. They end early once many starts agree on the best, and where a time is
-//! given, after it.
+//! these are the optima of single axes, combined. The others are kicks from the best optima so far. They run
+//! in rounds, so that the result does not depend on the number of threads. They end early once many starts
+//! agree on the best, and where a time is given, after it.
 //!
 //! Axes of a scale-bias sensor share nothing, so each has its own design. Axes with the same problem are
 //! designed once, with the starts of all of them. Among equally good motions each axis takes the one most

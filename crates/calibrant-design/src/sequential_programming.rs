@@ -10,11 +10,10 @@
 //! - Long motions, E and M have a model without the curvature of the information
 //!   ([`super::long_program`]).
 
-use super::DesignSettings;
-use super::DesignStatus;
 use super::long_program::LongProgram;
 use super::part::{Nodes, Part};
 use super::short_program::ShortProgram;
+use super::{DesignSettings, DesignStatus};
 use calibrant_core::information::{Criterion, Linearised, covariance};
 use calibrant_core::motion::Trust;
 use nalgebra::{DMatrix, SVector};

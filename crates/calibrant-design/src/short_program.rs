@@ -31,8 +31,8 @@ pub(super) struct ShortProgram<const D: usize> {
     rows: Vec<LinearRow>,
     /// Number of rows of the nodes; those after it are between nodes.
     permanent: usize,
-    /// Row and bound of each increment, at `i D + k`.
-    increments: Vec<(usize, f64)>,
+    /// Bound of each increment, at `i D + k`. Its row has the same number.
+    increments: Vec<f64>,
     active: Vec<Active>,
     multipliers: Vec<f64>,
     /// Signs of the increments.
@@ -50,7 +50,7 @@ impl<const D: usize> ShortProgram<D> {
                 let dt = region.tau[i + 1] - region.tau[i];
                 let bound = region.limits.jerk.map_or(f64::INFINITY, |jerk| jerk * dt / region.size);
                 let row = LinearRow::new(k * (intervals + 1) + i, vec![-1.0, 1.0], -bound, bound);
-                increments.push((rows.len(), row.upper));
+                increments.push(row.upper);
                 rows.push(row);
             }
         }
@@ -167,10 +167,10 @@ impl<const D: usize> ShortProgram<D> {
         linear: &DVector<f64>,
         signed: bool,
     ) -> Option<DVector<f64>> {
-        for (at, &(row, bound)) in self.increments.iter().enumerate() {
+        for (at, (row, &bound)) in self.rows.iter_mut().zip(&self.increments).enumerate() {
             let sign = if signed { self.signs[at / D][at % D] } else { 0.0 };
-            self.rows[row].lower = if sign > 0.0 { 0.0 } else { -bound };
-            self.rows[row].upper = if sign < 0.0 { 0.0 } else { bound };
+            row.lower = if sign > 0.0 { 0.0 } else { -bound };
+            row.upper = if sign < 0.0 { 0.0 } else { bound };
         }
         let mut set = ActiveSet::begin(factor, linear.clone(), &self.rows, &self.active)?;
         let mut result = None;
@@ -181,7 +181,7 @@ impl<const D: usize> ShortProgram<D> {
             for (k, region) in self.regions.iter().enumerate() {
                 let (first, nodes) = (k * (region.intervals() + 1), region.intervals() + 1);
                 let own: Vec<f64> = x.rows(first, nodes).iter().map(|x| x * region.size).collect();
-                news.extend(region.broken_inside(&own, first));
+                news.extend(region.rows_inside(&own, first));
             }
             if news.is_empty() {
                 result = Some(x.clone());
@@ -214,7 +214,6 @@ impl<const D: usize> ShortProgram<D> {
     fn change_signs(&mut self, kinks: &[f64]) -> bool {
         let mut changed = false;
         for (&(row, side), &multiplier) in self.active.iter().zip(&self.multipliers) {
-            // the rows of the increments come first, in their order
             if row >= self.increments.len() {
                 continue;
             }

@@ -4,8 +4,8 @@
 //! (`peers/casadi/random_designs.py` makes some), which come back with answers.
 //!
 //! The problems are the reference cases D1 to D4 with one axis and three, every criterion on a scale-bias and
-//! on a full sensor, and a stage with limits on velocity and displacement. Times are of the whole `design()` call with 20 starts on one thread. They exclude
-//! the certificate, whose time is measured by itself.
+//! on a full sensor, and a stage with limits on velocity and displacement. Times are of the whole `design()`
+//! call with 20 starts on one thread. They exclude the certificate, whose time is measured by itself.
 
 use calibrant::design::{Design, DesignProblem, DesignSettings, design};
 use calibrant::information::Criterion;

@@ -253,13 +253,26 @@ impl<const D: usize, const P: usize> PartInformation<D, P> {
         a: &[SVector<f64, D>],
         derivative: &InformationDerivative<D>,
     ) -> Vec<SVector<f64, D>> {
+        let signs: Vec<_> = a.windows(2).map(|pair| (pair[1] - pair[0]).map(f64::signum)).collect();
+        self.total_on_sides(a, derivative, &signs)
+    }
+
+    /// The same on the sides of the kinks at jerk zero that `signs` tell, one for each increment.
+    #[must_use]
+    pub fn total_on_sides(
+        &self,
+        a: &[SVector<f64, D>],
+        derivative: &InformationDerivative<D>,
+        signs: &[SVector<f64, D>],
+    ) -> Vec<SVector<f64, D>> {
         let mut total = derivative.nodes.clone();
         if let Some((floor, ratio)) = self.input_noise() {
             for (i, variance) in derivative.variances.iter().enumerate() {
                 let dt = self.interval_s(i);
                 let step = SVector::<f64, D>::from_fn(|k, _| {
-                    let u = (a[i + 1][k] - a[i][k]) / dt;
-                    variance[k] * 2.0 * (floor + ratio * u.abs()) * ratio * u.signum() * dt
+                    let size = ((a[i + 1][k] - a[i][k]) * signs[i][k]).max(0.0);
+                    let kink = variance[k] * 2.0 * floor * dt * ratio;
+                    (kink + variance[k] * 2.0 * ratio * ratio * size) * signs[i][k]
                 });
                 total[i] -= step;
                 total[i + 1] += step;

@@ -111,13 +111,13 @@ fn reason(facts: MotionFacts<'_>, quantities: &[Quantity]) -> (String, String) {
             format!("the {samples} samples within the motion see too little movement along axis {axis}"),
             "record more samples, or move more".into(),
         ),
-        several if nodes.len() <= several.len() => (
+        // several axes: a full sensor. Which of them depend on each other is chance
+        _ if nodes.len() <= 3 => (
             format!(
-                "the motion has {} nodes, too few for the accelerations along {} to be independent of each other",
+                "the motion has {} nodes, too few for the accelerations along x, y and z to be independent of each other",
                 nodes.len(),
-                words(several)
             ),
-            format!("use at least {} intervals", several.len()),
+            "use at least 3 intervals".into(),
         ),
         several => (
             format!("the accelerations along {} depend on each other linearly", words(several)),

@@ -18,8 +18,12 @@ struct Case {
     tolerance: f64,
 }
 
+/// The same limit for all axes.
+fn all(limit: f64) -> Option<Vector3<f64>> {
+    Some(Vector3::repeat(limit))
+}
+
 fn cases() -> Vec<Case> {
-    let all = |limit: f64| Some(Vector3::repeat(limit));
     let d1 = Limits { acceleration_mps2: all(30.0), jerk_mps3: all(30.0), ..Limits::default() };
     vec![
         Case {
@@ -139,7 +143,6 @@ fn the_reference_cases_are_reached_from_every_seed() {
 /// The work done is part of the test: each start took 170 iterations in case c before it had second derivatives.
 #[test]
 fn realistic_limits_take_few_iterations() {
-    let all = |limit: f64| Some(Vector3::repeat(limit));
     let limits = Limits {
         acceleration_mps2: all(10.0),
         jerk_mps3: all(30.0),
@@ -206,7 +209,6 @@ fn the_result_does_not_depend_on_the_number_of_threads() {
 #[test]
 #[ignore = "long: scripts/test-all runs it"]
 fn every_criterion_is_served_best_by_its_own_design() {
-    let all = |limit: f64| Some(Vector3::repeat(limit));
     let limits = Limits {
         acceleration_mps2: all(20.0),
         jerk_mps3: all(30.0),
