@@ -20,6 +20,7 @@ mod long_program;
 mod motion_assessment;
 mod multistart_search;
 mod part;
+pub mod poses;
 mod problem;
 mod random_starts;
 mod result;

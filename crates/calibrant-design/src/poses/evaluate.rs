@@ -1,0 +1,72 @@
+//! The information of given poses, against the best possible.
+
+use super::hold_information::HoldInformation;
+use super::problem::PoseProblem;
+use super::result::{PoseBound, efficiency};
+use super::search::{relaxed, singular};
+use super::spectral_projected_gradient::Poses;
+use calibrant_core::error::{Error, NotIdentifiable, Result, UndeterminedGroup};
+use calibrant_core::information::undetermined;
+use nalgebra::{DMatrix, DVector, Vector3};
+
+/// Given poses, and how near they are to the best possible.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PoseEvaluation {
+    /// Expected covariance of the parameters, p × p.
+    pub covariance: DMatrix<f64>,
+    /// The criterion.
+    pub value: f64,
+    /// The bound for as many allowed poses.
+    pub bound: PoseBound,
+    /// From 0 to 1: at least this share of the best possible.
+    pub efficiency: f64,
+}
+
+impl PoseEvaluation {
+    /// Standard deviations of the parameters, each in its own unit.
+    #[must_use]
+    pub fn sd(&self) -> DVector<f64> {
+        self.covariance.diagonal().map(f64::sqrt)
+    }
+}
+
+/// The information of these poses, given as directions of the specific force (up) in the sensor's axes.
+/// They are compared with as many allowed ones. All count the same.
+///
+/// # Errors
+/// [`Error::NotIdentifiable`] where they leave parameters undetermined.
+pub fn evaluate_poses(
+    problem: &PoseProblem,
+    directions: &[Vector3<f64>],
+    seed: u64,
+) -> Result<PoseEvaluation> {
+    let problem = PoseProblem { poses: directions.len(), ..problem.clone() };
+    let information = HoldInformation::new(&problem).ok_or_else(singular)?;
+    let poses = Poses::equal(directions.iter().map(Vector3::normalize).collect());
+    let sum = information.sum(poses.directions.iter().map(|u| (u, 1.0)));
+    let f = information.of_parameters(&sum);
+    let names = problem.list.names();
+    let groups: Vec<_> = undetermined(&f, &f.diagonal())
+        .iter()
+        .map(|group| UndeterminedGroup {
+            parameters: group.parameters.iter().map(|&k| names[k].clone()).collect(),
+            free_combinations: group.free_combinations,
+            reason: format!("the directions of the {} holds are too few or too similar", directions.len()),
+            remedy: "hold the sensor in more directions".into(),
+        })
+        .collect();
+    if !groups.is_empty() {
+        return Err(Error::NotIdentifiable(Box::new(NotIdentifiable { groups })));
+    }
+    let covariance = poses.covariance(&information).ok_or_else(singular)?;
+    let value = problem.criterion.value(&covariance);
+    let relaxed = relaxed(&problem, &information, seed).ok_or_else(singular)?;
+    let all: f64 = relaxed.poses.shares.iter().sum();
+    let bound = PoseBound {
+        value: relaxed.bound,
+        directions: relaxed.poses.directions,
+        shares: relaxed.poses.shares.iter().map(|share| share / all).collect(),
+    };
+    let efficiency = efficiency(&problem.criterion, value, bound.value, names.len());
+    Ok(PoseEvaluation { covariance, value, bound, efficiency })
+}

@@ -1,0 +1,147 @@
+//! The information of one hold on the parameters, for any knowledge of its direction.
+//!
+//! The mean reading of a hold is `ȳ = S f + b + ε` with `f = g u`, and `ε` of covariance Σ. The direction is
+//! known with a standard deviation φ about each axis across it. Its error moves the reading by
+//! `g S T δ`, with T the two tangents of u. So the residual has the covariance
+//!
+//! `N = Σ + g² φ² S (I − u uᵀ) Sᵀ`, and `m(u) = Gᵀ N⁻¹ G` with `G = ∂(S f + b)/∂p`.
+//!
+//! If nothing is known of the direction (φ → ∞), only the component across `S T` is left. It is along
+//! `v = S⁻ᵀ u`, and `N⁻¹ = v vᵀ / (vᵀ Σ v)`: one equation a hold, `|f| = g`.
+//!
+//! The reading is linear in the twelve entries of `(b, S)`. Therefore the information is summed there, as
+//! `N⁻¹ ⊗ φ φᵀ` with `φ = (1, f)`, and the parameters follow by one linear map.
+
+use super::problem::{DirectionKnowledge, PoseProblem};
+use nalgebra::{DMatrix, Matrix3, SMatrix, Vector3, Vector4};
+
+/// Information on the entries `b_x, S_xx, S_xy, S_xz, b_y, …`.
+pub(super) type OnEntries = SMatrix<f64, 12, 12>;
+
+/// The information of holds of one problem.
+pub(super) struct HoldInformation {
+    /// Derivative of the entries with respect to the parameters, 12 × p.
+    entries: DMatrix<f64>,
+    matrix: Matrix3<f64>,
+    /// `S⁻ᵀ`.
+    inverse_transpose: Matrix3<f64>,
+    variance: Vector3<f64>,
+    gravity: f64,
+    directions: DirectionKnowledge,
+    prior: DMatrix<f64>,
+}
+
+impl HoldInformation {
+    /// That of a problem; `None` where the matrix S is singular.
+    pub(super) fn new(problem: &PoseProblem) -> Option<Self> {
+        let quantities = problem.list.quantities();
+        let mut entries = DMatrix::zeros(12, quantities.len());
+        for (k, quantity) in quantities.iter().enumerate() {
+            let bias = quantity.derivative(&Vector3::zeros());
+            for row in 0..3 {
+                entries[(4 * row, k)] = bias[row];
+                for column in 0..3 {
+                    let along = quantity.derivative(&Vector3::ith(column, 1.0));
+                    entries[(4 * row + 1 + column, k)] = along[row] - bias[row];
+                }
+            }
+        }
+        let size = quantities.len();
+        Some(Self {
+            entries,
+            matrix: problem.at.matrix,
+            inverse_transpose: problem.at.matrix.try_inverse()?.transpose(),
+            variance: problem.mean_sd.component_mul(&problem.mean_sd),
+            gravity: problem.gravity_mps2,
+            directions: problem.directions,
+            prior: problem.prior.clone().unwrap_or_else(|| DMatrix::zeros(size, size)),
+        })
+    }
+
+    /// `N⁻¹`.
+    fn weight(&self, u: &Vector3<f64>) -> Matrix3<f64> {
+        match self.directions {
+            DirectionKnowledge::Unknown => {
+                let v = self.inverse_transpose * u;
+                v * v.transpose() / v.component_mul(&v).dot(&self.variance)
+            }
+            DirectionKnowledge::Known { sd_rad } => {
+                let across = self.matrix * (Matrix3::identity() - u * u.transpose());
+                let tilt = self.gravity * sd_rad;
+                let n = Matrix3::from_diagonal(&self.variance) + across * across.transpose() * tilt * tilt;
+                n.try_inverse().unwrap_or_else(Matrix3::zeros)
+            }
+        }
+    }
+
+    fn regressors(&self, u: &Vector3<f64>) -> Vector4<f64> {
+        Vector4::new(1.0, self.gravity * u.x, self.gravity * u.y, self.gravity * u.z)
+    }
+
+    /// `Σ w_k m(u_k)` on the entries.
+    pub(super) fn sum<'a>(&self, poses: impl Iterator<Item = (&'a Vector3<f64>, f64)>) -> OnEntries {
+        let mut sum = OnEntries::zeros();
+        for (u, share) in poses {
+            let (weight, phi) = (self.weight(u) * share, self.regressors(u));
+            let square = phi * phi.transpose();
+            for row in 0..3 {
+                for column in 0..3 {
+                    let mut block = sum.fixed_view_mut::<4, 4>(4 * row, 4 * column);
+                    block += square * weight[(row, column)];
+                }
+            }
+        }
+        sum
+    }
+
+    /// `M = M₀ + Σ w_k m(u_k)` from the sum on the entries, p × p.
+    pub(super) fn of_parameters(&self, sum: &OnEntries) -> DMatrix<f64> {
+        self.entries.tr_mul(&(sum * &self.entries)) + &self.prior
+    }
+
+    pub(super) fn prior(&self) -> &DMatrix<f64> {
+        &self.prior
+    }
+
+    /// The gain `d(u) = tr(Ω m(u))` as a function of the direction.
+    pub(super) fn gain(&self, omega: &DMatrix<f64>) -> Gain<'_> {
+        let on_entries = &self.entries * omega * self.entries.transpose();
+        Gain { information: self, omega: OnEntries::from_fn(|i, j| on_entries[(i, j)]) }
+    }
+}
+
+/// `d(u) = tr(Ω m(u))`: how much a hold in the direction u lowers the criterion, to first order.
+pub(super) struct Gain<'a> {
+    information: &'a HoldInformation,
+    omega: OnEntries,
+}
+
+/// Step of the differences, rad.
+const STEP: f64 = 1e-4;
+
+impl Gain<'_> {
+    /// d(u).
+    pub(super) fn at(&self, u: &Vector3<f64>) -> f64 {
+        let (weight, phi) = (self.information.weight(u), self.information.regressors(u));
+        let mut gain = 0.0;
+        for row in 0..3 {
+            for column in 0..3 {
+                let block = self.omega.fixed_view::<4, 4>(4 * row, 4 * column);
+                gain += weight[(row, column)] * phi.dot(&(block * phi));
+            }
+        }
+        gain
+    }
+
+    /// Its slope along the sphere, a vector across u. By differences of fourth order: d is nearly a
+    /// polynomial of degree 4, so that they are exact to about eleven digits.
+    pub(super) fn slope(&self, u: &Vector3<f64>) -> Vector3<f64> {
+        let one = super::allowed::perpendicular(u);
+        let other = u.cross(&one);
+        let along = |t: &Vector3<f64>| {
+            let at = |angle: f64| self.at(&(u * angle.cos() + t * angle.sin()));
+            (8.0 * (at(STEP) - at(-STEP)) - (at(2.0 * STEP) - at(-2.0 * STEP))) / (12.0 * STEP)
+        };
+        one * along(&one) + other * along(&other)
+    }
+}

@@ -1,0 +1,43 @@
+//! The problem of the best poses: sensor, number of poses, what is known of their directions.
+
+use super::Allowed;
+use calibrant_core::information::Criterion;
+use calibrant_core::sensor::{ParameterList, SensorParameters};
+use nalgebra::{DMatrix, Vector3};
+
+/// What is known of the directions of the holds.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum DirectionKnowledge {
+    /// Nothing but `|f| = g`.
+    Unknown,
+    /// They are known with a standard deviation, rad about each axis across them; 0 for exactly.
+    Known {
+        /// The standard deviation, rad.
+        sd_rad: f64,
+    },
+}
+
+/// Find the n directions whose holds determine the parameters best:
+///
+/// `minimise over u₁ … u_n: Φ(C)`, `C = (M₀ + Σ m(u_k))⁻¹`.
+#[derive(Debug, Clone)]
+pub struct PoseProblem {
+    /// The parameters: those of the gauge where the directions are unknown (9 or 6), or all (12 or 6).
+    pub list: ParameterList,
+    /// The sensor at which the information is taken: nominal, or the last calibration.
+    pub at: SensorParameters,
+    /// Gravity, m/s².
+    pub gravity_mps2: f64,
+    /// Standard deviation of the mean reading of one hold, per axis, in the unit of the readings.
+    pub mean_sd: Vector3<f64>,
+    /// What is known of the directions.
+    pub directions: DirectionKnowledge,
+    /// The directions that a pose may have.
+    pub allowed: Allowed,
+    /// The criterion that is minimised.
+    pub criterion: Criterion,
+    /// Information that is there already, p × p in the order of `list`: a prior, or earlier holds.
+    pub prior: Option<DMatrix<f64>>,
+    /// Number of poses n.
+    pub poses: usize,
+}

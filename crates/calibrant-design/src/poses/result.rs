@@ -1,0 +1,60 @@
+//! The result of the search for the best poses.
+
+use calibrant_core::information::Criterion;
+use nalgebra::{DMatrix, DVector, Vector3};
+
+/// The best poses that were found, and how near they are to the best possible.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PoseDesign {
+    /// Direction of the specific force (up) in each pose, unit vectors in the sensor's axes, in the order in
+    /// which they should be taken.
+    pub directions: Vec<Vector3<f64>>,
+    /// Expected covariance of the parameters, p × p.
+    pub covariance: DMatrix<f64>,
+    /// The criterion.
+    pub value: f64,
+    /// The bound that no set of as many poses can beat.
+    pub bound: PoseBound,
+    /// Number of starts of the search, and of those that ended within 0.1 % of the best.
+    pub starts: usize,
+    /// See `starts`.
+    pub starts_at_best: usize,
+    /// Was the search ended early?
+    pub interrupted: bool,
+}
+
+impl PoseDesign {
+    /// Standard deviations of the parameters, each in its own unit.
+    #[must_use]
+    pub fn sd(&self) -> DVector<f64> {
+        self.covariance.diagonal().map(f64::sqrt)
+    }
+}
+
+/// A lower bound of the criterion, and the approximate design that gives it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PoseBound {
+    /// No set of as many allowed poses has a lower value.
+    pub value: f64,
+    /// Directions of the approximate design.
+    pub directions: Vec<Vector3<f64>>,
+    /// Share of the poses at each of them; their sum is one.
+    pub shares: Vec<f64>,
+}
+
+/// How efficient a design with this value is, from 0 to 1: the bound by the value. For D it is
+/// `exp((bound − value) / p)`. With an efficiency of one half, twice as many recordings are needed.
+pub(super) fn efficiency(criterion: &Criterion, value: f64, bound: f64, parameters: usize) -> f64 {
+    match criterion {
+        Criterion::D(_) => ((bound - value) / parameters as f64).exp(),
+        _ => bound / value,
+    }
+}
+
+impl PoseDesign {
+    /// The efficiency against the bound, from 0 to 1: at least this share of the best possible.
+    #[must_use]
+    pub fn efficiency(&self, criterion: &Criterion) -> f64 {
+        efficiency(criterion, self.value, self.bound.value, self.covariance.nrows())
+    }
+}
